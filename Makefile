@@ -1,0 +1,106 @@
+# Flight close to ceilings: flight code, simulator, tests. `make` alone says what there is.
+
+CC  = gcc
+CXX = g++
+# Where objects go; one folder for each kind of build.
+B   = out/release
+OPT = -O2
+
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
+DEMO_PACKAGES = gnuplot-nox
+LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
+
+WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
+C     = $(CC) -std=c11 $(OPT) $(WARN) $(SANITIZE) -MMD -MP
+CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
+# The same bits on host and target: no fused multiply-add.
+FLIGHT_FLAGS = -ffp-contract=off -fno-math-errno
+LIBS  = -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+
+FLIGHT_SRC = $(wildcard src/*.c)
+NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
+SIM_SRC    = $(wildcard sim/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+SIM_CPP    = $(wildcard sim/*.cpp sim/io/*.cpp sim/plant/*.cpp)
+TEST_SRC   = $(wildcard test/*.c)
+TEST_CPP   = $(wildcard test/*.cpp)
+GEN        =
+objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
+SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
+PROGRAMS   =
+
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc)
+endif
+MAKEFLAGS += --no-print-directory
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+help:  ## what can be made
+	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
+
+.PHONY: help demo test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+
+# --- packages ---------------------------------------------------------------------------------------
+
+setup:  ## install the Debian packages that the build needs
+	@tools/setup.sh $(PACKAGES)
+setup-demo: setup
+	@tools/setup.sh $(DEMO_PACKAGES)
+setup-lint: setup
+	@tools/setup.sh $(LINT_PACKAGES)
+
+# --- objects and programs -----------------------------------------------------------------------------
+
+# The include path is the architecture: flight code and nature do not see each other.
+$(B)/src/%.o: src/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(FLIGHT_FLAGS) -Iinclude -c $< -o $@
+$(B)/sim/plant/%.o: sim/plant/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Isim -c $< -o $@
+$(B)/sim/plant/%.o: sim/plant/%.cpp | setup
+	@mkdir -p $(@D)
+	@$(CPP) -Isim -c $< -o $@
+$(B)/sim/effects/%.o: sim/effects/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Isim -c $< -o $@
+$(B)/%.o: %.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isim -Itest -c $< -o $@
+$(B)/%.o: %.cpp | setup
+	@mkdir -p $(@D)
+	@$(CPP) -Iinclude -Isim -Itest -c $< -o $@
+
+out/gen/%_table.c: force
+	@tools/table.sh $* $@
+
+$(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+$(B)/bin/tests: $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+
+-include $(shell find $(B) -name '*.d' 2>/dev/null)
+
+# --- what people do -----------------------------------------------------------------------------------
+
+test: $(B)/bin/tests  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+	@DATA=$(DATA) PROGRAMS=$(B)/bin $(B)/bin/tests $(W)
+
+check: test sanitize clang  ## the long tests, also with sanitizers and clang
+	@DATA=$(DATA) PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests $(W)
+
+sanitize:  ## the tests with address and undefined-behaviour sanitizers
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests
+	@DATA=$(DATA) PROGRAMS=out/sanitize/bin out/sanitize/bin/tests $(W)
+
+clang: setup-lint  ## everything again, and the tests, with clang
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests
+	@DATA=$(DATA) PROGRAMS=out/clang/bin out/clang/bin/tests $(W)
+
+format: setup-lint
+	@clang-format -i $$(git ls-files '*.c' '*.h' '*.cpp')
+
+clean:  ## remove everything that was made
+	@rm -rf out

@@ -1,0 +1,52 @@
+// learn.h - which samples may teach the thrust-ratio curve; feeds rls.
+//
+//   y = (m x specific force along the thrust) / (thrust that the motors give in free air)    thesis
+//   section 5.2
+//
+// Both, and the distance, have passed the same filter. y is 1 in free air, whatever the vehicle does.
+#ifndef FLIGHT_LEARN_H
+#define FLIGHT_LEARN_H
+
+#include "flight/rls.h"
+#include "flight/sync.h"
+#include <stdbool.h>
+
+typedef struct {
+  rls_param_t rls;
+  float near_m;      // >= 0    nearer than this is contact, not flight
+  float far_m;       // > near_m  farther than this is not learned from
+  float blind_max_s; // >= 0    longer than this without a range sample the distance is not believed
+  float up_min;      // 0..1    smallest vertical share of the thrust's direction (cosine of the tilt)
+  float thrust_min;  // 0..1    smallest thrust, as a share of the weight m g
+  float settle_s;    // >= 0    time after a saturated command until the thrust is known again
+  float y_max;       // > 1     ratios beyond y_max or below 1/y_max are bumps
+} learn_param_t;
+
+typedef struct {
+  float zc_m;          // distance propeller plane to surface
+  bool known;          // it has a meaning
+  float blind_s;       // time since it was last corrected by a sensor
+  float up;            // vertical share of the thrust's direction
+  float force_N;       // mass times specific force along the thrust, filtered
+  float thrust_N;      // thrust of the motors in free air, filtered likewise
+  float weight_N;      // m g
+  float since_limit_s; // time since the command was at a limit
+} learn_sample_t;
+
+typedef struct {
+  rls_t rls;
+  float y;          // the last ratio that taught, for logs; 0: none yet
+  unsigned refused; // samples that were not allowed to teach
+} learn_t;
+
+// The sample that synchronous signals make for a vehicle of mass_kg. The distance is filled in by the caller.
+learn_sample_t learn_sample(const sync_t *s, const sync_out_t *x, float mass_kg);
+
+// ST_BAD_PARAM, ST_BAD_INPUT: as rls_init.
+MUST_CHECK status_t learn_init(learn_t *s, const learn_param_t *p, const rbf_weights_t *start);
+
+// ST_OK: the sample has taught. ST_NOT_TAUGHT: it may not (see learn_param_t), or is not finite; weights and
+// covariance are the same to the bit. ST_BAD_PARAM, ST_BAD_INPUT, ST_SINGULAR: as rls_update.
+MUST_CHECK status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample);
+
+#endif

@@ -1,0 +1,31 @@
+// lpf2.h - second-order Butterworth low-pass: the one filter that all synchronous signals share.
+//
+// Bilinear transform, prewarped at the cut-off: with k = tan(pi f / fs), n = 1 + sqrt(2) k + k^2,
+//   y = b0 (x + 2 x1 + x2) - a1 y1 - a2 y2,  b0 = k^2/n,  a1 = 2 (k^2 - 1)/n,  a2 = (1 - sqrt(2) k + k^2)/n.
+// Signals that are compared in an incremental law must have passed the same filter (thesis section 3.2).
+#ifndef FLIGHT_LPF2_H
+#define FLIGHT_LPF2_H
+
+#include "flight/status.h"
+
+typedef struct {
+  float b0, b1, b2, a1, a2; // no unit
+} lpf2_coef_t;
+
+// The last two inputs and outputs. They mean the same under any coefficients, so the cut-off may
+// change in flight without a bump.
+typedef struct {
+  float x1, x2, y1, y2;
+} lpf2_t;
+
+// cutoff_Hz: 0 (no filter: output = input), or 0.001 to 0.45 rate_Hz (below, the poles are too near 1 for a
+// float). rate_Hz: > 0. ST_BAD_PARAM: outside of that, or not finite; *c is kept.
+MUST_CHECK status_t lpf2_tune(lpf2_coef_t *c, float cutoff_Hz, float rate_Hz);
+
+// As if the input had been `value` for ever.
+void lpf2_reset(lpf2_t *s, float value);
+
+// One sample in, one out.
+float lpf2_step(lpf2_t *s, const lpf2_coef_t *c, float x);
+
+#endif

@@ -1,0 +1,119 @@
+// params.h - every tunable number once: name, unit, default, range.
+//
+// FLIGHT_PARAMS is the one table. From its rows come the firmware's parameters (group.name, at most 26
+// characters with the dot), the host's --set, the range checks and the README's table.
+// X(group, name, type, field of flight_param_t, unit, default, min, max, what it does)
+#ifndef FLIGHT_PARAMS_H
+#define FLIGHT_PARAMS_H
+
+#include "flight/ceiling.h"
+#include "flight/curve.h"
+#include "flight/learn.h"
+#include "flight/pos_indi.h"
+#include "flight/status.h"
+#include <stddef.h>
+#include <stdint.h>
+
+// What a person tunes. Only four-byte fields, so that two sets can be compared as bytes.
+typedef struct {
+  pos_indi_param_t pos;
+  float cutoff_Hz;   // of the one filter that all signals share
+  float motor_tau_s; // first-order lag of the motors
+  ceiling_param_t ceiling;
+  curve_param_t curve;
+  learn_param_t learn;
+} flight_param_t;
+
+#define PARAMS_INDIPOS(X)                                                                                    \
+  X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 1.0f, 0.05f, 20.0f, "wanted velocity per position error") \
+  X(indiPos, kd, PARAM_FLOAT, pos.kd_per_s, "1/s", 5.0f, 0.1f, 50.0f,                                        \
+    "wanted acceleration per velocity error")                                                                \
+  X(indiPos, cutoff, PARAM_FLOAT, cutoff_Hz, "Hz", 8.0f, 0.0f, 45.0f,                                        \
+    "cut-off of the filter on all signals; 0 = none")                                                        \
+  X(indiPos, tauMot, PARAM_FLOAT, motor_tau_s, "s", 0.0625f, 0.001f, 0.5f, "first-order lag of the motors")  \
+  X(indiPos, mass, PARAM_FLOAT, pos.mass_kg, "kg", 0.032f, 0.01f, 2.0f, "mass ready to fly")                 \
+  X(indiPos, tMax, PARAM_FLOAT, pos.thrust_max_N, "N", 0.48f, 0.05f, 40.0f,                                  \
+    "largest thrust of all motors together")                                                                 \
+  X(indiPos, tFloor, PARAM_FLOAT, pos.thrust_floor, "m g", 0.5f, 0.1f, 1.0f,                                 \
+    "smallest thrust that tilt increments divide by")                                                        \
+  X(indiPos, tiltMax, PARAM_FLOAT, pos.tilt_max_rad, "rad", 0.35f, 0.02f, 0.8f, "largest tilt commanded")    \
+  X(indiPos, accMax, PARAM_FLOAT, pos.acc_max_mps2, "m/s2", 20.0f, 0.5f, 100.0f,                             \
+    "bound of the wanted acceleration")
+
+#define PARAMS_CEIL(X)                                                                                       \
+  X(ceil, mode, PARAM_INT, curve.mode, "", 1, 0, 3,                                                          \
+    "0 off, 1 fixed weights, 2 live weights, 3 theory 1 + ca exp(-cb zc)")                                   \
+  X(ceil, ca, PARAM_FLOAT, curve.ca, "", 0.44f, 0.0f, 5.0f, "theory: excess thrust ratio at zero distance")  \
+  X(ceil, cb, PARAM_FLOAT, curve.cb_per_m, "1/m", 80.0f, 1.0f, 1000.0f, "theory: decay with the distance")   \
+  X(ceil, kz, PARAM_FLOAT, pos.lead_s, "s", 0.3f, 0.0f, 3.0f,                                                \
+    "lead of the ceiling term, the thesis's K_zdot")                                                         \
+  X(ceil, zOn, PARAM_FLOAT, curve.on_m, "m", 0.1f, 0.0f, 0.5f, "the curve acts nearer than this")            \
+  X(ceil, gain, PARAM_FLOAT, ceiling.gain, "", 0.1f, 0.0f, 1.0f,                                             \
+    "share of the range error taken in per sample")                                                          \
+  X(ceil, floor, PARAM_FLOAT, ceiling.floor_m, "m", 0.043f, 0.0f, 0.2f,                                      \
+    "range samples below this are the sensor's floor")                                                       \
+  X(ceil, near, PARAM_FLOAT, ceiling.near_m, "m", 0.05f, 0.01f, 0.2f,                                        \
+    "an estimate nearer than this is not corrected")                                                         \
+  X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
+  X(ceil, clip, PARAM_INT, curve.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                          \
+  X(ceil, ratioMin, PARAM_FLOAT, curve.ratio_min, "", 0.5f, 0.1f, 1.0f, "smallest thrust ratio believed")    \
+  X(ceil, ratioMax, PARAM_FLOAT, curve.ratio_max, "", 3.0f, 1.0f, 5.0f, "largest thrust ratio believed")     \
+  X(ceil, w1, PARAM_FLOAT, curve.fixed.w[0], "", 1.43142386f, -5.0f, 5.0f, "constant of the curve")          \
+  X(ceil, w2, PARAM_FLOAT, curve.fixed.w[1], "", 0.15021046f, -5.0f, 5.0f, "weight of the bell at 0 mm")     \
+  X(ceil, w3, PARAM_FLOAT, curve.fixed.w[2], "", -0.09754395f, -5.0f, 5.0f, "weight of the bell at 5 mm")    \
+  X(ceil, w4, PARAM_FLOAT, curve.fixed.w[3], "", -0.07601899f, -5.0f, 5.0f, "weight of the bell at 15 mm")   \
+  X(ceil, w5, PARAM_FLOAT, curve.fixed.w[4], "", -0.26694495f, -5.0f, 5.0f, "weight of the bell at 30 mm")   \
+  X(ceil, w6, PARAM_FLOAT, curve.fixed.w[5], "", -0.30407099f, -5.0f, 5.0f, "weight of the bell at 60 mm")   \
+  X(ceil, w7, PARAM_FLOAT, curve.fixed.w[6], "", -0.37406497f, -5.0f, 5.0f, "weight of the bell at 100 mm")
+
+#define PARAMS_RLS(X)                                                                                        \
+  X(rls, form, PARAM_INT, learn.rls.form, "", 1, 0, 1,                                                       \
+    "0 as the thesis prints it, 1 with a random walk of the weights")                                        \
+  X(rls, lambda, PARAM_FLOAT, learn.rls.lambda, "", 1.0f, 1e-4f, 1e4f,                                       \
+    "variance of the noise, relative to p0")                                                                 \
+  X(rls, p0, PARAM_FLOAT, learn.rls.p0, "", 10.0f, 1e-3f, 1e4f, "variance of the weights at the start")      \
+  X(rls, q, PARAM_FLOAT, learn.rls.q, "", 1e-6f, 0.0f, 1e-3f,                                                \
+    "random walk per sample; below 5e-7 it is lost to rounding")                                             \
+  X(rls, zMin, PARAM_FLOAT, learn.near_m, "m", 0.005f, 0.0f, 0.1f,                                           \
+    "nearer than this is contact: no learning")                                                              \
+  X(rls, zMax, PARAM_FLOAT, learn.far_m, "m", 0.1f, 0.01f, 4.0f, "farther than this: no learning")           \
+  X(rls, blindMax, PARAM_FLOAT, learn.blind_max_s, "s", 60.0f, 0.0f, 600.0f,                                 \
+    "longest time without a range sample")                                                                   \
+  X(rls, upMin, PARAM_FLOAT, learn.up_min, "", 0.97f, 0.0f, 1.0f, "smallest cosine of the tilt")             \
+  X(rls, tMin, PARAM_FLOAT, learn.thrust_min, "m g", 0.3f, 0.05f, 1.0f, "smallest thrust that teaches")      \
+  X(rls, settle, PARAM_FLOAT, learn.settle_s, "s", 0.2f, 0.0f, 5.0f, "wait after a saturated command")       \
+  X(rls, yMax, PARAM_FLOAT, learn.y_max, "", 2.5f, 1.1f, 5.0f,                                               \
+    "ratios beyond this, or below its inverse, are bumps")
+
+#define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_CEIL(X) PARAMS_RLS(X)
+
+typedef enum { PARAM_FLOAT, PARAM_INT } param_type_t;
+
+typedef struct {
+  const char *name; // group.name
+  const char *unit; // "" for none
+  const char *help;
+  param_type_t type;
+  uint16_t offset; // in flight_param_t
+  float initial, min, max;
+} param_row_t;
+
+extern const param_row_t params_table[];
+extern const int params_count;
+
+// Every parameter at its default.
+void params_default(flight_param_t *p);
+
+// The row called "group.name", or a null pointer.
+const param_row_t *params_find(const char *name);
+
+float params_get(const flight_param_t *p, const param_row_t *row);
+
+// ST_BAD_PARAM: NaN, out of min..max, or a fraction for a PARAM_INT; *p is kept.
+MUST_CHECK status_t params_set(flight_param_t *p, const param_row_t *row, float value);
+
+// ST_BAD_PARAM: some parameter is out of its range, or two contradict each other (rls.q > rls.p0,
+// ceil.floor > ceil.near, ceil.near >= ceil.far, rls.zMin >= rls.zMax).
+MUST_CHECK status_t params_check(const flight_param_t *p);
+
+#endif

@@ -1,0 +1,34 @@
+// rbf.h - the thrust ratio as a curve over the ceiling distance: a constant and six bells (thesis eq. 22).
+//
+//   rho(z) = w1 + sum_{i=2..7} w_i exp(-a_i (z - c_i)^2),   z the distance propeller plane to ceiling in m
+//
+// rho is thrust near the surface over thrust in free air at the same motor command. Widths a_i (1/m^2)
+// and centres c_i (m) are those of thesis section 5.2 (those of B.1 are misprinted: README, reading rules).
+#ifndef FLIGHT_RBF_H
+#define FLIGHT_RBF_H
+
+#include "flight/status.h"
+
+#define RBF_N 7
+
+typedef struct {
+  float w[RBF_N]; // no unit; w[0] is the thesis's w1
+} rbf_weights_t;
+
+typedef struct {
+  float ratio;       // rho
+  float slope_per_m; // d rho / d z
+} rbf_point_t;
+
+// The regressor [1, bell_2, ..., bell_7] at distance zc_m; bells 0..1. zc_m: any finite number.
+void rbf_basis(float zc_m, float basis[RBF_N]);
+
+// Value and slope at distance zc_m.
+rbf_point_t rbf_at(const rbf_weights_t *w, float zc_m);
+
+// Weights that fit 1 + ca exp(-cb z) by least squares on 21 points, 0 to 0.10 m (thesis section B.2.1).
+// ca: 0..5; cb_per_m: > 0..1000. In float, through the normal equations: within 1e-3 of the exact weights.
+// ST_BAD_PARAM: an argument out of range. ST_SINGULAR: cannot happen with these centres.
+MUST_CHECK status_t rbf_fit_theory(rbf_weights_t *w, float ca, float cb_per_m);
+
+#endif

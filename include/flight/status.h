@@ -1,0 +1,30 @@
+// status.h - what a call that can fail returns. On any status but ST_OK nothing has changed, unless the call
+// says so.
+#ifndef FLIGHT_STATUS_H
+#define FLIGHT_STATUS_H
+
+typedef enum {
+  ST_OK = 0,
+  ST_BAD_INPUT,    // an argument or a sensor value is not finite or out of its physical range
+  ST_BAD_SETPOINT, // a set point is not finite
+  ST_BAD_PARAM,    // a parameter is out of its range
+  ST_BAD_RANGE,    // a range sample is not a distance: not finite, zero, negative or "invalid"
+  ST_JUMP,         // the height jumped by more than the velocity explains; the velocity was used
+  ST_NOT_TAUGHT,   // a sample may not teach the curve (too far, too tilted, too little thrust, ...)
+  ST_SINGULAR,     // a matrix that has to be positive definite is not
+  ST_COUNT
+} status_t;
+
+#define MUST_CHECK __attribute__((warn_unused_result))
+
+// Hands a status that is not ST_OK to the caller.
+#define TRY(call)                                                                                            \
+  do {                                                                                                       \
+    const status_t try_status = (call);                                                                      \
+    if (try_status != ST_OK) return try_status;                                                              \
+  } while (0)
+
+// The status in words, for logs and messages; "unknown status" for what is not in the enumeration.
+const char *status_name(status_t status);
+
+#endif

@@ -1,0 +1,50 @@
+// sync.h - acceleration, attitude, thrust and distance through one and the same filter, so that what an
+// incremental law or the learner compares is from the same instant (thesis section 3.2).
+#ifndef FLIGHT_SYNC_H
+#define FLIGHT_SYNC_H
+
+#include "flight/lpf2.h"
+#include "flight/thrust.h"
+#include "flight/v3.h"
+
+typedef struct {
+  lpf2_coef_t filter;
+  float lag_share; // of the motors, in one period
+  float period_s;
+} sync_coef_t;
+
+typedef struct {
+  lpf2_t acc_w[3], att[4], distance;
+  quat_t att_last; // as it came in; for the sign: q and -q are the same attitude
+  thrust_t thrust;
+  bool distance_known;
+} sync_t;
+
+typedef struct {
+  v3_t acc_b_mps2; // specific force: +9.81 on z at rest
+  quat_t q_wb;     // attitude, body to world; any length that quat_plausible takes
+  float thrust_N;  // applied during the last period
+  bool at_limit;   // that was a limit
+} sync_in_t;
+
+typedef struct {
+  v3_t acc_w_mps2; // without gravity
+  quat_t q_wb;
+  v3_t up_w;      // direction of thrust
+  float thrust_N; // of the motors in free air
+} sync_out_t;
+
+// cutoff_Hz: as lpf2_tune. motor_tau_s: > 0. ST_BAD_PARAM: cutoff_Hz out of range; *c is kept.
+MUST_CHECK status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s, float period_s);
+
+// As if this sample had been there for ever.
+void sync_start(sync_t *s, const sync_in_t *in);
+
+// One period.
+sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in);
+
+// The distance to a surface through the same filter, once a period; where it was not known before, it starts
+// afresh.
+float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m);
+
+#endif

@@ -1,0 +1,32 @@
+// thrust.h - the thrust that the motors give now, in newton, synchronous with the filtered acceleration.
+//
+//   F(k) = filter(Tc(k-1)),  T(k) = T(k-1) + (1 - exp(-dt/tau)) (F(k) - T(k-1))
+//
+// Tc(k-1) is what was applied during the last period. The first-order lag is exact for an input that is held
+// over the period; the filter is the one that the acceleration passes (thesis section 3.2). One tick
+// more or less of delay here changes the closed loop visibly.
+#ifndef FLIGHT_THRUST_H
+#define FLIGHT_THRUST_H
+
+#include "flight/lpf2.h"
+#include <stdbool.h>
+
+typedef struct {
+  lpf2_t lpf;
+  float model_N;       // T(k)
+  float since_limit_s; // time since the command was last at a limit
+} thrust_t;
+
+#define THRUST_LIMIT_MEMORY_S 10.0f // since_limit_s goes no further
+
+// All signals at thrust_N, long since free of limits.
+void thrust_reset(thrust_t *s, float thrust_N);
+
+// The share of a step that a first-order lag tau_s takes in during period_s; tau_s > 0.
+float thrust_lag_share(float period_s, float tau_s);
+
+// One period: applied_N (finite) was commanded during it, at_limit says that it was a limit. Returns T(k).
+float thrust_step(thrust_t *s, const lpf2_coef_t *c, float lag_share, float period_s, float applied_N,
+                  bool at_limit);
+
+#endif

@@ -1,0 +1,94 @@
+// v3.h - scalars with bounds, three-vectors and unit quaternions, all by value. Header only.
+//
+// World axes: x forward, y left, z up, right-handed. A quaternion q_wb turns body into world
+// coordinates. Nothing here calls libm but sqrtf and fabsf (both are instructions, not calls).
+#ifndef FLIGHT_V3_H
+#define FLIGHT_V3_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#define GRAVITY_MPS2 9.81f
+
+typedef struct {
+  float x, y, z;
+} v3_t;
+
+typedef struct {
+  float w, x, y, z;
+} quat_t;
+
+// False for NaN and both infinities.
+static inline bool f_finite(float x) {
+  return fabsf(x) <= FLT_MAX;
+}
+
+// x limited to lo..hi; NaN gives lo.
+static inline float f_clamp(float x, float lo, float hi) {
+  return !(x >= lo) ? lo : x > hi ? hi : x;
+}
+
+// The larger one; NaN in x gives lo. (fmaxf is a libm call.)
+static inline float f_max(float x, float lo) {
+  return x > lo ? x : lo;
+}
+
+// Every component within +-bound; NaN and infinities are not.
+static inline bool v3_within(v3_t a, float bound) {
+  return fabsf(a.x) <= bound && fabsf(a.y) <= bound && fabsf(a.z) <= bound;
+}
+
+static inline v3_t v3_add(v3_t a, v3_t b) {
+  return (v3_t){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline v3_t v3_sub(v3_t a, v3_t b) {
+  return (v3_t){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline v3_t v3_scale(float k, v3_t a) {
+  return (v3_t){k * a.x, k * a.y, k * a.z};
+}
+static inline float v3_dot(v3_t a, v3_t b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline v3_t v3_cross(v3_t a, v3_t b) {
+  return (v3_t){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline float quat_dot(quat_t a, quat_t b) {
+  return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// An attitude as an estimator gives it: length 0.5 to 2, nothing NaN or infinite.
+static inline bool quat_plausible(quat_t q) {
+  const float norm2 = quat_dot(q, q);
+  return norm2 >= 0.25f && norm2 <= 4.0f;
+}
+
+// q of length one; the identity if q is shorter than 0.1, which no attitude is.
+static inline quat_t quat_unit(quat_t q) {
+  const float norm2 = quat_dot(q, q);
+  if (!(norm2 >= 0.01f && norm2 <= FLT_MAX)) return (quat_t){1.0f, 0.0f, 0.0f, 0.0f};
+  const float k = 1.0f / sqrtf(norm2);
+  return (quat_t){k * q.w, k * q.x, k * q.y, k * q.z};
+}
+
+// Body coordinates to world coordinates: R(q) v = v + 2 u x (u x v + w v), u the vector part.
+static inline v3_t quat_to_world(quat_t q_wb, v3_t v_b) {
+  const v3_t u = {q_wb.x, q_wb.y, q_wb.z};
+  const v3_t t = v3_add(v3_cross(u, v_b), v3_scale(q_wb.w, v_b));
+  return v3_add(v_b, v3_scale(2.0f, v3_cross(u, t)));
+}
+
+// World coordinates to body coordinates.
+static inline v3_t quat_to_body(quat_t q_wb, v3_t v_w) {
+  return quat_to_world((quat_t){q_wb.w, -q_wb.x, -q_wb.y, -q_wb.z}, v_w);
+}
+
+// The body's z axis in world coordinates: the direction of thrust.
+static inline v3_t quat_up(quat_t q) {
+  return (v3_t){2.0f * (q.x * q.z + q.w * q.y), 2.0f * (q.y * q.z - q.w * q.x),
+                1.0f - 2.0f * (q.x * q.x + q.y * q.y)};
+}
+
+#endif

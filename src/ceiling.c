@@ -1,0 +1,59 @@
+// ceiling.c - distance to the ceiling from a slow range sensor.
+#include "flight/ceiling.h"
+
+#include "flight/v3.h"
+
+void ceiling_init(ceiling_t *s, float period_s) {
+  *s = (ceiling_t){.period_s = period_s};
+}
+
+// What the vehicle climbed in the last age_s.
+static float climb_since_m(const ceiling_t *s, float age_s) {
+  const float ticks = f_clamp(age_s / s->period_s + 0.5f, 0.0f, (float)(CEILING_HISTORY - 1));
+  float climb_m = 0.0f;
+  for (int i = 0; i < (int)ticks; i++)
+    climb_m += s->climbs_m[(s->newest + CEILING_HISTORY - i) % CEILING_HISTORY];
+  return climb_m;
+}
+
+static void set(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
+  s->zc_m = f_max(zc_m, 0.0f);
+  s->known = s->zc_m < p->far_m;
+}
+
+void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
+  s->newest = (s->newest + 1) % CEILING_HISTORY;
+  s->climbs_m[s->newest] = climb_m;
+  s->rival_m -= climb_m;
+  s->blind_s += s->period_s;
+  if (s->known) set(s, p, s->zc_m - climb_m);
+}
+
+// Three samples in a row that agree overrule an estimate that the gate would keep for ever.
+static void take_rival(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
+  if (s->rivals > 0 && !(fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M)) s->rivals = 0;
+  s->rivals++;
+  s->rival_m = s->rivals == 1 ? zc_m : s->rival_m + (zc_m - s->rival_m) / (float)s->rivals;
+  if (s->rivals < CEILING_AGREE_COUNT) return;
+  s->rivals = 0;
+  s->blind_s = 0.0f;
+  set(s, p, s->rival_m);
+}
+
+status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s) {
+  if (!(range_m > 0.0f && range_m <= CEILING_RANGE_MAX_M)) return ST_BAD_RANGE;
+  const float now_m = range_m - climb_since_m(s, age_s);
+  const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
+  const bool gated = s->known && s->zc_m < p->near_m;
+  // Beyond the gate by noise alone is no contradiction; at the floor, three times, is.
+  const bool contradicts = gated ? beyond_gate && now_m > s->zc_m + CEILING_AGREE_M : s->known && at_floor;
+  if (contradicts) {
+    take_rival(s, p, now_m);
+    return ST_OK;
+  }
+  s->rivals = 0;
+  if (gated || at_floor || (!s->known && !beyond_gate)) return ST_OK;
+  s->blind_s = 0.0f;
+  set(s, p, s->known ? s->zc_m + p->gain * (now_m - s->zc_m) : now_m);
+  return ST_OK;
+}

@@ -1,0 +1,52 @@
+// sync.c - signals through one and the same filter.
+#include "flight/sync.h"
+
+status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s, float period_s) {
+  TRY(lpf2_tune(&c->filter, cutoff_Hz, 1.0f / period_s));
+  c->lag_share = thrust_lag_share(period_s, motor_tau_s);
+  c->period_s = period_s;
+  return ST_OK;
+}
+
+static v3_t acc_world(v3_t acc_b_mps2, quat_t q_wb) {
+  const v3_t force = quat_to_world(q_wb, acc_b_mps2);
+  return (v3_t){force.x, force.y, force.z - GRAVITY_MPS2};
+}
+
+void sync_start(sync_t *s, const sync_in_t *in) {
+  const quat_t q = quat_unit(in->q_wb);
+  const v3_t acc = acc_world(in->acc_b_mps2, q);
+  lpf2_reset(&s->acc_w[0], acc.x);
+  lpf2_reset(&s->acc_w[1], acc.y);
+  lpf2_reset(&s->acc_w[2], acc.z);
+  lpf2_reset(&s->att[0], q.w);
+  lpf2_reset(&s->att[1], q.x);
+  lpf2_reset(&s->att[2], q.y);
+  lpf2_reset(&s->att[3], q.z);
+  s->att_last = q;
+  s->distance_known = false;
+  thrust_reset(&s->thrust, in->thrust_N);
+}
+
+sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in) {
+  const lpf2_coef_t *f = &c->filter;
+  quat_t q = quat_unit(in->q_wb);
+  const v3_t acc = acc_world(in->acc_b_mps2, q);
+  if (quat_dot(q, s->att_last) < 0.0f) q = (quat_t){-q.w, -q.x, -q.y, -q.z};
+  s->att_last = q;
+  const quat_t q_f = quat_unit((quat_t){lpf2_step(&s->att[0], f, q.w), lpf2_step(&s->att[1], f, q.x),
+                                        lpf2_step(&s->att[2], f, q.y), lpf2_step(&s->att[3], f, q.z)});
+  return (sync_out_t){
+      .acc_w_mps2 = {lpf2_step(&s->acc_w[0], f, acc.x), lpf2_step(&s->acc_w[1], f, acc.y),
+                     lpf2_step(&s->acc_w[2], f, acc.z)},
+      .q_wb = q_f,
+      .up_w = quat_up(q_f),
+      .thrust_N = thrust_step(&s->thrust, f, c->lag_share, c->period_s, in->thrust_N, in->at_limit),
+  };
+}
+
+float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m) {
+  if (known && !s->distance_known) lpf2_reset(&s->distance, distance_m);
+  s->distance_known = known;
+  return known ? lpf2_step(&s->distance, &c->filter, distance_m) : distance_m;
+}

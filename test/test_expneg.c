@@ -1,0 +1,75 @@
+// test_expneg.c - exp(-x) against the library's double.
+#include "flight/expneg.h"
+#include "test.h"
+
+#include <float.h>
+#include <stdint.h>
+#include <string.h>
+
+static float float_of_bits(uint32_t bits) {
+  float x;
+  memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+static uint32_t bits_of_float(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+// How many steps of float got is away from want.
+static double ulp(float got, double want) {
+  return fabs((double)got - want) / ldexp(1.0, ilogb(want) - 23);
+}
+
+TEST(expneg_is_within_one_ulp_of_exp_from_0_to_87) {
+  double worst = 0.0;
+  float worst_x = 0.0f;
+  for (uint32_t bits = bits_of_float(1e-9f); bits <= bits_of_float(87.0f); bits += 211) {
+    const float x = float_of_bits(bits);
+    const double off = ulp(expneg(x), exp(-(double)x));
+    if (off > worst) {
+      worst = off;
+      worst_x = x;
+    }
+  }
+  ROW("worst at x = %.9g", (double)worst_x);
+  CHECK_NEAR(worst, 0.0, 1.0);
+}
+
+TEST(expneg_never_rises) {
+  // Equally spaced: two neighbours differ by more than the rounding does, except where both are 1.
+  int rises = 0;
+  float last = 1.0f;
+  for (int i = 0; i <= 870000; i++) {
+    const float y = expneg(1e-4f * (float)i);
+    if (!(y <= last)) rises++;
+    last = y;
+  }
+  CHECK(rises == 0);
+}
+
+TEST(expneg_has_defined_ends) {
+  static const struct {
+    const char *what;
+    float x, want;
+  } row[] = {
+      {"zero", 0.0f, 1.0f},
+      {"minus zero", -0.0f, 1.0f},
+      {"smallest subnormal", 1e-45f, 1.0f},
+      {"negative", -1.0f, 1.0f},
+      {"largest negative", -FLT_MAX, 1.0f},
+      {"minus infinity", -INFINITY, 1.0f},
+      {"nan", NAN, 1.0f},
+      {"just beyond 87", 87.00001f, 0.0f},
+      {"largest", FLT_MAX, 0.0f},
+      {"infinity", INFINITY, 0.0f},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    CHECK(expneg(row[i].x) == row[i].want);
+  }
+  ROW("87");
+  CHECK(expneg(87.0f) >= FLT_MIN);
+}

@@ -1,0 +1,55 @@
+#!/bin/sh
+# table.sh KIND FILE - writes the table of all effects, curves, scenarios, vehicles or tests that the tree holds.
+#
+# A new file, or a new TEST(), is in the table without being listed anywhere. FILE is touched only when it changes.
+set -eu
+kind=$1 file=$2
+mkdir -p "$(dirname "$file")"
+new=$(mktemp)
+trap 'rm -f "$new"' EXIT
+
+# of TYPE HEADER FOLDER: an array of pointers to every `const TYPE KIND_NAME` defined in FOLDER.
+of() {
+  names=$(sed -nE "s/^const $1 (${kind}_[a-z0-9_]+) = .*/\1/p" "$3"/*.c | sort)
+  echo "#include \"$2\""
+  for name in $names; do echo "extern const $1 $name;"; done
+  echo "const $1 *const ${kind}_table[] = {"
+  for name in $names; do echo "    &$name,"; done
+  echo "};"
+  echo "const int ${kind}_count = (int)(sizeof ${kind}_table / sizeof *${kind}_table);"
+}
+
+# The files of sim/vehicles as C strings.
+vehicles() {
+  echo '#include "io/model_file.h"'
+  echo "const vehicle_text_t vehicle_table[] = {"
+  for path in sim/vehicles/*.toml; do
+    echo "    {\"$(basename "$path" .toml)\","
+    sed -E 's/\\/\\\\/g; s/"/\\"/g; s/.*/     "&\\n"/' "$path"
+    echo "    },"
+  done
+  echo "};"
+  echo "const int vehicle_count = (int)(sizeof vehicle_table / sizeof *vehicle_table);"
+}
+
+tests() {
+  echo '#include "test.h"'
+  rows=$(grep -HoE '^TEST\([a-z0-9_]+\)' test/test_*.c | sed -E 's/:TEST\((.*)\)/ \1/')
+  echo "$rows" | while read -r _ name; do echo "TEST($name);"; done
+  echo "const test_t test_table[] = {"
+  echo "$rows" | while read -r path name; do
+    echo "    {\"$(basename "$path")\", \"$name\", test_$name},"
+  done
+  echo "};"
+  echo "const int test_count = (int)(sizeof test_table / sizeof *test_table);"
+}
+
+case $kind in
+fx) of fx_t effects/fx.h sim/effects ;;
+curve) of curve_t effects/fx.h sim/effects ;;
+scenario) of scenario_t scenario/scenario.h sim/scenario ;;
+vehicle) vehicles ;;
+test) tests ;;
+*) echo "table.sh: unknown kind $kind" >&2; exit 2 ;;
+esac >"$new"
+cmp -s "$new" "$file" || cp "$new" "$file"
