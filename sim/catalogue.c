@@ -1,0 +1,47 @@
+// catalogue.c - what there is to fly, for people.
+#include "catalogue.h"
+
+#include "flight/params.h"
+#include "plant/sensors.h"
+#include "scenario/scenario.h"
+#include <stdio.h>
+
+void catalogue_params(void) {
+  printf("%-16s %-6s %12s %10s %10s  %s\n", "parameter", "unit", "default", "min", "max", "what it does");
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *r = &params_table[i];
+    printf("%-16s %-6s %12.9g %10.4g %10.4g  %s\n", r->name, r->unit[0] ? r->unit : "-", (double)r->initial,
+           (double)r->min, (double)r->max, r->help);
+  }
+}
+
+static void list_values(const fx_param_t *param, int n) {
+  for (int i = 0; i < n; i++)
+    printf("      %-8s %-4s %g (%g to %g)\n", param[i].name, param[i].unit[0] ? param[i].unit : "-",
+           param[i].nominal, param[i].min, param[i].max);
+}
+
+static void list_effect(const fx_t *fx) {
+  printf("  %-16s %s\n", fx->name, fx->brief);
+  list_values(fx->param, fx->n_param);
+  for (int i = 0; i < curve_count; i++) {
+    const curve_t *curve = curve_table[i];
+    if (!(curve->surfaces & fx->surface)) continue;
+    printf("    form=%s: %s (%s)\n", curve->name, curve->brief, curve->source);
+    list_values(curve->param, curve->n_param);
+  }
+}
+
+void catalogue_all(void) {
+  printf("scenarios\n");
+  for (int i = 0; i < scenario_count; i++)
+    printf("  %-16s %s\n", scenario_table[i]->name, scenario_table[i]->brief);
+  printf("controllers\n ");
+  for (int i = 0; i < FLY_COUNT; i++)
+    if (fly_name[i]) printf(" %s", fly_name[i]);
+  printf("\neffects\n");
+  for (int i = 0; i < fx_count; i++) list_effect(fx_table[i]);
+  printf("noise\n ");
+  for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
+  printf("\n");
+}

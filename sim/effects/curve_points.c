@@ -1,0 +1,25 @@
+// curve_points.c - a measured curve: straight lines between its points, level beyond its ends.
+#include "effects/fx.h"
+
+static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
+  (void)p;
+  const double x = distance_m / radius_m;
+  const int last = points->n - 1;
+  if (last < 0) return 1.0;
+  if (!(x > points->x[0])) return points->ratio[0];
+  for (int i = 1; i <= last; i++) {
+    if (x >= points->x[i]) continue;
+    const double share = (x - points->x[i - 1]) / (points->x[i] - points->x[i - 1]);
+    return points->ratio[i - 1] + share * (points->ratio[i] - points->ratio[i - 1]);
+  }
+  return points->ratio[last];
+}
+
+const curve_t curve_points = {
+    .name = "table",
+    .brief = "a measured curve, file=FILE.csv with columns distance_over_radius, ratio",
+    .source = "the file",
+    .surfaces = SURFACE_CEILING | SURFACE_GROUND,
+    .needs_points = 1,
+    .ratio = ratio,
+};

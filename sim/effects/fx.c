@@ -1,0 +1,35 @@
+// fx.c - effects by name, and an effect that is switched on.
+#include "effects/fx.h"
+
+#include <stddef.h>
+#include <string.h>
+
+const fx_t *fx_find(const char *name) {
+  for (int i = 0; i < fx_count; i++)
+    if (strcmp(fx_table[i]->name, name) == 0) return fx_table[i];
+  return NULL;
+}
+
+const curve_t *curve_find(const char *name) {
+  for (int i = 0; i < curve_count; i++)
+    if (strcmp(curve_table[i]->name, name) == 0) return curve_table[i];
+  return NULL;
+}
+
+const fx_param_t *fx_use_params(const fx_use_t *use, int *n) {
+  *n = use->form ? use->form->n_param : use->fx->n_param;
+  return use->form ? use->form->param : use->fx->param;
+}
+
+void fx_use_form(fx_use_t *use, const curve_t *form) {
+  use->form = form;
+  int n;
+  const fx_param_t *param = fx_use_params(use, &n);
+  for (int i = 0; i < n; i++) use->p[i] = param[i].nominal;
+}
+
+fx_use_t fx_use(const fx_t *fx) {
+  fx_use_t use = {.fx = fx};
+  fx_use_form(&use, fx->surface ? curve_find(fx->form_initial) : NULL);
+  return use;
+}

@@ -1,0 +1,88 @@
+// fx.h - what an effect is: a name, parameters with unit and range, and hooks into the plant.
+//
+// One file fx_NAME.c defines one `const fx_t fx_NAME`; the build collects them into fx_table. What the
+// simulator can switch on, the discrepancy workflow can find.
+#ifndef SIM_EFFECTS_FX_H
+#define SIM_EFFECTS_FX_H
+
+#define FX_PARAM_MAX 8
+#define FX_TABLE_MAX 64
+#define FX_MAX       16 // effects switched on at once
+
+typedef struct {
+  const char *name;
+  const char *unit; // "" for none
+  double min, nominal, max;
+} fx_param_t;
+
+// A published curve: thrust near a surface over thrust in free air. One file curve_NAME.c each, collected
+// into curve_table. Which effects may use it stands in `surfaces`.
+enum { SURFACE_CEILING = 1, SURFACE_GROUND = 2 };
+
+// Points of a measured curve, x ascending (form `table`).
+typedef struct {
+  int n;
+  double x[FX_TABLE_MAX];     // distance over rotor radius
+  double ratio[FX_TABLE_MAX]; // thrust ratio
+} curve_points_t;
+
+typedef struct {
+  const char *name; // as in form=NAME
+  const char *brief;
+  const char *source;
+  int surfaces;     // SURFACE_* it is published or used for
+  int needs_points; // 1: takes file=FILE
+  int n_param;
+  fx_param_t param[FX_PARAM_MAX];
+  // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
+  double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
+} curve_t;
+
+extern const curve_t *const curve_table[];
+extern const int curve_count;
+
+// Where a rotor is. A distance may be INFINITY: no such surface.
+typedef struct {
+  double ceiling_gap_m; // rotor plane to ceiling
+  double ground_gap_m;  // rotor plane to ground
+  double radius_m;      // of the rotor
+} fx_place_t;
+
+struct fx_use;
+
+typedef struct {
+  const char *name;
+  const char *brief;
+  int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
+  const char *form_initial; // where surface != 0
+  int n_param;
+  fx_param_t param[FX_PARAM_MAX];
+  // What the rotor's thrust is multiplied by, minus one. Several effects add (thesis 3.1.4).
+  double (*excess)(const struct fx_use *use, const fx_place_t *place);
+} fx_t;
+
+extern const fx_t *const fx_table[];
+extern const int fx_count;
+
+// An effect that is switched on, with its numbers: those of the form where there is one, else its own.
+typedef struct fx_use {
+  const fx_t *fx;
+  const curve_t *form;
+  double p[FX_PARAM_MAX];
+  curve_points_t points;
+} fx_use_t;
+
+// Null pointers where there is no such name.
+const fx_t *fx_find(const char *name);
+const curve_t *curve_find(const char *name);
+
+// The effect with its first form (if it takes one) and nominal numbers.
+fx_use_t fx_use(const fx_t *fx);
+
+// Changes the form; its parameters become nominal. The form's `surfaces` must hold the effect's.
+void fx_use_form(fx_use_t *use, const curve_t *form);
+
+// The parameters that use->p belongs to; *n gets their number.
+const fx_param_t *fx_use_params(const fx_use_t *use, int *n);
+
+#endif

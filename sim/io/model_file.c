@@ -1,0 +1,166 @@
+// model_file.c - vehicle files.
+#include "io/model_file.h"
+
+#include "io/effect_spec.h"
+#include "io/toml.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
+  static const char *const keys[] = {"kind", "c", NULL};
+  static const struct {
+    const char *name;
+    thrust_map_kind_t kind;
+    int n;
+  } kinds[] = {{"stand", THRUST_MAP_STAND, 5}, {"volt_cubic", THRUST_MAP_VOLT_CUBIC, 4}};
+  char name[32];
+  TRY(toml_only(t, keys, why));
+  TRY(toml_string(t, "kind", name, sizeof name, why));
+  for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    if (strcmp(kinds[i].name, name) != 0) continue;
+    int n;
+    TRY(toml_doubles(t, "c", 5, map->c, &n, why));
+    if (n != kinds[i].n) return toml_refuse(t, "c", why, "%d numbers; allowed: %d", n, kinds[i].n);
+    map->kind = kinds[i].kind;
+    return ST_OK;
+  }
+  return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stand, volt_cubic", name);
+}
+
+// `file` from the folder of the vehicle file.
+static status_t points_from_file(toml_t t, const char *model_path, curve_points_t *points, why_t *why) {
+  char file[256], path[600];
+  TRY(toml_string(t, "file", file, sizeof file, why));
+  const char *const slash = strrchr(model_path, '/');
+  const int folder = slash && file[0] != '/' ? (int)(slash - model_path) + 1 : 0;
+  snprintf(path, sizeof path, "%.*s%s", folder, model_path, file);
+  return effect_read_points(points, path, why);
+}
+
+static status_t points_from_lists(toml_t t, curve_points_t *points, why_t *why) {
+  int n_ratio;
+  TRY(toml_doubles(t, "distance_over_radius", FX_TABLE_MAX, points->x, &points->n, why));
+  TRY(toml_doubles(t, "ratio", FX_TABLE_MAX, points->ratio, &n_ratio, why));
+  if (n_ratio != points->n)
+    return toml_refuse(t, "ratio", why, "%d numbers; allowed: as many as distance_over_radius, %d", n_ratio,
+                       points->n);
+  return ST_OK;
+}
+
+// Hands on an error of effect_spec, with file and line.
+static status_t located(toml_t t, const char *key, status_t status, const why_t *cause, why_t *why) {
+  return status == ST_OK ? ST_OK : toml_refuse(t, key, why, "%s", cause->text);
+}
+
+static bool is_list_key(const char *key) {
+  return strcmp(key, "distance_over_radius") == 0 || strcmp(key, "ratio") == 0;
+}
+
+static status_t read_points(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
+  if (!use->form || !use->form->needs_points) return ST_OK;
+  curve_points_t points = {0};
+  why_t cause;
+  if (toml_has(t, "file"))
+    TRY(points_from_file(t, model_path, &points, why));
+  else
+    TRY(points_from_lists(t, &points, why));
+  return located(t, toml_has(t, "file") ? "file" : "ratio", effect_set_points(use, &points, &cause), &cause,
+                 why);
+}
+
+static status_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
+  char text[64];
+  why_t cause;
+  TRY(toml_string(t, "name", text, sizeof text, why));
+  TRY(located(t, "name", effect_start(use, text, &cause), &cause, why));
+  if (toml_has(t, "form")) {
+    TRY(toml_string(t, "form", text, sizeof text, why));
+    TRY(located(t, "form", effect_set_form(use, text, &cause), &cause, why));
+  }
+  TRY(read_points(t, model_path, use, why));
+  const bool points = use->form && use->form->needs_points;
+  const char *key;
+  for (int i = 0; (key = toml_key(t, i)) != NULL; i++) {
+    if (strcmp(key, "name") == 0 || strcmp(key, "form") == 0) continue;
+    if (points && (strcmp(key, "file") == 0 || is_list_key(key))) continue;
+    // An unknown key first gets the list of what is allowed, whatever its type.
+    double value = 0.0;
+    if (toml_double(t, key, -HUGE_VAL, HUGE_VAL, &value, &cause) != ST_OK) value = (double)NAN;
+    TRY(located(t, key, effect_set(use, key, value, &cause), &cause, why));
+  }
+  return ST_OK;
+}
+
+static status_t read_effects(toml_t root, const char *path, model_t *m, why_t *why) {
+  for (int i = 0;; i++) {
+    toml_t t;
+    bool more;
+    fx_use_t use;
+    why_t cause;
+    TRY(toml_table_at(root, "effect", i, &t, &more, why));
+    if (!more) return ST_OK;
+    TRY(read_effect(t, path, &use, why));
+    for (int k = 0; k < m->n_fx; k++)
+      if (m->fx[k].fx == use.fx)
+        return toml_refuse(t, "name", why, "effect %s stands twice; allowed: once", use.fx->name);
+    TRY(located(t, "name", model_add_fx(m, &use, &cause), &cause, why));
+  }
+}
+
+static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
+  const struct {
+    const char *key;
+    double min, max, *value;
+  } row[] = {
+      {"mass_kg", 1e-3, 100.0, &m->mass_kg},         {"rotor_radius_m", 1e-3, 2.0, &m->rotor_radius_m},
+      {"motor_tau_s", 1e-3, 2.0, &m->motor_tau_s},   {"thrust_min_N", -1e4, 1e4, &m->thrust_min_N},
+      {"thrust_max_N", -1e4, 1e4, &m->thrust_max_N},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    TRY(toml_double(root, row[i].key, row[i].min, row[i].max, row[i].value, why));
+  if (!(m->thrust_max_N > m->thrust_min_N))
+    return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than thrust_min_N, %g", m->thrust_max_N,
+                       m->thrust_min_N);
+  return ST_OK;
+}
+
+static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
+  static const char *const keys[] = {
+      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
+      "thrust_max_N", "ceiling_m", "thrust_map",     "effect",      NULL};
+  TRY(toml_only(root, keys, why));
+  TRY(toml_string(root, "name", m->name, sizeof m->name, why));
+  TRY(read_numbers(root, m, why));
+  if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.0, 1e3, &m->ceiling_m, why));
+  if (toml_has(root, "thrust_map")) {
+    toml_t map;
+    TRY(toml_table(root, "thrust_map", &map, why));
+    TRY(read_map(map, &m->map, why));
+  }
+  return read_effects(root, path, m, why);
+}
+
+static status_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *why) {
+  model_t fresh = {.ceiling_m = HUGE_VAL, .map = {.kind = THRUST_MAP_NONE}};
+  const status_t status = read_root(toml_root(file), path, &fresh, why);
+  toml_close(file);
+  if (status == ST_OK) *m = fresh;
+  return status;
+}
+
+status_t model_read(const char *path, model_t *m, why_t *why) {
+  toml_file_t *file;
+  TRY(toml_open(&file, path, why));
+  return read_file(file, path, m, why);
+}
+
+status_t model_builtin(const char *name, model_t *m, why_t *why) {
+  for (int i = 0; i < vehicle_count; i++) {
+    if (strcmp(vehicle_table[i].name, name) != 0) continue;
+    toml_file_t *file;
+    TRY(toml_open_text(&file, name, vehicle_table[i].text, why));
+    return read_file(file, name, m, why);
+  }
+  return error_set(why, "%s: no vehicle of that name was built in", name);
+}

@@ -1,0 +1,32 @@
+// model_file.h - vehicle files (sim/vehicles/*.toml).
+//
+//   name = "..."            and the numbers mass_kg, rotor_radius_m, motor_tau_s, thrust_min_N, thrust_max_N
+//   ceiling_m = 0.5         left out: no ceiling
+//   [thrust_map]            left out: commands are newton
+//   kind = "stand"          or "volt_cubic" (plant/thrust_map.h); c = [...] five or four numbers
+//   [[effect]]              any number of them
+//   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
+//                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
+//                           distance_over_radius = [...] and ratio = [...]
+#ifndef SIM_IO_MODEL_FILE_H
+#define SIM_IO_MODEL_FILE_H
+
+#include "error.h"
+#include "model.h"
+
+// ST_BAD_INPUT: the file is missing or not TOML, a key is missing, unknown or out of range; *m is kept.
+MUST_CHECK status_t model_read(const char *path, model_t *m, why_t *why);
+
+// The file of sim/vehicles that is called NAME.toml, as it was when the program was built.
+// ST_BAD_INPUT: there is none of that name, or it is not good.
+MUST_CHECK status_t model_builtin(const char *name, model_t *m, why_t *why);
+
+// The files of sim/vehicles, collected by the build.
+typedef struct {
+  const char *name, *text;
+} vehicle_text_t;
+
+extern const vehicle_text_t vehicle_table[];
+extern const int vehicle_count;
+
+#endif

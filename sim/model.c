@@ -1,0 +1,30 @@
+// model.c - the effects of a model.
+#include "model.h"
+
+#include <string.h>
+
+status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
+  for (int i = 0; i < m->n_fx; i++) {
+    if (m->fx[i].fx != use->fx) continue;
+    m->fx[i] = *use;
+    return ST_OK;
+  }
+  if (m->n_fx == FX_MAX)
+    return error_set(why, "effect %s: at most %d effects at once", use->fx->name, FX_MAX);
+  m->fx[m->n_fx++] = *use;
+  return ST_OK;
+}
+
+void model_remove_fx(model_t *m, const char *name) {
+  int kept = 0;
+  for (int i = 0; i < m->n_fx; i++)
+    if (strcmp(m->fx[i].fx->name, name) != 0) m->fx[kept++] = m->fx[i];
+  m->n_fx = kept;
+}
+
+double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
+  double ratio = 1.0;
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx->excess) ratio += m->fx[i].fx->excess(&m->fx[i], place);
+  return ratio;
+}

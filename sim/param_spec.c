@@ -1,0 +1,30 @@
+// param_spec.c - a parameter of the flight code as a person sets it.
+#include "param_spec.h"
+
+#include "io/number.h"
+#include <string.h>
+
+status_t param_parse(const char *text, const param_row_t **row, float *value, why_t *why) {
+  char name[32];
+  const size_t size = strcspn(text, "=");
+  if (text[size] != '=' || size >= sizeof name)
+    return error_set(why, "--set %s: allowed is group.name=value", text);
+  memcpy(name, text, size);
+  name[size] = '\0';
+  *row = params_find(name);
+  if (!*row) return error_set(why, "--set %s: no such parameter; fly --params lists them", name);
+  double number;
+  flight_param_t trial;
+  params_default(&trial);
+  if (!number_parse(text + size + 1, &number) || params_set(&trial, *row, (float)number) != ST_OK)
+    return error_set(why, "--set %s: allowed is a %snumber from %g to %g", text,
+                     (*row)->type == PARAM_INT ? "whole " : "", (double)(*row)->min, (double)(*row)->max);
+  *value = (float)number;
+  return ST_OK;
+}
+
+status_t param_check_all(const flight_param_t *p, why_t *why) {
+  if (params_check(p) == ST_OK) return ST_OK;
+  return error_set(why, "--set: parameters contradict each other: rls.q <= rls.p0, ceil.floor <= ceil.near < "
+                        "ceil.far and rls.zMin < rls.zMax are needed");
+}

@@ -1,0 +1,19 @@
+// pilot.h - the flight code at the controls of the simulated vehicle.
+#ifndef SIM_PILOT_H
+#define SIM_PILOT_H
+
+#include "controller.h"
+#include "flight/flight.h"
+
+typedef struct {
+  flight_t flight;
+  flight_param_t param; // may be changed in flight
+} pilot_t;
+
+// ST_BAD_PARAM: as flight_init.
+MUST_CHECK status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s);
+
+// *p must outlive the controller and stay where it is.
+controller_t pilot_controller(pilot_t *p);
+
+#endif

@@ -1,0 +1,23 @@
+// thrust_map.c - motor command and battery voltage to thrust.
+#include "plant/thrust_map.h"
+
+#include <math.h>
+
+#define NEWTON_PER_GRAM 9.81e-3
+
+double thrust_map_N(const thrust_map_t *map, double pwm, double vbat_V) {
+  const double *c = map->c;
+  switch (map->kind) {
+  case THRUST_MAP_STAND: {
+    const double p = pwm / 65536.0, u = vbat_V / 4.2;
+    // At low commands the polynomial goes below zero; a propeller does not.
+    return fmax(0.0, NEWTON_PER_GRAM * (c[0] + c[1] * p + c[2] * u + c[3] * p * p + c[4] * p * u));
+  }
+  case THRUST_MAP_VOLT_CUBIC: {
+    const double v = vbat_V * pwm / 65535.0;
+    return fmax(0.0, c[0] + v * (c[1] + v * (c[2] + v * c[3])));
+  }
+  case THRUST_MAP_NONE: break;
+  }
+  return NAN;
+}

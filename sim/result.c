@@ -1,0 +1,180 @@
+// result.c - what a scenario found.
+#include "result.h"
+
+#include "io/whole_file.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+status_t result_init(result_t *r, why_t *why) {
+  *r = (result_t){.json = cJSON_CreateObject()};
+  if (!r->json) return error_set(why, "out of memory");
+  cJSON_AddArrayToObject(r->json, "segments");
+  cJSON_AddNumberToObject(r->json, "contacts", 0.0);
+  cJSON_AddBoolToObject(r->json, "finite", true);
+  cJSON_AddNumberToObject(r->json, "realtime_factor", 0.0);
+  return ST_OK;
+}
+
+void result_free(result_t *r) {
+  cJSON_Delete(r->json);
+  record_free(&r->record);
+}
+
+cJSON *result_segment(const segment_t *s) {
+  cJSON *o = cJSON_CreateObject();
+  if (s->label[0]) cJSON_AddStringToObject(o, "label", s->label);
+  cJSON_AddNumberToObject(o, "setpoint_m", s->setpoint_m);
+  cJSON_AddNumberToObject(o, "overshoot_mm", s->overshoot_mm);
+  cJSON_AddNumberToObject(o, "peaks", s->peaks);
+  cJSON_AddNumberToObject(o, "t90_s", s->t90_s);
+  cJSON_AddNumberToObject(o, "settle_1mm_s", s->settle_1mm_s);
+  cJSON_AddNumberToObject(o, "mean_error_mm", s->mean_error_mm);
+  cJSON_AddNumberToObject(o, "sd_mm", s->sd_mm);
+  cJSON_AddNumberToObject(o, "rms_mm", s->rms_mm);
+  cJSON_AddNumberToObject(o, "min_gap_mm", s->min_gap_mm);
+  cJSON_AddNumberToObject(o, "contacts", s->contacts);
+  return o;
+}
+
+static double number(const cJSON *o, const char *key) {
+  const cJSON *item = cJSON_GetObjectItem(o, key);
+  return cJSON_IsNumber(item) ? item->valuedouble : (double)NAN;
+}
+
+static void replace_number(cJSON *o, const char *key, double value) {
+  cJSON_ReplaceItemInObject(o, key, cJSON_CreateNumber(value));
+}
+
+static void add_totals(result_t *r, flown_t *flown, int contacts) {
+  replace_number(r->json, "contacts", number(r->json, "contacts") + contacts);
+  replace_number(r->json, "realtime_factor", flown->outcome.realtime_factor);
+  if (!flown->outcome.finite) cJSON_ReplaceItemInObject(r->json, "finite", cJSON_CreateFalse());
+  record_free(&r->record);
+  r->record = flown->record;
+  flown->record = (record_t){0};
+}
+
+void result_add_flight(result_t *r, flown_t *flown) {
+  cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
+  for (int i = 0; i < flown->n_segment; i++)
+    cJSON_AddItemToArray(segments, result_segment(&flown->segment[i]));
+  add_totals(r, flown, flown->outcome.contacts);
+}
+
+void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label) {
+  segment_t *s = &flown->segment[segment];
+  snprintf(s->label, sizeof s->label, "%s", label);
+  cJSON_AddItemToArray(cJSON_GetObjectItem(r->json, "segments"), result_segment(s));
+  add_totals(r, flown, s->contacts);
+}
+
+cJSON *result_add_row(result_t *r, const char *table) {
+  cJSON *rows = cJSON_GetObjectItem(r->json, table);
+  if (!rows) rows = cJSON_AddArrayToObject(r->json, table);
+  cJSON *row = cJSON_CreateObject();
+  cJSON_AddItemToArray(rows, row);
+  return row;
+}
+
+// --- as text ------------------------------------------------------------------------------------------
+
+static void cell_text(const cJSON *cell, char *text, size_t size) {
+  if (cJSON_IsString(cell))
+    snprintf(text, size, "%s", cell->valuestring);
+  else if (cJSON_IsNumber(cell) && isfinite(cell->valuedouble))
+    snprintf(text, size, "%.4g", cell->valuedouble);
+  else
+    snprintf(text, size, "-");
+}
+
+// As wide as the key and every cell of that column.
+static int column_width(const cJSON *rows, const char *key) {
+  size_t width = strlen(key);
+  const cJSON *row;
+  cJSON_ArrayForEach(row, rows) {
+    char text[64];
+    cell_text(cJSON_GetObjectItem(row, key), text, sizeof text);
+    if (strlen(text) > width) width = strlen(text);
+  }
+  return (int)width;
+}
+
+static void print_table(const cJSON *rows, FILE *out) {
+  const cJSON *row, *cell;
+  cJSON_ArrayForEach(cell, rows->child) fprintf(out, "  %*s", column_width(rows, cell->string), cell->string);
+  fputc('\n', out);
+  cJSON_ArrayForEach(row, rows) {
+    cJSON_ArrayForEach(cell, row) {
+      char text[64];
+      cell_text(cell, text, sizeof text);
+      fprintf(out, "  %*s", column_width(rows, cell->string), text);
+    }
+    fputc('\n', out);
+  }
+}
+
+static bool is_table(const cJSON *item) {
+  return cJSON_IsArray(item) && cJSON_IsObject(item->child) && strcmp(item->string, "flights") != 0;
+}
+
+void result_print(const cJSON *json, FILE *out) {
+  const cJSON *item;
+  cJSON_ArrayForEach(item, json) {
+    if (!is_table(item)) continue;
+    fprintf(out, "%s\n", item->string);
+    print_table(item, out);
+  }
+  fprintf(out, "contacts %g, %s, %.0f x real time\n", number(json, "contacts"),
+          cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")) ? "finite" : "NOT FINITE",
+          number(json, "realtime_factor"));
+}
+
+status_t result_write(const cJSON *json, const char *path, why_t *why) {
+  whole_file_t out;
+  TRY(whole_file_open(&out, path, why));
+  char *text = cJSON_Print(json);
+  if (text) fprintf(out.file, "%s\n", text);
+  free(text);
+  return whole_file_close(&out, why);
+}
+
+// --- over seeds ---------------------------------------------------------------------------------------
+
+static double over_flights(cJSON *const *json, int n, int segment, const char *key) {
+  const bool add = strcmp(key, "contacts") == 0, least = strcmp(key, "min_gap_mm") == 0;
+  double sum = 0.0, low = INFINITY;
+  for (int i = 0; i < n; i++) {
+    const cJSON *segments = cJSON_GetObjectItem(json[i], "segments");
+    const double value = number(cJSON_GetArrayItem(segments, segment), key);
+    sum += value;
+    low = fmin(low, value);
+  }
+  return add ? sum : least ? low : sum / n;
+}
+
+cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
+  cJSON *all = cJSON_Duplicate(json[0], true), *cell;
+  int segment = 0;
+  cJSON *row;
+  double contacts = 0.0, finite = 1.0;
+  cJSON_ArrayForEach(row, cJSON_GetObjectItem(all, "segments")) {
+    cJSON_ArrayForEach(cell, row) {
+      if (!cJSON_IsNumber(cell)) continue;
+      const double value = over_flights(json, n, segment, cell->string);
+      cJSON_SetNumberHelper(cell, value);
+    }
+    segment++;
+  }
+  cJSON *flights = cJSON_AddArrayToObject(all, "flights");
+  for (int i = 0; i < n; i++) {
+    contacts += number(json[i], "contacts");
+    if (!cJSON_IsTrue(cJSON_GetObjectItem(json[i], "finite"))) finite = 0.0;
+    cJSON *flight = cJSON_Duplicate(json[i], true);
+    cJSON_AddNumberToObject(flight, "seed", (double)(first_seed + (uint64_t)i));
+    cJSON_AddItemToArray(flights, flight);
+  }
+  replace_number(all, "contacts", contacts);
+  if (finite < 1.0) cJSON_ReplaceItemInObject(all, "finite", cJSON_CreateFalse());
+  return all;
+}

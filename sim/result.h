@@ -1,0 +1,42 @@
+// result.h - what a scenario found: segments, totals, and tables of its own; as JSON and as text.
+#ifndef SIM_RESULT_H
+#define SIM_RESULT_H
+
+#include "setup.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+
+typedef struct {
+  cJSON *json;     // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds
+  record_t record; // of the flight that --log writes
+} result_t;
+
+// An empty result. ST_BAD_INPUT: no memory.
+MUST_CHECK status_t result_init(result_t *r, why_t *why);
+void result_free(result_t *r);
+
+// Adds the flight's segments, contacts and finiteness. Keeps the record of the last flight added
+// (the flown's record is taken over).
+void result_add_flight(result_t *r, flown_t *flown);
+
+// Adds one segment alone, and the flight's totals: for scenarios of many flights with one interesting segment
+// each.
+void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label);
+
+// A row of a table "name"; created when new. Fill it with cJSON_AddNumberToObject.
+cJSON *result_add_row(result_t *r, const char *table);
+
+// The segment as an object; NaN becomes null.
+cJSON *result_segment(const segment_t *s);
+
+// Every table, as aligned text.
+void result_print(const cJSON *json, FILE *out);
+
+// ST_BAD_INPUT: the file cannot be written; it is complete or not there.
+MUST_CHECK status_t result_write(const cJSON *json, const char *path, why_t *why);
+
+// The same scenario with several seeds: "segments" becomes the mean over the flights (null where one is null;
+// contacts add up; the smallest gap is the smallest), "flights" holds each one's own with its seed.
+cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed);
+
+#endif

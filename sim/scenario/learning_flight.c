@@ -1,0 +1,36 @@
+// learning_flight.c - hover 20 cm below the ceiling, then 10 to 2 cm in 2 cm steps; the curve is learned on
+// the way from nothing, with the thesis's form and numbers (section 5.3, appendix B), and its weights are
+// printed.
+#include "scenario/scenario.h"
+
+static void tell_weights(const flown_t *flown, result_t *result) {
+  double w[RBF_N];
+  for (int i = 0; i < RBF_N; i++) w[i] = (double)flown->weights.w[i];
+  cJSON_AddItemToObject(result->json, "weights", cJSON_CreateDoubleArray(w, RBF_N));
+  for (int i = 0; i < RBF_N; i++) {
+    cJSON *row = result_add_row(result, "learned");
+    char name[16];
+    snprintf(name, sizeof name, "ceil.w%d", i + 1);
+    cJSON_AddStringToObject(row, "parameter", name);
+    cJSON_AddNumberToObject(row, "value", w[i]);
+  }
+}
+
+static status_t run(const request_t *request, result_t *result, why_t *why) {
+  setup_t setup;
+  TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
+  setup.plan.noise = noise_levels[1];
+  TRY(setup_apply(&setup, request, why));
+  setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
+  flown_t flown;
+  TRY(setup_fly(&setup, &flown, why));
+  tell_weights(&flown, result);
+  result_add_flight(result, &flown);
+  return ST_OK;
+}
+
+const scenario_t scenario_learning_flight = {
+    .name = "learning-flight",
+    .brief = "hover at gaps of 20, 10, 8, 6, 4 and 2 cm with noise N1, learning the curve (thesis 5.3)",
+    .run = run,
+};

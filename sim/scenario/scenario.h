@@ -1,0 +1,25 @@
+// scenario.h - a flight or a study that has a name. One file each; the build collects them.
+#ifndef SIM_SCENARIO_SCENARIO_H
+#define SIM_SCENARIO_SCENARIO_H
+
+#include "result.h"
+#include "setup.h"
+
+typedef struct {
+  const char *name; // on the command line
+  const char *brief;
+  // Flies and adds to *result, which is empty. ST_BAD_INPUT: what was asked for cannot be flown.
+  status_t (*run)(const request_t *request, result_t *result, why_t *why);
+} scenario_t;
+
+extern const scenario_t *const scenario_table[];
+extern const int scenario_count;
+
+// A null pointer where there is none of that name.
+const scenario_t *scenario_find(const char *name);
+
+// The thesis's appendix A: 32 g under a ceiling at 0.5 m, ceiling term not clipped, everything measured
+// exactly. ST_BAD_INPUT: a fault of the build, not of the user.
+MUST_CHECK status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
+
+#endif

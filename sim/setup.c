@@ -1,0 +1,110 @@
+// setup.c - everything that one flight needs.
+#include "setup.h"
+
+#include "param_spec.h"
+#include "pilot.h"
+#include "plant/vertical.h"
+#include <math.h>
+
+const char *const fly_name[FLY_COUNT] = {
+    [FLY_INDI] = "indi",         [FLY_INDI_THEORY] = "indi-theory",
+    [FLY_INDI_RBF] = "indi-rbf", [FLY_INDI_LEARNED] = "indi-learned",
+    [FLY_PID] = "pid",           [FLY_PID_FF] = "pid-ff",
+};
+
+static const curve_mode_t mode_of[FLY_COUNT] = {
+    [FLY_INDI] = CURVE_OFF,           [FLY_INDI_THEORY] = CURVE_THEORY, [FLY_INDI_RBF] = CURVE_FIXED,
+    [FLY_INDI_LEARNED] = CURVE_FIXED, [FLY_INDI_LIVE] = CURVE_LIVE,
+};
+
+// The vehicle's numbers; the surroundings stay the scenario's where the file does not name any.
+static void take_vehicle(model_t *model, const model_t *vehicle) {
+  const model_t scenario = *model;
+  *model = *vehicle;
+  if (!isfinite(vehicle->ceiling_m)) model->ceiling_m = scenario.ceiling_m;
+  if (vehicle->n_fx > 0) return;
+  model->n_fx = scenario.n_fx;
+  for (int i = 0; i < scenario.n_fx; i++) model->fx[i] = scenario.fx[i];
+}
+
+status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
+  if (request->kind) setup->kind = *request->kind;
+  setup->flight.curve.mode = mode_of[setup->kind];
+  if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
+  if (request->noise) setup->plan.noise = *request->noise;
+  if (request->no_effects) setup->model.n_fx = 0;
+  for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(&setup->model, &request->effect[i], why));
+  for (int i = 0; i < request->n_set; i++) {
+    const param_row_t *row = request->set[i].row;
+    if (params_set(&setup->flight, row, request->set[i].value) != ST_OK)
+      return error_set(why, "--set %s: allowed is %g to %g", row->name, (double)row->min, (double)row->max);
+    // A weight that is set is also where learning starts.
+    const ptrdiff_t weight = ((ptrdiff_t)row->offset - (ptrdiff_t)offsetof(flight_param_t, curve.fixed)) / 4;
+    if (weight >= 0 && weight < RBF_N) setup->learn_from.w[weight] = request->set[i].value;
+  }
+  TRY(param_check_all(&setup->flight, why));
+  setup->plan.seed = request->seed;
+  setup->plan.integrate = request->integrate;
+  return ST_OK;
+}
+
+void setup_learning_ladder(plan_t *plan, double ceiling_m) {
+  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  plan->n_way = (int)(sizeof gap_m / sizeof *gap_m);
+  for (int i = 0; i < plan->n_way; i++) plan->way[i] = (waypoint_t){10.0 * i, ceiling_m - gap_m[i]};
+  plan->end_s = 10.0 * plan->n_way;
+  plan->start_z_m = plan->start_thrust_N = 0.0;
+}
+
+static status_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
+  pilot_t pilot;
+  flight_param_t param = setup->flight;
+  const bool live = param.curve.mode == CURVE_LIVE;
+  if (live) param.curve.fixed = setup->learn_from;
+  if (pilot_init(&pilot, &param, setup->period_s) != ST_OK)
+    return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.001 to 0.45 of the controller's rate");
+  const controller_t controller = pilot_controller(&pilot);
+  TRY(loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why));
+  flown->weights = live ? pilot.flight.learn.rls.theta : param.curve.fixed;
+  return ST_OK;
+}
+
+// The thesis's third controller: a learning flight first, then its weights frozen.
+static status_t learn_first(setup_t *setup, why_t *why) {
+  if (!isfinite(setup->model.ceiling_m))
+    return error_set(why, "--controller indi-learned: the vehicle file has no ceiling_m to learn from");
+  setup_t learning = *setup;
+  learning.flight.curve.mode = CURVE_LIVE;
+  learning.plan.noise = noise_levels[1];
+  setup_learning_ladder(&learning.plan, learning.model.ceiling_m);
+  flown_t flight = {.n_segment = 0};
+  const status_t status = fly_indi(&learning, &flight, why);
+  setup->flight.curve.fixed = flight.weights;
+  flown_free(&flight);
+  return status;
+}
+
+static status_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
+  pid_param_t param = setup->pid;
+  param.feed_forward = setup->kind == FLY_PID_FF;
+  param.hover_N = setup->model.mass_kg * PLANT_GRAVITY_MPS2;
+  param.ceiling_m = setup->model.ceiling_m;
+  param.radius_m = setup->model.rotor_radius_m;
+  pid_peer_t pid;
+  const controller_t controller = pid_controller(&pid, &param, setup->period_s);
+  return loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why);
+}
+
+status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why) {
+  setup_t ready = *setup;
+  *flown = (flown_t){.plan = setup->plan};
+  if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
+  const bool pid = setup->kind == FLY_PID || setup->kind == FLY_PID_FF;
+  TRY(pid ? fly_pid(&ready, flown, why) : fly_indi(&ready, flown, why));
+  flown->n_segment = segments_of(&flown->record, &flown->plan, flown->segment);
+  return ST_OK;
+}
+
+void flown_free(flown_t *flown) {
+  record_free(&flown->record);
+}

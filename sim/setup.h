@@ -1,0 +1,75 @@
+// setup.h - everything that one flight needs: model, controller, plan; and what a person changes of it.
+#ifndef SIM_SETUP_H
+#define SIM_SETUP_H
+
+#include "flight/params.h"
+#include "loop.h"
+#include "peers/pid.h"
+#include "segments.h"
+
+typedef enum {
+  FLY_INDI,         // standard INDI: no ceiling term
+  FLY_INDI_THEORY,  // ceiling term from 1 + ca exp(-cb zc)
+  FLY_INDI_RBF,     // from the fixed weights ceil.w1..w7
+  FLY_INDI_LEARNED, // from weights learned in a learning flight before, then frozen
+  FLY_INDI_LIVE,    // from the weights while they are being learned: the learning flight itself
+  FLY_PID,
+  FLY_PID_FF,
+  FLY_COUNT
+} fly_kind_t;
+
+// The name on the command line; a null pointer for what cannot be asked for.
+extern const char *const fly_name[FLY_COUNT];
+
+typedef struct {
+  model_t model;
+  flight_param_t flight;
+  rbf_weights_t learn_from; // what a learning flight starts with
+  pid_param_t pid;
+  double period_s; // of the controller
+  fly_kind_t kind;
+  plan_t plan;
+} setup_t;
+
+#define REQUEST_MAX 64
+
+// What the command line asks for, over what the scenario brings.
+typedef struct {
+  const fly_kind_t *kind; // null: the scenario's
+  const model_t *vehicle; // null: the scenario's
+  const noise_t *noise;   // null: the scenario's
+  fx_use_t effect[FX_MAX];
+  int n_effect;
+  bool no_effects; // first switches off what the scenario has
+  struct {
+    const param_row_t *row;
+    float value;
+  } set[REQUEST_MAX];
+  int n_set;
+  uint64_t seed;
+  integrate_kind_t integrate;
+} request_t;
+
+// ST_BAD_INPUT: too many effects, or parameters that contradict each other.
+MUST_CHECK status_t setup_apply(setup_t *setup, const request_t *request, why_t *why);
+
+// A flight that was flown.
+typedef struct {
+  plan_t plan;
+  record_t record;
+  outcome_t outcome;
+  segment_t segment[WAYPOINTS_MAX];
+  int n_segment;
+  rbf_weights_t weights; // at the end of the flight, where the flight code flew
+} flown_t;
+
+// ST_BAD_INPUT: as loop_fly; or FLY_INDI_LEARNED where there is no ceiling to learn from. Free what was
+// flown.
+MUST_CHECK status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
+
+void flown_free(flown_t *flown);
+
+// Hover 20 cm below the ceiling, then 10, 8, 6, 4, 2 cm, 10 s each (thesis section 5.3).
+void setup_learning_ladder(plan_t *plan, double ceiling_m);
+
+#endif

@@ -1,0 +1,207 @@
+// test_toml.c - TOML files, vehicle files and effects: what is read, and what is refused with which line.
+#include "io/effect_spec.h"
+#include "io/model_file.h"
+#include "io/toml.h"
+#include "scratch.h"
+#include "test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define VEHICLE                                                                                              \
+  "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
+  "= 0.6\n"
+
+static const char VALUES[] =
+    "s = \"text\"\nx = 2\ny = 0.5\nb = true\nl = [1, 2.5]\n[t]\nk = 1\n[[a]]\nn = 1\n[[a]]\nn = 2\n";
+
+TEST(toml_reads_values) {
+  toml_file_t *file;
+  why_t why;
+  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &why))) return;
+  const toml_t root = toml_root(file);
+  char s[8];
+  double x, list[3];
+  int i, n;
+  bool b, more;
+  toml_t sub;
+  CHECK_OK(toml_string(root, "s", s, sizeof s, &why));
+  CHECK_TEXT(s, "text");
+  CHECK_OK(toml_double(root, "x", 0.0, 3.0, &x, &why));
+  CHECK_NEAR(x, 2.0, 0.0);
+  CHECK_OK(toml_int(root, "x", 0, 3, &i, &why));
+  CHECK_OK(toml_bool(root, "b", &b, &why));
+  CHECK(b);
+  CHECK_OK(toml_doubles(root, "l", 3, list, &n, &why));
+  CHECK(n == 2);
+  CHECK_NEAR(list[1], 2.5, 0.0);
+  CHECK_OK(toml_table(root, "t", &sub, &why));
+  CHECK(toml_has(sub, "k") && !toml_has(sub, "s"));
+  CHECK_OK(toml_table_at(root, "a", 1, &sub, &more, &why));
+  CHECK(more);
+  CHECK_OK(toml_int(sub, "n", 0, 9, &i, &why));
+  CHECK(i == 2);
+  CHECK_OK(toml_table_at(root, "a", 2, &sub, &more, &why));
+  CHECK(!more);
+  toml_close(file);
+}
+
+TEST(toml_refuses_other_types_and_ranges) {
+  toml_file_t *file;
+  why_t why;
+  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &why))) return;
+  const toml_t root = toml_root(file);
+  char s[8];
+  double x, list[3];
+  int i, n;
+  bool more;
+  toml_t sub;
+  CHECK_STATUS(ST_BAD_INPUT, toml_double(root, "s", 0.0, 1.0, &x, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:1: s: wrong type; allowed: a number");
+  CHECK_STATUS(ST_BAD_INPUT, toml_double(root, "y", 1.0, 2.0, &x, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:3: y: 0.5 is out of range; allowed: 1 to 2");
+  CHECK_STATUS(ST_BAD_INPUT, toml_int(root, "y", 0, 1, &i, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:3: y: wrong type; allowed: a whole number");
+  CHECK_STATUS(ST_BAD_INPUT, toml_doubles(root, "l", 1, list, &n, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:5: l: 2 numbers; allowed: at most 1");
+  CHECK_STATUS(ST_BAD_INPUT, toml_string(root, "none", s, sizeof s, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:1: none: missing; allowed: a text in quotes");
+  CHECK_STATUS(ST_BAD_INPUT, toml_string(root, "s", s, 4, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:1: s: the text is too long; allowed: 3 bytes");
+  CHECK_STATUS(ST_BAD_INPUT, toml_table_at(root, "x", 0, &sub, &more, &why));
+  CHECK_TEXT(scratch_short(why.text), "t.toml:2: x: wrong type; allowed: tables, each under [[...]]");
+  toml_close(file);
+}
+
+TEST(toml_refuses_what_is_no_file) {
+  toml_file_t *file;
+  why_t why;
+  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("none.toml"), &why));
+  CHECK_TEXT(scratch_short(why.text), "none.toml: cannot be opened: No such file or directory");
+  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("."), &why));
+  CHECK_TEXT(scratch_short(why.text), ".: cannot be read: Is a directory");
+}
+
+TEST(vehicle_file_gives_the_model) {
+  const char *text =
+      VEHICLE "ceiling_m = 0.5\n[thrust_map]\nkind = \"volt_cubic\"\nc = [0, 1, 2, 3]\n"
+              "[[effect]]\nname = \"ceiling\"\nCa = 0.5\n[[effect]]\nname = \"ground\"\nform = \"table\"\n"
+              "distance_over_radius = [0, 1]\nratio = [1.2, 1]\n";
+  model_t m;
+  why_t why = {""};
+  CHECK_OK(model_read(scratch_file("v.toml", text, -1), &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_TEXT(m.name, "v");
+  CHECK_NEAR(m.ceiling_m, 0.5, 0.0);
+  CHECK(m.map.kind == THRUST_MAP_VOLT_CUBIC && m.n_fx == 2);
+  CHECK_NEAR(m.fx[0].p[0], 0.5, 0.0);
+  CHECK(m.fx[1].points.n == 2);
+  CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
+  CHECK(isinf(m.ceiling_m) && m.map.kind == THRUST_MAP_NONE && m.n_fx == 0);
+}
+
+static const struct {
+  const char *what, *text, *want;
+} bad_vehicle[] = {
+    {"not TOML", "name = \n", "v.toml:1:8: "},
+    {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
+    {"unknown key", VEHICLE "mass = 1\n",
+     "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
+     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, thrust_map, effect"},
+    {"nan", "name = \"v\"\nmass_kg = nan\n", "v.toml:2: mass_kg: nan is out of range; allowed: 0.001 to 100"},
+    {"key twice", VEHICLE "mass_kg = 1\n", "v.toml:7:"},
+    {"limits",
+     "name = \"v\"\nmass_kg = 1\nrotor_radius_m = 1\nmotor_tau_s = 1\nthrust_min_N = 2\nthrust_max_N = 1\n",
+     "v.toml:6: thrust_max_N: 1; allowed: more than thrust_min_N, 2"},
+    {"map kind", VEHICLE "[thrust_map]\nkind = \"x\"\n",
+     "v.toml:8: kind: unknown kind `x`; allowed: stand, volt_cubic"},
+    {"map numbers", VEHICLE "[thrust_map]\nkind = \"stand\"\nc = [1, 2]\n",
+     "v.toml:9: c: 2 numbers; allowed: 5"},
+    {"map without", VEHICLE "[thrust_map]\nkind = \"stand\"\n",
+     "v.toml:7: c: missing; allowed: a list of numbers"},
+    {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",
+     "v.toml:8: name: unknown effect `x`; allowed: ceiling, ground"},
+    {"form", VEHICLE "[[effect]]\nname = \"ceiling\"\nform = \"x\"\n",
+     "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, table, "
+     "square-root"},
+    {"effect key", VEHICLE "[[effect]]\nname = \"ceiling\"\nCc = 1\n",
+     "v.toml:9: Cc: effect ceiling, form exponential: unknown key `Cc`; allowed: form, Ca 0 to 5, Cb 0.01 "
+     "to 50"},
+    {"effect range", VEHICLE "[[effect]]\nname = \"ceiling\"\nCa = 9\n",
+     "v.toml:9: Ca: effect ceiling: Ca = 9 is out of range; allowed: 0 to 5"},
+    {"points",
+     VEHICLE
+     "[[effect]]\nname = \"ceiling\"\nform = \"table\"\ndistance_over_radius = [1, 0]\nratio = [1, 1]\n",
+     "v.toml:11: ratio: effect ceiling: point 2: distance_over_radius 0; allowed: 0 to 1000, ascending"},
+    {"effect twice", VEHICLE "[[effect]]\nname = \"ceiling\"\n[[effect]]\nname = \"ceiling\"\n",
+     "v.toml:10: name: effect ceiling stands twice; allowed: once"},
+};
+
+TEST(vehicle_file_is_refused_with_line_and_key) {
+  for (unsigned i = 0; i < sizeof bad_vehicle / sizeof *bad_vehicle; i++) {
+    ROW("%s", bad_vehicle[i].what);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    CHECK_STATUS(ST_BAD_INPUT, model_read(scratch_file("v.toml", bad_vehicle[i].text, -1), &m, &why));
+    // The parser's own words are cut off: they are not ours to fix.
+    const bool parser = bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ' ' ||
+                        bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ':';
+    char got[sizeof why.text];
+    snprintf(got, sizeof got, "%.*s", parser ? (int)strlen(bad_vehicle[i].want) : (int)sizeof got - 1,
+             scratch_short(why.text));
+    CHECK_TEXT(got, bad_vehicle[i].want);
+    CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+  }
+}
+
+TEST(effect_of_a_command_line_is_read_or_refused) {
+  scratch_file("curve.csv", "ratio,distance_over_radius\n1.3,0.5\n1,3\n", -1);
+  char file_spec[500];
+  snprintf(file_spec, sizeof file_spec, "ceiling:file=%s,form=table", scratch_path("curve.csv"));
+  fx_use_t use;
+  why_t why = {""};
+  CHECK_OK(effect_parse(file_spec, &use, &why));
+  CHECK(use.points.n == 2);
+  CHECK_NEAR(use.points.ratio[0], 1.3, 0.0);
+  CHECK_OK(effect_parse("ceiling:Cb=2.2,form=exponential,Ca=0.6", &use, &why));
+  CHECK_NEAR(use.p[0], 0.6, 0.0);
+  CHECK_NEAR(use.p[1], 2.2, 0.0);
+  CHECK_TEXT(why.text, "");
+  static const struct {
+    const char *spec, *want;
+  } row[] = {
+      {"", "unknown effect ``; allowed: ceiling, ground"},
+      {"wind:x=1", "unknown effect `wind`; allowed: ceiling, ground"},
+      {"ceiling:", "effect ceiling: ``; allowed: key=value"},
+      {"ceiling:Ca", "effect ceiling: `Ca`; allowed: key=value"},
+      {"ceiling:Ca=", "effect ceiling: Ca: not a number: ``"},
+      {"ceiling:Ca=0,5", "effect ceiling: `5`; allowed: key=value"},
+      {"ceiling:Ca=x", "effect ceiling: Ca: not a number: `x`"},
+      {"ceiling:Ca=nan", "effect ceiling: Ca: not a number: `nan`"},
+      {"ceiling:Ca=-1", "effect ceiling: Ca = -1 is out of range; allowed: 0 to 5"},
+      {"ceiling:form=linear",
+       "effect ceiling: unknown form `linear`; allowed: cheeseman-bennett, exponential, table, square-root"},
+      {"ceiling:form=table", "effect ceiling, form table: no points; file=FILE.csv is needed (columns "
+                             "distance_over_radius, ratio)"},
+      {"ceiling:file=x.csv",
+       "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to 5, Cb 0.01 to 50"},
+      {"ceiling:form=table,file=/none/x.csv", "/none/x.csv: cannot be opened: No such file or directory"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].spec);
+    CHECK_STATUS(ST_BAD_INPUT, effect_parse(row[i].spec, &use, &why));
+    CHECK_TEXT(why.text, row[i].want);
+    CHECK_NEAR(use.p[0], 0.6, 0.0);
+  }
+}
+
+TEST(vehicle_files_of_the_tree_are_good) {
+  CHECK(vehicle_count >= 6);
+  for (int i = 0; i < vehicle_count; i++) {
+    ROW("%s", vehicle_table[i].name);
+    model_t m;
+    why_t why = {""};
+    CHECK_OK(model_builtin(vehicle_table[i].name, &m, &why));
+    CHECK_TEXT(why.text, "");
+  }
+}

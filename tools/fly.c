@@ -1,0 +1,209 @@
+// fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
+#include "catalogue.h"
+#include "io/effect_spec.h"
+#include "io/model_file.h"
+#include "io/number.h"
+#include "param_spec.h"
+#include "scenario/scenario.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define SEEDS_MAX 10000
+
+typedef struct {
+  const scenario_t *scenario;
+  request_t request;
+  fly_kind_t kind;
+  model_t vehicle;
+  int seeds;
+  const char *log, *json;
+  bool list, params, help;
+} order_t;
+
+static const char USAGE[] =
+    "usage: fly SCENARIO [options]\n"
+    "  --controller NAME        who flies; see --list\n"
+    "  --set group.name=VALUE   a parameter of the flight code; see --params (may be repeated)\n"
+    "  --effect NAME[:KEY=VALUE,...]  switches an effect of the plant on, or changes it; `none` first "
+    "switches\n"
+    "                           off what the scenario has; see --list (may be repeated)\n"
+    "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
+    "  --noise LEVEL            none, n1, n2 or n3\n"
+    "  --seed N                 of the noise; the first one with --seeds (1)\n"
+    "  --seeds N                flies N times, with seeds that count up (1)\n"
+    "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
+    "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
+    "  --json FILE              writes what is printed, and more\n"
+    "  --list                   scenarios, controllers and effects\n"
+    "  --params                 the parameters of the flight code, with unit, default and range\n"
+    "  --help                   this\n";
+
+// --- options ------------------------------------------------------------------------------------------
+
+static status_t take_controller(order_t *o, const char *name, why_t *why) {
+  for (int i = 0; i < FLY_COUNT; i++) {
+    if (!fly_name[i] || strcmp(fly_name[i], name) != 0) continue;
+    o->kind = (fly_kind_t)i;
+    o->request.kind = &o->kind;
+    return ST_OK;
+  }
+  return error_set(why, "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned, pid, pid-ff",
+                   name);
+}
+
+static status_t take_noise(order_t *o, const char *name, why_t *why) {
+  for (int i = 0; i < noise_count; i++) {
+    if (strcmp(noise_levels[i].name, name) != 0) continue;
+    o->request.noise = &noise_levels[i];
+    return ST_OK;
+  }
+  return error_set(why, "--noise %s: allowed are none, n1, n2, n3", name);
+}
+
+static status_t take_integrator(order_t *o, const char *name, why_t *why) {
+  static const char *const names[] = {"sundials", "rk4", "reference"};
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(names[i], name) != 0) continue;
+    o->request.integrate = (integrate_kind_t)i;
+    return ST_OK;
+  }
+  return error_set(why, "--integrator %s: allowed are sundials, rk4, reference", name);
+}
+
+static status_t take_set(order_t *o, const char *text, why_t *why) {
+  request_t *r = &o->request;
+  if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
+  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
+  r->n_set++;
+  return ST_OK;
+}
+
+static status_t take_effect(order_t *o, const char *spec, why_t *why) {
+  request_t *r = &o->request;
+  if (strcmp(spec, "none") == 0) {
+    r->no_effects = true;
+    r->n_effect = 0;
+    return ST_OK;
+  }
+  if (r->n_effect == FX_MAX) return error_set(why, "--effect: at most %d of them", FX_MAX);
+  TRY(effect_parse(spec, &r->effect[r->n_effect], why));
+  r->n_effect++;
+  return ST_OK;
+}
+
+static status_t take_count(const char *option, const char *text, double max, double *value, why_t *why) {
+  if (number_parse(text, value) && *value >= 0.0 && *value <= max && *value == (double)(long)*value)
+    return ST_OK;
+  return error_set(why, "%s %s: allowed is a whole number from 0 to %.0f", option, text, max);
+}
+
+static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+  double count;
+  switch (option) {
+  case 'c': return take_controller(o, text, why);
+  case 's': return take_set(o, text, why);
+  case 'e': return take_effect(o, text, why);
+  case 'n': return take_noise(o, text, why);
+  case 'i': return take_integrator(o, text, why);
+  case 'v': o->request.vehicle = &o->vehicle; return model_read(text, &o->vehicle, why);
+  case 'd':
+    TRY(take_count("--seed", text, 1e9, &count, why));
+    o->request.seed = (uint64_t)count;
+    return ST_OK;
+  case 'm':
+    TRY(take_count("--seeds", text, SEEDS_MAX, &count, why));
+    if (count < 1.0) return error_set(why, "--seeds 0: allowed is a whole number from 1 to %d", SEEDS_MAX);
+    o->seeds = (int)count;
+    return ST_OK;
+  case 'l': o->log = text; return ST_OK;
+  case 'j': o->json = text; return ST_OK;
+  case 'L': o->list = true; return ST_OK;
+  case 'P': o->params = true; return ST_OK;
+  case 'h': o->help = true; return ST_OK;
+  }
+  return error_set(why, "an option that is not known, or without its value; fly --help lists them");
+}
+
+static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+  static const struct option options[] = {
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},
+      {"effect", 1, 0, 'e'},     {"vehicle", 1, 0, 'v'},
+      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
+      {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'},
+      {"log", 1, 0, 'l'},        {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},       {"params", 0, 0, 'P'},
+      {"help", 0, 0, 'h'},       {0},
+  };
+  *o = (order_t){.seeds = 1, .request = {.seed = 1}};
+  opterr = 0;
+  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
+    if (option == '?')
+      return error_set(why, "%s: not an option, or without its value; fly --help lists them",
+                       argv[optind - 1]);
+    TRY(take_option(o, option, optarg, why));
+  }
+  if (o->list || o->params || o->help) return ST_OK;
+  if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
+  o->scenario = scenario_find(argv[optind]);
+  if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
+  if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
+  return ST_OK;
+}
+
+// --- flying -------------------------------------------------------------------------------------------
+
+static status_t write_files(const order_t *o, const cJSON *json, const record_t *record, why_t *why) {
+  if (o->log) TRY(record_write(record, o->log, why));
+  return o->json ? result_write(json, o->json, why) : ST_OK;
+}
+
+static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) {
+  request_t request = o->request;
+  request.seed += (uint64_t)i;
+  TRY(result_init(result, why));
+  return o->scenario->run(&request, result, why);
+}
+
+static status_t fly(const order_t *o, why_t *why) {
+  cJSON **json = calloc((size_t)o->seeds, sizeof(cJSON *));
+  record_t record = {0};
+  status_t status = json ? ST_OK : error_set(why, "out of memory");
+  for (int i = 0; i < o->seeds && status == ST_OK; i++) {
+    result_t result;
+    status = fly_once(o, i, &result, why);
+    json[i] = result.json;
+    record_free(&record);
+    record = result.record;
+    if (o->seeds > 1 && isatty(STDERR_FILENO)) fprintf(stderr, "\r%d of %d flights", i + 1, o->seeds);
+  }
+  if (o->seeds > 1 && isatty(STDERR_FILENO)) fputc('\n', stderr);
+  if (status == ST_OK) {
+    cJSON *all =
+        o->seeds > 1 ? result_over_seeds(json, o->seeds, o->request.seed) : cJSON_Duplicate(json[0], true);
+    status = write_files(o, all, &record, why);
+    if (status == ST_OK) result_print(all, stdout);
+    cJSON_Delete(all);
+  }
+  for (int i = 0; json && i < o->seeds; i++) cJSON_Delete(json[i]);
+  free(json);
+  record_free(&record);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  static order_t order;
+  why_t why;
+  status_t status = take_order(&order, argc, argv, &why);
+  if (status == ST_OK && order.help) fputs(USAGE, stdout);
+  if (status == ST_OK && order.list) catalogue_all();
+  if (status == ST_OK && order.params) catalogue_params();
+  if (status == ST_OK && order.scenario) status = fly(&order, &why);
+  if (status == ST_OK) return 0;
+  fprintf(stderr, "fly: %s\n", why.text);
+  return 2;
+}
