@@ -26,7 +26,7 @@ TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
-PROGRAMS   = fly bench
+PROGRAMS   = fly learn bench
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -88,18 +88,18 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
-test: $(B)/bin/tests out/fly  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests out/fly out/learn  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA=$(DATA) PROGRAMS=$(B)/bin $(B)/bin/tests $(W)
 
 check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA=$(DATA) PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests $(W)
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
-	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn
 	@DATA=$(DATA) PROGRAMS=out/sanitize/bin out/sanitize/bin/tests $(W)
 
 clang: setup-lint  ## everything again, and the tests, with clang
-	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn
 	@DATA=$(DATA) PROGRAMS=out/clang/bin out/clang/bin/tests $(W)
 
 bench: out/bench  ## how fast it is, as ratios to real time

@@ -1,0 +1,92 @@
+// columns.h - which column of a log is which of our signals, with units, signs and frames; one per
+// laboratory.
+//
+// A columns file (tools/columns/*.toml):
+//
+//   rest_height_m = 0.05                         optional: what z says when the vehicle stands on the ground
+//   acceleration = "body"                        specific force in body axes (+1 g on z at rest), or
+//                                                "world" (gravity taken out), or "world_with_gravity"
+//   [columns]                                    SIGNAL = {column, unit, and where wanted
+//   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
+//   pitch = {column = "pitch", unit = "deg", scale = -1}
+//
+// What we read is  scale x cell in SI + offset  (offset in SI). Signals and units: columns.c. Attitude is a
+// quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll, pitch,
+// yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left). Motors
+// are m1..m4 as commands (pwm, percent, share) or newton each, or `thrust`, newton of all together.
+#ifndef SIM_IO_COLUMNS_H
+#define SIM_IO_COLUMNS_H
+
+#include "error.h"
+#include <stdbool.h>
+
+typedef enum {
+  SIG_TIME,
+  SIG_X,
+  SIG_Y,
+  SIG_Z,
+  SIG_VX,
+  SIG_VY,
+  SIG_VZ,
+  SIG_AX,
+  SIG_AY,
+  SIG_AZ,
+  SIG_QW,
+  SIG_QX,
+  SIG_QY,
+  SIG_QZ,
+  SIG_ROLL,
+  SIG_PITCH,
+  SIG_YAW,
+  SIG_GX,
+  SIG_GY,
+  SIG_GZ,
+  SIG_M1,
+  SIG_M2,
+  SIG_M3,
+  SIG_M4,
+  SIG_THRUST,
+  SIG_VBAT,
+  SIG_RANGE,
+  SIG_COUNT
+} signal_id_t;
+
+typedef enum { ACC_BODY, ACC_WORLD, ACC_WORLD_WITH_GRAVITY } acc_frame_t;
+
+#define COLUMN_NAME_MAX 64
+
+typedef struct {
+  char column[COLUMN_NAME_MAX]; // "": not in this log
+  char unit[12];
+  double factor; // SI per unit of the cell, with sign and scale
+  double offset; // SI
+  bool optional; // may be missing in the CSV
+} column_t;
+
+typedef struct {
+  acc_frame_t acc;
+  bool motors_N;        // m1..m4 are newton, not commands of 0..65535
+  double rest_height_m; // NaN: not said
+  column_t of[SIG_COUNT];
+} columns_t;
+
+// What a Crazyflie logs, under its own names (also what the simulator writes). All but the time may be
+// missing.
+columns_t columns_crazyflie(void);
+
+// ST_BAD_INPUT: not a columns file; names file, line, key and what is allowed. *c is kept.
+MUST_CHECK status_t columns_read(const char *path, columns_t *c, why_t *why);
+
+// The signal's name in columns files, and the SI unit of what is read.
+const char *columns_name(signal_id_t signal);
+const char *columns_si(signal_id_t signal);
+
+// Bounds of what is plausible, in SI.
+void columns_bounds(signal_id_t signal, double *min, double *max);
+
+// The unit in which a value (SI, as read) would lie in min..max, and the factor to it; a null pointer if none
+// is.
+const char *columns_unit_within(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                                double *factor);
+
+#endif

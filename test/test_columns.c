@@ -1,0 +1,158 @@
+// test_columns.c - columns files, and the rows of a log in SI and our frames.
+#include "io/columns.h"
+#include "io/log_rows.h"
+#include "scratch.h"
+#include "test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static const model_t CUBIC = {
+    .name = "cubic", .thrust_max_N = 0.5, .map = {.kind = THRUST_MAP_VOLT_CUBIC, .c = {0.0, 0.1}}};
+static const model_t NEWTON = {.name = "newton", .thrust_max_N = 0.5};
+
+// The first row of a log.
+static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, unsigned need,
+                          log_row_t *row, why_t *why) {
+  log_rows_t rows;
+  bool more;
+  TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, need, why));
+  const status_t status = log_rows_next(&rows, row, &more, why);
+  log_rows_close(&rows);
+  return status;
+}
+
+TEST(columns_of_a_crazyflie_are_built_in) {
+  const columns_t c = columns_crazyflie();
+  const char *csv =
+      "timestamp,acc.x,acc.y,acc.z,stateEstimate.z,stateEstimate.roll,stateEstimate.pitch,range.up,"
+      "motor.m1,motor.m2,motor.m3,motor.m4,pm.vbat\n2000,0.1,0.2,1,0.4,0,-90,512,65535,0,0,32767.5,4\n";
+  log_row_t row;
+  why_t why = {""};
+  CHECK_OK(first_row(csv, &c, &CUBIC, SIGNAL_BIT(SIG_THRUST), &row, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_NEAR(row.v[SIG_TIME], 2.0, 1e-12);
+  CHECK_NEAR(row.v[SIG_AX], 0.981, 1e-12);
+  CHECK_NEAR(row.v[SIG_RANGE], 0.512, 1e-12);
+  CHECK_NEAR(row.v[SIG_THRUST], 0.1 * 4.0 * 1.5, 1e-12);
+  CHECK(row.at_limit);
+  // The firmware's pitch is nose up: -90 is nose down, a right-handed turn about y.
+  CHECK_NEAR(row.v[SIG_QW], sqrt(0.5), 1e-12);
+  CHECK_NEAR(row.v[SIG_QY], sqrt(0.5), 1e-12);
+}
+
+#define EULER                                                                                                \
+  "[columns]\ntime = {column = \"t\", unit = \"us\"}\nax = {column = \"ax\", unit = \"m/s2\"}\n"             \
+  "ay = {column = \"ay\", unit = \"m/s2\"}\naz = {column = \"az\", unit = \"m/s2\"}\n"                       \
+  "roll = {column = \"r\", unit = \"deg\"}\npitch = {column = \"p\", unit = \"rad\"}\n"                      \
+  "yaw = {column = \"y\", unit = \"deg\"}\nthrust = {column = \"T\", unit = \"mN\", scale = 2, offset = "    \
+  "0.1}\n"
+
+TEST(columns_bring_every_frame_to_ours) {
+  // Standing still, rolled and pitched: the specific force is what holds against gravity.
+  const double g = 9.81, r = 10.0 * PI / 180.0, p = 0.3;
+  const double want[3] = {-g * sin(p), g * cos(p) * sin(r), g * cos(p) * cos(r)};
+  static const struct {
+    const char *frame, *acc;
+  } world[] = {{"world", "0,0,0"}, {"world_with_gravity", "0,0,9.81"}};
+  for (unsigned i = 0; i < sizeof world / sizeof *world; i++) {
+    ROW("%s", world[i].frame);
+    char toml[600], csv[120];
+    snprintf(toml, sizeof toml, "acceleration = \"%s\"\n" EULER, world[i].frame);
+    snprintf(csv, sizeof csv, "t,ax,ay,az,r,p,y,T\n1500000,%s,10,0.3,77,100\n", world[i].acc);
+    columns_t c;
+    log_row_t row;
+    why_t why = {""};
+    CHECK_OK(columns_read(scratch_file("c.toml", toml, -1), &c, &why));
+    CHECK_OK(first_row(csv, &c, &NEWTON, 0, &row, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK_NEAR(row.v[SIG_TIME], 1.5, 1e-12);
+    CHECK_NEAR(row.v[SIG_THRUST], 0.3, 1e-12);
+    for (int k = 0; k < 3; k++) CHECK_NEAR(row.v[SIG_AX + k], want[k], 1e-12);
+  }
+}
+
+#define TIME "[columns]\ntime = {column = \"t\", unit = \"s\"}\n"
+
+TEST(columns_files_are_refused_with_line_and_key) {
+  static const struct {
+    const char *what, *text, *want;
+  } row[] = {
+      {"empty", "", "c.toml:1: columns: missing; allowed: a table"},
+      {"no time", "[columns]\n", "c.toml:1: time: missing; allowed: a table"},
+      {"key", "x = 1\n" TIME, "c.toml:1: x: unknown key; allowed: rest_height_m, acceleration, columns"},
+      {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
+       "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
+       "pitch, yaw, "
+       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range"},
+      {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
+       "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
+      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rpm\"}\n",
+       "c.toml:3: unit: unknown unit `rpm` of m1; allowed: pwm, percent, share, N, mN, gram"},
+      {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
+      {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
+       "c.toml:3: scale: 0; allowed: any other number"},
+      {"no frame", TIME "az = {column = \"z\", unit = \"g\"}\n",
+       "c.toml:1: acceleration: missing; allowed: a text in quotes"},
+      {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
+       "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
+      {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
+       "c.toml:4: m2: a command beside motors in newton; allowed: one of both"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t c = {.rest_height_m = 7.0};
+    why_t why = {""};
+    CHECK_STATUS(ST_BAD_INPUT, columns_read(scratch_file("c.toml", row[i].text, -1), &c, &why));
+    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    CHECK_NEAR(c.rest_height_m, 7.0, 0.0);
+  }
+}
+
+TEST(rows_are_refused_with_column_and_factor) {
+  const columns_t c = columns_crazyflie();
+  static const struct {
+    const char *what, *csv, *want;
+  } row[] = {
+      {"no time", "time,acc.z\n1,2\n",
+       "log.csv:1: column timestamp: missing; it is the signal `time` of this kind of log"},
+      {"no height", "timestamp\n1\n",
+       "log.csv:1: column stateEstimate.z: missing; needed: the signal `z`, named by --columns FILE"},
+      {"height in mm", "timestamp,stateEstimate.z\n1,412\n",
+       "log.csv:2: column stateEstimate.z: 412 m is not plausible; allowed: -30 to 100 m; the unit cm would "
+       "fit (factor 0.01)"},
+      {"volts in mV", "timestamp,stateEstimate.z,pm.vbat\n1,0.4,3700\n",
+       "log.csv:2: column pm.vbat: 3700 V is not plausible; allowed: 1 to 60 V; the unit mV would fit "
+       "(factor 0.001)"},
+      {"acceleration in m/s2", "timestamp,stateEstimate.z,acc.z\n1,0.4,30\n",
+       "log.csv:2: column acc.z: 294.3 m/s2 is not plausible; allowed: -240 to 240 m/s2; the unit m/s2 would "
+       "fit (factor 0.101937)"},
+      {"quaternion",
+       "timestamp,stateEstimate.z,stateEstimate.qw,stateEstimate.qx,stateEstimate.qy,stateEstimate.qz\n"
+       "1,0.4,0.5,0,0,0\n",
+       "log.csv:2: column stateEstimate.qw: the quaternion's length is 0.5; allowed: 0.9 to 1.1"},
+      {"no map", "timestamp,stateEstimate.z,motor.m1,motor.m2,motor.m3,motor.m4\n1,0.4,1,1,1,1\n",
+       "log.csv:1: column motor.m1: a motor command, but vehicle newton has no [thrust_map]; choose one that "
+       "has "
+       "(--vehicle)"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    log_row_t got;
+    why_t why = {""};
+    CHECK_STATUS(ST_BAD_INPUT, first_row(row[i].csv, &c, &NEWTON, SIGNAL_BIT(SIG_Z), &got, &why));
+    CHECK_TEXT(scratch_short(why.text), row[i].want);
+  }
+}
+
+TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
+  const columns_t c = columns_crazyflie();
+  const char *csv = "timestamp,motor.m1,motor.m2,motor.m3,motor.m4\n1,1,1,1,1\n";
+  log_row_t row;
+  why_t why;
+  CHECK_STATUS(ST_BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
+  CHECK_TEXT(scratch_short(why.text),
+             "log.csv:1: column pm.vbat: missing; the thrust map needs the battery's voltage");
+}

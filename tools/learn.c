@@ -1,0 +1,231 @@
+// learn.c - the flight code's own learner over recorded flights: prints the weights and what they explain.
+#define _POSIX_C_SOURCE 200809L // stat
+#include "io/model_file.h"
+#include "io/whole_file.h"
+#include "learn_log.h"
+#include "param_spec.h"
+#include "result.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define FILES_MAX 64
+
+typedef struct {
+  const char *log[FILES_MAX], *held_out[FILES_MAX], *set[FILES_MAX];
+  int n_log, n_held_out, n_set;
+  const char *columns, *vehicle, *json, *points;
+  int surface;
+  bool help;
+} order_t;
+
+typedef struct {
+  learn_job_t job;
+  learn_mass_t mass;
+  learn_t learn;
+  learn_score_t score[FILES_MAX];
+} lesson_t;
+
+static const char USAGE[] =
+    "usage: learn LOG.csv... [options]\n"
+    "  --columns FILE.toml      how these logs name things (tools/columns/*.toml); without: Crazyflie log "
+    "names\n"
+    "  --vehicle FILE.toml      motor lag, thrust map, mass (sim/vehicles/*.toml); without: cf21_legacy\n"
+    "  --surface NAME           ceiling or ground (ceiling)\n"
+    "  --hold-out LOG.csv       a flight that is not learned from; says what the curve explains (may be "
+    "repeated)\n"
+    "  --set group.name=VALUE   a parameter of the flight code; fly --params lists them (may be repeated).\n"
+    "                           Other than there: rls.q is 0, and near the ground ceil.w1..w7 are 1, 0, ...\n"
+    "  --points FILE.csv        writes every sample that taught: distance and measured thrust ratio\n"
+    "  --json FILE              writes weights and residuals\n"
+    "  --help                   this\n";
+
+// --- options ------------------------------------------------------------------------------------------
+
+static status_t append(const char *list[FILES_MAX], int *n, const char *item, why_t *why) {
+  if (*n == FILES_MAX) return error_set(why, "%s: too many of these; allowed: %d", item, FILES_MAX);
+  list[(*n)++] = item;
+  return ST_OK;
+}
+
+static status_t take_surface(order_t *o, const char *name, why_t *why) {
+  if (strcmp(name, "ceiling") != 0 && strcmp(name, "ground") != 0)
+    return error_set(why, "--surface %s: allowed are ceiling, ground", name);
+  o->surface = name[0] == 'c' ? SURFACE_CEILING : SURFACE_GROUND;
+  return ST_OK;
+}
+
+static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+  switch (option) {
+  case 'c': o->columns = text; return ST_OK;
+  case 'v': o->vehicle = text; return ST_OK;
+  case 's': return take_surface(o, text, why);
+  case 'o': return append(o->held_out, &o->n_held_out, text, why);
+  case 'p': return append(o->set, &o->n_set, text, why);
+  case 'x': o->points = text; return ST_OK;
+  case 'j': o->json = text; return ST_OK;
+  default: o->help = true; return ST_OK;
+  }
+}
+
+static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+  static const struct option options[] = {
+      {"columns", 1, 0, 'c'},  {"vehicle", 1, 0, 'v'}, {"surface", 1, 0, 's'},
+      {"hold-out", 1, 0, 'o'}, {"set", 1, 0, 'p'},     {"json", 1, 0, 'j'},
+      {"points", 1, 0, 'x'},   {"help", 0, 0, 'h'},    {0},
+  };
+  *o = (order_t){.surface = SURFACE_CEILING};
+  opterr = 0;
+  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
+    if (option == '?')
+      return error_set(why,
+                       "%s: not an option, or without its value; allowed: --columns, --vehicle, --surface, "
+                       "--hold-out, --set, --points, --json, --help",
+                       argv[optind - 1]);
+    TRY(take_option(o, option, optarg, why));
+  }
+  for (int i = optind; i < argc; i++) TRY(append(o->log, &o->n_log, argv[i], why));
+  if (o->n_log == 0 && !o->help) return error_set(why, "no flight to learn from; allowed: learn LOG.csv...");
+  return ST_OK;
+}
+
+static status_t set_param(flight_param_t *p, const char *text, why_t *why) {
+  const param_row_t *row;
+  float value;
+  TRY(param_parse(text, &row, &value, why));
+  return params_set(p, row, value);
+}
+
+// --- learning -----------------------------------------------------------------------------------------
+
+static status_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
+  model_t vehicle;
+  TRY(o->vehicle ? model_read(o->vehicle, &vehicle, why) : model_builtin("cf21_legacy", &vehicle, why));
+  learn_job_init(job, &vehicle, o->surface);
+  if (o->columns) TRY(columns_read(o->columns, &job->columns, why));
+  for (int i = 0; i < o->n_set; i++) TRY(set_param(&job->param, o->set[i], why));
+  TRY(param_check_all(&job->param, why));
+  job->rest_height_m = job->columns.rest_height_m;
+  if (o->surface == SURFACE_GROUND && isnan(job->rest_height_m))
+    return error_set(
+        why, "--surface ground: the height at rest is not known; rest_height_m in a --columns file says it");
+  return ST_OK;
+}
+
+// Two passes: the first one weighs the vehicle, and finds every error before anything is learned.
+static status_t weigh(const order_t *o, lesson_t *r, why_t *why) {
+  for (int i = 0; i < o->n_log; i++) {
+    struct stat s;
+    if (stat(o->log[i], &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode))
+      return error_set(why, "%s: not a file; allowed: a file, because it is read twice", o->log[i]);
+    TRY(learn_log_mass(&r->job, o->log[i], &r->mass, why));
+  }
+  return ST_OK;
+}
+
+// Teaches flight after flight; the samples go to the points' file, which is complete or not there.
+static status_t teach(const order_t *o, lesson_t *r, why_t *why) {
+  whole_file_t points = {.file = NULL};
+  if (o->points) TRY(whole_file_open(&points, o->points, why));
+  if (o->points) fputs("distance_m,ratio\n", points.file);
+  r->job.points = points.file;
+  status_t status = ST_OK;
+  for (int i = 0; i < o->n_log && status == ST_OK; i++)
+    status = learn_log_teach(&r->job, o->log[i], &r->learn, why);
+  if (o->points && status != ST_OK) whole_file_drop(&points);
+  return o->points && status == ST_OK ? whole_file_close(&points, why) : status;
+}
+
+static status_t learn(const order_t *o, lesson_t *r, why_t *why) {
+  TRY(prepare(o, &r->job, why));
+  TRY(weigh(o, r, why));
+  flight_param_t *const p = &r->job.param;
+  const double mass_kg = learn_mass_kg(&r->mass);
+  if (isfinite(mass_kg)) p->pos.mass_kg = (float)mass_kg;
+  if (learn_init(&r->learn, &p->learn, &p->curve.fixed) != ST_OK)
+    return error_set(why, "the learner refuses its parameters");
+  TRY(teach(o, r, why));
+  if (r->learn.rls.count == 0)
+    return error_set(why,
+                     "%s: no sample may teach; allowed: %g to %g m from a known surface (rls.zMin, rls.zMax)",
+                     o->log[o->n_log - 1], (double)p->learn.near_m, (double)p->learn.far_m);
+  for (int i = 0; i < o->n_held_out; i++)
+    TRY(learn_log_score(&r->job, o->held_out[i], &r->learn.rls.theta, &r->score[i], why));
+  return ST_OK;
+}
+
+// --- result -------------------------------------------------------------------------------------------
+
+static cJSON *json_of(const order_t *o, const lesson_t *r) {
+  cJSON *const json = cJSON_CreateObject();
+  cJSON_AddItemToObject(json, "weights", cJSON_CreateFloatArray(r->learn.rls.theta.w, RBF_N));
+  cJSON_AddNumberToObject(json, "mass_kg", (double)r->job.param.pos.mass_kg);
+  cJSON_AddNumberToObject(json, "taught", r->learn.rls.count);
+  cJSON *const list = cJSON_AddArrayToObject(json, "held_out");
+  for (int i = 0; i < o->n_held_out; i++) {
+    const learn_score_t *s = &r->score[i];
+    cJSON *const item = cJSON_CreateObject();
+    cJSON_AddStringToObject(item, "file", o->held_out[i]);
+    cJSON_AddNumberToObject(item, "all_mN_before", 1e3 * s->all_before_N);
+    cJSON_AddNumberToObject(item, "all_mN_after", 1e3 * s->all_after_N);
+    // Not a number becomes null.
+    cJSON_AddNumberToObject(item, "below_7cm_mN_before", 1e3 * s->near_before_N);
+    cJSON_AddNumberToObject(item, "below_7cm_mN_after", 1e3 * s->near_after_N);
+    cJSON_AddNumberToObject(item, "bias_mN", 1e3 * s->bias_N);
+    cJSON_AddItemToArray(list, item);
+  }
+  return json;
+}
+
+static status_t write_json(const order_t *o, const lesson_t *r, why_t *why) {
+  cJSON *const json = json_of(o, r);
+  const status_t status = result_write(json, o->json, why);
+  cJSON_Delete(json);
+  return status;
+}
+
+static void print_mN(double before_N, double after_N) {
+  if (isnan(before_N))
+    printf("  %8s -> %-6s", "-", "-");
+  else
+    printf("  %8.1f -> %-6.1f", 1e3 * before_N, 1e3 * after_N);
+}
+
+static void print(const order_t *o, const lesson_t *r) {
+  printf("# %u samples taught, %u were not allowed to; mass %.1f g (%s)\n", r->learn.rls.count,
+         r->learn.refused, 1e3 * (double)r->job.param.pos.mass_kg,
+         isfinite(learn_mass_kg(&r->mass)) ? "thrust over specific force above 0.2 m" : "vehicle file");
+  for (int i = 0; i < RBF_N; i++) printf("ceil.w%d = %.7g\n", i + 1, (double)r->learn.rls.theta.w[i]);
+  if (o->n_held_out == 0) return;
+  printf("\nvertical force residual without -> with the curve, mN\n%20s  %18s  %8s  %s\n", "all, sd",
+         "below 7 cm, rms", "bias", "held-out flight");
+  for (int i = 0; i < o->n_held_out; i++) {
+    const learn_score_t *s = &r->score[i];
+    print_mN(s->all_before_N, s->all_after_N);
+    print_mN(s->near_before_N, s->near_after_N);
+    printf("  %8.1f  %s\n", 1e3 * s->bias_N, o->held_out[i]);
+  }
+}
+
+int main(int argc, char **argv) {
+  order_t order;
+  static lesson_t lesson;
+  why_t why;
+  status_t status = take_order(&order, argc, argv, &why);
+  if (status == ST_OK && order.help) {
+    fputs(USAGE, stdout);
+    return 0;
+  }
+  if (status == ST_OK) status = learn(&order, &lesson, &why);
+  if (status == ST_OK && order.json) status = write_json(&order, &lesson, &why);
+  if (status != ST_OK) {
+    fprintf(stderr, "learn: %s\n", why.text);
+    return 2;
+  }
+  print(&order, &lesson);
+  return 0;
+}
