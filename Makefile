@@ -88,6 +88,9 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
+demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
+	@tools/demo.sh $(DATA)
+
 test: $(B)/bin/tests out/fly out/learn  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA=$(DATA) PROGRAMS=$(B)/bin $(B)/bin/tests $(W)
 
@@ -105,8 +108,14 @@ clang: setup-lint  ## everything again, and the tests, with clang
 bench: out/bench  ## how fast it is, as ratios to real time
 	@out/bench
 
+lint: setup-lint  ## format, static analysis, headers alone, house rules
+	+@tools/lint.sh
+
 format: setup-lint
 	@clang-format -i $$(git ls-files '*.c' '*.h' '*.cpp')
+
+docs: setup-demo out/fly out/learn out/bench  ## write the tables and figures of README.md
+	@tools/docs.sh $(DATA)
 
 clean:  ## remove everything that was made
 	@rm -rf out

@@ -1,0 +1,30 @@
+#!/bin/sh
+# docs.sh [DATA] - writes the generated parts of README.md: what stands between `<!-- NAME -->` and `<!-- end -->`.
+set -eu
+data=${1:-}
+
+# part NAME: replaces that part by standard input.
+part() {
+  new=$(mktemp)
+  awk -v start="<!-- $1 -->" -v body="$(cat)" '
+    $0 == start { print; print body; skip = 1; found = 1; next }
+    $0 == "<!-- end -->" { skip = 0 }
+    !skip { print }
+    END { exit !found }' README.md >"$new" || { echo "docs.sh: README.md has no part $1" >&2; exit 1; }
+  cat "$new" >README.md
+  rm -f "$new"
+}
+
+text() { echo '```'; cat; echo '```'; }
+
+out/fly --params | awk '
+  BEGIN { print "| parameter | unit | default | range | what it does |"; print "|---|---|---|---|---|" }
+  NR > 1 { line = $0; sub(/^([^ ]+ +){5}/, "", line)
+           printf "| `%s` | %s | %s | %s to %s | %s |\n", $1, $2 == "-" ? "" : $2, $3, $4, $5, line }' | part params
+tools/demo.sh "$data" | sed -E '/^pictures/,$d; s#/[^ ]*/##' | sed '$d' | text | part demo
+out/bench | text | part bench
+for gains in '1 5' '2 8'; do
+  set -- $gains
+  out/fly closest-hover --set indiPos.kp="$1" --set indiPos.kd="$2" |
+    awk -v g="$1, $2" '$1 == "gap" && $NF == 0 { nearest = $2 } END { printf "gains %s: %s mm\n", g, nearest }'
+done | text | part closest

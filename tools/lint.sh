@@ -1,0 +1,51 @@
+#!/bin/sh
+# lint.sh - format, static analysis, headers that compile alone, and the rules of the house.
+set -u
+bad=0
+fail() {
+  echo "lint: $*" >&2
+  bad=1
+}
+sources=$(git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp')
+
+clang-format --dry-run -Werror $sources || fail "clang-format: make format mends it"
+
+cppcheck --quiet --error-exitcode=1 --std=c11 --enable=warning,portability --suppress=ctuuninitvar \
+  '-DcJSON_ArrayForEach(item,array)=for(item=(array)->child;item;item=item->next)' \
+  -Iinclude -Isim $(git ls-files --cached --others --exclude-standard 'src/*.c' 'sim/*.c' 'tools/*.c') || fail "cppcheck"
+
+for header in $(echo "$sources" | grep '\.h$'); do
+  gcc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -Iinclude -Isim -Itest -x c "$header" ||
+    fail "$header does not compile alone"
+done
+
+# Flight code: single precision, no allocation, nothing of libm but instructions, no printing.
+if grep -nE '\b(double|malloc|calloc|realloc|free|printf)\b' src/*.c include/flight/*.h | grep -vE '//.*\b(double|free)\b'; then
+  fail "flight code has a double, an allocation or a print"
+fi
+make -s B=out/release $(for c in src/*.c; do echo "out/release/${c%.c}.o"; done) || fail "flight code does not build"
+calls=$(nm -u out/release/src/*.o | sed -nE 's/^ +U (.*)/\1/p' | sort -u)
+for call in $calls; do
+  case $call in
+  memcpy | memcmp | memset | strcmp) continue ;; # the firmware has these
+  esac
+  nm out/release/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
+done
+
+# Nature does not know the controller, nor the flight code the simulator.
+grep -n '#include "flight/' sim/plant/* sim/effects/* && fail "nature includes flight code"
+grep -nE '#include "' src/*.c include/flight/*.h | grep -v '"flight/' && fail "flight code includes more than itself"
+
+for file in $sources; do
+  lines=$(wc -l <"$file")
+  case $file in test/*) continue ;; esac
+  [ "$lines" -le 260 ] || fail "$file has $lines lines: it holds two things"
+done
+tools/long_functions.awk $(echo "$sources" | grep -v '^test/') || fail "functions over 40 lines"
+# The README's reading rules name the tests that pin them; and the table of tests takes lower-case names only.
+for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' README.md); do
+  grep -q "^TEST($test)" test/*.c || fail "README.md names the test $test, which does not exist"
+done
+grep -nE '^TEST\(' test/*.c | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
+[ $bad = 0 ] && echo "lint: clean"
+exit $bad
