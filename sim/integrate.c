@@ -114,7 +114,7 @@ static double erk_to(integrate_t *s, double *y, double span_s, bool *event) {
   int said = ERKStepReset(s->erk, 0.0, s->y);
   if (said == ARK_SUCCESS) said = ERKStepSetStopTime(s->erk, span_s);
   if (said == ARK_SUCCESS) said = ERKStepEvolve(s->erk, span_s, s->y, &t, ARK_NORMAL);
-  if (said < 0) return NAN;
+  if (said < 0) return (double)NAN;
   *event = said == ARK_ROOT_RETURN;
   memcpy(y, N_VGetArrayPointer(s->y), bytes);
   return *event ? t : span_s;

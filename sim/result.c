@@ -143,7 +143,7 @@ status_t result_write(const cJSON *json, const char *path, why_t *why) {
 
 static double over_flights(cJSON *const *json, int n, int segment, const char *key) {
   const bool add = strcmp(key, "contacts") == 0, least = strcmp(key, "min_gap_mm") == 0;
-  double sum = 0.0, low = INFINITY;
+  double sum = 0.0, low = HUGE_VAL;
   for (int i = 0; i < n; i++) {
     const cJSON *segments = cJSON_GetObjectItem(json[i], "segments");
     const double value = number(cJSON_GetArrayItem(segments, segment), key);

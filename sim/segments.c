@@ -60,8 +60,8 @@ static void measure_hover(const span_t *x, segment_t *out) {
 }
 
 static segment_t measure(const span_t *x) {
-  segment_t out = {.setpoint_m = x->setpoint_m, .t90_s = NAN, .settle_1mm_s = NAN};
-  out.mean_error_mm = out.sd_mm = out.rms_mm = NAN;
+  segment_t out = {.setpoint_m = x->setpoint_m, .t90_s = (double)NAN, .settle_1mm_s = (double)NAN};
+  out.mean_error_mm = out.sd_mm = out.rms_mm = (double)NAN;
   measure_rise(x, &out);
   measure_hover(x, &out);
   out.peaks = count_peaks(x);

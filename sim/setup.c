@@ -29,7 +29,7 @@ static void take_vehicle(model_t *model, const model_t *vehicle) {
 
 status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   if (request->kind) setup->kind = *request->kind;
-  setup->flight.curve.mode = mode_of[setup->kind];
+  setup->flight.curve.mode = (int32_t)mode_of[setup->kind];
   if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
   if (request->noise) setup->plan.noise = *request->noise;
   if (request->no_effects) setup->model.n_fx = 0;

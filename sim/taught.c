@@ -33,7 +33,7 @@ int taught_of(const record_t *record, const setup_t *setup, double far_m, taught
 
 misfit_t taught_misfit(const rbf_weights_t *w, const model_t *model, double near_m, double far_m) {
   misfit_t m = {0};
-  double sum2 = 0.0, peak = -INFINITY;
+  double sum2 = 0.0, peak = -HUGE_VAL;
   int n = 0;
   for (int mm = 0; mm <= 100; mm++) {
     const double zc_m = 1e-3 * mm, ratio = (double)rbf_at(w, (float)zc_m).ratio;

@@ -113,7 +113,7 @@ TEST(rls_sweep_depends_on_lambda_over_p0_alone_and_ends_alike) {
   if (!CHECK(cJSON_GetArraySize(fits) == 7)) return;
   const cJSON *a = cJSON_GetArrayItem(fits, 1), *b = cJSON_GetArrayItem(fits, 5); // (0.1, 1) and (0.5, 5)
   for (int i = 1; i <= 7; i++) {
-    char w[8];
+    char w[24];
     snprintf(w, sizeof w, "w%d", i);
     ROW("%s", w);
     CHECK_NEAR(number(a, w), number(b, w), 1e-4); // in float, over thousands of samples

@@ -19,5 +19,5 @@ double thrust_map_N(const thrust_map_t *map, double pwm, double vbat_V) {
   }
   case THRUST_MAP_NONE: break;
   }
-  return NAN;
+  return (double)NAN;
 }

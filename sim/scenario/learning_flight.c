@@ -9,7 +9,7 @@ static void tell_weights(const flown_t *flown, result_t *result) {
   cJSON_AddItemToObject(result->json, "weights", cJSON_CreateDoubleArray(w, RBF_N));
   for (int i = 0; i < RBF_N; i++) {
     cJSON *row = result_add_row(result, "learned");
-    char name[16];
+    char name[24];
     snprintf(name, sizeof name, "ceil.w%d", i + 1);
     cJSON_AddStringToObject(row, "parameter", name);
     cJSON_AddNumberToObject(row, "value", w[i]);

@@ -56,7 +56,7 @@ static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   cJSON_AddNumberToObject(row, "up_4_8cm", a->up_sum / a->up_n);
   cJSON_AddNumberToObject(row, "down_4_8cm", a->down_sum / a->down_n);
   for (int i = 0; i < RBF_N; i++) {
-    char name[8];
+    char name[24];
     snprintf(name, sizeof name, "w%d", i + 1);
     cJSON_AddNumberToObject(row, name, (double)w.w[i]);
   }

@@ -31,7 +31,7 @@ static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, r
   cJSON_AddNumberToObject(row, "at_1cm", m.at_1cm);
   cJSON_AddNumberToObject(row, "peak_m", m.peak_m);
   for (int i = 0; i < RBF_N; i++) {
-    char name[8];
+    char name[24];
     snprintf(name, sizeof name, "w%d", i + 1);
     cJSON_AddNumberToObject(row, name, (double)rls->theta.w[i]);
   }
