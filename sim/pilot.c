@@ -5,10 +5,10 @@ _Static_assert(RBF_N == CURVE_WEIGHTS, "logs hold all the weights");
 
 status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
   p->param = *param;
-  return flight_init(&p->flight, param, (float)period_s);
+  return outer_init(&p->flight, param, (float)period_s);
 }
 
-static void tell(const pilot_t *p, const flight_out_t *out, bool taught, thoughts_t *thoughts) {
+static void tell(const pilot_t *p, const outer_out_t *out, bool taught, thoughts_t *thoughts) {
   thoughts->y = taught ? (double)p->flight.learn.y : (double)NAN;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
   thoughts->ratio = (double)out->at.ratio;
@@ -21,7 +21,7 @@ static void tell(const pilot_t *p, const flight_out_t *out, bool taught, thought
 
 static double step(void *state, const sense_t *in, thoughts_t *thoughts) {
   pilot_t *p = state;
-  const flight_in_t flight_in = {
+  const outer_in_t flight_in = {
       .pos_w_m = {.z = (float)in->z_m},
       .vel_w_mps = {.z = (float)in->climb_mps},
       .acc_b_mps2 = {.z = (float)in->acc_mps2 + GRAVITY_MPS2},
@@ -32,7 +32,8 @@ static double step(void *state, const sense_t *in, thoughts_t *thoughts) {
       .setpoint = {.pos_w_m = {.z = (float)in->setpoint_m}},
   };
   const unsigned taught_before = p->flight.learn.rls.count;
-  const flight_out_t out = flight_step(&p->flight, &p->param, &flight_in);
+  const outer_out_t out = outer_step(&p->flight, &p->param, &flight_in);
+  outer_learn(&p->flight);
   tell(p, &out, p->flight.learn.rls.count != taught_before, thoughts);
   return (double)out.thrust_N;
 }

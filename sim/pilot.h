@@ -3,14 +3,14 @@
 #define SIM_PILOT_H
 
 #include "controller.h"
-#include "flight/flight.h"
+#include "flight/outer.h"
 
 typedef struct {
-  flight_t flight;
+  outer_t flight;
   flight_param_t param; // may be changed in flight
 } pilot_t;
 
-// ST_BAD_PARAM: as flight_init.
+// ST_BAD_PARAM: as outer_init.
 MUST_CHECK status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s);
 
 // *p must outlive the controller and stay where it is.

@@ -1,30 +1,32 @@
-// flight.c - the whole outer loop.
+// flight.c - the whole controller.
 #include "flight/flight.h"
 
+#include "flight/trig.h"
 #include <string.h>
 
-#define JUMP_M     0.01f // a height step that differs by more from velocity x time is a reset of the estimator
-#define MISSED_MAX 1000  // ticks; nobody flies on after so many
+#define OUTER_EVERY    10 // milliseconds
+#define LEARN_AT       5
+#define INNER_EVERY    2
+#define INNER_S        0.002f
+#define OUTER_S        0.01f
+#define RATE_MAX_RADPS 100.0f
+#define ANGLE_MAX_RAD  1000.0f
+#define FORCE_MAX_N    100.0f
+#define LEAD_COS       0.88f // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
-// Beyond these no indoor flight goes; a sensor that says so is broken (and 1e38 would poison the filters).
-#define POS_MAX_M    1e4f
-#define VEL_MAX_MPS  100.0f
-#define ACC_MAX_MPS2 1000.0f
-#define THRUST_MAX_N 100.0f
-
-static status_t tune(flight_t *f, const flight_param_t *p, float period_s) {
+static status_t tune(flight_t *f, const flight_param_t *p) {
   TRY(params_check(p));
-  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, period_s));
+  TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
+  f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
   f->param = *p;
   return ST_OK;
 }
 
-status_t flight_init(flight_t *f, const flight_param_t *p, float period_s) {
-  if (!(period_s >= 0.001f && period_s <= 0.1f)) return ST_BAD_PARAM;
-  flight_t fresh = {.out = {.up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}}};
-  TRY(tune(&fresh, p, period_s));
-  TRY(learn_init(&fresh.learn, &p->learn, &p->curve.fixed));
-  ceiling_init(&fresh.ceiling, period_s);
+status_t flight_init(flight_t *f, const flight_param_t *p) {
+  flight_t fresh = {.out = {.q_ref = {.w = 1.0f}}};
+  TRY(tune(&fresh, p));
+  TRY(outer_init(&fresh.outer, p, OUTER_S));
+  fresh.out.outer = fresh.outer.out;
   *f = fresh;
   return ST_OK;
 }
@@ -33,86 +35,126 @@ static void count(flight_t *f, status_t status) {
   if (status != ST_OK) f->faults[status]++;
 }
 
+// The outer loop judges what only it uses.
 static status_t check_in(const flight_in_t *in) {
-  if (!v3_within(in->pos_w_m, POS_MAX_M) || !v3_within(in->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_INPUT;
-  if (!v3_within(in->acc_b_mps2, ACC_MAX_MPS2) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
-  if (!(fabsf(in->thrust_N) <= THRUST_MAX_N)) return ST_BAD_INPUT;
-  const pos_setpoint_t *sp = &in->setpoint;
-  if (!v3_within(sp->pos_w_m, POS_MAX_M) || !v3_within(sp->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_SETPOINT;
-  if (!v3_within(sp->acc_w_mps2, ACC_MAX_MPS2)) return ST_BAD_SETPOINT;
-  return ST_OK;
+  if (!v3_within(in->rate_b_radps, RATE_MAX_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
+  for (int i = 0; i < MOTORS; i++)
+    if (!(fabsf(in->force_N[i]) <= FORCE_MAX_N)) return ST_BAD_INPUT;
+  const flight_setpoint_t *sp = &in->setpoint;
+  if (!(fabsf(sp->roll_rad) <= ANGLE_MAX_RAD && fabsf(sp->pitch_rad) <= ANGLE_MAX_RAD))
+    return ST_BAD_SETPOINT;
+  if (!(fabsf(sp->yaw_rad) <= ANGLE_MAX_RAD && fabsf(sp->yaw_rate_radps) <= RATE_MAX_RADPS))
+    return ST_BAD_SETPOINT;
+  return fabsf(sp->thrust_N) <= FORCE_MAX_N ? ST_OK : ST_BAD_SETPOINT;
 }
 
-// Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
-static void start(flight_t *f, const flight_in_t *in, const sync_in_t *signals) {
-  sync_start(&f->sync, signals);
-  f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
-  f->missed = 0;
-  f->started = true;
+// The heading of an attitude as a rotation about z: its cosine and sine.
+static sincos_t heading(quat_t q) {
+  const v3_t forward = quat_to_world(q, (v3_t){1.0f, 0.0f, 0.0f});
+  const float length = sqrtf(forward.x * forward.x + forward.y * forward.y);
+  if (!(length > 1e-3f)) return (sincos_t){0.0f, 1.0f};
+  return (sincos_t){forward.y / length, forward.x / length};
 }
 
-// The climb since the last good input. A reset of the height estimate is no climb.
-static float climb_m(flight_t *f, const flight_in_t *in) {
-  const float by_height_m = in->pos_w_m.z - f->height_last_m;
-  const float ticks = 1.0f + (float)f->missed;
-  const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
-  f->missed = 0;
-  f->height_last_m = in->pos_w_m.z;
-  if (fabsf(by_height_m - by_velocity_m) <= JUMP_M * ticks) return by_height_m;
-  count(f, ST_JUMP);
-  return by_velocity_m;
+static pos_setpoint_t position_wanted(const flight_in_t *in) {
+  const flight_setpoint_t *sp = &in->setpoint;
+  v3_t vel = sp->vel_mps;
+  if (sp->vel_in_body) {
+    const sincos_t h = heading(in->q_wb);
+    vel.x = h.cos * sp->vel_mps.x - h.sin * sp->vel_mps.y;
+    vel.y = h.sin * sp->vel_mps.x + h.cos * sp->vel_mps.y;
+  }
+  // Where a velocity is wanted there is no position error.
+  const v3_t pos = {sp->x == AXIS_POSITION ? sp->pos_w_m.x : in->pos_w_m.x,
+                    sp->y == AXIS_POSITION ? sp->pos_w_m.y : in->pos_w_m.y,
+                    sp->z == AXIS_POSITION ? sp->pos_w_m.z : in->pos_w_m.z};
+  return (pos_setpoint_t){pos, vel, sp->acc_w_mps2};
 }
 
-static void find_ceiling(flight_t *f, const flight_in_t *in) {
-  ceiling_predict(&f->ceiling, &f->param.ceiling, climb_m(f, in));
-  if (!in->range_new) return;
-  // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
-  const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
-  count(f, ceiling_correct(&f->ceiling, &f->param.ceiling, vertical_m, in->range_age_s));
+static float thrust_of(const float force_N[MOTORS]) {
+  return force_N[0] + force_N[1] + force_N[2] + force_N[3];
 }
 
-static void teach(flight_t *f, const sync_out_t *x) {
-  const bool known = f->ceiling.known;
-  const float zc_m = sync_distance_m(&f->sync, &f->coef, known, f->ceiling.zc_m);
-  if (f->param.curve.mode != CURVE_LIVE) return;
-  learn_sample_t sample = learn_sample(&f->sync, x, f->param.pos.mass_kg);
-  sample.zc_m = zc_m;
-  sample.known = known;
-  sample.blind_s = f->ceiling.blind_s;
-  count(f, learn_update(&f->learn, &f->param.learn, &sample));
+static void run_outer(flight_t *f, const flight_in_t *in) {
+  if (in->setpoint.z == AXIS_OFF) {
+    outer_rest(&f->outer);
+    f->out.outer = f->outer.out;
+    return;
+  }
+  const outer_in_t outer_in = {
+      .pos_w_m = in->pos_w_m,
+      .vel_w_mps = in->vel_w_mps,
+      .acc_b_mps2 = in->acc_b_mps2,
+      .q_wb = in->q_wb,
+      .thrust_N = thrust_of(in->force_N),
+      .range_new = f->range_waits,
+      .range_m = f->range_m,
+      .range_age_s = f->range_age_s,
+      .setpoint = position_wanted(in),
+  };
+  f->range_waits = false;
+  f->out.outer = outer_step(&f->outer, &f->param, &outer_in);
 }
 
-static pos_command_t fly(const flight_t *f, const flight_in_t *in, const sync_out_t *x, rbf_point_t at) {
-  const pos_indi_param_t *p = &f->param.pos;
-  const v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, in->vel_w_mps);
-  const v3_t error = v3_sub(wanted, x->acc_w_mps2);
-  const pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, in->vel_w_mps.z, at);
-  return pos_indi_command(p, x->q_wb, x->thrust_N, step);
+// Direction of the thrust from roll and pitch wanted about the heading's axes.
+static v3_t direction_by_hand(const flight_setpoint_t *sp, sincos_t h, float tilt_max_rad) {
+  const float max = tilt_max_rad;
+  const sincos_t r = trig_sincos(f_clamp(sp->roll_rad, -max, max)),
+                 p = trig_sincos(f_clamp(sp->pitch_rad, -max, max));
+  const v3_t up = {p.sin * r.cos, -r.sin, p.cos * r.cos}; // Ry(pitch) Rx(roll) e_z
+  return (v3_t){h.cos * up.x - h.sin * up.y, h.sin * up.x + h.cos * up.y, up.z};
+}
+
+// The heading that is held: what was asked for, or turned by the rate from where the vehicle looked.
+static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
+  const flight_setpoint_t *sp = &in->setpoint;
+  if (sp->yaw == YAW_ANGLE) return trig_sincos(sp->yaw_rad);
+  const sincos_t now = heading(in->q_wb), ref = f->heading_known ? f->heading_ref : now;
+  const sincos_t turn = trig_sincos(INNER_S * sp->yaw_rate_radps);
+  const sincos_t next = {ref.sin * turn.cos + ref.cos * turn.sin, ref.cos * turn.cos - ref.sin * turn.sin};
+  const bool too_far = next.cos * now.cos + next.sin * now.sin < LEAD_COS;
+  const sincos_t held = too_far ? ref : next;
+  const float k = 1.0f / sqrtf(held.sin * held.sin + held.cos * held.cos);
+  return (sincos_t){k * held.sin, k * held.cos};
+}
+
+static void run_inner(flight_t *f, const flight_in_t *in) {
+  const flight_setpoint_t *sp = &in->setpoint;
+  const bool by_hand = sp->x == AXIS_OFF || sp->y == AXIS_OFF;
+  f->heading_ref = heading_wanted(f, in);
+  f->heading_known = true;
+  const v3_t up =
+      by_hand ? direction_by_hand(sp, f->heading_ref, f->param.pos.tilt_max_rad) : f->out.outer.up_w;
+  const float thrust_N = sp->z == AXIS_OFF ? sp->thrust_N : f->out.outer.thrust_N;
+  const att_indi_in_t att_in = {
+      .rate_b_radps = in->rate_b_radps,
+      .q_wb = quat_unit(in->q_wb),
+      .q_ref = att_indi_reference(up, f->heading_ref),
+      .yaw_rate_radps = sp->yaw_rate_radps,
+      .torque_b_Nm = mixer_of(&f->param.mixer, in->force_N).torque_b_Nm,
+  };
+  f->out.q_ref = att_in.q_ref;
+  const v3_t torque =
+      att_indi_step(&f->att, &f->param.att, &f->att_filter, f->att_lag_share, INNER_S, &att_in);
+  f->out.motors = mixer_mix(&f->param.mixer, torque, thrust_N);
+  if (thrust_N > 0.0f) return;
+  // Motors off: nothing to be kept upright with.
+  f->out.motors = mixer_of(&f->param.mixer, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
+  att_indi_reset(&f->att);
 }
 
 flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *in) {
-  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p, f->coef.period_s));
+  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p));
   const status_t judged = check_in(in);
   count(f, judged);
-  if (judged != ST_OK) {
-    if (f->missed < MISSED_MAX) f->missed++;
-    return f->out;
+  if (judged != ST_OK) return f->out;
+  if (in->range_new) {
+    f->range_waits = true;
+    f->range_m = in->range_m;
+    f->range_age_s = in->range_age_s;
   }
-
-  const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
-  if (!f->started) start(f, in, &signals);
-  const sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
-  find_ceiling(f, in);
-  const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
-  teach(f, &x);
-  const pos_command_t command = fly(f, in, &x, at);
-  f->at_limit = command.at_limit;
-  f->out = (flight_out_t){
-      .up_w = command.up_w,
-      .thrust_N = command.thrust_N,
-      .zc_m = f->ceiling.zc_m,
-      .zc_known = f->ceiling.known,
-      .at = at,
-  };
+  if (in->step % OUTER_EVERY == 0) run_outer(f, in);
+  if (in->step % OUTER_EVERY == LEARN_AT) outer_learn(&f->outer);
+  if (in->step % INNER_EVERY == 0) run_inner(f, in);
   return f->out;
 }

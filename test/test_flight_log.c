@@ -1,4 +1,4 @@
-// test_flight_log.c - logs of any rate on the 100 Hz grid; gaps, sparse sensors, and what contradicts itself.
+// test_outer_log.c - logs of any rate on the 100 Hz grid; gaps, sparse sensors, and what contradicts itself.
 #include "flight_log.h"
 #include "scratch.h"
 #include "test.h"
@@ -68,7 +68,7 @@ static const char *write_flight(const made_t *f) {
   return scratch_file("f.csv", text, -1);
 }
 
-TEST(flight_log_brings_every_rate_to_its_grid) {
+TEST(outer_log_brings_every_rate_to_its_grid) {
   static const struct {
     const char *what;
     made_t f;
@@ -142,7 +142,7 @@ static const struct {
      "f.csv:3: column timestamp: 0.99 s after 1 s; allowed: time that increases from row to row"},
 };
 
-TEST(flight_log_refuses_what_contradicts_itself) {
+TEST(outer_log_refuses_what_contradicts_itself) {
   for (unsigned i = 0; i < sizeof contradicting / sizeof *contradicting; i++) {
     ROW("%s", contradicting[i].what);
     seen_t s;

@@ -1,61 +1,76 @@
-// flight.h - the whole outer loop in the order in which it runs: one call per period.
+// flight.h - the whole controller in the order in which it runs: one call every millisecond.
 //
-//   check inputs -> filter -> thrust -> ceiling distance -> curve -> learn -> position law
+//   1000 Hz  judge the inputs
+//    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
+//    100 Hz  the lesson of that step (step 5 of ten: never in the same millisecond)
+//    500 Hz  inner loop: attitude to torques, mixed to four motor forces (every second step)
 //
-// One state per vehicle, all of it in flight_t. Nothing here stops, prints or allocates. An input
-// that is not finite, or beyond what any indoor flight shows, changes nothing: the last command is given
-// again and the fault is counted.
+// One state per vehicle, all of it in flight_t. Nothing here stops, prints or allocates. An input that is not
+// finite, or beyond what any indoor flight shows, changes nothing: the last command is given again and the
+// fault is counted.
 #ifndef FLIGHT_FLIGHT_H
 #define FLIGHT_FLIGHT_H
 
-#include "flight/ceiling.h"
-#include "flight/learn.h"
-#include "flight/params.h"
-#include "flight/pos_indi.h"
-#include "flight/status.h"
-#include "flight/sync.h"
-#include "flight/v3.h"
+#include "flight/att_indi.h"
+#include "flight/mixer.h"
+#include "flight/outer.h"
+#include <stdint.h>
+
+typedef enum { AXIS_OFF, AXIS_POSITION, AXIS_VELOCITY } axis_mode_t;
+typedef enum { YAW_ANGLE, YAW_RATE } yaw_mode_t;
+
+// What is wanted. Where x or y is off, both are: the tilt is then roll_rad and pitch_rad. Where z is off the
+// height is not controlled: the thrust is thrust_N, and the outer loop rests.
+typedef struct {
+  axis_mode_t x, y, z;
+  v3_t pos_w_m;              // of axes in AXIS_POSITION
+  v3_t vel_mps;              // of axes in AXIS_VELOCITY; feed-forward of the others
+  bool vel_in_body;          // x and y of vel_mps are along the heading, not along the world's axes
+  v3_t acc_w_mps2;           // feed-forward
+  float roll_rad, pitch_rad; // right-handed about x and y
+  float thrust_N;            // of all motors
+  yaw_mode_t yaw;
+  float yaw_rad; // any angle; the shorter way round is taken
+  float yaw_rate_radps;
+} flight_setpoint_t;
 
 typedef struct {
-  v3_t pos_w_m;
-  v3_t vel_w_mps;
+  uint32_t step;     // counts milliseconds; wraps
+  v3_t rate_b_radps; // gyro
   v3_t acc_b_mps2;   // specific force: +9.81 on z at rest
-  quat_t q_wb;       // attitude, body to world
-  float thrust_N;    // what was applied since the last call: the command after mixing and limits
-  bool range_new;    // range_m is a sample that was not there at the last call
-  float range_m;     // upward range sensor, propeller plane to what is above, along the body's z axis
-  float range_age_s; // time since it was measured
-  pos_setpoint_t setpoint;
+  v3_t pos_w_m, vel_w_mps;
+  quat_t q_wb;
+  float force_N[MOTORS]; // applied since the last call: the command after mixing and limits
+  bool range_new;        // as outer_in_t
+  float range_m, range_age_s;
+  flight_setpoint_t setpoint;
 } flight_in_t;
 
 typedef struct {
-  v3_t up_w;      // direction of thrust, world, length 1
-  float thrust_N; // of all motors together
-  float zc_m;     // ceiling distance; has a meaning only while zc_known
-  bool zc_known;
-  rbf_point_t at; // the curve's value and slope that were used
+  mixer_out_t motors;
+  outer_out_t outer;
+  quat_t q_ref; // wanted attitude
 } flight_out_t;
 
 typedef struct {
-  flight_param_t param; // the last parameters that passed their checks
-  sync_coef_t coef;
-  sync_t sync;
-  ceiling_t ceiling;
-  learn_t learn;
-  float height_last_m;
-  bool started, at_limit;
+  outer_t outer;
+  att_indi_t att;
+  lpf2_coef_t att_filter;
+  float att_lag_share;
+  sincos_t heading_ref; // heading that is held; YAW_RATE turns it
+  bool heading_known;
+  flight_param_t param; // the last set that passed its checks
+  bool range_waits;     // a range sample that the outer loop has not seen
+  float range_m, range_age_s;
   flight_out_t out;
-  unsigned faults[ST_COUNT]; // how often each status came up
-  unsigned missed;           // ticks since the last good input
+  unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
 } flight_t;
 
-// A controller that has not seen a sample yet; it starts bumplessly from the first one. period_s: 0.001..0.1.
-// The curve that is learned starts at p's fixed weights (ceil.w1..w7).
-// ST_BAD_PARAM: period_s or a parameter out of range; *f is kept.
-MUST_CHECK status_t flight_init(flight_t *f, const flight_param_t *p, float period_s);
+// A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
+// ST_BAD_PARAM: a parameter out of range; *f is kept.
+MUST_CHECK status_t flight_init(flight_t *f, const flight_param_t *p);
 
-// One period. *p may differ from call to call: a set that passes its checks is taken over as a whole,
-// one that does not is counted (ST_BAD_PARAM) and the last good set flies on.
+// One millisecond. *p as in outer_step. Between the steps of a loop its last output stands.
 flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *in);
 
 #endif

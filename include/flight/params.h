@@ -6,9 +6,11 @@
 #ifndef FLIGHT_PARAMS_H
 #define FLIGHT_PARAMS_H
 
+#include "flight/att_indi.h"
 #include "flight/ceiling.h"
 #include "flight/curve.h"
 #include "flight/learn.h"
+#include "flight/mixer.h"
 #include "flight/pos_indi.h"
 #include "flight/status.h"
 #include <stddef.h>
@@ -22,6 +24,14 @@ typedef struct {
   ceiling_param_t ceiling;
   curve_param_t curve;
   learn_param_t learn;
+  float step_max_N;    // largest change of the wanted thrust in one outer period
+  float learn_after_s; // learning starts this long after the rotors began to carry
+  float up_offset_m;   // propeller plane above the upward range sensor
+  float gap_min_m;     // set points are clipped to this below the ceiling
+  int32_t hold;        // 1: the ceiling's height is latched beyond HOLD_BEYOND_M
+  att_indi_param_t att;
+  float att_cutoff_Hz; // of the inner loop's filters
+  mixer_param_t mixer;
 } flight_param_t;
 
 #define PARAMS_INDIPOS(X)                                                                                    \
@@ -38,7 +48,30 @@ typedef struct {
     "smallest thrust that tilt increments divide by")                                                        \
   X(indiPos, tiltMax, PARAM_FLOAT, pos.tilt_max_rad, "rad", 0.35f, 0.02f, 0.8f, "largest tilt commanded")    \
   X(indiPos, accMax, PARAM_FLOAT, pos.acc_max_mps2, "m/s2", 20.0f, 0.5f, 100.0f,                             \
-    "bound of the wanted acceleration")
+    "bound of the wanted acceleration")                                                                      \
+  X(indiPos, tStep, PARAM_FLOAT, step_max_N, "N", 0.2f, 0.01f, 40.0f, "largest change of the thrust in 10 ms")
+
+#define PARAMS_INDIATT(X)                                                                                    \
+  X(indiAtt, kp, PARAM_FLOAT, att.kp_per_s, "1/s", 5.0f, 0.5f, 40.0f, "roll, pitch: wanted rate per angle")  \
+  X(indiAtt, kd, PARAM_FLOAT, att.kd_per_s, "1/s", 24.0f, 1.0f, 100.0f,                                      \
+    "roll, pitch: wanted angular acceleration per rate error")                                               \
+  X(indiAtt, kpYaw, PARAM_FLOAT, att.kp_yaw_per_s, "1/s", 5.0f, 0.1f, 40.0f, "yaw: wanted rate per angle")   \
+  X(indiAtt, kdYaw, PARAM_FLOAT, att.kd_yaw_per_s, "1/s", 24.0f, 0.5f, 100.0f,                               \
+    "yaw: wanted angular acceleration per rate error")                                                       \
+  X(indiAtt, jxx, PARAM_FLOAT, att.inertia_xx_kgm2, "kg m2", 16.57e-6f, 1e-6f, 0.1f, "inertia about x")      \
+  X(indiAtt, jyy, PARAM_FLOAT, att.inertia_yy_kgm2, "kg m2", 16.66e-6f, 1e-6f, 0.1f, "inertia about y")      \
+  X(indiAtt, jzz, PARAM_FLOAT, att.inertia_zz_kgm2, "kg m2", 29.26e-6f, 1e-6f, 0.1f, "inertia about z")      \
+  X(indiAtt, g2, PARAM_FLOAT, att.g2_s, "s", 0.029f, 0.0f, 0.5f,                                             \
+    "lead of the rotors' inertia over their drag in yaw")                                                    \
+  X(indiAtt, rateMax, PARAM_FLOAT, att.rate_max_radps, "rad/s", 10.0f, 0.5f, 35.0f,                          \
+    "bound of the wanted rates")                                                                             \
+  X(indiAtt, cutoff, PARAM_FLOAT, att_cutoff_Hz, "Hz", 8.0f, 0.0f, 200.0f,                                   \
+    "cut-off of the inner filters; 0 = none")                                                                \
+  X(indiAtt, arm, PARAM_FLOAT, mixer.arm_m, "m", 0.0325f, 0.005f, 1.0f,                                      \
+    "motor's distance from the x and the y axis")                                                            \
+  X(indiAtt, yawArm, PARAM_FLOAT, mixer.yaw_m, "m", 0.00735f, 0.0005f, 0.5f,                                 \
+    "torque over thrust of a rotor")                                                                         \
+  X(indiAtt, fMax, PARAM_FLOAT, mixer.force_max_N, "N", 0.12f, 0.01f, 10.0f, "largest thrust of one motor")
 
 #define PARAMS_CEIL(X)                                                                                       \
   X(ceil, mode, PARAM_INT, curve.mode, "", 1, 0, 3,                                                          \
@@ -55,6 +88,11 @@ typedef struct {
   X(ceil, near, PARAM_FLOAT, ceiling.near_m, "m", 0.05f, 0.01f, 0.2f,                                        \
     "an estimate nearer than this is not corrected")                                                         \
   X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
+  X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
+    "set points are clipped to this below the ceiling")                                                      \
+  X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
+  X(ceil, upOffset, PARAM_FLOAT, up_offset_m, "m", 0.0f, -0.1f, 0.1f,                                        \
+    "propeller plane above the upward range sensor")                                                         \
   X(ceil, clip, PARAM_INT, curve.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                          \
   X(ceil, ratioMin, PARAM_FLOAT, curve.ratio_min, "", 0.5f, 0.1f, 1.0f, "smallest thrust ratio believed")    \
   X(ceil, ratioMax, PARAM_FLOAT, curve.ratio_max, "", 3.0f, 1.0f, 5.0f, "largest thrust ratio believed")     \
@@ -83,9 +121,11 @@ typedef struct {
   X(rls, tMin, PARAM_FLOAT, learn.thrust_min, "m g", 0.3f, 0.05f, 1.0f, "smallest thrust that teaches")      \
   X(rls, settle, PARAM_FLOAT, learn.settle_s, "s", 0.2f, 0.0f, 5.0f, "wait after a saturated command")       \
   X(rls, yMax, PARAM_FLOAT, learn.y_max, "", 2.5f, 1.1f, 5.0f,                                               \
-    "ratios beyond this, or below its inverse, are bumps")
+    "ratios beyond this, or below its inverse, are bumps")                                                   \
+  X(rls, after, PARAM_FLOAT, learn_after_s, "s", 1.0f, 0.0f, 60.0f,                                          \
+    "learning starts this long after the rotors began to carry")
 
-#define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_CEIL(X) PARAMS_RLS(X)
+#define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X)
 
 typedef enum { PARAM_FLOAT, PARAM_INT } param_type_t;
 

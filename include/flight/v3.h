@@ -73,6 +73,20 @@ static inline quat_t quat_unit(quat_t q) {
   return (quat_t){k * q.w, k * q.x, k * q.y, k * q.z};
 }
 
+static inline quat_t quat_conj(quat_t q) {
+  return (quat_t){q.w, -q.x, -q.y, -q.z};
+}
+
+// First b, then a: quat_mul(q_wb, q_bc) turns c into world coordinates.
+static inline quat_t quat_mul(quat_t a, quat_t b) {
+  return (quat_t){
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+      a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+  };
+}
+
 // Body coordinates to world coordinates: R(q) v = v + 2 u x (u x v + w v), u the vector part.
 static inline v3_t quat_to_world(quat_t q_wb, v3_t v_b) {
   const v3_t u = {q_wb.x, q_wb.y, q_wb.z};
@@ -82,7 +96,7 @@ static inline v3_t quat_to_world(quat_t q_wb, v3_t v_b) {
 
 // World coordinates to body coordinates.
 static inline v3_t quat_to_body(quat_t q_wb, v3_t v_w) {
-  return quat_to_world((quat_t){q_wb.w, -q_wb.x, -q_wb.y, -q_wb.z}, v_w);
+  return quat_to_world(quat_conj(q_wb), v_w);
 }
 
 // The body's z axis in world coordinates: the direction of thrust.

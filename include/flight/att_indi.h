@@ -1,0 +1,57 @@
+// att_indi.h - inner loop: attitude to body torques, by incremental dynamic inversion (thesis eqs 3-12).
+//
+//   rate wanted = kp e,  nu = kd (rate wanted - rate),   e: rotation vector from the attitude to the wanted
+//   one roll, pitch:  tau = tau_f + J (nu - rate'_f) yaw:          tau = tau_f + [J (nu - rate'_f) + g (tau -
+//   tau_f)_last] / (1 + g),   g = g2 / period
+//
+// tau_f is the torque that the rotors give now: what was applied, after mixing, through motor lag and the
+// filter that the differentiated gyro passes, so that both are from the same instant. g2 is the time by which
+// the rotors' inertia leads their drag in yaw: J rate' = tau + g2 tau' (thesis eq. 12; errata E14 for the
+// period).
+#ifndef FLIGHT_ATT_INDI_H
+#define FLIGHT_ATT_INDI_H
+
+#include "flight/lpf2.h"
+#include "flight/trig.h"
+#include "flight/v3.h"
+
+typedef struct {
+  float kp_per_s;     // > 0   roll and pitch: wanted rate per angle
+  float kd_per_s;     // > 0   roll and pitch: wanted angular acceleration per rate error
+  float kp_yaw_per_s; // > 0
+  float kd_yaw_per_s; // > 0
+  float inertia_xx_kgm2, inertia_yy_kgm2, inertia_zz_kgm2; // > 0
+  float g2_s;                                              // >= 0
+  float rate_max_radps;                                    // > 0  bound of the wanted rates
+} att_indi_param_t;
+
+typedef struct {
+  lpf2_t acc[3], torque[3]; // filters of the angular acceleration and of the applied torque
+  v3_t torque_model_Nm;     // what the motors give, lag included
+  v3_t rate_last_radps;
+  float yaw_step_Nm; // the last increment in yaw
+  bool started;
+} att_indi_t;
+
+typedef struct {
+  v3_t rate_b_radps;
+  quat_t q_wb, q_ref;   // attitude and the wanted one, body to world
+  float yaw_rate_radps; // wanted on top of what the yaw error asks for
+  v3_t torque_b_Nm;     // applied since the last call, after mixing
+} att_indi_in_t;
+
+// Forgets everything; the next step starts from what it gets.
+void att_indi_reset(att_indi_t *s);
+
+// The wanted torque. lag_share: of the motors in one period (thrust_lag_share).
+v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
+                   float period_s, const att_indi_in_t *in);
+
+// The shortest rotation vector (rad, body axes, to first order 2 vec) from q to q_ref; at most pi long.
+v3_t att_indi_error(quat_t q_wb, quat_t q_ref);
+
+// The attitude whose thrust points along up_w (length 1, up_w.z > 0) with that heading (sine and cosine of
+// the yaw).
+quat_t att_indi_reference(v3_t up_w, sincos_t heading);
+
+#endif

@@ -1,0 +1,35 @@
+// mixer.h - torques and thrust to four motor forces: roll and pitch before thrust before yaw.
+//
+// Motors in the Crazyflie's order: 1 front right, 2 back right, 3 back left, 4 front left; 2 and 4 give
+// positive yaw.
+//   f = T/4 + (-roll, -roll, roll, roll)/(4 arm) + (-pitch, pitch, pitch, -pitch)/(4 arm) + (-yaw, yaw, -yaw,
+//   yaw)/(4 k)
+// What cannot all be had is given up in the order yaw, thrust, and last roll and pitch together: a vehicle
+// that is too heavy then sinks, but stays upright (the thesis's first flights crashed for want of it, C.1).
+#ifndef FLIGHT_MIXER_H
+#define FLIGHT_MIXER_H
+
+#include "flight/v3.h"
+
+#define MOTORS 4
+
+typedef struct {
+  float arm_m;       // > 0   distance of a motor from the x axis, and from the y axis
+  float yaw_m;       // > 0   torque over thrust of a rotor
+  float force_max_N; // > 0 of one motor
+} mixer_param_t;
+
+typedef struct {
+  float force_N[MOTORS]; // 0..force_max_N each
+  v3_t torque_b_Nm;      // what these forces give
+  float thrust_N;
+  bool gave_up_yaw, gave_up_thrust, gave_up_tilt; // what was asked for and could not be had
+} mixer_out_t;
+
+// Any finite numbers; the result is always within the limits.
+mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N);
+
+// Torque and thrust that four forces give.
+mixer_out_t mixer_of(const mixer_param_t *p, const float force_N[MOTORS]);
+
+#endif

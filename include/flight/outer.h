@@ -1,0 +1,77 @@
+// outer.h - the outer loop in the order in which it runs: position to direction and size of the thrust, 100
+// Hz.
+//
+//   check inputs -> filter -> thrust -> ceiling distance -> curve -> learn -> position law
+//
+// One state per vehicle, all of it in outer_t. Nothing here stops, prints or allocates. An input
+// that is not finite, or beyond what any indoor flight shows, changes nothing: the last command is given
+// again and the fault is counted.
+#ifndef FLIGHT_OUTER_H
+#define FLIGHT_OUTER_H
+
+#include "flight/ceiling.h"
+#include "flight/learn.h"
+#include "flight/params.h"
+#include "flight/pos_indi.h"
+#include "flight/status.h"
+#include "flight/sync.h"
+#include "flight/v3.h"
+
+typedef struct {
+  v3_t pos_w_m;
+  v3_t vel_w_mps;
+  v3_t acc_b_mps2;   // specific force: +9.81 on z at rest
+  quat_t q_wb;       // attitude, body to world
+  float thrust_N;    // what was applied since the last call: the command after mixing and limits
+  bool range_new;    // range_m is a sample that was not there at the last call
+  float range_m;     // upward range sensor, propeller plane to what is above, along the body's z axis
+  float range_age_s; // time since it was measured
+  pos_setpoint_t setpoint;
+} outer_in_t;
+
+typedef struct {
+  v3_t up_w;      // direction of thrust, world, length 1
+  float thrust_N; // of all motors together
+  float zc_m;     // ceiling distance; has a meaning only while zc_known
+  bool zc_known;
+  rbf_point_t at;    // the curve's value and slope that were used
+  float ceiling_z_m; // height of the ceiling, latched where ceil.hold says so; NaN: none seen
+} outer_out_t;
+
+#define HOLD_BEYOND_M  0.20f // the ceiling's height is latched while it is farther than this (thesis C.3)
+#define CARRYING_SHARE 0.3f  // of the weight: from here on the rotors carry
+
+typedef struct {
+  flight_param_t param; // the last parameters that passed their checks
+  sync_coef_t coef;
+  sync_t sync;
+  ceiling_t ceiling;
+  learn_t learn;
+  float height_last_m;
+  float carrying_s; // time since the rotors began to carry
+  bool started, at_limit;
+  learn_sample_t sample; // what the last step would teach
+  bool sample_new;       // it has not been taught yet
+  outer_out_t out;
+  unsigned faults[ST_COUNT]; // how often each status came up
+  unsigned missed;           // ticks since the last good input
+} outer_t;
+
+// A controller that has not seen a sample yet; it starts bumplessly from the first one. period_s: 0.001..0.1.
+// The curve that is learned starts at p's fixed weights (ceil.w1..w7).
+// ST_BAD_PARAM: period_s or a parameter out of range; *f is kept.
+MUST_CHECK status_t outer_init(outer_t *f, const flight_param_t *p, float period_s);
+
+// One period. *p may differ from call to call: a set that passes its checks is taken over as a whole,
+// one that does not is counted (ST_BAD_PARAM) and the last good set flies on.
+outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in);
+
+// Teaches the curve what the last step measured, if it may (ceil.mode 2). A call of its own, so that it can
+// run in another tick than the step; without effect if there was no step since.
+void outer_learn(outer_t *f);
+
+// On the ground, or with the height not controlled: filters, thrust state and ceiling estimate start afresh
+// with the next step. What was learned is kept.
+void outer_rest(outer_t *f);
+
+#endif

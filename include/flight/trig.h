@@ -1,0 +1,12 @@
+// trig.h - sine and cosine from additions and products alone: the same bits on the Crazyflie and on the host.
+#ifndef FLIGHT_TRIG_H
+#define FLIGHT_TRIG_H
+
+typedef struct {
+  float sin, cos;
+} sincos_t;
+
+// x_rad: within +-1000; beyond, or NaN, as for 0. Error at most 1e-6 within +-10.
+sincos_t trig_sincos(float x_rad);
+
+#endif

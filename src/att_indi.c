@@ -1,0 +1,86 @@
+// att_indi.c - inner loop: attitude to body torques.
+#include "flight/att_indi.h"
+
+void att_indi_reset(att_indi_t *s) {
+  *s = (att_indi_t){.started = false};
+}
+
+v3_t att_indi_error(quat_t q_wb, quat_t q_ref) {
+  quat_t e = quat_mul(quat_conj(q_wb), q_ref);
+  // q and -q are the same attitude: the shorter way round.
+  const float k = e.w < 0.0f ? -2.0f : 2.0f;
+  return (v3_t){k * e.x, k * e.y, k * e.z};
+}
+
+// A rotation about z by half the heading's angle, from the half-angle formulas; of the two, the one that does
+// not cancel.
+static quat_t turned(sincos_t heading) {
+  if (heading.cos >= 0.0f) {
+    const float w = sqrtf(0.5f * (1.0f + heading.cos));
+    return (quat_t){w, 0.0f, 0.0f, 0.5f * heading.sin / w};
+  }
+  const float z = sqrtf(0.5f * (1.0f - heading.cos));
+  return (quat_t){0.5f * heading.sin / z, 0.0f, 0.0f, z};
+}
+
+quat_t att_indi_reference(v3_t up_w, sincos_t heading) {
+  // The shortest rotation from the z axis to up_w, after the heading.
+  const quat_t tilt = quat_unit((quat_t){1.0f + up_w.z, -up_w.y, up_w.x, 0.0f});
+  return quat_mul(tilt, turned(heading));
+}
+
+static void start(att_indi_t *s, const att_indi_in_t *in) {
+  const float torque[3] = {in->torque_b_Nm.x, in->torque_b_Nm.y, in->torque_b_Nm.z};
+  for (int i = 0; i < 3; i++) {
+    lpf2_reset(&s->acc[i], 0.0f);
+    lpf2_reset(&s->torque[i], torque[i]);
+  }
+  s->torque_model_Nm = in->torque_b_Nm;
+  s->rate_last_radps = in->rate_b_radps;
+  s->yaw_step_Nm = 0.0f;
+  s->started = true;
+}
+
+static float lag(float model, float share, float input) {
+  return model + share * (input - model);
+}
+
+// The torque that the rotors give, synchronous with the filtered angular acceleration.
+static v3_t torque_now(att_indi_t *s, const lpf2_coef_t *c, float share, v3_t applied) {
+  v3_t *const m = &s->torque_model_Nm;
+  m->x = lag(m->x, share, lpf2_step(&s->torque[0], c, applied.x));
+  m->y = lag(m->y, share, lpf2_step(&s->torque[1], c, applied.y));
+  m->z = lag(m->z, share, lpf2_step(&s->torque[2], c, applied.z));
+  return *m;
+}
+
+static v3_t filtered_acc(att_indi_t *s, const lpf2_coef_t *c, v3_t rate, float period_s) {
+  const v3_t raw = v3_scale(1.0f / period_s, v3_sub(rate, s->rate_last_radps));
+  s->rate_last_radps = rate;
+  return (v3_t){lpf2_step(&s->acc[0], c, raw.x), lpf2_step(&s->acc[1], c, raw.y),
+                lpf2_step(&s->acc[2], c, raw.z)};
+}
+
+static float wanted_rate(const att_indi_param_t *p, float kp, float error, float extra) {
+  return f_clamp(kp * error + extra, -p->rate_max_radps, p->rate_max_radps);
+}
+
+v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
+                   float period_s, const att_indi_in_t *in) {
+  if (!s->started) start(s, in);
+  const v3_t rate = in->rate_b_radps, error = att_indi_error(in->q_wb, in->q_ref);
+  const v3_t acc = filtered_acc(s, c, rate, period_s);
+  const v3_t now = torque_now(s, c, lag_share, in->torque_b_Nm);
+  const v3_t nu = {
+      p->kd_per_s * (wanted_rate(p, p->kp_per_s, error.x, 0.0f) - rate.x),
+      p->kd_per_s * (wanted_rate(p, p->kp_per_s, error.y, 0.0f) - rate.y),
+      p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s, error.z, in->yaw_rate_radps) - rate.z),
+  };
+  const float g = p->g2_s / period_s;
+  s->yaw_step_Nm = (p->inertia_zz_kgm2 * (nu.z - acc.z) + g * s->yaw_step_Nm) / (1.0f + g);
+  return (v3_t){
+      now.x + p->inertia_xx_kgm2 * (nu.x - acc.x),
+      now.y + p->inertia_yy_kgm2 * (nu.y - acc.y),
+      now.z + s->yaw_step_Nm,
+  };
+}

@@ -1,0 +1,152 @@
+// outer.c - the outer loop.
+#include "flight/outer.h"
+
+#include <string.h>
+
+#define JUMP_M     0.01f // a height step that differs by more from velocity x time is a reset of the estimator
+#define MISSED_MAX 1000  // ticks; nobody flies on after so many
+
+// Beyond these no indoor flight goes; a sensor that says so is broken (and 1e38 would poison the filters).
+#define POS_MAX_M    1e4f
+#define VEL_MAX_MPS  100.0f
+#define ACC_MAX_MPS2 1000.0f
+#define THRUST_MAX_N 100.0f
+
+#define AT_REST                                                                                              \
+  { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
+
+static status_t tune(outer_t *f, const flight_param_t *p, float period_s) {
+  TRY(params_check(p));
+  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, period_s));
+  f->param = *p;
+  return ST_OK;
+}
+
+status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
+  if (!(period_s >= 0.001f && period_s <= 0.1f)) return ST_BAD_PARAM;
+  outer_t fresh = {.out = AT_REST};
+  TRY(tune(&fresh, p, period_s));
+  TRY(learn_init(&fresh.learn, &p->learn, &p->curve.fixed));
+  ceiling_init(&fresh.ceiling, period_s);
+  *f = fresh;
+  return ST_OK;
+}
+
+static void count(outer_t *f, status_t status) {
+  if (status != ST_OK) f->faults[status]++;
+}
+
+static status_t check_in(const outer_in_t *in) {
+  if (!v3_within(in->pos_w_m, POS_MAX_M) || !v3_within(in->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_INPUT;
+  if (!v3_within(in->acc_b_mps2, ACC_MAX_MPS2) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
+  if (!(fabsf(in->thrust_N) <= THRUST_MAX_N)) return ST_BAD_INPUT;
+  const pos_setpoint_t *sp = &in->setpoint;
+  if (!v3_within(sp->pos_w_m, POS_MAX_M) || !v3_within(sp->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_SETPOINT;
+  if (!v3_within(sp->acc_w_mps2, ACC_MAX_MPS2)) return ST_BAD_SETPOINT;
+  return ST_OK;
+}
+
+// Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
+static void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
+  sync_start(&f->sync, signals);
+  f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
+  f->missed = 0;
+  f->started = true;
+}
+
+// The climb since the last good input. A reset of the height estimate is no climb.
+static float climb_m(outer_t *f, const outer_in_t *in) {
+  const float by_height_m = in->pos_w_m.z - f->height_last_m;
+  const float ticks = 1.0f + (float)f->missed;
+  const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
+  f->missed = 0;
+  f->height_last_m = in->pos_w_m.z;
+  if (fabsf(by_height_m - by_velocity_m) <= JUMP_M * ticks) return by_height_m;
+  count(f, ST_JUMP);
+  return by_velocity_m;
+}
+
+static void find_ceiling(outer_t *f, const outer_in_t *in) {
+  ceiling_predict(&f->ceiling, &f->param.ceiling, climb_m(f, in));
+  if (in->range_new) {
+    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
+    const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
+    const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
+    count(f, ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s));
+  }
+  const bool latch = f_finite(f->out.ceiling_z_m) && f->param.hold && f->ceiling.zc_m <= HOLD_BEYOND_M;
+  if (f->ceiling.known && !latch) f->out.ceiling_z_m = in->pos_w_m.z + f->ceiling.zc_m;
+}
+
+// What this tick can teach; the learner decides whether it may.
+static void observe(outer_t *f, const sync_out_t *x) {
+  const bool known = f->ceiling.known;
+  const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;
+  if (x->thrust_N < CARRYING_SHARE * weight_N)
+    f->carrying_s = 0.0f;
+  else if (f->carrying_s < 100.0f)
+    f->carrying_s += f->coef.period_s;
+  f->sample = learn_sample(&f->sync, x, f->param.pos.mass_kg);
+  f->sample.zc_m = sync_distance_m(&f->sync, &f->coef, known, f->ceiling.zc_m);
+  f->sample.known = known && f->carrying_s >= f->param.learn_after_s;
+  f->sample.blind_s = f->ceiling.blind_s;
+  f->sample_new = true;
+}
+
+void outer_learn(outer_t *f) {
+  if (!f->sample_new || f->param.curve.mode != CURVE_LIVE) return;
+  f->sample_new = false;
+  count(f, learn_update(&f->learn, &f->param.learn, &f->sample));
+}
+
+void outer_rest(outer_t *f) {
+  f->started = f->at_limit = f->sample_new = false;
+  f->carrying_s = 0.0f;
+  ceiling_init(&f->ceiling, f->coef.period_s);
+  f->out = (outer_out_t)AT_REST;
+}
+
+// Not nearer to the ceiling than ceil.min, whatever was asked for.
+static pos_setpoint_t clipped(const outer_t *f, pos_setpoint_t sp) {
+  const float top_m = f->out.ceiling_z_m - f->param.gap_min_m;
+  if (sp.pos_w_m.z > top_m) sp.pos_w_m.z = top_m; // NaN: no ceiling, no clip
+  return sp;
+}
+
+static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
+  const pos_indi_param_t *p = &f->param.pos;
+  const pos_setpoint_t sp = clipped(f, in->setpoint);
+  const v3_t wanted = pos_indi_wanted_acc(p, &sp, in->pos_w_m, in->vel_w_mps);
+  const v3_t error = v3_sub(wanted, x->acc_w_mps2);
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, in->vel_w_mps.z, at);
+  step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
+  return pos_indi_command(p, x->q_wb, x->thrust_N, step);
+}
+
+outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in) {
+  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p, f->coef.period_s));
+  const status_t judged = check_in(in);
+  count(f, judged);
+  if (judged != ST_OK) {
+    if (f->missed < MISSED_MAX) f->missed++;
+    return f->out;
+  }
+
+  const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
+  if (!f->started) start(f, in, &signals);
+  const sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
+  find_ceiling(f, in);
+  const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
+  observe(f, &x);
+  const pos_command_t command = fly(f, in, &x, at);
+  f->at_limit = command.at_limit;
+  f->out = (outer_out_t){
+      .up_w = command.up_w,
+      .thrust_N = command.thrust_N,
+      .zc_m = f->ceiling.zc_m,
+      .zc_known = f->ceiling.known,
+      .at = at,
+      .ceiling_z_m = f->out.ceiling_z_m,
+  };
+  return f->out;
+}
