@@ -3,6 +3,28 @@
 
 #include <string.h>
 
+// Crazyflie 2.1 with legacy propellers, decks on: the sources stand in vehicles/cf21_legacy.toml.
+#define CF_MASS_KG  0.0329
+#define CF_RADIUS_M 0.02355
+
+frame_t model_frame_like_crazyflie(const model_t *m) {
+  const double size = m->rotor_radius_m / CF_RADIUS_M, weight = m->mass_kg / CF_MASS_KG;
+  const double inertia = weight * size * size, arm_m = 0.03253 * size;
+  return (frame_t){
+      .inertia_kgm2 = {16.8e-6 * inertia, 16.8e-6 * inertia, 29.8e-6 * inertia},
+      .rotor_x_m = {arm_m, -arm_m, -arm_m, arm_m},
+      .rotor_y_m = {-arm_m, -arm_m, arm_m, arm_m},
+      .rotor_spin = {1.0, -1.0, 1.0, -1.0},
+      .torque_ratio_m = 0.00735 * size,
+      .kf_Ns2 = 2.0e-8 * size * size * size * size,
+      .rotor_inertia_kgm2 = 34.52e-9 * inertia,
+      .cg_above_feet_m = 0.017 * size,
+      .rotor_above_feet_m = 0.030 * size,
+      .top_above_rotor_m = 0.008 * size,
+      .top_half_m = 0.015 * size,
+  };
+}
+
 status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
   for (int i = 0; i < m->n_fx; i++) {
     if (m->fx[i].fx != use->fx) continue;

@@ -6,7 +6,25 @@
 
 #include "effects/fx.h"
 #include "error.h"
+#include "plant/battery.h"
 #include "plant/thrust_map.h"
+
+// What six degrees of freedom need besides. Body axes; places from the centre of mass.
+typedef struct {
+  double inertia_kgm2[3]; // > 0, about the axes
+  double rotor_x_m[ROTORS],
+      rotor_y_m[ROTORS];     // centres; the firmware's order: front right, back right, back left, front left
+  double rotor_spin[ROTORS]; // +1 counter-clockwise seen from above, -1 clockwise
+  double torque_ratio_m;     // >= 0   torque over thrust of a rotor
+  double kf_Ns2;             // > 0    thrust over speed squared, N/(rad/s)^2
+  double rotor_inertia_kgm2; // >= 0   of one propeller with its motor
+  double motor_delay_s;      // >= 0   from command to lag, to whole ticks
+  double cg_above_feet_m;    // > 0
+  double rotor_above_feet_m; // the blades' plane
+  double top_above_rotor_m;  // the body's highest points; below 0: the blades touch first
+  double top_half_m;         // half the side of the square that the highest points span
+  double imu_m[3];           // the accelerometer
+} frame_t;
 
 typedef struct {
   char name[64];
@@ -17,9 +35,14 @@ typedef struct {
   double thrust_max_N;   // > thrust_min_N
   thrust_map_t map;      // PWM and volts to newton per motor
   double ceiling_m;      // height of the ceiling, INFINITY: none; z = 0 is the ground
+  frame_t frame;
+  battery_param_t battery; // capacity 0: none
   int n_fx;
   fx_use_t fx[FX_MAX]; // what acts; at most one of a name
 } model_t;
+
+// A Crazyflie 2.1 scaled to the model's mass and rotor radius: what a file says nothing of.
+frame_t model_frame_like_crazyflie(const model_t *m);
 
 // Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already.
 MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);

@@ -5,7 +5,11 @@
 #ifndef SIM_EFFECTS_FX_H
 #define SIM_EFFECTS_FX_H
 
+#include "plant/random.h"
+#include "plant/rigid.h"
+
 #define FX_PARAM_MAX 8
+#define FX_MEMORY    4 // numbers that an effect keeps from tick to tick
 #define FX_TABLE_MAX 64
 #define FX_MAX       16 // effects switched on at once
 
@@ -48,6 +52,34 @@ typedef struct {
   double radius_m;      // of the rotor
 } fx_place_t;
 
+// The vehicle in flight, at every stage of the integrator.
+typedef struct {
+  d3_t pos_w_m;           // centre of mass, world
+  d3_t air_b_mps;         // velocity through the air, body axes
+  const axes_t *axes;     // of the body
+  double rotor_sum_radps; // speeds of the four rotors, added
+} fx_motion_t;
+
+// What an effect may change, for the time of one tick. At each tick it starts from the vehicle file's
+// numbers, and the effects change it one after the other.
+typedef struct {
+  double mass_kg;              // > 0
+  d3_t cg_b_m;                 // the centre of mass, from where the vehicle file has it
+  double thrust_scale[ROTORS]; // what each rotor's thrust is multiplied by, >= 0
+  double motor_tau_s;          // > 0   lag
+  double delay_s;              // >= 0  from a command to the lag
+  d3_t air_w_mps;              // velocity of the air
+  d3_t force_w_N;              // at the centre of mass, world axes
+} fx_plant_t;
+
+// The tick that begins.
+typedef struct {
+  double t_s, span_s;
+  double vbat_V;    // at the terminals
+  random_t *random; // the vehicle's own
+  double *memory;   // FX_MEMORY numbers of this effect, 0 at the start
+} fx_tick_t;
+
 struct fx_use;
 
 typedef struct {
@@ -59,7 +91,11 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // What the rotor's thrust is multiplied by, minus one. Several effects add (thesis 3.1.4).
   double (*excess)(const struct fx_use *use, const fx_place_t *place);
-} fx_t;
+  // Six degrees of freedom only: adds to force and moment on the body.
+  void (*load)(const struct fx_use *use, const fx_motion_t *motion, load_t *load);
+  // Six degrees of freedom only: once at the beginning of every tick.
+  void (*tick)(const struct fx_use *use, const fx_tick_t *tick, fx_plant_t *plant);
+} fx_t; // a hook that is null does nothing
 
 extern const fx_t *const fx_table[];
 extern const int fx_count;

@@ -2,6 +2,7 @@
 #include "io/model_file.h"
 
 #include "io/effect_spec.h"
+#include "io/frame_file.h"
 #include "io/toml.h"
 #include <math.h>
 #include <stdio.h>
@@ -127,8 +128,8 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
 
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
-      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
-      "thrust_max_N", "ceiling_m", "thrust_map",     "effect",      NULL};
+      "name",      "mass_kg",    "rotor_radius_m", "motor_tau_s", "thrust_min_N", "thrust_max_N",
+      "ceiling_m", "thrust_map", "body",           "rotors",      "battery",      "effect",       NULL};
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
@@ -138,6 +139,7 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
     TRY(toml_table(root, "thrust_map", &map, why));
     TRY(read_map(map, &m->map, why));
   }
+  TRY(frame_read(root, m, why));
   return read_effects(root, path, m, why);
 }
 

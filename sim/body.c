@@ -1,0 +1,218 @@
+// body.c - a vehicle with six degrees of freedom in its surroundings.
+#include "body.h"
+
+#include "body_forces.h"
+#include "plant/rotor.h"
+#include <math.h>
+#include <string.h>
+
+#define CHUNK_S  0.01 // a longer tick looks for surfaces in between
+#define MARGIN_M 2e-3 // how much nearer than by its speed a vehicle may come in a chunk
+
+double body_rest_z_m(const model_t *model) {
+  return model->frame.cg_above_feet_m;
+}
+double body_rotor_z_m(const model_t *model) {
+  return model->frame.rotor_above_feet_m - model->frame.cg_above_feet_m;
+}
+
+static void derivative(void *self, const double *y, double *dydt) {
+  const body_t *b = self;
+  body_derivative(b, b->surfaces, y, dydt);
+}
+
+static double margin(void *self, const double *y) {
+  (void)self;
+  (void)y;
+  return 1.0;
+}
+
+// --- opening --------------------------------------------------------------------------------------------
+
+static void collect_effects(body_t *b) {
+  for (int k = 0; k < b->model->n_fx; k++) {
+    const fx_use_t *use = &b->model->fx[k];
+    if (use->fx->excess) b->excess[b->n_excess++] = use;
+    if (use->fx->load) b->load[b->n_load++] = use;
+    b->n_tick += use->fx->tick != NULL;
+  }
+}
+
+static void take_start(body_t *b, const body_start_t *start) {
+  const dquat_t q = start->q_wb;
+  const bool level = !(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > 0.0);
+  d3_put(b->y + RIGID_POS_M, start->pos_w_m);
+  d3_put(b->y + RIGID_VEL_MPS, start->vel_w_mps);
+  d3_put(b->y + RIGID_RATE_RADPS, start->rate_b_radps);
+  b->y[RIGID_Q_WB] = level ? 1.0 : q.w;
+  d3_put(b->y + RIGID_Q_WB + 1, d3(q.x, q.y, q.z));
+  rigid_normalise(b->y);
+  for (int i = 0; i < ROTORS; i++) b->y[RIGID_THRUST_N + i] = b->command_N[i] = start->thrust_N[i];
+  // A delay of k ticks brings the first k times what the motors do already.
+  for (int i = 0; i < BODY_QUEUE; i++) memcpy(b->queue_N[i], start->thrust_N, sizeof b->queue_N[i]);
+  b->rigid.vertical_only = start->vertical_only;
+  b->charge = 1.0 - start->discharged;
+}
+
+static void look_at_battery(body_t *b) {
+  b->current_A = battery_current_A(&b->model->battery, b->y + RIGID_THRUST_N, ROTORS);
+  b->vbat_V = battery_voltage_V(&b->model->battery, b->charge, b->current_A);
+}
+
+static bool model_is_good(const model_t *m) {
+  const frame_t *f = &m->frame;
+  return m->mass_kg > 0.0 && m->motor_tau_s > 0.0 && f->kf_Ns2 > 0.0 && f->inertia_kgm2[0] > 0.0 &&
+         f->inertia_kgm2[1] > 0.0 && f->inertia_kgm2[2] > 0.0;
+}
+
+status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
+                   const body_start_t *start) {
+  memset(b, 0, sizeof *b);
+  if (!model_is_good(model)) return ST_BAD_INPUT;
+  const frame_t *f = &model->frame;
+  b->model = model;
+  b->plant = body_untouched(model);
+  b->rigid = (rigid_t){.mass_kg = model->mass_kg,
+                       .inertia_kgm2 = d3_of(f->inertia_kgm2),
+                       .torque_ratio_m = f->torque_ratio_m,
+                       .kf_Ns2 = f->kf_Ns2,
+                       .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
+                       .motor_tau_s = model->motor_tau_s,
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0}};
+  memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
+  b->touch.ceiling_m = model->ceiling_m;
+  b->touch.disc_radius_m = model->rotor_radius_m;
+  body_place(b, b->plant.cg_b_m);
+  collect_effects(b);
+  take_start(b, start);
+  look_at_battery(b);
+  b->random = random_open(start->seed);
+  if (!b->random) return ST_BAD_INPUT;
+  if (b->n_tick > 0) body_effects(b, 0.0);
+  const touch_gap_t gap = body_clearance(b);
+  b->on_floor = gap.floor_m < BODY_RELEASE_M;
+  b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
+  const ode_t ode = {
+      .n = RIGID_N, .derivative = derivative, .margin = margin, .context = b, .step_s = step_s};
+  const status_t status = integrate_open(&b->integrate, kind, &ode);
+  if (status != ST_OK) body_close(b);
+  return status;
+}
+
+void body_close(body_t *b) {
+  integrate_close(b->integrate);
+  random_close(b->random);
+  b->integrate = NULL;
+  b->random = NULL;
+}
+
+// --- a tick ---------------------------------------------------------------------------------------------
+
+static axes_t axes_now(const body_t *b) {
+  return axes_of(dquat_of(b->y + RIGID_Q_WB));
+}
+
+static int touched(bool *on, double gap_m) {
+  const bool was = *on;
+  *on = gap_m <= 0.0 || (was && gap_m < BODY_RELEASE_M);
+  return *on && !was;
+}
+
+static void watch_contacts(body_t *b) {
+  const touch_gap_t gap = body_clearance(b);
+  b->floor_contacts += touched(&b->on_floor, gap.floor_m);
+  b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
+}
+
+// The surfaces that may be touched within span_s.
+static int surfaces_within(const body_t *b, double span_s) {
+  const axes_t axes = axes_now(b);
+  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS);
+  const double speed = fabs(b->y[RIGID_VEL_MPS + 2]) + b->touch.beside_m * (fabs(rate.x) + fabs(rate.y));
+  return touch_near(&b->touch, b->y[RIGID_POS_M + 2], &axes, MARGIN_M + speed * span_s);
+}
+
+static void advance(body_t *b, double span_s) {
+  bool event;
+  b->surfaces = surfaces_within(b, span_s);
+  const int parts = b->surfaces ? (int)ceil(span_s / TOUCH_STEP_S - 1e-9) : 1;
+  for (int i = 0; i < parts && !b->broken; i++) {
+    b->broken = !isfinite(integrate_to(b->integrate, b->y, span_s / parts, &event));
+    if (b->surfaces || b->on_floor || b->on_ceiling) watch_contacts(b);
+  }
+}
+
+static void delay_commands(body_t *b, double span_s) {
+  const double ticks =
+      b->plant.delay_s > 0.0 ? fmin(round(b->plant.delay_s / span_s), BODY_QUEUE - 1.0) : 0.0;
+  memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
+  memcpy(b->rigid.command_N, b->queue_N[(b->queued - (unsigned)ticks) % BODY_QUEUE], sizeof b->command_N);
+  b->queued++;
+}
+
+static void tick(body_t *b, double span_s) {
+  if (b->n_tick > 0) body_effects(b, span_s);
+  delay_commands(b, span_s);
+  const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
+  for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
+  rigid_normalise(b->y);
+  b->broken = b->broken || !isfinite(b->y[RIGID_POS_M + 2]) || !isfinite(b->y[RIGID_Q_WB]);
+  b->charge = battery_discharge(&b->model->battery, b->charge, b->current_A, span_s);
+  look_at_battery(b);
+  b->t_s += span_s;
+}
+
+void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
+  const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
+  for (int i = 0; i < ROTORS; i++) b->command_N[i] = fmin(fmax(command_N[i], min_N), max_N);
+  tick(b, span_s);
+}
+
+void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s) {
+  for (int i = 0; i < ROTORS; i++)
+    b->command_N[i] = rotor_command_N(&b->model->map, pwm[i], b->vbat_V, b->model->thrust_max_N / ROTORS);
+  tick(b, span_s);
+}
+
+// --- looking ----------------------------------------------------------------------------------------------
+
+d3_t body_angular_acc_b_radps2(const body_t *b) {
+  double dydt[RIGID_N];
+  body_derivative(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, dydt);
+  return d3_of(dydt + RIGID_RATE_RADPS);
+}
+
+d3_t body_specific_force_b_mps2(const body_t *b) {
+  double dydt[RIGID_N];
+  body_derivative(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, dydt);
+  const axes_t axes = axes_now(b);
+  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
+  const d3_t imu = d3_sub(d3_of(b->model->frame.imu_m), b->plant.cg_b_m);
+  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
+  return d3_add(axes_to_body(&axes, acc_w), d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
+}
+
+static double rotor_z_m(const body_t *b, int rotor) {
+  const axes_t axes = axes_now(b);
+  return b->y[RIGID_POS_M + 2] + d3_dot(axes_up_b(&axes), b->rigid.rotor_at_m[rotor]);
+}
+
+double body_ceiling_gap_m(const body_t *b, int rotor) {
+  return fmax(0.0, b->touch.ceiling_m - rotor_z_m(b, rotor));
+}
+
+double body_ground_gap_m(const body_t *b, int rotor) {
+  return fmax(0.0, rotor_z_m(b, rotor));
+}
+
+double body_thrust_ratio(const body_t *b, int rotor) {
+  const axes_t axes = axes_now(b);
+  double ratio[ROTORS];
+  body_ratios(b, b->y[RIGID_POS_M + 2], &axes, ratio);
+  return ratio[rotor];
+}
+
+touch_gap_t body_clearance(const body_t *b) {
+  const axes_t axes = axes_now(b);
+  return touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &axes);
+}

@@ -1,0 +1,80 @@
+// body_forces.c - what acts on a vehicle.
+#include "body_forces.h"
+
+#include <math.h>
+#include <string.h>
+
+// --- forces -------------------------------------------------------------------------------------------
+
+void body_ratios(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
+  for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
+  if (b->n_excess == 0) return;
+  const d3_t up = axes_up_b(axes);
+  for (int i = 0; i < ROTORS; i++) {
+    const double rotor_z_m = z_m + d3_dot(up, b->rigid.rotor_at_m[i]);
+    const double above_m = b->touch.ceiling_m - rotor_z_m;
+    const fx_place_t place = {.ceiling_gap_m = above_m > 0.0 ? above_m : 0.0,
+                              .ground_gap_m = rotor_z_m > 0.0 ? rotor_z_m : 0.0,
+                              .radius_m = b->model->rotor_radius_m};
+    for (int k = 0; k < b->n_excess; k++) ratio[i] += b->excess[k]->fx->excess(b->excess[k], &place);
+  }
+}
+
+static void effects_load(const body_t *b, const double *y, const axes_t *axes, load_t *load) {
+  fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
+  motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
+  for (int i = 0; i < ROTORS; i++)
+    motion.rotor_sum_radps += rigid_rotor_radps(&b->rigid, y[RIGID_THRUST_N + i]);
+  for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
+}
+
+void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
+  const axes_t axes = axes_of(dquat_of(y + RIGID_Q_WB));
+  double ratio[ROTORS];
+  load_t load = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  body_ratios(b, y[RIGID_POS_M + 2], &axes, ratio);
+  if (b->n_tick > 0) load.force_b_N = axes_to_body(&axes, b->plant.force_w_N);
+  if (b->n_load > 0) effects_load(b, y, &axes, &load);
+  if (surfaces) {
+    const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &axes, 0.0);
+    if (near) touch_load(&b->touch, near, y, &axes, &load);
+  }
+  rigid_derivative(&b->rigid, y, &axes, ratio, &load, dydt);
+}
+
+// --- the model, as the effects leave it ------------------------------------------------------------------
+
+void body_place(body_t *b, d3_t cg) {
+  const frame_t *f = &b->model->frame;
+  const double rotor_z = body_rotor_z_m(b->model), top_z = rotor_z + f->top_above_rotor_m,
+               half = f->top_half_m;
+  for (int i = 0; i < ROTORS; i++) {
+    const double x = f->rotor_x_m[i], y = f->rotor_y_m[i];
+    b->rigid.rotor_at_m[i] = b->touch.disc[i] = d3_sub(d3(x, y, rotor_z), cg);
+    b->touch.foot[i] = d3_sub(d3(x, y, -f->cg_above_feet_m), cg);
+    b->touch.top[i] = d3_sub(d3(copysign(half, x), copysign(half, y), top_z), cg);
+  }
+  touch_init(&b->touch, b->model->mass_kg);
+}
+
+fx_plant_t body_untouched(const model_t *m) {
+  return (fx_plant_t){.mass_kg = m->mass_kg,
+                      .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                      .motor_tau_s = m->motor_tau_s,
+                      .delay_s = m->frame.motor_delay_s};
+}
+
+void body_effects(body_t *b, double span_s) {
+  const model_t *m = b->model;
+  const d3_t cg_before = b->plant.cg_b_m;
+  b->plant = body_untouched(m);
+  for (int k = 0; k < m->n_fx; k++) {
+    const fx_tick_t tick = {
+        .t_s = b->t_s, .span_s = span_s, .vbat_V = b->vbat_V, .random = b->random, .memory = b->memory[k]};
+    if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
+  }
+  b->rigid.mass_kg = b->plant.mass_kg;
+  b->rigid.motor_tau_s = b->plant.motor_tau_s;
+  memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
+  if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
+}

@@ -1,0 +1,17 @@
+// fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says: T (1 - k (1 - vbat/4.2
+// V)), not below 0.
+#include "effects/fx.h"
+#include "plant/battery.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  const double scale = 1.0 - use->p[0] * (1.0 - tick->vbat_V / BATTERY_FULL_V);
+  for (int i = 0; i < ROTORS; i++) plant->thrust_scale[i] *= scale > 0.0 ? scale : 0.0;
+}
+
+const fx_t fx_battery_sag = {
+    .name = "battery_sag",
+    .brief = "thrust falls with the voltage beyond what the thrust map says",
+    .n_param = 1,
+    .param = {{"k", "", 0.0, 0.6, 4.0}},
+    .tick = tick,
+};

@@ -1,0 +1,15 @@
+// fx_body_drag.c - drag of the body: F = -c |v| v, v: velocity through the air.
+#include "effects/fx.h"
+
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const d3_t v = motion->air_b_mps;
+  load->force_b_N = d3_add_scaled(load->force_b_N, -use->p[0] * d3_norm(v), v);
+}
+
+const fx_t fx_body_drag = {
+    .name = "body_drag",
+    .brief = "force against the velocity, with its square",
+    .n_param = 1,
+    .param = {{"c", "kg/m", 0.0, 2e-3, 1.0}},
+    .load = load,
+};

@@ -1,0 +1,15 @@
+// fx_cg_offset.c - the centre of mass lies elsewhere: moments T (-dy, dx). The inertia is kept.
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  (void)tick;
+  plant->cg_b_m = d3_add(plant->cg_b_m, d3_of(use->p));
+}
+
+const fx_t fx_cg_offset = {
+    .name = "cg_offset",
+    .brief = "the centre of mass lies elsewhere than the vehicle file has it",
+    .n_param = 3,
+    .param = {{"dx", "m", -0.05, 1.5e-3, 0.05}, {"dy", "m", -0.05, 0.0, 0.05}, {"dz", "m", -0.05, 0.0, 0.05}},
+    .tick = tick,
+};

@@ -1,0 +1,15 @@
+// fx_delay.c - a pure delay between command and motors, besides the vehicle file's. To whole ticks.
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  (void)tick;
+  plant->delay_s += use->p[0];
+}
+
+const fx_t fx_delay = {
+    .name = "delay",
+    .brief = "commands reach the motors later than the vehicle file has it",
+    .n_param = 1,
+    .param = {{"add", "s", 0.0, 0.01, 0.2}},
+    .tick = tick,
+};

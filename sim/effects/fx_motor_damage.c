@@ -1,0 +1,15 @@
+// fx_motor_damage.c - one rotor gives less thrust, from a time on: T_i (1 - loss).
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  if (tick->t_s < use->p[2]) return;
+  plant->thrust_scale[(int)(use->p[0] + 0.5) - 1] *= 1.0 - use->p[1];
+}
+
+const fx_t fx_motor_damage = {
+    .name = "motor_damage",
+    .brief = "one rotor gives less thrust",
+    .n_param = 3,
+    .param = {{"rotor", "", 1.0, 1.0, 4.0}, {"loss", "", 0.0, 0.06, 1.0}, {"start", "s", 0.0, 0.0, 1e6}},
+    .tick = tick,
+};

@@ -1,0 +1,16 @@
+// fx_motor_lag.c - the motors' first-order lag is longer (or shorter) than the vehicle file has it.
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  (void)tick;
+  const double tau_s = plant->motor_tau_s + use->p[0];
+  plant->motor_tau_s = tau_s > 1e-3 ? tau_s : 1e-3;
+}
+
+const fx_t fx_motor_lag = {
+    .name = "motor_lag",
+    .brief = "the motors are slower than the vehicle file has them",
+    .n_param = 1,
+    .param = {{"add", "s", -0.5, 0.025, 2.0}},
+    .tick = tick,
+};

@@ -1,0 +1,17 @@
+// fx_rotor_drag.c - rotor drag: a force in the rotor plane against the velocity through the air,
+//   F_xy = -k sum(Om) v_xy
+#include "effects/fx.h"
+
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const double k = use->p[0] * motion->rotor_sum_radps;
+  load->force_b_N.x -= k * motion->air_b_mps.x;
+  load->force_b_N.y -= k * motion->air_b_mps.y;
+}
+
+const fx_t fx_rotor_drag = {
+    .name = "rotor_drag",
+    .brief = "force in the rotor plane against the velocity, linear in it and in the rotor speeds",
+    .n_param = 1,
+    .param = {{"k", "kg", 0.0, 1e-6, 1e-4}},
+    .load = load,
+};

@@ -1,0 +1,28 @@
+// fx_sidewall.c - a wall beside the vehicle pulls it and turns its top towards itself, both falling with the
+// distance d of the centre of mass from the wall, a plane of constant y:
+//
+//   F = force exp(-d/length) towards the wall,   M = moment exp(-d/length), top towards the wall
+//
+// The form is the one of spec/gap.md; the nominal numbers are assumptions.
+#include "effects/fx.h"
+#include <math.h>
+
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const double to_wall_m = use->p[0] - motion->pos_w_m.y;
+  const double share = exp(-fabs(to_wall_m) / use->p[3]);
+  const double side = to_wall_m < 0.0 ? -share : share;
+  // The top goes to +y in a turn about -x.
+  load_add(load, axes_to_body(motion->axes, d3(0.0, side * use->p[1], 0.0)),
+           axes_to_body(motion->axes, d3(-side * use->p[2], 0.0, 0.0)));
+}
+
+const fx_t fx_sidewall = {
+    .name = "sidewall",
+    .brief = "a wall pulls the vehicle and turns its top towards itself",
+    .n_param = 4,
+    .param = {{"y", "m", -100.0, 1.0, 100.0},
+              {"force", "N", -0.5, 5e-3, 0.5},
+              {"moment", "N m", -0.01, 2e-5, 0.01},
+              {"length", "m", 1e-3, 0.05, 10.0}},
+    .load = load,
+};

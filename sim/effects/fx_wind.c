@@ -1,0 +1,35 @@
+// fx_wind.c - wind: a force in world axes, constant and with gusts, and air that moves (felt through the
+// drags).
+//
+// The gusts are a first-order Gauss-Markov process of the given standard deviation on each axis, stepped at
+// ticks, exact for any tick.
+#include "effects/fx.h"
+#include <math.h>
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  const double *p = use->p;
+  plant->force_w_N = d3_add(plant->force_w_N, d3_of(p));
+  plant->air_w_mps = d3_add(plant->air_w_mps, d3_of(p + 5));
+  if (!(p[3] > 0.0)) return;
+  // memory[3] says that the process has begun: at its stationary spread, not at 0.
+  const double keep = tick->memory[3] > 0.0 ? exp(-tick->span_s / p[4]) : 0.0;
+  const double fresh = p[3] * sqrt(1.0 - keep * keep);
+  for (int i = 0; i < 3; i++) tick->memory[i] = keep * tick->memory[i] + fresh * random_normal(tick->random);
+  tick->memory[3] = 1.0;
+  plant->force_w_N = d3_add(plant->force_w_N, d3_of(tick->memory));
+}
+
+const fx_t fx_wind = {
+    .name = "wind",
+    .brief = "a constant force in the world, gusts, and moving air that the drags feel",
+    .n_param = 8,
+    .param = {{"fx", "N", -1.0, 3e-3, 1.0},
+              {"fy", "N", -1.0, 0.0, 1.0},
+              {"fz", "N", -1.0, 0.0, 1.0},
+              {"gust", "N", 0.0, 0.0, 1.0},
+              {"tau", "s", 0.01, 0.3, 100.0},
+              {"vx", "m/s", -20.0, 0.0, 20.0},
+              {"vy", "m/s", -20.0, 0.0, 20.0},
+              {"vz", "m/s", -20.0, 0.0, 20.0}},
+    .tick = tick,
+};
