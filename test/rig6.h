@@ -1,5 +1,5 @@
-// rig6.h - a small rigid body for tests of pilots: four lagging motors, explicit Runge-Kutta of order 4 at 1 ms,
-// perfect measurements. It shares nothing with the plant.
+// rig6.h - a small rigid body for tests of pilots: four lagging motors, explicit Runge-Kutta of order 4 at 1
+// ms, perfect measurements. It shares nothing with the plant.
 //
 //   m v' = sum k f_i z_b - m g,  J w' = moments - w x J w,  f_i' = (u_i - f_i)/tau
 //   yaw: ratio (-f1 + f2 - f3 + f4), and the rotors' inertia against their acceleration, speed = sqrt(f/kf)
@@ -11,14 +11,14 @@
 typedef struct {
   double mass_kg;
   d3_t inertia_kgm2;
-  double arm_m;         // of each motor along x and along y
-  double torque_m;      // torque over thrust
-  double rotor_kgm2;    // inertia of one rotor; 0: none
-  double speed_N;       // kf, N/(rad/s)^2
-  double tau_s;         // lag of the motors
-  double ceiling_m;     // height of the plate; NaN: none. Thrust ratio 1/2 + 1/2 sqrt(1 + (R/d)^2/8) per rotor
-  double radius_m;      // R
-  bool floor;           // at z = 0 nothing goes down, and what stands does not turn
+  double arm_m;      // of each motor along x and along y
+  double torque_m;   // torque over thrust
+  double rotor_kgm2; // inertia of one rotor; 0: none
+  double speed_N;    // kf, N/(rad/s)^2
+  double tau_s;      // lag of the motors
+  double ceiling_m;  // height of the plate; NaN: none. Thrust ratio 1/2 + 1/2 sqrt(1 + (R/d)^2/8) per rotor
+  double radius_m;   // R
+  bool floor;        // at z = 0 nothing goes down, and what stands does not turn
   d3_t acc_bias_b_mps2; // of the accelerometer
 } rig6_param_t;
 

@@ -25,7 +25,8 @@ TEST(pid_block_is_the_sum_of_its_terms_with_its_limits) {
     ROW("%s", row[i].what);
     pid_block_t s;
     pid_block_start(&s, &row[i].gain, 500.0, 0.0);
-    CHECK_NEAR(pid_block_step(&s, &row[i].gain, 500.0, row[i].wanted, row[i].measured, false), row[i].output, 1e-6);
+    CHECK_NEAR(pid_block_step(&s, &row[i].gain, 500.0, row[i].wanted, row[i].measured, false), row[i].output,
+               1e-6);
   }
 }
 
@@ -41,14 +42,18 @@ TEST(stock_mixer_and_power_have_known_numbers) {
   stock_mix(&(stock_command_t){.thrust = 40000.9, .roll = 1001, .pitch = -301, .yaw = 77}, unit);
   const double want[4] = {40000 - 500 - 150 + 77, 40000 - 500 + 150 - 77, 40000 + 500 + 150 + 77,
                           40000 + 500 - 150 - 77};
-  for (int i = 0; i < 4; i++) CHECK_NEAR(unit[i], want[i], 1.0); // the fraction of the thrust is cut after the sum
+  for (int i = 0; i < 4; i++)
+    CHECK_NEAR(unit[i], want[i], 1.0); // the fraction of the thrust is cut after the sum
   static const struct {
     const char *what;
     double unit[4], vbat_V, motor_N[4];
   } row[] = {
       {"hover of 32.9 g", {44065, 44065, 44065, 44065}, 4.2, {0.08069, 0.08069, 0.08069, 0.08069}},
       {"below 7000 units a motor is off", {6999, 7001, 0, -5000}, 4.2, {0, 0.01282, 0, 0}},
-      {"65535 is not yet the limit at 4.2 V", {70000, 50000, 50000, 50000}, 4.2, {0.12818, 0.09155, 0.09155, 0.09155}},
+      {"65535 is not yet the limit at 4.2 V",
+       {70000, 50000, 50000, 50000},
+       4.2,
+       {0.12818, 0.09155, 0.09155, 0.09155}},
       {"under 2 V all stop", {44065, 44065, 44065, 44065}, 1.9, {0, 0, 0, 0}},
       {"voltage unknown", {44065, 44065, 44065, 44065}, NAN, {0, 0, 0, 0}},
   };
@@ -93,8 +98,8 @@ TEST(stock_view_has_the_signs_of_the_firmware) {
 }
 
 TEST(stock_pid_first_commands_are_those_by_hand) {
-  // 0.1 m below and 0.1 m behind the set point, at rest, first tick: position PID 2 x 0.1 (+ 0.5 x 0.1/100 in z),
-  // velocity PID: pitch -(25.01 x 0.2) nose down, thrust 1000 (25.15 x 0.2005) + 36000.
+  // 0.1 m below and 0.1 m behind the set point, at rest, first tick: position PID 2 x 0.1 (+ 0.5 x 0.1/100 in
+  // z), velocity PID: pitch -(25.01 x 0.2) nose down, thrust 1000 (25.15 x 0.2005) + 36000.
   stock_pid_t s;
   const stock_pid_param_t param = stock_pid_default();
   stock_pid_pilot(&s, &param);
@@ -152,7 +157,7 @@ TEST(stock_pid_keeps_its_limits_on_a_large_step) {
     steepest_rad = fmax(steepest_rad, rig6_tilt_rad(&r));
     CHECK(fabs(s.wanted.pitch_deg) <= 20.0 && s.wanted.thrust >= 20000.0 && s.wanted.thrust <= 65535.0);
   }
-  CHECK(fastest_mps > 0.9 && fastest_mps < 1.4);                     // 1.1 m/s and its overshoot
+  CHECK(fastest_mps > 0.9 && fastest_mps < 1.4);                             // 1.1 m/s and its overshoot
   CHECK(steepest_rad > 15.0 / STOCK_DEG && steepest_rad < 30.0 / STOCK_DEG); // 20 degrees and theirs
 }
 

@@ -57,15 +57,16 @@ static double saturated(double command) {
 
 static void hold_attitude(stock_pid_t *s, const pilot6_setpoint_t *set, const stock_view_t *view) {
   const bool level = set->mode[0] == PILOT6_OFF || set->mode[1] == PILOT6_OFF;
-  const double wanted_deg[3] = {level ? 0.0 : s->wanted.roll_deg, level ? 0.0 : s->wanted.pitch_deg, s->yaw_deg};
+  const double wanted_deg[3] = {level ? 0.0 : s->wanted.roll_deg, level ? 0.0 : s->wanted.pitch_deg,
+                                s->yaw_deg};
   const double angle_deg[3] = {view->roll_deg, view->pitch_deg, view->yaw_deg};
   const double rate_dps[3] = {view->gyro_dps.x, -view->gyro_dps.y, view->gyro_dps.z};
   double command[3];
   for (int i = 0; i < 3; i++) {
     const double wanted_dps = pid_block_step(&s->attitude[i], &s->param.attitude[i], STOCK_ATTITUDE_HZ,
                                              wanted_deg[i], angle_deg[i], i == 2);
-    command[i] = trunc(saturated(pid_block_step(&s->rate[i], &s->param.rate[i], STOCK_ATTITUDE_HZ, wanted_dps,
-                                                rate_dps[i], false)));
+    command[i] = trunc(saturated(
+        pid_block_step(&s->rate[i], &s->param.rate[i], STOCK_ATTITUDE_HZ, wanted_dps, rate_dps[i], false)));
   }
   s->command.roll = command[0];
   s->command.pitch = command[1];

@@ -1,6 +1,7 @@
 // stock_pid.h - the peer: the Crazyflie firmware's cascaded PID controller (its number 1) with its mixer.
 //
-//   position, velocity (100 Hz, stock_position.h) -> attitude (500 Hz) -> rate (500 Hz) -> mixer (stock_units.h)
+//   position, velocity (100 Hz, stock_position.h) -> attitude (500 Hz) -> rate (500 Hz) -> mixer
+//   (stock_units.h)
 //
 // A set point that changes a mode starts position PIDs and filters anew and clears the integrals of attitude
 // and rate; so does every tick with a thrust of exactly 0. A rate of yaw moves the wanted heading, without

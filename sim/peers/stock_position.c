@@ -50,8 +50,9 @@ stock_position_out_t stock_position_step(stock_position_t *s, const stock_positi
   double out[3];
   for (int i = 0; i < 3; i++) {
     const bool hold = in->set.mode[i] == PILOT6_POSITION;
-    const double v = hold ? pid_block_step(&s->pos[i], &p->pos[i], STOCK_POSITION_HZ, wanted_m[i], m[i], false)
-                          : wanted_mps[i];
+    const double v = hold
+                         ? pid_block_step(&s->pos[i], &p->pos[i], STOCK_POSITION_HZ, wanted_m[i], m[i], false)
+                         : wanted_mps[i];
     out[i] = pid_block_step(&s->vel[i], &p->vel[i], STOCK_POSITION_HZ, v, mps[i], false);
   }
   return (stock_position_out_t){

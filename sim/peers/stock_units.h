@@ -1,7 +1,8 @@
-// stock_units.h - the border between SI and the units of the Crazyflie's firmware, for its controllers as peers.
+// stock_units.h - the border between SI and the units of the Crazyflie's firmware, for its controllers as
+// peers.
 //
-// Inside: degrees, degrees per second, g, and 16-bit commands, of which 65535 is thrust_max_N per motor. Roll is
-// positive to the right, pitch nose UP, yaw counter-clockwise; the command of yaw is positive CLOCKWISE.
+// Inside: degrees, degrees per second, g, and 16-bit commands, of which 65535 is thrust_max_N per motor. Roll
+// is positive to the right, pitch nose UP, yaw counter-clockwise; the command of yaw is positive CLOCKWISE.
 // Sources, bitcraze/crazyflie-firmware 2a18fc29: stabilizer.c, power_distribution_quadrotor.c, motors.c,
 // platform_defaults_cf2.h.
 #ifndef SIM_PEERS_STOCK_UNITS_H
@@ -18,8 +19,8 @@
 
 // What the firmware's controllers see of the vehicle.
 typedef struct {
-  d3_t gyro_dps;                      // body, x forward, y left, z up
-  d3_t acc_g;                         // body
+  d3_t gyro_dps;                       // body, x forward, y left, z up
+  d3_t acc_g;                          // body
   double roll_deg, pitch_deg, yaw_deg; // -180..180, -90..90, -180..180
 } stock_view_t;
 
@@ -42,7 +43,8 @@ typedef struct {
 // Legacy propellers of the Crazyflie 2.1, and the present ones (2.1+).
 stock_power_param_t stock_power_legacy(void);
 stock_power_param_t stock_power_plus(void);
-// Legacy propellers until mid-2025: full scale was 60 g of all motors, the same gains thus 1.23 times as strong.
+// Legacy propellers until mid-2025: full scale was 60 g of all motors, the same gains thus 1.23 times as
+// strong.
 stock_power_param_t stock_power_60g(void);
 
 typedef struct {
@@ -55,10 +57,10 @@ void stock_power_start(stock_power_t *s);
 // limited.
 void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]);
 
-// Newton of each motor for units (rounded to whole ones). Volts from the cubic, duty from the filtered battery;
-// if a duty is above 65535, all four are lowered by the same amount and those below 0 stay at 0: thrust goes
-// before attitude. A motor below thrust_min_N is off, and so are all below 2 V of battery. To be called
-// every millisecond.
+// Newton of each motor for units (rounded to whole ones). Volts from the cubic, duty from the filtered
+// battery; if a duty is above 65535, all four are lowered by the same amount and those below 0 stay at 0:
+// thrust goes before attitude. A motor below thrust_min_N is off, and so are all below 2 V of battery. To be
+// called every millisecond.
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
                       double vbat_V, double motor_N[PILOT6_MOTORS]);
 
