@@ -30,8 +30,8 @@ void stock_indi_select(stock_indi_t *s) {
   stock_indi_outer_select(&s->position, &s->param.position);
 }
 
-// Fault 1: what was wanted is in radians already when the next tick adds to it and converts it again. A heading
-// is turned into north-east-down, a rate is not.
+// Fault 1: what was wanted is in radians already when the next tick adds to it and converts it again. A
+// heading is turned into north-east-down, a rate is not.
 static void turn(stock_indi_t *s, const pilot6_setpoint_t *set) {
   const double rate_dps = STOCK_DEG * set->yaw_rate_radps;
   s->angle_rad[YAW] = set->yaw_by_rate

@@ -4,17 +4,16 @@
 //   yaw: du = (nu - d rate_f/dt + G2 du_last)/(G1 + G2)
 //
 // north-east-down, radians, 500 Hz; rate and u pass the same 8 Hz low-pass, u before it a lag of gain 0.03149
-// (62.5 ms). Position loop: stock_indi_outer.h. Source: bitcraze/crazyflie-firmware 2a18fc29, controller_indi.c.
+// (62.5 ms). Position loop: stock_indi_outer.h. Source: bitcraze/crazyflie-firmware 2a18fc29,
+// controller_indi.c.
 //
 // Faults that are there, and here, and that our controller must not have (spec, "the peer"):
-//   1  a rate of yaw is turned from degrees into radians every tick, the sum of all before included: heading 0
-//   2  the yaw error is not wrapped
-//   3  a velocity set point in the body's frame is taken for one in the world's
-//   4  with the position loop off (param.outer), the PID cascade's degrees are used as radians
-//   5  the position loop integrates on the ground and is never reset
-//   6  a bias of the accelerometer is a steady height error, 2 cm for 0.01 g
-//   7  velocity and acceleration of a trajectory are dropped
-//   8  cut-off parameters act only after the controller has been selected again
+//   1  a rate of yaw is turned from degrees into radians every tick, the sum of all before included: heading
+//   0 2  the yaw error is not wrapped 3  a velocity set point in the body's frame is taken for one in the
+//   world's 4  with the position loop off (param.outer), the PID cascade's degrees are used as radians 5  the
+//   position loop integrates on the ground and is never reset 6  a bias of the accelerometer is a steady
+//   height error, 2 cm for 0.01 g 7  velocity and acceleration of a trajectory are dropped 8  cut-off
+//   parameters act only after the controller has been selected again
 #ifndef SIM_PEERS_STOCK_INDI_H
 #define SIM_PEERS_STOCK_INDI_H
 

@@ -60,7 +60,8 @@ void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t
   const d3_t wanted = wanted_acceleration(p, in);
   const d3_t acc_b = filtered(s->acc, d3_scale(G_MPS2, down(view->acc_g)));
   const d3_t raw = {view->roll_deg / STOCK_DEG, view->pitch_deg / STOCK_DEG, -view->yaw_deg / STOCK_DEG};
-  const d3_t angle = filtered(s->angle, raw); // its yaw jumps at the seam, and the filter runs through all headings
+  const d3_t angle =
+      filtered(s->angle, raw); // its yaw jumps at the seam, and the filter runs through all headings
   const dq_t q = turned(angle);
   const d3_t acc = d3_add(dq_to_world(q, acc_b), (d3_t){0.0, 0.0, G_MPS2});
   const d3_t e_b = dq_to_body(q, d3_sub(wanted, acc));
