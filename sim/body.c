@@ -39,7 +39,7 @@ static void collect_effects(body_t *b) {
 }
 
 static void take_start(body_t *b, const body_start_t *start) {
-  const dquat_t q = start->q_wb;
+  const dq_t q = start->q_wb;
   const bool level = !(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > 0.0);
   d3_put(b->y + RIGID_POS_M, start->pos_w_m);
   d3_put(b->y + RIGID_VEL_MPS, start->vel_w_mps);
@@ -109,7 +109,7 @@ void body_close(body_t *b) {
 // --- a tick ---------------------------------------------------------------------------------------------
 
 static axes_t axes_now(const body_t *b) {
-  return axes_of(dquat_of(b->y + RIGID_Q_WB));
+  return axes_of(dq_of(b->y + RIGID_Q_WB));
 }
 
 static int touched(bool *on, double gap_m) {

@@ -20,7 +20,7 @@
 typedef struct {
   d3_t pos_w_m; // centre of mass; body_rest_z_m() is its height at rest on the floor
   d3_t vel_w_mps;
-  dquat_t q_wb; // all zero: level, x forward
+  dq_t q_wb; // all zero: level, x forward
   d3_t rate_b_radps;
   double thrust_N[ROTORS]; // in free air
   double discharged;       // 0: the battery is full, 1: empty

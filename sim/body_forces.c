@@ -29,7 +29,7 @@ static void effects_load(const body_t *b, const double *y, const axes_t *axes, l
 }
 
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
-  const axes_t axes = axes_of(dquat_of(y + RIGID_Q_WB));
+  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
   double ratio[ROTORS];
   load_t load = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   body_ratios(b, y[RIGID_POS_M + 2], &axes, ratio);

@@ -12,7 +12,7 @@ typedef struct {
 
 typedef struct {
   double w, x, y, z;
-} dquat_t;
+} dq_t;
 
 // The body's axes in world axes: the columns of the rotation matrix.
 typedef struct {
@@ -53,26 +53,26 @@ static inline void d3_put(double *p, d3_t a) {
   p[2] = a.z;
 }
 
-static inline dquat_t dquat_of(const double *p) {
-  return (dquat_t){p[0], p[1], p[2], p[3]};
+static inline dq_t dq_of(const double *p) {
+  return (dq_t){p[0], p[1], p[2], p[3]};
 }
 
 // The turn by angle_rad about a unit vector.
-static inline dquat_t dquat_about(d3_t unit, double angle_rad) {
+static inline dq_t dq_about(d3_t unit, double angle_rad) {
   const double s = sin(0.5 * angle_rad);
-  return (dquat_t){cos(0.5 * angle_rad), s * unit.x, s * unit.y, s * unit.z};
+  return (dq_t){cos(0.5 * angle_rad), s * unit.x, s * unit.y, s * unit.z};
 }
 
 // First b, then a.
-static inline dquat_t dquat_mul(dquat_t a, dquat_t b) {
-  return (dquat_t){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, //
-                   a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, //
-                   a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, //
-                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+static inline dq_t dq_mul(dq_t a, dq_t b) {
+  return (dq_t){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, //
+                a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, //
+                a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, //
+                a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 // q of unit length.
-static inline axes_t axes_of(dquat_t q) {
+static inline axes_t axes_of(dq_t q) {
   const double x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
   const double xx = q.x * x2, xy = q.x * y2, xz = q.x * z2, yy = q.y * y2, yz = q.y * z2, zz = q.z * z2;
   const double wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
@@ -91,6 +91,22 @@ static inline d3_t axes_to_body(const axes_t *a, d3_t w) {
 // The world's z in body axes.
 static inline d3_t axes_up_b(const axes_t *a) {
   return d3(a->x.z, a->y.z, a->z.z);
+}
+
+// Of length 1; the quaternion must not be zero.
+static inline dq_t dq_unit(dq_t q) {
+  const double k = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  return (dq_t){k * q.w, k * q.x, k * q.y, k * q.z};
+}
+
+// v + 2 w (u x v) + 2 u x (u x v), u the vector part.
+static inline d3_t dq_to_world(dq_t q_wb, d3_t v_b) {
+  const d3_t u = {q_wb.x, q_wb.y, q_wb.z};
+  const d3_t t = d3_scale(2.0, d3_cross(u, v_b));
+  return d3_add(v_b, d3_add(d3_scale(q_wb.w, t), d3_cross(u, t)));
+}
+static inline d3_t dq_to_body(dq_t q_wb, d3_t v_w) {
+  return dq_to_world((dq_t){q_wb.w, -q_wb.x, -q_wb.y, -q_wb.z}, v_w);
 }
 
 #endif

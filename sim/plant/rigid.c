@@ -85,6 +85,6 @@ d3_t rigid_momentum_w(const rigid_t *r, const double y[RIGID_N]) {
   double spin_Nms = 0.0;
   for (int i = 0; i < ROTORS; i++)
     spin_Nms += r->spin[i] * r->rotor_inertia_kgm2 * rigid_rotor_radps(r, y[RIGID_THRUST_N + i]);
-  const axes_t axes = axes_of(dquat_of(y + RIGID_Q_WB));
+  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
   return axes_to_world(&axes, d3(J.x * w.x, J.y * w.y, J.z * w.z + spin_Nms));
 }
