@@ -1,0 +1,95 @@
+// ekf.h - what the firmware's Kalman filter makes of the inertial, downward range and flow sensors: position,
+// velocity and attitude with its rates, delays, noise expectations and errors. It never sees the upward
+// range.
+//
+// State: position p (world), velocity v (body), attitude error d (body, shifted into the quaternion each ms).
+// R turns body into world, u = R' e3, f specific force, w body rates, g = 9.81:
+//
+//   p' = R (I + [d]) v,   v' = f - w x v - g (I - [d]) u,   d' = - w/2 x d
+//
+//   each 10 ms   prediction with the mean of f and w over the ten samples before; in flight f = (0, 0, fz),
+//   so
+//                that attitude is corrected by the flow alone; on the ground all of f, and the attitude goes
+//                back to level and the first yaw by 0.1 % each time
+//   each 1 ms    process noise: (acc * 1 ms)^2 of velocity and so on. The filter is thus stiffer than the
+//   same
+//                numbers at 100 Hz would make it
+//   range        h = z / cos(max(tilt - 7.5 deg, 0)); ignored above 5 m and beyond 84 deg of tilt
+//   flow         h = (v_x R33 / max(z, 0.1 m) - w_y) dt per axis, w the newest sample; ignored from 100
+//   counts after that   d is shifted into the attitude if one part of it exceeds 1e-4 rad, else DROPPED
+//   always       variances stay in 1e-6 to 100; beyond 100 m or 10 m/s the filter starts anew
+//
+// No drag. A range sample's age is not accounted for: in a climb the height lags by the age. What a call
+// returns was finished in the call before it: 1 ms.
+//
+// A constant error b of the vertical accelerometer in hover, with q = acc_z^2 * 1 ms and r = range^2 * 25 ms
+// as densities and W = (q / r)^(1/4) = 8.94 1/s, near the ground:
+//   climb is wrong by b sqrt(2) / W = 0.158 s * b, height by b / W^2 = 0.0125 s^2 * b (in discrete time 0.153
+//   and 0.0106: see the test).
+// A height loop with a_wanted = Kd (Kp e - climb) thus hovers wrong by -(b / Kd + 0.153 b) / Kp - 0.0106 b.
+//
+// Source: Mueller, Hamer, D'Andrea 2015; Mueller, Hehn, D'Andrea 2016; rates, numbers and limits: Crazyflie
+// firmware 2a18fc29. Own code.
+#ifndef SIM_ESTIMATOR_EKF_H
+#define SIM_ESTIMATOR_EKF_H
+
+#include "plant/d3.h"
+#include <stdbool.h>
+
+#define EKF_N 9
+
+// What the filter expects, as standard deviations.
+typedef struct {
+  double acc_xy_mps2, acc_z_mps2; // acceleration that it does not know of
+  double gyro_radps;
+  double range_m;     // downward range near the ground; grows with the distance
+  double flow_counts; // each axis
+  double reversion;   // share of the attitude that goes back to level, each prediction on the ground
+} ekf_param_t;
+
+extern const ekf_param_t ekf_firmware;
+
+typedef struct {
+  d3_t acc_b_mps2; // specific force, filtered as the firmware does
+  d3_t gyro_b_radps;
+  bool motors; // above idle; flight lasts until 2 s after
+  bool range_new;
+  double range_m; // downward
+  bool flow_new;
+  double flow_x, flow_y, flow_span_s; // counts over span; forward flight: x > 0
+} ekf_in_t;
+
+// As the firmware's state_t, but in SI.
+typedef struct {
+  d3_t pos_w_m, vel_w_mps;
+  d3_t acc_w_mps2; // newest accelerometer sample turned into the world, gravity removed
+  dq_t q_wb;
+} ekf_out_t;
+
+typedef struct {
+  ekf_param_t param;
+  double s[EKF_N];        // p, v, d
+  double P[EKF_N][EKF_N]; // variance; symmetric
+  double R[3][3];
+  dq_t q, q_start;
+  d3_t acc_sum, gyro_sum; // of the samples since the last prediction
+  d3_t acc, gyro;         // newest sample
+  ekf_out_t out;
+  int samples;      // in the sums
+  int noise_ms;     // process noise not yet added
+  int countdown_ms; // to the next prediction
+  int flying_ms;    // left of the flight
+  int resets;       // how often the state was out of bounds
+  bool updated;
+} ekf_t;
+
+// At rest on the ground at the origin, level, nose at yaw_rad. range_m of the parameter > 0.
+void ekf_init(ekf_t *e, const ekf_param_t *p, double yaw_rad);
+
+// Flies there already: position, velocity and attitude are known to about 1 mm, 1 cm/s and 0.01 rad.
+void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb);
+
+// One period of 1 ms. Inputs must be finite.
+ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in);
+
+#endif

@@ -1,0 +1,187 @@
+// ekf_core.c - prediction and corrections of the extended Kalman filter.
+#include "estimator/ekf_core.h"
+
+#include <math.h>
+
+enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
+
+#define VARIANCE_MAX     100.0
+#define VARIANCE_MIN     1e-6
+#define PIXELS_PER_RAD   (35.0 / 0.71674) // of the flow camera: pixels across, aperture
+#define PIXELS_PER_COUNT 0.1
+#define FLOW_NEAREST_M   0.1
+#define RANGE_HALF_CONE  (7.5 * 3.14159265358979323846 / 180.0) // rad, of the sensor's view
+#define UP_LEAST         0.1  // cosine of the largest tilt at which a range is believed
+#define TURN_LEAST_RAD   1e-4 // smaller corrections of the attitude are lost
+
+static double bounded(double p, bool diagonal) {
+  if (!(p <= VARIANCE_MAX)) return VARIANCE_MAX; // NaN too
+  return diagonal && p < VARIANCE_MIN ? VARIANCE_MIN : p;
+}
+
+static d3_t part(const ekf_t *e, int at) {
+  return (d3_t){e->s[at], e->s[at + 1], e->s[at + 2]};
+}
+
+static void add(ekf_t *e, int at, d3_t v) {
+  e->s[at] += v.x;
+  e->s[at + 1] += v.y;
+  e->s[at + 2] += v.z;
+}
+
+// [v]: the matrix with [v] a = v x a.
+static void cross_matrix(d3_t v, double m[3][3]) {
+  const double rows[3][3] = {{0.0, -v.z, v.y}, {v.z, 0.0, -v.x}, {-v.y, v.x, 0.0}};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) m[i][j] = rows[i][j];
+}
+
+void ekf_core_rotation(ekf_t *e) {
+  const d3_t x = dq_to_world(e->q, (d3_t){1.0, 0.0, 0.0}), y = dq_to_world(e->q, (d3_t){0.0, 1.0, 0.0}),
+             z = d3_cross(x, y);
+  const double R[3][3] = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) e->R[i][j] = R[i][j];
+}
+
+void ekf_core_noise(ekf_t *e) {
+  const double ms = 1e-3, n = e->noise_ms, xy = e->param.acc_xy_mps2, z = e->param.acc_z_mps2,
+               turn = e->param.gyro_radps;
+  const double sd[EKF_N] = {xy * ms * ms, xy * ms * ms, z * ms * ms, xy * ms,  xy * ms,
+                            z * ms,       turn * ms,    turn * ms,   turn * ms};
+  for (int i = 0; i < EKF_N; i++) e->P[i][i] = bounded(e->P[i][i] + n * sd[i] * sd[i], true);
+  e->noise_ms = 0;
+}
+
+// I - [h] + (h h' - |h|^2 I) / 2: how the error of the attitude turns when the body turns by h.
+static void turn_matrix(d3_t h, double m[3][3]) {
+  const double v[3] = {h.x, h.y, h.z}, square = d3_dot(h, h);
+  cross_matrix(h, m);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) m[i][j] = (i == j ? 1.0 - 0.5 * square : 0.0) - m[i][j] + 0.5 * v[i] * v[j];
+}
+
+// A P A'. A has nothing below its diagonal blocks of 3 x 3.
+static void spread(ekf_t *e, double A[EKF_N][EKF_N]) {
+  double AP[EKF_N][EKF_N];
+  for (int i = 0; i < EKF_N; i++)
+    for (int j = 0; j < EKF_N; j++) {
+      double sum = 0.0;
+      for (int k = i / 3 * 3; k < EKF_N; k++) sum += A[i][k] * e->P[k][j];
+      AP[i][j] = sum;
+    }
+  for (int i = 0; i < EKF_N; i++)
+    for (int j = i; j < EKF_N; j++) {
+      double sum = 0.0;
+      for (int k = j / 3 * 3; k < EKF_N; k++) sum += AP[i][k] * A[j][k];
+      e->P[i][j] = e->P[j][i] = bounded(sum, i == j);
+    }
+}
+
+static void linearise(const ekf_t *e, d3_t gyro, double dt, double A[EKF_N][EKF_N]) {
+  double v[3][3], w[3][3], u[3][3], turn[3][3];
+  cross_matrix(part(e, VEL), v);
+  cross_matrix(gyro, w);
+  cross_matrix((d3_t){e->R[2][0], e->R[2][1], e->R[2][2]}, u);
+  turn_matrix(d3_scale(0.5 * dt, gyro), turn); // by half the angle, as the firmware does
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      const double one = i == j ? 1.0 : 0.0;
+      A[POS + i][POS + j] = one;
+      A[POS + i][VEL + j] = dt * e->R[i][j];
+      A[POS + i][ATT + j] = -dt * (e->R[i][0] * v[0][j] + e->R[i][1] * v[1][j] + e->R[i][2] * v[2][j]);
+      A[VEL + i][VEL + j] = one - dt * w[i][j];
+      A[VEL + i][ATT + j] = -dt * EKF_G_MPS2 * u[i][j];
+      A[ATT + i][ATT + j] = turn[i][j];
+      A[VEL + i][POS + j] = A[ATT + i][POS + j] = A[ATT + i][VEL + j] = 0.0;
+    }
+}
+
+// The rotation by the vector v, as long as its angle.
+static dq_t turn_by(d3_t v) {
+  const double angle = sqrt(d3_dot(v, v)), k = angle > 1e-9 ? sin(0.5 * angle) / angle : 0.5;
+  return (dq_t){cos(0.5 * angle), k * v.x, k * v.y, k * v.z};
+}
+
+static d3_t to_world(const ekf_t *e, d3_t v) {
+  return (d3_t){e->R[0][0] * v.x + e->R[0][1] * v.y + e->R[0][2] * v.z,
+                e->R[1][0] * v.x + e->R[1][1] * v.y + e->R[1][2] * v.z,
+                e->R[2][0] * v.x + e->R[2][1] * v.y + e->R[2][2] * v.z};
+}
+
+static dq_t towards(dq_t q, dq_t goal, double share) {
+  const double k = 1.0 - share;
+  return (dq_t){k * q.w + share * goal.w, k * q.x + share * goal.x, k * q.y + share * goal.y,
+                k * q.z + share * goal.z};
+}
+
+void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
+  double A[EKF_N][EKF_N];
+  linearise(e, gyro, dt, A);
+  spread(e, A);
+  // In flight the accelerometer says nothing of the tilt, and thrust is along the body's z axis.
+  if (flying) acc.x = acc.y = 0.0;
+  const d3_t v = part(e, VEL), u = {e->R[2][0], e->R[2][1], e->R[2][2]};
+  const d3_t way_b = d3_add(d3_scale(dt, v), d3_scale(0.5 * dt * dt, acc));
+  add(e, POS, d3_sub(to_world(e, way_b), (d3_t){0.0, 0.0, 0.5 * dt * dt * EKF_G_MPS2}));
+  add(e, VEL, d3_scale(dt, d3_sub(d3_sub(acc, d3_cross(gyro, v)), d3_scale(EKF_G_MPS2, u))));
+  dq_t q = dq_mul(e->q, turn_by(d3_scale(dt, gyro)));
+  if (!flying) q = towards(q, e->q_start, e->param.reversion);
+  e->q = dq_unit(q);
+  e->updated = true;
+}
+
+// One number measured: error = measured - h, its slope a to state i and b to state j.
+static void correct(ekf_t *e, int i, double a, int j, double b, double error, double sd) {
+  double Ph[EKF_N];
+  for (int k = 0; k < EKF_N; k++) Ph[k] = e->P[k][i] * a + e->P[k][j] * b;
+  const double inverse = 1.0 / (a * Ph[i] + b * Ph[j] + sd * sd);
+  for (int k = 0; k < EKF_N; k++) {
+    const double gain = Ph[k] * inverse;
+    e->s[k] += gain * error;
+    for (int l = k; l < EKF_N; l++) e->P[k][l] = e->P[l][k] = bounded(e->P[k][l] - gain * Ph[l], k == l);
+  }
+  e->updated = true;
+}
+
+void ekf_core_range(ekf_t *e, double range_m) {
+  const double up = e->R[2][2];
+  if (!(up > UP_LEAST)) return;
+  ekf_core_noise(e);
+  // The nearest ground in the sensor's cone is what it sees.
+  const double slant = 1.0 / cos(fmax(acos(fmin(up, 1.0)) - RANGE_HALF_CONE, 0.0));
+  const double sd = e->param.range_m * (1.0 + exp(log(80.0) / 1.5 * (range_m - 2.5)));
+  correct(e, POS + 2, slant, POS, 0.0, range_m - slant * e->s[POS + 2], sd);
+}
+
+void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
+  ekf_core_noise(e);
+  const double k = span_s * PIXELS_PER_RAD, z = fmax(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
+  const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
+  const double vx = e->s[VEL], vy = e->s[VEL + 1]; // both from before either correction
+  const double seen_x = k * (vx * up / z - e->gyro.y), seen_y = k * (vy * up / z + e->gyro.x);
+  correct(e, POS + 2, -k * up * vx / (z * z), VEL, k * up / z, PIXELS_PER_COUNT * counts_x - seen_x, sd);
+  correct(e, POS + 2, -k * up * vy / (z * z), VEL + 1, k * up / z, PIXELS_PER_COUNT * counts_y - seen_y, sd);
+}
+
+// The variance of the attitude, and what it has to do with the rest, after the body was turned by v.
+static void turn_variance(ekf_t *e, d3_t v) {
+  double A[EKF_N][EKF_N] = {{0.0}}, turn[3][3];
+  turn_matrix(d3_scale(0.5, v), turn);
+  for (int i = 0; i < EKF_N; i++) A[i][i] = 1.0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) A[ATT + i][ATT + j] = turn[i][j];
+  spread(e, A);
+}
+
+void ekf_core_finish(ekf_t *e) {
+  if (!e->updated) return;
+  const d3_t d = part(e, ATT);
+  if (fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD) {
+    e->q = dq_unit(dq_mul(e->q, turn_by(d)));
+    turn_variance(e, d);
+  }
+  e->s[ATT] = e->s[ATT + 1] = e->s[ATT + 2] = 0.0;
+  ekf_core_rotation(e);
+  e->updated = false;
+}

@@ -1,0 +1,40 @@
+// noise6.h - levels of noise of all sensors of the six-degree-of-freedom vehicle, by name.
+//
+//   quiet  perfect but for rate, filter, age, floor and reach
+//   real   at rest: spread of an 11 s recording. Motors on: spread of logged hovers above about 20 Hz (gyro),
+//          and firmware.md's 0.009 to 0.014 g (accelerometer); a part of that is true motion. Ranges: the
+//          firmware's own model, 3 mm upward (acceptance P3). Flow: the 2 counts that the firmware assumes.
+#ifndef SIM_PLANT_NOISE6_H
+#define SIM_PLANT_NOISE6_H
+
+#include "plant/imu.h"
+#include "plant/range.h"
+#include <stddef.h>
+
+typedef struct {
+  const char *name;
+  imu_param_t imu;
+  range_param_t range;
+} noise6_t;
+
+typedef struct {
+  const char *name, *unit;
+  double min, max;
+  size_t offset; // of the number in noise6_t
+  const char *brief;
+} noise6_field_t;
+
+extern const noise6_t noise6_levels[]; // the first is quiet
+extern const int noise6_count;
+
+extern const noise6_field_t noise6_fields[];
+extern const int noise6_field_count;
+
+// A null pointer if there is no level of that name.
+const noise6_t *noise6_find(const char *name);
+
+// Sets one number, as "acc.bias.z". False, and nothing changed, if there is none of that name or the value is
+// out of its range.
+bool noise6_set(noise6_t *noise, const char *field, double value);
+
+#endif
