@@ -7,9 +7,15 @@
 #include <math.h>
 
 const char *const fly_name[FLY_COUNT] = {
-    [FLY_INDI] = "indi",         [FLY_INDI_THEORY] = "indi-theory",
-    [FLY_INDI_RBF] = "indi-rbf", [FLY_INDI_LEARNED] = "indi-learned",
-    [FLY_PID] = "pid",           [FLY_PID_FF] = "pid-ff",
+    [FLY_INDI] = "indi",
+    [FLY_INDI_THEORY] = "indi-theory",
+    [FLY_INDI_RBF] = "indi-rbf",
+    [FLY_INDI_LEARNED] = "indi-learned",
+    [FLY_PID] = "pid",
+    [FLY_PID_FF] = "pid-ff",
+    [FLY_STOCK_PID] = "stock-pid",
+    [FLY_STOCK_INDI] = "stock-indi",
+    [FLY_AIR_GARAGE] = NULL,
 };
 
 static const curve_mode_t mode_of[FLY_COUNT] = {
@@ -27,22 +33,40 @@ static void take_vehicle(model_t *model, const model_t *vehicle) {
   for (int i = 0; i < scenario.n_fx; i++) model->fx[i] = scenario.fx[i];
 }
 
-status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
-  if (request->kind) setup->kind = *request->kind;
-  setup->flight.curve.mode = (int32_t)mode_of[setup->kind];
-  if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
-  if (request->noise) setup->plan.noise = *request->noise;
-  if (request->no_effects) setup->model.n_fx = 0;
-  for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(&setup->model, &request->effect[i], why));
+status_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
+                       rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why) {
+  if (request->kind) *kind = *request->kind;
+  flight->curve.mode = (int32_t)mode_of[*kind];
+  if (request->vehicle) take_vehicle(model, request->vehicle);
+  if (request->no_effects) model->n_fx = 0;
+  for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(model, &request->effect[i], why));
   for (int i = 0; i < request->n_set; i++) {
     const param_row_t *row = request->set[i].row;
-    if (params_set(&setup->flight, row, request->set[i].value) != ST_OK)
+    if (params_set(flight, row, request->set[i].value) != ST_OK)
       return error_set(why, "--set %s: allowed is %g to %g", row->name, (double)row->min, (double)row->max);
     // A weight that is set is also where learning starts.
     const ptrdiff_t weight = ((ptrdiff_t)row->offset - (ptrdiff_t)offsetof(flight_param_t, curve.fixed)) / 4;
-    if (weight >= 0 && weight < RBF_N) setup->learn_from.w[weight] = request->set[i].value;
+    if (weight >= 0 && weight < RBF_N) learn_from->w[weight] = request->set[i].value;
   }
-  TRY(param_check_all(&setup->flight, why));
+  return param_check_all(flight, why);
+}
+
+// On the vertical axis only what multiplies the thrust can act, and only what flies there can fly.
+static status_t check_vertical(const setup_t *setup, why_t *why) {
+  if (setup->kind > FLY_PID_FF)
+    return error_set(why, "--controller %s: this scenario is flown on the vertical axis, by indi* or pid*",
+                     fly_name[setup->kind]);
+  for (int i = 0; i < setup->model.n_fx; i++)
+    if (!setup->model.fx[i].fx->excess)
+      return error_set(why, "--effect %s: this scenario is flown on the vertical axis, where it does not act",
+                       setup->model.fx[i].fx->name);
+  return ST_OK;
+}
+
+status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
+  TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
+  TRY(check_vertical(setup, why));
+  if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;
   return ST_OK;

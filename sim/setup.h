@@ -13,8 +13,11 @@ typedef enum {
   FLY_INDI_RBF,     // from the fixed weights ceil.w1..w7
   FLY_INDI_LEARNED, // from weights learned in a learning flight before, then frozen
   FLY_INDI_LIVE,    // from the weights while they are being learned: the learning flight itself
-  FLY_PID,
+  FLY_PID,          // thesis section 4.2; on the vertical axis
   FLY_PID_FF,
+  FLY_STOCK_PID, // the firmware's, in six degrees of freedom; so the next two
+  FLY_STOCK_INDI,
+  FLY_AIR_GARAGE, // the stock PID, its thrust divided by a ground and ceiling ratio
   FLY_COUNT
 } fly_kind_t;
 
@@ -37,7 +40,7 @@ typedef struct {
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
   const model_t *vehicle; // null: the scenario's
-  const noise_t *noise;   // null: the scenario's
+  const noise_t *noise;   // null: the scenario's; on the vertical axis
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has
@@ -49,6 +52,11 @@ typedef struct {
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;
+
+// What is asked for, over the scenario's model, parameters, start of learning and controller.
+// ST_BAD_INPUT: too many effects, or parameters that contradict each other.
+MUST_CHECK status_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
+                                  rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why);
 
 // ST_BAD_INPUT: too many effects, or parameters that contradict each other.
 MUST_CHECK status_t setup_apply(setup_t *setup, const request_t *request, why_t *why);

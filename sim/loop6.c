@@ -1,0 +1,226 @@
+// loop6.c - one flight in six degrees of freedom.
+#include "loop6.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define RECORD_EVERY 5     // ticks of 2 ms
+#define UP_AGE_S     0.07  // what the app takes an upward sample's age to be
+#define IDLE_N       0.002 // of one motor: below, it stands
+
+typedef struct {
+  const plan6_t *plan;
+  const model_t *model;
+  const pilot6_t *pilot;
+  loop6_ask_t ask;
+  body_t body;
+  random_t *random;
+  imu_t imu;
+  range_t range;
+  ekf_t ekf;
+  pilot6_in_t in;
+  ekf_out_t estimate;
+  double motor_N[PILOT6_MOTORS];
+  double tilt_rad, gap_min_m, range_m;
+  bool range_new;
+  int way;
+} flight6_t;
+
+static double wall_s(void) {
+  struct timespec now;
+  timespec_get(&now, TIME_UTC);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double nearest_gap_m(const body_t *b) {
+  double gap_m = body_ceiling_gap_m(b, 0);
+  for (int i = 1; i < ROTORS; i++) gap_m = fmin(gap_m, body_ceiling_gap_m(b, i));
+  return gap_m;
+}
+
+static truth_t truth_of(const flight6_t *f) {
+  const body_t *b = &f->body;
+  const double *y = b->y;
+  const dq_t q = dq_of(y + RIGID_Q_WB);
+  const axes_t axes = axes_of(q);
+  const double up = fmax(axes_up_b(&axes).z, 1e-3);
+  bool motors = false;
+  for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
+  return (truth_t){
+      .pos_w_m = d3_of(y + RIGID_POS_M),
+      .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
+      .q_wb = q,
+      .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
+      .force_b_mps2 = body_specific_force_b_mps2(b),
+      // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
+      .up_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
+      .down_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
+      .motors = motors,
+  };
+}
+
+// One millisecond of sensors and estimator, from what is true at the start of the tick.
+static void sense(flight6_t *f, const truth_t *truth) {
+  const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
+  const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
+  const ekf_in_t in = {
+      .acc_b_mps2 = imu.acc_b_mps2,
+      .gyro_b_radps = imu.gyro_b_radps,
+      .motors = truth->motors,
+      .range_new = range.down_new,
+      .range_m = range.down_m,
+      .flow_new = range.flow_new,
+      .flow_x = range.flow_x,
+      .flow_y = range.flow_y,
+      .flow_span_s = range.flow_span_s,
+  };
+  f->estimate = ekf_step(&f->ekf, &in);
+  f->in.gyro_b_radps = imu.gyro_b_radps;
+  f->in.acc_b_mps2 = imu.acc_b_mps2;
+  f->in.pos_w_m = f->estimate.pos_w_m;
+  f->in.vel_w_mps = f->estimate.vel_w_mps;
+  f->in.q_wb = f->estimate.q_wb;
+  f->in.range_new = range.up_new;
+  f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
+  f->in.range_age_s = UP_AGE_S;
+  if (range.up_new) f->range_m = f->in.range_m;
+  f->range_new = f->range_new || range.up_new;
+}
+
+// The estimator's zero is the height at rest; the plan's heights are of the rotors' plane.
+static void order(flight6_t *f, double t_s) {
+  const plan_t *plan = &f->plan->plan;
+  while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
+  const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
+  const bool on = t_s >= f->plan->take_off_s;
+  for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT6_POSITION : PILOT6_OFF;
+  f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - rest_m};
+  f->in.set.thrust_N = 0.0;
+}
+
+static void pilot_ms(flight6_t *f, const truth_t *truth) {
+  sense(f, truth);
+  f->pilot->step(f->pilot->state, &f->in, f->motor_N);
+  f->in.step++;
+}
+
+static status_t keep6(record6_t *more, int n, const sample6_t *sample) {
+  if (n > more->room) {
+    const int room = more->room ? 2 * more->room : 4096;
+    sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
+    if (!bigger) return ST_BAD_INPUT;
+    more->sample = bigger;
+    more->room = room;
+  }
+  more->sample[n - 1] = *sample;
+  return ST_OK;
+}
+
+static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth) {
+  const body_t *b = &f->body;
+  const axes_t axes = axes_of(truth->q_wb);
+  const double gap_m = nearest_gap_m(b);
+  double thrust_N = 0.0, command_N = 0.0;
+  for (int i = 0; i < ROTORS; i++) {
+    thrust_N += b->y[RIGID_THRUST_N + i];
+    command_N += f->motor_N[i];
+  }
+  sample_t s = {
+      .t_s = t_s,
+      .setpoint_m = f->plan->plan.way[f->way].setpoint_m,
+      .z_m = truth->pos_w_m.z + body_rotor_z_m(f->model),
+      .climb_mps = truth->vel_w_mps.z,
+      .acc_mps2 = d3_dot(axes_up_b(&axes), truth->force_b_mps2) - 9.81,
+      .gap_m = gap_m,
+      .gap_min_m = fmin(f->gap_min_m, gap_m),
+      .thrust_N = thrust_N,
+      .command_N = command_N,
+      .ratio = body_thrust_ratio(b, 0),
+      .contacts = b->ceiling_contacts,
+      .sense = {.z_m = f->in.pos_w_m.z,
+                .climb_mps = f->in.vel_w_mps.z,
+                .acc_mps2 = f->in.acc_b_mps2.z - 9.81,
+                .applied_N = command_N,
+                .range_new = f->range_new,
+                .range_m = f->range_m},
+      .thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN},
+  };
+  if (f->ask) f->ask(f->pilot->state, &s.thoughts);
+  sample6_t s6 = {
+      .tilt_rad = f->tilt_rad, .pos_w_m = truth->pos_w_m, .vbat_V = b->vbat_V, .estimate = f->estimate};
+  for (int i = 0; i < PILOT6_MOTORS; i++) s6.motor_N[i] = f->motor_N[i];
+  f->gap_min_m = HUGE_VAL;
+  f->tilt_rad = 0.0;
+  f->range_new = false;
+  TRY(record_add(record, &s));
+  return keep6(more, record->n, &s6);
+}
+
+static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome) {
+  const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
+  for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
+    const double t_s = (double)tick * LOOP6_TICK_S;
+    order(f, t_s);
+    const truth_t truth = truth_of(f);
+    pilot_ms(f, &truth);
+    pilot_ms(f, &truth);
+    const axes_t axes = axes_of(truth.q_wb);
+    f->tilt_rad = fmax(f->tilt_rad, acos(fmin(1.0, axes_up_b(&axes).z)));
+    if (tick % RECORD_EVERY == 0) TRY(keep(f, record, more, t_s, &truth));
+    body_tick(&f->body, f->motor_N, LOOP6_TICK_S);
+    for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
+    f->in.vbat_V = f->body.vbat_V;
+    f->gap_min_m = fmin(f->gap_min_m, nearest_gap_m(&f->body));
+    outcome->finite = !f->body.broken;
+  }
+  return ST_OK;
+}
+
+static status_t open(flight6_t *f) {
+  const plan_t *plan = &f->plan->plan;
+  body_start_t start = {.pos_w_m = {.z = body_rest_z_m(f->model)}};
+  if (f->plan->in_flight) start = f->plan->start;
+  start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
+  TRY(body_open(&f->body, f->model, plan->integrate, plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S,
+                &start));
+  f->random = random_open(plan->seed);
+  if (!f->random) return ST_BAD_INPUT;
+  imu_init(&f->imu);
+  range_init(&f->range);
+  ekf_init(&f->ekf, &ekf_firmware, 0.0);
+  f->in.q_wb = (dq_t){1.0, 0.0, 0.0, 0.0};
+  if (f->plan->in_flight) {
+    const d3_t rest = {0.0, 0.0, -body_rest_z_m(f->model)};
+    ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
+  }
+  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  f->pilot->reset(f->pilot->state);
+  return ST_OK;
+}
+
+status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
+                   record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+  flight6_t *f = calloc(1, sizeof *f);
+  if (!f) return error_set(why, "out of memory");
+  *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
+  f->gap_min_m = HUGE_VAL;
+  f->range_m = (double)NAN;
+  *outcome = (outcome_t){.finite = true};
+  const double start_s = wall_s();
+  status_t status = open(f);
+  if (status == ST_OK) status = run(f, record, more, outcome);
+  outcome->contacts = f->body.ceiling_contacts;
+  outcome->realtime_factor = plan->plan.end_s / fmax(wall_s() - start_s, 1e-9);
+  if (f->body.integrate) body_close(&f->body);
+  random_close(f->random);
+  free(f);
+  return status == ST_OK
+             ? ST_OK
+             : error_set(why, "the flight could not be run: out of memory or a model that cannot fly");
+}
+
+void record6_free(record6_t *r) {
+  free(r->sample);
+  *r = (record6_t){0};
+}

@@ -1,0 +1,52 @@
+// loop6.h - one flight in six degrees of freedom: body, sensors, estimator and pilot at 1000/500/100/40/10
+// Hz.
+//
+// The vehicle moves in steps of 2 ms, the commands with it; sensors, estimator and pilot run every
+// millisecond. On both of its milliseconds the inertial sensors see the same instant.
+#ifndef SIM_LOOP6_H
+#define SIM_LOOP6_H
+
+#include "body.h"
+#include "estimator/ekf.h"
+#include "loop.h"
+#include "pilot6.h"
+#include "plant/noise6.h"
+
+#define LOOP6_TICK_S 0.002
+
+typedef struct {
+  double tilt_rad; // largest since the last sample
+  double motor_N[PILOT6_MOTORS];
+  d3_t pos_w_m;
+  double vbat_V;
+  ekf_out_t estimate;
+} sample6_t;
+
+// How the flight is flown. The waypoints of `plan` are heights of the rotors' plane; x, y and yaw are held at
+// 0.
+typedef struct {
+  plan_t plan; // its noise is not used
+  noise6_t noise;
+  body_start_t start; // used if in_flight; else at rest on the floor, motors off
+  bool in_flight;
+  double take_off_s; // the height is controlled from here on; before, the motors are off
+} plan6_t;
+
+typedef struct {
+  sample6_t *sample; // as many as record->n
+  int room;
+} record6_t;
+
+// What the pilot thinks, where it can be asked; may be null.
+typedef void (*loop6_ask_t)(const void *state, thoughts_t *thoughts);
+
+// Flies the plan. *record and *more get the samples (they must be empty; free them after use). The record's z
+// is the height of the rotors' plane, its gap that of the nearest rotor. ST_BAD_INPUT: no memory, or a model
+// that cannot be integrated.
+MUST_CHECK status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot,
+                              loop6_ask_t ask, record_t *record, record6_t *more, outcome_t *outcome,
+                              why_t *why);
+
+void record6_free(record6_t *r);
+
+#endif

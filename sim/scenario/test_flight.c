@@ -1,0 +1,24 @@
+// test_flight.c - the thesis's first experiment (section 5.3): hover 20 cm below the ceiling, then 9, 5 and 3
+// cm 10 s each, in six degrees of freedom with real sensors.
+#include "scenario/scenario.h"
+
+#include "setup6.h"
+
+static status_t run(const request_t *request, result_t *result, why_t *why) {
+  static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
+  setup6_t setup;
+  TRY(setup6_thesis(&setup, FLY_INDI, why));
+  TRY(setup6_apply(&setup, request, why));
+  setup6_ladder(&setup, gap_m, 4, 10.0);
+  flown6_t flown;
+  TRY(setup6_fly(&setup, &flown, why));
+  result_add_flight(result, &flown.flown);
+  flown6_free(&flown);
+  return ST_OK;
+}
+
+const scenario_t scenario_test_flight = {
+    .name = "test-flight",
+    .brief = "six degrees of freedom, real sensors: gaps of 20, 9, 5 and 3 cm (thesis 5.3)",
+    .run = run,
+};

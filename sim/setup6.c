@@ -1,0 +1,126 @@
+// setup6.c - everything that one flight in six degrees of freedom needs.
+#include "setup6.h"
+
+#include "io/model_file.h"
+#include "peers/stock_indi.h"
+#include "peers/stock_pid.h"
+#include "pilot_flight.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define CEILING_M   0.5
+#define DECAY_PER_M 80.0 // of the thesis's ceiling effect
+
+status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
+  *setup = (setup6_t){.kind = kind, .learn_from = {{1.0f}}, .plan = {.noise = *noise6_find("real")}};
+  TRY(model_builtin("cf21_legacy", &setup->model, why));
+  setup->model.ceiling_m = CEILING_M;
+  fx_use_t ceiling = fx_use(fx_find("ceiling"));
+  ceiling.p[1] = DECAY_PER_M * setup->model.rotor_radius_m;
+  TRY(model_add_fx(&setup->model, &ceiling, why));
+  params_default(&setup->flight);
+  setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
+  setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
+  setup->flight.gap_min_m = 0.0f; // the thesis flies to 2 cm
+  return ST_OK;
+}
+
+status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
+  TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
+  if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
+    return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
+  setup->plan.plan.seed = request->seed;
+  setup->plan.plan.integrate = request->integrate;
+  return ST_OK;
+}
+
+void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
+  plan_t *plan = &setup->plan.plan;
+  const double hover_s = 12.0; // at the first gap, take-off included
+  setup->plan.take_off_s = 1.0;
+  plan->n_way = n;
+  for (int i = 0; i < n; i++) {
+    const double at_s = i == 0 ? 0.0 : hover_s + hold_s * (i - 1);
+    plan->way[i] = (waypoint_t){at_s, setup->model.ceiling_m - gap_m[i]};
+  }
+  plan->end_s = hover_s + hold_s * (n - 1);
+}
+
+static void ask_flight(const void *state, thoughts_t *thoughts) {
+  const pilot_flight_t *p = state;
+  const outer_out_t *out = &p->flight.out.outer;
+  thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
+  thoughts->ratio = (double)out->at.ratio;
+  thoughts->slope_per_m = (double)out->at.slope_per_m;
+  for (int i = 0; i < RBF_N; i++) {
+    thoughts->weights[i] = (double)p->flight.outer.learn.rls.theta.w[i];
+    thoughts->variance[i] = (double)p->flight.outer.learn.rls.P[i][i];
+  }
+}
+
+static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
+  pilot_flight_t *p = malloc(sizeof *p);
+  if (!p) return error_set(why, "out of memory");
+  flight_param_t param = setup->flight;
+  const bool live = param.curve.mode == CURVE_LIVE;
+  if (live) param.curve.fixed = setup->learn_from;
+  pilot6_t pilot;
+  status_t status = pilot_flight_init(p, &param, &pilot);
+  if (status != ST_OK)
+    (void)!error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
+  else
+    status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record, &flown->more,
+                       &flown->flown.outcome, why);
+  flown->flown.weights = live ? p->flight.outer.learn.rls.theta : param.curve.fixed;
+  free(p);
+  return status;
+}
+
+static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
+  stock_pid_t pid;
+  stock_indi_t indi;
+  const stock_pid_param_t pid_param = stock_pid_default();
+  const stock_indi_param_t indi_param = stock_indi_default();
+  const pilot6_t pilot =
+      setup->kind == FLY_STOCK_PID ? stock_pid_pilot(&pid, &pid_param) : stock_indi_pilot(&indi, &indi_param);
+  return loop6_fly(&setup->plan, &setup->model, &pilot, NULL, &flown->flown.record, &flown->more,
+                   &flown->flown.outcome, why);
+}
+
+// The learning flight of thesis section 5.3, and its weights frozen.
+static status_t learn_first(setup6_t *setup, why_t *why) {
+  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  setup6_t learning = *setup;
+  learning.flight.curve.mode = CURVE_LIVE;
+  setup6_ladder(&learning, gap_m, 6, 10.0);
+  flown6_t flight = {.more = {0}};
+  const status_t status = fly_flight(&learning, &flight, why);
+  setup->flight.curve.fixed = flight.flown.weights;
+  flown6_free(&flight);
+  return status;
+}
+
+static void measure_tilt(flown6_t *flown) {
+  const plan_t *plan = &flown->flown.plan;
+  int way = 0;
+  for (int i = 0; i < flown->flown.record.n; i++) {
+    while (way + 1 < plan->n_way && flown->flown.record.sample[i].t_s > plan->way[way + 1].at_s) way++;
+    flown->tilt_max_rad[way] = fmax(flown->tilt_max_rad[way], flown->more.sample[i].tilt_rad);
+  }
+}
+
+status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
+  setup6_t ready = *setup;
+  *flown = (flown6_t){.flown = {.plan = setup->plan.plan}};
+  if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
+  const bool stock = setup->kind == FLY_STOCK_PID || setup->kind == FLY_STOCK_INDI;
+  TRY(stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why));
+  flown->flown.n_segment = segments_of(&flown->flown.record, &flown->flown.plan, flown->flown.segment);
+  measure_tilt(flown);
+  return ST_OK;
+}
+
+void flown6_free(flown6_t *flown) {
+  flown_free(&flown->flown);
+  record6_free(&flown->more);
+}

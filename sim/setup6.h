@@ -1,0 +1,38 @@
+// setup6.h - everything that one flight in six degrees of freedom needs, and what it was like.
+#ifndef SIM_SETUP6_H
+#define SIM_SETUP6_H
+
+#include "loop6.h"
+#include "setup.h"
+
+typedef struct {
+  model_t model;
+  flight_param_t flight;
+  rbf_weights_t learn_from; // what a learning flight starts with
+  fly_kind_t kind;
+  plan6_t plan;
+} setup6_t;
+
+// The thesis's experiments: a Crazyflie 2.1 with both decks under a ceiling at 0.5 m whose effect is
+// 1 + 0.44 exp(-80 zc) at every rotor; sensors as bad as the real ones; the controller knows mass and motor
+// lag. ST_BAD_INPUT: a fault of the build, not of the user.
+MUST_CHECK status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
+
+// ST_BAD_INPUT: as request_apply, or a controller that flies on the vertical axis only.
+MUST_CHECK status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
+
+// Waypoints at these gaps below the ceiling, hold_s each, after a take-off and a hover at the first.
+void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s);
+
+typedef struct {
+  flown_t flown; // outcome, record, segments, weights
+  record6_t more;
+  double tilt_max_rad[WAYPOINTS_MAX]; // of each segment
+} flown6_t;
+
+// ST_BAD_INPUT: as loop6_fly. Free what was flown.
+MUST_CHECK status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why);
+
+void flown6_free(flown6_t *flown);
+
+#endif
