@@ -4,14 +4,17 @@
 #include "flight/params.h"
 #include "plant/sensors.h"
 #include "scenario/scenario.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // The shortest text that reads back as this float.
 static const char *shortest(float value, char text[32]) {
   for (int digits = 1; digits <= 9; digits++) {
     snprintf(text, 32, "%.*g", digits, (double)value);
-    if (strtof(text, NULL) == value) break;
+    const bool plain = !strchr(text, 'e') || fabsf(value) < 1e-4f || fabsf(value) >= 1e6f;
+    if (plain && strtof(text, NULL) == value) break;
   }
   return text;
 }
