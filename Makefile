@@ -32,10 +32,17 @@ ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
 endif
 MAKEFLAGS += --no-print-directory
+ifneq ($(DATA),)
+ifneq ($(shell test -d "$(DATA)" && echo there),there)
+$(error DATA=$(DATA): no such folder; allowed is a folder of recorded flights, or no DATA)
+endif
+endif
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 help:  ## what can be made
+	@echo '  make out/fly          flies scenarios (out/fly --help)'
+	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
 .PHONY: help demo test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
@@ -44,10 +51,10 @@ help:  ## what can be made
 
 setup:  ## install the Debian packages that the build needs
 	@tools/setup.sh $(PACKAGES)
-setup-demo: setup
-	@tools/setup.sh $(DEMO_PACKAGES)
-setup-lint: setup
-	@tools/setup.sh $(LINT_PACKAGES)
+setup-demo:
+	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
+setup-lint:
+	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
 
 # --- objects and programs -----------------------------------------------------------------------------
 
@@ -89,21 +96,21 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 # --- what people do -----------------------------------------------------------------------------------
 
 demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
-	@tools/demo.sh $(DATA)
+	@tools/demo.sh "$(DATA)"
 
 test: $(B)/bin/tests out/fly out/learn  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
-	@DATA=$(DATA) PROGRAMS=$(B)/bin $(B)/bin/tests $(W)
+	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
 check: test sanitize clang  ## the long tests, also with sanitizers and clang
-	@DATA=$(DATA) PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests $(W)
+	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
 	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn
-	@DATA=$(DATA) PROGRAMS=out/sanitize/bin out/sanitize/bin/tests $(W)
+	@DATA="$(DATA)" PROGRAMS=out/sanitize/bin out/sanitize/bin/tests "$(W)"
 
 clang: setup-lint  ## everything again, and the tests, with clang
 	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn
-	@DATA=$(DATA) PROGRAMS=out/clang/bin out/clang/bin/tests $(W)
+	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
 bench: out/bench  ## how fast it is, as ratios to real time
 	@out/bench
@@ -111,11 +118,11 @@ bench: out/bench  ## how fast it is, as ratios to real time
 lint: setup-lint  ## format, static analysis, headers alone, house rules
 	+@tools/lint.sh
 
-format: setup-lint
-	@clang-format -i $$(git ls-files '*.c' '*.h' '*.cpp')
+format: setup-lint  ## bring every source into the one format
+	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
 docs: setup-demo out/fly out/learn out/bench  ## write the tables and figures of README.md
-	@tools/docs.sh $(DATA)
+	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made
 	@rm -rf out

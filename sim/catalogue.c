@@ -4,14 +4,32 @@
 #include "flight/params.h"
 #include "plant/sensors.h"
 #include "scenario/scenario.h"
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-void catalogue_params(void) {
-  printf("%-16s %-6s %12s %10s %10s  %s\n", "parameter", "unit", "default", "min", "max", "what it does");
+// The shortest text that reads back as this float.
+static const char *shortest(float value, char text[32]) {
+  for (int digits = 1; digits <= 9; digits++) {
+    snprintf(text, 32, "%.*g", digits, (double)value);
+    const bool plain = !strchr(text, 'e') || fabsf(value) < 1e-4f || fabsf(value) >= 1e6f;
+    if (plain && strtof(text, NULL) == value) break;
+  }
+  return text;
+}
+
+void catalogue_params(bool markdown) {
+  const char *const head =
+      markdown ? "| parameter | unit | default | range | what it does |\n|---|---|---|---|---|\n"
+               : "parameter        unit       default  range                what it does\n";
+  fputs(head, stdout);
   for (int i = 0; i < params_count; i++) {
     const param_row_t *r = &params_table[i];
-    printf("%-16s %-6s %12.9g %10.4g %10.4g  %s\n", r->name, r->unit[0] ? r->unit : "-", (double)r->initial,
-           (double)r->min, (double)r->max, r->help);
+    char initial[32], min[32], max[32], range[80];
+    snprintf(range, sizeof range, "%s to %s", shortest(r->min, min), shortest(r->max, max));
+    printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", r->name, r->unit,
+           shortest(r->initial, initial), range, r->help);
   }
 }
 

@@ -2,10 +2,12 @@
 #ifndef SIM_CATALOGUE_H
 #define SIM_CATALOGUE_H
 
+#include <stdbool.h>
+
 // Scenarios, controllers, effects with their forms and parameters, noise levels.
 void catalogue_all(void);
 
-// Every parameter of the flight code: unit, default, range, what it does.
-void catalogue_params(void);
+// Every parameter of the flight code: unit, default, range, what it does; aligned, or as a table in Markdown.
+void catalogue_params(bool markdown);
 
 #endif

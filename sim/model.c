@@ -37,13 +37,6 @@ status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
   return ST_OK;
 }
 
-void model_remove_fx(model_t *m, const char *name) {
-  int kept = 0;
-  for (int i = 0; i < m->n_fx; i++)
-    if (strcmp(m->fx[i].fx->name, name) != 0) m->fx[kept++] = m->fx[i];
-  m->n_fx = kept;
-}
-
 double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
   double ratio = 1.0;
   for (int i = 0; i < m->n_fx; i++)

@@ -47,9 +47,6 @@ frame_t model_frame_like_crazyflie(const model_t *m);
 // Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already.
 MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
 
-// Switches the effect of that name off, if it is on.
-void model_remove_fx(model_t *m, const char *name);
-
 // What the rotors' thrust is multiplied by at this place: 1 and the excess of every effect (thesis 3.1.4).
 double model_thrust_ratio(const model_t *m, const fx_place_t *place);
 

@@ -25,6 +25,13 @@ status_t param_parse(const char *text, const param_row_t **row, float *value, wh
 
 status_t param_check_all(const flight_param_t *p, why_t *why) {
   if (params_check(p) == ST_OK) return ST_OK;
-  return error_set(why, "--set: parameters contradict each other: rls.q <= rls.p0, ceil.floor <= ceil.near < "
-                        "ceil.far and rls.zMin < rls.zMax are needed");
+  const float f = p->cutoff_Hz;
+  if (f > 0.0f && f < PARAMS_CUTOFF_MIN_HZ)
+    return error_set(why, "--set indiPos.cutoff=%g: allowed is 0, or 0.1 to 45 Hz", (double)f);
+  return error_set(
+      why,
+      "--set: with rls.q=%g, rls.p0=%g, ceil.floor=%g, ceil.near=%g, ceil.far=%g, rls.zMin=%g, rls.zMax=%g: "
+      "allowed is rls.q <= rls.p0, ceil.floor <= ceil.near < ceil.far, rls.zMin < rls.zMax",
+      (double)p->learn.rls.q, (double)p->learn.rls.p0, (double)p->ceiling.floor_m, (double)p->ceiling.near_m,
+      (double)p->ceiling.far_m, (double)p->learn.near_m, (double)p->learn.far_m);
 }

@@ -86,7 +86,7 @@ static status_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
   if (pilot_init(&pilot, &param, setup->period_s) != ST_OK)
-    return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.001 to 0.45 of the controller's rate");
+    return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.1 to 45 Hz");
   const controller_t controller = pilot_controller(&pilot);
   TRY(loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why));
   flown->weights = live ? pilot.flight.learn.rls.theta : param.curve.fixed;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#define EVENTS_MAX 1000 // contacts and releases within one tick
+
 static double thrust_ratio(const world_t *w, const double *y) {
   const fx_place_t place = {
       .ceiling_gap_m = fmax(0.0, w->model->ceiling_m - y[VERTICAL_Z_M]),
@@ -46,11 +48,14 @@ double world_tick(world_t *w, double command_N, double force_N, double span_s) {
   w->vehicle.command_N = applied_N;
   w->vehicle.force_N = force_N;
   double left_s = span_s;
+  int events = 0;
   while (left_s > 0.0 && !w->broken) {
     bool event;
     const double passed_s = integrate_to(w->integrate, w->y, left_s, &event);
     w->broken = !isfinite(passed_s);
     if (!event) break;
+    // Between a floor and a ceiling that touch each other there is no motion to integrate.
+    if (++events > EVENTS_MAX) w->broken = true;
     vertical_switch(&w->vehicle, w->y);
     w->contacts += w->vehicle.contact == CONTACT_CEILING;
     left_s -= passed_s;

@@ -29,6 +29,12 @@ void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
   if (s->known) set(s, p, s->zc_m - climb_m);
 }
 
+void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods) {
+  const int steps = periods < CEILING_HISTORY ? periods : CEILING_HISTORY; // more are not remembered
+  for (int i = 0; i < steps; i++) ceiling_predict(s, p, climb_m / (float)steps);
+  s->blind_s += (float)(periods - steps) * s->period_s;
+}
+
 // Three samples in a row that agree overrule an estimate that the gate would keep for ever.
 static void take_rival(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
   if (s->rivals > 0 && !(fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M)) s->rivals = 0;
@@ -42,6 +48,7 @@ static void take_rival(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
 
 status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s) {
   if (!(range_m > 0.0f && range_m <= CEILING_RANGE_MAX_M)) return ST_BAD_RANGE;
+  if (!(age_s >= 0.0f && age_s <= FLT_MAX)) return ST_BAD_RANGE;
   const float now_m = range_m - climb_since_m(s, age_s);
   const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
   const bool gated = s->known && s->zc_m < p->near_m;

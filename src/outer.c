@@ -54,12 +54,10 @@ static void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   f->started = true;
 }
 
-// The climb since the last good input. A reset of the height estimate is no climb.
-static float climb_m(outer_t *f, const outer_in_t *in) {
+// The climb since the last good input, `ticks` periods ago. A reset of the height estimate is no climb.
+static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   const float by_height_m = in->pos_w_m.z - f->height_last_m;
-  const float ticks = 1.0f + (float)f->missed;
   const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
-  f->missed = 0;
   f->height_last_m = in->pos_w_m.z;
   if (fabsf(by_height_m - by_velocity_m) <= JUMP_M * ticks) return by_height_m;
   count(f, ST_JUMP);
@@ -67,7 +65,9 @@ static float climb_m(outer_t *f, const outer_in_t *in) {
 }
 
 static void find_ceiling(outer_t *f, const outer_in_t *in) {
-  ceiling_predict(&f->ceiling, &f->param.ceiling, climb_m(f, in));
+  const int ticks = 1 + (int)f->missed;
+  f->missed = 0;
+  ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
   if (in->range_new) {
     // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
     const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;

@@ -56,9 +56,13 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
       {"fly appendix-a --set rls.q=1e-3 --set rls.p0=1e-3 --set rls.q=1e-3 --set ceil.near=0.2 --set "
        "ceil.floor=0.2 "
        "--set ceil.near=0.1",
-       "fly: --set: parameters contradict each other: rls.q <= rls.p0, ceil.floor <= ceil.near < ceil.far "
-       "and "
-       "rls.zMin < rls.zMax are needed\n"},
+       "fly: --set: with rls.q=0.001, rls.p0=0.001, ceil.floor=0.2, ceil.near=0.1, ceil.far=0.5, "
+       "rls.zMin=0.005, "
+       "rls.zMax=0.1: allowed is rls.q <= rls.p0, ceil.floor <= ceil.near < ceil.far, rls.zMin < rls.zMax\n"},
+      {"fly appendix-a --set indiPos.cutoff=0.001",
+       "fly: --set indiPos.cutoff=0.001: allowed is 0, or 0.1 to 45 Hz\n"},
+      {"fly pid-tables --set indiPos.kp=1", "fly: --set: the flight code does not fly in pid-tables\n"},
+      {"fly rls-sweep --controller pid", "fly: --controller pid: knows no ceiling distance to learn from\n"},
       {"fly appendix-a --noise loud", "fly: --noise loud: allowed are none, n1, n2, n3\n"},
       {"fly appendix-a --integrator euler",
        "fly: --integrator euler: allowed are sundials, rk4, reference\n"},

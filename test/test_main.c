@@ -96,8 +96,7 @@ int main(int argc, char **argv) {
       printf("%-28s %4d passed %4d failed\n", test->file, sum.passed - file.passed, sum.failed - file.failed);
     if (last_of_file) file = sum;
   }
-  printf("%d passed, %d failed", sum.passed, sum.failed);
-  if (sum.skipped) printf(", %d skipped", sum.skipped);
-  printf("\n");
+  if (sum.skipped) printf("%d skipped\n", sum.skipped);
+  printf("%d passed, %d failed\n", sum.passed, sum.failed);
   return sum.failed > 0 || sum.passed == 0;
 }

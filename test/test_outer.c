@@ -242,20 +242,26 @@ TEST(outer_counts_a_bad_range_and_flies_on_as_without_it) {
   }
 }
 
-TEST(outer_takes_an_age_that_is_not_a_number_for_none) {
-  flight_param_t p;
-  vehicle_t v;
-  const outer_t start = in_flight(&p, &v);
-  outer_t f, twin;
-  memcpy(&f, &start, sizeof f);
-  memcpy(&twin, &start, sizeof twin);
-  outer_in_t in = sense(&v, (v3_t){0, 0, 0.94f});
-  in.range_new = true;
-  const outer_out_t want = step_and_learn(&twin, &p, &in);
-  in.range_age_s = NAN;
-  const outer_out_t out = step_and_learn(&f, &p, &in);
-  CHECK(same_out(&out, &want));
-  CHECK(same_state(&f, &twin));
+TEST(outer_counts_a_sample_whose_age_is_none_and_flies_on_without_it) {
+  static const float age_s[] = {NAN, INFINITY, -INFINITY, -0.01f};
+  for (unsigned i = 0; i < sizeof age_s / sizeof *age_s; i++) {
+    ROW("age %g s", (double)age_s[i]);
+    flight_param_t p;
+    vehicle_t v;
+    const outer_t start = in_flight(&p, &v);
+    outer_t f, twin;
+    memcpy(&f, &start, sizeof f);
+    memcpy(&twin, &start, sizeof twin);
+    outer_in_t in = sense(&v, (v3_t){0, 0, 0.94f});
+    in.range_new = false;
+    const outer_out_t want = step_and_learn(&twin, &p, &in);
+    in.range_new = true;
+    in.range_m = 0.1f;
+    in.range_age_s = age_s[i];
+    const outer_out_t out = step_and_learn(&f, &p, &in);
+    CHECK(same_out(&out, &want));
+    CHECK(f.faults[ST_BAD_RANGE] == twin.faults[ST_BAD_RANGE] + 1);
+  }
 }
 
 TEST(outer_outputs_stay_in_their_limits_whatever_comes) {

@@ -133,3 +133,19 @@ TEST(two_effects_add_their_excess) {
   CHECK_NEAR(world_thrust_ratio(&w), 1.0 + 0.44 * exp(-80.0 * 0.04) + 0.44 * exp(-80.0 * 0.06), 1e-12);
   world_close(&w);
 }
+
+TEST(vehicle_between_a_floor_and_a_ceiling_that_touch_comes_to_an_end) {
+  static const double ceiling_m[] = {0.0, 1e-8, 1e-7, 2e-7};
+  for (unsigned i = 0; i < sizeof ceiling_m / sizeof *ceiling_m; i++) {
+    for (int k = 0; k < 2; k++) {
+      ROW("%g m, kind %d", ceiling_m[i], k);
+      const model_t m = model_with("ceiling", ceiling_m[i]);
+      world_t w;
+      if (!CHECK_OK(world_open(&w, &m, kinds[k], 0.002, 0.0, WEIGHT_N))) continue;
+      // A machine that switches without end would hang here.
+      for (int tick = 0; tick < 100; tick++) world_tick(&w, tick % 20 < 10 ? 0.0 : 0.6, 0.0, 0.01);
+      CHECK_NEAR(w.y[VERTICAL_Z_M], 0.0, 1e-6);
+      world_close(&w);
+    }
+  }
+}

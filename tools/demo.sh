@@ -10,7 +10,7 @@ mkdir -p $out
 fly() {
   name=$1 label=$2
   shift 2
-  printf '\r  flying %-40s' "$label" >&2
+  [ ! -t 2 ] || printf '\r  flying %-40s' "$label" >&2
   out/fly appendix-a --log "$out/$name.csv" "$@" >"$out/$name.txt"
   awk -v label="$label" '
     function mm(x) { return x < 0.005 ? "0" : sprintf("%.2f", x) }
@@ -18,8 +18,6 @@ fly() {
     "$out/$name.txt" >>$out/table.txt
 }
 
-exec 3>&2
-[ -t 2 ] || exec 2>/dev/null
 printf '  %-34s %12s %8s %10s %9s\n' 'step from 43 to 48 cm, ceiling 50' 'overshoot mm' 't90 s' 'gap mm' 'contacts' >$out/table.txt
 for cutoff in 0 8; do
   [ $cutoff = 0 ] && signals='not filtered' || signals='8 Hz filter'
@@ -31,8 +29,7 @@ for cutoff in 0 8; do
   fly a10_$cutoff "fitted RBF, $signals" "$@" --controller indi-rbf
   fly learned_$cutoff "learned RBF, $signals" "$@" --controller indi-learned
 done
-printf '\r  %-48s\r' '' >&2
-exec 2>&3
+[ ! -t 2 ] || printf '\r  %-48s\r' '' >&2
 echo "Appendix A of the thesis, flown by the flight code"
 cat $out/table.txt
 

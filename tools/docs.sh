@@ -17,10 +17,7 @@ part() {
 
 text() { echo '```'; cat; echo '```'; }
 
-out/fly --params | awk '
-  BEGIN { print "| parameter | unit | default | range | what it does |"; print "|---|---|---|---|---|" }
-  NR > 1 { line = $0; sub(/^([^ ]+ +){5}/, "", line)
-           printf "| `%s` | %s | %s | %s to %s | %s |\n", $1, $2 == "-" ? "" : $2, $3, $4, $5, line }' | part params
+out/fly --params=markdown | part params
 tools/demo.sh "$data" | sed -E '/^pictures/,$d; s#/[^ ]*/##' | sed '$d' | text | part demo
 out/bench | text | part bench
 for gains in '1 5' '2 8'; do

@@ -22,7 +22,7 @@ typedef struct {
   model_t vehicle;
   int seeds;
   const char *log, *json;
-  bool list, params, help;
+  bool list, params, markdown, help;
 } order_t;
 
 static const char USAGE[] =
@@ -123,7 +123,10 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'l': o->log = text; return ST_OK;
   case 'j': o->json = text; return ST_OK;
   case 'L': o->list = true; return ST_OK;
-  case 'P': o->params = true; return ST_OK;
+  case 'P':
+    o->params = true;
+    o->markdown = text && strcmp(text, "markdown") == 0;
+    return ST_OK;
   case 'h': o->help = true; return ST_OK;
   }
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
@@ -136,7 +139,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
       {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
       {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'},
       {"log", 1, 0, 'l'},        {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"params", 0, 0, 'P'},
+      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'},
       {"help", 0, 0, 'h'},       {0},
   };
   *o = (order_t){.seeds = 1, .request = {.seed = 1}};
@@ -201,7 +204,7 @@ int main(int argc, char **argv) {
   status_t status = take_order(&order, argc, argv, &why);
   if (status == ST_OK && order.help) fputs(USAGE, stdout);
   if (status == ST_OK && order.list) catalogue_all();
-  if (status == ST_OK && order.params) catalogue_params();
+  if (status == ST_OK && order.params) catalogue_params(order.markdown);
   if (status == ST_OK && order.scenario) status = fly(&order, &why);
   if (status == ST_OK) return 0;
   fprintf(stderr, "fly: %s\n", why.text);

@@ -6,13 +6,13 @@ fail() {
   echo "lint: $*" >&2
   bad=1
 }
-sources=$(git ls-files --cached --others --exclude-standard '*.c' '*.h' '*.cpp')
+sources=$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
 clang-format --dry-run -Werror $sources || fail "clang-format: make format mends it"
 
 cppcheck --quiet --error-exitcode=1 --std=c11 --enable=warning,portability --suppress=ctuuninitvar \
   '-DcJSON_ArrayForEach(item,array)=for(item=(array)->child;item;item=item->next)' \
-  -Iinclude -Isim $(git ls-files --cached --others --exclude-standard 'src/*.c' 'sim/*.c' 'tools/*.c') || fail "cppcheck"
+  -Iinclude -Isim $(find src sim tools -name '*.c') || fail "cppcheck"
 
 for header in $(echo "$sources" | grep '\.h$'); do
   gcc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -Iinclude -Isim -Itest -x c "$header" ||

@@ -13,7 +13,7 @@ elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
   as_root=sudo
 else
   echo "packages are missing; type this once, then run make again:" >&2
-  echo "  sudo apt-get install --no-install-recommends$missing" >&2
+  echo "  sudo sh -c 'apt-get update && apt-get install --no-install-recommends$missing'" >&2
   exit 1
 fi
 echo "installing$missing"

@@ -45,9 +45,13 @@ void ceiling_init(ceiling_t *s, float period_s);
 // The vehicle climbed by climb_m (finite) since the last call; the ceiling did not move.
 void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m);
 
+// The same over several periods (>= 1) of which nothing else is known: the vehicle climbed evenly.
+void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods);
+
 // A new range sample, vertical (tilt taken out), measured age_s ago (0..(CEILING_HISTORY - 1) periods; older
 // ones are treated as that old).
-// ST_BAD_RANGE: not finite, not positive or beyond CEILING_RANGE_MAX_M; the estimate is kept.
+// ST_BAD_RANGE: not finite, not positive or beyond CEILING_RANGE_MAX_M, or an age that is not finite or
+// negative; the estimate is kept.
 MUST_CHECK status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s);
 
 #endif

@@ -5,7 +5,8 @@
 //
 // One state per vehicle, all of it in outer_t. Nothing here stops, prints or allocates. An input
 // that is not finite, or beyond what any indoor flight shows, changes nothing: the last command is given
-// again and the fault is counted.
+// again and the fault is counted. A range sample that is no distance is counted and left out; the rest of
+// that tick flies on.
 #ifndef FLIGHT_OUTER_H
 #define FLIGHT_OUTER_H
 

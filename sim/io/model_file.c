@@ -133,7 +133,7 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
-  if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.0, 1e3, &m->ceiling_m, why));
+  if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.05, 1e3, &m->ceiling_m, why));
   if (toml_has(root, "thrust_map")) {
     toml_t map;
     TRY(toml_table(root, "thrust_map", &map, why));

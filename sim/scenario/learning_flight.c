@@ -21,10 +21,11 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
   setup.plan.noise = noise_levels[1];
   TRY(setup_apply(&setup, request, why));
+  TRY(scenario_check_ladder(&setup, why));
   setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
   flown_t flown;
   TRY(setup_fly(&setup, &flown, why));
-  tell_weights(&flown, result);
+  if (setup.flight.curve.mode == CURVE_LIVE) tell_weights(&flown, result);
   result_add_flight(result, &flown);
   return ST_OK;
 }

@@ -36,10 +36,10 @@ static status_t fly(const row_t *row, const request_t *request, double period_s,
   };
   params_default(&setup.flight);
   TRY(model_builtin("thesis_pid", &setup.model, why));
-  setup.model.ceiling_m = row->ceiling_m;
   request_t own = *request;
   own.kind = NULL; // the table says which
   TRY(setup_apply(&setup, &own, why));
+  setup.model.ceiling_m = row->ceiling_m; // whatever vehicle flies
   setup.plan.start_thrust_N = setup.model.mass_kg * PLANT_GRAVITY_MPS2;
   return setup_fly(&setup, flown, why);
 }
@@ -78,6 +78,7 @@ static status_t add_discrete(const request_t *request, double period_s, result_t
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   if (request->kind && *request->kind != FLY_PID && *request->kind != FLY_PID_FF)
     return error_set(why, "--controller: pid-tables flies pid and pid-ff");
+  if (request->n_set > 0) return error_set(why, "--set: the flight code does not fly in pid-tables");
   TRY(add_continuous(request, result, why));
   TRY(add_discrete(request, 0.018, result, why));
   return add_discrete(request, 0.0202, result, why);

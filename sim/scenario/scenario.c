@@ -4,10 +4,19 @@
 #include "io/model_file.h"
 #include <string.h>
 
+#define LADDER_FROM_M 0.25 // the ladder begins 20 cm below the ceiling
+
 const scenario_t *scenario_find(const char *name) {
   for (int i = 0; i < scenario_count; i++)
     if (strcmp(scenario_table[i]->name, name) == 0) return scenario_table[i];
   return NULL;
+}
+
+status_t scenario_check_ladder(const setup_t *setup, why_t *why) {
+  const double ceiling_m = setup->model.ceiling_m;
+  if (ceiling_m >= LADDER_FROM_M && ceiling_m <= 100.0) return ST_OK;
+  return error_set(why, "--vehicle: ceiling_m is %g m; this scenario needs %g to 100 m", ceiling_m,
+                   LADDER_FROM_M);
 }
 
 status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
@@ -16,8 +25,8 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
       .period_s = 0.01,
       .learn_from = {{1.0f}},
       .plan = {.way = {{0.0, 0.40}, {10.0, 0.43}, {20.0, 0.48}}, .n_way = 3, .end_s = 40.0},
-      // Section 4.2's gains for 0.45 m with feed-forward, scaled to the mass.
-      .pid = {.p = 0.032, .d = 0.128, .n_per_s = 100.0, .limit_N = 0.64, .ratio_max = 1.6},
+      // Table 4.2's gains for 0.40 m, scaled to the mass.
+      .pid = {.p = 2.24, .i = 0.32, .d = 0.512, .n_per_s = 100.0, .limit_N = 0.64, .ratio_max = 1.6},
   };
   params_default(&setup->flight);
   setup->flight.pos.thrust_max_N = 0.6f;
