@@ -26,7 +26,7 @@ TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
-PROGRAMS   = fly learn bench
+PROGRAMS   = fly learn effectiveness bench
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -98,18 +98,18 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
 
-test: $(B)/bin/tests out/fly out/learn  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
 check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
-	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn out/sanitize/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/sanitize/bin out/sanitize/bin/tests "$(W)"
 
 clang: setup-lint  ## everything again, and the tests, with clang
-	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
 bench: out/bench  ## how fast it is, as ratios to real time

@@ -13,6 +13,9 @@ typedef struct {
 // At rest at `value`. cutoff_Hz: > 0 and < rate_Hz / 2.
 void lowpass_init(lowpass_t *s, double cutoff_Hz, double rate_Hz, double value);
 
+// The same with another damping: 2 zeta in place of sqrt(2), > 0; sections of filters of higher order.
+void lowpass_init_q(lowpass_t *s, double cutoff_Hz, double rate_Hz, double two_zeta, double value);
+
 // One sample in, one out.
 double lowpass_step(lowpass_t *s, double x);
 

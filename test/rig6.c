@@ -140,6 +140,11 @@ void rig6_step(rig6_t *r, const double motor_N[PILOT6_MOTORS]) {
   r->q_wb = dq_unit(to.q);
   memcpy(r->force_N, to.force, sizeof r->force_N);
   r->step++;
+  const double top_m = r->param.ceiling_m - RIG6_TOUCH_M; // NaN without a plate
+  if (r->pos_w_m.z > top_m) {
+    r->pos_w_m.z = top_m;
+    r->vel_w_mps.z = fmin(r->vel_w_mps.z, 0.0);
+  }
   if (!stands(r)) return;
   r->pos_w_m.z = 0.0;
   r->vel_w_mps = r->rate_b_radps = (d3_t){0.0, 0.0, 0.0};

@@ -8,6 +8,8 @@
 
 #include "pilot6.h"
 
+#define RIG6_TOUCH_M 0.005 // so near to the ceiling nothing goes up
+
 typedef struct {
   double mass_kg;
   d3_t inertia_kgm2;

@@ -72,6 +72,15 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
       {"fly appendix-a --vehicle /no/such.toml",
        "fly: /no/such.toml: cannot be opened: No such file or directory\n"},
       {"fly pid-tables --controller indi", "fly: --controller: pid-tables flies pid and pid-ff\n"},
+      {"effectiveness", "effectiveness: one log is needed; allowed: effectiveness LOG.csv\n"},
+      {"effectiveness a.csv b.csv", "effectiveness: one log is needed; allowed: effectiveness LOG.csv\n"},
+      {"effectiveness a.csv --lag 0", "effectiveness: --lag 0: allowed is a number from 0.001 to 0.5\n"},
+      {"effectiveness a.csv --poles 3", "effectiveness: --poles 3: allowed are 2, 4\n"},
+      {"effectiveness a.csv --wings",
+       "effectiveness: --wings: not an option, or without its value; allowed: --lag, --cutoff, --poles, "
+       "--thrust-min, --as-stock, --json, --help\n"},
+      {"effectiveness /no/such.csv",
+       "effectiveness: /no/such.csv: cannot be opened: No such file or directory\n"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);
@@ -111,7 +120,7 @@ TEST(fly_says_what_it_can_do) {
   } row[] = {
       {"fly --help", "--effect NAME"}, {"fly --list", "appendix-a"},   {"fly --list", "form=four-rotor"},
       {"fly --params", "indiPos.kp"},  {"fly --params", "ceil.w7"},    {"fly --params", "rls.lambda"},
-      {"fly appendix-a", "0.48"},      {"learn --help", "--hold-out"},
+      {"fly appendix-a", "0.48"},      {"learn --help", "--hold-out"}, {"effectiveness --help", "--as-stock"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);

@@ -55,7 +55,7 @@ TEST(stock_mixer_and_power_have_known_numbers) {
        4.2,
        {0.12818, 0.09155, 0.09155, 0.09155}},
       {"under 2 V all stop", {44065, 44065, 44065, 44065}, 1.9, {0, 0, 0, 0}},
-      {"voltage unknown", {44065, 44065, 44065, 44065}, NAN, {0, 0, 0, 0}},
+      {"voltage unknown", {44065, 44065, 44065, 44065}, (double)NAN, {0, 0, 0, 0}},
   };
   const stock_power_param_t legacy = stock_power_legacy();
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {

@@ -1,0 +1,226 @@
+// effectiveness.c - control effectiveness by least squares.
+#include "effectiveness.h"
+
+#include "io/csv.h"
+#include "lowpass.h"
+#include "lsq.h"
+#include <math.h>
+#include <string.h>
+
+#define TICK_MS (1e3 * EFFECTIVENESS_PERIOD_S)
+
+enum { TIME, RATE, COMMAND = 4, THRUST = 7, COLUMNS };
+
+static const char *const names[COLUMNS] = {
+    "tick",
+    "controller.r_roll",
+    "controller.r_pitch",
+    "controller.r_yaw",
+    "controller.cmd_roll",
+    "controller.cmd_pitch",
+    "controller.cmd_yaw",
+    "controller.cmd_thrust",
+};
+
+// A signal through both sections of the filter, and its last three values.
+typedef struct {
+  lowpass_t section[2];
+  double now, last, before;
+} signal_t;
+
+// Sums of products of d u, d u' and d w'; for normal equations, so that a log may have any length.
+typedef struct {
+  double uu, uv, vv, uy, vy, yy;
+} sums_t;
+
+typedef struct {
+  const effectiveness_job_t *job;
+  csv_file_t *file;
+  int column[COLUMNS];
+  double last[COLUMNS]; // row before
+  double lagged[3];     // motors
+  signal_t rate[3], motor[3];
+  long since_start; // ticks; < 0: no row yet
+  sums_t sums[3];
+  effectiveness_t *result;
+} pass_t;
+
+effectiveness_job_t effectiveness_default(void) {
+  return (effectiveness_job_t){.lag_s = 0.0625, .cutoff_Hz = 4.0, .poles = 4, .thrust_min = 10000.0};
+}
+
+effectiveness_job_t effectiveness_stock(void) {
+  return (effectiveness_job_t){.lag_s = 0.0617, .cutoff_Hz = 4.0, .poles = 4, .as_stock = true};
+}
+
+// --- signals ------------------------------------------------------------------------------------------
+
+static void signal_start(signal_t *s, const effectiveness_job_t *job, double value) {
+  const double rate_Hz = 1.0 / EFFECTIVENESS_PERIOD_S, pi = acos(-1.0);
+  const int sections = job->poles / 2;
+  for (int i = 0; i < sections; i++)
+    lowpass_init_q(&s->section[i], job->cutoff_Hz, rate_Hz, 2.0 * cos(pi * (2 * i + 1) / (4.0 * sections)),
+                   value);
+  s->now = s->last = s->before = value;
+}
+
+static void signal_step(signal_t *s, const effectiveness_job_t *job, double x) {
+  for (int i = 0; i < job->poles / 2; i++) x = lowpass_step(&s->section[i], x);
+  s->before = s->last;
+  s->last = s->now;
+  s->now = x;
+}
+
+static void start(pass_t *p, const double row[COLUMNS]) {
+  for (int i = 0; i < 3; i++) {
+    const bool rest = p->job->as_stock;
+    p->lagged[i] = rest ? 0.0 : row[COMMAND + i];
+    signal_start(&p->rate[i], p->job, rest ? 0.0 : row[RATE + i]);
+    signal_start(&p->motor[i], p->job, p->lagged[i]);
+  }
+  p->since_start = 0;
+  p->result->starts++;
+}
+
+static void sum(pass_t *p, int axis) {
+  const double h = EFFECTIVENESS_PERIOD_S;
+  const signal_t *w = &p->rate[axis], *u = &p->motor[axis];
+  const double y = (w->now - 2.0 * w->last + w->before) / (h * h);
+  const double v = (u->now - 2.0 * u->last + u->before) / (h * h);
+  const double du = p->job->as_stock ? (u->now - u->last) / h : (u->now - u->before) / (2.0 * h);
+  sums_t *const s = &p->sums[axis];
+  s->uu += du * du;
+  s->uv += du * v;
+  s->vv += v * v;
+  s->uy += du * y;
+  s->vy += v * y;
+  s->yy += y * y;
+}
+
+// One tick of 2 ms; `before` is the one before it.
+static void tick(pass_t *p, const double before[COLUMNS], const double row[COLUMNS]) {
+  const effectiveness_job_t *job = p->job;
+  const double gain = 1.0 - exp(-EFFECTIVENESS_PERIOD_S / job->lag_s);
+  const double *command = job->as_stock ? row : before;
+  for (int i = 0; i < 3; i++) {
+    p->lagged[i] += gain * (command[COMMAND + i] - p->lagged[i]);
+    signal_step(&p->rate[i], job, row[RATE + i]);
+    signal_step(&p->motor[i], job, p->lagged[i]);
+  }
+  p->since_start++;
+  const bool settled = (double)p->since_start * EFFECTIVENESS_PERIOD_S >= EFFECTIVENESS_SETTLE_S;
+  const bool flies = p->column[THRUST] < 0 || row[THRUST] >= job->thrust_min;
+  if (!job->as_stock && !(settled && flies)) return;
+  p->result->used++;
+  for (int i = 0; i < 3; i++) sum(p, i);
+}
+
+// --- the log ------------------------------------------------------------------------------------------
+
+static status_t find_columns(pass_t *p, why_t *why) {
+  for (int i = 0; i < COLUMNS; i++) p->column[i] = csv_find(p->file, names[i]);
+  if (p->column[TIME] < 0) p->column[TIME] = csv_find(p->file, "timestamp");
+  for (int i = 0; i < THRUST; i++)
+    if (p->column[i] < 0)
+      return csv_refuse(p->file, -1, why, "column %s: missing%s", names[i],
+                        i == TIME ? "; allowed: tick or timestamp, in ms" : "");
+  return ST_OK;
+}
+
+static status_t read_row(pass_t *p, double row[COLUMNS], why_t *why) {
+  for (int i = 0; i < COLUMNS; i++) {
+    row[i] = 0.0;
+    if (p->column[i] >= 0) TRY(csv_number(p->file, p->column[i], CSV_GAP_REFUSED, &row[i], why));
+  }
+  row[RATE + 2] = -row[RATE + 2]; // clockwise, as its command
+  p->result->rows++;
+  return ST_OK;
+}
+
+// Ticks since the row before: 1, or more in a gap.
+static status_t ticks_since(const pass_t *p, const double row[COLUMNS], long *n, why_t *why) {
+  const double passed_ms = row[TIME] - p->last[TIME];
+  *n = 1;
+  if (!(passed_ms > 0.0))
+    return csv_refuse(p->file, p->column[TIME], why, "%g after %g; allowed: rising", row[TIME],
+                      p->last[TIME]);
+  if (p->job->as_stock) return ST_OK;
+  if (passed_ms > 1e3 * EFFECTIVENESS_GAP_S) {
+    *n = 0;
+    return ST_OK;
+  }
+  *n = lround(passed_ms / TICK_MS);
+  if (fabs(passed_ms - TICK_MS * (double)*n) > 0.5)
+    return csv_refuse(p->file, p->column[TIME], why,
+                      "%g ms after the row before; allowed: multiples of %g ms", passed_ms, TICK_MS);
+  return ST_OK;
+}
+
+static void bridge(pass_t *p, const double row[COLUMNS], long n) {
+  double at[COLUMNS], before[COLUMNS];
+  memcpy(before, p->last, sizeof before);
+  for (long k = 1; k <= n; k++) {
+    for (int i = 0; i < COLUMNS; i++)
+      at[i] = k == n ? row[i] : p->last[i] + (row[i] - p->last[i]) * (double)k / (double)n;
+    tick(p, before, at);
+    memcpy(before, at, sizeof before);
+  }
+  if (n > 1) p->result->bridged += n - 1;
+}
+
+static status_t take_rows(pass_t *p, why_t *why) {
+  double row[COLUMNS];
+  for (bool more;;) {
+    TRY(csv_next(p->file, &more, why));
+    if (!more) return ST_OK;
+    TRY(read_row(p, row, why));
+    long n = 0;
+    if (p->since_start >= 0) TRY(ticks_since(p, row, &n, why));
+    if (n == 0) start(p, row);
+    if (n == 0 && p->job->as_stock) tick(p, row, row);
+    bridge(p, row, n);
+    memcpy(p->last, row, sizeof row);
+  }
+}
+
+// --- the fit ------------------------------------------------------------------------------------------
+
+static status_t solve(const pass_t *p, int axis, why_t *why) {
+  const sums_t *s = &p->sums[axis];
+  effectiveness_t *const r = p->result;
+  const int n = axis == 2 ? 2 : 1;
+  if (!(s->uu > 0.0))
+    return error_set(why,
+                     "%s: column %s: never moves while it counts (%ld ticks); allowed: a flight that turns",
+                     csv_path(p->file), names[COMMAND + axis], r->used);
+  // Both unknowns in rad/s2 of their own regressor's rms, so that the matrix is well scaled.
+  const double ku = sqrt(s->uu), kv = n == 2 ? sqrt(s->vv) : 1.0;
+  const double A[4] = {1.0, s->uv / (ku * kv), s->uv / (ku * kv), 1.0}, b[2] = {s->uy / ku, s->vy / kv};
+  double x[2] = {0.0, 0.0};
+  lsq_solve(n, n, A, b, x);
+  r->g1[axis] = x[0] / ku;
+  if (n == 2) r->g2 = x[1] / kv;
+  r->explained[axis] = (x[0] * b[0] + x[1] * b[1] * (n == 2)) / s->yy;
+  return ST_OK;
+}
+
+static status_t fit(pass_t *p, why_t *why) {
+  TRY(find_columns(p, why));
+  TRY(take_rows(p, why));
+  if (p->result->bridged > p->result->rows)
+    return error_set(why, "%s: %ld rows and %ld ticks missing between them; allowed: a log at 500 Hz",
+                     csv_path(p->file), p->result->rows, p->result->bridged);
+  for (int i = 0; i < 3; i++) TRY(solve(p, i, why));
+  return ST_OK;
+}
+
+status_t effectiveness_fit(const char *path, const effectiveness_job_t *job, effectiveness_t *result,
+                           why_t *why) {
+  effectiveness_t found = {.rows = 0};
+  pass_t p = {.job = job, .since_start = -1, .result = &found};
+  TRY(csv_open(&p.file, path, why));
+  const status_t status = fit(&p, why);
+  csv_close(p.file);
+  if (status == ST_OK) *result = found;
+  return status;
+}

@@ -1,0 +1,133 @@
+// effectiveness.c - control effectiveness of the inner loop from a 500 Hz log, beside the firmware's numbers.
+#include "effectiveness.h"
+
+#include "io/number.h"
+#include "result.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct {
+  effectiveness_job_t job;
+  const char *log, *json;
+  bool help;
+} order_t;
+
+static const char USAGE[] =
+    "usage: effectiveness LOG.csv [options]\n"
+    "  --lag S            first-order lag of the motors, seconds (0.0625)\n"
+    "  --cutoff HZ        of the low-pass that all signals pass (4)\n"
+    "  --poles N          of that low-pass: 2 or 4 (4)\n"
+    "  --thrust-min UNITS rows with less thrust do not count, where controller.cmd_thrust is logged (10000)\n"
+    "  --as-stock         as the firmware's own numbers were found: 61.7 ms, 4 Hz, 4 poles, every row "
+    "counts,\n"
+    "                     gaps are not seen; options after it change it\n"
+    "  --json FILE        writes the fit\n"
+    "  --help             this\n"
+    "\n"
+    "Columns: tick (ms, 500 Hz), controller.r_roll, r_pitch, r_yaw (rad/s), controller.cmd_roll, cmd_pitch,\n"
+    "cmd_yaw (16-bit units). Yaw is counted clockwise, as its command.\n";
+
+static status_t take_number(const char *option, const char *text, double min, double max, double *value,
+                            why_t *why) {
+  double x;
+  if (!number_parse(text, &x) || !(x >= min && x <= max))
+    return error_set(why, "%s %s: allowed is a number from %g to %g", option, text, min, max);
+  *value = x;
+  return ST_OK;
+}
+
+static status_t take_poles(int *poles, const char *text, why_t *why) {
+  double n;
+  if (!number_parse(text, &n) || (n != 2.0 && n != 4.0))
+    return error_set(why, "--poles %s: allowed are 2, 4", text);
+  *poles = (int)n;
+  return ST_OK;
+}
+
+static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+  switch (option) {
+  case 'l': return take_number("--lag", text, 0.001, 0.5, &o->job.lag_s, why);
+  case 'c': return take_number("--cutoff", text, 0.1, 100.0, &o->job.cutoff_Hz, why);
+  case 'p': return take_poles(&o->job.poles, text, why);
+  case 't': return take_number("--thrust-min", text, 0.0, 65535.0, &o->job.thrust_min, why);
+  case 's': o->job = effectiveness_stock(); return ST_OK;
+  case 'j': o->json = text; return ST_OK;
+  default: o->help = true; return ST_OK;
+  }
+}
+
+static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+  static const struct option options[] = {
+      {"lag", 1, 0, 'l'},      {"cutoff", 1, 0, 'c'}, {"poles", 1, 0, 'p'}, {"thrust-min", 1, 0, 't'},
+      {"as-stock", 0, 0, 's'}, {"json", 1, 0, 'j'},   {"help", 0, 0, 'h'},  {0},
+  };
+  *o = (order_t){.job = effectiveness_default()};
+  opterr = 0;
+  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
+    if (option == '?')
+      return error_set(why,
+                       "%s: not an option, or without its value; allowed: --lag, --cutoff, --poles, "
+                       "--thrust-min, --as-stock, --json, --help",
+                       argv[optind - 1]);
+    TRY(take_option(o, option, optarg, why));
+  }
+  if (o->help) return ST_OK;
+  if (argc - optind != 1) return error_set(why, "one log is needed; allowed: effectiveness LOG.csv");
+  o->log = argv[optind];
+  return ST_OK;
+}
+
+static status_t write_json(const order_t *o, const effectiveness_t *r, why_t *why) {
+  const double stock[3] = EFFECTIVENESS_STOCK_G1;
+  cJSON *const json = cJSON_CreateObject();
+  cJSON_AddStringToObject(json, "file", o->log);
+  cJSON_AddItemToObject(json, "g1", cJSON_CreateDoubleArray(r->g1, 3));
+  cJSON_AddNumberToObject(json, "g2", r->g2);
+  cJSON_AddItemToObject(json, "explained", cJSON_CreateDoubleArray(r->explained, 3));
+  cJSON_AddItemToObject(json, "stock_g1", cJSON_CreateDoubleArray(stock, 3));
+  cJSON_AddNumberToObject(json, "stock_g2", EFFECTIVENESS_STOCK_G2);
+  cJSON_AddNumberToObject(json, "lag_s", o->job.lag_s);
+  cJSON_AddNumberToObject(json, "cutoff_Hz", o->job.cutoff_Hz);
+  cJSON_AddNumberToObject(json, "rows", (double)r->rows);
+  cJSON_AddNumberToObject(json, "bridged", (double)r->bridged);
+  cJSON_AddNumberToObject(json, "starts", (double)r->starts);
+  cJSON_AddNumberToObject(json, "used", (double)r->used);
+  const status_t status = result_write(json, o->json, why);
+  cJSON_Delete(json);
+  return status;
+}
+
+static void print(const order_t *o, const effectiveness_t *r) {
+  static const char *const axis[3] = {"roll", "pitch", "yaw"};
+  const double stock[3] = EFFECTIVENESS_STOCK_G1;
+  printf("# %ld rows, %ld ticks bridged, %ld used; lag %g ms, %d poles at %g Hz; yaw clockwise\n", r->rows,
+         r->bridged, r->used, 1e3 * o->job.lag_s, o->job.poles, o->job.cutoff_Hz);
+  printf("%-10s %11s %11s %7s %10s\n", "", "fitted", "stock", "ratio", "explained");
+  for (int i = 0; i < 3; i++)
+    printf("G1 %-7s %11.5g %11.5g %7.3f %8.0f %%\n", axis[i], r->g1[i], stock[i], r->g1[i] / stock[i],
+           100.0 * r->explained[i]);
+  printf("G2 yaw     %11.5g %11.5g %7.3f\n", r->g2, EFFECTIVENESS_STOCK_G2, r->g2 / EFFECTIVENESS_STOCK_G2);
+  printf("# G1: rad/s2 per unit. G2: rad/s2 per unit/s; per unit and tick of 2 ms it is %.5g\n",
+         r->g2 / EFFECTIVENESS_PERIOD_S);
+}
+
+int main(int argc, char **argv) {
+  order_t order;
+  effectiveness_t result = {.rows = 0};
+  why_t why;
+  status_t status = take_order(&order, argc, argv, &why);
+  if (status == ST_OK && order.help) {
+    fputs(USAGE, stdout);
+    return 0;
+  }
+  if (status == ST_OK) status = effectiveness_fit(order.log, &order.job, &result, &why);
+  if (status == ST_OK && order.json) status = write_json(&order, &result, &why);
+  if (status != ST_OK) {
+    fprintf(stderr, "effectiveness: %s\n", why.text);
+    return 2;
+  }
+  print(&order, &result);
+  return 0;
+}
