@@ -27,18 +27,23 @@
 #define RANGE_FLOW_NEAREST_M 0.02 // nearer than this the flow grows no more
 
 // All zero: perfect but for rate, age, floor and reach.
+//
+// A cone: the sensor sees the nearest point of a level surface within that angle of its axis. The slant of
+// tilt a is then 1 / cos(max(a - cone, 0)) of the height instead of 1 / cos a.
 typedef struct {
-  double up_m;     // sd of an upward sample
-  double down_m;   // sd of a downward sample near the ground; grows as the firmware says, twice at 2.5 m
-  double flow;     // counts, sd of a flow sample, each axis
-  double rounding; // above 0.5: whole millimetres and counts, as the chips deliver
+  double up_m;   // sd of an upward sample
+  double down_m; // sd of a downward sample near the ground; grows as the firmware says, twice at 2.5 m
+  double up_cone_rad, down_cone_rad; // half the angle; 0: the axis alone
+  double flow;                       // counts, sd of a flow sample, each axis
+  double rounding;                   // above 0.5: whole millimetres and counts, as the chips deliver
 } range_param_t;
 
 #define RANGE_MEMORY 128 // ms; a power of two, more than the greatest age
 
 typedef struct {
-  unsigned tick; // of 1 ms
-  double up_m[RANGE_MEMORY], down_m[RANGE_MEMORY];
+  unsigned tick;                                   // of 1 ms
+  double up_m[RANGE_MEMORY], down_m[RANGE_MEMORY]; // along the axis
+  double upright[RANGE_MEMORY];                    // cosine of the tilt
   double up_mm;
   unsigned up_at;          // tick at which what is now reported was true
   double moved_x, moved_y; // counts not yet delivered
