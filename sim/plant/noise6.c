@@ -16,7 +16,8 @@ const noise6_t noise6_levels[] = {
              .gyro_rest_radps = 0.14 * DEG,
              .gyro_xy_radps = 1.0 * DEG,
              .gyro_z_radps = 0.5 * DEG},
-     .range = {.up_m = 0.003, .down_m = 0.0025, .down_cone_rad = 7.5 * DEG, .flow = 2.0, .rounding = 1.0}},
+     .range =
+         {.up_m = 0.003, .down_m = 0.0025, .down_cone_rad = 7.5 * DEG, .flow_counts = 2.0, .rounding = 1.0}},
 };
 const int noise6_count = (int)(sizeof noise6_levels / sizeof *noise6_levels);
 
@@ -43,7 +44,7 @@ const noise6_field_t noise6_fields[] = {
     {"up.cone", "rad", 0.0, 0.5, offsetof(noise6_t, range.up_cone_rad), "half the upward sensor's view"},
     {"down.cone", "rad", 0.0, 0.5, offsetof(noise6_t, range.down_cone_rad),
      "half the downward sensor's view"},
-    {"flow", "counts", 0.0, 100.0, offsetof(noise6_t, range.flow), "sd of the flow, each axis"},
+    {"flow", "counts", 0.0, 100.0, offsetof(noise6_t, range.flow_counts), "sd of the flow, each axis"},
     {"rounding", "", 0.0, 1.0, offsetof(noise6_t, range.rounding), "1: whole millimetres and counts"},
 };
 const int noise6_field_count = (int)(sizeof noise6_fields / sizeof *noise6_fields);

@@ -58,15 +58,15 @@ static void down(const range_t *s, const range_param_t *p, random_t *r, range_sa
 static double deliver(const range_param_t *p, random_t *r, double *moved) {
   const double counts = rounded(p, *moved);
   *moved -= counts;
-  return counts + rounded(p, noise(r, p->flow));
+  return counts + rounded(p, noise(r, p->flow_counts));
 }
 
 static void flow(range_t *s, const range_param_t *p, random_t *r, const truth_t *truth, range_sample_t *out) {
   const d3_t v = dq_to_body(truth->q_wb, truth->vel_w_mps), w = truth->rate_b_radps;
   const double inverse_per_m = 1.0 / fmax(truth->down_m, RANGE_FLOW_NEAREST_M);
   // The image moves when the camera moves over the ground and when it turns.
-  s->moved_x += 1e-3 * RANGE_FLOW_COUNTS_RAD * (v.x * inverse_per_m - w.y);
-  s->moved_y += 1e-3 * RANGE_FLOW_COUNTS_RAD * (v.y * inverse_per_m + w.x);
+  s->moved_x += 1e-3 * RANGE_COUNTS_PER_RAD * (v.x * inverse_per_m - w.y);
+  s->moved_y += 1e-3 * RANGE_COUNTS_PER_RAD * (v.y * inverse_per_m + w.x);
   out->flow_new = s->tick > 0 && s->tick % RANGE_FLOW_PERIOD_MS == 0;
   if (!out->flow_new) return;
   out->flow_x = deliver(p, r, &s->moved_x);
