@@ -80,6 +80,27 @@ TEST(range_up_sees_a_tilted_vehicles_slant) {
   CHECK(tallest > 0.205);
 }
 
+TEST(range_down_sees_the_nearest_ground_in_its_cone) {
+  static const struct {
+    double tilt_deg, cone_deg, want_m; // 0.5 m above level ground
+  } row[] = {{0.0, 7.5, 0.5}, {5.0, 7.5, 0.5}, {20.0, 7.5, 0.512142}, {20.0, 0.0, 0.532089}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g deg, cone %g deg", row[i].tilt_deg, row[i].cone_deg);
+    const double deg = 3.14159265358979 / 180.0, tilt = row[i].tilt_deg * deg;
+    range_t s;
+    range_init(&s);
+    random_t *random = random_open(1);
+    const range_param_t p = {.down_cone_rad = row[i].cone_deg * deg};
+    truth_t truth = at(1.0, 0.5 / cos(tilt));
+    truth.q_wb = (dq_t){cos(0.5 * tilt), 0.0, sin(0.5 * tilt), 0.0};
+    range_sample_t out = {0};
+    for (int ms = 0; ms <= RANGE_DOWN_PERIOD_MS; ms++) out = range_step(&s, &p, random, &truth);
+    CHECK(out.down_new);
+    CHECK_NEAR(out.down_m, row[i].want_m, 1e-5);
+    random_close(random);
+  }
+}
+
 typedef struct {
   double mean, sd;
   int n;

@@ -63,13 +63,10 @@ static void turn_matrix(d3_t h, double m[3][3]) {
 
 // A P A'. A has nothing below its diagonal blocks of 3 x 3.
 static void spread(ekf_t *e, double A[EKF_N][EKF_N]) {
-  double AP[EKF_N][EKF_N];
+  double AP[EKF_N][EKF_N] = {{0.0}};
   for (int i = 0; i < EKF_N; i++)
-    for (int j = 0; j < EKF_N; j++) {
-      double sum = 0.0;
-      for (int k = i / 3 * 3; k < EKF_N; k++) sum += A[i][k] * e->P[k][j];
-      AP[i][j] = sum;
-    }
+    for (int k = i / 3 * 3; k < EKF_N; k++)
+      for (int j = 0; j < EKF_N; j++) AP[i][j] += A[i][k] * e->P[k][j];
   for (int i = 0; i < EKF_N; i++)
     for (int j = i; j < EKF_N; j++) {
       double sum = 0.0;
@@ -166,12 +163,20 @@ void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
 
 // The variance of the attitude, and what it has to do with the rest, after the body was turned by v.
 static void turn_variance(ekf_t *e, d3_t v) {
-  double A[EKF_N][EKF_N] = {{0.0}}, turn[3][3];
+  double turn[3][3], with_rest[EKF_N][3];
   turn_matrix(d3_scale(0.5, v), turn);
-  for (int i = 0; i < EKF_N; i++) A[i][i] = 1.0;
+  for (int i = 0; i < EKF_N; i++)
+    for (int j = 0; j < 3; j++)
+      with_rest[i][j] =
+          e->P[i][ATT] * turn[j][0] + e->P[i][ATT + 1] * turn[j][1] + e->P[i][ATT + 2] * turn[j][2];
+  for (int i = 0; i < ATT; i++)
+    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = e->P[ATT + j][i] = with_rest[i][j];
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) A[ATT + i][ATT + j] = turn[i][j];
-  spread(e, A);
+    for (int j = i; j < 3; j++) {
+      const double p = turn[i][0] * with_rest[ATT][j] + turn[i][1] * with_rest[ATT + 1][j] +
+                       turn[i][2] * with_rest[ATT + 2][j];
+      e->P[ATT + i][ATT + j] = e->P[ATT + j][ATT + i] = bounded(p, i == j);
+    }
 }
 
 void ekf_core_finish(ekf_t *e) {

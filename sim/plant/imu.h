@@ -35,7 +35,7 @@ typedef struct {
 } imu_filter_t;
 
 typedef struct {
-  double x1, x2, y1, y2;
+  double next, after; // what earlier samples add to the next output and to the one after it
 } imu_memory_t;
 
 typedef struct {
@@ -52,7 +52,7 @@ typedef struct {
 // The first sample finds the filters settled on it.
 void imu_init(imu_t *s);
 
-// One period of 1 ms. Draws six numbers, or fewer where the noise is 0.
+// One period of 1 ms. r: a null pointer for no noise.
 imu_sample_t imu_step(imu_t *s, const imu_param_t *p, random_t *r, const truth_t *truth);
 
 #endif

@@ -8,7 +8,7 @@
 #define DEG    (3.14159265358979323846 / 180.0)
 
 const noise6_t noise6_levels[] = {
-    {.name = "quiet"},
+    {.name = "quiet", .range = {.down_cone_rad = 7.5 * DEG}},
     {.name = "real",
      .imu = {.acc_rest_mps2 = 0.0012 * G_MPS2,
              .acc_xy_mps2 = 0.012 * G_MPS2,
@@ -16,7 +16,8 @@ const noise6_t noise6_levels[] = {
              .gyro_rest_radps = 0.14 * DEG,
              .gyro_xy_radps = 1.0 * DEG,
              .gyro_z_radps = 0.5 * DEG},
-     .range = {.up_m = 0.003, .down_m = 0.0025, .flow = 2.0, .rounding = 1.0}},
+     .range =
+         {.up_m = 0.003, .down_m = 0.0025, .down_cone_rad = 7.5 * DEG, .flow_counts = 2.0, .rounding = 1.0}},
 };
 const int noise6_count = (int)(sizeof noise6_levels / sizeof *noise6_levels);
 
@@ -40,7 +41,10 @@ const noise6_field_t noise6_fields[] = {
     {"mount.z", "rad", -0.2, 0.2, offsetof(noise6_t, imu.mount_rad.z), "chip turned about z"},
     {"up", "m", 0.0, 1.0, offsetof(noise6_t, range.up_m), "sd of the upward range"},
     {"down", "m", 0.0, 1.0, offsetof(noise6_t, range.down_m), "sd of the downward range near the ground"},
-    {"flow", "counts", 0.0, 100.0, offsetof(noise6_t, range.flow), "sd of the flow, each axis"},
+    {"up.cone", "rad", 0.0, 0.5, offsetof(noise6_t, range.up_cone_rad), "half the upward sensor's view"},
+    {"down.cone", "rad", 0.0, 0.5, offsetof(noise6_t, range.down_cone_rad),
+     "half the downward sensor's view"},
+    {"flow", "counts", 0.0, 100.0, offsetof(noise6_t, range.flow_counts), "sd of the flow, each axis"},
     {"rounding", "", 0.0, 1.0, offsetof(noise6_t, range.rounding), "1: whole millimetres and counts"},
 };
 const int noise6_field_count = (int)(sizeof noise6_fields / sizeof *noise6_fields);

@@ -1,6 +1,7 @@
 // noise6.h - levels of noise of all sensors of the six-degree-of-freedom vehicle, by name.
 //
-//   quiet  perfect but for rate, filter, age, floor and reach
+//   quiet  perfect but for rate, filter, age, floor and reach; the downward sensor's view is the firmware's
+//          15 deg in both levels, upward the axis alone (unknown; to be set)
 //   real   at rest: spread of an 11 s recording. Motors on: spread of logged hovers above about 20 Hz (gyro),
 //          and firmware.md's 0.009 to 0.014 g (accelerometer); a part of that is true motion. Ranges: the
 //          firmware's own model, 3 mm upward (acceptance P3). Flow: the 2 counts that the firmware assumes.

@@ -15,6 +15,13 @@ void range_init(range_t *s) {
   *s = (range_t){0};
 }
 
+// What is seen at that tick, of a surface distance_m away along the axis.
+static double seen_m(const range_t *s, unsigned tick, double distance_m, double cone_rad) {
+  const double upright = s->upright[tick % RANGE_MEMORY];
+  if (!(cone_rad > 0.0 && upright > 0.0)) return distance_m;
+  return distance_m * upright / cos(fmax(acos(upright) - cone_rad, 0.0));
+}
+
 static void up(range_t *s, const range_param_t *p, random_t *r, range_sample_t *out) {
   out->up_new = s->tick > 0 && s->tick % RANGE_UP_PERIOD_MS == 0;
   if (out->up_new) {
@@ -22,7 +29,7 @@ static void up(range_t *s, const range_param_t *p, random_t *r, range_sample_t *
     // Drawn before anything is decided: what is above must not shift the other sensors' noise.
     const double error_m = noise(r, p->up_m);
     s->up_at = s->tick - (unsigned)fmin(age, RANGE_UP_AGE_MAX_MS);
-    const double true_m = s->up_m[s->up_at % RANGE_MEMORY];
+    const double true_m = seen_m(s, s->up_at, s->up_m[s->up_at % RANGE_MEMORY], p->up_cone_rad);
     s->up_mm = true_m <= RANGE_UP_MAX_M ? fmax(rounded(p, 1000.0 * (true_m + error_m)), RANGE_UP_FLOOR_MM)
                                         : RANGE_UP_NOTHING_MM;
   }
@@ -38,7 +45,8 @@ static double down_noise_growth(double range_m) {
 static void down(const range_t *s, const range_param_t *p, random_t *r, range_sample_t *out) {
   out->down_new = s->tick > 0 && s->tick % RANGE_DOWN_PERIOD_MS == 0;
   if (!out->down_new) return;
-  const double true_m = s->down_m[(s->tick - RANGE_DOWN_AGE_MS) % RANGE_MEMORY];
+  const unsigned at = s->tick - RANGE_DOWN_AGE_MS;
+  const double true_m = seen_m(s, at, s->down_m[at % RANGE_MEMORY], p->down_cone_rad);
   const double normal = noise(r, p->down_m > 0.0 ? 1.0 : 0.0);
   out->down_age_ms = RANGE_DOWN_AGE_MS;
   out->down_m = RANGE_DOWN_NOTHING_M;
@@ -50,15 +58,15 @@ static void down(const range_t *s, const range_param_t *p, random_t *r, range_sa
 static double deliver(const range_param_t *p, random_t *r, double *moved) {
   const double counts = rounded(p, *moved);
   *moved -= counts;
-  return counts + rounded(p, noise(r, p->flow));
+  return counts + rounded(p, noise(r, p->flow_counts));
 }
 
 static void flow(range_t *s, const range_param_t *p, random_t *r, const truth_t *truth, range_sample_t *out) {
   const d3_t v = dq_to_body(truth->q_wb, truth->vel_w_mps), w = truth->rate_b_radps;
   const double inverse_per_m = 1.0 / fmax(truth->down_m, RANGE_FLOW_NEAREST_M);
   // The image moves when the camera moves over the ground and when it turns.
-  s->moved_x += 1e-3 * RANGE_FLOW_COUNTS_RAD * (v.x * inverse_per_m - w.y);
-  s->moved_y += 1e-3 * RANGE_FLOW_COUNTS_RAD * (v.y * inverse_per_m + w.x);
+  s->moved_x += 1e-3 * RANGE_COUNTS_PER_RAD * (v.x * inverse_per_m - w.y);
+  s->moved_y += 1e-3 * RANGE_COUNTS_PER_RAD * (v.y * inverse_per_m + w.x);
   out->flow_new = s->tick > 0 && s->tick % RANGE_FLOW_PERIOD_MS == 0;
   if (!out->flow_new) return;
   out->flow_x = deliver(p, r, &s->moved_x);
@@ -70,6 +78,8 @@ range_sample_t range_step(range_t *s, const range_param_t *p, random_t *r, const
   range_sample_t out = {0};
   s->up_m[s->tick % RANGE_MEMORY] = truth->up_m;
   s->down_m[s->tick % RANGE_MEMORY] = truth->down_m;
+  const dq_t q = truth->q_wb;
+  s->upright[s->tick % RANGE_MEMORY] = fmin(1.0, 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
   up(s, p, r, &out);
   down(s, p, r, &out);
   flow(s, p, r, truth, &out);
