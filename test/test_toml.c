@@ -8,6 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#define ALL_EFFECTS                                                                                          \
+  "battery_sag, body_drag, ceiling, cg_offset, delay, ground, mass, motor_damage, motor_lag, rotor_drag, "   \
+  "sidewall, wind"
+
 #define VEHICLE                                                                                              \
   "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
   "= 0.6\n"
@@ -107,7 +111,7 @@ static const struct {
     {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
     {"unknown key", VEHICLE "mass = 1\n",
      "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
-     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, thrust_map, effect"},
+     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, thrust_map, body, rotors, battery, effect"},
     {"nan", "name = \"v\"\nmass_kg = nan\n", "v.toml:2: mass_kg: nan is out of range; allowed: 0.001 to 100"},
     {"key twice", VEHICLE "mass_kg = 1\n", "v.toml:7:"},
     {"limits",
@@ -120,7 +124,7 @@ static const struct {
     {"map without", VEHICLE "[thrust_map]\nkind = \"stand\"\n",
      "v.toml:7: c: missing; allowed: a list of numbers"},
     {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",
-     "v.toml:8: name: unknown effect `x`; allowed: ceiling, ground"},
+     "v.toml:8: name: unknown effect `x`; allowed: " ALL_EFFECTS},
     {"form", VEHICLE "[[effect]]\nname = \"ceiling\"\nform = \"x\"\n",
      "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, table, "
      "square-root"},
@@ -170,8 +174,8 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
   static const struct {
     const char *spec, *want;
   } row[] = {
-      {"", "unknown effect ``; allowed: ceiling, ground"},
-      {"wind:x=1", "unknown effect `wind`; allowed: ceiling, ground"},
+      {"", "unknown effect ``; allowed: " ALL_EFFECTS},
+      {"wing:x=1", "unknown effect `wing`; allowed: " ALL_EFFECTS},
       {"ceiling:", "effect ceiling: ``; allowed: key=value"},
       {"ceiling:Ca", "effect ceiling: `Ca`; allowed: key=value"},
       {"ceiling:Ca=", "effect ceiling: Ca: not a number: ``"},
