@@ -242,7 +242,7 @@ TEST(body_never_tunnels_whatever_speed_and_tilt_it_hits_with) {
           if (t > 20) fastest_mps = fmax(fastest_mps, d3_norm(d3_of(b.y + RIGID_VEL_MPS)));
         }
         CHECK(deepest_m > (fabs(speeds[s]) > 5.0 ? -0.02 : -0.006)); // an edge is softer than four feet
-        CHECK(fastest_mps < 1.2 * fabs(speeds[s]) + 4.0); // nothing is gained by hitting
+        CHECK(fastest_mps < 1.2 * fabs(speeds[s]) + 4.0);            // nothing is gained by hitting
         CHECK(!b.broken && b.on_floor && b.floor_contacts >= 1);
         CHECK(d3_norm(d3_of(b.y + RIGID_VEL_MPS)) < 0.02); // lies still, however it lies
         body_close(&b);
