@@ -21,12 +21,6 @@ static void derivative(void *self, const double *y, double *dydt) {
   body_derivative(b, b->surfaces, y, dydt);
 }
 
-static double margin(void *self, const double *y) {
-  (void)self;
-  (void)y;
-  return 1.0;
-}
-
 // --- opening --------------------------------------------------------------------------------------------
 
 static void collect_effects(body_t *b) {
@@ -92,8 +86,7 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;
   b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
-  const ode_t ode = {
-      .n = RIGID_N, .derivative = derivative, .margin = margin, .context = b, .step_s = step_s};
+  const ode_t ode = {.n = RIGID_N, .derivative = derivative, .context = b, .step_s = step_s};
   const status_t status = integrate_open(&b->integrate, kind, &ode);
   if (status != ST_OK) body_close(b);
   return status;

@@ -52,7 +52,7 @@ static double rk4_to(const ode_t *ode, double *y, double span_s, bool *event) {
   double next[ODE_MAX], passed_s = 0.0;
   for (int i = 0; i < steps && !*event; i++) {
     rk4_step(ode, y, h, next);
-    *event = !(ode->margin(ode->context, next) > 0.0);
+    *event = ode->margin && !(ode->margin(ode->context, next) > 0.0);
     passed_s += *event ? rk4_until_event(ode, y, h, next) : h;
     memcpy(y, next, (size_t)ode->n * sizeof *y);
   }
@@ -89,6 +89,21 @@ static bool erk_use_classic_table(void *erk, double step_s) {
   return good;
 }
 
+// A step that is fixed needs no error weights, but SUNDIALS computes them at every step: these cost nothing.
+static int erk_no_weights(N_Vector y, N_Vector weight, void *self) {
+  (void)y;
+  (void)self;
+  N_VConst(1.0, weight);
+  return 0;
+}
+
+static bool erk_tune(integrate_t *s) {
+  if (s->kind == INTEGRATE_SUNDIALS)
+    return erk_use_classic_table(s->erk, s->ode.step_s) &&
+           ERKStepWFtolerances(s->erk, erk_no_weights) == ARK_SUCCESS;
+  return ERKStepSetOrder(s->erk, 5) == ARK_SUCCESS && ERKStepSStolerances(s->erk, 1e-9, 1e-11) == ARK_SUCCESS;
+}
+
 static bool erk_open(integrate_t *s) {
   if (SUNContext_Create(NULL, &s->sun) != 0) return false;
   s->y = N_VNew_Serial(s->ode.n, s->sun);
@@ -96,11 +111,8 @@ static bool erk_open(integrate_t *s) {
   N_VConst(0.0, s->y);
   s->erk = ERKStepCreate(erk_derivative, 0.0, s->y, s->sun);
   if (!s->erk) return false;
-  const bool tuned = s->kind == INTEGRATE_SUNDIALS ? erk_use_classic_table(s->erk, s->ode.step_s)
-                                                   : ERKStepSetOrder(s->erk, 5) == ARK_SUCCESS;
-  return tuned && ERKStepSStolerances(s->erk, 1e-9, 1e-11) == ARK_SUCCESS &&
-         ERKStepSetUserData(s->erk, s) == ARK_SUCCESS &&
-         ERKStepRootInit(s->erk, 1, erk_margin) == ARK_SUCCESS &&
+  return erk_tune(s) && ERKStepSetUserData(s->erk, s) == ARK_SUCCESS &&
+         (!s->ode.margin || ERKStepRootInit(s->erk, 1, erk_margin) == ARK_SUCCESS) &&
          ERKStepSetMaxNumSteps(s->erk, 100000) == ARK_SUCCESS &&
          ERKStepSetErrHandlerFn(s->erk, NULL, NULL) == ARK_SUCCESS;
 }
@@ -137,7 +149,7 @@ status_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode
 }
 
 double integrate_to(integrate_t *s, double *y, double span_s, bool *event) {
-  *event = !(s->ode.margin(s->ode.context, y) > 0.0);
+  *event = s->ode.margin && !(s->ode.margin(s->ode.context, y) > 0.0);
   if (*event || !(span_s > 0.0)) return 0.0;
   return s->kind == INTEGRATE_RK4 ? rk4_to(&s->ode, y, span_s, event) : erk_to(s, y, span_s, event);
 }

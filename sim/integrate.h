@@ -17,7 +17,7 @@ typedef enum {
 typedef struct {
   int n; // states, 1..ODE_MAX
   void (*derivative)(void *context, const double *y, double *dydt);
-  // Above 0 as long as the derivative holds. The step ends where it comes to 0.
+  // Above 0 as long as the derivative holds. The step ends where it comes to 0. Null: always (and faster).
   double (*margin)(void *context, const double *y);
   void *context;
   double step_s; // > 0, of the fixed-step kinds

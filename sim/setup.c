@@ -23,14 +23,21 @@ static const curve_mode_t mode_of[FLY_COUNT] = {
     [FLY_INDI_LEARNED] = CURVE_FIXED, [FLY_INDI_LIVE] = CURVE_LIVE,
 };
 
-// The vehicle's numbers; the surroundings stay the scenario's where the file does not name any.
+static bool has_surface(const model_t *model) {
+  for (int i = 0; i < model->n_fx; i++)
+    if (model->fx[i].fx->surface) return true;
+  return false;
+}
+
+// The vehicle's numbers; the surroundings stay the scenario's where the file does not name any. Effects that
+// the vehicle brings along wherever it flies (drag) are no surroundings.
 static void take_vehicle(model_t *model, const model_t *vehicle) {
   const model_t scenario = *model;
   *model = *vehicle;
   if (!isfinite(vehicle->ceiling_m)) model->ceiling_m = scenario.ceiling_m;
-  if (vehicle->n_fx > 0) return;
-  model->n_fx = scenario.n_fx;
-  for (int i = 0; i < scenario.n_fx; i++) model->fx[i] = scenario.fx[i];
+  if (has_surface(vehicle)) return;
+  for (int i = 0; i < scenario.n_fx && model->n_fx < FX_MAX; i++)
+    if (scenario.fx[i].fx->surface) model->fx[model->n_fx++] = scenario.fx[i];
 }
 
 status_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,

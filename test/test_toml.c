@@ -8,6 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#define ALL_EFFECTS                                                                                          \
+  "battery_sag, body_drag, ceiling, cg_offset, delay, ground, mass, motor_damage, motor_lag, rotor_drag, "   \
+  "sidewall, wind"
+
 #define VEHICLE                                                                                              \
   "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
   "= 0.6\n"
@@ -107,7 +111,7 @@ static const struct {
     {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
     {"unknown key", VEHICLE "mass = 1\n",
      "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
-     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, thrust_map, effect"},
+     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, thrust_map, body, rotors, battery, effect"},
     {"nan", "name = \"v\"\nmass_kg = nan\n", "v.toml:2: mass_kg: nan is out of range; allowed: 0.001 to 100"},
     {"key twice", VEHICLE "mass_kg = 1\n", "v.toml:7:"},
     {"limits",
@@ -120,7 +124,7 @@ static const struct {
     {"map without", VEHICLE "[thrust_map]\nkind = \"stand\"\n",
      "v.toml:7: c: missing; allowed: a list of numbers"},
     {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",
-     "v.toml:8: name: unknown effect `x`; allowed: ceiling, ground"},
+     "v.toml:8: name: unknown effect `x`; allowed: " ALL_EFFECTS},
     {"form", VEHICLE "[[effect]]\nname = \"ceiling\"\nform = \"x\"\n",
      "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, table, "
      "square-root"},
@@ -170,8 +174,8 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
   static const struct {
     const char *spec, *want;
   } row[] = {
-      {"", "unknown effect ``; allowed: ceiling, ground"},
-      {"wind:x=1", "unknown effect `wind`; allowed: ceiling, ground"},
+      {"", "unknown effect ``; allowed: " ALL_EFFECTS},
+      {"wing:x=1", "unknown effect `wing`; allowed: " ALL_EFFECTS},
       {"ceiling:", "effect ceiling: ``; allowed: key=value"},
       {"ceiling:Ca", "effect ceiling: `Ca`; allowed: key=value"},
       {"ceiling:Ca=", "effect ceiling: Ca: not a number: ``"},
@@ -192,6 +196,56 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
     CHECK_STATUS(ST_BAD_INPUT, effect_parse(row[i].spec, &use, &why));
     CHECK_TEXT(why.text, row[i].want);
     CHECK_NEAR(use.p[0], 0.6, 0.0);
+  }
+}
+
+TEST(vehicle_file_gives_body_rotors_and_battery) {
+  const char *text =
+      VEHICLE "[body]\ninertia_kgm2 = [1e-5, 2e-5, 3e-5]\ntop_above_rotor_m = -0.004\n"
+              "[rotors]\nspin = [-1, 1, -1, 1]\ndelay_s = 0.004\n[battery]\n"
+              "capacity_Ah = 0.25\nresistance_ohm = 0.2\nidle_A = 0.1\na_ApN = 5\nb_ApN2 = 10\n"
+              "open_V = [3, 4.2]\n";
+  model_t m;
+  why_t why = {""};
+  CHECK_OK(model_read(scratch_file("v.toml", text, -1), &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_NEAR(m.frame.inertia_kgm2[1], 2e-5, 0.0);
+  CHECK_NEAR(m.frame.top_above_rotor_m, -0.004, 0.0);
+  CHECK_NEAR(m.frame.rotor_spin[0], -1.0, 0.0);
+  CHECK_NEAR(m.frame.motor_delay_s, 0.004, 0.0);
+  CHECK_NEAR(m.battery.capacity_As, 900.0, 1e-9);
+  CHECK(m.battery.n == 2);
+  // What is not said is a Crazyflie's, scaled: 20 mm against 23.55 mm, 30 g against 32.9 g.
+  CHECK_NEAR(m.frame.rotor_y_m[3], 0.03253 * 20.0 / 23.55, 1e-9);
+  CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
+  CHECK_NEAR(m.frame.inertia_kgm2[2], 29.8e-6 * 30.0 / 32.9 * 400.0 / (23.55 * 23.55), 1e-12);
+  CHECK(m.battery.capacity_As == 0.0);
+}
+
+TEST(vehicle_file_with_a_bad_body_is_refused) {
+  static const struct {
+    const char *text, *want;
+  } row[] = {
+      {"[body]\nlength = 1\n", "v.toml:8: length: unknown key; allowed: inertia_kgm2, cg_above_feet_m, "
+                               "rotor_above_feet_m, top_above_rotor_m, top_half_m, imu_m"},
+      {"[body]\ninertia_kgm2 = [1, 2]\n", "v.toml:8: inertia_kgm2: 2 numbers; allowed: 3"},
+      {"[body]\ninertia_kgm2 = [0, 1, 1]\n",
+       "v.toml:8: inertia_kgm2: 0 is out of range; allowed: 1e-09 to 1000"},
+      {"[rotors]\nspin = [1, 0, 1, 1]\n", "v.toml:8: spin: 0; allowed: 1 and -1"},
+      {"[rotors]\nkf_Ns2 = 0\n", "v.toml:8: kf_Ns2: 0 is out of range; allowed: 1e-12 to 1"},
+      {"[battery]\ncapacity_Ah = 1\nresistance_ohm = 1\nidle_A = 0\na_ApN = 0\nb_ApN2 = 0\nopen_V = [4, 3]\n",
+       "v.toml:13: open_V: 3; allowed: 0 to 100, not falling"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].text);
+    char text[600];
+    snprintf(text, sizeof text, "%s%s", VEHICLE, row[i].text);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    const char *path = scratch_file("v.toml", text, -1);
+    CHECK_STATUS(ST_BAD_INPUT, model_read(path, &m, &why));
+    CHECK_TEXT(strstr(why.text, "v.toml"), row[i].want);
+    CHECK_NEAR(m.mass_kg, 7.0, 0.0);
   }
 }
 

@@ -5,7 +5,8 @@
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  return 1.0 + p[0] * exp(-p[1] * distance_m / radius_m);
+  const double x = p[1] * distance_m / radius_m;
+  return x < 40.0 ? 1.0 + p[0] * exp(-x) : 1.0; // beyond, the sum is 1 to the last bit
 }
 
 const curve_t curve_exponential = {

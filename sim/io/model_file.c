@@ -129,7 +129,8 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
       "name",      "mass_kg",    "rotor_radius_m", "motor_tau_s", "thrust_min_N", "thrust_max_N",
-      "ceiling_m", "thrust_map", "body",           "rotors",      "battery",      "effect",       NULL};
+      "ceiling_m", "thrust_map", "body",           "rotors",      "battery",      "effect",
+      NULL};
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));

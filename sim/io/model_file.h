@@ -4,7 +4,8 @@
 //   ceiling_m = 0.5         left out: no ceiling
 //   [thrust_map]            left out: commands are newton
 //   kind = "stand"          or "volt_cubic" (plant/thrust_map.h); c = [...] five or four numbers
-//   [body] [rotors] [battery]   see io/frame_file.h; left out: a Crazyflie scaled to mass and radius, no battery
+//   [body] [rotors] [battery]   see io/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
+//   battery
 //   [[effect]]              any number of them
 //   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
 //                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
