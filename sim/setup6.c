@@ -21,7 +21,8 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   params_default(&setup->flight);
   setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
   setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
-  setup->flight.gap_min_m = 0.0f; // the thesis flies to 2 cm
+  setup->flight.gap_min_m = 0.0f;       // the thesis flies to 2 cm
+  setup->flight.bias.pole_radps = 0.0f; // and knows no bias
   return ST_OK;
 }
 

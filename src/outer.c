@@ -49,6 +49,7 @@ static status_t check_in(const outer_in_t *in) {
 // Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
 static void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   sync_start(&f->sync, signals);
+  bias_start(&f->bias, in->pos_w_m, in->vel_w_mps);
   f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
   f->missed = 0;
   f->started = true;
@@ -61,12 +62,12 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   f->height_last_m = in->pos_w_m.z;
   if (fabsf(by_height_m - by_velocity_m) <= JUMP_M * ticks) return by_height_m;
   count(f, ST_JUMP);
+  bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   return by_velocity_m;
 }
 
 static void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
-  f->missed = 0;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
   if (in->range_new) {
     // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
@@ -116,9 +117,10 @@ static pos_setpoint_t clipped(const outer_t *f, pos_setpoint_t sp) {
 static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
   const pos_indi_param_t *p = &f->param.pos;
   const pos_setpoint_t sp = clipped(f, in->setpoint);
-  const v3_t wanted = pos_indi_wanted_acc(p, &sp, in->pos_w_m, in->vel_w_mps);
+  const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
+  const v3_t wanted = pos_indi_wanted_acc(p, &sp, in->pos_w_m, vel);
   const v3_t error = v3_sub(wanted, x->acc_w_mps2);
-  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, in->vel_w_mps.z, at);
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, vel.z, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
@@ -134,8 +136,12 @@ outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in
 
   const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
   if (!f->started) start(f, in, &signals);
-  const sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
+  sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
   find_ceiling(f, in);
+  bias_step(&f->bias, &f->param.bias, x.acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
+            f->coef.period_s * (1.0f + (float)f->missed));
+  x.acc_w_mps2 = v3_sub(x.acc_w_mps2, f->bias.bias_mps2);
+  f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
   observe(f, &x);
   const pos_command_t command = fly(f, in, &x, at);

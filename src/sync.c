@@ -37,6 +37,7 @@ sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in) {
   const quat_t q_f = quat_unit((quat_t){lpf2_step(&s->att[0], f, q.w), lpf2_step(&s->att[1], f, q.x),
                                         lpf2_step(&s->att[2], f, q.y), lpf2_step(&s->att[3], f, q.z)});
   return (sync_out_t){
+      .acc_now_w_mps2 = acc,
       .acc_w_mps2 = {lpf2_step(&s->acc_w[0], f, acc.x), lpf2_step(&s->acc_w[1], f, acc.y),
                      lpf2_step(&s->acc_w[2], f, acc.z)},
       .q_wb = q_f,

@@ -499,7 +499,8 @@ TEST(outer_takes_over_without_a_bump) {
   for (unsigned i = 0; i < sizeof STEADY / sizeof *STEADY; i++)
     for (int yaw = 0; yaw < 3; yaw++) {
       ROW("%s, yaw %d", STEADY[i].what, yaw);
-      const flight_param_t p = defaults();
+      flight_param_t p = defaults();
+      p.bias.pole_radps = 0.0f; // velocity and acceleration are of an instant here, not of a flight
       outer_t f = fresh(&p);
       const double up[3] = {(double)STEADY[i].up.x, (double)STEADY[i].up.y, (double)STEADY[i].up.z};
       const float thrust_N = 1.02f * 0.032f * GRAVITY_MPS2;
@@ -656,6 +657,7 @@ TEST(outer_learns_the_thrust_along_its_axis_not_the_lift) {
   flight_param_t p = defaults();
   p.curve.mode = CURVE_LIVE;
   p.learn_after_s = 0.0f;
+  p.bias.pole_radps = 0.0f;
   p.curve.fixed = (rbf_weights_t){{1, 0, 0, 0, 0, 0, 0}};
   outer_t f = fresh(&p);
   const float thrust_N = 0.3f;

@@ -46,6 +46,7 @@ typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
   sync_t sync;
+  bias_t bias;
   ceiling_t ceiling;
   learn_t learn;
   float height_last_m;

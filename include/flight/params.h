@@ -7,6 +7,7 @@
 #define FLIGHT_PARAMS_H
 
 #include "flight/att_indi.h"
+#include "flight/bias.h"
 #include "flight/ceiling.h"
 #include "flight/curve.h"
 #include "flight/learn.h"
@@ -24,6 +25,7 @@ typedef struct {
   ceiling_param_t ceiling;
   curve_param_t curve;
   learn_param_t learn;
+  bias_param_t bias;
   float step_max_N;    // largest change of the wanted thrust in one outer period
   float learn_after_s; // learning starts this long after the rotors began to carry
   float up_offset_m;   // propeller plane above the upward range sensor
@@ -49,7 +51,13 @@ typedef struct {
   X(indiPos, tiltMax, PARAM_FLOAT, pos.tilt_max_rad, "rad", 0.35f, 0.02f, 0.8f, "largest tilt commanded")    \
   X(indiPos, accMax, PARAM_FLOAT, pos.acc_max_mps2, "m/s2", 20.0f, 0.5f, 100.0f,                             \
     "bound of the wanted acceleration")                                                                      \
-  X(indiPos, tStep, PARAM_FLOAT, step_max_N, "N", 0.2f, 0.01f, 40.0f, "largest change of the thrust in 10 ms")
+  X(indiPos, tStep, PARAM_FLOAT, step_max_N, "N", 0.2f, 0.01f, 40.0f,                                        \
+    "largest change of the thrust in 10 ms")                                                                 \
+  X(indiPos, biasPole, PARAM_FLOAT, bias.pole_radps, "rad/s", 1.0f, 0.0f, 10.0f,                             \
+    "speed at which the accelerometer's bias is found; 0 = not")                                             \
+  X(indiPos, biasMax, PARAM_FLOAT, bias.max_mps2, "m/s2", 0.5f, 0.0f, 5.0f, "largest bias believed")         \
+  X(indiPos, biasVel, PARAM_FLOAT, bias.vel_s, "s", 0.153f, 0.0f, 1.0f,                                      \
+    "velocity error of the estimator per accelerometer bias")
 
 #define PARAMS_INDIATT(X)                                                                                    \
   X(indiAtt, kp, PARAM_FLOAT, att.kp_per_s, "1/s", 5.0f, 0.5f, 40.0f, "roll, pitch: wanted rate per angle")  \

@@ -28,7 +28,8 @@ typedef struct {
 } sync_in_t;
 
 typedef struct {
-  v3_t acc_w_mps2; // without gravity
+  v3_t acc_now_w_mps2; // without gravity, as it came in: not filtered
+  v3_t acc_w_mps2;     // without gravity
   quat_t q_wb;
   v3_t up_w;      // direction of thrust
   float thrust_N; // of the motors in free air

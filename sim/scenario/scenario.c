@@ -32,6 +32,7 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
   setup->flight.pos.thrust_max_N = 0.6f;
   setup->flight.curve.clip = 0;
   setup->flight.gap_min_m = 0.0f;
+  setup->flight.bias.pole_radps = 0.0f; // the thesis knows none
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
   return model_builtin("thesis_1d", &setup->model, why);
 }
