@@ -20,26 +20,27 @@ void body_ratios(const body_t *b, double z_m, const axes_t *axes, double ratio[R
   }
 }
 
-static void effects_load(const body_t *b, const double *y, const axes_t *axes, load_t *load) {
+static void effects_load(const body_t *b, const double *y, const axes_t *axes, const double speed[ROTORS],
+                         load_t *load) {
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
-  for (int i = 0; i < ROTORS; i++)
-    motion.rotor_sum_radps += rigid_rotor_radps(&b->rigid, y[RIGID_THRUST_N + i]);
+  for (int i = 0; i < ROTORS; i++) motion.rotor_sum_radps += speed[i];
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
 }
 
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
   const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
-  double ratio[ROTORS];
+  double ratio[ROTORS], speed[ROTORS];
   load_t load = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   body_ratios(b, y[RIGID_POS_M + 2], &axes, ratio);
+  rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, speed);
   if (b->n_tick > 0) load.force_b_N = axes_to_body(&axes, b->plant.force_w_N);
-  if (b->n_load > 0) effects_load(b, y, &axes, &load);
+  if (b->n_load > 0) effects_load(b, y, &axes, speed, &load);
   if (surfaces) {
     const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &axes, 0.0);
     if (near) touch_load(&b->touch, near, y, &axes, &load);
   }
-  rigid_derivative(&b->rigid, y, &axes, ratio, &load, dydt);
+  rigid_derivative(&b->rigid, y, &axes, speed, ratio, &load, dydt);
 }
 
 // --- the model, as the effects leave it ------------------------------------------------------------------
@@ -75,6 +76,7 @@ void body_effects(body_t *b, double span_s) {
   }
   b->rigid.mass_kg = b->plant.mass_kg;
   b->rigid.motor_tau_s = b->plant.motor_tau_s;
+  rigid_tune(&b->rigid);
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
   if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
 }

@@ -44,7 +44,9 @@ typedef struct {
   double motor_tau_s;          // > 0
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
   double command_N[ROTORS];    // held
-  bool vertical_only;          // all but height, climb and thrust stand still
+  double per_mass, per_tau, per_root_kf; // set by rigid_tune
+  d3_t per_inertia;                      // set by rigid_tune
+  bool vertical_only;                    // all but height, climb and thrust stand still
 } rigid_t;
 
 // Force and moment about the centre of mass, body axes.
@@ -57,13 +59,17 @@ static inline void load_add(load_t *load, d3_t force_b_N, d3_t moment_b_Nm) {
   load->moment_b_Nm = d3_add(load->moment_b_Nm, moment_b_Nm);
 }
 
-// axes: axes_of(the state's quaternion). ratio: per rotor. load: everything that is not a rotor's thrust,
-// torque or inertia.
-void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
-                      const double ratio[ROTORS], const load_t *load, double dydt[RIGID_N]);
+// Computes what the derivative needs of mass, inertia, lag and kf; whenever one of them has changed.
+void rigid_tune(rigid_t *r);
 
-// Speed of a rotor at thrust_N in free air, rad/s, >= ROTOR_SLOWEST_RADPS.
-double rigid_rotor_radps(const rigid_t *r, double thrust_N);
+// Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.
+void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]);
+
+// speed: of the rotors, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: per rotor. load:
+// everything that is not a rotor's thrust, torque or inertia.
+void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
+                      const double speed[ROTORS], const double ratio[ROTORS], const load_t *load,
+                      double dydt[RIGID_N]);
 
 // Brings the quaternion back to unit length.
 void rigid_normalise(double y[RIGID_N]);
