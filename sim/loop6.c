@@ -7,6 +7,7 @@
 
 #define RECORD_EVERY 5     // ticks of 2 ms
 #define UP_AGE_S     0.07  // what the app takes an upward sample's age to be
+#define FAR_M        0.3   // of the centre of mass
 #define IDLE_N       0.002 // of one motor: below, it stands
 
 typedef struct {
@@ -22,7 +23,7 @@ typedef struct {
   pilot6_in_t in;
   ekf_out_t estimate;
   double motor_N[PILOT6_MOTORS];
-  double tilt_rad, gap_min_m, range_m;
+  double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
   bool range_new;
   int way;
 } flight6_t;
@@ -33,7 +34,9 @@ static double wall_s(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+// Of the rotors; far from the ceiling that of the first is near enough.
 static double nearest_gap_m(const body_t *b) {
+  if (b->model->ceiling_m - b->y[RIGID_POS_M + 2] > FAR_M) return body_ceiling_gap_m(b, 0);
   double gap_m = body_ceiling_gap_m(b, 0);
   for (int i = 1; i < ROTORS; i++) gap_m = fmin(gap_m, body_ceiling_gap_m(b, i));
   return gap_m;
@@ -147,11 +150,13 @@ static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s
       .thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN},
   };
   if (f->ask) f->ask(f->pilot->state, &s.thoughts);
-  sample6_t s6 = {
-      .tilt_rad = f->tilt_rad, .pos_w_m = truth->pos_w_m, .vbat_V = b->vbat_V, .estimate = f->estimate};
+  sample6_t s6 = {.tilt_rad = acos(fmax(-1.0, fmin(1.0, f->up_min))),
+                  .pos_w_m = truth->pos_w_m,
+                  .vbat_V = b->vbat_V,
+                  .estimate = f->estimate};
   for (int i = 0; i < PILOT6_MOTORS; i++) s6.motor_N[i] = f->motor_N[i];
   f->gap_min_m = HUGE_VAL;
-  f->tilt_rad = 0.0;
+  f->up_min = 1.0;
   f->range_new = false;
   TRY(record_add(record, &s));
   return keep6(more, record->n, &s6);
@@ -166,7 +171,7 @@ static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *
     pilot_ms(f, &truth);
     pilot_ms(f, &truth);
     const axes_t axes = axes_of(truth.q_wb);
-    f->tilt_rad = fmax(f->tilt_rad, acos(fmin(1.0, axes_up_b(&axes).z)));
+    f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
     if (tick % RECORD_EVERY == 0) TRY(keep(f, record, more, t_s, &truth));
     body_tick(&f->body, f->motor_N, LOOP6_TICK_S);
     for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
@@ -205,6 +210,7 @@ status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pi
   if (!f) return error_set(why, "out of memory");
   *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
   f->gap_min_m = HUGE_VAL;
+  f->up_min = 1.0;
   f->range_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = wall_s();
