@@ -126,7 +126,10 @@ static bool copy(FILE *from, FILE *to) {
 }
 
 static void close_file(FILE **file, bool *good) {
-  if (*file) *good = !ferror(*file) & (fclose(*file) == 0) & *good;
+  if (!*file) return;
+  const bool written = !ferror(*file);
+  const bool closed = fclose(*file) == 0;
+  *good = *good && written && closed;
   *file = NULL;
 }
 
