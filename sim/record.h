@@ -5,6 +5,7 @@
 #include "controller.h"
 #include "error.h"
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef struct {
   double t_s, setpoint_m;
@@ -22,12 +23,12 @@ typedef struct {
   int n, room;
 } record_t;
 
-// ST_BAD_INPUT: no memory; nothing was added.
+// ST_FAILED: no memory; nothing was added.
 MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);
 
 void record_free(record_t *r);
 
-// Writes the flight as a CSV with Crazyflie log names (README, logs); the file is complete or not there.
-MUST_CHECK status_t record_write(const record_t *r, const char *path, why_t *why);
+// Writes the flight as a CSV with Crazyflie log names (README, logs). The stream knows if that failed.
+void record_write(const record_t *r, FILE *file);
 
 #endif

@@ -3,11 +3,13 @@
 #include "io/effect_spec.h"
 #include "io/model_file.h"
 #include "io/number.h"
+#include "io/whole_file.h"
 #include "param_spec.h"
 #include "scenario/scenario.h"
 
 #include <getopt.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +23,7 @@ typedef struct {
   fly_kind_t kind;
   model_t vehicle;
   int seeds;
-  const char *log, *json;
+  const char *log, *json, *vehicle_path;
   bool list, params, markdown, help;
 } order_t;
 
@@ -96,10 +98,11 @@ static status_t take_effect(order_t *o, const char *spec, why_t *why) {
   return ST_OK;
 }
 
-static status_t take_count(const char *option, const char *text, double max, double *value, why_t *why) {
-  if (number_parse(text, value) && *value >= 0.0 && *value <= max && *value == (double)(long)*value)
+static status_t take_count(const char *option, const char *text, double min, double max, double *value,
+                           why_t *why) {
+  if (number_parse(text, value) && *value >= min && *value <= max && *value == (double)(long)*value)
     return ST_OK;
-  return error_set(why, "%s %s: allowed is a whole number from 0 to %.0f", option, text, max);
+  return error_set(why, "%s %s: allowed is a whole number from %.0f to %.0f", option, text, min, max);
 }
 
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
@@ -110,14 +113,16 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'e': return take_effect(o, text, why);
   case 'n': return take_noise(o, text, why);
   case 'i': return take_integrator(o, text, why);
-  case 'v': o->request.vehicle = &o->vehicle; return model_read(text, &o->vehicle, why);
+  case 'v':
+    o->vehicle_path = text;
+    o->request.vehicle = &o->vehicle;
+    return model_read(text, &o->vehicle, why);
   case 'd':
-    TRY(take_count("--seed", text, 1e9, &count, why));
+    TRY(take_count("--seed", text, 0.0, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
     return ST_OK;
   case 'm':
-    TRY(take_count("--seeds", text, SEEDS_MAX, &count, why));
-    if (count < 1.0) return error_set(why, "--seeds 0: allowed is a whole number from 1 to %d", SEEDS_MAX);
+    TRY(take_count("--seeds", text, 1.0, SEEDS_MAX, &count, why));
     o->seeds = (int)count;
     return ST_OK;
   case 'l': o->log = text; return ST_OK;
@@ -160,9 +165,24 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 
 // --- flying -------------------------------------------------------------------------------------------
 
-static status_t write_files(const order_t *o, const cJSON *json, const record_t *record, why_t *why) {
-  if (o->log) TRY(record_write(record, o->log, why));
-  return o->json ? result_write(json, o->json, why) : ST_OK;
+// What is written beside what is printed.
+typedef struct {
+  whole_files_t files;
+  FILE *log, *json;
+} output_t;
+
+static status_t open_output(const order_t *o, output_t *out, why_t *why) {
+  TRY(whole_files_open(&out->files, o->log, &out->log, why));
+  TRY(whole_files_open(&out->files, o->json, &out->json, why));
+  return whole_files_spare(&out->files, o->vehicle_path, why);
+}
+
+static status_t tell(const cJSON *json, const record_t *record, output_t *out, why_t *why) {
+  if (!json) return error_failed(why, "out of memory");
+  if (out->log) record_write(record, out->log);
+  if (out->json) TRY(result_write(json, out->json, why));
+  result_print(json, stdout);
+  return ST_OK;
 }
 
 static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) {
@@ -172,10 +192,10 @@ static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) 
   return o->scenario->run(&request, result, why);
 }
 
-static status_t fly(const order_t *o, why_t *why) {
+static status_t fly(const order_t *o, output_t *out, why_t *why) {
   cJSON **json = calloc((size_t)o->seeds, sizeof(cJSON *));
   record_t record = {0};
-  status_t status = json ? ST_OK : error_set(why, "out of memory");
+  status_t status = json ? ST_OK : error_failed(why, "out of memory");
   for (int i = 0; i < o->seeds && status == ST_OK; i++) {
     result_t result;
     status = fly_once(o, i, &result, why);
@@ -188,8 +208,7 @@ static status_t fly(const order_t *o, why_t *why) {
   if (status == ST_OK) {
     cJSON *all =
         o->seeds > 1 ? result_over_seeds(json, o->seeds, o->request.seed) : cJSON_Duplicate(json[0], true);
-    status = write_files(o, all, &record, why);
-    if (status == ST_OK) result_print(all, stdout);
+    status = tell(all, &record, out, why);
     cJSON_Delete(all);
   }
   for (int i = 0; json && i < o->seeds; i++) cJSON_Delete(json[i]);
@@ -198,15 +217,23 @@ static status_t fly(const order_t *o, why_t *why) {
   return status;
 }
 
+static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
+  TRY(take_order(order, argc, argv, why));
+  if (order->help) fputs(USAGE, stdout);
+  if (order->list) catalogue_all();
+  if (order->params) catalogue_params(order->markdown);
+  if (!order->scenario) return ST_OK;
+  TRY(open_output(order, out, why));
+  return fly(order, out, why);
+}
+
 int main(int argc, char **argv) {
   static order_t order;
+  static output_t out;
   why_t why;
-  status_t status = take_order(&order, argc, argv, &why);
-  if (status == ST_OK && order.help) fputs(USAGE, stdout);
-  if (status == ST_OK && order.list) catalogue_all();
-  if (status == ST_OK && order.params) catalogue_params(order.markdown);
-  if (status == ST_OK && order.scenario) status = fly(&order, &why);
-  if (status == ST_OK) return 0;
-  fprintf(stderr, "fly: %s\n", why.text);
-  return 2;
+  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  status_t status = run(&order, &out, argc, argv, &why);
+  if (status == ST_OK) status = whole_files_commit(&out.files, &why);
+  whole_files_drop(&out.files);
+  return error_exit("fly", status, &why);
 }
