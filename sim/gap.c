@@ -8,15 +8,20 @@
 #include <stdlib.h>
 
 #define DEG           (3.14159265358979323846 / 180.0)
+#define WEIGHT_SD     0.03
+#define HOVER_S       15.0
+#define STEPS         20
 #define MARKER_DOWN_M 0.003 // below the propellers
 #define MOVED_M       0.002 // the motors shake it off its place
 
-// What was measured of the real flights, in the order of labels.csv.
+// What was measured of the real flights, in the order of labels.csv. The take-off's trajectory lasts height
+// over speed, 0.8 m at 0.1 and at 0.5 m/s: tracks of flights with the same delay of 15 s are that much longer
+// or shorter.
 static const struct {
-  double tilt_deg[2], hover_s;
+  double tilt_deg[2], take_off_s;
 } real[GAP_FLIGHTS] = {
-    {{3.1, 1.0}, 21.5},  {{-5.8, -1.3}, 21.5}, {{-3.2, -4.3}, 21.5}, {{-6.5, -3.4}, 15.5},
-    {{3.4, -1.1}, 15.5}, {{2.0, 2.1}, 15.5},   {{-1.1, 3.3}, 15.5},  {{2.9, 5.8}, 15.5},
+    {{3.1, 1.0}, 8.0},  {{-5.8, -1.3}, 8.0}, {{-3.2, -4.3}, 8.0}, {{-6.5, -3.4}, 1.6},
+    {{3.4, -1.1}, 1.6}, {{2.0, 2.1}, 1.6},   {{-1.1, 3.3}, 1.6},  {{2.9, 5.8}, 1.6},
 };
 
 static status_t add_effect(model_t *model, const char *spec, why_t *why) {
@@ -25,9 +30,35 @@ static status_t add_effect(model_t *model, const char *spec, why_t *why) {
   return model_add_fx(model, &use, why);
 }
 
+// Flights of one day and set point over the open deck lift off 9 % (5 flights), 14 % (6) and 7 % (4) apart;
+// without this the simulated ones 2 to 3 %. What a gram does to the lift-off makes that a spread of 3 % of
+// weight over thrust (battery, propellers).
+static status_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
+  random_t *const random = random_open(seed);
+  if (!random) return error_set(why, "out of memory");
+  model->mass_kg *= 1.0 + WEIGHT_SD * random_normal(random);
+  random_close(random);
+  return ST_OK;
+}
+
+// To rise_m above rest as the high-level commander goes there, in steps, and a hover.
+static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
+  plan_t *const plan = &setup->plan.plan;
+  setup->plan.take_off_s = GAP_TAKEOFF_S;
+  plan->n_way = STEPS + 1;
+  for (int i = 0; i <= STEPS; i++) {
+    const double s = (double)i / STEPS;
+    const double share = s * s * s * s * (35.0 + s * (-84.0 + s * (70.0 - s * 20.0)));
+    plan->way[i] = (waypoint_t){i == 0 ? 0.0 : GAP_TAKEOFF_S + s * take_off_s,
+                                setup->model.frame.rotor_above_feet_m + share * rise_m};
+  }
+  plan->end_s = GAP_TAKEOFF_S + take_off_s + HOVER_S;
+}
+
 status_t gap_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
   TRY(setup6_thesis(setup, FLY_STOCK_PID, why));
   TRY(model_builtin("cf21_air_garage", &setup->model, why));
+  TRY(spread_weight(&setup->model, seed, why));
   const double rest_m = setup->model.frame.rotor_above_feet_m;
   setup->model.ceiling_m = ceiling ? rest_m + GAP_REST_M : HUGE_VAL;
   if (ceiling) TRY(add_effect(&setup->model, GAP_CEILING, why));
@@ -40,11 +71,8 @@ status_t gap_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, 
   const unsigned k = (unsigned)(seed % GAP_FLIGHTS);
   setup->plan.mocap = (mocap_param_t){.period_s = 0.018, .late_s = 0.010, .sd_m = 5e-5, .sd_rad = 1e-3};
   for (int i = 0; i < 2; i++) setup->plan.mocap.tilt_rad[i] = DEG * real[k].tilt_deg[i];
-  setup->plan.take_off_s = GAP_TAKEOFF_S;
   setup->plan.plan.seed = seed;
-  setup->plan.plan.n_way = 1;
-  setup->plan.plan.way[0] = (waypoint_t){0.0, rest_m + rise_m};
-  setup->plan.plan.end_s = GAP_TAKEOFF_S + real[k].hover_s;
+  plan_way(setup, rise_m, real[k].take_off_s);
   return ST_OK;
 }
 

@@ -12,15 +12,15 @@
 
 #define GAP_REST_M    0.0404 // propellers to ceiling at rest: 0.8349 - 0.7915 - 0.003 m
 #define GAP_RISE_M    0.010  // commanded above rest
-#define GAP_NEAR_M    0.014 // nearer than this is captured; all flights are nearer than 10 mm or farther than 18
-#define GAP_CAUGHT_S  0.3   // ... for so long in all
-#define GAP_LIFT_M    0.006 // higher than rest by this much: it flies
-#define GAP_FLIGHTS   8     // real ones in this gap
+#define GAP_NEAR_M    0.012  // nearer is captured; all real flights are nearer than 10 mm or farther than 18
+#define GAP_CAUGHT_S  0.3    // ... for so long in all
+#define GAP_LIFT_M    0.006  // higher than rest by this much: it flies
+#define GAP_FLIGHTS   8      // real ones in this gap
 #define GAP_TAKEOFF_S 0.5
 // Ground effect as measured with a Crazyflie 2.1 over clearance h of its feet, 1 + 0.174 exp(-0.820 h/R)
 // (flights of aerorobotics/neural-swarm 48b1851), here over the propellers' height h + 30 mm.
 #define GAP_GROUND  "ground:form=exponential,Ca=0.496,Cb=0.82"
-#define GAP_CEILING "ceiling:form=exponential,Ca=0.44,Cb=1.8"
+#define GAP_CEILING "ceiling:form=square-root"
 
 // A flight of the scenario, complete but for what the user asks for. ceiling: else the open deck.
 MUST_CHECK status_t gap_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
