@@ -19,6 +19,7 @@ typedef struct {
   random_t *random;
   imu_t imu;
   range_t range;
+  mocap_t mocap;
   ekf_t ekf;
   pilot6_in_t in;
   ekf_out_t estimate;
@@ -63,11 +64,22 @@ static truth_t truth_of(const flight6_t *f) {
   };
 }
 
+// Motion capture in place of the downward sensors; its zero is the height at rest.
+static void see_by_mocap(flight6_t *f, const truth_t *truth, ekf_in_t *in) {
+  truth_t seen = *truth;
+  seen.pos_w_m.z -= body_rest_z_m(f->model);
+  const mocap_sample_t pose = mocap_step(&f->mocap, &f->plan->mocap, f->random, &seen);
+  in->range_new = in->flow_new = false;
+  in->pose_new = pose.is_new;
+  in->pose_m = pose.pos_w_m;
+  in->pose_q = pose.q_wb;
+}
+
 // One millisecond of sensors and estimator, from what is true at the start of the tick.
 static void sense(flight6_t *f, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
   const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
-  const ekf_in_t in = {
+  ekf_in_t in = {
       .acc_b_mps2 = imu.acc_b_mps2,
       .gyro_b_radps = imu.gyro_b_radps,
       .motors = truth->motors,
@@ -78,6 +90,7 @@ static void sense(flight6_t *f, const truth_t *truth) {
       .flow_y = range.flow_y,
       .flow_span_s = range.flow_span_s,
   };
+  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth, &in);
   f->estimate = ekf_step(&f->ekf, &in);
   f->in.gyro_b_radps = imu.gyro_b_radps;
   f->in.acc_b_mps2 = imu.acc_b_mps2;
@@ -193,6 +206,7 @@ static status_t open(flight6_t *f) {
   if (!f->random) return ST_BAD_INPUT;
   imu_init(&f->imu);
   range_init(&f->range);
+  f->mocap = (mocap_t){0};
   ekf_init(&f->ekf, &ekf_firmware, 0.0);
   f->in.q_wb = (dq_t){1.0, 0.0, 0.0, 0.0};
   if (f->plan->in_flight) {

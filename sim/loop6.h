@@ -10,6 +10,7 @@
 #include "estimator/ekf.h"
 #include "loop.h"
 #include "pilot6.h"
+#include "plant/mocap.h"
 #include "plant/noise6.h"
 
 #define LOOP6_TICK_S 0.002
@@ -27,7 +28,8 @@ typedef struct {
 typedef struct {
   plan_t plan; // its noise is not used
   noise6_t noise;
-  body_start_t start; // used if in_flight; else at rest on the floor, motors off
+  mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
+  body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
   double take_off_s; // the height is controlled from here on; before, the motors are off
 } plan6_t;

@@ -15,7 +15,7 @@ const char *const fly_name[FLY_COUNT] = {
     [FLY_PID_FF] = "pid-ff",
     [FLY_STOCK_PID] = "stock-pid",
     [FLY_STOCK_INDI] = "stock-indi",
-    [FLY_AIR_GARAGE] = NULL,
+    [FLY_AIR_GARAGE] = "air-garage",
 };
 
 static const curve_mode_t mode_of[FLY_COUNT] = {

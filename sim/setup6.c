@@ -3,7 +3,6 @@
 
 #include "io/model_file.h"
 #include "peers/stock_indi.h"
-#include "peers/stock_pid.h"
 #include "pilot_flight.h"
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +11,11 @@
 #define DECAY_PER_M 80.0 // of the thesis's ceiling effect
 
 status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
-  *setup = (setup6_t){.kind = kind, .learn_from = {{1.0f}}, .plan = {.noise = *noise6_find("real")}};
+  *setup = (setup6_t){.kind = kind,
+                      .learn_from = {{1.0f}},
+                      .stock_pid = stock_pid_default(),
+                      .air_garage = air_garage_2024(),
+                      .plan = {.noise = *noise6_find("real")}};
   TRY(model_builtin("cf21_legacy", &setup->model, why));
   setup->model.ceiling_m = CEILING_M;
   fx_use_t ceiling = fx_use(fx_find("ceiling"));
@@ -77,13 +80,24 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   return status;
 }
 
+static pilot6_t air_garage_knowing(const setup6_t *setup, air_garage_t *s) {
+  air_garage_param_t p = setup->air_garage;
+  const double rotor_m = setup->model.frame.rotor_above_feet_m;
+  if (!isfinite(p.ceiling_m)) {
+    p.ceiling_m = setup->model.ceiling_m - rotor_m;
+    p.ground_m = -rotor_m;
+  }
+  return air_garage_pilot(s, &p);
+}
+
 static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
   stock_pid_t pid;
   stock_indi_t indi;
-  const stock_pid_param_t pid_param = stock_pid_default();
+  air_garage_t garage;
   const stock_indi_param_t indi_param = stock_indi_default();
-  const pilot6_t pilot =
-      setup->kind == FLY_STOCK_PID ? stock_pid_pilot(&pid, &pid_param) : stock_indi_pilot(&indi, &indi_param);
+  const pilot6_t pilot = setup->kind == FLY_STOCK_PID    ? stock_pid_pilot(&pid, &setup->stock_pid)
+                         : setup->kind == FLY_STOCK_INDI ? stock_indi_pilot(&indi, &indi_param)
+                                                         : air_garage_knowing(setup, &garage);
   return loop6_fly(&setup->plan, &setup->model, &pilot, NULL, &flown->flown.record, &flown->more,
                    &flown->flown.outcome, why);
 }
@@ -114,7 +128,7 @@ status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
   setup6_t ready = *setup;
   *flown = (flown6_t){.flown = {.plan = setup->plan.plan}};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
-  const bool stock = setup->kind == FLY_STOCK_PID || setup->kind == FLY_STOCK_INDI;
+  const bool stock = setup->kind >= FLY_STOCK_PID;
   TRY(stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why));
   flown->flown.n_segment = segments_of(&flown->flown.record, &flown->flown.plan, flown->flown.segment);
   measure_tilt(flown);

@@ -3,6 +3,7 @@
 #define SIM_SETUP6_H
 
 #include "loop6.h"
+#include "peers/air_garage.h"
 #include "setup.h"
 
 typedef struct {
@@ -10,6 +11,8 @@ typedef struct {
   flight_param_t flight;
   rbf_weights_t learn_from; // what a learning flight starts with
   fly_kind_t kind;
+  stock_pid_param_t stock_pid;
+  air_garage_param_t air_garage; // infinitely far ceiling: it gets the model's, counted from the propellers
   plan6_t plan;
 } setup6_t;
 

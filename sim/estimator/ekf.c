@@ -20,6 +20,8 @@ const ekf_param_t ekf_firmware = {.acc_xy_mps2 = 0.5,
                                   .gyro_radps = 0.1,
                                   .range_m = 0.0025,
                                   .flow_counts = 2.0,
+                                  .pose_m = 0.01,
+                                  .pose_rad = 0.06,
                                   .reversion = 0.001};
 
 static void expect(ekf_t *e, double xy_m, double z_m) {
@@ -80,6 +82,7 @@ static void take(ekf_t *e, const ekf_in_t *in) {
   if (in->range_new && in->range_m < RANGE_MAX_M) ekf_core_range(e, in->range_m);
   if (in->flow_new && fabs(in->flow_x) < COUNTS_MAX && fabs(in->flow_y) < COUNTS_MAX)
     ekf_core_flow(e, in->flow_x, in->flow_y, in->flow_span_s);
+  if (in->pose_new) ekf_core_pose(e, in->pose_m, in->pose_q);
 }
 
 static bool within_bounds(const ekf_t *e) {

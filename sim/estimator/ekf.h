@@ -14,6 +14,7 @@
 //                numbers at 100 Hz would make
 //   range        h = z / cos(max(tilt - 7.5 deg, 0)); ignored from 5 m and beyond 84 deg of tilt
 //   flow         h = (v_x R33 / max(z, 0.1 m) - w_y) dt, y alike; w: newest sample; ignored from 100 counts
+//   pose         of motion capture: h = p, and h = d for the attitude it says against the present one
 //   then         d is shifted into the attitude if one part of it exceeds 1e-4 rad, else DROPPED: without
 //                noise a quarter of a degree of tilt, and 2 cm/s with it, can stay for ever
 //   always       variances stay in 1e-6 to 100; beyond 100 m or 10 m/s the filter starts anew
@@ -43,9 +44,10 @@
 typedef struct {
   double acc_xy_mps2, acc_z_mps2; // acceleration that it does not know of
   double gyro_radps;
-  double range_m;     // downward range near the ground; grows with the distance
-  double flow_counts; // each axis
-  double reversion;   // share of the attitude that goes back to level, each prediction on the ground
+  double range_m;          // downward range near the ground; grows with the distance
+  double flow_counts;      // each axis
+  double pose_m, pose_rad; // motion capture: each axis
+  double reversion;        // share of the attitude that goes back to level, each prediction on the ground
 } ekf_param_t;
 
 extern const ekf_param_t ekf_firmware;
@@ -58,6 +60,9 @@ typedef struct {
   double range_m; // downward
   bool flow_new;
   double flow_x, flow_y, flow_span_s; // counts over span; forward flight: x > 0
+  bool pose_new;                      // from motion capture
+  d3_t pose_m;
+  dq_t pose_q;
 } ekf_in_t;
 
 // As the firmware's state_t, but in SI.

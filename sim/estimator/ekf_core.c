@@ -161,6 +161,17 @@ void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   correct(e, POS + 2, -k * up * vy / (z * z), VEL + 1, k * up / z, PIXELS_PER_COUNT * counts_y - seen_y, sd);
 }
 
+void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb) {
+  ekf_core_noise(e);
+  const double pos[3] = {pos_w_m.x, pos_w_m.y, pos_w_m.z};
+  for (int i = 0; i < 3; i++) correct(e, POS + i, 1.0, POS, 0.0, pos[i] - e->s[POS + i], e->param.pose_m);
+  const dq_t back = {e->q.w, -e->q.x, -e->q.y, -e->q.z};
+  const dq_t apart = dq_mul(back, q_wb);
+  const double twice = apart.w < 0.0 ? -2.0 : 2.0; // of q and -q the near one
+  const double turn[3] = {twice * apart.x, twice * apart.y, twice * apart.z};
+  for (int i = 0; i < 3; i++) correct(e, ATT + i, 1.0, ATT, 0.0, turn[i] - e->s[ATT + i], e->param.pose_rad);
+}
+
 // The variance of the attitude, and what it has to do with the rest, after the body was turned by v.
 static void turn_variance(ekf_t *e, d3_t v) {
   double turn[3][3], with_rest[EKF_N][3];

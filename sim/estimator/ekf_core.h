@@ -17,6 +17,7 @@ void ekf_core_predict(ekf_t *e, d3_t acc_b_mps2, d3_t gyro_b_radps, double dt_s,
 
 void ekf_core_range(ekf_t *e, double range_m);
 void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s);
+void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb);
 
 // Shifts the attitude error into the attitude, if anything has changed.
 void ekf_core_finish(ekf_t *e);

@@ -45,6 +45,13 @@ stock_power_param_t stock_power_60g(void) {
   return p;
 }
 
+stock_power_param_t stock_power_2022(void) {
+  stock_power_param_t p = stock_power_60g();
+  p.volt_quadratic[0] = 0.088;
+  p.volt_quadratic[1] = -0.0006239;
+  return p;
+}
+
 void stock_power_start(stock_power_t *s) {
   s->supply_V = SUPPLY_START_V;
 }
@@ -71,6 +78,11 @@ static double cubic_V(const double c[4], double thrust_N) {
   return cbrt(n + root) + cbrt(n - root) - shift;
 }
 
+static double wanted_V(const stock_power_param_t *p, double thrust_N) {
+  const double *q = p->volt_quadratic, grams = PILOT6_MOTORS * 1e3 / G_MPS2 * thrust_N;
+  return q[0] > 0.0 ? grams * (q[0] + q[1] * grams) : cubic_V(p->volt_cubic, thrust_N);
+}
+
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
                       double vbat_V, double motor_N[PILOT6_MOTORS]) {
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
@@ -79,7 +91,7 @@ void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const doub
     const double wanted_N = p->thrust_max_N / STOCK_FULL * fmin(fmax(trunc(unit[i]), -UNIT_MAX), UNIT_MAX);
     // Written so that a voltage that is not a number stops the motors.
     const bool on = wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V;
-    duty[i] = on ? trunc(STOCK_FULL * cubic_V(p->volt_cubic, wanted_N) / s->supply_V) : 0.0;
+    duty[i] = on ? trunc(STOCK_FULL * wanted_V(p, wanted_N) / s->supply_V) : 0.0;
     most = fmax(most, duty[i]);
   }
   for (int i = 0; i < PILOT6_MOTORS; i++) {

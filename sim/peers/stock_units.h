@@ -38,6 +38,7 @@ typedef struct {
 typedef struct {
   double volt_cubic[4];              // N of one motor = c0 + c1 v + c2 v^2 + c3 v^3, v the volts on the motor
   double thrust_min_N, thrust_max_N; // of one motor: less is off; what 65535 stands for
+  double volt_quadratic[2]; // volts = q0 g + q1 g^2, g: grams of four such motors; 0: the cubic's root
 } stock_power_param_t;
 
 // Legacy propellers of the Crazyflie 2.1, and the present ones (2.1+).
@@ -46,6 +47,9 @@ stock_power_param_t stock_power_plus(void);
 // Legacy propellers until mid-2025: full scale was 60 g of all motors, the same gains thus 1.23 times as
 // strong.
 stock_power_param_t stock_power_60g(void);
+// The same with the volts that the firmware had then: 0.088 g - 0.0006239 g^2. On the cubic's propellers
+// 36000 units, 33.0 g, then give 26.3 g: the PID's base thrust does not lift the vehicle, its integrals must.
+stock_power_param_t stock_power_2022(void);
 
 typedef struct {
   double supply_V; // battery voltage, low-passed at 1 kHz with a gain of 0.01

@@ -1,0 +1,155 @@
+// test_gap.c - the hover in a gap of 71 mm, simulated and real.
+#include "gap.h"
+#include "io/effect_spec.h"
+#include "test.h"
+
+#include <stdio.h>
+
+#define SEEDS 40
+
+// The table flights of labels.csv. fit: the top's clearance was fitted on this one; else it is judged on it.
+static const struct {
+  const char *file;
+  double ceiling_m;
+  bool captured, fit;
+} flight[] = {
+    {"20240823_17_35_08.csv", 0.8206, true, true},   {"20240823_17_42_02.csv", 0.8206, true, false},
+    {"20240823_17_47_21.csv", 0.8349, false, false}, {"20240823_19_27_09.csv", 0.8349, false, false},
+    {"20240823_19_37_29.csv", 0.8349, true, true},   {"20240827_18_45_10.csv", 0.8349, false, false},
+    {"20240827_18_46_05.csv", 0.8349, true, false},  {"20240827_18_48_44.csv", 0.8349, false, false},
+    {"20240827_18_49_29.csv", 0.8349, true, true},   {"20240827_18_56_52.csv", 0.8349, false, false},
+};
+#define FLIGHTS (sizeof flight / sizeof *flight)
+
+static bool judge_real(const char *file, double ceiling_m, gap_seen_t *seen) {
+  char path[512];
+  why_t why;
+  snprintf(path, sizeof path, "%s/ceiling_gap/%s", test_data_dir(), file);
+  return CHECK_OK(gap_judge_file(path, ceiling_m, seen, &why));
+}
+
+TEST(gap_real_flights_are_judged_as_labelled) {
+  if (!test_data_dir()) SKIP("no measured data");
+  for (unsigned i = 0; i < FLIGHTS; i++) {
+    gap_seen_t seen;
+    ROW("%s", flight[i].file);
+    if (!judge_real(flight[i].file, flight[i].ceiling_m, &seen)) continue;
+    CHECK(seen.captured == flight[i].captured);
+    if (seen.captured)
+      CHECK(seen.median_m > 0.0066 && seen.median_m < 0.0095);
+    else
+      CHECK(seen.closest_m >= 0.018);
+  }
+}
+
+typedef struct {
+  int captured;
+  double median_low_m, median_high_m, free_low_m; // of captured, of free flights
+  double lift_s[2];                               // means: take-offs of 8 and of 1.6 s
+  double peak_m;                                  // mean, above rest
+} many_t;
+
+static double peak_m(const flown6_t *flown) {
+  double high_m = 0.0;
+  for (int i = 0; i < flown->flown.record.n; i++)
+    high_m = fmax(high_m, flown->flown.record.sample[i].z_m - flown->flown.record.sample[0].z_m);
+  return high_m;
+}
+
+static void count(many_t *m, const gap_seen_t *seen) {
+  m->captured += seen->captured;
+  if (seen->captured) {
+    m->median_low_m = fmin(m->median_low_m, seen->median_m);
+    m->median_high_m = fmax(m->median_high_m, seen->median_m);
+  } else
+    m->free_low_m = fmin(m->free_low_m, seen->closest_m);
+}
+
+static many_t fly(fly_kind_t kind, const char *effect, bool ceiling, double rise_m) {
+  many_t m = {.median_low_m = HUGE_VAL, .free_low_m = HUGE_VAL};
+  int n[2] = {0, 0};
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    why_t why;
+    setup6_t setup;
+    fx_use_t use;
+    flown6_t flown;
+    gap_seen_t seen;
+    CHECK_OK(gap_setup(&setup, seed, ceiling, rise_m, &why));
+    if (effect) CHECK_OK(effect_parse(effect, &use, &why));
+    if (effect) CHECK_OK(model_add_fx(&setup.model, &use, &why));
+    setup.kind = kind;
+    setup.plan.plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
+    if (!CHECK_OK(setup6_fly(&setup, &flown, &why))) continue;
+    CHECK(flown.flown.outcome.finite);
+    CHECK_OK(gap_judge_flight(&flown, &setup.model, &seen, &why));
+    count(&m, &seen);
+    const int late = seed % GAP_FLIGHTS > 2;
+    m.lift_s[late] += seen.lift_s;
+    n[late]++;
+    m.peak_m += peak_m(&flown) / SEEDS;
+    flown6_free(&flown);
+  }
+  for (int i = 0; i < 2; i++) m.lift_s[i] /= n[i];
+  return m;
+}
+
+TEST(gap_captures_the_stock_pid_in_some_flights) {
+  const many_t m = fly(FLY_STOCK_PID, NULL, true, GAP_RISE_M);
+  CHECK(m.captured >= 4 && m.captured <= 36);
+  CHECK(m.median_low_m > 0.0066 - 0.003 && m.median_high_m < 0.0095 + 0.003);
+  CHECK(m.free_low_m > 0.018 - 0.005);
+  // 13.8 and 9.9 s in reality, from 3 and 5 flights that spread by 1 s.
+  CHECK_NEAR(m.lift_s[0], 13.8, 1.5);
+  CHECK_NEAR(m.lift_s[1], 9.9, 1.5);
+}
+
+TEST(gap_captures_every_flight_where_the_ceiling_pulls_from_afar) {
+  // 25 mm away, where the real flights still decide, these have 6 % where the square root has 3 %.
+  static const char *const effect[] = {"ceiling:form=exponential,Ca=0.44,Cb=1.8",
+                                       "ceiling:form=cheeseman-bennett"};
+  for (int i = 0; i < 2; i++) {
+    ROW("%s", effect[i]);
+    CHECK(fly(FLY_STOCK_PID, effect[i], true, GAP_RISE_M).captured > 36);
+  }
+}
+
+TEST(gap_captures_the_air_garage_less_often) {
+  const many_t m = fly(FLY_AIR_GARAGE, NULL, true, GAP_RISE_M);
+  CHECK(m.captured < fly(FLY_STOCK_PID, NULL, true, GAP_RISE_M).captured);
+}
+
+TEST(gap_top_is_as_high_as_on_flights_that_were_not_fitted) {
+  if (!test_data_dir()) SKIP("no measured data");
+  why_t why;
+  setup6_t setup;
+  if (!CHECK_OK(gap_setup(&setup, 1, true, GAP_RISE_M, &why))) return;
+  for (unsigned i = 0; i < FLIGHTS; i++) {
+    gap_seen_t seen;
+    ROW("%s", flight[i].file);
+    if (!flight[i].captured || !judge_real(flight[i].file, flight[i].ceiling_m, &seen)) continue;
+    CHECK_NEAR(setup.model.frame.top_above_rotor_m, seen.median_m, flight[i].fit ? 2e-4 : 3e-3);
+  }
+}
+
+TEST(gap_open_deck_flights_lift_off_and_overshoot_as_the_real_ones) {
+  if (!test_data_dir()) SKIP("no measured data");
+  static const struct {
+    const char *file;
+    double rise_m;
+    int late; // take-off of 1.6 s
+  } row[] = {
+      {"20240827_16_23_24.csv", 0.10, 1}, {"20240827_16_38_21.csv", 0.05, 1},
+      {"20240827_16_41_48.csv", 0.02, 1}, {"20240823_16_23_49.csv", 0.04, 0},
+      {"20240823_17_25_20.csv", 0.02, 0},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_seen_t seen;
+    ROW("%s", row[i].file);
+    if (!judge_real(row[i].file, 1.0, &seen)) continue;
+    const many_t m = fly(FLY_STOCK_PID, NULL, false, row[i].rise_m);
+    CHECK_NEAR(m.lift_s[row[i].late], seen.lift_s, 1.0);
+    // Height over rest; the ceiling above was given as 1 m. Simulated ones overshoot by 4 to 12 mm less.
+    const double real_m = 1.0 - 0.7885 - 0.003 - seen.closest_m;
+    CHECK_NEAR(m.peak_m, real_m, 0.013);
+  }
+}

@@ -1,0 +1,87 @@
+// test_hover_rpm.c - rotor speed and PWM of a hover against a recorded one (imu_rpm_500hz, jana05).
+#include "io/csv.h"
+#include "io/model_file.h"
+#include "plant/thrust_map.h"
+#include "test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define WINDOW_S 4.0
+#define ROWS_MAX 2100 // of a window at 507 Hz
+#define RPM      (60.0 / 6.283185307179586)
+
+typedef struct {
+  double rpm[ROWS_MAX], pwm[ROWS_MAX], volt[ROWS_MAX]; // means of the four motors
+  int n;
+} window_t;
+
+static int by_size(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double pwm_for(const thrust_map_t *map, double thrust_N, double volt) {
+  double lo = 0.0, hi = 65535.0;
+  for (int i = 0; i < 50; i++) {
+    const double pwm = 0.5 * (lo + hi);
+    if (thrust_map_N(map, pwm, volt) < thrust_N)
+      lo = pwm;
+    else
+      hi = pwm;
+  }
+  return lo;
+}
+
+static void sort(window_t *w) {
+  qsort(w->rpm, (size_t)w->n, sizeof(double), by_size);
+  qsort(w->pwm, (size_t)w->n, sizeof(double), by_size);
+  qsort(w->volt, (size_t)w->n, sizeof(double), by_size);
+}
+
+static void compare(const model_t *model, window_t *w) {
+  sort(w);
+  const int low = w->n / 4, high = 3 * w->n / 4;
+  const double thrust_N = 0.25 * 9.81 * model->mass_kg, volt = w->volt[w->n / 2];
+  const double rpm = RPM * sqrt(thrust_N / model->frame.kf_Ns2), pwm = pwm_for(&model->map, thrust_N, volt);
+  CHECK(rpm >= w->rpm[low] && rpm <= w->rpm[high]);
+  CHECK(pwm >= w->pwm[low] && pwm <= w->pwm[high]);
+}
+
+static status_t add_row(const csv_file_t *file, window_t *w, why_t *why) {
+  static const char *const name[] = {"rpm1", "rpm2", "rpm3", "rpm4",  "pwm1",
+                                     "pwm2", "pwm3", "pwm4", "vbat_V"};
+  double cell[9];
+  for (int i = 0; i < 9; i++) TRY(csv_number(file, csv_find(file, name[i]), CSV_GAP_REFUSED, &cell[i], why));
+  w->rpm[w->n] = 0.25 * (cell[0] + cell[1] + cell[2] + cell[3]);
+  w->pwm[w->n] = 0.25 * (cell[4] + cell[5] + cell[6] + cell[7]);
+  w->volt[w->n++] = cell[8];
+  return ST_OK;
+}
+
+TEST(hover_rpm_and_pwm_are_within_the_quartiles_of_a_recorded_one) {
+  if (!test_data_dir()) SKIP("no measured data");
+  char path[512];
+  why_t why;
+  model_t model;
+  csv_file_t *file;
+  static window_t w;
+  snprintf(path, sizeof path, "%s/imu_rpm_500hz/jana05.csv", test_data_dir());
+  CHECK_OK(model_builtin("cf21_imrc", &model, &why));
+  if (!CHECK_OK(csv_open(&file, path, &why))) return;
+  // The first 4 s sink by 15 mm; after 40 s it no longer turns.
+  double t_s = 0.0, until_s = 2.0 * WINDOW_S;
+  for (bool more = true; t_s < 40.0;) {
+    if (!CHECK_OK(csv_next(file, &more, &why)) || !more) break;
+    if (!CHECK_OK(csv_number(file, csv_find(file, "t_s"), CSV_GAP_REFUSED, &t_s, &why))) break;
+    if (t_s >= until_s || w.n == ROWS_MAX) {
+      ROW("until %g s", until_s);
+      compare(&model, &w);
+      until_s += WINDOW_S;
+      w.n = 0;
+    }
+    if (t_s >= WINDOW_S && !CHECK_OK(add_row(file, &w, &why))) break;
+  }
+  CHECK(until_s > 39.0);
+  csv_close(file);
+}
