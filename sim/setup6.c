@@ -22,6 +22,7 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
   setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
   setup->flight.gap_min_m = 0.0f; // the thesis flies to 2 cm
+  setup->flight.guard.blind_max_s = 60.0f;
   return ST_OK;
 }
 
