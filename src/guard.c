@@ -25,7 +25,9 @@
 #define BIAS_MPS2      0.5f
 #define QUIET_MS       1000
 #define MS_MAX         1000000
-#define TOO_NEAR_M     0.02f
+#define TOO_NEAR_M     0.015f
+#define VERY_NEAR_M    0.055f
+#define TOO_NEAR_COUNT 5 // samples
 
 #define ENDS_FLIGHT (GUARD_NOT_A_NUMBER | GUARD_GYRO_FROZEN | GUARD_TILT)
 #define SENDS_DOWN                                                                                           \
@@ -37,8 +39,10 @@ void guard_init(guard_t *g) {
 
 void guard_rest(guard_t *g) {
   const unsigned latched = g->latched;
+  const float range_m = g->range_last_m;
   guard_init(g);
   g->latched = latched;
+  g->range_last_m = range_m;
 }
 
 bool guard_plausible(const guard_in_t *in) {
@@ -87,12 +91,14 @@ static unsigned judge_inertial(guard_t *g, const guard_in_t *in) {
 
 // The mean of (vertical acceleration - change of the estimated climb) is the accelerometer's error.
 static unsigned judge_bias(guard_t *g, const guard_in_t *in) {
-  if (g->acc_lost) return g->now & GUARD_ACC_BIAS;
+  if (g->acc_lost || g->acc_clip_ms > 0) return g->now & GUARD_ACC_BIAS;
   const v3_t force = quat_to_world(quat_unit(in->q_wb), in->acc_b_mps2);
   const float climbed = in->vel_w_mps.z - g->vel_last.z;
   const float dt = 1e-3f * (float)in->ms, error = force.z - GRAVITY_MPS2 - climbed / dt;
   g->bias_fast_mps2 += f_clamp(dt / 0.1f, 0.0f, 1.0f) * (error - g->bias_fast_mps2);
-  g->bias_slow_mps2 += f_clamp(dt / 0.7f, 0.0f, 1.0f) * (error - g->bias_slow_mps2);
+  // Once seen, the mean since then: quick at first, and steady later.
+  g->bias_s = g->now & GUARD_ACC_BIAS ? f_clamp(g->bias_s + dt, 0.1f, 0.7f) : 0.1f;
+  g->bias_slow_mps2 += f_clamp(dt / g->bias_s, 0.0f, 1.0f) * (error - g->bias_slow_mps2);
   if (g->now & GUARD_ACC_BIAS) return fabsf(g->bias_slow_mps2) > 0.5f * BIAS_MPS2 ? GUARD_ACC_BIAS : 0u;
   if (!(fabsf(g->bias_fast_mps2) > BIAS_MPS2)) return 0u;
   g->bias_slow_mps2 = g->bias_fast_mps2;
@@ -101,7 +107,7 @@ static unsigned judge_bias(guard_t *g, const guard_in_t *in) {
 
 static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   unsigned now = g->now & GUARD_RANGE_FROZEN;
-  const bool valid = in->range_m > 0.0f && in->range_m <= 4.0f;
+  const bool valid = in->range_m >= GUARD_RANGE_MIN_M && in->range_m <= 4.0f;
   if (in->zc_known) g->near_seen = in->zc_m < NEAR_M && in->zc_m >= in->range_near_m;
   g->range_ms = longer(g->range_ms, !(in->range_new && valid), in->ms);
   if (g->near_seen && g->range_ms > RANGE_MS) now |= GUARD_RANGE_LOST;
@@ -125,8 +131,13 @@ static unsigned judge_flight(guard_t *g, const guard_in_t *in) {
   const bool near = in->zc_known && in->zc_m < NEAR_M;
   g->full_ms = longer(g->full_ms, in->thrust_N > 0.98f * in->thrust_max_N, in->ms);
   if (near && g->full_ms > FULL_MS) now |= GUARD_SATURATED;
-  const float gap_wanted_m = in->ceiling_z_m - in->setpoint_z_m; // NaN: neither is known
-  if (near && in->zc_m < 2.5f * TOO_NEAR_M && in->zc_m < gap_wanted_m - TOO_NEAR_M) now |= GUARD_TOO_NEAR;
+  if (in->range_new) {
+    const float gap_wanted_m = in->ceiling_z_m - in->setpoint_z_m; // NaN: neither is known
+    const bool nearer =
+        in->range_m > 0.0f && in->range_m < gap_wanted_m - TOO_NEAR_M && in->range_m < VERY_NEAR_M;
+    g->nearer = nearer ? g->nearer + 1 : 0;
+  }
+  if (g->nearer >= TOO_NEAR_COUNT) now |= GUARD_TOO_NEAR;
   return now;
 }
 
@@ -136,6 +147,12 @@ static void learn_hover(guard_t *g, const guard_in_t *in) {
   const float least = 0.3f * in->weight_N;
   if (!(g->hover_N > least)) g->hover_N = in->weight_N;
   g->hover_N += 0.002f * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - g->hover_N);
+}
+
+// On the floor under a ceiling there is no room to find out how much thrust lifts off.
+static bool refused(const guard_t *g, const guard_param_t *p, const guard_in_t *in) {
+  return in->wanted && !g->flown && in->thrust_N < 0.3f * in->weight_N && g->range_last_m > 0.0f &&
+         g->range_last_m < p->take_off_m;
 }
 
 static void decide(guard_t *g, const guard_in_t *in) {
@@ -148,7 +165,7 @@ static void decide(guard_t *g, const guard_in_t *in) {
   const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > SETPOINT_MS;
   g->quiet_ms = longer(g->quiet_ms, !down, in->ms);
   if (g->action == GUARD_RETREAT) {
-    const bool other = in->setpoint_good && fabsf(in->setpoint_z_m - g->setpoint_at_m) > JUMP_M;
+    const bool other = in->setpoint_good && fabsf(in->asked_z_m - g->asked_at_m) > JUMP_M;
     if (g->quiet_ms > QUIET_MS && other) g->action = GUARD_FLY;
     return;
   }
@@ -156,13 +173,14 @@ static void decide(guard_t *g, const guard_in_t *in) {
     g->action = GUARD_RETREAT;
     g->hold_w_m = in->pos_w_m;
     g->hold_z_m = in->pos_w_m.z;
-    g->setpoint_at_m = in->setpoint_z_m;
+    g->asked_at_m = in->asked_z_m;
   } else {
     g->action = in->setpoint_good ? GUARD_FLY : GUARD_HOLD;
   }
 }
 
 void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
+  g->flown = g->flown || in->airborne;
   const unsigned kept = g->now;
   bool good = guard_plausible(in);
   // What jumps by 5 g in velocity is no velocity; after a while it is one that is to be believed.
@@ -180,6 +198,11 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   now &= ~(unsigned)GUARD_SETPOINT;
   g->setpoint_ms = longer(g->setpoint_ms, !in->setpoint_good, in->ms);
   if (!in->setpoint_good) now |= GUARD_SETPOINT;
+  if (refused(g, p, in)) {
+    now |= GUARD_NO_ROOM;
+    g->action = GUARD_HAND_OVER;
+    g->handed_ms = MS_MAX;
+  }
   g->now = now;
   g->latched |= now;
   g->acc_lost = (now & GUARD_ACC_FROZEN) != 0 || g->acc_clip_ms > 0;
@@ -188,7 +211,7 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   else
     g->acc_bias_mps2 = 0.0f;
   learn_hover(g, in);
-  if (good || in->airborne) decide(g, in);
+  decide(g, in);
 }
 
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m) {

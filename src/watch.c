@@ -68,6 +68,7 @@ static guard_in_t seen(const flight_t *f, const flight_in_t *in, int ms, bool se
   if (z_m > top_m) z_m = top_m;
   return (guard_in_t){
       .ms = ms,
+      .wanted = in->setpoint.z != AXIS_OFF,
       .airborne = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f,
       .rate_b_radps = in->rate_b_radps,
       .acc_b_mps2 = in->acc_b_mps2,
@@ -86,6 +87,7 @@ static guard_in_t seen(const flight_t *f, const flight_in_t *in, int ms, bool se
       .ceiling_z_m = o->out.ceiling_z_m,
       .zc_known = o->ceiling.known,
       .setpoint_good = setpoint_good,
+      .asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN,
       .setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN,
   };
 }
@@ -131,5 +133,6 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   const guard_in_t guard_in = seen(f, in, ms, good);
   guard_step(&f->guard, &f->param.guard, &guard_in);
   mend_acceleration(f, in);
+  if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   in->setpoint = setpoint_flown(f, in);
 }

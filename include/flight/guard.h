@@ -34,8 +34,7 @@ typedef enum {
   GUARD_TOO_NEAR = 1 << 12,    // the ceiling is nearer than the set point allows
   GUARD_HEIGHT_JUMP = 1 << 13, // the estimate of the height was reset
   GUARD_TIME = 1 << 14,        // milliseconds were missed, came twice, or ran backwards
-  GUARD_PARAM = 1 << 15,       // a set of parameters was refused
-  GUARD_LIFT_EXCESS = 1 << 16, // the thrust lifts more than the distance believed in explains
+  GUARD_NO_ROOM = 1 << 15,     // a take-off under a ceiling nearer than guard.takeOff
 } guard_reason_t;
 
 typedef struct {
@@ -43,11 +42,13 @@ typedef struct {
   float safe_gap_m;  // > 0   where a retreat ends
   float sink_mps;    // > 0   of a retreat
   float cut_after_s; // >= 0  of a hand-over until the motors stop
+  float take_off_m;  // >= 0  nearer than this to a ceiling there is no take-off
   float share;       // 0..1  of hover thrust, in a hand-over
 } guard_param_t;
 
 typedef struct {
   int ms;        // since the last call, >= 1
+  bool wanted;   // the height is controlled
   bool airborne; // the height is controlled, and the rotors carry
   v3_t rate_b_radps, acc_b_mps2, pos_w_m, vel_w_mps;
   quat_t q_wb;
@@ -58,6 +59,7 @@ typedef struct {
   bool zc_known;
   bool setpoint_good;
   float setpoint_z_m; // wanted height, limits included; NaN: none
+  float asked_z_m;    // the same without limits
 } guard_in_t;
 
 typedef struct {
@@ -73,14 +75,18 @@ typedef struct {
   bool started;
   v3_t rate_last, acc_last, vel_last, pos_last;
   float rate_life, acc_life; // mean change per millisecond
-  int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms, excess_ms;
+  int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms;
   float bad_ms;
   bool near_seen;
   float range_last_m, range_z_m;
   int range_same;
-  float bias_slow_mps2, bias_fast_mps2, acc_up_mps2;
-  float setpoint_at_m; // wanted height when the retreat began
+  float bias_slow_mps2, bias_fast_mps2, bias_s;
+  int nearer; // samples in a row
+  bool flown;
+  float asked_at_m; // the pilot's height when the retreat began
 } guard_t;
+
+#define GUARD_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: below this it speaks another unit
 
 // Nothing is wrong, nothing known.
 void guard_init(guard_t *g);

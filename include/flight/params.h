@@ -135,6 +135,8 @@ typedef struct {
   X(guard, sink, PARAM_FLOAT, guard.sink_mps, "m/s", 0.3f, 0.05f, 1.0f, "speed of a retreat, at kp 1")       \
   X(guard, cutAfter, PARAM_FLOAT, guard.cut_after_s, "s", 1.5f, 0.0f, 10.0f,                                 \
     "a hand-over stops the motors after this")                                                               \
+  X(guard, takeOff, PARAM_FLOAT, guard.take_off_m, "m", 0.1f, 0.0f, 1.0f,                                    \
+    "nearer than this to a ceiling there is no take-off")                                                    \
   X(guard, share, PARAM_FLOAT, guard.share, "", 0.9f, 0.3f, 0.99f, "of hover thrust, in a hand-over")
 
 #define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X) PARAMS_GUARD(X)
