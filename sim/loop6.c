@@ -117,7 +117,9 @@ static void order(flight6_t *f, double t_s) {
 
 static void pilot_ms(flight6_t *f, const truth_t *truth) {
   sense(f, truth);
-  f->pilot->step(f->pilot->state, &f->in, f->motor_N);
+  pilot6_in_t in = f->in;
+  if (f->plan->fault) f->plan->fault(f->plan->fault_context, &f->body, &in);
+  f->pilot->step(f->pilot->state, &in, f->motor_N);
   f->in.step++;
 }
 

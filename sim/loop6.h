@@ -23,6 +23,10 @@ typedef struct {
   ekf_out_t estimate;
 } sample6_t;
 
+// Stands between sensors and pilot, every millisecond: may edit what the pilot gets (nothing of it lasts
+// until the next call), and look at the truth.
+typedef void (*loop6_fault_t)(void *context, const body_t *truth, pilot6_in_t *in);
+
 // How the flight is flown. The waypoints of `plan` are heights of the rotors' plane; x, y and yaw are held at
 // 0.
 typedef struct {
@@ -31,7 +35,9 @@ typedef struct {
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
-  double take_off_s; // the height is controlled from here on; before, the motors are off
+  double take_off_s;   // the height is controlled from here on; before, the motors are off
+  loop6_fault_t fault; // null: none
+  void *fault_context;
 } plan6_t;
 
 typedef struct {

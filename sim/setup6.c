@@ -26,6 +26,8 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
   setup->flight.gap_min_m = 0.0f;       // the thesis flies to 2 cm
   setup->flight.bias.pole_radps = 0.0f; // and knows no bias
+  setup->flight.guard.blind_max_s = 60.0f;
+  setup->flight.guard.take_off_m = 0.0f; // and takes off in a gap of 71 mm
   return ST_OK;
 }
 

@@ -2,15 +2,12 @@
 #include "flight/flight.h"
 
 #include "flight/trig.h"
+#include "flight/watch.h"
 #include <string.h>
 
-#define OUTER_EVERY    10 // milliseconds
-#define LEARN_AT       5
-#define INNER_EVERY    2
 #define INNER_S        0.002f
 #define OUTER_S        0.01f
-#define RATE_MAX_RADPS 100.0f
-#define ANGLE_MAX_RAD  1000.0f
+#define RATE_MAX_RADPS 34.5f // the gyro ends at 34.9
 #define FORCE_MAX_N    100.0f
 #define LEAD_COS       0.88f // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
@@ -40,12 +37,7 @@ static status_t check_in(const flight_in_t *in) {
   if (!v3_within(in->rate_b_radps, RATE_MAX_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
   for (int i = 0; i < MOTORS; i++)
     if (!(fabsf(in->force_N[i]) <= FORCE_MAX_N)) return ST_BAD_INPUT;
-  const flight_setpoint_t *sp = &in->setpoint;
-  if (!(fabsf(sp->roll_rad) <= ANGLE_MAX_RAD && fabsf(sp->pitch_rad) <= ANGLE_MAX_RAD))
-    return ST_BAD_SETPOINT;
-  if (!(fabsf(sp->yaw_rad) <= ANGLE_MAX_RAD && fabsf(sp->yaw_rate_radps) <= RATE_MAX_RADPS))
-    return ST_BAD_SETPOINT;
-  return fabsf(sp->thrust_N) <= FORCE_MAX_N ? ST_OK : ST_BAD_SETPOINT;
+  return ST_OK;
 }
 
 // The heading of an attitude as a rotation about z: its cosine and sine.
@@ -134,8 +126,11 @@ static void run_inner(flight_t *f, const flight_in_t *in) {
       .torque_b_Nm = mixer_of(&f->param.mixer, in->force_N).torque_b_Nm,
   };
   f->out.q_ref = att_in.q_ref;
+  // After missed calls the rate has changed for longer.
+  const float period_s = f->inner_ms > 2 ? 0.001f * (float)f->inner_ms : INNER_S;
+  f->inner_ms = 0;
   const v3_t torque =
-      att_indi_step(&f->att, &f->param.att, &f->att_filter, f->att_lag_share, INNER_S, &att_in);
+      att_indi_step(&f->att, &f->param.att, &f->att_filter, f->att_lag_share, period_s, &att_in);
   f->out.motors = mixer_mix(&f->param.mixer, torque, thrust_N);
   if (thrust_N > 0.0f) return;
   // Motors off: nothing to be kept upright with.
@@ -143,18 +138,36 @@ static void run_inner(flight_t *f, const flight_in_t *in) {
   att_indi_reset(&f->att);
 }
 
-flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *in) {
-  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p));
-  const status_t judged = check_in(in);
-  count(f, judged);
-  if (judged != ST_OK) return f->out;
+// Nothing to stay upright with: all motors alike.
+static void run_blind(flight_t *f, float thrust_N) {
+  const float each_N = 0.25f * thrust_N;
+  f->out.motors = mixer_of(&f->param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
+}
+
+static void run(flight_t *f, const flight_in_t *in) {
   if (in->range_new) {
     f->range_waits = true;
     f->range_m = in->range_m;
     f->range_age_s = in->range_age_s;
   }
-  if (in->step % OUTER_EVERY == 0) run_outer(f, in);
-  if (in->step % OUTER_EVERY == LEARN_AT) outer_learn(&f->outer);
-  if (in->step % INNER_EVERY == 0) run_inner(f, in);
+  if (f->due & FLIGHT_OUTER) run_outer(f, in);
+  if (f->due & FLIGHT_LEARN) outer_learn(&f->outer);
+  if (f->due & FLIGHT_INNER) run_inner(f, in);
+}
+
+flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *raw) {
+  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p));
+  if (!watch_time(f, raw->step)) return f->out;
+  flight_in_t in = *raw;
+  watch_inputs(f, &in);
+  if (f->guard.now & GUARD_SETPOINT) count(f, ST_BAD_SETPOINT);
+  const status_t judged = check_in(&in);
+  count(f, judged);
+  if (judged == ST_OK)
+    run(f, &in);
+  else if (f->guard.action == GUARD_HAND_OVER)
+    run_blind(f, in.setpoint.thrust_N);
+  else if (f->due & FLIGHT_OUTER && f->outer.missed < 1000)
+    f->outer.missed++;
   return f->out;
 }

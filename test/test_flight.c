@@ -231,6 +231,7 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   for (unsigned k = 0; k <= sizeof odd / sizeof *odd; k++) {
     for (int field = 0; field < 3; field++) {
       ROW("field %d, value %u", field, k);
+      r.in.step++;
       pilot6_in_t bad = r.in;
       *(field == 0   ? &bad.gyro_b_radps.y
         : field == 1 ? &bad.q_wb.x

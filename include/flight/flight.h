@@ -1,6 +1,6 @@
 // flight.h - the whole controller in the order in which it runs: one call every millisecond.
 //
-//   1000 Hz  judge the inputs
+//   1000 Hz  judge the inputs (guard.h), which may put another set point in the place of the pilot's
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
 //    100 Hz  the lesson of that step (step 5 of ten: never in the same millisecond)
 //    500 Hz  inner loop: attitude to torques, mixed to four motor forces (every second step)
@@ -12,6 +12,7 @@
 #define FLIGHT_FLIGHT_H
 
 #include "flight/att_indi.h"
+#include "flight/guard.h"
 #include "flight/mixer.h"
 #include "flight/outer.h"
 #include <stdint.h>
@@ -63,14 +64,28 @@ typedef struct {
   bool range_waits;     // a range sample that the outer loop has not seen
   float range_m, range_age_s;
   flight_out_t out;
+  guard_t guard;
+  flight_setpoint_t setpoint; // the last good one
+  bool called;                // once at least
+  uint32_t step_last;
+  unsigned phase;     // of the ten milliseconds, from the step counter
+  unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
+  int inner_ms;       // since the inner loop ran
+  bool height_seen;   // height_m is that of the last good call
+  float height_m;     // as the estimator gave it
+  float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
 } flight_t;
+
+enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4 };
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.
 MUST_CHECK status_t flight_init(flight_t *f, const flight_param_t *p);
 
-// One millisecond. *p as in outer_step. Between the steps of a loop its last output stands.
+// One millisecond, or more if calls were missed (the step counter tells; it may wrap). A second call with the
+// same count repeats the last command. *p as in outer_step. Between the steps of a loop its last output
+// stands.
 flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *in);
 
 #endif

@@ -10,6 +10,7 @@
 #include "flight/bias.h"
 #include "flight/ceiling.h"
 #include "flight/curve.h"
+#include "flight/guard.h"
 #include "flight/learn.h"
 #include "flight/mixer.h"
 #include "flight/pos_indi.h"
@@ -34,6 +35,7 @@ typedef struct {
   att_indi_param_t att;
   float att_cutoff_Hz; // of the inner loop's filters
   mixer_param_t mixer;
+  guard_param_t guard;
 } flight_param_t;
 
 #define PARAMS_INDIPOS(X)                                                                                    \
@@ -133,7 +135,19 @@ typedef struct {
   X(rls, after, PARAM_FLOAT, learn_after_s, "s", 1.0f, 0.0f, 60.0f,                                          \
     "learning starts this long after the rotors began to carry")
 
-#define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X)
+#define PARAMS_GUARD(X)                                                                                      \
+  X(ceil, blindMax, PARAM_FLOAT, guard.blind_max_s, "s", 3.0f, 0.0f, 600.0f,                                 \
+    "nearer than ceil.near for longer than this without a range sample: retreat")                            \
+  X(guard, safeGap, PARAM_FLOAT, guard.safe_gap_m, "m", 0.35f, 0.05f, 2.0f,                                  \
+    "a retreat ends so far below the ceiling")                                                               \
+  X(guard, sink, PARAM_FLOAT, guard.sink_mps, "m/s", 0.3f, 0.05f, 1.0f, "speed of a retreat, at kp 1")       \
+  X(guard, cutAfter, PARAM_FLOAT, guard.cut_after_s, "s", 1.5f, 0.0f, 10.0f,                                 \
+    "a hand-over stops the motors after this")                                                               \
+  X(guard, takeOff, PARAM_FLOAT, guard.take_off_m, "m", 0.1f, 0.0f, 1.0f,                                    \
+    "nearer than this to a ceiling there is no take-off")                                                    \
+  X(guard, share, PARAM_FLOAT, guard.share, "", 0.9f, 0.3f, 0.99f, "of hover thrust, in a hand-over")
+
+#define FLIGHT_PARAMS(X) PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X) PARAMS_GUARD(X)
 
 typedef enum { PARAM_FLOAT, PARAM_INT } param_type_t;
 

@@ -1,0 +1,138 @@
+// watch.c - what the guard makes of one call.
+#include "flight/watch.h"
+
+#define MS_MAX         50 // a longer pause is taken for this long
+#define ANGLE_MAX_RAD  1000.0f
+#define RATE_MAX_RADPS 100.0f
+#define FORCE_MAX_N    100.0f
+#define POS_MAX_M      1e4f
+#define VEL_MAX_MPS    100.0f
+#define ACC_MAX_MPS2   1000.0f
+#define JUMP_M         0.01f // as outer.c
+
+static bool passes(unsigned from, unsigned ms, unsigned at) {
+  const unsigned to = from + ms; // from < 10
+  return (at > from && at <= to) || (at + 10 > from && at + 10 <= to) || ms >= 10;
+}
+
+bool watch_time(flight_t *f, uint32_t step) {
+  if (!f->called) {
+    f->called = true;
+    f->phase = step % 10;
+    f->inner_ms = 2;
+    f->due = (f->phase == 0 ? FLIGHT_OUTER : 0u) | (f->phase == 5 ? FLIGHT_LEARN : 0u) |
+             (f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
+    f->step_last = step - 1u;
+  } else {
+    const uint32_t since = step - f->step_last;
+    if (since != 1) f->guard.latched |= GUARD_TIME;
+    if (since == 0) return false;
+    const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
+    f->due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(f->phase, ms, 5) ? FLIGHT_LEARN : 0u) |
+             (ms > 1 || f->phase % 2 == 1 ? FLIGHT_INNER : 0u);
+    // An outer period that was skipped altogether is known to the outer loop.
+    f->outer.missed += (f->phase + ms) / 10 > 1 ? (f->phase + ms) / 10 - 1 : 0;
+    f->phase = (f->phase + ms) % 10;
+    f->inner_ms += (int)ms;
+    f->step_last = step - ms; // so that the guard can read the time
+  }
+  return true;
+}
+
+bool watch_setpoint_good(const flight_setpoint_t *sp) {
+  if (!(fabsf(sp->roll_rad) <= ANGLE_MAX_RAD && fabsf(sp->pitch_rad) <= ANGLE_MAX_RAD)) return false;
+  if (!(fabsf(sp->yaw_rad) <= ANGLE_MAX_RAD && fabsf(sp->yaw_rate_radps) <= RATE_MAX_RADPS)) return false;
+  return fabsf(sp->thrust_N) <= FORCE_MAX_N && v3_within(sp->pos_w_m, POS_MAX_M) &&
+         v3_within(sp->vel_mps, VEL_MAX_MPS) && v3_within(sp->acc_w_mps2, ACC_MAX_MPS2);
+}
+
+// A reset of the height estimate moves neither the vehicle nor the ceiling: it is taken out.
+static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
+  const float z_m = in->pos_w_m.z;
+  if (fabsf(z_m) <= POS_MAX_M && fabsf(in->vel_w_mps.z) <= VEL_MAX_MPS) {
+    const float dz_m = z_m - f->height_m;
+    const float most_m = JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
+    if (f->height_seen && fabsf(dz_m) > most_m) {
+      f->height_off_m += dz_m;
+      f->guard.latched |= GUARD_HEIGHT_JUMP;
+    }
+    f->height_m = z_m;
+    f->height_seen = true;
+  }
+  in->pos_w_m.z = z_m - f->height_off_m;
+}
+
+static guard_in_t seen(const flight_t *f, const flight_in_t *in, int ms, bool setpoint_good) {
+  const outer_t *o = &f->outer;
+  float top_m = o->out.ceiling_z_m - f->param.gap_min_m, z_m = in->setpoint.pos_w_m.z;
+  if (z_m > top_m) z_m = top_m;
+  return (guard_in_t){
+      .ms = ms,
+      .wanted = in->setpoint.z != AXIS_OFF,
+      .airborne = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f,
+      .rate_b_radps = in->rate_b_radps,
+      .acc_b_mps2 = in->acc_b_mps2,
+      .pos_w_m = in->pos_w_m,
+      .vel_w_mps = in->vel_w_mps,
+      .q_wb = in->q_wb,
+      .range_new = in->range_new,
+      .range_m = in->range_m,
+      .range_floor_m = f->param.ceiling.floor_m,
+      .range_near_m = f->param.ceiling.near_m,
+      .thrust_N = in->force_N[0] + in->force_N[1] + in->force_N[2] + in->force_N[3],
+      .thrust_max_N = f->param.pos.thrust_max_N,
+      .weight_N = f->param.pos.mass_kg * GRAVITY_MPS2,
+      .zc_m = o->ceiling.zc_m,
+      .blind_s = o->ceiling.blind_s,
+      .ceiling_z_m = o->out.ceiling_z_m,
+      .zc_known = o->ceiling.known,
+      .setpoint_good = setpoint_good,
+      .asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN,
+      .setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN,
+  };
+}
+
+// Without an accelerometer: what the thrust that the motors give does.
+static void mend_acceleration(const flight_t *f, flight_in_t *in) {
+  const guard_t *g = &f->guard;
+  if (g->acc_lost && g->hover_N > 0.0f) {
+    in->acc_b_mps2 = (v3_t){0.0f, 0.0f, GRAVITY_MPS2 * f->outer.sync.thrust.model_N / g->hover_N};
+  } else if (g->acc_bias_mps2 != 0.0f) {
+    const v3_t bias_b = quat_to_body(quat_unit(in->q_wb), (v3_t){0.0f, 0.0f, g->acc_bias_mps2});
+    in->acc_b_mps2 = v3_sub(in->acc_b_mps2, bias_b);
+  }
+}
+
+static flight_setpoint_t setpoint_flown(const flight_t *f, const flight_in_t *in) {
+  const guard_t *g = &f->guard;
+  flight_setpoint_t sp = in->setpoint;
+  if (g->action == GUARD_RETREAT) {
+    sp.x = sp.y = sp.z = AXIS_POSITION;
+    sp.pos_w_m = g->hold_w_m;
+    sp.pos_w_m.z = guard_retreat_z_m(g, &f->param.guard, in->pos_w_m.z, f->outer.out.ceiling_z_m);
+    sp.vel_mps = sp.acc_w_mps2 = (v3_t){0.0f, 0.0f, 0.0f};
+  } else if (g->action == GUARD_HAND_OVER) {
+    sp = (flight_setpoint_t){.yaw = YAW_RATE};
+    sp.thrust_N = guard_thrust_N(g, &f->param.guard, f->param.pos.mass_kg * GRAVITY_MPS2);
+  }
+  return sp;
+}
+
+void watch_inputs(flight_t *f, flight_in_t *in) {
+  const int ms = (int)(in->step - f->step_last);
+  f->step_last = in->step;
+  const bool good = watch_setpoint_good(&in->setpoint);
+  if (good) f->setpoint = in->setpoint;
+  in->setpoint = f->setpoint;
+  if (in->setpoint.z == AXIS_OFF) {
+    f->height_off_m = 0.0f;
+    f->height_seen = false;
+    guard_rest(&f->guard);
+  }
+  take_jump_out(f, in, ms);
+  const guard_in_t guard_in = seen(f, in, ms, good);
+  guard_step(&f->guard, &f->param.guard, &guard_in);
+  mend_acceleration(f, in);
+  if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
+  in->setpoint = setpoint_flown(f, in);
+}
