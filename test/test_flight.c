@@ -231,13 +231,14 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   for (unsigned k = 0; k <= sizeof odd / sizeof *odd; k++) {
     for (int field = 0; field < 3; field++) {
       ROW("field %d, value %u", field, k);
-      r.in.step++;
+      r.flight.flight = state;
       pilot6_in_t bad = r.in;
+      bad.step++;
       *(field == 0   ? &bad.gyro_b_radps.y
         : field == 1 ? &bad.q_wb.x
                      : &bad.applied_N[2]) = k == 0 ? (double)NAN : odd[k - 1];
       r.pilot.step(r.pilot.state, &bad, after);
-      CHECK(memcmp(before, after, sizeof before) == 0);
+      for (int i = 0; i < PILOT6_MOTORS; i++) CHECK_NEAR(after[i], before[i], 0.0);
       CHECK(r.flight.flight.faults[ST_BAD_INPUT] > state.faults[ST_BAD_INPUT]);
       CHECK(memcmp(&state.att, &r.flight.flight.att, sizeof state.att) == 0);
     }
