@@ -151,7 +151,8 @@ static void run(flight_t *f, const flight_in_t *in) {
     f->range_age_s = in->range_age_s;
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
-  if (f->due & FLIGHT_LEARN) outer_learn(&f->outer);
+  // What is wrong teaches nothing; least of all an acceleration that was made up.
+  if ((f->due & FLIGHT_LEARN) && f->guard.now == 0 && !f->guard.acc_lost) outer_learn(&f->outer);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 

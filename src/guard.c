@@ -29,7 +29,6 @@
 #define VERY_NEAR_M    0.055f
 #define TOO_NEAR_COUNT 5 // samples
 
-#define ENDS_FLIGHT (GUARD_NOT_A_NUMBER | GUARD_GYRO_FROZEN | GUARD_TILT)
 #define SENDS_DOWN                                                                                           \
   (GUARD_ACC_FROZEN | GUARD_RANGE_LOST | GUARD_RANGE_FROZEN | GUARD_BLIND | GUARD_SATURATED | GUARD_TOO_NEAR)
 
@@ -156,8 +155,10 @@ static bool refused(const guard_t *g, const guard_param_t *p, const guard_in_t *
 }
 
 static void decide(guard_t *g, const guard_in_t *in) {
-  const bool ends = g->bad_ms > NAN_CUT_MS || g->rate_same_ms >= GYRO_CUT_MS || g->tilt_ms > TILT_CUT_MS;
-  if ((g->now & ENDS_FLIGHT) != 0 && ends && in->airborne) g->action = GUARD_HAND_OVER;
+  const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > NAN_CUT_MS) ||
+                    ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GYRO_CUT_MS) ||
+                    g->tilt_ms > TILT_CUT_MS;
+  if (ends && in->airborne) g->action = GUARD_HAND_OVER;
   if (g->action == GUARD_HAND_OVER) {
     g->handed_ms = longer(g->handed_ms, true, in->ms);
     return;
@@ -189,8 +190,11 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   g->bad_ms = f_clamp(g->bad_ms + (good ? -0.25f : 1.0f) * (float)in->ms, 0.0f, 3.0f * NAN_CUT_MS);
   unsigned now = good ? 0u : kept | GUARD_NOT_A_NUMBER;
   if (good) {
-    if (!g->started)
-      g->vel_last = in->vel_w_mps, g->rate_last = in->rate_b_radps, g->acc_last = in->acc_b_mps2;
+    if (!g->started) {
+      g->vel_last = in->vel_w_mps;
+      g->rate_last = in->rate_b_radps;
+      g->acc_last = in->acc_b_mps2;
+    }
     g->started = true;
     now |= judge_inertial(g, in) | judge_bias(g, in) | judge_range(g, p, in) | judge_flight(g, in);
     g->vel_last = in->vel_w_mps;
@@ -223,6 +227,6 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
 
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N) {
   if ((float)g->handed_ms > 1000.0f * p->cut_after_s) return 0.0f;
-  if ((g->now & GUARD_TILT) != 0 || g->rate_same_ms >= GYRO_CUT_MS) return 0.0f;
+  if ((g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0) return 0.0f;
   return p->share * f_clamp(g->hover_N, 0.5f * weight_N, 1.3f * weight_N);
 }
