@@ -30,9 +30,9 @@ static status_t add_effect(model_t *model, const char *spec, why_t *why) {
   return model_add_fx(model, &use, why);
 }
 
-// Flights of one day and set point over the open deck lift off 9 % (5 flights), 14 % (6) and 7 % (4) apart;
-// without this the simulated ones 2 to 3 %. What a gram does to the lift-off makes that a spread of 3 % of
-// weight over thrust (battery, propellers).
+// Flights of one day and set point, over the open deck or 86 mm and more under a plate, lift off 9 % (5
+// flights), 14 % (6) and 8 % (4) apart; without this the simulated ones 2 to 3 %. What a gram does to the
+// lift-off makes that roughly 3 % of weight over thrust (battery, propellers).
 static status_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
   random_t *const random = random_open(seed);
   if (!random) return error_set(why, "out of memory");

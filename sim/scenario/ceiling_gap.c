@@ -22,7 +22,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   const status_t status = gap_judge_flight(&flown, &setup.model, &seen, why);
   if (status == ST_OK) {
     tell(result, &seen);
-    result_add_flight(result, &flown.flown);
+    result_add_segment(result, &flown.flown, flown.flown.n_segment - 1, "hover");
   }
   flown6_free(&flown);
   return status;
