@@ -149,6 +149,9 @@ static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s
   if (f->ask) f->ask(f->pilot->state, &s.thoughts);
   sample6_t s6 = {
       .tilt_rad = f->tilt_rad, .pos_w_m = truth->pos_w_m, .vbat_V = b->vbat_V, .estimate = f->estimate};
+  s6.gyro_b_radps = f->in.gyro_b_radps;
+  s6.acc_b_mps2 = f->in.acc_b_mps2;
+  s6.setpoint_z_m = f->in.set.pos_w_m.z;
   for (int i = 0; i < PILOT6_MOTORS; i++) s6.motor_N[i] = f->motor_N[i];
   f->gap_min_m = HUGE_VAL;
   f->tilt_rad = 0.0;

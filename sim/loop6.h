@@ -14,14 +14,6 @@
 
 #define LOOP6_TICK_S 0.002
 
-typedef struct {
-  double tilt_rad; // largest since the last sample
-  double motor_N[PILOT6_MOTORS];
-  d3_t pos_w_m;
-  double vbat_V;
-  ekf_out_t estimate;
-} sample6_t;
-
 // How the flight is flown. The waypoints of `plan` are heights of the rotors' plane; x, y and yaw are held at
 // 0.
 typedef struct {

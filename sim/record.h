@@ -4,6 +4,7 @@
 
 #include "controller.h"
 #include "error.h"
+#include "estimator/ekf.h"
 #include <stdbool.h>
 
 typedef struct {
@@ -17,9 +18,21 @@ typedef struct {
   thoughts_t thoughts;             // as believed
 } sample_t;
 
+// What there is besides in six degrees of freedom.
+typedef struct {
+  double tilt_rad; // largest since the last sample
+  double motor_N[4];
+  d3_t pos_w_m;
+  double vbat_V;
+  ekf_out_t estimate;
+  d3_t gyro_b_radps, acc_b_mps2; // as measured
+  double setpoint_z_m;           // in the estimator's frame
+} sample6_t;
+
 typedef struct {
   sample_t *sample;
   int n, room;
+  sample6_t *more; // as many, or a null pointer: flown on the vertical axis
 } record_t;
 
 // ST_BAD_INPUT: no memory; nothing was added.
@@ -28,6 +41,7 @@ MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);
 void record_free(record_t *r);
 
 // Writes the flight as a CSV with Crazyflie log names (README, logs); the file is complete or not there.
+// ST_BAD_INPUT: it cannot be written.
 MUST_CHECK status_t record_write(const record_t *r, const char *path, why_t *why);
 
 #endif

@@ -15,7 +15,7 @@ const char *const fly_name[FLY_COUNT] = {
     [FLY_PID_FF] = "pid-ff",
     [FLY_STOCK_PID] = "stock-pid",
     [FLY_STOCK_INDI] = "stock-indi",
-    [FLY_AIR_GARAGE] = NULL,
+    [FLY_AIR_GARAGE] = "air-garage",
 };
 
 static const curve_mode_t mode_of[FLY_COUNT] = {
@@ -73,6 +73,10 @@ static status_t check_vertical(const setup_t *setup, why_t *why) {
 status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   TRY(check_vertical(setup, why));
+  if (request->noise6)
+    return error_set(why,
+                     "--noise %s: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3",
+                     request->noise6->name);
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;

@@ -2,6 +2,7 @@
 #include "setup6.h"
 
 #include "io/model_file.h"
+#include "peers/air_garage.h"
 #include "peers/stock_indi.h"
 #include "peers/stock_pid.h"
 #include "pilot_flight.h"
@@ -29,6 +30,11 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
+  if (request->noise)
+    return error_set(why,
+                     "--noise %s: this scenario is flown in six degrees of freedom; allowed are quiet, real",
+                     request->noise->name);
+  if (request->noise6) setup->plan.noise = *request->noise6;
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
   return ST_OK;
@@ -44,6 +50,11 @@ void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
     plan->way[i] = (waypoint_t){at_s, setup->model.ceiling_m - gap_m[i]};
   }
   plan->end_s = hover_s + hold_s * (n - 1);
+}
+
+void setup6_close_ladder(setup6_t *setup) {
+  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  setup6_ladder(setup, gap_m, (int)(sizeof gap_m / sizeof *gap_m), 10.0);
 }
 
 static void ask_flight(const void *state, thoughts_t *thoughts) {
@@ -76,23 +87,39 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   return status;
 }
 
-static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
+// Heights of the estimator count from the centre of mass at rest, and so do the peer's distances.
+static air_garage_param_t air_garage_here(const model_t *model) {
+  air_garage_param_t p = air_garage_2024();
+  p.ceiling_m = model->ceiling_m - body_rest_z_m(model);
+  p.ground_m = -body_rest_z_m(model);
+  return p;
+}
+
+static bool is_peer(fly_kind_t kind) {
+  return kind == FLY_STOCK_PID || kind == FLY_STOCK_INDI || kind == FLY_AIR_GARAGE;
+}
+
+static status_t fly_peer(const setup6_t *setup, flown6_t *flown, why_t *why) {
   stock_pid_t pid;
   stock_indi_t indi;
+  air_garage_t garage;
   const stock_pid_param_t pid_param = stock_pid_default();
   const stock_indi_param_t indi_param = stock_indi_default();
-  const pilot6_t pilot =
-      setup->kind == FLY_STOCK_PID ? stock_pid_pilot(&pid, &pid_param) : stock_indi_pilot(&indi, &indi_param);
+  const air_garage_param_t garage_param = air_garage_here(&setup->model);
+  const pilot6_t pilot = setup->kind == FLY_STOCK_PID    ? stock_pid_pilot(&pid, &pid_param)
+                         : setup->kind == FLY_STOCK_INDI ? stock_indi_pilot(&indi, &indi_param)
+                                                         : air_garage_pilot(&garage, &garage_param);
   return loop6_fly(&setup->plan, &setup->model, &pilot, NULL, &flown->flown.record, &flown->more,
                    &flown->flown.outcome, why);
 }
 
 // The learning flight of thesis section 5.3, and its weights frozen.
 static status_t learn_first(setup6_t *setup, why_t *why) {
-  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  if (!isfinite(setup->model.ceiling_m))
+    return error_set(why, "--controller indi-learned: there is no ceiling here to learn from");
   setup6_t learning = *setup;
   learning.flight.curve.mode = CURVE_LIVE;
-  setup6_ladder(&learning, gap_m, 6, 10.0);
+  setup6_close_ladder(&learning);
   flown6_t flight = {.more = {0}};
   const status_t status = fly_flight(&learning, &flight, why);
   setup->flight.curve.fixed = flight.flown.weights;
@@ -113,8 +140,7 @@ status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
   setup6_t ready = *setup;
   *flown = (flown6_t){.flown = {.plan = setup->plan.plan}};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
-  const bool stock = setup->kind == FLY_STOCK_PID || setup->kind == FLY_STOCK_INDI;
-  TRY(stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why));
+  TRY(is_peer(setup->kind) ? fly_peer(&ready, flown, why) : fly_flight(&ready, flown, why));
   flown->flown.n_segment = segments_of(&flown->flown.record, &flown->flown.plan, flown->flown.segment);
   measure_tilt(flown);
   return ST_OK;

@@ -41,7 +41,9 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
       {"fly appendix-a --seed -3", "fly: --seed -3: allowed is a whole number from 0 to 1000000000\n"},
       {"fly appendix-a --seeds 0", "fly: --seeds 0: allowed is a whole number from 1 to 10000\n"},
       {"fly appendix-a --controller lqr",
-       "fly: --controller lqr: allowed are indi, indi-theory, indi-rbf, indi-learned, pid, pid-ff\n"},
+       "fly: --controller lqr: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+       "pid, "
+       "pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage\n"},
       {"fly appendix-a --set indiPos.kp", "fly: --set indiPos.kp: allowed is group.name=value\n"},
       {"fly appendix-a --set indiPos.kq=1",
        "fly: --set indiPos.kq: no such parameter; fly --params lists them\n"},
@@ -63,7 +65,13 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
        "fly: --set indiPos.cutoff=0.001: allowed is 0, or 0.1 to 45 Hz\n"},
       {"fly pid-tables --set indiPos.kp=1", "fly: --set: the flight code does not fly in pid-tables\n"},
       {"fly rls-sweep --controller pid", "fly: --controller pid: knows no ceiling distance to learn from\n"},
-      {"fly appendix-a --noise loud", "fly: --noise loud: allowed are none, n1, n2, n3\n"},
+      {"fly appendix-a --noise loud",
+       "fly: --noise loud: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees of "
+       "freedom\n"},
+      {"fly appendix-a --noise real",
+       "fly: --noise real: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3\n"},
+      {"fly close-flight --noise n1",
+       "fly: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real\n"},
       {"fly appendix-a --integrator euler",
        "fly: --integrator euler: allowed are sundials, rk4, reference\n"},
       {"fly appendix-a --seeds 2 --log x.csv", "fly: --log: one flight can be written; leave out --seeds\n"},
@@ -147,7 +155,7 @@ TEST(fly_writes_the_same_flight_for_the_same_seed) {
   char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], text[4000];
   if (!CHECK(mkdtemp(dir) != NULL)) return;
   for (int i = 0; i < 3; i++) {
-    snprintf(arguments, sizeof arguments, "fly learning-flight --integrator rk4 --seed %d --log %s/%d.csv",
+    snprintf(arguments, sizeof arguments, "fly learning-1d --integrator rk4 --seed %d --log %s/%d.csv",
              i == 2 ? 8 : 7, dir, i);
     CHECK(run(arguments, "output", text, sizeof text) == 0);
   }

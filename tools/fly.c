@@ -33,7 +33,7 @@ static const char USAGE[] =
     "switches\n"
     "                           off what the scenario has; see --list (may be repeated)\n"
     "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
-    "  --noise LEVEL            none, n1, n2 or n3\n"
+    "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet or real\n"
     "  --seed N                 of the noise; the first one with --seeds (1)\n"
     "  --seeds N                flies N times, with seeds that count up (1)\n"
     "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
@@ -52,17 +52,27 @@ static status_t take_controller(order_t *o, const char *name, why_t *why) {
     o->request.kind = &o->kind;
     return ST_OK;
   }
-  return error_set(why, "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned, pid, pid-ff",
-                   name);
+  return error_set(
+      why,
+      "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+      "pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage",
+      name);
 }
 
 static status_t take_noise(order_t *o, const char *name, why_t *why) {
+  o->request.noise = NULL;
+  o->request.noise6 = noise6_find(name);
+  if (o->request.noise6) return ST_OK;
   for (int i = 0; i < noise_count; i++) {
     if (strcmp(noise_levels[i].name, name) != 0) continue;
     o->request.noise = &noise_levels[i];
     return ST_OK;
   }
-  return error_set(why, "--noise %s: allowed are none, n1, n2, n3", name);
+  return error_set(
+      why,
+      "--noise %s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
+      "of freedom",
+      name);
 }
 
 static status_t take_integrator(order_t *o, const char *name, why_t *why) {
