@@ -8,7 +8,7 @@ static const integrate_kind_t kinds[] = {INTEGRATE_SUNDIALS, INTEGRATE_RK4};
 static const d3_t x_axis = {1.0, 0.0, 0.0};
 
 static double tilt_rad(const body_t *b) {
-  const axes_t axes = axes_of(dquat_of(b->y + RIGID_Q_WB));
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   return acos(fmin(1.0, axes.z.z));
 }
 
@@ -17,7 +17,7 @@ TEST(body_in_free_fall_falls_as_it_should_and_feels_nothing) {
   for (int k = 0; k < 2; k++) {
     ROW("kind %d", k);
     body_start_t start = {.pos_w_m = {1.0, 2.0, 50.0}, .vel_w_mps = {0.5, -0.5, 1.0}};
-    start.q_wb = dquat_about(x_axis, 0.7);
+    start.q_wb = dq_about(x_axis, 0.7);
     body_t b;
     if (!CHECK_OK(body_open(&b, &m, kinds[k], 0.002, &start))) continue;
     vehicle6_fly(&b, 0.0, 500);
@@ -92,7 +92,7 @@ static double growth_radps(double gap_m, bool tilt, double guess) {
   body_start_t start = vehicle6_start(&m, 1.0 - gap_m, share);
   const double z_m = start.pos_w_m.z, step_s = 0.0005;
   if (tilt)
-    start.q_wb = dquat_about(x_axis, 1e-7);
+    start.q_wb = dq_about(x_axis, 1e-7);
   else
     start.pos_w_m.z += 1e-8;
   body_t b;
@@ -133,7 +133,7 @@ TEST(ground_turns_a_tilted_vehicle_back_and_a_ceiling_turns_it_over) {
     vehicle6_add(&m, name[i]);
     const double gap_m = 0.05, ratio = 1.0 + 0.44 * exp(-80.0 * gap_m), slope_pm = 80.0 * (ratio - 1.0);
     body_start_t start = vehicle6_start(&m, gap_m, 1.0 / ratio);
-    start.q_wb = dquat_about(x_axis, 1e-4);
+    start.q_wb = dq_about(x_axis, 1e-4);
     body_t b;
     if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) continue;
     const double stiffness = 0.0325 * 0.0325 * WEIGHT_N / ratio * slope_pm / 16.8e-6; // 1/s2
@@ -151,7 +151,7 @@ TEST(each_rotor_has_its_own_distance_along_the_vertical) {
   vehicle6_add(&m, "ceiling");
   vehicle6_add(&m, "ground");
   body_start_t start = {.pos_w_m = {0.0, 0.0, 0.9}};
-  start.q_wb = dquat_about(x_axis, 0.5);
+  start.q_wb = dq_about(x_axis, 0.5);
   body_t b;
   if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
   for (int i = 0; i < ROTORS; i++) {
@@ -179,7 +179,7 @@ TEST(blades_touch_at_the_tilt_that_geometry_says) {
     for (int k = 0; k < 30; k++) {
       const double mid = 0.5 * (lo + hi);
       body_start_t start = {.pos_w_m = {0.0, 0.0, 1.0 - row[i].gap_m}};
-      start.q_wb = dquat_about(d3(sqrt(0.5), sqrt(0.5), 0.0), mid);
+      start.q_wb = dq_about(d3(sqrt(0.5), sqrt(0.5), 0.0), mid);
       body_t b;
       if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
       *(body_clearance(&b).ceiling_m > 0.0 ? &lo : &hi) = mid;
@@ -230,7 +230,7 @@ TEST(body_never_tunnels_whatever_speed_and_tilt_it_hits_with) {
         vehicle6_add(&m, "ceiling");
         m.frame.top_above_rotor_m = 0.008;
         body_start_t start = {.pos_w_m = {0.0, 0.0, 0.25}, .vel_w_mps = {1.0, 0.0, speeds[s]}};
-        start.q_wb = dquat_about(d3(0.6, 0.8, 0.0), tilts[a]);
+        start.q_wb = dq_about(d3(0.6, 0.8, 0.0), tilts[a]);
         start.rate_b_radps = d3(3.0, -2.0, 1.0);
         body_t b;
         if (!CHECK_OK(body_open(&b, &m, kinds[k], 0.002, &start))) continue;

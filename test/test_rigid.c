@@ -79,7 +79,7 @@ static void hover(const model_t *m, const double command_N[ROTORS], double f_N, 
     y[RIGID_THRUST_N + i] = f_N;
   }
   const load_t none = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  const axes_t axes = axes_of(dquat_of(y + RIGID_Q_WB));
+  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
   rigid_derivative(&r, y, &axes, ratio, &none, dydt);
 }
 
