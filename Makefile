@@ -15,7 +15,14 @@ C     = $(CC) -std=c11 $(OPT) $(WARN) $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off -fno-math-errno
-LIBS  = -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+# One file flies many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
+ifeq ($(findstring clang,$(CC)),)
+OMP     = -fopenmp
+OMP_LIB = -lgomp
+else
+OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
+endif
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
@@ -71,6 +78,9 @@ $(B)/sim/plant/%.o: sim/plant/%.cpp | setup
 $(B)/sim/effects/%.o: sim/effects/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Isim -c $< -o $@
+$(B)/sim/many.o: sim/many.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isim -Itest -c $< -o $@

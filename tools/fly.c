@@ -3,11 +3,13 @@
 #include "io/effect_spec.h"
 #include "io/model_file.h"
 #include "io/number.h"
+#include "many.h"
 #include "param_spec.h"
 #include "scenario/scenario.h"
 
 #include <getopt.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,8 @@ typedef struct {
   request_t request;
   fly_kind_t kind;
   model_t vehicle;
-  int seeds;
+  int seeds;       // 0: not said
+  double from, to; // NaN: not said
   const char *log, *json;
   bool list, params, markdown, help;
 } order_t;
@@ -36,6 +39,8 @@ static const char USAGE[] =
     "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet or real\n"
     "  --seed N                 of the noise; the first one with --seeds (1)\n"
     "  --seeds N                flies N times, with seeds that count up (1)\n"
+    "  --from A --to B          flies seeds A to B on all processors, a line each; --json then gets JSON "
+    "lines\n"
     "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
     "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
     "  --json FILE              writes what is printed, and more\n"
@@ -125,6 +130,8 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
     TRY(take_count("--seed", text, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
     return ST_OK;
+  case 'f': return take_count("--from", text, 1e9, &o->from, why);
+  case 't': return take_count("--to", text, 1e9, &o->to, why);
   case 'm':
     TRY(take_count("--seeds", text, SEEDS_MAX, &count, why));
     if (count < 1.0) return error_set(why, "--seeds 0: allowed is a whole number from 1 to %d", SEEDS_MAX);
@@ -142,17 +149,26 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
 }
 
+static bool many(const order_t *o) {
+  return !isnan(o->from) || !isnan(o->to);
+}
+
+static status_t check_many(const order_t *o, why_t *why) {
+  if (!many(o)) return ST_OK;
+  if (!(o->from <= o->to)) return error_set(why, "--from, --to: both are needed, and --from <= --to");
+  if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
+  if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
+  return ST_OK;
+}
+
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},
-      {"effect", 1, 0, 'e'},     {"vehicle", 1, 0, 'v'},
-      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
-      {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'},
-      {"log", 1, 0, 'l'},        {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'},
-      {"help", 0, 0, 'h'},       {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},    {"effect", 1, 0, 'e'}, {"vehicle", 1, 0, 'v'},
+      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},   {"seeds", 1, 0, 'm'},  {"integrator", 1, 0, 'i'},
+      {"from", 1, 0, 'f'},       {"to", 1, 0, 't'},     {"log", 1, 0, 'l'},    {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},   {0},
   };
-  *o = (order_t){.seeds = 1, .request = {.seed = 1}};
+  *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
     if (option == '?')
@@ -165,7 +181,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   o->scenario = scenario_find(argv[optind]);
   if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
-  return ST_OK;
+  return check_many(o, why);
 }
 
 // --- flying -------------------------------------------------------------------------------------------
@@ -208,6 +224,18 @@ static status_t fly(const order_t *o, why_t *why) {
   return status;
 }
 
+static status_t fly_many(const order_t *o, why_t *why) {
+  const many_t m = {
+      .scenario = o->scenario,
+      .request = &o->request,
+      .from = (uint64_t)o->from,
+      .to = (uint64_t)o->to,
+      .json = o->json,
+      .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+  };
+  return many_fly(&m, stdout, why);
+}
+
 int main(int argc, char **argv) {
   static order_t order;
   why_t why;
@@ -215,7 +243,8 @@ int main(int argc, char **argv) {
   if (status == ST_OK && order.help) fputs(USAGE, stdout);
   if (status == ST_OK && order.list) catalogue_all();
   if (status == ST_OK && order.params) catalogue_params(order.markdown);
-  if (status == ST_OK && order.scenario) status = fly(&order, &why);
+  if (status == ST_OK && order.seeds == 0) order.seeds = 1;
+  if (status == ST_OK && order.scenario) status = many(&order) ? fly_many(&order, &why) : fly(&order, &why);
   if (status == ST_OK) return 0;
   fprintf(stderr, "fly: %s\n", why.text);
   return 2;
