@@ -52,7 +52,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -107,6 +107,9 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 
 demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
+
+flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
+	@tools/flights.sh
 
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
