@@ -75,6 +75,16 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
       {"fly appendix-a --integrator euler",
        "fly: --integrator euler: allowed are sundials, rk4, reference\n"},
       {"fly appendix-a --seeds 2 --log x.csv", "fly: --log: one flight can be written; leave out --seeds\n"},
+      {"fly close-flight --from 1", "fly: --from, --to: both are needed, and --from <= --to\n"},
+      {"fly close-flight --from 2 --to 1", "fly: --from, --to: both are needed, and --from <= --to\n"},
+      {"fly close-flight --from 1 --to 2 --seeds 3",
+       "fly: --seeds: allowed is either that or --from and --to\n"},
+      {"fly close-flight --from 1 --to 2 --log x.csv",
+       "fly: --log: one flight can be written; leave out --from and --to\n"},
+      {"fly close-flight --from 1 --to 2 --json /no/such/dir/x.json",
+       "fly: /no/such/dir/x.json: cannot be written: No such file or directory\n"},
+      {"fly hand-held --controller indi",
+       "fly: --controller, --set: in hand-held nobody flies; allowed are --vehicle, --noise, --seed\n"},
       {"fly appendix-a --json /no/such/dir/x.json",
        "fly: /no/such/dir/x.json: cannot be written: No such file or directory\n"},
       {"fly appendix-a --vehicle /no/such.toml",
@@ -164,6 +174,38 @@ TEST(fly_writes_the_same_flight_for_the_same_seed) {
   CHECK(system(command) == 0);
   snprintf(command, sizeof command, "cmp -s %s/0.csv %s/2.csv", dir, dir);
   CHECK(system(command) != 0);
+  snprintf(command, sizeof command, "rm -r %s", dir);
+  CHECK(system(command) == 0);
+}
+
+TEST(fly_writes_the_same_lines_however_the_work_was_cut) {
+  static const struct { int from, to; } row[] = {{1, 6}, {1, 3}, {4, 6}};
+  char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], command[600];
+  static char text[3][4000];
+  if (!CHECK(mkdtemp(dir) != NULL)) return;
+  for (int i = 0; i < 3; i++) {
+    snprintf(arguments, sizeof arguments, "fly close-flight --integrator rk4 --from %d --to %d --json %s/%d",
+             row[i].from, row[i].to, dir, i);
+    CHECK(run(arguments, "output", text[i], sizeof text[i]) == 0);
+  }
+  snprintf(command, sizeof command, "cat %s/1 %s/2 | cmp -s - %s/0", dir, dir, dir);
+  CHECK(system(command) == 0);
+  const size_t first = strlen(text[1]);
+  CHECK(strncmp(text[0], text[1], first) == 0);
+  CHECK_TEXT(text[0] + first, text[2]);
+  snprintf(command, sizeof command, "test $(wc -l <%s/0) = 6 && rm -r %s", dir, dir);
+  CHECK(system(command) == 0);
+}
+
+TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
+  char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], command[300], text[4000];
+  if (!CHECK(mkdtemp(dir) != NULL)) return;
+  snprintf(arguments, sizeof arguments, "fly learning-flight --integrator rk4 --log %s/f.csv", dir);
+  CHECK(run(arguments, "output", text, sizeof text) == 0);
+  CHECK(strstr(text, "ceil.w7") != NULL);
+  snprintf(arguments, sizeof arguments, "learn %s/f.csv", dir);
+  CHECK(run(arguments, "output", text, sizeof text) == 0);
+  CHECK(strstr(text, "ceil.w7 = ") != NULL);
   snprintf(command, sizeof command, "rm -r %s", dir);
   CHECK(system(command) == 0);
 }

@@ -70,7 +70,7 @@ set output "figure_$figure.png"
 set title "Test flight, $(name $controller): mean and one standard deviation of $seeds flights (thesis figure $figure)"
 set xlabel "time, s"; set ylabel "height of the propellers, m"
 set xrange [20:42]; set yrange [0.40:0.51]
-set grid lc rgb "#dddddd"; set border 3; set tics nomirror; set key bottom right
+set grid lc rgb "#dddddd"; set border 3; set tics nomirror; set key at graph 0.02,0.86 left Left reverse
 plot "mean.$controller.txt" u 1:(\$2-\$3):(\$2+\$3) w filledcurves lc rgb "#9ecae1" t "one standard deviation", \
      "" u 1:2 w l lw 2 lc rgb "#08519c" t "mean", "" u 1:4 w steps lw 2 dt 2 lc rgb "#333333" t "command", \
      "" u 1:5 w l lw 2 lc rgb "#d55e00" t "ceiling, estimated", 0.5 w l lw 3 lc rgb "#555555" t "ceiling"
@@ -88,7 +88,7 @@ set key autotitle columnhead
 set title "Close flight, one flight of each controller (thesis figure 13)"
 set xlabel "time, s"; set ylabel "height of the propellers, m"
 set xrange [30:62]; set yrange [0.41:0.505]
-set border 3; set tics nomirror; set key bottom right
+set border 3; set tics nomirror; set key at graph 0.02,0.86 left Left reverse
 $3
 plot "close.indi.csv" u (\$1/1e3):"sim.z" w l lw 2 lc rgb "#d55e00" t "standard INDI", \
      "close.indi-rbf.csv" u (\$1/1e3):"sim.z" w l lw 2 lc rgb "#0072b2" t "RBF fitted to the theory", \
