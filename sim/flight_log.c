@@ -29,7 +29,7 @@ status_t flight_log_open(flight_log_t **log, const char *path, const columns_t *
                          const model_t *vehicle, unsigned need, why_t *why) {
   *log = NULL;
   flight_log_t *const fresh = calloc(1, sizeof *fresh);
-  if (!fresh) return error_set(why, "%s: out of memory", path);
+  if (!fresh) return error_failed(why, "%s: out of memory", path);
   fresh->need = need;
   fresh->range_m = (double)NAN;
   const status_t status = log_rows_open(&fresh->rows, path, columns, vehicle, need, why);

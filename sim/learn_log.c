@@ -32,7 +32,7 @@ void learn_job_init(learn_job_t *job, const model_t *vehicle, int surface) {
   *job = (learn_job_t){.vehicle = *vehicle, .surface = surface, .columns = columns_crazyflie()};
   params_default(&job->param);
   job->param.motor_tau_s = (float)vehicle->motor_tau_s;
-  job->param.pos.mass_kg = (float)vehicle->mass_kg;
+  job->param.pos.mass_kg = job->stands_mass_kg = (float)vehicle->mass_kg;
   // Weights to be typed in are to fit all flights alike; a random walk forgets within ten seconds what it
   // does not see.
   job->param.learn.rls.q = 0.0f;
@@ -83,8 +83,10 @@ static void look_at_surface(pass_t *p, const flight_tick_t *tick, float up, view
 }
 
 // Far from the surface, but the rotors do not carry the vehicle: it stands on something.
-static bool stands(const view_t *view) {
-  return view->far && view->sample.force_N > LEARN_STANDS_RATIO * view->sample.thrust_N;
+// Not with param.pos.mass_kg: with one that was set by hand all would seem to stand.
+static bool stands(const learn_job_t *job, const view_t *view) {
+  const float force_N = view->sample.force_N / job->param.pos.mass_kg * job->stands_mass_kg;
+  return view->far && force_N > LEARN_STANDS_RATIO * view->sample.thrust_N;
 }
 
 static view_t look(pass_t *p, const flight_tick_t *tick) {
@@ -104,7 +106,7 @@ static view_t look(pass_t *p, const flight_tick_t *tick) {
       .force_up_N = mass_kg * (x.acc_w_mps2.z + GRAVITY_MPS2),
   };
   look_at_surface(p, tick, quat_up(p->sync.att_last).z, &view);
-  if (stands(&view)) view.sample.known = view.far = false;
+  if (stands(p->job, &view)) view.sample.known = view.far = false;
   return view;
 }
 

@@ -16,7 +16,7 @@
 
 #define LEARN_FAR_M          0.2f // from here on the surface does nothing: thrust over specific force is the mass
 #define LEARN_NEAR_M         0.07f // "below 7 cm"
-#define LEARN_STANDS_RATIO   1.25f // force over thrust, far from any surface, with the vehicle file's mass
+#define LEARN_STANDS_RATIO   1.25f // force over thrust, far from any surface, with stands_mass_kg
 #define LEARN_MASS_TICKS_MIN 100
 
 typedef struct {
@@ -25,6 +25,7 @@ typedef struct {
   model_t vehicle;
   int surface;          // SURFACE_CEILING or SURFACE_GROUND
   double rest_height_m; // SURFACE_GROUND
+  float stands_mass_kg; // tells standing from flying: the vehicle file's mass, or better the measured one
   FILE *points;         // gets `distance,ratio` of every sample that teaches; null: nothing is written
 } learn_job_t;
 

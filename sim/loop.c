@@ -1,4 +1,5 @@
 // loop.c - one flight.
+#define _POSIX_C_SOURCE 200809L // clock_gettime
 #include "loop.h"
 
 #include "estimator/kalman_z.h"
@@ -26,7 +27,7 @@ typedef struct {
 
 static double wall_s(void) {
   struct timespec now;
-  timespec_get(&now, TIME_UTC);
+  clock_gettime(CLOCK_MONOTONIC, &now); // the time of day can be set meanwhile
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -107,7 +108,7 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
   kalman_z_init(&f.kalman, KALMAN_ACC_MPS2, fmax(plan->noise.down_m, 1e-4), controller->period_s,
                 (int)ticks_of(DOWN_PERIOD_S, controller->period_s), plan->start_z_m);
   f.random = random_open(plan->seed);
-  status_t status = f.random ? ST_OK : ST_BAD_INPUT;
+  status_t status = f.random ? ST_OK : ST_FAILED;
   if (status == ST_OK)
     status =
         world_open(&f.world, model, plan->integrate, plan->step_s > 0.0 ? plan->step_s : INTEGRATE_STEP_S,
@@ -117,5 +118,5 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
   outcome->realtime_factor = plan->end_s / fmax(wall_s() - start_s, 1e-9);
   if (f.world.integrate) world_close(&f.world);
   random_close(f.random);
-  return status == ST_OK ? ST_OK : error_set(why, "the flight could not be run: out of memory");
+  return status == ST_OK ? ST_OK : error_failed(why, "the flight could not be run: out of memory");
 }

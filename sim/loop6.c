@@ -214,7 +214,7 @@ static status_t open(flight6_t *f) {
 status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
                    record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   flight6_t *f = calloc(1, sizeof *f);
-  if (!f) return error_set(why, "out of memory");
+  if (!f) return error_failed(why, "out of memory");
   *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
   f->gap_min_m = HUGE_VAL;
   f->range_m = (double)NAN;

@@ -1,7 +1,6 @@
 // many.c - many flights of one scenario, one line each.
 #include "many.h"
 
-#include "io/whole_file.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -49,22 +48,22 @@ static line_t fly(const many_t *m, uint64_t seed) {
   if (line.status == ST_OK) sum_up(result.json, seed, &line);
   if (line.status == ST_OK && m->json) {
     line.json = cJSON_PrintUnformatted(result.json);
-    if (!line.json) line.status = error_set(&line.why, "out of memory");
+    if (!line.json) line.status = error_failed(&line.why, "out of memory");
   }
   result_free(&result);
   return line;
 }
 
-static void write_line(const many_t *m, const line_t *line, uint64_t done, FILE *text, FILE *json) {
-  fprintf(text, "%s\n", line->text);
-  if (json) fprintf(json, "%s\n", line->json);
+static void write_line(const many_t *m, const line_t *line, uint64_t done) {
+  fprintf(m->text, "%s\n", line->text);
+  if (line->json) fprintf(m->json, "%s\n", line->json);
   if (m->progress)
     fprintf(stderr, "\r%llu of %llu flights", (unsigned long long)done,
             (unsigned long long)(m->to - m->from + 1));
 }
 
 // The first failure, in the order of the seeds, ends what is written.
-static status_t fly_all(const many_t *m, FILE *text, FILE *json, why_t *why) {
+status_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
   status_t status = ST_OK; // touched in the ordered part alone
 #pragma omp parallel for ordered schedule(dynamic, 1)
@@ -72,7 +71,7 @@ static status_t fly_all(const many_t *m, FILE *text, FILE *json, why_t *why) {
     line_t line = fly(m, m->from + (uint64_t)i);
 #pragma omp ordered
     if (status == ST_OK && line.status == ST_OK) {
-      write_line(m, &line, (uint64_t)i + 1, text, json);
+      write_line(m, &line, (uint64_t)i + 1);
     } else if (status == ST_OK) {
       status = line.status;
       *why = line.why;
@@ -80,15 +79,5 @@ static status_t fly_all(const many_t *m, FILE *text, FILE *json, why_t *why) {
     free(line.json);
   }
   if (m->progress) fputc('\n', stderr);
-  return status;
-}
-
-status_t many_fly(const many_t *m, FILE *text, why_t *why) {
-  if (!m->json) return fly_all(m, text, NULL, why);
-  whole_file_t out;
-  TRY(whole_file_open(&out, m->json, why));
-  const status_t status = fly_all(m, text, out.file, why);
-  if (status == ST_OK) return whole_file_close(&out, why);
-  whole_file_drop(&out);
   return status;
 }

@@ -15,12 +15,12 @@ typedef struct {
   const scenario_t *scenario;
   const request_t *request; // its seed is not used
   uint64_t from, to;
-  const char *json; // file for the JSON lines, complete or not there; a null pointer: none
-  bool progress;    // a line on standard error, for people
+  FILE *text, *json; // json: a null pointer for none
+  bool progress;     // a line on standard error, for people
 } many_t;
 
-// Writes a line of text for each flight. ST_BAD_INPUT: as the scenario, or the file cannot be written; the
-// lines of the seeds before are written then.
-MUST_CHECK status_t many_fly(const many_t *m, FILE *text, why_t *why);
+// Writes a line for each flight. ST_BAD_INPUT, ST_FAILED: as the scenario; the lines of the seeds before are
+// written then.
+MUST_CHECK status_t many_fly(const many_t *m, why_t *why);
 
 #endif

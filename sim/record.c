@@ -1,7 +1,6 @@
 // record.c - a flight in memory, and as a log.
 #include "record.h"
 
-#include "io/whole_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +12,7 @@ status_t record_add(record_t *r, const sample_t *sample) {
   if (r->n == r->room) {
     const int room = r->room ? 2 * r->room : 4096;
     sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
-    if (!more) return ST_BAD_INPUT;
+    if (!more) return ST_FAILED;
     r->sample = more;
     r->room = room;
   }
@@ -76,10 +75,7 @@ static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
   fputc('\n', file);
 }
 
-status_t record_write(const record_t *r, const char *path, why_t *why) {
-  whole_file_t out;
-  TRY(whole_file_open(&out, path, why));
-  write_names(out.file, r->more != NULL);
-  for (int i = 0; i < r->n; i++) write_sample(out.file, &r->sample[i], r->more ? &r->more[i] : NULL);
-  return whole_file_close(&out, why);
+void record_write(const record_t *r, FILE *file) {
+  write_names(file, r->more != NULL);
+  for (int i = 0; i < r->n; i++) write_sample(file, &r->sample[i], r->more ? &r->more[i] : NULL);
 }

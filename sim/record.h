@@ -6,6 +6,7 @@
 #include "error.h"
 #include "estimator/ekf.h"
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef struct {
   double t_s, setpoint_m;
@@ -35,13 +36,12 @@ typedef struct {
   sample6_t *more; // as many, or a null pointer: flown on the vertical axis
 } record_t;
 
-// ST_BAD_INPUT: no memory; nothing was added.
+// ST_FAILED: no memory; nothing was added.
 MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);
 
 void record_free(record_t *r);
 
-// Writes the flight as a CSV with Crazyflie log names (README, logs); the file is complete or not there.
-// ST_BAD_INPUT: it cannot be written.
-MUST_CHECK status_t record_write(const record_t *r, const char *path, why_t *why);
+// Writes the flight as a CSV with Crazyflie log names (README, logs). The stream knows if that failed.
+void record_write(const record_t *r, FILE *file);
 
 #endif

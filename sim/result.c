@@ -1,16 +1,14 @@
 // result.c - what a scenario found.
 #include "result.h"
 
-#include "io/whole_file.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 
 status_t result_init(result_t *r, why_t *why) {
   *r = (result_t){.json = cJSON_CreateObject()};
-  if (!r->json) return error_set(why, "out of memory");
+  if (!r->json) return error_failed(why, "out of memory");
   cJSON_AddArrayToObject(r->json, "segments");
   cJSON_AddNumberToObject(r->json, "contacts", 0.0);
   cJSON_AddBoolToObject(r->json, "finite", true);
@@ -157,13 +155,12 @@ void result_print(const cJSON *json, FILE *out) {
           number(json, "realtime_factor"));
 }
 
-status_t result_write(const cJSON *json, const char *path, why_t *why) {
-  whole_file_t out;
-  TRY(whole_file_open(&out, path, why));
+status_t result_write(const cJSON *json, FILE *file, why_t *why) {
   char *text = cJSON_Print(json);
-  if (text) fprintf(out.file, "%s\n", text);
-  free(text);
-  return whole_file_close(&out, why);
+  if (!text) return error_failed(why, "out of memory");
+  fprintf(file, "%s\n", text);
+  cJSON_free(text);
+  return ST_OK;
 }
 
 // --- over seeds ---------------------------------------------------------------------------------------
@@ -182,12 +179,10 @@ static double over_flights(cJSON *const *json, int n, int segment, const char *k
   return add ? sum : least ? low : most ? high : sum / n;
 }
 
-cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
-  cJSON *all = cJSON_Duplicate(json[0], true), *cell;
+static cJSON *segments_over_seeds(cJSON *const *json, int n) {
+  cJSON *all = cJSON_Duplicate(cJSON_GetObjectItem(json[0], "segments"), true), *row, *cell;
   int segment = 0;
-  cJSON *row;
-  double contacts = 0.0, finite = 1.0;
-  cJSON_ArrayForEach(row, cJSON_GetObjectItem(all, "segments")) {
+  cJSON_ArrayForEach(row, all) {
     cJSON_ArrayForEach(cell, row) {
       if (!cJSON_IsNumber(cell)) continue;
       const double value = over_flights(json, n, segment, cell->string);
@@ -195,15 +190,25 @@ cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
     }
     segment++;
   }
-  cJSON *flights = cJSON_AddArrayToObject(all, "flights");
+  return all;
+}
+
+cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
+  cJSON *all = cJSON_CreateObject(), *flights = cJSON_CreateArray();
+  double contacts = 0.0, factor = 0.0;
+  bool finite = true;
   for (int i = 0; i < n; i++) {
     contacts += number(json[i], "contacts");
-    if (!cJSON_IsTrue(cJSON_GetObjectItem(json[i], "finite"))) finite = 0.0;
+    factor += number(json[i], "realtime_factor") / n;
+    finite = finite && cJSON_IsTrue(cJSON_GetObjectItem(json[i], "finite"));
     cJSON *flight = cJSON_Duplicate(json[i], true);
     cJSON_AddNumberToObject(flight, "seed", (double)(first_seed + (uint64_t)i));
     cJSON_AddItemToArray(flights, flight);
   }
-  replace_number(all, "contacts", contacts);
-  if (finite < 1.0) cJSON_ReplaceItemInObject(all, "finite", cJSON_CreateFalse());
+  cJSON_AddItemToObject(all, "segments", segments_over_seeds(json, n));
+  cJSON_AddNumberToObject(all, "contacts", contacts);
+  cJSON_AddBoolToObject(all, "finite", finite);
+  cJSON_AddNumberToObject(all, "realtime_factor", factor);
+  cJSON_AddItemToObject(all, "flights", flights);
   return all;
 }

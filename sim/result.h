@@ -11,7 +11,7 @@ typedef struct {
   record_t record; // of the flight that --log writes
 } result_t;
 
-// An empty result. ST_BAD_INPUT: no memory.
+// An empty result. ST_FAILED: no memory.
 MUST_CHECK status_t result_init(result_t *r, why_t *why);
 void result_free(result_t *r);
 
@@ -38,12 +38,14 @@ cJSON *result_segment(const segment_t *s);
 // Every table, as aligned text.
 void result_print(const cJSON *json, FILE *out);
 
-// ST_BAD_INPUT: the file cannot be written; it is complete or not there.
-MUST_CHECK status_t result_write(const cJSON *json, const char *path, why_t *why);
+// ST_FAILED: no memory for the text. If the file took it, the stream knows.
+MUST_CHECK status_t result_write(const cJSON *json, FILE *file, why_t *why);
 
-// The same scenario with several seeds: "segments" becomes the mean over the flights (null where one is null;
-// contacts add up; the smallest gap is the smallest, the largest tilt the largest), "flights" holds each
-// one's own with its seed.
+// The same scenario with several seeds. "segments" becomes the mean over the flights (null where one is null;
+// contacts add up; the smallest gap is the smallest, the largest tilt the largest), "contacts" the sum,
+// "finite" false where one is not, "realtime_factor" the mean. "flights" holds each one's own with its seed.
+// What a scenario adds of its own stands there alone: what of a table may be averaged is not known here. A
+// null pointer: no memory.
 cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed);
 
 #endif

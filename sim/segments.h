@@ -16,7 +16,7 @@ typedef struct {
   double sd_mm;         // about that mean
   double rms_mm;        // about the set point
   double min_gap_mm;    // smallest distance to the ceiling
-  int contacts;         // with the ceiling
+  int contacts;         // with the ceiling, also one that lasts from before
 } segment_t;
 
 // One segment for each waypoint of the plan. segment has room for WAYPOINTS_MAX; returns how many.

@@ -135,7 +135,11 @@ status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why) {
   *flown = (flown_t){.plan = setup->plan};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
   const bool pid = setup->kind == FLY_PID || setup->kind == FLY_PID_FF;
-  TRY(pid ? fly_pid(&ready, flown, why) : fly_indi(&ready, flown, why));
+  const status_t status = pid ? fly_pid(&ready, flown, why) : fly_indi(&ready, flown, why);
+  if (status != ST_OK) {
+    flown_free(flown);
+    return status;
+  }
   flown->n_segment = segments_of(&flown->record, &flown->plan, flown->segment);
   return ST_OK;
 }

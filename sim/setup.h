@@ -74,8 +74,8 @@ typedef struct {
   rbf_weights_t weights; // at the end of the flight, where the flight code flew
 } flown_t;
 
-// ST_BAD_INPUT: as loop_fly; or FLY_INDI_LEARNED where there is no ceiling to learn from. Free what was
-// flown.
+// ST_FAILED: as loop_fly. ST_BAD_INPUT: a filter that the controller's rate does not allow, or
+// FLY_INDI_LEARNED where there is no ceiling to learn from. Free what was flown; on error nothing was.
 MUST_CHECK status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
 
 void flown_free(flown_t *flown);

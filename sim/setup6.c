@@ -71,7 +71,7 @@ static void ask_flight(const void *state, thoughts_t *thoughts) {
 
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   pilot_flight_t *p = malloc(sizeof *p);
-  if (!p) return error_set(why, "out of memory");
+  if (!p) return error_failed(why, "out of memory");
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;

@@ -1,32 +1,10 @@
 // test_cli.c - the programs as a person meets them: options, bad input, exit status.
-#define _POSIX_C_SOURCE 200809L
+#include "programs.h"
 #include "test.h"
 
+#include <cjson/cJSON.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-// Where the programs lie that belong to this build.
-static const char *programs(void) {
-  const char *dir = getenv("PROGRAMS");
-  return dir ? dir : "out";
-}
-
-// Runs `PROGRAM ARGUMENTS`, returns the exit status; text gets what was written to standard output or error.
-static int run(const char *arguments, const char *stream, char *text, size_t size) {
-  char command[1024];
-  snprintf(command, sizeof command, "%s/%s %s", programs(), arguments,
-           strcmp(stream, "error") == 0 ? "2>&1 >/dev/null" : "2>/dev/null");
-  FILE *pipe = popen(command, "r");
-  if (!pipe) return -1;
-  const size_t n = fread(text, 1, size - 1, pipe);
-  text[n] = '\0';
-  while (fgetc(pipe) != EOF) continue;
-  const int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
   static const struct {
@@ -103,9 +81,9 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);
     char text[2000];
-    CHECK(run(row[i].arguments, "error", text, sizeof text) == 2);
+    CHECK(program_run(row[i].arguments, STREAM_ERROR, text, sizeof text) == 2);
     CHECK_TEXT(text, row[i].line);
-    CHECK(run(row[i].arguments, "output", text, sizeof text) == 2);
+    CHECK(program_run(row[i].arguments, STREAM_OUTPUT, text, sizeof text) == 2);
     CHECK_TEXT(text, "");
   }
 }
@@ -126,7 +104,7 @@ TEST(fly_names_what_is_allowed_of_an_effect) {
     ROW("%s", row[i].spec);
     char arguments[200], text[2000];
     snprintf(arguments, sizeof arguments, "fly appendix-a --effect %s", row[i].spec);
-    CHECK(run(arguments, "error", text, sizeof text) == 2);
+    CHECK(program_run(arguments, STREAM_ERROR, text, sizeof text) == 2);
     CHECK(strstr(text, row[i].part) != NULL);
     CHECK(strchr(text, '\n') == text + strlen(text) - 1); // one line
   }
@@ -143,7 +121,7 @@ TEST(fly_says_what_it_can_do) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);
     static char text[20000];
-    CHECK(run(row[i].arguments, "output", text, sizeof text) == 0);
+    CHECK(program_run(row[i].arguments, STREAM_OUTPUT, text, sizeof text) == 0);
     CHECK(strstr(text, row[i].part) != NULL);
   }
 }
@@ -152,9 +130,9 @@ TEST(fly_changes_the_plant_and_not_the_controller_by_an_effect) {
   // The controller keeps its own theory: with a weaker plant it is the overestimation of figure A.14 and
   // slower.
   char text[4000];
-  CHECK(run("fly appendix-a --controller indi-theory --set indiPos.cutoff=0 --effect ceiling:Ca=0 "
-            "--integrator rk4",
-            "output", text, sizeof text) == 0);
+  CHECK(program_run("fly appendix-a --controller indi-theory --set indiPos.cutoff=0 --effect ceiling:Ca=0 "
+                    "--integrator rk4",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
   const char *last = strstr(text, "0.48");
   double overshoot, peaks, t90 = 0.0;
   if (!CHECK(last && sscanf(last, "0.48 %lf %lf %lf", &overshoot, &peaks, &t90) == 3)) return;
@@ -162,50 +140,111 @@ TEST(fly_changes_the_plant_and_not_the_controller_by_an_effect) {
 }
 
 TEST(fly_writes_the_same_flight_for_the_same_seed) {
-  char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], text[4000];
-  if (!CHECK(mkdtemp(dir) != NULL)) return;
+  char line[300], text[4000];
   for (int i = 0; i < 3; i++) {
-    snprintf(arguments, sizeof arguments, "fly learning-1d --integrator rk4 --seed %d --log %s/%d.csv",
-             i == 2 ? 8 : 7, dir, i);
-    CHECK(run(arguments, "output", text, sizeof text) == 0);
+    snprintf(line, sizeof line, "fly learning-1d --integrator rk4 --seed %d --log $S/c_%d.csv",
+             i == 2 ? 8 : 7, i);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
   }
-  char command[400];
-  snprintf(command, sizeof command, "cmp -s %s/0.csv %s/1.csv", dir, dir);
-  CHECK(system(command) == 0);
-  snprintf(command, sizeof command, "cmp -s %s/0.csv %s/2.csv", dir, dir);
-  CHECK(system(command) != 0);
-  snprintf(command, sizeof command, "rm -r %s", dir);
-  CHECK(system(command) == 0);
+  CHECK(program_run("cmp -s $S/c_0.csv $S/c_1.csv", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(program_run("cmp -s $S/c_0.csv $S/c_2.csv", STREAM_OUTPUT, text, sizeof text) == 1);
+}
+
+TEST(fly_writes_nothing_when_something_is_wrong) {
+  static const struct {
+    const char *line, *message;
+    int status;
+  } row[] = {
+      {"fly appendix-a --log $S/new.csv --json /no/such/x.json",
+       "fly: /no/such/x.json: cannot be written: No such file or directory\n", 2},
+      {"fly appendix-a --json $S/new.json --log $S/c_dir", "fly: c_dir: a folder; allowed: a file\n", 2},
+      {"fly appendix-a --log $S/new --json $S/c_dir/../new",
+       "fly: c_dir/../new: to be written twice; allowed: a file for each output\n", 2},
+      {"fly pid-tables --controller indi --log $S/new --json $S/c_old",
+       "fly: --controller: pid-tables flies pid and pid-ff\n", 2},
+      {"fly appendix-a --json $S/c_own.toml --vehicle $S/c_own.toml",
+       "fly: c_own.toml: to be read and to be written; allowed: one of them\n", 2},
+      // A disk that is full after 512 bytes or 1 KB, as the shell counts.
+      {"trap '' XFSZ; ulimit -f 1; fly appendix-a --json $S/c_old --log $S/new.csv",
+       "fly: new.csv: cannot be written: File too large\n", 1},
+      {"fly appendix-a --json $S/c_old --log $S/new.csv >/dev/full",
+       "fly: standard output: cannot be written\n", 1},
+      {"fly --help >/dev/full", "fly: standard output: cannot be written\n", 1},
+      {"fly --list >/dev/full", "fly: standard output: cannot be written\n", 1},
+      {"fly --params >/dev/full", "fly: standard output: cannot be written\n", 1},
+      {"fly appendix-a --json $S/new.json >&-", "fly: standard output: it is closed\n", 1},
+      {"fly appendix-a --seeds x", "fly: --seeds x: allowed is a whole number from 1 to 10000\n", 2},
+  };
+  char before[4000], after[4000], text[2000];
+  CHECK(program_run("mkdir -p $S/c_dir; cp sim/vehicles/thesis_1d.toml $S/c_own.toml; "
+                    "printf old >$S/c_old",
+                    STREAM_ERROR, text, sizeof text) == 0);
+  program_listing(before, sizeof before);
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].line);
+    CHECK(program_run(row[i].line, STREAM_ERROR, text, sizeof text) == row[i].status);
+    CHECK_TEXT(text, row[i].message);
+    program_listing(after, sizeof after);
+    CHECK_TEXT(after, before);
+  }
+  CHECK(program_run("cat $S/c_old", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK_TEXT(text, "old");
+}
+
+TEST(fly_tells_all_of_every_segment_in_its_json) {
+  static const char *const field[] = {"setpoint_m",    "overshoot_mm", "peaks",  "t90_s",      "settle_1mm_s",
+                                      "mean_error_mm", "sd_mm",        "rms_mm", "min_gap_mm", "contacts"};
+  static char text[20000];
+  // Standard INDI touches the ceiling and never settles there; without a ceiling there is no gap to it.
+  CHECK(program_run("fly appendix-a --set indiPos.cutoff=8 --json /dev/stdout >$S/c.json; cat $S/c.json",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  const char *const begin = strchr(text, '{'); // behind what is printed
+  cJSON *json = cJSON_Parse(begin ? begin : "");
+  const cJSON *segments = cJSON_GetObjectItem(json, "segments");
+  if (CHECK(cJSON_GetArraySize(segments) == 3)) {
+    for (int i = 0; i < 3; i++) {
+      const cJSON *s = cJSON_GetArrayItem(segments, i);
+      CHECK(cJSON_GetArraySize(s) == 10);
+      for (unsigned k = 0; k < sizeof field / sizeof *field; k++) {
+        ROW("segment %d, %s", i, field[k]);
+        const cJSON *item = cJSON_GetObjectItemCaseSensitive(s, field[k]);
+        const int not_reached = i == 2 && strcmp(field[k], "settle_1mm_s") == 0;
+        CHECK(item && (not_reached ? cJSON_IsNull(item) : cJSON_IsNumber(item)));
+      }
+    }
+    const cJSON *last = cJSON_GetArrayItem(segments, 2);
+    CHECK(cJSON_GetObjectItem(last, "contacts")->valuedouble > 0.0);
+    CHECK_NEAR(cJSON_GetObjectItem(last, "setpoint_m")->valuedouble, 0.48, 1e-12);
+  }
+  ROW("%s", "the flight");
+  CHECK(cJSON_IsNumber(cJSON_GetObjectItem(json, "contacts")));
+  CHECK(cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")));
+  CHECK(cJSON_IsNumber(cJSON_GetObjectItem(json, "realtime_factor")));
+  cJSON_Delete(json);
 }
 
 TEST(fly_writes_the_same_lines_however_the_work_was_cut) {
   static const struct { int from, to; } row[] = {{1, 6}, {1, 3}, {4, 6}};
-  char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], command[600];
   static char text[3][4000];
-  if (!CHECK(mkdtemp(dir) != NULL)) return;
+  char line[300];
   for (int i = 0; i < 3; i++) {
-    snprintf(arguments, sizeof arguments, "fly close-flight --integrator rk4 --from %d --to %d --json %s/%d",
-             row[i].from, row[i].to, dir, i);
-    CHECK(run(arguments, "output", text[i], sizeof text[i]) == 0);
+    snprintf(line, sizeof line, "fly close-flight --integrator rk4 --from %d --to %d --json $S/cut_%d",
+             row[i].from, row[i].to, i);
+    CHECK(program_run(line, STREAM_OUTPUT, text[i], sizeof text[i]) == 0);
   }
-  snprintf(command, sizeof command, "cat %s/1 %s/2 | cmp -s - %s/0", dir, dir, dir);
-  CHECK(system(command) == 0);
   const size_t first = strlen(text[1]);
   CHECK(strncmp(text[0], text[1], first) == 0);
   CHECK_TEXT(text[0] + first, text[2]);
-  snprintf(command, sizeof command, "test $(wc -l <%s/0) = 6 && rm -r %s", dir, dir);
-  CHECK(system(command) == 0);
+  CHECK(program_run("cat $S/cut_1 $S/cut_2 | cmp -s - $S/cut_0", STREAM_OUTPUT, text[0], sizeof text[0]) ==
+        0);
+  CHECK(program_run("test $(wc -l <$S/cut_0) = 6", STREAM_OUTPUT, text[0], sizeof text[0]) == 0);
 }
 
 TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
-  char dir[] = "/tmp/fly_test_XXXXXX", arguments[300], command[300], text[4000];
-  if (!CHECK(mkdtemp(dir) != NULL)) return;
-  snprintf(arguments, sizeof arguments, "fly learning-flight --integrator rk4 --log %s/f.csv", dir);
-  CHECK(run(arguments, "output", text, sizeof text) == 0);
+  char text[4000];
+  CHECK(program_run("fly learning-flight --integrator rk4 --log $S/six.csv", STREAM_OUTPUT, text,
+                    sizeof text) == 0);
   CHECK(strstr(text, "ceil.w7") != NULL);
-  snprintf(arguments, sizeof arguments, "learn %s/f.csv", dir);
-  CHECK(run(arguments, "output", text, sizeof text) == 0);
+  CHECK(program_run("learn $S/six.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "ceil.w7 = ") != NULL);
-  snprintf(command, sizeof command, "rm -r %s", dir);
-  CHECK(system(command) == 0);
 }

@@ -86,6 +86,23 @@ TEST(learn_log_carries_weights_from_flight_to_flight) {
   CHECK(once > 2000 && learn.rls.count == 2 * once);
 }
 
+TEST(learn_log_does_not_take_flying_for_standing_with_a_mass_set_by_hand) {
+  learn_job_t job = made_job(SURFACE_GROUND);
+  const char *path = write_sweeps("learn.csv", 0, 0.3);
+  learn_mass_t mass[2] = {{.n = 0}, {.n = 0}};
+  learn_score_t score[2];
+  why_t why;
+  static const float mass_kg[] = {0.031f, 0.062f};
+  for (int i = 0; i < 2; i++) {
+    job.param.pos.mass_kg = mass_kg[i];
+    CHECK_OK(learn_log_mass(&job, path, &mass[i], &why));
+    CHECK_OK(learn_log_score(&job, path, &job.param.curve.fixed, &score[i], &why));
+  }
+  CHECK(mass[0].n > 1000 && mass[1].n == mass[0].n);
+  CHECK(score[0].ticks > 4000 && score[1].ticks == score[0].ticks);
+  CHECK_NEAR(learn_mass_kg(&mass[1]), 0.031, 0.031 * 0.002);
+}
+
 TEST(learn_log_refuses_what_does_not_say_where_the_surface_is) {
   learn_job_t job = made_job(SURFACE_CEILING);
   job.vehicle.ceiling_m = HUGE_VAL;

@@ -104,10 +104,8 @@ int main(void) {
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     why_t why;
     double best;
-    if (factor(&rows[i], &best, &why) != ST_OK) {
-      fprintf(stderr, "bench: %s\n", why.text);
-      return 2;
-    }
+    const status_t status = factor(&rows[i], &best, &why);
+    if (status != ST_OK) return error_exit("bench", status, &why);
     printf("%-60s %7.0f x real time (best of %d)\n", rows[i].what, best, RUNS);
     fflush(stdout);
   }

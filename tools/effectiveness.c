@@ -2,9 +2,11 @@
 #include "effectiveness.h"
 
 #include "io/number.h"
+#include "io/whole_file.h"
 #include "result.h"
 
 #include <getopt.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -79,7 +81,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   return ST_OK;
 }
 
-static status_t write_json(const order_t *o, const effectiveness_t *r, why_t *why) {
+static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *file, why_t *why) {
   const double stock[3] = EFFECTIVENESS_STOCK_G1;
   cJSON *const json = cJSON_CreateObject();
   cJSON_AddStringToObject(json, "file", o->log);
@@ -94,7 +96,7 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, why_t *wh
   cJSON_AddNumberToObject(json, "bridged", (double)r->bridged);
   cJSON_AddNumberToObject(json, "starts", (double)r->starts);
   cJSON_AddNumberToObject(json, "used", (double)r->used);
-  const status_t status = result_write(json, o->json, why);
+  const status_t status = result_write(json, file, why);
   cJSON_Delete(json);
   return status;
 }
@@ -113,21 +115,29 @@ static void print(const order_t *o, const effectiveness_t *r) {
          r->g2 / EFFECTIVENESS_PERIOD_S);
 }
 
-int main(int argc, char **argv) {
+static status_t run(whole_files_t *files, int argc, char **argv, why_t *why) {
   order_t order;
   effectiveness_t result = {.rows = 0};
-  why_t why;
-  status_t status = take_order(&order, argc, argv, &why);
-  if (status == ST_OK && order.help) {
+  FILE *json;
+  TRY(take_order(&order, argc, argv, why));
+  if (order.help) {
     fputs(USAGE, stdout);
-    return 0;
+    return ST_OK;
   }
-  if (status == ST_OK) status = effectiveness_fit(order.log, &order.job, &result, &why);
-  if (status == ST_OK && order.json) status = write_json(&order, &result, &why);
-  if (status != ST_OK) {
-    fprintf(stderr, "effectiveness: %s\n", why.text);
-    return 2;
-  }
+  TRY(whole_files_open(files, order.json, &json, why));
+  TRY(whole_files_spare(files, order.log, why));
+  TRY(effectiveness_fit(order.log, &order.job, &result, why));
+  if (json) TRY(write_json(&order, &result, json, why));
   print(&order, &result);
-  return 0;
+  return ST_OK;
+}
+
+int main(int argc, char **argv) {
+  static whole_files_t files;
+  why_t why;
+  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  status_t status = run(&files, argc, argv, &why);
+  if (status == ST_OK) status = whole_files_commit(&files, &why);
+  whole_files_drop(&files);
+  return error_exit("effectiveness", status, &why);
 }

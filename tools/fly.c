@@ -1,15 +1,16 @@
 // fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
 #include "catalogue.h"
-#include "io/effect_spec.h"
 #include "io/model_file.h"
 #include "io/number.h"
+#include "io/whole_file.h"
 #include "many.h"
-#include "param_spec.h"
+#include "request_spec.h"
 #include "scenario/scenario.h"
 
 #include <getopt.h>
 #include <limits.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,7 @@ typedef struct {
   model_t vehicle;
   int seeds;       // 0: not said
   double from, to; // NaN: not said
-  const char *log, *json;
+  const char *log, *json, *vehicle_path;
   bool list, params, markdown, help;
 } order_t;
 
@@ -64,77 +65,33 @@ static status_t take_controller(order_t *o, const char *name, why_t *why) {
       name);
 }
 
-static status_t take_noise(order_t *o, const char *name, why_t *why) {
-  o->request.noise = NULL;
-  o->request.noise6 = noise6_find(name);
-  if (o->request.noise6) return ST_OK;
-  for (int i = 0; i < noise_count; i++) {
-    if (strcmp(noise_levels[i].name, name) != 0) continue;
-    o->request.noise = &noise_levels[i];
+static status_t take_count(const char *option, const char *text, double min, double max, double *value,
+                           why_t *why) {
+  if (number_parse(text, value) && *value >= min && *value <= max && *value == (double)(long)*value)
     return ST_OK;
-  }
-  return error_set(
-      why,
-      "--noise %s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
-      "of freedom",
-      name);
-}
-
-static status_t take_integrator(order_t *o, const char *name, why_t *why) {
-  static const char *const names[] = {"sundials", "rk4", "reference"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(names[i], name) != 0) continue;
-    o->request.integrate = (integrate_kind_t)i;
-    return ST_OK;
-  }
-  return error_set(why, "--integrator %s: allowed are sundials, rk4, reference", name);
-}
-
-static status_t take_set(order_t *o, const char *text, why_t *why) {
-  request_t *r = &o->request;
-  if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
-  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
-  r->n_set++;
-  return ST_OK;
-}
-
-static status_t take_effect(order_t *o, const char *spec, why_t *why) {
-  request_t *r = &o->request;
-  if (strcmp(spec, "none") == 0) {
-    r->no_effects = true;
-    r->n_effect = 0;
-    return ST_OK;
-  }
-  if (r->n_effect == FX_MAX) return error_set(why, "--effect: at most %d of them", FX_MAX);
-  TRY(effect_parse(spec, &r->effect[r->n_effect], why));
-  r->n_effect++;
-  return ST_OK;
-}
-
-static status_t take_count(const char *option, const char *text, double max, double *value, why_t *why) {
-  if (number_parse(text, value) && *value >= 0.0 && *value <= max && *value == (double)(long)*value)
-    return ST_OK;
-  return error_set(why, "%s %s: allowed is a whole number from 0 to %.0f", option, text, max);
+  return error_set(why, "%s %s: allowed is a whole number from %.0f to %.0f", option, text, min, max);
 }
 
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double count;
   switch (option) {
   case 'c': return take_controller(o, text, why);
-  case 's': return take_set(o, text, why);
-  case 'e': return take_effect(o, text, why);
-  case 'n': return take_noise(o, text, why);
-  case 'i': return take_integrator(o, text, why);
-  case 'v': o->request.vehicle = &o->vehicle; return model_read(text, &o->vehicle, why);
+  case 's': return request_take_set(&o->request, text, why);
+  case 'e': return request_take_effect(&o->request, text, why);
+  case 'n': return request_take_noise(&o->request, text, why);
+  case 'i': return request_take_integrator(&o->request, text, why);
+  case 'v':
+    o->vehicle_path = text;
+    o->request.vehicle = &o->vehicle;
+    return model_read(text, &o->vehicle, why);
   case 'd':
-    TRY(take_count("--seed", text, 1e9, &count, why));
+    TRY(take_count("--seed", text, 0.0, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
     return ST_OK;
-  case 'f': return take_count("--from", text, 1e9, &o->from, why);
-  case 't': return take_count("--to", text, 1e9, &o->to, why);
+  case 'f': return take_count("--from", text, 0.0, 1e9, &o->from, why);
+  case 't': return take_count("--to", text, 0.0, 1e9, &o->to, why);
   case 'm':
-    TRY(take_count("--seeds", text, SEEDS_MAX, &count, why));
-    if (count < 1.0) return error_set(why, "--seeds 0: allowed is a whole number from 1 to %d", SEEDS_MAX);
+    TRY(take_count("--seeds", text, 1.0, SEEDS_MAX, &count, why));
     o->seeds = (int)count;
     return ST_OK;
   case 'l': o->log = text; return ST_OK;
@@ -186,9 +143,24 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 
 // --- flying -------------------------------------------------------------------------------------------
 
-static status_t write_files(const order_t *o, const cJSON *json, const record_t *record, why_t *why) {
-  if (o->log) TRY(record_write(record, o->log, why));
-  return o->json ? result_write(json, o->json, why) : ST_OK;
+// What is written beside what is printed.
+typedef struct {
+  whole_files_t files;
+  FILE *log, *json;
+} output_t;
+
+static status_t open_output(const order_t *o, output_t *out, why_t *why) {
+  TRY(whole_files_open(&out->files, o->log, &out->log, why));
+  TRY(whole_files_open(&out->files, o->json, &out->json, why));
+  return whole_files_spare(&out->files, o->vehicle_path, why);
+}
+
+static status_t tell(const cJSON *json, const record_t *record, output_t *out, why_t *why) {
+  if (!json) return error_failed(why, "out of memory");
+  if (out->log) record_write(record, out->log);
+  if (out->json) TRY(result_write(json, out->json, why));
+  result_print(json, stdout);
+  return ST_OK;
 }
 
 static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) {
@@ -198,10 +170,10 @@ static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) 
   return o->scenario->run(&request, result, why);
 }
 
-static status_t fly(const order_t *o, why_t *why) {
+static status_t fly(const order_t *o, output_t *out, why_t *why) {
   cJSON **json = calloc((size_t)o->seeds, sizeof(cJSON *));
   record_t record = {0};
-  status_t status = json ? ST_OK : error_set(why, "out of memory");
+  status_t status = json ? ST_OK : error_failed(why, "out of memory");
   for (int i = 0; i < o->seeds && status == ST_OK; i++) {
     result_t result;
     status = fly_once(o, i, &result, why);
@@ -214,8 +186,7 @@ static status_t fly(const order_t *o, why_t *why) {
   if (status == ST_OK) {
     cJSON *all =
         o->seeds > 1 ? result_over_seeds(json, o->seeds, o->request.seed) : cJSON_Duplicate(json[0], true);
-    status = write_files(o, all, &record, why);
-    if (status == ST_OK) result_print(all, stdout);
+    status = tell(all, &record, out, why);
     cJSON_Delete(all);
   }
   for (int i = 0; json && i < o->seeds; i++) cJSON_Delete(json[i]);
@@ -224,28 +195,37 @@ static status_t fly(const order_t *o, why_t *why) {
   return status;
 }
 
-static status_t fly_many(const order_t *o, why_t *why) {
+static status_t fly_many(const order_t *o, output_t *out, why_t *why) {
   const many_t m = {
       .scenario = o->scenario,
       .request = &o->request,
       .from = (uint64_t)o->from,
       .to = (uint64_t)o->to,
-      .json = o->json,
+      .text = stdout,
+      .json = out->json,
       .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
   };
-  return many_fly(&m, stdout, why);
+  return many_fly(&m, why);
+}
+
+static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
+  TRY(take_order(order, argc, argv, why));
+  if (order->help) fputs(USAGE, stdout);
+  if (order->list) catalogue_all();
+  if (order->params) catalogue_params(order->markdown);
+  if (!order->scenario) return ST_OK;
+  if (order->seeds == 0) order->seeds = 1;
+  TRY(open_output(order, out, why));
+  return many(order) ? fly_many(order, out, why) : fly(order, out, why);
 }
 
 int main(int argc, char **argv) {
   static order_t order;
+  static output_t out;
   why_t why;
-  status_t status = take_order(&order, argc, argv, &why);
-  if (status == ST_OK && order.help) fputs(USAGE, stdout);
-  if (status == ST_OK && order.list) catalogue_all();
-  if (status == ST_OK && order.params) catalogue_params(order.markdown);
-  if (status == ST_OK && order.seeds == 0) order.seeds = 1;
-  if (status == ST_OK && order.scenario) status = many(&order) ? fly_many(&order, &why) : fly(&order, &why);
-  if (status == ST_OK) return 0;
-  fprintf(stderr, "fly: %s\n", why.text);
-  return 2;
+  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  status_t status = run(&order, &out, argc, argv, &why);
+  if (status == ST_OK) status = whole_files_commit(&out.files, &why);
+  whole_files_drop(&out.files);
+  return error_exit("fly", status, &why);
 }

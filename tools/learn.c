@@ -8,6 +8,7 @@
 
 #include <getopt.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,9 +24,16 @@ typedef struct {
   bool help;
 } order_t;
 
+// What is written beside what is printed.
+typedef struct {
+  whole_files_t files;
+  FILE *points, *json;
+} output_t;
+
 typedef struct {
   learn_job_t job;
   learn_mass_t mass;
+  const char *mass_from;
   learn_t learn;
   learn_score_t score[FILES_MAX];
 } lesson_t;
@@ -127,28 +135,29 @@ static status_t weigh(const order_t *o, lesson_t *r, why_t *why) {
   return ST_OK;
 }
 
-// Teaches flight after flight; the samples go to the points' file, which is complete or not there.
-static status_t teach(const order_t *o, lesson_t *r, why_t *why) {
-  whole_file_t points = {.file = NULL};
-  if (o->points) TRY(whole_file_open(&points, o->points, why));
-  if (o->points) fputs("distance_m,ratio\n", points.file);
-  r->job.points = points.file;
-  status_t status = ST_OK;
-  for (int i = 0; i < o->n_log && status == ST_OK; i++)
-    status = learn_log_teach(&r->job, o->log[i], &r->learn, why);
-  if (o->points && status != ST_OK) whole_file_drop(&points);
-  return o->points && status == ST_OK ? whole_file_close(&points, why) : status;
+// A mass that was set by hand wins over the measured one, that over the vehicle file's.
+static void choose_mass(const order_t *o, lesson_t *r) {
+  const double measured_kg = learn_mass_kg(&r->mass);
+  bool by_hand = false;
+  for (int i = 0; i < o->n_set; i++) by_hand = by_hand || strncmp(o->set[i], "indiPos.mass=", 13) == 0;
+  r->mass_from = by_hand ? "--set" : "vehicle file";
+  if (!isfinite(measured_kg)) return;
+  r->job.stands_mass_kg = (float)measured_kg;
+  if (by_hand) return;
+  r->job.param.pos.mass_kg = (float)measured_kg;
+  r->mass_from = "thrust over specific force above 0.2 m";
 }
 
-static status_t learn(const order_t *o, lesson_t *r, why_t *why) {
+static status_t learn(const order_t *o, lesson_t *r, FILE *points, why_t *why) {
   TRY(prepare(o, &r->job, why));
   TRY(weigh(o, r, why));
+  choose_mass(o, r);
   flight_param_t *const p = &r->job.param;
-  const double mass_kg = learn_mass_kg(&r->mass);
-  if (isfinite(mass_kg)) p->pos.mass_kg = (float)mass_kg;
   if (learn_init(&r->learn, &p->learn, &p->curve.fixed) != ST_OK)
     return error_set(why, "the learner refuses its parameters");
-  TRY(teach(o, r, why));
+  r->job.points = points;
+  if (points) fputs("distance_m,ratio\n", points);
+  for (int i = 0; i < o->n_log; i++) TRY(learn_log_teach(&r->job, o->log[i], &r->learn, why));
   if (r->learn.rls.count == 0)
     return error_set(why,
                      "%s: no sample may teach; allowed: %g to %g m from a known surface (rls.zMin, rls.zMax)",
@@ -181,9 +190,9 @@ static cJSON *json_of(const order_t *o, const lesson_t *r) {
   return json;
 }
 
-static status_t write_json(const order_t *o, const lesson_t *r, why_t *why) {
+static status_t write_json(const order_t *o, const lesson_t *r, FILE *file, why_t *why) {
   cJSON *const json = json_of(o, r);
-  const status_t status = result_write(json, o->json, why);
+  const status_t status = result_write(json, file, why);
   cJSON_Delete(json);
   return status;
 }
@@ -197,8 +206,7 @@ static void print_mN(double before_N, double after_N) {
 
 static void print(const order_t *o, const lesson_t *r) {
   printf("# %u samples taught, %u were not allowed to; mass %.1f g (%s)\n", r->learn.rls.count,
-         r->learn.refused, 1e3 * (double)r->job.param.pos.mass_kg,
-         isfinite(learn_mass_kg(&r->mass)) ? "thrust over specific force above 0.2 m" : "vehicle file");
+         r->learn.refused, 1e3 * (double)r->job.param.pos.mass_kg, r->mass_from);
   for (int i = 0; i < RBF_N; i++) printf("ceil.w%d = %.7g\n", i + 1, (double)r->learn.rls.theta.w[i]);
   if (o->n_held_out == 0) return;
   printf("\nvertical force residual without -> with the curve, mN\n%20s  %18s  %8s  %s\n", "all, sd",
@@ -211,21 +219,36 @@ static void print(const order_t *o, const lesson_t *r) {
   }
 }
 
-int main(int argc, char **argv) {
-  order_t order;
+static status_t open_output(const order_t *o, output_t *out, why_t *why) {
+  TRY(whole_files_open(&out->files, o->points, &out->points, why));
+  TRY(whole_files_open(&out->files, o->json, &out->json, why));
+  for (int i = 0; i < o->n_log; i++) TRY(whole_files_spare(&out->files, o->log[i], why));
+  for (int i = 0; i < o->n_held_out; i++) TRY(whole_files_spare(&out->files, o->held_out[i], why));
+  TRY(whole_files_spare(&out->files, o->columns, why));
+  return whole_files_spare(&out->files, o->vehicle, why);
+}
+
+static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   static lesson_t lesson;
-  why_t why;
-  status_t status = take_order(&order, argc, argv, &why);
-  if (status == ST_OK && order.help) {
+  TRY(take_order(order, argc, argv, why));
+  if (order->help) {
     fputs(USAGE, stdout);
-    return 0;
+    return ST_OK;
   }
-  if (status == ST_OK) status = learn(&order, &lesson, &why);
-  if (status == ST_OK && order.json) status = write_json(&order, &lesson, &why);
-  if (status != ST_OK) {
-    fprintf(stderr, "learn: %s\n", why.text);
-    return 2;
-  }
-  print(&order, &lesson);
-  return 0;
+  TRY(open_output(order, out, why));
+  TRY(learn(order, &lesson, out->points, why));
+  if (out->json) TRY(write_json(order, &lesson, out->json, why));
+  print(order, &lesson);
+  return ST_OK;
+}
+
+int main(int argc, char **argv) {
+  static order_t order;
+  static output_t out;
+  why_t why;
+  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  status_t status = run(&order, &out, argc, argv, &why);
+  if (status == ST_OK) status = whole_files_commit(&out.files, &why);
+  whole_files_drop(&out.files);
+  return error_exit("learn", status, &why);
 }

@@ -142,7 +142,7 @@ static status_t start(csv_file_t *file, why_t *why) {
   const int first = getc_unlocked(file->stream);
   if (ferror(file->stream)) return error_set(why, "%s: cannot be read: %s", file->path, strerror(errno));
   if (first != EOF) ungetc(first, file->stream);
-  if (csv_init(&file->parser, CSV_STRICT | CSV_STRICT_FINI) != 0) return error_set(why, "out of memory");
+  if (csv_init(&file->parser, CSV_STRICT | CSV_STRICT_FINI) != 0) return error_failed(why, "out of memory");
   csv_set_space_func(&file->parser, is_blank);
   csv_set_term_func(&file->parser, is_line_end);
   TRY(read_row(file, &file->name, why));
@@ -152,7 +152,7 @@ static status_t start(csv_file_t *file, why_t *why) {
 status_t csv_open(csv_file_t **file, const char *path, why_t *why) {
   *file = NULL;
   csv_file_t *const fresh = calloc(1, sizeof *fresh);
-  if (!fresh) return error_set(why, "%s: out of memory", path);
+  if (!fresh) return error_failed(why, "%s: out of memory", path);
   snprintf(fresh->path, sizeof fresh->path, "%s", path);
   const status_t status = strlen(path) < sizeof fresh->path
                               ? start(fresh, why)

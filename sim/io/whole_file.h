@@ -1,22 +1,43 @@
-// whole_file.h - a file that is complete or not there: written beside its place and moved when done.
+// whole_file.h - what a program writes: every file complete, or none of them there.
+//
+// All are opened first, filled, and put in their places together at the end. What is a file, or not there
+// yet, is written beside its place and moved there; through a symbolic link it is the link's target that is
+// replaced. What is no file (a device, a pipe, the standard output) gets its text at the end, in one go.
 #ifndef SIM_IO_WHOLE_FILE_H
 #define SIM_IO_WHOLE_FILE_H
 
 #include "error.h"
+#include <stdbool.h>
 #include <stdio.h>
 
+#define WHOLE_FILES_MAX 4
+#define WHOLE_PATH_MAX  4096
+
 typedef struct {
-  FILE *file; // to write to
-  char path[400], beside[440];
+  FILE *file;                  // to write to
+  FILE *direct;                // the device or pipe that gets the text at the end; null: it is a file
+  char target[WHOLE_PATH_MAX]; // its place, without links
+  char beside[WHOLE_PATH_MAX]; // where it is until then; empty: in a file without a name
 } whole_file_t;
 
-// ST_BAD_INPUT: cannot be written there.
-MUST_CHECK status_t whole_file_open(whole_file_t *f, const char *path, why_t *why);
+// All zero: none.
+typedef struct {
+  whole_file_t of[WHOLE_FILES_MAX];
+  int n;
+} whole_files_t;
 
-// ST_BAD_INPUT: something could not be written (disk full); the old file, if there was one, is kept.
-MUST_CHECK status_t whole_file_close(whole_file_t *f, why_t *why);
+// One more file to write, *file; path null: none, *file null. ST_BAD_INPUT: a folder, a link to nowhere, a
+// place that another one of the files has already, or that cannot be written.
+MUST_CHECK status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why);
 
-// Gives the file up: what was written is removed, the old file, if there was one, is kept.
-void whole_file_drop(whole_file_t *f);
+// ST_BAD_INPUT: this file, which is read (null: none is), would be written too.
+MUST_CHECK status_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why);
+
+// Puts all in their places, if all could be written and the standard output too: what cannot be told is not
+// done. ST_FAILED: not so (disk full); what was there before is kept, and nothing lies beside.
+MUST_CHECK status_t whole_files_commit(whole_files_t *w, why_t *why);
+
+// Gives all up: what was there before is kept, and nothing lies beside.
+void whole_files_drop(whole_files_t *w);
 
 #endif

@@ -134,7 +134,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   TRY(setup6_apply(&setup, request, why));
   TRY(scenario_check_ladder(&setup.model, why));
   hand_t *s = calloc(1, sizeof *s);
-  if (!s) return error_set(why, "out of memory");
+  if (!s) return error_failed(why, "out of memory");
   *s = (hand_t){
       .model = &setup.model,
       .noise = &setup.plan.noise,
@@ -144,7 +144,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
               {false, true, false, 0.0},
               {true, true, false, 0.0}},
   };
-  const status_t status = s->random ? ST_OK : error_set(why, "out of memory");
+  const status_t status = s->random ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) carry(s, result);
   random_close(s->random);
   free(s);

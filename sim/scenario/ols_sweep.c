@@ -66,7 +66,7 @@ static status_t sweep(const setup_t *setup, const record_t *record, double turn_
                       why_t *why) {
   static const double shares[] = {0.5, 0.25, 0.1, 0.01};
   taught_t *x = calloc((size_t)record->n, sizeof *x);
-  if (!x) return error_set(why, "out of memory");
+  if (!x) return error_failed(why, "out of memory");
   const int n = taught_of(record, setup, 0.25, x);
   for (unsigned k = 0; k < sizeof shares / sizeof *shares; k++) {
     average_t a = {.share = shares[k]};

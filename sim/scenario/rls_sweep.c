@@ -42,7 +42,7 @@ static status_t sweep(const setup_t *setup, const record_t *record, result_t *re
     float lambda, p0;
   } pairs[] = {{0.01f, 1}, {0.1f, 1}, {0.5f, 1}, {1, 1}, {1, 0.1f}, {0.5f, 5}, {0.5f, 25}};
   taught_t *x = calloc((size_t)record->n, sizeof *x);
-  if (!x) return error_set(why, "out of memory");
+  if (!x) return error_failed(why, "out of memory");
   const int n = taught_of(record, setup, VISITED_FAR_M, x);
   status_t status = ST_OK;
   for (unsigned i = 0; i < sizeof pairs / sizeof *pairs && status == ST_OK; i++) {

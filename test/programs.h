@@ -1,0 +1,16 @@
+// programs.h - the programs as a person runs them.
+#ifndef TEST_PROGRAMS_H
+#define TEST_PROGRAMS_H
+
+#include <stddef.h>
+
+typedef enum { STREAM_OUTPUT, STREAM_ERROR } stream_t;
+
+// Runs a line of the shell, in which this build's programs are found by name and $S is the scratch folder.
+// Returns the exit status; text gets what was written to the stream, without the scratch folder's path.
+int program_run(const char *line, stream_t stream, char *text, size_t size);
+
+// The names in the scratch folder, for a look before and after.
+void program_listing(char *text, size_t size);
+
+#endif
