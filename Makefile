@@ -15,7 +15,14 @@ C     = $(CC) -std=c11 $(OPT) $(WARN) $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off -fno-math-errno
-LIBS  = -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+# One file flies many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
+ifeq ($(findstring clang,$(CC)),)
+OMP     = -fopenmp
+OMP_LIB = -lgomp
+else
+OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
+endif
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
@@ -45,7 +52,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -71,6 +78,9 @@ $(B)/sim/plant/%.o: sim/plant/%.cpp | setup
 $(B)/sim/effects/%.o: sim/effects/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Isim -c $< -o $@
+$(B)/sim/many.o: sim/many.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isim -Itest -c $< -o $@
@@ -97,6 +107,9 @@ $(PROGRAMS:%=out/%): out/%: $(B)/bin/%
 
 demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
+
+flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
+	@tools/flights.sh
 
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"

@@ -2,6 +2,7 @@
 #include "catalogue.h"
 
 #include "flight/params.h"
+#include "plant/noise6.h"
 #include "plant/sensors.h"
 #include "scenario/scenario.h"
 #include <math.h>
@@ -61,5 +62,7 @@ void catalogue_all(void) {
   for (int i = 0; i < fx_count; i++) list_effect(fx_table[i]);
   printf("noise\n ");
   for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
+  printf("\n  in six degrees of freedom:");
+  for (int i = 0; i < noise6_count; i++) printf(" %s", noise6_levels[i].name);
   printf("\n");
 }

@@ -135,6 +135,20 @@ static status_t keep6(record6_t *more, int n, const sample6_t *sample) {
   return ST_OK;
 }
 
+static sample6_t more_of(const flight6_t *f, const truth_t *truth) {
+  sample6_t s = {
+      .tilt_rad = acos(fmax(-1.0, fmin(1.0, f->up_min))),
+      .pos_w_m = truth->pos_w_m,
+      .vbat_V = f->body.vbat_V,
+      .estimate = f->estimate,
+      .gyro_b_radps = f->in.gyro_b_radps,
+      .acc_b_mps2 = f->in.acc_b_mps2,
+      .setpoint_z_m = f->in.set.pos_w_m.z,
+  };
+  for (int i = 0; i < PILOT6_MOTORS; i++) s.motor_N[i] = f->motor_N[i];
+  return s;
+}
+
 static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth) {
   const body_t *b = &f->body;
   const axes_t axes = axes_of(truth->q_wb);
@@ -165,11 +179,7 @@ static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s
       .thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN},
   };
   if (f->ask) f->ask(f->pilot->state, &s.thoughts);
-  sample6_t s6 = {.tilt_rad = acos(fmax(-1.0, fmin(1.0, f->up_min))),
-                  .pos_w_m = truth->pos_w_m,
-                  .vbat_V = b->vbat_V,
-                  .estimate = f->estimate};
-  for (int i = 0; i < PILOT6_MOTORS; i++) s6.motor_N[i] = f->motor_N[i];
+  const sample6_t s6 = more_of(f, truth);
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_new = false;
@@ -223,7 +233,7 @@ static status_t open(flight6_t *f) {
 status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
                    record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   flight6_t *f = calloc(1, sizeof *f);
-  if (!f) return error_set(why, "out of memory");
+  if (!f) return error_failed(why, "out of memory");
   *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;

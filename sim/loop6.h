@@ -15,14 +15,6 @@
 
 #define LOOP6_TICK_S 0.002
 
-typedef struct {
-  double tilt_rad; // largest since the last sample
-  double motor_N[PILOT6_MOTORS];
-  d3_t pos_w_m;
-  double vbat_V;
-  ekf_out_t estimate;
-} sample6_t;
-
 // Stands between sensors and pilot, every millisecond: may edit what the pilot gets (nothing of it lasts
 // until the next call), and look at the truth.
 typedef void (*loop6_fault_t)(void *context, const body_t *truth, pilot6_in_t *in);

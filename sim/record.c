@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define G_MPS2 9.81
+#define G_MPS2      9.81
+#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 
 status_t record_add(record_t *r, const sample_t *sample) {
   if (r->n == r->room) {
@@ -21,32 +22,60 @@ status_t record_add(record_t *r, const sample_t *sample) {
 
 void record_free(record_t *r) {
   free(r->sample);
+  free(r->more);
   *r = (record_t){0};
 }
 
-static void write_names(FILE *file) {
+// --- as a log -----------------------------------------------------------------------------------------
+
+static void write_names(FILE *file, bool six) {
   fputs("timestamp,ctrltarget.z,stateEstimate.z,stateEstimate.vz,stateEstimate.qw,stateEstimate.qx,"
-        "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,range.up,indi.thrust,indi.applied,ceil.zc,ceil."
-        "ratio,"
-        "ceil.slope,rls.y,",
+        "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,range.up,indi.thrust,indi.applied,ceil.zc,"
+        "ceil.ratio,ceil.slope,rls.y,",
         file);
   for (int i = 1; i <= CURVE_WEIGHTS; i++) fprintf(file, "rls.w%d,", i);
   for (int i = 1; i <= CURVE_WEIGHTS; i++) fprintf(file, "rls.p%d,", i);
-  fputs("sim.z,sim.vz,sim.gap,sim.thrust,sim.ratio,sim.contacts\n", file);
+  fputs("sim.z,sim.vz,sim.gap,sim.thrust,sim.ratio,sim.contacts", file);
+  if (six)
+    fputs(",stateEstimate.x,stateEstimate.y,stateEstimate.vx,stateEstimate.vy,gyro.x,gyro.y,gyro.z,indi.m1,"
+          "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt",
+          file);
+  fputc('\n', file);
 }
 
-static void write_sample(FILE *file, const sample_t *s) {
-  fprintf(file, "%.3f,%.4f,%.6f,%.6f,1,0,0,0,0,0,%.6f,%.0f,%.6f,%.6f,%.6f,%.6f,%.5f,%.5f,", 1e3 * s->t_s,
-          s->setpoint_m, s->sense.z_m, s->sense.climb_mps, s->sense.acc_mps2 / G_MPS2 + 1.0,
-          1e3 * s->sense.range_m, s->command_N, s->sense.applied_N, s->thoughts.zc_m, s->thoughts.ratio,
-          s->thoughts.slope_per_m, s->thoughts.y);
+// What flies on the vertical axis is level.
+static void write_attitude(FILE *file, const sample_t *s, const sample6_t *s6) {
+  if (!s6) {
+    fprintf(file, "1,0,0,0,0,0,%.6f,", s->sense.acc_mps2 / G_MPS2 + 1.0);
+    return;
+  }
+  const dq_t q = s6->estimate.q_wb;
+  const d3_t a = d3_scale(1.0 / G_MPS2, s6->acc_b_mps2);
+  fprintf(file, "%.7f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f,", q.w, q.x, q.y, q.z, a.x, a.y, a.z);
+}
+
+static void write_more(FILE *file, const sample6_t *s) {
+  const d3_t p = s->estimate.pos_w_m, v = s->estimate.vel_w_mps, w = d3_scale(DEG_PER_RAD, s->gyro_b_radps);
+  fprintf(file, ",%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f", p.x, p.y, v.x, v.y, w.x, w.y, w.z);
+  for (int i = 0; i < 4; i++) fprintf(file, ",%.6f", s->motor_N[i]);
+  fprintf(file, ",%.4f,%.6f,%.6f,%.4f", s->vbat_V, s->pos_w_m.x, s->pos_w_m.y, DEG_PER_RAD * s->tilt_rad);
+}
+
+static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
+  fprintf(file, "%.3f,%.4f,%.6f,%.6f,", 1e3 * s->t_s, s6 ? s6->setpoint_z_m : s->setpoint_m, s->sense.z_m,
+          s->sense.climb_mps);
+  write_attitude(file, s, s6);
+  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%.5f,%.5f,", 1e3 * s->sense.range_m, s->command_N,
+          s->sense.applied_N, s->thoughts.zc_m, s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);
-  fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d\n", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,
+  fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,
           s->contacts);
+  if (s6) write_more(file, s6);
+  fputc('\n', file);
 }
 
 void record_write(const record_t *r, FILE *file) {
-  write_names(file);
-  for (int i = 0; i < r->n; i++) write_sample(file, &r->sample[i]);
+  write_names(file, r->more != NULL);
+  for (int i = 0; i < r->n; i++) write_sample(file, &r->sample[i], r->more ? &r->more[i] : NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "controller.h"
 #include "error.h"
+#include "estimator/ekf.h"
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -18,9 +19,21 @@ typedef struct {
   thoughts_t thoughts;             // as believed
 } sample_t;
 
+// What there is besides in six degrees of freedom.
+typedef struct {
+  double tilt_rad; // largest since the last sample
+  double motor_N[4];
+  d3_t pos_w_m;
+  double vbat_V;
+  ekf_out_t estimate;
+  d3_t gyro_b_radps, acc_b_mps2; // as measured
+  double setpoint_z_m;           // in the estimator's frame
+} sample6_t;
+
 typedef struct {
   sample_t *sample;
   int n, room;
+  sample6_t *more; // as many, or a null pointer: flown on the vertical axis
 } record_t;
 
 // ST_FAILED: no memory; nothing was added.

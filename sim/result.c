@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
+
 status_t result_init(result_t *r, why_t *why) {
   *r = (result_t){.json = cJSON_CreateObject()};
   if (!r->json) return error_failed(why, "out of memory");
@@ -58,6 +60,31 @@ void result_add_flight(result_t *r, flown_t *flown) {
   for (int i = 0; i < flown->n_segment; i++)
     cJSON_AddItemToArray(segments, result_segment(&flown->segment[i]));
   add_totals(r, flown, flown->outcome.contacts);
+}
+
+void result_add_flight6(result_t *r, flown6_t *flown) {
+  cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
+  for (int i = 0; i < flown->flown.n_segment; i++) {
+    cJSON *o = result_segment(&flown->flown.segment[i]);
+    cJSON_AddNumberToObject(o, "tilt_max_deg", DEG_PER_RAD * flown->tilt_max_rad[i]);
+    cJSON_AddItemToArray(segments, o);
+  }
+  add_totals(r, &flown->flown, flown->flown.outcome.contacts);
+  r->record.more = flown->more.sample;
+  flown->more = (record6_t){0};
+}
+
+void result_add_weights(result_t *r, const rbf_weights_t *weights) {
+  double w[RBF_N];
+  for (int i = 0; i < RBF_N; i++) w[i] = (double)weights->w[i];
+  cJSON_AddItemToObject(r->json, "weights", cJSON_CreateDoubleArray(w, RBF_N));
+  for (int i = 0; i < RBF_N; i++) {
+    cJSON *row = result_add_row(r, "learned");
+    char name[24];
+    snprintf(name, sizeof name, "ceil.w%d", i + 1);
+    cJSON_AddStringToObject(row, "parameter", name);
+    cJSON_AddNumberToObject(row, "value", w[i]);
+  }
 }
 
 void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label) {
@@ -140,14 +167,16 @@ status_t result_write(const cJSON *json, FILE *file, why_t *why) {
 
 static double over_flights(cJSON *const *json, int n, int segment, const char *key) {
   const bool add = strcmp(key, "contacts") == 0, least = strcmp(key, "min_gap_mm") == 0;
-  double sum = 0.0, low = HUGE_VAL;
+  const bool most = strcmp(key, "tilt_max_deg") == 0;
+  double sum = 0.0, low = HUGE_VAL, high = -HUGE_VAL;
   for (int i = 0; i < n; i++) {
     const cJSON *segments = cJSON_GetObjectItem(json[i], "segments");
     const double value = number(cJSON_GetArrayItem(segments, segment), key);
     sum += value;
     low = fmin(low, value);
+    high = fmax(high, value);
   }
-  return add ? sum : least ? low : sum / n;
+  return add ? sum : least ? low : most ? high : sum / n;
 }
 
 static cJSON *segments_over_seeds(cJSON *const *json, int n) {

@@ -2,7 +2,7 @@
 #ifndef SIM_RESULT_H
 #define SIM_RESULT_H
 
-#include "setup.h"
+#include "setup6.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 
@@ -18,6 +18,12 @@ void result_free(result_t *r);
 // Adds the flight's segments, contacts and finiteness. Keeps the record of the last flight added
 // (the flown's record is taken over).
 void result_add_flight(result_t *r, flown_t *flown);
+
+// The same in six degrees of freedom: each segment also has "tilt_max_deg". *flown is then empty.
+void result_add_flight6(result_t *r, flown6_t *flown);
+
+// Adds a table "learned" with the weights, as parameters to type in, and the array "weights".
+void result_add_weights(result_t *r, const rbf_weights_t *weights);
 
 // Adds one segment alone, and the flight's totals: for scenarios of many flights with one interesting segment
 // each.
@@ -36,9 +42,10 @@ void result_print(const cJSON *json, FILE *out);
 MUST_CHECK status_t result_write(const cJSON *json, FILE *file, why_t *why);
 
 // The same scenario with several seeds. "segments" becomes the mean over the flights (null where one is null;
-// contacts add up; the smallest gap is the smallest), "contacts" the sum, "finite" false where one is not,
-// "realtime_factor" the mean. "flights" holds each one's own with its seed. What a scenario adds of its own
-// stands there alone: what of a table may be averaged is not known here. A null pointer: no memory.
+// contacts add up; the smallest gap is the smallest, the largest tilt the largest), "contacts" the sum,
+// "finite" false where one is not, "realtime_factor" the mean. "flights" holds each one's own with its seed.
+// What a scenario adds of its own stands there alone: what of a table may be averaged is not known here. A
+// null pointer: no memory.
 cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed);
 
 #endif

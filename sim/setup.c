@@ -73,6 +73,10 @@ static status_t check_vertical(const setup_t *setup, why_t *why) {
 status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   TRY(check_vertical(setup, why));
+  if (request->noise6)
+    return error_set(why,
+                     "--noise %s: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3",
+                     request->noise6->name);
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;

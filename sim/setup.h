@@ -5,6 +5,7 @@
 #include "flight/params.h"
 #include "loop.h"
 #include "peers/pid.h"
+#include "plant/noise6.h"
 #include "segments.h"
 
 typedef enum {
@@ -40,7 +41,9 @@ typedef struct {
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
   const model_t *vehicle; // null: the scenario's
-  const noise_t *noise;   // null: the scenario's; on the vertical axis
+  // Null: the scenario's. noise acts on the vertical axis, noise6 in six degrees of freedom.
+  const noise_t *noise;
+  const noise6_t *noise6;
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has

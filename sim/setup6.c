@@ -2,6 +2,7 @@
 #include "setup6.h"
 
 #include "io/model_file.h"
+#include "peers/air_garage.h"
 #include "peers/stock_indi.h"
 #include "pilot_flight.h"
 #include <math.h>
@@ -35,6 +36,11 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
+  if (request->noise)
+    return error_set(why,
+                     "--noise %s: this scenario is flown in six degrees of freedom; allowed are quiet, real",
+                     request->noise->name);
+  if (request->noise6) setup->plan.noise = *request->noise6;
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
   return ST_OK;
@@ -52,6 +58,11 @@ void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
   plan->end_s = hover_s + hold_s * (n - 1);
 }
 
+void setup6_close_ladder(setup6_t *setup) {
+  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  setup6_ladder(setup, gap_m, (int)(sizeof gap_m / sizeof *gap_m), 10.0);
+}
+
 static void ask_flight(const void *state, thoughts_t *thoughts) {
   const pilot_flight_t *p = state;
   const outer_out_t *out = &p->flight.out.outer;
@@ -66,7 +77,7 @@ static void ask_flight(const void *state, thoughts_t *thoughts) {
 
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   pilot_flight_t *p = malloc(sizeof *p);
-  if (!p) return error_set(why, "out of memory");
+  if (!p) return error_failed(why, "out of memory");
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
@@ -106,10 +117,11 @@ static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
 
 // The learning flight of thesis section 5.3, and its weights frozen.
 static status_t learn_first(setup6_t *setup, why_t *why) {
-  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
+  if (!isfinite(setup->model.ceiling_m))
+    return error_set(why, "--controller indi-learned: there is no ceiling here to learn from");
   setup6_t learning = *setup;
   learning.flight.curve.mode = CURVE_LIVE;
-  setup6_ladder(&learning, gap_m, 6, 10.0);
+  setup6_close_ladder(&learning);
   flown6_t flight = {.more = {0}};
   const status_t status = fly_flight(&learning, &flight, why);
   setup->flight.curve.fixed = flight.flown.weights;

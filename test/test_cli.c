@@ -19,7 +19,9 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
       {"fly appendix-a --seed -3", "fly: --seed -3: allowed is a whole number from 0 to 1000000000\n"},
       {"fly appendix-a --seeds 0", "fly: --seeds 0: allowed is a whole number from 1 to 10000\n"},
       {"fly appendix-a --controller lqr",
-       "fly: --controller lqr: allowed are indi, indi-theory, indi-rbf, indi-learned, pid, pid-ff\n"},
+       "fly: --controller lqr: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+       "pid, "
+       "pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage\n"},
       {"fly appendix-a --set indiPos.kp", "fly: --set indiPos.kp: allowed is group.name=value\n"},
       {"fly appendix-a --set indiPos.kq=1",
        "fly: --set indiPos.kq: no such parameter; fly --params lists them\n"},
@@ -41,10 +43,26 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
        "fly: --set indiPos.cutoff=0.001: allowed is 0, or 0.1 to 45 Hz\n"},
       {"fly pid-tables --set indiPos.kp=1", "fly: --set: the flight code does not fly in pid-tables\n"},
       {"fly rls-sweep --controller pid", "fly: --controller pid: knows no ceiling distance to learn from\n"},
-      {"fly appendix-a --noise loud", "fly: --noise loud: allowed are none, n1, n2, n3\n"},
+      {"fly appendix-a --noise loud",
+       "fly: --noise loud: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees of "
+       "freedom\n"},
+      {"fly appendix-a --noise real",
+       "fly: --noise real: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3\n"},
+      {"fly close-flight --noise n1",
+       "fly: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real\n"},
       {"fly appendix-a --integrator euler",
        "fly: --integrator euler: allowed are sundials, rk4, reference\n"},
       {"fly appendix-a --seeds 2 --log x.csv", "fly: --log: one flight can be written; leave out --seeds\n"},
+      {"fly close-flight --from 1", "fly: --from, --to: both are needed, and --from <= --to\n"},
+      {"fly close-flight --from 2 --to 1", "fly: --from, --to: both are needed, and --from <= --to\n"},
+      {"fly close-flight --from 1 --to 2 --seeds 3",
+       "fly: --seeds: allowed is either that or --from and --to\n"},
+      {"fly close-flight --from 1 --to 2 --log x.csv",
+       "fly: --log: one flight can be written; leave out --from and --to\n"},
+      {"fly close-flight --from 1 --to 2 --json /no/such/dir/x.json",
+       "fly: /no/such/dir/x.json: cannot be written: No such file or directory\n"},
+      {"fly hand-held --controller indi",
+       "fly: --controller, --set: in hand-held nobody flies; allowed are --vehicle, --noise, --seed\n"},
       {"fly appendix-a --json /no/such/dir/x.json",
        "fly: /no/such/dir/x.json: cannot be written: No such file or directory\n"},
       {"fly appendix-a --vehicle /no/such.toml",
@@ -124,7 +142,7 @@ TEST(fly_changes_the_plant_and_not_the_controller_by_an_effect) {
 TEST(fly_writes_the_same_flight_for_the_same_seed) {
   char line[300], text[4000];
   for (int i = 0; i < 3; i++) {
-    snprintf(line, sizeof line, "fly learning-flight --integrator rk4 --seed %d --log $S/c_%d.csv",
+    snprintf(line, sizeof line, "fly learning-1d --integrator rk4 --seed %d --log $S/c_%d.csv",
              i == 2 ? 8 : 7, i);
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
   }
@@ -203,4 +221,30 @@ TEST(fly_tells_all_of_every_segment_in_its_json) {
   CHECK(cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")));
   CHECK(cJSON_IsNumber(cJSON_GetObjectItem(json, "realtime_factor")));
   cJSON_Delete(json);
+}
+
+TEST(fly_writes_the_same_lines_however_the_work_was_cut) {
+  static const struct { int from, to; } row[] = {{1, 6}, {1, 3}, {4, 6}};
+  static char text[3][4000];
+  char line[300];
+  for (int i = 0; i < 3; i++) {
+    snprintf(line, sizeof line, "fly close-flight --integrator rk4 --from %d --to %d --json $S/cut_%d",
+             row[i].from, row[i].to, i);
+    CHECK(program_run(line, STREAM_OUTPUT, text[i], sizeof text[i]) == 0);
+  }
+  const size_t first = strlen(text[1]);
+  CHECK(strncmp(text[0], text[1], first) == 0);
+  CHECK_TEXT(text[0] + first, text[2]);
+  CHECK(program_run("cat $S/cut_1 $S/cut_2 | cmp -s - $S/cut_0", STREAM_OUTPUT, text[0], sizeof text[0]) ==
+        0);
+  CHECK(program_run("test $(wc -l <$S/cut_0) = 6", STREAM_OUTPUT, text[0], sizeof text[0]) == 0);
+}
+
+TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
+  char text[4000];
+  CHECK(program_run("fly learning-flight --integrator rk4 --log $S/six.csv", STREAM_OUTPUT, text,
+                    sizeof text) == 0);
+  CHECK(strstr(text, "ceil.w7") != NULL);
+  CHECK(program_run("learn $S/six.csv", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "ceil.w7 = ") != NULL);
 }

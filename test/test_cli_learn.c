@@ -14,7 +14,7 @@
 // A learning flight; its first 15 s, which stay above 7 cm; and what goes wrong with logs.
 static void make_logs(void) {
   char text[400];
-  CHECK(program_run("fly learning-flight --integrator rk4 --seed 7 --log $S/l_flight.csv; "
+  CHECK(program_run("fly learning-1d --integrator rk4 --seed 7 --log $S/l_flight.csv; "
                     "head -n 1500 $S/l_flight.csv >$S/l_high.csv; "
                     "{ head -n 999 $S/l_flight.csv; printf 9980.000,0.4; } >$S/l_cut.csv; "
                     "head -n 1 $S/l_flight.csv >$S/l_names.csv; : >$S/l_empty.csv; mkdir -p $S/l_dir; "

@@ -33,7 +33,7 @@ done
 echo "Appendix A of the thesis, flown by the flight code"
 cat $out/table.txt
 
-out/fly learning-flight --log $out/learning.csv >$out/learning.txt
+out/fly learning-1d --log $out/learning.csv >$out/learning.txt
 echo
 echo "Learning flight, 10 to 2 cm in steps of 2 cm, noise N1: weights learned from nothing"
 awk '/ceil\.w/ { printf "  %s = %s\n", $1, $2 }' $out/learning.txt

@@ -25,3 +25,8 @@ for gains in '1 5' '2 8'; do
   out/fly closest-hover --set indiPos.kp="$1" --set indiPos.kd="$2" |
     awk -v g="$1, $2" '$1 == "gap" && $NF == 0 { nearest = $2 } END { printf "gains %s: %s mm\n", g, nearest }'
 done | text | part closest
+tools/flights.sh | sed -E '/^pictures/,$d' | sed '$d' | text | part flights
+{
+  out/fly bias-hover --integrator rk4 | sed -n '/^bias$/,/^contacts/p'
+  out/fly hand-held
+} | sed -e '/^contacts/d' -e 's/^bias$/bias-hover/' -e 's/^ceiling_height$/hand-held/' | text | part c3

@@ -115,27 +115,28 @@ static void print(const order_t *o, const effectiveness_t *r) {
          r->g2 / EFFECTIVENESS_PERIOD_S);
 }
 
-static status_t run(const order_t *order, whole_files_t *files, why_t *why) {
-  FILE *json;
-  TRY(whole_files_open(files, order->json, &json, why));
-  TRY(whole_files_spare(files, order->log, why));
+static status_t run(whole_files_t *files, int argc, char **argv, why_t *why) {
+  order_t order;
   effectiveness_t result = {.rows = 0};
-  TRY(effectiveness_fit(order->log, &order->job, &result, why));
-  if (json) TRY(write_json(order, &result, json, why));
-  print(order, &result);
+  FILE *json;
+  TRY(take_order(&order, argc, argv, why));
+  if (order.help) {
+    fputs(USAGE, stdout);
+    return ST_OK;
+  }
+  TRY(whole_files_open(files, order.json, &json, why));
+  TRY(whole_files_spare(files, order.log, why));
+  TRY(effectiveness_fit(order.log, &order.job, &result, why));
+  if (json) TRY(write_json(&order, &result, json, why));
+  print(&order, &result);
   return ST_OK;
 }
 
 int main(int argc, char **argv) {
   static whole_files_t files;
-  order_t order;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  status_t status = take_order(&order, argc, argv, &why);
-  if (status == ST_OK && order.help)
-    fputs(USAGE, stdout);
-  else if (status == ST_OK)
-    status = run(&order, &files, &why);
+  status_t status = run(&files, argc, argv, &why);
   if (status == ST_OK) status = whole_files_commit(&files, &why);
   whole_files_drop(&files);
   return error_exit("effectiveness", status, &why);

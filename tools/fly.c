@@ -1,14 +1,15 @@
 // fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
 #include "catalogue.h"
-#include "io/effect_spec.h"
 #include "io/model_file.h"
 #include "io/number.h"
 #include "io/whole_file.h"
-#include "param_spec.h"
+#include "many.h"
+#include "request_spec.h"
 #include "scenario/scenario.h"
 
 #include <getopt.h>
 #include <limits.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +23,8 @@ typedef struct {
   request_t request;
   fly_kind_t kind;
   model_t vehicle;
-  int seeds;
+  int seeds;       // 0: not said
+  double from, to; // NaN: not said
   const char *log, *json, *vehicle_path;
   bool list, params, markdown, help;
 } order_t;
@@ -35,9 +37,11 @@ static const char USAGE[] =
     "switches\n"
     "                           off what the scenario has; see --list (may be repeated)\n"
     "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
-    "  --noise LEVEL            none, n1, n2 or n3\n"
+    "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet or real\n"
     "  --seed N                 of the noise; the first one with --seeds (1)\n"
     "  --seeds N                flies N times, with seeds that count up (1)\n"
+    "  --from A --to B          flies seeds A to B on all processors, a line each; --json then gets JSON "
+    "lines\n"
     "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
     "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
     "  --json FILE              writes what is printed, and more\n"
@@ -54,48 +58,11 @@ static status_t take_controller(order_t *o, const char *name, why_t *why) {
     o->request.kind = &o->kind;
     return ST_OK;
   }
-  return error_set(why, "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned, pid, pid-ff",
-                   name);
-}
-
-static status_t take_noise(order_t *o, const char *name, why_t *why) {
-  for (int i = 0; i < noise_count; i++) {
-    if (strcmp(noise_levels[i].name, name) != 0) continue;
-    o->request.noise = &noise_levels[i];
-    return ST_OK;
-  }
-  return error_set(why, "--noise %s: allowed are none, n1, n2, n3", name);
-}
-
-static status_t take_integrator(order_t *o, const char *name, why_t *why) {
-  static const char *const names[] = {"sundials", "rk4", "reference"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(names[i], name) != 0) continue;
-    o->request.integrate = (integrate_kind_t)i;
-    return ST_OK;
-  }
-  return error_set(why, "--integrator %s: allowed are sundials, rk4, reference", name);
-}
-
-static status_t take_set(order_t *o, const char *text, why_t *why) {
-  request_t *r = &o->request;
-  if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
-  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
-  r->n_set++;
-  return ST_OK;
-}
-
-static status_t take_effect(order_t *o, const char *spec, why_t *why) {
-  request_t *r = &o->request;
-  if (strcmp(spec, "none") == 0) {
-    r->no_effects = true;
-    r->n_effect = 0;
-    return ST_OK;
-  }
-  if (r->n_effect == FX_MAX) return error_set(why, "--effect: at most %d of them", FX_MAX);
-  TRY(effect_parse(spec, &r->effect[r->n_effect], why));
-  r->n_effect++;
-  return ST_OK;
+  return error_set(
+      why,
+      "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+      "pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage",
+      name);
 }
 
 static status_t take_count(const char *option, const char *text, double min, double max, double *value,
@@ -109,10 +76,10 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   double count;
   switch (option) {
   case 'c': return take_controller(o, text, why);
-  case 's': return take_set(o, text, why);
-  case 'e': return take_effect(o, text, why);
-  case 'n': return take_noise(o, text, why);
-  case 'i': return take_integrator(o, text, why);
+  case 's': return request_take_set(&o->request, text, why);
+  case 'e': return request_take_effect(&o->request, text, why);
+  case 'n': return request_take_noise(&o->request, text, why);
+  case 'i': return request_take_integrator(&o->request, text, why);
   case 'v':
     o->vehicle_path = text;
     o->request.vehicle = &o->vehicle;
@@ -121,6 +88,8 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
     TRY(take_count("--seed", text, 0.0, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
     return ST_OK;
+  case 'f': return take_count("--from", text, 0.0, 1e9, &o->from, why);
+  case 't': return take_count("--to", text, 0.0, 1e9, &o->to, why);
   case 'm':
     TRY(take_count("--seeds", text, 1.0, SEEDS_MAX, &count, why));
     o->seeds = (int)count;
@@ -137,17 +106,26 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
 }
 
+static bool many(const order_t *o) {
+  return !isnan(o->from) || !isnan(o->to);
+}
+
+static status_t check_many(const order_t *o, why_t *why) {
+  if (!many(o)) return ST_OK;
+  if (!(o->from <= o->to)) return error_set(why, "--from, --to: both are needed, and --from <= --to");
+  if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
+  if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
+  return ST_OK;
+}
+
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},
-      {"effect", 1, 0, 'e'},     {"vehicle", 1, 0, 'v'},
-      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
-      {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'},
-      {"log", 1, 0, 'l'},        {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'},
-      {"help", 0, 0, 'h'},       {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},    {"effect", 1, 0, 'e'}, {"vehicle", 1, 0, 'v'},
+      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},   {"seeds", 1, 0, 'm'},  {"integrator", 1, 0, 'i'},
+      {"from", 1, 0, 'f'},       {"to", 1, 0, 't'},     {"log", 1, 0, 'l'},    {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},   {0},
   };
-  *o = (order_t){.seeds = 1, .request = {.seed = 1}};
+  *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
     if (option == '?')
@@ -160,7 +138,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   o->scenario = scenario_find(argv[optind]);
   if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
-  return ST_OK;
+  return check_many(o, why);
 }
 
 // --- flying -------------------------------------------------------------------------------------------
@@ -217,14 +195,28 @@ static status_t fly(const order_t *o, output_t *out, why_t *why) {
   return status;
 }
 
+static status_t fly_many(const order_t *o, output_t *out, why_t *why) {
+  const many_t m = {
+      .scenario = o->scenario,
+      .request = &o->request,
+      .from = (uint64_t)o->from,
+      .to = (uint64_t)o->to,
+      .text = stdout,
+      .json = out->json,
+      .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+  };
+  return many_fly(&m, why);
+}
+
 static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
   if (order->list) catalogue_all();
   if (order->params) catalogue_params(order->markdown);
   if (!order->scenario) return ST_OK;
+  if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));
-  return fly(order, out, why);
+  return many(order) ? fly_many(order, out, why) : fly(order, out, why);
 }
 
 int main(int argc, char **argv) {

@@ -2,18 +2,15 @@
 // cm in 2 cm steps, 10 s each, in six degrees of freedom with real sensors.
 #include "scenario/scenario.h"
 
-#include "setup6.h"
-
 static status_t run(const request_t *request, result_t *result, why_t *why) {
-  static const double gap_m[] = {0.20, 0.10, 0.08, 0.06, 0.04, 0.02};
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
   TRY(setup6_apply(&setup, request, why));
-  setup6_ladder(&setup, gap_m, 6, 10.0);
+  TRY(scenario_check_ladder(&setup.model, why));
+  setup6_close_ladder(&setup);
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));
-  result_add_flight(result, &flown.flown);
-  flown6_free(&flown);
+  result_add_flight6(result, &flown);
   return ST_OK;
 }
 

@@ -1,37 +1,24 @@
-// learning_flight.c - hover 20 cm below the ceiling, then 10 to 2 cm in 2 cm steps; the curve is learned on
-// the way from nothing, with the thesis's form and numbers (section 5.3, appendix B), and its weights are
-// printed.
+// learning_flight.c - the thesis's learning flight (section 5.3) in six degrees of freedom with real sensors:
+// 20 cm below the ceiling, then 10 to 2 cm in 2 cm steps, 10 s each; the curve is learned on the way from
+// nothing, and its weights are printed. `indi-learned` flies this first, with the same seed, and then with
+// the weights frozen.
 #include "scenario/scenario.h"
 
-static void tell_weights(const flown_t *flown, result_t *result) {
-  double w[RBF_N];
-  for (int i = 0; i < RBF_N; i++) w[i] = (double)flown->weights.w[i];
-  cJSON_AddItemToObject(result->json, "weights", cJSON_CreateDoubleArray(w, RBF_N));
-  for (int i = 0; i < RBF_N; i++) {
-    cJSON *row = result_add_row(result, "learned");
-    char name[24];
-    snprintf(name, sizeof name, "ceil.w%d", i + 1);
-    cJSON_AddStringToObject(row, "parameter", name);
-    cJSON_AddNumberToObject(row, "value", w[i]);
-  }
-}
-
 static status_t run(const request_t *request, result_t *result, why_t *why) {
-  setup_t setup;
-  TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
-  setup.plan.noise = noise_levels[1];
-  TRY(setup_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup, why));
-  setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
-  flown_t flown;
-  TRY(setup_fly(&setup, &flown, why));
-  if (setup.flight.curve.mode == CURVE_LIVE) tell_weights(&flown, result);
-  result_add_flight(result, &flown);
+  setup6_t setup;
+  TRY(setup6_thesis(&setup, FLY_INDI_LIVE, why));
+  TRY(setup6_apply(&setup, request, why));
+  TRY(scenario_check_ladder(&setup.model, why));
+  setup6_close_ladder(&setup);
+  flown6_t flown;
+  TRY(setup6_fly(&setup, &flown, why));
+  if (setup.flight.curve.mode == CURVE_LIVE) result_add_weights(result, &flown.flown.weights);
+  result_add_flight6(result, &flown);
   return ST_OK;
 }
 
 const scenario_t scenario_learning_flight = {
     .name = "learning-flight",
-    .brief = "hover at gaps of 20, 10, 8, 6, 4 and 2 cm with noise N1, learning the curve (thesis 5.3)",
+    .brief = "six degrees of freedom: 20, 10, 8, 6, 4 and 2 cm, learning the curve on the way (thesis 5.3)",
     .run = run,
 };

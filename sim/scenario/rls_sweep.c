@@ -62,7 +62,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
   setup.plan.noise = noise_levels[1];
   TRY(setup_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup, why));
+  TRY(scenario_check_ladder(&setup.model, why));
   if (setup.kind == FLY_PID || setup.kind == FLY_PID_FF)
     return error_set(why, "--controller %s: knows no ceiling distance to learn from", fly_name[setup.kind]);
   setup_learning_ladder(&setup.plan, setup.model.ceiling_m);

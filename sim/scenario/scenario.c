@@ -12,8 +12,8 @@ const scenario_t *scenario_find(const char *name) {
   return NULL;
 }
 
-status_t scenario_check_ladder(const setup_t *setup, why_t *why) {
-  const double ceiling_m = setup->model.ceiling_m;
+status_t scenario_check_ladder(const model_t *model, why_t *why) {
+  const double ceiling_m = model->ceiling_m;
   if (ceiling_m >= LADDER_FROM_M && ceiling_m <= 100.0) return ST_OK;
   return error_set(why, "--vehicle: ceiling_m is %g m; this scenario needs %g to 100 m", ceiling_m,
                    LADDER_FROM_M);

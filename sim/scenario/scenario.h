@@ -23,6 +23,6 @@ const scenario_t *scenario_find(const char *name);
 MUST_CHECK status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
 
 // ST_BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
-MUST_CHECK status_t scenario_check_ladder(const setup_t *setup, why_t *why);
+MUST_CHECK status_t scenario_check_ladder(const model_t *model, why_t *why);
 
 #endif

@@ -2,18 +2,16 @@
 // cm 10 s each, in six degrees of freedom with real sensors.
 #include "scenario/scenario.h"
 
-#include "setup6.h"
-
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
   TRY(setup6_apply(&setup, request, why));
+  TRY(scenario_check_ladder(&setup.model, why));
   setup6_ladder(&setup, gap_m, 4, 10.0);
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));
-  result_add_flight(result, &flown.flown);
-  flown6_free(&flown);
+  result_add_flight6(result, &flown);
   return ST_OK;
 }
 

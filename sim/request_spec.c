@@ -1,0 +1,52 @@
+// request_spec.c - what the command line asks for, from text.
+#include "request_spec.h"
+
+#include "io/effect_spec.h"
+#include "param_spec.h"
+
+#include <string.h>
+
+status_t request_take_noise(request_t *r, const char *name, why_t *why) {
+  r->noise = NULL;
+  r->noise6 = noise6_find(name);
+  if (r->noise6) return ST_OK;
+  for (int i = 0; i < noise_count; i++) {
+    if (strcmp(noise_levels[i].name, name) != 0) continue;
+    r->noise = &noise_levels[i];
+    return ST_OK;
+  }
+  return error_set(
+      why,
+      "--noise %s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
+      "of freedom",
+      name);
+}
+
+status_t request_take_integrator(request_t *r, const char *name, why_t *why) {
+  static const char *const names[] = {"sundials", "rk4", "reference"};
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(names[i], name) != 0) continue;
+    r->integrate = (integrate_kind_t)i;
+    return ST_OK;
+  }
+  return error_set(why, "--integrator %s: allowed are sundials, rk4, reference", name);
+}
+
+status_t request_take_set(request_t *r, const char *text, why_t *why) {
+  if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
+  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
+  r->n_set++;
+  return ST_OK;
+}
+
+status_t request_take_effect(request_t *r, const char *spec, why_t *why) {
+  if (strcmp(spec, "none") == 0) {
+    r->no_effects = true;
+    r->n_effect = 0;
+    return ST_OK;
+  }
+  if (r->n_effect == FX_MAX) return error_set(why, "--effect: at most %d of them", FX_MAX);
+  TRY(effect_parse(spec, &r->effect[r->n_effect], why));
+  r->n_effect++;
+  return ST_OK;
+}

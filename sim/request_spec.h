@@ -1,0 +1,14 @@
+// request_spec.h - what the command line asks for, from text.
+#ifndef SIM_REQUEST_SPEC_H
+#define SIM_REQUEST_SPEC_H
+
+#include "setup.h"
+
+// Each takes the value of one option. ST_BAD_INPUT: not such a value; says what is allowed.
+MUST_CHECK status_t request_take_noise(request_t *r, const char *name, why_t *why);
+MUST_CHECK status_t request_take_integrator(request_t *r, const char *name, why_t *why);
+MUST_CHECK status_t request_take_set(request_t *r, const char *text, why_t *why);
+// NAME:KEY=VALUE,...; `none` switches off what the scenario has and what was asked for before.
+MUST_CHECK status_t request_take_effect(request_t *r, const char *spec, why_t *why);
+
+#endif

@@ -1,0 +1,55 @@
+# flights.awk - JSON lines of out/fly, one file for each controller, as a table: a row for each controller and distance.
+# Needs radius_mm and ceiling_mm. Their keys stand in the order of sim/result.c; a segment ends with its tilt.
+
+# The number of that key in s; nan where it is null.
+function of(s, key) {
+  if (!match(s, "\"" key "\":-?[0-9][^,}]*")) return "nan"
+  return substr(s, RSTART + length(key) + 3, RLENGTH - length(key) - 3) + 0
+}
+
+function row(who, k,   n, mean, spread, gap) {
+  n = flights[who]
+  mean = error[who, k] / n
+  spread = error2[who, k] / n - mean * mean # of the flights' means
+  spread = sqrt((spread > 0 ? spread : 0) + sd2[who, k] / n)
+  gap = distance[k] - mean
+  printf "%-13s %4.0f %5.2f  %6.1f %5.2f  %6.1f %5.2f  %6.1f  %6.1f  %5d %5d/%d  %6.1f %5.2f  %5.1f\n", who, distance[k],
+    distance[k] / radius_mm, gap, gap / radius_mm, spread, spread / radius_mm, mean, sqrt(sd2[who, k] / n),
+    contacts[who, k], hit[who, k], n, low[who, k], low[who, k] / radius_mm, tilt[who, k]
+}
+
+FNR == 1 {
+  who = FILENAME
+  sub(/^[^.]*\./, "", who)
+  sub(/\.jsonl$/, "", who)
+  order[++controllers] = who
+}
+
+{
+  flights[who]++
+  n = split($0, part, /\{"setpoint_m"/) - 1
+  if (n > steps) steps = n
+  for (k = 1; k <= n; k++) {
+    s = "\"setpoint_m\"" part[k + 1]
+    distance[k] = ceiling_mm - 1e3 * of(s, "setpoint_m")
+    e = of(s, "mean_error_mm")
+    error[who, k] += e
+    error2[who, k] += e * e
+    sd2[who, k] += of(s, "sd_mm") ^ 2
+    contacts[who, k] += of(s, "contacts")
+    hit[who, k] += of(s, "contacts") > 0
+    gap = of(s, "min_gap_mm")
+    if (!((who, k) in low) || gap < low[who, k]) low[who, k] = gap
+    lean = of(s, "tilt_max_deg")
+    if (lean > tilt[who, k]) tilt[who, k] = lean
+  }
+}
+
+END {
+  printf "%-13s %10s  %12s  %12s  %6s  %6s  %5s %8s  %12s  %5s\n", "", "commanded", "mean", "sd", "error", "oscil.",
+    "con-", "flights", "smallest gap", "tilt"
+  printf "%-13s %4s %5s  %6s %5s  %6s %5s  %6s  %6s  %5s %8s  %6s %5s  %5s\n", "controller", "mm", "R", "mm", "R", "mm",
+    "R", "mm", "mm", "tacts", "touching", "mm", "R", "deg"
+  for (k = 2; k <= steps; k++) # the first is the hover far away
+    for (i = 1; i <= controllers; i++) row(order[i], k)
+}
