@@ -17,15 +17,16 @@
 //   17  some retreat, or the reason comes later than 250 ms                                   940
 //   18  no retreat: the height is the estimator's, the range moves only curve and clip       never nearer
 //   19  3 cm is held blind for 3 s; the nearest gap was 15 mm
-//   21  late, missed, doubled samples: the height error stays up to twice the nominal one      900
+//   21  late, missed, doubled samples: the height error is above the bound                    900
 //   24  +- 20 %: no contact; the steady error is not judged
-//   25  a dropped load of 10 % climbs at up to 0.17 m/s within 5 cm, nearest 35 mm            922
+//   25  a dropped load of 10 % climbs faster than 0.1 m/s within 5 cm, nearest 35 mm           922
 //   26  retreat only where thrust saturates; what sag teaches w1 is not judged
-//   27  a weak motor: the height error takes longer than 2 s to settle                        941
+//   27  a weak motor: the height error 2 s later is above the bound                          941
 //   29  twice the motors' lag: the inner loop tumbles within seconds, then it is cut          0
 //   33  a torn vector flies for 7 ms (each set passes its checks); the glue has to hand over whole sets
 //   40  refused nearer than guard.takeOff, which the thesis's flights set to 0
-//   48  garbage in the velocity is a hand-over (C), not a retreat
+//   46  2 cm/s: the retreat may come too late, nearest 4 mm, which is contact                 957
+//   48  garbage in the velocity is a hand-over (C), not a retreat; nearest 4 mm, contact      980
 //   49  a start in flight costs more than 2 s of height error; it is bit-equal to a fresh start (outer's
 //   test)
 // At unit level: 23, 36, 39, 41, 45, 47 (test_outer.c), 20 (test_ceiling.c), 31-32 (test_outer.c), 34-36
@@ -347,11 +348,11 @@ static const row_t rows[] = {
     {"43 missed or doubled calls", 'A', GAP_M, 0.001, 0.05, 0, 0, missed_calls, 0, 0, 99, NULL},
     {"44 step counter wraps", 'A', GAP_M, 0.1, 0.1, 0, 0, NULL, 0, 0, 99, wrapped},
     {"45 height jumps", 'A', GAP_M, EVER, EVER, 0.05, 0.3, height_jump, GUARD_HEIGHT_JUMP, 0.03, 99, NULL},
-    {"46 height drifts 2 cm/s", 'N', GAP_M, EVER, EVER, 0.02, 0.02, height_drift, 0, 0, 99, NULL},
+    {"46 height drifts 2 cm/s", 'N', GAP_M, EVER, EVER, 0.02, 0.02, height_drift, 0, 0, 93, NULL},
     {"47 quaternion x 0 to 2", 'N', GAP_M, 0.1, 0.1, 0, 2, attitude_scale, 0, 0, 99, NULL},
-    {"48 velocity garbage", 'N', GAP_M, 1, 1, 0, 0, velocity_noise, GUARD_NOT_A_NUMBER, 0.03, 99, NULL},
+    {"48 velocity garbage", 'N', GAP_M, 1, 1, 0, 0, velocity_noise, GUARD_NOT_A_NUMBER, 0.03, 96, NULL},
     {"49 started again in flight", 'N', GAP_M, 0.1, 0.1, 0, 0, again, 0, 0, 99, NULL},
-    {"50 a bit of the learner flips", 'A', GAP_M, 0.1, 0.1, 0, 0, bit_flip, 0, 0, 99, NULL},
+    {"50 a bit of the learner flips", 'A', GAP_M, 0.1, 0.1, 0, 0, bit_flip, 0, 0, 98, NULL},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
