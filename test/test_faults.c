@@ -4,7 +4,7 @@
 // the seed. What every flight has to keep: finite commands within limits, weights, covariance and distance in
 // their box (G1, G2); then by class
 //   A  flies on: nearest gap >= 10 mm, no climb faster than 0.1 m/s within 5 cm, and 2 s after the fault the
-//      rms height error is at most 1.5 times that of the same flight without it (+ 5 mm) (G3, G4)
+//      rms height error is at most 11 mm: 1.5 times a nominal 4 mm, which is assumed, and 5 mm (G3, G4)
 //   B  goes down: as A, and at the end at least 15 cm below the ceiling
 //   C  gives up: as A, and never more than hover thrust from 4 ms after the hand-over (G3)
 //   N  is reported and has to keep G1, G2, gap and climb alone;  S  likewise
@@ -29,9 +29,15 @@
 //   48  garbage in the velocity is a hand-over (C), not a retreat; nearest 4 mm, contact      980
 //   49  a start in flight costs more than 2 s of height error; it is bit-equal to a fresh start (outer's
 //   test)
-// At unit level: 23, 36, 39, 41, 45, 47 (test_outer.c), 20 (test_ceiling.c), 31-32 (test_outer.c), 34-36
-// (test_rls.c). Not here: 12 and 35 (the supervisor's; test_rls.c), the
-// battery's effect on w1.
+// The shares were measured before learning was stopped while a reason stands; and the percentages in the
+// table below were set after they were seen, as a fence against getting worse, not as a requirement.
+//
+// Judged more mildly than the list has it (class N or S): 5, 14, 18, 24, 26, 40, 42, 46, 47, 48, 49.
+// Parts of the list's criteria that no flight here checks: thrust steps (4, 16, 37), weights (8), tilt (27),
+// climb in 300 ms (17), growth (29), same bits (31, 32, 44), error of the distance (20, 21, 45), time to
+// recover (11, 34, 50). At unit level, at least in part: 1, 3, 4, 13, 14, 22, 23, 31, 32, 41, 45, 47
+// (test_outer.c), 20, 21 (test_ceiling.c), 34 (test_rls.c), 36 (test_learn.c), 37 (test_rbf.c), 38
+// (test_pos_indi.c). Nowhere: 39; 12 was not asked for; 35 is not looked at here.
 #include "body.h"
 #include "pilot_flight.h"
 #include "plant/random.h"
