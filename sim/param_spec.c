@@ -28,6 +28,9 @@ status_t param_check_all(const flight_param_t *p, why_t *why) {
   const float f = p->cutoff_Hz;
   if (f > 0.0f && f < PARAMS_CUTOFF_MIN_HZ)
     return error_set(why, "--set indiPos.cutoff=%g: allowed is 0, or 0.1 to 45 Hz", (double)f);
+  const float g = p->att_cutoff_Hz;
+  if (g > 0.0f && g < PARAMS_ATT_CUTOFF_MIN_HZ)
+    return error_set(why, "--set indiAtt.cutoff=%g: allowed is 0, or 0.5 to 200 Hz", (double)g);
   return error_set(
       why,
       "--set: with rls.q=%g, rls.p0=%g, ceil.floor=%g, ceil.near=%g, ceil.far=%g, rls.zMin=%g, rls.zMax=%g: "

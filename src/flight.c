@@ -70,6 +70,7 @@ static float thrust_of(const float force_N[MOTORS]) {
 static void run_outer(flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) {
     outer_rest(&f->outer);
+    f->range_waits = false; // when the height is taken up again it is no measurement of then
     f->out.outer = f->outer.out;
     return;
   }

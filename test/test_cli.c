@@ -41,6 +41,8 @@ TEST(fly_refuses_bad_input_with_one_line_and_status_two) {
        "rls.zMax=0.1: allowed is rls.q <= rls.p0, ceil.floor <= ceil.near < ceil.far, rls.zMin < rls.zMax\n"},
       {"fly appendix-a --set indiPos.cutoff=0.001",
        "fly: --set indiPos.cutoff=0.001: allowed is 0, or 0.1 to 45 Hz\n"},
+      {"fly test-flight --set indiAtt.cutoff=0.1",
+       "fly: --set indiAtt.cutoff=0.1: allowed is 0, or 0.5 to 200 Hz\n"},
       {"fly pid-tables --set indiPos.kp=1", "fly: --set: the flight code does not fly in pid-tables\n"},
       {"fly rls-sweep --controller pid", "fly: --controller pid: knows no ceiling distance to learn from\n"},
       {"fly appendix-a --noise loud",

@@ -245,3 +245,24 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   }
   body_close(&r.body);
 }
+
+TEST(flight_does_not_take_up_a_range_sample_from_before_it_flew) {
+  rig_t r = {.in = {.step = 0}};
+  start(&r, 0.0);
+  double motor_N[PILOT6_MOTORS];
+  r.in.set.mode[2] = PILOT6_OFF;
+  for (int ms = 0; ms < 40; ms++) {
+    sense(&r);
+    r.in.range_new = ms == 25;
+    r.in.range_m = 0.3;
+    r.pilot.step(r.pilot.state, &r.in, motor_N);
+    r.in.step++;
+  }
+  r.in.set.mode[2] = PILOT6_POSITION;
+  for (int ms = 0; ms < 20; ms++) {
+    r.pilot.step(r.pilot.state, &r.in, motor_N);
+    r.in.step++;
+  }
+  CHECK(!r.flight.flight.outer.ceiling.known);
+  body_close(&r.body);
+}

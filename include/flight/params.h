@@ -174,7 +174,8 @@ float params_get(const flight_param_t *p, const param_row_t *row);
 // ST_BAD_PARAM: NaN, out of min..max, or a fraction for a PARAM_INT; *p is kept.
 MUST_CHECK status_t params_set(flight_param_t *p, const param_row_t *row, float value);
 
-#define PARAMS_CUTOFF_MIN_HZ 0.1f // of indiPos.cutoff, unless it is 0
+#define PARAMS_CUTOFF_MIN_HZ     0.1f // of indiPos.cutoff, unless it is 0
+#define PARAMS_ATT_CUTOFF_MIN_HZ 0.5f // of indiAtt.cutoff, unless it is 0
 
 // ST_BAD_PARAM: some parameter is out of its range, or two contradict each other (rls.q > rls.p0,
 // ceil.floor > ceil.near, ceil.near >= ceil.far, rls.zMin >= rls.zMax).
