@@ -36,3 +36,12 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
   return model_builtin("thesis_1d", &setup->model, why);
 }
+
+status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
+  TRY(scenario_appendix_a_setup(setup, FLY_INDI_LIVE, why));
+  setup->plan.noise = noise_levels[1];
+  TRY(setup_apply(setup, request, why));
+  TRY(scenario_check_ladder(&setup->model, why));
+  setup_learning_ladder(&setup->plan, setup->model.ceiling_m);
+  return ST_OK;
+}
