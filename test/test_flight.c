@@ -42,14 +42,19 @@ static void sense(rig_t *r) {
   r->in.q_wb = dq_of(y + RIGID_Q_WB);
 }
 
+// The same measurements for so long; motor_N is the last command.
+static void think(rig_t *r, int span_ms, double motor_N[PILOT6_MOTORS]) {
+  for (int ms = 0; ms < span_ms; ms++) {
+    r->pilot.step(r->pilot.state, &r->in, motor_N);
+    r->in.step++;
+  }
+}
+
 static void fly(rig_t *r, double span_s) {
   for (long tick = 0; tick < lround(span_s / 0.002); tick++) {
     double motor_N[PILOT6_MOTORS];
     sense(r);
-    for (int ms = 0; ms < 2; ms++) {
-      r->pilot.step(r->pilot.state, &r->in, motor_N);
-      r->in.step++;
-    }
+    think(r, 2, motor_N);
     body_tick(&r->body, motor_N, 0.002);
     for (int i = 0; i < ROTORS; i++) r->in.applied_N[i] = r->body.command_N[i];
   }
@@ -151,16 +156,10 @@ TEST(flight_learns_nothing_wrong_on_the_ground) {
   for (int i = 0; i < PILOT6_MOTORS; i++) r.in.applied_N[i] = 0.0;
   sense(&r);
   r.in.acc_b_mps2 = (d3_t){0.0, 0.0, 9.81 - 0.0981};
-  for (int ms = 0; ms < 30000; ms++) {
-    r.pilot.step(r.pilot.state, &r.in, motor_N);
-    r.in.step++;
-  }
+  think(&r, 30000, motor_N);
   CHECK(motor_N[0] == 0.0 && motor_N[1] == 0.0 && motor_N[2] == 0.0 && motor_N[3] == 0.0);
   for (int i = 0; i < 3; i++) r.in.set.mode[i] = PILOT6_POSITION;
-  for (int ms = 0; ms < 11; ms++) {
-    r.pilot.step(r.pilot.state, &r.in, motor_N);
-    r.in.step++;
-  }
+  think(&r, 11, motor_N);
   for (int i = 0; i < PILOT6_MOTORS; i++) sum += motor_N[i];
   CHECK(sum <= (double)r.flight.param.step_max_N + 1e-6);
   body_close(&r.body);
@@ -183,11 +182,10 @@ TEST(flight_finds_the_bias_of_its_accelerometer) {
 
 TEST(flight_uses_velocity_and_acceleration_of_a_trajectory) {
   // Fault 7: they were dropped. A circle of 0.2 m at 1.5 rad/s is followed closely with them, badly without.
-  double error_m[2];
+  double error_m[2] = {0.0, 0.0};
   for (int with = 0; with < 2; with++) {
     rig_t r = {.in = {.step = 0}};
     start(&r, 0.0);
-    double worst = 0.0;
     for (int k = 0; k < 4000; k++) {
       const double ramp = fmin(1.0, 0.002 * k / 3.0), w = 1.5, a = w * 0.002 * k, s = sin(a), c = cos(a);
       r.in.set.pos_w_m = (d3_t){0.2 * ramp * c, 0.2 * ramp * s, 0.5};
@@ -195,9 +193,8 @@ TEST(flight_uses_velocity_and_acceleration_of_a_trajectory) {
       r.in.set.acc_w_mps2 =
           with ? (d3_t){-0.2 * w * w * c * ramp, -0.2 * w * w * s * ramp, 0.0} : (d3_t){0, 0, 0};
       fly(&r, 0.002);
-      if (k > 2500) worst = fmax(worst, d3_norm(d3_sub(pos_of(&r), r.in.set.pos_w_m)));
+      if (k > 2500) error_m[with] = fmax(error_m[with], d3_norm(d3_sub(pos_of(&r), r.in.set.pos_w_m)));
     }
-    error_m[with] = worst;
     body_close(&r.body);
   }
   CHECK(error_m[1] < 0.5 * error_m[0]);
@@ -227,16 +224,15 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   double before[PILOT6_MOTORS], after[PILOT6_MOTORS];
   r.pilot.step(r.pilot.state, &r.in, before);
   const flight_t state = r.flight.flight;
-  static const double odd[] = {1e38};
-  for (unsigned k = 0; k <= sizeof odd / sizeof *odd; k++) {
+  static const double odd[] = {(double)NAN, 1e38};
+  for (unsigned k = 0; k < sizeof odd / sizeof *odd; k++) {
     for (int field = 0; field < 3; field++) {
-      ROW("field %d, value %u", field, k);
+      ROW("field %d, %g", field, odd[k]);
       r.flight.flight = state;
       pilot6_in_t bad = r.in;
       bad.step++;
-      *(field == 0   ? &bad.gyro_b_radps.y
-        : field == 1 ? &bad.q_wb.x
-                     : &bad.applied_N[2]) = k == 0 ? (double)NAN : odd[k - 1];
+      double *const place[] = {&bad.gyro_b_radps.y, &bad.q_wb.x, &bad.applied_N[2]};
+      *place[field] = odd[k];
       r.pilot.step(r.pilot.state, &bad, after);
       for (int i = 0; i < PILOT6_MOTORS; i++) CHECK_NEAR(after[i], before[i], 0.0);
       CHECK(r.flight.flight.faults[ST_BAD_INPUT] > state.faults[ST_BAD_INPUT]);
@@ -255,14 +251,10 @@ TEST(flight_does_not_take_up_a_range_sample_from_before_it_flew) {
     sense(&r);
     r.in.range_new = ms == 25;
     r.in.range_m = 0.3;
-    r.pilot.step(r.pilot.state, &r.in, motor_N);
-    r.in.step++;
+    think(&r, 1, motor_N);
   }
   r.in.set.mode[2] = PILOT6_POSITION;
-  for (int ms = 0; ms < 20; ms++) {
-    r.pilot.step(r.pilot.state, &r.in, motor_N);
-    r.in.step++;
-  }
+  think(&r, 20, motor_N);
   CHECK(!r.flight.flight.outer.ceiling.known);
   body_close(&r.body);
 }

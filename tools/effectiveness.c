@@ -136,8 +136,6 @@ int main(int argc, char **argv) {
   static whole_files_t files;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  status_t status = run(&files, argc, argv, &why);
-  if (status == ST_OK) status = whole_files_commit(&files, &why);
-  whole_files_drop(&files);
-  return error_exit("effectiveness", status, &why);
+  const status_t status = run(&files, argc, argv, &why);
+  return whole_files_exit(&files, "effectiveness", status, &why);
 }
