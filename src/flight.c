@@ -1,15 +1,15 @@
 // flight.c - the whole controller.
 #include "flight/flight.h"
 
+#include "flight/bounds.h"
 #include "flight/trig.h"
 #include "flight/watch.h"
 #include <string.h>
 
-#define INNER_S        0.002f
-#define OUTER_S        0.01f
-#define RATE_MAX_RADPS 34.5f // the gyro ends at 34.9
-#define FORCE_MAX_N    100.0f
-#define LEAD_COS       0.88f // the heading that is held runs no more than 0.5 rad ahead of the vehicle
+#define INNER_S      0.002f
+#define OUTER_S      0.01f
+#define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
+#define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
 static status_t tune(flight_t *f, const flight_param_t *p) {
   TRY(params_check(p));
@@ -34,9 +34,9 @@ static void count(flight_t *f, status_t status) {
 
 // The outer loop judges what only it uses.
 static status_t check_in(const flight_in_t *in) {
-  if (!v3_within(in->rate_b_radps, RATE_MAX_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
+  if (!v3_within(in->rate_b_radps, BOUND_RATE_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
   for (int i = 0; i < MOTORS; i++)
-    if (!(fabsf(in->force_N[i]) <= FORCE_MAX_N)) return ST_BAD_INPUT;
+    if (!(fabsf(in->force_N[i]) <= BOUND_THRUST_N)) return ST_BAD_INPUT;
   return ST_OK;
 }
 
@@ -111,6 +111,13 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   return (sincos_t){k * held.sin, k * held.cos};
 }
 
+// What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
+static float ceiling_Nms(const flight_t *f, float thrust_N) {
+  const float cutoff_Hz = f->param.att_cutoff_Hz, arm_m = f->param.mixer.arm_m;
+  const float lag_s = f->param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
+  return f->param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
+}
+
 static void run_inner(flight_t *f, const flight_in_t *in) {
   const flight_setpoint_t *sp = &in->setpoint;
   const bool by_hand = sp->x == AXIS_OFF || sp->y == AXIS_OFF;
@@ -119,12 +126,15 @@ static void run_inner(flight_t *f, const flight_in_t *in) {
   const v3_t up =
       by_hand ? direction_by_hand(sp, f->heading_ref, f->param.pos.tilt_max_rad) : f->out.outer.up_w;
   const float thrust_N = sp->z == AXIS_OFF ? sp->thrust_N : f->out.outer.thrust_N;
+  const mixer_out_t given = mixer_of(&f->param.mixer, in->force_N);
   const att_indi_in_t att_in = {
       .rate_b_radps = in->rate_b_radps,
       .q_wb = quat_unit(in->q_wb),
       .q_ref = att_indi_reference(up, f->heading_ref),
       .yaw_rate_radps = sp->yaw_rate_radps,
-      .torque_b_Nm = mixer_of(&f->param.mixer, in->force_N).torque_b_Nm,
+      .torque_b_Nm = given.torque_b_Nm,
+      .ceiling_Nms = ceiling_Nms(f, given.thrust_N),
+      .ratio = f->param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f,
   };
   f->out.q_ref = att_in.q_ref;
   // After missed calls the rate has changed for longer.
