@@ -4,7 +4,7 @@ CC  = gcc
 CXX = g++
 # Where objects go; one folder for each kind of build.
 B   = out/release
-OPT = -O2
+OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
 DEMO_PACKAGES = gnuplot-nox
