@@ -40,6 +40,8 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
+  // The same for four rotors at once, out[i] at distance_m[i]; null: one by one.
+  void (*ratios)(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]);
 } curve_t;
 
 extern const curve_t *const curve_table[];
@@ -51,6 +53,12 @@ typedef struct {
   double ground_gap_m;  // rotor plane to ground
   double radius_m;      // of the rotor
 } fx_place_t;
+
+// Where the four rotors of a vehicle are.
+typedef struct {
+  double ceiling_gap_m[ROTORS], ground_gap_m[ROTORS];
+  double radius_m;
+} fx_places_t;
 
 // The vehicle in flight, at every stage of the integrator.
 typedef struct {
@@ -111,6 +119,9 @@ typedef struct fx_use {
 // Null pointers where there is no such name.
 const fx_t *fx_find(const char *name);
 const curve_t *curve_find(const char *name);
+
+// Adds the effect's excess at each rotor. The effect must have the hook.
+void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]);
 
 // The effect with its first form (if it takes one) and nominal numbers.
 fx_use_t fx_use(const fx_t *fx);

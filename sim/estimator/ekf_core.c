@@ -1,6 +1,7 @@
 // ekf_core.c - prediction and corrections of the extended Kalman filter.
 #include "estimator/ekf_core.h"
 
+#include "plant/pair.h"
 #include <math.h>
 #include <string.h>
 
@@ -101,17 +102,14 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
     }
 }
 
-// Two neighbours of a row.
-typedef double pair_t __attribute__((vector_size(16), may_alias));
-
 // own + a M for a row a of the part POS, VEL or ATT: its columns from that part on, without a's blocks that
 // are 0. The estimator's time goes here.
 static inline void row_times(int part, const double *own, const double *a, const double M[EKF_N][EKF_ROW],
                              double *out) {
   for (int j = part & ~1; j < EKF_ROW; j += 2) {
-    pair_t sum = part == POS ? *(const pair_t *)(own + j) : (pair_t){0.0, 0.0};
-    for (int k = part == ATT ? ATT : VEL; k < EKF_N; k++) sum += a[k] * *(const pair_t *)(M[k] + j);
-    *(pair_t *)(out + j) = sum;
+    pair_t sum = part == POS ? pair_of(own + j) : pair_both(0.0);
+    for (int k = part == ATT ? ATT : VEL; k < EKF_N; k++) sum += a[k] * pair_of(M[k] + j);
+    pair_put(out + j, sum);
   }
 }
 

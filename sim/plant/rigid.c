@@ -1,20 +1,22 @@
 // rigid.c - a rigid body with four rotors.
 #include "plant/rigid.h"
 
+#include "plant/pair.h"
+
 #include <string.h>
 
 void rigid_tune(rigid_t *r) {
   r->per_mass = 1.0 / r->mass_kg;
   r->per_tau = 1.0 / r->motor_tau_s;
   r->per_root_kf = 1.0 / sqrt(r->kf_Ns2);
+  r->half_I_per_kf = 0.5 * r->rotor_inertia_kgm2 / r->kf_Ns2;
   r->per_inertia = d3(1.0 / r->inertia_kgm2.x, 1.0 / r->inertia_kgm2.y, 1.0 / r->inertia_kgm2.z);
 }
 
 void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]) {
-  for (int i = 0; i < ROTORS; i++) {
-    const double at = f[i] > 0.0 ? sqrt(f[i]) * r->per_root_kf : 0.0;
-    speed[i] = at > ROTOR_SLOWEST_RADPS ? at : ROTOR_SLOWEST_RADPS;
-  }
+  const pair_t zero = pair_both(0.0), slowest = pair_both(ROTOR_SLOWEST_RADPS);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(speed + i, pair_max(pair_sqrt(pair_max(pair_of(f + i), zero)) * r->per_root_kf, slowest));
 }
 
 // Thrust, its moment, and what the rotors' torque and inertia do.
@@ -26,19 +28,21 @@ typedef struct {
 
 static rotors_t rotors(const rigid_t *r, const double *f, const double *speed, const double *ratio,
                        double *df) {
-  rotors_t sum = {0.0, {0.0, 0.0, 0.0}, 0.0};
-  const double I = r->rotor_inertia_kgm2, half_I_over_kf = 0.5 * I / r->kf_Ns2;
-  for (int i = 0; i < ROTORS; i++) {
-    const double scaled = r->thrust_scale[i] * f[i], lift = ratio[i] * scaled;
-    df[i] = (r->command_N[i] - f[i]) * r->per_tau;
-    sum.thrust_N += lift;
-    sum.moment_b_Nm.x += r->rotor_at_m[i].y * lift;
-    sum.moment_b_Nm.y -= r->rotor_at_m[i].x * lift;
-    const double torque = r->torque_ratio_m * scaled + half_I_over_kf * df[i] / speed[i];
-    sum.spin_Nms += r->spin[i] * I * speed[i];
-    sum.moment_b_Nm.z -= r->spin[i] * torque;
+  pair_t lift = {0.0, 0.0}, roll = lift, pitch = lift, yaw = lift, spin = lift;
+  for (int i = 0; i < ROTORS; i += 2) {
+    const pair_t thrust = pair_of(f + i), scaled = pair_of(r->thrust_scale + i) * thrust,
+                 up = pair_of(ratio + i) * scaled, om = pair_of(speed + i), turns = pair_of(r->spin + i),
+                 change = (pair_of(r->command_N + i) - thrust) * r->per_tau;
+    pair_put(df + i, change);
+    lift += up;
+    roll += pair_of(r->rotor_y_m + i) * up;
+    pitch -= pair_of(r->rotor_x_m + i) * up;
+    yaw -= turns * (r->torque_ratio_m * scaled + r->half_I_per_kf * change / om);
+    spin += turns * om;
   }
-  return sum;
+  return (rotors_t){pair_sum(lift),
+                    {pair_sum(roll), pair_sum(pitch), pair_sum(yaw)},
+                    r->rotor_inertia_kgm2 * pair_sum(spin)};
 }
 
 static void translate(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N, double *dydt) {
@@ -66,10 +70,10 @@ static void rotate(const rigid_t *r, const double *y, d3_t moment_b_Nm, double s
 void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
                       const double speed[ROTORS], const double ratio[ROTORS], const load_t *load,
                       double dydt[RIGID_N]) {
-  const rotors_t sum = rotors(r, y + RIGID_THRUST_N, speed, ratio, dydt + RIGID_THRUST_N);
-  const d3_t force = d3_add(load->force_b_N, d3(0.0, 0.0, sum.thrust_N));
+  const rotors_t all = rotors(r, y + RIGID_THRUST_N, speed, ratio, dydt + RIGID_THRUST_N);
+  const d3_t force = d3_add(load->force_b_N, d3(0.0, 0.0, all.thrust_N));
   translate(r, y, axes, force, dydt);
-  rotate(r, y, d3_add(load->moment_b_Nm, sum.moment_b_Nm), sum.spin_Nms, dydt);
+  rotate(r, y, d3_add(load->moment_b_Nm, all.moment_b_Nm), all.spin_Nms, dydt);
   if (!r->vertical_only) return;
   for (int i = 0; i < RIGID_THRUST_N; i++)
     if (i != RIGID_POS_M + 2 && i != RIGID_VEL_MPS + 2) dydt[i] = 0.0;
