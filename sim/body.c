@@ -3,6 +3,7 @@
 
 #include "body_forces.h"
 #include "plant/rotor.h"
+#include "plant/rigid_derivative.h"
 #include <math.h>
 #include <string.h>
 
@@ -23,8 +24,7 @@ static void derivative(void *self, const double *y, double *dydt) {
     return;
   }
   // The first call of a tick is at the tick's start, whichever integrator it is.
-  const body_look_t *look = &b->look;
-  rigid_derivative(&b->rigid, y, &look->axes, look->speed_radps, look->ratio, &look->load, dydt);
+  body_derivative_seen(b, y, &b->look, dydt);
   b->look_is_y = false;
 }
 
@@ -185,8 +185,7 @@ void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s) {
 // --- looking ----------------------------------------------------------------------------------------------
 
 static void derivative_now(const body_t *b, double dydt[RIGID_N]) {
-  const body_look_t *look = &b->look;
-  rigid_derivative(&b->rigid, b->y, &look->axes, look->speed_radps, look->ratio, &look->load, dydt);
+  body_derivative_seen(b, b->y, &b->look, dydt);
 }
 
 d3_t body_angular_acc_b_radps2(const body_t *b) {

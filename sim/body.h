@@ -32,6 +32,7 @@ typedef struct {
 typedef struct {
   axes_t axes;
   double ratio[ROTORS], speed_radps[ROTORS];
+  bool loaded; // else load is not set: nothing acts but the rotors
   load_t load;
 } body_look_t;
 

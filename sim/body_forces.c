@@ -2,6 +2,7 @@
 #include "body_forces.h"
 
 #include "plant/pair.h"
+#include "plant/rigid_derivative.h"
 #include <math.h>
 #include <string.h>
 
@@ -33,11 +34,13 @@ static void effects_load(const body_t *b, const double *y, const axes_t *axes, c
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
 }
 
-void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
+static inline void look_at(const body_t *b, int surfaces, const double *y, body_look_t *look) {
   look->axes = axes_of(dq_of(y + RIGID_Q_WB));
-  look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   look_at_surfaces(b, y[RIGID_POS_M + 2], &look->axes, look->ratio);
   rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
+  look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
+  if (!look->loaded) return;
+  look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (b->n_tick > 0) look->load.force_b_N = axes_to_body(&look->axes, b->plant.force_w_N);
   if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
   if (!surfaces) return;
@@ -45,10 +48,23 @@ void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look
   if (near) touch_load(&b->touch, near, y, &look->axes, &look->load);
 }
 
+void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
+  look_at(b, surfaces, y, look);
+}
+
+static inline void derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
+  rigid_derivative(&b->rigid, y, &look->axes, look->speed_radps, look->ratio,
+                   look->loaded ? &look->load : NULL, dydt);
+}
+
+void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
+  derivative_seen(b, y, look, dydt);
+}
+
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
   body_look_t look;
-  body_look(b, surfaces, y, &look);
-  rigid_derivative(&b->rigid, y, &look.axes, look.speed_radps, look.ratio, &look.load, dydt);
+  look_at(b, surfaces, y, &look);
+  derivative_seen(b, y, &look, dydt);
 }
 
 // --- the model, as the effects leave it ------------------------------------------------------------------

@@ -7,7 +7,8 @@
 // What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
 void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look);
 
-// dydt at state y.
+// dydt at state y, with what acts there or without having looked.
+void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
 
 // Places rotors and points of contact around a centre of mass that lies at cg, seen from the vehicle file's.

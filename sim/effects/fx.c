@@ -1,7 +1,6 @@
 // fx.c - effects by name, and an effect that is switched on.
 #include "effects/fx.h"
 
-#include "plant/pair.h"
 #include <stddef.h>
 #include <string.h>
 
@@ -27,20 +26,6 @@ void fx_use_form(fx_use_t *use, const curve_t *form) {
   int n;
   const fx_param_t *param = fx_use_params(use, &n);
   for (int i = 0; i < n; i++) use->p[i] = param[i].nominal;
-}
-
-void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
-  if (use->form && use->form->ratios) {
-    double out[ROTORS];
-    const double *gap_m = use->fx->surface == SURFACE_CEILING ? at->ceiling_gap_m : at->ground_gap_m;
-    use->form->ratios(use->p, gap_m, at->radius_m, out);
-    for (int i = 0; i < ROTORS; i += 2) pair_put(ratio + i, pair_of(ratio + i) + (pair_of(out + i) - 1.0));
-    return;
-  }
-  for (int i = 0; i < ROTORS; i++) {
-    const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
-    ratio[i] += use->fx->excess(use, &place);
-  }
 }
 
 fx_use_t fx_use(const fx_t *fx) {

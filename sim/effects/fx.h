@@ -5,6 +5,7 @@
 #ifndef SIM_EFFECTS_FX_H
 #define SIM_EFFECTS_FX_H
 
+#include "plant/pair.h"
 #include "plant/random.h"
 #include "plant/rigid.h"
 
@@ -121,7 +122,19 @@ const fx_t *fx_find(const char *name);
 const curve_t *curve_find(const char *name);
 
 // Adds the effect's excess at each rotor. The effect must have the hook.
-void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]);
+static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
+  if (!use->form || !use->form->ratios) {
+    for (int i = 0; i < ROTORS; i++) {
+      const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
+      ratio[i] += use->fx->excess(use, &place);
+    }
+    return;
+  }
+  const double *gap_m = use->fx->surface == SURFACE_CEILING ? at->ceiling_gap_m : at->ground_gap_m;
+  double out[ROTORS];
+  use->form->ratios(use->p, gap_m, at->radius_m, out);
+  for (int i = 0; i < ROTORS; i += 2) pair_put(ratio + i, pair_of(ratio + i) + (pair_of(out + i) - 1.0));
+}
 
 // The effect with its first form (if it takes one) and nominal numbers.
 fx_use_t fx_use(const fx_t *fx);

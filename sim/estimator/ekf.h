@@ -76,7 +76,7 @@ typedef struct {
 typedef struct {
   ekf_param_t param;
   double s[EKF_N];                       // p, v, d
-  _Alignas(16) double P[EKF_N][EKF_ROW]; // variance; symmetric, the last column 0
+  _Alignas(16) double P[EKF_N][EKF_ROW]; // variance; the upper triangle
   double R[3][3];
   dq_t q, q_start;
   d3_t acc_sum, gyro_sum; // of the samples since the last prediction

@@ -26,10 +26,20 @@ static double bounded(double p) {
   return most > VARIANCE_MIN ? most : VARIANCE_MIN;
 }
 
-// A row of the variance, from its diagonal on; the column is the same.
+// A row of the variance, its diagonal and what is right of it; in pairs, so that one element left of it may
+// change, too.
 static inline void put_row(ekf_t *e, int i, const double row[EKF_ROW]) {
-  e->P[i][i] = bounded(row[i]);
-  for (int j = i + 1; j < EKF_N; j++) e->P[i][j] = e->P[j][i] = at_most(row[j]);
+  const pair_t most = pair_both(VARIANCE_MAX);
+  for (int j = i & ~1; j < EKF_ROW; j += 2) pair_put(e->P[i] + j, pair_min(pair_of(row + j), most));
+  e->P[i][i] = bounded(e->P[i][i]);
+}
+
+// The whole variance, of its upper triangle.
+static inline void whole_of(const ekf_t *e, double P[EKF_N][EKF_ROW]) {
+  for (int i = 0; i < EKF_N; i++) {
+    for (int j = 0; j < i; j++) P[i][j] = e->P[j][i];
+    for (int j = i; j < EKF_ROW; j++) P[i][j] = e->P[i][j];
+  }
 }
 
 static d3_t part(const ekf_t *e, int at) {
@@ -104,7 +114,7 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
 
 // own + a M for a row a of the part POS, VEL or ATT: its columns from that part on, without a's blocks that
 // are 0. The estimator's time goes here.
-static inline void row_times(int part, const double *own, const double *a, const double M[EKF_N][EKF_ROW],
+static inline void row_times(int part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
                              double *out) {
   for (int j = part & ~1; j < EKF_ROW; j += 2) {
     pair_t sum = part == POS ? pair_of(own + j) : pair_both(0.0);
@@ -113,22 +123,21 @@ static inline void row_times(int part, const double *own, const double *a, const
   }
 }
 
-static inline void spread_part(const ekf_t *e, int part, const slopes_t *s, double whole[EKF_N][EKF_ROW]) {
+static inline void spread_part(ekf_t *e, int part, slopes_t *s, double P[EKF_N][EKF_ROW]) {
   for (int i = part; i < part + 3; i++) {
-    _Alignas(16) double half[EKF_ROW], own[EKF_ROW] = {0.0};
-    row_times(part, e->P[i], s->A[i], e->P, half);
+    _Alignas(16) double half[EKF_ROW], own[EKF_ROW] = {0.0}, row[EKF_ROW];
+    row_times(part, P[i], s->A[i], P, half);
     if (part == POS) memcpy(own, half, 3 * sizeof *own);
-    row_times(part, own, half, s->across, whole[i]);
+    row_times(part, own, half, s->across, row);
+    put_row(e, i, row);
   }
 }
 
 // A P A'.
-static void spread(ekf_t *e, const slopes_t *s) {
-  _Alignas(16) double whole[EKF_N][EKF_ROW];
-  spread_part(e, POS, s, whole);
-  spread_part(e, VEL, s, whole);
-  spread_part(e, ATT, s, whole);
-  for (int i = 0; i < EKF_N; i++) put_row(e, i, whole[i]);
+static void spread(ekf_t *e, slopes_t *s, double P[EKF_N][EKF_ROW]) {
+  spread_part(e, POS, s, P);
+  spread_part(e, VEL, s, P);
+  spread_part(e, ATT, s, P);
 }
 
 // The rotation by the vector v, as long as its angle.
@@ -150,9 +159,11 @@ static dq_t towards(dq_t q, dq_t goal, double share) {
 }
 
 void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
+  _Alignas(16) double P[EKF_N][EKF_ROW];
   slopes_t slopes;
+  whole_of(e, P);
   linearise(e, gyro, dt, &slopes);
-  spread(e, &slopes);
+  spread(e, &slopes, P);
   // In flight the accelerometer says nothing of the tilt, and thrust is along the body's z axis.
   if (flying) acc.x = acc.y = 0.0;
   const d3_t v = part(e, VEL), u = {e->R[2][0], e->R[2][1], e->R[2][2]};
@@ -165,15 +176,20 @@ void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   e->updated = true;
 }
 
+static double variance(const ekf_t *e, int i, int j) {
+  return i < j ? e->P[i][j] : e->P[j][i];
+}
+
 // One number measured: error = measured - h, its slope a to state i and b to state j.
 static void correct(ekf_t *e, int i, double a, int j, double b, double error, double sd) {
-  _Alignas(16) double Ph[EKF_ROW], row[EKF_ROW];
-  for (int k = 0; k < EKF_ROW; k++) Ph[k] = e->P[i][k] * a + e->P[j][k] * b;
+  _Alignas(16) double Ph[EKF_ROW] = {0.0}, row[EKF_ROW];
+  for (int k = 0; k < EKF_N; k++) Ph[k] = variance(e, k, i) * a + variance(e, k, j) * b;
   const double inverse = 1.0 / (a * Ph[i] + b * Ph[j] + sd * sd);
   for (int k = 0; k < EKF_N; k++) {
     const double gain = Ph[k] * inverse;
     e->s[k] += gain * error;
-    for (int l = 0; l < EKF_ROW; l++) row[l] = e->P[k][l] - gain * Ph[l];
+    for (int l = k & ~1; l < EKF_ROW; l += 2)
+      pair_put(row + l, pair_of(e->P[k] + l) - gain * pair_of(Ph + l));
     put_row(e, k, row);
   }
   e->updated = true;
@@ -216,15 +232,15 @@ static void turn_variance(ekf_t *e, d3_t v) {
   turn_matrix(d3_scale(0.5, v), turn);
   for (int i = 0; i < EKF_N; i++)
     for (int j = 0; j < 3; j++)
-      with_rest[i][j] =
-          e->P[i][ATT] * turn[j][0] + e->P[i][ATT + 1] * turn[j][1] + e->P[i][ATT + 2] * turn[j][2];
+      with_rest[i][j] = variance(e, i, ATT) * turn[j][0] + variance(e, i, ATT + 1) * turn[j][1] +
+                        variance(e, i, ATT + 2) * turn[j][2];
   for (int i = 0; i < ATT; i++)
-    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = e->P[ATT + j][i] = with_rest[i][j];
+    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = with_rest[i][j];
   for (int i = 0; i < 3; i++)
     for (int j = i; j < 3; j++) {
       const double p = turn[i][0] * with_rest[ATT][j] + turn[i][1] * with_rest[ATT + 1][j] +
                        turn[i][2] * with_rest[ATT + 2][j];
-      e->P[ATT + i][ATT + j] = e->P[ATT + j][ATT + i] = i == j ? bounded(p) : at_most(p);
+      e->P[ATT + i][ATT + j] = i == j ? bounded(p) : at_most(p);
     }
 }
 

@@ -63,15 +63,6 @@ static inline void load_add(load_t *load, d3_t force_b_N, d3_t moment_b_Nm) {
 // Computes what the derivative needs of mass, inertias, lag and kf; whenever one of them has changed.
 void rigid_tune(rigid_t *r);
 
-// Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.
-void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]);
-
-// speed: of the rotors, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: per rotor. load:
-// everything that is not a rotor's thrust, torque or inertia.
-void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
-                      const double speed[ROTORS], const double ratio[ROTORS], const load_t *load,
-                      double dydt[RIGID_N]);
-
 // Brings the quaternion back to unit length.
 void rigid_normalise(double y[RIGID_N]);
 
