@@ -77,10 +77,10 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
       p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s, error.z, in->yaw_rate_radps) - rate.z),
   };
   const float g = p->g2_s / period_s;
-  s->yaw_step_Nm = (p->inertia_zz_kgm2 * (nu.z - acc.z) + g * s->yaw_step_Nm) / (1.0f + g);
+  s->yaw_step_Nm = (p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * s->yaw_step_Nm) / (1.0f + g);
   return (v3_t){
-      now.x + p->inertia_xx_kgm2 * (nu.x - acc.x),
-      now.y + p->inertia_yy_kgm2 * (nu.y - acc.y),
+      now.x + p->quick * p->inertia_xx_kgm2 * (nu.x - acc.x),
+      now.y + p->quick * p->inertia_yy_kgm2 * (nu.y - acc.y),
       now.z + s->yaw_step_Nm,
   };
 }

@@ -1,15 +1,14 @@
 // flight.c - the whole controller.
 #include "flight/flight.h"
 
+#include "flight/bounds.h"
 #include "flight/trig.h"
 #include "flight/watch.h"
 #include <string.h>
 
-#define INNER_S        0.002f
-#define OUTER_S        0.01f
-#define RATE_MAX_RADPS 34.5f // the gyro ends at 34.9
-#define FORCE_MAX_N    100.0f
-#define LEAD_COS       0.88f // the heading that is held runs no more than 0.5 rad ahead of the vehicle
+#define INNER_S  0.002f
+#define OUTER_S  0.01f
+#define LEAD_COS 0.88f // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
 static status_t tune(flight_t *f, const flight_param_t *p) {
   TRY(params_check(p));
@@ -34,9 +33,9 @@ static void count(flight_t *f, status_t status) {
 
 // The outer loop judges what only it uses.
 static status_t check_in(const flight_in_t *in) {
-  if (!v3_within(in->rate_b_radps, RATE_MAX_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
+  if (!v3_within(in->rate_b_radps, BOUND_RATE_RADPS) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
   for (int i = 0; i < MOTORS; i++)
-    if (!(fabsf(in->force_N[i]) <= FORCE_MAX_N)) return ST_BAD_INPUT;
+    if (!(fabsf(in->force_N[i]) <= BOUND_THRUST_N)) return ST_BAD_INPUT;
   return ST_OK;
 }
 

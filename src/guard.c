@@ -1,13 +1,11 @@
 // guard.c - what is wrong with the inputs, and what to do about it.
 #include "flight/guard.h"
 
-#define RATE_MAX_RADPS 34.5f // the gyro ends at 34.9
-#define ACC_MAX_MPS2   1000.0f
+#include "flight/bounds.h"
+
 #define ACC_CLIP_MPS2  196.2f // 20 g
 #define CLIP_MEMORY_MS 200    // the 8 Hz filter has forgotten
-#define VEL_MAX_MPS    20.0f
-#define VEL_STEP_MPS   0.5f // in one period of the estimator: 5 g
-#define POS_MAX_M      1e4f
+#define VEL_STEP_MPS   0.5f   // in one period of the estimator: 5 g
 #define FROZEN_MS      25
 #define GYRO_CUT_MS    100
 #define NAN_CUT_MS     50.0f
@@ -21,7 +19,7 @@
 #define ODD_M          0.05f
 #define FULL_MS        200
 #define SETPOINT_MS    250
-#define JUMP_M         0.01f
+#define OTHER_M        0.01f // another set point
 #define BIAS_MPS2      0.5f
 #define QUIET_MS       1000
 #define MS_MAX         1000000
@@ -45,8 +43,8 @@ void guard_rest(guard_t *g) {
 }
 
 bool guard_plausible(const guard_in_t *in) {
-  return v3_within(in->rate_b_radps, RATE_MAX_RADPS) && v3_within(in->acc_b_mps2, ACC_MAX_MPS2) &&
-         v3_within(in->pos_w_m, POS_MAX_M) && v3_within(in->vel_w_mps, VEL_MAX_MPS) &&
+  return v3_within(in->rate_b_radps, BOUND_RATE_RADPS) && v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) &&
+         v3_within(in->pos_w_m, BOUND_POS_M) && v3_within(in->vel_w_mps, BOUND_VEL_MPS) &&
          quat_plausible(in->q_wb);
 }
 
@@ -166,7 +164,7 @@ static void decide(guard_t *g, const guard_in_t *in) {
   const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > SETPOINT_MS;
   g->quiet_ms = longer(g->quiet_ms, !down, in->ms);
   if (g->action == GUARD_RETREAT) {
-    const bool other = in->setpoint_good && fabsf(in->asked_z_m - g->asked_at_m) > JUMP_M;
+    const bool other = in->setpoint_good && fabsf(in->asked_z_m - g->asked_at_m) > OTHER_M;
     if (g->quiet_ms > QUIET_MS && other) g->action = GUARD_FLY;
     return;
   }

@@ -1,16 +1,10 @@
 // outer.c - the outer loop.
 #include "flight/outer.h"
 
+#include "flight/bounds.h"
 #include <string.h>
 
-#define JUMP_M     0.01f // a height step that differs by more from velocity x time is a reset of the estimator
-#define MISSED_MAX 1000  // ticks; nobody flies on after so many
-
-// Beyond these no indoor flight goes; a sensor that says so is broken (and 1e38 would poison the filters).
-#define POS_MAX_M    1e4f
-#define VEL_MAX_MPS  100.0f
-#define ACC_MAX_MPS2 1000.0f
-#define THRUST_MAX_N 100.0f
+#define MISSED_MAX 1000 // ticks; nobody flies on after so many
 
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
@@ -37,12 +31,13 @@ static void count(outer_t *f, status_t status) {
 }
 
 static status_t check_in(const outer_in_t *in) {
-  if (!v3_within(in->pos_w_m, POS_MAX_M) || !v3_within(in->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_INPUT;
-  if (!v3_within(in->acc_b_mps2, ACC_MAX_MPS2) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
-  if (!(fabsf(in->thrust_N) <= THRUST_MAX_N)) return ST_BAD_INPUT;
+  if (!v3_within(in->pos_w_m, BOUND_POS_M) || !v3_within(in->vel_w_mps, BOUND_VEL_MPS)) return ST_BAD_INPUT;
+  if (!v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) || !quat_plausible(in->q_wb)) return ST_BAD_INPUT;
+  if (!(fabsf(in->thrust_N) <= BOUND_THRUST_N)) return ST_BAD_INPUT;
   const pos_setpoint_t *sp = &in->setpoint;
-  if (!v3_within(sp->pos_w_m, POS_MAX_M) || !v3_within(sp->vel_w_mps, VEL_MAX_MPS)) return ST_BAD_SETPOINT;
-  if (!v3_within(sp->acc_w_mps2, ACC_MAX_MPS2)) return ST_BAD_SETPOINT;
+  if (!v3_within(sp->pos_w_m, BOUND_POS_M) || !v3_within(sp->vel_w_mps, BOUND_VEL_MPS))
+    return ST_BAD_SETPOINT;
+  if (!v3_within(sp->acc_w_mps2, BOUND_ACC_MPS2)) return ST_BAD_SETPOINT;
   return ST_OK;
 }
 
@@ -60,7 +55,7 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   const float by_height_m = in->pos_w_m.z - f->height_last_m;
   const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
   f->height_last_m = in->pos_w_m.z;
-  if (fabsf(by_height_m - by_velocity_m) <= JUMP_M * ticks) return by_height_m;
+  if (fabsf(by_height_m - by_velocity_m) <= BOUND_HEIGHT_JUMP_M * ticks) return by_height_m;
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   return by_velocity_m;

@@ -1,14 +1,9 @@
 // watch.c - what the guard makes of one call.
 #include "flight/watch.h"
 
-#define MS_MAX         50 // a longer pause is taken for this long
-#define ANGLE_MAX_RAD  1000.0f
-#define RATE_MAX_RADPS 100.0f
-#define FORCE_MAX_N    100.0f
-#define POS_MAX_M      1e4f
-#define VEL_MAX_MPS    100.0f
-#define ACC_MAX_MPS2   1000.0f
-#define JUMP_M         0.01f // as outer.c
+#include "flight/bounds.h"
+
+#define MS_MAX 50 // a longer pause is taken for this long
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
   const unsigned to = from + ms; // from < 10
@@ -40,18 +35,20 @@ bool watch_time(flight_t *f, uint32_t step) {
 }
 
 bool watch_setpoint_good(const flight_setpoint_t *sp) {
-  if (!(fabsf(sp->roll_rad) <= ANGLE_MAX_RAD && fabsf(sp->pitch_rad) <= ANGLE_MAX_RAD)) return false;
-  if (!(fabsf(sp->yaw_rad) <= ANGLE_MAX_RAD && fabsf(sp->yaw_rate_radps) <= RATE_MAX_RADPS)) return false;
-  return fabsf(sp->thrust_N) <= FORCE_MAX_N && v3_within(sp->pos_w_m, POS_MAX_M) &&
-         v3_within(sp->vel_mps, VEL_MAX_MPS) && v3_within(sp->acc_w_mps2, ACC_MAX_MPS2);
+  if (!(fabsf(sp->roll_rad) <= BOUND_WANTED_ANGLE_RAD && fabsf(sp->pitch_rad) <= BOUND_WANTED_ANGLE_RAD))
+    return false;
+  if (!(fabsf(sp->yaw_rad) <= BOUND_WANTED_ANGLE_RAD && fabsf(sp->yaw_rate_radps) <= BOUND_WANTED_RATE_RADPS))
+    return false;
+  return fabsf(sp->thrust_N) <= BOUND_THRUST_N && v3_within(sp->pos_w_m, BOUND_POS_M) &&
+         v3_within(sp->vel_mps, BOUND_VEL_MPS) && v3_within(sp->acc_w_mps2, BOUND_ACC_MPS2);
 }
 
 // A reset of the height estimate moves neither the vehicle nor the ceiling: it is taken out.
 static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
   const float z_m = in->pos_w_m.z;
-  if (fabsf(z_m) <= POS_MAX_M && fabsf(in->vel_w_mps.z) <= VEL_MAX_MPS) {
+  if (fabsf(z_m) <= BOUND_POS_M && fabsf(in->vel_w_mps.z) <= BOUND_VEL_MPS) {
     const float dz_m = z_m - f->height_m;
-    const float most_m = JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
+    const float most_m = BOUND_HEIGHT_JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
     if (f->height_seen && fabsf(dz_m) > most_m) {
       f->height_off_m += dz_m;
       f->guard.latched |= GUARD_HEIGHT_JUMP;

@@ -4,8 +4,14 @@
 #include "flight/thrust.h"
 #include "test.h"
 
+#define LATE 3 // ticks: 4 ms of the motors, and a part of the attitude's 9 ms
+
 typedef struct {
   double rate[3], q[4], torque[3], command[3], unknown[3]; // q: w x y z, body to world
+  double slow;                                             // the motors' lag over TAU_S; 0: 1
+  bool late;                                               // commands act LATE ticks later
+  double line[LATE][3];
+  int at;
 } body_t;
 
 static const double J[3] = {16.57e-6, 16.66e-6, 29.26e-6};
@@ -16,11 +22,13 @@ static const double J[3] = {16.57e-6, 16.66e-6, 29.26e-6};
 
 // Rigid body with first-order motors, and in yaw the reaction of the rotors' inertia; small Euler steps.
 static void move(body_t *b) {
+  const double tau_s = b->slow > 0.0 ? b->slow * TAU_S : TAU_S;
+  const double *const acts = b->late ? b->line[b->at] : b->command;
   for (int k = 0; k < 20; k++) {
     const double h = TICK_S / 20;
     double acc[3];
     for (int i = 0; i < 3; i++) {
-      const double slope = (b->command[i] - b->torque[i]) / TAU_S;
+      const double slope = (acts[i] - b->torque[i]) / tau_s;
       acc[i] = (b->torque[i] + b->unknown[i] + (i == 2 ? G2_S * slope : 0.0)) / J[i];
       b->torque[i] += h * slope;
     }
@@ -33,6 +41,8 @@ static void move(body_t *b) {
     for (int i = 0; i < 4; i++) b->q[i] /= sqrt(norm);
     for (int i = 0; i < 3; i++) b->rate[i] += h * acc[i];
   }
+  for (int i = 0; i < 3; i++) b->line[b->at][i] = b->command[i];
+  b->at = (b->at + 1) % LATE;
 }
 
 typedef struct {
@@ -96,6 +106,38 @@ TEST(inner_loop_reaches_the_wanted_attitude_without_much_overshoot) {
     CHECK_NEAR(sqrtf(v3_dot(e, e)), 0.0, 2e-3);
     CHECK(past > -0.15); // overshoot, as a share of the step
   }
+}
+
+// Degrees that are left of a step of 10 degrees about each axis, at most, in the last of six seconds.
+static double left_deg(const flight_param_t *p, double slow) {
+  loop_t l = fresh(p->att_cutoff_Hz);
+  l.param = *p;
+  body_t b = {.q = {1, 0, 0, 0}, .slow = slow, .late = true};
+  const quat_t ref = att_indi_reference((v3_t){0.123f, -0.123f, 0.985f}, (sincos_t){0.174f, 0.985f});
+  double left_rad = 0.0;
+  for (int k = 0; k < 3000; k++) {
+    step(&l, &b, ref, 0.0f);
+    const v3_t e = att_indi_error((quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, ref);
+    if (k >= 2500) left_rad = fmax(left_rad, (double)sqrtf(v3_dot(e, e)));
+  }
+  return left_rad * 180.0 / 3.14159265358979;
+}
+
+TEST(inner_loop_is_stable_with_motors_half_and_twice_as_slow_as_it_believes) {
+  flight_param_t p;
+  params_default(&p);
+  static const double slow[] = {0.25, 0.5, 1.0, 2.0, 2.5};
+  for (unsigned i = 0; i < sizeof slow / sizeof *slow; i++) {
+    ROW("lag x %g", slow[i]);
+    CHECK_NEAR(left_deg(&p, slow[i]), 0, 0.1);
+  }
+  // With the firmware's gains and filter the oscillation grows until the rates saturate.
+  ROW("kd 24, 8 Hz, not quickened, lag x 2");
+  p.att.kd_per_s = 24.0f;
+  p.att_cutoff_Hz = 8.0f;
+  p.att.quick = 1.0f;
+  CHECK(left_deg(&p, 1.0) < 0.1);
+  CHECK(left_deg(&p, 2.0) > 20.0);
 }
 
 TEST(inner_loop_turns_at_the_wanted_yaw_rate) {

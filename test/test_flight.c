@@ -207,7 +207,7 @@ TEST(flight_takes_a_changed_cut_off_over_at_once) {
   fly(&r, 0.5);
   const lpf2_coef_t inner = r.flight.flight.att_filter, outer = r.flight.flight.outer.coef.filter;
   r.flight.param.cutoff_Hz = 15.0f;
-  r.flight.param.att_cutoff_Hz = 20.0f;
+  r.flight.param.att_cutoff_Hz = 30.0f;
   fly(&r, 0.02);
   CHECK(memcmp(&inner, &r.flight.flight.att_filter, sizeof inner) != 0);
   CHECK(memcmp(&outer, &r.flight.flight.outer.coef.filter, sizeof outer) != 0);

@@ -63,10 +63,10 @@ typedef struct {
 
 #define PARAMS_INDIATT(X)                                                                                    \
   X(indiAtt, kp, PARAM_FLOAT, att.kp_per_s, "1/s", 5.0f, 0.5f, 40.0f, "roll, pitch: wanted rate per angle")  \
-  X(indiAtt, kd, PARAM_FLOAT, att.kd_per_s, "1/s", 24.0f, 1.0f, 100.0f,                                      \
+  X(indiAtt, kd, PARAM_FLOAT, att.kd_per_s, "1/s", 12.0f, 1.0f, 100.0f,                                      \
     "roll, pitch: wanted angular acceleration per rate error")                                               \
   X(indiAtt, kpYaw, PARAM_FLOAT, att.kp_yaw_per_s, "1/s", 5.0f, 0.1f, 40.0f, "yaw: wanted rate per angle")   \
-  X(indiAtt, kdYaw, PARAM_FLOAT, att.kd_yaw_per_s, "1/s", 24.0f, 0.5f, 100.0f,                               \
+  X(indiAtt, kdYaw, PARAM_FLOAT, att.kd_yaw_per_s, "1/s", 12.0f, 0.5f, 100.0f,                               \
     "yaw: wanted angular acceleration per rate error")                                                       \
   X(indiAtt, jxx, PARAM_FLOAT, att.inertia_xx_kgm2, "kg m2", 16.57e-6f, 1e-6f, 0.1f, "inertia about x")      \
   X(indiAtt, jyy, PARAM_FLOAT, att.inertia_yy_kgm2, "kg m2", 16.66e-6f, 1e-6f, 0.1f, "inertia about y")      \
@@ -75,7 +75,9 @@ typedef struct {
     "lead of the rotors' inertia over their drag in yaw")                                                    \
   X(indiAtt, rateMax, PARAM_FLOAT, att.rate_max_radps, "rad/s", 10.0f, 0.5f, 35.0f,                          \
     "bound of the wanted rates")                                                                             \
-  X(indiAtt, cutoff, PARAM_FLOAT, att_cutoff_Hz, "Hz", 8.0f, 0.0f, 200.0f,                                   \
+  X(indiAtt, quick, PARAM_FLOAT, att.quick, "", 2.0f, 0.5f, 4.0f,                                            \
+    "how many times faster than the motors the acceleration follows")                                        \
+  X(indiAtt, cutoff, PARAM_FLOAT, att_cutoff_Hz, "Hz", 20.0f, 0.0f, 200.0f,                                  \
     "cut-off of the inner filters; 0 = none")                                                                \
   X(indiAtt, arm, PARAM_FLOAT, mixer.arm_m, "m", 0.0325f, 0.005f, 1.0f,                                      \
     "motor's distance from the x and the y axis")                                                            \
