@@ -83,7 +83,7 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   take_start(b, start);
   look_at_battery(b);
   b->random = random_open(start->seed);
-  if (!b->random) return ST_BAD_INPUT;
+  if (!b->random) return ST_FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;
