@@ -84,7 +84,8 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
                        .kf_Ns2 = f->kf_Ns2,
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
-                       .thrust_scale = {1.0, 1.0, 1.0, 1.0}};
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                       .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
   b->touch.ceiling_m = model->ceiling_m;
@@ -94,7 +95,7 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   take_start(b, start);
   look_at_battery(b);
   b->random = random_open(start->seed);
-  if (!b->random) return ST_BAD_INPUT;
+  if (!b->random) return ST_FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
   look_now(b);
   const touch_gap_t gap = body_clearance(b);

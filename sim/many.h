@@ -17,6 +17,7 @@ typedef struct {
   uint64_t from, to;
   FILE *text, *json; // json: a null pointer for none
   bool progress;     // a line on standard error, for people
+  int *not_finite;   // gets how many flights did not stay finite
 } many_t;
 
 // Writes a line for each flight. ST_BAD_INPUT, ST_FAILED: as the scenario; the lines of the seeds before are
