@@ -4,17 +4,17 @@ CC  = gcc
 CXX = g++
 # Where objects go; one folder for each kind of build.
 B   = out/release
-OPT = -O2
+OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
 DEMO_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
-C     = $(CC) -std=c11 $(OPT) $(WARN) $(SANITIZE) -MMD -MP
+C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
-FLIGHT_FLAGS = -ffp-contract=off -fno-math-errno
+FLIGHT_FLAGS = -ffp-contract=off
 # One file flies many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
 ifeq ($(findstring clang,$(CC)),)
 OMP     = -fopenmp

@@ -117,9 +117,13 @@ static void order(flight6_t *f, double t_s) {
 
 static void pilot_ms(flight6_t *f, const truth_t *truth) {
   sense(f, truth);
-  pilot6_in_t in = f->in;
-  if (f->plan->fault) f->plan->fault(f->plan->fault_context, &f->body, &in);
-  f->pilot->step(f->pilot->state, &in, f->motor_N);
+  if (f->plan->fault) {
+    pilot6_in_t in = f->in;
+    f->plan->fault(f->plan->fault_context, &f->body, &in);
+    f->pilot->step(f->pilot->state, &in, f->motor_N);
+  } else {
+    f->pilot->step(f->pilot->state, &f->in, f->motor_N);
+  }
   f->in.step++;
 }
 

@@ -1,4 +1,5 @@
 // test_rigid.c - the rigid body: what is conserved, and what each rotor does.
+#include "plant/rigid_derivative.h"
 #include "plant/rotor.h"
 #include "vehicle6.h"
 #include <string.h>
@@ -73,7 +74,9 @@ static void hover(const model_t *m, const double command_N[ROTORS], double f_N, 
   const double ratio[ROTORS] = {1.0, 1.0, 1.0, 1.0};
   double y[RIGID_N] = {[RIGID_Q_WB] = 1.0};
   for (int i = 0; i < ROTORS; i++) {
-    r.rotor_at_m[i] = d3(m->frame.rotor_x_m[i], m->frame.rotor_y_m[i], 0.013);
+    r.rotor_x_m[i] = m->frame.rotor_x_m[i];
+    r.rotor_y_m[i] = m->frame.rotor_y_m[i];
+    r.rotor_z_m[i] = 0.013;
     r.spin[i] = m->frame.rotor_spin[i];
     r.command_N[i] = command_N[i];
     y[RIGID_THRUST_N + i] = f_N;

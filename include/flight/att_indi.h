@@ -1,7 +1,7 @@
 // att_indi.h - inner loop: attitude to body torques, by incremental dynamic inversion (thesis eqs 3-12).
 //
 //   rate wanted = kp e,  nu = kd (rate wanted - rate),   e: rotation vector from the attitude to the wanted
-//   roll, pitch:  tau = tau_f + quick J (nu - rate'_f)
+//   roll, pitch:  tau = tau_f + [quick J (nu - rate'_f) + k lag rate] / ratio
 //   yaw:          tau = tau_f + [quick J (nu - rate'_f) + g (tau_a - tau_f)_last] / (1 + g)
 //                 g = g2 / period
 //
@@ -14,12 +14,20 @@
 // T s^3 + s^2 + kd s + kd kp = 0 is hardly damped (0.16 for kp 5, kd 24, T 80 ms with 13 ms of delay and 8
 // Hz), and unstable from 1.45 T on. A lead in the increment, quick > 1, makes the answer's lag T / quick.
 // With kp 5, kd 12, quick 2 and 20 Hz the damping is 0.7, and the loop is stable from below T / 4 to 2.9 T.
+//
+// k is the thesis's ceiling term (eq. 15) of each rotor alone: a tilt by a brings the rotors of one side
+// nearer to the ceiling by arm a, so that the torque grows by -k a, k = T rho' arm^2 <= 0. That is an
+// inverted pendulum, 11 rad/s at 2 cm, of which the increment learns late by lag, the motors' and the
+// filter's. The term is bounded, so that a curve that is nonsense cannot make the loop unstable in free air
+// (from 2.1 on it would be; in contact, 1.5 is needed).
 #ifndef FLIGHT_ATT_INDI_H
 #define FLIGHT_ATT_INDI_H
 
 #include "flight/lpf2.h"
 #include "flight/trig.h"
 #include "flight/v3.h"
+
+#define ATT_INDI_CEILING_MAX 1.6f // of the damping quick J kd: the most that the ceiling term adds to it
 
 typedef struct {
   float kp_per_s;     // > 0   roll and pitch: wanted rate per angle
@@ -45,6 +53,8 @@ typedef struct {
   quat_t q_wb, q_ref;   // attitude and the wanted one, body to world
   float yaw_rate_radps; // wanted on top of what the yaw error asks for
   v3_t torque_b_Nm;     // applied since the last call, after mixing
+  float ceiling_Nms;    // <= 0   k lag: torque about x and y per rate; 0: no ceiling
+  float ratio;          // > 0    of the thrust to that in free air
 } att_indi_in_t;
 
 // Forgets everything; the next step starts from what it gets.

@@ -31,6 +31,7 @@ typedef struct {
   float learn_after_s; // learning starts this long after the rotors began to carry
   float up_offset_m;   // propeller plane above the upward range sensor
   float gap_min_m;     // set points are clipped to this below the ceiling
+  float tilt_share;    // of the ceiling's torque about x and y that the inner loop takes out
   int32_t hold;        // 1: the ceiling's height is latched beyond HOLD_BEYOND_M
   att_indi_param_t att;
   float att_cutoff_Hz; // of the inner loop's filters
@@ -103,6 +104,8 @@ typedef struct {
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
     "set points are clipped to this below the ceiling")                                                      \
   X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
+  X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
+    "share of the ceiling's torque in roll and pitch that is taken out")                                     \
   X(ceil, upOffset, PARAM_FLOAT, up_offset_m, "m", 0.0f, -0.1f, 0.1f,                                        \
     "propeller plane above the upward range sensor")                                                         \
   X(ceil, clip, PARAM_INT, curve.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                          \

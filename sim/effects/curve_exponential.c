@@ -1,12 +1,19 @@
 // curve_exponential.c - 1 + Ca exp(-Cb d/R) (He et al.; thesis eqs 2 and 3.4), finite down to contact.
 #include "effects/fx.h"
 
-#include <math.h>
+#include "plant/decay.h"
+
+static inline pair_t at(const double *p, pair_t distance_m, double radius_m) {
+  return 1.0 + decay(p[0], p[1] / radius_m, distance_m);
+}
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  const double x = p[1] * distance_m / radius_m;
-  return x < 40.0 ? 1.0 + p[0] * exp(-x) : 1.0; // beyond, the sum is 1 to the last bit
+  return at(p, pair_both(distance_m), radius_m)[0];
+}
+
+static void ratios(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]) {
+  for (int i = 0; i < ROTORS; i += 2) pair_put(out + i, at(p, pair_of(distance_m + i), radius_m));
 }
 
 const curve_t curve_exponential = {
@@ -17,4 +24,5 @@ const curve_t curve_exponential = {
     .n_param = 2,
     .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}},
     .ratio = ratio,
+    .ratios = ratios,
 };

@@ -5,6 +5,7 @@
 #ifndef SIM_EFFECTS_FX_H
 #define SIM_EFFECTS_FX_H
 
+#include "plant/pair.h"
 #include "plant/random.h"
 #include "plant/rigid.h"
 
@@ -40,6 +41,8 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
+  // The same for four rotors at once, out[i] at distance_m[i]; null: one by one.
+  void (*ratios)(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]);
 } curve_t;
 
 extern const curve_t *const curve_table[];
@@ -51,6 +54,12 @@ typedef struct {
   double ground_gap_m;  // rotor plane to ground
   double radius_m;      // of the rotor
 } fx_place_t;
+
+// Where the four rotors of a vehicle are.
+typedef struct {
+  double ceiling_gap_m[ROTORS], ground_gap_m[ROTORS];
+  double radius_m;
+} fx_places_t;
 
 // The vehicle in flight, at every stage of the integrator.
 typedef struct {
@@ -111,6 +120,21 @@ typedef struct fx_use {
 // Null pointers where there is no such name.
 const fx_t *fx_find(const char *name);
 const curve_t *curve_find(const char *name);
+
+// Adds the effect's excess at each rotor. The effect must have the hook.
+static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
+  if (!use->form || !use->form->ratios) {
+    for (int i = 0; i < ROTORS; i++) {
+      const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
+      ratio[i] += use->fx->excess(use, &place);
+    }
+    return;
+  }
+  const double *gap_m = use->fx->surface == SURFACE_CEILING ? at->ceiling_gap_m : at->ground_gap_m;
+  double out[ROTORS];
+  use->form->ratios(use->p, gap_m, at->radius_m, out);
+  for (int i = 0; i < ROTORS; i += 2) pair_put(ratio + i, pair_of(ratio + i) + (pair_of(out + i) - 1.0));
+}
 
 // The effect with its first form (if it takes one) and nominal numbers.
 fx_use_t fx_use(const fx_t *fx);

@@ -38,7 +38,8 @@
 #include "plant/d3.h"
 #include <stdbool.h>
 
-#define EKF_N 9
+#define EKF_N   9
+#define EKF_ROW 10 // of a matrix: columns in pairs
 
 // What the filter expects, as standard deviations.
 typedef struct {
@@ -74,8 +75,8 @@ typedef struct {
 
 typedef struct {
   ekf_param_t param;
-  double s[EKF_N];        // p, v, d
-  double P[EKF_N][EKF_N]; // variance; symmetric
+  double s[EKF_N];                       // p, v, d
+  _Alignas(16) double P[EKF_N][EKF_ROW]; // variance; the upper triangle
   double R[3][3];
   dq_t q, q_start;
   d3_t acc_sum, gyro_sum; // of the samples since the last prediction
