@@ -9,8 +9,8 @@
 #define INNER_S      0.002f
 #define OUTER_S      0.01f
 #define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
-#define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 #define FLOOR_SHARE  0.5f    // of the weight that something else than the rotors carries: a floor
+#define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
 static status_t tune(flight_t *f, const flight_param_t *p) {
   TRY(params_check(p));
@@ -112,13 +112,6 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   return (sincos_t){k * held.sin, k * held.cos};
 }
 
-// What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
-static float ceiling_Nms(const flight_t *f, float thrust_N) {
-  const float cutoff_Hz = f->param.att_cutoff_Hz, arm_m = f->param.mixer.arm_m;
-  const float lag_s = f->param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
-  return f->param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
-}
-
 // With the height controlled, until the outer loop has run: what the motors do.
 static float thrust_wanted_N(const flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) return in->setpoint.thrust_N;
@@ -131,6 +124,13 @@ static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thr
   if (thrust_N > 0.0f) return false;
   const learn_sample_t *x = &f->outer.sample;
   return sp->z == AXIS_OFF || x->force_N - x->thrust_N > FLOOR_SHARE * x->weight_N;
+}
+
+// What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
+static float ceiling_Nms(const flight_t *f, float thrust_N) {
+  const float cutoff_Hz = f->param.att_cutoff_Hz, arm_m = f->param.mixer.arm_m;
+  const float lag_s = f->param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
+  return f->param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
 }
 
 static void run_inner(flight_t *f, const flight_in_t *in) {
