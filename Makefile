@@ -6,7 +6,7 @@ CXX = g++
 B   = out/release
 OPT = -O2
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev
 DEMO_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
@@ -22,12 +22,12 @@ OMP_LIB = -lgomp
 else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
-LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
-SIM_CPP    = $(wildcard sim/*.cpp sim/io/*.cpp sim/plant/*.cpp)
+SIM_SRC    = $(wildcard sim/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+SIM_CPP    = $(wildcard sim/*.cpp sim/gap/*.cpp sim/io/*.cpp sim/plant/*.cpp)
 TEST_SRC   = $(wildcard test/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c

@@ -72,7 +72,8 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
                        .kf_Ns2 = f->kf_Ns2,
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
-                       .thrust_scale = {1.0, 1.0, 1.0, 1.0}};
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                       .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
   b->touch.ceiling_m = model->ceiling_m;

@@ -51,15 +51,23 @@ static truth_t truth_of(const flight6_t *f) {
   const double up = fmax(axes_up_b(&axes).z, 1e-3);
   bool motors = false;
   for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
+  const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
+  // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
+  fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
+                       .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
+                       .range_rate_mps = -climb_mps};
+  fx_sensed_t below = {.range_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
+                       .range_rate_mps = climb_mps};
+  model_sense(f->model, &above);
+  model_sense(f->model, &below);
   return (truth_t){
       .pos_w_m = d3_of(y + RIGID_POS_M),
       .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
       .q_wb = q,
       .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
-      .force_b_mps2 = body_specific_force_b_mps2(b),
-      // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
-      .up_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
-      .down_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
+      .force_b_mps2 = above.acc_b_mps2,
+      .up_m = above.range_m,
+      .down_m = below.range_m,
       .motors = motors,
   };
 }

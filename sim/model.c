@@ -43,3 +43,8 @@ double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
     if (m->fx[i].fx->excess) ratio += m->fx[i].fx->excess(&m->fx[i], place);
   return ratio;
 }
+
+void model_sense(const model_t *m, fx_sensed_t *sensed) {
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx->sense) m->fx[i].fx->sense(&m->fx[i], sensed);
+}

@@ -50,4 +50,7 @@ MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
 // What the rotors' thrust is multiplied by at this place: 1 and the excess of every effect (thesis 3.1.4).
 double model_thrust_ratio(const model_t *m, const fx_place_t *place);
 
+// What the model's effects make of a sensor's reading.
+void model_sense(const model_t *m, fx_sensed_t *sensed);
+
 #endif

@@ -12,6 +12,8 @@
 #define FX_MEMORY    4 // numbers that an effect keeps from tick to tick
 #define FX_TABLE_MAX 64
 #define FX_MAX       16 // effects switched on at once
+#define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
+#define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
 
 typedef struct {
   const char *name;
@@ -54,10 +56,12 @@ typedef struct {
 
 // The vehicle in flight, at every stage of the integrator.
 typedef struct {
-  d3_t pos_w_m;           // centre of mass, world
-  d3_t air_b_mps;         // velocity through the air, body axes
-  const axes_t *axes;     // of the body
-  double rotor_sum_radps; // speeds of the four rotors, added
+  d3_t pos_w_m;   // centre of mass, world
+  d3_t air_b_mps; // velocity through the air, body axes
+  d3_t rate_b_radps;
+  const axes_t *axes;      // of the body
+  double rotor_sum_radps;  // speeds of the four rotors, added
+  double rotor_spin_radps; // the same, each with its sense of turning (plant/rigid.h, s_i)
 } fx_motion_t;
 
 // What an effect may change, for the time of one tick. At each tick it starts from the vehicle file's
@@ -65,7 +69,9 @@ typedef struct {
 typedef struct {
   double mass_kg;              // > 0
   d3_t cg_b_m;                 // the centre of mass, from where the vehicle file has it
+  d3_t inertia_scale;          // > 0: what the inertia about each axis is multiplied by
   double thrust_scale[ROTORS]; // what each rotor's thrust is multiplied by, >= 0
+  double torque_scale[ROTORS]; // what its torque is multiplied by besides, >= 0
   double motor_tau_s;          // > 0   lag
   double delay_s;              // >= 0  from a command to the lag
   d3_t air_w_mps;              // velocity of the air
@@ -75,16 +81,41 @@ typedef struct {
 // The tick that begins.
 typedef struct {
   double t_s, span_s;
-  double vbat_V;    // at the terminals
-  random_t *random; // the vehicle's own
-  double *memory;   // FX_MEMORY numbers of this effect, 0 at the start
+  double vbat_V;           // at the terminals
+  const double *thrust_N;  // of each rotor, in free air
+  const fx_place_t *place; // of each rotor
+  random_t *random;        // the vehicle's own
+  double *memory;          // FX_MEMORY numbers of this effect, 0 at the start
 } fx_tick_t;
+
+// What a sensor makes of the truth. Range: along the sensor's axis, in sight of one surface.
+typedef struct {
+  d3_t acc_b_mps2;       // specific force
+  double range_m;        // HUGE_VAL: nothing in sight
+  double range_rate_mps; // of the true distance
+} fx_sensed_t;
+
+// A number that the workflow estimates: of use->p, in steps small enough for a straight line. 0 is `absent`.
+typedef struct {
+  int param;
+  double step;
+  int sign;     // +1: it cannot be negative; 0: it can be either
+  double least; // smaller than this it is never named (what feedback alone looks like)
+} fx_size_t;
+
+typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_class_t; // of one class, one at most is named
 
 struct fx_use;
 
 typedef struct {
   const char *name;
   const char *brief;
+  const char *fly; // the manoeuvre that shows it
+  fx_class_t class;
+  int n_size;
+  fx_size_t size[FX_SIZE_MAX];
+  int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
+  double shape[FX_SHAPE_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
   int n_param;
@@ -95,6 +126,8 @@ typedef struct {
   void (*load)(const struct fx_use *use, const fx_motion_t *motion, load_t *load);
   // Six degrees of freedom only: once at the beginning of every tick.
   void (*tick)(const struct fx_use *use, const fx_tick_t *tick, fx_plant_t *plant);
+  // Six degrees of freedom only: changes what accelerometer and range sensors read.
+  void (*sense)(const struct fx_use *use, fx_sensed_t *sensed);
 } fx_t; // a hook that is null does nothing
 
 extern const fx_t *const fx_table[];

@@ -34,7 +34,7 @@ static rotors_t rotors(const rigid_t *r, const double *f, const double *speed, c
     sum.thrust_N += lift;
     sum.moment_b_Nm.x += r->rotor_at_m[i].y * lift;
     sum.moment_b_Nm.y -= r->rotor_at_m[i].x * lift;
-    const double torque = r->torque_ratio_m * scaled + half_I_over_kf * df[i] / speed[i];
+    const double torque = r->torque_ratio_m * r->torque_scale[i] * scaled + half_I_over_kf * df[i] / speed[i];
     sum.spin_Nms += r->spin[i] * I * speed[i];
     sum.moment_b_Nm.z -= r->spin[i] * torque;
   }

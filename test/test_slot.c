@@ -1,5 +1,5 @@
-// test_gap.c - the hover in a gap of 71 mm, simulated and real.
-#include "gap.h"
+// test_slot.c - the hover in a gap of 71 mm, simulated and real.
+#include "slot.h"
 #include "io/effect_spec.h"
 #include "test.h"
 
@@ -22,17 +22,17 @@ static const struct {
 };
 #define FLIGHTS (sizeof flight / sizeof *flight)
 
-static bool judge_real(const char *file, double ceiling_m, gap_seen_t *seen) {
+static bool judge_real(const char *file, double ceiling_m, slot_seen_t *seen) {
   char path[512];
   why_t why;
   snprintf(path, sizeof path, "%s/ceiling_gap/%s", test_data_dir(), file);
-  return CHECK_OK(gap_judge_file(path, ceiling_m, seen, &why));
+  return CHECK_OK(slot_judge_file(path, ceiling_m, seen, &why));
 }
 
-TEST(gap_real_flights_are_judged_as_labelled) {
+TEST(slot_real_flights_are_judged_as_labelled) {
   if (!test_data_dir()) SKIP("no measured data");
   for (unsigned i = 0; i < FLIGHTS; i++) {
-    gap_seen_t seen;
+    slot_seen_t seen;
     ROW("%s", flight[i].file);
     if (!judge_real(flight[i].file, flight[i].ceiling_m, &seen)) continue;
     CHECK(seen.captured == flight[i].captured);
@@ -57,7 +57,7 @@ static double peak_m(const flown6_t *flown) {
   return high_m;
 }
 
-static void count(many_t *m, const gap_seen_t *seen) {
+static void count(many_t *m, const slot_seen_t *seen) {
   m->captured += seen->captured;
   if (seen->captured) {
     m->median_low_m = fmin(m->median_low_m, seen->median_m);
@@ -74,17 +74,17 @@ static many_t fly(fly_kind_t kind, const char *effect, bool ceiling, double rise
     setup6_t setup;
     fx_use_t use;
     flown6_t flown;
-    gap_seen_t seen;
-    CHECK_OK(gap_setup(&setup, seed, ceiling, rise_m, &why));
+    slot_seen_t seen;
+    CHECK_OK(slot_setup(&setup, seed, ceiling, rise_m, &why));
     if (effect) CHECK_OK(effect_parse(effect, &use, &why));
     if (effect) CHECK_OK(model_add_fx(&setup.model, &use, &why));
     setup.kind = kind;
     setup.plan.plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
     if (!CHECK_OK(setup6_fly(&setup, &flown, &why))) continue;
     CHECK(flown.flown.outcome.finite);
-    CHECK_OK(gap_judge_flight(&flown, &setup.model, &seen, &why));
+    CHECK_OK(slot_judge_flight(&flown, &setup.model, &seen, &why));
     count(&m, &seen);
-    const int late = seed % GAP_FLIGHTS > 2;
+    const int late = seed % SLOT_FLIGHTS > 2;
     m.lift_s[late] += seen.lift_s;
     n[late]++;
     m.peak_m += peak_m(&flown) / (double)seeds;
@@ -94,8 +94,8 @@ static many_t fly(fly_kind_t kind, const char *effect, bool ceiling, double rise
   return m;
 }
 
-TEST(gap_captures_the_stock_pid_in_some_flights) {
-  const many_t m = fly(FLY_STOCK_PID, NULL, true, GAP_RISE_M, SEEDS);
+TEST(slot_captures_the_stock_pid_in_some_flights) {
+  const many_t m = fly(FLY_STOCK_PID, NULL, true, SLOT_RISE_M, SEEDS);
   CHECK(m.captured >= 4 && m.captured <= 36);
   CHECK(m.median_low_m > 0.0066 - 0.003 && m.median_high_m < 0.0095 + 0.003);
   CHECK(m.free_low_m > 0.018 - 0.005);
@@ -104,35 +104,35 @@ TEST(gap_captures_the_stock_pid_in_some_flights) {
   CHECK_NEAR(m.lift_s[1], 9.9, 1.5);
 }
 
-TEST(gap_captures_every_flight_where_the_ceiling_pulls_from_afar) {
+TEST(slot_captures_every_flight_where_the_ceiling_pulls_from_afar) {
   // 25 mm away, where the real flights still decide, these have 6 % where the square root has 3 %.
   static const char *const effect[] = {"ceiling:form=exponential,Ca=0.44,Cb=1.8",
                                        "ceiling:form=cheeseman-bennett"};
   for (int i = 0; i < 2; i++) {
     ROW("%s", effect[i]);
-    CHECK(fly(FLY_STOCK_PID, effect[i], true, GAP_RISE_M, FEW).captured >= FEW - 1);
+    CHECK(fly(FLY_STOCK_PID, effect[i], true, SLOT_RISE_M, FEW).captured >= FEW - 1);
   }
 }
 
-TEST(gap_captures_the_air_garage_less_often) {
-  const many_t m = fly(FLY_AIR_GARAGE, NULL, true, GAP_RISE_M, SEEDS);
-  CHECK(m.captured < fly(FLY_STOCK_PID, NULL, true, GAP_RISE_M, SEEDS).captured);
+TEST(slot_captures_the_air_garage_less_often) {
+  const many_t m = fly(FLY_AIR_GARAGE, NULL, true, SLOT_RISE_M, SEEDS);
+  CHECK(m.captured < fly(FLY_STOCK_PID, NULL, true, SLOT_RISE_M, SEEDS).captured);
 }
 
-TEST(gap_top_is_as_high_as_on_flights_that_were_not_fitted) {
+TEST(slot_top_is_as_high_as_on_flights_that_were_not_fitted) {
   if (!test_data_dir()) SKIP("no measured data");
   why_t why;
   setup6_t setup;
-  if (!CHECK_OK(gap_setup(&setup, 1, true, GAP_RISE_M, &why))) return;
+  if (!CHECK_OK(slot_setup(&setup, 1, true, SLOT_RISE_M, &why))) return;
   for (unsigned i = 0; i < FLIGHTS; i++) {
-    gap_seen_t seen;
+    slot_seen_t seen;
     ROW("%s", flight[i].file);
     if (!flight[i].captured || !judge_real(flight[i].file, flight[i].ceiling_m, &seen)) continue;
     CHECK_NEAR(setup.model.frame.top_above_rotor_m, seen.median_m, flight[i].fit ? 2e-4 : 3e-3);
   }
 }
 
-TEST(gap_open_deck_flights_lift_off_and_overshoot_as_the_real_ones) {
+TEST(slot_open_deck_flights_lift_off_and_overshoot_as_the_real_ones) {
   if (!test_data_dir()) SKIP("no measured data");
   static const struct {
     const char *file;
@@ -144,7 +144,7 @@ TEST(gap_open_deck_flights_lift_off_and_overshoot_as_the_real_ones) {
       {"20240823_17_25_20.csv", 0.02, 0},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    gap_seen_t seen;
+    slot_seen_t seen;
     ROW("%s", row[i].file);
     if (!judge_real(row[i].file, 1.0, &seen)) continue;
     const many_t m = fly(FLY_STOCK_PID, NULL, false, row[i].rise_m, FEW);
