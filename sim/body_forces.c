@@ -39,7 +39,7 @@ void body_derivative(const body_t *b, int surfaces, const double *y, double *dyd
   load_t load = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   body_ratios(b, y[RIGID_POS_M + 2], &axes, ratio);
   rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, speed);
-  if (b->n_tick > 0) load.force_b_N = axes_to_body(&axes, b->plant.force_w_N);
+  if (b->n_tick > 0) load = (load_t){axes_to_body(&axes, b->plant.force_w_N), b->plant.moment_b_Nm};
   if (b->n_load > 0) effects_load(b, y, &axes, speed, &load);
   if (surfaces) {
     const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &axes, 0.0);
