@@ -10,6 +10,7 @@
 #define FLIES     0.3  // of the weight: with less thrust it stands or falls
 #define CLEAR_M   5e-3 // of the feet from the floor
 #define TOP_M     2e-3 // of the highest points from the ceiling
+#define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
 #define NOMINAL_V 3.7  // where no voltage is logged
 
 const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
@@ -106,7 +107,8 @@ static point_t point_of(const grid_t *g, const model_t *m, int from) {
   if (g->has_rates) p.rate_b_radps = mean3(f, SIG_GX, from, n);
   if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
-  p.range_m = range_of(g, from);
+  const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
+  p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
   p.ok = is_good(g, &p, m, from);
   return p;
 }

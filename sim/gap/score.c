@@ -125,6 +125,8 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice) {
   const int n_own = j->c->candidate[choice->of[choice->n - 1]].n;
   int column[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column);
+  for (int i = n - n_own; i < n; i++) // nothing in these flights depends on it
+    if (!(j->g->total[column[i] * (j->g->size + 1)] > 0.0)) return v;
   judge_estimate(j, choice, b, V);
   for (int i = 0; i < n_own; i++) {
     v.value[i] = b[n - n_own + i];
