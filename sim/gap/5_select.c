@@ -46,16 +46,10 @@ static void close_round(select_t *t) {
 
 // Columns, colours and products about the present values.
 static status_t open_round(select_t *t, why_t *why) {
-  int column[COLUMN_MAX], n = 0;
-  double b[COLUMN_MAX];
   const candidates_t *c = t->c;
-  for (int i = 0; i < t->choice.n; i++)
-    for (int k = 0; k < c->candidate[t->choice.of[i]].n; k++)
-      b[n++] = *candidate_value(&c->candidate[t->choice.of[i]], k);
-  choice_columns(c, &t->choice, column);
   TRY(table_make(&t->table, t->s, t->base, c, why));
-  status_t status = gram_make(&t->gram, t->s, &t->table, column, b, n, why);
-  if (status == ST_OK) status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
+  status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
+  if (status == ST_OK) status = gram_make(&t->gram, t->s, &t->table, t->judge.ridge, why);
   if (status != ST_OK) close_round(t);
   return status;
 }
@@ -96,7 +90,8 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (!fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = judge_last(&t->judge, &with);
-  if (!judge_allows(&t->judge, &with, &v)) return HUGE_VAL;
+  if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with, SELECT_SURE))
+    return HUGE_VAL;
   return judge_left(&t->judge, &with, NULL);
 }
 
@@ -144,7 +139,9 @@ static bool prune_one(select_t *t) {
     const choice_t last = choice_with(&rest, t->choice.of[i]);
     const verdict_t v = judge_last(&t->judge, &last);
     const double without = judge_left(&t->judge, &rest, NULL);
-    if (judge_allows(&t->judge, &last, &v) && now < without * (1.0 - SELECT_GAIN)) continue;
+    if (judge_allows(&t->judge, &last, &v) && now < without * (1.0 - SELECT_GAIN) &&
+        judge_is_sure(&t->judge, &rest, &last, SELECT_SURE))
+      continue;
     t->choice = rest;
     return true;
   }
@@ -175,25 +172,13 @@ static status_t search(select_t *t, why_t *why) {
 // Another name in its place that is not worse by two standard errors of the difference, over half-flights.
 static void find_rivals(const select_t *t, int candidate, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
-  double *const own = calloc(2 * (size_t)t->gram.n_half, sizeof(double)), *const other = own + t->gram.n_half;
-  if (!own) return;
-  judge_left(&t->judge, &t->choice, own);
   for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
     const fx_t *fx = fx_of(t, i);
     if (fx == fx_of(t, candidate) || !fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    judge_left(&t->judge, &with, other);
-    double sum = 0.0, squares = 0.0;
-    for (int h = 0; h < t->gram.n_half; h++) {
-      sum += other[h] - own[h];
-      squares += (other[h] - own[h]) * (other[h] - own[h]);
-    }
-    const double n = t->gram.n_half,
-                 spread = sqrt(fmax(squares - sum * sum / n, 0.0) * n / fmax(n - 1.0, 1.0));
-    if (sum < 2.0 * spread) named->rival[named->n_rival++] = fx;
+    if (!judge_is_sure(&t->judge, &with, &t->choice, 2.0)) named->rival[named->n_rival++] = fx;
   }
-  free(own);
 }
 
 static void describe(const select_t *t, found_t *found) {
@@ -204,6 +189,11 @@ static void describe(const select_t *t, found_t *found) {
     const int candidate = t->choice.of[i];
     const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
     const verdict_t v = judge_last(&t->judge, &last);
+    const fx_t *fx = fx_of(t, candidate);
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
+      found->aligned_s = v.value[0];
+      continue;
+    }
     named_t *const named = &found->named[found->n++];
     *named = (named_t){.candidate = candidate, .p = v.p};
     memcpy(named->value, v.value, sizeof named->value);

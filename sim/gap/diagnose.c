@@ -58,6 +58,7 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   found_free(&first);
   TRY(candidates_model(&d->candidates, job->model, &m, why));
   TRY(find_residual(d, &m, why));
+  TRY(unknown_clean(&d->fit, &m, d->residual, why));
   d->manner = manner_of(&d->fit, &m, d->residual);
   forget(&d->candidates);
   d->nominal_flew =

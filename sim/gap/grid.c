@@ -7,11 +7,11 @@
 #include <string.h>
 
 #define POINT_HZ  50.0
-#define FLIES     0.3  // of the weight: with less thrust it stands or falls
-#define CLEAR_M   5e-3 // of the feet from the floor
-#define TOP_M     2e-3 // of the highest points from the ceiling
+#define FLIES     0.3   // of the weight: with less thrust it stands or falls
+#define CLEAR_M   5e-3  // of the feet from the floor
+#define TOP_M     2e-3  // of the highest points from the ceiling
 #define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
-#define NOMINAL_V 3.7  // where no voltage is logged
+#define NOMINAL_V 3.7   // where no voltage is logged
 
 const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
                                            "turn_y",  "turn_z",  "range"};

@@ -77,6 +77,22 @@ double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
   return sum;
 }
 
+bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better, double times) {
+  const int n = j->g->n_half;
+  double *const a = calloc(2 * (size_t)n + 1, sizeof(double)), sum = 0.0, squares = 0.0;
+  if (!a) return false;
+  judge_left(j, worse, a);
+  judge_left(j, better, a + n);
+  for (int h = 0; h < n; h++) {
+    const double less = a[h] - a[n + h];
+    sum += less;
+    squares += less * less;
+  }
+  free(a);
+  const double spread = sqrt(fmax(squares - sum * sum / n, 0.0) * n / fmax(n - 1.0, 1.0));
+  return sum > times * spread;
+}
+
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
 void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V) {
   const gram_t *g = j->g;
@@ -144,16 +160,15 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice) {
 
 bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
-  double largest = 0.0;
+  double largest = 0.0; // in parts of what is typical
   if (!j->nominal && c->use.fx->only_beside_nominal) return false;
   for (int k = 0; k < c->n; k++) {
     const fx_size_t *size = &c->use.fx->size[k];
     int n;
     const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
     if (size->sign > 0 && v->value[k] <= 0.0) return false;
-    if (fabs(v->value[k]) < size->least) return false;
     if (v->value[k] > param->max || (size->sign == 0 && v->value[k] < param->min)) return false;
-    largest = fmax(largest, fabs(v->value[k]));
+    largest = fmax(largest, fabs(v->value[k]) / candidate_typical(c, k));
   }
-  return largest > 0.0 && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;
 }

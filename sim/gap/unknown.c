@@ -167,15 +167,69 @@ static void scan(const set_t *s, const model_t *m, int coordinate, double *const
   }
 }
 
+// Subtracts the mean of every bin.
+static void flatten(const rows_t *r, const int *bin, double *v) {
+  double sum[BINS] = {0.0};
+  int n[BINS] = {0};
+  for (int i = 0; i < r->n; i++) {
+    sum[bin[i]] += v[i];
+    n[bin[i]]++;
+  }
+  for (int i = 0; i < r->n; i++) v[i] -= sum[bin[i]] / n[bin[i]];
+}
+
+static void clean(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
+                  double *room, int *bin) {
+  double edge[BINS + 1];
+  for (int list = 0; list < 2; list++) {
+    const rows_t *r = list ? &s->range : &s->smooth;
+    if (r->n < 4 * BINS) continue;
+    for (int i = 0; i < r->n; i++)
+      room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
+    if (!cut(room, r->n, room + r->n, bin, edge)) continue;
+    for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
+      if (residual_has(s, ch)) flatten(r, bin, residual[ch]);
+  }
+}
+
+static size_t most_rows(const set_t *s) {
+  return (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+}
+
+status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
+  double *const room = malloc(2 * most_rows(s) * sizeof(double));
+  int *const bin = malloc(most_rows(s) * sizeof(int));
+  for (int sweep = 0; room && bin && sweep < 2; sweep++)
+    for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
+  const bool good = room && bin;
+  free(room);
+  free(bin);
+  return good ? ST_OK : error_failed(why, "out of memory");
+}
+
+static status_t find_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                            color_t color[CHANNELS], why_t *why) {
+  const size_t rows = most_rows(s);
+  double *const copy = malloc(CHANNELS * rows * sizeof(double)), *part[CHANNELS];
+  if (!copy) return error_failed(why, "out of memory");
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    part[ch] = copy + ch * rows;
+    memcpy(part[ch], residual[ch], (size_t)set_rows(s, (int)ch)->n * sizeof(double));
+  }
+  const status_t status = unknown_clean(s, m, part, why);
+  for (int ch = 0; ch < CHANNELS; ch++)
+    color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), part[ch]) : (color_t){.used = false};
+  free(copy);
+  return status;
+}
+
 status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS], cell_t *cell,
                          why_t *why) {
-  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
-  double *const room = malloc(2 * rows * sizeof(double));
-  int *const bin = malloc(rows * sizeof(int));
   color_t color[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
-  for (int ch = 0; ch < CHANNELS; ch++)
-    color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), residual[ch]) : (color_t){.used = false};
+  TRY(find_colors(s, m, residual, color, why));
+  double *const room = malloc(2 * most_rows(s) * sizeof(double));
+  int *const bin = malloc(most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++) scan(s, m, i, residual, color, room, bin, cell);
   const bool good = room && bin;
   free(room);

@@ -17,7 +17,13 @@ typedef struct {
   double statistic;              // 0: nothing could be judged
 } cell_t;
 
-// ST_FAILED: no memory. residual: by channel and row.
+// Takes out of a residual what depends on any one coordinate, or on several of them added: what is left is
+// noise. ST_FAILED: no memory.
+MUST_CHECK status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                  why_t *why);
+
+// The colours are those of the residual after such cleaning. ST_FAILED: no memory. residual: by channel and
+// row.
 MUST_CHECK status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                     cell_t *cell, why_t *why);
 

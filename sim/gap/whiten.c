@@ -4,6 +4,7 @@
 #include "gap/lsq_blocks.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ROWS_MIN 40
 
@@ -34,14 +35,31 @@ color_t color_fit(const rows_t *r, const double *v) {
   return c;
 }
 
+static color_t color_plain(const rows_t *r, const double *v) {
+  double squares = 0.0;
+  for (int i = 0; i < r->n; i++) squares += v[i] * v[i];
+  const color_t c = color_fit(r, v);
+  return (color_t){.sd = r->n ? sqrt(squares / r->n) : 0.0, .used = c.used};
+}
+
 void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
   const double per_sd = 1.0 / c->sd;
   for (int i = 0; i < r->n; i++)
     out[i] = color_reaches(r, i) ? per_sd * (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) : 0.0;
 }
 
-static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const int *column, const double *b,
-                      int n) {
+// What is known before: columns, their values.
+typedef struct {
+  int n;
+  const int *column;
+  const double *b;
+  bool plain;
+} explained_t;
+
+// The colour of what some columns leave, apart from its mean; plain: its spread alone.
+static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const explained_t *e) {
+  const int n = e->n, *column = e->column;
+  const double *b = e->b;
   const rows_t *r = set_rows(s, ch);
   double *const left = malloc(((size_t)r->n + 1) * sizeof(double));
   if (!left) return false;
@@ -50,7 +68,12 @@ static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const
     const double *x = t->x[ch][column[k]];
     for (int i = 0; x && i < r->n; i++) left[i] -= b[k] * x[i];
   }
-  g->color[ch] = residual_has(s, ch) ? color_fit(r, left) : (color_t){.used = false};
+  double mean = 0.0;
+  for (int i = 0; i < r->n; i++) mean += left[i] / r->n;
+  for (int i = 0; i < r->n; i++) left[i] -= mean;
+  g->color[ch] = !residual_has(s, ch) ? (color_t){.used = false}
+                 : e->plain           ? color_plain(r, left)
+                                      : color_fit(r, left);
   free(left);
   return true;
 }
@@ -111,22 +134,54 @@ static void add_up(gram_t *g) {
     }
 }
 
-status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const int *column, const double *b, int n,
-                   why_t *why) {
+static void empty(gram_t *g) {
+  const size_t room = (size_t)(g->size * g->size);
+  memset(g->block, 0, (size_t)g->n_block * room * sizeof(double));
+  memset(g->by_half, 0, (size_t)g->n_half * room * sizeof(double));
+  memset(g->total, 0, room * sizeof(double));
+  g->rows = 0;
+}
+
+static bool fill(gram_t *g, const set_t *s, const table_t *t, const explained_t *e) {
+  bool good = true;
+  empty(g);
+  for (int ch = 0; ch < CHANNELS && good; ch++) {
+    good = fit_color(g, s, t, ch, e);
+    if (good && g->color[ch].used) good = add_channel(g, s, t, ch);
+  }
+  if (good) add_up(g);
+  return good;
+}
+
+// In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
+// least squares come first; an autoregression of the raw residual would hide what is slow in it.
+static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ridge) {
+  const int n = t->columns;
+  int *const column = malloc(((size_t)n + 1) * sizeof(int));
+  double *const b = malloc(((size_t)n + 1) * sizeof(double));
+  explained_t e = {0, column, b, true};
+  bool good = column && b && fill(g, s, t, &e);
+  for (int i = 0; good && i < n; i++) column[i] = i;
+  e = (explained_t){n, column, b, false};
+  for (int i = 0; good && i < 2; i++) {
+    lsq_solve_products(g->total, g->size, column, n, ridge, b, NULL);
+    good = fill(g, s, t, &e);
+  }
+  free(column);
+  free(b);
+  return good;
+}
+
+status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ridge, why_t *why) {
   *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
   const size_t room = (size_t)(g->size * g->size);
+  const explained_t nothing = {.n = 0};
   g->block = calloc((size_t)g->n_block * room, sizeof(double));
   g->by_half = calloc((size_t)g->n_half * room, sizeof(double));
   g->total = calloc(room, sizeof(double));
   bool good = g->block && g->by_half && g->total;
-  for (int ch = 0; ch < CHANNELS && good; ch++) {
-    good = fit_color(g, s, t, ch, column, b, n);
-    if (good && g->color[ch].used) good = add_channel(g, s, t, ch);
-  }
-  if (good) {
-    add_up(g);
-    return ST_OK;
-  }
+  if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, &nothing);
+  if (good) return ST_OK;
   gram_free(g);
   return error_failed(why, "out of memory");
 }

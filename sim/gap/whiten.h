@@ -27,9 +27,8 @@ color_t color_fit(const rows_t *r, const double *v);
 void color_whiten(const color_t *color, const rows_t *r, const double *v, double *out);
 bool color_reaches(const rows_t *r, int row); // it has two before it
 
-// color: by channel, or a null pointer: fitted here to what `column` (n of them, with values b) leave.
-MUST_CHECK status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const int *column, const double *b,
-                              int n, why_t *why);
+// The colours are those of the residual, or with a ridge (by column) of what all columns together leave.
+MUST_CHECK status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ridge, why_t *why);
 void gram_free(gram_t *g);
 
 #endif
