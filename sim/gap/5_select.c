@@ -90,8 +90,7 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (!fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = judge_last(&t->judge, &with);
-  if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with, SELECT_SURE))
-    return HUGE_VAL;
+  if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with)) return HUGE_VAL;
   return judge_left(&t->judge, &with, NULL);
 }
 
@@ -140,7 +139,7 @@ static bool prune_one(select_t *t) {
     const verdict_t v = judge_last(&t->judge, &last);
     const double without = judge_left(&t->judge, &rest, NULL);
     if (judge_allows(&t->judge, &last, &v) && now < without * (1.0 - SELECT_GAIN) &&
-        judge_is_sure(&t->judge, &rest, &last, SELECT_SURE))
+        judge_is_sure(&t->judge, &rest, &last))
       continue;
     t->choice = rest;
     return true;
@@ -169,7 +168,7 @@ static status_t search(select_t *t, why_t *why) {
 // --- what was found
 // -----------------------------------------------------------------------------------------
 
-// Another name in its place that is not worse by two standard errors of the difference, over half-flights.
+// Another name in its place that is not worse by two standard errors of the difference.
 static void find_rivals(const select_t *t, int candidate, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
   for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
@@ -177,7 +176,7 @@ static void find_rivals(const select_t *t, int candidate, named_t *named) {
     if (fx == fx_of(t, candidate) || !fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_sure(&t->judge, &with, &t->choice, 2.0)) named->rival[named->n_rival++] = fx;
+    if (judge_is_rival(&t->judge, &t->choice, &with)) named->rival[named->n_rival++] = fx;
   }
 }
 

@@ -4,7 +4,7 @@
 //   (a) p < 0.01 over the number of candidates, of a cluster-robust Wald F over blocks of 2 s,
 //   (b) the sign that physics gives it, and a size of at least 0.12 of what is typical (and its own least
 //   one), (c) a coefficient above 3 times its rms on nominal flights (nominal.h), (d) a cross-validated gain
-//   of 0.4 % of the sum of squares, and above 1.5 standard errors over half-flights.
+//   of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
 // A lag or delay below 5 ms is what feedback alone looks like, or streams that are not aligned: it is taken
 // into the model, and not named. The best one enters, what is named is estimated anew about its present
 // values, and swaps and prunings are tried; until nothing changes.
@@ -16,7 +16,7 @@
 #define SELECT_ALPHA   0.01
 #define SELECT_GAIN    0.004
 #define SELECT_NOMINAL 3.0
-#define SELECT_SURE    1.5
+#define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
 #define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
 #define NAMED_MAX      8
 #define COLUMN_MAX     (NAMED_MAX * FX_SIZE_MAX)

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR 10.0 // times the typical size: what the ridge takes to be possible
+#define RIVAL_ERRORS 2.0
+#define CLUSTER      1.5  // standard errors grow by this: white rows are not quite independent
+#define FAR          10.0 // times the typical size: what the ridge takes to be possible
 
 status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
                     why_t *why) {
@@ -77,7 +79,7 @@ double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
   return sum;
 }
 
-bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better, double times) {
+bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better) {
   const int n = j->g->n_half;
   double *const a = calloc(2 * (size_t)n + 1, sizeof(double)), sum = 0.0, squares = 0.0;
   if (!a) return false;
@@ -89,8 +91,22 @@ bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *bett
     squares += less * less;
   }
   free(a);
-  const double spread = sqrt(fmax(squares - sum * sum / n, 0.0) * n / fmax(n - 1.0, 1.0));
-  return sum > times * spread;
+  return sum > SELECT_SURE * sqrt(squares);
+}
+
+// The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
+// d^2 with a standard error of 2 d.
+bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other) {
+  const gram_t *g = j->g;
+  int column[2 * COLUMN_MAX];
+  double b[2 * COLUMN_MAX], apart = 0.0;
+  const int n = choice_columns(j->c, own, column), m = choice_columns(j->c, other, column + n);
+  const double left = lsq_solve_products(g->total, g->size, column, n, j->ridge, b, NULL);
+  const double left_other = lsq_solve_products(g->total, g->size, column + n, m, j->ridge, b + n, NULL);
+  for (int i = n; i < n + m; i++) b[i] = -b[i];
+  for (int i = 0; i < n + m; i++)
+    for (int k = 0; k < n + m; k++) apart += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
+  return left_other - left < RIVAL_ERRORS * 2.0 * sqrt(fmax(apart, 0.0)) * CLUSTER;
 }
 
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.

@@ -29,9 +29,11 @@ bool choice_has(const choice_t *choice, int candidate);
 // Sum of squares left on half-flights that were not fitted to. halves: by half-flight, or null.
 double judge_left(const judge_t *j, const choice_t *choice, double *halves);
 
-// The choice leaves less than the other one does, by so many standard errors of the difference over
-// half-flights.
-bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better, double times);
+// The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there.
+bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better);
+
+// The other choice does as well, within two standard errors.
+bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other);
 
 // Estimates, and their cluster-robust covariance (column by column of the choice; V may be null).
 void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V);

@@ -193,7 +193,8 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
   for (long tick = 0; tick < lround(EXAM_SPAN_S / STEP_S); tick++) {
     const double t_s = (double)tick * STEP_S;
     wish_t wish = wish_at(plan, t_s);
-    z_m += (wish.pos.z - z_m) * STEP_S / (fabs(wish.pos.z - 0.4) < 0.21 ? 0.03 : 0.25); // no step into a surface
+    z_m +=
+        (wish.pos.z - z_m) * STEP_S / (fabs(wish.pos.z - 0.4) < 0.21 ? 0.03 : 0.25); // no step into a surface
     wish.pos.z = z_m;
     drift(e);
     in = measure(e, &in);
