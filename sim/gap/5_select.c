@@ -2,12 +2,14 @@
 #include "gap/5_select.h"
 
 #include "gap/score.h"
+#include "gap/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define ROUNDS 16
-#define TAKES  2 // what was taken out as often as this does not come back
+#define ECHO   1.3 // so much more than a name a cell must explain
+#define TAKES  2   // what was taken out as often as this does not come back
 
 typedef struct {
   candidates_t *c;
@@ -157,9 +159,55 @@ static status_t settle(select_t *t, why_t *why) {
   return ST_OK;
 }
 
+// What a choice leaves, row by row, in the straight line's sense.
+static status_t left_by(const select_t *t, const choice_t *choice, double *left[CHANNELS], why_t *why) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const int n = choice_columns(t->c, choice, column);
+  judge_estimate(&t->judge, choice, b, NULL);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const size_t rows = (size_t)set_rows(t->s, ch)->n;
+    left[ch] = malloc((rows + 1) * sizeof(double));
+    if (!left[ch]) return error_failed(why, "out of memory");
+    memcpy(left[ch], t->table.x[ch][t->table.columns], rows * sizeof(double));
+    for (int k = 0; k < n; k++) {
+      const double *x = t->table.x[ch][column[k]];
+      for (size_t i = 0; x && i < rows; i++) left[ch][i] -= b[k] * x[i];
+    }
+  }
+  return ST_OK;
+}
+
+// Something at one place, time or state explains more than this name does: the name is an echo of it.
+static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why) {
+  const choice_t rest = choice_without(&t->choice, candidate);
+  double *left[CHANNELS] = {NULL};
+  cell_t cell = {.statistic = 0.0};
+  status_t status = left_by(t, &rest, left, why);
+  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, &cell, why);
+  for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
+  const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
+  *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;
+  return status;
+}
+
+static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
+  *dropped = false;
+  for (int i = 0; i < t->choice.n && !*dropped; i++) {
+    const int candidate = t->choice.of[i];
+    TRY(is_echo(t, candidate, dropped, why));
+    if (!*dropped) continue;
+    t->choice = choice_without(&t->choice, candidate);
+    t->taken[candidate] = TAKES;
+  }
+  return ST_OK;
+}
+
 static status_t search(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
-    if (!prune_one(t) && !swap_one(t) && !add_best(t)) return ST_OK;
+    bool changed = prune_one(t) || swap_one(t) || add_best(t);
+    if (!changed) TRY(drop_echo(t, &changed, why));
+    if (!changed) return ST_OK;
     TRY(settle(t, why));
   }
   return ST_OK;

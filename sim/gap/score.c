@@ -79,6 +79,13 @@ double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
   return sum;
 }
 
+double judge_fitted(const judge_t *j, const choice_t *choice) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column);
+  return lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, NULL);
+}
+
 bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better) {
   const int n = j->g->n_half;
   double *const a = calloc(2 * (size_t)n + 1, sizeof(double)), sum = 0.0, squares = 0.0;

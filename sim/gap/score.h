@@ -29,6 +29,9 @@ bool choice_has(const choice_t *choice, int candidate);
 // Sum of squares left on half-flights that were not fitted to. halves: by half-flight, or null.
 double judge_left(const judge_t *j, const choice_t *choice, double *halves);
 
+// Sum of squares left where it was fitted.
+double judge_fitted(const judge_t *j, const choice_t *choice);
+
 // The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there.
 bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better);
 

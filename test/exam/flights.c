@@ -81,8 +81,8 @@ static wish_t wish_in(int kind, double t, double span, const double *n) {
   case 1: w.pos.z = 0.017 + 0.012 + 0.03 * n[0] + 0.08 * pow(sin(3.14159265 * share + n[1]), 2.0); break;
   case 2: return line(t, span, n);
   case 3: return circle(t, span, n);
-  case 4: w.pos.z = 0.4 + (fmod(2.0 * share + n[0], 1.0) > 0.5 ? 0.15 : -0.15); break;
-  case 5: w.yaw = 2.0 * 3.14159265 * (share + n[0]); break;
+  case 4: w.pos.z = 0.4 + (fmod(3.0 * share + n[0], 1.0) > 0.5 ? 0.18 : -0.18); break;
+  case 5: w.yaw = 2.0 * 3.14159265 * share; break;
   default:
     w.pos.x = fmod(3.0 * share, 1.0) > 0.5 ? 0.05 : 0.0;
     w.pos.y = fmod(2.0 * share, 1.0) > 0.5 ? 0.05 : 0.0;
