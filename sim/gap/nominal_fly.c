@@ -160,12 +160,12 @@ static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   const gap_flight_t *like = g->flight;
   *log = (gap_flight_t){.motors_N = true};
   bool good = (log->t_s = column(n)) != NULL;
-  for (int i = SIG_X; i < SIG_COUNT; i++)
+  for (int i = SIG_X; i <= SIG_VBAT; i++)
     if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
   if (g->range_up)
-    good = (log->range_up_m = column(n)) && good;
+    good = (log->range_up_m = log->v[SIG_RANGE] = column(n)) && good;
   else if (like->range_down_m)
-    good = (log->range_down_m = column(n)) && good;
+    good = (log->range_down_m = log->v[SIG_RANGE_DOWN] = column(n)) && good;
   snprintf(log->name, sizeof log->name, "nominal flight");
   return good;
 }

@@ -154,7 +154,7 @@ static const signal_id_t LOGGED[] = {SIG_X,  SIG_Y,  SIG_Z,  SIG_VX, SIG_VY, SIG
 static bool log_room(gap_flight_t *f, size_t n) {
   *f = (gap_flight_t){.motors_N = true, .rate_Hz = 1.0 / STEP_S};
   bool good = (f->t_s = malloc(n * sizeof(double))) != NULL;
-  good = (f->range_up_m = malloc(n * sizeof(double))) && good;
+  good = (f->range_up_m = f->v[SIG_RANGE] = malloc(n * sizeof(double))) && good;
   for (unsigned i = 0; i < sizeof LOGGED / sizeof *LOGGED; i++)
     good = (f->v[LOGGED[i]] = malloc(n * sizeof(double))) && good;
   snprintf(f->name, sizeof f->name, "exam");
