@@ -92,7 +92,9 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (!fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = judge_last(&t->judge, &with);
-  if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with)) return HUGE_VAL;
+  if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with) ||
+      judge_harms(&t->judge, rest, &with))
+    return HUGE_VAL;
   return judge_left(&t->judge, &with, NULL);
 }
 
@@ -141,7 +143,7 @@ static bool prune_one(select_t *t) {
     const verdict_t v = judge_last(&t->judge, &last);
     const double without = judge_left(&t->judge, &rest, NULL);
     if (judge_allows(&t->judge, &last, &v) && now < without * (1.0 - SELECT_GAIN) &&
-        judge_is_sure(&t->judge, &rest, &last))
+        judge_is_sure(&t->judge, &rest, &last) && !judge_harms(&t->judge, &rest, &last))
       continue;
     t->choice = rest;
     return true;
@@ -184,7 +186,7 @@ static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why
   double *left[CHANNELS] = {NULL};
   cell_t cell = {.statistic = 0.0};
   status_t status = left_by(t, &rest, left, why);
-  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, &cell, why);
+  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, t->gram.color, &cell, why);
   for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
   const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
   *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;

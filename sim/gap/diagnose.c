@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CELL_LEAST  5.5  // standard errors
-#define CELL_MARGIN 1.25 // over the largest of the nominal flights
+#define CELL_LEAST  6.5 // standard errors
+#define CELL_MARGIN 1.4 // over the largest of the nominal flights
 
 static status_t cut(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
                     why_t *why) {
@@ -68,7 +68,7 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
 
 static status_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
-  TRY(unknown_largest(&d->fit, &d->extended, d->residual, &d->cell, why));
+  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, &d->cell, why));
   double most = 0.0;
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define RIVAL_ERRORS 2.0
+#define HARM         0.01 // of the sum of squares of a group of channels
 #define CLUSTER      1.5  // standard errors grow by this: white rows are not quite independent
 #define FAR          10.0 // times the typical size: what the ridge takes to be possible
 
@@ -77,6 +78,34 @@ double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
   }
   free(others);
   return sum;
+}
+
+// What a choice, fitted to the other half-flights, leaves of every group of channels.
+static bool left_by_group(const judge_t *j, const choice_t *choice, double left[GROUPS]) {
+  const gram_t *g = j->g;
+  const size_t n = (size_t)(g->size * g->size);
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const int columns = choice_columns(j->c, choice, column);
+  double *const others = malloc(n * sizeof(double));
+  for (int i = 0; i < GROUPS; i++) left[i] = 0.0;
+  for (int h = 0; others && h < g->n_half; h++) {
+    const double *own = g->by_half + (size_t)h * n;
+    for (size_t i = 0; i < n; i++) others[i] = g->total[i] - own[i];
+    lsq_solve_products(others, g->size, column, columns, j->ridge, b, NULL);
+    for (int i = 0; i < GROUPS; i++)
+      left[i] += lsq_left(g->by_group[i] + (size_t)h * n, g->size, column, columns, b);
+  }
+  free(others);
+  return others != NULL;
+}
+
+bool judge_harms(const judge_t *j, const choice_t *without, const choice_t *with) {
+  double before[GROUPS], after[GROUPS];
+  if (!left_by_group(j, without, before) || !left_by_group(j, with, after)) return true;
+  for (int i = 0; i < GROUPS; i++)
+    if (after[i] > before[i] * (1.0 + HARM) + 10.0) return true;
+  return false;
 }
 
 double judge_fitted(const judge_t *j, const choice_t *choice) {

@@ -29,6 +29,10 @@ bool choice_has(const choice_t *choice, int candidate);
 // Sum of squares left on half-flights that were not fitted to. halves: by half-flight, or null.
 double judge_left(const judge_t *j, const choice_t *choice, double *halves);
 
+// What is right in one group of channels is not wrong in another: the choice `with` leaves more of one of
+// them.
+bool judge_harms(const judge_t *j, const choice_t *without, const choice_t *with);
+
 // Sum of squares left where it was fitted.
 double judge_fitted(const judge_t *j, const choice_t *choice);
 

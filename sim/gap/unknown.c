@@ -150,7 +150,7 @@ static void look_at(const products_t *p, int channel, int coordinate, const doub
 }
 
 static void scan(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
-                 const color_t color[CHANNELS], double *room, int *bin, cell_t *cell) {
+                 const color_t *color, double *room, int *bin, cell_t *cell) {
   products_t p;
   double edge[BINS + 1];
   for (int list = 0; list < 2; list++) {
@@ -223,14 +223,15 @@ static status_t find_colors(const set_t *s, const model_t *m, double *const resi
   return status;
 }
 
-status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS], cell_t *cell,
-                         why_t *why) {
-  color_t color[CHANNELS];
+status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                         const color_t *color, cell_t *cell, why_t *why) {
+  color_t own[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
-  TRY(find_colors(s, m, residual, color, why));
+  if (!color) TRY(find_colors(s, m, residual, own, why));
   double *const room = malloc(2 * most_rows(s) * sizeof(double));
   int *const bin = malloc(most_rows(s) * sizeof(int));
-  for (int i = 0; room && bin && i < COORDINATES; i++) scan(s, m, i, residual, color, room, bin, cell);
+  for (int i = 0; room && bin && i < COORDINATES; i++)
+    scan(s, m, i, residual, color ? color : own, room, bin, cell);
   const bool good = room && bin;
   free(room);
   free(bin);

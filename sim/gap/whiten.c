@@ -114,8 +114,11 @@ static bool add_channel(gram_t *g, const set_t *s, const table_t *t, int ch) {
     int end = i;
     while (end < r->n && r->block[end] == r->block[i]) g->rows += color_reaches(r, end++);
     for (int k = 0; k < w.n; k++) from[k] = w.x[k] + i;
-    double *const to = g->block + (size_t)r->block[i] * (size_t)(g->size * g->size);
-    lsq_add_products(end - i, w.n, from, w.column, g->size, to);
+    const size_t room = (size_t)(g->size * g->size);
+    const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
+    lsq_add_products(end - i, w.n, from, w.column, g->size, g->block + (size_t)r->block[i] * room);
+    lsq_add_products(end - i, w.n, from, w.column, g->size,
+                     g->by_group[group] + (size_t)g->half[r->block[i]] * room);
     i = end;
   }
   const bool done = made && from;
@@ -139,6 +142,7 @@ static void empty(gram_t *g) {
   memset(g->block, 0, (size_t)g->n_block * room * sizeof(double));
   memset(g->by_half, 0, (size_t)g->n_half * room * sizeof(double));
   memset(g->total, 0, room * sizeof(double));
+  for (int i = 0; i < GROUPS; i++) memset(g->by_group[i], 0, (size_t)g->n_half * room * sizeof(double));
   g->rows = 0;
 }
 
@@ -180,6 +184,10 @@ status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ri
   g->by_half = calloc((size_t)g->n_half * room, sizeof(double));
   g->total = calloc(room, sizeof(double));
   bool good = g->block && g->by_half && g->total;
+  for (int i = 0; i < GROUPS; i++) {
+    g->by_group[i] = calloc((size_t)g->n_half * room, sizeof(double));
+    good = good && g->by_group[i];
+  }
   if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, &nothing);
   if (good) return ST_OK;
   gram_free(g);
@@ -190,5 +198,9 @@ void gram_free(gram_t *g) {
   free(g->block);
   free(g->by_half);
   free(g->total);
+  for (int i = 0; i < GROUPS; i++) {
+    free(g->by_group[i]);
+    g->by_group[i] = NULL;
+  }
   g->block = g->by_half = g->total = NULL;
 }

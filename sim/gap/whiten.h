@@ -12,11 +12,14 @@ typedef struct {
   bool used; // the channel has rows enough
 } color_t;
 
+#define GROUPS 3
+
 typedef struct {
   int size, n_block, n_half; // size: columns + 1
   int rows;                  // white ones, of all channels
   const int *half;           // of each block (the set's)
   double *block, *by_half, *total;
+  double *by_group[GROUPS]; // of all half-flights, one matrix each: forces, turning, range
   color_t color[CHANNELS];
 } gram_t;
 
