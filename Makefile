@@ -6,7 +6,7 @@ CXX = g++
 B   = out/release
 OPT = -O3
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
@@ -22,18 +22,19 @@ OMP_LIB = -lgomp
 else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
-LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
 SIM_SRC    = $(wildcard sim/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
 SIM_CPP    = $(wildcard sim/*.cpp sim/gap/*.cpp sim/io/*.cpp sim/plant/*.cpp)
-TEST_SRC   = $(wildcard test/*.c)
+TEST_SRC   = $(wildcard test/*.c) $(filter-out test/exam/main.c,$(wildcard test/exam/*.c))
+EXAM_SRC   = $(wildcard test/exam/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
-PROGRAMS   = fly learn effectiveness bench
+PROGRAMS   = fly learn effectiveness gap bench
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -52,7 +53,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights exam test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -81,6 +82,9 @@ $(B)/sim/effects/%.o: sim/effects/%.c | setup
 $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
+$(B)/test/exam/main.o: test/exam/main.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isim -Itest -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isim -Itest -c $< -o $@
@@ -98,7 +102,11 @@ $(B)/bin/tests: $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(S
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 
-$(PROGRAMS:%=out/%): out/%: $(B)/bin/%
+$(B)/bin/exam: $(call objects,$(EXAM_SRC)) $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+
+$(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 	@ln -sf $(<:out/%=%) $@
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
@@ -113,6 +121,9 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+
+exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
+	@out/exam $(or $(SEED),10001) 200
 
 check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"

@@ -8,9 +8,10 @@
 #include "plant/pair.h"
 #include "plant/random.h"
 #include "plant/rigid.h"
+#include <stdbool.h>
 
 #define FX_PARAM_MAX 8
-#define FX_MEMORY    4 // numbers that an effect keeps from tick to tick
+#define FX_MEMORY    8 // numbers that an effect keeps from tick to tick
 #define FX_TABLE_MAX 64
 #define FX_MAX       16 // effects switched on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
@@ -86,6 +87,7 @@ typedef struct {
   double delay_s;              // >= 0  from a command to the lag
   d3_t air_w_mps;              // velocity of the air
   d3_t force_w_N;              // at the centre of mass, world axes
+  d3_t moment_b_Nm;            // about the centre of mass, body axes
 } fx_plant_t;
 
 // The tick that begins.
@@ -122,6 +124,9 @@ typedef struct {
   const char *brief;
   const char *fly; // the manoeuvre that shows it
   fx_class_t class;
+  // Control that cancels a disturbance looks like this effect: the first look, which finds out how much
+  // disturbance there is, leaves it out.
+  bool only_beside_nominal;
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none

@@ -12,9 +12,10 @@ const fx_t fx_inertia = {
     .name = "inertia",
     .brief = "the inertia about each axis is larger than the vehicle file has it",
     .fly = "attitude doublets",
+    .only_beside_nominal = true,
     .n_size = 3,
     .size = {{0, 0.01, 0, 0.0}, {1, 0.01, 0, 0.0}, {2, 0.01, 0, 0.0}},
     .n_param = 3,
-    .param = {{"kx", "", -0.9, 0.1, 9.0}, {"ky", "", -0.9, 0.1, 9.0}, {"kz", "", -0.9, 0.1, 9.0}},
+    .param = {{"kx", "", -0.7, 0.1, 3.0}, {"ky", "", -0.7, 0.1, 3.0}, {"kz", "", -0.7, 0.1, 3.0}},
     .tick = tick,
 };

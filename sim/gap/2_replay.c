@@ -41,7 +41,7 @@ static void predict(const grid_t *g, body_t *b, const point_t *p, double out[CHA
 static status_t run(grid_t *g, body_t *b, double *const out[CHANNELS], why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
-  const motors_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
+  const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
   if (!motors) return error_failed(why, "out of memory");
   const double start_s = g->point[0].t_s;
   for (int j = 0; j < g->n; j++) {

@@ -169,6 +169,7 @@ status_t residual_measured(const set_t *s, int channel, double *row, why_t *why)
 }
 
 bool residual_has(const set_t *s, int channel) {
+  if (s->muted[channel]) return false;
   if (channel == CH_RANGE) return s->range.n > 20 && s->grid[0].has_position;
   for (int i = 0; i < s->n_grid; i++) {
     const grid_t *g = &s->grid[i];

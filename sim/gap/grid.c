@@ -1,16 +1,16 @@
 // grid.c - a part of a flight on a coarser grid.
 #include "gap/grid.h"
 
-#include "plant/rotor.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define POINT_HZ  50.0
-#define FLIES     0.3  // of the weight: with less thrust it stands or falls
-#define CLEAR_M   5e-3 // of the feet from the floor
-#define TOP_M     2e-3 // of the highest points from the ceiling
-#define NOMINAL_V 3.7  // where no voltage is logged
+#define FLIES     0.3   // of the weight: with less thrust it stands or falls
+#define CLEAR_M   5e-3  // of the feet from the floor
+#define TOP_M     2e-3  // of the highest points from the ceiling
+#define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
+#define NOMINAL_V 3.7   // where no voltage is logged
 
 const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
                                            "turn_y",  "turn_z",  "range"};
@@ -24,29 +24,26 @@ static bool has(const gap_flight_t *f, int from, int to) {
 
 // --- commands -----------------------------------------------------------------------------------------
 
-static double volts(const gap_flight_t *f, int i) {
-  const double v = f->v[SIG_VBAT] ? f->v[SIG_VBAT][i] : (double)NAN;
-  return isfinite(v) ? v : NOMINAL_V;
+static double newton(const gap_flight_t *f, int rotor, int i) {
+  if (f->v[SIG_F1 + rotor]) return f->v[SIG_F1 + rotor][i];
+  return f->motors_N && f->v[SIG_M1 + rotor] ? f->v[SIG_M1 + rotor][i] : f->v[SIG_THRUST][i] / ROTORS;
 }
 
-static double newton(const gap_flight_t *f, const model_t *m, int rotor, int i) {
-  if (!f->v[SIG_M1 + rotor]) return f->v[SIG_THRUST][i] / ROTORS;
-  const double command = f->v[SIG_M1 + rotor][i];
-  if (f->motors_N || isnan(command)) return command;
-  return rotor_command_N(&m->map, command, volts(f, i), m->thrust_max_N / ROTORS);
+static bool has_commands(const gap_flight_t *f) {
+  return f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || f->v[SIG_THRUST];
 }
 
 static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
   const gap_flight_t *f = g->flight;
-  const bool commands = has(f, SIG_M1, SIG_M4) || f->v[SIG_THRUST];
-  g->has_moments = has(f, SIG_M1, SIG_M4) || f->motor_speed_radps[3];
+  const bool commands = has_commands(f);
+  g->has_moments = f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || (!commands && f->motor_speed_radps[3]);
   for (int k = 0; k < ROTORS; k++) {
     g->command_N[k] = malloc((size_t)n * sizeof(double));
     if (!g->command_N[k]) return error_failed(why, "out of memory");
     double last = 0.0;
     for (int i = 0; i < n; i++) {
       const double speed = commands ? 0.0 : f->motor_speed_radps[k][g->from + i];
-      const double now = commands ? newton(f, m, k, g->from + i) : m->frame.kf_Ns2 * speed * speed;
+      const double now = commands ? newton(f, k, g->from + i) : m->frame.kf_Ns2 * speed * speed;
       g->command_N[k][i] = last = isfinite(now) ? now : last;
     }
   }
@@ -106,7 +103,8 @@ static point_t point_of(const grid_t *g, const model_t *m, int from) {
   if (g->has_rates) p.rate_b_radps = mean3(f, SIG_GX, from, n);
   if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
-  p.range_m = range_of(g, from);
+  const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
+  p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
   p.ok = is_good(g, &p, m, from);
   return p;
 }
@@ -135,7 +133,7 @@ status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const mod
   g->has_force = has(f, SIG_AX, SIG_AZ);
   g->has_vbat = f->v[SIG_VBAT] != NULL;
   g->range_up = isfinite(m->ceiling_m) && f->range_up_m;
-  if (!has(f, SIG_M1, SIG_M4) && !f->v[SIG_THRUST] && !f->motor_speed_radps[3])
+  if (!has_commands(f) && !f->motor_speed_radps[3])
     return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed", f->name);
   g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
   if (!g->point) return error_failed(why, "out of memory");
@@ -196,11 +194,11 @@ static void average(const grid_t *g, const history_t *h, double *thrust_N, doubl
   }
 }
 
-const motors_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
+const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
   for (int i = 0; i < GRID_MOTORS; i++)
     if (g->motors[i].thrust_N[0] && g->motors[i].tau_s == tau_s && g->motors[i].delay_s == delay_s)
       return &g->motors[i];
-  motors_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
+  lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
   const size_t n = (size_t)g->n;
   if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
   double *const fine = malloc((size_t)g->samples * sizeof(double));

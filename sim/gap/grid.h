@@ -30,7 +30,7 @@ typedef struct {
 typedef struct {
   double tau_s, delay_s;
   double *thrust_N[ROTORS], *rise_Nps[ROTORS];
-} motors_t;
+} lagged_t;
 
 typedef struct {
   const gap_flight_t *flight;
@@ -39,9 +39,8 @@ typedef struct {
   int n;
   point_t *point;
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
-  double *command_N[ROTORS];  // by sample, from `from`
-  double *measured_N[ROTORS]; // from measured rotor speeds, by sample; null: not logged
-  motors_t motors[GRID_MOTORS];
+  double *command_N[ROTORS]; // by sample, from `from`
+  lagged_t motors[GRID_MOTORS];
   int motors_used;
 } grid_t;
 
@@ -53,6 +52,6 @@ void grid_free(grid_t *g);
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
 // memory.
-const motors_t *grid_motors(grid_t *g, double tau_s, double delay_s);
+const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s);
 
 #endif
