@@ -62,7 +62,7 @@ typedef struct {
 } slope_t;
 
 // The slope of what moves against what drives it, over the windows in which one of both does.
-static void slopes(const gap_flight_t *f, const pair_t *pair, slope_t slope[3]) {
+static void slopes(const gap_flight_t *f, const gap_pair_t *pair, slope_t slope[3]) {
   const int m = gap_pair_samples(f, pair);
   double n = 0.0;
   for (int pass = 0; pass < 2; pass++)
@@ -81,7 +81,7 @@ static void slopes(const gap_flight_t *f, const pair_t *pair, slope_t slope[3]) 
     }
 }
 
-static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const pair_t *pair, why_t *why) {
+static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const gap_pair_t *pair, why_t *why) {
   slope_t slope[3] = {0};
   slopes(f, pair, slope);
   for (int k = 0; k < 3; k++) {
