@@ -1,6 +1,7 @@
 // slot.c - the air garage's hover between a deck and a ceiling.
 #include "slot.h"
 
+#include "by_size.h"
 #include "io/csv.h"
 #include "io/effect_spec.h"
 #include "io/model_file.h"
@@ -90,11 +91,6 @@ status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m,
   setup->plan.plan.seed = seed;
   plan_way(setup, rise_m, real[k].take_off_s);
   return ST_OK;
-}
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why) {

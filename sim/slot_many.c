@@ -1,6 +1,7 @@
 // slot_many.c - many hovers in the gap.
 #include "slot_many.h"
 
+#include "by_size.h"
 #include "io/effect_spec.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,11 +12,6 @@ typedef struct {
   double *median_m;
   slot_many_t *sum;
 } tally_t;
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 static status_t tally_open(tally_t *t, slot_many_t *m, int flights, why_t *why) {
   *m = (slot_many_t){
