@@ -34,7 +34,7 @@ TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
-PROGRAMS   = fly learn effectiveness gap bench
+PROGRAMS   = fly learn effectiveness gap slot bench
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -53,7 +53,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights exam test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights slot exam test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -119,6 +119,9 @@ demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
 
+slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
+	@out/slot "$(DATA)"
+
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
@@ -145,7 +148,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

@@ -1,6 +1,7 @@
 // slot.c - the air garage's hover between a deck and a ceiling.
 #include "slot.h"
 
+#include "by_size.h"
 #include "io/csv.h"
 #include "io/effect_spec.h"
 #include "io/model_file.h"
@@ -18,11 +19,27 @@
 // over speed, 0.8 m at 0.1 and at 0.5 m/s: tracks of flights with the same delay of 15 s are that much longer
 // or shorter.
 static const struct {
+  const char *file;
   double tilt_deg[2], take_off_s;
 } real[SLOT_FLIGHTS] = {
-    {{3.1, 1.0}, 8.0},  {{-5.8, -1.3}, 8.0}, {{-3.2, -4.3}, 8.0}, {{-6.5, -3.4}, 1.6},
-    {{3.4, -1.1}, 1.6}, {{2.0, 2.1}, 1.6},   {{-1.1, 3.3}, 1.6},  {{2.9, 5.8}, 1.6},
+    {"20240823_17_47_21.csv", {3.1, 1.0}, 8.0},   {"20240823_19_27_09.csv", {-5.8, -1.3}, 8.0},
+    {"20240823_19_37_29.csv", {-3.2, -4.3}, 8.0}, {"20240827_18_45_10.csv", {-6.5, -3.4}, 1.6},
+    {"20240827_18_46_05.csv", {3.4, -1.1}, 1.6},  {"20240827_18_48_44.csv", {2.0, 2.1}, 1.6},
+    {"20240827_18_49_29.csv", {-1.1, 3.3}, 1.6},  {"20240827_18_56_52.csv", {2.9, 5.8}, 1.6},
 };
+
+const char *slot_real(int k, double *ceiling_m) {
+  *ceiling_m = 0.8349;
+  return real[k].file;
+}
+
+int slot_late(int k) {
+  return real[k].take_off_s < 2.0;
+}
+
+status_t slot_vehicle(model_t *model, why_t *why) {
+  return model_builtin("cf21_air_garage", model, why);
+}
 
 static status_t add_effect(model_t *model, const char *spec, why_t *why) {
   fx_use_t use;
@@ -57,7 +74,7 @@ static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
 
 status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
   TRY(setup6_thesis(setup, FLY_STOCK_PID, why));
-  TRY(model_builtin("cf21_air_garage", &setup->model, why));
+  TRY(slot_vehicle(&setup->model, why));
   TRY(spread_weight(&setup->model, seed, why));
   const double rest_m = setup->model.frame.rotor_above_feet_m;
   setup->model.ceiling_m = ceiling ? rest_m + SLOT_REST_M : HUGE_VAL;
@@ -74,11 +91,6 @@ status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m,
   setup->plan.plan.seed = seed;
   plan_way(setup, rise_m, real[k].take_off_s);
   return ST_OK;
-}
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why) {

@@ -20,10 +20,16 @@
 // Ground effect as measured with a Crazyflie 2.1 over clearance h of its feet, 1 + 0.174 exp(-0.820 h/R)
 // (flights of aerorobotics/neural-swarm 48b1851), here over the propellers' height h + 30 mm.
 #define SLOT_GROUND "ground:form=exponential,Ca=0.496,Cb=0.82"
-// The form that fits best: of 40 simulated flights the square root catches 17 (real: 3 of 8); exponential
-// 0.44/1.8 and Cheeseman-Bennett, of twice its excess at 25 mm, catch 40. It hangs on weight over thrust: 1,
-// 4, 17, 29 and 35 of 40 with a mass of 34 to 38 g.
+// The form that fits best (README, a real gap).
 #define SLOT_CEILING "ceiling:form=square-root"
+
+// The vehicle, before its weight is spread.
+MUST_CHECK status_t slot_vehicle(model_t *model, why_t *why);
+
+// Of the k-th real flight: its file, and the height of its ceiling over the floor; 1: its take-off was the
+// quick one.
+const char *slot_real(int k, double *ceiling_m);
+int slot_late(int k);
 
 // A flight of the scenario, complete but for what the user asks for. ceiling: else the open deck.
 MUST_CHECK status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);

@@ -1,6 +1,7 @@
 // test_hover_rpm.c - rotor speed and PWM of a hover in the plant against a recorded one (imu_rpm_500hz,
 // jana05). The map and kf are those of the stand, not of this flight.
 #include "body.h"
+#include "by_size.h"
 #include "io/csv.h"
 #include "io/model_file.h"
 #include "test.h"
@@ -16,11 +17,6 @@ typedef struct {
   double rpm[ROWS_MAX], pwm[ROWS_MAX], volt[ROWS_MAX]; // means of the four motors
   int n;
 } window_t;
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 typedef struct {
   double rpm, pwm; // means of the last second

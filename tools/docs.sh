@@ -35,6 +35,8 @@ rm -f "$got.gains"
 text <"$got" | part closest
 tools/flights.sh >"$got"
 sed -E '/^pictures/,$d' "$got" | sed '$d' | text | part flights
+out/slot "$data" >"$got"
+text <"$got" | part slot
 out/fly bias-hover --integrator rk4 >"$got"
 sed -n -i '/^bias$/,/^contacts/p' "$got"
 out/fly hand-held >>"$got"

@@ -64,8 +64,8 @@ void att_indi_reset(att_indi_t *s);
 v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
                    float period_s, const att_indi_in_t *in);
 
-// The shortest rotation vector (rad, body axes, to first order 2 vec) from q to q_ref; at most 2
-// long.
+// The shortest rotation from q to q_ref as 2 vec of its quaternion, body axes: 2 sin(angle/2) long, at most
+// 2; for small angles the rotation vector in rad.
 v3_t att_indi_error(quat_t q_wb, quat_t q_ref);
 
 // The attitude whose thrust points along up_w (length 1, up_w.z > 0) with that heading (sine and cosine of
