@@ -185,8 +185,13 @@ static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why
   const choice_t rest = choice_without(&t->choice, candidate);
   double *left[CHANNELS] = {NULL};
   cell_t cell = {.statistic = 0.0};
+  color_t color[CHANNELS]; // of the channels in which the name is seen
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    color[ch] = t->gram.color[ch];
+    color[ch].used = color[ch].used && t->table.x[ch][t->c->candidate[candidate].first];
+  }
   status_t status = left_by(t, &rest, left, why);
-  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, t->gram.color, &cell, why);
+  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, &cell, why);
   for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
   const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
   *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;

@@ -58,8 +58,13 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   found_free(&first);
   TRY(candidates_model(&d->candidates, job->model, &m, why));
   TRY(find_residual(d, &m, why));
+  const manner_t raw = manner_of(&d->fit, &m, d->residual);
   TRY(unknown_clean(&d->fit, &m, d->residual, why));
   d->manner = manner_of(&d->fit, &m, d->residual);
+  // Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
+  // flights are to show.
+  memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
+  d->manner.turn_tau_s = raw.turn_tau_s;
   forget(&d->candidates);
   d->nominal_flew =
       nominal_make(&d->nominal, &d->fit, job->model, &d->candidates, &d->manner, job->seed, why) == ST_OK;

@@ -116,7 +116,7 @@ static double disturbance(const set_t *s, int ch, const double *r, double noise,
   double sum = 0.0, squares = 0.0, next = 0.0;
   int n = rows->n, pairs = 0;
   for (int i = 0; i < n; i++) sum += r[i];
-  const double mean = n ? sum / n : 0.0;
+  const double mean = n && ch < CH_FORCES ? sum / n : 0.0; // a standing moment is a disturbance, too
   for (int i = 0; i < n; i++) {
     squares += (r[i] - mean) * (r[i] - mean);
     if (i < 2 || !rows->follows[i] || !rows->follows[i - 1]) continue;
