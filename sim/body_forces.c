@@ -52,7 +52,8 @@ static inline void look_at(const body_t *b, int surfaces, const double *y, body_
   look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  if (b->n_tick > 0) look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
+  if (b->n_tick > 0)
+    look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
   if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
   if (!surfaces) return;
   const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &look->axes, 0.0);

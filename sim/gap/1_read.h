@@ -65,7 +65,8 @@ typedef struct {
   bool (*at)(const gap_flight_t *f, int i, int m, window_t *w); // false: not all there
 } gap_pair_t;
 
-extern const gap_pair_t GAP_TURN, GAP_PUSH, GAP_GO; // attitude by gyro, velocity by force, position by velocity
+extern const gap_pair_t GAP_TURN, GAP_PUSH,
+    GAP_GO; // attitude by gyro, velocity by force, position by velocity
 
 // Samples of a window.
 int gap_pair_samples(const gap_flight_t *f, const gap_pair_t *pair);

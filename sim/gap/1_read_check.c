@@ -81,7 +81,8 @@ static void slopes(const gap_flight_t *f, const gap_pair_t *pair, slope_t slope[
     }
 }
 
-static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const gap_pair_t *pair, why_t *why) {
+static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const gap_pair_t *pair,
+                           why_t *why) {
   slope_t slope[3] = {0};
   slopes(f, pair, slope);
   for (int k = 0; k < 3; k++) {
