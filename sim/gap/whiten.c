@@ -71,9 +71,8 @@ static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const
   double mean = 0.0;
   for (int i = 0; i < r->n; i++) mean += left[i] / r->n;
   for (int i = 0; i < r->n; i++) left[i] -= mean;
-  g->color[ch] = !residual_has(s, ch) ? (color_t){.used = false}
-                 : e->plain           ? color_plain(r, left)
-                                      : color_fit(r, left);
+  g->color[ch] = (color_t){.used = false};
+  if (residual_has(s, ch)) g->color[ch] = e->plain ? color_plain(r, left) : color_fit(r, left);
   free(left);
   return true;
 }

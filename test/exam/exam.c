@@ -107,7 +107,7 @@ static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
 
 static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, const model_t *truth,
                             why_t *why) {
-  double *r[CHANNELS], before;
+  double *r[CHANNELS], before = 1.0;
   color_t color[CHANNELS];
   status_t status = ST_OK;
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = calloc((size_t)set_rows(&d->held, ch)->n + 1, sizeof(double));
