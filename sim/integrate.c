@@ -9,6 +9,8 @@
 #include <string.h>
 #include <sundials/sundials_context.h>
 
+_Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
+
 struct integrate {
   integrate_kind_t kind;
   ode_t ode;

@@ -32,23 +32,14 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
 
 // c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
 static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
-  enum { TERMS_MAX = 16 };
-  const realtype *in[TERMS_MAX];
-  realtype factor[TERMS_MAX];
-  int used = 0;
+  const sunindextype n = NV_LENGTH_S(z);
+  realtype sum[SHORT_VECTOR_MAX] = {0.0};
   for (int k = 0; k < terms; k++) {
     if (c[k] == 0.0) continue;
-    if (used == TERMS_MAX) return -1;
-    in[used] = NV_DATA_S(x[k]);
-    factor[used++] = c[k];
+    const realtype factor = c[k], *in = NV_DATA_S(x[k]);
+    for (sunindextype i = 0; i < n; i++) sum[i] += factor * in[i];
   }
-  const sunindextype n = NV_LENGTH_S(z);
-  realtype *out = NV_DATA_S(z);
-  for (sunindextype i = 0; i < n; i++) {
-    realtype sum = 0.0;
-    for (int k = 0; k < used; k++) sum += factor[k] * in[k][i];
-    out[i] = sum;
-  }
+  memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
   return 0;
 }
 
@@ -61,7 +52,7 @@ static realtype wrms_norm(N_Vector x, N_Vector weight) {
 }
 
 N_Vector short_vector_new(int n, SUNContext context) {
-  N_Vector v = N_VNew_Serial(n, context);
+  N_Vector v = n <= SHORT_VECTOR_MAX ? N_VNew_Serial(n, context) : NULL;
   if (!v) return NULL;
   v->ops->nvconst = put_const;
   v->ops->nvscale = scale;

@@ -6,7 +6,10 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_nvector.h>
 
-// n numbers, all 0. Null: no memory. N_VDestroy frees it; its clones have the same operations.
+#define SHORT_VECTOR_MAX 32
+
+// n numbers, all 0. Null: n > SHORT_VECTOR_MAX, or no memory. N_VDestroy frees it; its clones have the same
+// operations.
 N_Vector short_vector_new(int n, SUNContext context);
 
 #endif
