@@ -79,8 +79,7 @@ static void sense(flight6_t *f, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
   const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
   ekf_in_t in = {
-      .acc_b_mps2 = imu.acc_b_mps2,
-      .gyro_b_radps = imu.gyro_b_radps,
+      .imu = imu,
       .motors = truth->motors,
       .range_new = range.down_new,
       .range_m = range.down_m,
@@ -90,12 +89,14 @@ static void sense(flight6_t *f, const truth_t *truth) {
       .flow_span_s = range.flow_span_s,
   };
   if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth, &in);
-  f->estimate = ekf_step(&f->ekf, &in);
+  // Taken before the update: it is what the update before this one finished.
+  f->estimate = f->ekf.out;
+  f->in.pos_w_m = f->ekf.out.pos_w_m;
+  f->in.vel_w_mps = f->ekf.out.vel_w_mps;
+  f->in.q_wb = f->ekf.out.q_wb;
+  ekf_update(&f->ekf, &in);
   f->in.gyro_b_radps = imu.gyro_b_radps;
   f->in.acc_b_mps2 = imu.acc_b_mps2;
-  f->in.pos_w_m = f->estimate.pos_w_m;
-  f->in.vel_w_mps = f->estimate.vel_w_mps;
-  f->in.q_wb = f->estimate.q_wb;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
   f->in.range_age_s = UP_AGE_S;
