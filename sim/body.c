@@ -215,7 +215,8 @@ static double rotor_z_m(const body_t *b, int i) {
 }
 
 double body_ceiling_gap_m(const body_t *b, int rotor) {
-  return fmax(0.0, b->touch.ceiling_m - rotor_z_m(b, rotor));
+  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
+  return gap_m > 0.0 ? gap_m : 0.0;
 }
 
 double body_ground_gap_m(const body_t *b, int rotor) {
