@@ -148,10 +148,10 @@ static void advance(body_t *b, double span_s) {
 }
 
 static void delay_commands(body_t *b, double span_s) {
-  const double ticks =
-      b->plant.delay_s > 0.0 ? fmin(round(b->plant.delay_s / span_s), BODY_QUEUE - 1.0) : 0.0;
+  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
+  const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
   memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
-  memcpy(b->rigid.command_N, b->queue_N[(b->queued - (unsigned)ticks) % BODY_QUEUE], sizeof b->command_N);
+  memcpy(b->rigid.command_N, b->queue_N[(b->queued - ticks) % BODY_QUEUE], sizeof b->command_N);
   b->queued++;
 }
 
@@ -173,7 +173,10 @@ static void tick(body_t *b, double span_s) {
 
 void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
   const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
-  for (int i = 0; i < ROTORS; i++) b->command_N[i] = fmin(fmax(command_N[i], min_N), max_N);
+  for (int i = 0; i < ROTORS; i++) {
+    const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
+    b->command_N[i] = command < max_N ? command : max_N;
+  }
   tick(b, span_s);
 }
 
@@ -212,7 +215,8 @@ static double rotor_z_m(const body_t *b, int i) {
 }
 
 double body_ceiling_gap_m(const body_t *b, int rotor) {
-  return fmax(0.0, b->touch.ceiling_m - rotor_z_m(b, rotor));
+  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
+  return gap_m > 0.0 ? gap_m : 0.0;
 }
 
 double body_ground_gap_m(const body_t *b, int rotor) {

@@ -2,12 +2,14 @@
 #include "integrate.h"
 
 #include "error.h"
+#include "short_vector.h"
 #include <arkode/arkode_erkstep.h>
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_context.h>
+
+_Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
 
 struct integrate {
   integrate_kind_t kind;
@@ -116,9 +118,8 @@ static bool erk_tune(integrate_t *s) {
 
 static bool erk_open(integrate_t *s) {
   if (SUNContext_Create(NULL, &s->sun) != 0) return false;
-  s->y = N_VNew_Serial(s->ode.n, s->sun);
+  s->y = short_vector_new(s->ode.n, s->sun);
   if (!s->y) return false;
-  N_VConst(0.0, s->y);
   s->erk = ERKStepCreate(erk_derivative, 0.0, s->y, s->sun);
   if (!s->erk) return false;
   return erk_tune(s) && ERKStepSetUserData(s->erk, s) == ARK_SUCCESS &&

@@ -19,6 +19,7 @@ typedef struct {
   imu_t imu;
   range_t range;
   mocap_t mocap;
+  ekf_in_t seen; // the pose is only there with motion capture
   ekf_t ekf;
   pilot6_in_t in;
   ekf_out_t estimate;
@@ -64,38 +65,38 @@ static truth_t truth_of(const flight6_t *f) {
 }
 
 // Motion capture in place of the downward sensors; its zero is the height at rest.
-static void see_by_mocap(flight6_t *f, const truth_t *truth, ekf_in_t *in) {
+static void see_by_mocap(flight6_t *f, const truth_t *truth) {
   truth_t seen = *truth;
   seen.pos_w_m.z -= body_rest_z_m(f->model);
   const mocap_sample_t pose = mocap_step(&f->mocap, &f->plan->mocap, f->random, &seen);
-  in->range_new = in->flow_new = false;
-  in->pose_new = pose.is_new;
-  in->pose_m = pose.pos_w_m;
-  in->pose_q = pose.q_wb;
+  f->seen.range_new = f->seen.flow_new = false;
+  f->seen.pose_new = pose.is_new;
+  f->seen.pose_m = pose.pos_w_m;
+  f->seen.pose_q = pose.q_wb;
 }
 
 // One millisecond of sensors and estimator, from what is true at the start of the tick.
 static void sense(flight6_t *f, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
   const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
-  ekf_in_t in = {
-      .acc_b_mps2 = imu.acc_b_mps2,
-      .gyro_b_radps = imu.gyro_b_radps,
-      .motors = truth->motors,
-      .range_new = range.down_new,
-      .range_m = range.down_m,
-      .flow_new = range.flow_new,
-      .flow_x = range.flow_x,
-      .flow_y = range.flow_y,
-      .flow_span_s = range.flow_span_s,
-  };
-  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth, &in);
-  f->estimate = ekf_step(&f->ekf, &in);
+  ekf_in_t *const seen = &f->seen;
+  seen->imu = imu;
+  seen->motors = truth->motors;
+  seen->range_new = range.down_new;
+  seen->range_m = range.down_m;
+  seen->flow_new = range.flow_new;
+  seen->flow_x = range.flow_x;
+  seen->flow_y = range.flow_y;
+  seen->flow_span_s = range.flow_span_s;
+  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth);
+  // Taken before the update: it is what the update before this one finished.
+  f->estimate = f->ekf.out;
+  f->in.pos_w_m = f->ekf.out.pos_w_m;
+  f->in.vel_w_mps = f->ekf.out.vel_w_mps;
+  f->in.q_wb = f->ekf.out.q_wb;
+  ekf_update(&f->ekf, seen);
   f->in.gyro_b_radps = imu.gyro_b_radps;
   f->in.acc_b_mps2 = imu.acc_b_mps2;
-  f->in.pos_w_m = f->estimate.pos_w_m;
-  f->in.vel_w_mps = f->estimate.vel_w_mps;
-  f->in.q_wb = f->estimate.q_wb;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
   f->in.range_age_s = UP_AGE_S;
@@ -153,6 +154,7 @@ static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s
 static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
   const int every = f->plan->record_every > 0 ? f->plan->record_every : RECORD_EVERY;
+  TRY(record6_reserve(record, more, (int)(ticks / every) + 1, why));
   for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
     const double t_s = (double)tick * LOOP6_TICK_S;
     order(f, t_s);

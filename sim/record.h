@@ -40,6 +40,10 @@ typedef struct {
   sample6_t *more; // as many, or a null pointer: flown on the vertical axis
 } record_t;
 
+// Makes room for so many samples in all: what is known beforehand need not be moved while it grows.
+// ST_FAILED: no memory; nothing has changed.
+MUST_CHECK status_t record_reserve(record_t *r, int room);
+
 // ST_FAILED: no memory; nothing was added.
 MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);
 

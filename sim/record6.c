@@ -10,7 +10,10 @@
 double record6_gap_m(const body_t *b) {
   if (b->model->ceiling_m - b->y[RIGID_POS_M + 2] > FAR_M) return body_ceiling_gap_m(b, 0);
   double gap_m = body_ceiling_gap_m(b, 0);
-  for (int i = 1; i < ROTORS; i++) gap_m = fmin(gap_m, body_ceiling_gap_m(b, i));
+  for (int i = 1; i < ROTORS; i++) {
+    const double other_m = body_ceiling_gap_m(b, i);
+    if (other_m < gap_m) gap_m = other_m;
+  }
   return gap_m;
 }
 
@@ -71,14 +74,22 @@ static sample6_t more_of(const tick6_t *t) {
   return s;
 }
 
+static status_t reserve6(record6_t *more, int room) {
+  if (room <= more->room) return ST_OK;
+  sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
+  if (!bigger) return ST_FAILED;
+  more->sample = bigger;
+  more->room = room;
+  return ST_OK;
+}
+
+status_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why) {
+  if (record_reserve(record, room) == ST_OK && reserve6(more, room) == ST_OK) return ST_OK;
+  return error_failed(why, "out of memory");
+}
+
 static status_t keep6(record6_t *more, int n, const sample6_t *sample) {
-  if (n > more->room) {
-    const int room = more->room ? 2 * more->room : 4096;
-    sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
-    if (!bigger) return ST_FAILED;
-    more->sample = bigger;
-    more->room = room;
-  }
+  if (n > more->room) TRY(reserve6(more, more->room ? 2 * more->room : 4096));
   more->sample[n - 1] = *sample;
   return ST_OK;
 }

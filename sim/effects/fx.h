@@ -45,8 +45,8 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
-  // The same for four rotors at once, out[i] at distance_m[i]; null: one by one.
-  void (*ratios)(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]);
+  // For four rotors at once: adds ratio - 1 at distance_m[i] to ratio[i]; null: one by one.
+  void (*add_excess)(const double *p, const double distance_m[ROTORS], double radius_m, double ratio[ROTORS]);
 } curve_t;
 
 extern const curve_t *const curve_table[];
@@ -162,7 +162,7 @@ const curve_t *curve_find(const char *name);
 
 // Adds the effect's excess at each rotor. The effect must have the hook.
 static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
-  if (!use->form || !use->form->ratios) {
+  if (!use->form || !use->form->add_excess) {
     for (int i = 0; i < ROTORS; i++) {
       const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
       ratio[i] += use->fx->excess(use, &place);
@@ -170,9 +170,7 @@ static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, dou
     return;
   }
   const double *gap_m = use->fx->surface == SURFACE_CEILING ? at->ceiling_gap_m : at->ground_gap_m;
-  double out[ROTORS];
-  use->form->ratios(use->p, gap_m, at->radius_m, out);
-  for (int i = 0; i < ROTORS; i += 2) pair_put(ratio + i, pair_of(ratio + i) + (pair_of(out + i) - 1.0));
+  use->form->add_excess(use->p, gap_m, at->radius_m, ratio);
 }
 
 // The effect with its first form (if it takes one) and nominal numbers.

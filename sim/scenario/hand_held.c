@@ -102,8 +102,7 @@ static void hand_ms(hand_t *s, long ms) {
   const imu_sample_t imu = imu_step(&s->imu, &s->noise->imu, s->random, &truth);
   const range_sample_t range = range_step(&s->range, &s->noise->range, s->random, &truth);
   const ekf_in_t in = {
-      .acc_b_mps2 = imu.acc_b_mps2,
-      .gyro_b_radps = imu.gyro_b_radps,
+      .imu = imu,
       .range_new = range.down_new,
       .range_m = range.down_m,
       .flow_new = range.flow_new,
