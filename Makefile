@@ -26,7 +26,7 @@ LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv 
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+SIM_SRC    = $(wildcard sim/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c sim/gap/*.c)
 SIM_CPP    = $(wildcard sim/*.cpp sim/io/*.cpp sim/plant/*.cpp)
 TEST_SRC   = $(wildcard test/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
