@@ -6,7 +6,7 @@ CXX = g++
 B   = out/release
 OPT = -O3
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
@@ -22,7 +22,7 @@ OMP_LIB = -lgomp
 else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
-LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)

@@ -14,11 +14,11 @@ static const model_t CUBIC = {
 static const model_t NEWTON = {.name = "newton", .thrust_max_N = 0.5};
 
 // The first row of a log.
-static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, unsigned need,
+static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, signals_t need,
                           log_row_t *row, why_t *why) {
   log_rows_t rows;
   bool more;
-  TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, need, why));
+  TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, LOG_STRICT, need, why));
   const status_t status = log_rows_next(&rows, row, &more, why);
   log_rows_close(&rows);
   return status;
@@ -86,11 +86,11 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
        "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
        "pitch, yaw, "
-       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range"},
+       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4"},
       {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
        "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
-      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rpm\"}\n",
-       "c.toml:3: unit: unknown unit `rpm` of m1; allowed: pwm, percent, share, N, mN, gram"},
+      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rps\"}\n",
+       "c.toml:3: unit: unknown unit `rps` of m1; allowed: pwm, percent, share, rad/s, rpm, N, mN, gram"},
       {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
       {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
        "c.toml:3: scale: 0; allowed: any other number"},
@@ -99,7 +99,7 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
        "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
       {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
-       "c.toml:4: m2: a command beside motors in newton; allowed: one of both"},
+       "c.toml:4: m2: a command in pwm beside one in N; allowed: all of one kind"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);

@@ -25,7 +25,7 @@ static double z_at(double t_s) {
 
 static status_t see(const char *path, double late_s, seen_t *s, why_t *why) {
   const columns_t c = columns_crazyflie();
-  const unsigned need = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_THRUST);
+  const signals_t need = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_THRUST);
   *s = (seen_t){0};
   flight_log_t *log;
   flight_tick_t tick;
