@@ -18,10 +18,12 @@ typedef struct {
   double *t_s;    // strictly increasing, uniform within a segment; the log's own zero
   // Per signal (io/columns.h): n numbers, NaN: none at this instant; null: not logged. SIG_A*: specific force
   // in body axes; SIG_QW..QZ: body to world, length 1, no jumps of sign; SIG_ROLL..YAW: always null (see
-  // SIG_Q*). SIG_M*: the argument of the vehicle's thrust map (0..65535, or rad/s), null if the log says
-  // newton. SIG_F*: newton of each motor in free air as commanded, by the map, whatever the log's unit; null
-  // if the map or the voltage it needs is missing. SIG_THRUST: of all together. SIG_VBAT: the last one known.
+  // SIG_Q*). SIG_Z: 0 at rest on the floor, if the columns file says where that is. SIG_M*: newton, or the
+  // argument of the vehicle's thrust map (0..65535, or rad/s). SIG_F*: newton of each motor in free air as
+  // commanded, by the map, whatever the log's unit; null if the map or the voltage it needs is missing.
+  // SIG_THRUST: of all together. SIG_VBAT: the last one known.
   double *v[SIG_COUNT];
+  bool motors_N;                // SIG_M*: newton
   double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
   double *range_up_m,
       *range_down_m; // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged
