@@ -30,10 +30,8 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row) {
 // A mean over the flight that is out of its bounds, with the unit that would bring it there.
 static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
                        double max, why_t *why) {
-  double factor;
-  char hint[80] = "";
-  const char *unit = columns_unit_within(&rows->columns, i, value, min, max, &factor);
-  if (unit) snprintf(hint, sizeof hint, "; the unit %s would fit (factor %g)", unit, factor);
+  char hint[COLUMNS_HINT];
+  columns_hint(&rows->columns, i, value, min, max, hint);
   return table_refuse(&rows->table, 0, rows->at[i], why,
                       "%s %.3g %s over the whole flight; allowed: %g to %g %s%s", what, value,
                       columns_si(&rows->columns, i), min, max, columns_si(&rows->columns, i), hint);

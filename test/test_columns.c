@@ -122,13 +122,13 @@ TEST(rows_are_refused_with_column_and_factor) {
        "log.csv:1: column stateEstimate.z: missing; needed: the signal `z`, named by --columns FILE"},
       {"height in mm", "timestamp,stateEstimate.z\n1,412\n",
        "log.csv:2: column stateEstimate.z: 412 m is not plausible; allowed: -30 to 100 m; the unit cm would "
-       "fit (factor 0.01)"},
+       "fit (factor 0.01), or mm would fit (factor 0.001)"},
       {"volts in mV", "timestamp,stateEstimate.z,pm.vbat\n1,0.4,3700\n",
        "log.csv:2: column pm.vbat: 3700 V is not plausible; allowed: 1 to 60 V; the unit mV would fit "
        "(factor 0.001)"},
       {"acceleration in m/s2", "timestamp,stateEstimate.z,acc.z\n1,0.4,30\n",
        "log.csv:2: column acc.z: 294.3 m/s2 is not plausible; allowed: -240 to 240 m/s2; the unit m/s2 would "
-       "fit (factor 0.101937)"},
+       "fit (factor 0.1019), or mg would fit (factor 0.001)"},
       {"quaternion",
        "timestamp,stateEstimate.z,stateEstimate.qw,stateEstimate.qx,stateEstimate.qy,stateEstimate.qz\n"
        "1,0.4,0.5,0,0,0\n",

@@ -119,7 +119,7 @@ static const struct {
      {10.0, 1, 1, 1, 9.81, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 96.2 m/s2 over the whole flight; allowed: 4.905 to "
      "14.715 m/s2; the unit "
-     "m/s2 would fit (factor 0.101937)"},
+     "m/s2 would fit (factor 0.1019)"},
     {"gravity taken out",
      {10.0, 1, 1, 1, 0.01, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 0.0981 m/s2 over the whole flight; allowed: 4.905 to "

@@ -17,23 +17,13 @@ static bool has(const gap_flight_t *f, signal_id_t first, int n) {
   return true;
 }
 
-// The unit in which a value would lie in its bounds, as a hint.
-static const char *hint(const log_rows_t *rows, signal_id_t i, double value, double min, double max,
-                        char text[80]) {
-  double factor;
-  const char *const unit = columns_unit_within(&rows->columns, i, value, min, max, &factor);
-  text[0] = '\0';
-  if (unit) snprintf(text, 80, "; the unit %s would fit (factor %.4g)", unit, factor);
-  return text;
-}
-
 static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
                        double max, why_t *why) {
-  char text[80];
+  char text[COLUMNS_HINT];
   const char *const si = columns_si(&rows->columns, i);
   return table_refuse(&rows->table, 0, rows->at[i], why,
                       "%s %.3g %s over the whole flight; allowed: %.4g to %.4g %s%s", what, value, si, min,
-                      max, si, hint(rows, i, value, min, max, text));
+                      max, si, columns_hint(&rows->columns, i, value, min, max, text));
 }
 
 static double size(double *const v[3], int i) {
@@ -101,8 +91,9 @@ static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
     if (b + SURE * stderr_b >= SLOPE_MIN && b - SURE * stderr_b <= SLOPE_MAX) continue;
-    char text[80] = "";
-    if (b > 0.0 && b * b * s->gg > 0.5 * s->mm) hint(rows, column, 1.0, b / 2.0, b * 2.0, text);
+    char text[COLUMNS_HINT] = "";
+    if (b > 0.0 && b * b * s->gg > 0.5 * s->mm)
+      columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
     return table_refuse(
         &rows->table, 0, rows->at[column], why,
         "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",
@@ -139,13 +130,14 @@ static double by_speed_N(const gap_flight_t *f, const model_t *vehicle, int i) {
 }
 
 static status_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
-  char text[80];
+  char text[COLUMNS_HINT];
   const double ratio = lift_ratio(f, &rows->vehicle, by_speed_N);
   if (!(ratio < 0.2 || ratio > 5.0)) return ST_OK;
   return table_refuse(
       &rows->table, 0, rows->at[SIG_W1], why,
       "rotors of vehicle %s at these speeds give %.3g times what its acceleration takes; allowed: 0.2 to 5%s",
-      rows->vehicle.name, ratio, hint(rows, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
+      rows->vehicle.name, ratio,
+      columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
 }
 
 static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {

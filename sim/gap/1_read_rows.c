@@ -104,11 +104,8 @@ static status_t tell_rate(raw_t *raw, const early_t *early, int n, const log_row
   raw->period_s = dt_s[(n - 1) / 2];
   const double min_s = 1.0 / RATE_MAX_HZ, max_s = 1.0 / RATE_MIN_HZ;
   if (!(raw->period_s >= min_s && raw->period_s <= max_s)) {
-    double factor;
-    const char *const unit =
-        columns_unit_within(&rows->columns, SIG_TIME, raw->period_s, min_s, max_s, &factor);
-    char hint[80] = "";
-    if (unit) snprintf(hint, sizeof hint, "; the unit %s would fit (factor %g)", unit, factor);
+    char hint[COLUMNS_HINT];
+    columns_hint(&rows->columns, SIG_TIME, raw->period_s, min_s, max_s, hint);
     return table_refuse(&rows->table, 0, rows->at[SIG_TIME], why,
                         "rows are apart by %.3g s; allowed: %.2g to %.2g s%s", raw->period_s, min_s, max_s,
                         hint);

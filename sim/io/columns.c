@@ -93,15 +93,20 @@ void columns_bounds(const columns_t *c, signal_id_t signal, double *min, double 
   }
 }
 
-const char *columns_unit_within(const columns_t *c, signal_id_t signal, double value, double min, double max,
-                                double *factor) {
+const char *columns_hint(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                         char text[COLUMNS_HINT]) {
   const kind_t kind = kind_of(c, signal);
   const unit_t *const now = unit_find(kind, c->of[signal].unit), *unit;
+  int n = 0;
+  text[0] = '\0';
   for (int i = 0; now && (unit = unit_at(kind, i)) != NULL; i++) {
-    *factor = unit->si / now->si;
-    if (value * *factor >= min && value * *factor <= max) return unit->name;
+    const double factor = unit->si / now->si;
+    if (!(value * factor >= min && value * factor <= max)) continue;
+    const size_t used = strlen(text);
+    snprintf(text + used, COLUMNS_HINT - used, "%s %s would fit (factor %.4g)", n++ ? ", or" : "; the unit",
+             unit->name, factor);
   }
-  return NULL;
+  return text;
 }
 
 columns_t columns_crazyflie(void) {

@@ -107,9 +107,10 @@ const char *columns_si(const columns_t *c, signal_id_t signal);
 // Bounds of what is plausible, in SI.
 void columns_bounds(const columns_t *c, signal_id_t signal, double *min, double *max);
 
-// The unit in which a value (SI, as read) would lie in min..max, and the factor to it; a null pointer if none
-// is.
-const char *columns_unit_within(const columns_t *c, signal_id_t signal, double value, double min, double max,
-                                double *factor);
+// The units in which a value (SI, as read) would lie in min..max, with the factors to them, as the end of a
+// message: "; the unit mm would fit (factor 0.001)". Empty if there is none. Returns text.
+#define COLUMNS_HINT 120
+const char *columns_hint(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                         char text[COLUMNS_HINT]);
 
 #endif

@@ -70,13 +70,12 @@ void log_rows_close(log_rows_t *r) {
 }
 
 static status_t implausible(const log_rows_t *r, signal_id_t i, double value, why_t *why) {
-  double min, max, factor;
+  double min, max;
+  char hint[COLUMNS_HINT];
   columns_bounds(&r->columns, i, &min, &max);
-  char hint[64] = "";
-  const char *unit = columns_unit_within(&r->columns, i, value, min, max, &factor);
-  if (unit) snprintf(hint, sizeof hint, "; the unit %s would fit (factor %g)", unit, factor);
   return table_refuse(&r->table, 0, r->at[i], why, "%g %s is not plausible; allowed: %g to %g %s%s", value,
-                      columns_si(&r->columns, i), min, max, columns_si(&r->columns, i), hint);
+                      columns_si(&r->columns, i), min, max, columns_si(&r->columns, i),
+                      columns_hint(&r->columns, i, value, min, max, hint));
 }
 
 static status_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
