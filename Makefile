@@ -53,7 +53,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -106,6 +106,10 @@ $(B)/bin/exam: $(call objects,$(EXAM_SRC)) $(SIM_OBJ)
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 
+$(B)/bin/fuzz_%: $(B)/test/fuzz/fuzz_%.o $(call objects,test/fuzz/fuzz.c test/flight_csv.c test/usd_bytes.c test/scratch.c) $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CXX) $(SANITIZE) -fsanitize=fuzzer $^ $(LIBS) -o $@
+
 $(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 	@ln -sf $(<:out/%=%) $@
 
@@ -138,6 +142,12 @@ sanitize:  ## the tests with address and undefined-behaviour sanitizers
 clang: setup-lint  ## everything again, and the tests, with clang
 	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
+
+FUZZ_S = 60
+fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each
+	@$(MAKE) B=out/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' out/fuzz/bin/fuzz_csv out/fuzz/bin/fuzz_usd
+	@mkdir -p out/fuzz/csv out/fuzz/usd
+	@cd out/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
 
 bench: out/bench  ## how fast it is, as ratios to real time
 	@out/bench

@@ -44,6 +44,12 @@ static bool all_gaps(const raw_t *raw, const double *v) {
   return true;
 }
 
+static bool logged(const raw_t *raw, signals_t signals) {
+  for (int i = 0; i < SIG_COUNT; i++)
+    if ((signals & SIGNAL_BIT(i)) && !raw->v[i]) return false;
+  return true;
+}
+
 // What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
 // and what has no value anywhere.
 static status_t drop_rest(raw_t *raw, const log_rows_t *rows, why_t *why) {
@@ -57,6 +63,9 @@ static status_t drop_rest(raw_t *raw, const log_rows_t *rows, why_t *why) {
   if (!any)
     return table_refuse(&rows->table, 1, -1, why,
                         "no signal of a flight; allowed: columns of --columns FILE");
+  // Three quarters of an attitude are none.
+  const bool whole = logged(raw, ATTITUDE);
+  for (int i = SIG_QW; i <= SIG_QZ && !whole; i++) raw_drop(raw, (signal_id_t)i);
   const double rest_m = rows->columns.rest_height_m;
   for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
   return ST_OK;
@@ -68,7 +77,7 @@ static status_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t 
   f->cells_missing = rows->missing;
   f->rows = raw->rows;
   f->motors_N = rows->columns.motors == MOTORS_N;
-  if (rows->bad > BAD_SHARE * (double)raw->rows)
+  if ((double)rows->bad > BAD_SHARE * (double)raw->rows)
     return table_refuse(&rows->table, rows->bad_line, rows->bad_column, why,
                         "not a number, the first of %ld such cells in %ld rows; allowed: 5 %%", rows->bad,
                         raw->rows);
@@ -94,12 +103,6 @@ static status_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t 
 
 // --- the streams' times
 // -------------------------------------------------------------------------------------
-
-static bool logged(const raw_t *raw, signals_t signals) {
-  for (int i = 0; i < SIG_COUNT; i++)
-    if ((signals & SIGNAL_BIT(i)) && !raw->v[i]) return false;
-  return true;
-}
 
 static void set_shift(double shift_s[SIG_COUNT], signals_t signals, double late_s) {
   for (int i = 0; i < SIG_COUNT; i++)

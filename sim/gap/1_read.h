@@ -63,12 +63,11 @@ typedef struct {
   signal_id_t driver;                                           // the first of its three columns
   double span_s, least;                                         // a window's length; what is a movement
   bool (*at)(const gap_flight_t *f, int i, int m, window_t *w); // false: not all there
-} gap_pair_t;
+} drive_t;
 
-extern const gap_pair_t GAP_TURN, GAP_PUSH,
-    GAP_GO; // attitude by gyro, velocity by force, position by velocity
+extern const drive_t GAP_TURN, GAP_PUSH, GAP_GO; // attitude by gyro, velocity by force, position by velocity
 
 // Samples of a window.
-int gap_pair_samples(const gap_flight_t *f, const gap_pair_t *pair);
+int gap_drive_samples(const gap_flight_t *f, const drive_t *drive);
 
 #endif

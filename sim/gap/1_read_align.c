@@ -90,12 +90,12 @@ static bool go(const gap_flight_t *f, int i, int m, window_t *w) {
   return isfinite(all);
 }
 
-const gap_pair_t GAP_TURN = {"the attitude turns", "the gyro", SIG_GX, 0.1, 0.01, turn};
-const gap_pair_t GAP_PUSH = {"the velocity changes", "the acceleration", SIG_AX, 0.2, 0.1, push};
-const gap_pair_t GAP_GO = {"the position moves", "the velocity", SIG_VX, 0.3, 0.02, go};
+const drive_t GAP_TURN = {"the attitude turns", "the gyro", SIG_GX, 0.1, 0.01, turn};
+const drive_t GAP_PUSH = {"the velocity changes", "the acceleration", SIG_AX, 0.2, 0.1, push};
+const drive_t GAP_GO = {"the position moves", "the velocity", SIG_VX, 0.3, 0.02, go};
 
-int gap_pair_samples(const gap_flight_t *f, const gap_pair_t *pair) {
-  const int m = (int)(pair->span_s * f->rate_Hz + 0.5);
+int gap_drive_samples(const gap_flight_t *f, const drive_t *drive) {
+  const int m = (int)(drive->span_s * f->rate_Hz + 0.5);
   return m < 2 ? 2 : m;
 }
 
@@ -117,12 +117,12 @@ static double late_of(const sums_t s[3], int from, double *weight) {
   return -(ed * gg - eg * gd) / det;
 }
 
-static skew_t skew_of(const gap_flight_t *f, const gap_pair_t *pair, int from) {
-  const int m = gap_pair_samples(f, pair), step = m / 4 > 0 ? m / 4 : 1;
+static skew_t skew_of(const gap_flight_t *f, const drive_t *drive, int from) {
+  const int m = gap_drive_samples(f, drive), step = m / 4 > 0 ? m / 4 : 1;
   sums_t sums[PARTS][3] = {0};
   for (int i = 0; i + m < f->n; i += step) {
     window_t w;
-    if (f->segment[i] != f->segment[i + m] || !pair->at(f, i, m, &w)) continue;
+    if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
     for (int k = 0; k < 3; k++) {
       sums_t *const s = &sums[(long)PARTS * i / f->n][k];
       const double e = w.moved[k] - w.driven[k], g = w.driven[k], d = w.ends[k];

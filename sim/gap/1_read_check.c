@@ -62,32 +62,31 @@ typedef struct {
 } slope_t;
 
 // The slope of what moves against what drives it, over the windows in which one of both does.
-static void slopes(const gap_flight_t *f, const gap_pair_t *pair, slope_t slope[3]) {
-  const int m = gap_pair_samples(f, pair);
+static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
+  const int m = gap_drive_samples(f, drive);
   double n = 0.0;
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i + m < f->n; i += m) {
       window_t w;
-      if (f->segment[i] != f->segment[i + m] || !pair->at(f, i, m, &w)) continue;
+      if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
       n += pass == 0;
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.
         if (pass == 0) slope[k].mean += (w.driven[k] - slope[k].mean) / n;
         const double g = w.driven[k] - slope[k].mean, moved = w.moved[k];
-        if (pass == 0 || (fabs(g) < pair->least && fabs(moved) < pair->least)) continue;
+        if (pass == 0 || (fabs(g) < drive->least && fabs(moved) < drive->least)) continue;
         slope[k].n += 1.0;
         slope[k].gg += g * g, slope[k].mg += moved * g, slope[k].mm += moved * moved;
       }
     }
 }
 
-static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const gap_pair_t *pair,
-                           why_t *why) {
+static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
   slope_t slope[3] = {0};
-  slopes(f, pair, slope);
+  slopes(f, drive, slope);
   for (int k = 0; k < 3; k++) {
     const slope_t *const s = &slope[k];
-    const signal_id_t column = (signal_id_t)((int)pair->driver + k);
+    const signal_id_t column = (signal_id_t)((int)drive->driver + k);
     if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
@@ -98,7 +97,7 @@ static status_t check_pair(const gap_flight_t *f, const log_rows_t *rows, const 
     return table_refuse(
         &rows->table, 0, rows->at[column], why,
         "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",
-        pair->moves, b, 'x' + k, pair->by, text);
+        drive->moves, b, 'x' + k, drive->by, text);
   }
   return ST_OK;
 }
@@ -160,9 +159,9 @@ static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, wh
 
 status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   TRY(check_acceleration(f, rows, why));
-  if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_pair(f, rows, &GAP_TURN, why));
-  if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_pair(f, rows, &GAP_GO, why));
-  if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_pair(f, rows, &GAP_PUSH, why));
+  if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
+  if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
+  if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_drive(f, rows, &GAP_PUSH, why));
   TRY(check_commands(f, rows, why));
   return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : ST_OK;
 }
