@@ -66,6 +66,7 @@ static status_t judge(nominal_t *n, int i, set_t *s, const model_t *base, const 
   gram_t g;
   cell_t cell;
   double *residual[CHANNELS];
+  const explained_t nothing = {.n = 0};
   TRY(table_make(&t, s, base, none, why));
   for (int ch = 0; ch < CHANNELS; ch++) {
     residual[ch] = t.x[ch][t.columns];
@@ -74,7 +75,7 @@ static status_t judge(nominal_t *n, int i, set_t *s, const model_t *base, const 
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
     n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
   }
-  status_t status = gram_make(&g, s, &t, NULL, why);
+  status_t status = gram_make(&g, s, &t, &nothing, NULL, why);
   if (status == ST_OK) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
