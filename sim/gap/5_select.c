@@ -199,7 +199,7 @@ static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why
     color[ch].used = color[ch].used && t->table.x[ch][t->c->candidate[candidate].first];
   }
   status_t status = left_by(t, &rest, left, why);
-  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, &cell, why);
+  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, false, &cell, why);
   for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
   const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
   *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;

@@ -73,7 +73,7 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
 
 static status_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
-  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, &d->cell, why));
+  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
   double most = 0.0;
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);

@@ -80,7 +80,7 @@ static status_t judge(nominal_t *n, int i, set_t *s, const model_t *base, const 
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
     gram_free(&g);
-    status = unknown_largest(s, base, residual, NULL, &cell, why);
+    status = unknown_largest(s, base, residual, NULL, true, &cell, why);
     n->cell[i] = cell.statistic;
   }
   table_free(&t);
