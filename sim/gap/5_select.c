@@ -54,7 +54,7 @@ static status_t open_round(select_t *t, why_t *why) {
   double b[COLUMN_MAX];
   for (int i = 0; i < t->choice.n; i++)
     for (int k = 0; k < c->candidate[t->choice.of[i]].n; k++)
-      b[n++] = *candidate_value((candidate_t *)&c->candidate[t->choice.of[i]], k);
+      b[n++] = *candidate_value(&c->candidate[t->choice.of[i]], k);
   const explained_t known = {choice_columns(c, &t->choice, column), column, b, false};
   TRY(table_make(&t->table, t->s, t->base, c, why));
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);

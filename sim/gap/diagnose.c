@@ -65,9 +65,9 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   // flights are to show.
   memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
   d->manner.turn_tau_s = raw.turn_tau_s;
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &d->manner, job->seed};
+  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == ST_OK;
   forget(&d->candidates);
-  d->nominal_flew =
-      nominal_make(&d->nominal, &d->fit, job->model, &d->candidates, &d->manner, job->seed, why) == ST_OK;
   return ST_OK;
 }
 
