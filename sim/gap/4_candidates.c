@@ -57,8 +57,8 @@ void candidates_free(candidates_t *c) {
   *c = (candidates_t){.n = 0};
 }
 
-double *candidate_value(candidate_t *c, int k) {
-  return &c->use.p[c->use.fx->size[k].param];
+double *candidate_value(const candidate_t *c, int k) {
+  return (double *)&c->use.p[c->use.fx->size[k].param];
 }
 
 double candidate_typical(const candidate_t *c, int k) {
@@ -173,7 +173,7 @@ static void add_named(table_t *t, const set_t *s, const candidates_t *c) {
     for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
       for (int ch = 0; ch < CHANNELS; ch++) {
         const double *x = t->x[ch][c->candidate[i].first + k];
-        const double value = *candidate_value((candidate_t *)&c->candidate[i], k);
+        const double value = *candidate_value(&c->candidate[i], k);
         for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] += value * x[r];
       }
 }

@@ -26,7 +26,7 @@ MUST_CHECK status_t candidates_make(candidates_t *c, const model_t *m, const set
 void candidates_free(candidates_t *c);
 
 // The number of candidate i's size k.
-double *candidate_value(candidate_t *c, int k);
+double *candidate_value(const candidate_t *c, int k);
 // What is typical of it; never 0.
 double candidate_typical(const candidate_t *c, int k);
 

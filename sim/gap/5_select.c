@@ -20,7 +20,8 @@ typedef struct {
   table_t table;
   gram_t gram;
   judge_t judge;
-  int *taken; // by candidate: how often it was taken in
+  bool strict; // colours of what is named alone, not of all candidates
+  int *taken;  // by candidate: how often it was taken in
 } select_t;
 
 static const fx_t *fx_of(const select_t *t, int candidate) {
@@ -49,9 +50,16 @@ static void close_round(select_t *t) {
 // Columns, colours and products about the present values.
 static status_t open_round(select_t *t, why_t *why) {
   const candidates_t *c = t->c;
+  int column[COLUMN_MAX], n = 0;
+  double b[COLUMN_MAX];
+  for (int i = 0; i < t->choice.n; i++)
+    for (int k = 0; k < c->candidate[t->choice.of[i]].n; k++)
+      b[n++] = *candidate_value(&c->candidate[t->choice.of[i]], k);
+  const explained_t known = {choice_columns(c, &t->choice, column), column, b, false};
   TRY(table_make(&t->table, t->s, t->base, c, why));
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
-  if (status == ST_OK) status = gram_make(&t->gram, t->s, &t->table, t->judge.ridge, why);
+  if (status == ST_OK)
+    status = gram_make(&t->gram, t->s, &t->table, &known, t->strict ? NULL : t->judge.color_ridge, why);
   if (status != ST_OK) close_round(t);
   return status;
 }
@@ -191,7 +199,7 @@ static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why
     color[ch].used = color[ch].used && t->table.x[ch][t->c->candidate[candidate].first];
   }
   status_t status = left_by(t, &rest, left, why);
-  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, &cell, why);
+  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, false, &cell, why);
   for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
   const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
   *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;
@@ -210,7 +218,7 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   return ST_OK;
 }
 
-static status_t search(select_t *t, why_t *why) {
+static status_t look(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
     bool changed = prune_one(t) || swap_one(t) || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
@@ -218,6 +226,18 @@ static status_t search(select_t *t, why_t *why) {
     TRY(settle(t, why));
   }
   return ST_OK;
+}
+
+// First in the colours that would be left if everything that can be named were there: they show what is slow.
+// Then in those of what the named effects really leave: what a vehicle has of slow disturbance is noise
+// there.
+static status_t search(select_t *t, why_t *why) {
+  TRY(look(t, why));
+  t->strict = true;
+  memset(t->taken, 0, (size_t)t->c->n * sizeof(int));
+  close_round(t);
+  TRY(open_round(t, why));
+  return look(t, why);
 }
 
 // --- what was found

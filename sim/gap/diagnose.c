@@ -65,15 +65,15 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   // flights are to show.
   memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
   d->manner.turn_tau_s = raw.turn_tau_s;
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &d->manner, job->seed};
+  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == ST_OK;
   forget(&d->candidates);
-  d->nominal_flew =
-      nominal_make(&d->nominal, &d->fit, job->model, &d->candidates, &d->manner, job->seed, why) == ST_OK;
   return ST_OK;
 }
 
 static status_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
-  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, &d->cell, why));
+  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
   double most = 0.0;
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);

@@ -60,13 +60,25 @@ static status_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, w
   return status;
 }
 
-static status_t judge(nominal_t *n, int i, set_t *s, const model_t *base, const candidates_t *none,
-                      why_t *why) {
+// The residual of the flown model, without what table_make adds of the effects that it has.
+static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
+  for (int i = 0; i < c->n; i++)
+    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
+      for (int ch = 0; ch < CHANNELS; ch++) {
+        const double *x = t->x[ch][c->candidate[i].first + k];
+        const double value = *candidate_value(&c->candidate[i], k);
+        for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] -= value * x[r];
+      }
+}
+
+static status_t judge(nominal_t *n, int i, set_t *s, const nominal_job_t *job, why_t *why) {
   table_t t;
   gram_t g;
   cell_t cell;
   double *residual[CHANNELS];
-  TRY(table_make(&t, s, base, none, why));
+  const explained_t nothing = {.n = 0};
+  TRY(table_make(&t, s, job->base, job->c, why));
+  take_named(&t, s, job->c);
   for (int ch = 0; ch < CHANNELS; ch++) {
     residual[ch] = t.x[ch][t.columns];
     const int rows = set_rows(s, ch)->n;
@@ -74,49 +86,39 @@ static status_t judge(nominal_t *n, int i, set_t *s, const model_t *base, const 
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
     n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
   }
-  status_t status = gram_make(&g, s, &t, NULL, why);
+  status_t status = gram_make(&g, s, &t, &nothing, NULL, why);
   if (status == ST_OK) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
     gram_free(&g);
-    status = unknown_largest(s, base, residual, NULL, &cell, why);
+    status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
     n->cell[i] = cell.statistic;
   }
   table_free(&t);
   return status;
 }
 
-static status_t one(nominal_t *n, int i, const set_t *s, const model_t *base, const candidates_t *none,
-                    const manner_t *w, unsigned long seed, why_t *why) {
+static status_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
+  const set_t *s = job->set;
   gap_flights_t flown = {.flight = calloc((size_t)s->n_grid, sizeof(gap_flight_t))};
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
-  status_t status = fly_all(&flown, s, base, w, seed, why);
-  if (status == ST_OK) status = set_of(&own, &flown, base, why);
+  status_t status = fly_all(&flown, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  if (status == ST_OK) status = set_of(&own, &flown, job->base, why);
   memcpy(own.muted, s->muted, sizeof own.muted);
-  if (status == ST_OK) status = judge(n, i, &own, base, none, why);
+  if (status == ST_OK) status = judge(n, i, &own, job, why);
   set_free(&own);
   for (int f = 0; f < flown.n; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
   return status;
 }
 
-status_t nominal_make(nominal_t *n, const set_t *s, const model_t *base, const candidates_t *c,
-                      const manner_t *w, unsigned long seed, why_t *why) {
-  *n = (nominal_t){.size = c->columns + 1};
+status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
+  *n = (nominal_t){.size = job->c->columns + 1};
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
   n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
-  candidates_t none = *c;
-  none.candidate = malloc(((size_t)c->n + 1) * sizeof(candidate_t));
-  status_t status = n->total && n->cell && none.candidate ? ST_OK : error_failed(why, "out of memory");
-  for (int i = 0; status == ST_OK && i < c->n; i++) {
-    none.candidate[i] = c->candidate[i];
-    none.candidate[i].named = false;
-    for (int k = 0; k < c->candidate[i].n; k++) *candidate_value(&none.candidate[i], k) = 0.0;
-  }
-  for (int i = 0; i < NOMINAL_FLIGHTS && status == ST_OK; i++, n->n++)
-    status = one(n, i, s, base, &none, w, seed + (unsigned long)i, why);
-  free(none.candidate);
+  status_t status = n->total && n->cell ? ST_OK : error_failed(why, "out of memory");
+  for (int i = 0; i < NOMINAL_FLIGHTS && status == ST_OK; i++, n->n++) status = one(n, i, job, why);
   if (status != ST_OK) nominal_free(n);
   return status;
 }

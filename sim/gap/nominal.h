@@ -30,10 +30,20 @@ manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHAN
 MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
                                 gap_flight_t *flight, why_t *why);
 
-// NOMINAL_FLIGHTS times all flights of the set: sums of products of the candidates' columns, and the largest
-// cell of each (unknown.h). ST_FAILED as above.
-MUST_CHECK status_t nominal_make(nominal_t *n, const set_t *s, const model_t *base, const candidates_t *c,
-                                 const manner_t *manner, unsigned long seed, why_t *why);
+// What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
+// estimate is an error.
+typedef struct {
+  const set_t *set;
+  const model_t *base;   // without
+  model_t flown;         // with
+  const candidates_t *c; // marks and values
+  const manner_t *manner;
+  unsigned long seed;
+} nominal_job_t;
+
+// NOMINAL_FLIGHTS times all flights of the set: sums of products of the candidates' columns with the
+// residual, and the largest cell of each (unknown.h). ST_FAILED as above.
+MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 
 #endif

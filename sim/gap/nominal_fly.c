@@ -198,7 +198,8 @@ static status_t take_off(flight_t6 *f, const model_t *m, unsigned long seed, why
   const point_t *p = &f->g->point[f->from];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
-  if (body_open(&f->body, m, INTEGRATE_RK4, STEP_S, &start) != ST_OK)
+  // Motors faster than the step need a finer one.
+  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
     return error_failed(why, "%s: a model that cannot be flown", m->name);
   f->random = random_open(seed + 1);
   return f->random ? ST_OK : error_failed(why, "out of memory");

@@ -13,12 +13,16 @@
 
 status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
                     why_t *why) {
-  *j = (judge_t){.c = c, .g = g, .nominal = nominal, .ridge = calloc((size_t)c->columns + 1, sizeof(double))};
+  *j = (judge_t){
+      .c = c, .g = g, .nominal = nominal, .ridge = calloc(2 * (size_t)c->columns + 2, sizeof(double))};
   if (!j->ridge) return error_failed(why, "out of memory");
+  j->color_ridge = j->ridge + c->columns + 1;
   for (int i = 0; i < c->n; i++)
     for (int k = 0; k < c->candidate[i].n; k++) {
       const double typical = FAR * candidate_typical(&c->candidate[i], k);
-      j->ridge[c->candidate[i].first + k] = 1.0 / (typical * typical);
+      const int column = c->candidate[i].first + k;
+      j->ridge[column] = 1.0 / (typical * typical);
+      j->color_ridge[column] = c->candidate[i].use.fx->only_beside_nominal ? 1e30 : j->ridge[column];
     }
   return ST_OK;
 }

@@ -13,7 +13,8 @@ typedef struct {
   const candidates_t *c;
   const gram_t *g;
   const nominal_t *nominal;
-  double *ridge; // by column: keeps what a half-flight does not show near 0
+  double *ridge;       // by column: keeps what a half-flight does not show near 0
+  double *color_ridge; // the same, and at 0 what disturbance cancelled by control looks like
 } judge_t;
 
 MUST_CHECK status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,

@@ -128,8 +128,8 @@ static void add_up(products_t *p, const rows_t *r, const color_t *c, const doubl
   }
 }
 
-static void look_at(const products_t *p, int channel, int coordinate, const double edge[BINS + 1],
-                    cell_t *cell) {
+static void look_at(const products_t *p, bool centred, int channel, int coordinate,
+                    const double edge[BINS + 1], cell_t *cell) {
   const double all = p->D[BINS][BINS];
   if (!(all > 0.0)) return;
   for (int from = 0; from < BINS; from++) {
@@ -138,7 +138,8 @@ static void look_at(const products_t *p, int channel, int coordinate, const doub
       y += p->y[to];
       cross += p->D[to][BINS];
       for (int k = from; k <= to; k++) own += (k == to ? 1.0 : 2.0) * p->D[k][to];
-      const double free_y = y - cross / all * p->y[BINS], free_own = own - cross * cross / all;
+      const double share = centred ? cross / all : 0.0;
+      const double free_y = y - share * p->y[BINS], free_own = own - share * cross;
       if (!(free_own > 1e-3 * own)) continue;
       const double statistic = fabs(free_y) / sqrt(free_own);
       if (statistic > cell->statistic)
@@ -150,7 +151,7 @@ static void look_at(const products_t *p, int channel, int coordinate, const doub
 }
 
 static void scan(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
-                 const color_t *color, double *room, int *bin, cell_t *cell) {
+                 const color_t *color, bool centred, double *room, int *bin, cell_t *cell) {
   products_t p;
   double edge[BINS + 1];
   for (int list = 0; list < 2; list++) {
@@ -162,7 +163,7 @@ static void scan(const set_t *s, const model_t *m, int coordinate, double *const
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
       if (!color[ch].used) continue;
       add_up(&p, r, &color[ch], residual[ch], bin);
-      look_at(&p, ch, coordinate, edge, cell);
+      look_at(&p, centred, ch, coordinate, edge, cell);
     }
   }
 }
@@ -224,14 +225,14 @@ static status_t find_colors(const set_t *s, const model_t *m, double *const resi
 }
 
 status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                         const color_t *color, cell_t *cell, why_t *why) {
+                         const color_t *color, bool centred, cell_t *cell, why_t *why) {
   color_t own[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
   if (!color) TRY(find_colors(s, m, residual, own, why));
   double *const room = malloc(2 * most_rows(s) * sizeof(double));
   int *const bin = malloc(most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++)
-    scan(s, m, i, residual, color ? color : own, room, bin, cell);
+    scan(s, m, i, residual, color ? color : own, centred, room, bin, cell);
   const bool good = room && bin;
   free(room);
   free(bin);

@@ -25,7 +25,7 @@ MUST_CHECK status_t unknown_clean(const set_t *s, const model_t *m, double *cons
 // The colours are those of the residual after such cleaning. ST_FAILED: no memory. residual: by channel and
 // row.
 MUST_CHECK status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                    const color_t *color, cell_t *cell, why_t *why);
+                                    const color_t *color, bool centred, cell_t *cell, why_t *why);
 
 // Coordinates, for those who look where something lies.
 extern const int coordinate_count;

@@ -48,14 +48,6 @@ void color_whiten(const color_t *c, const rows_t *r, const double *v, double *ou
     out[i] = color_reaches(r, i) ? per_sd * (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) : 0.0;
 }
 
-// What is known before: columns, their values.
-typedef struct {
-  int n;
-  const int *column;
-  const double *b;
-  bool plain;
-} explained_t;
-
 // The colour of what some columns leave, apart from its mean; plain: its spread alone.
 static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const explained_t *e) {
   const int n = e->n, *column = e->column;
@@ -175,10 +167,10 @@ static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ri
   return good;
 }
 
-status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ridge, why_t *why) {
+status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known, const double *ridge,
+                   why_t *why) {
   *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
   const size_t room = (size_t)(g->size * g->size);
-  const explained_t nothing = {.n = 0};
   g->block = calloc((size_t)g->n_block * room, sizeof(double));
   g->by_half = calloc((size_t)g->n_half * room, sizeof(double));
   g->total = calloc(room, sizeof(double));
@@ -187,7 +179,7 @@ status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ri
     g->by_group[i] = calloc((size_t)g->n_half * room, sizeof(double));
     good = good && g->by_group[i];
   }
-  if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, &nothing);
+  if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, known);
   if (good) return ST_OK;
   gram_free(g);
   return error_failed(why, "out of memory");

@@ -30,8 +30,18 @@ color_t color_fit(const rows_t *r, const double *v);
 void color_whiten(const color_t *color, const rows_t *r, const double *v, double *out);
 bool color_reaches(const rows_t *r, int row); // it has two before it
 
-// The colours are those of the residual, or with a ridge (by column) of what all columns together leave.
-MUST_CHECK status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const double *ridge, why_t *why);
+// What is taken to be known of the residual: columns and their values.
+typedef struct {
+  int n;
+  const int *column;
+  const double *b;
+  bool plain; // no colour, spread alone
+} explained_t;
+
+// The colours are those of what `known` leaves, or with a ridge (by column) of what all columns together
+// leave.
+MUST_CHECK status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known,
+                              const double *ridge, why_t *why);
 void gram_free(gram_t *g);
 
 #endif
