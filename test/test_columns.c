@@ -171,60 +171,61 @@ TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
             .rotor_spin = {1.0, -1.0, 1.0, -1.0},                                                            \
             .torque_ratio_m = 0.01}
 
+static const model_t PWM = {
+    .name = "pwm", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_PWM_CUBIC, .c = {0.0, 1.0}}};
+static const model_t SPEED = {
+    .name = "speed", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_SPEED, .c = {0.0, 0.0, 1e-6}}};
+static const struct {
+  const char *what, *columns;
+  double cell[4];
+  const model_t *vehicle;
+  double want_N[4];
+  bool at_limit;
+} motor_row[] = {
+    {"pwm", MOTORS4("pwm"), {6553.5, 13107.0, 19660.5, 26214.0}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 40.0}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"full percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 100.0}, &PWM, {0.1, 0.2, 0.3, 1.0}, true},
+    {"share", MOTORS4("share"), {0.1, 0.2, 0.3, 0.4}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"rad/s", MOTORS4("rad/s"), {100.0, 200.0, 300.0, 400.0}, &SPEED, {0.01, 0.04, 0.09, 0.16}, false},
+    {"rpm", MOTORS4("rpm"), {954.929659, 1909.859317, 0.0, 0.0}, &SPEED, {0.01, 0.04, 0.0, 0.0}, false},
+    {"mN", MOTORS4("mN"), {100.0, 200.0, 300.0, 400.0}, &NEWTON, {0.1, 0.2, 0.3, 0.4}, true},
+    // Thrust 1; right to left 0.1 (0.3 + 0.4 - 0.1 - 0.2), back to front 0.1 (0.2 + 0.3 - 0.1 - 0.4),
+    // drag 0.01 (0.2 + 0.4 - 0.1 - 0.3).
+    {"thrust and torques", MIXED("N", "Nm"), {1.0, 0.04, 0.0, 0.002}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"mixer's pwm",
+     MIXED("pwm", "pwm"),
+     {32767.5, 13107.0, 6553.5, 655.35},
+     &PWM,
+     {0.46, 0.34, 0.56, 0.64},
+     false},
+    {"mixer at its limit",
+     MIXED("pwm", "pwm"),
+     {60000.0, 20000.0, 0.0, 0.0},
+     &PWM,
+     {50000.0 / 65535.0, 50000.0 / 65535.0, 1.0, 1.0},
+     true},
+};
+
 TEST(motor_commands_of_every_kind_become_newton_of_each_motor) {
-  const model_t pwm = {
-      .name = "pwm", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_PWM_CUBIC, .c = {0.0, 1.0}}};
-  const model_t speed = {
-      .name = "speed", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_SPEED, .c = {0.0, 0.0, 1e-6}}};
-  const struct {
-    const char *what, *columns;
-    double cell[4];
-    const model_t *vehicle;
-    double want_N[4];
-    bool at_limit;
-  } row[] = {
-      {"pwm", MOTORS4("pwm"), {6553.5, 13107.0, 19660.5, 26214.0}, &pwm, {0.1, 0.2, 0.3, 0.4}, false},
-      {"percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 40.0}, &pwm, {0.1, 0.2, 0.3, 0.4}, false},
-      {"full percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 100.0}, &pwm, {0.1, 0.2, 0.3, 1.0}, true},
-      {"share", MOTORS4("share"), {0.1, 0.2, 0.3, 0.4}, &pwm, {0.1, 0.2, 0.3, 0.4}, false},
-      {"rad/s", MOTORS4("rad/s"), {100.0, 200.0, 300.0, 400.0}, &speed, {0.01, 0.04, 0.09, 0.16}, false},
-      {"rpm", MOTORS4("rpm"), {954.929659, 1909.859317, 0.0, 0.0}, &speed, {0.01, 0.04, 0.0, 0.0}, false},
-      {"mN", MOTORS4("mN"), {100.0, 200.0, 300.0, 400.0}, &NEWTON, {0.1, 0.2, 0.3, 0.4}, true},
-      // Thrust 1; right to left 0.1 (0.3 + 0.4 - 0.1 - 0.2), back to front 0.1 (0.2 + 0.3 - 0.1 - 0.4),
-      // drag 0.01 (0.2 + 0.4 - 0.1 - 0.3).
-      {"thrust and torques", MIXED("N", "Nm"), {1.0, 0.04, 0.0, 0.002}, &pwm, {0.1, 0.2, 0.3, 0.4}, false},
-      {"mixer's pwm",
-       MIXED("pwm", "pwm"),
-       {32767.5, 13107.0, 6553.5, 655.35},
-       &pwm,
-       {0.46, 0.34, 0.56, 0.64},
-       false},
-      {"mixer at its limit",
-       MIXED("pwm", "pwm"),
-       {60000.0, 20000.0, 0.0, 0.0},
-       &pwm,
-       {50000.0 / 65535.0, 50000.0 / 65535.0, 1.0, 1.0},
-       true},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof motor_row / sizeof *motor_row; i++) {
+    ROW("%s", motor_row[i].what);
     char toml[700], csv[200];
-    const double *const x = row[i].cell;
-    snprintf(toml, sizeof toml, TIME "%s", row[i].columns);
+    const double *const x = motor_row[i].cell;
+    snprintf(toml, sizeof toml, TIME "%s", motor_row[i].columns);
     snprintf(csv, sizeof csv, "t,a,b,c,d\n0,%.9g,%.9g,%.9g,%.9g\n", x[0], x[1], x[2], x[3]);
     columns_t c;
     log_row_t got;
     why_t why = {""};
     CHECK_OK(columns_read(scratch_file("c.toml", toml, -1), &c, &why));
-    CHECK_OK(first_row(csv, &c, row[i].vehicle, SIGNAL_BIT(SIG_THRUST), &got, &why));
+    CHECK_OK(first_row(csv, &c, motor_row[i].vehicle, SIGNAL_BIT(SIG_THRUST), &got, &why));
     CHECK_TEXT(why.text, "");
     double sum_N = 0.0;
     for (int k = 0; k < 4; k++) {
-      CHECK_NEAR(got.v[SIG_F1 + k], row[i].want_N[k], 1e-8);
-      sum_N += row[i].want_N[k];
+      CHECK_NEAR(got.v[SIG_F1 + k], motor_row[i].want_N[k], 1e-8);
+      sum_N += motor_row[i].want_N[k];
     }
     CHECK_NEAR(got.v[SIG_THRUST], sum_N, 1e-8);
-    CHECK(got.at_limit == row[i].at_limit);
+    CHECK(got.at_limit == motor_row[i].at_limit);
   }
 }
 

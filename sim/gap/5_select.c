@@ -1,38 +1,22 @@
 // 5_select.c - forward selection of effects.
 #include "gap/5_select.h"
 
-#include "gap/score.h"
-#include "gap/unknown.h"
+#include "gap/select_state.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define ROUNDS 16
-#define ECHO   1.3 // so much more than a name a cell must explain
-#define TAKES  2   // what was taken out as often as this does not come back
+#define TAKES  2 // what was taken out as often as this does not come back
 
-typedef struct {
-  candidates_t *c;
-  set_t *s;
-  const model_t *base;
-  const nominal_t *nominal;
-  choice_t choice;
-  table_t table;
-  gram_t gram;
-  judge_t judge;
-  bool strict; // colours of what is named alone, not of all candidates
-  int *taken;  // by candidate: how often it was taken in
-} select_t;
-
-static const fx_t *fx_of(const select_t *t, int candidate) {
+const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
 }
 
-// Not together: another shape of the same effect, or another one of its class.
-static bool fits(const select_t *t, const choice_t *choice, int candidate) {
-  const fx_t *fx = fx_of(t, candidate);
+bool select_fits(const select_t *t, const choice_t *choice, int candidate) {
+  const fx_t *fx = select_fx(t, candidate);
   for (int i = 0; i < choice->n; i++) {
-    const fx_t *other = fx_of(t, choice->of[i]);
+    const fx_t *other = select_fx(t, choice->of[i]);
     if (other == fx || (fx->class != FX_ALONE && other->class == fx->class)) return false;
   }
   return choice->n < NAMED_MAX;
@@ -97,7 +81,7 @@ static double take_values(select_t *t) {
 
 // The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
-  if (!fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
+  if (!select_fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = judge_last(&t->judge, &with);
   if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with) ||
@@ -136,7 +120,7 @@ static bool swap_one(select_t *t) {
       better = choice_with(&rest, k);
     }
   }
-  if (better.n < 0) return false;
+  if (better.n < 1) return false;
   t->choice = better;
   t->taken[better.of[better.n - 1]]++;
   return true;
@@ -169,48 +153,11 @@ static status_t settle(select_t *t, why_t *why) {
   return ST_OK;
 }
 
-// What a choice leaves, row by row, in the straight line's sense.
-static status_t left_by(const select_t *t, const choice_t *choice, double *left[CHANNELS], why_t *why) {
-  int column[COLUMN_MAX];
-  double b[COLUMN_MAX];
-  const int n = choice_columns(t->c, choice, column);
-  judge_estimate(&t->judge, choice, b, NULL);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const size_t rows = (size_t)set_rows(t->s, ch)->n;
-    left[ch] = malloc((rows + 1) * sizeof(double));
-    if (!left[ch]) return error_failed(why, "out of memory");
-    memcpy(left[ch], t->table.x[ch][t->table.columns], rows * sizeof(double));
-    for (int k = 0; k < n; k++) {
-      const double *x = t->table.x[ch][column[k]];
-      for (size_t i = 0; x && i < rows; i++) left[ch][i] -= b[k] * x[i];
-    }
-  }
-  return ST_OK;
-}
-
-// Something at one place, time or state explains more than this name does: the name is an echo of it.
-static status_t is_echo(const select_t *t, int candidate, bool *echo, why_t *why) {
-  const choice_t rest = choice_without(&t->choice, candidate);
-  double *left[CHANNELS] = {NULL};
-  cell_t cell = {.statistic = 0.0};
-  color_t color[CHANNELS]; // of the channels in which the name is seen
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    color[ch] = t->gram.color[ch];
-    color[ch].used = color[ch].used && t->table.x[ch][t->c->candidate[candidate].first];
-  }
-  status_t status = left_by(t, &rest, left, why);
-  if (status == ST_OK) status = unknown_largest(t->s, t->base, left, color, false, &cell, why);
-  for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
-  const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
-  *echo = cell.statistic * cell.statistic > ECHO * gain + 20.0;
-  return status;
-}
-
 static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   *dropped = false;
   for (int i = 0; i < t->choice.n && !*dropped; i++) {
     const int candidate = t->choice.of[i];
-    TRY(is_echo(t, candidate, dropped, why));
+    TRY(select_is_echo(t, candidate, dropped, why));
     if (!*dropped) continue;
     t->choice = choice_without(&t->choice, candidate);
     t->taken[candidate] = TAKES;
@@ -240,59 +187,6 @@ static status_t search(select_t *t, why_t *why) {
   return look(t, why);
 }
 
-// --- what was found
-// -----------------------------------------------------------------------------------------
-
-// Another name in its place that is not worse by two standard errors of the difference.
-static void find_rivals(const select_t *t, int candidate, named_t *named) {
-  const choice_t rest = choice_without(&t->choice, candidate);
-  for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
-    const fx_t *fx = fx_of(t, i);
-    if (fx == fx_of(t, candidate) || !fits(t, &rest, i)) continue;
-    if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
-    const choice_t with = choice_with(&rest, i);
-    if (judge_is_rival(&t->judge, &t->choice, &with)) named->rival[named->n_rival++] = fx;
-  }
-}
-
-static void describe(const select_t *t, found_t *found) {
-  const choice_t none = {.n = 0};
-  found->left_before = judge_left(&t->judge, &none, NULL);
-  found->left = judge_left(&t->judge, &t->choice, NULL);
-  for (int i = 0; i < t->choice.n; i++) {
-    const int candidate = t->choice.of[i];
-    const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
-    const verdict_t v = judge_last(&t->judge, &last);
-    const fx_t *fx = fx_of(t, candidate);
-    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
-      found->aligned_s = v.value[0];
-      continue;
-    }
-    named_t *const named = &found->named[found->n++];
-    *named = (named_t){.candidate = candidate, .p = v.p};
-    memcpy(named->value, v.value, sizeof named->value);
-    memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
-    named->share = (judge_left(&t->judge, &rest, NULL) - found->left) / found->left_before;
-    find_rivals(t, candidate, named);
-  }
-}
-
-// Four standard errors, or three times what feedback alone makes, whichever is more; over what is typical.
-static void find_least(const select_t *t, found_t *found) {
-  for (int i = 0; i < t->c->n; i++) {
-    found->least[i] = 0.0;
-    if (!fits(t, &t->choice, i)) continue;
-    const choice_t with = choice_with(&t->choice, i);
-    const verdict_t v = judge_last(&t->judge, &with);
-    double rms[FX_SIZE_MAX];
-    judge_nominal_rms(&t->judge, &with, rms);
-    for (int k = 0; k < t->c->candidate[i].n; k++) {
-      const double least = fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]);
-      found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
-    }
-  }
-}
-
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .base = base, .nominal = nominal};
@@ -301,8 +195,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
   status_t status = found->least && t.taken ? open_round(&t, why) : error_failed(why, "out of memory");
   if (status == ST_OK) status = search(&t, why);
   if (status == ST_OK) {
-    describe(&t, found);
-    find_least(&t, found);
+    select_describe(&t, found);
     close_round(&t);
   }
   free(t.taken);

@@ -2,6 +2,7 @@
 #include "exam/flights.h"
 
 #include "body.h"
+#include "exam/plan.h"
 #include "io/model_file.h"
 #include "peers/stock_pid.h"
 #include "pilot_flight.h"
@@ -10,9 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CEILING_M 0.8
 #define STEP_S    0.002
-#define PIECES    7
 #define ACC_SD    0.5 // m/s2, white at 500 Hz
 #define GYRO_SD   0.02
 #define TURB_SD   0.06
@@ -27,73 +26,8 @@
 status_t exam_vehicle(model_t *m, why_t *why) {
   TRY(model_builtin("cf21_legacy", m, why));
   m->n_fx = 0;
-  m->ceiling_m = CEILING_M;
+  m->ceiling_m = EXAM_CEILING_M;
   return ST_OK;
-}
-
-// --- what is flown ----------------------------------------------------------------------------------------
-
-typedef struct {
-  d3_t pos, vel;
-  double yaw;
-} wish_t;
-
-typedef struct {
-  int order[PIECES];
-  double number[PIECES][4];
-  double gap_m, clear_m;
-} plan_t6;
-
-static plan_t6 make_plan(random_t *r, bool hover_only) {
-  plan_t6 plan;
-  for (int i = 0; i < PIECES; i++) {
-    plan.order[i] = hover_only ? 6 : i;
-    for (int k = 0; k < 4; k++) plan.number[i][k] = random_uniform(r, 0.0, 1.0);
-  }
-  for (int i = PIECES - 1; i > 0; i--) {
-    const int k = (int)random_uniform(r, 0.0, i + 0.999), swap = plan.order[i];
-    plan.order[i] = plan.order[k];
-    plan.order[k] = swap;
-  }
-  return plan;
-}
-
-static wish_t circle(double t, double span, const double *n) {
-  const double speed = 0.5 + 1.0 * n[0], radius = 0.35 + 0.4 * n[1], side = n[2] > 0.5 ? 1.0 : -1.0;
-  const double in = fmin(1.0, fmin(t, span - t) / 0.4), angle = side * speed / radius * t;
-  return (wish_t){{in * radius * sin(angle), in * radius * (cos(angle) - 1.0), 0.4},
-                  {in * speed * side * cos(angle), -in * speed * side * sin(angle), 0.0},
-                  0.0};
-}
-
-// A line out and back at up to 1.5 m/s.
-static wish_t line(double t, double span, const double *n) {
-  const double w = 2.0 * 3.14159265 / span, far = (0.35 + 0.3 * n[0]), angle = 2.0 * 3.14159265 * n[1];
-  const double s = far * sin(w * t), v = far * w * cos(w * t);
-  return (wish_t){{s * cos(angle), s * sin(angle), 0.4}, {v * cos(angle), v * sin(angle), 0.0}, 0.0};
-}
-
-static wish_t wish_in(int kind, double t, double span, const double *n) {
-  const double top_m = CEILING_M - 0.013, share = t / span;
-  wish_t w = {.pos = {0.0, 0.0, 0.4}};
-  switch (kind) {
-  case 0: w.pos.z = top_m - (0.02 + 0.03 * n[0] + 0.06 * pow(sin(3.14159265 * share + n[1]), 2.0)); break;
-  case 1: w.pos.z = 0.017 + 0.012 + 0.03 * n[0] + 0.08 * pow(sin(3.14159265 * share + n[1]), 2.0); break;
-  case 2: return line(t, span, n);
-  case 3: return circle(t, span, n);
-  case 4: w.pos.z = 0.4 + (fmod(3.0 * share + n[0], 1.0) > 0.5 ? 0.18 : -0.18); break;
-  case 5: w.yaw = 2.0 * 3.14159265 * share; break;
-  default:
-    w.pos.x = fmod(3.0 * share, 1.0) > 0.5 ? 0.05 : 0.0;
-    w.pos.y = fmod(2.0 * share, 1.0) > 0.5 ? 0.05 : 0.0;
-  }
-  return w;
-}
-
-static wish_t wish_at(const plan_t6 *plan, double t_s) {
-  const double span = EXAM_SPAN_S / PIECES;
-  const int i = (int)fmin(t_s / span, PIECES - 1.0);
-  return wish_in(plan->order[i], t_s - i * span, span, plan->number[i]);
 }
 
 // --- sensors ----------------------------------------------------------------------------------------------
@@ -192,7 +126,7 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
   pilot->reset(pilot->state);
   for (long tick = 0; tick < lround(EXAM_SPAN_S / STEP_S); tick++) {
     const double t_s = (double)tick * STEP_S;
-    wish_t wish = wish_at(plan, t_s);
+    wish_t wish = plan_wish(plan, t_s);
     z_m +=
         (wish.pos.z - z_m) * STEP_S / (fabs(wish.pos.z - 0.4) < 0.21 ? 0.03 : 0.25); // no step into a surface
     wish.pos.z = z_m;
@@ -261,7 +195,7 @@ status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
     status = error_failed(why, "out of memory");
   if (status == ST_OK) status = start(e, job, why);
   if (status == ST_OK) {
-    const plan_t6 plan = make_plan(e->random, job->hover_only);
+    const plan_t6 plan = plan_make(e->random, job->hover_only);
     status = run(e, &pilot, &plan, f, why);
   }
   if (e && e->body.integrate) body_close(&e->body);
