@@ -100,8 +100,22 @@ static d3_t noisy3(const flight_t6 *f, d3_t v, double sd) {
   return d3(noisy(f, v.x, sd), noisy(f, v.y, sd), noisy(f, v.z, sd));
 }
 
+static fx_sensed_t sensed(const flight_t6 *f) {
+  const body_t *b = &f->body;
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const double up = fmax(axes_up_b(&axes).z, 0.1), z = b->y[RIGID_POS_M + 2];
+  const double far_m = f->g->range_up ? f->m->ceiling_m - z - body_rotor_z_m(f->m) : z - body_rest_z_m(f->m);
+  const double side = f->g->range_up ? -1.0 : 1.0;
+  fx_sensed_t s = {.acc_b_mps2 = body_specific_force_b_mps2(b),
+                   .range_m = far_m / up,
+                   .range_rate_mps = side * b->y[RIGID_VEL_MPS + 2] / up};
+  model_sense(f->m, &s);
+  return s;
+}
+
 static point_t see(const flight_t6 *f) {
   const body_t *b = &f->body;
+  const fx_sensed_t truth = sensed(f);
   const manner_t *w = f->w;
   const dq_t wrong = dq_unit((dq_t){1.0, noisy(f, 0.0, 0.5 * w->angle_rad), noisy(f, 0.0, 0.5 * w->angle_rad),
                                     noisy(f, 0.0, 0.5 * w->angle_rad)});
@@ -109,7 +123,8 @@ static point_t see(const flight_t6 *f) {
                    .vel_w_mps = noisy3(f, d3_of(b->y + RIGID_VEL_MPS), w->vel_mps),
                    .q_wb = dq_mul(dq_of(b->y + RIGID_Q_WB), wrong),
                    .rate_b_radps = noisy3(f, d3_of(b->y + RIGID_RATE_RADPS), w->gyro_radps),
-                   .acc_b_mps2 = noisy3(f, body_specific_force_b_mps2(b), w->acc_mps2),
+                   .acc_b_mps2 = noisy3(f, truth.acc_b_mps2, w->acc_mps2),
+                   .range_m = noisy(f, truth.range_m, w->range_m),
                    .vbat_V = f->g->point[f->at].vbat_V};
 }
 
@@ -117,14 +132,6 @@ static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
   const double x[3] = {v.x, v.y, v.z};
   for (int k = 0; k < 3; k++)
     if (log->v[signal + k]) log->v[signal + k][i] = x[k];
-}
-
-static double range_seen(const flight_t6 *f) {
-  const body_t *b = &f->body;
-  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
-  const double up = fmax(axes_up_b(&axes).z, 0.1), z = b->y[RIGID_POS_M + 2];
-  const double far_m = f->g->range_up ? f->m->ceiling_m - z - body_rotor_z_m(f->m) : z - body_rest_z_m(f->m);
-  return noisy(f, far_m / up, f->w->range_m);
 }
 
 static void write(const flight_t6 *f, const point_t *p, const double motor_N[ROTORS], double t_s) {
@@ -145,7 +152,7 @@ static void write(const flight_t6 *f, const point_t *p, const double motor_N[ROT
   }
   if (log->v[SIG_THRUST]) log->v[SIG_THRUST][i] = sum_N;
   double *const range = log->range_up_m ? log->range_up_m : log->range_down_m;
-  if (range) range[i] = isfinite(f->g->point[f->at].range_m) ? range_seen(f) : (double)NAN;
+  if (range) range[i] = isfinite(f->g->point[f->at].range_m) ? p->range_m : (double)NAN;
 }
 
 // --- the flight
