@@ -1,13 +1,14 @@
 // nominal_fly.c - the model in closed loop along a log's track.
 #include "gap/nominal.h"
 
+#include "body_forces.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define STEP_S   0.002
-#define LEVEL    2.0 // 1/s: position errors to velocity, level
-#define PUSH     3.0 // 1/s: velocity errors to acceleration, level
+#define SWIFT    1.8 // rate gain times lag at most: a cascade without lead rings beyond
 #define TILT_MAX 0.5
 #define YAW      2.0
 #define LOST_M   3.0 // so far off its track the vehicle is lost
@@ -42,12 +43,15 @@ static status_t disturbed(const model_t *m, const manner_t *w, model_t *out, why
 typedef struct {
   const grid_t *g;
   const model_t *m;
+  manner_t own; // as the log was flown, as far as this pilot can
   const manner_t *w;
+  double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
   body_t body;
   random_t *random;
   gap_flight_t *log;
-  int from, to, at; // points of the track
-  double lift_trim; // thrust over weight that holds it
+  int from, to, at;      // points of the track
+  d3_t turn_trim_radps2; // what holds it level, for a thrust of its weight
+  double lift_trim;      // thrust over weight that holds it
 } flight_t6;
 
 // --- the pilot
@@ -57,8 +61,8 @@ static d3_t wanted_acc(const flight_t6 *f, const point_t *track, const point_t *
   const d3_t off = d3_sub(track->pos_w_m, seen->pos_w_m), slip = d3_sub(track->vel_w_mps, seen->vel_w_mps);
   const manner_t *w = f->w;
   const bool place = f->g->has_position;
-  const double x = place ? LEVEL * PUSH * off.x : 0.0, y = place ? LEVEL * PUSH * off.y : 0.0;
-  return d3(fmax(-6.0, fmin(6.0, x + PUSH * slip.x)), fmax(-6.0, fmin(6.0, y + PUSH * slip.y)),
+  const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
+  return d3(fmax(-6.0, fmin(6.0, x + f->push * slip.x)), fmax(-6.0, fmin(6.0, y + f->push * slip.y)),
             fmax(-5.0, fmin(5.0, w->height_gain * off.z + w->climb_gain * slip.z)));
 }
 
@@ -71,6 +75,13 @@ static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_
     const double turn = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
     motor_N[k] = 0.25 * lift_N + 0.25 * roll / y - 0.25 * pitch / x + turn;
   }
+}
+
+// load: of the weight.
+static void hold(const flight_t6 *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
+  const double lift_N = f->lift_trim * load * f->m->mass_kg * PLANT_GRAVITY_MPS2;
+  mix(f->m, lift_N, d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2)), motor_N);
+  for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 
 static void steer(const flight_t6 *f, const point_t *track, const point_t *seen, double motor_N[ROTORS]) {
@@ -86,8 +97,8 @@ static void steer(const flight_t6 *f, const point_t *track, const point_t *seen,
   const d3_t turn =
       d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x, w->tilt_gain * pitch - w->rate_gain[1] * rate.y,
          w->rate_gain[2] * (YAW * yaw - rate.z));
-  const double up = fmax(axes_up_b(&axes).z, 0.5);
-  mix(f->m, f->m->mass_kg * acc.z / up, turn, motor_N);
+  const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / PLANT_GRAVITY_MPS2;
+  hold(f, load, turn, motor_N);
 }
 
 // --- sensors
@@ -138,6 +149,7 @@ static void write(const flight_t6 *f, const point_t *p, const double motor_N[ROT
   gap_flight_t *const log = f->log;
   const int i = log->n++;
   log->t_s[i] = t_s;
+  log->saturated[i] = f->body.on_floor || f->body.on_ceiling;
   put3(log, SIG_X, i, d3_add(p->pos_w_m, d3(0.0, 0.0, -body_rest_z_m(f->m))));
   put3(log, SIG_VX, i, p->vel_w_mps);
   put3(log, SIG_AX, i, p->acc_b_mps2);
@@ -167,6 +179,7 @@ static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   const gap_flight_t *like = g->flight;
   *log = (gap_flight_t){.motors_N = true};
   bool good = (log->t_s = column(n)) != NULL;
+  good = (log->saturated = calloc(n, sizeof(bool))) && good; // where it touches, too
   for (int i = SIG_X; i <= SIG_VBAT; i++)
     if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
   if (g->range_up)
@@ -188,8 +201,6 @@ static status_t fly(flight_t6 *f, why_t *why) {
       for (int k = 0; k < inner; k++) {
         const point_t seen = see(f);
         steer(f, &f->g->point[f->at], &seen, motor_N);
-        for (int r = 0; r < ROTORS; r++)
-          motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
         if (k == 0) write(f, &seen, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
       }
@@ -201,6 +212,39 @@ static status_t fly(flight_t6 *f, why_t *why) {
   return ST_OK;
 }
 
+// The log's controller may know the motors' lag; this one does not.
+static void tame(flight_t6 *f) {
+  const double most = SWIFT / (f->body.rigid.motor_tau_s + 3.0 * f->body.plant.delay_s);
+  manner_t *const w = &f->own;
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
+  const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
+  w->tilt_gain = fmin(w->tilt_gain, 0.25 * least * least);
+  f->push = fmin(3.0, fmax(0.8, 0.5 * w->tilt_gain / least));
+  f->level = 0.66 * f->push;
+}
+
+// Turning and lift at rest, level, show what the effects do to it; twice, because the lift changes the
+// turning.
+static void trim(flight_t6 *f) {
+  body_t *const b = &f->body;
+  double at[RIGID_N], rates[RIGID_N];
+  f->lift_trim = 1.0;
+  for (int i = 0; i < 3; i++) {
+    memcpy(at, b->y, sizeof at);
+    at[RIGID_Q_WB] = 1.0;
+    for (int k = 1; k < 4; k++) at[RIGID_Q_WB + k] = 0.0;
+    for (int k = 0; k < 3; k++) at[RIGID_VEL_MPS + k] = at[RIGID_RATE_RADPS + k] = 0.0;
+    hold(f, 1.0, d3(0.0, 0.0, 0.0), at + RIGID_THRUST_N);
+    memcpy(b->y + RIGID_THRUST_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    memcpy(b->command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    memcpy(b->rigid.command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    body_derivative(b, 0.0, at, rates);
+    f->turn_trim_radps2 = d3_sub(f->turn_trim_radps2, d3_of(rates + RIGID_RATE_RADPS));
+    f->lift_trim *=
+        PLANT_GRAVITY_MPS2 / fmax(PLANT_GRAVITY_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * PLANT_GRAVITY_MPS2);
+  }
+}
+
 static status_t take_off(flight_t6 *f, const model_t *m, unsigned long seed, why_t *why) {
   const point_t *p = &f->g->point[f->from];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
@@ -208,13 +252,16 @@ static status_t take_off(flight_t6 *f, const model_t *m, unsigned long seed, why
   // Motors faster than the step need a finer one.
   if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
     return error_failed(why, "%s: a model that cannot be flown", m->name);
+  body_effects(&f->body, 0.0);
+  tame(f);
+  trim(f);
   f->random = random_open(seed + 1);
   return f->random ? ST_OK : error_failed(why, "out of memory");
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
                      gap_flight_t *flight, why_t *why) {
-  flight_t6 f = {.g = g, .m = m, .w = w, .log = flight, .to = g->n};
+  flight_t6 f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .to = g->n};
   model_t with;
   *flight = (gap_flight_t){.n = 0};
   TRY(disturbed(m, w, &with, why));
