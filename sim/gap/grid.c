@@ -74,14 +74,12 @@ static bool finite3(d3_t a) {
   return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const touch_t *touch, int from) {
+static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const touch_gap_t *gap, int from) {
   double thrust_N = 0.0;
   for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
-  const axes_t axes = axes_of(p->q_wb);
-  const touch_gap_t gap = touch_gap(touch, p->pos_w_m.z, &axes);
-  if (g->has_position && (gap.floor_m < CLEAR_M || gap.ceiling_m < TOP_M)) return false;
+  if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
   return thrust_N > FLIES * m->mass_kg * PLANT_GRAVITY_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
@@ -106,7 +104,10 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
   p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
-  p.ok = is_good(g, &p, m, touch, from);
+  const axes_t axes = axes_of(p.q_wb);
+  const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
+  p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
+  p.ok = is_good(g, &p, m, &gap, from);
   return p;
 }
 
