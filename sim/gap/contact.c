@@ -7,7 +7,9 @@
 #include <stdlib.h>
 
 #define PASSES 4
-#define SPREAD 3 // rows before and after: the filter reaches so far
+#define SPREAD 3    // rows before and after: the filter reaches so far
+#define FORCE  0.15 // of gravity, at least: a curve of another shape than the candidates' misses less
+#define TURN   0.02 // the same, at a rotor's arm
 
 static int by_size(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;
@@ -27,6 +29,13 @@ static double robust_sd(const double *e, int n, double *room) {
 static void leave_out(const rows_t *r, int from, int to) {
   for (int i = from; i <= to + 1; i++)
     if (i >= 0 && i < r->n) r->follows[i] = false;
+}
+
+// What a touch makes at least, in the unit of a channel.
+static double least(const model_t *m, int ch) {
+  const double arm_m = fabs(m->frame.rotor_y_m[0]);
+  if (ch < CH_FORCES) return FORCE * PLANT_GRAVITY_MPS2;
+  return TURN * PLANT_GRAVITY_MPS2 * m->mass_kg * arm_m / m->frame.inertia_kgm2[ch - CH_WX];
 }
 
 static int mark(const set_t *s, const double *e, double limit) {
@@ -60,7 +69,7 @@ static void room_free(room_t *room) {
   free(room->white);
 }
 
-static int look(const set_t *s, const table_t *t, const gram_t *g, const room_t *room) {
+static int look(const set_t *s, const model_t *m, const table_t *t, const gram_t *g, const room_t *room) {
   int found = 0;
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     if (!g->color[ch].used) continue;
@@ -71,13 +80,14 @@ static int look(const set_t *s, const table_t *t, const gram_t *g, const room_t 
       for (int i = 0; x && i < n; i++) room->left[i] -= room->b[k] * x[i];
     }
     color_whiten(&g->color[ch], &s->smooth, room->left, room->white);
-    found += mark(s, room->white, CONTACT_SD * robust_sd(room->white, n, room->left));
+    const double limit = CONTACT_SD * robust_sd(room->white, n, room->left);
+    found += mark(s, room->white, fmax(limit, least(m, ch) / g->color[ch].sd));
   }
   return found;
 }
 
-static status_t pass(set_t *s, const candidates_t *c, const table_t *t, const room_t *room, int *found,
-                     why_t *why) {
+static status_t pass(set_t *s, const candidates_t *c, const model_t *m, const table_t *t, const room_t *room,
+                     int *found, why_t *why) {
   gram_t g;
   judge_t j;
   TRY(judge_make(&j, c, &g, NULL, why));
@@ -85,7 +95,7 @@ static status_t pass(set_t *s, const candidates_t *c, const table_t *t, const ro
   if (status == ST_OK) {
     for (int i = 0; i < t->columns; i++) room->column[i] = i;
     lsq_solve_products(g.total, g.size, room->column, t->columns, j.color_ridge, room->b, NULL);
-    *found = look(s, t, &g, room);
+    *found = look(s, m, t, &g, room);
     gram_free(&g);
   }
   judge_free(&j);
@@ -105,7 +115,7 @@ status_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *
   TRY(table_make(&t, s, m, c, why));
   status_t status = room_make(&room, s, t.columns) ? ST_OK : error_failed(why, "out of memory");
   int found = 1;
-  for (int i = 0; i < PASSES && found && status == ST_OK; i++) status = pass(s, c, &t, &room, &found, why);
+  for (int i = 0; i < PASSES && found && status == ST_OK; i++) status = pass(s, c, m, &t, &room, &found, why);
   room_free(&room);
   table_free(&t);
   return status;
