@@ -2,6 +2,7 @@
 #include "gap/diagnose.h"
 
 #include "gap/7_verify.h"
+#include "gap/contact.h"
 #include "gap/muted.h"
 #include <math.h>
 #include <stdlib.h>
@@ -85,6 +86,8 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   *d = (diagnosis_t){.nominal = {.n = 0}};
   TRY(take_flights(job, d, why));
   TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
+  TRY(contact_drop(&d->fit, &d->candidates, job->model, why));
+  TRY(contact_drop(&d->held, &d->candidates, job->model, why));
   TRY(fly_nominal(job, d, why));
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
