@@ -42,7 +42,7 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
   const fx_param_t *param = fx_use_params(&c->use, &n);
   fprintf(
       out,
-      "\n# Found by the discrepancy workflow in %s: p %.2g, %.2g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
+      "\n# Found by the discrepancy workflow in %s: p %.2g, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
       job->logs, named->p, 100.0 * named->share, c->use.fx->name);
   if (c->use.form) fprintf(out, "form = \"%s\"\n", c->use.form->name);
   for (int i = 0; i < n; i++) {

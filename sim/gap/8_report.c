@@ -69,6 +69,14 @@ void report_why(const untested_t *u, char text[REPORT_TEXT]) {
              u->seen_from, u->param->unit[0] ? " " : "", u->param->unit, u->typical);
 }
 
+const char *report_p(double p, char text[REPORT_P]) {
+  if (p < 1e-16)
+    snprintf(text, REPORT_P, "p < 1e-16");
+  else
+    snprintf(text, REPORT_P, "p %.1g", p);
+  return text;
+}
+
 // --- warnings ---------------------------------------------------------------------------------------------
 
 static const char *base_name(const char *path) {

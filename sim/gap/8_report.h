@@ -11,6 +11,11 @@
 #define REPORT_TEXT     320
 #define REPORT_WARNINGS 64
 
+// Where an effect does most of what it does; a picture shows that and what is beside it.
+typedef struct {
+  double from, to;
+} span_t;
+
 // Means over ranges of a coordinate, held-out rows of one channel.
 typedef struct {
   int channel, coordinate;
@@ -26,7 +31,7 @@ typedef struct {
   const named_t *named;
   const candidate_t *candidate;
   const fx_t *fx;
-  double from, to; // of the profile's coordinate: where the middle 90 % of its sum of squares lie
+  span_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
   char fly[MANOEUVRE_BYTES]; // what would tell it from its rivals, or show it better
 } finding_t;
@@ -57,12 +62,17 @@ typedef struct {
 MUST_CHECK status_t report_make(report_t *r, study_t *study, why_t *why);
 void report_free(report_t *r);
 
-// A profile of held-out rows over a coordinate; effect: rows of what it adds with its variance, or null.
-void report_profile(const report_t *r, int channel, int coordinate, const double *effect,
-                    const double *variance, profile_t *p);
+// A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
+// near: null, or the part that matters.
+void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+                    profile_t *p);
 
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
+
+// " p 0.003", or " p < 1e-16" for what is smaller.
+#define REPORT_P 24
+const char *report_p(double p, char text[REPORT_P]);
 
 // As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}. A null
 // pointer: no memory.

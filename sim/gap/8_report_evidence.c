@@ -88,18 +88,27 @@ static void close_bins(profile_t *p) {
   }
 }
 
-void report_profile(const report_t *r, int channel, int coordinate, const double *effect,
-                    const double *variance, profile_t *p) {
-  *p = (profile_t){.channel = channel, .coordinate = coordinate};
+// What a picture spans: all rows but the outermost, or what matters and about as much beside it.
+static span_t span_of(const report_t *r, const profile_t *p, const span_t *near) {
   int n;
-  mark_t *const mark = sorted(r, channel, coordinate, NULL, &n);
-  const double from = n ? mark[(int)(OUTSIDE * n)].x : 0.0, to = n ? mark[n - 1 - (int)(OUTSIDE * n)].x : 0.0;
+  mark_t *const mark = sorted(r, p->channel, p->coordinate, NULL, &n);
+  span_t s = {0.0, 0.0};
+  if (n) s = (span_t){mark[(int)(OUTSIDE * n)].x, mark[n - 1 - (int)(OUTSIDE * n)].x};
   free(mark);
-  const rows_t *const rows = set_rows(&r->study->diagnosis.held, channel);
-  for (int i = 0; i < rows->n && to > from; i++) {
-    const double x = at(r, channel, coordinate, i);
-    if (!(x >= from && x <= to)) continue;
-    const int bin = (int)fmin(REPORT_BINS - 1, floor(REPORT_BINS * (x - from) / (to - from)));
+  if (!near || 3.0 * (near->to - near->from) > s.to - s.from) return s;
+  const double wide = fmax(near->to - near->from, 0.05 * (s.to - s.from));
+  return (span_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
+}
+
+void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+                    profile_t *p) {
+  *p = (profile_t){.channel = p->channel, .coordinate = p->coordinate};
+  const span_t s = span_of(r, p, near);
+  const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
+  for (int i = 0; i < rows->n && s.to > s.from; i++) {
+    const double x = at(r, p->channel, p->coordinate, i);
+    if (!(x >= s.from && x <= s.to)) continue;
+    const int bin = (int)fmin(REPORT_BINS - 1, floor(REPORT_BINS * (x - s.from) / (s.to - s.from)));
     add_row(p, bin, r, i, effect ? effect[i] : 0.0, variance ? variance[i] : 0.0);
   }
   close_bins(p);
@@ -154,50 +163,50 @@ static int channel_of(const report_t *r, double *const effect[CHANNELS]) {
   return best;
 }
 
-// Where the middle 90 % of what the effect does lie; returns the span that its coordinate covers, over what
-// the two ends of the rows span.
-static double find_where(const report_t *r, int channel, int coordinate, const double *effect, double *from,
-                         double *to) {
+// Where the middle 90 % of what the effect does lie; returns the variance of the coordinate.
+static double find_where(const report_t *r, int channel, int coordinate, const double *effect,
+                         span_t *where) {
   int n;
   double all = 0.0, sum = 0.0, spread = 0.0, mean = 0.0;
   mark_t *const mark = sorted(r, channel, coordinate, effect, &n);
   for (int i = 0; i < n; i++) all += mark[i].square, mean += mark[i].x / n;
-  *from = *to = n ? mark[0].x : 0.0;
+  *where = n ? (span_t){mark[0].x, mark[0].x} : (span_t){0.0, 0.0};
   bool begun = false;
   for (int i = 0; i < n; i++) {
     sum += mark[i].square;
     spread += (mark[i].x - mean) * (mark[i].x - mean) / n;
-    if (!begun && sum >= TAIL * all) *from = mark[i].x, begun = true;
-    if (sum <= (1.0 - TAIL) * all) *to = mark[i].x;
+    if (!begun && sum >= TAIL * all) where->from = mark[i].x, begun = true;
+    if (sum <= (1.0 - TAIL) * all) where->to = mark[i].x;
   }
   free(mark);
-  *to = fmax(*from, *to);
+  where->to = fmax(where->from, where->to);
   return spread;
 }
 
+// Of the coordinates that an effect depends on the one that these flights cover best; else time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
   const where_t where = manoeuvre_where(f->fx);
-  const int channel = channel_of(r, effect);
-  int best = coordinate_find("time");
-  double most = find_where(r, channel, best, effect[channel], &f->from, &f->to);
-  for (int k = 0, first = 1; k < 2; k++) {
-    double from, to;
+  profile_t *const p = &f->profile;
+  double most = 0.0;
+  *p = (profile_t){.channel = channel_of(r, effect), .coordinate = coordinate_find("time")};
+  find_where(r, p->channel, p->coordinate, effect[p->channel], &f->where);
+  for (int k = 0; k < 2; k++) {
+    span_t span;
     const int coordinate = coordinate_find(where.coordinate[k]);
     if (coordinate < 0) continue;
-    const double spread = find_where(r, channel, coordinate, effect[channel], &from, &to);
-    if (!(spread > 0.0) || (!first && spread <= most)) continue;
-    first = 0;
-    most = spread, best = coordinate, f->from = from, f->to = to;
+    const double spread = find_where(r, p->channel, coordinate, effect[p->channel], &span);
+    if (!(spread > most)) continue;
+    most = spread, p->coordinate = coordinate, f->where = span;
   }
-  report_profile(r, channel, best, effect[channel], variance[channel], &f->profile);
+  report_profile(r, effect[p->channel], variance[p->channel], &f->where, p);
 }
 
 static void find_flight(finding_t *f) {
   if (f->named->n_rival)
     manoeuvre_apart(f->fx, f->named->rival[0], f->fly);
   else
-    snprintf(f->fly, sizeof f->fly, "%s", f->fx->fly ? f->fx->fly : "any flight");
+    snprintf(f->fly, sizeof f->fly, "%s", manoeuvre_show(f->fx));
 }
 
 static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
@@ -227,7 +236,7 @@ status_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   r->n_finding = d->found.n;
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, i, why));
   const int coordinate = coordinate_find(d->cell.coordinate);
-  if (d->cell.statistic > 0.0 && coordinate >= 0)
-    report_profile(r, d->cell.channel, coordinate, NULL, NULL, &r->left);
+  r->left = (profile_t){.channel = d->cell.channel, .coordinate = coordinate};
+  if (d->cell.statistic > 0.0 && coordinate >= 0) report_profile(r, NULL, NULL, NULL, &r->left);
   return ST_OK;
 }

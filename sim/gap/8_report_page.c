@@ -1,9 +1,8 @@
 // 8_report_page.c - report.html: one page that needs nothing else, no script, no font, no address.
 #include "gap/8_report.h"
 
-#include "gap/8_report_pictures.h"
+#include "gap/8_report_page.h"
 #include "gap/svg.h"
-#include "gap/unknown.h"
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +31,7 @@ static const char HEAD[] =
     "</style></head><body><main>\n";
 static const char FOOT[] = "</main></body></html>\n";
 
-static void text(FILE *out, const char *before, const char *plain, const char *after) {
+void page_text(FILE *out, const char *before, const char *plain, const char *after) {
   fputs(before, out);
   html_text(out, plain);
   fputs(after, out);
@@ -43,109 +42,17 @@ static void text(FILE *out, const char *before, const char *plain, const char *a
 static void headline(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   fputs("<h1>", out);
-  for (int i = 0; i < r->n_finding; i++) text(out, i ? ", " : "Missing: ", r->finding[i].fx->name, "");
+  for (int i = 0; i < r->n_finding; i++) page_text(out, i ? ", " : "Missing: ", r->finding[i].fx->name, "");
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
   if (!r->n_finding)
     fputs(s->diagnosis.unknown ? "Something is missing that cannot be named"
                                : "Nothing is missing that these flights could show",
           out);
-  text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
+  page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
   if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");
-  for (int i = 0; i < s->held.n; i++) text(out, i ? ", " : "", s->held.flight[i].name, "");
+  for (int i = 0; i < s->held.n; i++) page_text(out, i ? ", " : "", s->held.flight[i].name, "");
   fputs("</p>\n", out);
-}
-
-// --- named effects ----------------------------------------------------------------------------------------
-
-static void parameters(const finding_t *f, FILE *out) {
-  int n;
-  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
-  fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
-  for (int k = 0; k < f->candidate->n; k++) {
-    const fx_param_t *const p = &param[f->fx->size[k].param];
-    const double v = f->named->value[k], wide = 1.96 * f->named->stderr_[k];
-    text(out, "<tr><td>", p->name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
-    text(out, "<td>", p->unit, "</tr>\n");
-  }
-  if (f->fx->n_shape) {
-    text(out, "<tr><td>", param[f->fx->shape_param].name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>the best of %d tried", f->candidate->use.p[f->fx->shape_param],
-            f->fx->n_shape);
-    text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
-  }
-  fputs("</table>\n", out);
-}
-
-static void share_row(const char *name, double share, double most, const char *style, FILE *out) {
-  text(out, "<tr><td>", name, "");
-  fprintf(out,
-          "<td class=n>%.3g %%<td style=\"width:60%%\"><span class=\"bar %s\" "
-          "style=\"width:%.1f%%\"></span></tr>\n",
-          100.0 * share, style, 100.0 * fmin(fmax(share / most, 0.0), 1.0));
-}
-
-static void rivals(const finding_t *f, FILE *out) {
-  const named_t *const k = f->named;
-  if (!k->n_rival) {
-    fputs("<p>No other name does as well within two standard errors.</p>\n", out);
-    return;
-  }
-  double most = fmax(k->share, 1e-9);
-  for (int i = 0; i < k->n_rival; i++) most = fmax(most, k->rival_share[i]);
-  fputs("<figure><figcaption>Rivals: what each name would explain of the gap in this "
-        "place</figcaption><table>\n",
-        out);
-  share_row(f->fx->name, k->share, most, "after", out);
-  for (int i = 0; i < k->n_rival; i++) share_row(k->rival[i]->name, k->rival_share[i], most, "floor", out);
-  fputs("</table></figure>\n", out);
-  for (int i = 0; i < k->n_rival; i++) {
-    char fly[MANOEUVRE_BYTES];
-    manoeuvre_apart(f->fx, k->rival[i], fly);
-    text(out, "<p>To tell it from ", k->rival[i]->name, ", fly: ");
-    text(out, "", fly, ".</p>\n");
-  }
-}
-
-static void finding(const finding_t *f, FILE *out) {
-  const int coordinate = f->profile.coordinate;
-  text(out, "<section><h2>", f->fx->name, "</h2>");
-  text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
-  fprintf(out, "<p>It explains %.3g %% of the gap (p %.1g). ", 100.0 * f->named->share, f->named->p);
-  text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
-  text(out, "", coordinate_name(coordinate), "");
-  fprintf(out, " %.3g to %.3g ", f->from, f->to);
-  text(out, "", coordinate_unit(coordinate), ".</p>\n");
-  parameters(f, out);
-  fputs("<figure>", out);
-  picture_curve(f, out);
-  fputs("<figcaption>What the effect adds, on flights that were not used to find "
-        "it</figcaption></figure>\n<figure>",
-        out);
-  picture_place(&f->profile, 0.0, 0.0, NULL, out);
-  fputs("<figcaption>Where the gap was: measured less predicted, before and after</figcaption></figure>\n",
-        out);
-  rivals(f, out);
-  fputs("</section>\n", out);
-}
-
-static void unknown(const report_t *r, FILE *out) {
-  const diagnosis_t *const d = &r->study->diagnosis;
-  const cell_t *const c = &d->cell;
-  if (!(c->statistic > 0.0) || (!d->unknown && r->n_finding)) return;
-  fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
-                   : "<section><h2>The largest remainder</h2>\n<p>",
-        out);
-  fprintf(out, "%+.3g %s in ", c->size, gap_unit[c->channel]);
-  text(out, "", gap_channel[c->channel], ", at ");
-  text(out, "", c->coordinate, "");
-  fprintf(out, " %.3g to %.3g ", c->from, c->to);
-  text(out, "", c->unit, "");
-  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>\n<figure>", c->statistic,
-          d->cell_bound, d->unknown ? "" : ": chance");
-  picture_place(&r->left, c->from, c->to, "the largest cell", out);
-  fputs("<figcaption>The held-out flights over that coordinate</figcaption></figure></section>\n", out);
 }
 
 // --- held-out flights -------------------------------------------------------------------------------------
@@ -226,10 +133,10 @@ static void untested(const report_t *r, FILE *out) {
       char why[REPORT_TEXT];
       if ((!u->obstacle && u->testable) != (pass == 1)) continue;
       report_why(u, why);
-      text(out, "<tr><td>", u->fx->name, "");
+      page_text(out, "<tr><td>", u->fx->name, "");
       if (pass) snprintf(why, sizeof why, "%s %.2g %s", u->param->name, u->seen_from, u->param->unit);
-      text(out, "<td>", why, "");
-      text(out, "<td>", !pass && u->fx->fly ? u->fx->fly : "", "</tr>\n");
+      page_text(out, "<td>", why, "");
+      page_text(out, "<td>", pass ? "" : manoeuvre_show(u->fx), "</tr>\n");
     }
   }
   fputs("</table></section>\n", out);
@@ -238,15 +145,15 @@ static void untested(const report_t *r, FILE *out) {
 static void warnings(const report_t *r, FILE *out) {
   if (!r->n_warning) return;
   fputs("<section><h2>Notes</h2><ul>\n", out);
-  for (int i = 0; i < r->n_warning; i++) text(out, "<li>", r->warning[i], "</li>\n");
+  for (int i = 0; i < r->n_warning; i++) page_text(out, "<li>", r->warning[i], "</li>\n");
   fputs("</ul></section>\n", out);
 }
 
 void report_page(const report_t *r, FILE *out) {
   fputs(HEAD, out);
   headline(r, out);
-  for (int i = 0; i < r->n_finding; i++) finding(&r->finding[i], out);
-  unknown(r, out);
+  for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
+  page_unknown(r, out);
   held_out(r, out);
   again(&r->study->resimulation, out);
   untested(r, out);
@@ -256,6 +163,6 @@ void report_page(const report_t *r, FILE *out) {
 
 void report_page_refused(const char *line, FILE *out) {
   fputs(HEAD, out);
-  text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
+  page_text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
   fputs(FOOT, out);
 }

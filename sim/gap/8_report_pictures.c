@@ -1,5 +1,5 @@
 // 8_report_pictures.c - the page's pictures.
-#include "gap/8_report_pictures.h"
+#include "gap/8_report_page.h"
 
 #include "gap/svg.h"
 #include "gap/unknown.h"

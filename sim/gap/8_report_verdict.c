@@ -45,8 +45,8 @@ static void add_effect(cJSON *list, const finding_t *f) {
     cJSON_AddItemToArray(rivals, cJSON_CreateString(f->named->rival[i]->name));
   cJSON *const where = cJSON_AddObjectToObject(o, "where");
   cJSON_AddStringToObject(where, "coordinate", coordinate_name(f->profile.coordinate));
-  add_number(where, "from", f->from);
-  add_number(where, "to", f->to);
+  add_number(where, "from", f->where.from);
+  add_number(where, "to", f->where.to);
   cJSON_AddStringToObject(where, "unit", coordinate_unit(f->profile.coordinate));
   cJSON_AddStringToObject(o, "fly", f->fly);
 }
@@ -95,7 +95,7 @@ static void add_untested(cJSON *root, const report_t *r) {
     cJSON_AddItemToArray(list, o);
     cJSON_AddStringToObject(o, "effect", u->fx->name);
     cJSON_AddStringToObject(o, "why", why);
-    cJSON_AddStringToObject(o, "fly", u->fx->fly ? u->fx->fly : "");
+    cJSON_AddStringToObject(o, "fly", manoeuvre_show(u->fx));
   }
 }
 

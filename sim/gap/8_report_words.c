@@ -16,12 +16,13 @@ static void print_value(const finding_t *f, int k, FILE *out) {
 
 static void print_effect(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
+  char p[REPORT_P];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
   for (int k = 0; k < f->candidate->n; k++) print_value(f, k, out);
   if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
-  fprintf(out, "; %.2g %% of the gap, p %.1g\n", 100.0 * f->named->share, f->named->p);
+  fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, report_p(f->named->p, p));
   fprintf(out, "  seen in %s, %s %.3g to %.3g %s\n", gap_channel[f->profile.channel],
-          coordinate_name(coordinate), f->from, f->to, coordinate_unit(coordinate));
+          coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
   if (!f->named->n_rival) return;
   fputs("  would do as well:", out);
   for (int i = 0; i < f->named->n_rival; i++) fprintf(out, "%s %s", i ? "," : "", f->named->rival[i]->name);

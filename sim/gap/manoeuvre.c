@@ -97,6 +97,11 @@ where_t manoeuvre_where(const fx_t *fx) {
   return (where_t){{"time"}};
 }
 
+const char *manoeuvre_show(const fx_t *fx) {
+  if (fx->fly) return fx->fly;
+  return strcmp(fx->name, "sidewall") == 0 ? "a slow approach to the wall, sideways" : "any flight";
+}
+
 static bool is(const char *a, const char *b, const fx_t *x, const fx_t *y) {
   return strcmp(a, x->name) == 0 && strcmp(b, y->name) == 0;
 }
@@ -107,9 +112,7 @@ void manoeuvre_apart(const fx_t *fx, const fx_t *rival, char text[MANOEUVRE_BYTE
     snprintf(text, MANOEUVRE_BYTES, "%s", APART[i].fly);
     return;
   }
-  const bool same = !rival->fly || !fx->fly || strcmp(fx->fly, rival->fly) == 0;
-  if (same)
-    snprintf(text, MANOEUVRE_BYTES, "%s", fx->fly ? fx->fly : "any flight");
-  else
-    snprintf(text, MANOEUVRE_BYTES, "%s; then %s", fx->fly, rival->fly);
+  const char *const own = manoeuvre_show(fx), *const other = manoeuvre_show(rival);
+  const bool same = strcmp(own, other) == 0;
+  snprintf(text, MANOEUVRE_BYTES, "%s%s%s", own, same ? "" : "; then ", same ? "" : other);
 }

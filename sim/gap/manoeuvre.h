@@ -14,6 +14,9 @@ typedef struct {
 
 where_t manoeuvre_where(const fx_t *fx);
 
+// What shows the effect.
+const char *manoeuvre_show(const fx_t *fx);
+
 // What tells the two apart, in either order. Pairs without an own one: the manoeuvres that show each.
 void manoeuvre_apart(const fx_t *fx, const fx_t *rival, char text[MANOEUVRE_BYTES]);
 

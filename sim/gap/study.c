@@ -22,16 +22,13 @@ const char *study_vehicle(const study_t *s) {
 // --- the vehicle ------------------------------------------------------------------------------------------
 
 static status_t read_text(const char *path, char **text, why_t *why) {
+  *text = calloc(VEHICLE_BYTES, 1);
+  if (!*text) return error_failed(why, "out of memory");
   FILE *const file = fopen(path, "rb");
-  char *const room = malloc(VEHICLE_BYTES);
-  const size_t n = file && room ? fread(room, 1, VEHICLE_BYTES, file) : 0;
-  const bool good = file && room && !ferror(file) && n < VEHICLE_BYTES;
+  const size_t n = file ? fread(*text, 1, VEHICLE_BYTES - 1, file) : 0;
+  const bool good = file && !ferror(file) && n < VEHICLE_BYTES - 1;
   if (file) fclose(file);
-  if (good) room[n] = '\0';
-  *text = good ? room : NULL;
-  if (good) return ST_OK;
-  free(room);
-  return error_set(why, "%.300s: cannot be read; allowed: a vehicle file below 1 MB", path);
+  return good ? ST_OK : error_set(why, "%.300s: cannot be read; allowed: a vehicle file below 1 MB", path);
 }
 
 static status_t take_vehicle(study_t *s, why_t *why) {

@@ -1,8 +1,16 @@
-// 8_report_pictures.h - the page's pictures. Only the 8_report files include it.
-#ifndef SIM_GAP_REPORT_PICTURES_H
-#define SIM_GAP_REPORT_PICTURES_H
+// 8_report_page.h - the page's parts and pictures. Only the 8_report files include it.
+#ifndef SIM_GAP_REPORT_PAGE_H
+#define SIM_GAP_REPORT_PAGE_H
 
 #include "gap/8_report.h"
+
+// Writes `plain` escaped, between two pieces of HTML.
+void page_text(FILE *out, const char *before, const char *plain, const char *after);
+
+// A named effect: numbers, pictures, rivals.
+void page_finding(const finding_t *f, FILE *out);
+// What is left where it is largest; nothing if that is chance and something is named.
+void page_unknown(const report_t *r, FILE *out);
 
 // What the effect adds over its coordinate, with its band, and what was measured of it.
 void picture_curve(const finding_t *f, FILE *out);
