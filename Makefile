@@ -126,7 +126,7 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
 
-test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests out/fly out/gap out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
@@ -136,11 +136,11 @@ check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
-	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn out/sanitize/bin/effectiveness
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/gap out/sanitize/bin/learn out/sanitize/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/sanitize/bin out/sanitize/bin/tests "$(W)"
 
 clang: setup-lint  ## everything again, and the tests, with clang
-	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/gap out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
 FUZZ_S = 60

@@ -31,7 +31,8 @@ typedef struct {
   const named_t *named;
   const candidate_t *candidate;
   const fx_t *fx;
-  span_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
+  double value[FX_SIZE_MAX]; // as the new model has them
+  span_t where;              // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
   char fly[MANOEUVRE_BYTES]; // what would tell it from its rivals, or show it better
 } finding_t;

@@ -215,6 +215,7 @@ static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   f->named = &d->found.named[i];
   f->candidate = &d->candidates.candidate[f->named->candidate];
   f->fx = f->candidate->use.fx;
+  for (int k = 0; k < f->candidate->n; k++) f->value[k] = *candidate_value(f->candidate, k);
   lines_t effect, variance, room;
   const bool good[3] = {lines_make(effect.r, held), lines_make(variance.r, held), lines_make(room.r, held)};
   status_t status = good[0] && good[1] && good[2] ? ST_OK : error_failed(why, "out of memory");

@@ -10,7 +10,7 @@ static void parameters(const finding_t *f, FILE *out) {
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
   for (int k = 0; k < f->candidate->n; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
-    const double v = f->named->value[k], wide = 1.96 * f->named->stderr_[k];
+    const double v = f->value[k], wide = 1.96 * f->named->stderr_[k];
     page_text(out, "<tr><td>", p->name, "");
     fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
     page_text(out, "<td>", p->unit, "</tr>\n");

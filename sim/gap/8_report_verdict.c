@@ -20,7 +20,7 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
   for (int k = 0; k < f->candidate->n; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     cJSON *const one = cJSON_AddObjectToObject(all, p->name);
-    add_number(one, "value", f->named->value[k]);
+    add_number(one, "value", f->value[k]);
     add_number(one, "stderr", f->named->stderr_[k]);
     cJSON_AddStringToObject(one, "unit", p->unit);
   }

@@ -10,8 +10,8 @@
 static void print_value(const finding_t *f, int k, FILE *out) {
   int n;
   const fx_param_t *const p = &fx_use_params(&f->candidate->use, &n)[f->fx->size[k].param];
-  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, f->named->value[k],
-          2.0 * f->named->stderr_[k], p->unit[0] ? " " : "", p->unit);
+  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, f->value[k], 2.0 * f->named->stderr_[k],
+          p->unit[0] ? " " : "", p->unit);
 }
 
 static void print_effect(const finding_t *f, FILE *out) {
