@@ -23,7 +23,8 @@ static void write_text(const extend_job_t *job, FILE *out) {
     while (file && fx < end && fx->points.n == 0) fx++;
     if (file && fx < end) {
       fprintf(out, "# was: ");
-      fwrite(line, 1, (size_t)(next - line), out);
+      fwrite(line, 1, strcspn(line, "\r\n"), out);
+      fputc('\n', out);
       write_list(out, "distance_over_radius", fx->points.x, fx->points.n);
       write_list(out, "ratio", fx->points.ratio, fx->points.n);
       fx++;
