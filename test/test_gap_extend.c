@@ -32,7 +32,8 @@ static status_t extend(const char *path, const char *text, const candidate_t *ca
 static candidate_t candidate_of(const char *name) {
   candidate_t c = {.use = fx_use(fx_find(name)), .named = true};
   c.n = c.use.fx->n_size;
-  for (int k = 0; k < c.n; k++) c.use.p[c.use.fx->size[k].param] = 3.0 / 7.0 / (k + 1) * candidate_typical(&c, k);
+  for (int k = 0; k < c.n; k++)
+    c.use.p[c.use.fx->size[k].param] = 3.0 / 7.0 / (k + 1) * candidate_typical(&c, k);
   if (c.use.fx->n_shape) c.use.p[c.use.fx->shape_param] = c.use.fx->shape[1];
   return c;
 }

@@ -77,6 +77,14 @@ const char *report_p(double p, char text[REPORT_P]) {
   return text;
 }
 
+const char *report_length(double m, char text[REPORT_LENGTH]) {
+  if (fabs(m) < 1.0)
+    snprintf(text, REPORT_LENGTH, "%.3g mm", 1e3 * m);
+  else
+    snprintf(text, REPORT_LENGTH, "%.3g m", m);
+  return text;
+}
+
 // --- warnings ---------------------------------------------------------------------------------------------
 
 static const char *base_name(const char *path) {
@@ -95,8 +103,17 @@ static void warn_of_logs(report_t *r) {
   }
 }
 
+bool report_can_tell(const report_t *r) {
+  bool any = false;
+  for (int ch = 0; ch < CHANNELS; ch++) any = any || r->study->diagnosis.held_out.channel[ch].used;
+  return any;
+}
+
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
+  if (!report_can_tell(r))
+    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
+            "explain them");
   if (!d->nominal_flew)
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
@@ -154,9 +171,9 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
   r->verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none";
   TRY(report_take_evidence(r, study, why));
   find_untested(r);
-  warn_of_logs(r);
   warn_of_diagnosis(r);
   if (d->found.n == 0) warn_of_sizes(r);
+  warn_of_logs(r);
   return ST_OK;
 }
 

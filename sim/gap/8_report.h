@@ -71,7 +71,14 @@ void report_profile(const report_t *r, const double *effect, const double *varia
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
 
-// " p 0.003", or " p < 1e-16" for what is smaller.
+// Some residual can be formed; else nothing could have been found.
+bool report_can_tell(const report_t *r);
+
+// "12.3 mm", or in metres from 1 m on.
+#define REPORT_LENGTH 24
+const char *report_length(double m, char text[REPORT_LENGTH]);
+
+// "p 0.003", or " p < 1e-16" for what is smaller.
 #define REPORT_P 24
 const char *report_p(double p, char text[REPORT_P]);
 

@@ -44,10 +44,9 @@ static void headline(const report_t *r, FILE *out) {
   fputs("<h1>", out);
   for (int i = 0; i < r->n_finding; i++) page_text(out, i ? ", " : "Missing: ", r->finding[i].fx->name, "");
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
-  if (!r->n_finding)
-    fputs(s->diagnosis.unknown ? "Something is missing that cannot be named"
-                               : "Nothing is missing that these flights could show",
-          out);
+  const char *none = "Nothing is missing that these flights could show";
+  if (!report_can_tell(r)) none = "These flights cannot tell what is missing";
+  if (!r->n_finding) fputs(s->diagnosis.unknown ? "Something is missing that cannot be named" : none, out);
   page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
   if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");
@@ -107,13 +106,13 @@ static void held_out(const report_t *r, FILE *out) {
 }
 
 static void again(const resimulation_t *a, FILE *out) {
+  char before[REPORT_LENGTH], after[REPORT_LENGTH];
   if (!a->flew) return;
   fprintf(
       out,
       "<section><h2>Flown again in closed loop</h2>\n<p>The logged commands, and a pilot who corrects what "
-      "leaves the measured track: %.3g mm rms away with the old model, %.3g mm with the new "
-      "one.</p>\n<figure>",
-      1e3 * a->before_m, 1e3 * a->after_m);
+      "leaves the measured track: %s rms away with the old model, %s with the new one.</p>\n<figure>",
+      report_length(a->before_m, before), report_length(a->after_m, after));
   picture_track(a, out);
   fputs("<figcaption>The first held-out flight</figcaption></figure></section>\n", out);
 }
@@ -154,7 +153,7 @@ void report_page(const report_t *r, FILE *out) {
   headline(r, out);
   for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
   page_unknown(r, out);
-  held_out(r, out);
+  if (report_can_tell(r)) held_out(r, out);
   again(&r->study->resimulation, out);
   untested(r, out);
   warnings(r, out);

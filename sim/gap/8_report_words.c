@@ -31,6 +31,7 @@ static void print_effect(const finding_t *f, FILE *out) {
 
 static void print_gap(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
+  if (!report_can_tell(r)) return;
   fprintf(out, "\nheld out: ");
   if (s->by_time)
     fprintf(out, "the last third of %s\n", s->fit.n > 1 ? "each flight" : "the flight");
@@ -47,9 +48,10 @@ static void print_gap(const report_t *r, FILE *out) {
       fprintf(out, "%9s\n", "not known");
   }
   const resimulation_t *const a = &s->resimulation;
+  char before[REPORT_LENGTH], after[REPORT_LENGTH];
   if (a->flew)
-    fprintf(out, "flown again in closed loop: %.3g -> %.3g mm rms from the measured track\n",
-            1e3 * a->before_m, 1e3 * a->after_m);
+    fprintf(out, "flown again in closed loop: %s -> %s rms from the measured track\n",
+            report_length(a->before_m, before), report_length(a->after_m, after));
 }
 
 static void print_untested(const report_t *r, FILE *out) {
@@ -75,6 +77,8 @@ void report_words(const report_t *r, FILE *out) {
     fprintf(out, "%s.\n", unknown ? ", and something that has no name" : "");
   } else if (unknown)
     fprintf(out, "Something is missing in %s that cannot be named.\n", study_vehicle(s));
+  else if (!report_can_tell(r))
+    fprintf(out, "These flights cannot tell what is missing in %s.\n", study_vehicle(s));
   else
     fprintf(out, "Nothing is missing in %s that these flights could show.\n", study_vehicle(s));
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
