@@ -51,6 +51,7 @@ endif
 help:  ## what can be made
 	@echo '  make out/fly          flies scenarios (out/fly --help)'
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
+	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
 .PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
@@ -117,8 +118,10 @@ $(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
-demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
+demo: setup-demo out/fly out/learn out/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
+	@echo
+	@tools/gap_demo.sh "$(DATA)"
 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
@@ -158,7 +161,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

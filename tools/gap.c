@@ -21,7 +21,7 @@ typedef struct {
   const char **hold_out;
   const char *out, *json; // null: not said
   bool help;
-  char verdict[PATH_BYTES], page[PATH_BYTES], model[PATH_BYTES]; // in the folder `out`
+  char verdict[PATH_BYTES], page[PATH_BYTES], model[PATH_BYTES], curves[PATH_BYTES]; // in the folder `out`
 } order_t;
 
 static const char USAGE[] =
@@ -32,14 +32,16 @@ static const char USAGE[] =
     "  --hold-out LOG   a log that nothing is fitted to (may be repeated; else the last third: of three or "
     "more\n"
     "                   flights, or of each flight's time)\n"
-    "  --out DIR        writes verdict.json, report.html and model.toml there, in place of those of an "
+    "  --out DIR        writes verdict.json, report.html, curves.csv and model.toml there, in place of those "
+    "of an "
     "earlier run;\n"
     "                   nothing else there is touched, and without --out or --json no file is\n"
     "  --json FILE      writes verdict.json there\n"
     "  --seed N         of the flights that show what feedback alone does (1)\n"
     "  --help           this\n"
     "LOG: a CSV or the .bin of a uSD deck. Exit status: 0, whatever is found; 2 if the input is bad (then\n"
-    "verdict.json says `refused` and why, and a model.toml of an earlier run is removed); 1 if something "
+    "verdict.json says `refused` and why, and model.toml and curves.csv of an earlier run are removed); 1 if "
+    "something "
     "else fails.\n";
 
 // --- options ------------------------------------------------------------------------------------------
@@ -66,6 +68,7 @@ static status_t take_paths(order_t *o, why_t *why) {
   if (!o->out) return ST_OK;
   const int a = snprintf(o->verdict, PATH_BYTES, "%s/verdict.json", o->out);
   snprintf(o->page, PATH_BYTES, "%s/report.html", o->out);
+  snprintf(o->curves, PATH_BYTES, "%s/curves.csv", o->out);
   snprintf(o->model, PATH_BYTES, "%s/model.toml", o->out);
   return a < 4000 && o->out[0] ? ST_OK : error_set(why, "--out %.60s: not a folder's path", o->out);
 }
@@ -96,7 +99,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 
 typedef struct {
   whole_files_t files;
-  FILE *verdict, *page, *model, *json;
+  FILE *verdict, *page, *model, *curves, *json;
 } output_t;
 
 static status_t make_folder(const char *path, why_t *why) {
@@ -112,6 +115,7 @@ static status_t open_output(const order_t *o, bool refused, output_t *w, why_t *
   TRY(whole_files_open(&w->files, o->out ? o->verdict : NULL, &w->verdict, why));
   TRY(whole_files_open(&w->files, o->out ? o->page : NULL, &w->page, why));
   if (!refused) TRY(whole_files_open(&w->files, o->out ? o->model : NULL, &w->model, why));
+  if (!refused) TRY(whole_files_open(&w->files, o->out ? o->curves : NULL, &w->curves, why));
   TRY(whole_files_open(&w->files, o->json, &w->json, why));
   TRY(whole_files_spare(&w->files, o->study.vehicle, why));
   TRY(whole_files_spare(&w->files, o->study.columns, why));
@@ -135,18 +139,25 @@ static status_t write_all(const report_t *r, const output_t *w, why_t *why) {
   const extend_job_t job = {study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis, logs};
   TRY(write_json(report_verdict(r), w, why));
   if (w->page) report_page(r, w->page);
+  if (w->curves) report_curves(r, w->curves);
   if (w->model) TRY(extend_write(&job, w->model, why));
   report_words(r, stdout);
   return ST_OK;
 }
 
-// A model of an earlier run must not stand beside a refusal; what is not ours stays.
-static void remove_model(const order_t *o) {
-  char first[20] = "";
-  FILE *const file = o->out ? fopen(o->model, "r") : NULL;
-  const bool ours = file && fgets(first, sizeof first, file) && strncmp(first, "# Written by gap: ", 18) == 0;
+static bool begins(const char *path, const char *text) {
+  char first[40] = "";
+  FILE *const file = fopen(path, "r");
+  const bool ours = file && fgets(first, sizeof first, file) && strncmp(first, text, strlen(text)) == 0;
   if (file) fclose(file);
-  if (ours) (void)!remove(o->model);
+  return ours;
+}
+
+// What an earlier run found must not stand beside a refusal; what is not ours stays.
+static void remove_found(const order_t *o) {
+  if (!o->out) return;
+  if (begins(o->model, "# Written by gap: ")) (void)!remove(o->model);
+  if (begins(o->curves, "effect,channel,channel_unit,")) (void)!remove(o->curves);
 }
 
 // What cannot be written now was said, or is of no weight beside the refusal.
@@ -156,7 +167,7 @@ static void refuse(const order_t *o, const why_t *line) {
   status_t status = open_output(o, true, &w, &why);
   if (status == ST_OK) status = write_json(report_refused(line->text), &w, &why);
   if (status == ST_OK && w.page) report_page_refused(line->text, w.page);
-  if (status == ST_OK && whole_files_commit(&w.files, &why) == ST_OK) remove_model(o);
+  if (status == ST_OK && whole_files_commit(&w.files, &why) == ST_OK) remove_found(o);
   whole_files_drop(&w.files);
 }
 

@@ -93,6 +93,9 @@ MUST_CHECK status_t report_write_json(const cJSON *json, FILE *out, why_t *why);
 // One screen.
 void report_words(const report_t *r, FILE *out);
 
+// The numbers of the page's pictures of named effects: a row for each mean over a range of the coordinate.
+void report_curves(const report_t *r, FILE *out);
+
 // A page that needs nothing else.
 void report_page(const report_t *r, FILE *out);
 void report_page_refused(const char *line, FILE *out);

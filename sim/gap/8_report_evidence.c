@@ -147,13 +147,14 @@ static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f,
   return ST_OK;
 }
 
-static int channel_of(const report_t *r, double *const effect[CHANNELS]) {
+static int channel_of(const report_t *r, const char *wanted, double *const effect[CHANNELS]) {
   const diagnosis_t *const d = &r->study->diagnosis;
   double most = -1.0;
   int best = CH_FZ;
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
     if (!p->used || !(p->after > 0.0)) continue;
+    if (wanted && strcmp(wanted, gap_channel[ch]) == 0) return ch;
     double sum = 0.0;
     for (int i = 0; i < set_rows(&d->held, ch)->n; i++) sum += effect[ch][i] * effect[ch][i];
     if (!(sum / (p->after * p->after) > most)) continue;
@@ -189,7 +190,7 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
   const where_t where = manoeuvre_where(f->fx);
   profile_t *const p = &f->profile;
   double most = 0.0;
-  *p = (profile_t){.channel = channel_of(r, effect), .coordinate = coordinate_find("time")};
+  *p = (profile_t){.channel = channel_of(r, where.channel, effect), .coordinate = coordinate_find("time")};
   find_where(r, p->channel, p->coordinate, effect[p->channel], &f->where);
   for (int k = 0; k < 2; k++) {
     span_t span;

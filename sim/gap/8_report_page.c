@@ -54,6 +54,24 @@ static void headline(const report_t *r, FILE *out) {
   fputs("</p>\n", out);
 }
 
+// Several names at a glance.
+static void overview(const report_t *r, FILE *out) {
+  double most = 1e-9;
+  for (int i = 0; i < r->n_finding; i++) most = fmax(most, r->finding[i].named->share);
+  if (r->n_finding < 2) return;
+  fputs("<section><table><tr><th>missing<th class=n>of the gap<th><th>shows in</tr>\n", out);
+  for (int i = 0; i < r->n_finding; i++) {
+    const finding_t *const f = &r->finding[i];
+    page_text(out, "<tr><td>", f->fx->name, "");
+    fprintf(out,
+            "<td class=n>%.3g %%<td style=\"width:45%%\"><span class=\"bar after\" style=\"width:%.1f%%\">"
+            "</span><td>%s</tr>\n",
+            100.0 * f->named->share, 100.0 * fmax(f->named->share, 0.0) / most,
+            gap_channel[f->profile.channel]);
+  }
+  fputs("</table></section>\n", out);
+}
+
 // --- held-out flights -------------------------------------------------------------------------------------
 
 static void bars(const gap_part_t *p, bool floor, FILE *out) {
@@ -151,6 +169,7 @@ static void warnings(const report_t *r, FILE *out) {
 void report_page(const report_t *r, FILE *out) {
   fputs(HEAD, out);
   headline(r, out);
+  overview(r, out);
   for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
   page_unknown(r, out);
   if (report_can_tell(r)) held_out(r, out);

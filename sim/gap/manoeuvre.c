@@ -8,31 +8,31 @@ static const struct {
   const char *name;
   where_t where;
 } WHERE[] = {
-    {"ceiling", {{"ceiling distance"}}},
-    {"ceiling_rpm", {{"ceiling distance"}}},
-    {"ground", {{"height"}}},
-    {"sidewall", {{"y"}}},
-    {"rotor_drag", {{"v_x", "v_y"}}},
-    {"body_drag", {{"v_x", "v_y"}}},
-    {"flapping", {{"v_x", "v_y"}}},
-    {"translational_lift", {{"v_x", "v_y"}}},
-    {"climb_inflow", {{"v_z"}}},
-    {"battery_sag", {{"voltage"}}},
-    {"motor_lag", {{"thrust"}}},
-    {"delay", {{"thrust"}}},
-    {"motor_damage", {{"thrust"}}},
-    {"mass", {{"time"}}},
-    {"thrust_scale", {{"thrust"}}},
-    {"cg_offset", {{"thrust"}}},
-    {"inertia", {{"roll rate", "yaw rate"}}},
-    {"accel_bias", {{"time"}}},
-    {"imu_misalignment", {{"thrust"}}},
-    {"wind", {{"time"}}},
-    {"tof_bias", {{"height"}}},
-    {"tof_floor", {{"ceiling distance", "height"}}},
-    {"tof_latency", {{"v_z"}}},
-    {"thrust_curve", {{"thrust"}}},
-    {"gyroscopic", {{"roll rate"}}},
+    {"ceiling", {{"ceiling distance"}, "force_z"}},
+    {"ceiling_rpm", {{"ceiling distance"}, "turn_z"}},
+    {"ground", {{"height"}, "force_z"}},
+    {"sidewall", {{"y"}, NULL}},
+    {"rotor_drag", {{"v_x", "v_y"}, NULL}},
+    {"body_drag", {{"v_x", "v_y"}, NULL}},
+    {"flapping", {{"v_x", "v_y"}, NULL}},
+    {"translational_lift", {{"v_x", "v_y"}, "force_z"}},
+    {"climb_inflow", {{"v_z"}, "force_z"}},
+    {"battery_sag", {{"voltage"}, "force_z"}},
+    {"motor_lag", {{"thrust"}, NULL}},
+    {"delay", {{"thrust"}, NULL}},
+    {"motor_damage", {{"thrust"}, NULL}},
+    {"mass", {{"time"}, NULL}},
+    {"thrust_scale", {{"thrust"}, NULL}},
+    {"cg_offset", {{"thrust"}, NULL}},
+    {"inertia", {{"roll rate", "yaw rate"}, NULL}},
+    {"accel_bias", {{"time"}, NULL}},
+    {"imu_misalignment", {{"thrust"}, NULL}},
+    {"wind", {{"time"}, NULL}},
+    {"tof_bias", {{"height"}, NULL}},
+    {"tof_floor", {{"ceiling distance", "height"}, NULL}},
+    {"tof_latency", {{"v_z"}, NULL}},
+    {"thrust_curve", {{"thrust"}, NULL}},
+    {"gyroscopic", {{"roll rate"}, NULL}},
 };
 
 // What changes one and leaves the other.
@@ -94,7 +94,7 @@ static const struct {
 where_t manoeuvre_where(const fx_t *fx) {
   for (unsigned i = 0; i < sizeof WHERE / sizeof *WHERE; i++)
     if (strcmp(WHERE[i].name, fx->name) == 0) return WHERE[i].where;
-  return (where_t){{"time"}};
+  return (where_t){{"time"}, NULL};
 }
 
 const char *manoeuvre_show(const fx_t *fx) {

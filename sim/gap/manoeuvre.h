@@ -6,10 +6,10 @@
 
 #define MANOEUVRE_BYTES 240
 
-// The coordinates (unknown.h) along which the effect changes, best first; the second may be null. Effects
-// that are not in the table: time.
+// The coordinates (unknown.h) along which the effect changes, best first; the second may be null. The channel
+// in which that is easiest to see; null: whichever it shows most in. Effects that are not in the table: time.
 typedef struct {
-  const char *coordinate[2];
+  const char *coordinate[2], *channel;
 } where_t;
 
 where_t manoeuvre_where(const fx_t *fx);
