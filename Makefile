@@ -51,6 +51,7 @@ endif
 help:  ## what can be made
 	@echo '  make out/fly          flies scenarios (out/fly --help)'
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
+	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
 .PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
@@ -117,8 +118,10 @@ $(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
-demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
+demo: setup-demo out/fly out/learn out/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
+	@echo
+	@tools/gap_demo.sh "$(DATA)"
 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
@@ -126,7 +129,7 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
 
-test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests out/fly out/gap out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
@@ -136,11 +139,11 @@ check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
-	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn out/sanitize/bin/effectiveness
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/gap out/sanitize/bin/learn out/sanitize/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/sanitize/bin out/sanitize/bin/tests "$(W)"
 
 clang: setup-lint  ## everything again, and the tests, with clang
-	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/gap out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
 FUZZ_S = 60
@@ -158,7 +161,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

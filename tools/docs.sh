@@ -24,6 +24,8 @@ out/fly --params=markdown >"$got"
 part params <"$got"
 tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
+tools/gap_demo.sh "$data" >"$got"
+text <"$got" | part gap
 out/bench >"$got"
 text <"$got" | part bench
 for gains in '1 5' '2 8'; do
