@@ -161,6 +161,25 @@ TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
   cJSON_Delete(same);
 }
 
+TEST(gap_reads_a_usd_log_as_the_same_flight) {
+  fx_use_t hidden = fx_use(fx_find("rotor_drag"));
+  hidden.p[0] = DRAG_KG;
+  char text[4000];
+  double k[2];
+  CHECK(gap_logs_fly("b", 3, &hidden));
+  for (int i = 0; i < 2; i++) {
+    ROW("%s", i ? "uSD" : "CSV");
+    CHECK(program_run(i ? GAP "--json $S/k.json $S/b?.bin" : GAP "--json $S/k.json $S/b?.csv", STREAM_OUTPUT,
+                      text, sizeof text) == 0);
+    cJSON *const v = verdict_of("k.json");
+    const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+    CHECK_TEXT(string_of(effect, "name"), "rotor_drag");
+    k[i] = number_of(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
+    cJSON_Delete(v);
+  }
+  CHECK_NEAR(k[1], k[0], 0.01 * k[0]); // floats: other last digits, a tenth of the standard error
+}
+
 // --- nothing, and what has no name ----------------------------------------------------------------------
 
 TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
