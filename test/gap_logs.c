@@ -4,6 +4,7 @@
 #include "exam/plan.h"
 #include "io/model_file.h"
 #include "scratch.h"
+#include "usd_bytes.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,6 +45,31 @@ void gap_log_write(const gap_flight_t *f, const char *path) {
   if (fclose(file) != 0) abort();
 }
 
+void gap_log_write_usd(const gap_flight_t *f, const char *path) {
+  usd_bytes_t b = {0};
+  usd_put(&b, 0xBC, 1);
+  usd_put(&b, 2, 2);
+  usd_put(&b, 1, 2);
+  usd_put(&b, 0, 2);
+  usd_put_name(&b, "fixedFrequency");
+  usd_put(&b, COLUMNS, 2);
+  for (unsigned k = 0; k < COLUMNS; k++) {
+    char name[60];
+    snprintf(name, sizeof name, "%s(f)", COLUMN[k].name);
+    usd_put_name(&b, name);
+  }
+  for (int i = 0; i < f->n; i++) {
+    usd_put(&b, 0, 2);
+    usd_put(&b, (uint64_t)llround(1e6 * f->t_s[i]), 8);
+    for (unsigned k = 0; k < COLUMNS; k++)
+      usd_put_float(&b, (float)(COLUMN[k].factor * f->v[COLUMN[k].signal][i]));
+  }
+  usd_put_crc(&b);
+  FILE *const file = fopen(path, "wb");
+  if (!file || fwrite(b.byte, 1, b.n, file) != b.n || fclose(file) != 0) abort();
+  usd_bytes_free(&b);
+}
+
 // The file of sim/vehicles without its effects, in a room with a ceiling.
 static void write_vehicle(void) {
   for (int i = 0; i < vehicle_count; i++) {
@@ -69,6 +95,8 @@ bool gap_logs_fly(const char *name, int n, const fx_use_t *hidden) {
     snprintf(file, sizeof file, "%s%d.csv", name, i);
     good = exam_fly(&job, &f, &why) == ST_OK;
     if (good) gap_log_write(&f, scratch_path(file));
+    snprintf(file, sizeof file, "%s%d.bin", name, i);
+    if (good) gap_log_write_usd(&f, scratch_path(file));
     gap_flight_free(&f);
   }
   return good;

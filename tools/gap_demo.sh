@@ -34,7 +34,7 @@ sed -e 's/[[:space:]]*$//' -e '/./,$!d' curve.txt
 
 echo
 echo '$ fly test-flight --vehicle report/model.toml'
-../../fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 --vehicle report/model.toml | tail -n 1
+../../fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 --vehicle report/model.toml | tail -n 1 | sed 's|, [0-9]* x real time||'
 cd ../../..
 if [ -n "$data" ] && [ -d "$data/ground_effect" ]; then
   echo

@@ -74,7 +74,7 @@ static void fly_point(again_t *a, int j, int first_sample) {
 }
 
 typedef struct {
-  double squares;
+  double squares, height_squares;
   long points;
   int lost;
 } tally_t;
@@ -98,12 +98,14 @@ static status_t fly(again_t *a, const model_t *m, tally_t *tally, double *const 
     if (!go_on) TRY(put(a, m, j, why));
     const double *pos = a->body.y + RIGID_POS_M;
     double far_m = d3_norm(d3_sub(d3_of(pos), p->pos_w_m));
+    const double off_z_m = fmin(fabs(pos[2] - p->pos_w_m.z), RESIMULATE_LOST_M); // NaN: lost
     if (a->body.broken || !(far_m <= RESIMULATE_LOST_M)) {
       far_m = RESIMULATE_LOST_M;
       tally->lost++;
       TRY(put(a, m, j, why));
     }
     tally->squares += far_m * far_m;
+    tally->height_squares += off_z_m * off_z_m;
     tally->points++;
     for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = pos[k];
     fly_point(a, j, sample_of(g, j));
@@ -113,7 +115,7 @@ static status_t fly(again_t *a, const model_t *m, tally_t *tally, double *const 
 
 static status_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const manner_t *manner,
                         tally_t *tally, double *const at_m[3], why_t *why) {
-  *tally = (tally_t){0.0, 0, 0};
+  *tally = (tally_t){.squares = 0.0};
   status_t status = ST_OK;
   for (int f = 0; f < held->n_grid && status == ST_OK; f++) {
     again_t *const a = calloc(1, sizeof *a);
@@ -166,6 +168,8 @@ status_t resimulate(const set_t *held, const model_t *before, const model_t *aft
   if (b.points == 0 || a.points == 0) return ST_OK;
   r->flew = true;
   r->before_m = sqrt(b.squares / (double)b.points), r->after_m = sqrt(a.squares / (double)a.points);
+  r->before_height_m = sqrt(b.height_squares / (double)b.points);
+  r->after_height_m = sqrt(a.height_squares / (double)a.points);
   r->lost_before = b.lost, r->lost_after = a.lost;
   return ST_OK;
 }

@@ -13,7 +13,8 @@
 typedef struct {
   bool flew; // false: see why_not
   const char *why_not;
-  double before_m, after_m;    // rms distance from the measured track, all held-out flights
+  double before_m, after_m;               // rms distance from the measured track, all held-out flights
+  double before_height_m, after_height_m; // in height alone
   int lost_before, lost_after; // times that the vehicle was more than RESIMULATE_LOST_M away and was put back
   int n;
   double *t_s, *measured_m[3], *before_at_m[3], *after_at_m[3];

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
+
 static void warn(report_t *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 static void warn(report_t *r, const char *format, ...) {
@@ -131,6 +133,14 @@ static void warn_of_diagnosis(report_t *r) {
     if (p->used && p->after > 1.05 * p->before)
       warn(r, "%s: the gap grew on the held-out flights, %.3g to %.3g %s", gap_channel[ch], p->before,
            p->after, gap_unit[ch]);
+  }
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor)
+      warn(r,
+           "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
+           "much flight",
+           gap_channel[ch], p->after, gap_unit[ch], p->floor);
   }
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);

@@ -164,43 +164,52 @@ static int channel_of(const report_t *r, const char *wanted, double *const effec
   return best;
 }
 
-// Where the middle 90 % of what the effect does lie; returns the variance of the coordinate.
-static double find_where(const report_t *r, int channel, int coordinate, const double *effect,
-                         span_t *where) {
+// Where the middle 90 % of what the effect does lie.
+static span_t find_where(const report_t *r, const profile_t *p, const double *effect) {
   int n;
-  double all = 0.0, sum = 0.0, spread = 0.0, mean = 0.0;
-  mark_t *const mark = sorted(r, channel, coordinate, effect, &n);
-  for (int i = 0; i < n; i++) all += mark[i].square, mean += mark[i].x / n;
-  *where = n ? (span_t){mark[0].x, mark[0].x} : (span_t){0.0, 0.0};
+  double all = 0.0, sum = 0.0;
+  mark_t *const mark = sorted(r, p->channel, p->coordinate, effect, &n);
+  for (int i = 0; i < n; i++) all += mark[i].square;
+  span_t where = n ? (span_t){mark[0].x, mark[0].x} : (span_t){0.0, 0.0};
   bool begun = false;
   for (int i = 0; i < n; i++) {
     sum += mark[i].square;
-    spread += (mark[i].x - mean) * (mark[i].x - mean) / n;
-    if (!begun && sum >= TAIL * all) where->from = mark[i].x, begun = true;
-    if (sum <= (1.0 - TAIL) * all) where->to = mark[i].x;
+    if (!begun && sum >= TAIL * all) where.from = mark[i].x, begun = true;
+    if (sum <= (1.0 - TAIL) * all) where.to = mark[i].x;
   }
   free(mark);
-  where->to = fmax(where->from, where->to);
-  return spread;
+  where.to = fmax(where.from, where.to);
+  return where;
 }
 
-// Of the coordinates that an effect depends on the one that these flights cover best; else time.
+// How much of what the effect adds changes along the coordinate: the variance of its means. -1: the
+// coordinate is not there.
+static double told_by(const profile_t *p) {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (int k = 0; k < p->n; k++) {
+    n += p->rows[k];
+    sum += p->rows[k] * p->effect[k];
+    squares += p->rows[k] * p->effect[k] * p->effect[k];
+  }
+  return n > 0.0 ? fmax(squares / n - sum * sum / n / n, 0.0) : -1.0;
+}
+
+// Of the coordinates that an effect depends on the one that tells most of it; else time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
   const where_t where = manoeuvre_where(f->fx);
-  profile_t *const p = &f->profile;
-  double most = 0.0;
-  *p = (profile_t){.channel = channel_of(r, where.channel, effect), .coordinate = coordinate_find("time")};
-  find_where(r, p->channel, p->coordinate, effect[p->channel], &f->where);
-  for (int k = 0; k < 2; k++) {
-    span_t span;
-    const int coordinate = coordinate_find(where.coordinate[k]);
-    if (coordinate < 0) continue;
-    const double spread = find_where(r, p->channel, coordinate, effect[p->channel], &span);
-    if (!(spread > most)) continue;
-    most = spread, p->coordinate = coordinate, f->where = span;
+  const int channel = channel_of(r, where.channel, effect);
+  const char *const names[] = {where.coordinate[0], where.coordinate[1], "time"};
+  double most = -1.0;
+  for (int k = 0; k < 3; k++) {
+    profile_t p = {.channel = channel, .coordinate = coordinate_find(names[k])};
+    if (p.coordinate < 0 || (k == 2 && most >= 0.0)) continue;
+    const span_t span = find_where(r, &p, effect[channel]);
+    report_profile(r, effect[channel], variance[channel], &span, &p);
+    if (k < 2 && !(told_by(&p) > most)) continue;
+    most = told_by(&p);
+    f->profile = p, f->where = span;
   }
-  report_profile(r, effect[p->channel], variance[p->channel], &f->where, p);
 }
 
 static void find_flight(finding_t *f) {

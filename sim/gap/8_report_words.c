@@ -48,10 +48,11 @@ static void print_gap(const report_t *r, FILE *out) {
       fprintf(out, "%9s\n", "not known");
   }
   const resimulation_t *const a = &s->resimulation;
-  char before[REPORT_LENGTH], after[REPORT_LENGTH];
+  char before[REPORT_LENGTH], after[REPORT_LENGTH], low[REPORT_LENGTH], high[REPORT_LENGTH];
   if (a->flew)
-    fprintf(out, "flown again in closed loop: %s -> %s rms from the measured track\n",
-            report_length(a->before_m, before), report_length(a->after_m, after));
+    fprintf(out, "flown again in closed loop: %s -> %s rms from the measured track; in height %s -> %s\n",
+            report_length(a->before_m, before), report_length(a->after_m, after),
+            report_length(a->before_height_m, low), report_length(a->after_height_m, high));
 }
 
 static void print_untested(const report_t *r, FILE *out) {
