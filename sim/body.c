@@ -3,6 +3,7 @@
 
 #include "body_forces.h"
 #include "plant/rotor.h"
+#include "plant/rigid_derivative.h"
 #include <math.h>
 #include <string.h>
 
@@ -17,8 +18,19 @@ double body_rotor_z_m(const model_t *model) {
 }
 
 static void derivative(void *self, const double *y, double *dydt) {
-  const body_t *b = self;
-  body_derivative(b, b->surfaces, y, dydt);
+  body_t *b = self;
+  if (!b->look_is_y) {
+    body_derivative(b, b->surfaces, y, dydt);
+    return;
+  }
+  // The first call of a tick is at the tick's start, whichever integrator it is.
+  body_derivative_seen(b, y, &b->look, dydt);
+  b->look_is_y = false;
+}
+
+static void look_now(body_t *b) {
+  body_look(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, &b->look);
+  b->look_is_y = true;
 }
 
 // --- opening --------------------------------------------------------------------------------------------
@@ -72,7 +84,8 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
                        .kf_Ns2 = f->kf_Ns2,
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
-                       .thrust_scale = {1.0, 1.0, 1.0, 1.0}};
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                       .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
   b->touch.ceiling_m = model->ceiling_m;
@@ -82,8 +95,9 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   take_start(b, start);
   look_at_battery(b);
   b->random = random_open(start->seed);
-  if (!b->random) return ST_BAD_INPUT;
+  if (!b->random) return ST_FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
+  look_now(b);
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;
   b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
@@ -102,10 +116,6 @@ void body_close(body_t *b) {
 
 // --- a tick ---------------------------------------------------------------------------------------------
 
-static axes_t axes_now(const body_t *b) {
-  return axes_of(dq_of(b->y + RIGID_Q_WB));
-}
-
 static int touched(bool *on, double gap_m) {
   const bool was = *on;
   *on = gap_m <= 0.0 || (was && gap_m < BODY_RELEASE_M);
@@ -113,14 +123,15 @@ static int touched(bool *on, double gap_m) {
 }
 
 static void watch_contacts(body_t *b) {
-  const touch_gap_t gap = body_clearance(b);
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const touch_gap_t gap = touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &axes);
   b->floor_contacts += touched(&b->on_floor, gap.floor_m);
   b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
 }
 
 // The surfaces that may be touched within span_s.
 static int surfaces_within(const body_t *b, double span_s) {
-  const axes_t axes = axes_now(b);
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS);
   const double speed = fabs(b->y[RIGID_VEL_MPS + 2]) + b->touch.beside_m * (fabs(rate.x) + fabs(rate.y));
   return touch_near(&b->touch, b->y[RIGID_POS_M + 2], &axes, MARGIN_M + speed * span_s);
@@ -137,19 +148,23 @@ static void advance(body_t *b, double span_s) {
 }
 
 static void delay_commands(body_t *b, double span_s) {
-  const double ticks =
-      b->plant.delay_s > 0.0 ? fmin(round(b->plant.delay_s / span_s), BODY_QUEUE - 1.0) : 0.0;
+  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
+  const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
   memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
-  memcpy(b->rigid.command_N, b->queue_N[(b->queued - (unsigned)ticks) % BODY_QUEUE], sizeof b->command_N);
+  memcpy(b->rigid.command_N, b->queue_N[(b->queued - ticks) % BODY_QUEUE], sizeof b->command_N);
   b->queued++;
 }
 
 static void tick(body_t *b, double span_s) {
-  if (b->n_tick > 0) body_effects(b, span_s);
+  if (b->n_tick > 0) {
+    body_effects(b, span_s);
+    b->look_is_y = false;
+  }
   delay_commands(b, span_s);
   const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
   for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
   rigid_normalise(b->y);
+  look_now(b);
   b->broken = b->broken || !isfinite(b->y[RIGID_POS_M + 2]) || !isfinite(b->y[RIGID_Q_WB]);
   b->charge = battery_discharge(&b->model->battery, b->charge, b->current_A, span_s);
   look_at_battery(b);
@@ -158,7 +173,10 @@ static void tick(body_t *b, double span_s) {
 
 void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
   const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
-  for (int i = 0; i < ROTORS; i++) b->command_N[i] = fmin(fmax(command_N[i], min_N), max_N);
+  for (int i = 0; i < ROTORS; i++) {
+    const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
+    b->command_N[i] = command < max_N ? command : max_N;
+  }
   tick(b, span_s);
 }
 
@@ -170,29 +188,35 @@ void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s) {
 
 // --- looking ----------------------------------------------------------------------------------------------
 
+static void derivative_now(const body_t *b, double dydt[RIGID_N]) {
+  body_derivative_seen(b, b->y, &b->look, dydt);
+}
+
 d3_t body_angular_acc_b_radps2(const body_t *b) {
   double dydt[RIGID_N];
-  body_derivative(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, dydt);
+  derivative_now(b, dydt);
   return d3_of(dydt + RIGID_RATE_RADPS);
 }
 
 d3_t body_specific_force_b_mps2(const body_t *b) {
   double dydt[RIGID_N];
-  body_derivative(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, dydt);
-  const axes_t axes = axes_now(b);
+  derivative_now(b, dydt);
   const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
   const d3_t imu = d3_sub(d3_of(b->model->frame.imu_m), b->plant.cg_b_m);
   const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
-  return d3_add(axes_to_body(&axes, acc_w), d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
+  return d3_add(axes_to_body(&b->look.axes, acc_w),
+                d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
 }
 
-static double rotor_z_m(const body_t *b, int rotor) {
-  const axes_t axes = axes_now(b);
-  return b->y[RIGID_POS_M + 2] + d3_dot(axes_up_b(&axes), b->rigid.rotor_at_m[rotor]);
+static double rotor_z_m(const body_t *b, int i) {
+  const rigid_t *r = &b->rigid;
+  return b->y[RIGID_POS_M + 2] +
+         d3_dot(axes_up_b(&b->look.axes), d3(r->rotor_x_m[i], r->rotor_y_m[i], r->rotor_z_m[i]));
 }
 
 double body_ceiling_gap_m(const body_t *b, int rotor) {
-  return fmax(0.0, b->touch.ceiling_m - rotor_z_m(b, rotor));
+  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
+  return gap_m > 0.0 ? gap_m : 0.0;
 }
 
 double body_ground_gap_m(const body_t *b, int rotor) {
@@ -200,13 +224,9 @@ double body_ground_gap_m(const body_t *b, int rotor) {
 }
 
 double body_thrust_ratio(const body_t *b, int rotor) {
-  const axes_t axes = axes_now(b);
-  double ratio[ROTORS];
-  body_ratios(b, b->y[RIGID_POS_M + 2], &axes, ratio);
-  return ratio[rotor];
+  return b->look.ratio[rotor];
 }
 
 touch_gap_t body_clearance(const body_t *b) {
-  const axes_t axes = axes_now(b);
-  return touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &axes);
+  return touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &b->look.axes);
 }

@@ -28,11 +28,19 @@ typedef struct {
   bool vertical_only;      // all but height, climb and thrust stand still
 } body_start_t;
 
+// All that the derivative at a state needs besides the commands.
+typedef struct {
+  axes_t axes;
+  double ratio[ROTORS], speed_radps[ROTORS];
+  bool loaded; // else load is not set: nothing acts but the rotors
+  load_t load;
+} body_look_t;
+
 typedef struct {
   const model_t *model; // owned by the caller; must outlive the body and must not change
   rigid_t rigid;
   touch_t touch;
-  double y[RIGID_N];        // see plant/rigid.h; the quaternion is of unit length at ticks
+  double y[RIGID_N];        // see plant/rigid.h; the quaternion is of unit length at ticks. To be read only
   double command_N[ROTORS]; // as given to the last tick, within the model's limits, before the delay
   double t_s;               // since the start
   double charge, current_A, vbat_V;
@@ -46,15 +54,17 @@ typedef struct {
   double memory[FX_MAX][FX_MEMORY];
   const fx_use_t *excess[FX_MAX], *load[FX_MAX];
   int n_excess, n_load, n_tick;
-  int surfaces; // TOUCH_* that are near enough to look at
+  int surfaces;     // TOUCH_* that are near enough to look at
+  body_look_t look; // at y, between ticks
+  bool look_is_y;   // also at the integrator's next call
   double queue_N[BODY_QUEUE][ROTORS];
   unsigned queued;
 } body_t;
 
 #define BODY_RELEASE_M 1e-3
 
-// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range, or no memory.
-// The body must not be moved in memory; close what was opened.
+// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range. ST_FAILED: no
+// memory. The body must not be moved in memory; close what was opened.
 MUST_CHECK status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
                               const body_start_t *start);
 

@@ -1,46 +1,82 @@
 // body_forces.c - what acts on a vehicle.
 #include "body_forces.h"
 
+#include "plant/pair.h"
+#include "plant/rigid_derivative.h"
 #include <math.h>
 #include <string.h>
 
 // --- forces -------------------------------------------------------------------------------------------
 
-void body_ratios(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
+static fx_place_t place_of(const body_t *b, double z_m, const axes_t *axes, int rotor) {
+  const double rotor_z_m = z_m + b->rigid.rotor_x_m[rotor] * axes_up_b(axes).x +
+                           b->rigid.rotor_y_m[rotor] * axes_up_b(axes).y +
+                           b->rigid.rotor_z_m[rotor] * axes_up_b(axes).z;
+  return (fx_place_t){.ceiling_gap_m = fmax(b->touch.ceiling_m - rotor_z_m, 0.0),
+                      .ground_gap_m = fmax(rotor_z_m, 0.0),
+                      .radius_m = b->model->rotor_radius_m};
+}
+
+// What the surroundings multiply each rotor's thrust by; z_m: height of the centre of mass.
+static void look_at_surfaces(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
   for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
   if (b->n_excess == 0) return;
   const d3_t up = axes_up_b(axes);
-  for (int i = 0; i < ROTORS; i++) {
-    const double rotor_z_m = z_m + d3_dot(up, b->rigid.rotor_at_m[i]);
-    const double above_m = b->touch.ceiling_m - rotor_z_m;
-    const fx_place_t place = {.ceiling_gap_m = above_m > 0.0 ? above_m : 0.0,
-                              .ground_gap_m = rotor_z_m > 0.0 ? rotor_z_m : 0.0,
-                              .radius_m = b->model->rotor_radius_m};
-    for (int k = 0; k < b->n_excess; k++) ratio[i] += b->excess[k]->fx->excess(b->excess[k], &place);
+  const rigid_t *r = &b->rigid;
+  fx_places_t at;
+  at.radius_m = b->model->rotor_radius_m;
+  const pair_t zero = pair_both(0.0);
+  for (int i = 0; i < ROTORS; i += 2) {
+    const pair_t rotor_z_m = z_m + (up.x * pair_of(r->rotor_x_m + i) + up.y * pair_of(r->rotor_y_m + i) +
+                                    up.z * pair_of(r->rotor_z_m + i));
+    pair_put(at.ceiling_gap_m + i, pair_max(b->touch.ceiling_m - rotor_z_m, zero));
+    pair_put(at.ground_gap_m + i, pair_max(rotor_z_m, zero));
   }
+  for (int k = 0; k < b->n_excess; k++) fx_add_excess(b->excess[k], &at, ratio);
 }
 
 static void effects_load(const body_t *b, const double *y, const axes_t *axes, const double speed[ROTORS],
                          load_t *load) {
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
+  motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
   for (int i = 0; i < ROTORS; i++) motion.rotor_sum_radps += speed[i];
+  for (int i = 0; i < ROTORS; i++) motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
 }
 
+static inline void look_at(const body_t *b, int surfaces, const double *y, body_look_t *look) {
+  look->axes = axes_of(dq_of(y + RIGID_Q_WB));
+  look_at_surfaces(b, y[RIGID_POS_M + 2], &look->axes, look->ratio);
+  rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
+  look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
+  if (!look->loaded) return;
+  look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  if (b->n_tick > 0)
+    look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
+  if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
+  if (!surfaces) return;
+  const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &look->axes, 0.0);
+  if (near) touch_load(&b->touch, near, y, &look->axes, &look->load);
+}
+
+void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
+  look_at(b, surfaces, y, look);
+}
+
+static inline void derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
+  rigid_derivative(&b->rigid, y, &look->axes, look->speed_radps, look->ratio,
+                   look->loaded ? &look->load : NULL, dydt);
+}
+
+void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
+  derivative_seen(b, y, look, dydt);
+}
+
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
-  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
-  double ratio[ROTORS], speed[ROTORS];
-  load_t load = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  body_ratios(b, y[RIGID_POS_M + 2], &axes, ratio);
-  rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, speed);
-  if (b->n_tick > 0) load.force_b_N = axes_to_body(&axes, b->plant.force_w_N);
-  if (b->n_load > 0) effects_load(b, y, &axes, speed, &load);
-  if (surfaces) {
-    const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &axes, 0.0);
-    if (near) touch_load(&b->touch, near, y, &axes, &load);
-  }
-  rigid_derivative(&b->rigid, y, &axes, speed, ratio, &load, dydt);
+  body_look_t look;
+  look_at(b, surfaces, y, &look);
+  derivative_seen(b, y, &look, dydt);
 }
 
 // --- the model, as the effects leave it ------------------------------------------------------------------
@@ -51,7 +87,11 @@ void body_place(body_t *b, d3_t cg) {
                half = f->top_half_m;
   for (int i = 0; i < ROTORS; i++) {
     const double x = f->rotor_x_m[i], y = f->rotor_y_m[i];
-    b->rigid.rotor_at_m[i] = b->touch.disc[i] = d3_sub(d3(x, y, rotor_z), cg);
+    const d3_t at = d3_sub(d3(x, y, rotor_z), cg);
+    b->touch.disc[i] = at;
+    b->rigid.rotor_x_m[i] = at.x;
+    b->rigid.rotor_y_m[i] = at.y;
+    b->rigid.rotor_z_m[i] = at.z;
     b->touch.foot[i] = d3_sub(d3(x, y, -f->cg_above_feet_m), cg);
     b->touch.top[i] = d3_sub(d3(copysign(half, x), copysign(half, y), top_z), cg);
   }
@@ -60,7 +100,9 @@ void body_place(body_t *b, d3_t cg) {
 
 fx_plant_t body_untouched(const model_t *m) {
   return (fx_plant_t){.mass_kg = m->mass_kg,
+                      .inertia_scale = {1.0, 1.0, 1.0},
                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                      .torque_scale = {1.0, 1.0, 1.0, 1.0},
                       .motor_tau_s = m->motor_tau_s,
                       .delay_s = m->frame.motor_delay_s};
 }
@@ -69,14 +111,25 @@ void body_effects(body_t *b, double span_s) {
   const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
   b->plant = body_untouched(m);
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  fx_place_t place[ROTORS];
+  for (int i = 0; i < ROTORS; i++) place[i] = place_of(b, b->y[RIGID_POS_M + 2], &axes, i);
   for (int k = 0; k < m->n_fx; k++) {
-    const fx_tick_t tick = {
-        .t_s = b->t_s, .span_s = span_s, .vbat_V = b->vbat_V, .random = b->random, .memory = b->memory[k]};
+    const fx_tick_t tick = {.t_s = b->t_s,
+                            .span_s = span_s,
+                            .vbat_V = b->vbat_V,
+                            .thrust_N = b->y + RIGID_THRUST_N,
+                            .place = place,
+                            .random = b->random,
+                            .memory = b->memory[k]};
     if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
   }
+  const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
+  b->rigid.inertia_kgm2 = d3(J.x * grown.x, J.y * grown.y, J.z * grown.z);
   b->rigid.mass_kg = b->plant.mass_kg;
   b->rigid.motor_tau_s = b->plant.motor_tau_s;
   rigid_tune(&b->rigid);
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
+  memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
   if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
 }

@@ -4,11 +4,12 @@
 
 #include "body.h"
 
-// dydt at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
-void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
+// What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
+void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look);
 
-// What the surroundings multiply each rotor's thrust by; z_m: height of the centre of mass.
-void body_ratios(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]);
+// dydt at state y, with what acts there or without having looked.
+void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
+void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
 
 // Places rotors and points of contact around a centre of mass that lies at cg, seen from the vehicle file's.
 void body_place(body_t *b, d3_t cg);

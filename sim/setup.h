@@ -52,6 +52,7 @@ typedef struct {
     float value;
   } set[REQUEST_MAX];
   int n_set;
+  bool log_500_Hz; // six degrees of freedom: a sample every 2 ms instead of 10
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;

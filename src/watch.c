@@ -84,6 +84,10 @@ static guard_in_t seen(const flight_t *f, const flight_in_t *in, int ms, bool se
       .ceiling_z_m = o->out.ceiling_z_m,
       .zc_known = o->ceiling.known,
       .setpoint_good = setpoint_good,
+      .find_bias = f->param.bias.pole_radps > 0.0f,
+      .force_N = o->sample.force_N,
+      .thrust_now_N = o->sample.thrust_N,
+      .bias_known_mps2 = o->bias.bias_mps2.z,
       .asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN,
       .setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN,
   };
@@ -129,6 +133,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   take_jump_out(f, in, ms);
   const guard_in_t guard_in = seen(f, in, ms, good);
   guard_step(&f->guard, &f->param.guard, &guard_in);
+  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
   mend_acceleration(f, in);
   if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   in->setpoint = setpoint_flown(f, in);

@@ -1,6 +1,9 @@
-// oracle.h - linear algebra in double by Eigen: what the flight code's own is compared with.
+// oracle.h - linear algebra in double by Eigen, and the C++ library's random numbers: what our own are
+// compared with.
 #ifndef TEST_ORACLE_H
 #define TEST_ORACLE_H
+
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,6 +16,9 @@ void oracle_least_squares(int n, const double (*A)[ORACLE_N], const double *y, d
 
 // The eigenvalues of a symmetric matrix, the smallest first. Only the lower triangle is read.
 void oracle_eigenvalues(const double A[ORACLE_N][ORACLE_N], double values[ORACLE_N]);
+
+// n numbers from 0 to 1 of std::mt19937_64.
+void oracle_uniform(uint64_t seed, int n, double *out);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@ typedef struct {
   double rate[3], q[4], torque[3], command[3], unknown[3]; // q: w x y z, body to world
   double slow;                                             // the motors' lag over TAU_S; 0: 1
   bool late;                                               // commands act LATE ticks later
+  double stiff_per_s2, ratio; // of a ceiling: angular acceleration per tilt; of the torques, 0: 1
   double line[LATE][3];
   int at;
 } body_t;
@@ -29,7 +30,9 @@ static void move(body_t *b) {
     double acc[3];
     for (int i = 0; i < 3; i++) {
       const double slope = (acts[i] - b->torque[i]) / tau_s;
-      acc[i] = (b->torque[i] + b->unknown[i] + (i == 2 ? G2_S * slope : 0.0)) / J[i];
+      const double given = (b->ratio > 0.0 ? b->ratio : 1.0) * b->torque[i] + b->unknown[i];
+      acc[i] = (given + (i == 2 ? G2_S * slope : 0.0)) / J[i];
+      if (i < 2) acc[i] += 2.0 * b->stiff_per_s2 * b->q[1 + i];
       b->torque[i] += h * slope;
     }
     const double *w = b->rate, *q = b->q;
@@ -50,10 +53,11 @@ typedef struct {
   flight_param_t param;
   lpf2_coef_t filter;
   float lag_share;
+  float ceiling_Nms, ratio; // what the loop believes
 } loop_t;
 
 static loop_t fresh(float cutoff_Hz) {
-  loop_t l;
+  loop_t l = {.ratio = 1.0f};
   params_default(&l.param);
   CHECK_OK(lpf2_tune(&l.filter, cutoff_Hz, 500.0f));
   l.lag_share = thrust_lag_share((float)TICK_S, (float)TAU_S);
@@ -68,6 +72,8 @@ static void step(loop_t *l, body_t *b, quat_t q_ref, float yaw_rate_radps) {
       .q_ref = q_ref,
       .yaw_rate_radps = yaw_rate_radps,
       .torque_b_Nm = {(float)b->command[0], (float)b->command[1], (float)b->command[2]},
+      .ceiling_Nms = l->ceiling_Nms,
+      .ratio = l->ratio,
   };
   const v3_t torque = att_indi_step(&l->att, &l->param.att, &l->filter, l->lag_share, (float)TICK_S, &in);
   b->command[0] = (double)torque.x;
@@ -140,6 +146,53 @@ TEST(inner_loop_is_stable_with_motors_half_and_twice_as_slow_as_it_believes) {
   CHECK(left_deg(&p, 2.0) > 20.0);
 }
 
+// Degrees of roll that are left 3 s after a kick of 1 rad/s, at most, within half a second.
+static double kicked_deg(double stiff_per_s2, double ratio, double share) {
+  flight_param_t p;
+  params_default(&p);
+  loop_t l = fresh(p.att_cutoff_Hz);
+  const double lag_s = TAU_S + 0.2251 / (double)p.att_cutoff_Hz;
+  l.ceiling_Nms = (float)(-share * stiff_per_s2 * J[0] * lag_s);
+  l.ratio = share > 0.0 ? (float)ratio : 1.0f;
+  body_t b = {
+      .q = {1, 0, 0, 0}, .rate = {1, 0, 0}, .late = true, .stiff_per_s2 = stiff_per_s2, .ratio = ratio};
+  double left_rad = 0.0;
+  for (int k = 0; k < 1750; k++) {
+    step(&l, &b, (quat_t){1, 0, 0, 0}, 0.0f);
+    if (k >= 1500) left_rad = fmax(left_rad, 2.0 * fabs(asin(b.q[1])));
+  }
+  return left_rad * 180.0 / 3.14159265358979;
+}
+
+TEST(inner_loop_stays_level_under_a_ceiling_down_to_contact) {
+  // m g arm^2 80 /m (ratio - 1) / ratio / J of a 32.9 g vehicle under 1 + 0.44 exp(-80 zc).
+  static const struct {
+    const char *what;
+    double stiff_per_s2, ratio;
+    bool alone; // the increment alone holds it
+  } row[] = {{"2 cm", 132, 1.089, true}, {"1 cm", 268, 1.198, true}, {"contact", 496, 1.44, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    CHECK(kicked_deg(row[i].stiff_per_s2, row[i].ratio, 1.0) < 0.01);
+    const double alone_deg = kicked_deg(row[i].stiff_per_s2, row[i].ratio, 0.0);
+    CHECK(row[i].alone ? alone_deg < 1.0 : alone_deg > 20.0);
+  }
+}
+
+TEST(inner_loop_is_stable_in_free_air_whatever_the_curve_says) {
+  static const double believed[] = {-1e6, 500.0, 2000.0, 1e9};
+  for (unsigned i = 0; i < sizeof believed / sizeof *believed; i++) {
+    ROW("%g 1/s2", believed[i]);
+    flight_param_t p;
+    params_default(&p);
+    loop_t l = fresh(p.att_cutoff_Hz);
+    l.ceiling_Nms = (float)(-believed[i] * J[0] * TAU_S);
+    body_t b = {.q = {1, 0, 0, 0}, .rate = {1, 1, 0}, .late = true};
+    for (int k = 0; k < 1500; k++) step(&l, &b, (quat_t){1, 0, 0, 0}, 0.0f);
+    CHECK_NEAR(hypot(b.q[1], b.q[2]), 0.0, 2e-3);
+  }
+}
+
 TEST(inner_loop_turns_at_the_wanted_yaw_rate) {
   loop_t l = fresh(8.0f);
   body_t b = {.q = {1, 0, 0, 0}};
@@ -161,7 +214,7 @@ TEST(inner_loop_holds_against_a_torque_that_it_does_not_know) {
 TEST(inner_loop_takes_over_without_a_bump) {
   loop_t l = fresh(8.0f);
   const att_indi_in_t in = {
-      .q_wb = {1, 0, 0, 0}, .q_ref = {1, 0, 0, 0}, .torque_b_Nm = {1e-4f, -2e-4f, 3e-5f}};
+      .q_wb = {1, 0, 0, 0}, .q_ref = {1, 0, 0, 0}, .torque_b_Nm = {1e-4f, -2e-4f, 3e-5f}, .ratio = 1.0f};
   const v3_t torque = att_indi_step(&l.att, &l.param.att, &l.filter, l.lag_share, (float)TICK_S, &in);
   CHECK_NEAR(torque.x, 1e-4, 1e-9);
   CHECK_NEAR(torque.y, -2e-4, 1e-9);

@@ -33,66 +33,66 @@ static void make_logs(void) {
                     text, sizeof text) == 0);
 }
 
+static const struct {
+  const char *what, *arguments, *line;
+} REFUSED[] = {
+    {"missing", "$S/l_no.csv", "learn: l_no.csv: cannot be opened: No such file or directory\n"},
+    {"empty", "$S/l_empty.csv",
+     "learn: l_empty.csv:1: the file is empty; allowed: a row of names and rows of numbers\n"},
+    {"header only", "$S/l_names.csv", "learn: l_names.csv:1: no row under the names; allowed: one or more\n"},
+    {"truncated", "$S/l_cut.csv",
+     "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 41 "
+     "(cut off here?)\n"},
+    {"not a number", "$S/l_word.csv",
+     "learn: l_word.csv:9: column stateEstimate.qx: not a number: `x`; allowed: a number, or nan or "
+     "nothing for a gap\n"},
+    {"time runs back", "$S/l_back.csv",
+     "learn: l_back.csv:9: column timestamp: 0.01 s after 0.06 s; allowed: time that increases from row to "
+     "row\n"},
+    {"decimal comma", "$S/l_comma.csv",
+     "learn: l_comma.csv:9: column stateEstimate.qw: decimal comma in `1,0`; allowed: `.`\n"},
+    {"decimal comma, not quoted", "$S/l_more.csv",
+     "learn: l_more.csv:9: 42 cells where the first row names 41; allowed: `,` between cells and `.` in "
+     "numbers\n"},
+    {"a folder", "$S/l_dir", "learn: l_dir: cannot be read: Is a directory\n"},
+    {"bad after a good one", "$S/l_flight.csv $S/l_cut.csv",
+     "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 41 "
+     "(cut off here?)\n"},
+    {"held out, missing", "$S/l_flight.csv --hold-out $S/l_no.csv",
+     "learn: l_no.csv: cannot be opened: No such file or directory\n"},
+    {"held out, truncated", "$S/l_flight.csv --hold-out $S/l_cut.csv",
+     "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 41 "
+     "(cut off here?)\n"},
+    {"unknown column", "$S/l_flight.csv --columns $S/l_other.toml",
+     "learn: l_flight.csv:1: column altitude: missing; it is the signal `z` of this kind of log\n"},
+    {"columns file missing", "$S/l_flight.csv --columns $S/l_no.toml",
+     "learn: l_no.toml: cannot be opened: No such file or directory\n"},
+    {"broken TOML", "$S/l_flight.csv --columns $S/l_broken.toml",
+     "learn: l_broken.toml:2:9: Error while parsing table header: expected ']', saw '\\n'; allowed: "
+     "TOML\n"},
+    {"unknown vehicle key", "$S/l_flight.csv --vehicle $S/l_unknown.toml",
+     "learn: l_unknown.toml:3: mass_g: unknown key; allowed: name, mass_kg, rotor_radius_m, motor_tau_s, "
+     "thrust_min_N, thrust_max_N, ceiling_m, thrust_map, body, rotors, battery, effect\n"},
+    {"written twice", "$S/l_flight.csv --points $S/l_new.json",
+     "learn: l_new.json: to be written twice; allowed: a file for each output\n"},
+    {"read and written", "$S/l_flight.csv --points $S/l_dir/../l_flight.csv",
+     "learn: l_flight.csv: to be read and to be written; allowed: one of them\n"},
+    {"no folder", "$S/l_flight.csv --points /no/such/p.csv",
+     "learn: /no/such/p.csv: cannot be written: No such file or directory\n"},
+};
+
 TEST(learn_refuses_bad_files_with_one_line_and_writes_nothing) {
-  static const struct {
-    const char *what, *arguments, *line;
-  } row[] = {
-      {"missing", "$S/l_no.csv", "learn: l_no.csv: cannot be opened: No such file or directory\n"},
-      {"empty", "$S/l_empty.csv",
-       "learn: l_empty.csv:1: the file is empty; allowed: a row of names and rows of numbers\n"},
-      {"header only", "$S/l_names.csv",
-       "learn: l_names.csv:1: no row under the names; allowed: one or more\n"},
-      {"truncated", "$S/l_cut.csv",
-       "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 38 "
-       "(cut off here?)\n"},
-      {"not a number", "$S/l_word.csv",
-       "learn: l_word.csv:9: column stateEstimate.qx: not a number: `x`; allowed: a number, or nan or "
-       "nothing for a gap\n"},
-      {"time runs back", "$S/l_back.csv",
-       "learn: l_back.csv:9: column timestamp: 0.01 s after 0.06 s; allowed: time that increases from row to "
-       "row\n"},
-      {"decimal comma", "$S/l_comma.csv",
-       "learn: l_comma.csv:9: column stateEstimate.qw: decimal comma in `1,0`; allowed: `.`\n"},
-      {"decimal comma, not quoted", "$S/l_more.csv",
-       "learn: l_more.csv:9: 39 cells where the first row names 38; allowed: `,` between cells and `.` in "
-       "numbers\n"},
-      {"a folder", "$S/l_dir", "learn: l_dir: cannot be read: Is a directory\n"},
-      {"bad after a good one", "$S/l_flight.csv $S/l_cut.csv",
-       "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 38 "
-       "(cut off here?)\n"},
-      {"held out, missing", "$S/l_flight.csv --hold-out $S/l_no.csv",
-       "learn: l_no.csv: cannot be opened: No such file or directory\n"},
-      {"held out, truncated", "$S/l_flight.csv --hold-out $S/l_cut.csv",
-       "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 38 "
-       "(cut off here?)\n"},
-      {"unknown column", "$S/l_flight.csv --columns $S/l_other.toml",
-       "learn: l_flight.csv:1: column altitude: missing; it is the signal `z` of this kind of log\n"},
-      {"columns file missing", "$S/l_flight.csv --columns $S/l_no.toml",
-       "learn: l_no.toml: cannot be opened: No such file or directory\n"},
-      {"broken TOML", "$S/l_flight.csv --columns $S/l_broken.toml",
-       "learn: l_broken.toml:2:9: Error while parsing table header: expected ']', saw '\\n'; allowed: "
-       "TOML\n"},
-      {"unknown vehicle key", "$S/l_flight.csv --vehicle $S/l_unknown.toml",
-       "learn: l_unknown.toml:3: mass_g: unknown key; allowed: name, mass_kg, rotor_radius_m, motor_tau_s, "
-       "thrust_min_N, thrust_max_N, ceiling_m, thrust_map, body, rotors, battery, effect\n"},
-      {"written twice", "$S/l_flight.csv --points $S/l_new.json",
-       "learn: l_new.json: to be written twice; allowed: a file for each output\n"},
-      {"read and written", "$S/l_flight.csv --points $S/l_dir/../l_flight.csv",
-       "learn: l_flight.csv: to be read and to be written; allowed: one of them\n"},
-      {"no folder", "$S/l_flight.csv --points /no/such/p.csv",
-       "learn: /no/such/p.csv: cannot be written: No such file or directory\n"},
-  };
   make_logs();
   char before[4000], after[4000], line[600], text[2000];
   program_listing(before, sizeof before);
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
-    const bool vehicle = strstr(row[i].arguments, "--vehicle") != NULL;
-    const bool points = strstr(row[i].arguments, "--points") != NULL;
-    snprintf(line, sizeof line, "learn %s --json $S/l_new.json %s %s", row[i].arguments,
+  for (unsigned i = 0; i < sizeof REFUSED / sizeof *REFUSED; i++) {
+    ROW("%s", REFUSED[i].what);
+    const bool vehicle = strstr(REFUSED[i].arguments, "--vehicle") != NULL;
+    const bool points = strstr(REFUSED[i].arguments, "--points") != NULL;
+    snprintf(line, sizeof line, "learn %s --json $S/l_new.json %s %s", REFUSED[i].arguments,
              vehicle ? "" : VEHICLE, points ? "" : "--points $S/l_new.csv");
     CHECK(program_run(line, STREAM_ERROR, text, sizeof text) == 2);
-    CHECK_TEXT(text, row[i].line);
+    CHECK_TEXT(text, REFUSED[i].line);
     program_listing(after, sizeof after);
     CHECK_TEXT(after, before);
   }
@@ -179,6 +179,31 @@ static bool learn_here(learn_t *learn, learn_score_t score[2]) {
   return CHECK_TEXT(why.text, "");
 }
 
+// One held-out flight; gaps: it may lack a number.
+static void check_score(const cJSON *item, const learn_score_t *score, const char *flight, bool gaps) {
+  const struct {
+    const char *key;
+    double want; // NaN: null
+  } field[] = {
+      {"all_mN_before", 1e3 * score->all_before_N},
+      {"all_mN_after", 1e3 * score->all_after_N},
+      {"below_7cm_mN_before", 1e3 * score->near_before_N},
+      {"below_7cm_mN_after", 1e3 * score->near_after_N},
+      {"bias_mN", 1e3 * score->bias_N},
+  };
+  CHECK(cJSON_GetArraySize(item) == 6);
+  const cJSON *file = cJSON_GetObjectItem(item, "file");
+  CHECK_TEXT(cJSON_IsString(file) ? file->valuestring : "", flight);
+  for (unsigned k = 0; k < sizeof field / sizeof *field; k++) {
+    ROW("%s, %s", flight, field[k].key);
+    const cJSON *value = cJSON_GetObjectItemCaseSensitive(item, field[k].key);
+    if (isnan(field[k].want))
+      CHECK(cJSON_IsNull(value) && gaps);
+    else if (CHECK(cJSON_IsNumber(value)))
+      CHECK_NEAR(value->valuedouble, field[k].want, 1e-9);
+  }
+}
+
 TEST(learn_tells_weights_and_residuals_in_its_json) {
   learn_t learn;
   learn_score_t score[2];
@@ -195,30 +220,8 @@ TEST(learn_tells_weights_and_residuals_in_its_json) {
   for (int i = 0; i < RBF_N && i < cJSON_GetArraySize(weights); i++)
     CHECK_NEAR(cJSON_GetArrayItem(weights, i)->valuedouble, learn.rls.theta.w[i], 1e-9);
   CHECK(cJSON_GetArraySize(held) == 2);
-  for (int i = 0; i < cJSON_GetArraySize(held); i++) {
-    const struct {
-      const char *key;
-      double want; // NaN: null
-    } field[] = {
-        {"all_mN_before", 1e3 * score[i].all_before_N},
-        {"all_mN_after", 1e3 * score[i].all_after_N},
-        {"below_7cm_mN_before", 1e3 * score[i].near_before_N},
-        {"below_7cm_mN_after", 1e3 * score[i].near_after_N},
-        {"bias_mN", 1e3 * score[i].bias_N},
-    };
-    const cJSON *item = cJSON_GetArrayItem(held, i);
-    CHECK(cJSON_GetArraySize(item) == 6);
-    const cJSON *file = cJSON_GetObjectItem(item, "file");
-    CHECK_TEXT(cJSON_IsString(file) ? file->valuestring : "", i == 0 ? "l_flight.csv" : "l_high.csv");
-    for (unsigned k = 0; k < sizeof field / sizeof *field; k++) {
-      ROW("flight %d, %s", i, field[k].key);
-      const cJSON *value = cJSON_GetObjectItemCaseSensitive(item, field[k].key);
-      if (isnan(field[k].want))
-        CHECK(cJSON_IsNull(value) && i == 1);
-      else if (CHECK(cJSON_IsNumber(value)))
-        CHECK_NEAR(value->valuedouble, field[k].want, 1e-9);
-    }
-  }
+  check_score(cJSON_GetArrayItem(held, 0), &score[0], "l_flight.csv", false);
+  check_score(cJSON_GetArrayItem(held, 1), &score[1], "l_high.csv", true);
   CHECK(isnan(score[1].near_before_N) && score[0].near_before_N > 5e-3);
   cJSON_Delete(json);
 }

@@ -1,6 +1,7 @@
 // test_estimator.c - the vertical Kalman filter and the noise of the sensors.
 #include "estimator/kalman_z.h"
 #include "plant/sensors.h"
+#include "oracle.h"
 #include "test.h"
 
 TEST(kalman_gains_are_those_of_the_prototype) {
@@ -42,6 +43,20 @@ TEST(upward_sensor_has_a_floor_and_says_nothing_beyond_its_reach) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g m", row[i].gap_m);
     CHECK(sensors_up_m(&noise_levels[0], NULL, row[i].gap_m) == row[i].range_m);
+  }
+}
+
+TEST(noise_comes_from_the_generator_of_the_library_number_for_number) {
+  static double want[2000];
+  static const uint64_t seeds[] = {0, 1, 5489, UINT64_MAX};
+  for (int k = 0; k < 4; k++) {
+    oracle_uniform(seeds[k], 2000, want);
+    random_t *r = random_open(seeds[k]);
+    int same = 0;
+    for (int i = 0; i < 2000; i++) same += random_uniform(r, 0.0, 1.0) == want[i];
+    ROW("seed %d", k);
+    CHECK(same == 2000);
+    random_close(r);
   }
 }
 

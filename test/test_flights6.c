@@ -53,17 +53,34 @@ TEST(flights6_standard_indi_holds_4_cm_and_touches_at_2_cm) {
   CHECK(touching(FLY_INDI, AT_2_CM, LADDER - 1) >= 9);
 }
 
+static const struct {
+  const char *what;
+  fly_kind_t kind;
+} adapted[] = {{"theory", FLY_INDI_THEORY}, {"fitted", FLY_INDI_RBF}, {"learned", FLY_INDI_LEARNED}};
+
+#define ADAPTED (sizeof adapted / sizeof *adapted)
+
 TEST(flights6_adapted_indi_stays_off_the_ceiling_at_2_cm) {
-  // Issue 3 wants 10 of 10 each. Measured at this noise: theory and learned touch once in one of ten flights,
-  // the RBF fitted to the theory in none.
-  static const struct {
-    const char *what;
-    fly_kind_t kind;
-    int touching;
-  } row[] = {{"theory", FLY_INDI_THEORY, 1}, {"fitted", FLY_INDI_RBF, 0}, {"learned", FLY_INDI_LEARNED, 1}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
-    CHECK(touching(row[i].kind, 0, LADDER - 1) <= row[i].touching);
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    CHECK(touching(adapted[i].kind, 0, LADDER - 1) == 0);
+  }
+}
+
+TEST(flights6_adapted_indi_hovers_level_and_where_it_was_told_at_2_cm) {
+  // Without the ceiling's term in roll and pitch 6 to 9 mm low, and tilts of 12 to 20 degrees. Of what is
+  // left 1.2 to 1.5 mm is still to be climbed after 10 s without any noise.
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    double error_mm = 0.0, tilt_deg = 0.0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+      cJSON *json = fly("close-flight", adapted[i].kind, seed);
+      error_mm += of(json, "segments", AT_2_CM, "mean_error_mm") / SEEDS;
+      tilt_deg = fmax(tilt_deg, of(json, "segments", AT_2_CM, "tilt_max_deg"));
+      cJSON_Delete(json);
+    }
+    CHECK_NEAR(error_mm, -2.4, 0.8);
+    CHECK(tilt_deg < 6.0);
   }
 }
 
@@ -79,9 +96,10 @@ static double mean_sd_mm(fly_kind_t kind, int segment) {
 
 TEST(flights6_adapted_indi_is_calmer_at_3_cm) {
   const double standard_mm = mean_sd_mm(FLY_INDI, AT_3_CM);
-  CHECK(mean_sd_mm(FLY_INDI_THEORY, AT_3_CM) <= 0.6 * standard_mm);
-  CHECK(mean_sd_mm(FLY_INDI_RBF, AT_3_CM) <= 0.6 * standard_mm);
-  CHECK(mean_sd_mm(FLY_INDI_LEARNED, AT_3_CM) <= 0.6 * standard_mm);
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    CHECK(mean_sd_mm(adapted[i].kind, AT_3_CM) <= 0.6 * standard_mm);
+  }
 }
 
 TEST(flights6_are_the_same_bits_for_the_same_seed) {
@@ -161,8 +179,7 @@ TEST(flights6_height_is_wrong_by_what_the_accelerometer_costs) {
 TEST(flights6_gate_keeps_the_ceiling_where_it_is) {
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
     ROW("seed %d", (int)seed);
-    request_t request = FAST;
-    request.seed = seed;
+    const request_t request = {.seed = seed};
     result_t result;
     why_t why;
     if (!CHECK_OK(result_init(&result, &why))) return;

@@ -45,47 +45,49 @@ static bool teaches(const learn_sample_t *x) {
   return false;
 }
 
+enum { ZC = offsetof(learn_sample_t, zc_m), BLIND = offsetof(learn_sample_t, blind_s) };
+enum { UP = offsetof(learn_sample_t, up), FORCE = offsetof(learn_sample_t, force_N) };
+enum { THRUST = offsetof(learn_sample_t, thrust_N), WEIGHT = offsetof(learn_sample_t, weight_N) };
+enum { LIMIT = offsetof(learn_sample_t, since_limit_s) };
+
+static const struct {
+  const char *what;
+  size_t field;
+  float value;
+  bool taught;
+} GATES[] = {
+    {"good", ZC, 0.03f, true},
+    {"at the nearest", ZC, 0.005f, true},
+    {"in contact", ZC, 0.0049f, false},
+    {"at the farthest", ZC, 0.5f, true},
+    {"too far", ZC, 0.501f, false},
+    {"just not blind", BLIND, 3.0f, true},
+    {"blind", BLIND, 3.01f, false},
+    {"just not tilted", UP, 0.97f, true},
+    {"tilted", UP, 0.969f, false},
+    {"upside down", UP, -1.0f, false},
+    {"ratio just below the largest", FORCE, 0.749f, true},
+    {"bump", FORCE, 0.751f, false},
+    {"ratio just above the smallest", FORCE, 0.1201f, true},
+    {"dropped", FORCE, 0.1199f, false},
+    {"pushed down", FORCE, -0.33f, false},
+    {"free fall", FORCE, 0.0f, false},
+    {"motors off", THRUST, 0.0f, false},
+    {"negative thrust", THRUST, -0.3f, false},
+    {"no weight", WEIGHT, 0.0f, false},
+    {"negative weight", WEIGHT, -0.314f, false},
+    {"heavy enough to be on the ground", WEIGHT, 1.1f, false},
+    {"limit just long ago", LIMIT, 0.2f, true},
+    {"limit a moment ago", LIMIT, 0.19f, false},
+    {"at the limit", LIMIT, 0.0f, false},
+};
+
 TEST(learn_takes_a_sample_only_within_every_gate) {
-  enum { ZC = offsetof(learn_sample_t, zc_m), BLIND = offsetof(learn_sample_t, blind_s) };
-  enum { UP = offsetof(learn_sample_t, up), FORCE = offsetof(learn_sample_t, force_N) };
-  enum { THRUST = offsetof(learn_sample_t, thrust_N), WEIGHT = offsetof(learn_sample_t, weight_N) };
-  enum { LIMIT = offsetof(learn_sample_t, since_limit_s) };
-  static const struct {
-    const char *what;
-    size_t field;
-    float value;
-    bool taught;
-  } row[] = {
-      {"good", ZC, 0.03f, true},
-      {"at the nearest", ZC, 0.005f, true},
-      {"in contact", ZC, 0.0049f, false},
-      {"at the farthest", ZC, 0.5f, true},
-      {"too far", ZC, 0.501f, false},
-      {"just not blind", BLIND, 3.0f, true},
-      {"blind", BLIND, 3.01f, false},
-      {"just not tilted", UP, 0.97f, true},
-      {"tilted", UP, 0.969f, false},
-      {"upside down", UP, -1.0f, false},
-      {"ratio just below the largest", FORCE, 0.749f, true},
-      {"bump", FORCE, 0.751f, false},
-      {"ratio just above the smallest", FORCE, 0.1201f, true},
-      {"dropped", FORCE, 0.1199f, false},
-      {"pushed down", FORCE, -0.33f, false},
-      {"free fall", FORCE, 0.0f, false},
-      {"motors off", THRUST, 0.0f, false},
-      {"negative thrust", THRUST, -0.3f, false},
-      {"no weight", WEIGHT, 0.0f, false},
-      {"negative weight", WEIGHT, -0.314f, false},
-      {"heavy enough to be on the ground", WEIGHT, 1.1f, false},
-      {"limit just long ago", LIMIT, 0.2f, true},
-      {"limit a moment ago", LIMIT, 0.19f, false},
-      {"at the limit", LIMIT, 0.0f, false},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof GATES / sizeof *GATES; i++) {
+    ROW("%s", GATES[i].what);
     learn_sample_t x = GOOD;
-    memcpy((char *)&x + row[i].field, &row[i].value, sizeof(float));
-    CHECK(teaches(&x) == row[i].taught);
+    memcpy((char *)&x + GATES[i].field, &GATES[i].value, sizeof(float));
+    CHECK(teaches(&x) == GATES[i].taught);
   }
   ROW("no ceiling known");
   learn_sample_t x = GOOD;

@@ -51,48 +51,49 @@ TEST(params_names_fit_the_firmware_and_are_unique) {
   }
 }
 
+static const struct {
+  const char *name, *unit;
+  float initial;
+} RELIED_ON[] = {
+    {"indiPos.kp", "1/s", 1},
+    {"indiPos.kd", "1/s", 5},
+    {"indiPos.cutoff", "Hz", 8},
+    {"indiPos.tauMot", "s", 0.0625f},
+    {"indiPos.mass", "kg", 0.032f},
+    {"ceil.mode", "", 1},
+    {"ceil.ca", "", 0.44f},
+    {"ceil.cb", "1/m", 80},
+    {"ceil.kz", "s", 0.3f},
+    {"ceil.zOn", "m", 0.1f},
+    {"ceil.gain", "", 0.1f},
+    {"ceil.near", "m", 0.05f},
+    {"ceil.clip", "", 1},
+    // Least squares to the theory (acceptance P2), as the author's branch has them.
+    {"ceil.w1", "", 1.43142386f},
+    {"ceil.w2", "", 0.15021046f},
+    {"ceil.w3", "", -0.09754395f},
+    {"ceil.w4", "", -0.07601899f},
+    {"ceil.w5", "", -0.26694495f},
+    {"ceil.w6", "", -0.30407099f},
+    {"ceil.w7", "", -0.37406497f},
+    {"rls.form", "", 1},
+    {"rls.lambda", "", 1},
+    {"rls.p0", "", 10},
+    {"rls.q", "", 1e-6f},
+};
+
 TEST(params_that_the_outside_relies_on_are_there) {
-  static const struct {
-    const char *name, *unit;
-    float initial;
-  } row[] = {
-      {"indiPos.kp", "1/s", 1},
-      {"indiPos.kd", "1/s", 5},
-      {"indiPos.cutoff", "Hz", 8},
-      {"indiPos.tauMot", "s", 0.0625f},
-      {"indiPos.mass", "kg", 0.032f},
-      {"ceil.mode", "", 1},
-      {"ceil.ca", "", 0.44f},
-      {"ceil.cb", "1/m", 80},
-      {"ceil.kz", "s", 0.3f},
-      {"ceil.zOn", "m", 0.1f},
-      {"ceil.gain", "", 0.1f},
-      {"ceil.near", "m", 0.05f},
-      {"ceil.clip", "", 1},
-      // Least squares to the theory (acceptance P2), as the author's branch has them.
-      {"ceil.w1", "", 1.43142386f},
-      {"ceil.w2", "", 0.15021046f},
-      {"ceil.w3", "", -0.09754395f},
-      {"ceil.w4", "", -0.07601899f},
-      {"ceil.w5", "", -0.26694495f},
-      {"ceil.w6", "", -0.30407099f},
-      {"ceil.w7", "", -0.37406497f},
-      {"rls.form", "", 1},
-      {"rls.lambda", "", 1},
-      {"rls.p0", "", 10},
-      {"rls.q", "", 1e-6f},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].name);
-    const param_row_t *found = params_find(row[i].name);
+  for (unsigned i = 0; i < sizeof RELIED_ON / sizeof *RELIED_ON; i++) {
+    ROW("%s", RELIED_ON[i].name);
+    const param_row_t *found = params_find(RELIED_ON[i].name);
     if (!CHECK(found != NULL)) continue;
-    CHECK_TEXT(found->unit, row[i].unit);
-    CHECK(found->initial == row[i].initial);
+    CHECK_TEXT(found->unit, RELIED_ON[i].unit);
+    CHECK(found->initial == RELIED_ON[i].initial);
   }
   const flight_param_t p = defaults();
   for (int k = 0; k < RBF_N; k++) {
     ROW("w%d is the curve's", k + 1);
-    CHECK(p.curve.fixed.w[k] == row[13 + k].initial);
+    CHECK(p.curve.fixed.w[k] == RELIED_ON[13 + k].initial);
   }
 }
 

@@ -1,6 +1,8 @@
 // vehicle6.c - a vehicle with six degrees of freedom for tests.
 #include "vehicle6.h"
 
+const integrate_kind_t vehicle6_kinds[2] = {INTEGRATE_SUNDIALS, INTEGRATE_RK4};
+
 model_t vehicle6(double ceiling_m) {
   model_t m = {.name = "test",
                .mass_kg = MASS_KG,
@@ -34,4 +36,9 @@ body_start_t vehicle6_start(const model_t *m, double rotor_z_m, double share) {
 void vehicle6_fly(body_t *b, double share, int ticks) {
   const double f = share * WEIGHT_N / ROTORS, command_N[ROTORS] = {f, f, f, f};
   for (int i = 0; i < ticks; i++) body_tick(b, command_N, TICK_S);
+}
+
+double vehicle6_tilt_rad(const body_t *b) {
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  return acos(fmin(1.0, axes.z.z));
 }

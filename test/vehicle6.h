@@ -22,4 +22,9 @@ body_start_t vehicle6_start(const model_t *m, double rotor_z_m, double share);
 // ticks of TICK_S with each rotor commanded share of a quarter of the weight.
 void vehicle6_fly(body_t *b, double share, int ticks);
 
+double vehicle6_tilt_rad(const body_t *b);
+
+// Both integrators that fly.
+extern const integrate_kind_t vehicle6_kinds[2];
+
 #endif

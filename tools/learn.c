@@ -247,8 +247,6 @@ int main(int argc, char **argv) {
   static output_t out;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  status_t status = run(&order, &out, argc, argv, &why);
-  if (status == ST_OK) status = whole_files_commit(&out.files, &why);
-  whole_files_drop(&out.files);
-  return error_exit("learn", status, &why);
+  const status_t status = run(&order, &out, argc, argv, &why);
+  return whole_files_exit(&out.files, "learn", status, &why);
 }

@@ -1,5 +1,4 @@
-// ceiling.h - distance to the ceiling at the outer loop's rate from a 10 Hz range sensor (thesis algorithm
-// 1).
+// ceiling.h - distance to the ceiling at 100 Hz from a 10 Hz range sensor (thesis algorithm 1).
 //
 //   each tick:        zc -= climb                       the ceiling stays, the vehicle moves
 //   each new sample:  zc += gain (range - zc_then)      zc_then: what zc was when the sample was measured
@@ -25,6 +24,8 @@ typedef struct {
 
 #define CEILING_HISTORY     32   // ticks of climb that are remembered: the oldest sample that can be used
 #define CEILING_RANGE_MAX_M 4.0f // the sensor's range; 32.767 m is its word for "no echo"
+// A sample that is nearer by this is taken at once, one that is farther as a rival.
+#define CEILING_JUMP_M      0.05f
 #define CEILING_AGREE_M     0.02f // samples agree when they are within this of their mean, else they contradict
 #define CEILING_AGREE_COUNT 3     // agreeing samples that overrule the estimate
 
@@ -32,6 +33,7 @@ typedef struct {
   float zc_m;     // m, 0..far_m: propeller plane to ceiling; has a meaning only while `known`
   bool known;     // a ceiling is in sight
   float blind_s;  // time since the last sample that was taken in
+  float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
   int newest;                      // index into it

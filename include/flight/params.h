@@ -27,10 +27,11 @@ typedef struct {
   curve_param_t curve;
   learn_param_t learn;
   bias_param_t bias;
-  float step_max_N;    // largest change of the wanted thrust in one outer period
+  float step_max_N;    // bound of the thrust wanted minus what the motors give now
   float learn_after_s; // learning starts this long after the rotors began to carry
   float up_offset_m;   // propeller plane above the upward range sensor
   float gap_min_m;     // set points are clipped to this below the ceiling
+  float tilt_share;    // of the ceiling's torque about x and y that the inner loop takes out
   int32_t hold;        // 1: the ceiling's height is latched beyond HOLD_BEYOND_M
   att_indi_param_t att;
   float att_cutoff_Hz; // of the inner loop's filters
@@ -54,12 +55,12 @@ typedef struct {
   X(indiPos, accMax, PARAM_FLOAT, pos.acc_max_mps2, "m/s2", 20.0f, 0.5f, 100.0f,                             \
     "bound of the wanted acceleration")                                                                      \
   X(indiPos, tStep, PARAM_FLOAT, step_max_N, "N", 0.2f, 0.01f, 40.0f,                                        \
-    "largest change of the thrust in 10 ms")                                                                 \
+    "bound of thrust wanted minus thrust that the motors give")                                              \
   X(indiPos, biasPole, PARAM_FLOAT, bias.pole_radps, "rad/s", 1.0f, 0.0f, 10.0f,                             \
     "speed at which the accelerometer's bias is found; 0 = not")                                             \
   X(indiPos, biasMax, PARAM_FLOAT, bias.max_mps2, "m/s2", 0.5f, 0.0f, 5.0f, "largest bias believed")         \
-  X(indiPos, biasVel, PARAM_FLOAT, bias.vel_s, "s", 0.153f, 0.0f, 1.0f,                                      \
-    "velocity error of the estimator per accelerometer bias")
+  X(indiPos, biasVel, PARAM_FLOAT, bias.vel_s, "s", 0.5f, 0.0f, 10.0f,                                       \
+    "time over which the estimator's velocity is held against its position")
 
 #define PARAMS_INDIATT(X)                                                                                    \
   X(indiAtt, kp, PARAM_FLOAT, att.kp_per_s, "1/s", 5.0f, 0.5f, 40.0f, "roll, pitch: wanted rate per angle")  \
@@ -103,6 +104,8 @@ typedef struct {
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
     "set points are clipped to this below the ceiling")                                                      \
   X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
+  X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
+    "share of the ceiling's torque in roll and pitch that is taken out")                                     \
   X(ceil, upOffset, PARAM_FLOAT, up_offset_m, "m", 0.0f, -0.1f, 0.1f,                                        \
     "propeller plane above the upward range sensor")                                                         \
   X(ceil, clip, PARAM_INT, curve.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                          \

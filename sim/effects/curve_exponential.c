@@ -1,12 +1,18 @@
 // curve_exponential.c - 1 + Ca exp(-Cb d/R) (He et al.; thesis eqs 2 and 3.4), finite down to contact.
 #include "effects/fx.h"
 
-#include <math.h>
+#include "plant/decay.h"
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  const double x = p[1] * distance_m / radius_m;
-  return x < 40.0 ? 1.0 + p[0] * exp(-x) : 1.0; // beyond, the sum is 1 to the last bit
+  return 1.0 + decay(p[0], p[1] / radius_m, pair_both(distance_m))[0];
+}
+
+static void add_excess(const double *p, const double distance_m[ROTORS], double radius_m,
+                       double ratio[ROTORS]) {
+  const double k = p[1] / radius_m;
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(ratio + i, pair_of(ratio + i) + decay(p[0], k, pair_of(distance_m + i)));
 }
 
 const curve_t curve_exponential = {
@@ -17,4 +23,5 @@ const curve_t curve_exponential = {
     .n_param = 2,
     .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}},
     .ratio = ratio,
+    .add_excess = add_excess,
 };

@@ -1,7 +1,9 @@
 // ekf_core.c - prediction and corrections of the extended Kalman filter.
 #include "estimator/ekf_core.h"
 
+#include "plant/pair.h"
 #include <math.h>
+#include <string.h>
 
 enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
 
@@ -14,9 +16,30 @@ enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
 #define UP_LEAST         0.1  // cosine of the largest tilt at which a range is believed
 #define TURN_LEAST_RAD   1e-4 // smaller corrections of the attitude are lost
 
-static double bounded(double p, bool diagonal) {
-  if (!(p <= VARIANCE_MAX)) return VARIANCE_MAX; // NaN too
-  return diagonal && p < VARIANCE_MIN ? VARIANCE_MIN : p;
+static double at_most(double p) {
+  return p < VARIANCE_MAX ? p : VARIANCE_MAX; // NaN too
+}
+
+// Of the diagonal.
+static double bounded(double p) {
+  const double most = at_most(p);
+  return most > VARIANCE_MIN ? most : VARIANCE_MIN;
+}
+
+// A row of the variance, its diagonal and what is right of it; in pairs, so that one element left of it may
+// change, too.
+static inline void put_row(ekf_t *e, int i, const double row[EKF_ROW]) {
+  const pair_t most = pair_both(VARIANCE_MAX);
+  for (int j = i & ~1; j < EKF_ROW; j += 2) pair_put(e->P[i] + j, pair_min(pair_of(row + j), most));
+  e->P[i][i] = bounded(e->P[i][i]);
+}
+
+// The whole variance, of its upper triangle.
+static inline void whole_of(const ekf_t *e, double P[EKF_N][EKF_ROW]) {
+  for (int i = 0; i < EKF_N; i++) {
+    for (int j = 0; j < i; j++) P[i][j] = e->P[j][i];
+    for (int j = i; j < EKF_ROW; j++) P[i][j] = e->P[i][j];
+  }
 }
 
 static d3_t part(const ekf_t *e, int at) {
@@ -49,7 +72,7 @@ void ekf_core_noise(ekf_t *e) {
                turn = e->param.gyro_radps;
   const double sd[EKF_N] = {xy * ms * ms, xy * ms * ms, z * ms * ms, xy * ms,  xy * ms,
                             z * ms,       turn * ms,    turn * ms,   turn * ms};
-  for (int i = 0; i < EKF_N; i++) e->P[i][i] = bounded(e->P[i][i] + n * sd[i] * sd[i], true);
+  for (int i = 0; i < EKF_N; i++) e->P[i][i] = bounded(e->P[i][i] + n * sd[i] * sd[i]);
   e->noise_ms = 0;
 }
 
@@ -61,37 +84,60 @@ static void turn_matrix(d3_t h, double m[3][3]) {
     for (int j = 0; j < 3; j++) m[i][j] = (i == j ? 1.0 - 0.5 * square : 0.0) - m[i][j] + 0.5 * v[i] * v[j];
 }
 
-// A P A'. A has nothing below its diagonal blocks of 3 x 3.
-static void spread(ekf_t *e, double A[EKF_N][EKF_N]) {
-  double AP[EKF_N][EKF_N] = {{0.0}};
-  for (int i = 0; i < EKF_N; i++)
-    for (int k = i / 3 * 3; k < EKF_N; k++)
-      for (int j = 0; j < EKF_N; j++) AP[i][j] += A[i][k] * e->P[k][j];
-  for (int i = 0; i < EKF_N; i++)
-    for (int j = i; j < EKF_N; j++) {
-      double sum = 0.0;
-      for (int k = j / 3 * 3; k < EKF_N; k++) sum += AP[i][k] * A[j][k];
-      e->P[i][j] = e->P[j][i] = bounded(sum, i == j);
-    }
+// How an error of the state goes on: A, and across[k][j] = A[j][k]. A's diagonal blocks of 3 x 3 have nothing
+// below them; the first, of the position, is 1 and stands in neither.
+typedef struct {
+  double A[EKF_N][EKF_N];
+  _Alignas(16) double across[EKF_N][EKF_ROW];
+} slopes_t;
+
+static inline void slope(slopes_t *s, int i, int k, double value) {
+  s->A[i][k] = s->across[k][i] = value;
 }
 
-static void linearise(const ekf_t *e, d3_t gyro, double dt, double A[EKF_N][EKF_N]) {
+static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
   double v[3][3], w[3][3], u[3][3], turn[3][3];
   cross_matrix(part(e, VEL), v);
   cross_matrix(gyro, w);
   cross_matrix((d3_t){e->R[2][0], e->R[2][1], e->R[2][2]}, u);
   turn_matrix(d3_scale(0.5 * dt, gyro), turn); // by half the angle, as the firmware does
+  memset(s->across, 0, sizeof s->across);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
-      const double one = i == j ? 1.0 : 0.0;
-      A[POS + i][POS + j] = one;
-      A[POS + i][VEL + j] = dt * e->R[i][j];
-      A[POS + i][ATT + j] = -dt * (e->R[i][0] * v[0][j] + e->R[i][1] * v[1][j] + e->R[i][2] * v[2][j]);
-      A[VEL + i][VEL + j] = one - dt * w[i][j];
-      A[VEL + i][ATT + j] = -dt * EKF_G_MPS2 * u[i][j];
-      A[ATT + i][ATT + j] = turn[i][j];
-      A[VEL + i][POS + j] = A[ATT + i][POS + j] = A[ATT + i][VEL + j] = 0.0;
+      slope(s, POS + i, VEL + j, dt * e->R[i][j]);
+      slope(s, POS + i, ATT + j, -dt * (e->R[i][0] * v[0][j] + e->R[i][1] * v[1][j] + e->R[i][2] * v[2][j]));
+      slope(s, VEL + i, VEL + j, (i == j ? 1.0 : 0.0) - dt * w[i][j]);
+      slope(s, VEL + i, ATT + j, -dt * EKF_G_MPS2 * u[i][j]);
+      slope(s, ATT + i, ATT + j, turn[i][j]);
     }
+}
+
+// own + a M for a row a of the part POS, VEL or ATT: its columns from that part on, without a's blocks that
+// are 0. The estimator's time goes here.
+static inline void row_times(int part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
+                             double *out) {
+  for (int j = part & ~1; j < EKF_ROW; j += 2) {
+    pair_t sum = part == POS ? pair_of(own + j) : pair_both(0.0);
+    for (int k = part == ATT ? ATT : VEL; k < EKF_N; k++) sum += a[k] * pair_of(M[k] + j);
+    pair_put(out + j, sum);
+  }
+}
+
+static inline void spread_part(ekf_t *e, int part, slopes_t *s, double P[EKF_N][EKF_ROW]) {
+  for (int i = part; i < part + 3; i++) {
+    _Alignas(16) double half[EKF_ROW], own[EKF_ROW] = {0.0}, row[EKF_ROW];
+    row_times(part, P[i], s->A[i], P, half);
+    if (part == POS) memcpy(own, half, 3 * sizeof *own);
+    row_times(part, own, half, s->across, row);
+    put_row(e, i, row);
+  }
+}
+
+// A P A'.
+static void spread(ekf_t *e, slopes_t *s, double P[EKF_N][EKF_ROW]) {
+  spread_part(e, POS, s, P);
+  spread_part(e, VEL, s, P);
+  spread_part(e, ATT, s, P);
 }
 
 // The rotation by the vector v, as long as its angle.
@@ -113,9 +159,11 @@ static dq_t towards(dq_t q, dq_t goal, double share) {
 }
 
 void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
-  double A[EKF_N][EKF_N];
-  linearise(e, gyro, dt, A);
-  spread(e, A);
+  _Alignas(16) double P[EKF_N][EKF_ROW];
+  slopes_t slopes;
+  whole_of(e, P);
+  linearise(e, gyro, dt, &slopes);
+  spread(e, &slopes, P);
   // In flight the accelerometer says nothing of the tilt, and thrust is along the body's z axis.
   if (flying) acc.x = acc.y = 0.0;
   const d3_t v = part(e, VEL), u = {e->R[2][0], e->R[2][1], e->R[2][2]};
@@ -128,15 +176,21 @@ void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   e->updated = true;
 }
 
+static double variance(const ekf_t *e, int i, int j) {
+  return i < j ? e->P[i][j] : e->P[j][i];
+}
+
 // One number measured: error = measured - h, its slope a to state i and b to state j.
 static void correct(ekf_t *e, int i, double a, int j, double b, double error, double sd) {
-  double Ph[EKF_N];
-  for (int k = 0; k < EKF_N; k++) Ph[k] = e->P[k][i] * a + e->P[k][j] * b;
+  _Alignas(16) double Ph[EKF_ROW] = {0.0}, row[EKF_ROW];
+  for (int k = 0; k < EKF_N; k++) Ph[k] = variance(e, k, i) * a + variance(e, k, j) * b;
   const double inverse = 1.0 / (a * Ph[i] + b * Ph[j] + sd * sd);
   for (int k = 0; k < EKF_N; k++) {
     const double gain = Ph[k] * inverse;
     e->s[k] += gain * error;
-    for (int l = k; l < EKF_N; l++) e->P[k][l] = e->P[l][k] = bounded(e->P[k][l] - gain * Ph[l], k == l);
+    for (int l = k & ~1; l < EKF_ROW; l += 2)
+      pair_put(row + l, pair_of(e->P[k] + l) - gain * pair_of(Ph + l));
+    put_row(e, k, row);
   }
   e->updated = true;
 }
@@ -156,7 +210,8 @@ void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   const double k = span_s * PIXELS_PER_RAD, z = fmax(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
   const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
   const double vx = e->s[VEL], vy = e->s[VEL + 1]; // both from before either correction
-  const double seen_x = k * (vx * up / z - e->gyro.y), seen_y = k * (vy * up / z + e->gyro.x);
+  const double seen_x = k * (vx * up / z - e->imu.gyro_b_radps.y),
+               seen_y = k * (vy * up / z + e->imu.gyro_b_radps.x);
   correct(e, POS + 2, -k * up * vx / (z * z), VEL, k * up / z, PIXELS_PER_COUNT * counts_x - seen_x, sd);
   correct(e, POS + 2, -k * up * vy / (z * z), VEL + 1, k * up / z, PIXELS_PER_COUNT * counts_y - seen_y, sd);
 }
@@ -178,15 +233,15 @@ static void turn_variance(ekf_t *e, d3_t v) {
   turn_matrix(d3_scale(0.5, v), turn);
   for (int i = 0; i < EKF_N; i++)
     for (int j = 0; j < 3; j++)
-      with_rest[i][j] =
-          e->P[i][ATT] * turn[j][0] + e->P[i][ATT + 1] * turn[j][1] + e->P[i][ATT + 2] * turn[j][2];
+      with_rest[i][j] = variance(e, i, ATT) * turn[j][0] + variance(e, i, ATT + 1) * turn[j][1] +
+                        variance(e, i, ATT + 2) * turn[j][2];
   for (int i = 0; i < ATT; i++)
-    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = e->P[ATT + j][i] = with_rest[i][j];
+    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = with_rest[i][j];
   for (int i = 0; i < 3; i++)
     for (int j = i; j < 3; j++) {
       const double p = turn[i][0] * with_rest[ATT][j] + turn[i][1] * with_rest[ATT + 1][j] +
                        turn[i][2] * with_rest[ATT + 2][j];
-      e->P[ATT + i][ATT + j] = e->P[ATT + j][ATT + i] = bounded(p, i == j);
+      e->P[ATT + i][ATT + j] = i == j ? bounded(p) : at_most(p);
     }
 }
 

@@ -1,7 +1,8 @@
 // whole_file.c - files that are complete or not there.
-#define _XOPEN_SOURCE 700 // mkstemp, realpath, fchown
+#define _XOPEN_SOURCE 700 // realpath, fchown
 #include "io/whole_file.h"
 
+#include "io/part_file.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +61,7 @@ static status_t open_beside(whole_file_t *f, const char *path, const struct stat
   const int used =
       snprintf(f->beside, sizeof f->beside, "%.*s.part-XXXXXX", folder_size(f->target), f->target);
   if (used >= (int)sizeof f->beside) return error_set(why, "%.60s...: the path is too long", path);
-  const int file = mkstemp(f->beside);
+  const int file = part_file_open(f->beside);
   if (file < 0) return cannot(path, why);
   const mode_t mask = umask(0);
   umask(mask);
@@ -69,7 +70,7 @@ static status_t open_beside(whole_file_t *f, const char *path, const struct stat
   f->file = fdopen(file, "w");
   if (f->file) return ST_OK;
   close(file);
-  remove(f->beside);
+  part_file_remove(f->beside);
   return error_failed(why, "%.300s: %s", path, strerror(errno));
 }
 
@@ -145,7 +146,7 @@ static status_t finish(whole_file_t *f, why_t *why) {
 
 static status_t move(whole_file_t *f, why_t *why) {
   if (f->beside[0] == '\0') return ST_OK;
-  if (rename(f->beside, f->target) != 0)
+  if (!part_file_move(f->beside, f->target))
     return error_failed(why, "%.300s: cannot be written: %s", f->target, strerror(errno));
   f->beside[0] = '\0';
   return ST_OK;
@@ -159,7 +160,9 @@ status_t whole_files_commit(whole_files_t *w, why_t *why) {
     if (!w->of[i].direct) status = finish(&w->of[i], why);
   for (int i = 0; i < w->n && status == ST_OK; i++)
     if (w->of[i].direct) status = finish(&w->of[i], why);
+  part_hold(); // all in their places, or none
   for (int i = 0; i < w->n && status == ST_OK; i++) status = move(&w->of[i], why);
+  part_release();
   whole_files_drop(w);
   return status;
 }
@@ -169,7 +172,13 @@ void whole_files_drop(whole_files_t *w) {
     bool good = true;
     close_file(&w->of[i].file, &good);
     close_file(&w->of[i].direct, &good);
-    if (w->of[i].beside[0]) remove(w->of[i].beside);
+    if (w->of[i].beside[0]) part_file_remove(w->of[i].beside);
   }
   w->n = 0;
+}
+
+int whole_files_exit(whole_files_t *w, const char *program, status_t status, why_t *why) {
+  if (status == ST_OK) status = whole_files_commit(w, why);
+  whole_files_drop(w);
+  return error_exit(program, status, why);
 }

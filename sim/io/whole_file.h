@@ -40,4 +40,7 @@ MUST_CHECK status_t whole_files_commit(whole_files_t *w, why_t *why);
 // Gives all up: what was there before is kept, and nothing lies beside.
 void whole_files_drop(whole_files_t *w);
 
+// The end of a program: commits if all went well so far, else drops; says what was wrong. The exit status.
+int whole_files_exit(whole_files_t *w, const char *program, status_t status, why_t *why);
+
 #endif

@@ -2,9 +2,13 @@
 //
 //   quiet  perfect but for rate, filter, age, floor and reach; the downward sensor's view is the firmware's
 //          15 deg in both levels, upward the axis alone (unknown; to be set)
-//   real   at rest: spread of an 11 s recording. Motors on: spread of logged hovers above about 20 Hz (gyro),
-//          and firmware.md's 0.009 to 0.014 g (accelerometer); a part of that is true motion. Ranges: the
-//          firmware's own model, 3 mm upward (acceptance P3). Flow: the 2 counts that the firmware assumes.
+//   real   at rest: spread of an 11 s recording. Motors on, gyro: spread of logged hovers above about 20 Hz.
+//          Accelerometer: spectrum of a logged hover (jana05) from 8 to 20 Hz, where its true motion, as the
+//          rotors' speeds tell it, is a hundredth: 0.0075 g on z, 0.015 and 0.017 g on x and y. What motion
+//          capture does not explain from 0.3 to 1 Hz has the same density, hence white. The 0.009 to 0.014 g
+//          on z of firmware.md are of whole logs, motion included; a simulated hover logs 0.009 g, as jana05
+//          does. Ranges: the firmware's own model, 3 mm upward (acceptance P3). Flow: the 2 counts that the
+//          firmware assumes.
 #ifndef SIM_PLANT_NOISE6_H
 #define SIM_PLANT_NOISE6_H
 

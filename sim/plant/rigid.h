@@ -34,19 +34,21 @@ enum {
 #define ROTOR_SLOWEST_RADPS 200.0
 
 typedef struct {
-  double mass_kg;              // > 0
-  d3_t inertia_kgm2;           // > 0, about the body's axes
-  d3_t rotor_at_m[ROTORS];     // centres, from the centre of mass, body axes
+  double mass_kg;    // > 0
+  d3_t inertia_kgm2; // > 0, about the body's axes
+  double rotor_x_m[ROTORS], rotor_y_m[ROTORS],
+      rotor_z_m[ROTORS];       // centres, from the centre of mass, body axes
   double spin[ROTORS];         // +1 counter-clockwise seen from above, -1 clockwise
   double torque_ratio_m;       // >= 0   torque over thrust of a rotor
   double kf_Ns2;               // > 0    thrust over speed squared, N/(rad/s)^2
   double rotor_inertia_kgm2;   // >= 0   of propeller and motor about the axis
   double motor_tau_s;          // > 0
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
+  double torque_scale[ROTORS]; // what the torque is multiplied by besides
   double command_N[ROTORS];    // held
-  double per_mass, per_tau, per_root_kf; // set by rigid_tune
-  d3_t per_inertia;                      // set by rigid_tune
-  bool vertical_only;                    // all but height, climb and thrust stand still
+  double per_mass, per_tau, per_root_kf, half_I_per_kf; // set by rigid_tune
+  d3_t per_inertia;                                     // set by rigid_tune
+  bool vertical_only;                                   // all but height, climb and thrust stand still
 } rigid_t;
 
 // Force and moment about the centre of mass, body axes.
@@ -59,17 +61,8 @@ static inline void load_add(load_t *load, d3_t force_b_N, d3_t moment_b_Nm) {
   load->moment_b_Nm = d3_add(load->moment_b_Nm, moment_b_Nm);
 }
 
-// Computes what the derivative needs of mass, inertia, lag and kf; whenever one of them has changed.
+// Computes what the derivative needs of mass, inertias, lag and kf; whenever one of them has changed.
 void rigid_tune(rigid_t *r);
-
-// Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.
-void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]);
-
-// speed: of the rotors, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: per rotor. load:
-// everything that is not a rotor's thrust, torque or inertia.
-void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
-                      const double speed[ROTORS], const double ratio[ROTORS], const load_t *load,
-                      double dydt[RIGID_N]);
 
 // Brings the quaternion back to unit length.
 void rigid_normalise(double y[RIGID_N]);

@@ -5,11 +5,7 @@
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
-  TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
-  setup.plan.noise = noise_levels[1];
-  TRY(setup_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup.model, why));
-  setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
+  TRY(scenario_learning_setup(&setup, request, why));
   flown_t flown;
   TRY(setup_fly(&setup, &flown, why));
   if (setup.flight.curve.mode == CURVE_LIVE) result_add_weights(result, &flown.weights);

@@ -6,9 +6,7 @@
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
-  TRY(setup6_thesis(&setup, FLY_INDI_LIVE, why));
-  TRY(setup6_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup.model, why));
+  TRY(scenario_thesis6_setup(&setup, FLY_INDI_LIVE, request, why));
   setup6_close_ladder(&setup);
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));

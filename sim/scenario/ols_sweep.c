@@ -1,15 +1,14 @@
 // ols_sweep.c - the thesis's figures B.3 to B.10: the measured ratio through a moving average, the newest
 // value of each of 21 bins fitted by least squares. On a fast way down the slow averages still carry the
 // ratio of 2 cm: two lines.
-#include "scenario/scenario.h"
+#include "scenario/sweep.h"
 
 #include "lsq.h"
-#include "taught.h"
 #include <math.h>
-#include <stdlib.h>
 
-#define BINS  21
-#define BIN_M 0.005
+#define BINS   21
+#define BIN_M  0.005
+#define BACK_S 10.0 // from the turn to the end
 
 typedef struct {
   double share;            // of a new sample, the thesis's v_t
@@ -55,56 +54,35 @@ static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   cJSON_AddNumberToObject(row, "max", m.max);
   cJSON_AddNumberToObject(row, "up_4_8cm", a->up_sum / a->up_n);
   cJSON_AddNumberToObject(row, "down_4_8cm", a->down_sum / a->down_n);
-  for (int i = 0; i < RBF_N; i++) {
-    char name[24];
-    snprintf(name, sizeof name, "w%d", i + 1);
-    cJSON_AddNumberToObject(row, name, (double)w.w[i]);
-  }
+  sweep_add_weights(row, &w);
 }
 
-static status_t sweep(const setup_t *setup, const record_t *record, double turn_s, result_t *result,
-                      why_t *why) {
+static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
   static const double shares[] = {0.5, 0.25, 0.1, 0.01};
-  taught_t *x = calloc((size_t)record->n, sizeof *x);
-  if (!x) return error_failed(why, "out of memory");
-  const int n = taught_of(record, setup, 0.25, x);
+  (void)why;
   for (unsigned k = 0; k < sizeof shares / sizeof *shares; k++) {
     average_t a = {.share = shares[k]};
     for (int bin = 0; bin < BINS; bin++) a.newest[bin] = (double)NAN;
-    for (int i = 0; i < n; i++) take(&a, &x[i], turn_s, i == 0);
+    for (int i = 0; i < n; i++) take(&a, &x[i], setup->plan.end_s - BACK_S, i == 0);
     tell(&a, setup, result);
   }
-  free(x);
   return ST_OK;
 }
 
-// The learning ladder, and back from 2 cm to 20 cm at 0.3 m/s.
-static double ladder_and_back(plan_t *plan, double ceiling_m) {
-  setup_learning_ladder(plan, ceiling_m);
-  const double turn_s = plan->end_s;
+// From 2 cm back to 20 cm at 0.3 m/s.
+static void add_way_back(plan_t *plan, double ceiling_m) {
   for (int i = 0; i < 6; i++) {
     const double gap_m = 0.02 + 0.03 * (i + 1);
-    plan->way[plan->n_way++] = (waypoint_t){turn_s + 0.1 * i, ceiling_m - gap_m};
+    plan->way[plan->n_way++] = (waypoint_t){plan->end_s + 0.1 * i, ceiling_m - gap_m};
   }
-  plan->end_s += 10.0;
-  return turn_s;
+  plan->end_s += BACK_S;
 }
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
-  TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
-  setup.plan.noise = noise_levels[1];
-  TRY(setup_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup.model, why));
-  if (setup.kind == FLY_PID || setup.kind == FLY_PID_FF)
-    return error_set(why, "--controller %s: knows no ceiling distance to learn from", fly_name[setup.kind]);
-  const double turn_s = ladder_and_back(&setup.plan, setup.model.ceiling_m);
-  flown_t flown;
-  TRY(setup_fly(&setup, &flown, why));
-  const status_t status = sweep(&setup, &flown.record, turn_s, result, why);
-  result_add_flight(result, &flown);
-  flown_free(&flown);
-  return status;
+  TRY(sweep_setup(&setup, request, why));
+  add_way_back(&setup.plan, setup.model.ceiling_m);
+  return sweep_fly(&setup, 0.25, learn_all, result, why);
 }
 
 const scenario_t scenario_ols_sweep = {

@@ -1,9 +1,6 @@
 // rls_sweep.c - the thesis's figures B.11 to B.20: one learning flight, its samples given to the learner with
 // seven pairs of lambda and p0. In the thesis's form only lambda/p0 matters (README, reading rules).
-#include "scenario/scenario.h"
-
-#include "taught.h"
-#include <stdlib.h>
+#include "scenario/sweep.h"
 
 #define VISITED_NEAR_M 0.02
 #define VISITED_FAR_M  0.10
@@ -30,48 +27,28 @@ static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, r
   cJSON_AddNumberToObject(row, "max", m.max);
   cJSON_AddNumberToObject(row, "at_1cm", m.at_1cm);
   cJSON_AddNumberToObject(row, "peak_m", m.peak_m);
-  for (int i = 0; i < RBF_N; i++) {
-    char name[24];
-    snprintf(name, sizeof name, "w%d", i + 1);
-    cJSON_AddNumberToObject(row, name, (double)rls->theta.w[i]);
-  }
+  sweep_add_weights(row, &rls->theta);
 }
 
-static status_t sweep(const setup_t *setup, const record_t *record, result_t *result, why_t *why) {
+static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
   static const struct {
     float lambda, p0;
   } pairs[] = {{0.01f, 1}, {0.1f, 1}, {0.5f, 1}, {1, 1}, {1, 0.1f}, {0.5f, 5}, {0.5f, 25}};
-  taught_t *x = calloc((size_t)record->n, sizeof *x);
-  if (!x) return error_failed(why, "out of memory");
-  const int n = taught_of(record, setup, VISITED_FAR_M, x);
-  status_t status = ST_OK;
-  for (unsigned i = 0; i < sizeof pairs / sizeof *pairs && status == ST_OK; i++) {
+  for (unsigned i = 0; i < sizeof pairs / sizeof *pairs; i++) {
     rls_param_t p = setup->flight.learn.rls;
     p.lambda = pairs[i].lambda;
     p.p0 = pairs[i].p0;
     rls_t rls;
-    status = learn(setup, &p, x, n, &rls, why);
-    if (status == ST_OK) tell(&p, &rls, &setup->model, result);
+    TRY(learn(setup, &p, x, n, &rls, why));
+    tell(&p, &rls, &setup->model, result);
   }
-  free(x);
-  return status;
+  return ST_OK;
 }
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
-  TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
-  setup.plan.noise = noise_levels[1];
-  TRY(setup_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup.model, why));
-  if (setup.kind == FLY_PID || setup.kind == FLY_PID_FF)
-    return error_set(why, "--controller %s: knows no ceiling distance to learn from", fly_name[setup.kind]);
-  setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
-  flown_t flown;
-  TRY(setup_fly(&setup, &flown, why));
-  const status_t status = sweep(&setup, &flown.record, result, why);
-  result_add_flight(result, &flown);
-  flown_free(&flown);
-  return status;
+  TRY(sweep_setup(&setup, request, why));
+  return sweep_fly(&setup, VISITED_FAR_M, learn_all, result, why);
 }
 
 const scenario_t scenario_rls_sweep = {

@@ -2,6 +2,7 @@
 #include "scenario/scenario.h"
 
 #include "io/model_file.h"
+#include <math.h>
 #include <string.h>
 
 #define LADDER_FROM_M 0.25 // the ladder begins 20 cm below the ceiling
@@ -35,4 +36,30 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
   setup->flight.bias.pole_radps = 0.0f; // the thesis knows none
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
   return model_builtin("thesis_1d", &setup->model, why);
+}
+
+status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
+  TRY(scenario_appendix_a_setup(setup, FLY_INDI_LIVE, why));
+  setup->plan.noise = noise_levels[1];
+  TRY(setup_apply(setup, request, why));
+  TRY(scenario_check_ladder(&setup->model, why));
+  setup_learning_ladder(&setup->plan, setup->model.ceiling_m);
+  return ST_OK;
+}
+
+status_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
+  TRY(setup6_thesis(setup, kind, why));
+  TRY(setup6_apply(setup, request, why));
+  return scenario_check_ladder(&setup->model, why);
+}
+
+status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
+  flown6_t flown;
+  TRY(setup6_fly(setup, &flown, why));
+  result_add_flight6(result, &flown);
+  // So that who reads the distances need not be told.
+  if (isfinite(setup->model.ceiling_m))
+    cJSON_AddNumberToObject(result->json, "ceiling_m", setup->model.ceiling_m);
+  cJSON_AddNumberToObject(result->json, "rotor_radius_m", setup->model.rotor_radius_m);
+  return ST_OK;
 }

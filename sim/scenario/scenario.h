@@ -22,6 +22,18 @@ const scenario_t *scenario_find(const char *name);
 // exactly. ST_BAD_INPUT: a fault of the build, not of the user.
 MUST_CHECK status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
 
+// Its learning flight with noise N1, and what is asked for over it. ST_BAD_INPUT: as setup_apply and
+// scenario_check_ladder.
+MUST_CHECK status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why);
+
+// The thesis's flights in six degrees of freedom, and what is asked for over them; the way up is the
+// caller's. ST_BAD_INPUT: as setup6_apply and scenario_check_ladder.
+MUST_CHECK status_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request,
+                                           why_t *why);
+
+// Flies and adds the flight. ST_BAD_INPUT, ST_FAILED: as setup6_fly.
+MUST_CHECK status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why);
+
 // ST_BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
 MUST_CHECK status_t scenario_check_ladder(const model_t *model, why_t *why);
 

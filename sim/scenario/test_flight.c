@@ -5,14 +5,9 @@
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   setup6_t setup;
-  TRY(setup6_thesis(&setup, FLY_INDI, why));
-  TRY(setup6_apply(&setup, request, why));
-  TRY(scenario_check_ladder(&setup.model, why));
+  TRY(scenario_thesis6_setup(&setup, FLY_INDI, request, why));
   setup6_ladder(&setup, gap_m, 4, 10.0);
-  flown6_t flown;
-  TRY(setup6_fly(&setup, &flown, why));
-  result_add_flight6(result, &flown);
-  return ST_OK;
+  return scenario_fly6(&setup, result, why);
 }
 
 const scenario_t scenario_test_flight = {

@@ -1,0 +1,40 @@
+// faults_judge.c - whether a flight will do, and what it was like.
+#include "faults.h"
+
+#include <stdio.h>
+#include <string.h>
+
+double faults_rms_m(const flown_fault_t *f) {
+  return sqrt(f->sum2_m2 / fmax(1.0, (double)f->n));
+}
+
+const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
+  const row_t *row = c->row;
+  const flown_fault_t *s = &c->seen;
+  if (s->bad) return "finite, in the box";
+  if (row->cls != 'W' && s->gap_min_m < 0.01) return "gap";
+  if (!strchr("OW", row->cls) && s->up_max_mps > 0.1) return "climb";
+  if (row->reasons && !(s->seen_s >= 0.0 && s->seen_s <= row->within_s)) return "reason in time";
+  const bool flies_on = row->cls == 'A' || row->cls == 'O', ends = c->length_s < FAULTS_END_S;
+  if (flies_on && ends && faults_rms_m(s) > 1.5 * faults_rms_m(usual)) return "recovery";
+  if (flies_on && (c->pilot.flight.guard.action != GUARD_FLY || fabs(s->sum_m) > 0.02 * (double)s->n))
+    return "flies on";
+  if (strchr("BC", row->cls) && s->end_gap_m < 0.15) return "down";
+  if (row->cls == 'C' && s->over_N > 0.01 * s->hover_N) return "thrust";
+  if (row->same_bits && s->bits != usual->bits) return "same bits";
+  return row->also ? row->also(c, usual) : NULL;
+}
+
+void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown_fault_t *usual) {
+  const flown_fault_t *s = &c->seen;
+  printf("   %s, seed %d: %s; size %.3g, pick %u\n", c->row->name, (int)seed, failed, c->size, c->pick % 256);
+  printf("      gap mm: nearest %.1f, at the end %.1f, error %.1f, rms %.1f (usually %.1f), rise %.1f; climb "
+         "%.2f m/s\n",
+         1e3 * s->gap_min_m, 1e3 * s->end_gap_m, 1e3 * s->sum_m / fmax(1, (double)s->n),
+         1e3 * faults_rms_m(s), 1e3 * faults_rms_m(usual), 1e3 * s->rise_max_m, s->up_max_mps);
+  printf("      latched %x after %.3f s, action %d; tilt %.1f, later %.1f deg; yaw %.1f deg\n",
+         c->pilot.flight.guard.latched, s->seen_s, (int)c->pilot.flight.guard.action, s->tilt_max_deg,
+         s->tilt_late_deg, s->yaw_late_deg);
+  printf("      step %.3f N (usually %.3f), pulse %.3f N, distance wrong by %.1f mm, weights by %.3f\n",
+         s->step_max_N, usual->step_max_N, s->pulse_N, 1e3 * s->zc_error_m, s->weight_change);
+}
