@@ -11,14 +11,15 @@
 #define FAULTS_END_S     12.0
 #define FAULTS_EVER      1e3
 #define FAULTS_HOVER_S   1.5 // fault-free hover before any fault
+#define FAULTS_ERRORS    1100
 
 typedef struct row row_t;
 
 // What was seen of a flight. Times count from the onset; "after": since the fault is over by recover_s.
 typedef struct {
   double gap_min_m, end_gap_m, up_max_mps; // up: within 5 cm of the ceiling
-  double sum_m, sum2_m2;                   // error of the gap, after
-  long n;
+  float error_m[FAULTS_ERRORS];            // of the gap, every 10 ms from the onset on
+  int n;                                   // of them
   double seen_s, moved_s; // reason latched; 2 cm away from where it was at the onset (-1: not)
   double hover_N, over_N; // before the fault; more than that, handed over
   long handed_ms;
@@ -107,7 +108,9 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual);
 // Prints it, for people.
 void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown_fault_t *usual);
 
-double faults_rms_m(const flown_fault_t *f);
+// Mean and root mean square of the gap's error, from the time on at which the flight has to have recovered.
+double faults_mean_m(const case_t *c, const flown_fault_t *f);
+double faults_rms_m(const case_t *c, const flown_fault_t *f);
 
 // Changes to the model and the vehicle, for the table.
 void faults_set_fx(case_t *c, const char *name, int p, double value);

@@ -81,7 +81,7 @@ static const char *untaught(const case_t *c, const flown_fault_t *usual) {
   return c->seen.taught && !range ? "weights" : NULL;
 }
 static const char *steady_offset(const case_t *c, const flown_fault_t *usual) {
-  const double offset_m = c->seen.sum_m / fmax(1.0, (double)c->seen.n) - usual->sum_m / (double)usual->n;
+  const double offset_m = faults_mean_m(c, &c->seen) - faults_mean_m(c, usual);
   return fabs(offset_m) > 0.01 ? "offset" : NULL;
 }
 static const char *weights_stay(const case_t *c, const flown_fault_t *usual) {

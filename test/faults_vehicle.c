@@ -73,7 +73,7 @@ static void outdoors(case_t *c) {
 
 static const char *gap_15_mm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  return fabs(c->seen.sum_m / fmax(1.0, (double)c->seen.n)) > 0.015 ? "gap error" : NULL;
+  return fabs(faults_mean_m(c, &c->seen)) > 0.015 ? "gap error" : NULL;
 }
 static const char *overshoot_3_cm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
