@@ -16,7 +16,7 @@
 #define RATIO_FAST_S   2.0f
 #define TOO_NEAR_M     0.015f
 #define VERY_NEAR_M    0.055f
-#define TOO_NEAR_COUNT 6 // samples, less those that say otherwise; at the floor each counts twice
+#define TOO_NEAR_SUM   14
 
 static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   unsigned now = g->now & GUARD_RANGE_FROZEN;
@@ -62,23 +62,30 @@ static unsigned judge_ratio(guard_t *g, const guard_in_t *in) {
   return g->ratio_ms >= RATIO_MS ? GUARD_RATIO : 0u;
 }
 
+// How much a range sample says that the ceiling is nearer than the set point allows. If the estimated height
+// does not know it, then that has drifted, and it counts twice, or four times at the sensor's floor. A step of
+// the accelerometer's bias is an excursion that ends by itself.
+static int nearer(const guard_t *g, const guard_in_t *in) {
+  const float least_m = in->range_m + TOO_NEAR_M;
+  const bool at_floor = in->range_m < in->range_floor_m;
+  if (!(in->range_m > 0.0f && in->range_m < VERY_NEAR_M && least_m < in->ceiling_z_m - in->setpoint_z_m))
+    return 0; // NaN: no ceiling or no height
+  if (g->bias_s < JUDGE_SETTLED_S && !at_floor) return 0;
+  if (!(least_m < in->ceiling_z_m - in->pos_w_m.z)) return 1;
+  return at_floor ? 4 : 2;
+}
+
 static unsigned judge_flight(guard_t *g, const guard_in_t *in) {
   unsigned now = 0;
   const bool near = in->zc_known && in->zc_m < NEAR_M;
   g->full_ms = judge_longer(g->full_ms, in->thrust_N > 0.98f * in->thrust_max_N, in->ms);
   if (near && g->full_ms > FULL_MS) now |= GUARD_SATURATED;
   if (in->range_new) {
-    const float gap_wanted_m = in->ceiling_z_m - in->setpoint_z_m; // NaN: neither is known
-    const bool nearer =
-        in->range_m > 0.0f && in->range_m < gap_wanted_m - TOO_NEAR_M && in->range_m < VERY_NEAR_M;
-    // A step of the accelerometer's bias is an excursion that ends by itself.
-    const bool settling = g->bias_s < JUDGE_SETTLED_S && in->range_m >= in->range_floor_m;
-    if (nearer && !settling)
-      g->nearer += in->range_m < in->range_floor_m ? 2 : 1;
-    else if (g->nearer > 0)
-      g->nearer--;
+    const int by = nearer(g, in);
+    g->nearer = by > 0 ? g->nearer + by : g->nearer > 2 ? g->nearer - 2 : 0;
+    if (g->nearer > 2 * TOO_NEAR_SUM) g->nearer = 2 * TOO_NEAR_SUM;
   }
-  if (g->nearer >= TOO_NEAR_COUNT) now |= GUARD_TOO_NEAR;
+  if (g->nearer >= TOO_NEAR_SUM) now |= GUARD_TOO_NEAR;
   return now;
 }
 

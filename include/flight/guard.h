@@ -94,7 +94,7 @@ typedef struct {
   float bias_mps2, bias_fast_mps2, bias_s; // all that was found; what is new in it; time of its mean
   float window_mps, window_vel_mps; // of one period of the estimator: acceleration summed up, climb before
   int window_ms;
-  int nearer; // samples in a row
+  int nearer; // what range samples say of it, summed up
   bool flown;
   float asked_at_m; // the pilot's height when the retreat began
 } guard_t;
