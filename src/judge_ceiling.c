@@ -1,22 +1,23 @@
 // judge_ceiling.c - what is wrong with the range sensor, the distance and the thrust near a ceiling.
 #include "flight/judge.h"
 
-#define RANGE_MS       250
-#define RANGE_SAME     3
-#define RANGE_SAME_MS  200
-#define NEAR_M         0.2f
-#define MOVED_M        0.02f
-#define ODD_M          0.05f
-#define FULL_MS        200
-#define RATIO_NEAR     1.15f
-#define RATIO_FAR_M    0.15f // nearer than this by the range it needs no witness
-#define RATIO_MS       10
-#define RATIO_AFTER_S  1.0f
-#define RATIO_SLOW_S   5.0f
-#define RATIO_FAST_S   2.0f
-#define TOO_NEAR_M     0.015f
-#define VERY_NEAR_M    0.055f
-#define TOO_NEAR_SUM   14
+#define RANGE_MS      250
+#define RANGE_SAME    3
+#define RANGE_SAME_MS 200
+#define NEAR_M        0.2f
+#define MOVED_M       0.02f
+#define ODD_M         0.05f
+#define FULL_MS       200
+#define RATIO_NEAR    1.15f
+#define RATIO_FAR_M   0.15f // nearer than this by the range it needs no witness
+#define RATIO_MS      10
+#define RATIO_AFTER_S 1.0f
+#define RATIO_SLOW_S  5.0f
+#define RATIO_FAST_S  2.0f
+#define TOO_NEAR_M    0.015f
+#define VERY_NEAR_M   0.055f
+#define TOO_NEAR_SUM  14
+#define TOO_NEAR_MOST 20
 
 static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   unsigned now = g->now & GUARD_RANGE_FROZEN;
@@ -63,8 +64,8 @@ static unsigned judge_ratio(guard_t *g, const guard_in_t *in) {
 }
 
 // How much a range sample says that the ceiling is nearer than the set point allows. If the estimated height
-// does not know it, then that has drifted, and it counts twice, or four times at the sensor's floor. A step of
-// the accelerometer's bias is an excursion that ends by itself.
+// does not know it, then that has drifted, and it counts twice, or four times at the sensor's floor. A step
+// of the accelerometer's bias is an excursion that ends by itself.
 static int nearer(const guard_t *g, const guard_in_t *in) {
   const float least_m = in->range_m + TOO_NEAR_M;
   const bool at_floor = in->range_m < in->range_floor_m;
@@ -78,12 +79,13 @@ static int nearer(const guard_t *g, const guard_in_t *in) {
 static unsigned judge_flight(guard_t *g, const guard_in_t *in) {
   unsigned now = 0;
   const bool near = in->zc_known && in->zc_m < NEAR_M;
+  if (g->nearer < 0 || g->nearer > TOO_NEAR_MOST) g->nearer = 0; // a flipped bit
   g->full_ms = judge_longer(g->full_ms, in->thrust_N > 0.98f * in->thrust_max_N, in->ms);
   if (near && g->full_ms > FULL_MS) now |= GUARD_SATURATED;
   if (in->range_new) {
     const int by = nearer(g, in);
     g->nearer = by > 0 ? g->nearer + by : g->nearer > 2 ? g->nearer - 2 : 0;
-    if (g->nearer > 2 * TOO_NEAR_SUM) g->nearer = 2 * TOO_NEAR_SUM;
+    if (g->nearer > TOO_NEAR_MOST) g->nearer = TOO_NEAR_MOST;
   }
   if (g->nearer >= TOO_NEAR_SUM) now |= GUARD_TOO_NEAR;
   return now;

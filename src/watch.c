@@ -20,10 +20,12 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->step_last = step - 1u;
   } else {
     const uint32_t since = step - f->step_last;
+    if (f->phase > 9) f->phase = step % 10; // a flipped bit
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
     f->due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(f->phase, ms, 5) ? FLIGHT_LEARN : 0u) |
+             (passes(f->phase, ms, 7) ? FLIGHT_SCRUB : 0u) | // when no loop runs
              (ms > 1 || f->phase % 2 == 1 ? FLIGHT_INNER : 0u);
     // An outer period that was skipped altogether is known to the outer loop.
     f->outer.missed += (f->phase + ms) / 10 > 1 ? (f->phase + ms) / 10 - 1 : 0;

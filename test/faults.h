@@ -38,13 +38,17 @@ typedef struct {
   double ratio_end;     // thrust ratio that the controller uses in the end
   double weight_change; // largest relative change of a weight while it lasts
   bool taught;          // a weight's bits changed while they must not
-  bool bad, shadow_differs, took_off;
+  double touched_s;     // first contact with the ceiling after the onset; -1: none
+  bool bad, shadow_differs;
   uint64_t bits;  // of all commands
   unsigned early; // reasons latched before the onset
 } flown_fault_t;
 
 #define FAULTS_UNSEEN                                                                                        \
-  { .gap_min_m = HUGE_VAL, .seen_s = -1.0, .moved_s = -1.0, .over_N = -HUGE_VAL, .tilt_cut_deg = -1.0 }
+  {                                                                                                          \
+    .gap_min_m = HUGE_VAL, .seen_s = -1.0, .moved_s = -1.0, .touched_s = -1.0, .over_N = -HUGE_VAL,          \
+    .tilt_cut_deg = -1.0                                                                                     \
+  }
 
 typedef struct {
   const row_t *row;
@@ -62,6 +66,7 @@ typedef struct {
   bool usual;    // without the fault
   bool skip, twice, with_shadow;
   bool frozen_weights, frozen_always; // they must not change now
+  bool memory_broken;                 // by the row, at the onset
   double last_N[ROTORS];
   uint32_t step_off;
   rbf_weights_t weights;

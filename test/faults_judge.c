@@ -29,6 +29,7 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
   const row_t *row = c->row;
   const flown_fault_t *s = &c->seen;
   if (s->bad) return "finite, in the box";
+  if (s->touched_s >= 0.0) return "contact";
   if (row->cls != 'W' && s->gap_min_m < 0.01) return "gap";
   if (!strchr("OW", row->cls) && s->up_max_mps > 0.1) return "climb";
   if (row->reasons && !(s->seen_s >= 0.0 && s->seen_s <= row->within_s)) return "reason in time";
@@ -36,7 +37,7 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
   if (flies_on && ends && faults_rms_m(c, s) > 1.5 * faults_rms_m(c, usual)) return "recovery";
   if (flies_on && (c->pilot.flight.guard.action != GUARD_FLY || fabs(faults_mean_m(c, s)) > 0.02))
     return "flies on";
-  if (strchr("BC", row->cls) && s->end_gap_m < 0.15) return "down";
+  if (strchr("BCW", row->cls) && s->end_gap_m < 0.15) return "down";
   if (row->cls == 'C' && s->over_N > 0.01 * s->hover_N) return "thrust";
   if (row->same_bits && s->bits != usual->bits) return "same bits";
   return row->also ? row->also(c, usual) : NULL;
@@ -44,11 +45,11 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
 
 void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown_fault_t *usual) {
   const flown_fault_t *s = &c->seen;
-  printf("   %s, seed %d: %s; size %.3g, pick %u\n", c->row->name, (int)seed, failed, c->size, c->pick % 256);
+  printf("   %s, seed %d: %s; size %.3g, pick %u\n", c->row->name, (int)seed, failed, c->size, c->pick);
   printf("      gap mm: nearest %.1f, at the end %.1f, error %.1f, rms %.1f (usually %.1f), rise %.1f; climb "
          "%.2f m/s\n",
-         1e3 * s->gap_min_m, 1e3 * s->end_gap_m, 1e3 * faults_mean_m(c, s),
-         1e3 * faults_rms_m(c, s), 1e3 * faults_rms_m(c, usual), 1e3 * s->rise_max_m, s->up_max_mps);
+         1e3 * s->gap_min_m, 1e3 * s->end_gap_m, 1e3 * faults_mean_m(c, s), 1e3 * faults_rms_m(c, s),
+         1e3 * faults_rms_m(c, usual), 1e3 * s->rise_max_m, s->up_max_mps);
   printf("      latched %x after %.3f s, action %d; tilt %.1f, later %.1f deg; yaw %.1f deg\n",
          c->pilot.flight.guard.latched, s->seen_s, (int)c->pilot.flight.guard.action, s->tilt_max_deg,
          s->tilt_late_deg, s->yaw_late_deg);

@@ -37,6 +37,7 @@ static void torn_weights(case_t *c, pilot6_in_t *in, double since_s) {
 static void broken_covariance(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
+  c->memory_broken = true;
   const unsigned i = c->pick % 7;
   float(*P)[7] = c->pilot.flight.outer.learn.rls.P;
   if (c->pick & 128)
@@ -73,12 +74,14 @@ static void never_reset(case_t *c, pilot6_in_t *in, double since_s) {
 static void bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
+  c->memory_broken = true;
   unsigned char *const at = (unsigned char *)&c->pilot.flight.outer.learn.rls;
   at[c->pick % sizeof(rls_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 static void any_bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
+  c->memory_broken = true;
   unsigned char *const at = (unsigned char *)&c->pilot.flight;
   at[c->pick % sizeof(flight_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }

@@ -85,7 +85,8 @@ static const char *no_ceiling_learned(const case_t *c, const flown_fault_t *usua
   return c->seen.end_gap_m > 0.3 && fabs(c->seen.ratio_end - 1.0) > 0.05 ? "ratio" : NULL;
 }
 static const char *trimmed(const case_t *c, const flown_fault_t *usual) {
-  if (c->seen.tilt_late_deg > fmax(5.0, 1.5 * usual->tilt_late_deg)) return "tilt";
+  (void)usual;
+  if (c->seen.tilt_late_deg > 5.0) return "tilt";
   return c->seen.yaw_late_deg > 10.0 ? "yaw" : NULL;
 }
 static const char *no_growth(const case_t *c, const flown_fault_t *usual) {

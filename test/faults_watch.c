@@ -5,13 +5,13 @@
 
 #define DEG (180.0 / 3.14159265358979)
 
-// Finite and within limits (G1, G2). P may be broken for the tick in which a row breaks it.
+// Finite and within limits (G1, G2). The learner's memory may be broken until it has had its turn.
 static bool in_box(const case_t *c, double since_s) {
   const flight_t *f = &c->pilot.flight;
   const rls_t *rls = &f->outer.learn.rls;
-  for (int i = 0; i < RBF_N; i++)
+  const bool broken_now = c->memory_broken && since_s < 0.025;
+  for (int i = 0; i < RBF_N && !broken_now; i++)
     if (!(fabsf(rls->theta.w[i]) <= RLS_WEIGHT_MAX)) return false;
-  const bool broken_now = since_s > -1e-3 && since_s < 0.025;
   for (int i = 0; i < RBF_N && !broken_now; i++)
     for (int j = 0; j <= i; j++) {
       const float a = rls->P[i][j], b = rls->P[j][i];
@@ -40,6 +40,7 @@ static void motion(case_t *c, const body_t *truth, double since_s) {
   const double gap_m = nearest_m(truth), z_m = truth->y[RIGID_POS_M + 2], climb = truth->y[RIGID_VEL_MPS + 2];
   s->end_gap_m = gap_m;
   s->gap_min_m = fmin(s->gap_min_m, gap_m);
+  if (s->touched_s < 0.0 && truth->ceiling_contacts > 0) s->touched_s = since_s;
   if (gap_m < 0.05) s->up_max_mps = fmax(s->up_max_mps, climb);
   if (since_s < 0.0) {
     s->onset_z_m = z_m;

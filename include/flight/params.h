@@ -102,7 +102,7 @@ typedef struct {
     "an estimate nearer than this is not corrected")                                                         \
   X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
-    "set points are clipped to this below the ceiling")                                                      \
+    "set points are clipped to this below the ceiling, heights beyond to 6 mm more")                         \
   X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
   X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
     "share of the ceiling's torque in roll and pitch that is taken out")                                     \
