@@ -9,7 +9,7 @@
 #define ODD_M         0.05f
 #define FULL_MS       200
 #define RATIO_NEAR    1.15f
-#define RATIO_FAR_M   0.15f // nearer than this by the range it needs no witness
+#define RATIO_FAR_M   0.11f
 #define RATIO_MS      10
 #define RATIO_AFTER_S 1.0f
 #define RATIO_SLOW_S  5.0f

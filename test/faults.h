@@ -80,11 +80,12 @@ struct row {
   void (*edit)(case_t *c, pilot6_in_t *in, double since_s); // every millisecond while the fault lasts
   unsigned reasons;                                         // one of them has to be latched; 0: none
   double within_s;
-  double promise;           // per cent that pass; what is not 100 is in the head of test_faults.c
+  double promise;           // per cent that are kept, of many; what is not 100 is in the README
   void (*begin)(case_t *c); // before the flight
   const char *(*also)(const case_t *c, const flown_fault_t *usual); // the row's own criterion; null: kept
   double recover_s;                                                 // 0: 2 s
   bool same_bits; // every command is that of the flight without the fault
+  bool touches;   // that the ceiling is never touched is not promised
 };
 
 // The table, in four parts: what the pilot is told of motion and wishes, of the ceiling, the vehicle, and the

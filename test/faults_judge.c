@@ -31,9 +31,9 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
   if (s->bad) return "finite, in the box";
   if (s->touched_s >= 0.0) return "contact";
   if (row->cls != 'W' && s->gap_min_m < 0.01) return "gap";
-  if (!strchr("OW", row->cls) && s->up_max_mps > 0.1) return "climb";
+  if (row->cls != 'W' && s->up_max_mps > 0.1) return "climb";
   if (row->reasons && !(s->seen_s >= 0.0 && s->seen_s <= row->within_s)) return "reason in time";
-  const bool flies_on = row->cls == 'A' || row->cls == 'O', ends = c->length_s < FAULTS_END_S;
+  const bool flies_on = row->cls == 'A', ends = c->length_s < FAULTS_END_S;
   if (flies_on && ends && faults_rms_m(c, s) > 1.5 * faults_rms_m(c, usual)) return "recovery";
   if (flies_on && (c->pilot.flight.guard.action != GUARD_FLY || fabs(faults_mean_m(c, s)) > 0.02))
     return "flies on";

@@ -114,26 +114,30 @@ static const char *as_fresh(const case_t *c, const flown_fault_t *usual) {
 #define EVER FAULTS_EVER
 static const row_t rows[] = {
     {"4 set point NaN", 'B', 0.06, EVER, EVER, 0, 0, nan_setpoint, GUARD_SETPOINT, 0.03, 100, NULL,
-     step_10_percent, 0, false},
+     step_10_percent, 0, false, false},
     {"5 set point above, ceil.min 5 cm", 'N', 0.10, EVER, EVER, 0, 0, far_setpoint, 0, 0, 100, clip_at_5_cm,
-     gap_40_mm, 0, false},
+     gap_40_mm, 0, false, false},
     {"5 set point above, ceil.min 2 cm", 'N', 0.10, EVER, EVER, 0, 0, far_setpoint, 0, 0, 100, NULL,
-     gap_40_mm, 0, false},
-    {"31 absurd parameter", 'A', 0.06, EVER, EVER, 0, 0, absurd_param, 0, 0, 100, NULL, NULL, 0, true},
-    {"32 weights NaN or 1e9", 'A', 0.06, EVER, EVER, 0, 0, bad_weights, 0, 0, 100, fixed_curve, NULL, 0,
-     true},
-    {"33 torn weights", 'N', 0.06, 0.007, 0.007, 0, 0, torn_weights, 0, 0, 100, fixed_curve, NULL, 0, false},
-    {"34 covariance broken", 'A', 0.06, 0.1, 0.1, 0, 0, broken_covariance, 0, 0, 95, NULL, NULL, 1.0, false},
+     gap_40_mm, 0, false, false},
+    {"31 absurd parameter", 'A', 0.06, EVER, EVER, 0, 0, absurd_param, 0, 0, 100, NULL, NULL, 0, true, false},
+    {"32 weights NaN or 1e9", 'A', 0.06, EVER, EVER, 0, 0, bad_weights, 0, 0, 100, fixed_curve, NULL, 0, true,
+     false},
+    {"33 torn weights", 'N', 0.06, 0.007, 0.007, 0, 0, torn_weights, 0, 0, 100, fixed_curve, NULL, 0, false,
+     false},
+    {"34 covariance broken", 'A', 0.06, 0.1, 0.1, 0, 0, broken_covariance, 0, 0, 95, NULL, NULL, 1.0, false,
+     false},
     {"37 curve at -5", 'A', 0.06, EVER, EVER, 0, 0, zero_curve, 0, 0, 100, fixed_curve, step_10_percent, 0,
-     false},
+     false, false},
     {"43 missed or doubled calls", 'A', 0.06, 0.001, 0.05, 0, 0, missed_calls, 0, 0, 100, NULL, no_kick, 0,
+     false, false},
+    {"44 step counter wraps", 'A', 0.06, 0.1, 0.1, 0, 0, NULL, 0, 0, 100, wrapped, NULL, 0, true, false},
+    {"49 started again in flight", 'N', 0.06, EVER, EVER, 0, 0, again, 0, 0, 100, NULL, as_fresh, 0, false,
      false},
-    {"44 step counter wraps", 'A', 0.06, 0.1, 0.1, 0, 0, NULL, 0, 0, 100, wrapped, NULL, 0, true},
-    {"49 started again in flight", 'N', 0.06, EVER, EVER, 0, 0, again, 0, 0, 100, NULL, as_fresh, 0, false},
     {"49 height let go and taken up again", 'N', 0.20, EVER, EVER, 0, 0, never_reset, 0, 0, 100, NULL, NULL,
-     0, false},
-    {"50 a bit of the learner flips", 'A', 0.06, 0.1, 0.1, 0, 0, bit_flip, 0, 0, 90, NULL, NULL, 1.0, false},
-    {"50 any bit flips", 'A', 0.06, 0.1, 0.1, 0, 0, any_bit_flip, 0, 0, 80, NULL, NULL, 1.0, false},
+     0, false, false},
+    {"50 a bit of the learner flips", 'A', 0.06, 0.1, 0.1, 0, 0, bit_flip, 0, 0, 90, NULL, NULL, 1.0, false,
+     false},
+    {"50 any bit flips", 'A', 0.06, 0.1, 0.1, 0, 0, any_bit_flip, 0, 0, 80, NULL, NULL, 1.0, false, false},
 };
 
 static const char *no_drift(const case_t *c, const flown_fault_t *usual) {
@@ -143,8 +147,8 @@ static const char *no_drift(const case_t *c, const flown_fault_t *usual) {
               now = rbf_at(&c->pilot.flight.outer.learn.rls.theta, at_m).ratio;
   return fabsf(now - before) > 0.01f * before ? "drift" : NULL;
 }
-static const row_t long_row = {"35 ten minutes", 'N',      0.06, EVER, EVER, 0, 0, NULL, 0, 0, 100,
-                               for_ten_minutes,  no_drift, 0,    false};
+static const row_t long_row = {"35 ten minutes", 'N',      0.06, EVER,  EVER, 0, 0, NULL, 0, 0, 100,
+                               for_ten_minutes,  no_drift, 0,    false, false};
 
 rows_t faults_of_patience(void) {
   return (rows_t){&long_row, 1};
