@@ -53,7 +53,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -132,6 +132,9 @@ slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight 
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
+faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should
+	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
+
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
@@ -161,7 +164,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/learn out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

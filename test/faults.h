@@ -88,8 +88,8 @@ struct row {
   bool touches;   // that the ceiling is never touched is not promised
 };
 
-// The table, in four parts: what the pilot is told of motion and wishes, of the ceiling, the vehicle, and the
-// pilot's own state.
+// The table, in four parts: what the pilot is told of motion, of the ceiling; the vehicle; what is asked for,
+// and the pilot's own memory.
 typedef struct {
   const row_t *row;
   int n;

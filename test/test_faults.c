@@ -1,4 +1,19 @@
-// test_faults.c - HEAD
+// test_faults.c - faults and bad inputs, each flown in closed loop under a ceiling with real noise.
+//
+// Every millisecond of every flight: what comes out is finite and within limits, the learner's state in its
+// box. No contact; no rotor nearer than 1 cm; within 5 cm no climb beyond 0.1 m/s. The reason that a row
+// names is latched in time. Then, by class:
+//
+//   A  flies on to the end, off by no more than 2 cm on average; after a fault that ends, 2 s or what the row
+//      says later, with no more than 1.5 times the error (RMS) of the same seed's flight without the fault
+//      over the same time
+//   B  retreats: ends 15 cm or more below the ceiling
+//   C  hands over: likewise, and from 4 ms on never with more than hover thrust
+//   N  what the row itself asks for
+//   W  as B, but for the 1 cm and the climb: the pilot flies into the ceiling
+//
+// and what the row asks for besides. FAULTS_TABLE=1 prints the table (`make faults`), 2 tells of the flights
+// that did not keep it, 3 of all; FAULTS_SEEDS=N flies so many, FAULTS_ROW=BEGINNING only such rows.
 #include "faults.h"
 #include "test.h"
 
