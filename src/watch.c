@@ -20,7 +20,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->step_last = step - 1u;
   } else {
     const uint32_t since = step - f->step_last;
-    if (f->phase > 9) f->phase = step % 10; // a flipped bit
+    if (f->phase > 9) f->phase = f->step_last % 10; // a flipped bit
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
