@@ -16,7 +16,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->phase = step % 10;
     f->inner_ms = 2;
     f->due = (f->phase == 0 ? FLIGHT_OUTER : 0u) | (f->phase == 5 ? FLIGHT_LEARN : 0u) |
-             (f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
+             (f->phase == 7 ? FLIGHT_SCRUB : 0u) | (f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
     f->step_last = step - 1u;
   } else {
     const uint32_t since = step - f->step_last;
