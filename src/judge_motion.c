@@ -30,7 +30,7 @@ static bool frozen(int *same_ms, float *life, float changed, float least, int ms
 }
 
 // Inertial sensors; in->ms is 1 but for missed calls.
-static unsigned judge_inertial(guard_t *g, const guard_in_t *in) {
+static unsigned judge_inertial(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   unsigned now = 0;
   const float rate = change(in->rate_b_radps, g->rate_last), acc = change(in->acc_b_mps2, g->acc_last);
   if (frozen(&g->rate_same_ms, &g->rate_life, rate, RATE_LIFE, in->ms)) now |= GUARD_GYRO_FROZEN;
@@ -44,7 +44,7 @@ static unsigned judge_inertial(guard_t *g, const guard_in_t *in) {
   } else if (g->acc_clip_ms > 0) {
     g->acc_clip_ms -= in->ms < g->acc_clip_ms ? in->ms : g->acc_clip_ms;
   }
-  const float up = quat_up(quat_unit(in->q_wb)).z;
+  const float up = quat_up(q_wb).z;
   g->tilt_ms = judge_longer(g->tilt_ms, up < 0.5f, in->ms);
   if (up < 0.5f) now |= GUARD_TILT;
   return now;
@@ -71,13 +71,13 @@ static void begin_window(guard_t *g, const guard_in_t *in) {
   g->window_vel_mps = in->vel_w_mps.z;
 }
 
-static unsigned judge_bias(guard_t *g, const guard_in_t *in) {
+static unsigned judge_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const unsigned kept = g->now & GUARD_ACC_BIAS;
   if (g->acc_lost || g->acc_clip_ms > 0) {
     begin_window(g, in);
     return kept;
   }
-  const v3_t force = quat_to_world(quat_unit(in->q_wb), in->acc_b_mps2);
+  const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
   g->window_mps += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2);
   g->window_ms += in->ms;
   if (g->window_ms < BIAS_MS) return kept;
@@ -117,8 +117,9 @@ void judge_begin(guard_t *g, const guard_in_t *in) {
 unsigned judge_motion(guard_t *g, guard_in_t *in) {
   // In this order: each uses what the one before found.
   unsigned now = judge_velocity(g, in);
-  now |= judge_inertial(g, in);
-  now |= judge_bias(g, in);
+  const quat_t q_wb = quat_unit(in->q_wb);
+  now |= judge_inertial(g, in, q_wb);
+  now |= judge_bias(g, in, q_wb);
   g->vel_last = in->vel_w_mps;
   return now;
 }
