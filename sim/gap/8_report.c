@@ -116,6 +116,10 @@ static void warn_of_diagnosis(report_t *r) {
   if (!report_can_tell(r))
     warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
             "explain them");
+  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
+    warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
+            "better "
+            "than before");
   if (!d->nominal_flew)
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
@@ -146,9 +150,9 @@ static void warn_of_diagnosis(report_t *r) {
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)
     warn(r,
-         "flown again, the vehicle left the measured track by more than %.0f m and was put back: %d times "
-         "with "
-         "the old model, %d with the new one",
+         "flown again, the vehicle was put back when it was more than %.0f m off the measured track; times "
+         "with the old "
+         "model: %d, with the new one: %d",
          RESIMULATE_LOST_M, again->lost_before, again->lost_after);
 }
 
