@@ -111,6 +111,24 @@ bool report_can_tell(const report_t *r) {
   return any;
 }
 
+static void warn_of_gap(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && p->after > 1.05 * p->before)
+      warn(r, "%s: the gap grew on the held-out flights, %.3g to %.3g %s", gap_channel[ch], p->before,
+           p->after, gap_unit[ch]);
+  }
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor)
+      warn(r,
+           "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
+           "much flight",
+           gap_channel[ch], p->after, gap_unit[ch], p->floor);
+  }
+}
+
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   if (!report_can_tell(r))
@@ -132,20 +150,6 @@ static void warn_of_diagnosis(report_t *r) {
          "like, "
          "and it is not named",
          1e3 * d->found.aligned_s);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const gap_part_t *const p = &d->held_out.channel[ch];
-    if (p->used && p->after > 1.05 * p->before)
-      warn(r, "%s: the gap grew on the held-out flights, %.3g to %.3g %s", gap_channel[ch], p->before,
-           p->after, gap_unit[ch]);
-  }
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const gap_part_t *const p = &d->held_out.channel[ch];
-    if (p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor)
-      warn(r,
-           "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
-           "much flight",
-           gap_channel[ch], p->after, gap_unit[ch], p->floor);
-  }
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)
@@ -186,6 +190,7 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
   TRY(report_take_evidence(r, study, why));
   find_untested(r);
   warn_of_diagnosis(r);
+  warn_of_gap(r);
   if (d->found.n == 0) warn_of_sizes(r);
   warn_of_logs(r);
   return ST_OK;
