@@ -15,7 +15,7 @@ C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off
-# One file flies many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
+# Some files fly many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
 ifeq ($(findstring clang,$(CC)),)
 OMP     = -fopenmp
 OMP_LIB = -lgomp
@@ -54,7 +54,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -84,6 +84,9 @@ $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
 $(B)/test/exam/main.o: test/exam/main.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isim -Itest -c $< -o $@
+$(B)/test/test_faults.o: test/test_faults.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isim -Itest -c $< -o $@
 $(B)/%.o: %.c | setup
@@ -132,6 +135,9 @@ slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight 
 test: $(B)/bin/tests out/fly out/gap out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
+faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should
+	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
+
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
@@ -161,7 +167,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/gap out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

@@ -12,10 +12,15 @@
 #define FLOOR_SHARE  0.5f    // of the weight that something else than the rotors carries: a floor
 #define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
-static status_t tune(flight_t *f, const flight_param_t *p) {
-  TRY(params_check(p));
+static status_t tune_inner(flight_t *f, const flight_param_t *p) {
   TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
   f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
+  return ST_OK;
+}
+
+static status_t tune(flight_t *f, const flight_param_t *p) {
+  TRY(params_check(p));
+  TRY(tune_inner(f, p));
   f->param = *p;
   return ST_OK;
 }
@@ -181,11 +186,18 @@ static void run(flight_t *f, const flight_in_t *in) {
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 
+// A bit that flipped in what only parameters make would stay for ever.
+static void scrub(flight_t *f) {
+  count(f, tune_inner(f, &f->param));
+  count(f, sync_tune(&f->outer.coef, f->param.cutoff_Hz, f->param.motor_tau_s, OUTER_S));
+}
+
 flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *raw) {
   if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p));
   if (!watch_time(f, raw->step)) return f->out;
   flight_in_t in = *raw;
   watch_inputs(f, &in);
+  if (f->due & FLIGHT_SCRUB) scrub(f);
   if (f->guard.now & GUARD_SETPOINT) count(f, ST_BAD_SETPOINT);
   const status_t judged = check_in(&in);
   count(f, judged);

@@ -107,12 +107,15 @@ void outer_rest(outer_t *f) {
 }
 
 // Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
-// acceleration: upwards no more than a set point that rests there asks for.
+// acceleration: upwards no more than a set point that rests there asks for. Who asks for a height beyond
+// rests OUTER_CLIP_M below, as no one holds a limit to the millimetre.
 static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->param.pos;
   v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
   if (!f_finite(f->hold.ceiling_z_m)) return wanted;
-  const pos_setpoint_t top = {.pos_w_m = {.z = f->hold.ceiling_z_m - f->param.gap_min_m}};
+  const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
+  const float beyond_m = f_clamp(in->setpoint.pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
+  const pos_setpoint_t top = {.pos_w_m = {.z = limit_m - beyond_m}};
   const float most_mps2 = pos_indi_wanted_acc(p, &top, in->pos_w_m, vel_mps).z;
   if (wanted.z > most_mps2) wanted.z = most_mps2;
   return wanted;
@@ -120,7 +123,7 @@ static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
 
 static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
   const pos_indi_param_t *p = &f->param.pos;
-  const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
+  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
   const v3_t error = v3_sub(wanted_acc(f, in, vel), x->acc_w_mps2);
   pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, vel.z, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);

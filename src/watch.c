@@ -16,14 +16,16 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->phase = step % 10;
     f->inner_ms = 2;
     f->due = (f->phase == 0 ? FLIGHT_OUTER : 0u) | (f->phase == 5 ? FLIGHT_LEARN : 0u) |
-             (f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
+             (f->phase == 7 ? FLIGHT_SCRUB : 0u) | (f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
     f->step_last = step - 1u;
   } else {
     const uint32_t since = step - f->step_last;
+    if (f->phase > 9) f->phase = f->step_last % 10; // a flipped bit
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
     f->due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(f->phase, ms, 5) ? FLIGHT_LEARN : 0u) |
+             (passes(f->phase, ms, 7) ? FLIGHT_SCRUB : 0u) | // when no loop runs
              (ms > 1 || f->phase % 2 == 1 ? FLIGHT_INNER : 0u);
     // An outer period that was skipped altogether is known to the outer loop.
     f->outer.missed += (f->phase + ms) / 10 > 1 ? (f->phase + ms) / 10 - 1 : 0;
@@ -84,6 +86,10 @@ static guard_in_t seen(const flight_t *f, const flight_in_t *in, int ms, bool se
       .ceiling_z_m = o->out.ceiling_z_m,
       .zc_known = o->ceiling.known,
       .setpoint_good = setpoint_good,
+      .find_bias = f->param.bias.pole_radps > 0.0f,
+      .force_N = o->sample.force_N,
+      .thrust_now_N = o->sample.thrust_N,
+      .bias_known_mps2 = o->bias.bias_mps2.z,
       .asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN,
       .setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN,
   };
@@ -129,6 +135,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   take_jump_out(f, in, ms);
   const guard_in_t guard_in = seen(f, in, ms, good);
   guard_step(&f->guard, &f->param.guard, &guard_in);
+  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
   mend_acceleration(f, in);
   if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   in->setpoint = setpoint_flown(f, in);

@@ -138,9 +138,9 @@ TEST(flight_runs_its_loops_in_milliseconds_of_their_own) {
     for (uint32_t step = first; step < first + 30; step++) {
       ROW("first %u, step %u", (unsigned)first, (unsigned)step);
       CHECK(watch_time(&f, step));
-      const unsigned due = (step % 10 == 0 ? (unsigned)FLIGHT_OUTER : 0u) |
-                           (step % 10 == 5 ? (unsigned)FLIGHT_LEARN : 0u) |
-                           (step % 2 == 0 ? (unsigned)FLIGHT_INNER : 0u);
+      const unsigned due =
+          (step % 10 == 0 ? (unsigned)FLIGHT_OUTER : 0u) | (step % 10 == 5 ? (unsigned)FLIGHT_LEARN : 0u) |
+          (step % 10 == 7 ? (unsigned)FLIGHT_SCRUB : 0u) | (step % 2 == 0 ? (unsigned)FLIGHT_INNER : 0u);
       CHECK(f.due == due);
       f.step_last = step; // as the guard does when it has read the time
     }

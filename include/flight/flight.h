@@ -69,7 +69,7 @@ typedef struct {
   bool called;                // once at least
   uint32_t step_last;
   unsigned phase;     // of the ten milliseconds, from the step counter
-  unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
+  unsigned due;       // which loops this call runs: FLIGHT_OUTER and so on
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
@@ -77,7 +77,7 @@ typedef struct {
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
 } flight_t;
 
-enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4 };
+enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8 };
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.

@@ -27,7 +27,7 @@ static double least_of(const diagnosis_t *d, const fx_t *fx, const candidate_t *
   for (int i = 0; i < d->candidates.n; i++) {
     const candidate_t *const c = &d->candidates.candidate[i];
     if (c->use.fx != fx || !(d->found.least[i] > 0.0)) continue;
-    const bool worst = fx->param[fx->shape_param].whole && !fx->surface;
+    const bool worst = !fx->surface && fx->n_shape > 0 && fx_is_number(&fx->param[fx->shape_param]);
     if (*which && (worst ? d->found.least[i] < least : d->found.least[i] > least)) continue;
     least = d->found.least[i];
     *which = c;

@@ -2,6 +2,7 @@
 #include "gap/diagnose.h"
 
 #include "gap/7_verify.h"
+#include "gap/contact.h"
 #include "gap/muted.h"
 #include <math.h>
 #include <stdlib.h>
@@ -90,6 +91,8 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "replaying the logs");
   TRY(take_flights(job, d, why));
   TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
+  TRY(contact_drop(&d->fit, &d->candidates, job->model, why));
+  TRY(contact_drop(&d->held, &d->candidates, job->model, why));
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
