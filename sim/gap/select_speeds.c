@@ -5,14 +5,17 @@
 #include "gap/lsq_blocks.h"
 #include <math.h>
 
-#define BETTER  50.0 // twice the logarithm of the likelihood, at least
-#define PART    0.03 // of it, at least
-#define CLUSTER 3.0  // standard errors grow by this: points follow each other closely
-#define STEPS   16
+#define BETTER      50.0 // twice the logarithm of the likelihood, at least
+#define PART        0.03 // of it, at least
+#define CLUSTER     3.0  // standard errors grow by this: points follow each other closely
+#define STEPS       16
+#define EXTRA_S     2e-3
+#define EXTRA_MAX_S 9e-3
 
 typedef struct {
   select_t *t;
-  int candidate; // below 0: none
+  int candidate;  // below 0: none
+  double extra_s; // delay that a lag may have beside it: the way of a command through the vehicle
   why_t *why;
   status_t status;
 } speeds_t;
@@ -38,7 +41,7 @@ static double judge(speeds_t *s, double value) {
   const model_t *m = s->t->base;
   const bool lag = s->candidate >= 0 && strcmp(select_fx(s->t, s->candidate)->name, "motor_lag") == 0;
   const double tau_s = m->motor_tau_s + (lag ? value : 0.0),
-               delay_s = m->frame.motor_delay_s + (lag ? 0.0 : value);
+               delay_s = m->frame.motor_delay_s + (lag ? s->extra_s : value);
   double sum = 0.0;
   for (int f = 0; f < s->t->s->n_grid; f++) {
     const lagged_t *motors = grid_motors(&s->t->s->grid[f], tau_s, delay_s);
@@ -95,12 +98,23 @@ status_t select_speeds(select_t *t, bool *known, why_t *why) {
     t->never[i] = true;
     s.candidate = i;
     const bool lag = strcmp(fx->name, "motor_lag") == 0;
-    const double value = lag ? best_in(&s, -0.9 * t->base->motor_tau_s, 0.25) : best_in(&s, 0.0, 0.06);
-    const double now = judge(&s, value);
-    if (now < least && fabs(value) > fx->size[0].least) {
+    s.extra_s = 0.0;
+    double value = best_in(&s, lag ? -0.9 * t->base->motor_tau_s : 0.0, lag ? 0.25 : 0.06);
+    double now = judge(&s, value);
+    for (double extra_s = EXTRA_S; lag && extra_s < EXTRA_MAX_S; extra_s += EXTRA_S) {
+      s.extra_s = extra_s;
+      const double other = best_in(&s, -0.9 * t->base->motor_tau_s, 0.25), there = judge(&s, other);
+      if (there < now) {
+        now = there;
+        value = other;
+      }
+    }
+    if (now < least) {
       take(&s, value, none, now);
       least = now;
     }
   }
+  // A delay of 3 ms is not named; nor is the lag that would do instead.
+  if (t->timing >= 0 && fabs(t->timing_s) < select_fx(t, t->timing)->size[0].least) t->timing = -1;
   return s.status;
 }

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LONG_S 0.015 // shorter ones the straight line finds
+#define LONG_S 0.045 // shorter ones the straight line finds
 #define BETTER 50.0  // twice the logarithm of the likelihood
 
-static const double TRY_S[] = {0.015, 0.025, 0.035, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16};
+static const double TRY_S[] = {0.005, 0.01, 0.015, 0.025, 0.035, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16};
 #define TRIES ((int)(sizeof TRY_S / sizeof *TRY_S))
 
 typedef struct {
