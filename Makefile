@@ -8,6 +8,7 @@ OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
 DEMO_PACKAGES = gnuplot-nox
+PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
@@ -52,7 +53,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -60,6 +61,8 @@ setup:  ## install the Debian packages that the build needs
 	@tools/setup.sh $(PACKAGES)
 setup-demo:
 	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
+setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor
+	@tools/setup.sh $(PIL_PACKAGES)
 setup-lint:
 	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
 
@@ -136,6 +139,14 @@ format: setup-lint  ## bring every source into the one format
 
 docs: setup-demo out/fly out/learn out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
+
+firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" plus
+
+cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus)
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
+	+@tools/firmware.sh cload "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 
 clean:  ## remove everything that was made
 	@rm -rf out

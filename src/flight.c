@@ -163,7 +163,8 @@ static void run(flight_t *f, const flight_in_t *in) {
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   // What is wrong teaches nothing; least of all an acceleration that was made up.
-  if ((f->due & FLIGHT_LEARN) && f->guard.now == 0 && !f->guard.acc_lost) outer_learn(&f->outer);
+  const bool teaches = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
+  if ((f->due & FLIGHT_LEARN) && teaches) outer_learn(&f->outer);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 

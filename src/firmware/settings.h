@@ -1,0 +1,26 @@
+// settings.h - from parameters that are written one by one to sets that are flown as a whole.
+//
+// The parameters are the fields of GLUE.tuned. A set is taken at the start of a tick, checked, and flown from
+// then on. One that fails its checks is counted, the last good one flies on, and what is out of its range
+// gets its old value back. The weights ceil.w1..w7 wait for ceil.commit:
+//   1  takes ceil.w1..w7 at once
+//   2  copies the learned rls.w1..w7 into them, and takes those; refused while learning
+// Either way learning goes on from there.
+#ifndef FIRMWARE_SETTINGS_H
+#define FIRMWARE_SETTINGS_H
+
+#include <stdbool.h>
+
+// A fresh controller with what the parameters say now, the weights included; defaults for what is refused.
+void settings_start(void);
+
+// Once a tick, before anything else.
+void settings_take(void);
+
+// A lesson may be taught now.
+bool settings_learning(void);
+
+// Called by the firmware's parameter task after every write.
+void settings_touched(void);
+
+#endif
