@@ -27,13 +27,14 @@ LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv 
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+FIRMWARE_SRC = $(wildcard src/firmware/*.c)
+SIM_SRC    = $(wildcard sim/*.c sim/crazyflie/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
 SIM_CPP    = $(wildcard sim/*.cpp sim/io/*.cpp sim/plant/*.cpp)
 TEST_SRC   = $(wildcard test/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
-SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
+SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(FIRMWARE_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
 PROGRAMS   = fly learn effectiveness bench
 
 ifeq ($(MAKELEVEL),0)
@@ -72,6 +73,13 @@ setup-lint:
 $(B)/src/%.o: src/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(FLIGHT_FLAGS) -Iinclude -c $< -o $@
+# The app, unchanged, between stand-ins of the firmware's headers.
+$(B)/src/firmware/%.o: src/firmware/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h -c $< -o $@
+$(B)/sim/crazyflie/%.o: sim/crazyflie/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim -Isim/crazyflie -c $< -o $@
 $(B)/sim/plant/%.o: sim/plant/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Isim -c $< -o $@
@@ -83,13 +91,13 @@ $(B)/sim/effects/%.o: sim/effects/%.c | setup
 	@$(C) -Isim -c $< -o $@
 $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
-	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
-	@$(C) -Iinclude -Isim -Itest -c $< -o $@
+	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/%.o: %.cpp | setup
 	@mkdir -p $(@D)
-	@$(CPP) -Iinclude -Isim -Itest -c $< -o $@
+	@$(CPP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 
 out/gen/%_table.c: force
 	@tools/table.sh $* $@

@@ -6,7 +6,6 @@
 #include "peers/stock_indi.h"
 #include "pilot_flight.h"
 #include <math.h>
-#include <stdlib.h>
 
 #define CEILING_M   0.5
 #define DECAY_PER_M 80.0 // of the thesis's ceiling effect
@@ -65,31 +64,28 @@ void setup6_close_ladder(setup6_t *setup) {
 
 static void ask_flight(const void *state, thoughts_t *thoughts) {
   const pilot_flight_t *p = state;
-  const outer_out_t *out = &p->flight.out.outer;
+  const outer_out_t *out = &p->flight->out.outer;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
   for (int i = 0; i < RBF_N; i++) {
-    thoughts->weights[i] = (double)p->flight.outer.learn.rls.theta.w[i];
-    thoughts->variance[i] = (double)p->flight.outer.learn.rls.P[i][i];
+    thoughts->weights[i] = (double)p->flight->outer.learn.rls.theta.w[i];
+    thoughts->variance[i] = (double)p->flight->outer.learn.rls.P[i][i];
   }
 }
 
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
-  pilot_flight_t *p = malloc(sizeof *p);
-  if (!p) return error_failed(why, "out of memory");
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
+  pilot_flight_t p;
   pilot6_t pilot;
-  status_t status = pilot_flight_init(p, &param, &pilot);
-  if (status != ST_OK)
-    (void)!error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
-  else
-    status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record, &flown->more,
-                       &flown->flown.outcome, why);
-  flown->flown.weights = live ? p->flight.outer.learn.rls.theta : param.curve.fixed;
-  free(p);
+  const status_t opened = pilot_flight_init(&p, &param, &setup->model, &pilot);
+  if (opened != ST_OK)
+    return error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
+  const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
+                                    &flown->more, &flown->flown.outcome, why);
+  flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
   return status;
 }
 

@@ -112,7 +112,7 @@ static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t
   if (!in->range_new) return now | (g->now & GUARD_RANGE_ODD);
   if (!valid || (in->zc_known && in->range_m >= in->range_floor_m && fabsf(in->range_m - in->zc_m) > ODD_M))
     now |= GUARD_RANGE_ODD;
-  if (in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
+  if (valid && in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
     g->range_same++;
     const float moved_m = fabsf(in->pos_w_m.z - g->range_z_m);
     return g->range_same >= RANGE_SAME && moved_m > MOVED_M ? now | GUARD_RANGE_FROZEN : now;

@@ -167,7 +167,7 @@ static void below_floor(case_t *c, pilot6_in_t *in, double since_s) {
 }
 static void range_lock_out(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
-  if (since_s < 5e-4) c->pilot.flight.outer.ceiling.zc_m = 0.04f;
+  if (since_s < 5e-4) c->pilot.flight->outer.ceiling.zc_m = 0.04f;
 }
 static void range_flags(case_t *c, pilot6_in_t *in, double since_s) {
   (void)since_s;
@@ -240,7 +240,7 @@ static void broken_covariance(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   const unsigned i = c->pick % 7;
-  c->pilot.flight.outer.learn.rls.P[i][i] = c->pick & 64 ? -1.0f : NAN;
+  c->pilot.flight->outer.learn.rls.P[i][i] = c->pick & 64 ? -1.0f : NAN;
 }
 static void zero_curve(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
@@ -284,7 +284,7 @@ static void again(case_t *c, pilot6_in_t *in, double since_s) {
 static void bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
-  unsigned char *const at = (unsigned char *)&c->pilot.flight.outer.learn.rls;
+  unsigned char *const at = (unsigned char *)&c->pilot.flight->outer.learn.rls;
   at[c->pick % sizeof(rls_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 static void take_off(case_t *c) {
@@ -365,7 +365,7 @@ enum { ROWS = sizeof rows / sizeof *rows };
 // --- a flight ---------------------------------------------------------------------------------------------
 
 static bool in_box(const case_t *c) {
-  const flight_t *f = &c->pilot.flight;
+  const flight_t *f = c->pilot.flight;
   const rls_t *rls = &f->outer.learn.rls;
   for (int i = 0; i < RBF_N; i++)
     if (!(fabsf(rls->theta.w[i]) <= RLS_WEIGHT_MAX)) return false;
@@ -389,14 +389,14 @@ static void watch(case_t *c, const body_t *truth) {
   c->gap_min_m = fmin(c->gap_min_m, gap_m);
   if (gap_m < 0.05) c->up_max_mps = fmax(c->up_max_mps, climb_mps);
   c->bad = c->bad || truth->broken || (c->t_s > 0.05 && !in_box(c));
-  const unsigned latched = c->pilot.flight.guard.latched;
+  const unsigned latched = c->pilot.flight->guard.latched;
   if (since_s < 0.0)
     c->early |= latched;
   else if (c->seen_s < 0.0 && (latched & ~c->early & c->row->reasons) != 0)
     c->seen_s = since_s;
   if (since_s < 0.0)
     c->thrust_N += 0.01 * (thrust_N - c->thrust_N);
-  else if (c->pilot.flight.guard.action == GUARD_HAND_OVER && ++c->handed_ms > 4)
+  else if (c->pilot.flight->guard.action == GUARD_HAND_OVER && ++c->handed_ms > 4)
     c->over_N = fmax(c->over_N, thrust_N - c->thrust_N);
   const double after_s = c->length_s < END_S ? c->length_s + 2.0 : 2.0;
   if (since_s < after_s) return;
@@ -472,7 +472,7 @@ static void fly(case_t *c, const row_t *row, uint64_t seed) {
   c->thrust_N = ROTORS * c->plan.start.thrust_N[0];
   c->plan.fault = fault;
   c->plan.fault_context = c;
-  CHECK_OK(pilot_flight_init(&c->pilot, &setup.flight, &c->inner));
+  CHECK_OK(pilot_flight_init(&c->pilot, &setup.flight, &c->model, &c->inner));
   const pilot6_t pilot = {.state = c, .step = step, .reset = reset};
   record_t record = {0};
   record6_t more = {0};
@@ -516,7 +516,7 @@ TEST(faults_of_the_list_end_as_they_should) {
                "pick %u latched %x\n",
                i, failed, 1e3 * c->gap_min_m, c->up_max_mps, c->seen_s,
                1e3 * sqrt(c->sum2 / fmax(1.0, (double)c->n)), c->over_N, 100 * c->end_gap_m, c->size,
-               c->pick % 16, c->pilot.flight.guard.latched);
+               c->pick % 16, c->pilot.flight->guard.latched);
       passed += failed == NULL;
       gap_m = fmin(gap_m, c->gap_min_m);
     }

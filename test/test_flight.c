@@ -26,9 +26,10 @@ static void start(rig_t *r, double yaw_rad) {
   body_start_t at = {.pos_w_m = {0.0, 0.0, 0.5}, .q_wb = {cos(0.5 * yaw_rad), 0.0, 0.0, sin(0.5 * yaw_rad)}};
   for (int i = 0; i < ROTORS; i++) at.thrust_N[i] = r->in.applied_N[i] = r->model.mass_kg * 9.81 / 4.0;
   CHECK_OK(body_open(&r->body, &r->model, INTEGRATE_RK4, 0.002, &at));
-  CHECK_OK(pilot_flight_init(&r->flight, &setup.flight, &r->pilot));
+  CHECK_OK(pilot_flight_init(&r->flight, &setup.flight, &r->model, &r->pilot));
   for (int i = 0; i < 3; i++) r->in.set.mode[i] = PILOT6_POSITION;
   r->in.set.pos_w_m = at.pos_w_m;
+  r->in.vbat_V = r->body.vbat_V;
   r->in.set.yaw_rad = yaw_rad;
 }
 
@@ -138,7 +139,7 @@ TEST(flight_by_hand_takes_tilts_for_radians) {
   flight_in_t in = {.q_wb = {.w = 1.0f}, .acc_b_mps2 = {.z = GRAVITY_MPS2}};
   for (int i = 0; i < MOTORS; i++) in.force_N[i] = 0.08f;
   in.setpoint = (flight_setpoint_t){.roll_rad = 0.1f, .pitch_rad = -0.2f, .thrust_N = 0.32f};
-  const flight_out_t out = flight_step(&r.flight.flight, &r.flight.param, &in);
+  const flight_out_t out = flight_step(r.flight.flight, &r.flight.param, &in);
   const v3_t up = quat_up(out.q_ref);
   CHECK_NEAR(up.x, sin(-0.2) * cos(0.1), 1e-5);
   CHECK_NEAR(up.y, -sin(0.1), 1e-5);
@@ -205,14 +206,29 @@ TEST(flight_takes_a_changed_cut_off_over_at_once) {
   rig_t r = {.in = {.step = 0}};
   start(&r, 0.0);
   fly(&r, 0.5);
-  const lpf2_coef_t inner = r.flight.flight.att_filter, outer = r.flight.flight.outer.coef.filter;
+  const lpf2_coef_t inner = r.flight.flight->att_filter, outer = r.flight.flight->outer.coef.filter;
   r.flight.param.cutoff_Hz = 15.0f;
   r.flight.param.att_cutoff_Hz = 30.0f;
   fly(&r, 0.02);
-  CHECK(memcmp(&inner, &r.flight.flight.att_filter, sizeof inner) != 0);
-  CHECK(memcmp(&outer, &r.flight.flight.outer.coef.filter, sizeof outer) != 0);
+  CHECK(memcmp(&inner, &r.flight.flight->att_filter, sizeof inner) != 0);
+  CHECK(memcmp(&outer, &r.flight.flight->outer.coef.filter, sizeof outer) != 0);
   fly(&r, 2.0);
   CHECK_NEAR(pos_of(&r).z, 0.5, 0.01); // without a bump
+  body_close(&r.body);
+}
+
+TEST(flight_counts_an_applied_force_that_is_not_a_number) {
+  rig_t r = {.in = {.step = 0}};
+  start(&r, 0.0);
+  fly(&r, 1.0);
+  const flight_t before = *r.flight.flight;
+  flight_in_t bad = r.flight.vehicle.app.in;
+  bad.step++;
+  bad.force_N[2] = NAN;
+  const flight_out_t out = flight_step(r.flight.flight, &r.flight.param, &bad);
+  CHECK(memcmp(&out.motors, &before.out.motors, sizeof out.motors) == 0);
+  CHECK(r.flight.flight->faults[ST_BAD_INPUT] == before.faults[ST_BAD_INPUT] + 1);
+  CHECK(memcmp(&before.att, &r.flight.flight->att, sizeof before.att) == 0);
   body_close(&r.body);
 }
 
@@ -223,20 +239,20 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   sense(&r);
   double before[PILOT6_MOTORS], after[PILOT6_MOTORS];
   r.pilot.step(r.pilot.state, &r.in, before);
-  const flight_t state = r.flight.flight;
+  const flight_t state = *r.flight.flight;
   static const double odd[] = {(double)NAN, 1e38};
   for (unsigned k = 0; k < sizeof odd / sizeof *odd; k++) {
     for (int field = 0; field < 3; field++) {
       ROW("field %d, %g", field, odd[k]);
-      r.flight.flight = state;
+      *r.flight.flight = state;
       pilot6_in_t bad = r.in;
       bad.step++;
-      double *const place[] = {&bad.gyro_b_radps.y, &bad.q_wb.x, &bad.applied_N[2]};
+      double *const place[] = {&bad.gyro_b_radps.y, &bad.q_wb.x, &bad.q_wb.w};
       *place[field] = odd[k];
       r.pilot.step(r.pilot.state, &bad, after);
       for (int i = 0; i < PILOT6_MOTORS; i++) CHECK_NEAR(after[i], before[i], 0.0);
-      CHECK(r.flight.flight.faults[ST_BAD_INPUT] > state.faults[ST_BAD_INPUT]);
-      CHECK(memcmp(&state.att, &r.flight.flight.att, sizeof state.att) == 0);
+      CHECK(r.flight.flight->faults[ST_BAD_INPUT] > state.faults[ST_BAD_INPUT]);
+      CHECK(memcmp(&state.att, &r.flight.flight->att, sizeof state.att) == 0);
     }
   }
   body_close(&r.body);
@@ -255,6 +271,6 @@ TEST(flight_does_not_take_up_a_range_sample_from_before_it_flew) {
   }
   r.in.set.mode[2] = PILOT6_POSITION;
   think(&r, 20, motor_N);
-  CHECK(!r.flight.flight.outer.ceiling.known);
+  CHECK(!r.flight.flight->outer.ceiling.known);
   body_close(&r.body);
 }

@@ -16,7 +16,7 @@
 
 void controllerOutOfTreeInit(void) {
   settings_start();
-  GLUE.range = (range_up_t){.seen = false};
+  GLUE.range = (range_up_t){.started = false};
   GLUE.stock_share = GLUE.shadow ? 1.0f : 0.0f;
   flyable_init(&GLUE.flyable);
   controllerPidInit();

@@ -16,7 +16,7 @@
 typedef struct {
   float last_mm;
   uint32_t at_ms; // of the last sample
-  bool seen;      // there was one: before, the firmware says 0
+  bool started;
 } range_up_t;
 
 typedef struct {

@@ -32,7 +32,7 @@ static bool take(const rbf_weights_t *weights) {
 }
 
 void settings_start(void) {
-  GLUE.touched = 0;
+  GLUE.touched = GLUE.commit = 0;
   params_default(&GLUE.flown);
   if (!take(&GLUE.tuned.curve.fixed) && !take(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
   (void)!flight_init(&GLUE.flight, &GLUE.flown); // a set that passed its checks

@@ -1,7 +1,6 @@
 // units.c - the border between the firmware's units, signs and frames, and ours.
 #include "units.h"
 
-#include "autoconf.h"
 #include "flight/trig.h"
 #include "platform_defaults.h"
 
@@ -76,12 +75,10 @@ static float motor_N(const control_t *c, int i) {
   }
 }
 
+// The firmware stops a motor below THRUST_MIN (11 %). Counted as the command all the same: thrust that is
+// built up from increments, as at a take-off, would otherwise never get beyond it.
 void units_applied(float force_N[MOTORS], const control_t *control) {
-  for (int i = 0; i < MOTORS; i++) {
-    const float force = motor_N(control, i);
-    // Below its least thrust the firmware stops a motor.
-    force_N[i] = force >= THRUST_MIN ? f_clamp(force, 0.0f, THRUST_MAX) : 0.0f;
-  }
+  for (int i = 0; i < MOTORS; i++) force_N[i] = f_clamp(motor_N(control, i), 0.0f, THRUST_MAX);
 }
 
 void units_command(control_t *control, const float force_N[MOTORS]) {
