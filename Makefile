@@ -92,6 +92,9 @@ $(B)/sim/effects/%.o: sim/effects/%.c | setup
 $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isrc -Isim -c $< -o $@
+$(B)/test/test_app%.o: test/test_app%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim -Itest -Isim/crazyflie -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@

@@ -34,6 +34,7 @@ typedef struct {
   sample_t *sample;
   int n, room;
   sample6_t *more; // as many, or a null pointer: flown on the vertical axis
+  float *app;      // as many rows of the app's logs (sections_logs()), or a null pointer
 } record_t;
 
 // ST_FAILED: no memory; nothing was added.

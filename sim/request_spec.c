@@ -34,7 +34,7 @@ status_t request_take_integrator(request_t *r, const char *name, why_t *why) {
 
 status_t request_take_set(request_t *r, const char *text, why_t *why) {
   if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
-  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
+  TRY(param_parse(text, &r->set[r->n_set], why));
   r->n_set++;
   return ST_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "flight/params.h"
 #include "loop.h"
+#include "param_spec.h"
 #include "peers/pid.h"
 #include "plant/noise6.h"
 #include "segments.h"
@@ -47,11 +48,9 @@ typedef struct {
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has
-  struct {
-    const param_row_t *row;
-    float value;
-  } set[REQUEST_MAX];
+  param_set_t set[REQUEST_MAX];
   int n_set;
+  bool log; // keeps the app's logs, in six degrees of freedom
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;

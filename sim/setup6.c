@@ -42,6 +42,7 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   if (request->noise6) setup->plan.noise = *request->noise6;
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
+  setup->request = request;
   return ST_OK;
 }
 
@@ -74,6 +75,15 @@ static void ask_flight(const void *state, thoughts_t *thoughts) {
   }
 }
 
+// What only the app knows.
+static void take_request(pilot_flight_t *p, const request_t *request) {
+  if (!request) return;
+  for (int i = 0; i < request->n_set; i++)
+    if (request->set[i].app)
+      (void)crazyflie_set(&p->vehicle, request->set[i].app->name, (double)request->set[i].value);
+  p->keeps_log = request->log;
+}
+
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
@@ -83,8 +93,12 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   const status_t opened = pilot_flight_init(&p, &param, &setup->model, &pilot);
   if (opened != ST_OK)
     return error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
+  take_request(&p, setup->request);
   const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
                                     &flown->more, &flown->flown.outcome, why);
+  flown->flown.record.app = p.log;
+  if (p.keeps_log && status == ST_OK && p.n_log < flown->flown.record.n)
+    return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
   return status;
 }

@@ -137,6 +137,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
   o->scenario = scenario_find(argv[optind]);
   if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
+  o->request.log = o->log != NULL;
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
   return check_many(o, why);
 }

@@ -194,3 +194,11 @@ bool crazyflie_log(const crazyflie_t *c, const char *name, double *value) {
   if (l) *value = values_of_log(l->type, own(c, l->address));
   return l != NULL;
 }
+
+void crazyflie_logs(const crazyflie_t *c, float *value) {
+  const section_log_group_t *const *group;
+  const int n = sections_log_groups(&group);
+  for (int g = 0; g < n; g++)
+    for (const section_log_t *l = group[g]->log; l->name; l++)
+      *value++ = (float)values_of_log(l->type, own(c, l->address));
+}

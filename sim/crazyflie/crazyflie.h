@@ -42,6 +42,8 @@ void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
 // false: there is none of that name.
 bool crazyflie_set(crazyflie_t *c, const char *name, double value);
 bool crazyflie_param(const crazyflie_t *c, const char *name, double *value);
+// All of the app's logs, in the order of sections_log_at(), into value[sections_logs()].
+void crazyflie_logs(const crazyflie_t *c, float *value);
 bool crazyflie_log(const crazyflie_t *c, const char *name, double *value);
 
 #endif

@@ -1,6 +1,7 @@
 // sections.c - the app's parameters and logs, from the linker.
 #include "sections.h"
 
+#include <stdio.h>
 #include <string.h>
 
 extern const section_param_group_t *const __start_crazyflie_params[], *const __stop_crazyflie_params[];
@@ -44,6 +45,26 @@ const section_log_t *sections_log(const char *full_name) {
     const char *const name = within(full_name, group[i]->name);
     for (const section_log_t *l = group[i]->log; name && l->name; l++)
       if (strcmp(l->name, name) == 0) return l;
+  }
+  return NULL;
+}
+
+int sections_logs(void) {
+  char name[32];
+  int n = 0;
+  while (sections_log_at(n, name)) n++;
+  return n;
+}
+
+const section_log_t *sections_log_at(int i, char name[32]) {
+  const section_log_group_t *const *group;
+  const int n = sections_log_groups(&group);
+  for (int g = 0; g < n; g++) {
+    for (const section_log_t *l = group[g]->log; l->name; l++) {
+      if (i-- > 0) continue;
+      snprintf(name, 32, "%s.%s", group[g]->name, l->name);
+      return l;
+    }
   }
   return NULL;
 }

@@ -35,6 +35,10 @@ typedef struct {
 int sections_param_groups(const section_param_group_t *const **first);
 int sections_log_groups(const section_log_group_t *const **first);
 
+// All logs one after the other: how many, and the name and entry of each. name: "group.name", at most 32.
+int sections_logs(void);
+const section_log_t *sections_log_at(int i, char name[32]);
+
 // "group.name"; a null pointer: there is none.
 const section_param_t *sections_param(const char *full_name);
 const section_log_t *sections_log(const char *full_name);

@@ -30,6 +30,12 @@ typedef struct {
 enum { COMMIT_TYPED = 1, COMMIT_LEARNED = 2 };
 enum { DECK_FLOW = 1, DECK_MULTIRANGER = 2 };
 
+// Parameters that are the app's own: X(name in group ceil, type, field of glue_t, largest, what it does).
+#define APP_PARAMS(X)                                                                                        \
+  X(commit, PARAM_UINT8, commit, 2,                                                                          \
+    "1 takes ceil.w1..w7 at once, 2 the learned rls.w1..w7; refused while learning; 0 when done")            \
+  X(shadow, PARAM_UINT8, shadow, 1, "1: the stock controller flies, this one computes and logs")
+
 extern glue_t glue_static;
 
 #ifndef GLUE

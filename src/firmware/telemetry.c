@@ -19,6 +19,9 @@ glue_t glue_static = {.tuned = {FLIGHT_PARAMS(INITIAL)}};
 #define ROW(group, name, type, field, ...)                                                                   \
   PARAM_ADD_WITH_CALLBACK(type | PARAM_PERSISTENT, name, &glue_static.tuned.field, settings_touched)
 
+#define APP_ROW(name, type, field, ...)                                                                      \
+  PARAM_ADD_WITH_CALLBACK(type, name, &glue_static.field, settings_touched)
+
 // clang-format off
 PARAM_GROUP_START(indiPos)
 PARAMS_INDIPOS(ROW)
@@ -30,8 +33,7 @@ PARAM_GROUP_STOP(indiAtt)
 
 PARAM_GROUP_START(ceil)
 PARAMS_CEIL(ROW)
-PARAM_ADD_WITH_CALLBACK(PARAM_UINT8, commit, &glue_static.commit, settings_touched)
-PARAM_ADD(PARAM_UINT8, shadow, &glue_static.shadow)
+APP_PARAMS(APP_ROW)
 PARAM_GROUP_STOP(ceil)
 
 PARAM_GROUP_START(rls)
