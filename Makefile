@@ -92,6 +92,12 @@ $(B)/sim/effects/%.o: sim/effects/%.c | setup
 $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isrc -Isim -c $< -o $@
+$(B)/test/pil/%.o: test/pil/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim/crazyflie -Isim -c $< -o $@
+$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 $(B)/test/test_app%.o: test/test_app%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isrc -Isim -Itest -Isim/crazyflie -c $< -o $@

@@ -162,7 +162,10 @@ void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
   range(c, in);
   const setpoint_t setpoint = order(c, &in->set);
   c->now = in;
-  controllerOutOfTree(&c->control, &setpoint, &sensors, &state, in->step);
+  if (c->fly)
+    c->fly(c->fly_context, &c->control, &setpoint, &sensors, &state, in->step);
+  else
+    controllerOutOfTree(&c->control, &setpoint, &sensors, &state, in->step);
   drive(c, in, motor_N);
 }
 

@@ -14,6 +14,10 @@
 typedef struct {
   glue_t app; // the app's state: to be looked at, and for faults to be put in
   stand_in_t around;
+  // Plays controllerOutOfTree(); null: it itself. To look at the calls, or to have them answered elsewhere.
+  void (*fly)(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+              const state_t *state, uint32_t step);
+  void *fly_context;
   // Not for callers.
   stock_power_param_t firmware;
   bool compensates; // the firmware knows the propellers: a command is thrust, not duty

@@ -1,7 +1,6 @@
 // sections.c - the app's parameters and logs, from the linker.
 #include "sections.h"
 
-#include <stdio.h>
 #include <string.h>
 
 extern const section_param_group_t *const __start_crazyflie_params[], *const __stop_crazyflie_params[];
@@ -62,7 +61,9 @@ const section_log_t *sections_log_at(int i, char name[32]) {
   for (int g = 0; g < n; g++) {
     for (const section_log_t *l = group[g]->log; l->name; l++) {
       if (i-- > 0) continue;
-      snprintf(name, 32, "%s.%s", group[g]->name, l->name);
+      strncpy(name, group[g]->name, 15); // both together at most 25 (firmware)
+      name[15] = '\0';
+      strcat(strcat(name, "."), l->name);
       return l;
     }
   }
