@@ -6,7 +6,7 @@ CXX = g++
 B   = out/release
 OPT = -O3
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
@@ -23,19 +23,20 @@ OMP_LIB = -lgomp
 else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
-LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -ltomlplusplus -lcsv -lcjson -lstdc++ -lm
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
 FIRMWARE_SRC = $(wildcard src/firmware/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/crazyflie/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
-SIM_CPP    = $(wildcard sim/*.cpp sim/io/*.cpp sim/plant/*.cpp)
-TEST_SRC   = $(wildcard test/*.c)
+SIM_SRC    = $(wildcard sim/*.c sim/crazyflie/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+SIM_CPP    = $(wildcard sim/*.cpp sim/gap/*.cpp sim/io/*.cpp sim/plant/*.cpp)
+TEST_SRC   = $(wildcard test/*.c) $(filter-out test/exam/main.c,$(wildcard test/exam/*.c))
+EXAM_SRC   = $(wildcard test/exam/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(FIRMWARE_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
-PROGRAMS   = fly learn effectiveness bench
+PROGRAMS   = fly learn effectiveness gap slot bench
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -54,7 +55,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights test check bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload setup-pil
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -101,6 +102,9 @@ $(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
 $(B)/test/test_app%.o: test/test_app%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isrc -Isim -Itest -Isim/crazyflie -c $< -o $@
+$(B)/test/exam/main.o: test/exam/main.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
@@ -118,7 +122,15 @@ $(B)/bin/tests: $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(S
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 
-$(PROGRAMS:%=out/%): out/%: $(B)/bin/%
+$(B)/bin/exam: $(call objects,$(EXAM_SRC)) $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+
+$(B)/bin/fuzz_%: $(B)/test/fuzz/fuzz_%.o $(call objects,test/fuzz/fuzz.c test/flight_csv.c test/usd_bytes.c test/scratch.c) $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CXX) $(SANITIZE) -fsanitize=fuzzer $^ $(LIBS) -o $@
+
+$(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 	@ln -sf $(<:out/%=%) $@
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
@@ -131,8 +143,14 @@ demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
 
+slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
+	@out/slot "$(DATA)"
+
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+
+exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
+	@out/exam $(or $(SEED),10001) 200
 
 check: test sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
@@ -145,6 +163,12 @@ clang: setup-lint  ## everything again, and the tests, with clang
 	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
+FUZZ_S = 60
+fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each
+	@$(MAKE) B=out/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' out/fuzz/bin/fuzz_csv out/fuzz/bin/fuzz_usd
+	@mkdir -p out/fuzz/csv out/fuzz/usd
+	@cd out/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
+
 bench: out/bench  ## how fast it is, as ratios to real time
 	@out/bench
 
@@ -154,7 +178,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)

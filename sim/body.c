@@ -84,7 +84,8 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
                        .kf_Ns2 = f->kf_Ns2,
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
-                       .thrust_scale = {1.0, 1.0, 1.0, 1.0}};
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                       .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
   b->touch.ceiling_m = model->ceiling_m;
@@ -94,7 +95,7 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   take_start(b, start);
   look_at_battery(b);
   b->random = random_open(start->seed);
-  if (!b->random) return ST_BAD_INPUT;
+  if (!b->random) return ST_FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
   look_now(b);
   const touch_gap_t gap = body_clearance(b);
@@ -147,10 +148,10 @@ static void advance(body_t *b, double span_s) {
 }
 
 static void delay_commands(body_t *b, double span_s) {
-  const double ticks =
-      b->plant.delay_s > 0.0 ? fmin(round(b->plant.delay_s / span_s), BODY_QUEUE - 1.0) : 0.0;
+  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
+  const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
   memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
-  memcpy(b->rigid.command_N, b->queue_N[(b->queued - (unsigned)ticks) % BODY_QUEUE], sizeof b->command_N);
+  memcpy(b->rigid.command_N, b->queue_N[(b->queued - ticks) % BODY_QUEUE], sizeof b->command_N);
   b->queued++;
 }
 
@@ -172,7 +173,10 @@ static void tick(body_t *b, double span_s) {
 
 void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
   const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
-  for (int i = 0; i < ROTORS; i++) b->command_N[i] = fmin(fmax(command_N[i], min_N), max_N);
+  for (int i = 0; i < ROTORS; i++) {
+    const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
+    b->command_N[i] = command < max_N ? command : max_N;
+  }
   tick(b, span_s);
 }
 
@@ -211,7 +215,8 @@ static double rotor_z_m(const body_t *b, int i) {
 }
 
 double body_ceiling_gap_m(const body_t *b, int rotor) {
-  return fmax(0.0, b->touch.ceiling_m - rotor_z_m(b, rotor));
+  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
+  return gap_m > 0.0 ? gap_m : 0.0;
 }
 
 double body_ground_gap_m(const body_t *b, int rotor) {

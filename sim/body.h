@@ -63,8 +63,8 @@ typedef struct {
 
 #define BODY_RELEASE_M 1e-3
 
-// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range, or no memory.
-// The body must not be moved in memory; close what was opened.
+// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range. ST_FAILED: no
+// memory. The body must not be moved in memory; close what was opened.
 MUST_CHECK status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
                               const body_start_t *start);
 

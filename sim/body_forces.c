@@ -8,6 +8,15 @@
 
 // --- forces -------------------------------------------------------------------------------------------
 
+static fx_place_t place_of(const body_t *b, double z_m, const axes_t *axes, int rotor) {
+  const double rotor_z_m = z_m + b->rigid.rotor_x_m[rotor] * axes_up_b(axes).x +
+                           b->rigid.rotor_y_m[rotor] * axes_up_b(axes).y +
+                           b->rigid.rotor_z_m[rotor] * axes_up_b(axes).z;
+  return (fx_place_t){.ceiling_gap_m = fmax(b->touch.ceiling_m - rotor_z_m, 0.0),
+                      .ground_gap_m = fmax(rotor_z_m, 0.0),
+                      .radius_m = b->model->rotor_radius_m};
+}
+
 // What the surroundings multiply each rotor's thrust by; z_m: height of the centre of mass.
 static void look_at_surfaces(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
   for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
@@ -30,7 +39,9 @@ static void effects_load(const body_t *b, const double *y, const axes_t *axes, c
                          load_t *load) {
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
+  motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
   for (int i = 0; i < ROTORS; i++) motion.rotor_sum_radps += speed[i];
+  for (int i = 0; i < ROTORS; i++) motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
 }
 
@@ -41,7 +52,8 @@ static inline void look_at(const body_t *b, int surfaces, const double *y, body_
   look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  if (b->n_tick > 0) look->load.force_b_N = axes_to_body(&look->axes, b->plant.force_w_N);
+  if (b->n_tick > 0)
+    look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
   if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
   if (!surfaces) return;
   const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &look->axes, 0.0);
@@ -88,7 +100,9 @@ void body_place(body_t *b, d3_t cg) {
 
 fx_plant_t body_untouched(const model_t *m) {
   return (fx_plant_t){.mass_kg = m->mass_kg,
+                      .inertia_scale = {1.0, 1.0, 1.0},
                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                      .torque_scale = {1.0, 1.0, 1.0, 1.0},
                       .motor_tau_s = m->motor_tau_s,
                       .delay_s = m->frame.motor_delay_s};
 }
@@ -97,14 +111,25 @@ void body_effects(body_t *b, double span_s) {
   const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
   b->plant = body_untouched(m);
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  fx_place_t place[ROTORS];
+  for (int i = 0; i < ROTORS; i++) place[i] = place_of(b, b->y[RIGID_POS_M + 2], &axes, i);
   for (int k = 0; k < m->n_fx; k++) {
-    const fx_tick_t tick = {
-        .t_s = b->t_s, .span_s = span_s, .vbat_V = b->vbat_V, .random = b->random, .memory = b->memory[k]};
+    const fx_tick_t tick = {.t_s = b->t_s,
+                            .span_s = span_s,
+                            .vbat_V = b->vbat_V,
+                            .thrust_N = b->y + RIGID_THRUST_N,
+                            .place = place,
+                            .random = b->random,
+                            .memory = b->memory[k]};
     if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
   }
+  const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
+  b->rigid.inertia_kgm2 = d3(J.x * grown.x, J.y * grown.y, J.z * grown.z);
   b->rigid.mass_kg = b->plant.mass_kg;
   b->rigid.motor_tau_s = b->plant.motor_tau_s;
   rigid_tune(&b->rigid);
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
+  memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
   if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
 }

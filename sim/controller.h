@@ -23,7 +23,8 @@ typedef struct {
   double ratio, slope_per_m; // of the believed curve
   double y;                  // the ratio that taught the curve at this tick; NaN: none did
   double weights[CURVE_WEIGHTS];
-  double variance[CURVE_WEIGHTS]; // of the weights
+  double variance[CURVE_WEIGHTS];    // of the weights
+  unsigned guard_now, guard_latched; // reasons of the guard (flight/guard.h)
 } thoughts_t;
 
 typedef struct {

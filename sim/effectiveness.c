@@ -9,6 +9,8 @@
 
 #define TICK_MS (1e3 * EFFECTIVENESS_PERIOD_S)
 
+#define DELAY_MAX 64 // ticks, more than EFFECTIVENESS_DELAY_S
+
 enum { TIME, RATE, COMMAND = 4, THRUST = 7, COLUMNS };
 
 static const char *const names[COLUMNS] = {
@@ -37,8 +39,9 @@ typedef struct {
   const effectiveness_job_t *job;
   csv_file_t *file;
   int column[COLUMNS];
-  double last[COLUMNS]; // row before
-  double lagged[3];     // motors
+  double last[COLUMNS];      // row before
+  double lagged[3];          // motors
+  double sent[DELAY_MAX][3]; // the newest commands, by tick
   signal_t rate[3], motor[3];
   long since_start; // ticks; < 0: no row yet
   sums_t sums[3];
@@ -77,6 +80,7 @@ static void start(pass_t *p, const double row[COLUMNS]) {
     p->lagged[i] = rest ? 0.0 : row[COMMAND + i];
     signal_start(&p->rate[i], p->job, rest ? 0.0 : row[RATE + i]);
     signal_start(&p->motor[i], p->job, p->lagged[i]);
+    for (int k = 0; k < DELAY_MAX; k++) p->sent[k][i] = p->lagged[i];
   }
   p->since_start = 0;
   p->result->starts++;
@@ -101,9 +105,12 @@ static void sum(pass_t *p, int axis) {
 static void tick(pass_t *p, const double before[COLUMNS], const double row[COLUMNS]) {
   const effectiveness_job_t *job = p->job;
   const double gain = 1.0 - exp(-EFFECTIVENESS_PERIOD_S / job->lag_s);
-  const double *command = job->as_stock ? row : before;
+  const double *command = (job->as_stock ? row : before) + COMMAND;
+  const long delay = lround(job->delay_s / EFFECTIVENESS_PERIOD_S), at = p->since_start % DELAY_MAX;
+  memcpy(p->sent[at], command, sizeof p->sent[at]);
+  const double *acting = p->sent[(at + DELAY_MAX - delay) % DELAY_MAX];
   for (int i = 0; i < 3; i++) {
-    p->lagged[i] += gain * (command[COMMAND + i] - p->lagged[i]);
+    p->lagged[i] += gain * (acting[i] - p->lagged[i]);
     signal_step(&p->rate[i], job, row[RATE + i]);
     signal_step(&p->motor[i], job, p->lagged[i]);
   }
@@ -189,6 +196,11 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
   const sums_t *s = &p->sums[axis];
   effectiveness_t *const r = p->result;
   const int n = axis == 2 ? 2 : 1;
+  if (r->used == 0 && p->column[THRUST] >= 0)
+    return error_set(why,
+                     "%s: no row counts; allowed: controller.cmd_thrust of %g and more (--thrust-min), "
+                     "%g s after a start",
+                     csv_path(p->file), p->job->thrust_min, EFFECTIVENESS_SETTLE_S);
   if (!(s->uu > 0.0))
     return error_set(why,
                      "%s: column %s: never moves while it counts (%ld ticks); allowed: a flight that turns",

@@ -19,10 +19,12 @@
 #define EFFECTIVENESS_PERIOD_S 0.002
 #define EFFECTIVENESS_GAP_S                                                                                  \
   0.05 // shorter ones are bridged by straight lines; after longer ones all starts anew
+#define EFFECTIVENESS_DELAY_S  0.1
 #define EFFECTIVENESS_SETTLE_S 0.5 // nothing counts so long after a start
 
 typedef struct {
   double lag_s;      // of the motors, > 0
+  double delay_s;    // 0 to EFFECTIVENESS_DELAY_S, to whole ticks: of motors and gyro filter, beside the lag
   double cutoff_Hz;  // 0.1 to 100
   int poles;         // 2 or 4
   double thrust_min; // units: rows below do not count (only where cmd_thrust is logged)

@@ -11,7 +11,7 @@
 
 struct flight_log {
   log_rows_t rows;
-  unsigned need;
+  signals_t need;
   log_sanity_t sanity;
   flight_log_count_t count;
   log_row_t before, after; // the rows around the tick: before <= tick < after
@@ -26,13 +26,13 @@ struct flight_log {
 };
 
 status_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
-                         const model_t *vehicle, unsigned need, why_t *why) {
+                         const model_t *vehicle, signals_t need, why_t *why) {
   *log = NULL;
   flight_log_t *const fresh = calloc(1, sizeof *fresh);
   if (!fresh) return error_failed(why, "%s: out of memory", path);
   fresh->need = need;
   fresh->range_m = (double)NAN;
-  const status_t status = log_rows_open(&fresh->rows, path, columns, vehicle, need, why);
+  const status_t status = log_rows_open(&fresh->rows, path, columns, vehicle, LOG_STRICT, need, why);
   if (status == ST_OK)
     *log = fresh;
   else

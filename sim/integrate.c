@@ -1,12 +1,15 @@
 // integrate.c - SUNDIALS ERKStep, and a Runge-Kutta step by hand as its cross-check.
 #include "integrate.h"
 
+#include "error.h"
+#include "short_vector.h"
 #include <arkode/arkode_erkstep.h>
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_context.h>
+
+_Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
 
 struct integrate {
   integrate_kind_t kind;
@@ -97,6 +100,15 @@ static int erk_no_weights(N_Vector y, N_Vector weight, void *self) {
   return 0;
 }
 
+// The caller tells of it: a flight that a solver gives up is not finite.
+static void erk_silent(int code, const char *module, const char *function, char *message, void *self) {
+  (void)code;
+  (void)module;
+  (void)function;
+  (void)message;
+  (void)self;
+}
+
 static bool erk_tune(integrate_t *s) {
   if (s->kind == INTEGRATE_SUNDIALS)
     return erk_use_classic_table(s->erk, s->ode.step_s) &&
@@ -106,15 +118,14 @@ static bool erk_tune(integrate_t *s) {
 
 static bool erk_open(integrate_t *s) {
   if (SUNContext_Create(NULL, &s->sun) != 0) return false;
-  s->y = N_VNew_Serial(s->ode.n, s->sun);
+  s->y = short_vector_new(s->ode.n, s->sun);
   if (!s->y) return false;
-  N_VConst(0.0, s->y);
   s->erk = ERKStepCreate(erk_derivative, 0.0, s->y, s->sun);
   if (!s->erk) return false;
   return erk_tune(s) && ERKStepSetUserData(s->erk, s) == ARK_SUCCESS &&
          (!s->ode.margin || ERKStepRootInit(s->erk, 1, erk_margin) == ARK_SUCCESS) &&
          ERKStepSetMaxNumSteps(s->erk, 100000) == ARK_SUCCESS &&
-         ERKStepSetErrHandlerFn(s->erk, NULL, NULL) == ARK_SUCCESS;
+         ERKStepSetErrHandlerFn(s->erk, erk_silent, NULL) == ARK_SUCCESS;
 }
 
 static double erk_to(integrate_t *s, double *y, double span_s, bool *event) {
@@ -137,12 +148,12 @@ static double erk_to(integrate_t *s, double *y, double span_s, bool *event) {
 status_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode) {
   if (ode->n < 1 || ode->n > ODE_MAX || !(ode->step_s > 0.0)) return ST_BAD_INPUT;
   integrate_t *s = calloc(1, sizeof *s);
-  if (!s) return ST_BAD_INPUT;
+  if (!s) return ST_FAILED;
   s->kind = kind;
   s->ode = *ode;
   if (kind != INTEGRATE_RK4 && !erk_open(s)) {
     integrate_close(s);
-    return ST_BAD_INPUT;
+    return ST_FAILED;
   }
   *i = s;
   return ST_OK;

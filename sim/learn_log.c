@@ -7,9 +7,9 @@
 #include "flight_log.h"
 #include <math.h>
 
-static const unsigned NEED = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_AX) | SIGNAL_BIT(SIG_AY) |
-                             SIGNAL_BIT(SIG_AZ) | SIGNAL_BIT(SIG_QW) | SIGNAL_BIT(SIG_QX) |
-                             SIGNAL_BIT(SIG_QY) | SIGNAL_BIT(SIG_QZ) | SIGNAL_BIT(SIG_THRUST);
+static const signals_t NEED = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_AX) | SIGNAL_BIT(SIG_AY) |
+                              SIGNAL_BIT(SIG_AZ) | SIGNAL_BIT(SIG_QW) | SIGNAL_BIT(SIG_QX) |
+                              SIGNAL_BIT(SIG_QY) | SIGNAL_BIT(SIG_QZ) | SIGNAL_BIT(SIG_THRUST);
 
 typedef struct {
   const learn_job_t *job;

@@ -30,12 +30,11 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row) {
 // A mean over the flight that is out of its bounds, with the unit that would bring it there.
 static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
                        double max, why_t *why) {
-  double factor;
-  char hint[80] = "";
-  const char *unit = columns_unit_within(&rows->columns, i, value, min, max, &factor);
-  if (unit) snprintf(hint, sizeof hint, "; the unit %s would fit (factor %g)", unit, factor);
-  return csv_refuse(rows->csv, rows->at[i], why, "%s %.3g %s over the whole flight; allowed: %g to %g %s%s",
-                    what, value, columns_si(i), min, max, columns_si(i), hint);
+  char hint[COLUMNS_HINT];
+  columns_hint(&rows->columns, i, value, min, max, hint);
+  return table_refuse(&rows->table, 0, rows->at[i], why,
+                      "%s %.3g %s over the whole flight; allowed: %g to %g %s%s", what, value,
+                      columns_si(&rows->columns, i), min, max, columns_si(&rows->columns, i), hint);
 }
 
 static status_t check_acc(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
@@ -51,9 +50,9 @@ static status_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t
   const double share = s->climb_by_z / s->climb2;
   // Noise and slow estimators change the share, but neither its sign nor by an order of magnitude.
   if (share >= 0.05 && share <= 20.0) return ST_OK;
-  return csv_refuse(rows->csv, rows->at[SIG_Z], why,
-                    "moves %.3g times as far as column %s says over the whole flight; allowed: 0.05 to 20",
-                    share, rows->columns.of[SIG_VZ].column);
+  return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
+                      "moves %.3g times as far as column %s says over the whole flight; allowed: 0.05 to 20",
+                      share, rows->columns.of[SIG_VZ].column);
 }
 
 status_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
@@ -62,7 +61,7 @@ status_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *
     return refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, FLIGHT_LOG_GAP_S, why);
   TRY(check_acc(s, rows, why));
   TRY(check_climb(s, rows, why));
-  const bool commands = rows->at[SIG_M1] >= 0 && !rows->columns.motors_N;
+  const bool commands = rows->at[SIG_M1] >= 0 && rows->columns.motors == MOTORS_PWM;
   if (commands && s->rows >= ENOUGH && s->command_max > 0.0 && s->command_max <= 100.0)
     return refuse(rows, SIG_M1, "the largest motor command is", s->command_max, 1000.0, 65536.0, why);
   return ST_OK;

@@ -72,6 +72,7 @@ static status_t keep(flight_loop_t *f, record_t *record, double t_s, double comm
       .command_N = command_N,
       .ratio = world_thrust_ratio(w),
       .contacts = w->contacts,
+      .touching = w->vehicle.contact == CONTACT_CEILING,
       .sense = f->sense,
       .thoughts = f->thoughts,
   };

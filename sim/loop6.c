@@ -7,7 +7,6 @@
 
 #define RECORD_EVERY 5     // ticks of 2 ms
 #define UP_AGE_S     0.07  // what the app takes an upward sample's age to be
-#define FAR_M        0.3   // of the centre of mass
 #define IDLE_N       0.002 // of one motor: below, it stands
 
 typedef struct {
@@ -20,6 +19,7 @@ typedef struct {
   imu_t imu;
   range_t range;
   mocap_t mocap;
+  ekf_in_t seen; // the pose is only there with motion capture
   ekf_t ekf;
   pilot6_in_t in;
   ekf_out_t estimate;
@@ -35,14 +35,6 @@ static double wall_s(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-// Of the rotors; far from the ceiling that of the first is near enough.
-static double nearest_gap_m(const body_t *b) {
-  if (b->model->ceiling_m - b->y[RIGID_POS_M + 2] > FAR_M) return body_ceiling_gap_m(b, 0);
-  double gap_m = body_ceiling_gap_m(b, 0);
-  for (int i = 1; i < ROTORS; i++) gap_m = fmin(gap_m, body_ceiling_gap_m(b, i));
-  return gap_m;
-}
-
 static truth_t truth_of(const flight6_t *f) {
   const body_t *b = &f->body;
   const double *y = b->y;
@@ -51,52 +43,60 @@ static truth_t truth_of(const flight6_t *f) {
   const double up = fmax(axes_up_b(&axes).z, 1e-3);
   bool motors = false;
   for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
+  const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
+  // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
+  fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
+                       .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
+                       .range_rate_mps = -climb_mps};
+  fx_sensed_t below = {.range_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
+                       .range_rate_mps = climb_mps};
+  model_sense(f->model, &above);
+  model_sense(f->model, &below);
   return (truth_t){
       .pos_w_m = d3_of(y + RIGID_POS_M),
       .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
       .q_wb = q,
       .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
-      .force_b_mps2 = body_specific_force_b_mps2(b),
-      // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
-      .up_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
-      .down_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
+      .force_b_mps2 = above.acc_b_mps2,
+      .up_m = above.range_m,
+      .down_m = below.range_m,
       .motors = motors,
   };
 }
 
 // Motion capture in place of the downward sensors; its zero is the height at rest.
-static void see_by_mocap(flight6_t *f, const truth_t *truth, ekf_in_t *in) {
+static void see_by_mocap(flight6_t *f, const truth_t *truth) {
   truth_t seen = *truth;
   seen.pos_w_m.z -= body_rest_z_m(f->model);
   const mocap_sample_t pose = mocap_step(&f->mocap, &f->plan->mocap, f->random, &seen);
-  in->range_new = in->flow_new = false;
-  in->pose_new = pose.is_new;
-  in->pose_m = pose.pos_w_m;
-  in->pose_q = pose.q_wb;
+  f->seen.range_new = f->seen.flow_new = false;
+  f->seen.pose_new = pose.is_new;
+  f->seen.pose_m = pose.pos_w_m;
+  f->seen.pose_q = pose.q_wb;
 }
 
 // One millisecond of sensors and estimator, from what is true at the start of the tick.
 static void sense(flight6_t *f, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
   const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
-  ekf_in_t in = {
-      .acc_b_mps2 = imu.acc_b_mps2,
-      .gyro_b_radps = imu.gyro_b_radps,
-      .motors = truth->motors,
-      .range_new = range.down_new,
-      .range_m = range.down_m,
-      .flow_new = range.flow_new,
-      .flow_x = range.flow_x,
-      .flow_y = range.flow_y,
-      .flow_span_s = range.flow_span_s,
-  };
-  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth, &in);
-  f->estimate = ekf_step(&f->ekf, &in);
+  ekf_in_t *const seen = &f->seen;
+  seen->imu = imu;
+  seen->motors = truth->motors;
+  seen->range_new = range.down_new;
+  seen->range_m = range.down_m;
+  seen->flow_new = range.flow_new;
+  seen->flow_x = range.flow_x;
+  seen->flow_y = range.flow_y;
+  seen->flow_span_s = range.flow_span_s;
+  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth);
+  // Taken before the update: it is what the update before this one finished.
+  f->estimate = f->ekf.out;
+  f->in.pos_w_m = f->ekf.out.pos_w_m;
+  f->in.vel_w_mps = f->ekf.out.vel_w_mps;
+  f->in.q_wb = f->ekf.out.q_wb;
+  ekf_update(&f->ekf, seen);
   f->in.gyro_b_radps = imu.gyro_b_radps;
   f->in.acc_b_mps2 = imu.acc_b_mps2;
-  f->in.pos_w_m = f->estimate.pos_w_m;
-  f->in.vel_w_mps = f->estimate.vel_w_mps;
-  f->in.q_wb = f->estimate.q_wb;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
   f->in.range_age_s = UP_AGE_S;
@@ -127,72 +127,34 @@ static void pilot_ms(flight6_t *f, const truth_t *truth) {
   f->in.step++;
 }
 
-static status_t keep6(record6_t *more, int n, const sample6_t *sample) {
-  if (n > more->room) {
-    const int room = more->room ? 2 * more->room : 4096;
-    sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
-    if (!bigger) return ST_BAD_INPUT;
-    more->sample = bigger;
-    more->room = room;
-  }
-  more->sample[n - 1] = *sample;
-  return ST_OK;
-}
-
-static sample6_t more_of(const flight6_t *f, const truth_t *truth) {
-  sample6_t s = {
-      .tilt_rad = acos(fmax(-1.0, fmin(1.0, f->up_min))),
-      .pos_w_m = truth->pos_w_m,
-      .vbat_V = f->body.vbat_V,
-      .estimate = f->estimate,
-      .gyro_b_radps = f->in.gyro_b_radps,
-      .acc_b_mps2 = f->in.acc_b_mps2,
-      .setpoint_z_m = f->in.set.pos_w_m.z,
-  };
-  for (int i = 0; i < PILOT6_MOTORS; i++) s.motor_N[i] = f->motor_N[i];
-  return s;
-}
-
-static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth) {
-  const body_t *b = &f->body;
-  const axes_t axes = axes_of(truth->q_wb);
-  const double gap_m = nearest_gap_m(b);
-  double thrust_N = 0.0, command_N = 0.0;
-  for (int i = 0; i < ROTORS; i++) {
-    thrust_N += b->y[RIGID_THRUST_N + i];
-    command_N += f->motor_N[i];
-  }
-  sample_t s = {
+static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
+                     why_t *why) {
+  thoughts_t thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
+  if (f->ask) f->ask(f->pilot->state, &thoughts);
+  const tick6_t tick = {
       .t_s = t_s,
       .setpoint_m = f->plan->plan.way[f->way].setpoint_m,
-      .z_m = truth->pos_w_m.z + body_rotor_z_m(f->model),
-      .climb_mps = truth->vel_w_mps.z,
-      .acc_mps2 = d3_dot(axes_up_b(&axes), truth->force_b_mps2) - 9.81,
-      .gap_m = gap_m,
-      .gap_min_m = fmin(f->gap_min_m, gap_m),
-      .thrust_N = thrust_N,
-      .command_N = command_N,
-      .ratio = body_thrust_ratio(b, 0),
-      .contacts = b->ceiling_contacts,
-      .sense = {.z_m = f->in.pos_w_m.z,
-                .climb_mps = f->in.vel_w_mps.z,
-                .acc_mps2 = f->in.acc_b_mps2.z - 9.81,
-                .applied_N = command_N,
-                .range_new = f->range_new,
-                .range_m = f->range_m},
-      .thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN},
+      .body = &f->body,
+      .truth = truth,
+      .in = &f->in,
+      .estimate = &f->estimate,
+      .motor_N = f->motor_N,
+      .thoughts = &thoughts,
+      .up_min = f->up_min,
+      .gap_min_m = f->gap_min_m,
+      .range_new = f->range_new,
+      .range_m = f->range_m,
   };
-  if (f->ask) f->ask(f->pilot->state, &s.thoughts);
-  const sample6_t s6 = more_of(f, truth);
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_new = false;
-  TRY(record_add(record, &s));
-  return keep6(more, record->n, &s6);
+  return record6_add(record, more, &tick, why);
 }
 
-static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome) {
+static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
+  const int every = f->plan->record_every > 0 ? f->plan->record_every : RECORD_EVERY;
+  TRY(record6_reserve(record, more, (int)(ticks / every) + 1, why));
   for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
     const double t_s = (double)tick * LOOP6_TICK_S;
     order(f, t_s);
@@ -201,25 +163,31 @@ static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *
     pilot_ms(f, &truth);
     const axes_t axes = axes_of(truth.q_wb);
     f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
-    if (tick % RECORD_EVERY == 0) TRY(keep(f, record, more, t_s, &truth));
+    if (tick % every == 0) TRY(keep(f, record, more, t_s, &truth, why));
     body_tick(&f->body, f->motor_N, LOOP6_TICK_S);
     for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
     f->in.vbat_V = f->body.vbat_V;
-    f->gap_min_m = fmin(f->gap_min_m, nearest_gap_m(&f->body));
+    f->gap_min_m = fmin(f->gap_min_m, record6_gap_m(&f->body));
     outcome->finite = !f->body.broken;
   }
   return ST_OK;
 }
 
-static status_t open(flight6_t *f) {
+static status_t open(flight6_t *f, why_t *why) {
   const plan_t *plan = &f->plan->plan;
   body_start_t start = {.pos_w_m = {.z = body_rest_z_m(f->model)}};
   if (f->plan->in_flight) start = f->plan->start;
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
-  TRY(body_open(&f->body, f->model, plan->integrate, plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S,
-                &start));
+  const status_t opened = body_open(&f->body, f->model, plan->integrate,
+                                    plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);
+  if (opened == ST_BAD_INPUT)
+    return error_set(
+        why,
+        "vehicle %s with its effects: mass, inertia, motor lag or kf not above 0; such a vehicle "
+        "cannot fly",
+        f->model->name);
   f->random = random_open(plan->seed);
-  if (!f->random) return ST_BAD_INPUT;
+  if (opened != ST_OK || !f->random) return error_failed(why, "out of memory");
   imu_init(&f->imu);
   range_init(&f->range);
   f->mocap = (mocap_t){0};
@@ -245,19 +213,12 @@ status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pi
   f->range_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = wall_s();
-  status_t status = open(f);
-  if (status == ST_OK) status = run(f, record, more, outcome);
+  status_t status = open(f, why);
+  if (status == ST_OK) status = run(f, record, more, outcome, why);
   outcome->contacts = f->body.ceiling_contacts;
   outcome->realtime_factor = plan->plan.end_s / fmax(wall_s() - start_s, 1e-9);
   if (f->body.integrate) body_close(&f->body);
   random_close(f->random);
   free(f);
-  return status == ST_OK
-             ? ST_OK
-             : error_set(why, "the flight could not be run: out of memory or a model that cannot fly");
-}
-
-void record6_free(record6_t *r) {
-  free(r->sample);
-  *r = (record6_t){0};
+  return status;
 }

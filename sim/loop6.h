@@ -12,6 +12,7 @@
 #include "pilot6.h"
 #include "plant/mocap.h"
 #include "plant/noise6.h"
+#include "record6.h"
 
 #define LOOP6_TICK_S 0.002
 
@@ -27,26 +28,20 @@ typedef struct {
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
+  int record_every;    // ticks for a sample; 0: 5, that is 10 ms
   double take_off_s;   // the height is controlled from here on; before, the motors are off
   loop6_fault_t fault; // null: none
   void *fault_context;
 } plan6_t;
 
-typedef struct {
-  sample6_t *sample; // as many as record->n
-  int room;
-} record6_t;
-
 // What the pilot thinks, where it can be asked; may be null.
 typedef void (*loop6_ask_t)(const void *state, thoughts_t *thoughts);
 
 // Flies the plan. *record and *more get the samples (they must be empty; free them after use). The record's z
-// is the height of the rotors' plane, its gap that of the nearest rotor. ST_BAD_INPUT: no memory, or a model
-// that cannot be integrated.
+// is the height of the rotors' plane, its gap that of the nearest rotor. ST_BAD_INPUT: a model that cannot
+// fly. ST_FAILED: no memory.
 MUST_CHECK status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot,
                               loop6_ask_t ask, record_t *record, record6_t *more, outcome_t *outcome,
                               why_t *why);
-
-void record6_free(record6_t *r);
 
 #endif

@@ -9,6 +9,7 @@ typedef struct {
   why_t why;
   char text[160];
   char *json; // null: not asked for
+  bool finite;
 } line_t;
 
 static double of(const cJSON *o, const char *key) {
@@ -28,13 +29,13 @@ static void sum_up(cJSON *json, uint64_t seed, line_t *line) {
   cJSON_AddNumberToObject(json, "seed", (double)seed);
   cJSON_AddNumberToObject(json, "min_gap_mm", gap_mm);
   if (isfinite(tilt_deg)) cJSON_AddNumberToObject(json, "tilt_max_deg", tilt_deg);
-  const bool finite = cJSON_IsTrue(cJSON_GetObjectItem(json, "finite"));
+  line->finite = cJSON_IsTrue(cJSON_GetObjectItem(json, "finite"));
   const int used = snprintf(line->text, sizeof line->text, "seed %llu contacts %.0f gap_mm %.2f",
                             (unsigned long long)seed, of(json, "contacts"), gap_mm);
   char tilt[40] = "";
   if (isfinite(tilt_deg)) snprintf(tilt, sizeof tilt, " tilt_deg %.2f", tilt_deg);
   snprintf(line->text + used, sizeof line->text - (size_t)used, "%s %s", tilt,
-           finite ? "finite" : "not-finite");
+           line->finite ? "finite" : "not-finite");
 }
 
 static line_t fly(const many_t *m, uint64_t seed) {
@@ -65,13 +66,15 @@ static void write_line(const many_t *m, const line_t *line, uint64_t done) {
 // The first failure, in the order of the seeds, ends what is written.
 status_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
-  status_t status = ST_OK; // touched in the ordered part alone
+  status_t status = ST_OK; // touched in the ordered part alone; so is the count
+  *m->not_finite = 0;
 #pragma omp parallel for ordered schedule(dynamic, 1)
   for (long i = 0; i < n; i++) {
     line_t line = fly(m, m->from + (uint64_t)i);
 #pragma omp ordered
     if (status == ST_OK && line.status == ST_OK) {
       write_line(m, &line, (uint64_t)i + 1);
+      *m->not_finite += !line.finite;
     } else if (status == ST_OK) {
       status = line.status;
       *why = line.why;

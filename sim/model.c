@@ -6,6 +6,7 @@
 // Crazyflie 2.1 with legacy propellers, decks on: the sources stand in vehicles/cf21_legacy.toml.
 #define CF_MASS_KG  0.0329
 #define CF_RADIUS_M 0.02355
+#define LIGHTEST    0.1 // of the vehicle's mass: with less left, no step of the integrator is short enough
 
 frame_t model_frame_like_crazyflie(const model_t *m) {
   const double size = m->rotor_radius_m / CF_RADIUS_M, weight = m->mass_kg / CF_MASS_KG;
@@ -17,7 +18,7 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
       .rotor_spin = {1.0, -1.0, 1.0, -1.0},
       .torque_ratio_m = 0.00735 * size,
       .kf_Ns2 = 2.0e-8 * size * size * size * size,
-      .rotor_inertia_kgm2 = 34.52e-9 * inertia,
+      .rotor_inertia_kgm2 = 17e-9 * inertia,
       .cg_above_feet_m = 0.017 * size,
       .rotor_above_feet_m = 0.030 * size,
       .top_above_rotor_m = 0.008 * size,
@@ -25,7 +26,15 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
   };
 }
 
+static status_t check_mass(const model_t *m, const fx_use_t *use, why_t *why) {
+  const double least_kg = (LIGHTEST - 1.0) * m->mass_kg;
+  if (use->fx != fx_find("mass") || use->p[0] >= least_kg) return ST_OK;
+  return error_set(why, "effect mass: add = %g kg to a vehicle of %g kg; allowed: %.3g or more", use->p[0],
+                   m->mass_kg, least_kg);
+}
+
 status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
+  TRY(check_mass(m, use, why));
   for (int i = 0; i < m->n_fx; i++) {
     if (m->fx[i].fx != use->fx) continue;
     m->fx[i] = *use;
@@ -42,4 +51,9 @@ double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
   for (int i = 0; i < m->n_fx; i++)
     if (m->fx[i].fx->excess) ratio += m->fx[i].fx->excess(&m->fx[i], place);
   return ratio;
+}
+
+void model_sense(const model_t *m, fx_sensed_t *sensed) {
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx->sense) m->fx[i].fx->sense(&m->fx[i], sensed);
 }

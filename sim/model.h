@@ -8,6 +8,7 @@
 #include "error.h"
 #include "plant/battery.h"
 #include "plant/thrust_map.h"
+#include <stdbool.h>
 
 // What six degrees of freedom need besides. Body axes; places from the centre of mass.
 typedef struct {
@@ -36,6 +37,7 @@ typedef struct {
   thrust_map_t map;      // PWM and volts to newton per motor
   double ceiling_m;      // height of the ceiling, INFINITY: none; z = 0 is the ground
   frame_t frame;
+  bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
   int n_fx;
   fx_use_t fx[FX_MAX]; // what acts; at most one of a name
@@ -44,10 +46,14 @@ typedef struct {
 // A Crazyflie 2.1 scaled to the model's mass and rotor radius: what a file says nothing of.
 frame_t model_frame_like_crazyflie(const model_t *m);
 
-// Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already.
+// Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already, or the effect
+// `mass` leaves less than a tenth of the model's mass.
 MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
 
 // What the rotors' thrust is multiplied by at this place: 1 and the excess of every effect (thesis 3.1.4).
 double model_thrust_ratio(const model_t *m, const fx_place_t *place);
+
+// What the model's effects make of a sensor's reading.
+void model_sense(const model_t *m, fx_sensed_t *sensed);
 
 #endif

@@ -29,14 +29,14 @@ static bool send(pilot_flight_t *p) {
   return known;
 }
 
-// At the second call of ten, as loop6 keeps its samples. Without memory the rows end.
+// At the second call of so many, as loop6 keeps its samples. Without memory the rows end.
 static void keep_log(pilot_flight_t *p, uint32_t step) {
-  if (step % 10 != 1) return;
+  if (step % (uint32_t)p->log_every_ms != 1) return;
   const int width = sections_logs();
   if (p->n_log == p->room_log) {
     const int room = p->room_log ? 2 * p->room_log : 1024;
     float *const more = realloc(p->log, (size_t)room * (size_t)width * sizeof *more);
-    if (!more) p->keeps_log = false;
+    if (!more) p->log_every_ms = 0;
     if (!more) return;
     p->log = more;
     p->room_log = room;
@@ -48,7 +48,7 @@ static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTOR
   pilot_flight_t *const p = state;
   if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
   crazyflie_ms(&p->vehicle, in, motor_N);
-  if (p->keeps_log) keep_log(p, in->step);
+  if (p->log_every_ms > 0) keep_log(p, in->step);
 }
 
 static void reset(void *state) {
@@ -65,7 +65,7 @@ status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const
   p->param = *param;
   p->log = NULL;
   p->n_log = p->room_log = 0;
-  p->keeps_log = false;
+  p->log_every_ms = 0;
   memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
   if (!send(p)) return ST_FAILED;
   crazyflie_start(&p->vehicle);

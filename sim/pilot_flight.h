@@ -10,14 +10,14 @@ typedef struct {
   flight_t *flight;     // its app's
   flight_param_t param; // may be changed in flight: what differs is written to the app's parameters
   flight_param_t sent;
-  float *log; // rows of the app's logs, one every 10 ms; null unless kept; free it
+  float *log; // rows of the app's logs; null unless kept; free it
   int n_log, room_log;
-  bool keeps_log;
+  int log_every_ms; // 10 or 2; 0: none is kept
 } pilot_flight_t;
 
 // model: the vehicle whose motors are driven; null: legacy propellers. *p must stay where it is.
 // ST_BAD_PARAM: as flight_init. ST_FAILED: a parameter that the app does not have.
-// p->keeps_log may be set afterwards.
+// p->log_every_ms may be set afterwards.
 MUST_CHECK status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
                                       pilot6_t *pilot);
 

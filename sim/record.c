@@ -11,14 +11,17 @@
 #define G_MPS2       9.81
 #define DEG_PER_RAD  (180.0 / 3.14159265358979323846)
 
+status_t record_reserve(record_t *r, int room) {
+  if (room <= r->room) return ST_OK;
+  sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
+  if (!more) return ST_FAILED;
+  r->sample = more;
+  r->room = room;
+  return ST_OK;
+}
+
 status_t record_add(record_t *r, const sample_t *sample) {
-  if (r->n == r->room) {
-    const int room = r->room ? 2 * r->room : 4096;
-    sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
-    if (!more) return ST_FAILED;
-    r->sample = more;
-    r->room = room;
-  }
+  if (r->n == r->room) TRY(record_reserve(r, r->room ? 2 * r->room : 4096));
   r->sample[r->n++] = *sample;
   return ST_OK;
 }
@@ -35,11 +38,13 @@ void record_free(record_t *r) {
 static const char NAMES[] =
     "timestamp,ctrltarget.z,stateEstimate.z,stateEstimate.vz,stateEstimate.qw,stateEstimate.qx,"
     "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,range.up,indi.thrust,indi.applied,ceil.zc,"
-    "ceil.ratio,ceil.slope,rls.y,rls.w1,rls.w2,rls.w3,rls.w4,rls.w5,rls.w6,rls.w7,rls.p1,rls.p2,rls.p3,"
+    "ceil.height,guard.now,guard.latched,ceil.ratio,ceil.slope,rls.y,rls.w1,rls.w2,rls.w3,rls.w4,rls.w5,rls."
+    "w6,rls.w7,rls.p1,rls.p2,rls.p3,"
     "rls.p4,rls.p5,rls.p6,rls.p7,sim.z,sim.vz,sim.gap,sim.thrust,sim.ratio,sim.contacts";
 static const char MORE_NAMES[] =
     ",stateEstimate.x,stateEstimate.y,stateEstimate.vx,stateEstimate.vy,gyro.x,gyro.y,gyro.z,indi.m1,"
-    "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt";
+    "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt,controller.r_roll,controller.r_pitch,"
+    "controller.r_yaw,controller.cmd_roll,controller.cmd_pitch,controller.cmd_yaw,controller.cmd_thrust";
 
 // The app's logs that are no columns already.
 static bool is_new(const char *name) {
@@ -85,14 +90,19 @@ static void write_more(FILE *file, const sample6_t *s) {
   fprintf(file, ",%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f", p.x, p.y, v.x, v.y, w.x, w.y, w.z);
   for (int i = 0; i < 4; i++) fprintf(file, ",%.6f", s->motor_N[i]);
   fprintf(file, ",%.4f,%.6f,%.6f,%.4f", s->vbat_V, s->pos_w_m.x, s->pos_w_m.y, DEG_PER_RAD * s->tilt_rad);
+  const d3_t r = s->gyro_b_radps; // roll right, nose up, counter-clockwise
+  fprintf(file, ",%.7f,%.7f,%.7f,%.2f,%.2f,%.2f,%.2f", r.x, -r.y, r.z, s->command_roll, s->command_pitch,
+          s->command_yaw, s->command_thrust);
 }
 
 static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
   fprintf(file, "%.3f,%.4f,%.6f,%.6f,", 1e3 * s->t_s, s6 ? s6->setpoint_z_m : s->setpoint_m, s->sense.z_m,
           s->sense.climb_mps);
   write_attitude(file, s, s6);
-  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%.5f,%.5f,", 1e3 * s->sense.range_m, s->command_N,
-          s->sense.applied_N, s->thoughts.zc_m, s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
+  const thoughts_t *th = &s->thoughts;
+  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%u,%u,", 1e3 * s->sense.range_m, s->command_N, s->sense.applied_N,
+          th->zc_m, s->sense.z_m + th->zc_m, th->guard_now, th->guard_latched);
+  fprintf(file, "%.6f,%.5f,%.5f,", s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);
   fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,

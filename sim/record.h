@@ -1,4 +1,5 @@
-// record.h - a flight in memory: one sample every 10 ms, or every tick of a slower controller.
+// record.h - a flight in memory: one sample every 10 ms (on request 2 ms), or every tick of a slower
+// controller.
 #ifndef SIM_RECORD_H
 #define SIM_RECORD_H
 
@@ -15,6 +16,7 @@ typedef struct {
   double thrust_N, command_N;      // of the rotors in free air; what was commanded at t_s
   double ratio;                    // what the effects multiply the thrust by
   int contacts;                    // with the ceiling, since the start
+  bool touching;                   // the ceiling, at t_s
   sense_t sense;                   // as measured
   thoughts_t thoughts;             // as believed
 } sample_t;
@@ -28,6 +30,8 @@ typedef struct {
   ekf_out_t estimate;
   d3_t gyro_b_radps, acc_b_mps2; // as measured
   double setpoint_z_m;           // in the estimator's frame
+  // As the firmware's control_t: units of 16 bit, 65535 for all that a motor can; yaw clockwise.
+  double command_roll, command_pitch, command_yaw, command_thrust;
 } sample6_t;
 
 typedef struct {
@@ -36,6 +40,10 @@ typedef struct {
   sample6_t *more; // as many, or a null pointer: flown on the vertical axis
   float *app;      // as many rows of the app's logs (sections_logs()), or a null pointer
 } record_t;
+
+// Makes room for so many samples in all: what is known beforehand need not be moved while it grows.
+// ST_FAILED: no memory; nothing has changed.
+MUST_CHECK status_t record_reserve(record_t *r, int room);
 
 // ST_FAILED: no memory; nothing was added.
 MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);

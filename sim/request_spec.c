@@ -6,6 +6,26 @@
 
 #include <string.h>
 
+status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *name, why_t *why) {
+  for (int i = 0; i < FLY_COUNT; i++) {
+    if (!fly_name[i] || strcmp(fly_name[i], name) != 0) continue;
+    *kind = (fly_kind_t)i;
+    r->kind = kind;
+    return ST_OK;
+  }
+  return error_set(
+      why,
+      "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+      "pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage",
+      name);
+}
+
+status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
+  r->log_500_Hz = strcmp(text, "500") == 0;
+  if (r->log_500_Hz || strcmp(text, "100") == 0) return ST_OK;
+  return error_set(why, "--log-rate %s: allowed are 100, 500", text);
+}
+
 status_t request_take_noise(request_t *r, const char *name, why_t *why) {
   r->noise = NULL;
   r->noise6 = noise6_find(name);

@@ -6,7 +6,6 @@
 #define LAST_S    5.0
 #define PEAK_M    2e-4
 #define SETTLED_M 1e-3
-#define TOUCH_M   1e-5 // nearer to the ceiling than this, the vehicle is at it
 
 // The samples first..last belong to a segment that begins at sample first.
 typedef struct {
@@ -70,7 +69,7 @@ static segment_t measure(const span_t *x) {
   for (int i = x->first + 1; i <= x->last; i++) gap_m = fmin(gap_m, x->s[i].gap_min_m);
   out.min_gap_mm = isfinite(gap_m) ? 1e3 * gap_m : (double)NAN;
   // A contact that lasts from the segment before is this one's too.
-  out.contacts = x->s[x->last].contacts - x->s[x->first].contacts + (x->s[x->first].gap_m < TOUCH_M);
+  out.contacts = x->s[x->last].contacts - x->s[x->first].contacts + x->s[x->first].touching;
   return out;
 }
 

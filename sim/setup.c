@@ -82,6 +82,8 @@ status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
     return error_set(why,
                      "--noise %s: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3",
                      request->noise6->name);
+  if (request->log_500_Hz)
+    return error_set(why, "--log-rate 500: this scenario is flown on the vertical axis; allowed is 100");
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;

@@ -50,7 +50,8 @@ typedef struct {
   bool no_effects; // first switches off what the scenario has
   param_set_t set[REQUEST_MAX];
   int n_set;
-  bool log; // keeps the app's logs, in six degrees of freedom
+  bool log;        // keeps the app's logs, in six degrees of freedom
+  bool log_500_Hz; // six degrees of freedom: a sample every 2 ms instead of 10
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;

@@ -35,11 +35,16 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
+  if (request->vehicle && !setup->model.frame_told)
+    return error_set(why,
+                     "--vehicle: %s has no [body] and [rotors]; in six degrees of freedom both are needed",
+                     setup->model.name);
   if (request->noise)
     return error_set(why,
                      "--noise %s: this scenario is flown in six degrees of freedom; allowed are quiet, real",
                      request->noise->name);
   if (request->noise6) setup->plan.noise = *request->noise6;
+  setup->plan.record_every = request->log_500_Hz ? 1 : 0;
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
   setup->request = request;
@@ -69,6 +74,8 @@ static void ask_flight(const void *state, thoughts_t *thoughts) {
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
+  thoughts->guard_now = p->flight->guard.now;
+  thoughts->guard_latched = p->flight->guard.latched;
   for (int i = 0; i < RBF_N; i++) {
     thoughts->weights[i] = (double)p->flight->outer.learn.rls.theta.w[i];
     thoughts->variance[i] = (double)p->flight->outer.learn.rls.P[i][i];
@@ -81,7 +88,7 @@ static void take_request(pilot_flight_t *p, const request_t *request) {
   for (int i = 0; i < request->n_set; i++)
     if (request->set[i].app)
       (void)crazyflie_set(&p->vehicle, request->set[i].app->name, (double)request->set[i].value);
-  p->keeps_log = request->log;
+  p->log_every_ms = !request->log ? 0 : request->log_500_Hz ? 2 : 10;
 }
 
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
@@ -97,7 +104,7 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
                                     &flown->more, &flown->flown.outcome, why);
   flown->flown.record.app = p.log;
-  if (p.keeps_log && status == ST_OK && p.n_log < flown->flown.record.n)
+  if (setup->request && setup->request->log && status == ST_OK && p.n_log < flown->flown.record.n)
     return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
   return status;

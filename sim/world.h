@@ -16,8 +16,8 @@ typedef struct {
 } world_t;
 
 // At height z_m (0: at rest on the ground) and thrust_N, not moving. step_s: of the integrator, > 0.
-// ST_BAD_INPUT: step_s out of range or no memory. The world must not be moved in memory; close what was
-// opened.
+// ST_BAD_INPUT: step_s out of range. ST_FAILED: no memory. The world must not be moved in memory; close what
+// was opened.
 MUST_CHECK status_t world_open(world_t *w, const model_t *model, integrate_kind_t kind, double step_s,
                                double z_m, double thrust_N);
 

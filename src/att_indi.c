@@ -37,7 +37,7 @@ static void start(att_indi_t *s, const att_indi_in_t *in) {
   }
   s->torque_model_Nm = in->torque_b_Nm;
   s->rate_last_radps = in->rate_b_radps;
-  s->yaw_step_Nm = 0.0f;
+  s->yaw_now_Nm = in->torque_b_Nm.z;
   s->started = true;
 }
 
@@ -81,12 +81,13 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
       p->kd_per_s * (wanted_rate(p, p->kp_per_s, error.y, 0.0f) - rate.y),
       p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s, error.z, in->yaw_rate_radps) - rate.z),
   };
-  const float g = p->g2_s / period_s;
-  s->yaw_step_Nm = (p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * s->yaw_step_Nm) / (1.0f + g);
+  // Of the last increment what was applied: mixing gives yaw up first.
+  const float g = p->g2_s / period_s, last_Nm = in->torque_b_Nm.z - s->yaw_now_Nm;
+  s->yaw_now_Nm = now.z;
   const float x_kgm2 = p->quick * p->inertia_xx_kgm2, y_kgm2 = p->quick * p->inertia_yy_kgm2;
   return (v3_t){
       now.x + (x_kgm2 * (nu.x - acc.x) + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate.x)) / in->ratio,
       now.y + (y_kgm2 * (nu.y - acc.y) + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate.y)) / in->ratio,
-      now.z + s->yaw_step_Nm,
+      now.z + (p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * last_Nm) / (1.0f + g),
   };
 }

@@ -50,6 +50,7 @@ status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, 
   if (!(range_m > 0.0f && range_m <= CEILING_RANGE_MAX_M)) return ST_BAD_RANGE;
   if (!(age_s >= 0.0f && age_s <= FLT_MAX)) return ST_BAD_RANGE;
   const float now_m = range_m - climb_since_m(s, age_s);
+  s->seen_m = now_m;
   const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
   const bool gated = s->known && s->zc_m < p->near_m;
   // Beyond the gate by noise alone is no contradiction; at the floor, three times, is.

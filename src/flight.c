@@ -9,6 +9,7 @@
 #define INNER_S      0.002f
 #define OUTER_S      0.01f
 #define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
+#define FLOOR_SHARE  0.5f    // of the weight that something else than the rotors carries: a floor
 #define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
 static status_t tune(flight_t *f, const flight_param_t *p) {
@@ -111,6 +112,20 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   return (sincos_t){k * held.sin, k * held.cos};
 }
 
+// With the height controlled, until the outer loop has run: what the motors do.
+static float thrust_wanted_N(const flight_t *f, const flight_in_t *in) {
+  if (in->setpoint.z == AXIS_OFF) return in->setpoint.thrust_N;
+  return f->outer.started ? f->out.outer.thrust_N : thrust_of(in->force_N);
+}
+
+// In flight the vehicle is kept upright also where no thrust is wanted. A floor that carries it does that
+// better: there the inner loop would tip it over.
+static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thrust_N) {
+  if (thrust_N > 0.0f) return false;
+  const learn_sample_t *x = &f->outer.sample;
+  return sp->z == AXIS_OFF || x->force_N - x->thrust_N > FLOOR_SHARE * x->weight_N;
+}
+
 // What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
 static float ceiling_Nms(const flight_t *f, float thrust_N) {
   const float cutoff_Hz = f->param.att_cutoff_Hz, arm_m = f->param.mixer.arm_m;
@@ -125,7 +140,7 @@ static void run_inner(flight_t *f, const flight_in_t *in) {
   f->heading_known = true;
   const v3_t up =
       by_hand ? direction_by_hand(sp, f->heading_ref, f->param.pos.tilt_max_rad) : f->out.outer.up_w;
-  const float thrust_N = sp->z == AXIS_OFF ? sp->thrust_N : f->out.outer.thrust_N;
+  const float thrust_N = thrust_wanted_N(f, in);
   const mixer_out_t given = mixer_of(&f->param.mixer, in->force_N);
   const att_indi_in_t att_in = {
       .rate_b_radps = in->rate_b_radps,
@@ -143,8 +158,7 @@ static void run_inner(flight_t *f, const flight_in_t *in) {
   const v3_t torque =
       att_indi_step(&f->att, &f->param.att, &f->att_filter, f->att_lag_share, period_s, &att_in);
   f->out.motors = mixer_mix(&f->param.mixer, torque, thrust_N);
-  if (thrust_N > 0.0f) return;
-  // Motors off: nothing to be kept upright with.
+  if (!motors_off(f, sp, thrust_N)) return;
   f->out.motors = mixer_of(&f->param.mixer, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
   att_indi_reset(&f->att);
 }

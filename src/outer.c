@@ -22,6 +22,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   TRY(tune(&fresh, p, period_s));
   TRY(learn_init(&fresh.learn, &p->learn, &p->curve.fixed));
   ceiling_init(&fresh.ceiling, period_s);
+  hold_init(&fresh.hold);
   *f = fresh;
   return ST_OK;
 }
@@ -58,6 +59,7 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   if (fabsf(by_height_m - by_velocity_m) <= BOUND_HEIGHT_JUMP_M * ticks) return by_height_m;
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
+  f->hold.ceiling_z_m += by_height_m - by_velocity_m;
   return by_velocity_m;
 }
 
@@ -68,10 +70,11 @@ static void find_ceiling(outer_t *f, const outer_in_t *in) {
     // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
     const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
     const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
-    count(f, ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s));
+    const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
+    count(f, status);
+    if (status == ST_OK) hold_sample(&f->hold, &f->ceiling, in->pos_w_m.z);
   }
-  const bool latch = f_finite(f->out.ceiling_z_m) && f->param.hold && f->ceiling.zc_m <= HOLD_BEYOND_M;
-  if (f->ceiling.known && !latch) f->out.ceiling_z_m = in->pos_w_m.z + f->ceiling.zc_m;
+  hold_step(&f->hold, &f->ceiling, in->pos_w_m.z, f->coef.period_s * (float)ticks, f->param.hold);
 }
 
 // What this tick can teach; the learner decides whether it may.
@@ -99,22 +102,26 @@ void outer_rest(outer_t *f) {
   f->started = f->at_limit = f->sample_new = false;
   f->carrying_s = 0.0f;
   ceiling_init(&f->ceiling, f->coef.period_s);
+  hold_init(&f->hold);
   f->out = (outer_out_t)AT_REST;
 }
 
-// Not nearer to the ceiling than ceil.min, whatever was asked for.
-static pos_setpoint_t clipped(const outer_t *f, pos_setpoint_t sp) {
-  const float top_m = f->out.ceiling_z_m - f->param.gap_min_m;
-  if (sp.pos_w_m.z > top_m) sp.pos_w_m.z = top_m; // NaN: no ceiling, no clip
-  return sp;
+// Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
+// acceleration: upwards no more than a set point that rests there asks for.
+static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
+  const pos_indi_param_t *p = &f->param.pos;
+  v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
+  if (!f_finite(f->hold.ceiling_z_m)) return wanted;
+  const pos_setpoint_t top = {.pos_w_m = {.z = f->hold.ceiling_z_m - f->param.gap_min_m}};
+  const float most_mps2 = pos_indi_wanted_acc(p, &top, in->pos_w_m, vel_mps).z;
+  if (wanted.z > most_mps2) wanted.z = most_mps2;
+  return wanted;
 }
 
 static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
   const pos_indi_param_t *p = &f->param.pos;
-  const pos_setpoint_t sp = clipped(f, in->setpoint);
   const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
-  const v3_t wanted = pos_indi_wanted_acc(p, &sp, in->pos_w_m, vel);
-  const v3_t error = v3_sub(wanted, x->acc_w_mps2);
+  const v3_t error = v3_sub(wanted_acc(f, in, vel), x->acc_w_mps2);
   pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, vel.z, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
@@ -147,7 +154,7 @@ outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in
       .zc_m = f->ceiling.zc_m,
       .zc_known = f->ceiling.known,
       .at = at,
-      .ceiling_z_m = f->out.ceiling_z_m,
+      .ceiling_z_m = f->hold.ceiling_z_m,
   };
   return f->out;
 }

@@ -14,8 +14,7 @@ ekf_rig_t ekf_rig(const char *level, uint64_t seed) {
 static ekf_in_t sense(ekf_rig_t *r, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&r->imu, &r->noise.imu, r->random, truth);
   const range_sample_t range = range_step(&r->range, &r->noise.range, r->random, truth);
-  return (ekf_in_t){.acc_b_mps2 = imu.acc_b_mps2,
-                    .gyro_b_radps = imu.gyro_b_radps,
+  return (ekf_in_t){.imu = imu,
                     .motors = truth->motors,
                     .range_new = range.down_new,
                     .range_m = range.down_m,

@@ -1,5 +1,6 @@
 // test_body_ceiling.c - six degrees of freedom near a ceiling or the ground: height and tilt.
 #include "vehicle6.h"
+#include <string.h>
 
 static const d3_t x_axis = {1.0, 0.0, 0.0};
 
@@ -109,5 +110,25 @@ TEST(blades_touch_at_the_tilt_that_geometry_says) {
       body_close(&b);
     }
     CHECK_NEAR(lo * 180.0 / 3.14159265358979 / row[i].tilt_deg, 1.0, 0.03);
+  }
+}
+
+TEST(body_yaws_by_the_thrust_in_free_air_however_near_the_ceiling_is) {
+  // The ceiling raises the lift at the same speed of the rotor, and its torque not: thesis 3.1.
+  static const double gap_m[] = {HUGE_VAL, 0.05, 0.01};
+  for (int i = 0; i < 3; i++) {
+    ROW("gap %g m", gap_m[i]);
+    model_t m = vehicle6(i == 0 ? HUGE_VAL : 1.0);
+    vehicle6_add(&m, "ceiling");
+    body_start_t start = vehicle6_start(&m, i == 0 ? 0.5 : 1.0 - gap_m[i], 1.0);
+    const double f = 0.25 * WEIGHT_N, command_N[ROTORS] = {0.9 * f, 1.1 * f, 0.9 * f, 1.1 * f};
+    memcpy(start.thrust_N, command_N, sizeof start.thrust_N);
+    body_t b;
+    if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
+    CHECK((body_thrust_ratio(&b, 0) > 1.15) == (i == 2));
+    memcpy(b.rigid.command_N, command_N, sizeof b.rigid.command_N); // the rotors keep their speed
+    const double want = 4.0 * 0.1 * f * m.frame.torque_ratio_m / m.frame.inertia_kgm2[2];
+    CHECK_NEAR(body_angular_acc_b_radps2(&b).z, want, 1e-9 * want);
+    body_close(&b);
   }
 }

@@ -14,11 +14,11 @@ static const model_t CUBIC = {
 static const model_t NEWTON = {.name = "newton", .thrust_max_N = 0.5};
 
 // The first row of a log.
-static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, unsigned need,
+static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, signals_t need,
                           log_row_t *row, why_t *why) {
   log_rows_t rows;
   bool more;
-  TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, need, why));
+  TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, LOG_STRICT, need, why));
   const status_t status = log_rows_next(&rows, row, &more, why);
   log_rows_close(&rows);
   return status;
@@ -86,11 +86,11 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
        "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
        "pitch, yaw, "
-       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range"},
+       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4"},
       {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
        "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
-      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rpm\"}\n",
-       "c.toml:3: unit: unknown unit `rpm` of m1; allowed: pwm, percent, share, N, mN, gram"},
+      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rps\"}\n",
+       "c.toml:3: unit: unknown unit `rps` of m1; allowed: pwm, percent, share, rad/s, rpm, N, mN, gram"},
       {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
       {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
        "c.toml:3: scale: 0; allowed: any other number"},
@@ -99,7 +99,7 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
        "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
       {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
-       "c.toml:4: m2: a command beside motors in newton; allowed: one of both"},
+       "c.toml:4: m2: a command in pwm beside one in N; allowed: all of one kind"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
@@ -122,13 +122,13 @@ TEST(rows_are_refused_with_column_and_factor) {
        "log.csv:1: column stateEstimate.z: missing; needed: the signal `z`, named by --columns FILE"},
       {"height in mm", "timestamp,stateEstimate.z\n1,412\n",
        "log.csv:2: column stateEstimate.z: 412 m is not plausible; allowed: -30 to 100 m; the unit cm would "
-       "fit (factor 0.01)"},
+       "fit (factor 0.01), or mm would fit (factor 0.001)"},
       {"volts in mV", "timestamp,stateEstimate.z,pm.vbat\n1,0.4,3700\n",
        "log.csv:2: column pm.vbat: 3700 V is not plausible; allowed: 1 to 60 V; the unit mV would fit "
        "(factor 0.001)"},
       {"acceleration in m/s2", "timestamp,stateEstimate.z,acc.z\n1,0.4,30\n",
        "log.csv:2: column acc.z: 294.3 m/s2 is not plausible; allowed: -240 to 240 m/s2; the unit m/s2 would "
-       "fit (factor 0.101937)"},
+       "fit (factor 0.1019), or mg would fit (factor 0.001)"},
       {"quaternion",
        "timestamp,stateEstimate.z,stateEstimate.qw,stateEstimate.qx,stateEstimate.qy,stateEstimate.qz\n"
        "1,0.4,0.5,0,0,0\n",
@@ -155,4 +155,86 @@ TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
   CHECK_STATUS(ST_BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
   CHECK_TEXT(scratch_short(why.text),
              "log.csv:1: column pm.vbat: missing; the thrust map needs the battery's voltage");
+}
+
+#define MOTORS4(unit)                                                                                        \
+  "m1 = {column = \"a\", unit = \"" unit "\"}\nm2 = {column = \"b\", unit = \"" unit                         \
+  "\"}\nm3 = {column = \"c\", unit = \"" unit "\"}\nm4 = {column = \"d\", unit = \"" unit "\"}\n"
+#define MIXED(force, torque)                                                                                 \
+  "thrust = {column = \"a\", unit = \"" force "\"}\ntx = {column = \"b\", unit = \"" torque                  \
+  "\"}\nty = {column = \"c\", unit = \"" torque "\"}\ntz = {column = \"d\", unit = \"" torque "\"}\n"
+
+// Arms of 0.1 m, torque over thrust 0.01 m; rotors at front right, back right, back left, front left.
+#define FRAME                                                                                                \
+  .frame = {.rotor_x_m = {0.1, -0.1, -0.1, 0.1},                                                             \
+            .rotor_y_m = {-0.1, -0.1, 0.1, 0.1},                                                             \
+            .rotor_spin = {1.0, -1.0, 1.0, -1.0},                                                            \
+            .torque_ratio_m = 0.01}
+
+static const model_t PWM = {
+    .name = "pwm", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_PWM_CUBIC, .c = {0.0, 1.0}}};
+static const model_t SPEED = {
+    .name = "speed", .thrust_max_N = 4.0, FRAME, .map = {.kind = THRUST_MAP_SPEED, .c = {0.0, 0.0, 1e-6}}};
+static const struct {
+  const char *what, *columns;
+  double cell[4];
+  const model_t *vehicle;
+  double want_N[4];
+  bool at_limit;
+} motor_row[] = {
+    {"pwm", MOTORS4("pwm"), {6553.5, 13107.0, 19660.5, 26214.0}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 40.0}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"full percent", MOTORS4("percent"), {10.0, 20.0, 30.0, 100.0}, &PWM, {0.1, 0.2, 0.3, 1.0}, true},
+    {"share", MOTORS4("share"), {0.1, 0.2, 0.3, 0.4}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"rad/s", MOTORS4("rad/s"), {100.0, 200.0, 300.0, 400.0}, &SPEED, {0.01, 0.04, 0.09, 0.16}, false},
+    {"rpm", MOTORS4("rpm"), {954.929659, 1909.859317, 0.0, 0.0}, &SPEED, {0.01, 0.04, 0.0, 0.0}, false},
+    {"mN", MOTORS4("mN"), {100.0, 200.0, 300.0, 400.0}, &NEWTON, {0.1, 0.2, 0.3, 0.4}, true},
+    // Thrust 1; right to left 0.1 (0.3 + 0.4 - 0.1 - 0.2), back to front 0.1 (0.2 + 0.3 - 0.1 - 0.4),
+    // drag 0.01 (0.2 + 0.4 - 0.1 - 0.3).
+    {"thrust and torques", MIXED("N", "Nm"), {1.0, 0.04, 0.0, 0.002}, &PWM, {0.1, 0.2, 0.3, 0.4}, false},
+    {"mixer's pwm",
+     MIXED("pwm", "pwm"),
+     {32767.5, 13107.0, 6553.5, 655.35},
+     &PWM,
+     {0.46, 0.34, 0.56, 0.64},
+     false},
+    {"mixer at its limit",
+     MIXED("pwm", "pwm"),
+     {60000.0, 20000.0, 0.0, 0.0},
+     &PWM,
+     {50000.0 / 65535.0, 50000.0 / 65535.0, 1.0, 1.0},
+     true},
+};
+
+TEST(motor_commands_of_every_kind_become_newton_of_each_motor) {
+  for (unsigned i = 0; i < sizeof motor_row / sizeof *motor_row; i++) {
+    ROW("%s", motor_row[i].what);
+    char toml[700], csv[200];
+    const double *const x = motor_row[i].cell;
+    snprintf(toml, sizeof toml, TIME "%s", motor_row[i].columns);
+    snprintf(csv, sizeof csv, "t,a,b,c,d\n0,%.9g,%.9g,%.9g,%.9g\n", x[0], x[1], x[2], x[3]);
+    columns_t c;
+    log_row_t got;
+    why_t why = {""};
+    CHECK_OK(columns_read(scratch_file("c.toml", toml, -1), &c, &why));
+    CHECK_OK(first_row(csv, &c, motor_row[i].vehicle, SIGNAL_BIT(SIG_THRUST), &got, &why));
+    CHECK_TEXT(why.text, "");
+    double sum_N = 0.0;
+    for (int k = 0; k < 4; k++) {
+      CHECK_NEAR(got.v[SIG_F1 + k], motor_row[i].want_N[k], 1e-8);
+      sum_N += motor_row[i].want_N[k];
+    }
+    CHECK_NEAR(got.v[SIG_THRUST], sum_N, 1e-8);
+    CHECK(got.at_limit == motor_row[i].at_limit);
+  }
+}
+
+TEST(motor_commands_that_the_vehicle_cannot_tell_in_newton_are_refused) {
+  columns_t c;
+  log_row_t row;
+  why_t why = {""};
+  CHECK_OK(columns_read(scratch_file("c.toml", TIME MOTORS4("rpm"), -1), &c, &why));
+  CHECK_STATUS(ST_BAD_INPUT, first_row("t,a,b,c,d\n0,1,1,1,1\n", &c, &CUBIC, 0, &row, &why));
+  CHECK_TEXT(scratch_short(why.text),
+             "log.csv:1: column a: a command in rad/s, but the [thrust_map] of vehicle cubic takes pwm");
 }

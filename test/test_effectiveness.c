@@ -137,8 +137,13 @@ TEST(effectiveness_refuses_bad_logs_with_one_line) {
        "bad.csv:3: column tick: 1 ms after the row before; allowed: multiples of 2 ms"},
       {HEAD "0,0,0,0,0,0,0,0\n10,0,0,0,0,0,0,0\n",
        "bad.csv: 2 rows and 4 ticks missing between them; allowed: a log at 500 Hz"},
-      {HEAD "0,0,0,0,0,0,0,0\n2,0,0,0,0,0,0,0\n", "bad.csv: column controller.cmd_roll: never moves while it "
-                                                  "counts (0 ticks); allowed: a flight that turns"},
+      {HEAD "0,0,0,0,0,0,0,0\n2,0,0,0,0,0,0,0\n", "bad.csv: no row counts; allowed: controller.cmd_thrust of "
+                                                  "10000 and more (--thrust-min), 0.5 s after a "
+                                                  "start"},
+      {"tick,controller.r_roll,controller.r_pitch,controller.r_yaw,controller.cmd_roll,controller.cmd_pitch,"
+       "controller.cmd_yaw\n0,0,0,0,0,0,0\n2,0,0,0,0,0,0\n",
+       "bad.csv: column controller.cmd_roll: never moves while it counts (0 ticks); allowed: a flight that "
+       "turns"},
   };
   const effectiveness_job_t job = effectiveness_default();
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {

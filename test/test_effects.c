@@ -118,6 +118,6 @@ TEST(model_replaces_an_effect_of_the_same_name) {
 TEST(every_effect_does_something) {
   for (int i = 0; i < fx_count; i++) {
     ROW("%s", fx_table[i]->name);
-    CHECK(fx_table[i]->excess || fx_table[i]->load || fx_table[i]->tick);
+    CHECK(fx_table[i]->excess || fx_table[i]->load || fx_table[i]->tick || fx_table[i]->sense);
   }
 }

@@ -1,5 +1,6 @@
 // test_ekf.c - the estimator on known motions: size of its errors, delays, take-off, repeatability.
 #include "ekf_rig.h"
+#include "estimator/ekf_core.h"
 #include "test.h"
 #include <string.h>
 
@@ -128,4 +129,17 @@ TEST(ekf_takes_off_from_the_ground) {
   CHECK(sqrt(e.climb_mps / 10000.0) < 0.015);
   CHECK(sqrt(e.tilt_rad / 10000.0) < 0.5 * DEG);
   random_close(r.random);
+}
+
+TEST(ekf_uncertainty_of_the_attitude_turns_by_half_the_angle_of_the_body) {
+  // As in the firmware, whose error of the attitude is turned by half the vector that the gyro gives.
+  ekf_t e;
+  ekf_init(&e, &ekf_firmware, 0.0);
+  for (int i = 0; i < EKF_N; i++)
+    for (int j = 0; j < EKF_N; j++) e.P[i][j] = i == j ? 1e-3 : 0.0;
+  e.P[6][6] = 0.02;
+  const double rate_radps = 2.0, dt_s = 0.01;
+  ekf_core_predict(&e, (d3_t){0.0, 0.0, 9.81}, (d3_t){0.0, 0.0, rate_radps}, dt_s, true);
+  const double half_rad = 0.5 * rate_radps * dt_s;
+  CHECK_NEAR(e.P[6][7], -half_rad * (0.02 - 1e-3), 0.02 * half_rad * 0.02);
 }

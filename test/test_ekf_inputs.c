@@ -39,7 +39,7 @@ TEST(ekf_drops_outliers_as_the_firmware_does) {
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
-    const ekf_in_t in = {.acc_b_mps2 = {0.0, 0.0, 9.81},
+    const ekf_in_t in = {.imu.acc_b_mps2 = {0.0, 0.0, 9.81},
                          .motors = true,
                          .range_new = row[i].range,
                          .range_m = row[i].range_m,
@@ -64,7 +64,7 @@ TEST(ekf_starts_anew_when_it_is_out_of_bounds) {
     ekf_t e;
     ekf_init(&e, &ekf_firmware, 0.5);
     ekf_place(&e, row[i].pos, row[i].vel, (dq_t){1.0, 0.0, 0.0, 0.0});
-    const ekf_in_t in = {.acc_b_mps2 = {0.0, 0.0, 9.81}, .motors = true};
+    const ekf_in_t in = {.imu.acc_b_mps2 = {0.0, 0.0, 9.81}, .motors = true};
     ekf_step(&e, &in);
     CHECK(e.resets == row[i].resets);
     if (row[i].resets) CHECK(e.s[0] == 0.0 && e.s[4] == 0.0 && e.q.z == sin(0.25) && e.flying_ms > 0);
@@ -75,7 +75,7 @@ TEST(ekf_hands_out_what_the_call_before_finished) {
   ekf_t e;
   ekf_init(&e, &ekf_firmware, 0.0);
   ekf_place(&e, (d3_t){0.0, 0.0, 0.4}, (d3_t){0.0, 0.0, 0.0}, (dq_t){1.0, 0.0, 0.0, 0.0});
-  const ekf_in_t still = {.acc_b_mps2 = {0.0, 0.0, 9.81}, .motors = true};
+  const ekf_in_t still = {.imu.acc_b_mps2 = {0.0, 0.0, 9.81}, .motors = true};
   ekf_in_t jump = still;
   jump.range_new = true;
   jump.range_m = 0.5;

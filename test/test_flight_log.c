@@ -25,7 +25,7 @@ static double z_at(double t_s) {
 
 static status_t see(const char *path, double late_s, seen_t *s, why_t *why) {
   const columns_t c = columns_crazyflie();
-  const unsigned need = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_THRUST);
+  const signals_t need = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_THRUST);
   *s = (seen_t){0};
   flight_log_t *log;
   flight_tick_t tick;
@@ -119,7 +119,7 @@ static const struct {
      {10.0, 1, 1, 1, 9.81, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 96.2 m/s2 over the whole flight; allowed: 4.905 to "
      "14.715 m/s2; the unit "
-     "m/s2 would fit (factor 0.101937)"},
+     "m/s2 would fit (factor 0.1019)"},
     {"gravity taken out",
      {10.0, 1, 1, 1, 0.01, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 0.0981 m/s2 over the whole flight; allowed: 4.905 to "

@@ -179,8 +179,7 @@ TEST(flights6_height_is_wrong_by_what_the_accelerometer_costs) {
 TEST(flights6_gate_keeps_the_ceiling_where_it_is) {
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
     ROW("seed %d", (int)seed);
-    request_t request = FAST;
-    request.seed = seed;
+    const request_t request = {.seed = seed};
     result_t result;
     why_t why;
     if (!CHECK_OK(result_init(&result, &why))) return;

@@ -29,7 +29,7 @@ TEST(ekf_follows_the_pose_of_motion_capture) {
   const dq_t lean = dq_unit((dq_t){1.0, 0.02, -0.01, 0.0});
   ekf_out_t out = {.q_wb = {1.0, 0.0, 0.0, 0.0}};
   for (int ms = 0; ms < 3000; ms++) {
-    const ekf_in_t in = {.acc_b_mps2 = dq_to_body(lean, (d3_t){0.0, 0.0, 9.81}),
+    const ekf_in_t in = {.imu.acc_b_mps2 = dq_to_body(lean, (d3_t){0.0, 0.0, 9.81}),
                          .pose_new = ms % 18 == 0,
                          .pose_m = {0.3, -0.2, 0.1},
                          .pose_q = lean};

@@ -62,7 +62,9 @@ TEST(segments_count_a_contact_that_lasts_in_each) {
     make(sample, &plan);
     for (int k = 0; k < N; k++) {
       const bool at = (k >= row[i].touch_at && k < row[i].leave_at) || k >= row[i].again_at;
-      if (at) sample[k].gap_m = sample[k].gap_min_m = 1e-7;
+      // The gap is the rotors'; the body's top is above them.
+      sample[k].touching = at;
+      sample[k].gap_m = sample[k].gap_min_m = at ? 0.006 : 0.5;
       // What begins at the ceiling has not come there.
       sample[k].contacts = (row[i].touch_at > 0 && k >= row[i].touch_at) + (k >= row[i].again_at);
     }

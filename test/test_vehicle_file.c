@@ -8,8 +8,10 @@
 #include <string.h>
 
 #define ALL_EFFECTS                                                                                          \
-  "battery_sag, body_drag, ceiling, cg_offset, delay, ground, mass, motor_damage, motor_lag, rotor_drag, "   \
-  "sidewall, wind"
+  "accel_bias, battery_sag, body_drag, ceiling, ceiling_rpm, cg_offset, climb_inflow, "                      \
+  "delay, flapping, ground, gyroscopic, imu_misalignment, inertia, mass, motor_damage, "                     \
+  "motor_lag, rotor_drag, sidewall, thrust_curve, thrust_scale, tof_bias, tof_floor, "                       \
+  "tof_latency, translational_lift, wind"
 
 #define VEHICLE                                                                                              \
   "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
@@ -47,9 +49,11 @@ static const struct {
      "name = \"v\"\nmass_kg = 1\nrotor_radius_m = 1\nmotor_tau_s = 1\nthrust_min_N = 2\nthrust_max_N = 1\n",
      "v.toml:6: thrust_max_N: 1; allowed: more than thrust_min_N, 2"},
     {"map kind", VEHICLE "[thrust_map]\nkind = \"x\"\n",
-     "v.toml:8: kind: unknown kind `x`; allowed: stand, volt_cubic"},
+     "v.toml:8: kind: unknown kind `x`; allowed: stand, volt_cubic, pwm_cubic, speed"},
     {"map numbers", VEHICLE "[thrust_map]\nkind = \"stand\"\nc = [1, 2]\n",
      "v.toml:9: c: 2 numbers; allowed: 5"},
+    {"map of a speed", VEHICLE "[thrust_map]\nkind = \"speed\"\nc = [1]\n",
+     "v.toml:9: c: 1 numbers; allowed: 3"},
     {"map without", VEHICLE "[thrust_map]\nkind = \"stand\"\n",
      "v.toml:7: c: missing; allowed: a list of numbers"},
     {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",

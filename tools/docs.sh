@@ -17,16 +17,27 @@ part() {
 
 text() { echo '```'; cat; echo '```'; }
 
-out/fly --params=markdown | part params
-tools/demo.sh "$data" | sed -E '/^pictures/,$d; s#/[^ ]*/##' | sed '$d' | text | part demo
-out/bench | text | part bench
+got=$(mktemp)
+trap 'rm -f "$got"' EXIT
+
+out/fly --params=markdown >"$got"
+part params <"$got"
+tools/demo.sh "$data" >"$got"
+sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
+out/bench >"$got"
+text <"$got" | part bench
 for gains in '1 5' '2 8'; do
   set -- $gains
-  out/fly closest-hover --set indiPos.kp="$1" --set indiPos.kd="$2" |
-    awk -v g="$1, $2" '$1 == "gap" && $NF == 0 { nearest = $2 } END { printf "gains %s: %s mm\n", g, nearest }'
-done | text | part closest
-tools/flights.sh | sed -E '/^pictures/,$d' | sed '$d' | text | part flights
-{
-  out/fly bias-hover --integrator rk4 | sed -n '/^bias$/,/^contacts/p'
-  out/fly hand-held
-} | sed -e '/^contacts/d' -e 's/^bias$/bias-hover/' -e 's/^ceiling_height$/hand-held/' | text | part c3
+  out/fly closest-hover --set indiPos.kp="$1" --set indiPos.kd="$2" >"$got.gains"
+  awk -v g="$1, $2" '$1 == "gap" && $NF == 0 { nearest = $2 } END { printf "gains %s: %s mm\n", g, nearest }' "$got.gains"
+done >"$got"
+rm -f "$got.gains"
+text <"$got" | part closest
+tools/flights.sh >"$got"
+sed -E '/^pictures/,$d' "$got" | sed '$d' | text | part flights
+out/slot "$data" >"$got"
+text <"$got" | part slot
+out/fly bias-hover --integrator rk4 >"$got"
+sed -n -i '/^bias$/,/^contacts/p' "$got"
+out/fly hand-held >>"$got"
+sed -e '/^contacts/d' -e 's/^bias$/bias-hover/' -e 's/^ceiling_height$/hand-held/' "$got" | text | part c3

@@ -19,6 +19,7 @@ typedef struct {
 static const char USAGE[] =
     "usage: effectiveness LOG.csv [options]\n"
     "  --lag S            first-order lag of the motors, seconds (0.0625)\n"
+    "  --delay S          from a command to the lag, the gyro's filter included; whole ticks of 2 ms (0)\n"
     "  --cutoff HZ        of the low-pass that all signals pass (4)\n"
     "  --poles N          of that low-pass: 2 or 4 (4)\n"
     "  --thrust-min UNITS rows with less thrust do not count, where controller.cmd_thrust is logged (10000)\n"
@@ -51,6 +52,7 @@ static status_t take_poles(int *poles, const char *text, why_t *why) {
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
   switch (option) {
   case 'l': return take_number("--lag", text, 0.001, 0.5, &o->job.lag_s, why);
+  case 'd': return take_number("--delay", text, 0.0, EFFECTIVENESS_DELAY_S, &o->job.delay_s, why);
   case 'c': return take_number("--cutoff", text, 0.1, 100.0, &o->job.cutoff_Hz, why);
   case 'p': return take_poles(&o->job.poles, text, why);
   case 't': return take_number("--thrust-min", text, 0.0, 65535.0, &o->job.thrust_min, why);
@@ -62,15 +64,16 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"lag", 1, 0, 'l'},      {"cutoff", 1, 0, 'c'}, {"poles", 1, 0, 'p'}, {"thrust-min", 1, 0, 't'},
-      {"as-stock", 0, 0, 's'}, {"json", 1, 0, 'j'},   {"help", 0, 0, 'h'},  {0},
+      {"lag", 1, 0, 'l'},   {"delay", 1, 0, 'd'},      {"cutoff", 1, 0, 'c'},
+      {"poles", 1, 0, 'p'}, {"thrust-min", 1, 0, 't'}, {"as-stock", 0, 0, 's'},
+      {"json", 1, 0, 'j'},  {"help", 0, 0, 'h'},       {0},
   };
   *o = (order_t){.job = effectiveness_default()};
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
     if (option == '?')
       return error_set(why,
-                       "%s: not an option, or without its value; allowed: --lag, --cutoff, --poles, "
+                       "%s: not an option, or without its value; allowed: --lag, --delay, --cutoff, --poles, "
                        "--thrust-min, --as-stock, --json, --help",
                        argv[optind - 1]);
     TRY(take_option(o, option, optarg, why));
@@ -91,6 +94,7 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *fil
   cJSON_AddItemToObject(json, "stock_g1", cJSON_CreateDoubleArray(stock, 3));
   cJSON_AddNumberToObject(json, "stock_g2", EFFECTIVENESS_STOCK_G2);
   cJSON_AddNumberToObject(json, "lag_s", o->job.lag_s);
+  cJSON_AddNumberToObject(json, "delay_s", o->job.delay_s);
   cJSON_AddNumberToObject(json, "cutoff_Hz", o->job.cutoff_Hz);
   cJSON_AddNumberToObject(json, "rows", (double)r->rows);
   cJSON_AddNumberToObject(json, "bridged", (double)r->bridged);
@@ -104,8 +108,9 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *fil
 static void print(const order_t *o, const effectiveness_t *r) {
   static const char *const axis[3] = {"roll", "pitch", "yaw"};
   const double stock[3] = EFFECTIVENESS_STOCK_G1;
-  printf("# %ld rows, %ld ticks bridged, %ld used; lag %g ms, %d poles at %g Hz; yaw clockwise\n", r->rows,
-         r->bridged, r->used, 1e3 * o->job.lag_s, o->job.poles, o->job.cutoff_Hz);
+  printf(
+      "# %ld rows, %ld ticks bridged, %ld used; lag %g ms, delay %g ms, %d poles at %g Hz; yaw clockwise\n",
+      r->rows, r->bridged, r->used, 1e3 * o->job.lag_s, 1e3 * o->job.delay_s, o->job.poles, o->job.cutoff_Hz);
   printf("%-10s %11s %11s %7s %10s\n", "", "fitted", "stock", "ratio", "explained");
   for (int i = 0; i < 3; i++)
     printf("G1 %-7s %11.5g %11.5g %7.3f %8.0f %%\n", axis[i], r->g1[i], stock[i], r->g1[i] / stock[i],
@@ -113,6 +118,9 @@ static void print(const order_t *o, const effectiveness_t *r) {
   printf("G2 yaw     %11.5g %11.5g %7.3f\n", r->g2, EFFECTIVENESS_STOCK_G2, r->g2 / EFFECTIVENESS_STOCK_G2);
   printf("# G1: rad/s2 per unit. G2: rad/s2 per unit/s; per unit and tick of 2 ms it is %.5g\n",
          r->g2 / EFFECTIVENESS_PERIOD_S);
+  if (r->g2 < 0.0)
+    puts("# G2 < 0 is no rotor's inertia: --lag or --delay is not that of the motors, or yaw moved too "
+         "little");
 }
 
 static status_t run(whole_files_t *files, int argc, char **argv, why_t *why) {

@@ -1,10 +1,12 @@
 # flights.awk - JSON lines of out/fly, one file for each controller, as a table: a row for each controller and distance.
-# Needs radius_mm and ceiling_mm. Their keys stand in the order of sim/result.c; a segment ends with its tilt.
+# Keys may stand in any order; a segment holds no braces.
 
-# The number of that key in s; nan where it is null.
+# The number of that key in s. Every flight has it: else the table would be wrong.
 function of(s, key) {
-  if (!match(s, "\"" key "\":-?[0-9][^,}]*")) return "nan"
-  return substr(s, RSTART + length(key) + 3, RLENGTH - length(key) - 3) + 0
+  if (match(s, "\"" key "\":-?[0-9][^,}]*")) return substr(s, RSTART + length(key) + 3, RLENGTH - length(key) - 3) + 0
+  printf "flights.awk: %s:%d: no number %s\n", FILENAME, FNR, key >"/dev/stderr"
+  failed = 1
+  exit 1
 }
 
 function row(who, k,   n, mean, spread, gap) {
@@ -27,10 +29,15 @@ FNR == 1 {
 
 {
   flights[who]++
-  n = split($0, part, /\{"setpoint_m"/) - 1
+  ceiling_mm = 1e3 * of($0, "ceiling_m")
+  radius_mm = 1e3 * of($0, "rotor_radius_m")
+  segments = $0
+  sub(/.*"segments":\[/, "", segments)
+  sub(/\].*/, "", segments)
+  n = split(segments, part, "}") - 1
   if (n > steps) steps = n
   for (k = 1; k <= n; k++) {
-    s = "\"setpoint_m\"" part[k + 1]
+    s = part[k]
     distance[k] = ceiling_mm - 1e3 * of(s, "setpoint_m")
     e = of(s, "mean_error_mm")
     error[who, k] += e
@@ -46,6 +53,8 @@ FNR == 1 {
 }
 
 END {
+  if (failed) exit 1
+  printf "R = %.2f mm\n", radius_mm
   printf "%-13s %10s  %12s  %12s  %6s  %6s  %5s %8s  %12s  %5s\n", "", "commanded", "mean", "sd", "error", "oscil.",
     "con-", "flights", "smallest gap", "tilt"
   printf "%-13s %4s %5s  %6s %5s  %6s %5s  %6s  %6s  %5s %8s  %6s %5s  %5s\n", "controller", "mm", "R", "mm", "R", "mm",

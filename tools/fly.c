@@ -23,10 +23,12 @@ typedef struct {
   request_t request;
   fly_kind_t kind;
   model_t vehicle;
-  int seeds;       // 0: not said
+  int seeds; // 0: not said
+  bool seed_said;
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path;
-  bool list, params, markdown, help;
+  bool list, params, markdown, help, rate_said;
+  int not_finite; // flights
 } order_t;
 
 static const char USAGE[] =
@@ -44,26 +46,16 @@ static const char USAGE[] =
     "lines\n"
     "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
     "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
+    "  --log-rate HZ            100, or 500 in six degrees of freedom (100)\n"
     "  --json FILE              writes what is printed, and more\n"
     "  --list                   scenarios, controllers and effects\n"
     "  --params                 the parameters of the flight code, with unit, default and range\n"
-    "  --help                   this\n";
+    "  --help                   this\n"
+    "Exit status: 0; 2 if the input is bad; 1 if something else fails, or a flight did not stay finite (what "
+    "it was\n"
+    "like is written nevertheless).\n";
 
 // --- options ------------------------------------------------------------------------------------------
-
-static status_t take_controller(order_t *o, const char *name, why_t *why) {
-  for (int i = 0; i < FLY_COUNT; i++) {
-    if (!fly_name[i] || strcmp(fly_name[i], name) != 0) continue;
-    o->kind = (fly_kind_t)i;
-    o->request.kind = &o->kind;
-    return ST_OK;
-  }
-  return error_set(
-      why,
-      "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
-      "pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage",
-      name);
-}
 
 static status_t take_count(const char *option, const char *text, double min, double max, double *value,
                            why_t *why) {
@@ -75,7 +67,7 @@ static status_t take_count(const char *option, const char *text, double min, dou
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double count;
   switch (option) {
-  case 'c': return take_controller(o, text, why);
+  case 'c': return request_take_controller(&o->request, &o->kind, text, why);
   case 's': return request_take_set(&o->request, text, why);
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
@@ -85,6 +77,7 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
     o->request.vehicle = &o->vehicle;
     return model_read(text, &o->vehicle, why);
   case 'd':
+    o->seed_said = true;
     TRY(take_count("--seed", text, 0.0, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
     return ST_OK;
@@ -95,12 +88,14 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
     o->seeds = (int)count;
     return ST_OK;
   case 'l': o->log = text; return ST_OK;
+  case 'r': o->rate_said = true; return request_take_log_rate(&o->request, text, why);
   case 'j': o->json = text; return ST_OK;
   case 'L': o->list = true; return ST_OK;
   case 'P':
     o->params = true;
-    o->markdown = text && strcmp(text, "markdown") == 0;
-    return ST_OK;
+    o->markdown = text != NULL;
+    if (!text || strcmp(text, "markdown") == 0) return ST_OK;
+    return error_set(why, "--params=%s: allowed is --params, or --params=markdown", text);
   case 'h': o->help = true; return ST_OK;
   }
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
@@ -114,16 +109,30 @@ static status_t check_many(const order_t *o, why_t *why) {
   if (!many(o)) return ST_OK;
   if (!(o->from <= o->to)) return error_set(why, "--from, --to: both are needed, and --from <= --to");
   if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
+  if (o->seed_said) return error_set(why, "--seed: allowed is either that or --from and --to");
   if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
   return ST_OK;
 }
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},    {"effect", 1, 0, 'e'}, {"vehicle", 1, 0, 'v'},
-      {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},   {"seeds", 1, 0, 'm'},  {"integrator", 1, 0, 'i'},
-      {"from", 1, 0, 'f'},       {"to", 1, 0, 't'},     {"log", 1, 0, 'l'},    {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},   {0},
+      {"controller", 1, 0, 'c'},
+      {"set", 1, 0, 's'},
+      {"effect", 1, 0, 'e'},
+      {"vehicle", 1, 0, 'v'},
+      {"noise", 1, 0, 'n'},
+      {"seed", 1, 0, 'd'},
+      {"seeds", 1, 0, 'm'},
+      {"integrator", 1, 0, 'i'},
+      {"from", 1, 0, 'f'},
+      {"to", 1, 0, 't'},
+      {"log", 1, 0, 'l'},
+      {"log-rate", 1, 0, 'r'},
+      {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},
+      {"params", 2, 0, 'P'},
+      {"help", 0, 0, 'h'},
+      {0},
   };
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   opterr = 0;
@@ -139,6 +148,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
   o->request.log = o->log != NULL;
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
+  if (o->rate_said && !o->log) return error_set(why, "--log-rate: allowed with --log FILE.csv");
   return check_many(o, why);
 }
 
@@ -171,7 +181,7 @@ static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) 
   return o->scenario->run(&request, result, why);
 }
 
-static status_t fly(const order_t *o, output_t *out, why_t *why) {
+static status_t fly(order_t *o, output_t *out, why_t *why) {
   cJSON **json = calloc((size_t)o->seeds, sizeof(cJSON *));
   record_t record = {0};
   status_t status = json ? ST_OK : error_failed(why, "out of memory");
@@ -179,6 +189,7 @@ static status_t fly(const order_t *o, output_t *out, why_t *why) {
     result_t result;
     status = fly_once(o, i, &result, why);
     json[i] = result.json;
+    o->not_finite += cJSON_IsFalse(cJSON_GetObjectItem(result.json, "finite"));
     record_free(&record);
     record = result.record;
     if (o->seeds > 1 && isatty(STDERR_FILENO)) fprintf(stderr, "\r%d of %d flights", i + 1, o->seeds);
@@ -196,7 +207,7 @@ static status_t fly(const order_t *o, output_t *out, why_t *why) {
   return status;
 }
 
-static status_t fly_many(const order_t *o, output_t *out, why_t *why) {
+static status_t fly_many(order_t *o, output_t *out, why_t *why) {
   const many_t m = {
       .scenario = o->scenario,
       .request = &o->request,
@@ -205,6 +216,7 @@ static status_t fly_many(const order_t *o, output_t *out, why_t *why) {
       .text = stdout,
       .json = out->json,
       .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+      .not_finite = &o->not_finite,
   };
   return many_fly(&m, why);
 }
@@ -226,5 +238,7 @@ int main(int argc, char **argv) {
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
   const status_t status = run(&order, &out, argc, argv, &why);
-  return whole_files_exit(&out.files, "fly", status, &why);
+  const int ended = whole_files_exit(&out.files, "fly", status, &why);
+  if (ended != 0 || order.not_finite == 0) return ended;
+  return error_exit("fly", error_failed(&why, "not finite: %d of the flights", order.not_finite), &why);
 }

@@ -19,7 +19,7 @@ cppcheck --quiet --error-exitcode=1 --std=c11 --enable=warning,portability -DGLU
 
 for header in $(echo "$sources" | grep '\.h$'); do
   case $header in
-  src/firmware/* | sim/crazyflie/*) more="-Isim/crazyflie" ;;
+  src/firmware/* | sim/crazyflie/* | test/pil/*) more="-Isim/crazyflie" ;;
   *) more= ;;
   esac
   gcc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -Iinclude -Isrc -Isim -Itest $more -x c "$header" ||

@@ -2,12 +2,13 @@
 //
 //   rate wanted = kp e,  nu = kd (rate wanted - rate),   e: rotation vector from the attitude to the wanted
 //   roll, pitch:  tau = tau_f + [quick J (nu - rate'_f) + k lag rate] / ratio
-//   yaw:          tau = tau_f + [quick J (nu - rate'_f) + g (tau - tau_f)_last] / (1 + g),   g = g2 / period
+//   yaw:          tau = tau_f + [quick J (nu - rate'_f) + g (tau_a - tau_f)_last] / (1 + g)
+//                 g = g2 / period
 //
-// tau_f is the torque that the rotors give now: what was applied, after mixing, through motor lag and the
-// filter that the differentiated gyro passes, so that both are from the same instant. g2 is the time by which
-// the rotors' inertia leads their drag in yaw: J rate' = tau + g2 tau' (thesis eq. 12; errata E14 for the
-// period).
+// tau_a is the torque that was applied, after mixing (which gives yaw up first). tau_f is the torque that the
+// rotors give now: what was applied, after mixing, through motor lag and the filter that the differentiated
+// gyro passes, so that both are from the same instant. g2 is the time by which the rotors' inertia leads
+// their drag in yaw: J rate' = tau + g2 tau' (thesis eq. 12; errata E14 for the period).
 //
 // quick 1 is the law as printed: rate' then answers nu with the motors' lag T, and with kp, kd the loop
 // T s^3 + s^2 + kd s + kd kp = 0 is hardly damped (0.16 for kp 5, kd 24, T 80 ms with 13 ms of delay and 8
@@ -43,7 +44,7 @@ typedef struct {
   lpf2_t acc[3], torque[3]; // filters of the angular acceleration and of the applied torque
   v3_t torque_model_Nm;     // what the motors give, lag included
   v3_t rate_last_radps;
-  float yaw_step_Nm; // the last increment in yaw
+  float yaw_now_Nm; // what the motors gave in yaw at the last step
   bool started;
 } att_indi_t;
 
@@ -63,7 +64,8 @@ void att_indi_reset(att_indi_t *s);
 v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
                    float period_s, const att_indi_in_t *in);
 
-// The shortest rotation vector (rad, body axes, to first order 2 vec) from q to q_ref; at most pi long.
+// The shortest rotation from q to q_ref as 2 vec of its quaternion, body axes: 2 sin(angle/2) long, at most
+// 2; for small angles the rotation vector in rad.
 v3_t att_indi_error(quat_t q_wb, quat_t q_ref);
 
 // The attitude whose thrust points along up_w (length 1, up_w.z > 0) with that heading (sine and cosine of

@@ -3,6 +3,8 @@
 #ifndef FLIGHT_BOUNDS_H
 #define FLIGHT_BOUNDS_H
 
+#include <stdint.h> // a header that is only numbers compiles alone, too
+
 #define BOUND_RATE_RADPS        34.5f // of the gyro, each axis; it ends at 34.9
 #define BOUND_ACC_MPS2          1000.0f
 #define BOUND_POS_M             1e4f

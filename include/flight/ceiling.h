@@ -1,5 +1,4 @@
-// ceiling.h - distance to the ceiling at the outer loop's rate from a 10 Hz range sensor (thesis algorithm
-// 1).
+// ceiling.h - distance to the ceiling at 100 Hz from a 10 Hz range sensor (thesis algorithm 1).
 //
 //   each tick:        zc -= climb                       the ceiling stays, the vehicle moves
 //   each new sample:  zc += gain (range - zc_then)      zc_then: what zc was when the sample was measured
@@ -32,6 +31,7 @@ typedef struct {
   float zc_m;     // m, 0..far_m: propeller plane to ceiling; has a meaning only while `known`
   bool known;     // a ceiling is in sight
   float blind_s;  // time since the last sample that was taken in
+  float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
   int newest;                      // index into it

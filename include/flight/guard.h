@@ -73,7 +73,7 @@ typedef struct {
   int handed_ms;       // since the hand-over
   // Not for callers.
   bool started;
-  v3_t rate_last, acc_last, vel_last, pos_last;
+  v3_t rate_last, acc_last, vel_last;
   float rate_life, acc_life; // mean change per millisecond
   int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms;
   float bad_ms;

@@ -1,7 +1,6 @@
 // learn.h - which samples may teach the thrust-ratio curve; feeds rls.
 //
-//   y = (m x specific force along the thrust) / (thrust that the motors give in free air)    thesis
-//   section 5.2
+//   y = (m x specific force along the thrust) / (thrust that the motors give in free air)    (thesis 5.2)
 //
 // Both, and the distance, have passed the same filter. y is 1 in free air, whatever the vehicle does.
 #ifndef FLIGHT_LEARN_H

@@ -2,8 +2,11 @@
 //
 // Motors in the Crazyflie's order: 1 front right, 2 back right, 3 back left, 4 front left; 2 and 4 give
 // positive yaw.
-//   f = T/4 + (-roll, -roll, roll, roll)/(4 arm) + (-pitch, pitch, pitch, -pitch)/(4 arm) + (-yaw, yaw, -yaw,
-//   yaw)/(4 k)
+//
+//   f = T/4 + (-roll, -roll, roll, roll)/(4 arm)
+//           + (-pitch, pitch, pitch, -pitch)/(4 arm)
+//           + (-yaw, yaw, -yaw, yaw)/(4 k)
+//
 // What cannot all be had is given up in the order yaw, thrust, and last roll and pitch together: a vehicle
 // that is too heavy then sinks, but stays upright (the thesis's first flights crashed for want of it, C.1).
 #ifndef FLIGHT_MIXER_H

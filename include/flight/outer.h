@@ -1,5 +1,5 @@
-// outer.h - the outer loop in the order in which it runs: position to direction and size of the thrust, 100
-// Hz.
+// outer.h - the outer loop, 100 Hz, in the order in which it runs: position to direction and size of the
+// thrust.
 //
 //   check inputs -> filter -> thrust -> ceiling distance -> curve -> learn -> position law
 //
@@ -11,6 +11,7 @@
 #define FLIGHT_OUTER_H
 
 #include "flight/ceiling.h"
+#include "flight/hold.h"
 #include "flight/learn.h"
 #include "flight/params.h"
 #include "flight/pos_indi.h"
@@ -36,11 +37,10 @@ typedef struct {
   float zc_m;     // ceiling distance; has a meaning only while zc_known
   bool zc_known;
   rbf_point_t at;    // the curve's value and slope that were used
-  float ceiling_z_m; // height of the ceiling, latched where ceil.hold says so; NaN: none seen
+  float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
-#define HOLD_BEYOND_M  0.20f // the ceiling's height is latched while it is farther than this (thesis C.3)
-#define CARRYING_SHARE 0.3f  // of the weight: from here on the rotors carry
+#define CARRYING_SHARE 0.3f // of the weight: from here on the rotors carry
 
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks
@@ -48,6 +48,7 @@ typedef struct {
   sync_t sync;
   bias_t bias;
   ceiling_t ceiling;
+  hold_t hold;
   learn_t learn;
   float height_last_m;
   float carrying_s; // time since the rotors began to carry

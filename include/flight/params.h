@@ -28,7 +28,7 @@ typedef struct {
   curve_param_t curve;
   learn_param_t learn;
   bias_param_t bias;
-  float step_max_N;    // largest change of the wanted thrust in one outer period
+  float step_max_N;    // bound of the thrust wanted minus what the motors give now
   float learn_after_s; // learning starts this long after the rotors began to carry
   float up_offset_m;   // propeller plane above the upward range sensor
   float gap_min_m;     // set points are clipped to this below the ceiling
@@ -60,7 +60,7 @@ typedef struct {
   X(indiPos, accMax, PARAM_FLOAT, pos.acc_max_mps2, "m/s2", 20.0f, 0.5f, 100.0f,                             \
     "bound of the wanted acceleration")                                                                      \
   X(indiPos, tStep, PARAM_FLOAT, step_max_N, "N", 0.2f, 0.01f, 40.0f,                                        \
-    "largest change of the thrust in 10 ms")                                                                 \
+    "bound of thrust wanted minus thrust that the motors give")                                              \
   X(indiPos, biasPole, PARAM_FLOAT, bias.pole_radps, "rad/s", 1.0f, 0.0f, 10.0f,                             \
     "speed at which the accelerometer's bias is found; 0 = not")                                             \
   X(indiPos, biasMax, PARAM_FLOAT, bias.max_mps2, "m/s2", 0.5f, 0.0f, 5.0f, "largest bias believed")         \

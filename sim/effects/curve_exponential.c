@@ -3,17 +3,16 @@
 
 #include "plant/decay.h"
 
-static inline pair_t at(const double *p, pair_t distance_m, double radius_m) {
-  return 1.0 + decay(p[0], p[1] / radius_m, distance_m);
-}
-
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  return at(p, pair_both(distance_m), radius_m)[0];
+  return 1.0 + decay(p[0], p[1] / radius_m, pair_both(distance_m))[0];
 }
 
-static void ratios(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]) {
-  for (int i = 0; i < ROTORS; i += 2) pair_put(out + i, at(p, pair_of(distance_m + i), radius_m));
+static void add_excess(const double *p, const double distance_m[ROTORS], double radius_m,
+                       double ratio[ROTORS]) {
+  const double k = p[1] / radius_m;
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(ratio + i, pair_of(ratio + i) + decay(p[0], k, pair_of(distance_m + i)));
 }
 
 const curve_t curve_exponential = {
@@ -24,5 +23,5 @@ const curve_t curve_exponential = {
     .n_param = 2,
     .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}},
     .ratio = ratio,
-    .ratios = ratios,
+    .add_excess = add_excess,
 };

@@ -8,16 +8,20 @@
 #include "plant/pair.h"
 #include "plant/random.h"
 #include "plant/rigid.h"
+#include <stdbool.h>
 
 #define FX_PARAM_MAX 8
-#define FX_MEMORY    4 // numbers that an effect keeps from tick to tick
+#define FX_MEMORY    8 // numbers that an effect keeps from tick to tick
 #define FX_TABLE_MAX 64
 #define FX_MAX       16 // effects switched on at once
+#define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
+#define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
 
 typedef struct {
   const char *name;
   const char *unit; // "" for none
   double min, nominal, max;
+  int whole; // 1: a number of something
 } fx_param_t;
 
 // A published curve: thrust near a surface over thrust in free air. One file curve_NAME.c each, collected
@@ -41,8 +45,8 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
-  // The same for four rotors at once, out[i] at distance_m[i]; null: one by one.
-  void (*ratios)(const double *p, const double distance_m[ROTORS], double radius_m, double out[ROTORS]);
+  // For four rotors at once: adds ratio - 1 at distance_m[i] to ratio[i]; null: one by one.
+  void (*add_excess)(const double *p, const double distance_m[ROTORS], double radius_m, double ratio[ROTORS]);
 } curve_t;
 
 extern const curve_t *const curve_table[];
@@ -63,10 +67,12 @@ typedef struct {
 
 // The vehicle in flight, at every stage of the integrator.
 typedef struct {
-  d3_t pos_w_m;           // centre of mass, world
-  d3_t air_b_mps;         // velocity through the air, body axes
-  const axes_t *axes;     // of the body
-  double rotor_sum_radps; // speeds of the four rotors, added
+  d3_t pos_w_m;   // centre of mass, world
+  d3_t air_b_mps; // velocity through the air, body axes
+  d3_t rate_b_radps;
+  const axes_t *axes;      // of the body
+  double rotor_sum_radps;  // speeds of the four rotors, added
+  double rotor_spin_radps; // the same, each with its sense of turning (plant/rigid.h, s_i)
 } fx_motion_t;
 
 // What an effect may change, for the time of one tick. At each tick it starts from the vehicle file's
@@ -74,26 +80,57 @@ typedef struct {
 typedef struct {
   double mass_kg;              // > 0
   d3_t cg_b_m;                 // the centre of mass, from where the vehicle file has it
+  d3_t inertia_scale;          // > 0: what the inertia about each axis is multiplied by
   double thrust_scale[ROTORS]; // what each rotor's thrust is multiplied by, >= 0
+  double torque_scale[ROTORS]; // what its torque is multiplied by besides, >= 0
   double motor_tau_s;          // > 0   lag
   double delay_s;              // >= 0  from a command to the lag
   d3_t air_w_mps;              // velocity of the air
   d3_t force_w_N;              // at the centre of mass, world axes
+  d3_t moment_b_Nm;            // about the centre of mass, body axes
 } fx_plant_t;
 
 // The tick that begins.
 typedef struct {
   double t_s, span_s;
-  double vbat_V;    // at the terminals
-  random_t *random; // the vehicle's own
-  double *memory;   // FX_MEMORY numbers of this effect, 0 at the start
+  double vbat_V;           // at the terminals
+  const double *thrust_N;  // of each rotor, in free air
+  const fx_place_t *place; // of each rotor
+  random_t *random;        // the vehicle's own
+  double *memory;          // FX_MEMORY numbers of this effect, 0 at the start
 } fx_tick_t;
+
+// What a sensor makes of the truth. Range: along the sensor's axis, in sight of one surface.
+typedef struct {
+  d3_t acc_b_mps2;       // specific force
+  double range_m;        // HUGE_VAL: nothing in sight
+  double range_rate_mps; // of the true distance
+} fx_sensed_t;
+
+// A number that the workflow estimates: of use->p, in steps small enough for a straight line. 0 is `absent`.
+typedef struct {
+  int param;
+  double step;
+  int sign;     // +1: it cannot be negative; 0: it can be either
+  double least; // smaller than this it is never named (what feedback alone looks like)
+} fx_size_t;
+
+typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_class_t; // of one class, one at most is named
 
 struct fx_use;
 
 typedef struct {
   const char *name;
   const char *brief;
+  const char *fly; // the manoeuvre that shows it
+  fx_class_t class;
+  // Control that cancels a disturbance looks like this effect: the first look, which finds out how much
+  // disturbance there is, leaves it out.
+  bool only_beside_nominal;
+  int n_size;
+  fx_size_t size[FX_SIZE_MAX];
+  int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
+  double shape[FX_SHAPE_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
   int n_param;
@@ -104,6 +141,8 @@ typedef struct {
   void (*load)(const struct fx_use *use, const fx_motion_t *motion, load_t *load);
   // Six degrees of freedom only: once at the beginning of every tick.
   void (*tick)(const struct fx_use *use, const fx_tick_t *tick, fx_plant_t *plant);
+  // Six degrees of freedom only: changes what accelerometer and range sensors read.
+  void (*sense)(const struct fx_use *use, fx_sensed_t *sensed);
 } fx_t; // a hook that is null does nothing
 
 extern const fx_t *const fx_table[];
@@ -123,7 +162,7 @@ const curve_t *curve_find(const char *name);
 
 // Adds the effect's excess at each rotor. The effect must have the hook.
 static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
-  if (!use->form || !use->form->ratios) {
+  if (!use->form || !use->form->add_excess) {
     for (int i = 0; i < ROTORS; i++) {
       const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
       ratio[i] += use->fx->excess(use, &place);
@@ -131,9 +170,7 @@ static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, dou
     return;
   }
   const double *gap_m = use->fx->surface == SURFACE_CEILING ? at->ceiling_gap_m : at->ground_gap_m;
-  double out[ROTORS];
-  use->form->ratios(use->p, gap_m, at->radius_m, out);
-  for (int i = 0; i < ROTORS; i += 2) pair_put(ratio + i, pair_of(ratio + i) + (pair_of(out + i) - 1.0));
+  use->form->add_excess(use->p, gap_m, at->radius_m, ratio);
 }
 
 // The effect with its first form (if it takes one) and nominal numbers.

@@ -11,6 +11,9 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_battery_sag = {
     .name = "battery_sag",
     .brief = "thrust falls with the voltage beyond what the thrust map says",
+    .fly = "a long flight, or full and empty batteries, with throttle steps",
+    .n_size = 1,
+    .size = {{0, 0.05, 1, 0.0}},
     .n_param = 1,
     .param = {{"k", "", 0.0, 0.6, 4.0}},
     .tick = tick,

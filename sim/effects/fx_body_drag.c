@@ -9,6 +9,9 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_body_drag = {
     .name = "body_drag",
     .brief = "force against the velocity, with its square",
+    .fly = "straight lines at two speeds, 0.5 m/s and three times that",
+    .n_size = 1,
+    .size = {{0, 1e-4, 1, 0.0}},
     .n_param = 1,
     .param = {{"c", "kg/m", 0.0, 2e-3, 1.0}},
     .load = load,

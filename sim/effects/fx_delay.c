@@ -9,6 +9,10 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_delay = {
     .name = "delay",
     .brief = "commands reach the motors later than the vehicle file has it",
+    .fly = "attitude doublets and throttle steps",
+    .class = FX_TIMING,
+    .n_size = 1,
+    .size = {{0, 4e-3, 1, 5e-3}},
     .n_param = 1,
     .param = {{"add", "s", 0.0, 0.01, 0.2}},
     .tick = tick,

@@ -12,6 +12,10 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_mass = {
     .name = "mass",
     .brief = "the vehicle is heavier, or carries something for a time",
+    .fly = "throttle steps of 20 %",
+    .class = FX_WEIGHT,
+    .n_size = 1,
+    .size = {{0, 1e-4, 0, 0.0}},
     .n_param = 3,
     .param = {{"add", "kg", -50.0, 1.6e-3, 50.0}, {"start", "s", 0.0, 0.0, 1e6}, {"end", "s", 0.0, 1e6, 1e6}},
     .tick = tick,

@@ -9,7 +9,15 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_motor_damage = {
     .name = "motor_damage",
     .brief = "one rotor gives less thrust",
+    .fly = "any flight",
+    .n_size = 1,
+    .size = {{1, 1e-3, 1, 0.0}},
+    .shape_param = 0,
+    .n_shape = 4,
+    .shape = {1.0, 2.0, 3.0, 4.0},
     .n_param = 3,
-    .param = {{"rotor", "", 1.0, 1.0, 4.0}, {"loss", "", 0.0, 0.06, 1.0}, {"start", "s", 0.0, 0.0, 1e6}},
+    .param = {{"rotor", "", 1.0, 1.0, 4.0, .whole = 1},
+              {"loss", "", 0.0, 0.06, 1.0},
+              {"start", "s", 0.0, 0.0, 1e6}},
     .tick = tick,
 };

@@ -10,6 +10,10 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_motor_lag = {
     .name = "motor_lag",
     .brief = "the motors are slower than the vehicle file has them",
+    .fly = "attitude doublets and throttle steps",
+    .class = FX_TIMING,
+    .n_size = 1,
+    .size = {{0, 0.03, 0, 5e-3}},
     .n_param = 1,
     .param = {{"add", "s", -0.5, 0.025, 2.0}},
     .tick = tick,

@@ -11,6 +11,9 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_rotor_drag = {
     .name = "rotor_drag",
     .brief = "force in the rotor plane against the velocity, linear in it and in the rotor speeds",
+    .fly = "sideways faster than 0.5 m/s",
+    .n_size = 1,
+    .size = {{0, 1e-7, 1, 0.0}},
     .n_param = 1,
     .param = {{"k", "kg", 0.0, 1e-6, 1e-4}},
     .load = load,

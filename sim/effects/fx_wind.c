@@ -22,6 +22,9 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_wind = {
     .name = "wind",
     .brief = "a constant force in the world, gusts, and moving air that the drags feel",
+    .fly = "a full yaw turn on the spot",
+    .n_size = 2,
+    .size = {{0, 1e-4, 0, 0.0}, {1, 1e-4, 0, 0.0}},
     .n_param = 8,
     .param = {{"fx", "N", -1.0, 3e-3, 1.0},
               {"fy", "N", -1.0, 0.0, 1.0},

@@ -31,21 +31,20 @@ static void expect(ekf_t *e, double xy_m, double z_m) {
     for (int j = 0; j < EKF_N; j++) e->P[i][j] = i == j ? sd[i] * sd[i] : 0.0;
 }
 
-static ekf_out_t outside(const ekf_t *e) {
-  const d3_t v = {e->s[3], e->s[4], e->s[5]};
-  return (ekf_out_t){.pos_w_m = {e->s[0], e->s[1], e->s[2]},
-                     .vel_w_mps = dq_to_world(e->q, v),
-                     .acc_w_mps2 = d3_sub(dq_to_world(e->q, e->acc), (d3_t){0.0, 0.0, EKF_G_MPS2}),
-                     .q_wb = e->q};
+static void hand_out(ekf_t *e) {
+  e->out.pos_w_m = d3_of(e->s);
+  e->out.vel_w_mps = dq_to_world(e->q, d3_of(e->s + 3));
+  e->out.acc_w_mps2 = d3_sub(dq_to_world(e->q, e->imu.acc_b_mps2), (d3_t){0.0, 0.0, EKF_G_MPS2});
+  e->out.q_wb = e->q;
 }
 
 void ekf_init(ekf_t *e, const ekf_param_t *p, double yaw_rad) {
   *e = (ekf_t){.param = *p, .q_start = {cos(0.5 * yaw_rad), 0.0, 0.0, sin(0.5 * yaw_rad)}};
   e->q = e->q_start;
-  e->acc.z = EKF_G_MPS2;
+  e->imu.acc_b_mps2.z = EKF_G_MPS2;
   ekf_core_rotation(e);
   expect(e, FIRST_POS_XY, FIRST_POS_Z);
-  e->out = outside(e);
+  hand_out(e);
 }
 
 void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb) {
@@ -53,11 +52,11 @@ void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb) {
   const double s[EKF_N] = {pos_w_m.x, pos_w_m.y, pos_w_m.z, v.x, v.y, v.z, 0.0, 0.0, 0.0};
   for (int i = 0; i < EKF_N; i++) e->s[i] = s[i];
   e->q = q_wb;
-  e->acc = dq_to_body(q_wb, (d3_t){0.0, 0.0, EKF_G_MPS2});
+  e->imu.acc_b_mps2 = dq_to_body(q_wb, (d3_t){0.0, 0.0, EKF_G_MPS2});
   e->flying_ms = FLIGHT_MS;
   ekf_core_rotation(e);
   expect(e, 1e-3, 1e-3);
-  e->out = outside(e);
+  hand_out(e);
 }
 
 // The firmware takes the mean over what came since the last prediction; with nothing new, the last mean.
@@ -67,17 +66,16 @@ static void predict_if_due(ekf_t *e) {
   if (e->samples == 0) return;
   const double share = 1.0 / e->samples;
   ekf_core_noise(e);
-  ekf_core_predict(e, d3_scale(share, e->acc_sum), d3_scale(share, e->gyro_sum), 1e-3 * e->samples,
-                   e->flying_ms > 0);
-  e->acc_sum = e->gyro_sum = (d3_t){0.0, 0.0, 0.0};
+  ekf_core_predict(e, d3_scale(share, e->sum.acc_b_mps2), d3_scale(share, e->sum.gyro_b_radps),
+                   1e-3 * e->samples, e->flying_ms > 0);
+  e->sum = (imu_sample_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   e->samples = 0;
 }
 
 static void take(ekf_t *e, const ekf_in_t *in) {
-  e->acc = in->acc_b_mps2;
-  e->gyro = in->gyro_b_radps;
-  e->acc_sum = d3_add(e->acc_sum, e->acc);
-  e->gyro_sum = d3_add(e->gyro_sum, e->gyro);
+  e->imu = in->imu;
+  e->sum.acc_b_mps2 = d3_add(e->sum.acc_b_mps2, in->imu.acc_b_mps2);
+  e->sum.gyro_b_radps = d3_add(e->sum.gyro_b_radps, in->imu.gyro_b_radps);
   e->samples++;
   if (in->range_new && in->range_m < RANGE_MAX_M) ekf_core_range(e, in->range_m);
   if (in->flow_new && fabs(in->flow_x) < COUNTS_MAX && fabs(in->flow_y) < COUNTS_MAX)
@@ -100,8 +98,7 @@ static void start_anew(ekf_t *e) {
   e->resets = before.resets + 1;
 }
 
-ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in) {
-  const ekf_out_t finished = e->out;
+void ekf_update(ekf_t *e, const ekf_in_t *in) {
   if (in->motors)
     e->flying_ms = FLIGHT_MS;
   else if (e->flying_ms > 0)
@@ -111,6 +108,11 @@ ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in) {
   take(e, in);
   ekf_core_finish(e);
   if (!within_bounds(e)) start_anew(e);
-  e->out = outside(e);
+  hand_out(e);
+}
+
+ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in) {
+  const ekf_out_t finished = e->out;
+  ekf_update(e, in);
   return finished;
 }

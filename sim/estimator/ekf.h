@@ -35,7 +35,7 @@
 #ifndef SIM_ESTIMATOR_EKF_H
 #define SIM_ESTIMATOR_EKF_H
 
-#include "plant/d3.h"
+#include "plant/imu.h"
 #include <stdbool.h>
 
 #define EKF_N   9
@@ -54,9 +54,8 @@ typedef struct {
 extern const ekf_param_t ekf_firmware;
 
 typedef struct {
-  d3_t acc_b_mps2; // specific force, filtered as the firmware does
-  d3_t gyro_b_radps;
-  bool motors; // above idle; flight lasts until 2 s after
+  imu_sample_t imu; // specific force and rates, filtered as the firmware does
+  bool motors;      // above idle; flight lasts until 2 s after
   bool range_new;
   double range_m; // downward
   bool flow_new;
@@ -79,8 +78,8 @@ typedef struct {
   _Alignas(16) double P[EKF_N][EKF_ROW]; // variance; the upper triangle
   double R[3][3];
   dq_t q, q_start;
-  d3_t acc_sum, gyro_sum; // of the samples since the last prediction
-  d3_t acc, gyro;         // newest sample
+  imu_sample_t sum; // of the samples since the last prediction
+  imu_sample_t imu; // newest sample
   ekf_out_t out;
   int samples;      // in the sums
   int noise_ms;     // process noise not yet added
@@ -96,7 +95,11 @@ void ekf_init(ekf_t *e, const ekf_param_t *p, double yaw_rad);
 // Flies there already: position, velocity and attitude are known to about 1 mm, 1 cm/s and 0.01 rad.
 void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb);
 
-// One period of 1 ms. Inputs must be finite.
+// One period of 1 ms. Inputs must be finite. What the firmware hands out in this period is e->out before the
+// call.
+void ekf_update(ekf_t *e, const ekf_in_t *in);
+
+// The same, and what is handed out.
 ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in);
 
 #endif

@@ -210,7 +210,8 @@ void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   const double k = span_s * PIXELS_PER_RAD, z = fmax(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
   const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
   const double vx = e->s[VEL], vy = e->s[VEL + 1]; // both from before either correction
-  const double seen_x = k * (vx * up / z - e->gyro.y), seen_y = k * (vy * up / z + e->gyro.x);
+  const double seen_x = k * (vx * up / z - e->imu.gyro_b_radps.y),
+               seen_y = k * (vy * up / z + e->imu.gyro_b_radps.x);
   correct(e, POS + 2, -k * up * vx / (z * z), VEL, k * up / z, PIXELS_PER_COUNT * counts_x - seen_x, sd);
   correct(e, POS + 2, -k * up * vy / (z * z), VEL + 1, k * up / z, PIXELS_PER_COUNT * counts_y - seen_y, sd);
 }

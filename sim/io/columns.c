@@ -2,33 +2,12 @@
 #include "io/columns.h"
 
 #include "io/toml.h"
+#include "io/units.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define PI       3.14159265358979323846
-#define UNIT_MAX 6
-
-typedef enum { TIME, LENGTH, SPEED, ACCELERATION, NUMBER, ANGLE, RATE, MOTOR, FORCE, VOLTAGE, KINDS } kind_t;
-
-typedef struct {
-  const char *name;
-  double si;
-} unit_t;
-
-// The first unit of a kind is ours. Motors: commands of 0..65535, or newton.
-static const unit_t UNITS[KINDS][UNIT_MAX] = {
-    [TIME] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}},
-    [LENGTH] = {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}},
-    [SPEED] = {{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}},
-    [ACCELERATION] = {{"m/s2", 1.0}, {"g", 9.81}, {"mg", 9.81e-3}},
-    [NUMBER] = {{"1", 1.0}},
-    [ANGLE] = {{"rad", 1.0}, {"deg", PI / 180.0}},
-    [RATE] = {{"rad/s", 1.0}, {"deg/s", PI / 180.0}},
-    [MOTOR] = {{"pwm", 1.0}, {"percent", 655.35}, {"share", 65535.0}},
-    [FORCE] = {{"N", 1.0}, {"mN", 1e-3}, {"gram", 9.81e-3}},
-    [VOLTAGE] = {{"V", 1.0}, {"mV", 1e-3}},
-};
+#define PI 3.14159265358979323846
 
 // What no flight and no bench shows is refused.
 static const struct {
@@ -37,72 +16,106 @@ static const struct {
   double min, max;       // SI
   const char *crazyflie; // its name and unit in a Crazyflie's log
   const char *unit;
-} ROWS[SIG_COUNT] = {
-    [SIG_TIME] = {"time", TIME, -1e12, 1e12, "timestamp", "ms"},
-    [SIG_X] = {"x", LENGTH, -100.0, 100.0, "stateEstimate.x", "m"},
-    [SIG_Y] = {"y", LENGTH, -100.0, 100.0, "stateEstimate.y", "m"},
-    [SIG_Z] = {"z", LENGTH, -30.0, 100.0, "stateEstimate.z", "m"},
-    [SIG_VX] = {"vx", SPEED, -30.0, 30.0, "stateEstimate.vx", "m/s"},
-    [SIG_VY] = {"vy", SPEED, -30.0, 30.0, "stateEstimate.vy", "m/s"},
-    [SIG_VZ] = {"vz", SPEED, -30.0, 30.0, "stateEstimate.vz", "m/s"},
-    [SIG_AX] = {"ax", ACCELERATION, -240.0, 240.0, "acc.x", "g"},
-    [SIG_AY] = {"ay", ACCELERATION, -240.0, 240.0, "acc.y", "g"},
-    [SIG_AZ] = {"az", ACCELERATION, -240.0, 240.0, "acc.z", "g"},
-    [SIG_QW] = {"qw", NUMBER, -1.1, 1.1, "stateEstimate.qw", "1"},
-    [SIG_QX] = {"qx", NUMBER, -1.1, 1.1, "stateEstimate.qx", "1"},
-    [SIG_QY] = {"qy", NUMBER, -1.1, 1.1, "stateEstimate.qy", "1"},
-    [SIG_QZ] = {"qz", NUMBER, -1.1, 1.1, "stateEstimate.qz", "1"},
-    [SIG_ROLL] = {"roll", ANGLE, -2.0 * PI, 2.0 * PI, "stateEstimate.roll", "deg"},
-    [SIG_PITCH] = {"pitch", ANGLE, -2.0 * PI, 2.0 * PI, "stateEstimate.pitch", "deg"},
-    [SIG_YAW] = {"yaw", ANGLE, -1e3, 1e3, "stateEstimate.yaw", "deg"},
-    [SIG_GX] = {"gx", RATE, -70.0, 70.0, "gyro.x", "deg/s"},
-    [SIG_GY] = {"gy", RATE, -70.0, 70.0, "gyro.y", "deg/s"},
-    [SIG_GZ] = {"gz", RATE, -70.0, 70.0, "gyro.z", "deg/s"},
-    [SIG_M1] = {"m1", MOTOR, 0.0, 65536.0, "motor.m1", "pwm"},
-    [SIG_M2] = {"m2", MOTOR, 0.0, 65536.0, "motor.m2", "pwm"},
-    [SIG_M3] = {"m3", MOTOR, 0.0, 65536.0, "motor.m3", "pwm"},
-    [SIG_M4] = {"m4", MOTOR, 0.0, 65536.0, "motor.m4", "pwm"},
-    [SIG_THRUST] = {"thrust", FORCE, -200.0, 200.0, "indi.thrust", "N"},
-    [SIG_VBAT] = {"vbat", VOLTAGE, 1.0, 60.0, "pm.vbat", "V"},
-    [SIG_RANGE] = {"range", LENGTH, 0.0, 40.0, "range.up", "mm"},
+} ROWS[SIG_COLUMNS] = {
+    [SIG_TIME] = {"time", KIND_TIME, -1e12, 1e12, "timestamp", "ms"},
+    [SIG_X] = {"x", KIND_LENGTH, -100.0, 100.0, "stateEstimate.x", "m"},
+    [SIG_Y] = {"y", KIND_LENGTH, -100.0, 100.0, "stateEstimate.y", "m"},
+    [SIG_Z] = {"z", KIND_LENGTH, -30.0, 100.0, "stateEstimate.z", "m"},
+    [SIG_VX] = {"vx", KIND_SPEED, -30.0, 30.0, "stateEstimate.vx", "m/s"},
+    [SIG_VY] = {"vy", KIND_SPEED, -30.0, 30.0, "stateEstimate.vy", "m/s"},
+    [SIG_VZ] = {"vz", KIND_SPEED, -30.0, 30.0, "stateEstimate.vz", "m/s"},
+    [SIG_AX] = {"ax", KIND_ACCELERATION, -240.0, 240.0, "acc.x", "g"},
+    [SIG_AY] = {"ay", KIND_ACCELERATION, -240.0, 240.0, "acc.y", "g"},
+    [SIG_AZ] = {"az", KIND_ACCELERATION, -240.0, 240.0, "acc.z", "g"},
+    [SIG_QW] = {"qw", KIND_NUMBER, -1.1, 1.1, "stateEstimate.qw", "1"},
+    [SIG_QX] = {"qx", KIND_NUMBER, -1.1, 1.1, "stateEstimate.qx", "1"},
+    [SIG_QY] = {"qy", KIND_NUMBER, -1.1, 1.1, "stateEstimate.qy", "1"},
+    [SIG_QZ] = {"qz", KIND_NUMBER, -1.1, 1.1, "stateEstimate.qz", "1"},
+    [SIG_ROLL] = {"roll", KIND_ANGLE, -2.0 * PI, 2.0 * PI, "stateEstimate.roll", "deg"},
+    [SIG_PITCH] = {"pitch", KIND_ANGLE, -2.0 * PI, 2.0 * PI, "stateEstimate.pitch", "deg"},
+    [SIG_YAW] = {"yaw", KIND_ANGLE, -1e3, 1e3, "stateEstimate.yaw", "deg"},
+    [SIG_GX] = {"gx", KIND_RATE, -70.0, 70.0, "gyro.x", "deg/s"},
+    [SIG_GY] = {"gy", KIND_RATE, -70.0, 70.0, "gyro.y", "deg/s"},
+    [SIG_GZ] = {"gz", KIND_RATE, -70.0, 70.0, "gyro.z", "deg/s"},
+    [SIG_M1] = {"m1", KIND_MOTOR, 0.0, 65536.0, "motor.m1", "pwm"},
+    [SIG_M2] = {"m2", KIND_MOTOR, 0.0, 65536.0, "motor.m2", "pwm"},
+    [SIG_M3] = {"m3", KIND_MOTOR, 0.0, 65536.0, "motor.m3", "pwm"},
+    [SIG_M4] = {"m4", KIND_MOTOR, 0.0, 65536.0, "motor.m4", "pwm"},
+    [SIG_THRUST] = {"thrust", KIND_FORCE, -200.0, 200.0, "indi.thrust", "N"},
+    [SIG_VBAT] = {"vbat", KIND_VOLTAGE, 1.0, 60.0, "pm.vbat", "V"},
+    [SIG_RANGE] = {"range", KIND_LENGTH, 0.0, 40.0, "range.up", "mm"},
+    [SIG_RANGE_DOWN] = {"range_down", KIND_LENGTH, 0.0, 40.0, "range.zrange", "mm"},
+    [SIG_TX] = {"tx", KIND_TORQUE, -50.0, 50.0, "", "Nm"},
+    [SIG_TY] = {"ty", KIND_TORQUE, -50.0, 50.0, "", "Nm"},
+    [SIG_TZ] = {"tz", KIND_TORQUE, -50.0, 50.0, "", "Nm"},
+    [SIG_W1] = {"w1", KIND_SPIN, 0.0, 1e4, "rpm.m1", "rpm"},
+    [SIG_W2] = {"w2", KIND_SPIN, 0.0, 1e4, "rpm.m2", "rpm"},
+    [SIG_W3] = {"w3", KIND_SPIN, 0.0, 1e4, "rpm.m3", "rpm"},
+    [SIG_W4] = {"w4", KIND_SPIN, 0.0, 1e4, "rpm.m4", "rpm"},
 };
+
+// What a motor command may be instead, and its bounds then.
+static const struct {
+  kind_t kind;
+  double min, max;
+} OTHER[] = {{KIND_SPIN, 0.0, 1e4}, {KIND_FORCE, -200.0, 200.0}, {KIND_MOTOR, -131072.0, 131072.0}};
+#define OTHERS ((int)(sizeof OTHER / sizeof *OTHER))
 
 const char *columns_name(signal_id_t signal) {
   return ROWS[signal].name;
 }
-const char *columns_si(signal_id_t signal) {
-  return UNITS[ROWS[signal].kind][0].name;
+// m1..m4 may also be newton or speeds, thrust and torques also pwm.
+static bool may_be(signal_id_t signal, kind_t kind) {
+  if (kind == ROWS[signal].kind) return true;
+  if (signal >= SIG_M1 && signal <= SIG_M4) return kind == KIND_FORCE || kind == KIND_SPIN;
+  return kind == KIND_MOTOR && (signal == SIG_THRUST || (signal >= SIG_TX && signal <= SIG_TZ));
 }
 
-void columns_bounds(signal_id_t signal, double *min, double *max) {
+// The kind of the unit that the log has.
+static kind_t kind_of(const columns_t *c, signal_id_t signal) {
+  for (int i = 0; i < OTHERS; i++)
+    if (may_be(signal, OTHER[i].kind) && unit_find(OTHER[i].kind, c->of[signal].unit)) return OTHER[i].kind;
+  return ROWS[signal].kind;
+}
+
+const char *columns_si(const columns_t *c, signal_id_t signal) {
+  return unit_at(kind_of(c, signal), 0)->name;
+}
+
+void columns_bounds(const columns_t *c, signal_id_t signal, double *min, double *max) {
+  const kind_t kind = kind_of(c, signal);
   *min = ROWS[signal].min;
   *max = ROWS[signal].max;
-}
-
-static const unit_t *find_unit(kind_t kind, const char *name) {
-  for (int i = 0; i < UNIT_MAX && UNITS[kind][i].name; i++)
-    if (strcmp(UNITS[kind][i].name, name) == 0) return &UNITS[kind][i];
-  return NULL;
-}
-
-const char *columns_unit_within(const columns_t *c, signal_id_t signal, double value, double min, double max,
-                                double *factor) {
-  const kind_t kind = ROWS[signal].kind;
-  const unit_t *now = find_unit(kind, c->of[signal].unit);
-  for (int i = 0; now && i < UNIT_MAX && UNITS[kind][i].name; i++) {
-    *factor = UNITS[kind][i].si / now->si;
-    if (value * *factor >= min && value * *factor <= max) return UNITS[kind][i].name;
+  for (int i = 0; i < OTHERS; i++) {
+    if (kind == ROWS[signal].kind || kind != OTHER[i].kind) continue;
+    *min = OTHER[i].min;
+    *max = OTHER[i].max;
   }
-  return NULL;
+}
+
+const char *columns_hint(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                         char text[COLUMNS_HINT]) {
+  const kind_t kind = kind_of(c, signal);
+  const unit_t *const now = unit_find(kind, c->of[signal].unit), *unit;
+  int n = 0;
+  text[0] = '\0';
+  for (int i = 0; now && (unit = unit_at(kind, i)) != NULL; i++) {
+    const double factor = unit->si / now->si;
+    if (!(value * factor >= min && value * factor <= max)) continue;
+    const size_t used = strlen(text);
+    snprintf(text + used, COLUMNS_HINT - used, "%s %s would fit (factor %.4g)", n++ ? ", or" : "; the unit",
+             unit->name, factor);
+  }
+  return text;
 }
 
 columns_t columns_crazyflie(void) {
   columns_t c = {.acc = ACC_BODY, .rest_height_m = (double)NAN};
-  for (int i = 0; i < SIG_COUNT; i++) {
+  for (int i = 0; i < SIG_COLUMNS; i++) {
     column_t *const to = &c.of[i];
     snprintf(to->column, sizeof to->column, "%s", ROWS[i].crazyflie);
     snprintf(to->unit, sizeof to->unit, "%s", ROWS[i].unit);
-    to->factor = find_unit(ROWS[i].kind, ROWS[i].unit)->si;
+    to->factor = unit_find(ROWS[i].kind, ROWS[i].unit)->si;
     to->optional = i != SIG_TIME;
   }
   // The firmware's attitude.pitch is nose up positive; its quaternion is right-handed.
@@ -112,20 +125,20 @@ columns_t columns_crazyflie(void) {
 
 static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why) {
   column_t *const to = &c->of[signal];
-  const kind_t kind = ROWS[signal].kind;
   TRY(toml_string(t, "unit", to->unit, sizeof to->unit, why));
-  const unit_t *unit = find_unit(kind, to->unit);
-  if (!unit && kind == MOTOR && (unit = find_unit(FORCE, to->unit))) c->motors_N = true;
-  if (unit) {
-    to->factor = unit->si;
-    return ST_OK;
-  }
-  char list[80] = "";
-  for (int i = 0; i < 2 * UNIT_MAX; i++) {
-    const unit_t *u = i < UNIT_MAX ? &UNITS[kind][i] : &UNITS[FORCE][i - UNIT_MAX];
-    if (!u->name || (i >= UNIT_MAX && kind != MOTOR)) continue;
-    const size_t used = strlen(list);
-    snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", u->name);
+  char list[120] = "";
+  for (int kind = 0; kind < KIND_COUNT; kind++) {
+    if (!may_be(signal, (kind_t)kind)) continue;
+    const unit_t *const unit = unit_find((kind_t)kind, to->unit);
+    if (unit) {
+      to->factor = unit->si;
+      return ST_OK;
+    }
+    const unit_t *other;
+    for (int i = 0; (other = unit_at((kind_t)kind, i)) != NULL; i++) {
+      const size_t used = strlen(list);
+      snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", other->name);
+    }
   }
   return toml_refuse(t, "unit", why, "unknown unit `%s` of %s; allowed: %s", to->unit, ROWS[signal].name,
                      list);
@@ -161,16 +174,37 @@ static status_t read_frame(toml_t root, acc_frame_t *frame, why_t *why) {
                      "unknown frame `%s`; allowed: body, world, world_with_gravity", name);
 }
 
-static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
-  const char *keys[SIG_COUNT + 1] = {NULL};
-  for (int i = 0; i < SIG_COUNT; i++) keys[i] = ROWS[i].name;
-  TRY(toml_only(t, keys, why));
-  for (int i = 0; i < SIG_COUNT; i++)
-    if (i == SIG_TIME || toml_has(t, ROWS[i].name)) TRY(read_column(t, (signal_id_t)i, c, why));
-  for (int i = SIG_M1; c->motors_N && i <= SIG_M4; i++)
-    if (c->of[i].column[0] && find_unit(MOTOR, c->of[i].unit))
-      return toml_refuse(t, ROWS[i].name, why, "a command beside motors in newton; allowed: one of both");
+// The motors' commands are all of one kind.
+static status_t read_kinds(toml_t t, columns_t *c, why_t *why) {
+  static const struct {
+    signal_id_t signal[4];
+    kind_t kind[4]; // of each, if the first is of its own kind
+  } group[] = {{{SIG_M1, SIG_M2, SIG_M3, SIG_M4}, {KIND_MOTOR, KIND_MOTOR, KIND_MOTOR, KIND_MOTOR}},
+               {{SIG_THRUST, SIG_TX, SIG_TY, SIG_TZ}, {KIND_FORCE, KIND_TORQUE, KIND_TORQUE, KIND_TORQUE}}};
+  for (int g = 0; g < 2; g++) {
+    kind_t first = KIND_COUNT;
+    for (int i = 0; i < 4; i++) {
+      const signal_id_t s = group[g].signal[i];
+      if (!c->of[s].column[0]) continue;
+      const kind_t own = kind_of(c, s), kind = own == group[g].kind[i] ? group[g].kind[0] : own;
+      if (first == KIND_COUNT) first = kind;
+      if (kind != first)
+        return toml_refuse(t, ROWS[s].name, why, "a command in %s beside one in %s; allowed: all of one kind",
+                           unit_at(own, 0)->name, unit_at(first, 0)->name);
+    }
+    if (g == 0) c->motors = first == KIND_SPIN ? MOTORS_RADPS : first == KIND_FORCE ? MOTORS_N : MOTORS_PWM;
+    if (g == 1) c->mixed_pwm = first == KIND_MOTOR;
+  }
   return ST_OK;
+}
+
+static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
+  const char *keys[SIG_COLUMNS + 1] = {NULL};
+  for (int i = 0; i < SIG_COLUMNS; i++) keys[i] = ROWS[i].name;
+  TRY(toml_only(t, keys, why));
+  for (int i = 0; i < SIG_COLUMNS; i++)
+    if (i == SIG_TIME || toml_has(t, ROWS[i].name)) TRY(read_column(t, (signal_id_t)i, c, why));
+  return read_kinds(t, c, why);
 }
 
 static status_t read_root(toml_t root, columns_t *c, why_t *why) {

@@ -12,13 +12,17 @@
 //
 // What we read is  scale x cell in SI + offset  (offset in SI). Signals and units: columns.c. Attitude is a
 // quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll, pitch,
-// yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left). Motors
-// are m1..m4 as commands (pwm, percent, share) or newton each, or `thrust`, newton of all together.
+// yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
+//
+// Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
+// all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
+// them. w1..w4 are measured rotor speeds. range looks up, range_down down.
 #ifndef SIM_IO_COLUMNS_H
 #define SIM_IO_COLUMNS_H
 
 #include "error.h"
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef enum {
   SIG_TIME,
@@ -48,10 +52,28 @@ typedef enum {
   SIG_THRUST,
   SIG_VBAT,
   SIG_RANGE,
+  SIG_RANGE_DOWN,
+  SIG_TX,
+  SIG_TY,
+  SIG_TZ,
+  SIG_W1,
+  SIG_W2,
+  SIG_W3,
+  SIG_W4,
+  SIG_F1, // from here on: no columns of a log but made of them; newton of each motor, as commanded
+  SIG_F2,
+  SIG_F3,
+  SIG_F4,
   SIG_COUNT
 } signal_id_t;
 
+#define SIG_COLUMNS SIG_F1 // so many can be columns
+
+typedef uint64_t signals_t;
+#define SIGNAL_BIT(signal) ((signals_t)1 << (signal))
+
 typedef enum { ACC_BODY, ACC_WORLD, ACC_WORLD_WITH_GRAVITY } acc_frame_t;
+typedef enum { MOTORS_PWM, MOTORS_RADPS, MOTORS_N } motors_t;
 
 #define COLUMN_NAME_MAX 64
 
@@ -65,7 +87,8 @@ typedef struct {
 
 typedef struct {
   acc_frame_t acc;
-  bool motors_N;        // m1..m4 are newton, not commands of 0..65535
+  motors_t motors;      // what m1..m4 are
+  bool mixed_pwm;       // thrust, tx, ty and tz are pwm
   double rest_height_m; // NaN: not said
   column_t of[SIG_COUNT];
 } columns_t;
@@ -79,14 +102,15 @@ MUST_CHECK status_t columns_read(const char *path, columns_t *c, why_t *why);
 
 // The signal's name in columns files, and the SI unit of what is read.
 const char *columns_name(signal_id_t signal);
-const char *columns_si(signal_id_t signal);
+const char *columns_si(const columns_t *c, signal_id_t signal);
 
 // Bounds of what is plausible, in SI.
-void columns_bounds(signal_id_t signal, double *min, double *max);
+void columns_bounds(const columns_t *c, signal_id_t signal, double *min, double *max);
 
-// The unit in which a value (SI, as read) would lie in min..max, and the factor to it; a null pointer if none
-// is.
-const char *columns_unit_within(const columns_t *c, signal_id_t signal, double value, double min, double max,
-                                double *factor);
+// The units in which a value (SI, as read) would lie in min..max, with the factors to them, as the end of a
+// message: "; the unit mm would fit (factor 0.001)". Empty if there is none. Returns text.
+#define COLUMNS_HINT 120
+const char *columns_hint(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                         char text[COLUMNS_HINT]);
 
 #endif

@@ -30,6 +30,7 @@ struct csv_file {
   row_t *into;   // where the parser puts cells
   bool ended;    // the parser has come to the end of a row
   bool overflow; // a row over several lines is too long
+  bool forgive, cut_off;
 };
 
 status_t csv_refuse(const csv_file_t *file, int column, why_t *why, const char *format, ...) {
@@ -45,6 +46,22 @@ status_t csv_refuse(const csv_file_t *file, int column, why_t *why, const char *
 
 const char *csv_path(const csv_file_t *file) {
   return file->path;
+}
+
+long csv_line(const csv_file_t *file) {
+  return file->line_number;
+}
+
+const char *csv_name(const csv_file_t *file, int column) {
+  return file->name.cell[column];
+}
+
+void csv_forgive_cut(csv_file_t *file) {
+  file->forgive = true;
+}
+
+bool csv_cut_off(const csv_file_t *file) {
+  return file->cut_off;
 }
 
 static int is_blank(unsigned char c) {
@@ -135,8 +152,6 @@ static status_t check_names(const csv_file_t *file, why_t *why) {
 }
 
 static status_t start(csv_file_t *file, why_t *why) {
-  file->stream = fopen(file->path, "rb");
-  if (!file->stream) return error_set(why, "%s: cannot be opened: %s", file->path, strerror(errno));
   // Opening a folder succeeds; reading it does not.
   errno = 0;
   const int first = getc_unlocked(file->stream);
@@ -151,8 +166,19 @@ static status_t start(csv_file_t *file, why_t *why) {
 
 status_t csv_open(csv_file_t **file, const char *path, why_t *why) {
   *file = NULL;
+  FILE *const stream = fopen(path, "rb");
+  if (!stream) return error_set(why, "%s: cannot be opened: %s", path, strerror(errno));
+  return csv_open_stream(file, stream, path, why);
+}
+
+status_t csv_open_stream(csv_file_t **file, FILE *stream, const char *path, why_t *why) {
+  *file = NULL;
   csv_file_t *const fresh = calloc(1, sizeof *fresh);
-  if (!fresh) return error_failed(why, "%s: out of memory", path);
+  if (!fresh) {
+    fclose(stream);
+    return error_failed(why, "%s: out of memory", path);
+  }
+  fresh->stream = stream;
   snprintf(fresh->path, sizeof fresh->path, "%s", path);
   const status_t status = strlen(path) < sizeof fresh->path
                               ? start(fresh, why)
@@ -183,7 +209,8 @@ status_t csv_next(csv_file_t *file, bool *more, why_t *why) {
   const int got = file->row.count, want = file->name.count;
   if (got == 0 && file->rows == 0)
     return error_set(why, "%s:1: no row under the names; allowed: one or more", file->path);
-  if (got == 0) return ST_OK;
+  file->cut_off = file->forgive && got > 0 && got < want && feof(file->stream);
+  if (got == 0 || file->cut_off) return ST_OK;
   if (got < want)
     return csv_refuse(file, got, why, "missing: the row has %d cells, the first row names %d (cut off here?)",
                       got, want);
@@ -196,6 +223,14 @@ status_t csv_next(csv_file_t *file, bool *more, why_t *why) {
   return ST_OK;
 }
 
+static status_t no_number(const csv_file_t *file, int column, csv_gap_t gap, const char *cell, why_t *why) {
+  char shown[NUMBER_SHOWN];
+  if (strchr(cell, ','))
+    return csv_refuse(file, column, why, "decimal comma in `%s`; allowed: `.`", number_shown(cell, shown));
+  return csv_refuse(file, column, why, "not a number: `%s`; allowed: a number%s", number_shown(cell, shown),
+                    gap == CSV_GAP_NAN ? ", or nan or nothing for a gap" : "");
+}
+
 status_t csv_number(const csv_file_t *file, int column, csv_gap_t gap, double *value, why_t *why) {
   const char *const cell = file->row.cell[column];
   char shown[NUMBER_SHOWN];
@@ -203,11 +238,9 @@ status_t csv_number(const csv_file_t *file, int column, csv_gap_t gap, double *v
   if (cell[0] == '\0' || strcasecmp(cell + (cell[0] == '-'), "nan") == 0) {
     if (gap == CSV_GAP_REFUSED) return csv_refuse(file, column, why, "a gap; allowed: a number");
   } else if (!number_parse(cell, &number)) {
-    if (strchr(cell, ','))
-      return csv_refuse(file, column, why, "decimal comma in `%s`; allowed: `.`", number_shown(cell, shown));
-    return csv_refuse(file, column, why, "not a number: `%s`; allowed: a number%s", number_shown(cell, shown),
-                      gap == CSV_GAP_NAN ? ", or nan or nothing for a gap" : "");
-  } else if (!isfinite(number)) {
+    if (gap != CSV_GAP_MARKED || strchr(cell, ',')) return no_number(file, column, gap, cell, why);
+    number = HUGE_VAL;
+  } else if (!isfinite(number) && gap != CSV_GAP_MARKED) {
     return csv_refuse(file, column, why, "not finite: `%s`; allowed: a number", number_shown(cell, shown));
   }
   *value = number;

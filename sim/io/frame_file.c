@@ -104,6 +104,7 @@ status_t frame_read(toml_t root, model_t *m, why_t *why) {
     TRY(read_battery(t, &battery, why));
   }
   m->frame = frame;
+  m->frame_told = toml_has(root, "body") && toml_has(root, "rotors");
   m->battery = battery;
   return ST_OK;
 }

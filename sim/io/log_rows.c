@@ -1,7 +1,6 @@
 // log_rows.c - the rows of a flight log in SI and our frames.
 #include "io/log_rows.h"
 
-#include "plant/thrust_map.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,21 +9,22 @@
 #define GAP            ((double)NAN)
 #define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 
-static const unsigned QUATERNION = BITS(SIG_QW, SIG_QZ), MOTORS = BITS(SIG_M1, SIG_M4);
-static const unsigned TILT = SIGNAL_BIT(SIG_ROLL) | SIGNAL_BIT(SIG_PITCH);
+static const signals_t QUATERNION = BITS(SIG_QW, SIG_QZ);
+static const signals_t TILT = SIGNAL_BIT(SIG_ROLL) | SIGNAL_BIT(SIG_PITCH);
 
-static bool has(const log_rows_t *r, unsigned bits) {
+static bool has(const log_rows_t *r, signals_t bits) {
   return (r->has & bits) == bits;
 }
 
 static status_t bind(log_rows_t *r, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     const column_t *column = &r->columns.of[i];
-    r->at[i] = column->column[0] ? csv_find(r->csv, column->column) : -1;
+    r->at[i] = column->column[0] ? table_find(&r->table, column->column) : -1;
     if (r->at[i] >= 0) r->has |= SIGNAL_BIT(i);
     if (column->column[0] && r->at[i] < 0 && !column->optional)
-      return csv_refuse(r->csv, -1, why, "column %s: missing; it is the signal `%s` of this kind of log",
-                        column->column, columns_name((signal_id_t)i));
+      return table_refuse(&r->table, 0, -1, why,
+                          "column %s: missing; it is the signal `%s` of this kind of log", column->column,
+                          columns_name((signal_id_t)i));
   }
   return ST_OK;
 }
@@ -33,37 +33,31 @@ static status_t bind(log_rows_t *r, why_t *why) {
 static status_t derive(log_rows_t *r, why_t *why) {
   if (has(r, TILT)) r->has |= QUATERNION;
   if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~BITS(SIG_AX, SIG_AZ);
-  if (has(r, SIGNAL_BIT(SIG_THRUST)) || !has(r, MOTORS)) return ST_OK;
-  r->has |= SIGNAL_BIT(SIG_THRUST);
-  if (r->columns.motors_N) return ST_OK;
-  if (r->vehicle.map.kind == THRUST_MAP_NONE)
-    return csv_refuse(r->csv, r->at[SIG_M1], why,
-                      "a motor command, but vehicle %s has no [thrust_map]; choose one that has (--vehicle)",
-                      r->vehicle.name);
-  if (!has(r, SIGNAL_BIT(SIG_VBAT)))
-    return csv_refuse(r->csv, -1, why, "column %s: missing; the thrust map needs the battery's voltage",
-                      r->columns.of[SIG_VBAT].column[0] ? r->columns.of[SIG_VBAT].column : "for vbat");
-  return ST_OK;
+  const char *const lacks = log_motors_init(&r->motors, &r->columns, &r->vehicle, &r->has);
+  if (lacks) snprintf(r->lacks, sizeof r->lacks, "%s", lacks);
+  if (!lacks || r->care == LOG_MEND) return ST_OK;
+  return table_refuse(&r->table, 0, strncmp(lacks, "column", 6) == 0 ? -1 : r->at[SIG_M1], why, "%s", lacks);
 }
 
-static status_t check_need(const log_rows_t *r, unsigned need, why_t *why) {
+static status_t check_need(const log_rows_t *r, signals_t need, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     if (!(need & SIGNAL_BIT(i)) || has(r, SIGNAL_BIT(i))) continue;
     const char *other = i == SIG_THRUST              ? " (or m1..m4)"
                         : i >= SIG_QW && i <= SIG_QZ ? " (or roll and pitch)"
                                                      : "";
     const char *name = r->columns.of[i].column;
-    return csv_refuse(r->csv, -1, why,
-                      "column %s: missing; needed: the signal `%s`%s, named by --columns FILE",
-                      name[0] ? name : "?", columns_name((signal_id_t)i), other);
+    return table_refuse(&r->table, 0, -1, why,
+                        "column %s: missing; needed: the signal `%s`%s, named by --columns FILE",
+                        name[0] ? name : "?", columns_name((signal_id_t)i), other);
   }
   return ST_OK;
 }
 
 status_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns, const model_t *vehicle,
-                       unsigned need, why_t *why) {
-  *r = (log_rows_t){.columns = *columns, .vehicle = *vehicle, .vbat_V = GAP};
-  TRY(csv_open(&r->csv, path, why));
+                       log_care_t care, signals_t need, why_t *why) {
+  *r = (log_rows_t){.columns = *columns, .vehicle = *vehicle, .care = care, .vbat_V = GAP};
+  TRY(table_open(&r->table, path, why));
+  if (care == LOG_MEND && r->table.csv) csv_forgive_cut(r->table.csv);
   status_t status = bind(r, why);
   if (status == ST_OK) status = derive(r, why);
   if (status == ST_OK) status = check_need(r, need, why);
@@ -72,31 +66,43 @@ status_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns
 }
 
 void log_rows_close(log_rows_t *r) {
-  csv_close(r->csv);
-  r->csv = NULL;
+  table_close(&r->table);
 }
 
 static status_t implausible(const log_rows_t *r, signal_id_t i, double value, why_t *why) {
-  double min, max, factor;
-  columns_bounds(i, &min, &max);
-  char hint[64] = "";
-  const char *unit = columns_unit_within(&r->columns, i, value, min, max, &factor);
-  if (unit) snprintf(hint, sizeof hint, "; the unit %s would fit (factor %g)", unit, factor);
-  return csv_refuse(r->csv, r->at[i], why, "%g %s is not plausible; allowed: %g to %g %s%s", value,
-                    columns_si(i), min, max, columns_si(i), hint);
+  double min, max;
+  char hint[COLUMNS_HINT];
+  columns_bounds(&r->columns, i, &min, &max);
+  return table_refuse(&r->table, 0, r->at[i], why, "%g %s is not plausible; allowed: %g to %g %s%s", value,
+                      columns_si(&r->columns, i), min, max, columns_si(&r->columns, i),
+                      columns_hint(&r->columns, i, value, min, max, hint));
 }
 
-static status_t read_signals(const log_rows_t *r, log_row_t *row, why_t *why) {
+static status_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
+  const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : r->care == LOG_MEND ? CSV_GAP_MARKED : CSV_GAP_NAN;
+  double min, max;
+  TRY(table_number(&r->table, r->at[i], gap, value, why));
+  if (isinf(*value)) {
+    if (r->bad++ == 0) {
+      r->bad_line = table_line(&r->table);
+      r->bad_column = r->at[i];
+    }
+    *value = GAP;
+    return ST_OK;
+  }
+  if (isnan(*value)) {
+    r->missing++;
+    return ST_OK;
+  }
+  *value = r->columns.of[i].factor * *value + r->columns.of[i].offset;
+  columns_bounds(&r->columns, i, &min, &max);
+  return *value < min || *value > max ? implausible(r, i, *value, why) : ST_OK;
+}
+
+static status_t read_signals(log_rows_t *r, log_row_t *row, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     row->v[i] = GAP;
-    if (r->at[i] < 0) continue;
-    double cell, min, max;
-    const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : CSV_GAP_NAN;
-    TRY(csv_number(r->csv, r->at[i], gap, &cell, why));
-    const double value = r->columns.of[i].factor * cell + r->columns.of[i].offset;
-    columns_bounds((signal_id_t)i, &min, &max);
-    if (value < min || value > max) return implausible(r, (signal_id_t)i, value, why);
-    row->v[i] = value;
+    if (r->at[i] >= 0) TRY(read_cell(r, (signal_id_t)i, &row->v[i], why));
   }
   return ST_OK;
 }
@@ -120,8 +126,8 @@ static status_t read_attitude(const log_rows_t *r, log_row_t *row, why_t *why) {
     quaternion_from_angles(row->v);
   const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (norm < 0.9 || norm > 1.1)
-    return csv_refuse(r->csv, r->at[SIG_QW], why, "the quaternion's length is %.3g; allowed: 0.9 to 1.1",
-                      norm);
+    return table_refuse(&r->table, 0, r->at[SIG_QW], why,
+                        "the quaternion's length is %.3g; allowed: 0.9 to 1.1", norm);
   for (int i = 0; i < 4; i++) same += q[i] * r->last.v[SIG_QW + i];
   for (int i = 0; i < 4; i++) q[i] *= (r->any && same < 0.0 ? -1.0 : 1.0) / norm;
   return ST_OK;
@@ -140,40 +146,30 @@ static void acceleration_to_body(const log_rows_t *r, double *v) {
   a[2] += 2.0 * (x * t[1] - y * t[0]);
 }
 
-// The map's lower bound must not hide a gap.
-static double motor_N(const log_rows_t *r, double pwm, double vbat_V) {
-  return isnan(pwm) || isnan(vbat_V) ? GAP : thrust_map_N(&r->vehicle.map, pwm, vbat_V);
+static status_t check_time(const log_rows_t *r, double now_s, why_t *why) {
+  const double before_s = r->last.v[SIG_TIME];
+  if (!r->any || now_s > before_s || (r->care == LOG_MEND && now_s >= before_s)) return ST_OK;
+  return table_refuse(&r->table, 0, r->at[SIG_TIME], why,
+                      "%.9g s after %.9g s; allowed: time that increases from row to row", now_s, before_s);
 }
 
-static void read_thrust(const log_rows_t *r, log_row_t *row) {
-  double *const v = row->v;
-  const model_t *m = &r->vehicle;
-  row->at_limit = false;
-  if (r->at[SIG_THRUST] < 0 && has(r, MOTORS)) {
-    v[SIG_THRUST] = 0.0;
-    for (int i = SIG_M1; i <= SIG_M4; i++) {
-      v[SIG_THRUST] += r->columns.motors_N ? v[i] : motor_N(r, v[i], v[SIG_VBAT]);
-      // A command of zero is no limit that hides anything: what it gives is known.
-      if (!r->columns.motors_N && v[i] >= 65535.0) row->at_limit = true;
-    }
-  }
-  if (r->at[SIG_THRUST] >= 0 && v[SIG_THRUST] >= m->thrust_max_N) row->at_limit = true;
+static status_t at_end(const log_rows_t *r, why_t *why) {
+  char damage[480];
+  if (r->care == LOG_STRICT && table_damage(&r->table, damage, sizeof damage))
+    return error_set(why, "%s", damage);
+  return ST_OK;
 }
 
 status_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
-  TRY(csv_next(r->csv, more, why));
-  if (!*more) return ST_OK;
+  TRY(table_next(&r->table, more, why));
+  if (!*more) return at_end(r, why);
   TRY(read_signals(r, row, why));
-  const double before_s = r->last.v[SIG_TIME];
-  if (r->any && !(row->v[SIG_TIME] > before_s))
-    return csv_refuse(r->csv, r->at[SIG_TIME], why,
-                      "%.9g s after %.9g s; allowed: time that increases from row to row", row->v[SIG_TIME],
-                      before_s);
+  TRY(check_time(r, row->v[SIG_TIME], why));
   if (isnan(row->v[SIG_VBAT])) row->v[SIG_VBAT] = r->vbat_V;
   r->vbat_V = row->v[SIG_VBAT];
   TRY(read_attitude(r, row, why));
   acceleration_to_body(r, row->v);
-  read_thrust(r, row);
+  row->at_limit = log_motors_fill(&r->motors, &r->columns, &r->vehicle, row->v);
   // A gap in the attitude does not break the chain of signs.
   if (isnan(row->v[SIG_QW]))
     for (int i = SIG_TIME; i < SIG_QW; i++) r->last.v[i] = row->v[i];

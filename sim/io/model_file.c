@@ -14,7 +14,10 @@ static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
     const char *name;
     thrust_map_kind_t kind;
     int n;
-  } kinds[] = {{"stand", THRUST_MAP_STAND, 5}, {"volt_cubic", THRUST_MAP_VOLT_CUBIC, 4}};
+  } kinds[] = {{"stand", THRUST_MAP_STAND, 5},
+               {"volt_cubic", THRUST_MAP_VOLT_CUBIC, 4},
+               {"pwm_cubic", THRUST_MAP_PWM_CUBIC, 4},
+               {"speed", THRUST_MAP_SPEED, 3}};
   char name[32];
   TRY(toml_only(t, keys, why));
   TRY(toml_string(t, "kind", name, sizeof name, why));
@@ -26,7 +29,7 @@ static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
     map->kind = kinds[i].kind;
     return ST_OK;
   }
-  return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stand, volt_cubic", name);
+  return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stand, volt_cubic, pwm_cubic, speed", name);
 }
 
 // `file` from the folder of the vehicle file.

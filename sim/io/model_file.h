@@ -3,7 +3,9 @@
 //   name = "..."            and the numbers mass_kg, rotor_radius_m, motor_tau_s, thrust_min_N, thrust_max_N
 //   ceiling_m = 0.5         left out: no ceiling
 //   [thrust_map]            left out: commands are newton
-//   kind = "stand"          or "volt_cubic" (plant/thrust_map.h); c = [...] five or four numbers
+//   kind = "stand"          five numbers c = [...]; or "volt_cubic", "pwm_cubic" (four), "speed" (three; k
+//   w^2
+//                           is c = [0, 0, k]): see plant/thrust_map.h
 //   [body] [rotors] [battery]   see io/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
 //   battery
 //   [[effect]]              any number of them

@@ -1,9 +1,10 @@
 // air_garage.h - the peer: the air garage's thrust division (XinLong-Li/cf-frimware-2022-12) around the stock
 // PID.
 //
-//   ceiling ratio  1/2 + 1/2 sqrt(1 + (R/d)^2/8)      d: position to ceiling      0.1 R 2.337, 0.25 R 1.37,
-//   0.5 R 1.11 ground ratio   1/(1 - (R/(4 h))^2)                h: ground to position       0.5 R 1.33,
-//   R 1.07
+//   ceiling ratio  1/2 + 1/2 sqrt(1 + (R/d)^2/8)   0.1 R 2.337, 0.25 R 1.37, 0.5 R 1.11
+//   ground ratio   1/(1 - (R/(4 h))^2)             0.5 R 1.33, R 1.07
+//
+// d: position to ceiling, h: ground to position.
 //
 // AIR_GARAGE_TOTAL (7f30196b, September 2024): the thrust command is divided by both ratios at the position;
 // nearer than 0.5 R the ceiling ratio is 1.11 and the ground ratio 2. AIR_GARAGE_PER_ROTOR (a8e033f8, June

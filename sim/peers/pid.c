@@ -1,11 +1,7 @@
 // pid.c - PID on height, with feed-forward.
 #include "peers/pid.h"
 
-#include <math.h>
-
-static double clip(double x, double limit) {
-  return fmin(fmax(x, -limit), limit);
-}
+#include "clip.h"
 
 static double believed_ratio(const pid_param_t *p, double z_m) {
   const double k = p->radius_m / (4.0 * (p->ceiling_m - z_m));
@@ -18,7 +14,7 @@ static double step(void *state, const sense_t *in, thoughts_t *thoughts) {
   const pid_param_t *p = &s->param;
   const double error = in->setpoint_m - in->z_m;
   const double rate = p->n_per_s * (p->d * error - s->slow_error);
-  const double wanted_N = clip(p->p * error + s->integral + rate, p->limit_N);
+  const double wanted_N = clip(p->p * error + s->integral + rate, -p->limit_N, p->limit_N);
   s->integral += s->period_s * p->i * error;
   s->slow_error += s->period_s * rate;
 

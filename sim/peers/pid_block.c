@@ -1,11 +1,7 @@
 // pid_block.c - one PID of the Crazyflie's firmware.
 #include "peers/pid_block.h"
 
-#include <math.h>
-
-static double clip(double x, double limit) {
-  return fmin(fmax(x, -limit), limit);
-}
+#include "clip.h"
 
 // One turn at most, as there: enough for angles of -180..180.
 static double short_way(double angle_deg, bool degrees) {
@@ -30,7 +26,7 @@ double pid_block_step(pid_block_t *s, const pid_gain_t *p, double rate_Hz, doubl
   const double fall = rate_Hz * short_way(s->measured_last - measured, degrees);
   const double slope = p->cutoff_Hz > 0.0 ? lowpass_step(&s->slope, fall) : fall;
   s->measured_last = measured;
-  s->integral = clip(s->integral + error / rate_Hz, p->integral_max);
+  s->integral = clip(s->integral + error / rate_Hz, -p->integral_max, p->integral_max);
   const double output = p->kp * error + p->ki * s->integral + p->kd * slope;
-  return p->output_max > 0.0 ? clip(output, p->output_max) : output;
+  return p->output_max > 0.0 ? clip(output, -p->output_max, p->output_max) : output;
 }

@@ -1,6 +1,8 @@
 // stock_indi_outer.c - the position loop of the Crazyflie firmware's INDI.
 #include "peers/stock_indi_outer.h"
 
+#include "clip.h"
+
 #define G_MPS2 9.81
 
 stock_indi_outer_param_t stock_indi_outer_default(void) {
@@ -49,10 +51,6 @@ static dq_t turned(d3_t angle_rad) {
   const dq_t pitch = {cos(0.5 * angle_rad.y), 0.0, sin(0.5 * angle_rad.y), 0.0};
   const dq_t yaw = {cos(0.5 * angle_rad.z), 0.0, 0.0, sin(0.5 * angle_rad.z)};
   return dq_mul(yaw, dq_mul(pitch, roll));
-}
-
-static double clip(double x, double lo, double hi) {
-  return fmin(fmax(x, lo), hi);
 }
 
 void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t *p, const pilot6_in_t *in,

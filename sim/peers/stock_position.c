@@ -1,14 +1,12 @@
 // stock_position.c - the position and velocity cascade of the Crazyflie's PID controller.
 #include "peers/stock_position.h"
 
+#include "clip.h"
+
 #define VELOCITY_MAX_MPS (1.0 * 1.10) // the limit and its overhead
 #define TILT_OVERHEAD    1.10
 #define CUTOFF_HZ        20.0
 #define THRUST_PID_MAX   32.767
-
-static double clip(double x, double lo, double hi) {
-  return fmin(fmax(x, lo), hi);
-}
 
 stock_position_param_t stock_position_default(void) {
   const double i_max = PID_BLOCK_INTEGRAL_MAX, tilt_max_deg = 20.0;

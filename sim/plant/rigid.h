@@ -44,6 +44,7 @@ typedef struct {
   double rotor_inertia_kgm2;   // >= 0   of propeller and motor about the axis
   double motor_tau_s;          // > 0
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
+  double torque_scale[ROTORS]; // what the torque is multiplied by besides
   double command_N[ROTORS];    // held
   double per_mass, per_tau, per_root_kf, half_I_per_kf; // set by rigid_tune
   d3_t per_inertia;                                     // set by rigid_tune

@@ -31,7 +31,8 @@ static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const dou
     lift += up;
     roll += pair_of(r->rotor_y_m + i) * up;
     pitch -= pair_of(r->rotor_x_m + i) * up;
-    yaw -= turns * (r->torque_ratio_m * scaled + r->half_I_per_kf * change / om);
+    yaw -=
+        turns * (r->torque_ratio_m * pair_of(r->torque_scale + i) * scaled + r->half_I_per_kf * change / om);
     spin += turns * om;
   }
   return (rotors_t){pair_sum(lift),

@@ -29,6 +29,7 @@ typedef struct {
   d3_t foot[TOUCH_CORNERS], top[TOUCH_CORNERS], disc[ROTORS];
   double disc_radius_m;
   double below_m, above_m, beside_m; // how far any point reaches: for a first, cheap look
+  double lowest_m[3], highest_m[3];  // feet, top, discs
   double spring_Npm, damper_Nspm, grip_Nspm;
   double ceiling_m; // HUGE_VAL: none. The floor is at 0
 } touch_t;
@@ -37,7 +38,7 @@ typedef struct {
   double floor_m, ceiling_m;
 } touch_gap_t;
 
-// Sets `below`, `above` and `beside` from the points, and springs from the mass.
+// Sets `below`, `above`, `beside`, `lowest` and `highest` from the points, and springs from the mass.
 void touch_init(touch_t *t, double mass_kg);
 
 // The surfaces (TOUCH_*) that a point may be nearer to than margin_m, at height z_m of the centre of mass.

@@ -1,10 +1,10 @@
 // ceiling_gap.c - the stock PID between a deck and a ceiling 71 mm apart, as the air garage flew it.
 #include "scenario/scenario.h"
 
-#include "gap.h"
+#include "slot.h"
 #include <math.h>
 
-static void tell(result_t *result, const gap_seen_t *seen) {
+static void tell(result_t *result, const slot_seen_t *seen) {
   cJSON *const row = result_add_row(result, "gap");
   cJSON_AddNumberToObject(row, "captured", seen->captured);
   if (!isnan(seen->median_m)) cJSON_AddNumberToObject(row, "captured_median_mm", 1e3 * seen->median_m);
@@ -14,12 +14,12 @@ static void tell(result_t *result, const gap_seen_t *seen) {
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
-  TRY(gap_setup(&setup, request->seed, true, GAP_RISE_M, why));
+  TRY(slot_setup(&setup, request->seed, true, SLOT_RISE_M, why));
   TRY(setup6_apply(&setup, request, why));
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));
-  gap_seen_t seen;
-  const status_t status = gap_judge_flight(&flown, &setup.model, &seen, why);
+  slot_seen_t seen;
+  const status_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
   if (status == ST_OK) {
     tell(result, &seen);
     result_add_segment(result, &flown.flown, flown.flown.n_segment - 1, "hover");

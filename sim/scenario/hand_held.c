@@ -1,14 +1,17 @@
 // hand_held.c - the vehicle, motors off, carried by hand up to the ceiling in steps of 2 cm (thesis figures
 // C.1 to C.6), and what algorithm 1 takes the ceiling's height to be: estimated height + estimated distance.
 //
-//   each sensor sample:  zc += 0.1 (range - zc), with the gate only while zc > 5 cm
+//   each sensor sample:  zc += 0.1 (range - zc)
 //   each 10 ms:          zc -= climb
 //
-// Below its floor of 4 cm the upward sensor is wrong. How it is wrong decides where the estimate without the
-// gate goes: a sensor that stays at 40 mm (as here in flight) lifts the ceiling, one that says 0, which is
-// what the thesis saw ("a distance of 0 cm is a wrong measurement"), lets it fall. Both are flown, with and
-// without gate.
+// With the gate it is the flight code's own (flight/ceiling.h, all that it adds to the thesis included),
+// without gate the two lines above. Below its floor of 4 cm the upward sensor is wrong. How it is wrong
+// decides where the estimate without the gate goes: a sensor that stays at 40 mm (as here in flight) lifts
+// the ceiling, one that says 0, which is what the thesis saw ("a distance of 0 cm is a wrong measurement"),
+// lets it fall. Both are flown, with and without gate.
 #include "scenario/scenario.h"
+
+#include "flight/ceiling.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,21 +24,35 @@
 #define HOLD_S      4.0
 #define MOVE_S      1.0
 #define GAIN        0.1
-#define GATE_M      0.05
+#define UP_AGE_S    0.07 // as in flight, loop6.c
+#define TICK_MS     10
 #define G_MPS2      9.81
 
-// Algorithm 1.
 typedef struct {
   bool gate, says_0;
-  bool known;
+  ceiling_t ceiling; // with the gate
+  bool known;        // without
   double zc_m;
 } algorithm1_t;
 
-static void correct(algorithm1_t *a, double range_m, bool at_floor) {
+static void predict(algorithm1_t *a, const ceiling_param_t *p, double climb_m) {
+  a->zc_m -= climb_m;
+  if (a->gate) ceiling_predict(&a->ceiling, p, (float)climb_m);
+}
+
+static void correct(algorithm1_t *a, const ceiling_param_t *p, double range_m, bool at_floor) {
   const double measured_m = a->says_0 && at_floor ? 0.0 : range_m;
+  // A sample that the flight code refuses changes nothing.
+  if (a->gate) (void)!ceiling_correct(&a->ceiling, p, (float)measured_m, (float)UP_AGE_S);
   if (!a->known) a->zc_m = measured_m;
   a->known = true;
-  if (!a->gate || a->zc_m > GATE_M) a->zc_m += GAIN * (measured_m - a->zc_m);
+  a->zc_m += GAIN * (measured_m - a->zc_m);
+}
+
+// Height of the rotors' plane and distance to the ceiling; NaN: none known.
+static double height_of(const algorithm1_t *a, double height_m) {
+  if (!a->gate) return height_m + a->zc_m;
+  return a->ceiling.known ? height_m + (double)a->ceiling.zc_m : (double)NAN;
 }
 
 typedef struct {
@@ -45,7 +62,8 @@ typedef struct {
   imu_t imu;
   range_t range;
   ekf_t ekf;
-  double height_m; // estimated, of the rotors' plane
+  ceiling_param_t param;
+  double height_m, height_last_m; // estimated, of the rotors' plane: now, and at the last tick of 10 ms
   algorithm1_t way[4];
 } hand_t;
 
@@ -84,8 +102,7 @@ static void hand_ms(hand_t *s, long ms) {
   const imu_sample_t imu = imu_step(&s->imu, &s->noise->imu, s->random, &truth);
   const range_sample_t range = range_step(&s->range, &s->noise->range, s->random, &truth);
   const ekf_in_t in = {
-      .acc_b_mps2 = imu.acc_b_mps2,
-      .gyro_b_radps = imu.gyro_b_radps,
+      .imu = imu,
       .range_new = range.down_new,
       .range_m = range.down_m,
       .flow_new = range.flow_new,
@@ -93,14 +110,15 @@ static void hand_ms(hand_t *s, long ms) {
       .flow_y = range.flow_y,
       .flow_span_s = range.flow_span_s,
   };
-  const double height_m =
-      ekf_step(&s->ekf, &in).pos_w_m.z + body_rest_z_m(s->model) + body_rotor_z_m(s->model);
-  const double climb_m = height_m - s->height_m;
-  s->height_m = height_m;
+  s->height_m = ekf_step(&s->ekf, &in).pos_w_m.z + body_rest_z_m(s->model) + body_rotor_z_m(s->model);
+  // A new sample falls on a tick: both periods are whole numbers of it.
+  if (ms % TICK_MS != 0) return;
+  const double climb_m = s->height_m - s->height_last_m;
+  s->height_last_m = s->height_m;
   for (int i = 0; i < 4; i++) {
-    s->way[i].zc_m -= climb_m;
+    predict(&s->way[i], &s->param, climb_m);
     if (range.up_new && range.up_mm < RANGE_UP_NOTHING_MM)
-      correct(&s->way[i], 1e-3 * range.up_mm, range.up_mm <= RANGE_UP_FLOOR_MM);
+      correct(&s->way[i], &s->param, 1e-3 * range.up_mm, range.up_mm <= RANGE_UP_FLOOR_MM);
   }
 }
 
@@ -110,13 +128,14 @@ static void tell(const hand_t *s, int step, result_t *result) {
   cJSON *row = result_add_row(result, "ceiling_height");
   cJSON_AddNumberToObject(row, "gap_mm", 1e3 * gap_of(step));
   cJSON_AddNumberToObject(row, "height_mm", 1e3 * s->height_m);
-  for (int i = 0; i < 4; i++) cJSON_AddNumberToObject(row, name[i], 1e3 * (s->height_m + s->way[i].zc_m));
+  for (int i = 0; i < 4; i++) cJSON_AddNumberToObject(row, name[i], 1e3 * height_of(&s->way[i], s->height_m));
 }
 
 static void carry(hand_t *s, result_t *result) {
   imu_init(&s->imu);
   range_init(&s->range);
   ekf_init(&s->ekf, &ekf_firmware, 0.0);
+  for (int i = 0; i < 4; i++) ceiling_init(&s->way[i].ceiling, 1e-3f * TICK_MS);
   long ms = 0;
   for (int step = 0; step < STEPS; step++) {
     const long until = lround(1e3 * (REST_S + LIFT_S + HOLD_S * step));
@@ -126,9 +145,11 @@ static void carry(hand_t *s, result_t *result) {
 }
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
-  if (request->kind || request->n_set > 0)
-    return error_set(
-        why, "--controller, --set: in hand-held nobody flies; allowed are --vehicle, --noise, --seed");
+  if (request->kind || request->n_set > 0 || request->n_effect > 0 || request->no_effects ||
+      request->integrate != INTEGRATE_SUNDIALS || request->log_500_Hz)
+    return error_set(why,
+                     "--controller, --set, --effect, --integrator, --log-rate: in hand-held nobody flies; "
+                     "allowed are --vehicle, --noise, --seed");
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
   TRY(setup6_apply(&setup, request, why));
@@ -139,10 +160,8 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
       .model = &setup.model,
       .noise = &setup.plan.noise,
       .random = random_open(request->seed),
-      .way = {{false, false, false, 0.0},
-              {true, false, false, 0.0},
-              {false, true, false, 0.0},
-              {true, true, false, 0.0}},
+      .param = setup.flight.ceiling,
+      .way = {{.says_0 = false}, {.gate = true}, {.says_0 = true}, {.gate = true, .says_0 = true}},
   };
   const status_t status = s->random ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) carry(s, result);

@@ -2,6 +2,7 @@
 #include "scenario/scenario.h"
 
 #include "io/model_file.h"
+#include <math.h>
 #include <string.h>
 
 #define LADDER_FROM_M 0.25 // the ladder begins 20 cm below the ceiling
@@ -56,5 +57,9 @@ status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
   flown6_t flown;
   TRY(setup6_fly(setup, &flown, why));
   result_add_flight6(result, &flown);
+  // So that who reads the distances need not be told.
+  if (isfinite(setup->model.ceiling_m))
+    cJSON_AddNumberToObject(result->json, "ceiling_m", setup->model.ceiling_m);
+  cJSON_AddNumberToObject(result->json, "rotor_radius_m", setup->model.rotor_radius_m);
   return ST_OK;
 }

@@ -1,6 +1,7 @@
-// gap.c - the air garage's hover between a deck and a ceiling.
-#include "gap.h"
+// slot.c - the air garage's hover between a deck and a ceiling.
+#include "slot.h"
 
+#include "by_size.h"
 #include "io/csv.h"
 #include "io/effect_spec.h"
 #include "io/model_file.h"
@@ -18,11 +19,27 @@
 // over speed, 0.8 m at 0.1 and at 0.5 m/s: tracks of flights with the same delay of 15 s are that much longer
 // or shorter.
 static const struct {
+  const char *file;
   double tilt_deg[2], take_off_s;
-} real[GAP_FLIGHTS] = {
-    {{3.1, 1.0}, 8.0},  {{-5.8, -1.3}, 8.0}, {{-3.2, -4.3}, 8.0}, {{-6.5, -3.4}, 1.6},
-    {{3.4, -1.1}, 1.6}, {{2.0, 2.1}, 1.6},   {{-1.1, 3.3}, 1.6},  {{2.9, 5.8}, 1.6},
+} real[SLOT_FLIGHTS] = {
+    {"20240823_17_47_21.csv", {3.1, 1.0}, 8.0},   {"20240823_19_27_09.csv", {-5.8, -1.3}, 8.0},
+    {"20240823_19_37_29.csv", {-3.2, -4.3}, 8.0}, {"20240827_18_45_10.csv", {-6.5, -3.4}, 1.6},
+    {"20240827_18_46_05.csv", {3.4, -1.1}, 1.6},  {"20240827_18_48_44.csv", {2.0, 2.1}, 1.6},
+    {"20240827_18_49_29.csv", {-1.1, 3.3}, 1.6},  {"20240827_18_56_52.csv", {2.9, 5.8}, 1.6},
 };
+
+const char *slot_real(int k, double *ceiling_m) {
+  *ceiling_m = 0.8349;
+  return real[k].file;
+}
+
+int slot_late(int k) {
+  return real[k].take_off_s < 2.0;
+}
+
+status_t slot_vehicle(model_t *model, why_t *why) {
+  return model_builtin("cf21_air_garage", model, why);
+}
 
 static status_t add_effect(model_t *model, const char *spec, why_t *why) {
   fx_use_t use;
@@ -44,31 +61,31 @@ static status_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
 // To rise_m above rest as the high-level commander goes there, in steps, and a hover.
 static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
   plan_t *const plan = &setup->plan.plan;
-  setup->plan.take_off_s = GAP_TAKEOFF_S;
+  setup->plan.take_off_s = SLOT_TAKEOFF_S;
   plan->n_way = STEPS + 1;
   for (int i = 0; i <= STEPS; i++) {
     const double s = (double)i / STEPS;
     const double share = s * s * s * s * (35.0 + s * (-84.0 + s * (70.0 - s * 20.0)));
-    plan->way[i] = (waypoint_t){i == 0 ? 0.0 : GAP_TAKEOFF_S + s * take_off_s,
+    plan->way[i] = (waypoint_t){i == 0 ? 0.0 : SLOT_TAKEOFF_S + s * take_off_s,
                                 setup->model.frame.rotor_above_feet_m + share * rise_m};
   }
-  plan->end_s = GAP_TAKEOFF_S + take_off_s + HOVER_S;
+  plan->end_s = SLOT_TAKEOFF_S + take_off_s + HOVER_S;
 }
 
-status_t gap_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
+status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
   TRY(setup6_thesis(setup, FLY_STOCK_PID, why));
-  TRY(model_builtin("cf21_air_garage", &setup->model, why));
+  TRY(slot_vehicle(&setup->model, why));
   TRY(spread_weight(&setup->model, seed, why));
   const double rest_m = setup->model.frame.rotor_above_feet_m;
-  setup->model.ceiling_m = ceiling ? rest_m + GAP_REST_M : HUGE_VAL;
-  if (ceiling) TRY(add_effect(&setup->model, GAP_CEILING, why));
-  TRY(add_effect(&setup->model, GAP_GROUND, why));
+  setup->model.ceiling_m = ceiling ? rest_m + SLOT_REST_M : HUGE_VAL;
+  if (ceiling) TRY(add_effect(&setup->model, SLOT_CEILING, why));
+  TRY(add_effect(&setup->model, SLOT_GROUND, why));
   setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
   setup->stock_pid.power = setup->air_garage.pid.power = stock_power_2022();
   // Its heights are those of the marker, as is its position; here that is 0 at rest.
-  setup->air_garage.ceiling_m = GAP_REST_M + MARKER_DOWN_M;
+  setup->air_garage.ceiling_m = SLOT_REST_M + MARKER_DOWN_M;
   setup->air_garage.ground_m = MARKER_DOWN_M - rest_m;
-  const unsigned k = (unsigned)(seed % GAP_FLIGHTS);
+  const unsigned k = (unsigned)(seed % SLOT_FLIGHTS);
   setup->plan.mocap = (mocap_param_t){.period_s = 0.018, .late_s = 0.010, .sd_m = 5e-5, .sd_rad = 1e-3};
   for (int i = 0; i < 2; i++) setup->plan.mocap.tilt_rad[i] = DEG * real[k].tilt_deg[i];
   setup->plan.plan.seed = seed;
@@ -76,30 +93,25 @@ status_t gap_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, 
   return ST_OK;
 }
 
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-status_t gap_judge(const gap_point_t *point, int n, double start_s, gap_seen_t *seen, why_t *why) {
+status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why) {
   double *const near_m = malloc(sizeof *near_m * (size_t)(n > 0 ? n : 1));
   if (!near_m || n < 2) {
     free(near_m);
     return error_set(why, n < 2 ? "a track without points" : "out of memory");
   }
-  *seen = (gap_seen_t){.median_m = (double)NAN, .closest_m = HUGE_VAL, .lift_s = (double)NAN};
+  *seen = (slot_seen_t){.median_m = (double)NAN, .closest_m = HUGE_VAL, .lift_s = (double)NAN};
   int caught = 0;
   double caught_s = 0.0;
   for (int i = 1; i < n; i++) {
     seen->closest_m = fmin(seen->closest_m, point[i].gap_m);
-    if (isnan(seen->lift_s) && point[i].t_s > start_s && point[i].gap_m < point[0].gap_m - GAP_LIFT_M)
+    if (isnan(seen->lift_s) && point[i].t_s > start_s && point[i].gap_m < point[0].gap_m - SLOT_LIFT_M)
       seen->lift_s = point[i].t_s - start_s;
-    if (!(point[i].gap_m < GAP_NEAR_M)) continue;
+    if (!(point[i].gap_m < SLOT_NEAR_M)) continue;
     near_m[caught++] = point[i].gap_m;
     caught_s += point[i].t_s - point[i - 1].t_s;
   }
   qsort(near_m, (size_t)caught, sizeof *near_m, by_size);
-  seen->captured = caught_s >= GAP_CAUGHT_S;
+  seen->captured = caught_s >= SLOT_CAUGHT_S;
   if (caught > 0) seen->median_m = near_m[caught / 2];
   free(near_m);
   return ST_OK;
@@ -110,7 +122,7 @@ status_t gap_judge(const gap_point_t *point, int n, double start_s, gap_seen_t *
 #define POINTS_MAX 8192
 
 typedef struct {
-  gap_point_t point[POINTS_MAX];
+  slot_point_t point[POINTS_MAX];
   int n;
   double x_m, y_m, start_s; // where it rested; when it moved first
 } track_t;
@@ -134,11 +146,11 @@ static status_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t 
     }
     const bool moved = fabs(cell[1] - t->x_m) + fabs(cell[2] - t->y_m) > MOVED_M;
     if (moved && isnan(t->start_s)) t->start_s = cell[0];
-    t->point[t->n++] = (gap_point_t){cell[0], ceiling_m - cell[3] - MARKER_DOWN_M};
+    t->point[t->n++] = (slot_point_t){cell[0], ceiling_m - cell[3] - MARKER_DOWN_M};
   }
 }
 
-status_t gap_judge_file(const char *path, double ceiling_m, gap_seen_t *seen, why_t *why) {
+status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why) {
   track_t *const t = calloc(1, sizeof *t);
   if (!t) return error_set(why, "out of memory");
   t->start_s = (double)NAN;
@@ -146,21 +158,21 @@ status_t gap_judge_file(const char *path, double ceiling_m, gap_seen_t *seen, wh
   status_t status = csv_open(&file, path, why);
   if (status == ST_OK) status = read_rows(file, ceiling_m, t, why);
   csv_close(file);
-  if (status == ST_OK) status = gap_judge(t->point, t->n, t->start_s, seen, why);
+  if (status == ST_OK) status = slot_judge(t->point, t->n, t->start_s, seen, why);
   free(t);
   return status;
 }
 
 // --- flown tracks -----------------------------------------------------------------------------------------
 
-status_t gap_judge_flight(const flown6_t *flown, const model_t *model, gap_seen_t *seen, why_t *why) {
+status_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
   const record_t *record = &flown->flown.record;
-  gap_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
+  slot_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
   if (!point) return error_set(why, "out of memory");
-  const double ceiling_m = model->frame.rotor_above_feet_m + GAP_REST_M; // also where there is none
+  const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also where there is none
   for (int i = 0; i < record->n; i++)
-    point[i] = (gap_point_t){record->sample[i].t_s, ceiling_m - record->sample[i].z_m};
-  const status_t status = gap_judge(point, record->n, GAP_TAKEOFF_S, seen, why);
+    point[i] = (slot_point_t){record->sample[i].t_s, ceiling_m - record->sample[i].z_m};
+  const status_t status = slot_judge(point, record->n, SLOT_TAKEOFF_S, seen, why);
   free(point);
   return status;
 }

@@ -1,0 +1,19 @@
+// fx_accel_bias.c - a constant error of the accelerometer.
+#include "effects/fx.h"
+
+static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
+  sensed->acc_b_mps2 = d3_add(sensed->acc_b_mps2, d3_of(use->p));
+}
+
+const fx_t fx_accel_bias = {
+    .name = "accel_bias",
+    .brief = "a constant error of the accelerometer",
+    .fly = "a full yaw turn on the spot",
+    .n_size = 3,
+    .size = {{0, 0.01, 0, 0.0}, {1, 0.01, 0, 0.0}, {2, 0.01, 0, 0.0}},
+    .n_param = 3,
+    .param = {{"x", "m/s2", -10.0, 0.12, 10.0},
+              {"y", "m/s2", -10.0, 0.0, 10.0},
+              {"z", "m/s2", -10.0, 0.0, 10.0}},
+    .sense = sense,
+};

@@ -1,0 +1,19 @@
+// fx_flapping.c - the discs tilt back in forward flight: M = k sum(Om) (v x e_z).
+#include "effects/fx.h"
+
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const double k = use->p[0] * motion->rotor_sum_radps;
+  load->moment_b_Nm.x += k * motion->air_b_mps.y;
+  load->moment_b_Nm.y -= k * motion->air_b_mps.x;
+}
+
+const fx_t fx_flapping = {
+    .name = "flapping",
+    .brief = "the rotor discs tilt back in forward flight",
+    .fly = "sideways steps",
+    .n_size = 1,
+    .size = {{0, 1e-9, 0, 0.0}},
+    .n_param = 1,
+    .param = {{"k", "kg m", -1e-5, 1.2e-8, 1e-5}},
+    .load = load,
+};

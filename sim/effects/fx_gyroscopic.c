@@ -1,0 +1,20 @@
+// fx_gyroscopic.c - the rotors' angular momentum is larger (or smaller) than the vehicle file has it: M = -w
+// x e_z k sum(s_i Om_i).
+#include "effects/fx.h"
+
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const double h = use->p[0] * motion->rotor_spin_radps;
+  load->moment_b_Nm.x -= h * motion->rate_b_radps.y;
+  load->moment_b_Nm.y += h * motion->rate_b_radps.x;
+}
+
+const fx_t fx_gyroscopic = {
+    .name = "gyroscopic",
+    .brief = "the rotors' angular momentum is larger than the vehicle file has it",
+    .fly = "fast roll with yaw",
+    .n_size = 1,
+    .size = {{0, 1e-9, 0, 0.0}},
+    .n_param = 1,
+    .param = {{"k", "kg m2", -1e-3, 3e-8, 1e-3}},
+    .load = load,
+};

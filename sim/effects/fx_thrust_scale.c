@@ -1,0 +1,19 @@
+// fx_thrust_scale.c - every rotor gives more thrust (or less) than the vehicle file has it: T (1 + k).
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  (void)tick;
+  for (int i = 0; i < ROTORS; i++) plant->thrust_scale[i] *= 1.0 + use->p[0];
+}
+
+const fx_t fx_thrust_scale = {
+    .name = "thrust_scale",
+    .brief = "every rotor gives more thrust than the vehicle file has it",
+    .fly = "throttle steps of 20 %",
+    .class = FX_WEIGHT,
+    .n_size = 1,
+    .size = {{0, 0.01, 0, 0.0}},
+    .n_param = 1,
+    .param = {{"k", "", -0.9, 0.05, 4.0}},
+    .tick = tick,
+};

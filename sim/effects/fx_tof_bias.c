@@ -1,0 +1,17 @@
+// fx_tof_bias.c - the range sensors read too much (or too little) by a constant.
+#include "effects/fx.h"
+
+static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
+  sensed->range_m += use->p[0];
+}
+
+const fx_t fx_tof_bias = {
+    .name = "tof_bias",
+    .brief = "the range sensors read too much by a constant",
+    .fly = "vertical sweeps",
+    .n_size = 1,
+    .size = {{0, 1e-3, 0, 0.0}},
+    .n_param = 1,
+    .param = {{"add", "m", -0.5, 0.02, 0.5}},
+    .sense = sense,
+};

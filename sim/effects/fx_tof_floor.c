@@ -1,0 +1,22 @@
+// fx_tof_floor.c - nearer than its floor a range sensor says its floor: max(d, floor). share: 1, or less
+// where only some samples do.
+#include "effects/fx.h"
+
+static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
+  const double below_m = use->p[0] - sensed->range_m;
+  if (below_m > 0.0) sensed->range_m += use->p[1] * below_m;
+}
+
+const fx_t fx_tof_floor = {
+    .name = "tof_floor",
+    .brief = "nearer than its floor a range sensor says its floor",
+    .fly = "vertical sweeps down to contact",
+    .n_size = 1,
+    .size = {{1, 0.1, 1, 0.0}},
+    .shape_param = 0,
+    .n_shape = 4,
+    .shape = {0.08, 0.1, 0.12, 0.15},
+    .n_param = 2,
+    .param = {{"floor", "m", 0.0, 0.08, 1.0}, {"share", "", 0.0, 1.0, 1.0}},
+    .sense = sense,
+};

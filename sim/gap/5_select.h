@@ -1,0 +1,55 @@
+// 5_select.h - which effects are missing: forward selection of groups by cross-validation over half-flights.
+//
+// To enter, a candidate needs
+//   (a) p < 0.01 over the number of candidates, of a cluster-robust Wald F over blocks of 2 s,
+//   (b) the sign that physics gives it, and a size of at least 0.12 of what is typical (and its own least
+//   one), (c) a coefficient above 3 times its rms on nominal flights (nominal.h), (d) a cross-validated gain
+//   of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
+// A lag or delay below 5 ms is what feedback alone looks like, or streams that are not aligned: it is taken
+// into the model, and not named. The best one enters, what is named is estimated anew about its present
+// values, and swaps and prunings are tried; until nothing changes.
+#ifndef SIM_GAP_SELECT_H
+#define SIM_GAP_SELECT_H
+
+#include "gap/whiten.h"
+
+#define SELECT_ALPHA   0.01
+#define SELECT_GAIN    0.004
+#define SELECT_NOMINAL 3.0
+#define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
+#define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
+#define NAMED_MAX      8
+#define COLUMN_MAX     (NAMED_MAX * FX_SIZE_MAX)
+#define RIVAL_MAX      8
+
+// Sums of products of nominal flights, one matrix each, with the columns of the candidates.
+typedef struct {
+  int n, size;
+  double *total;          // n matrices
+  double *cell;           // n numbers: the largest statistic of unknown.h
+  double floor[CHANNELS]; // rms of a residual row
+} nominal_t;
+
+typedef struct {
+  int candidate;
+  double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX];
+  double p;     // of the Wald test, all its numbers together
+  double share; // of the sum of squares that the original model leaves and the effect explains
+  int n_rival;
+  const fx_t *rival[RIVAL_MAX];
+} named_t;
+
+typedef struct {
+  int n;
+  named_t named[NAMED_MAX];
+  double aligned_s;         // lag or delay that is in the model without a name
+  double left, left_before; // white sums of squares, with and without what is named
+  double *least;            // by candidate: the smallest size that would have been seen, over what is typical
+} found_t;
+
+// Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
+MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
+                                   found_t *found, why_t *why);
+void found_free(found_t *f);
+
+#endif

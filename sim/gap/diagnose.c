@@ -1,0 +1,103 @@
+// diagnose.c - the workflow on flights in memory: stages 2 to 7.
+#include "gap/diagnose.h"
+
+#include "gap/7_verify.h"
+#include "gap/muted.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CELL_LEAST  6.5 // standard errors
+#define CELL_MARGIN 1.4 // over the largest of the nominal flights
+
+static status_t cut(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
+                    why_t *why) {
+  grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
+  if (!grid) return error_failed(why, "out of memory");
+  status_t status = ST_OK;
+  for (int i = 0; i < flights->n && status == ST_OK; i++) {
+    const int n = flights->flight[i].n;
+    status = grid_make(&grid[i], &flights->flight[i], (int)(from * n), (int)(to * n), m, why);
+  }
+  if (status == ST_OK) return set_make(s, grid, flights->n, why);
+  for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
+  free(grid);
+  return status;
+}
+
+static status_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  const bool apart = job->held && job->held->n > 0;
+  TRY(cut(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
+  TRY(muted_find(&d->fit, job->model, why));
+  TRY(cut(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
+  memcpy(d->held.muted, d->fit.muted, sizeof d->held.muted);
+  return ST_OK;
+}
+
+static status_t find_residual(diagnosis_t *d, const model_t *m, why_t *why) {
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    if (!d->residual[ch]) d->residual[ch] = calloc((size_t)set_rows(&d->fit, ch)->n + 1, sizeof(double));
+    if (!d->residual[ch]) return error_failed(why, "out of memory");
+  }
+  return residual_of(&d->fit, m, d->residual, why);
+}
+
+static void forget(candidates_t *c) {
+  for (int i = 0; i < c->n; i++) {
+    c->candidate[i].named = false;
+    for (int k = 0; k < c->candidate[i].n; k++) *candidate_value(&c->candidate[i], k) = 0.0;
+  }
+}
+
+// A first look without nominal flights shows what noise there is beside the effects; they are then flown with
+// it.
+static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  found_t first;
+  model_t m;
+  TRY(select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why));
+  found_free(&first);
+  TRY(candidates_model(&d->candidates, job->model, &m, why));
+  TRY(find_residual(d, &m, why));
+  const manner_t raw = manner_of(&d->fit, &m, d->residual);
+  TRY(unknown_clean(&d->fit, &m, d->residual, why));
+  d->manner = manner_of(&d->fit, &m, d->residual);
+  // Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
+  // flights are to show.
+  memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
+  d->manner.turn_tau_s = raw.turn_tau_s;
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &d->manner, job->seed};
+  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == ST_OK;
+  forget(&d->candidates);
+  return ST_OK;
+}
+
+static status_t look_for_more(diagnosis_t *d, why_t *why) {
+  TRY(find_residual(d, &d->extended, why));
+  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
+  double most = 0.0;
+  for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
+  d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);
+  d->unknown = d->cell.statistic > d->cell_bound;
+  return ST_OK;
+}
+
+status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  *d = (diagnosis_t){.nominal = {.n = 0}};
+  TRY(take_flights(job, d, why));
+  TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
+  TRY(fly_nominal(job, d, why));
+  TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
+                     why));
+  TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
+  TRY(look_for_more(d, why));
+  return verify_held(&d->held, job->model, &d->extended, &d->nominal, &d->held_out, why);
+}
+
+void diagnosis_free(diagnosis_t *d) {
+  for (int ch = 0; ch < CHANNELS; ch++) free(d->residual[ch]);
+  set_free(&d->fit);
+  set_free(&d->held);
+  candidates_free(&d->candidates);
+  nominal_free(&d->nominal);
+  found_free(&d->found);
+}

@@ -1,0 +1,44 @@
+// diagnose.h - the workflow on flights in memory: stages 2 to 7.
+#ifndef SIM_GAP_DIAGNOSE_H
+#define SIM_GAP_DIAGNOSE_H
+
+#include "gap/nominal.h"
+
+typedef struct {
+  const gap_flights_t *fit, *held; // held: none: the last third of each flight's time
+  const model_t *model;
+  unsigned long seed;
+} diagnose_job_t;
+
+typedef struct {
+  bool used;
+  double before, after, floor; // rms of rows
+  double before_sd, after_sd;
+} gap_part_t;
+
+// Held-out flights, all together.
+typedef struct {
+  gap_part_t channel[CHANNELS];
+  double left_before, left_after; // white sums of squares
+} held_t;
+
+typedef struct {
+  set_t fit, held;
+  candidates_t candidates;
+  nominal_t nominal;
+  found_t found;
+  model_t extended;
+  manner_t manner;
+  bool nominal_flew; // false: it could not; thresholds are guesses then
+  double cell_bound; // of the statistic
+  cell_t cell;       // the largest
+  bool unknown;      // it is beyond the bound
+  held_t held_out;
+  double *residual[CHANNELS]; // of the fitted flights, extended model
+} diagnosis_t;
+
+// ST_BAD_INPUT: the flights cannot be used; ST_FAILED: no memory. Free after use, also on an error.
+MUST_CHECK status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why);
+void diagnosis_free(diagnosis_t *d);
+
+#endif

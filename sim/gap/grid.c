@@ -1,0 +1,220 @@
+// grid.c - a part of a flight on a coarser grid.
+#include "gap/grid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define POINT_HZ  50.0
+#define FLIES     0.3   // of the weight: with less thrust it stands or falls
+#define CLEAR_M   5e-3  // of the feet from the floor
+#define TOP_M     2e-3  // of the highest points from the ceiling
+#define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
+#define NOMINAL_V 3.7   // where no voltage is logged
+
+const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
+                                           "turn_y",  "turn_z",  "range"};
+const char *const gap_unit[CHANNELS] = {"m/s2", "m/s2", "m/s2", "rad/s2", "rad/s2", "rad/s2", "m"};
+
+static bool has(const gap_flight_t *f, int from, int to) {
+  for (int i = from; i <= to; i++)
+    if (!f->v[i]) return false;
+  return true;
+}
+
+// --- commands -----------------------------------------------------------------------------------------
+
+static double newton(const gap_flight_t *f, int rotor, int i) {
+  if (f->v[SIG_F1 + rotor]) return f->v[SIG_F1 + rotor][i];
+  return f->motors_N && f->v[SIG_M1 + rotor] ? f->v[SIG_M1 + rotor][i] : f->v[SIG_THRUST][i] / ROTORS;
+}
+
+static bool has_commands(const gap_flight_t *f) {
+  return f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || f->v[SIG_THRUST];
+}
+
+static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
+  const gap_flight_t *f = g->flight;
+  const bool commands = has_commands(f);
+  g->has_moments = f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || (!commands && f->motor_speed_radps[3]);
+  for (int k = 0; k < ROTORS; k++) {
+    g->command_N[k] = malloc((size_t)n * sizeof(double));
+    if (!g->command_N[k]) return error_failed(why, "out of memory");
+    double last = 0.0;
+    for (int i = 0; i < n; i++) {
+      const double speed = commands ? 0.0 : f->motor_speed_radps[k][g->from + i];
+      const double now = commands ? newton(f, k, g->from + i) : m->frame.kf_Ns2 * speed * speed;
+      g->command_N[k][i] = last = isfinite(now) ? now : last;
+    }
+  }
+  return ST_OK;
+}
+
+// --- points -------------------------------------------------------------------------------------------
+
+static double mean(const double *v, int from, int n) {
+  double sum = 0.0;
+  for (int i = from; i < from + n; i++) sum += v[i];
+  return sum / n;
+}
+
+static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
+  return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
+}
+
+static double range_of(const grid_t *g, int from) {
+  const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
+  for (int i = from; range && i < from + g->every; i++)
+    if (isfinite(range[i])) return range[i];
+  return (double)NAN;
+}
+
+static bool finite3(d3_t a) {
+  return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+static bool is_good(const grid_t *g, const point_t *p, const model_t *m, int from) {
+  double thrust_N = 0.0;
+  for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
+  for (int i = from; i < from + g->every; i++)
+    if (g->flight->saturated && g->flight->saturated[i]) return false;
+  const double feet_m = p->pos_w_m.z - body_rest_z_m(m);
+  const double top_m = p->pos_w_m.z + body_rotor_z_m(m) + fmax(m->frame.top_above_rotor_m, 0.0);
+  if (g->has_position && (feet_m < CLEAR_M || top_m > m->ceiling_m - TOP_M)) return false;
+  return thrust_N > FLIES * m->mass_kg * PLANT_GRAVITY_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
+         finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
+}
+
+static point_t point_of(const grid_t *g, const model_t *m, int from) {
+  const gap_flight_t *f = g->flight;
+  const int n = g->every, middle = from + n / 2;
+  point_t p = {
+      .t_s = mean(f->t_s, from, n), .segment = f->segment ? f->segment[from] : 0, .q_wb = {.w = 1.0}};
+  if (g->has_position)
+    p.pos_w_m = mean3(f, SIG_X, from, n);
+  else if (f->v[SIG_Z])
+    p.pos_w_m.z = mean(f->v[SIG_Z], from, n);
+  p.pos_w_m.z += body_rest_z_m(m);
+  if (g->has_velocity) p.vel_w_mps = mean3(f, SIG_VX, from, n);
+  if (g->has_attitude) {
+    p.q_wb = (dq_t){f->v[SIG_QW][middle], f->v[SIG_QX][middle], f->v[SIG_QY][middle], f->v[SIG_QZ][middle]};
+    if (isfinite(p.q_wb.w)) p.q_wb = dq_unit(p.q_wb);
+  }
+  if (g->has_rates) p.rate_b_radps = mean3(f, SIG_GX, from, n);
+  if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
+  p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
+  const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
+  p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
+  p.ok = is_good(g, &p, m, from);
+  return p;
+}
+
+// Points do not reach over the end of a segment.
+static void take_points(grid_t *g, const model_t *m, int to) {
+  for (int i = g->from; i + g->every <= to;) {
+    const int *segment = g->flight->segment;
+    if (segment && segment[i] != segment[i + g->every - 1]) {
+      i++;
+      continue;
+    }
+    g->point[g->n++] = point_of(g, m, i);
+    i += g->every;
+  }
+}
+
+status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
+  *g = (grid_t){.flight = f, .from = from, .samples = to - from};
+  g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
+  g->period_s = g->every / f->rate_Hz;
+  g->has_position = has(f, SIG_X, SIG_Z);
+  g->has_velocity = has(f, SIG_VX, SIG_VZ);
+  g->has_attitude = has(f, SIG_QW, SIG_QZ);
+  g->has_rates = has(f, SIG_GX, SIG_GZ);
+  g->has_force = has(f, SIG_AX, SIG_AZ);
+  g->has_vbat = f->v[SIG_VBAT] != NULL;
+  g->range_up = isfinite(m->ceiling_m) && f->range_up_m;
+  if (!has_commands(f) && !f->motor_speed_radps[3])
+    return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed", f->name);
+  g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
+  if (!g->point) return error_failed(why, "out of memory");
+  TRY(take_commands(g, m, to - from, why));
+  take_points(g, m, to);
+  return ST_OK;
+}
+
+void grid_free(grid_t *g) {
+  for (int k = 0; k < ROTORS; k++) free(g->command_N[k]);
+  for (int i = 0; i < GRID_MOTORS; i++) {
+    free(g->motors[i].thrust_N[0]);
+  }
+  free(g->point);
+  *g = (grid_t){.n = 0};
+}
+
+// --- motors -------------------------------------------------------------------------------------------
+
+// What one rotor's thrust was at sample i - shift, and how fast it rose.
+typedef struct {
+  const double *thrust_N, *command_N;
+  double shift, per_tau;
+} history_t;
+
+static void look_back(const history_t *h, int first, int i, double *thrust_N, double *rise_Nps) {
+  const double at = fmax((double)i - h->shift, (double)first);
+  const int low = (int)at;
+  const double share = at - low, thrust = h->thrust_N[low];
+  *rise_Nps += (h->command_N[low] - thrust) * h->per_tau;
+  *thrust_N += share > 0.0 ? thrust + share * (h->thrust_N[low + 1] - thrust) : thrust;
+}
+
+// A command holds until the next sample; it was there long enough at the start of a segment.
+static void lag(const grid_t *g, const double *command_N, int n, double tau_s, double *thrust_N) {
+  const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  const double share = 1.0 - exp(-1.0 / (g->flight->rate_Hz * tau_s));
+  double f = command_N[0];
+  for (int i = 0; i < n; i++) {
+    if (i > 0 && segment && segment[i] != segment[i - 1]) f = command_N[i];
+    thrust_N[i] = f;
+    f += share * (command_N[i] - f);
+  }
+}
+
+static void average(const grid_t *g, const history_t *h, double *thrust_N, double *rise_Nps) {
+  const gap_flight_t *f = g->flight;
+  int i = 0, first = 0;
+  for (int j = 0; j < g->n; j++) {
+    // As take_points has walked.
+    while (f->segment && f->segment[g->from + i] != f->segment[g->from + i + g->every - 1]) i++;
+    if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
+    thrust_N[j] = rise_Nps[j] = 0.0;
+    for (int k = i; k < i + g->every; k++) look_back(h, first, k, &thrust_N[j], &rise_Nps[j]);
+    thrust_N[j] /= g->every;
+    rise_Nps[j] /= g->every;
+    i += g->every;
+  }
+}
+
+const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
+  for (int i = 0; i < GRID_MOTORS; i++)
+    if (g->motors[i].thrust_N[0] && g->motors[i].tau_s == tau_s && g->motors[i].delay_s == delay_s)
+      return &g->motors[i];
+  lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
+  const size_t n = (size_t)g->n;
+  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
+  double *const fine = malloc((size_t)g->samples * sizeof(double));
+  if (!m->thrust_N[0] || !fine) {
+    free(fine);
+    return NULL;
+  }
+  m->tau_s = tau_s;
+  m->delay_s = delay_s;
+  for (int k = 0; k < ROTORS; k++) {
+    m->thrust_N[k] = m->thrust_N[0] + (size_t)k * n;
+    m->rise_Nps[k] = m->thrust_N[0] + (size_t)(ROTORS + k) * n;
+    lag(g, g->command_N[k], g->samples, tau_s, fine);
+    const history_t h = {fine, g->command_N[k], delay_s * g->flight->rate_Hz, 1.0 / tau_s};
+    average(g, &h, m->thrust_N[k], m->rise_Nps[k]);
+  }
+  free(fine);
+  return m;
+}

@@ -1,0 +1,17 @@
+// muted.h - channels in which these logs cannot be compared with any model.
+//
+// Turning follows from differences of commands. Where commands are logged more slowly than they were given,
+// what is logged is mostly noise, and every effect that makes predictions smaller (inertia, lag) seems to be
+// missing. Such a channel shows by its slope: row to row, the measured turning is far less than the predicted
+// one, whatever the lag.
+#ifndef SIM_GAP_MUTED_H
+#define SIM_GAP_MUTED_H
+
+#include "gap/3_residual.h"
+
+#define MUTED_SLOPE 0.25
+
+// Sets s->muted. ST_FAILED: no memory.
+MUST_CHECK status_t muted_find(set_t *s, const model_t *m, why_t *why);
+
+#endif

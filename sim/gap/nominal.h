@@ -1,0 +1,49 @@
+// nominal.h - flights in which nothing is hidden: the model itself, in closed loop along a log's own track,
+// through the same sensors, rates and noise. What the workflow sees in them is what feedback and noise alone
+// produce.
+//
+// The pilot is a cascade of proportional loops whose gains are fitted to the log: moments on rates and
+// attitude, thrust on climb and height. Noise and disturbance are those of the log: sensors by what two
+// successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by what the residual
+// has beyond that.
+#ifndef SIM_GAP_NOMINAL_H
+#define SIM_GAP_NOMINAL_H
+
+#include "gap/5_select.h"
+#include "gap/unknown.h"
+
+#define NOMINAL_FLIGHTS 10
+
+// How a flight was flown and measured.
+typedef struct {
+  double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
+  double climb_gain, height_gain; // 1/s, 1/s2
+  double acc_mps2, gyro_radps, vel_mps, pos_m, angle_rad, vbat_V, range_m; // sd of a sample
+  double force_mps2[3], force_tau_s; // disturbance, sd and correlation time
+  double turn_radps2[3], turn_tau_s;
+} manner_t;
+
+// residual: of the best model so far, by channel and row of the set.
+manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]);
+
+// One flight along the track of grid g. ST_FAILED: no memory, or the vehicle was lost. Free the flight.
+MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
+                                gap_flight_t *flight, why_t *why);
+
+// What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
+// estimate is an error.
+typedef struct {
+  const set_t *set;
+  const model_t *base;   // without
+  model_t flown;         // with
+  const candidates_t *c; // marks and values
+  const manner_t *manner;
+  unsigned long seed;
+} nominal_job_t;
+
+// NOMINAL_FLIGHTS times all flights of the set: sums of products of the candidates' columns with the
+// residual, and the largest cell of each (unknown.h). ST_FAILED as above.
+MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
+void nominal_free(nominal_t *n);
+
+#endif

@@ -1,0 +1,58 @@
+// select_found.c - what a finished selection says: names, rivals, and what could have been seen.
+#include "gap/select_state.h"
+#include <math.h>
+
+// Another name in its place that is not worse by two standard errors of the difference.
+static void find_rivals(const select_t *t, int candidate, named_t *named) {
+  const choice_t rest = choice_without(&t->choice, candidate);
+  for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
+    const fx_t *fx = select_fx(t, i);
+    if (fx == select_fx(t, candidate) || !select_fits(t, &rest, i)) continue;
+    if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
+    const choice_t with = choice_with(&rest, i);
+    if (judge_is_rival(&t->judge, &t->choice, &with)) named->rival[named->n_rival++] = fx;
+  }
+}
+
+static void find_named(const select_t *t, found_t *found) {
+  const choice_t none = {.n = 0};
+  found->left_before = judge_left(&t->judge, &none, NULL);
+  found->left = judge_left(&t->judge, &t->choice, NULL);
+  for (int i = 0; i < t->choice.n; i++) {
+    const int candidate = t->choice.of[i];
+    const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
+    const verdict_t v = judge_last(&t->judge, &last);
+    const fx_t *fx = select_fx(t, candidate);
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
+      found->aligned_s = v.value[0];
+      continue;
+    }
+    named_t *const named = &found->named[found->n++];
+    *named = (named_t){.candidate = candidate, .p = v.p};
+    memcpy(named->value, v.value, sizeof named->value);
+    memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
+    named->share = (judge_left(&t->judge, &rest, NULL) - found->left) / found->left_before;
+    find_rivals(t, candidate, named);
+  }
+}
+
+// Four standard errors, or three times what feedback alone makes, whichever is more; over what is typical.
+static void find_least(const select_t *t, found_t *found) {
+  for (int i = 0; i < t->c->n; i++) {
+    found->least[i] = 0.0;
+    if (!select_fits(t, &t->choice, i)) continue;
+    const choice_t with = choice_with(&t->choice, i);
+    const verdict_t v = judge_last(&t->judge, &with);
+    double rms[FX_SIZE_MAX];
+    judge_nominal_rms(&t->judge, &with, rms);
+    for (int k = 0; k < t->c->candidate[i].n; k++) {
+      const double least = fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]);
+      found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
+    }
+  }
+}
+
+void select_describe(const select_t *t, found_t *found) {
+  find_named(t, found);
+  find_least(t, found);
+}

@@ -1,0 +1,160 @@
+// exam.c - the hidden-effect exam.
+#include "exam/exam.h"
+
+#include "gap/7_verify.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+exam_kind_t exam_kind(int i) {
+  static const exam_kind_t order[] = {EXAM_ONE, EXAM_NOTHING, EXAM_ONE,   EXAM_TWO, EXAM_STRANGE,
+                                      EXAM_ONE, EXAM_NOTHING, EXAM_HOVER, EXAM_ONE, EXAM_TWO};
+  return order[i % (int)(sizeof order / sizeof *order)];
+}
+
+// --- making -----------------------------------------------------------------------------------------------
+
+// The classes of which one at most is named: either name is right.
+static bool same(const char *a, const char *b) {
+  const fx_t *x = fx_find(a), *y = fx_find(b);
+  return x && y && (x == y || (x->class != FX_ALONE && x->class == y->class));
+}
+
+static status_t hide(exam_set_t *set, random_t *r, model_t *truth, why_t *why) {
+  if (set->kind == EXAM_STRANGE) {
+    set->n = 0;
+    const int i = (int)random_uniform(r, 0.0, TRUTH_STRANGE - 0.001);
+    const fx_use_t use = truth_strange(i, random_uniform(r, 1.0, 3.0), &set->strange);
+    return model_add_fx(truth, &use, why);
+  }
+  set->n = set->kind == EXAM_NOTHING ? 0 : set->kind == EXAM_TWO ? 2 : 1;
+  for (int k = 0; k < set->n; k++) {
+    int i;
+    do i = (int)random_uniform(r, 0.0, TRUTH_EFFECTS - 0.001);
+    while (k > 0 && same(truth_name(i), set->hidden[0]));
+    set->hidden[k] = truth_name(i);
+    set->times[k] = pow(2.0, random_uniform(r, -2.0, 2.0));
+    const double which = random_uniform(r, 0.0, 1.0);
+    const fx_use_t use = truth_effect(i, set->times[k], which, set->own_form);
+    TRY(model_add_fx(truth, &use, why));
+  }
+  return ST_OK;
+}
+
+static status_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flight_t flight[EXAM_FIT + 1],
+                    unsigned long seed, why_t *why) {
+  exam_flight_t job = {
+      .truth = truth, .hover_only = set->kind == EXAM_HOVER, .indi = random_uniform(r, 0.0, 1.0) > 0.5};
+  // Late motors make an incremental controller that does not know it oscillate: nobody identifies such a
+  // vehicle.
+  for (int k = 0; k < set->n; k++) job.indi = job.indi && !same(set->hidden[k], "motor_lag");
+  set->flew = true;
+  for (int i = 0; i <= EXAM_FIT; i++) {
+    job.seed = seed * 16u + (unsigned long)i;
+    if (exam_fly(&job, &flight[i], why) != ST_OK) set->flew = false;
+  }
+  return ST_OK;
+}
+
+// --- marking ----------------------------------------------------------------------------------------------
+
+static bool is_hidden(const exam_set_t *set, const char *name) {
+  for (int k = 0; k < set->n; k++)
+    if (same(set->hidden[k], name)) return true;
+  return false;
+}
+
+static void mark_names(exam_set_t *set, const diagnosis_t *d) {
+  size_t used = 0;
+  for (int i = 0; i < d->found.n; i++) {
+    const named_t *named = &d->found.named[i];
+    const char *name = d->candidates.candidate[named->candidate].use.fx->name;
+    if (is_hidden(set, name))
+      set->found++;
+    else
+      set->wrong++;
+    for (int k = 0; k < set->n; k++) {
+      set->rival_held[k] = set->rival_held[k] || same(set->hidden[k], name);
+      for (int q = 0; q < named->n_rival; q++)
+        set->rival_held[k] = set->rival_held[k] || same(set->hidden[k], named->rival[q]->name);
+    }
+    used += (size_t)snprintf(set->answer + used, sizeof set->answer - used, "%s%s", used ? "+" : "", name);
+    if (used >= sizeof set->answer) used = sizeof set->answer - 1;
+  }
+  set->exact = set->found == set->n && set->wrong == 0;
+}
+
+static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
+  set->unknown = d->unknown;
+  if (set->kind != EXAM_STRANGE || !d->unknown) return;
+  const char *at = set->strange.coordinate, *said = d->cell.coordinate;
+  const bool level = strcmp(at, "xy") == 0 && (strcmp(said, "x") == 0 || strcmp(said, "y") == 0);
+  const bool high = strcmp(at, "height") == 0 && strcmp(said, "ceiling distance") == 0;
+  const bool place = level || high || at[0] == '\0' || strcmp(at, said) == 0;
+  set->unknown_right = place && (set->strange.channels >> d->cell.channel & 1u);
+}
+
+static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
+  for (int k = 0; k < set->n; k++) {
+    bool seen = false;
+    for (int i = 0; i < d->candidates.n; i++)
+      if (same(d->candidates.candidate[i].use.fx->name, set->hidden[k]) && d->found.least[i] < set->times[k])
+        seen = true;
+    set->says_not_testable = set->says_not_testable || !seen;
+  }
+}
+
+static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, const model_t *truth,
+                            why_t *why) {
+  double *r[CHANNELS], before = 1.0;
+  color_t color[CHANNELS];
+  status_t status = ST_OK;
+  for (int ch = 0; ch < CHANNELS; ch++) r[ch] = calloc((size_t)set_rows(&d->held, ch)->n + 1, sizeof(double));
+  status = residual_of(&d->held, truth, r, why);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    color[ch] =
+        residual_has(&d->held, ch) ? color_fit(set_rows(&d->held, ch), r[ch]) : (color_t){.used = false};
+    free(r[ch]);
+  }
+  if (status == ST_OK) status = verify_left(&d->held, base, color, &before, why);
+  if (status == ST_OK) status = verify_left(&d->held, &d->extended, color, &set->after, why);
+  if (status == ST_OK) status = verify_left(&d->held, truth, color, &set->oracle, why);
+  set->after /= before;
+  set->oracle /= before;
+  return status;
+}
+
+static status_t examine(exam_set_t *set, const model_t *base, const model_t *truth, gap_flight_t *flight,
+                        unsigned long seed, why_t *why) {
+  diagnosis_t *const d = malloc(sizeof *d);
+  const gap_flights_t fit = {flight, EXAM_FIT}, held = {flight + EXAM_FIT, 1};
+  const diagnose_job_t job = {.fit = &fit, .held = &held, .model = base, .seed = seed};
+  if (!d) return error_failed(why, "out of memory");
+  status_t status = diagnose(&job, d, why);
+  if (status == ST_OK) {
+    mark_names(set, d);
+    mark_unknown(set, d);
+    mark_not_testable(set, d);
+    status = mark_shrink(set, d, base, truth, why);
+  }
+  diagnosis_free(d);
+  free(d);
+  return status;
+}
+
+status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why) {
+  model_t base, truth;
+  gap_flight_t flight[EXAM_FIT + 1] = {{.n = 0}};
+  random_t *const r = random_open(seed * 7919u + 1u);
+  if (!r) return error_failed(why, "out of memory");
+  *set = (exam_set_t){.kind = kind, .own_form = seed % 2 == 1};
+  status_t status = exam_vehicle(&base, why);
+  truth = base;
+  if (status == ST_OK) status = hide(set, r, &truth, why);
+  if (status == ST_OK) status = fly(set, r, &truth, flight, seed, why);
+  if (status == ST_OK && set->flew) status = examine(set, &base, &truth, flight, seed, why);
+  for (int i = 0; i <= EXAM_FIT; i++) gap_flight_free(&flight[i]);
+  random_close(r);
+  return status;
+}

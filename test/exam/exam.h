@@ -1,0 +1,37 @@
+// exam.h - the hidden-effect exam: random data sets, diagnosed without a look at the truth, then marked.
+#ifndef TEST_EXAM_EXAM_H
+#define TEST_EXAM_EXAM_H
+
+#include "exam/flights.h"
+#include "exam/truth.h"
+#include "gap/diagnose.h"
+
+#define EXAM_FIT 3 // flights to fit; one more is held out
+
+typedef enum { EXAM_NOTHING, EXAM_ONE, EXAM_TWO, EXAM_STRANGE, EXAM_HOVER, EXAM_KINDS } exam_kind_t;
+
+// One data set, and how it was answered.
+typedef struct {
+  exam_kind_t kind;
+  bool own_form, flew;
+  int n; // hidden
+  const char *hidden[2];
+  double times[2];
+  strange_t strange;
+  // marks
+  int found, wrong;   // of the hidden ones; names that are none of them
+  bool exact;         // every hidden one, and nothing else
+  bool rival_held[2]; // found, or among the rivals of a name
+  bool unknown, unknown_right;
+  bool says_not_testable; // of a hidden effect that was not named
+  double after, oracle;   // white sums of squares left on the held-out flight, over that before
+  char answer[160];
+} exam_set_t;
+
+// Makes, diagnoses and marks set `seed` of a kind. ST_FAILED: no memory.
+MUST_CHECK status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why);
+
+// The kind of set number i in a reported exam.
+exam_kind_t exam_kind(int i);
+
+#endif

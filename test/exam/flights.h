@@ -1,0 +1,23 @@
+// flights.h - flights for an exam: the six-degree-of-freedom plant in closed loop, with noise, as logs in
+// memory.
+#ifndef TEST_EXAM_FLIGHTS_H
+#define TEST_EXAM_FLIGHTS_H
+
+#include "gap/flight.h"
+
+#define EXAM_SPAN_S 20.0
+
+typedef struct {
+  const model_t *truth; // with what is hidden
+  bool hover_only;
+  bool indi; // flown by the flight code, else by the firmware's PID
+  unsigned long seed;
+} exam_flight_t;
+
+// ST_FAILED: no memory, or it crashed. Free it.
+MUST_CHECK status_t exam_fly(const exam_flight_t *job, gap_flight_t *flight, why_t *why);
+
+// The vehicle that the workflow is given: a Crazyflie under a ceiling, without any effect.
+MUST_CHECK status_t exam_vehicle(model_t *m, why_t *why);
+
+#endif

@@ -1,0 +1,72 @@
+// test_att_indi_step.c - single steps of the inner loop: start, bound of the rates, memory of the yaw.
+#include "flight/att_indi.h"
+#include "flight/params.h"
+#include "test.h"
+
+#define TICK_S 0.002f
+#define G2_S   0.029f
+
+typedef struct {
+  att_indi_t att;
+  flight_param_t param;
+  lpf2_coef_t filter;
+} loop_t;
+
+static loop_t fresh(float cutoff_Hz) {
+  loop_t l;
+  params_default(&l.param);
+  l.param.att.g2_s = G2_S;
+  CHECK_OK(lpf2_tune(&l.filter, cutoff_Hz, 1.0f / TICK_S));
+  att_indi_reset(&l.att);
+  return l;
+}
+
+TEST(inner_loop_takes_over_a_turn_without_a_kick) {
+  // What turns already has not begun to turn now: 3 rad/s in one period would be 1500 rad/s2.
+  loop_t l = fresh(20.0f);
+  const att_indi_in_t in = {
+      .rate_b_radps = {3.0f, -3.0f, 3.0f}, .q_wb = {1, 0, 0, 0}, .q_ref = {1, 0, 0, 0}, .ratio = 1};
+  const v3_t torque = att_indi_step(&l.att, &l.param.att, &l.filter, 0.03f, TICK_S, &in);
+  const att_indi_param_t *p = &l.param.att;
+  CHECK_NEAR(torque.x, -3.0f * p->quick * p->inertia_xx_kgm2 * p->kd_per_s, 1e-7);
+  CHECK_NEAR(torque.y, 3.0f * p->quick * p->inertia_yy_kgm2 * p->kd_per_s, 1e-7);
+  CHECK_NEAR(torque.z, -3.0f * p->quick * p->inertia_zz_kgm2 * p->kd_yaw_per_s / (1.0f + G2_S / TICK_S),
+             1e-7);
+}
+
+TEST(inner_loop_wants_no_rate_beyond_its_bound) {
+  static const struct {
+    const char *what;
+    quat_t q_ref;
+    float yaw_rate_radps;
+    v3_t want; // of the bound
+  } row[] = {{"roll", {0.866f, 0.5f, 0, 0}, 0, {1, 0, 0}},
+             {"roll, the other way", {0.866f, -0.5f, 0, 0}, 0, {-1, 0, 0}},
+             {"pitch", {0.866f, 0, 0.5f, 0}, 0, {0, 1, 0}},
+             {"yaw", {0.866f, 0, 0, 0.5f}, 0, {0, 0, 1}},
+             {"yaw rate", {1, 0, 0, 0}, -30, {0, 0, -1}}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    loop_t l = fresh(0.0f);
+    l.param.att.rate_max_radps = 1.5f;
+    const att_indi_in_t in = {
+        .q_wb = {1, 0, 0, 0}, .q_ref = row[i].q_ref, .yaw_rate_radps = row[i].yaw_rate_radps, .ratio = 1};
+    const v3_t torque = att_indi_step(&l.att, &l.param.att, &l.filter, 0.03f, TICK_S, &in);
+    const att_indi_param_t *p = &l.param.att;
+    const float most = 1.5f * p->quick;
+    CHECK_NEAR(torque.x, row[i].want.x * most * p->inertia_xx_kgm2 * p->kd_per_s, 1e-8);
+    CHECK_NEAR(torque.y, row[i].want.y * most * p->inertia_yy_kgm2 * p->kd_per_s, 1e-8);
+    CHECK_NEAR(torque.z, row[i].want.z * most * p->inertia_zz_kgm2 * p->kd_yaw_per_s / (1.0f + G2_S / TICK_S),
+               1e-8);
+  }
+}
+
+TEST(inner_loop_remembers_the_yaw_that_was_applied_not_the_one_it_wanted) {
+  // Mixing gave all of the yaw up, five times: the next increment is the first one again.
+  loop_t l = fresh(0.0f);
+  const att_indi_in_t in = {.q_wb = {1, 0, 0, 0}, .q_ref = {0.995f, 0, 0, 0.0998f}, .ratio = 1};
+  v3_t torque[5];
+  for (int k = 0; k < 5; k++) torque[k] = att_indi_step(&l.att, &l.param.att, &l.filter, 0.03f, TICK_S, &in);
+  CHECK(torque[0].z > 1e-6f);
+  for (int k = 1; k < 5; k++) CHECK_NEAR(torque[k].z, torque[0].z, 1e-10);
+}

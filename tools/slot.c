@@ -1,0 +1,53 @@
+// slot.c - the hover in a gap of 71 mm: what each form of the ceiling effect makes of it, beside the real
+// flights.
+#include "slot_many.h"
+
+#include <stdio.h>
+
+#define SEEDS 80
+
+static void print(const char *what, const slot_many_t *m) {
+  char median[64] = "-", closest[16] = "-";
+  if (m->captured > 0)
+    snprintf(median, sizeof median, "%.1f (%.1f to %.1f)", 1e3 * m->median_m, 1e3 * m->low_m,
+             1e3 * m->high_m);
+  if (m->captured < m->flights) snprintf(closest, sizeof closest, "%.1f", 1e3 * m->free_m);
+  printf("%-46s %3d of %d  %19s  %9s ", what, m->captured, m->flights, median, closest);
+  for (int k = 0; k < SLOT_FLIGHTS; k++) printf(" %2d", m->captured_as[k]);
+  putchar('\n');
+}
+
+static status_t fly(const char *what, fly_kind_t kind, const char *effect, double mass_kg, why_t *why) {
+  const slot_case_t c = {kind, effect, mass_kg, true, SLOT_RISE_M, SEEDS};
+  slot_many_t m;
+  TRY(slot_fly_many(&c, &m, why));
+  print(what, &m);
+  return ST_OK;
+}
+
+static status_t run(const char *folder, why_t *why) {
+  slot_many_t m;
+  printf("%-46s %9s  %19s  %9s  %s\n", "", "captured", "their gap mm", "free mm", "captured, by real flight");
+  if (folder) TRY(slot_real_many(folder, &m, why));
+  if (folder) print("real flights, stock PID", &m);
+  if (!folder) puts("real flights: skipped, no measured data");
+  TRY(fly("stock PID, square root, 36 g", FLY_STOCK_PID, SLOT_CEILING, 0.0, why));
+  TRY(fly("stock PID, exponential 0.44, 1.8 (thesis)", FLY_STOCK_PID,
+          "ceiling:form=exponential,Ca=0.44,Cb=1.8", 0.0, why));
+  TRY(fly("stock PID, Cheeseman and Bennett", FLY_STOCK_PID, "ceiling:form=cheeseman-bennett", 0.0, why));
+  for (int g = 34; g <= 38; g++) {
+    char what[64];
+    if (g == 36) continue; // above
+    snprintf(what, sizeof what, "stock PID, square root, %d g", g);
+    TRY(fly(what, FLY_STOCK_PID, SLOT_CEILING, 1e-3 * g, why));
+  }
+  return fly("air garage, square root, 36 g", FLY_AIR_GARAGE, SLOT_CEILING, 0.0, why);
+}
+
+int main(int argc, char **argv) {
+  why_t why;
+  const char *const folder = argc > 1 && argv[1][0] ? argv[1] : NULL;
+  const status_t status =
+      argc > 2 ? error_set(&why, "allowed: slot [FOLDER of recorded flights]") : run(folder, &why);
+  return error_exit("slot", status, &why);
+}
