@@ -9,26 +9,37 @@
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
 
-static status_t tune(outer_t *f, const flight_param_t *p, float period_s) {
-  TRY(params_check(p));
-  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, period_s));
-  f->param = *p;
-  return ST_OK;
-}
-
 status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   if (!(period_s >= 0.001f && period_s <= 0.1f)) return ST_BAD_PARAM;
-  outer_t fresh = {.out = AT_REST};
-  TRY(tune(&fresh, p, period_s));
-  TRY(learn_init(&fresh.learn, &p->learn, &p->curve.fixed));
-  ceiling_init(&fresh.ceiling, period_s);
-  hold_init(&fresh.hold);
-  *f = fresh;
+  TRY(params_check(p));
+  sync_coef_t coef;
+  TRY(sync_tune(&coef, p->cutoff_Hz, p->motor_tau_s, period_s));
+  // From here on nothing fails: a whole set's weights are ones that can be learned from. No second state: it
+  // would not fit onto the vehicle's stack.
+  memset(f, 0, sizeof *f);
+  f->coef = coef;
+  f->param = *p;
+  f->out = (outer_out_t)AT_REST;
+  ceiling_init(&f->ceiling, period_s);
+  hold_init(&f->hold);
+  return learn_init(&f->learn, &f->param.learn, &f->param.curve.fixed);
+}
+
+status_t outer_take(outer_t *f, const flight_param_t *p) {
+  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, f->coef.period_s));
+  f->param = *p;
   return ST_OK;
 }
 
 static void count(outer_t *f, status_t status) {
   if (status != ST_OK) f->faults[status]++;
+}
+
+status_t outer_tune(outer_t *f, const flight_param_t *p) {
+  status_t status = params_check(p);
+  if (status == ST_OK) status = outer_take(f, p);
+  count(f, status);
+  return status;
 }
 
 static status_t check_in(const outer_in_t *in) {
@@ -43,7 +54,7 @@ static status_t check_in(const outer_in_t *in) {
 }
 
 // Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
-static void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
+static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   sync_start(&f->sync, signals);
   bias_start(&f->bias, in->pos_w_m, in->vel_w_mps);
   f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
@@ -63,7 +74,7 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   return by_velocity_m;
 }
 
-static void find_ceiling(outer_t *f, const outer_in_t *in) {
+static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
   if (in->range_new) {
@@ -78,7 +89,7 @@ static void find_ceiling(outer_t *f, const outer_in_t *in) {
 }
 
 // What this tick can teach; the learner decides whether it may.
-static void observe(outer_t *f, const sync_out_t *x) {
+static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
   const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;
   if (x->thrust_N < CARRYING_SHARE * weight_N)
@@ -108,7 +119,7 @@ void outer_rest(outer_t *f) {
 
 // Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
 // acceleration: upwards no more than a set point that rests there asks for.
-static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
+static APART v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->param.pos;
   v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
   if (!f_finite(f->hold.ceiling_z_m)) return wanted;
@@ -118,7 +129,7 @@ static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   return wanted;
 }
 
-static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
+static APART pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
   const pos_indi_param_t *p = &f->param.pos;
   const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
   const v3_t error = v3_sub(wanted_acc(f, in, vel), x->acc_w_mps2);
@@ -127,13 +138,12 @@ static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
 
-outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in) {
-  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p, f->coef.period_s));
+const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   const status_t judged = check_in(in);
   count(f, judged);
   if (judged != ST_OK) {
     if (f->missed < MISSED_MAX) f->missed++;
-    return f->out;
+    return &f->out;
   }
 
   const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
@@ -156,5 +166,5 @@ outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in
       .at = at,
       .ceiling_z_m = f->hold.ceiling_z_m,
   };
-  return f->out;
+  return &f->out;
 }

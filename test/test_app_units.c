@@ -35,7 +35,8 @@ TEST(app_reads_every_kind_of_set_point_that_the_firmware_makes) {
                            .attitude = {0, 10.0f, 20.0f, 0.0f},
                            .attitudeRate.yaw = -90.0f,
                            .thrust = 32767.5f};
-  flight_setpoint_t sp = units_setpoint(&hand);
+  flight_setpoint_t sp;
+  units_setpoint(&sp, &hand);
   CHECK(sp.x == AXIS_OFF && sp.y == AXIS_OFF && sp.z == AXIS_OFF && sp.yaw == YAW_RATE);
   CHECK_NEAR(sp.roll_rad, 0.17453293, 1e-6);
   CHECK_NEAR(sp.pitch_rad, -0.34906585, 1e-6);
@@ -46,7 +47,7 @@ TEST(app_reads_every_kind_of_set_point_that_the_firmware_makes) {
                             .velocity = {0, 0.3f, -0.2f, 0.0f},
                             .velocity_body = true,
                             .position = {0, 0.0f, 0.0f, 0.4f}};
-  sp = units_setpoint(&hover);
+  units_setpoint(&sp, &hover);
   CHECK(sp.x == AXIS_VELOCITY && sp.y == AXIS_VELOCITY && sp.z == AXIS_POSITION && sp.vel_in_body);
   CHECK(sp.vel_mps.x == 0.3f && sp.vel_mps.y == -0.2f && sp.pos_w_m.z == 0.4f);
   // High-level commander: position with velocity and acceleration, yaw in degrees.
@@ -54,18 +55,18 @@ TEST(app_reads_every_kind_of_set_point_that_the_firmware_makes) {
                            .velocity = {0, 0.1f, 0.2f, 0.3f},
                            .acceleration = {0, 0.4f, 0.5f, 0.6f},
                            .attitude.yaw = 180.0f};
-  sp = units_setpoint(&path);
+  units_setpoint(&sp, &path);
   CHECK(sp.yaw == YAW_ANGLE && sp.vel_mps.y == 0.2f && sp.acc_w_mps2.z == 0.6f && !sp.vel_in_body);
   CHECK_NEAR(sp.yaw_rad, 3.14159265, 1e-5);
   // Full state: the heading stands in a quaternion.
   const setpoint_t full = {.mode = {.x = modeAbs, .y = modeAbs, .z = modeAbs, .quat = modeAbs},
                            .attitudeQuaternion = {.z = 0.3826834f, .w = 0.9238795f}};
-  sp = units_setpoint(&full);
+  units_setpoint(&sp, &full);
   CHECK(sp.yaw == YAW_ANGLE);
   CHECK_NEAR(sp.yaw_rad, 0.78539816, 2e-5);
   // Unarmed: zeros, whatever is left over.
   const setpoint_t none = {.attitudeRate.yaw = 50.0f};
-  sp = units_setpoint(&none);
+  units_setpoint(&sp, &none);
   CHECK(sp.z == AXIS_OFF && sp.thrust_N == 0.0f && sp.yaw_rate_radps == 0.0f);
 }
 

@@ -372,7 +372,7 @@ static bool in_box(const case_t *c) {
   const outer_out_t *o = &f->out.outer;
   if (!(o->zc_m >= 0.0f && o->zc_m <= 4.0f && o->at.ratio >= 0.5f && o->at.ratio <= 3.0f)) return false;
   for (int i = 0; i < MOTORS; i++)
-    if (!(f->out.motors.force_N[i] >= 0.0f && f->out.motors.force_N[i] <= f->param.mixer.force_max_N))
+    if (!(f->out.motors.force_N[i] >= 0.0f && f->out.motors.force_N[i] <= f->outer.param.mixer.force_max_N))
       return false;
   return true;
 }

@@ -35,8 +35,8 @@ static void take_range(flight_in_t *in, uint32_t step) {
   in->range_age_s = sample.age_s;
 }
 
-static void take_inputs(const control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
-                        const state_t *state, uint32_t step) {
+static APART void take_inputs(const control_t *control, const setpoint_t *setpoint,
+                              const sensorData_t *sensors, const state_t *state, uint32_t step) {
   flight_in_t *const in = &GLUE.in;
   in->step = step;
   units_sensors(in, sensors, state);
@@ -44,7 +44,7 @@ static void take_inputs(const control_t *control, const setpoint_t *setpoint, co
   if (!supervisorAreMotorsAllowedToRun())
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
-  in->setpoint = units_setpoint(setpoint);
+  units_setpoint(&in->setpoint, setpoint);
   in->no_lesson = !supervisorIsFlying();
 }
 
@@ -60,8 +60,8 @@ static void hand_over(bool flying) {
   GLUE.stock_share += flying ? f_clamp(left, -step, step) : left;
 }
 
-static void command(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
-                    const state_t *state, uint32_t step) {
+static APART void command(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                          const state_t *state, uint32_t step) {
   float force_N[MOTORS];
   for (int i = 0; i < MOTORS; i++) force_N[i] = GLUE.flight.out.motors.force_N[i];
   hand_over(supervisorIsFlying());
@@ -82,7 +82,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
   judge_flyable(&GLUE.in);
   const bool grounded = GLUE.flyable.not_flyable != 0;
   if (grounded) GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
-  (void)flight_step(&GLUE.flight, &GLUE.flown, &GLUE.in);
+  (void)flight_step(&GLUE.flight, &GLUE.in);
   GLUE.learning = settings_learning();
   if (grounded)
     units_command(control, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});

@@ -12,12 +12,12 @@
 typedef struct {
   flight_param_t tuned; // as the parameters are written, one by one and at any time
   flight_param_t flown; // the last set that passed its checks as a whole; its weights are the committed ones
-  flight_param_t candidate; // what is being judged
+  flight_param_t candidate; // a set that has passed them and waits for the next tick, if `ready`
   uint8_t shadow;           // ceil.shadow: 1: the stock controller flies, this one computes and logs
   uint8_t commit;           // ceil.commit: COMMIT_*, 0 when done
-  volatile uint8_t touched; // a parameter was written
-  uint8_t decks;            // DECK_*
-  uint32_t sets_refused;    // parameter sets that failed their checks
+  volatile uint8_t ready;
+  uint8_t decks;         // DECK_*
+  uint32_t sets_refused; // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
   float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way

@@ -2,11 +2,7 @@
 #include "settings.h"
 
 #include "glue.h"
-#include <string.h>
-
-void settings_touched(void) {
-  GLUE.touched = 1;
-}
+#include <stdatomic.h>
 
 // A value out of its range goes back to what flies. Two that contradict each other wait for the next write.
 static void mend(void) {
@@ -18,12 +14,14 @@ static void mend(void) {
   }
 }
 
-// Flies what is tuned with these weights, or counts and keeps what flew.
-static bool take(const rbf_weights_t *weights) {
+static bool judge(const rbf_weights_t *weights) {
+  GLUE.ready = 0; // a tick may come at any time
+  atomic_signal_fence(memory_order_seq_cst);
   GLUE.candidate = GLUE.tuned;
   GLUE.candidate.curve.fixed = *weights;
   if (params_check(&GLUE.candidate) == ST_OK) {
-    GLUE.flown = GLUE.candidate;
+    atomic_signal_fence(memory_order_seq_cst);
+    GLUE.ready = 1;
     return true;
   }
   GLUE.sets_refused++;
@@ -31,10 +29,18 @@ static bool take(const rbf_weights_t *weights) {
   return false;
 }
 
+void settings_touched(void) {
+  if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned.curve.fixed : &GLUE.flown.curve.fixed)) return;
+  if (GLUE.commit != 0) GLUE.commits_refused++;
+  GLUE.commit = 0;
+}
+
 void settings_start(void) {
-  GLUE.touched = GLUE.commit = 0;
+  GLUE.commit = 0;
   params_default(&GLUE.flown);
-  if (!take(&GLUE.tuned.curve.fixed) && !take(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
+  if (!judge(&GLUE.tuned.curve.fixed) && !judge(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
+  if (GLUE.ready) GLUE.flown = GLUE.candidate;
+  GLUE.ready = 0;
   (void)!flight_init(&GLUE.flight, &GLUE.flown); // a set that passed its checks
 }
 
@@ -42,23 +48,34 @@ bool settings_learning(void) {
   return GLUE.flown.curve.mode == CURVE_LIVE && !GLUE.in.no_lesson && GLUE.in.setpoint.z != AXIS_OFF;
 }
 
+// The candidate's weights: what was typed in, or what was learned.
 static bool commit(unsigned which) {
   learn_t *const learn = &GLUE.flight.outer.learn;
   if (settings_learning() || (which != COMMIT_TYPED && which != COMMIT_LEARNED)) return false;
-  if (which == COMMIT_LEARNED) GLUE.tuned.curve.fixed = learn->rls.theta;
-  if (!take(&GLUE.tuned.curve.fixed)) return false;
-  return learn_init(learn, &GLUE.flown.learn, &GLUE.flown.curve.fixed) == ST_OK;
+  if (which == COMMIT_LEARNED) GLUE.candidate.curve.fixed = learn->rls.theta;
+  if (learn_init(learn, &GLUE.candidate.learn, &GLUE.candidate.curve.fixed) != ST_OK) return false;
+  GLUE.tuned.curve.fixed = GLUE.candidate.curve.fixed;
+  return true;
+}
+
+static void take_commit(unsigned which) {
+  if (commit(which)) {
+    GLUE.commits++;
+    GLUE.flown.curve.fixed = GLUE.candidate.curve.fixed; // also where another write makes another candidate
+  } else {
+    GLUE.commits_refused++;
+    GLUE.candidate.curve.fixed = GLUE.flown.curve.fixed;
+  }
 }
 
 void settings_take(void) {
-  if (!GLUE.touched) return;
-  GLUE.touched = 0;
-  if (GLUE.commit != 0) {
-    if (commit(GLUE.commit))
-      GLUE.commits++;
-    else
-      GLUE.commits_refused++;
+  if (!GLUE.ready) return;
+  if (GLUE.commit != 0) { // in a tick of its own: both would be too much for one
+    take_commit(GLUE.commit);
     GLUE.commit = 0;
+    return;
   }
-  (void)take(&GLUE.flown.curve.fixed);
+  GLUE.ready = 0;
+  GLUE.flown = GLUE.candidate;
+  (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }

@@ -1,8 +1,9 @@
 // settings.h - from parameters that are written one by one to sets that are flown as a whole.
 //
-// The parameters are the fields of GLUE.tuned. A set is taken at the start of a tick, checked, and flown from
-// then on. One that fails its checks is counted, the last good one flies on, and what is out of its range
-// gets its old value back. The weights ceil.w1..w7 wait for ceil.commit:
+// The parameters are the fields of GLUE.tuned. After every write the set is checked, in the parameter task;
+// one that passes is flown as a whole from the next tick on. One that fails is counted, the last good one
+// flies on, and what is out of its range gets its old value back. The weights ceil.w1..w7 wait for
+// ceil.commit:
 //   1  takes ceil.w1..w7 at once
 //   2  copies the learned rls.w1..w7 into them, and takes those; refused while learning
 // Either way learning goes on from there.

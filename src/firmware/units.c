@@ -27,25 +27,23 @@ static float yaw_of(const quaternion_t *q) {
   return trig_angle(2.0f * (q->w * q->z + q->x * q->y), 1.0f - 2.0f * (q->y * q->y + q->z * q->z));
 }
 
-flight_setpoint_t units_setpoint(const setpoint_t *sp) {
+void units_setpoint(flight_setpoint_t *to, const setpoint_t *sp) {
   const bool by_angle = sp->mode.roll == modeAbs && sp->mode.pitch == modeAbs;
   const bool by_quat = sp->mode.yaw == modeDisable && sp->mode.quat == modeAbs;
-  return (flight_setpoint_t){
-      .x = axis_of(sp->mode.x),
-      .y = axis_of(sp->mode.y),
-      .z = axis_of(sp->mode.z),
-      .pos_w_m = V3_OF(sp->position),
-      .vel_mps = V3_OF(sp->velocity),
-      .vel_in_body = sp->velocity_body,
-      .acc_w_mps2 = V3_OF(sp->acceleration),
-      .roll_rad = by_angle ? RAD_PER_DEG * sp->attitude.roll : 0.0f,
-      .pitch_rad = by_angle ? -RAD_PER_DEG * sp->attitude.pitch : 0.0f,
-      .thrust_N = sp->thrust * (MOTORS * THRUST_MAX / UNITS_MAX),
-      .yaw = sp->mode.yaw == modeAbs || by_quat ? YAW_ANGLE : YAW_RATE,
-      .yaw_rad = by_quat ? yaw_of(&sp->attitudeQuaternion) : RAD_PER_DEG * sp->attitude.yaw,
-      // A set point of zeros asks for nothing: what stands in its rate is left over.
-      .yaw_rate_radps = sp->mode.yaw == modeDisable && !by_quat ? 0.0f : RAD_PER_DEG * sp->attitudeRate.yaw,
-  };
+  to->x = axis_of(sp->mode.x);
+  to->y = axis_of(sp->mode.y);
+  to->z = axis_of(sp->mode.z);
+  to->pos_w_m = V3_OF(sp->position);
+  to->vel_mps = V3_OF(sp->velocity);
+  to->vel_in_body = sp->velocity_body;
+  to->acc_w_mps2 = V3_OF(sp->acceleration);
+  to->roll_rad = by_angle ? RAD_PER_DEG * sp->attitude.roll : 0.0f;
+  to->pitch_rad = by_angle ? -RAD_PER_DEG * sp->attitude.pitch : 0.0f;
+  to->thrust_N = sp->thrust * (MOTORS * THRUST_MAX / UNITS_MAX);
+  to->yaw = sp->mode.yaw == modeAbs || by_quat ? YAW_ANGLE : YAW_RATE;
+  to->yaw_rad = by_quat ? yaw_of(&sp->attitudeQuaternion) : RAD_PER_DEG * sp->attitude.yaw;
+  // A set point of zeros asks for nothing: what stands in its rate is left over.
+  to->yaw_rate_radps = sp->mode.yaw == modeDisable && !by_quat ? 0.0f : RAD_PER_DEG * sp->attitudeRate.yaw;
 }
 
 // --- motors -----------------------------------------------------------------------------------------------

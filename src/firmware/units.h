@@ -17,7 +17,7 @@
 void units_sensors(flight_in_t *in, const sensorData_t *sensors, const state_t *state);
 
 // Rate mode (roll and pitch modeVelocity without x and y) is flown level: there is no rate controller.
-flight_setpoint_t units_setpoint(const setpoint_t *setpoint);
+void units_setpoint(flight_setpoint_t *to, const setpoint_t *setpoint);
 
 // The force that the firmware's power distribution asks of each motor, in any of its three modes.
 void units_applied(float force_N[MOTORS], const control_t *control);
