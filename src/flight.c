@@ -75,18 +75,18 @@ static APART void run_outer(flight_t *f, const flight_in_t *in) {
     f->out.outer = f->outer.out;
     return;
   }
-  outer_in_t outer_in;
-  outer_in.pos_w_m = in->pos_w_m;
-  outer_in.vel_w_mps = in->vel_w_mps;
-  outer_in.acc_b_mps2 = in->acc_b_mps2;
-  outer_in.q_wb = in->q_wb;
-  outer_in.thrust_N = thrust_of(in->force_N);
-  outer_in.range_new = f->range_waits;
-  outer_in.range_m = f->range_m;
-  outer_in.range_age_s = f->range_age_s;
-  outer_in.setpoint = position_wanted(in);
+  outer_in_t *const x = &f->outer_in;
+  x->pos_w_m = in->pos_w_m;
+  x->vel_w_mps = in->vel_w_mps;
+  x->acc_b_mps2 = in->acc_b_mps2;
+  x->q_wb = in->q_wb;
+  x->thrust_N = thrust_of(in->force_N);
+  x->range_new = f->range_waits;
+  x->range_m = f->range_m;
+  x->range_age_s = f->range_age_s;
+  x->setpoint = position_wanted(in);
   f->range_waits = false;
-  f->out.outer = *outer_step(&f->outer, &outer_in);
+  f->out.outer = *outer_step(&f->outer, x);
 }
 
 // Direction of the thrust from roll and pitch wanted about the heading's axes.
@@ -142,29 +142,30 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   const bool by_hand = sp->x == AXIS_OFF || sp->y == AXIS_OFF;
   f->heading_ref = heading_wanted(f, in);
   f->heading_known = true;
-  const v3_t up =
-      by_hand ? direction_by_hand(sp, f->heading_ref, f->outer.param.pos.tilt_max_rad) : f->out.outer.up_w;
   const float thrust_N = thrust_wanted_N(f, in);
-  const mixer_out_t given = mixer_of(&f->outer.param.mixer, in->force_N);
-  const att_indi_in_t att_in = {
-      .rate_b_radps = in->rate_b_radps,
-      .q_wb = quat_unit(in->q_wb),
-      .q_ref = att_indi_reference(up, f->heading_ref),
-      .yaw_rate_radps = sp->yaw_rate_radps,
-      .torque_b_Nm = given.torque_b_Nm,
-      .ceiling_Nms = ceiling_Nms(f, given.thrust_N),
-      .ratio = f->outer.param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f,
-  };
-  f->out.q_ref = att_in.q_ref;
   // After missed calls the rate has changed for longer.
   const float period_s = f->inner_ms > 2 ? 0.001f * (float)f->inner_ms : INNER_S;
   f->inner_ms = 0;
+  if (motors_off(f, sp, thrust_N)) {
+    f->out.motors = (mixer_out_t){.thrust_N = 0.0f};
+    att_indi_reset(&f->att);
+    return;
+  }
+  const v3_t up =
+      by_hand ? direction_by_hand(sp, f->heading_ref, f->outer.param.pos.tilt_max_rad) : f->out.outer.up_w;
+  const mixer_out_t given = mixer_of(&f->outer.param.mixer, in->force_N);
+  att_indi_in_t *const x = &f->att_in;
+  x->rate_b_radps = in->rate_b_radps;
+  x->q_wb = quat_unit(in->q_wb);
+  x->q_ref = att_indi_reference(up, f->heading_ref);
+  x->yaw_rate_radps = sp->yaw_rate_radps;
+  x->torque_b_Nm = given.torque_b_Nm;
+  x->ceiling_Nms = ceiling_Nms(f, given.thrust_N);
+  x->ratio = f->outer.param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f;
+  f->out.q_ref = x->q_ref;
   const v3_t torque =
-      att_indi_step(&f->att, &f->outer.param.att, &f->att_filter, f->att_lag_share, period_s, &att_in);
+      att_indi_step(&f->att, &f->outer.param.att, &f->att_filter, f->att_lag_share, period_s, x);
   f->out.motors = mixer_mix(&f->outer.param.mixer, torque, thrust_N);
-  if (!motors_off(f, sp, thrust_N)) return;
-  f->out.motors = mixer_of(&f->outer.param.mixer, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
-  att_indi_reset(&f->att);
 }
 
 // Nothing to stay upright with: all motors alike.

@@ -119,21 +119,24 @@ void outer_rest(outer_t *f) {
 
 // Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
 // acceleration: upwards no more than a set point that rests there asks for.
-static APART v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
+static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->param.pos;
   v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
   if (!f_finite(f->hold.ceiling_z_m)) return wanted;
-  const pos_setpoint_t top = {.pos_w_m = {.z = f->hold.ceiling_z_m - f->param.gap_min_m}};
-  const float most_mps2 = pos_indi_wanted_acc(p, &top, in->pos_w_m, vel_mps).z;
+  const float climb_mps = p->kp_per_s * (f->hold.ceiling_z_m - f->param.gap_min_m - in->pos_w_m.z);
+  const float most_mps2 = f_clamp(p->kd_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
   if (wanted.z > most_mps2) wanted.z = most_mps2;
   return wanted;
 }
 
-static APART pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
+static APART v3_t acc_error(const outer_t *f, const outer_in_t *in, v3_t acc_w_mps2, v3_t vel_mps) {
+  return v3_sub(wanted_acc(f, in, vel_mps), acc_w_mps2);
+}
+
+static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_t at, v3_t error,
+                               float climb_mps) {
   const pos_indi_param_t *p = &f->param.pos;
-  const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
-  const v3_t error = v3_sub(wanted_acc(f, in, vel), x->acc_w_mps2);
-  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, vel.z, at);
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, climb_mps, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
@@ -146,17 +149,20 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
     return &f->out;
   }
 
-  const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
-  if (!f->started) start(f, in, &signals);
-  sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
+  const sync_in_t in_sync = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
+  if (!f->started) start(f, in, &in_sync);
+  sync_out_t *const x = &f->signals;
+  sync_step(&f->sync, &f->coef, &in_sync, x);
   find_ceiling(f, in);
-  bias_step(&f->bias, &f->param.bias, x.acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
+  bias_step(&f->bias, &f->param.bias, x->acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
             f->coef.period_s * (1.0f + (float)f->missed));
-  x.acc_w_mps2 = v3_sub(x.acc_w_mps2, f->bias.bias_mps2);
+  x->acc_w_mps2 = v3_sub(x->acc_w_mps2, f->bias.bias_mps2);
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
-  observe(f, &x);
-  const pos_command_t command = fly(f, in, &x, at);
+  observe(f, x);
+  const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
+  const v3_t error = acc_error(f, in, x->acc_w_mps2, vel);
+  const pos_command_t command = fly(f, x, at, error, vel.z);
   f->at_limit = command.at_limit;
   f->out = (outer_out_t){
       .up_w = command.up_w,

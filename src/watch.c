@@ -3,8 +3,8 @@
 
 #include "flight/bounds.h"
 
-#define MS_MAX  50 // a longer pause is taken for this long
-#define WAIT_MS 4
+#define MS_MAX   50 // a longer pause is taken for this long
+#define WAIT_MAX 3  // calls
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
   const unsigned to = from + ms; // from < 10
@@ -13,11 +13,11 @@ static bool passes(unsigned from, unsigned ms, unsigned at) {
 
 // A call costs no more than one loop, also after missed calls: the others wait for one that has none, unless
 // none comes.
-static unsigned one_of(flight_t *f, unsigned due, unsigned ms) {
-  f->waited_ms = f->waiting != 0 ? f->waited_ms + (int)ms : 0;
+static unsigned one_of(flight_t *f, unsigned due) {
+  f->waited = f->waiting != 0 ? f->waited + 1 : 0;
   due |= f->waiting;
   unsigned now = due;
-  if (f->waited_ms <= WAIT_MS)
+  if (f->waited <= WAIT_MAX)
     now = due & FLIGHT_INNER ? FLIGHT_INNER : due & FLIGHT_OUTER ? FLIGHT_OUTER : due & FLIGHT_LEARN;
   f->waiting = due & ~now;
   return now;
@@ -39,7 +39,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     const unsigned due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) |
                          (passes(f->phase, ms, 4) ? FLIGHT_LEARN : 0u) |
                          (ms > 1 || f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
-    f->due = one_of(f, due, ms);
+    f->due = one_of(f, due);
     // An outer period that was skipped altogether is known to the outer loop.
     f->outer.missed += (f->phase + ms) / 10 > 1 ? (f->phase + ms) / 10 - 1 : 0;
     f->phase = (f->phase + ms) % 10;

@@ -68,7 +68,7 @@ TEST(app_takes_weights_as_a_whole_and_only_when_told_to) {
     CHECK(memcmp(&f.vehicle.app.flight.outer.param.curve.fixed, &before, sizeof before) == 0);
   }
   CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_TYPED));
-  app_fly(&f, 2);
+  app_fly(&f, 4);
   CHECK(f.vehicle.app.flight.outer.param.curve.fixed.w[0] == 1.0f);
   CHECK(f.vehicle.app.flight.outer.param.curve.fixed.w[6] == 0.06f);
   CHECK(f.vehicle.app.flight.outer.learn.rls.theta.w[6] == 0.06f); // learning goes on from there
@@ -77,7 +77,7 @@ TEST(app_takes_weights_as_a_whole_and_only_when_told_to) {
   CHECK(crazyflie_set(&f.vehicle, "ceil.w2", 0.5));
   CHECK(crazyflie_set(&f.vehicle, "ceil.w3", (double)NAN));
   CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_TYPED));
-  app_fly(&f, 2);
+  app_fly(&f, 4);
   CHECK(f.vehicle.app.flight.outer.param.curve.fixed.w[1] == 0.01f);
   CHECK(app_log(&f, "ceil.noCommit") == 1.0);
   double commit = 9.0;
@@ -92,12 +92,12 @@ TEST(app_commits_learned_weights_but_not_while_it_learns) {
   CHECK(app_log(&f, "ceil.learning") == 1.0);
   f.vehicle.app.flight.outer.learn.rls.theta.w[3] = 0.123f;
   CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
-  app_fly(&f, 2);
+  app_fly(&f, 4);
   CHECK(app_log(&f, "ceil.noCommit") == 1.0 && f.vehicle.app.flown.curve.fixed.w[3] != 0.123f);
   CHECK(crazyflie_set(&f.vehicle, "ceil.mode", CURVE_FIXED));
-  app_fly(&f, 1);
-  CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
   app_fly(&f, 2);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
+  app_fly(&f, 4);
   double w4 = 0.0;
   CHECK(crazyflie_param(&f.vehicle, "ceil.w4", &w4)); // from here it can be stored
   CHECK((float)w4 == 0.123f && f.vehicle.app.flown.curve.fixed.w[3] == 0.123f);

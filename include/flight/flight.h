@@ -65,7 +65,11 @@ typedef struct {
   bool heading_known;
   bool range_waits; // a range sample that the outer loop has not seen
   float range_m, range_age_s;
-  flight_in_t in; // of this call, as the guard leaves it
+  // Of this call, as the guard leaves it, and what each loop made of it: here, for the vehicle's stack is
+  // small.
+  flight_in_t in;
+  outer_in_t outer_in;
+  att_indi_in_t att_in;
   flight_out_t out;
   guard_t guard;
   flight_setpoint_t setpoint; // the last good one
@@ -74,7 +78,7 @@ typedef struct {
   unsigned phase;     // of the ten milliseconds, from the step counter
   unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
   unsigned waiting;   // due, but put off
-  int waited_ms;      // since something waits
+  int waited;         // calls since something waits
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it

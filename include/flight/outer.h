@@ -46,6 +46,7 @@ typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
   sync_t sync;
+  sync_out_t signals; // of the last step
   bias_t bias;
   ceiling_t ceiling;
   hold_t hold;

@@ -68,9 +68,9 @@ static void take_commit(unsigned which) {
   }
 }
 
-void settings_take(void) {
-  if (!GLUE.ready) return;
-  if (GLUE.commit != 0) { // in a tick of its own: both would be too much for one
+void settings_take(uint32_t step) {
+  if (!GLUE.ready || step % 2 == 0) return; // even steps have the outer loop and the lessons
+  if (GLUE.commit != 0) {                   // in a tick of its own: both would be too much for one
     take_commit(GLUE.commit);
     GLUE.commit = 0;
     return;
