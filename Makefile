@@ -55,7 +55,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload setup-pil
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -180,6 +180,9 @@ format: setup-lint  ## bring every source into the one format
 
 docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
+
+pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
+	+@tools/pil.sh
 
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy

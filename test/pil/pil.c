@@ -162,3 +162,10 @@ int pil_words(void) {
   uint32_t word[PIL_WORDS];
   return 4 + read_logs(word, 0);
 }
+
+int pil_floats(void) {
+  int n = 4;
+  for (const section_log_group_t *group = after(NULL); group; group = after(group))
+    for (const section_log_t *log = group->log; log->name; log++) n += log->type == LOG_FLOAT;
+  return n;
+}

@@ -43,7 +43,8 @@ void pil_before(const pil_in_t *in);
 void pil_call(void);
 void pil_after(pil_out_t *out);
 
-// How many words of an answer are used.
+// How many words of an answer are used, and how many of them are floats.
 int pil_words(void);
+int pil_floats(void);
 
 #endif

@@ -17,7 +17,7 @@ int main(int argc, char **argv) {
     pil_after(&answer);
     if (fwrite(&answer, sizeof answer, 1, out) != 1) return 1;
   }
-  printf("%ld calls, %d words each\n", calls, pil_words());
+  printf("%ld calls, %d words each, %ld floats in all\n", calls, pil_words(), calls * pil_floats());
   fclose(in);
   return fclose(out) == 0 ? 0 : 1;
 }
