@@ -55,7 +55,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded report setup-pil
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -152,8 +152,9 @@ test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: 
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
-check: test sanitize clang  ## the long tests, also with sanitizers and clang
+check: test sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
+	+@tools/seeded.sh
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
 	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn out/sanitize/bin/effectiveness
@@ -180,6 +181,11 @@ format: setup-lint  ## bring every source into the one format
 
 docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
+
+tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness
+
+seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word)
+	+@tools/seeded.sh "$(W)"
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
 	+@tools/pil.sh

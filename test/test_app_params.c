@@ -55,6 +55,69 @@ TEST(app_flies_on_to_the_bit_whatever_is_written_into_its_parameters) {
   }
 }
 
+static void check_same(const flying_t *a, const flying_t *b) {
+  CHECK(memcmp(&a->rig, &b->rig, sizeof a->rig) == 0);
+  CHECK(memcmp(&a->vehicle.app.flight, &b->vehicle.app.flight, sizeof(flight_t)) == 0);
+}
+
+TEST(app_counts_and_puts_back_whatever_is_beyond_a_parameters_range) {
+  static flying_t alone, poked;
+  app_start(&alone);
+  app_start(&poked);
+  int refused = 0;
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *row = &params_table[i];
+    const bool whole = row->type == PARAM_INT;
+    const double odd[] = {(double)row->max * 1.01 + 1.0, (double)row->min - 1.0, whole ? 1e9 : (double)NAN,
+                          whole ? -1e9 : HUGE_VAL, whole ? 77.0 : -HUGE_VAL};
+    for (unsigned k = 0; k < sizeof odd / sizeof *odd; k++) {
+      ROW("%s = %g", row->name, odd[k]);
+      CHECK(crazyflie_set(&poked.vehicle, row->name, odd[k]));
+      if (strncmp(row->name, "ceil.w", 6) == 0)
+        CHECK(crazyflie_set(&poked.vehicle, "ceil.commit", COMMIT_TYPED));
+      app_fly(&alone, 3);
+      app_fly(&poked, 3);
+      check_same(&alone, &poked);
+      CHECK(app_log(&poked, "ceil.noSet") == ++refused);
+      CHECK(params_get(&poked.vehicle.app.tuned, row) == params_get(&alone.vehicle.app.tuned, row));
+    }
+  }
+}
+
+TEST(app_flies_on_while_a_parameter_is_half_written) {
+  static flying_t alone, poked;
+  app_start(&alone);
+  app_start(&poked);
+  for (int i = 0; i < params_count; i++) {
+    ROW("%s", params_table[i].name);
+    unsigned char *const at = (unsigned char *)&poked.vehicle.app.tuned + params_table[i].offset;
+    unsigned char before[4];
+    memcpy(before, at, 4);
+    memset(at + 2, 0x7f, 2); // and the parameter task was interrupted: it has not said that it is done
+    app_fly(&alone, 3);
+    app_fly(&poked, 3);
+    check_same(&alone, &poked);
+    memcpy(at, before, 4);
+  }
+  CHECK(app_log(&poked, "ceil.noSet") == 0.0);
+}
+
+TEST(app_flies_a_set_from_the_next_tick_on_even_where_a_write_interrupts_one) {
+  static flying_t f;
+  app_start(&f);
+  app_fly(&f, 10);
+  // Between the judgement of one write and its tick comes another one, which is refused: neither flies half.
+  CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 2.0));
+  CHECK(crazyflie_set(&f.vehicle, "indiPos.kd", -1.0));
+  app_fly(&f, 4);
+  CHECK(app_log(&f, "ceil.noSet") == 1.0);
+  CHECK(f.vehicle.app.flown.pos.kd_per_s == 5.0f);
+  CHECK(crazyflie_set(&f.vehicle, "indiPos.kd", 6.0)); // the next one takes both
+  app_fly(&f, 4);
+  CHECK(f.vehicle.app.flight.outer.param.pos.kp_per_s == 2.0f);
+  CHECK(f.vehicle.app.flight.outer.param.pos.kd_per_s == 6.0f);
+}
+
 TEST(app_takes_weights_as_a_whole_and_only_when_told_to) {
   static flying_t f;
   app_start(&f);

@@ -64,8 +64,7 @@ TEST(app_reads_every_kind_of_set_point_that_the_firmware_makes) {
   units_setpoint(&sp, &full);
   CHECK(sp.yaw == YAW_ANGLE);
   CHECK_NEAR(sp.yaw_rad, 0.78539816, 2e-5);
-  // Unarmed: zeros, whatever is left over.
-  const setpoint_t none = {.attitudeRate.yaw = 50.0f};
+  const setpoint_t none = {.attitudeRate.yaw = 50.0f}; // unarmed: zeros, whatever is left over
   units_setpoint(&sp, &none);
   CHECK(sp.z == AXIS_OFF && sp.thrust_N == 0.0f && sp.yaw_rate_radps == 0.0f);
 }

@@ -16,8 +16,9 @@ mkdir -p $out/objects
 app="src/*.c src/firmware/controller.c src/firmware/range_up.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
 around="test/pil/around.c test/pil/pil.c sim/crazyflie/sections.c"
 paths="-D_Thread_local= -Iinclude -Isrc -Isim/crazyflie -Isim"
-bits="-std=gnu11 -fno-math-errno -ffp-contract=off"
-# As the firmware compiles an app (its tools/make), and with the app's own -ffp-contract=off (src/firmware/Kbuild).
+# As the firmware compiles an app (its tools/make), and with what the app adds to that: no fused multiply-add.
+own=$(sed -nE 's/^ccflags-y \+= (-f[^ ]*) .*/\1/p' src/firmware/Kbuild)
+bits="-std=gnu11 -fno-math-errno $own"
 m4="-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 $bits -fno-strict-aliasing -ffunction-sections \
  -fdata-sections -Wall -Wdouble-promotion -Werror"
 fail() {
