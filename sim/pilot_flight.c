@@ -29,9 +29,9 @@ static bool send(pilot_flight_t *p) {
   return known;
 }
 
-// At the second call of so many, as loop6 keeps its samples. Without memory the rows end.
+// At every call, or the second of so many as loop6 keeps its samples. Without memory the rows end.
 static void keep_log(pilot_flight_t *p, uint32_t step) {
-  if (step % (uint32_t)p->log_every_ms != 1) return;
+  if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
   const int width = sections_logs();
   if (p->n_log == p->room_log) {
     const int room = p->room_log ? 2 * p->room_log : 1024;

@@ -12,7 +12,7 @@ typedef struct {
   flight_param_t sent;
   float *log; // rows of the app's logs; null unless kept; free it
   int n_log, room_log;
-  int log_every_ms; // 10 or 2; 0: none is kept
+  int log_every_ms; // 10, 2 or 1; 0: none is kept
 } pilot_flight_t;
 
 // model: the vehicle whose motors are driven; null: legacy propellers. *p must stay where it is.

@@ -30,6 +30,7 @@ void record_free(record_t *r) {
   free(r->sample);
   free(r->more);
   free(r->app);
+  free(r->param);
   *r = (record_t){0};
 }
 
@@ -110,7 +111,23 @@ static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
   if (s6) write_more(file, s6);
 }
 
+static void write_calls(const record_t *r, FILE *file) {
+  char name[32];
+  const int n = sections_logs();
+  for (int k = 0; k < n && sections_log_at(k, name); k++) fprintf(file, k ? ",%s" : "%s", name);
+  fputc('\n', file);
+  for (int i = 0; i < r->n_calls; i++) {
+    for (int k = 0; k < n; k++)
+      fprintf(file, k ? ",%.9g" : "%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
+    fputc('\n', file);
+  }
+}
+
 void record_write(const record_t *r, FILE *file) {
+  if (r->n_calls > 0) {
+    write_calls(r, file);
+    return;
+  }
   bool column[APP_LOGS_MAX];
   const int n = choose(column);
   write_names(file, r, column, n);

@@ -82,8 +82,9 @@ status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
     return error_set(why,
                      "--noise %s: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3",
                      request->noise6->name);
-  if (request->log_500_Hz)
-    return error_set(why, "--log-rate 500: this scenario is flown on the vertical axis; allowed is 100");
+  if (request->log_500_Hz || request->log_calls)
+    return error_set(why, "--log-rate %d: this scenario is flown on the vertical axis; allowed is 100",
+                     request->log_calls ? 1000 : 500);
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;

@@ -36,7 +36,7 @@ typedef struct {
   plan_t plan;
 } setup_t;
 
-#define REQUEST_MAX 64
+#define REQUEST_MAX 128
 
 // What the command line asks for, over what the scenario brings.
 typedef struct {
@@ -51,6 +51,7 @@ typedef struct {
   param_set_t set[REQUEST_MAX];
   int n_set;
   bool log;        // keeps the app's logs, in six degrees of freedom
+  bool log_calls;  // with log: the app's logs of every call, and nothing else; six degrees of freedom
   bool log_500_Hz; // six degrees of freedom: a sample every 2 ms instead of 10
   uint64_t seed;
   integrate_kind_t integrate;

@@ -6,6 +6,7 @@
 #include "peers/stock_indi.h"
 #include "pilot_flight.h"
 #include <math.h>
+#include <stdlib.h>
 
 #define CEILING_M   0.5
 #define DECAY_PER_M 80.0 // of the thesis's ceiling effect
@@ -88,7 +89,14 @@ static void take_request(pilot_flight_t *p, const request_t *request) {
   for (int i = 0; i < request->n_set; i++)
     if (request->set[i].app)
       (void)crazyflie_set(&p->vehicle, request->set[i].app->name, (double)request->set[i].value);
-  p->log_every_ms = !request->log ? 0 : request->log_500_Hz ? 2 : 10;
+  p->log_every_ms = !request->log ? 0 : request->log_calls ? 1 : request->log_500_Hz ? 2 : 10;
+}
+
+static status_t keep_params(const flight_param_t *param, record_t *record, why_t *why) {
+  record->param = malloc((size_t)params_count * sizeof(float));
+  if (!record->param) return error_failed(why, "out of memory");
+  for (int i = 0; i < params_count; i++) record->param[i] = params_get(param, &params_table[i]);
+  return ST_OK;
 }
 
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
@@ -104,6 +112,8 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
                                     &flown->more, &flown->flown.outcome, why);
   flown->flown.record.app = p.log;
+  if (p.log_every_ms == 1) flown->flown.record.n_calls = p.n_log;
+  TRY(keep_params(&param, &flown->flown.record, why));
   if (setup->request && setup->request->log && status == ST_OK && p.n_log < flown->flown.record.n)
     return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;

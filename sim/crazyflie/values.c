@@ -23,6 +23,17 @@ void values_put(int param_type, void *at, double value) {
   }
 }
 
+void values_put_log(int log_type, void *at, double value) {
+  const float real = (float)value;
+  const uint8_t small = (uint8_t)within(value, 0.0, 255.0);
+  const uint32_t whole = (uint32_t)within(value, 0.0, 4294967295.0);
+  switch (log_type) {
+  case LOG_FLOAT: memcpy(at, &real, sizeof real); break;
+  case LOG_UINT8: memcpy(at, &small, sizeof small); break;
+  case LOG_UINT32: memcpy(at, &whole, sizeof whole); break;
+  }
+}
+
 #define READ(type, at)                                                                                       \
   do {                                                                                                       \
     type value;                                                                                              \

@@ -5,6 +5,7 @@
 #include "sections.h"
 
 void values_put(int param_type, void *at, double value);
+void values_put_log(int log_type, void *at, double value);
 double values_of_param(int param_type, const void *at);
 double values_of_log(int log_type, const void *at);
 
