@@ -16,7 +16,7 @@ C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off
-# One file flies many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
+# Some files fly many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
 ifeq ($(findstring clang,$(CC)),)
 OMP     = -fopenmp
 OMP_LIB = -lgomp
@@ -53,9 +53,10 @@ endif
 help:  ## what can be made
 	@echo '  make out/fly          flies scenarios (out/fly --help)'
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
+	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
+.PHONY: help demo flights slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -105,6 +106,9 @@ $(B)/test/test_app%.o: test/test_app%.c | setup
 $(B)/test/exam/main.o: test/exam/main.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
+$(B)/test/test_faults.o: test/test_faults.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
@@ -137,8 +141,10 @@ $(PROGRAMS:%=out/%) out/exam: out/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
-demo: setup-demo out/fly out/learn  ## fly, learn, compare, draw (DATA=DIR adds real flights)
+demo: setup-demo out/fly out/learn out/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights)
 	@tools/demo.sh "$(DATA)"
+	@echo
+	@tools/gap_demo.sh "$(DATA)"
 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
@@ -146,8 +152,11 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
 
-test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests out/fly out/gap out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+
+faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should
+	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
@@ -157,11 +166,11 @@ check: test sanitize clang  ## the long tests, also with sanitizers and clang, a
 	+@tools/seeded.sh
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
-	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/learn out/sanitize/bin/effectiveness
+	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/gap out/sanitize/bin/learn out/sanitize/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/sanitize/bin out/sanitize/bin/tests "$(W)"
 
 clang: setup-lint  ## everything again, and the tests, with clang
-	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/learn out/clang/bin/effectiveness
+	@$(MAKE) B=out/clang CC=clang CXX=clang++ out/clang/bin/tests out/clang/bin/fly out/clang/bin/gap out/clang/bin/learn out/clang/bin/effectiveness
 	@DATA="$(DATA)" PROGRAMS=out/clang/bin out/clang/bin/tests "$(W)"
 
 FUZZ_S = 60
@@ -179,7 +188,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness

@@ -54,7 +54,8 @@ status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, 
   const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
   const bool gated = s->known && s->zc_m < p->near_m;
   // Beyond the gate by noise alone is no contradiction; at the floor, three times, is.
-  const bool contradicts = gated ? beyond_gate && now_m > s->zc_m + CEILING_AGREE_M : s->known && at_floor;
+  const bool contradicts = gated ? beyond_gate && now_m > s->zc_m + CEILING_AGREE_M
+                                 : s->known && (at_floor || now_m > s->zc_m + CEILING_JUMP_M);
   if (contradicts) {
     take_rival(s, p, now_m);
     return ST_OK;
@@ -62,6 +63,7 @@ status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, 
   s->rivals = 0;
   if (gated || at_floor || (!s->known && !beyond_gate)) return ST_OK;
   s->blind_s = 0.0f;
-  set(s, p, s->known ? s->zc_m + p->gain * (now_m - s->zc_m) : now_m);
+  const bool jumps = now_m < s->zc_m - CEILING_JUMP_M; // near is safe
+  set(s, p, s->known && !jumps ? s->zc_m + p->gain * (now_m - s->zc_m) : now_m);
   return ST_OK;
 }

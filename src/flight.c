@@ -24,6 +24,7 @@ status_t flight_init(flight_t *f, const flight_param_t *p) {
 
 status_t flight_tune(flight_t *f, const flight_param_t *p) {
   TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
+  f->outer.coef.period_s = OUTER_S;
   TRY(outer_take(&f->outer, p));
   f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
   return ST_OK;
@@ -192,6 +193,8 @@ const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {
   flight_in_t *const in = &f->in;
   *in = *raw;
   watch_inputs(f, in);
+  // A bit that flipped in what only parameters make would stay for ever.
+  if (f->due & FLIGHT_SCRUB) count(f, flight_tune(f, &f->outer.param));
   if (f->guard.now & GUARD_SETPOINT) count(f, ST_BAD_SETPOINT);
   const status_t judged = check_in(in);
   count(f, judged);

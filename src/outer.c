@@ -118,12 +118,15 @@ void outer_rest(outer_t *f) {
 }
 
 // Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
-// acceleration: upwards no more than a set point that rests there asks for.
+// acceleration: upwards no more than a set point that rests there asks for. Who asks for a height beyond
+// rests OUTER_CLIP_M below, as no one holds a limit to the millimetre.
 static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->param.pos;
   v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
   if (!f_finite(f->hold.ceiling_z_m)) return wanted;
-  const float climb_mps = p->kp_per_s * (f->hold.ceiling_z_m - f->param.gap_min_m - in->pos_w_m.z);
+  const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
+  const float beyond_m = f_clamp(in->setpoint.pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
+  const float climb_mps = p->kp_per_s * (limit_m - beyond_m - in->pos_w_m.z);
   const float most_mps2 = f_clamp(p->kd_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
   if (wanted.z > most_mps2) wanted.z = most_mps2;
   return wanted;
@@ -160,7 +163,7 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
   observe(f, x);
-  const v3_t vel = bias_free_velocity(&f->bias, &f->param.bias, in->vel_w_mps);
+  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
   const v3_t error = acc_error(f, in, x->acc_w_mps2, vel);
   const pos_command_t command = fly(f, x, at, error, vel.z);
   f->at_limit = command.at_limit;

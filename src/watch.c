@@ -18,7 +18,10 @@ static unsigned one_of(flight_t *f, unsigned due) {
   due |= f->waiting;
   unsigned now = due;
   if (f->waited <= WAIT_MAX)
-    now = due & FLIGHT_INNER ? FLIGHT_INNER : due & FLIGHT_OUTER ? FLIGHT_OUTER : due & FLIGHT_LEARN;
+    now = due & FLIGHT_INNER   ? FLIGHT_INNER
+          : due & FLIGHT_OUTER ? FLIGHT_OUTER
+          : due & FLIGHT_LEARN ? FLIGHT_LEARN
+                               : due;
   f->waiting = due & ~now;
   return now;
 }
@@ -33,11 +36,13 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->step_last = step - 1u;
   } else {
     const uint32_t since = step - f->step_last;
+    if (f->phase > 9) f->phase = f->step_last % 10; // a flipped bit
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
     const unsigned due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) |
                          (passes(f->phase, ms, 4) ? FLIGHT_LEARN : 0u) |
+                         (passes(f->phase, ms, 8) ? FLIGHT_SCRUB : 0u) | // when no loop runs
                          (ms > 1 || f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
     f->due = one_of(f, due);
     // An outer period that was skipped altogether is known to the outer loop.
@@ -99,6 +104,10 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->ceiling_z_m = o->out.ceiling_z_m;
   g->zc_known = o->ceiling.known;
   g->setpoint_good = setpoint_good;
+  g->find_bias = f->outer.param.bias.pole_radps > 0.0f;
+  g->force_N = o->sample.force_N;
+  g->thrust_now_N = o->sample.thrust_N;
+  g->bias_known_mps2 = o->bias.bias_mps2.z;
   g->asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN;
   g->setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN;
 }
@@ -145,6 +154,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   guard_in_t guard_in;
   see(&guard_in, f, in, ms, good);
   guard_step(&f->guard, &f->outer.param.guard, &guard_in);
+  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
   mend_acceleration(f, in);
   if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   set_what_flies(f, in);

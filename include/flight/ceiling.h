@@ -7,8 +7,10 @@
 // climb alone. The thesis gates on the estimate and nothing else, so that an estimate that is wrongly near is
 // never corrected again. Here three samples in a row that agree with each other set it right: beyond near_m
 // and 2 cm farther than the estimate, or at the floor while the estimate is beyond near_m (README, reading
-// rules). floor_m lies well below near_m: to drop the near half of the noise at the gate pushes the estimate
-// up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s, white noise of the sensor times 0.229.
+// rules). An estimate that is not gated believes at once what is CEILING_JUMP_M nearer, a beam, and three
+// times what is as much farther, a hole. floor_m lies well below near_m: to drop the near half of the noise
+// at the gate pushes the estimate up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s, white
+// noise of the sensor times 0.229.
 #ifndef FLIGHT_CEILING_H
 #define FLIGHT_CEILING_H
 
@@ -24,6 +26,8 @@ typedef struct {
 
 #define CEILING_HISTORY     32   // ticks of climb that are remembered: the oldest sample that can be used
 #define CEILING_RANGE_MAX_M 4.0f // the sensor's range; 32.767 m is its word for "no echo"
+// A sample that is nearer by this is taken at once, one that is farther as a rival.
+#define CEILING_JUMP_M      0.05f
 #define CEILING_AGREE_M     0.02f // samples agree when they are within this of their mean, else they contradict
 #define CEILING_AGREE_COUNT 3     // agreeing samples that overrule the estimate
 

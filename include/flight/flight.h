@@ -86,7 +86,7 @@ typedef struct {
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
 } flight_t;
 
-enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4 };
+enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8 };
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.

@@ -40,7 +40,8 @@ typedef struct {
   float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
-#define CARRYING_SHARE 0.3f // of the weight: from here on the rotors carry
+#define OUTER_CLIP_M   0.006f // a height beyond ceil.min is flown so far below it
+#define CARRYING_SHARE 0.3f   // of the weight: from here on the rotors carry
 
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks

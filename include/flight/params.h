@@ -64,8 +64,8 @@ typedef struct {
   X(indiPos, biasPole, PARAM_FLOAT, bias.pole_radps, "rad/s", 1.0f, 0.0f, 10.0f,                             \
     "speed at which the accelerometer's bias is found; 0 = not")                                             \
   X(indiPos, biasMax, PARAM_FLOAT, bias.max_mps2, "m/s2", 0.5f, 0.0f, 5.0f, "largest bias believed")         \
-  X(indiPos, biasVel, PARAM_FLOAT, bias.vel_s, "s", 0.153f, 0.0f, 1.0f,                                      \
-    "velocity error of the estimator per accelerometer bias")
+  X(indiPos, biasVel, PARAM_FLOAT, bias.vel_s, "s", 0.5f, 0.0f, 10.0f,                                       \
+    "time over which the estimator's velocity is held against its position")
 
 #define PARAMS_INDIATT(X)                                                                                    \
   X(indiAtt, kp, PARAM_FLOAT, att.kp_per_s, "1/s", 5.0f, 0.5f, 40.0f, "roll, pitch: wanted rate per angle")  \
@@ -107,7 +107,7 @@ typedef struct {
     "an estimate nearer than this is not corrected")                                                         \
   X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
-    "set points are clipped to this below the ceiling")                                                      \
+    "set points are clipped to this below the ceiling, heights beyond to 6 mm more")                         \
   X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
   X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
     "share of the ceiling's torque in roll and pitch that is taken out")                                     \

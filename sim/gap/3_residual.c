@@ -130,6 +130,13 @@ static void smooth(const grid_t *g, double *v) {
   }
 }
 
+// Measured and predicted alike; turning is a difference over two points.
+static bool is_free(const grid_t *g, int channel, int j) {
+  const bool turning = channel >= CH_FORCES;
+  return g->point[j].ok &&
+         (!turning || ((j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok)));
+}
+
 void residual_rows(const set_t *s, int flight, int channel, series_t kind, const double *series,
                    double *scratch, double *row) {
   const grid_t *g = &s->grid[flight];
@@ -141,7 +148,8 @@ void residual_rows(const set_t *s, int flight, int channel, series_t kind, const
       const double v = channel < CH_FORCES        ? series[j]
                        : kind == SERIES_PREDICTED ? over_two(g, series, j)
                                                   : differentiated(g, series, j);
-      scratch[j] = last = isfinite(v) ? v : last;
+      if (isfinite(v) && is_free(g, channel, j)) last = v;
+      scratch[j] = last; // what is masked does not spill over through the filter
     }
     smooth(g, scratch);
     from = scratch;

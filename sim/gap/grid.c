@@ -1,6 +1,7 @@
 // grid.c - a part of a flight on a coarser grid.
 #include "gap/grid.h"
 
+#include "body_forces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 #define POINT_HZ  50.0
 #define FLIES     0.3   // of the weight: with less thrust it stands or falls
 #define CLEAR_M   5e-3  // of the feet from the floor
-#define TOP_M     2e-3  // of the highest points from the ceiling
+#define TOP_M     2e-3  // of anything from the ceiling
 #define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
 #define NOMINAL_V 3.7   // where no voltage is logged
 
@@ -73,19 +74,17 @@ static bool finite3(d3_t a) {
   return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-static bool is_good(const grid_t *g, const point_t *p, const model_t *m, int from) {
+static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const touch_gap_t *gap, int from) {
   double thrust_N = 0.0;
   for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
-  const double feet_m = p->pos_w_m.z - body_rest_z_m(m);
-  const double top_m = p->pos_w_m.z + body_rotor_z_m(m) + fmax(m->frame.top_above_rotor_m, 0.0);
-  if (g->has_position && (feet_m < CLEAR_M || top_m > m->ceiling_m - TOP_M)) return false;
+  if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
   return thrust_N > FLIES * m->mass_kg * PLANT_GRAVITY_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
 
-static point_t point_of(const grid_t *g, const model_t *m, int from) {
+static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch, int from) {
   const gap_flight_t *f = g->flight;
   const int n = g->every, middle = from + n / 2;
   point_t p = {
@@ -105,19 +104,26 @@ static point_t point_of(const grid_t *g, const model_t *m, int from) {
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
   p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
-  p.ok = is_good(g, &p, m, from);
+  const axes_t axes = axes_of(p.q_wb);
+  const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
+  p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
+  p.ok = is_good(g, &p, m, &gap, from);
   return p;
 }
 
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
+  body_t b = {.model = m}; // the points that can touch
+  b.touch.ceiling_m = m->ceiling_m;
+  b.touch.disc_radius_m = m->rotor_radius_m;
+  body_place(&b, d3(0.0, 0.0, 0.0));
   for (int i = g->from; i + g->every <= to;) {
     const int *segment = g->flight->segment;
     if (segment && segment[i] != segment[i + g->every - 1]) {
       i++;
       continue;
     }
-    g->point[g->n++] = point_of(g, m, i);
+    g->point[g->n++] = point_of(g, m, &b.touch, i);
     i += g->every;
   }
 }

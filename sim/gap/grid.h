@@ -22,6 +22,7 @@ typedef struct {
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
   double range_m; // fresh, else NaN
+  double clear_m; // least distance of any part of it from ceiling or floor, as estimated
 } point_t;
 
 #define GRID_MOTORS 4 // motor histories kept

@@ -164,6 +164,7 @@ manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHAN
   w.vbat_V = f->v[SIG_VBAT] ? largest_noise(s, SIG_VBAT, SIG_VBAT) : 0.0;
   const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
   w.range_m = range.used ? range.sd : 0.005;
+  slow_errors(&s->grid[0], &w.slow_pos_m, &w.slow_vel_mps, &w.slow_angle_rad);
   find_gains(s, m, &w);
   find_disturbance(s, residual, &w);
   return w;

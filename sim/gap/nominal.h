@@ -10,6 +10,7 @@
 #define SIM_GAP_NOMINAL_H
 
 #include "gap/5_select.h"
+#include "gap/manner_slow.h"
 #include "gap/unknown.h"
 
 #define NOMINAL_FLIGHTS 10
@@ -19,7 +20,8 @@ typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double climb_gain, height_gain; // 1/s, 1/s2
   double acc_mps2, gyro_radps, vel_mps, pos_m, angle_rad, vbat_V, range_m; // sd of a sample
-  double force_mps2[3], force_tau_s; // disturbance, sd and correlation time
+  slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
+  double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
   double turn_radps2[3], turn_tau_s;
 } manner_t;
 

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define DRAWS 20 // so often a set whose vehicle cannot fly is drawn again
+
 exam_kind_t exam_kind(int i) {
   static const exam_kind_t order[] = {EXAM_ONE, EXAM_NOTHING, EXAM_ONE,   EXAM_TWO, EXAM_STRANGE,
                                       EXAM_ONE, EXAM_NOTHING, EXAM_HOVER, EXAM_ONE, EXAM_TWO};
@@ -50,7 +52,7 @@ static status_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flig
   // vehicle.
   for (int k = 0; k < set->n; k++) job.indi = job.indi && !same(set->hidden[k], "motor_lag");
   set->flew = true;
-  for (int i = 0; i <= EXAM_FIT; i++) {
+  for (int i = 0; i <= EXAM_FIT && set->flew; i++) {
     job.seed = seed * 16u + (unsigned long)i;
     if (exam_fly(&job, &flight[i], why) != ST_OK) set->flew = false;
   }
@@ -150,9 +152,13 @@ status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *
   if (!r) return error_failed(why, "out of memory");
   *set = (exam_set_t){.kind = kind, .own_form = seed % 2 == 1};
   status_t status = exam_vehicle(&base, why);
-  truth = base;
-  if (status == ST_OK) status = hide(set, r, &truth, why);
-  if (status == ST_OK) status = fly(set, r, &truth, flight, seed, why);
+  for (int draw = 0; draw < DRAWS && status == ST_OK && !set->flew; draw++) {
+    set->drawn_again = draw;
+    truth = base;
+    status = hide(set, r, &truth, why);
+    for (int i = 0; i <= EXAM_FIT; i++) gap_flight_free(&flight[i]);
+    if (status == ST_OK) status = fly(set, r, &truth, flight, seed + 1000003u * (unsigned long)draw, why);
+  }
   if (status == ST_OK && set->flew) status = examine(set, &base, &truth, flight, seed, why);
   for (int i = 0; i <= EXAM_FIT; i++) gap_flight_free(&flight[i]);
   random_close(r);

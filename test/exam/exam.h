@@ -14,7 +14,8 @@ typedef enum { EXAM_NOTHING, EXAM_ONE, EXAM_TWO, EXAM_STRANGE, EXAM_HOVER, EXAM_
 typedef struct {
   exam_kind_t kind;
   bool own_form, flew;
-  int n; // hidden
+  int drawn_again; // so often: the vehicle could not fly with what was hidden
+  int n;           // hidden
   const char *hidden[2];
   double times[2];
   strange_t strange;

@@ -22,6 +22,8 @@
 #define VBAT_SD   0.015
 #define TOF_SD    0.006
 #define TOF_FLOOR 0.045
+#define LOST_M    1.5 // off its track
+#define DOWN_S    1.0 // on the floor, in all
 
 status_t exam_vehicle(model_t *m, why_t *why) {
   TRY(model_builtin("cf21_legacy", m, why));
@@ -121,7 +123,7 @@ static void order(pilot6_in_t *in, const wish_t *w) {
 
 static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_flight_t *f, why_t *why) {
   pilot6_in_t in = {.q_wb = {.w = 1.0}};
-  double motor_N[4], z_m = 0.4;
+  double motor_N[4], z_m = 0.4, down_s = 0.0;
   for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
   pilot->reset(pilot->state);
   for (long tick = 0; tick < lround(EXAM_SPAN_S / STEP_S); tick++) {
@@ -141,7 +143,8 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
     body_tick(&e->body, motor_N, STEP_S);
     for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
     const d3_t at = d3_of(e->body.y + RIGID_POS_M);
-    if (e->body.broken || d3_norm(d3_sub(at, wish.pos)) > 3.0)
+    down_s += at.z < body_rest_z_m(&e->model) + 1e-3 ? STEP_S : 0.0;
+    if (e->body.broken || !(d3_norm(d3_sub(at, wish.pos)) < LOST_M) || down_s > DOWN_S)
       return error_failed(why, "the exam's vehicle crashed");
   }
   return ST_OK;

@@ -48,7 +48,7 @@ typedef struct {
       unknown_wrong;
   rate_t recall, precision, hover_recall;
   double after, oracle;
-  int shrunk;
+  int shrunk, drawn_again;
 } marks_t;
 
 static void add_one(marks_t *m, const exam_set_t *s) {
@@ -58,6 +58,7 @@ static void add_one(marks_t *m, const exam_set_t *s) {
 }
 
 static void add(marks_t *m, const exam_set_t *s) {
+  m->drawn_again += s->drawn_again;
   if (!s->flew) return;
   if (s->kind == EXAM_NOTHING) count(&m->alarm, s->wrong > 0);
   if (s->kind == EXAM_NOTHING) count(&m->unknown_wrong, s->unknown);
@@ -103,6 +104,7 @@ static void print_marks(const marks_t *m) {
   print_rate("hover only: named", &m->hover_recall);
   print_rate("hover only, not named: says it could not be tested", &m->hover_says);
   const double n = fmax(m->shrunk, 1);
+  printf("drawn again, because the vehicle could not fly: %d\n", m->drawn_again);
   printf("held-out sum of squares, after / with the truth (goal: 1.05)   %.3f / %.3f = %.3f\n", m->after / n,
          m->oracle / n, m->after / m->oracle);
 }

@@ -1,0 +1,32 @@
+// nominal_pilot.h - a nominal flight, and the pilot that flies it. Within sim/gap only.
+#ifndef GAP_NOMINAL_PILOT_H
+#define GAP_NOMINAL_PILOT_H
+
+#include "gap/nominal.h"
+
+typedef struct {
+  const grid_t *g;
+  const model_t *m;
+  manner_t own; // as the log was flown, as far as this pilot can
+  const manner_t *w;
+  double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
+  body_t body;
+  random_t *random;
+  gap_flight_t *log;
+  int from, to, at;                           // points of the track
+  d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
+  d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
+  double lift_trim;                           // thrust over weight that holds it
+} nominal_flight_t;
+
+// Commands that bring the vehicle, as it is seen, to its track.
+void pilot_steer(const nominal_flight_t *f, const point_t *track, const point_t *seen,
+                 double motor_N[ROTORS]);
+
+// Gains that do not ring with the body's lag.
+void pilot_tame(nominal_flight_t *f);
+
+// Finds what holds the body level, and gives it that.
+void pilot_trim(nominal_flight_t *f);
+
+#endif
