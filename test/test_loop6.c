@@ -97,6 +97,20 @@ TEST(loop6_tells_the_pilot_what_was_applied_and_not_what_it_asked_for) {
   drop(&flown);
 }
 
+TEST(loop6_records_what_was_applied_since_the_last_call_beside_the_new_command) {
+  model_t m = vehicle6(HUGE_VAL);
+  still_t s = {.motor_N = 1.0};
+  flown_t6 flown;
+  why_t why;
+  if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
+  for (int i = 0; i < 2; i++) {
+    ROW("sample %d", i);
+    CHECK_NEAR(flown.record.sample[i].command_N, PILOT6_MOTORS * 1.0, 1e-12);
+    CHECK_NEAR(flown.record.sample[i].sense.applied_N, i == 0 ? WEIGHT_N : PILOT6_MOTORS * LIMIT_N, 1e-12);
+  }
+  drop(&flown);
+}
+
 TEST(loop6_tells_how_old_a_range_sample_is) {
   // In a climb at 0.2 m/s a sample of 60 to 80 ms is 14 mm off when it comes, at most 2 mm when it was
   // measured.

@@ -31,8 +31,8 @@ typedef struct {
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
   yaw_mode_t yaw;
-  float yaw_rad; // any angle; the shorter way round is taken
-  float yaw_rate_radps;
+  float yaw_rad;        // any angle; the shorter way round is taken
+  float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
 } flight_setpoint_t;
 
 typedef struct {
@@ -59,7 +59,7 @@ typedef struct {
   lpf2_coef_t att_filter;
   float att_lag_share;
   sincos_t heading_ref; // heading that is held; YAW_RATE turns it
-  bool heading_known;
+  bool heading_known;   // not while the motors are off
   flight_param_t param; // the last set that passed its checks
   bool range_waits;     // a range sample that the outer loop has not seen
   float range_m, range_age_s;

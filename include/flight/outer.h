@@ -26,7 +26,7 @@ typedef struct {
   quat_t q_wb;       // attitude, body to world
   float thrust_N;    // what was applied since the last call: the command after mixing and limits
   bool range_new;    // range_m is a sample that was not there at the last call
-  float range_m;     // upward range sensor, propeller plane to what is above, along the body's z axis
+  float range_m;     // upward range sensor, from the sensor to what is above, along the body's z axis
   float range_age_s; // time since it was measured
   pos_setpoint_t setpoint;
 } outer_in_t;
