@@ -66,9 +66,11 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
 static void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
+  ceiling_tilt(&f->ceiling, quat_up(f->sync.att_last).z);
   if (in->range_new) {
-    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
-    const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
+    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt as it was
+    // then.
+    const float vertical_m = in->range_m * ceiling_up(&f->ceiling, in->range_age_s);
     const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
     const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
     count(f, status);
