@@ -13,6 +13,7 @@ status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
 static void tell(const pilot_t *p, const outer_out_t *out, bool taught, thoughts_t *thoughts) {
   thoughts->y = taught ? (double)p->flight.learn.y : (double)NAN;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
+  thoughts->ceiling_z_m = (double)out->ceiling_z_m;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
   for (int i = 0; i < RBF_N; i++) {

@@ -102,7 +102,7 @@ static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
   write_attitude(file, s, s6);
   const thoughts_t *th = &s->thoughts;
   fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%u,%u,", 1e3 * s->sense.range_m, s->command_N, s->sense.applied_N,
-          th->zc_m, s->sense.z_m + th->zc_m, th->guard_now, th->guard_latched);
+          th->zc_m, th->ceiling_z_m, th->guard_now, th->guard_latched);
   fprintf(file, "%.6f,%.5f,%.5f,", s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
   for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);

@@ -56,6 +56,7 @@ void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
   plan_t *plan = &setup->plan.plan;
   const double hover_s = 12.0; // at the first gap, take-off included
   setup->plan.take_off_s = 1.0;
+  setup->plan.below_estimate = true;
   plan->n_way = n;
   for (int i = 0; i < n; i++) {
     const double at_s = i == 0 ? 0.0 : hover_s + hold_s * (i - 1);
@@ -73,6 +74,7 @@ static void ask_flight(const void *state, thoughts_t *thoughts) {
   const pilot_flight_t *p = state;
   const outer_out_t *out = &p->flight->out.outer;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
+  thoughts->ceiling_z_m = (double)out->ceiling_z_m;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
   thoughts->guard_now = p->flight->guard.now;

@@ -111,7 +111,9 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   const sincos_t now = heading(in->q_wb), ref = f->heading_known ? f->heading_ref : now;
   const sincos_t turn = trig_sincos(INNER_S * sp->yaw_rate_radps);
   const sincos_t next = {ref.sin * turn.cos + ref.cos * turn.sin, ref.cos * turn.cos - ref.sin * turn.sin};
-  const bool too_far = next.cos * now.cos + next.sin * now.sin < LEAD_COS;
+  // Back towards the vehicle is always allowed, or it would be held for ever.
+  const float lead_cos = next.cos * now.cos + next.sin * now.sin;
+  const bool too_far = lead_cos < LEAD_COS && lead_cos < ref.cos * now.cos + ref.sin * now.sin;
   const sincos_t held = too_far ? ref : next;
   const float k = 1.0f / sqrtf(held.sin * held.sin + held.cos * held.cos);
   return (sincos_t){k * held.sin, k * held.cos};
@@ -150,6 +152,7 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   if (motors_off(f, sp, thrust_N)) {
     f->out.motors = (mixer_out_t){.thrust_N = 0.0f};
     att_indi_reset(&f->att);
+    f->heading_known = false; // who carries the vehicle turns it
     return;
   }
   const v3_t up =

@@ -71,15 +71,28 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   f->hold.ceiling_z_m += by_height_m - by_velocity_m;
+  f->range_height_m += by_height_m - by_velocity_m;
   return by_velocity_m;
+}
+
+// A sensor without a time stamp gives the last value again where it has no new one: after a climb the same
+// value is no measurement.
+static bool is_repeated(outer_t *f, const outer_in_t *in) {
+  if (!(in->range_m > 0.0f && in->range_m <= CEILING_RANGE_MAX_M)) return false;
+  if (in->range_m == f->range_last_m) return fabsf(in->pos_w_m.z - f->range_height_m) > OUTER_REPEATED_M;
+  f->range_last_m = in->range_m;
+  f->range_height_m = in->pos_w_m.z;
+  return false;
 }
 
 static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
-  if (in->range_new) {
-    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
-    const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
+  ceiling_tilt(&f->ceiling, quat_up(f->sync.att_last).z);
+  if (in->range_new && !is_repeated(f, in)) {
+    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt as it was
+    // then.
+    const float vertical_m = in->range_m * ceiling_up(&f->ceiling, in->range_age_s);
     const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
     const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
     count(f, status);

@@ -32,8 +32,8 @@ typedef struct {
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
   yaw_mode_t yaw;
-  float yaw_rad; // any angle; the shorter way round is taken
-  float yaw_rate_radps;
+  float yaw_rad;        // any angle; the shorter way round is taken
+  float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
 } flight_setpoint_t;
 
 typedef struct {
@@ -62,8 +62,8 @@ typedef struct {
   float att_lag_share;
   sincos_t heading_ref; // heading that is held; YAW_RATE turns it
   float yaw_rad;        // that heading_ref is the heading of; NaN: of none
-  bool heading_known;
-  bool range_waits; // a range sample that the outer loop has not seen
+  bool heading_known;   // not while the motors are off
+  bool range_waits;     // a range sample that the outer loop has not seen
   float range_m, range_age_s;
   // Of this call, as the guard leaves it, and what each loop made of it: here, for the vehicle's stack is
   // small.

@@ -26,7 +26,7 @@ typedef struct {
   quat_t q_wb;       // attitude, body to world
   float thrust_N;    // what was applied since the last call: the command after mixing and limits
   bool range_new;    // range_m is a sample that was not there at the last call
-  float range_m;     // upward range sensor, propeller plane to what is above, along the body's z axis
+  float range_m;     // upward range sensor, from the sensor to what is above, along the body's z axis
   float range_age_s; // time since it was measured
   pos_setpoint_t setpoint;
 } outer_in_t;
@@ -40,8 +40,9 @@ typedef struct {
   float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
-#define OUTER_CLIP_M   0.006f // a height beyond ceil.min is flown so far below it
-#define CARRYING_SHARE 0.3f   // of the weight: from here on the rotors carry
+#define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
+#define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
+#define CARRYING_SHARE   0.3f   // of the weight: from here on the rotors carry
 
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks
@@ -53,7 +54,8 @@ typedef struct {
   hold_t hold;
   learn_t learn;
   float height_last_m;
-  float carrying_s; // time since the rotors began to carry
+  float range_last_m, range_height_m; // the last range that was another one, and the height it came at
+  float carrying_s;                   // time since the rotors began to carry
   bool started, at_limit;
   learn_sample_t sample; // what the last step would teach
   bool sample_new;       // it has not been taught yet
