@@ -199,9 +199,13 @@ seeded:  ## steps into every trap of test/seeded and expects the tests to say so
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
 	+@tools/pil.sh
 
+report:  ## the image's size (after make firmware) and the target's figures into README.md
+	+@tools/report.sh
+
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" plus
+	@cat out/firmware/legacy/size out/firmware/plus/size >out/firmware/size
 
 cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus)
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"

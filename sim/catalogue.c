@@ -1,6 +1,7 @@
 // catalogue.c - what there is to fly, for people.
 #include "catalogue.h"
 
+#include "crazyflie/sections.h"
 #include "flight/params.h"
 #include "param_spec.h"
 #include "plant/noise6.h"
@@ -39,6 +40,17 @@ void catalogue_params(bool markdown) {
     snprintf(range, sizeof range, "0 to %g", (double)a->max);
     printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", a->name, "", "0",
            range, a->help);
+  }
+}
+
+void catalogue_logs(void) {
+  const section_log_group_t *const *group;
+  const int n = sections_log_groups(&group);
+  fputs("| group | logs |\n|---|---|\n", stdout);
+  for (int i = 0; i < n; i++) {
+    printf("| `%s` |", group[i]->name);
+    for (const section_log_t *log = group[i]->log; log->name; log++) printf(" `%s`", log->name);
+    fputs(" |\n", stdout);
   }
 }
 

@@ -10,4 +10,7 @@ void catalogue_all(void);
 // Every parameter of the flight code: unit, default, range, what it does; aligned, or as a table in Markdown.
 void catalogue_params(bool markdown);
 
+// Every log of the app, as a table in Markdown, a row for each group.
+void catalogue_logs(void);
+
 #endif

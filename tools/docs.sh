@@ -22,6 +22,9 @@ trap 'rm -f "$got"' EXIT
 
 out/fly --params=markdown >"$got"
 part params <"$got"
+out/fly --logs >"$got"
+part logs <"$got"
+tools/report.sh
 tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 tools/gap_demo.sh "$data" >"$got"

@@ -49,5 +49,8 @@ if grep -n 'warning:' "$log"; then
   echo "the firmware builds with warnings; the whole log is $log" >&2
   exit 1
 fi
-echo "$propellers propellers: $tree/build/cf2.bin"
-grep -E '^(Flash|RAM|CCM) ' "$log" | sed -E 's/\|[^|]*$//; s/^/  /; s/ *$//'
+{
+  echo "$propellers propellers: out/firmware/$propellers/build/cf2.bin"
+  grep -E '^(Flash|RAM|CCM) ' "$log" | sed -E 's/\|[^|]*$//; s/^/  /; s/ *$//'
+} >"$tree/size"
+cat "$tree/size"

@@ -29,7 +29,7 @@ typedef struct {
   bool seed_said;
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path, *replay, *params_to;
-  bool list, params, markdown, help, rate_said;
+  bool list, logs, params, markdown, help, rate_said;
   int not_finite; // flights
 } order_t;
 
@@ -72,6 +72,7 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'r': o->rate_said = true; return request_take_log_rate(&o->request, text, why);
   case 'j': o->json = text; return ST_OK;
   case 'L': o->list = true; return ST_OK;
+  case 'G': o->logs = true; return ST_OK;
   case 'P':
     o->params = true;
     o->markdown = text != NULL;
@@ -97,11 +98,13 @@ static status_t check_many(const order_t *o, why_t *why) {
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},    {"set-from", 1, 0, 'S'},   {"params-to", 1, 0, 'T'},
-      {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'}, {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},
-      {"seed", 1, 0, 'd'},       {"seeds", 1, 0, 'm'},  {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
-      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},    {"log-rate", 1, 0, 'r'},   {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},       {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},        {"set-from", 1, 0, 'S'},
+      {"params-to", 1, 0, 'T'},  {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'},
+      {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
+      {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
+      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},        {"log-rate", 1, 0, 'r'},
+      {"json", 1, 0, 'j'},       {"list", 0, 0, 'L'},       {"logs", 0, 0, 'G'},
+      {"params", 2, 0, 'P'},     {"help", 0, 0, 'h'},       {0},
   };
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   opterr = 0;
@@ -111,7 +114,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
                        argv[optind - 1]);
     TRY(take_option(o, option, optarg, why));
   }
-  if (o->list || o->params || o->help) return ST_OK;
+  if (o->list || o->logs || o->params || o->help) return ST_OK;
   if (o->replay && optind == argc) return ST_OK;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
@@ -214,6 +217,7 @@ static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t 
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
   if (order->list) catalogue_all();
+  if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
   if (order->replay) return replay(order, why);
   if (!order->scenario) return ST_OK;

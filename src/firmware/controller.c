@@ -77,7 +77,7 @@ static APART void command(control_t *control, const setpoint_t *setpoint, const 
 
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                          const state_t *state, const stabilizerStep_t step) {
-  settings_take(step);
+  settings_take();
   take_inputs(control, setpoint, sensors, state, step);
   judge_flyable(&GLUE.in);
   const bool grounded = GLUE.flyable.not_flyable != 0;

@@ -68,11 +68,12 @@ static void take_commit(unsigned which) {
   }
 }
 
-void settings_take(uint32_t step) {
+void settings_take(void) {
+  const unsigned phase = GLUE.flight.phase; // of the call before
   // A bit that flipped in the parameters would stay for ever.
-  if (step % 10 == 6) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
-  if (!GLUE.ready || step % 2 == 0) return; // even steps have the outer loop and the lessons
-  if (GLUE.commit != 0) {                   // in a tick of its own: both would be too much for one
+  if (phase == 5) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+  if (!GLUE.ready || phase % 2 != 0) return; // now comes the outer loop, a lesson or a scrub
+  if (GLUE.commit != 0) {                    // in a tick of its own: both would be too much for one
     take_commit(GLUE.commit);
     GLUE.commit = 0;
     return;

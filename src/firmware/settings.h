@@ -11,13 +11,12 @@
 #define FIRMWARE_SETTINGS_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 // A fresh controller with what the parameters say now, the weights included; defaults for what is refused.
 void settings_start(void);
 
 // Once a tick, before anything else; acts in every second one.
-void settings_take(uint32_t step);
+void settings_take(void);
 
 // A lesson may be taught now.
 bool settings_learning(void);
