@@ -54,7 +54,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights touches slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -128,6 +128,9 @@ demo: setup-demo out/fly out/learn out/gap  ## fly, learn, compare, find what is
 
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
+
+touches: out/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each
+	@tools/touches.sh
 
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
