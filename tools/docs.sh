@@ -37,6 +37,8 @@ rm -f "$got.gains"
 text <"$got" | part closest
 tools/flights.sh >"$got"
 sed -E '/^pictures/,$d' "$got" | sed '$d' | text | part flights
+tools/identify.sh "$data" >"$got"
+text <"$got" | part identify
 tools/touches.sh >"$got"
 text <"$got" | part touches
 out/slot "$data" >"$got"
