@@ -150,6 +150,7 @@ void result_print(const cJSON *json, FILE *out) {
     fprintf(out, "%s\n", item->string);
     print_table(item, out);
   }
+  if (number(json, "realtime_factor") == 0.0) return; // nobody flew
   fprintf(out, "contacts %g, %s, %.0f x real time\n", number(json, "contacts"),
           cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")) ? "finite" : "NOT FINITE",
           number(json, "realtime_factor"));

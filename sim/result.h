@@ -35,7 +35,7 @@ cJSON *result_add_row(result_t *r, const char *table);
 // The segment as an object; NaN becomes null.
 cJSON *result_segment(const segment_t *s);
 
-// Every table, as aligned text.
+// Every table, as aligned text, and the totals if somebody flew.
 void result_print(const cJSON *json, FILE *out);
 
 // ST_FAILED: no memory for the text. If the file took it, the stream knows.

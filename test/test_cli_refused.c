@@ -71,6 +71,19 @@ static const struct {
      "fly: effect mass: add = -1 kg to a vehicle of 0.0329 kg; allowed: -0.0296 or more\n"},
     {"fly close-flight --effect motor_damage:rotor=2.5",
      "fly: effect motor_damage: rotor = 2.5; allowed: whole numbers from 1 to 4\n"},
+    {"fly close-flight --controller stock-pid --set indiPos.kp=2",
+     "fly: --set: those are parameters of the flight code, and stock-pid flies; allowed with indi*\n"},
+    {"fly ceiling-gap --set indiPos.kp=2",
+     "fly: --set: those are parameters of the flight code, and stock-pid flies; allowed with indi*\n"},
+    {"fly appendix-a --controller pid --set indiPos.kp=2",
+     "fly: --set: those are parameters of the flight code, and pid flies; allowed with indi*\n"},
+    {"fly close-flight --controller stock-indi --vehicle sim/vehicles/cf21_brushless.toml",
+     "fly: --controller stock-indi: knows the thrust maps of cf21_legacy and cf21_plus alone, and not that "
+     "of "
+     "Crazyflie 2.1 brushless\n"},
+    {"fly learning-flight --controller stock-pid",
+     "fly: --controller, --set ceil.mode: nothing learns then; allowed in learning-flight are neither, and "
+     "ceil.mode=2\n"},
     {"fly hand-held --controller indi", HAND_HELD},
     {"fly hand-held --set ceil.gain=0.2", HAND_HELD},
     {"fly hand-held --effect wind", HAND_HELD},
