@@ -109,9 +109,9 @@ static const char *overshoot_2_cm(const case_t *c, const flown_fault_t *usual) {
 #define EVER FAULTS_EVER
 static const row_t rows[] = {
     {"24 mass +- 20 %", 'A', 0.06, EVER, EVER, 0.2, 0.2, NULL, 0, 0, 100, mass, gap_15_mm, 0, false, false},
-    {"25 payload dropped", 'A', 0.08, 0.1, 0.1, 0, 0, NULL, 0, 0, 90, payload, overshoot_3_cm, 0, false,
+    {"25 payload dropped", 'A', 0.08, 0.1, 0.1, 0, 0, NULL, 0, 0, 98, payload, overshoot_3_cm, 0, false,
      false},
-    {"25 payload dropped at 6 cm", 'A', 0.06, 0.1, 0.1, 0, 0, NULL, 0, 0, 80, payload, overshoot_3_cm, 0,
+    {"25 payload dropped at 6 cm", 'A', 0.06, 0.1, 0.1, 0, 0, NULL, 0, 0, 84.5, payload, overshoot_3_cm, 0,
      false, false},
     {"26 sag to 0.7", 'N', 0.06, EVER, EVER, 0.7, 0.85, sagging, 0, 0, 100, sag, no_ceiling_learned, 0, false,
      false},
@@ -119,7 +119,7 @@ static const row_t rows[] = {
      false},
     {"28 a motor stopped", 'C', 0.06, EVER, EVER, 1, 1, NULL, GUARD_TILT, 0.5, 100, motor, NULL, 0, false,
      false},
-    {"29 motor lag x 2", 'A', 0.06, EVER, EVER, 2.0, 2.0, NULL, 0, 0, 90, slow_motors, no_growth, 0, false,
+    {"29 motor lag x 2", 'A', 0.06, EVER, EVER, 2.0, 2.0, NULL, 0, 0, 96.5, slow_motors, no_growth, 0, false,
      false},
     {"29 motor lag x 0.5", 'A', 0.06, EVER, EVER, 0.5, 0.5, NULL, 0, 0, 100, slow_motors, no_growth, 0, false,
      false},

@@ -161,7 +161,7 @@ TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
   cJSON_Delete(same);
 }
 
-TEST(gap_reads_a_usd_log_as_the_same_flight) {
+TEST(gap_reads_a_usd_log_as_the_same_flight_and_holds_out_what_it_is_told) {
   fx_use_t hidden = fx_use(fx_find("rotor_drag"));
   hidden.p[0] = DRAG_KG;
   char text[4000];
@@ -169,11 +169,14 @@ TEST(gap_reads_a_usd_log_as_the_same_flight) {
   CHECK(gap_logs_fly("b", 3, &hidden));
   for (int i = 0; i < 2; i++) {
     ROW("%s", i ? "uSD" : "CSV");
-    CHECK(program_run(i ? GAP "--json $S/k.json $S/b?.bin" : GAP "--json $S/k.json $S/b?.csv", STREAM_OUTPUT,
-                      text, sizeof text) == 0);
+    CHECK(program_run(i ? GAP "--json $S/k.json --hold-out $S/b1.bin $S/b?.bin"
+                        : GAP "--json $S/k.json --hold-out $S/b1.csv $S/b?.csv",
+                      STREAM_OUTPUT, text, sizeof text) == 0);
     cJSON *const v = verdict_of("k.json");
     const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
     CHECK_TEXT(string_of(effect, "name"), "rotor_drag");
+    const cJSON *const held = cJSON_GetObjectItem(gap_of(v, "force_x"), "held_out");
+    CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "b1."));
     k[i] = number_of(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
     cJSON_Delete(v);
   }

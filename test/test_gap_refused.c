@@ -97,6 +97,13 @@ TEST(gap_refuses_at_once_what_it_is_told_wrongly_and_writes_nothing) {
   }
 }
 
+TEST(gap_escapes_what_it_is_told_in_its_page) {
+  char text[4000];
+  CHECK(program_run("gap --out $S/o '$S/<i>&\"x\".csv'", STREAM_ERROR, text, sizeof text) == 2);
+  CHECK(program_run("tail -n 3 $S/o/report.html", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "&lt;i&gt;&amp;&quot;x&quot;.csv: cannot be opened") && !strstr(text, "<i>"));
+}
+
 TEST(gap_removes_its_own_model_beside_a_refusal_and_nothing_else) {
   char text[2000];
   write_logs();

@@ -81,7 +81,8 @@ static double take_values(select_t *t) {
 
 // The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
-  if (!select_fits(t, rest, candidate) || t->taken[candidate] >= TAKES) return HUGE_VAL;
+  if (t->never[candidate] || t->taken[candidate] >= TAKES || !select_fits(t, rest, candidate))
+    return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = judge_last(&t->judge, &with);
   if (!judge_allows(&t->judge, &with, &v) || !judge_is_sure(&t->judge, rest, &with) ||
@@ -187,18 +188,32 @@ static status_t search(select_t *t, why_t *why) {
   return look(t, why);
 }
 
+static status_t take_timing(select_t *t, why_t *why) {
+  if (t->timing < 0) return ST_OK;
+  fx_use_t use = t->c->candidate[t->timing].use;
+  use.p[use.fx->size[0].param] = t->timing_s;
+  t->own_base = *t->base;
+  t->base = &t->own_base;
+  return model_add_fx(&t->own_base, &use, why);
+}
+
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
-  select_t t = {.c = c, .s = s, .base = base, .nominal = nominal};
+  select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
   *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double))};
   t.taken = calloc((size_t)c->n + 1, sizeof(int));
-  status_t status = found->least && t.taken ? open_round(&t, why) : error_failed(why, "out of memory");
+  t.never = calloc((size_t)c->n + 1, sizeof(bool));
+  status_t status = found->least && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
+  if (status == ST_OK) status = select_timing(&t, why);
+  if (status == ST_OK) status = take_timing(&t, why);
+  if (status == ST_OK) status = open_round(&t, why);
   if (status == ST_OK) status = search(&t, why);
   if (status == ST_OK) {
     select_describe(&t, found);
     close_round(&t);
   }
   free(t.taken);
+  free(t.never);
   return status;
 }
 

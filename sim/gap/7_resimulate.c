@@ -7,6 +7,10 @@
 #define STEP_S 0.002
 #define LEVEL  2.0 // 1/s: position errors to velocity, level (as the nominal flights' pilot)
 #define PUSH   3.0 // 1/s: velocity errors to acceleration, level
+// At least so stiff in height: a ceiling pulls harder the nearer the vehicle is (thesis 3.1.4), and a pilot
+// who is softer than that loses the right model as he does the wrong one.
+#define HEIGHT 16.0 // 1/s2
+#define CLIMB  8.0  // 1/s
 
 typedef struct {
   const grid_t *g;
@@ -33,7 +37,8 @@ static void correct(const again_t *a, const point_t *track, double motor_N[ROTOR
   const double roll = f->inertia_kgm2[0] * (w->tilt_gain * -pull_b.y + w->rate_gain[0] * turn.x);
   const double pitch = f->inertia_kgm2[1] * (w->tilt_gain * pull_b.x + w->rate_gain[1] * turn.y);
   const double yaw = f->inertia_kgm2[2] * w->rate_gain[2] * (2.0 * atan2(nose_b.y, nose_b.x) + turn.z);
-  const double lift = a->pilots->mass_kg * (w->height_gain * off.z + w->climb_gain * slip.z);
+  const double lift =
+      a->pilots->mass_kg * (fmax(w->height_gain, HEIGHT) * off.z + fmax(w->climb_gain, CLIMB) * slip.z);
   for (int k = 0; k < ROTORS; k++) {
     const double spin = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
     const double more = 0.25 * lift + 0.25 * roll / f->rotor_y_m[k] - 0.25 * pitch / f->rotor_x_m[k] + spin;

@@ -3,7 +3,8 @@
 //
 // The motors get the logged commands, plus what a pilot adds who sees how far the simulated vehicle is from
 // the measured track: proportional in place, velocity, attitude and rates, with gains fitted to the log
-// (nominal.h), the same for every model. A model without error needs no correction and stays on the track.
+// (nominal.h), in height at least those of 7_resimulate.c, the same for every model. A model without error
+// needs no correction and stays on the track.
 #ifndef SIM_GAP_RESIMULATE_H
 #define SIM_GAP_RESIMULATE_H
 

@@ -111,23 +111,8 @@ bool report_can_tell(const report_t *r) {
   return any;
 }
 
-static void warn_of_diagnosis(report_t *r) {
+static void warn_of_gap(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  if (!report_can_tell(r))
-    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
-            "explain them");
-  if (!d->nominal_flew)
-    warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
-  for (int ch = 0; ch < CHANNELS; ch++)
-    if (d->fit.muted[ch])
-      warn(r, "%s is left out: the logged commands say too little of it (logged more slowly than given?)",
-           gap_channel[ch]);
-  if (d->found.aligned_s != 0.0)
-    warn(r,
-         "commands act %.1f ms later than the model has it: below 5 ms this is what feedback alone looks "
-         "like, "
-         "and it is not named",
-         1e3 * d->found.aligned_s);
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
     if (p->used && p->after > 1.05 * p->before)
@@ -142,13 +127,36 @@ static void warn_of_diagnosis(report_t *r) {
            "much flight",
            gap_channel[ch], p->after, gap_unit[ch], p->floor);
   }
+}
+
+static void warn_of_diagnosis(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (!report_can_tell(r))
+    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
+            "explain them");
+  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
+    warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
+            "better "
+            "than before");
+  if (!d->nominal_flew)
+    warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (d->fit.muted[ch])
+      warn(r, "%s is left out: the logged commands say too little of it (logged more slowly than given?)",
+           gap_channel[ch]);
+  if (d->found.aligned_s != 0.0)
+    warn(r,
+         "commands act %.1f ms later than the model has it: below 5 ms this is what feedback alone looks "
+         "like, "
+         "and it is not named",
+         1e3 * d->found.aligned_s);
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)
     warn(r,
-         "flown again, the vehicle left the measured track by more than %.0f m and was put back: %d times "
-         "with "
-         "the old model, %d with the new one",
+         "flown again, the vehicle was put back when it was more than %.0f m off the measured track; times "
+         "with the old "
+         "model: %d, with the new one: %d",
          RESIMULATE_LOST_M, again->lost_before, again->lost_after);
 }
 
@@ -182,6 +190,7 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
   TRY(report_take_evidence(r, study, why));
   find_untested(r);
   warn_of_diagnosis(r);
+  warn_of_gap(r);
   if (d->found.n == 0) warn_of_sizes(r);
   warn_of_logs(r);
   return ST_OK;

@@ -68,6 +68,13 @@ void report_free(report_t *r);
 void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
                     profile_t *p);
 
+// The coordinate of that name (unknown.h); -1: none, or a null pointer.
+int report_coordinate(const char *name);
+// Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
+// how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
+span_t report_where(const report_t *r, const profile_t *p, const double *effect);
+double report_told(const report_t *r, const profile_t *p, const double *effect);
+
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
 

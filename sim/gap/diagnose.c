@@ -72,6 +72,15 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   return ST_OK;
 }
 
+// Without nominal flights nobody knows what feedback alone looks like: nothing is named, and nothing was
+// testable.
+static void withdraw(diagnosis_t *d) {
+  forget(&d->candidates);
+  d->found.n = 0;
+  d->found.left = d->found.left_before;
+  for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
+}
+
 static status_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
   TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
@@ -98,6 +107,7 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "looking for missing effects");
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
+  if (!d->nominal_flew) withdraw(d);
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));

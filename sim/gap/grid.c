@@ -111,6 +111,21 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   return p;
 }
 
+// Measured thrust of the point that comes next.
+static void take_speeds(grid_t *g, const model_t *m, int from) {
+  for (int k = 0; k < ROTORS; k++) {
+    const double speed = mean(g->flight->motor_speed_radps[k], from, g->every);
+    g->measured_N[k][g->n] = m->frame.kf_Ns2 * speed * speed;
+  }
+}
+
+static bool speeds_room(grid_t *g, size_t points) {
+  if (!g->flight->motor_speed_radps[3] || !has_commands(g->flight)) return true;
+  for (int k = 0; k < ROTORS; k++)
+    if (!(g->measured_N[k] = malloc((points + 1) * sizeof(double)))) return false;
+  return true;
+}
+
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
   body_t b = {.model = m}; // the points that can touch
@@ -123,6 +138,7 @@ static void take_points(grid_t *g, const model_t *m, int to) {
       i++;
       continue;
     }
+    if (g->measured_N[0]) take_speeds(g, m, i);
     g->point[g->n++] = point_of(g, m, &b.touch, i);
     i += g->every;
   }
@@ -142,14 +158,18 @@ status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const mod
   if (!has_commands(f) && !f->motor_speed_radps[3])
     return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed", f->name);
   g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
-  if (!g->point) return error_failed(why, "out of memory");
+  if (!g->point || !speeds_room(g, (size_t)((to - from) / g->every)))
+    return error_failed(why, "out of memory");
   TRY(take_commands(g, m, to - from, why));
   take_points(g, m, to);
   return ST_OK;
 }
 
 void grid_free(grid_t *g) {
-  for (int k = 0; k < ROTORS; k++) free(g->command_N[k]);
+  for (int k = 0; k < ROTORS; k++) {
+    free(g->command_N[k]);
+    free(g->measured_N[k]);
+  }
   for (int i = 0; i < GRID_MOTORS; i++) {
     free(g->motors[i].thrust_N[0]);
   }

@@ -40,7 +40,8 @@ typedef struct {
   int n;
   point_t *point;
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
-  double *command_N[ROTORS]; // by sample, from `from`
+  double *command_N[ROTORS];  // by sample, from `from`
+  double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];
   int motors_used;
 } grid_t;

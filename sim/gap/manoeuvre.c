@@ -94,7 +94,7 @@ static const struct {
 where_t manoeuvre_where(const fx_t *fx) {
   for (unsigned i = 0; i < sizeof WHERE / sizeof *WHERE; i++)
     if (strcmp(WHERE[i].name, fx->name) == 0) return WHERE[i].where;
-  return (where_t){{"time"}, NULL};
+  return (where_t){{NULL, NULL}, NULL};
 }
 
 const char *manoeuvre_show(const fx_t *fx) {

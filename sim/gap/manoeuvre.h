@@ -6,8 +6,9 @@
 
 #define MANOEUVRE_BYTES 240
 
-// The coordinates (unknown.h) along which the effect changes, best first; the second may be null. The channel
-// in which that is easiest to see; null: whichever it shows most in. Effects that are not in the table: time.
+// The coordinates (unknown.h) along which the effect changes; the second may be null. Both null, for effects
+// that are not in the table: any but time, whichever tells most. The channel in which it is easiest to see;
+// null: in which it shows most.
 typedef struct {
   const char *coordinate[2], *channel;
 } where_t;

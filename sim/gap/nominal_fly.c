@@ -148,7 +148,7 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
         const point_t seen = see(f);
-        pilot_steer(f, &f->g->point[f->at], &seen, motor_N);
+        pilot_steer(f, step_s, &f->g->point[f->at], &seen, motor_N);
         if (k == 0) write(f, &seen, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
       }

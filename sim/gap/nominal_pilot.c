@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#define SWIFT    1.8 // rate gain times lag at most: a cascade without lead rings beyond
+#define QUICK_S  0.03 // slower motors get commands with a lead, so that they are as quick as this
+#define SWIFT    1.3  // rate gain times lag at most: the cascade rings beyond
 #define TILT_MAX 0.5
 #define YAW      2.0
 
@@ -36,7 +37,7 @@ static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, doubl
   for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 
-void pilot_steer(const nominal_flight_t *f, const point_t *track, const point_t *seen,
+void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
                  double motor_N[ROTORS]) {
   const manner_t *w = f->w;
   const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
@@ -51,12 +52,16 @@ void pilot_steer(const nominal_flight_t *f, const point_t *track, const point_t 
       d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x, w->tilt_gain * pitch - w->rate_gain[1] * rate.y,
          w->rate_gain[2] * (YAW * yaw - rate.z));
   const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / PLANT_GRAVITY_MPS2;
-  hold(f, load, turn, motor_N);
+  const double tau_s = f->body.rigid.motor_tau_s, lead = fmax(tau_s / QUICK_S - 1.0, 0.0);
+  const double share = 1.0 - exp(-step_s / QUICK_S);
+  f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
+  f->load_slow += share * (load - f->load_slow);
+  hold(f, load + lead * (load - f->load_slow),
+       d3_add(turn, d3_scale(lead, d3_sub(turn, f->turn_slow_radps2))), motor_N);
 }
 
-// The log's controller may know the motors' lag; this one does not.
 void pilot_tame(nominal_flight_t *f) {
-  const double most = SWIFT / (f->body.rigid.motor_tau_s + 3.0 * f->body.plant.delay_s);
+  const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * f->body.plant.delay_s);
   manner_t *const w = &f->own;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
@@ -70,7 +75,7 @@ void pilot_tame(nominal_flight_t *f) {
 void pilot_trim(nominal_flight_t *f) {
   body_t *const b = &f->body;
   double at[RIGID_N], rates[RIGID_N];
-  f->lift_trim = 1.0;
+  f->lift_trim = f->load_slow = 1.0;
   for (int i = 0; i < 3; i++) {
     memcpy(at, b->y, sizeof at);
     at[RIGID_Q_WB] = 1.0;

@@ -17,10 +17,12 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
+  d3_t turn_slow_radps2;                      // commands as slower motors follow them
+  double load_slow;
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.
-void pilot_steer(const nominal_flight_t *f, const point_t *track, const point_t *seen,
+void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
                  double motor_N[ROTORS]);
 
 // Gains that do not ring with the body's lag.

@@ -1,4 +1,5 @@
 // select_found.c - what a finished selection says: names, rivals, and what could have been seen.
+#include "gap/7_verify.h"
 #include "gap/select_state.h"
 #include <math.h>
 
@@ -8,7 +9,7 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
   const double without = judge_left(&t->judge, &rest, NULL);
   for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
     const fx_t *fx = select_fx(t, i);
-    if (fx == select_fx(t, candidate) || !select_fits(t, &rest, i)) continue;
+    if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
     if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
@@ -55,7 +56,42 @@ static void find_least(const select_t *t, found_t *found) {
   }
 }
 
+// The others' shares become shares of what was left without it.
+static void find_timing(const select_t *t, found_t *found) {
+  candidate_t *const c = &t->c->candidate[t->timing];
+  why_t why;
+  double without = 1.0, with = 1.0;
+  if (verify_left(t->s, t->given, t->gram.color, &without, &why) != ST_OK ||
+      verify_left(t->s, t->base, t->gram.color, &with, &why) != ST_OK)
+    without = with = 1.0;
+  for (int i = 0; i < found->n; i++) found->named[i].share *= with / without;
+  found->left_before *= without / with;
+  named_t *const named = &found->named[found->n++];
+  *named = (named_t){.candidate = t->timing, .p = t->timing_p, .share = 1.0 - with / without};
+  named->value[0] = t->timing_s;
+  named->stderr_[0] = t->timing_stderr_s;
+  c->named = true;
+  *candidate_value(c, 0) = t->timing_s;
+}
+
+// What acts on the vehicle before what its instruments add; the largest share first.
+static bool comes_before(const select_t *t, const named_t *a, const named_t *b) {
+  const bool sensed_a = select_fx(t, a->candidate)->sense, sensed_b = select_fx(t, b->candidate)->sense;
+  return sensed_a != sensed_b ? sensed_b : a->share > b->share;
+}
+
+static void sort(const select_t *t, found_t *found) {
+  for (int i = 1; i < found->n; i++)
+    for (int k = i; k > 0 && comes_before(t, &found->named[k], &found->named[k - 1]); k--) {
+      const named_t swap = found->named[k];
+      found->named[k] = found->named[k - 1];
+      found->named[k - 1] = swap;
+    }
+}
+
 void select_describe(const select_t *t, found_t *found) {
   find_named(t, found);
+  if (t->timing >= 0 && found->n < NAMED_MAX) find_timing(t, found);
+  sort(t, found);
   find_least(t, found);
 }

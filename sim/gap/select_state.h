@@ -4,11 +4,12 @@
 
 #include "gap/5_select.h"
 #include "gap/score.h"
+#include <string.h>
 
 typedef struct {
   candidates_t *c;
   set_t *s;
-  const model_t *base;
+  const model_t *given, *base; // the model; with what measured rotor speeds say of it
   const nominal_t *nominal;
   choice_t choice;
   table_t table;
@@ -16,6 +17,12 @@ typedef struct {
   judge_t judge;
   bool strict; // colours of what is named alone, not of all candidates
   int *taken;  // by candidate: how often it was taken in
+  bool *never; // by candidate: it is out of question
+  // What measured rotor speeds say of lag or delay: a candidate beside the choice, in the base; below 0:
+  // nothing.
+  int timing;
+  double timing_s, timing_stderr_s, timing_p;
+  model_t own_base; // with it
 } select_t;
 
 const fx_t *select_fx(const select_t *t, int candidate);
@@ -23,6 +30,12 @@ const fx_t *select_fx(const select_t *t, int candidate);
 // Whether the candidate may stand beside the choice: not another shape of the same effect, nor another one
 // of its class.
 bool select_fits(const select_t *t, const choice_t *choice, int candidate);
+
+// Starts the choice with a lag or a delay, if there is a long one; which of the two it is stays so.
+MUST_CHECK status_t select_timing(select_t *t, why_t *why);
+
+// The same by measured rotor speeds. known: there are some; then nothing else has a say in it.
+MUST_CHECK status_t select_speeds(select_t *t, bool *known, why_t *why);
 
 // Something at one place, time or state explains more than this name does: the name is an echo of it.
 // ST_FAILED: no memory.
