@@ -56,7 +56,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
+.PHONY: help demo flights touches slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -149,6 +149,9 @@ demo: setup-demo out/fly out/learn out/gap  ## fly, learn, compare, find what is
 flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
 	@tools/flights.sh
 
+touches: out/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each
+	@tools/touches.sh
+
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
 
@@ -188,7 +191,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/gap out/learn out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/effectiveness out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness

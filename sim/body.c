@@ -219,10 +219,6 @@ double body_ceiling_gap_m(const body_t *b, int rotor) {
   return gap_m > 0.0 ? gap_m : 0.0;
 }
 
-double body_ground_gap_m(const body_t *b, int rotor) {
-  return fmax(0.0, rotor_z_m(b, rotor));
-}
-
 double body_thrust_ratio(const body_t *b, int rotor) {
   return b->look.ratio[rotor];
 }

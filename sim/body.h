@@ -80,7 +80,6 @@ d3_t body_specific_force_b_mps2(const body_t *b);
 d3_t body_angular_acc_b_radps2(const body_t *b);
 
 double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
-double body_ground_gap_m(const body_t *b, int rotor);  // rotor's centre to floor, >= 0
 double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by
 touch_gap_t body_clearance(const body_t *b);           // of the point that is nearest; below 0: in contact
 

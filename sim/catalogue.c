@@ -84,5 +84,9 @@ void catalogue_all(void) {
   for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
   printf("\n  in six degrees of freedom:");
   for (int i = 0; i < noise6_count; i++) printf(" %s", noise6_levels[i].name);
-  printf("\n");
+  printf("; and of these, as real:acc.z=0.1,up=0.005\n");
+  for (int i = 0; i < noise6_field_count; i++) {
+    const noise6_field_t *f = &noise6_fields[i];
+    printf("    %-12s %-6s %g to %g: %s\n", f->name, f->unit[0] ? f->unit : "-", f->min, f->max, f->brief);
+  }
 }

@@ -6,7 +6,6 @@
 #include <time.h>
 
 #define RECORD_EVERY 5     // ticks of 2 ms
-#define UP_AGE_S     0.07  // what the app takes an upward sample's age to be
 #define IDLE_N       0.002 // of one motor: below, it stands
 
 typedef struct {
@@ -100,7 +99,7 @@ static void sense(flight6_t *f, const truth_t *truth) {
   f->in.acc_b_mps2 = imu.acc_b_mps2;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
-  f->in.range_age_s = UP_AGE_S;
+  f->in.range_age_s = LOOP6_UP_AGE_S;
   if (range.up_new) f->range_m = f->in.range_m;
   f->range_new = f->range_new || range.up_new;
 }
@@ -120,9 +119,9 @@ static void order(flight6_t *f, double t_s) {
 
 static void pilot_ms(flight6_t *f, const truth_t *truth) {
   sense(f, truth);
-  if (f->plan->fault) {
+  if (f->plan->edit) {
     pilot6_in_t in = f->in;
-    f->plan->fault(f->plan->fault_context, &f->body, &in);
+    f->plan->edit(f->plan->edit_context, &f->body, &in);
     f->pilot->step(f->pilot->state, &in, f->motor_N);
   } else {
     f->pilot->step(f->pilot->state, &f->in, f->motor_N);

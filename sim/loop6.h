@@ -14,11 +14,12 @@
 #include "plant/noise6.h"
 #include "record6.h"
 
-#define LOOP6_TICK_S 0.002
+#define LOOP6_TICK_S   0.002
+#define LOOP6_UP_AGE_S 0.07 // what the app takes an upward sample's age to be
 
 // Stands between sensors and pilot, every millisecond: may edit what the pilot gets (nothing of it lasts
 // until the next call), and look at the truth.
-typedef void (*loop6_fault_t)(void *context, const body_t *truth, pilot6_in_t *in);
+typedef void (*loop6_edit_t)(void *context, const body_t *truth, pilot6_in_t *in);
 
 // How the flight is flown. The waypoints of `plan` are heights of the rotors' plane; x, y and yaw are held at
 // 0.
@@ -31,8 +32,8 @@ typedef struct {
   bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
   int record_every;    // ticks for a sample; 0: 5, that is 10 ms
   double take_off_s;   // the height is controlled from here on; before, the motors are off
-  loop6_fault_t fault; // null: none
-  void *fault_context;
+  loop6_edit_t edit;   // null: none
+  void *edit_context;
 } plan6_t;
 
 // What the pilot thinks, where it can be asked; may be null.

@@ -1,4 +1,4 @@
-// lowpass.h - second-order Butterworth low-pass in double precision, for tools and peers.
+// lowpass.h - second-order Butterworth low-pass in double precision.
 //
 // Bilinear, prewarped at the cut-off: with k = tan(pi f / fs), n = 1 + sqrt(2) k + k^2,
 //   y = b (x + 2 x1 + x2) - a1 y1 - a2 y2,  b = k^2/n,  a1 = 2 (k^2 - 1)/n,  a2 = (1 - sqrt(2) k + k^2)/n.

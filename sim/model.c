@@ -18,7 +18,7 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
       .rotor_spin = {1.0, -1.0, 1.0, -1.0},
       .torque_ratio_m = 0.00735 * size,
       .kf_Ns2 = 2.0e-8 * size * size * size * size,
-      .rotor_inertia_kgm2 = 17e-9 * inertia,
+      .rotor_inertia_kgm2 = 34.52e-9 * inertia,
       .cg_above_feet_m = 0.017 * size,
       .rotor_above_feet_m = 0.030 * size,
       .top_above_rotor_m = 0.008 * size,

@@ -2,10 +2,14 @@
 #include "request_spec.h"
 
 #include "io/effect_spec.h"
+#include "io/number.h"
 #include "param_spec.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#define NAME_MAX 24
+#define ITEM_MAX 64
 
 status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *name, why_t *why) {
   for (int i = 0; i < FLY_COUNT; i++) {
@@ -28,10 +32,49 @@ status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
   return error_set(why, "--log-rate %s: allowed are 100, 500, 1000", text);
 }
 
-status_t request_take_noise(request_t *r, const char *name, why_t *why) {
-  r->noise = NULL;
+// One of the level's numbers, as "acc.z=0.1".
+static status_t set_noise(noise6_t *noise, const char *item, why_t *why) {
+  char name[NAME_MAX];
+  const size_t size = strcspn(item, "=");
+  double value;
+  if (item[size] == '=' && size < sizeof name) {
+    memcpy(name, item, size);
+    name[size] = '\0';
+    if (number_parse(item + size + 1, &value) && noise6_set(noise, name, value)) return ST_OK;
+  }
+  return error_set(why, "--noise %s: allowed is KEY=VALUE, keys and ranges as fly --list shows them", item);
+}
+
+static status_t take_numbers(request_t *r, const char *items, why_t *why) {
+  char item[ITEM_MAX];
+  for (size_t size; *items; items += size + (items[size] == ',')) {
+    size = strcspn(items, ",");
+    if (size >= sizeof item) return error_set(why, "--noise %s: too long; allowed is KEY=VALUE,...", items);
+    memcpy(item, items, size);
+    item[size] = '\0';
+    TRY(set_noise(&r->noise6_changed, item, why));
+  }
+  r->noise6 = &r->noise6_changed;
+  return ST_OK;
+}
+
+// A level of six degrees of freedom, and what is changed of it.
+static status_t take_noise6(request_t *r, const char *spec, bool *there, why_t *why) {
+  const size_t size = strcspn(spec, ":");
+  char name[NAME_MAX] = "";
+  if (size < sizeof name) memcpy(name, spec, size);
   r->noise6 = noise6_find(name);
-  if (r->noise6) return ST_OK;
+  *there = r->noise6 != NULL;
+  if (!*there || !spec[size]) return ST_OK;
+  r->noise6_changed = *r->noise6;
+  return take_numbers(r, spec + size + 1, why);
+}
+
+status_t request_take_noise(request_t *r, const char *name, why_t *why) {
+  bool six;
+  r->noise = NULL;
+  TRY(take_noise6(r, name, &six, why));
+  if (six) return ST_OK;
   for (int i = 0; i < noise_count; i++) {
     if (strcmp(noise_levels[i].name, name) != 0) continue;
     r->noise = &noise_levels[i];

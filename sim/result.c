@@ -21,7 +21,8 @@ void result_free(result_t *r) {
   record_free(&r->record);
 }
 
-cJSON *result_segment(const segment_t *s) {
+// NaN becomes null.
+static cJSON *segment_of(const segment_t *s) {
   cJSON *o = cJSON_CreateObject();
   if (s->label[0]) cJSON_AddStringToObject(o, "label", s->label);
   cJSON_AddNumberToObject(o, "setpoint_m", s->setpoint_m);
@@ -57,15 +58,14 @@ static void add_totals(result_t *r, flown_t *flown, int contacts) {
 
 void result_add_flight(result_t *r, flown_t *flown) {
   cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
-  for (int i = 0; i < flown->n_segment; i++)
-    cJSON_AddItemToArray(segments, result_segment(&flown->segment[i]));
+  for (int i = 0; i < flown->n_segment; i++) cJSON_AddItemToArray(segments, segment_of(&flown->segment[i]));
   add_totals(r, flown, flown->outcome.contacts);
 }
 
 void result_add_flight6(result_t *r, flown6_t *flown) {
   cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
   for (int i = 0; i < flown->flown.n_segment; i++) {
-    cJSON *o = result_segment(&flown->flown.segment[i]);
+    cJSON *o = segment_of(&flown->flown.segment[i]);
     cJSON_AddNumberToObject(o, "tilt_max_deg", DEG_PER_RAD * flown->tilt_max_rad[i]);
     cJSON_AddItemToArray(segments, o);
   }
@@ -90,7 +90,7 @@ void result_add_weights(result_t *r, const rbf_weights_t *weights) {
 void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label) {
   segment_t *s = &flown->segment[segment];
   snprintf(s->label, sizeof s->label, "%s", label);
-  cJSON_AddItemToArray(cJSON_GetObjectItem(r->json, "segments"), result_segment(s));
+  cJSON_AddItemToArray(cJSON_GetObjectItem(r->json, "segments"), segment_of(s));
   add_totals(r, flown, s->contacts);
 }
 
@@ -150,6 +150,7 @@ void result_print(const cJSON *json, FILE *out) {
     fprintf(out, "%s\n", item->string);
     print_table(item, out);
   }
+  if (number(json, "realtime_factor") == 0.0) return; // nobody flew
   fprintf(out, "contacts %g, %s, %.0f x real time\n", number(json, "contacts"),
           cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")) ? "finite" : "NOT FINITE",
           number(json, "realtime_factor"));

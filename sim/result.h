@@ -32,10 +32,7 @@ void result_add_segment(result_t *r, flown_t *flown, int segment, const char *la
 // A row of a table "name"; created when new. Fill it with cJSON_AddNumberToObject.
 cJSON *result_add_row(result_t *r, const char *table);
 
-// The segment as an object; NaN becomes null.
-cJSON *result_segment(const segment_t *s);
-
-// Every table, as aligned text.
+// Every table, as aligned text, and the totals if somebody flew.
 void result_print(const cJSON *json, FILE *out);
 
 // ST_FAILED: no memory for the text. If the file took it, the stream knows.

@@ -60,9 +60,12 @@ status_t request_apply(const request_t *request, model_t *model, flight_param_t 
 }
 
 // On the vertical axis only what multiplies the thrust can act, and only what flies there can fly.
-static status_t check_vertical(const setup_t *setup, why_t *why) {
+static status_t check_vertical(const setup_t *setup, int n_set, why_t *why) {
   if (setup->kind > FLY_PID_FF)
     return error_set(why, "--controller %s: this scenario is flown on the vertical axis, by indi* or pid*",
+                     fly_name[setup->kind]);
+  if (n_set > 0 && setup->kind >= FLY_PID)
+    return error_set(why, "--set: those are parameters of the flight code, and %s flies; allowed with indi*",
                      fly_name[setup->kind]);
   for (int i = 0; i < setup->model.n_fx; i++)
     if (!setup->model.fx[i].fx->excess)
@@ -73,7 +76,7 @@ static status_t check_vertical(const setup_t *setup, why_t *why) {
 
 status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
-  TRY(check_vertical(setup, why));
+  TRY(check_vertical(setup, request->n_set, why));
   for (int i = 0; i < request->n_set; i++)
     if (request->set[i].app)
       return error_set(why, "--set %s: this scenario is flown on the vertical axis, where there is no app",

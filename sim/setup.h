@@ -45,6 +45,7 @@ typedef struct {
   // Null: the scenario's. noise acts on the vertical axis, noise6 in six degrees of freedom.
   const noise_t *noise;
   const noise6_t *noise6;
+  noise6_t noise6_changed; // where it points to if the command line changes a level
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has

@@ -7,6 +7,7 @@
 #include "pilot_flight.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define CEILING_M   0.5
 #define DECAY_PER_M 80.0 // of the thesis's ceiling effect
@@ -32,10 +33,36 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   return ST_OK;
 }
 
+// The firmware is built for the propellers that it flies with, and knows two kinds.
+static status_t take_propellers(setup6_t *setup, why_t *why) {
+  const stock_power_param_t known[] = {stock_power_legacy(), stock_power_plus()};
+  const thrust_map_t *map = &setup->model.map;
+  for (int k = 0; k < 2; k++) {
+    double apart = map->kind == THRUST_MAP_VOLT_CUBIC ? 0.0 : HUGE_VAL;
+    for (int i = 0; i < 4; i++) apart = fmax(apart, fabs(map->c[i] - known[k].volt_cubic[i]));
+    if (apart > 1e-7) continue; // the digits of the vehicle files
+    memcpy(setup->stock_pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
+    memcpy(setup->air_garage.pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
+    return ST_OK;
+  }
+  return error_set(
+      why, "--controller %s: knows the thrust maps of cf21_legacy and cf21_plus alone, and not that of %s",
+      fly_name[setup->kind], setup->model.name);
+}
+
+static status_t check_stock(setup6_t *setup, const request_t *request, why_t *why) {
+  if (setup->kind < FLY_STOCK_PID) return ST_OK;
+  if (request->n_set > 0)
+    return error_set(why, "--set: those are parameters of the flight code, and %s flies; allowed with indi*",
+                     fly_name[setup->kind]);
+  return take_propellers(setup, why);
+}
+
 status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
+  TRY(check_stock(setup, request, why));
   if (request->vehicle && !setup->model.frame_told)
     return error_set(why,
                      "--vehicle: %s has no [body] and [rotors]; in six degrees of freedom both are needed",
@@ -136,7 +163,8 @@ static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
   stock_pid_t pid;
   stock_indi_t indi;
   air_garage_t garage;
-  const stock_indi_param_t indi_param = stock_indi_default();
+  stock_indi_param_t indi_param = stock_indi_default();
+  memcpy(indi_param.power.volt_cubic, setup->stock_pid.power.volt_cubic, sizeof indi_param.power.volt_cubic);
   const pilot6_t pilot = setup->kind == FLY_STOCK_PID    ? stock_pid_pilot(&pid, &setup->stock_pid)
                          : setup->kind == FLY_STOCK_INDI ? stock_indi_pilot(&indi, &indi_param)
                                                          : air_garage_knowing(setup, &garage);

@@ -22,7 +22,9 @@ typedef struct {
 // lag. ST_BAD_INPUT: a fault of the build, not of the user.
 MUST_CHECK status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
 
-// ST_BAD_INPUT: as request_apply, or a controller or a noise of the vertical axis.
+// The firmware's controllers get the propellers of the vehicle. ST_BAD_INPUT: as request_apply, or a
+// controller or a noise of the vertical axis, or for the firmware's controllers parameters or propellers that
+// they do not know.
 MUST_CHECK status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
 
 // Waypoints at these gaps below the ceiling, hold_s each, after a take-off and a hover at the first: below

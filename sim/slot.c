@@ -52,7 +52,7 @@ static status_t add_effect(model_t *model, const char *spec, why_t *why) {
 // lift-off makes that roughly 3 % of weight over thrust (battery, propellers).
 static status_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
   random_t *const random = random_open(seed);
-  if (!random) return error_set(why, "out of memory");
+  if (!random) return error_failed(why, "out of memory");
   model->mass_kg *= 1.0 + WEIGHT_SD * random_normal(random);
   random_close(random);
   return ST_OK;
@@ -97,7 +97,7 @@ status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_
   double *const near_m = malloc(sizeof *near_m * (size_t)(n > 0 ? n : 1));
   if (!near_m || n < 2) {
     free(near_m);
-    return error_set(why, n < 2 ? "a track without points" : "out of memory");
+    return n < 2 ? error_set(why, "a track without points") : error_failed(why, "out of memory");
   }
   *seen = (slot_seen_t){.median_m = (double)NAN, .closest_m = HUGE_VAL, .lift_s = (double)NAN};
   int caught = 0;
@@ -152,7 +152,7 @@ static status_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t 
 
 status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why) {
   track_t *const t = calloc(1, sizeof *t);
-  if (!t) return error_set(why, "out of memory");
+  if (!t) return error_failed(why, "out of memory");
   t->start_s = (double)NAN;
   csv_file_t *file;
   status_t status = csv_open(&file, path, why);
@@ -168,7 +168,7 @@ status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, 
 status_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
   const record_t *record = &flown->flown.record;
   slot_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
-  if (!point) return error_set(why, "out of memory");
+  if (!point) return error_failed(why, "out of memory");
   const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also where there is none
   for (int i = 0; i < record->n; i++)
     point[i] = (slot_point_t){record->sample[i].t_s, ceiling_m - record->sample[i].z_m};

@@ -20,7 +20,7 @@
 // Ground effect as measured with a Crazyflie 2.1 over clearance h of its feet, 1 + 0.174 exp(-0.820 h/R)
 // (flights of aerorobotics/neural-swarm 48b1851), here over the propellers' height h + 30 mm.
 #define SLOT_GROUND "ground:form=exponential,Ca=0.496,Cb=0.82"
-// The form that fits best (README, a real gap).
+// The form that fits at the weight which flights over the open deck say (README, a real gap).
 #define SLOT_CEILING "ceiling:form=square-root"
 
 // The vehicle, before its weight is spread.
@@ -45,7 +45,7 @@ typedef struct {
   double lift_s;    // from motors on to SLOT_LIFT_M above rest; NaN: never
 } slot_seen_t;
 
-// start_s: motors on. ST_BAD_INPUT: no memory, or no points.
+// start_s: motors on. ST_BAD_INPUT: no points. ST_FAILED: no memory.
 MUST_CHECK status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen,
                                why_t *why);
 

@@ -103,8 +103,8 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   c->plan.in_flight = true;
   if (row->begin && (!c->usual || row->same_bits)) row->begin(c);
   place(c);
-  c->plan.fault = fault;
-  c->plan.fault_context = c;
+  c->plan.edit = fault;
+  c->plan.edit_context = c;
   return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == ST_OK &&
          pilot_flight_init(&c->shadow, &c->param, &c->model, &c->shadow_pilot) == ST_OK;
 }

@@ -58,8 +58,9 @@ TEST(effectiveness_is_recovered_from_flights_of_fly) {
   }
 }
 
-// The lead that the controller is told is that of the vehicle which it flies.
-TEST(effectiveness_of_the_rotors_inertia_is_what_the_controller_believes) {
+// It believes half of the published number, which is marked doubtful: too little is borne at any lag of the
+// motors from half to twice, too much is not (test_att_indi.c).
+TEST(effectiveness_of_the_rotors_inertia_is_twice_what_the_controller_believes) {
   model_t model;
   why_t why;
   flight_param_t param;
@@ -67,5 +68,5 @@ TEST(effectiveness_of_the_rotors_inertia_is_what_the_controller_believes) {
   if (!CHECK_OK(model_builtin("cf21_legacy", &model, &why))) return;
   params_default(&param);
   truth(&model, g1, &g2);
-  CHECK_NEAR(g2 / g1[2], (double)param.att.g2_s, 0.0005);
+  CHECK_NEAR(g2 / g1[2], 2.0 * (double)param.att.g2_s, 0.001);
 }

@@ -60,8 +60,8 @@ static status_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown,
           .plan = {.way = {{0.0, 0.4}, {0.5 * end_s, 0.45}}, .n_way = 2, .end_s = end_s},
           .start = {.pos_w_m = {0.0, 0.0, 0.1}, .vel_w_mps = {0.0, 0.0, climb_mps}, .thrust_N = {f, f, f, f}},
           .in_flight = true,
-          .fault = watch,
-          .fault_context = s}};
+          .edit = watch,
+          .edit_context = s}};
   flown->plan.plan.integrate = INTEGRATE_RK4;
   const pilot6_t pilot = {.state = s, .step = still_step, .reset = still_reset};
   return loop6_fly(&flown->plan, model, &pilot, NULL, &flown->record, &flown->more, &flown->outcome, why);

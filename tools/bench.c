@@ -56,7 +56,7 @@ static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor
   m.ceiling_m = 1.0;
   const double z_m = 0.98 - body_rotor_z_m(&m), f = 0.25 * m.mass_kg * PLANT_GRAVITY_MPS2;
   const body_start_t start = {.pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {f, f, f, f}};
-  if (body_open(&b, &m, kind, TICK_S, &start) != ST_OK) return error_set(why, "out of memory");
+  if (body_open(&b, &m, kind, TICK_S, &start) != ST_OK) return error_failed(why, "out of memory");
   double t_s = now_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
   memcpy(y, b.y, sizeof y);
   for (int i = 0; i < CALLS; i++) {

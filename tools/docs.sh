@@ -40,6 +40,10 @@ rm -f "$got.gains"
 text <"$got" | part closest
 tools/flights.sh >"$got"
 sed -E '/^pictures/,$d' "$got" | sed '$d' | text | part flights
+tools/identify.sh "$data" >"$got"
+text <"$got" | part identify
+tools/touches.sh >"$got"
+text <"$got" | part touches
 out/slot "$data" >"$got"
 text <"$got" | part slot
 out/fly bias-hover --integrator rk4 >"$got"

@@ -115,12 +115,16 @@ static void print(const order_t *o, const effectiveness_t *r) {
   for (int i = 0; i < 3; i++)
     printf("G1 %-7s %11.5g %11.5g %7.3f %8.0f %%\n", axis[i], r->g1[i], stock[i], r->g1[i] / stock[i],
            100.0 * r->explained[i]);
-  printf("G2 yaw     %11.5g %11.5g %7.3f\n", r->g2, EFFECTIVENESS_STOCK_G2, r->g2 / EFFECTIVENESS_STOCK_G2);
-  printf("# G1: rad/s2 per unit. G2: rad/s2 per unit/s; per unit and tick of 2 ms it is %.5g\n",
-         r->g2 / EFFECTIVENESS_PERIOD_S);
+  printf("G2 yaw     %11.5g %11.5g\n", r->g2 / EFFECTIVENESS_PERIOD_S, EFFECTIVENESS_STOCK_G2);
+  printf("# G1: rad/s2 per unit. G2: rad/s2 per unit and tick of 2 ms; fitted, per unit/s, it is %.5g\n",
+         r->g2);
   if (r->g2 < 0.0)
-    puts("# G2 < 0 is no rotor's inertia: --lag or --delay is not that of the motors, or yaw moved too "
-         "little");
+    puts(o->job.as_stock
+             ? "# G2 < 0 is no rotor's inertia, found in this way; the firmware has it with the other sign, "
+               "and "
+               "per tick\n# what is per unit/s here"
+             : "# G2 < 0 is no rotor's inertia: --lag or --delay is not that of the motors, or yaw moved too "
+               "little");
 }
 
 static status_t run(whole_files_t *files, int argc, char **argv, why_t *why) {

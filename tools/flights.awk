@@ -45,10 +45,23 @@ FNR == 1 {
     sd2[who, k] += of(s, "sd_mm") ^ 2
     contacts[who, k] += of(s, "contacts")
     hit[who, k] += of(s, "contacts") > 0
+    if (of(s, "contacts") == 0) calm[who, k] += of(s, "sd_mm")
     gap = of(s, "min_gap_mm")
     if (!((who, k) in low) || gap < low[who, k]) low[who, k] = gap
     lean = of(s, "tilt_max_deg")
     if (lean > tilt[who, k]) tilt[who, k] = lean
+  }
+}
+
+# Mean of the standard deviations of the flights that did not touch there, and that of the first controller's.
+function free_sd(k,   i, n, mean, first) {
+  printf "\n%.0f mm, flights that did not touch there: mean of their sd, and its ratio to the first\n", distance[k]
+  for (i = 1; i <= controllers; i++) {
+    n = flights[order[i]] - hit[order[i], k]
+    if (n == 0) { printf "%-13s  none\n", order[i]; continue }
+    mean = calm[order[i], k] / n
+    if (i == 1) first = mean
+    printf "%-13s %6.2f mm  %5s  of %d\n", order[i], mean, (first > 0 ? sprintf("%.2f", mean / first) : "-"), n
   }
 }
 
@@ -61,4 +74,5 @@ END {
     "R", "mm", "mm", "tacts", "touching", "mm", "R", "deg"
   for (k = 2; k <= steps; k++) # the first is the hover far away
     for (i = 1; i <= controllers; i++) row(order[i], k)
+  if (sd_of_free) free_sd(steps)
 }

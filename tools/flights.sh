@@ -21,7 +21,9 @@ table() {
     fly "$1" --controller "$controller" --from 1 --to $seeds --json "$out/$1.$controller.jsonl" >"$out/$1.$controller.txt"
     lines "$out/$1.$controller.jsonl"
   done
-  (cd $out && awk -f ../../tools/flights.awk $(printf "$1.%s.jsonl " $controllers))
+  # All touch at the last distance of the close flight.
+  (cd $out && awk -v sd_of_free=$([ "$1" = test-flight ] && echo 1 || echo 0) -f ../../tools/flights.awk \
+    $(printf "$1.%s.jsonl " $controllers))
 }
 
 # mean CONTROLLER: mean and standard deviation of the height over all flights, at each instant.

@@ -40,12 +40,10 @@ typedef struct {
 
 static const char USAGE[] =
     "usage: learn LOG.csv... [options]\n"
-    "  --columns FILE.toml      how these logs name things (tools/columns/*.toml); without: Crazyflie log "
-    "names\n"
+    "  --columns FILE.toml      how these logs name things (tools/columns/*.toml); else as the Crazyflie\n"
     "  --vehicle FILE.toml      motor lag, thrust map, mass (sim/vehicles/*.toml); without: cf21_legacy\n"
     "  --surface NAME           ceiling or ground (ceiling)\n"
-    "  --hold-out LOG.csv       a flight that is not learned from; says what the curve explains (may be "
-    "repeated)\n"
+    "  --hold-out LOG.csv       not learned from; says what the curve explains (may be repeated)\n"
     "  --set group.name=VALUE   a parameter of the flight code; fly --params lists them (may be repeated).\n"
     "                           Other than there: rls.q is 0, and near the ground ceil.w1..w7 are 1, 0, ...\n"
     "  --points FILE.csv        writes every sample that taught: distance and measured thrust ratio\n"

@@ -140,22 +140,10 @@ static void spread(ekf_t *e, slopes_t *s, double P[EKF_N][EKF_ROW]) {
   spread_part(e, ATT, s, P);
 }
 
-// The rotation by the vector v, as long as its angle.
-static dq_t turn_by(d3_t v) {
-  const double angle = sqrt(d3_dot(v, v)), k = angle > 1e-9 ? sin(0.5 * angle) / angle : 0.5;
-  return (dq_t){cos(0.5 * angle), k * v.x, k * v.y, k * v.z};
-}
-
 static d3_t to_world(const ekf_t *e, d3_t v) {
   return (d3_t){e->R[0][0] * v.x + e->R[0][1] * v.y + e->R[0][2] * v.z,
                 e->R[1][0] * v.x + e->R[1][1] * v.y + e->R[1][2] * v.z,
                 e->R[2][0] * v.x + e->R[2][1] * v.y + e->R[2][2] * v.z};
-}
-
-static dq_t towards(dq_t q, dq_t goal, double share) {
-  const double k = 1.0 - share;
-  return (dq_t){k * q.w + share * goal.w, k * q.x + share * goal.x, k * q.y + share * goal.y,
-                k * q.z + share * goal.z};
 }
 
 void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
@@ -170,8 +158,8 @@ void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   const d3_t way_b = d3_add(d3_scale(dt, v), d3_scale(0.5 * dt * dt, acc));
   add(e, POS, d3_sub(to_world(e, way_b), (d3_t){0.0, 0.0, 0.5 * dt * dt * EKF_G_MPS2}));
   add(e, VEL, d3_scale(dt, d3_sub(d3_sub(acc, d3_cross(gyro, v)), d3_scale(EKF_G_MPS2, u))));
-  dq_t q = dq_mul(e->q, turn_by(d3_scale(dt, gyro)));
-  if (!flying) q = towards(q, e->q_start, e->param.reversion);
+  dq_t q = dq_mul(e->q, dq_turn(d3_scale(dt, gyro)));
+  if (!flying) q = dq_towards(q, e->q_start, e->param.reversion);
   e->q = dq_unit(q);
   e->updated = true;
 }
@@ -249,7 +237,7 @@ void ekf_core_finish(ekf_t *e) {
   if (!e->updated) return;
   const d3_t d = part(e, ATT);
   if (fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD) {
-    e->q = dq_unit(dq_mul(e->q, turn_by(d)));
+    e->q = dq_unit(dq_mul(e->q, dq_turn(d)));
     turn_variance(e, d);
   }
   e->s[ATT] = e->s[ATT + 1] = e->s[ATT + 2] = 0.0;

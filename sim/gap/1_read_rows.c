@@ -1,6 +1,7 @@
 // 1_read_rows.c - stage 1: the rows of a log in memory, thinned and merged.
 #include "gap/1_read.h"
 
+#include "by_size.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,11 +90,6 @@ static status_t bin_add(bin_t *b, raw_t *raw, const early_t *e, signals_t has, w
     b->n[i] = newest ? 1 : b->n[i] + 1;
   }
   return ST_OK;
-}
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static status_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_t *rows, why_t *why) {

@@ -1,6 +1,7 @@
 // 1_read_stuck.c - stage 1: values that stand still, because a stream is slow or because a sensor hangs.
 #include "gap/1_read.h"
 
+#include "by_size.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -46,11 +47,6 @@ static bool same(const raw_t *raw, signal_id_t first, int n, int i) {
   for (int k = 0; k < n; k++)
     if (!(raw->v[(int)first + k][i] == raw->v[(int)first + k][i - 1])) return false;
   return true;
-}
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 // The median time from one new value to the next.

@@ -1,17 +1,13 @@
 // manner.c - how a flight was flown and measured.
 #include "gap/nominal.h"
 
+#include "by_size.h"
 #include "gap/lsq_blocks.h"
 #include <math.h>
 #include <stdlib.h>
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
-}
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 // Sd of white noise on a smooth signal: of third differences, by their median, so that jumps do not count.

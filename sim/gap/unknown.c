@@ -1,6 +1,7 @@
 // unknown.c - where a residual is largest.
 #include "gap/unknown.h"
 
+#include "by_size.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,11 +83,6 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
 
 // --- bins
 // ---------------------------------------------------------------------------------------------------
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 // The bin of every row, and the edges (BINS + 1). False: the coordinate is not there or does not move.
 static bool cut(const double *value, int n, double *sorted, int *bin, double edge[BINS + 1]) {

@@ -89,7 +89,7 @@ status_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *w
   return ST_OK;
 }
 
-status_t effect_check(const fx_use_t *use, why_t *why) {
+static status_t check(const fx_use_t *use, why_t *why) {
   if (use->form && use->form->needs_points && use->points.n == 0)
     return error_set(
         why, "effect %s, form %s: no points; file=FILE.csv is needed (columns distance_over_radius, ratio)",
@@ -166,7 +166,7 @@ status_t effect_parse(const char *spec, fx_use_t *use, why_t *why) {
     snprintf(pairs, sizeof pairs, "%s", colon + 1);
     TRY(set_all(&fresh, pairs, pass == 0, why));
   }
-  TRY(effect_check(&fresh, why));
+  TRY(check(&fresh, why));
   *use = fresh;
   return ST_OK;
 }

@@ -18,7 +18,6 @@ MUST_CHECK status_t effect_start(fx_use_t *use, const char *name, why_t *why);
 MUST_CHECK status_t effect_set_form(fx_use_t *use, const char *form, why_t *why);
 MUST_CHECK status_t effect_set(fx_use_t *use, const char *key, double value, why_t *why);
 MUST_CHECK status_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *why);
-MUST_CHECK status_t effect_check(const fx_use_t *use, why_t *why);
 
 // The points of a CSV with the columns distance_over_radius and ratio.
 MUST_CHECK status_t effect_read_points(curve_points_t *points, const char *path, why_t *why);

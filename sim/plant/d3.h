@@ -99,6 +99,19 @@ static inline dq_t dq_unit(dq_t q) {
   return (dq_t){k * q.w, k * q.x, k * q.y, k * q.z};
 }
 
+// The rotation by the vector v, as long as its angle in rad.
+static inline dq_t dq_turn(d3_t v) {
+  const double angle = sqrt(d3_dot(v, v)), k = angle > 1e-9 ? sin(0.5 * angle) / angle : 0.5;
+  return (dq_t){cos(0.5 * angle), k * v.x, k * v.y, k * v.z};
+}
+
+// That share, 0..1, of the straight way from q to the goal; not of length 1.
+static inline dq_t dq_towards(dq_t q, dq_t goal, double share) {
+  const double k = 1.0 - share;
+  return (dq_t){k * q.w + share * goal.w, k * q.x + share * goal.x, k * q.y + share * goal.y,
+                k * q.z + share * goal.z};
+}
+
 // v + 2 w (u x v) + 2 u x (u x v), u the vector part.
 static inline d3_t dq_to_world(dq_t q_wb, d3_t v_b) {
   const d3_t u = {q_wb.x, q_wb.y, q_wb.z};

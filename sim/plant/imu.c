@@ -1,11 +1,12 @@
 // imu.c - accelerometer and gyro.
 #include "plant/imu.h"
 
-#include <math.h>
+#include "clip.h"
+#include "lowpass.h"
 
 #define RATE_HZ 1000.0
-#define PI      3.14159265358979323846
 
+// In lowpass.h's coefficients, with half its memory: six of these run every millisecond.
 static double filter(const imu_filter_t *f, imu_memory_t *m, double x) {
   const double in = f->b0 * x, y = in + m->next;
   m->next = 2.0 * in - f->a1 * y + m->after;
@@ -14,8 +15,9 @@ static double filter(const imu_filter_t *f, imu_memory_t *m, double x) {
 }
 
 static imu_filter_t butterworth(double cutoff_Hz) {
-  const double w = tan(PI * cutoff_Hz / RATE_HZ), k = 1.0 / (1.0 + sqrt(2.0) * w + w * w);
-  imu_filter_t f = {.b0 = w * w * k, .a1 = 2.0 * (w * w - 1.0) * k, .a2 = (1.0 - sqrt(2.0) * w + w * w) * k};
+  lowpass_t l;
+  lowpass_init(&l, cutoff_Hz, RATE_HZ, 0.0);
+  imu_filter_t f = {.b0 = l.b, .a1 = l.a1, .a2 = l.a2};
   // White noise grows by the energy of the impulse response.
   imu_memory_t m = {0};
   double energy = 0.0;
@@ -40,12 +42,8 @@ static d3_t shake(d3_t v, const double n[3], double xy, double z) {
   return (d3_t){v.x + xy * n[0], v.y + xy * n[1], v.z + z * n[2]};
 }
 
-static double clip(double x, double max) {
-  return x > max ? max : x < -max ? -max : x;
-}
-
 static d3_t clip_axes(d3_t v, double max) {
-  return (d3_t){clip(v.x, max), clip(v.y, max), clip(v.z, max)};
+  return (d3_t){clip(v.x, -max, max), clip(v.y, -max, max), clip(v.z, -max, max)};
 }
 
 static d3_t filter_axes(const imu_filter_t *f, imu_memory_t m[3], d3_t v) {

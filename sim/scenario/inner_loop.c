@@ -29,7 +29,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   setup.model.n_fx = 0;
   TRY(setup6_apply(&setup, request, why));
   setup.plan.take_off_s = 1.0;
-  setup.plan.fault = shake;
+  setup.plan.edit = shake;
   setup.plan.plan.way[0] = (waypoint_t){0.0, HOVER_M};
   setup.plan.plan.n_way = 1;
   setup.plan.plan.end_s = END_S;
