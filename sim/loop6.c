@@ -202,6 +202,7 @@ static status_t open(flight6_t *f, why_t *why) {
     ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
   }
   for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
   return ST_OK;
 }

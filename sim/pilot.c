@@ -1,6 +1,8 @@
 // pilot.c - the flight code at the controls.
 #include "pilot.h"
 
+#include <string.h>
+
 _Static_assert(RBF_N == CURVE_WEIGHTS, "logs hold all the weights");
 
 status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
@@ -33,7 +35,8 @@ static double step(void *state, const sense_t *in, thoughts_t *thoughts) {
       .setpoint = {.pos_w_m = {.z = (float)in->setpoint_m}},
   };
   const unsigned taught_before = p->flight.learn.rls.count;
-  const outer_out_t out = outer_step(&p->flight, &p->param, &flight_in);
+  if (memcmp(&p->param, &p->flight.param, sizeof p->param) != 0) (void)!outer_tune(&p->flight, &p->param);
+  const outer_out_t out = *outer_step(&p->flight, &flight_in);
   outer_learn(&p->flight);
   tell(p, &out, p->flight.learn.rls.count != taught_before, thoughts);
   return (double)out.thrust_N;

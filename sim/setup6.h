@@ -14,6 +14,7 @@ typedef struct {
   stock_pid_param_t stock_pid;
   air_garage_param_t air_garage; // infinitely far ceiling: it gets the model's, counted from the propellers
   plan6_t plan;
+  const request_t *request; // parameters of the app, and whether its logs are kept; null: neither
 } setup6_t;
 
 // The thesis's experiments: a Crazyflie 2.1 with both decks under a ceiling at 0.5 m whose effect is

@@ -52,11 +52,11 @@ static double held_rad(float nose_rad, float rate_radps, double span_s) {
   in.setpoint = (flight_setpoint_t){.thrust_N = HOVER_N, .yaw = YAW_RATE};
   flight_t f;
   CHECK_OK(flight_init(&f, &p));
-  for (; in.step < 10; in.step++) (void)flight_step(&f, &p, &in);
+  for (; in.step < 10; in.step++) (void)flight_step(&f, &in);
   in.q_wb = (quat_t){.w = cosf(0.5f * nose_rad), .z = sinf(0.5f * nose_rad)};
   in.setpoint.yaw_rate_radps = rate_radps;
   for (const uint32_t end = in.step + (uint32_t)lround(1e3 * span_s); in.step < end; in.step++)
-    (void)flight_step(&f, &p, &in);
+    (void)flight_step(&f, &in);
   return atan2((double)f.heading_ref.sin, (double)f.heading_ref.cos);
 }
 

@@ -31,8 +31,8 @@ static flight_t under_a_ceiling(flight_param_t *p, flight_in_t *in, rbf_point_t 
 }
 
 // Of the inner loop alone: in millisecond 2 of ten the outer one does not run.
-static v3_t torque_Nm(flight_t *f, const flight_param_t *p, const flight_in_t *in) {
-  return flight_step(f, p, in).motors.torque_b_Nm;
+static v3_t torque_Nm(flight_t *f, const flight_in_t *in) {
+  return flight_step(f, in)->motors.torque_b_Nm;
 }
 
 TEST(flight_takes_the_ceilings_torque_of_four_arms_out_and_divides_by_its_ratio) {
@@ -60,7 +60,7 @@ TEST(flight_takes_the_ceilings_torque_of_four_arms_out_and_divides_by_its_ratio)
     const double ceiling_Nms =
         (double)(row[i].share * row[i].slope_per_m) * HOVER_N * arm_m * arm_m * row[i].lag_s;
     const double ratio = row[i].share > 0.0f ? (double)row[i].ratio : 1.0;
-    CHECK_NEAR(torque_Nm(&f, &p, &in).x, (ceiling_Nms - damping_Nms) * rate / ratio, 1e-8);
+    CHECK_NEAR(torque_Nm(&f, &in).x, (ceiling_Nms - damping_Nms) * rate / ratio, 1e-8);
   }
 }
 
@@ -80,7 +80,7 @@ TEST(flight_feeds_the_yaw_rate_forward_in_both_modes) {
     in.setpoint.yaw = row[i].mode;
     in.setpoint.yaw_rate_radps = 0.1f;
     const double want_Nm = 2.0 * 29.26e-6 * 12.0 * (5.0 * row[i].error_rad + 0.1) / (1.0 + 0.029 / 0.002);
-    CHECK_NEAR(torque_Nm(&f, &p, &in).z, want_Nm, 1e-8);
+    CHECK_NEAR(torque_Nm(&f, &in).z, want_Nm, 1e-8);
   }
 }
 

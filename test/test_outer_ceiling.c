@@ -133,3 +133,27 @@ TEST(outer_uses_the_age_of_a_range_sample) {
     if (k >= 13) CHECK_NEAR(out.zc_m, gap_m, 0.004); // the climb of the very first tick is not known
   }
 }
+
+TEST(outer_takes_the_same_range_again_after_a_climb_for_no_measurement) {
+  static const struct {
+    double climb_m;
+    double zc_m; // 0.3 m under the ceiling at first
+  } row[] = {{0.005, 0.3}, {0.03, 0.27}, {-0.03, 0.33}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g m", row[i].climb_m);
+    const flight_param_t p = rig3_param();
+    outer_t f = rig3_outer(&p);
+    rig3_t v = rig3_at(0, 0, 0.5, 0.8);
+    for (int tick = 0; tick < 300; tick++) {
+      v.pos[2] = 0.5 + row[i].climb_m * fmin(tick / 50.0, 1.0);
+      outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 0.5f});
+      in.vel_w_mps = (v3_t){0, 0, tick < 50 ? (float)(2.0 * row[i].climb_m) : 0.0f};
+      in.acc_b_mps2 = (v3_t){0, 0, GRAVITY_MPS2};
+      in.range_m = 0.3f + p.up_offset_m;
+      in.range_age_s = 0.0f;
+      in.range_new = tick % 10 == 0;
+      (void)rig3_step(&f, &p, &in);
+    }
+    CHECK_NEAR((double)f.ceiling.zc_m, row[i].zc_m, 2e-3);
+  }
+}
