@@ -8,6 +8,7 @@ OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
+CF_PACKAGES   = python3-venv
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
@@ -53,7 +54,7 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint setup-cf test-cf docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -63,6 +64,9 @@ setup-demo:
 	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
 setup-lint:
 	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
+setup-cf:  ## cflib for tools/cf.py, into out/cf
+	@tools/setup.sh $(CF_PACKAGES)
+	@tools/cf_venv.sh
 
 # --- objects and programs -----------------------------------------------------------------------------
 
@@ -129,10 +133,13 @@ slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight 
 test: $(B)/bin/tests out/fly out/learn out/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
+test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it)
+	@tools/test_cf.sh "$(CF_PACKAGES)" "$(W)"
+
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
-check: test sanitize clang  ## the long tests, also with sanitizers and clang
+check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers

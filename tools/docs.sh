@@ -22,6 +22,7 @@ trap 'rm -f "$got"' EXIT
 
 out/fly --params=markdown >"$got"
 part params <"$got"
+tools/cf.py test-flight --dry-run | text | part cf
 tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 out/bench >"$got"
