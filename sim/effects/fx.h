@@ -19,9 +19,8 @@
 
 typedef struct {
   const char *name;
-  const char *unit; // "" for none
+  const char *unit; // "" for none; "number": whole, of something
   double min, nominal, max;
-  int whole; // 1: a number of something
 } fx_param_t;
 
 // A published curve: thrust near a surface over thrust in free air. One file curve_NAME.c each, collected
