@@ -13,13 +13,13 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # the source tree stays clean
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from cf import blocks, ladder, log, params  # noqa: E402
-from cf.dry import DryVehicle  # noqa: E402
-from cf.errors import Failed, Refused  # noqa: E402
-from cf.flight import FAR_M, Plan  # noqa: E402
-from cf.preflight import CEILING_M  # noqa: E402
-from cf.terminal import say, wipe  # noqa: E402
-from cf.vehicle import Vehicle  # noqa: E402
+from cf import blocks, ladder, log, params
+from cf.dry import DryVehicle
+from cf.errors import Failed, Refused
+from cf.flight import FAR_M, Plan
+from cf.preflight import CEILING_M
+from cf.terminal import say, wipe
+from cf.vehicle import Vehicle
 
 URI = "radio://0/80/2M/E7E7E7E7E7"
 

@@ -40,7 +40,7 @@ class FakeLink(CRTPDriver):
         self._blocks: dict[int, list[tuple[int, str]]] = {}
         self._period: dict[int, int] = {}
         self._next_ms: dict[int, int] = {}
-        self.dead = self._given = False
+        self.dead = self.mute = self._given = False  # mute: what is sent arrives, nothing comes back
         FakeLink.open = self
 
     def close(self) -> None:
@@ -73,13 +73,18 @@ class FakeLink(CRTPDriver):
         packet.set_header(port, channel)
         packet.data = data
         assert packet.is_data_size_valid(), "more than a packet holds"
-        self._out.put(packet)
+        if not self.mute:
+            self._out.put(packet)
 
     def lose(self, told: bool = True) -> None:
         """The link is gone; told: the driver notices, as the radio's does."""
         self.dead = True
         if told:
             self._error("Too many packets lost")
+
+    def tell(self, text: str) -> None:
+        """On the console."""
+        self._say(0, 0, text.encode())
 
     # --- ports -----------------------------------------------------------------------------------------------
 
@@ -105,7 +110,7 @@ class FakeLink(CRTPDriver):
     def _param(self, channel: int, data: bytes) -> None:
         rows = self._v.param_rows
         if channel == 0:
-            flags = lambda r: (0 if r.writable else READ_ONLY) | (EXTENDED if r.persistent else 0)  # noqa: E731
+            flags = lambda r: (0 if r.writable else READ_ONLY) | (EXTENDED if r.persistent else 0)
             return self._toc(2, rows, data, lambda row: PARAM[row.kind][0] | flags(row))
         row = rows[struct.unpack_from("<H", data, 1 if channel == 3 else 0)[0]]
         form = "<" + PARAM[row.kind][1]

@@ -13,12 +13,12 @@ ROOT = Path(__file__).resolve().parents[2]
 TREE = Path(os.environ.get("FIRMWARE_TREE", ROOT))  # whose src/firmware declares the names
 sys.path[:0] = [str(ROOT / "tools"), str(Path(__file__).resolve().parent)]
 
-import cflib.crtp  # noqa: E402
-import declared  # noqa: E402
-from fake_link import FakeLink, now_s, pass_time  # noqa: E402
-from fake_vehicle import FakeVehicle  # noqa: E402
+import cflib.crtp
+import declared
+from fake_link import FakeLink, now_s, pass_time
+from fake_vehicle import FakeVehicle
 
-from cf.vehicle import Vehicle  # noqa: E402
+from cf.vehicle import Vehicle
 
 WEIGHTS = [f"ceil.w{i}" for i in range(1, 8)]
 HAS_APP = (TREE / "src" / "firmware").is_dir()

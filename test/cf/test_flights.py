@@ -1,6 +1,7 @@
 """The learning flight and the test flight over the link, when all goes well or was asked for wrongly."""
 
 import math
+import time
 import unittest
 
 from fake_vehicle import LEARNED
@@ -88,6 +89,17 @@ class TestFlight(OverTheLink):
         self.assertEqual(self.gaps_mm(), [200, 90, 50, 30])
         self.assertEqual(self.flown()[-2:], ["land", "stop"])
         self.assertEqual(self.vehicle.stored, {})
+
+    def test_the_watchdog_is_fed_until_the_flight_is_over_and_no_more(self) -> None:
+        fed_at_landing = []
+        landing = lambda vehicle: bool(vehicle.sent) and vehicle.sent[-1][0] == "land"
+        self.when(landing, lambda vehicle: (time.sleep(0.3), fed_at_landing.append(vehicle.fed)))
+        ran = self.cf("test-flight", "--hold", "1")
+        self.assertGreater(fed_at_landing[0], 1)
+        self.assertIn("restart the Crazyflie", ran.out)
+        fed = self.vehicle.fed
+        time.sleep(0.5)
+        self.assertEqual(self.vehicle.fed, fed)
 
     def test_gaps_can_be_chosen(self) -> None:
         self.cf("test-flight", "--gaps", "8,4.5", "--hold", "1")

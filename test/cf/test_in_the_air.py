@@ -103,13 +103,14 @@ class InTheAir(OverTheLink):
                     self.assertAlmostEqual(self.vehicle.param[name], value, delta=1e-6)
 
     def test_ctrl_c_while_it_lands_does_not_stop_the_landing(self) -> None:
-        landing = lambda vehicle: bool(vehicle.sent) and vehicle.sent[-1][0] == "land"  # noqa: E731
+        landing = lambda vehicle: bool(vehicle.sent) and vehicle.sent[-1][0] == "land"
         self.when(landing, lambda _: os.kill(os.getpid(), signal.SIGINT))
         ran = self.cf("test-flight")
         self.assertEqual(ran.status, 0)
         self.assertEqual(self.vehicle.z_m, 0.0)
 
     def test_a_lost_link_is_told_and_the_log_is_named_as_cut(self) -> None:
+        says = ("watchdog stops the motors within a second", "it was told to land")
         for told in (True, False):  # by the driver, or by the packets that do not come
             with self.subTest(told=told):
                 self.setUp()
@@ -117,11 +118,23 @@ class InTheAir(OverTheLink):
                 ran = self.cf("test-flight", "--log", self.folder / "flight.csv")
                 self.assertEqual(ran.status, 1)
                 self.assertIn("the link is lost", ran.err)
-                self.assertIn("watchdog stops the motors within a second", ran.err)
+                self.assertIn(says[0] if told else says[1], ran.err)
                 self.assertEqual([file.name for file in self.folder.iterdir()], ["flight.cut.csv"])
                 self.assertGreater(len((self.folder / "flight.cut.csv").read_text().splitlines()), 100)
                 fed = self.vehicle.fed
                 self.assertGreater(fed, 0)
+
+    def test_when_only_the_way_back_is_lost_it_is_told_to_land_and_fed_until_it_is_down(self) -> None:
+        self.when(near(0.05), lambda _: setattr(FakeLink.open, "mute", True))
+        ran = self.cf("test-flight")
+        self.assertEqual(ran.status, 1)
+        self.assertEqual(self.flown()[-2:], ["land", "stop"])
+        self.assertEqual(self.vehicle.z_m, 0.0)
+
+    def test_what_the_app_says_on_its_console_is_passed_on(self) -> None:
+        self.when(near(0.05), lambda _: [FakeLink.open.tell(part) for part in ("CEIL: Guard: ", "reasons 0x40\n")])
+        ran = self.cf("test-flight")
+        self.assertIn("console: CEIL: Guard: reasons 0x40\n", ran.out)
 
     def test_the_whole_flight_is_logged(self) -> None:
         file = self.folder / "flight.csv"

@@ -35,6 +35,15 @@ class Params(OverTheLink):
         self.assertEqual(ran.status, 0, ran.err)
         self.assertEqual(list(self.vehicle.stored), ["ceil.min", "ceil.w3"])
 
+    def test_a_commit_is_taken_or_said_to_be_refused(self) -> None:
+        ran = self.cf("params", "set", "ceil.w1=1.5", "ceil.commit=1")
+        self.assertEqual(ran.out, "ceil.w1 = 1.5\nceil.commit 1 taken\n")
+        self.assertEqual(self.vehicle.theta[0], 1.5)
+        for words in (("ceil.commit=3",), ("ceil.w1=9", "ceil.commit=1")):
+            ran = self.cf("params", "set", *words)
+            self.assertEqual((ran.status, ran.err.count("\n")), (1, 1))
+            self.assertIn("was refused; allowed are 1 and 2, weights of -5 to 5", ran.err)
+
     def test_bad_input_is_refused_and_nothing_is_written(self) -> None:
         for words, says in (
             (("set", "ceil.mode=2", "ceil.mni=0.03"), "did you mean ceil.min?"),

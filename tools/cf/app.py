@@ -1,5 +1,6 @@
 """app.py - the names of the app's parameters and logs that these commands rely on, and are they there?"""
 
+from .craft import Craft
 from .errors import Failed
 from .monitor import WATCHED
 
@@ -25,7 +26,7 @@ PARAMS = (
 LOGS = (*LEARNED, *(name for block in WATCHED for name in block.types))
 
 
-def check(vehicle) -> None:
+def check(vehicle: Craft) -> None:
     """Failed: the Crazyflie runs another firmware."""
     params, logs = vehicle.params(), vehicle.logs()
     missing = [f"parameter {name}" for name in PARAMS if name not in params]

@@ -4,6 +4,7 @@ The configuration files are cfclient's own: a JSON file is one block, a folder o
 """
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,7 +33,7 @@ def check_period(period_ms: int, where: str) -> None:
         raise Refused(f"{where}: {period_ms} ms; allowed are 10 to 2540 ms in steps of 10")
 
 
-def pack(names: list[str], types: dict[str, str], period_ms: int) -> list[Block]:
+def pack(names: list[str], types: Mapping[str, str], period_ms: int) -> list[Block]:
     """Fills block after block, in the order given. types: of every variable that the vehicle has."""
     blocks: list[dict[str, str]] = []
     for name in dict.fromkeys(names):

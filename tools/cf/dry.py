@@ -4,11 +4,12 @@ Needs no library, no radio and no time.
 """
 
 import math
+from typing import Any
 
 from .app import DECKS_ALL, WEIGHTS
 from .blocks import Block
+from .craft import Param, Take
 from .terminal import say
-from .vehicle import Param, Take
 
 FLYING, ARMED, CAN_FLY = 1 << 4, 1 << 1, 1 << 3  # supervisor.info
 FAR_M = 0.5  # ceil.far
@@ -17,6 +18,8 @@ TAUGHT_HZ = 100
 
 class _Any(dict):
     """Every name is there."""
+
+    absent: object
 
     def __contains__(self, name: object) -> bool:
         return True
@@ -85,13 +88,16 @@ class DryVehicle:
             return self._values["ceil." + name[4:]]
         return told.get(name, 0)
 
-    # --- as vehicle.Vehicle ----------------------------------------------------------------------------------
+    # --- as craft.Craft -------------------------------------------------------------------------------------
 
     def alive(self) -> None:
         pass
 
     def close(self) -> None:
         pass
+
+    def said(self) -> list[str]:
+        return []
 
     def params(self) -> AnyParam:
         return AnyParam()
@@ -112,12 +118,12 @@ class DryVehicle:
     def store(self, name: str) -> None:
         self._would(f"store {name}")
 
-    def stream(self, block: Block, take: Take) -> object:
+    def stream(self, block: Block, take: Take) -> Any:
         self._would(f"log {' '.join(block.types)} every {block.period_ms} ms")
         self._streams.append((block, take))
         return self._streams[-1]
 
-    def quiet(self, stream: object) -> None:
+    def quiet(self, stream: Any) -> None:
         self._streams.remove(stream)
 
     def arm(self) -> None:

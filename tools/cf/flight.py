@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from . import preflight
+from .craft import Craft
 from .errors import Failed, LinkLost
 from .monitor import Monitor
 from .reasons import ACTIONS, GUARD, RETREAT, words
@@ -45,7 +46,7 @@ def undisturbed():
 
 
 class Flight:
-    def __init__(self, vehicle, now: Monitor, plan: Plan) -> None:
+    def __init__(self, vehicle: Craft, now: Monitor, plan: Plan) -> None:
         self._vehicle, self._now, self._plan = vehicle, now, plan
         self._floor_m = now["stateEstimate.z"]
         self._x_m, self._y_m = now["stateEstimate.x"], now["stateEstimate.y"]
@@ -79,6 +80,9 @@ class Flight:
             return f"the ceiling's height went from {self._ceiling_m:.3f} to {now['ceil.height']:.3f} m"
         return ""
 
+    def _sees_ceiling(self) -> bool:
+        return bool(self._now["ceil.known"]) and math.isfinite(self._now["ceil.height"])
+
     def wait(self, duration_s: float, what: str, done: Callable[[], bool] = lambda: False) -> bool:
         """Watches for so long, or until done. Failed: something is wrong. LinkLost: nobody there."""
         end_s = self._vehicle.now() + duration_s
@@ -90,6 +94,8 @@ class Flight:
             left_s = end_s - self._vehicle.now()
             progress(f"{what}: z {now['stateEstimate.z']:.3f} m, {near}, {now['pm.vbat']:.2f} V, {left_s:.0f} s left")
             self._vehicle.sleep(PERIOD_S)
+            for line in self._vehicle.said():
+                say(f"console: {line}")
             now.alive()
             trouble = self._trouble()
             if trouble:
@@ -108,8 +114,7 @@ class Flight:
         self._vehicle.take_off(approach_m, duration_s)
         self._z_m = approach_m
         self.wait(duration_s, "take-off")
-        seen = lambda: bool(self._now["ceil.known"]) and math.isfinite(self._now["ceil.height"])  # noqa: E731
-        if not self.wait(5.0, "looking for the ceiling", seen):
+        if not self.wait(5.0, "looking for the ceiling", self._sees_ceiling):
             raise Failed("the ceiling is not seen (ceil.known)")
         self.wait(2.0, "latching the ceiling's height")
         self._ceiling_m = self._now["ceil.height"]
@@ -141,7 +146,24 @@ class Flight:
             self._vehicle.sleep(0.5)
 
 
-def fly(vehicle, now: Monitor, plan: Plan) -> None:
+    def land_blind(self, lost: LinkLost) -> LinkLost:
+        """Nothing comes back, but what is sent may still arrive; then the watchdog has to be fed until it is down."""
+        duration_s = max((self._z_m - self._floor_m) / SINK_MPS, 2.0)
+        try:
+            with undisturbed():
+                self._vehicle.land(self._floor_m, duration_s)
+                say(f"{lost}: told to land in {duration_s:.1f} s, unseen")
+                end_s = self._vehicle.now() + duration_s + 1.0
+                while self._vehicle.now() < end_s:
+                    self._vehicle.sleep(PERIOD_S)
+                    self._vehicle.alive()
+                self._vehicle.stop()
+        except LinkLost:
+            return LinkLost(f"{lost}: the firmware's watchdog stops the motors within a second")
+        return LinkLost(f"{lost}: it was told to land, and the firmware's watchdog stops the motors within a second")
+
+
+def fly(vehicle: Craft, now: Monitor, plan: Plan) -> None:
     """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it has not."""
     preflight.arm(vehicle, now)
     flight = Flight(vehicle, now, plan)
@@ -150,11 +172,7 @@ def fly(vehicle, now: Monitor, plan: Plan) -> None:
         for gap_m in plan.gaps_m:
             flight.to(gap_m)
     except LinkLost as lost:
-        try:
-            vehicle.land(0.0, 3.0)  # one way may still be open
-        except LinkLost:
-            pass
-        raise LinkLost(f"{lost}: the firmware's watchdog stops the motors within a second") from None
+        raise flight.land_blind(lost) from None
     except BaseException as why:
         say(f"{str(why) or 'interrupted'}")
         flight.land()

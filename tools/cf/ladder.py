@@ -5,11 +5,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from . import app, blocks, preflight
+from .craft import Craft
 from .errors import Failed, LinkLost, Refused
 from .flight import FAR_M, NEAR_MPS, Plan, fly, undisturbed
 from .monitor import Monitor
 from .record import Record
 from .terminal import say
+from .weights import set_weights, store_weights, take_learned
 
 CONFIGS = Path(__file__).resolve().parent.parent / "cfclient"
 LEARN_M = (0.10, 0.08, 0.06, 0.04, 0.02)  # thesis section 5.3
@@ -19,7 +21,7 @@ STOCK_NEAREST_M = 0.06  # in README's flights the stock controller touches at 5 
 
 
 @contextmanager
-def changed(vehicle, values: dict[str, float]):
+def changed(vehicle: Craft, values: dict[str, float]):
     """Parameters as they are to be for a flight; afterwards as they were, unless the link is lost."""
     old = {name: vehicle.get(name) for name in values}
     try:
@@ -37,7 +39,7 @@ def changed(vehicle, values: dict[str, float]):
 
 
 @contextmanager
-def recorded(vehicle, file: Path | None):
+def recorded(vehicle: Craft, file: Path | None):
     """Everything that the cfclient configurations name, into a file."""
     if not file:
         yield
@@ -60,7 +62,7 @@ def recorded(vehicle, file: Path | None):
 
 
 @contextmanager
-def watched(vehicle):
+def watched(vehicle: Craft):
     """The firmware's watchdog is fed from take-off on; once nobody feeds it, it locks the Crazyflie."""
     try:
         yield
@@ -70,7 +72,7 @@ def watched(vehicle):
             say("restart the Crazyflie before the next flight: its watchdog locks it when a flight is over")
 
 
-def blind_s(vehicle, plan: Plan) -> dict[str, float]:
+def blind_s(vehicle: Craft, plan: Plan) -> dict[str, float]:
     """Below the range sensor's floor the app gives up after ceil.blindMax; this plan stays there for longer."""
     near_m = vehicle.get("ceil.near") + 0.01
     ways = [plan.hold_s + abs(FAR_M) / NEAR_MPS for gap_m in plan.gaps_m if gap_m <= near_m]
@@ -78,67 +80,7 @@ def blind_s(vehicle, plan: Plan) -> dict[str, float]:
     return {"ceil.blindMax": need_s} if need_s > vehicle.get("ceil.blindMax") else {}
 
 
-def commit(vehicle, now: Monitor, which: int) -> None:
-    """ceil.commit, and waits until the app has taken it. Failed: it refused."""
-    done, refused = now["ceil.commits"], now["ceil.noCommit"]
-    vehicle.set("ceil.commit", which)
-    end_s = vehicle.now() + 2.0
-    while now["ceil.commits"] == done:
-        vehicle.sleep(0.05)
-        now.alive()
-        if now["ceil.noCommit"] != refused or vehicle.now() > end_s:
-            raise Failed(f"the app refused ceil.commit {which}: weights out of -5 to 5, or it is learning")
-
-
-def set_weights(vehicle, now: Monitor, weights: tuple[float, ...]) -> None:
-    for name, value in zip(app.WEIGHTS, weights):
-        vehicle.set(name, value)
-    commit(vehicle, now, app.COMMIT_TYPED)
-
-
-def read_once(vehicle, names: tuple[str, ...]) -> list[float]:
-    """Log variables as they are now."""
-    got: dict[str, float] = {}
-    streams = [
-        vehicle.stream(block, lambda _b, _t, values: got.update(values))
-        for block in blocks.pack(list(names), vehicle.logs(), 100)
-    ]
-    end_s = vehicle.now() + 2.0
-    while len(got) < len(names):
-        vehicle.sleep(0.05)
-        vehicle.alive()
-        if vehicle.now() > end_s:
-            raise LinkLost("no log packets come")
-    for stream in streams:
-        vehicle.quiet(stream)
-    return [got[name] for name in names]
-
-
-def take_learned(vehicle, now: Monitor) -> None:
-    """The learned weights become those that fly."""
-    learned = read_once(vehicle, app.LEARNED)
-    if not all(math.isfinite(w) for w in learned):
-        raise Failed("the learned weights are not finite")
-    commit(vehicle, now, app.COMMIT_LEARNED)
-    for name, wanted in zip(app.WEIGHTS, learned):
-        value = vehicle.get(name)
-        if abs(value - wanted) > 1e-6:
-            raise Failed(f"{name} is {value:.7g} after the commit, but {wanted:.7g} was learned")
-        say(f"{name} = {value:.7g}")
-
-
-def store_weights(vehicle) -> None:
-    for i, name in enumerate(app.WEIGHTS):
-        try:
-            vehicle.store(name)
-        except Failed as why:
-            left = " ".join(app.WEIGHTS[i:])
-            raise Failed(f"{why}; the learned weights fly, but until these are stored too they go with the "
-                         f"power: params store {left}") from None
-    say("the weights are stored; they fly with ceil.mode 1")
-
-
-def learn(vehicle, plan: Plan, log: Path | None) -> None:
+def learn(vehicle: Craft, plan: Plan, log: Path | None) -> None:
     app.check(vehicle)
     if vehicle.get("ceil.shadow"):
         raise Failed("ceil.shadow is 1: the stock controller flies, which the ceiling captures; allowed is 0")
@@ -159,7 +101,7 @@ def learn(vehicle, plan: Plan, log: Path | None) -> None:
                 store_weights(vehicle)
 
 
-def _learn(vehicle, now: Monitor, plan: Plan) -> None:
+def _learn(vehicle: Craft, now: Monitor, plan: Plan) -> None:
     """Flies with nothing learned, and takes what was; the weights of before where that fails."""
     old = tuple(vehicle.get(name) for name in app.WEIGHTS)
     try:
@@ -182,7 +124,7 @@ def _learn(vehicle, now: Monitor, plan: Plan) -> None:
         raise
 
 
-def test_flight(vehicle, plan: Plan, log: Path | None) -> None:
+def test_flight(vehicle: Craft, plan: Plan, log: Path | None) -> None:
     app.check(vehicle)
     keep_out_m = vehicle.get("ceil.min")
     shadow = bool(vehicle.get("ceil.shadow"))

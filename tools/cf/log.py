@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from . import blocks
+from .craft import Craft
 from .errors import LinkLost, Refused
 from .params import known
 from .record import Record
@@ -11,7 +12,7 @@ from .terminal import progress, say
 QUIET_S = 2.0  # without a packet for this long the link is taken as lost
 
 
-def chosen(vehicle, names: list[str], configs: list[Path], period_ms: int) -> list[blocks.Block]:
+def chosen(vehicle: Craft, names: list[str], configs: list[Path], period_ms: int) -> list[blocks.Block]:
     """What to log. Refused: unknown, nothing, or too much."""
     types = vehicle.logs()
     wanted = [block for place in configs for block in blocks.read(place)]
@@ -25,7 +26,7 @@ def chosen(vehicle, names: list[str], configs: list[Path], period_ms: int) -> li
     return wanted
 
 
-def run(vehicle, wanted: list[blocks.Block], file: Path | None, duration_s: float) -> None:
+def run(vehicle: Craft, wanted: list[blocks.Block], file: Path | None, duration_s: float) -> None:
     """LinkLost: what came so far is in a file that says so. Without a file: asks for the packets, and no more."""
     if not file:
         for block in wanted:
@@ -46,7 +47,7 @@ def run(vehicle, wanted: list[blocks.Block], file: Path | None, duration_s: floa
     say(f"{record.rows} rows in {name}" if name else "no packet came: no file")
 
 
-def _run(vehicle, wanted: list[blocks.Block], record: Record, duration_s: float) -> None:
+def _run(vehicle: Craft, wanted: list[blocks.Block], record: Record, duration_s: float) -> None:
     streams = [vehicle.stream(block, record.take) for block in wanted]
     start_s = rows_s = vehicle.now()
     rows = 0

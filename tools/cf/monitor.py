@@ -1,6 +1,7 @@
 """monitor.py - what the vehicle says of itself, ten times a second: the last values, and how old they are."""
 
 from .blocks import Block
+from .craft import Craft
 from .errors import LinkLost
 
 PERIOD_MS = 100
@@ -39,7 +40,7 @@ WATCHED = (
 
 
 class Monitor:
-    def __init__(self, vehicle) -> None:
+    def __init__(self, vehicle: Craft) -> None:
         self._vehicle = vehicle
         self._values: dict[str, float] = {}
         self._came_s = {block.name: vehicle.now() for block in WATCHED}

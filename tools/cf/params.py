@@ -2,11 +2,15 @@
 
 import difflib
 import math
+from collections.abc import Mapping
 from fnmatch import fnmatch
 
+from .craft import Craft, Param
 from .errors import Failed, Refused
 from .terminal import say
-from .vehicle import Param
+from .weights import read_once
+
+COUNTS = ("ceil.commits", "ceil.noCommit")
 
 WHOLE = {
     "uint8_t": (0, 255),
@@ -22,7 +26,7 @@ def number(value: float) -> str:
     return f"{value:.7g}" if isinstance(value, float) else str(value)
 
 
-def known(name: str, all_names, what: str = "parameter") -> str:
+def known(name: str, all_names: Mapping[str, object], what: str = "parameter") -> str:
     """Refused: there is none of that name."""
     if name in all_names:
         return name
@@ -31,7 +35,7 @@ def known(name: str, all_names, what: str = "parameter") -> str:
     raise Refused(f"{name}: no such {what}; {hint}")
 
 
-def parse(text: str, all_params: dict[str, Param]) -> tuple[str, float]:
+def parse(text: str, all_params: Mapping[str, Param]) -> tuple[str, float]:
     """NAME=VALUE. Refused: an unknown name, no number, or one that the type does not hold."""
     name, equals, typed = text.partition("=")
     if not equals:
@@ -53,7 +57,7 @@ def parse(text: str, all_params: dict[str, Param]) -> tuple[str, float]:
     return name.strip(), value
 
 
-def list_all(vehicle, patterns: list[str]) -> None:
+def list_all(vehicle: Craft, patterns: list[str]) -> None:
     rows = vehicle.params()
     chosen = [name for name in rows if not patterns or any(fnmatch(name, pattern) for pattern in patterns)]
     if not chosen:
@@ -64,25 +68,38 @@ def list_all(vehicle, patterns: list[str]) -> None:
         say(f"{name:26} {number(row.value):>12} {row.kind}{more}")
 
 
-def get(vehicle, names: list[str]) -> None:
+def get(vehicle: Craft, names: list[str]) -> None:
     rows = vehicle.params()
     for name in [known(name, rows) for name in names]:
         say(f"{name} = {number(vehicle.get(name))}")
 
 
-def set_all(vehicle, texts: list[str]) -> None:
+def set_all(vehicle: Craft, texts: list[str]) -> None:
     """Nothing is written unless everything can be. Failed: the vehicle took back what was written."""
     rows = vehicle.params()
     for name, value in [parse(text, rows) for text in texts]:
+        if name == "ceil.commit":
+            _commit(vehicle, int(value))
+            continue
         vehicle.set(name, value)
         vehicle.sleep(0.05)  # the app judges it within a few milliseconds
         now = vehicle.get(name)
-        if abs(now - value) > 1e-6 * max(1.0, abs(value)) and name != "ceil.commit":
+        if abs(now - value) > 1e-6 * max(1.0, abs(value)):
             raise Failed(f"{name}: {number(value)} was not taken, it is {number(now)}; allowed: see the README's table")
         say(f"{name} = {number(now)}")
 
 
-def store(vehicle, names: list[str]) -> None:
+def _commit(vehicle: Craft, which: int) -> None:
+    """The app sets ceil.commit back to 0; its counters say whether it took the weights."""
+    done, refused = read_once(vehicle, COUNTS)
+    vehicle.set("ceil.commit", which)
+    after = read_once(vehicle, COUNTS)
+    if after != [done + 1, refused]:
+        raise Failed(f"ceil.commit: {which} was refused; allowed are 1 and 2, weights of -5 to 5, and not while it learns")
+    say(f"ceil.commit {which} taken")
+
+
+def store(vehicle: Craft, names: list[str]) -> None:
     rows = vehicle.params()
     for name in [known(name, rows) for name in names]:
         if not rows[name].persistent:

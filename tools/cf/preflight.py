@@ -3,6 +3,7 @@
 import math
 
 from . import app
+from .craft import Craft
 from .errors import Failed
 from .monitor import Monitor
 from .reasons import DECKS, FLYABLE, words
@@ -15,7 +16,7 @@ CAN_BE_ARMED, ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED = 0, 1, 3, 4, 5, 
 PM_ON_BATTERY = 0  # pm.state
 
 
-def reset_estimator(vehicle) -> None:
+def reset_estimator(vehicle: Craft) -> None:
     vehicle.set("kalman.resetEstimation", 1)
     vehicle.sleep(0.1)
     vehicle.set("kalman.resetEstimation", 0)
@@ -56,7 +57,7 @@ def _of_the_room(now: Monitor) -> list[str]:
     return wrong
 
 
-def check(vehicle, now: Monitor, battery_V: float) -> None:
+def check(vehicle: Craft, now: Monitor, battery_V: float) -> None:
     """Failed: everything that speaks against flying."""
     wrong = _of_the_vehicle(now, battery_V) + _of_the_room(now)
     controller = vehicle.get("stabilizer.controller")
@@ -68,7 +69,7 @@ def check(vehicle, now: Monitor, battery_V: float) -> None:
         raise Failed("does not fly: " + "; ".join(wrong))
 
 
-def arm(vehicle, now: Monitor) -> None:
+def arm(vehicle: Craft, now: Monitor) -> None:
     """Those that do not arm themselves. Failed: it does not want to."""
     if now.bit(ARMED):
         return

@@ -14,7 +14,7 @@ from .whole_file import WholeFile
 WRAP_MS = 1 << 24  # the link's time stamps have 24 bits
 
 
-def text(value: float | int) -> str:
+def text(value: float) -> str:
     return f"{value:.9g}" if isinstance(value, float) else str(value)
 
 
@@ -22,7 +22,7 @@ class Record:
     def __init__(self, option: str, path: Path, blocks: list[Block]) -> None:
         """Refused: the file cannot be written."""
         self._names = list(dict.fromkeys(name for block in blocks for name in block.types))
-        self._period_ms = max(block.period_ms for block in blocks)
+        self._period_ms = min(block.period_ms for block in blocks)
         self._file = WholeFile(option, path)
         self._file.write(",".join(["timestamp", *self._names]) + "\n")
         self._lock = Lock()

@@ -1,16 +1,13 @@
-"""vehicle.py - a Crazyflie through the stock library (cflib), in calls that wait for the answer.
-
-Every call raises LinkLost when the Crazyflie does not answer. The library's own threads call what was given to
-stream(); nothing here is called by two threads at once.
-"""
+"""vehicle.py - a Crazyflie (craft.py) through the stock library, cflib."""
 
 import logging
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from threading import Event, Thread
+from typing import Any
 
 from .blocks import Block
+from .craft import Param, Take
 from .errors import Failed, LinkLost, Refused
 from .terminal import progress
 
@@ -18,17 +15,6 @@ ANSWER_S = 3.0  # the longest that an answer may take
 CONNECT_S = 30.0
 FEED_S = 0.2  # the firmware's watchdog stops the motors after 1 s
 URIS = "allowed are radio://0/80/2M/E7E7E7E7E7, usb://0, udp://HOST:PORT and what else cflib knows"
-
-
-@dataclass(frozen=True)
-class Param:
-    kind: str  # uint8_t ... float
-    writable: bool
-    persistent: bool
-    value: float
-
-
-Take = Callable[[str, int, dict[str, float]], None]  # block, time stamp in ms, values
 
 
 class Vehicle:
@@ -48,11 +34,11 @@ class Vehicle:
         if not cflib.crtp.CLASSES:
             cflib.crtp.init_drivers()
         self.lost = ""
-        self.console: list[str] = []
+        self._console = ""
         self._fed: Event | None = None
-        self._streams: list[object] = []
+        self._streams: list[Any] = []
         self._cf = Crazyflie()
-        self._cf.console.receivedChar.add_callback(self.console.append)
+        self._cf.console.receivedChar.add_callback(self._hear)
         self._connect(uri)
 
     def _connect(self, uri: str) -> None:
@@ -78,8 +64,14 @@ class Vehicle:
     def _on_lost(self, uri: str, why: str) -> None:
         self.lost = str(why).splitlines()[0] if why else "lost"
 
+    def _hear(self, text: str) -> None:
+        self._console += text
+
+    def said(self) -> list[str]:
+        *lines, self._console = self._console.split("\n")
+        return lines
+
     def alive(self) -> None:
-        """Raises LinkLost where the link is."""
         if self.lost:
             raise LinkLost(f"the link is lost ({self.lost})")
 
@@ -127,14 +119,12 @@ class Vehicle:
         return said[-1]
 
     def get(self, name: str) -> float:
-        """Asks the vehicle, not the library's memory."""
         return self._answer(name, lambda: self._cf.param.request_param_update(name))
 
     def set(self, name: str, value: float) -> None:
         self._answer(name, lambda: self._cf.param.set_value(name, value))
 
     def store(self, name: str) -> None:
-        """Keeps the value of a persistent parameter when the power goes."""
         self.alive()
         good, come = [], Event()
 
@@ -148,13 +138,11 @@ class Vehicle:
             raise Failed(f"{name}: the Crazyflie could not store it")
 
     def logs(self) -> dict[str, str]:
-        """Type of each log variable."""
         self.alive()
         toc = self._cf.log.toc.toc
         return {f"{group}.{name}": row.ctype for group, rows in toc.items() for name, row in rows.items()}
 
-    def stream(self, block: Block, take: Take) -> object:
-        """Starts a log block; take is called for each packet. The result is for quiet()."""
+    def stream(self, block: Block, take: Take) -> Any:
         from cflib.crazyflie.log import LogConfig
 
         self.alive()
@@ -178,8 +166,7 @@ class Vehicle:
         self._streams.append(config)
         return config
 
-    def quiet(self, stream: object) -> None:
-        """Stops a log block. Does nothing where the link is lost."""
+    def quiet(self, stream: Any) -> None:
         self._streams.remove(stream)
         if not self.lost:
             stream.stop()
@@ -208,8 +195,6 @@ class Vehicle:
         self._cf.high_level_commander.stop()
 
     def feed(self, on: bool) -> None:
-        """Feeds the firmware's watchdog from now on, or no more. Once fed, it stops the motors a second after the
-        last time, whether this program died or the link was lost; and the Crazyflie must be restarted."""
         if self._fed:
             self._fed.set()
         self._fed = None
