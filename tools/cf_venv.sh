@@ -6,7 +6,7 @@ has && exit 0
 mkdir -p out
 log=$(mktemp)
 if python3 -m venv --clear out/cf >"$log" 2>&1 &&
-  out/cf/bin/python -m pip install --disable-pip-version-check -r tools/cf/requirements.txt >>"$log" 2>&1; then
+  out/cf/bin/python -m pip install --disable-pip-version-check --retries 1 -r tools/cf/requirements.txt >>"$log" 2>&1; then
   cp tools/cf/requirements.txt out/cf/has
   rm -f "$log"
 else
