@@ -7,9 +7,9 @@ B   = out/release
 OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
-DEMO_PACKAGES = gnuplot-nox
+DEMO_PACKAGES = gnuplot-nox python3
 CF_PACKAGES   = python3-venv
-LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
+LINT_PACKAGES = python3 clang clang-format libclang-rt-14-dev cppcheck
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP

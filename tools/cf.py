@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from cf import blocks, ladder, log, params
 from cf.dry import DryVehicle
 from cf.errors import Failed, Refused
-from cf.flight import FAR_M, Plan
+from cf.flight import ENDS, FAR_M, Plan
 from cf.preflight import CEILING_M
 from cf.terminal import say, wipe
 from cf.vehicle import Vehicle
@@ -113,7 +113,8 @@ def run(asked: argparse.Namespace) -> None:
 
 
 def main(words: list[str]) -> int:
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for kind in ENDS:
+        signal.signal(kind, signal.default_int_handler)
     try:
         run(parser().parse_args(words))
         return 0

@@ -1,5 +1,7 @@
 """What keeps a flight on the floor, and what brings it down."""
 
+import contextlib
+import io
 import math
 import os
 import signal
@@ -7,7 +9,7 @@ import unittest
 
 from fake_link import FakeLink
 from fake_vehicle import LOCKED
-from rig import WEIGHTS, OverTheLink
+from rig import WEIGHTS, OverTheLink, main
 
 
 def near(gap_m: float):
@@ -46,7 +48,8 @@ class Refusals(OverTheLink):
         v = self.vehicle
         v.param_rows = tuple(row for row in v.param_rows if not row.name.startswith("ceil."))
         for command in ("learn", "test-flight"):
-            self.refused(1, "does not run the app (parameter ceil.w1 is not there): flash the app first", command)
+            self.refused(1, "ceil.w1 is not there: this Crazyflie does not run the app; flash the app first", command)
+        self.refused(1, "ceil.min: this Crazyflie does not run the app; flash the app first", "params", "get", "ceil.min")
 
 
 class InTheAir(OverTheLink):
@@ -90,7 +93,7 @@ class InTheAir(OverTheLink):
 
     def test_ctrl_c_lands_and_puts_the_weights_back(self) -> None:
         old = [self.vehicle.param[name] for name in WEIGHTS]
-        for kind in (signal.SIGINT, signal.SIGTERM):
+        for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(kind=kind):
                 self.vehicle.sent.clear()
                 self.when(near(0.06), lambda _: os.kill(os.getpid(), kind))
@@ -108,6 +111,15 @@ class InTheAir(OverTheLink):
         ran = self.cf("test-flight")
         self.assertEqual(ran.status, 0)
         self.assertEqual(self.vehicle.z_m, 0.0)
+
+    def test_a_pipe_that_nobody_reads_does_not_end_a_flight(self) -> None:
+        class Closed(io.StringIO):
+            def write(self, text: str) -> int:
+                raise BrokenPipeError
+
+        with contextlib.redirect_stdout(Closed()), contextlib.redirect_stderr(Closed()):
+            self.assertEqual(main(["--uri", "fake://cf", "test-flight", "--hold", "1"]), 0)
+        self.assertEqual(self.flown(), ["take off"] + 4 * ["go to"] + ["land", "stop"])
 
     def test_a_lost_link_is_told_and_the_log_is_named_as_cut(self) -> None:
         says = ("watchdog stops the motors within a second", "it was told to land")

@@ -12,6 +12,8 @@ MODE_FIXED, MODE_LIVE = 1, 2  # ceil.mode
 CONTROLLER = 6  # stabilizer.controller: the out-of-tree one
 DECKS_ALL = 3  # ceil.decks
 
+NO_APP = "this Crazyflie does not run the app; flash the app first, make firmware and make cload"
+
 PARAMS = (
     *WEIGHTS,
     "ceil.commit",
@@ -32,7 +34,4 @@ def check(vehicle: Craft) -> None:
     missing = [f"parameter {name}" for name in PARAMS if name not in params]
     missing += [f"log {name}" for name in LOGS if name not in logs]
     if missing:
-        raise Failed(
-            f"this Crazyflie does not run the app ({missing[0]} is not there): flash the app first, "
-            "make firmware and make cload"
-        )
+        raise Failed(f"{missing[0]} is not there: {NO_APP}")

@@ -24,6 +24,7 @@ CLIMB_MPS, NEAR_MPS, SINK_MPS = 0.3, 0.1, 0.3  # means of the high-level command
 LOST_S = 1.0  # a range sensor or a ceiling that is gone for this long is lost
 STEADY_M = 0.05  # the latched height may change by this during a flight
 PERIOD_S = 0.05
+ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PM_LOW = 3  # pm.state: low power, and above it worse
 
 
@@ -37,7 +38,7 @@ class Plan:
 @contextmanager
 def undisturbed():
     """Ctrl-C does not end what lands a vehicle."""
-    old = {kind: signal.signal(kind, signal.SIG_IGN) for kind in (signal.SIGINT, signal.SIGTERM)}
+    old = {kind: signal.signal(kind, signal.SIG_IGN) for kind in ENDS}
     try:
         yield
     finally:

@@ -5,6 +5,7 @@ import math
 from collections.abc import Mapping
 from fnmatch import fnmatch
 
+from .app import NO_APP
 from .craft import Craft, Param
 from .errors import Failed, Refused
 from .terminal import say
@@ -27,9 +28,11 @@ def number(value: float) -> str:
 
 
 def known(name: str, all_names: Mapping[str, object], what: str = "parameter") -> str:
-    """Refused: there is none of that name."""
+    """Refused: there is none of that name. Failed: the app is not there, whose name it would be."""
     if name in all_names:
         return name
+    if name.split(".")[0] in ("ceil", "rls", "guard") and "ceil.commit" not in all_names and "ceil.zc" not in all_names:
+        raise Failed(f"{name}: {NO_APP}")
     like = difflib.get_close_matches(name, list(all_names), 1, 0.5)
     hint = f"did you mean {like[0]}?" if like else "allowed are group.name as on the vehicle"
     raise Refused(f"{name}: no such {what}; {hint}")

@@ -1,14 +1,26 @@
-"""terminal.py - lines that stay, and a line of progress that does not."""
+"""terminal.py - lines that stay, and a line of progress that does not.
+
+A terminal that is closed, or a pipe that nobody reads, must not end a flight: what cannot be written is dropped.
+"""
 
 import sys
+from typing import TextIO
 
 _open = False  # a line of progress stands on the terminal
+
+
+def _write(stream: TextIO, text: str) -> None:
+    try:
+        stream.write(text)
+        stream.flush()
+    except (OSError, ValueError):  # nobody reads, or it is closed
+        pass
 
 
 def say(text: str) -> None:
     """A line that stays, on the standard output."""
     wipe()
-    print(text, flush=True)
+    _write(sys.stdout, text + "\n")
 
 
 def progress(text: str) -> None:
@@ -16,8 +28,7 @@ def progress(text: str) -> None:
     global _open
     if not sys.stderr.isatty():
         return
-    sys.stderr.write(f"\r\x1b[K{text}")
-    sys.stderr.flush()
+    _write(sys.stderr, f"\r\x1b[K{text}")
     _open = True
 
 
@@ -25,6 +36,5 @@ def wipe() -> None:
     """Takes the line of progress away."""
     global _open
     if _open:
-        sys.stderr.write("\r\x1b[K")
-        sys.stderr.flush()
+        _write(sys.stderr, "\r\x1b[K")
     _open = False
