@@ -69,6 +69,13 @@ class Learn(OverTheLink):
             self.assertAlmostEqual(self.vehicle.param[name], value, delta=1e-6)
         self.assertEqual(self.vehicle.stored, {})
 
+    def test_weights_that_are_not_those_learned_are_not_stored(self) -> None:
+        self.when(lambda v: v.commits == 2, lambda v: v.param.update({"ceil.w3": 0.75}))
+        ran = self.cf("learn", "--hold", "2")
+        self.assertEqual(ran.status, 1)
+        self.assertIn("ceil.w3 is 0.75 after the commit, but -0.125 was learned", ran.err)
+        self.assertEqual(self.vehicle.stored, {})
+
     def test_in_shadow_it_does_not_fly(self) -> None:
         self.vehicle.param["ceil.shadow"] = 1
         self.refused(1, "ceil.shadow is 1", "learn")

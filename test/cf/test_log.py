@@ -114,6 +114,7 @@ class Rows(unittest.TestCase):
             ("one missing", [("a", 0, 1.0), ("a", 100, 3.0), ("b", 103, 4.0)], ["0,1,nan", "100,3,4"]),
             ("one much later", [("a", 0, 1.0), ("b", 160, 4.0)], ["0,1,nan", "160,nan,4"]),
             ("the stamp wraps", [("a", 2**24 - 50, 1.0), ("a", 50, 2.0)], ["16777166,1,nan", "16777266,2,nan"]),
+            ("a little early", [("a", 0, 1.0), ("a", 99, 2.0)], ["0,1,nan", "99,2,nan"]),
             ("no number", [("a", 0, math.nan), ("b", 0, 1.0)], ["0,nan,1"]),
         ):
             with self.subTest(what=what):

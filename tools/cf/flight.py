@@ -6,7 +6,7 @@ Gaps are from the propellers to the ceiling. The ceiling's height is the app's o
 
 import math
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -36,19 +36,21 @@ class Plan:
 
 
 @contextmanager
-def undisturbed():
-    """Ctrl-C does not end what lands a vehicle."""
-    old = {kind: signal.signal(kind, signal.SIG_IGN) for kind in ENDS}
+def deferred() -> Iterator[list[int]]:
+    """Ctrl-C interrupts nothing: it is noted, for who looks."""
+    ends: list[int] = []
+    old = {kind: signal.signal(kind, lambda kind, _: ends.append(kind)) for kind in ENDS}
     try:
-        yield
+        yield ends
     finally:
         for kind, handler in old.items():
             signal.signal(kind, handler)
 
 
 class Flight:
-    def __init__(self, vehicle: Craft, now: Monitor, plan: Plan) -> None:
-        self._vehicle, self._now, self._plan = vehicle, now, plan
+    def __init__(self, vehicle: Craft, now: Monitor, plan: Plan, ends: list[int]) -> None:
+        """ends: not empty once somebody wants it down."""
+        self._vehicle, self._now, self._plan, self._ends = vehicle, now, plan, ends
         self._floor_m = now["stateEstimate.z"]
         self._x_m, self._y_m = now["stateEstimate.x"], now["stateEstimate.y"]
         self._yaw_rad = preflight.yaw_rad(now)
@@ -95,6 +97,8 @@ class Flight:
             left_s = end_s - self._vehicle.now()
             progress(f"{what}: z {now['stateEstimate.z']:.3f} m, {near}, {now['pm.vbat']:.2f} V, {left_s:.0f} s left")
             self._vehicle.sleep(PERIOD_S)
+            if self._ends:
+                raise KeyboardInterrupt
             for line in self._vehicle.said():
                 say(f"console: {line}")
             now.alive()
@@ -133,49 +137,43 @@ class Flight:
         self.wait(duration_s + self._plan.hold_s, f"{100 * gap_m:g} cm")
 
     def land(self) -> None:
-        """Down, and motors off. LinkLost: the link went on the way."""
-        duration_s = max((self._now["stateEstimate.z"] - self._floor_m) / SINK_MPS, 2.0)
+        """Down, and motors off. LinkLost: unseen, or not at all."""
+        high_m = max(self._z_m, self._now["stateEstimate.z"]) - self._floor_m  # what is commanded is a number
+        duration_s = max(2.0, high_m / SINK_MPS)
         say(f"landing in {duration_s:.1f} s")
-        with undisturbed():
+        try:
             self._vehicle.land(self._floor_m, duration_s)
-            end_s = self._vehicle.now() + duration_s + 3.0
-            while self._vehicle.now() < end_s and self._now.bit(preflight.FLYING):
-                progress(f"landing: z {self._now['stateEstimate.z']:.3f} m")
-                self._vehicle.sleep(PERIOD_S)
-                self._now.alive()
+            seen = self._until_down(duration_s)
             self._vehicle.stop()
             self._vehicle.sleep(0.5)
+        except LinkLost as lost:
+            raise LinkLost(f"{lost}: the firmware's watchdog stops the motors within a second") from None
+        if not seen:
+            raise LinkLost("no log packets came while it was told to land: look where it is")
 
-
-    def land_blind(self, lost: LinkLost) -> LinkLost:
-        """Nothing comes back, but what is sent may still arrive; then the watchdog has to be fed until it is down."""
-        duration_s = max((self._z_m - self._floor_m) / SINK_MPS, 2.0)
-        try:
-            with undisturbed():
-                self._vehicle.land(self._floor_m, duration_s)
-                say(f"{lost}: told to land in {duration_s:.1f} s, unseen")
-                end_s = self._vehicle.now() + duration_s + 1.0
-                while self._vehicle.now() < end_s:
-                    self._vehicle.sleep(PERIOD_S)
-                    self._vehicle.alive()
-                self._vehicle.stop()
-        except LinkLost:
-            return LinkLost(f"{lost}: the firmware's watchdog stops the motors within a second")
-        return LinkLost(f"{lost}: it was told to land, and the firmware's watchdog stops the motors within a second")
+    def _until_down(self, duration_s: float) -> bool:
+        """Waits, with the watchdog fed. False: nothing came back, but what was sent may have arrived."""
+        seen = True
+        end_s = self._vehicle.now() + duration_s + 3.0
+        while self._vehicle.now() < end_s and (not seen or self._now.bit(preflight.FLYING)):
+            progress(f"landing: z {self._now['stateEstimate.z']:.3f} m")
+            self._vehicle.sleep(PERIOD_S)
+            self._vehicle.alive()
+            seen = self._now.fresh()
+        return seen
 
 
 def fly(vehicle: Craft, now: Monitor, plan: Plan) -> None:
-    """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it has not."""
+    """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it may have."""
     preflight.arm(vehicle, now)
-    flight = Flight(vehicle, now, plan)
-    try:
-        flight.up()
-        for gap_m in plan.gaps_m:
-            flight.to(gap_m)
-    except LinkLost as lost:
-        raise flight.land_blind(lost) from None
-    except BaseException as why:
-        say(f"{str(why) or 'interrupted'}")
+    with deferred() as ends:
+        flight = Flight(vehicle, now, plan, ends)
+        try:
+            flight.up()
+            for gap_m in plan.gaps_m:
+                flight.to(gap_m)
+        except BaseException as why:
+            say(f"{str(why) or 'interrupted'}")
+            flight.land()
+            raise
         flight.land()
-        raise
-    flight.land()

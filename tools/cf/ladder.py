@@ -7,7 +7,7 @@ from pathlib import Path
 from . import app, blocks, preflight
 from .craft import Craft
 from .errors import Failed, LinkLost, Refused
-from .flight import FAR_M, NEAR_MPS, Plan, fly, undisturbed
+from .flight import FAR_M, NEAR_MPS, Plan, fly, deferred
 from .monitor import Monitor
 from .record import Record
 from .terminal import say
@@ -29,7 +29,7 @@ def changed(vehicle: Craft, values: dict[str, float]):
             vehicle.set(name, value)
         yield
     finally:
-        with undisturbed():
+        with deferred():
             try:
                 for name, value in old.items():
                     vehicle.set(name, value)
@@ -53,7 +53,7 @@ def recorded(vehicle: Craft, file: Path | None):
         whole = False
         raise
     finally:
-        with undisturbed():
+        with deferred():
             for stream in streams:
                 vehicle.quiet(stream)
             name = record.end(whole)
@@ -75,7 +75,7 @@ def watched(vehicle: Craft):
 def blind_s(vehicle: Craft, plan: Plan) -> dict[str, float]:
     """Below the range sensor's floor the app gives up after ceil.blindMax; this plan stays there for longer."""
     near_m = vehicle.get("ceil.near") + 0.01
-    ways = [plan.hold_s + abs(FAR_M) / NEAR_MPS for gap_m in plan.gaps_m if gap_m <= near_m]
+    ways = [plan.hold_s + FAR_M / NEAR_MPS for gap_m in plan.gaps_m if gap_m <= near_m]
     need_s = math.ceil(sum(ways) + 5.0)
     return {"ceil.blindMax": need_s} if need_s > vehicle.get("ceil.blindMax") else {}
 
@@ -97,7 +97,7 @@ def learn(vehicle: Craft, plan: Plan, log: Path | None) -> None:
         preflight.check(vehicle, now, plan.battery_V)
         with watched(vehicle):
             _learn(vehicle, now, plan)
-            with undisturbed():
+            with deferred():
                 store_weights(vehicle)
 
 
@@ -113,12 +113,12 @@ def _learn(vehicle: Craft, now: Monitor, plan: Plan) -> None:
         taught = now["rls.taught"] - taught
         if taught < TAUGHT_MIN:
             raise Failed(f"{taught:g} samples taught the curve; allowed are {TAUGHT_MIN} and more")
-        with undisturbed():
+        with deferred():
             take_learned(vehicle, now)
     except LinkLost:
         raise
     except BaseException:
-        with undisturbed():
+        with deferred():
             set_weights(vehicle, now, old)
         say("the weights are those of before the flight")
         raise

@@ -62,12 +62,15 @@ class Monitor:
         """Of supervisor.info."""
         return bool(int(self._values["supervisor.info"]) >> number & 1)
 
+    def fresh(self) -> bool:
+        """Each block came within STALE_S."""
+        return self._vehicle.now() - min(self._came_s.values()) <= STALE_S
+
     def alive(self) -> None:
         """LinkLost: nothing came for STALE_S."""
         self._vehicle.alive()
-        age_s = self._vehicle.now() - min(self._came_s.values())
-        if age_s > STALE_S:
-            raise LinkLost(f"the link is lost (no log packet for {age_s:.1f} s)")
+        if not self.fresh():
+            raise LinkLost(f"the link is lost (no log packet for {STALE_S:g} s)")
 
     def close(self) -> None:
         for stream in self._streams:
