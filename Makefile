@@ -7,9 +7,9 @@ B   = out/release
 OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
-DEMO_PACKAGES = gnuplot-nox python3
-CF_PACKAGES   = python3-venv
-LINT_PACKAGES = python3 clang clang-format libclang-rt-14-dev cppcheck
+DEMO_PACKAGES = gnuplot-nox
+LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
+CF_PACKAGES   = python3 python3-venv
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
@@ -54,16 +54,17 @@ help:  ## what can be made
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint setup-cf test-cf docs force
+.PHONY: help demo flights slot exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
 
 # --- packages ---------------------------------------------------------------------------------------
 
 setup:  ## install the Debian packages that the build needs
 	@tools/setup.sh $(PACKAGES)
 setup-demo:
-	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
+	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES) python3
 setup-lint:
-	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
+	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES) python3
+.PHONY: setup-cf test-cf
 setup-cf:  ## cflib for tools/cf.py, into out/cf
 	@tools/setup.sh $(CF_PACKAGES)
 	@tools/cf_venv.sh
