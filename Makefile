@@ -6,10 +6,10 @@ CXX = g++
 B   = out/release
 OPT = -O3
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
+PACKAGES      = g++ python3 libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
-CF_PACKAGES   = python3 python3-venv
+CF_PACKAGES   = python3-venv
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
@@ -61,9 +61,9 @@ help:  ## what can be made
 setup:  ## install the Debian packages that the build needs
 	@tools/setup.sh $(PACKAGES)
 setup-demo:
-	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES) python3
+	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
 setup-lint:
-	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES) python3
+	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
 .PHONY: setup-cf test-cf
 setup-cf:  ## cflib for tools/cf.py, into out/cf
 	@tools/setup.sh $(CF_PACKAGES)
