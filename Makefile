@@ -6,10 +6,11 @@ CXX = g++
 B   = out/release
 OPT = -O3
 
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
+PACKAGES      = g++ python3 libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
+CF_PACKAGES   = python3-venv
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
@@ -68,6 +69,10 @@ setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's pr
 	@tools/setup.sh $(PIL_PACKAGES)
 setup-lint:
 	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
+.PHONY: setup-cf test-cf
+setup-cf:  ## cflib for tools/cf.py, into out/cf
+	@tools/setup.sh $(CF_PACKAGES)
+	@tools/cf_venv.sh
 
 # --- objects and programs -----------------------------------------------------------------------------
 
@@ -161,10 +166,13 @@ test: $(B)/bin/tests out/fly out/gap out/learn out/effectiveness  ## all tests (
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
+test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it)
+	@tools/test_cf.sh "$(CF_PACKAGES)" "$(W)"
+
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
-check: test sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
+check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 	+@tools/seeded.sh
 

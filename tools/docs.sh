@@ -25,6 +25,7 @@ part params <"$got"
 out/fly --logs >"$got"
 part logs <"$got"
 tools/report.sh
+tools/cf.py test-flight --dry-run | text | part cf
 tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 tools/gap_demo.sh "$data" >"$got"

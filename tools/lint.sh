@@ -48,6 +48,7 @@ for file in $sources; do
   [ "$lines" -le 260 ] || fail "$file has $lines lines: it holds two things"
 done
 tools/long_functions.awk $sources || fail "functions over 40 lines"
+PYTHONDONTWRITEBYTECODE=1 python3 tools/lint_python.py $(find tools test -name '*.py') || fail "Python"
 # The README's reading rules name the tests that pin them; and the table of tests takes lower-case names only.
 for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' README.md); do
   grep -q "^TEST($test)" test/*.c || fail "README.md names the test $test, which does not exist"
