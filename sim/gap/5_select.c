@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define ROUNDS 16
-#define ALIKE  0.6 // of a name's contribution, that another one could give
+#define ALIKE  0.25 // of a name's contribution, that another one could give
 #define TAKES  2   // what was taken out as often as this does not come back
 
 const fx_t *select_fx(const select_t *t, int candidate) {

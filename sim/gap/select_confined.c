@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 #define ABSENT 0.55 // a slope that is below this, two standard errors included
-#define STRONG 1.1  // a slope inside that is above this
-#define ENOUGH 0.15 // of the regressor's sum of squares must lie outside
+#define STRONG 1.02 // a slope inside that is above this
+#define ENOUGH 0.05 // of the regressor's sum of squares must lie outside
 #define CLEAR  40.0 // less sum of squares by two slopes in place of one
 #define WIDER  1.5  // standard errors grow by this: white rows are not quite independent
 
@@ -95,7 +95,8 @@ status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *w
   int *const bin = malloc(rows * sizeof(int));
   status_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
   *is = false;
-  for (int i = 0; status == ST_OK && i < coordinate_count && !*is; i++)
+  const bool curve = select_fx(t, candidate)->surface != 0; // of height: its shape is another question
+  for (int i = curve ? coordinate_count : 0; status == ST_OK && i < coordinate_count && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       slopes_t s = {.ff = {0.0}};
       if (!unknown_bins(t->s, t->base, i, list, room, bin)) continue;

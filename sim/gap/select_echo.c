@@ -51,7 +51,9 @@ static status_t compare(const select_t *t, int candidate, const left_t *l, bool 
   double own = 0.0;
   TRY(unknown_colors(t->s, t->base, l->with, clean, why));
   for (int ch = 0; ch < CHANNELS; ch++) {
-    const bool seen = t->gram.color[ch].used && t->table.x[ch][t->c->candidate[candidate].first];
+    const candidate_t *c = &t->c->candidate[candidate];
+    bool seen = false;
+    for (int k = 0; t->gram.color[ch].used && k < c->n; k++) seen = seen || t->table.x[ch][c->first + k];
     color[ch] = t->gram.color[ch];
     color[ch].used = color[ch].used && seen;
     clean[ch].used = clean[ch].used && seen;
