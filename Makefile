@@ -158,7 +158,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/learn out/slot out/bench  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/learn out/slot out/bench out/exam  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 clean:  ## remove everything that was made

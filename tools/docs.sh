@@ -35,6 +35,8 @@ rm -f "$got.gains"
 text <"$got" | part closest
 tools/flights.sh >"$got"
 sed -E '/^pictures/,$d' "$got" | sed '$d' | text | part flights
+out/exam 10001 200 >"$got"
+text <"$got" | part exam
 out/slot "$data" >"$got"
 text <"$got" | part slot
 out/fly bias-hover --integrator rk4 >"$got"

@@ -8,7 +8,7 @@
 
 #define ROUNDS 16
 #define ALIKE  0.25 // of a name's contribution, that another one could give
-#define TAKES  2   // what was taken out as often as this does not come back
+#define TAKES  2    // what was taken out as often as this does not come back
 
 const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
