@@ -11,7 +11,7 @@ void hold_step(hold_t *s, const ceiling_t *c, float z_m, float period_s, bool la
   if (s->against > 0) s->against_s += period_s;
   if (!c->known) return;
   // The estimate is slow: it may lag behind what has changed, and one stray sample may lift it far.
-  const bool settled = s->samples == HOLD_SAMPLES && s->against == 0;
+  const bool settled = s->samples >= HOLD_SAMPLES && s->against == 0;
   const bool far = c->zc_m > HOLD_BEYOND_M && c->seen_m > HOLD_BEYOND_M;
   if (!latch || !f_finite(s->ceiling_z_m) || (settled && far)) s->ceiling_z_m = z_m + c->zc_m;
 }
@@ -35,7 +35,7 @@ void hold_sample(hold_t *s, const ceiling_t *c, float z_m) {
     if (c->known) s->ceiling_z_m = seen_z_m;
   }
   const bool taken = c->known && c->blind_s == 0.0f; // not at the sensor's floor, not gated
-  if (!taken || s->samples == HOLD_SAMPLES) return;
+  if (!taken || s->samples >= HOLD_SAMPLES) return;
   s->samples++;
   if (s->samples == 1) s->ceiling_z_m = seen_z_m;
   s->ceiling_z_m += (seen_z_m - s->ceiling_z_m) / (float)s->samples;

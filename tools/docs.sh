@@ -24,6 +24,8 @@ out/fly --params=markdown >"$got"
 part params <"$got"
 tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
+tools/gap_demo.sh "$data" >"$got"
+text <"$got" | part gap
 out/bench >"$got"
 text <"$got" | part bench
 for gains in '1 5' '2 8'; do
@@ -43,3 +45,5 @@ out/fly bias-hover --integrator rk4 >"$got"
 sed -n -i '/^bias$/,/^contacts/p' "$got"
 out/fly hand-held >>"$got"
 sed -e '/^contacts/d' -e 's/^bias$/bias-hover/' -e 's/^ceiling_height$/hand-held/' "$got" | text | part c3
+FAULTS_TABLE=1 TEST_LONG=1 out/release/bin/tests faults_of_the_list >"$got"
+grep -v -e ' 100\.0 ' -e 'passed' -e 'FAILED' "$got" | text | part faults

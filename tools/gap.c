@@ -1,67 +1,210 @@
-// gap.c - where simulation and flight disagree: gap VEHICLE.toml COLUMNS.toml LOG... -- HELD_OUT_LOG...
-#include "gap/diagnose.h"
-#include "io/model_file.h"
-#include <stdio.h>
+// gap.c - finds where flight logs and a vehicle model disagree, names the missing effect, and shows it on
+// held-out flights.
+#define _POSIX_C_SOURCE 200809L
+#include "gap/6_extend.h"
+#include "gap/8_report.h"
+#include "io/number.h"
+#include "io/whole_file.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-static void print_named(const diagnosis_t *d) {
-  for (int i = 0; i < d->found.n; i++) {
-    const candidate_t *k = &d->candidates.candidate[d->found.named[i].candidate];
-    printf("%s: p %.2g, share %.3g, size", k->use.fx->name, d->found.named[i].p, d->found.named[i].share);
-    for (int q = 0; q < k->n; q++)
-      printf(" %.4g +- %.2g", d->found.named[i].value[q], d->found.named[i].stderr_[q]);
-    puts("");
-  }
-  if (d->found.n == 0 && !d->unknown) puts("none");
-  if (d->unknown)
-    printf("unknown: %s over %s %.3g..%.3g, size %.3g\n", gap_channel[d->cell.channel], d->cell.coordinate,
-           d->cell.from, d->cell.to, d->cell.size);
-}
+#define PATH_BYTES 4200
 
-static void print_held_out(const diagnosis_t *d) {
-  for (int c = 0; c < CHANNELS; c++) {
-    if (!d->held_out.channel[c].used) continue;
-    printf("%s: held-out rms %.3g -> %.3g, floor %.3g\n", gap_channel[c], d->held_out.channel[c].before,
-           d->held_out.channel[c].after, d->held_out.channel[c].floor);
-  }
-}
+typedef struct {
+  study_order_t study;
+  const char **hold_out;
+  const char *out, *json; // null: not said
+  bool help;
+  char verdict[PATH_BYTES], page[PATH_BYTES], model[PATH_BYTES], curves[PATH_BYTES]; // in the folder `out`
+} order_t;
 
-static status_t run(int argc, char **argv, gap_flight_t *f, why_t *why) {
-  model_t m;
-  columns_t col;
-  TRY(model_read(argv[1], &m, why));
-  TRY(columns_read(argv[2], &col, why));
-  gap_flights_t fit = {f, 0}, held = {f, 0};
-  bool after = false;
-  for (int i = 3, n = 0; i < argc; i++) {
-    if (strcmp(argv[i], "--") == 0) {
-      after = true;
-      held.flight = f + n;
-      continue;
-    }
-    TRY(gap_read(&f[n++], argv[i], &col, &m, why));
-    *(after ? &held.n : &fit.n) += 1;
+static const char USAGE[] =
+    "usage: gap [options] LOG...\n"
+    "  --vehicle FILE   a vehicle file (sim/vehicles/*.toml; else the Crazyflie 2.1 with legacy propellers)\n"
+    "  --columns FILE   which column of the logs is what (tools/columns/*.toml; else the Crazyflie's own "
+    "names)\n"
+    "  --hold-out LOG   a log that nothing is fitted to (may be repeated; else the last third: of three or "
+    "more\n"
+    "                   flights, or of each flight's time)\n"
+    "  --out DIR        writes verdict.json, report.html, curves.csv and model.toml there, in place of those "
+    "of an "
+    "earlier run;\n"
+    "                   nothing else there is touched, and without --out or --json no file is\n"
+    "  --json FILE      writes verdict.json there\n"
+    "  --seed N         of the flights that show what feedback alone does (1)\n"
+    "  --help           this\n"
+    "LOG: a CSV or the .bin of a uSD deck. Exit status: 0, whatever is found; 2 if the input is bad (then\n"
+    "verdict.json says `refused` and why, and model.toml and curves.csv of an earlier run are removed); 1 if "
+    "something "
+    "else fails.\n";
+
+// --- options ------------------------------------------------------------------------------------------
+
+static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+  double seed;
+  switch (option) {
+  case 'v': o->study.vehicle = text; return ST_OK;
+  case 'c': o->study.columns = text; return ST_OK;
+  case 'x': o->hold_out[o->study.n_hold_out++] = text; return ST_OK;
+  case 'o': o->out = text; return ST_OK;
+  case 'j': o->json = text; return ST_OK;
+  case 'h': o->help = true; return ST_OK;
+  case 's':
+    if (!number_parse(text, &seed) || !(seed >= 0.0 && seed <= 1e9) || seed != (double)(unsigned long)seed)
+      return error_set(why, "--seed %.40s: allowed is a whole number from 0 to 1000000000", text);
+    o->study.seed = (unsigned long)seed;
+    return ST_OK;
   }
-  diagnosis_t d;
-  const diagnose_job_t job = {&fit, &held, &m, 1};
-  TRY(diagnose(&job, &d, why));
-  print_named(&d);
-  print_held_out(&d);
-  diagnosis_free(&d);
   return ST_OK;
 }
 
-int main(int argc, char **argv) {
-  if (argc < 4) {
-    fputs("gap: usage: gap VEHICLE.toml COLUMNS.toml LOG... [-- HELD_OUT_LOG...]\n", stderr);
-    return 2;
+static status_t take_paths(order_t *o, why_t *why) {
+  if (!o->out) return ST_OK;
+  const int a = snprintf(o->verdict, PATH_BYTES, "%s/verdict.json", o->out);
+  snprintf(o->page, PATH_BYTES, "%s/report.html", o->out);
+  snprintf(o->curves, PATH_BYTES, "%s/curves.csv", o->out);
+  snprintf(o->model, PATH_BYTES, "%s/model.toml", o->out);
+  return a < 4000 && o->out[0] ? ST_OK : error_set(why, "--out %.60s: not a folder's path", o->out);
+}
+
+static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+  static const struct option options[] = {
+      {"vehicle", 1, 0, 'v'}, {"columns", 1, 0, 'c'}, {"hold-out", 1, 0, 'x'}, {"out", 1, 0, 'o'},
+      {"json", 1, 0, 'j'},    {"seed", 1, 0, 's'},    {"help", 0, 0, 'h'},     {0}};
+  o->study.seed = 1;
+  o->hold_out = calloc((size_t)argc + 1, sizeof *o->hold_out);
+  if (!o->hold_out) return error_failed(why, "out of memory");
+  opterr = 0;
+  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
+    if (option == '?')
+      return error_set(why, "%.80s: not an option, or without its value; gap --help lists them",
+                       argv[optind - 1]);
+    TRY(take_option(o, option, optarg, why));
   }
+  o->study.hold_out = o->hold_out;
+  o->study.log = (const char *const *)argv + optind;
+  o->study.n_log = argc - optind;
+  if (o->help) return ST_OK;
+  if (o->study.n_log == 0) return error_set(why, "no log; allowed: gap [options] LOG...");
+  return take_paths(o, why);
+}
+
+// --- output -------------------------------------------------------------------------------------------
+
+typedef struct {
+  whole_files_t files;
+  FILE *verdict, *page, *model, *curves, *json;
+} output_t;
+
+static status_t make_folder(const char *path, why_t *why) {
+  struct stat s;
+  if (!path || mkdir(path, 0777) == 0) return ST_OK;
+  if (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)) return ST_OK;
+  return error_set(why, "--out %.300s: %s", path, errno == EEXIST ? "not a folder" : strerror(errno));
+}
+
+// All of them before the work begins: what cannot be written is said at once.
+static status_t open_output(const order_t *o, bool refused, output_t *w, why_t *why) {
+  TRY(make_folder(o->out, why));
+  TRY(whole_files_open(&w->files, o->out ? o->verdict : NULL, &w->verdict, why));
+  TRY(whole_files_open(&w->files, o->out ? o->page : NULL, &w->page, why));
+  if (!refused) TRY(whole_files_open(&w->files, o->out ? o->model : NULL, &w->model, why));
+  if (!refused) TRY(whole_files_open(&w->files, o->out ? o->curves : NULL, &w->curves, why));
+  TRY(whole_files_open(&w->files, o->json, &w->json, why));
+  TRY(whole_files_spare(&w->files, o->study.vehicle, why));
+  TRY(whole_files_spare(&w->files, o->study.columns, why));
+  for (int i = 0; i < o->study.n_log; i++) TRY(whole_files_spare(&w->files, o->study.log[i], why));
+  for (int i = 0; i < o->study.n_hold_out; i++) TRY(whole_files_spare(&w->files, o->study.hold_out[i], why));
+  return ST_OK;
+}
+
+static status_t write_json(cJSON *json, const output_t *w, why_t *why) {
+  status_t status = json ? ST_OK : error_failed(why, "out of memory");
+  if (status == ST_OK && w->verdict) status = report_write_json(json, w->verdict, why);
+  if (status == ST_OK && w->json) status = report_write_json(json, w->json, why);
+  cJSON_Delete(json);
+  return status;
+}
+
+static status_t write_all(const report_t *r, const output_t *w, why_t *why) {
+  const study_t *const s = r->study;
+  char logs[120];
+  snprintf(logs, sizeof logs, "%d flight%s, seed %lu", s->fit.n, s->fit.n > 1 ? "s" : "", s->order.seed);
+  const extend_job_t job = {study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis, logs};
+  TRY(write_json(report_verdict(r), w, why));
+  if (w->page) report_page(r, w->page);
+  if (w->curves) report_curves(r, w->curves);
+  if (w->model) TRY(extend_write(&job, w->model, why));
+  report_words(r, stdout);
+  return ST_OK;
+}
+
+static bool begins(const char *path, const char *text) {
+  char first[40] = "";
+  FILE *const file = fopen(path, "r");
+  const bool ours = file && fgets(first, sizeof first, file) && strncmp(first, text, strlen(text)) == 0;
+  if (file) fclose(file);
+  return ours;
+}
+
+// What an earlier run found must not stand beside a refusal; what is not ours stays.
+static void remove_found(const order_t *o) {
+  if (!o->out) return;
+  if (begins(o->model, "# Written by gap: ")) (void)!remove(o->model);
+  if (begins(o->curves, "effect,channel,channel_unit,")) (void)!remove(o->curves);
+}
+
+// What cannot be written now was said, or is of no weight beside the refusal.
+static void refuse(const order_t *o, const why_t *line) {
+  output_t w = {.verdict = NULL};
+  why_t why;
+  status_t status = open_output(o, true, &w, &why);
+  if (status == ST_OK) status = write_json(report_refused(line->text), &w, &why);
+  if (status == ST_OK && w.page) report_page_refused(line->text, w.page);
+  if (status == ST_OK && whole_files_commit(&w.files, &why) == ST_OK) remove_found(o);
+  whole_files_drop(&w.files);
+}
+
+// --- the program --------------------------------------------------------------------------------------
+
+static void progress(const char *what) {
+  fprintf(stderr, "\r\033[K%s", what);
+}
+
+static status_t work(const order_t *o, output_t *w, bool *begun, why_t *why) {
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const report = calloc(1, sizeof *report);
+  status_t status = study && report ? open_output(o, false, w, why) : error_failed(why, "out of memory");
+  *begun = status == ST_OK;
+  if (status == ST_OK) status = study_make(study, &o->study, why);
+  if (status == ST_OK) status = report_make(report, study, why);
+  if (o->study.progress) fputs("\r\033[K", stderr);
+  if (status == ST_OK) status = write_all(report, w, why);
+  if (report) report_free(report);
+  if (study) study_free(study);
+  free(report);
+  free(study);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  static order_t order;
+  static output_t out;
   why_t why = {""};
-  gap_flight_t *f = calloc((size_t)argc, sizeof *f);
-  if (!f) return 1;
-  const status_t status = run(argc, argv, f, &why);
-  for (int i = 0; i < argc; i++) gap_flight_free(&f[i]);
-  free(f);
-  return status == ST_OK ? 0 : error_exit("gap", status, &why);
+  bool begun = false;
+  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  status_t status = take_order(&order, argc, argv, &why);
+  if (isatty(STDERR_FILENO)) order.study.progress = progress;
+  if (status == ST_OK && order.help) fputs(USAGE, stdout);
+  if (status == ST_OK && !order.help) status = work(&order, &out, &begun, &why);
+  const int ended = whole_files_exit(&out.files, "gap", status, &why);
+  if (begun && ended == 2) refuse(&order, &why);
+  free(order.hold_out);
+  return ended;
 }

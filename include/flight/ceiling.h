@@ -7,8 +7,10 @@
 // climb alone. The thesis gates on the estimate and nothing else, so that an estimate that is wrongly near is
 // never corrected again. Here three samples in a row that agree with each other set it right: beyond near_m
 // and 2 cm farther than the estimate, or at the floor while the estimate is beyond near_m (README, reading
-// rules). floor_m lies well below near_m: to drop the near half of the noise at the gate pushes the estimate
-// up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s, white noise of the sensor times 0.229.
+// rules). An estimate that is not gated believes at once what is CEILING_JUMP_M nearer, a beam, and three
+// times what is as much farther, a hole. floor_m lies well below near_m: to drop the near half of the noise
+// at the gate pushes the estimate up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s, white
+// noise of the sensor times 0.229.
 #ifndef FLIGHT_CEILING_H
 #define FLIGHT_CEILING_H
 
@@ -24,6 +26,8 @@ typedef struct {
 
 #define CEILING_HISTORY     32   // ticks of climb that are remembered: the oldest sample that can be used
 #define CEILING_RANGE_MAX_M 4.0f // the sensor's range; 32.767 m is its word for "no echo"
+// A sample that is nearer by this is taken at once, one that is farther as a rival.
+#define CEILING_JUMP_M      0.05f
 #define CEILING_AGREE_M     0.02f // samples agree when they are within this of their mean, else they contradict
 #define CEILING_AGREE_COUNT 3     // agreeing samples that overrule the estimate
 
@@ -34,9 +38,11 @@ typedef struct {
   float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
-  int newest;                      // index into it
-  float rival_m;                   // mean of the samples that contradict the estimate, moved along with it
-  int rivals;                      // how many of them in a row
+  float ups[CEILING_HISTORY];      // ring: cosine of the tilt at those ticks, where ceiling_tilt told it
+  bool tilt_told;
+  int newest;    // index into both
+  float rival_m; // mean of the samples that contradict the estimate, moved along with it
+  int rivals;    // how many of them in a row
 } ceiling_t;
 
 // No ceiling in sight. period_s: time between two calls of ceiling_predict, > 0.
@@ -47,6 +53,14 @@ void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m);
 
 // The same over several periods (>= 1) of which nothing else is known: the vehicle climbed evenly.
 void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods);
+
+// The cosine of the tilt at the last ceiling_predict. Before the first call it was the same for ever; between
+// calls it stays.
+void ceiling_tilt(ceiling_t *s, float up);
+
+// The cosine of the tilt age_s ago, by which a slant range that was measured then is longer than the vertical
+// one. 1 if none was told. An age that is none counts as 0, one beyond the history as its end.
+float ceiling_up(const ceiling_t *s, float age_s);
 
 // A new range sample, vertical (tilt taken out), measured age_s ago (0..(CEILING_HISTORY - 1) periods; older
 // ones are treated as that old).

@@ -35,6 +35,8 @@ typedef enum {
   GUARD_HEIGHT_JUMP = 1 << 13, // the estimate of the height was reset
   GUARD_TIME = 1 << 14,        // milliseconds were missed, came twice, or ran backwards
   GUARD_NO_ROOM = 1 << 15,     // a take-off under a ceiling nearer than guard.takeOff
+  GUARD_VELOCITY = 1 << 16,    // the estimated velocity jumps
+  GUARD_RATIO = 1 << 17,       // the thrust carries more than it should so far from a ceiling
 } guard_reason_t;
 
 typedef struct {
@@ -60,6 +62,10 @@ typedef struct {
   bool setpoint_good;
   float setpoint_z_m; // wanted height, limits included; NaN: none
   float asked_z_m;    // the same without limits
+  bool find_bias;     // the accelerometer's bias is looked for; else it is taken off as a fault only
+  float force_N,
+      thrust_now_N;      // along the thrust: what accelerates the mass, what the motors give in free air
+  float bias_known_mps2; // what the outer loop takes off the vertical acceleration itself
 } guard_in_t;
 
 typedef struct {
@@ -67,21 +73,28 @@ typedef struct {
   guard_action_t action;
   float hover_N;       // thrust that carries, while nothing is wrong
   bool acc_lost;       // the accelerometer is not to be used
+  bool vel_lost;       // the estimated velocity is not to be used; vel_last is
   float acc_bias_mps2; // to be taken off the vertical acceleration
   float hold_z_m;      // height at which the retreat began
   v3_t hold_w_m;       // place over which it goes down
+  int retreat_ms;      // since the retreat began
   int handed_ms;       // since the hand-over
   // Not for callers.
   bool started;
   v3_t rate_last, acc_last, vel_last;
   float rate_life, acc_life; // mean change per millisecond
+  v3_t vel_raw;
+  int vel_calm_ms, vel_odd_ms, impact_ms, range_same_ms, range_new_ms, ratio_ms;
+  float ratio_usual, carried_s;
   int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms;
   float bad_ms;
   bool near_seen;
   float range_last_m, range_z_m;
   int range_same;
-  float bias_slow_mps2, bias_fast_mps2, bias_s;
-  int nearer; // samples in a row
+  float bias_mps2, bias_fast_mps2, bias_s; // all that was found; what is new in it; time of its mean
+  float window_mps, window_vel_mps; // of one period of the estimator: acceleration summed up, climb before
+  int window_ms;
+  int nearer; // what range samples say of it, summed up
   bool flown;
   float asked_at_m; // the pilot's height when the retreat began
 } guard_t;
@@ -97,8 +110,9 @@ void guard_rest(guard_t *g);
 // A number of a sensor or the estimate is out of all bounds (a part of what GUARD_NOT_A_NUMBER is raised by).
 bool guard_plausible(const guard_in_t *in);
 
-// One call of the controller. Afterwards g->action says what to do.
-void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in);
+// One call of the controller. Afterwards g->action says what to do. A velocity that is none is replaced in
+// *in.
+void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in);
 
 // The height that a retreat wants at this height.
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m);

@@ -9,6 +9,7 @@
 #include "plant/random.h"
 #include "plant/rigid.h"
 #include <stdbool.h>
+#include <string.h>
 
 #define FX_PARAM_MAX 8
 #define FX_MEMORY    8 // numbers that an effect keeps from tick to tick
@@ -19,10 +20,13 @@
 
 typedef struct {
   const char *name;
-  const char *unit; // "" for none
+  const char *unit; // "" for none; "number": whole, of something
   double min, nominal, max;
-  int whole; // 1: a number of something
 } fx_param_t;
+
+static inline bool fx_is_number(const fx_param_t *p) {
+  return strcmp(p->unit, "number") == 0;
+}
 
 // A published curve: thrust near a surface over thrust in free air. One file curve_NAME.c each, collected
 // into curve_table. Which effects may use it stands in `surfaces`.

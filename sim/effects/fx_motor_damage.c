@@ -16,7 +16,7 @@ const fx_t fx_motor_damage = {
     .n_shape = 4,
     .shape = {1.0, 2.0, 3.0, 4.0},
     .n_param = 3,
-    .param = {{"rotor", "", 1.0, 1.0, 4.0, .whole = 1},
+    .param = {{"rotor", "number", 1.0, 1.0, 4.0},
               {"loss", "", 0.0, 0.06, 1.0},
               {"start", "s", 0.0, 0.0, 1e6}},
     .tick = tick,

@@ -37,6 +37,7 @@ typedef struct {
   double share; // of the sum of squares that the original model leaves and the effect explains
   int n_rival;
   const fx_t *rival[RIVAL_MAX];
+  double rival_share[RIVAL_MAX]; // what each would explain in its place
 } named_t;
 
 typedef struct {

@@ -91,17 +91,25 @@ static status_t look_for_more(diagnosis_t *d, why_t *why) {
   return ST_OK;
 }
 
+static void tell(const diagnose_job_t *job, const char *what) {
+  if (job->progress) job->progress(what);
+}
+
 status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   *d = (diagnosis_t){.nominal = {.n = 0}};
+  tell(job, "replaying the logs");
   TRY(take_flights(job, d, why));
   TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
   TRY(contact_drop(&d->fit, &d->candidates, job->model, why));
   TRY(contact_drop(&d->held, &d->candidates, job->model, why));
+  tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
+  tell(job, "looking for missing effects");
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
   if (!d->nominal_flew) withdraw(d);
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
+  tell(job, "looking at what is left");
   TRY(look_for_more(d, why));
   return verify_held(&d->held, job->model, &d->extended, &d->nominal, &d->held_out, why);
 }

@@ -4,14 +4,17 @@
 #include <math.h>
 
 // Another name in its place that is not worse by two standard errors of the difference.
-static void find_rivals(const select_t *t, int candidate, named_t *named) {
+static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
+  const double without = judge_left(&t->judge, &rest, NULL);
   for (int i = 0; i < t->c->n && named->n_rival < RIVAL_MAX; i++) {
     const fx_t *fx = select_fx(t, i);
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (judge_is_rival(&t->judge, &t->choice, &with)) named->rival[named->n_rival++] = fx;
+    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
+    named->rival[named->n_rival++] = fx;
   }
 }
 
@@ -33,7 +36,7 @@ static void find_named(const select_t *t, found_t *found) {
     memcpy(named->value, v.value, sizeof named->value);
     memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
     named->share = (judge_left(&t->judge, &rest, NULL) - found->left) / found->left_before;
-    find_rivals(t, candidate, named);
+    find_rivals(t, candidate, found->left_before, named);
   }
 }
 

@@ -64,7 +64,7 @@ status_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {
     if (!(value >= param[i].min && value <= param[i].max))
       return error_set(why, "effect %s: %s = %g is out of range; allowed: %g to %g%s%s", use->fx->name, key,
                        value, param[i].min, param[i].max, param[i].unit[0] ? " " : "", param[i].unit);
-    if (param[i].whole && value != (double)(long)value)
+    if (fx_is_number(&param[i]) && value != (double)(long)value)
       return error_set(why, "effect %s: %s = %g; allowed: whole numbers from %g to %g", use->fx->name, key,
                        value, param[i].min, param[i].max);
     use->p[i] = value;

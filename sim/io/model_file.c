@@ -161,12 +161,16 @@ status_t model_read(const char *path, model_t *m, why_t *why) {
   return read_file(file, path, m, why);
 }
 
+status_t model_read_text(const char *path, const char *text, model_t *m, why_t *why) {
+  toml_file_t *file;
+  TRY(toml_open_text(&file, path, text, why));
+  return read_file(file, path, m, why);
+}
+
 status_t model_builtin(const char *name, model_t *m, why_t *why) {
   for (int i = 0; i < vehicle_count; i++) {
     if (strcmp(vehicle_table[i].name, name) != 0) continue;
-    toml_file_t *file;
-    TRY(toml_open_text(&file, name, vehicle_table[i].text, why));
-    return read_file(file, name, m, why);
+    return model_read_text(name, vehicle_table[i].text, m, why);
   }
   return error_set(why, "%s: no vehicle of that name was built in", name);
 }

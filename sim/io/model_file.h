@@ -21,6 +21,9 @@
 // ST_BAD_INPUT: the file is missing or not TOML, a key is missing, unknown or out of range; *m is kept.
 MUST_CHECK status_t model_read(const char *path, model_t *m, why_t *why);
 
+// The same from a text in memory; `path` is what errors call it, and where a `file` of points is looked for.
+MUST_CHECK status_t model_read_text(const char *path, const char *text, model_t *m, why_t *why);
+
 // The file of sim/vehicles that is called NAME.toml, as it was when the program was built.
 // ST_BAD_INPUT: there is none of that name, or it is not good.
 MUST_CHECK status_t model_builtin(const char *name, model_t *m, why_t *why);

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#define WHOLE_FILES_MAX 4
+#define WHOLE_FILES_MAX 6
 #define WHOLE_PATH_MAX  4096
 
 typedef struct {

@@ -1,0 +1,26 @@
+// judge.h - the parts of the guard's judgement, for guard.c alone: which reasons there are in this call.
+// State and inputs are the guard's.
+#ifndef FLIGHT_JUDGE_H
+#define FLIGHT_JUDGE_H
+
+#include "flight/guard.h"
+
+#define JUDGE_MS_MAX    1000000
+#define JUDGE_SETTLED_S 2.0f // after a step of the accelerometer's bias
+
+// The time for which something lasts, ms more now.
+static inline int judge_longer(int total_ms, bool lasts, int ms) {
+  if (!lasts) return 0;
+  return total_ms < JUDGE_MS_MAX ? total_ms + ms : total_ms;
+}
+
+// The first plausible call.
+void judge_begin(guard_t *g, const guard_in_t *in);
+
+// Frozen, clipped, biased, tilted; a velocity that jumps is replaced in *in.
+unsigned judge_motion(guard_t *g, guard_in_t *in);
+
+// Range lost, frozen, odd; too near, blind, saturated; thrust that carries too much.
+unsigned judge_ceiling(guard_t *g, const guard_param_t *p, const guard_in_t *in);
+
+#endif

@@ -1,0 +1,43 @@
+// study.h - the workflow from log files on: reads them, holds some out, diagnoses, and flies the held-out
+// ones again.
+#ifndef SIM_GAP_STUDY_H
+#define SIM_GAP_STUDY_H
+
+#include "gap/7_resimulate.h"
+#include "gap/diagnose.h"
+
+#define STUDY_VEHICLE "cf21_legacy" // of sim/vehicles, where no file is named
+
+typedef struct {
+  const char *vehicle, *columns; // files; null: STUDY_VEHICLE, and the Crazyflie's own names
+  const char *const *log;
+  int n_log;
+  const char *const *hold_out; // logs; they may be among `log` too. None: see study_t
+  int n_hold_out;
+  unsigned long seed;
+  void (*progress)(const char *what); // may be null
+} study_order_t;
+
+// Nothing said about what is held out: of three flights or more the last third of the flights, else the last
+// third of each flight's time.
+typedef struct {
+  study_order_t order;
+  model_t vehicle;
+  char *vehicle_text;
+  columns_t columns;
+  gap_flight_t *flight; // those to fit to, then the held-out ones
+  gap_flights_t fit, held;
+  bool by_time; // the last third of each flight's time is held out; `held` is empty
+  diagnosis_t diagnosis;
+  resimulation_t resimulation;
+} study_t;
+
+// The vehicle's name in messages: its file, or that it is built in.
+const char *study_vehicle(const study_t *s);
+
+// ST_BAD_INPUT: as the readers; a log twice; no log left to fit to. ST_FAILED: no memory. Free it, also on an
+// error.
+MUST_CHECK status_t study_make(study_t *s, const study_order_t *order, why_t *why);
+void study_free(study_t *s);
+
+#endif
