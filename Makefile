@@ -199,7 +199,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules
 format: setup-lint  ## bring every source into the one format
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup-demo out/fly out/gap out/learn out/effectiveness out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
+docs: setup-demo out/fly out/gap out/learn out/effectiveness out/slot out/bench out/exam $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
 
 tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness

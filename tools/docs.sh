@@ -45,6 +45,8 @@ tools/identify.sh "$data" >"$got"
 text <"$got" | part identify
 tools/touches.sh >"$got"
 text <"$got" | part touches
+out/exam 10001 200 >"$got"
+text <"$got" | part exam
 out/slot "$data" >"$got"
 text <"$got" | part slot
 out/fly bias-hover --integrator rk4 >"$got"

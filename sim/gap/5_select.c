@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define ROUNDS 16
-#define TAKES  2 // what was taken out as often as this does not come back
+#define ALIKE  0.25 // of a name's contribution, that another one could give
+#define TAKES  2    // what was taken out as often as this does not come back
 
 const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
@@ -159,9 +160,12 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   for (int i = 0; i < t->choice.n && !*dropped; i++) {
     const int candidate = t->choice.of[i];
     TRY(select_is_echo(t, candidate, dropped, why));
+    if (!*dropped && t->strict) TRY(select_is_confined(t, candidate, dropped, why));
     if (!*dropped) continue;
-    t->choice = choice_without(&t->choice, candidate);
     t->taken[candidate] = TAKES;
+    for (int k = 0; k < t->c->n; k++) // nor is it what would look the same
+      if (judge_likeness(&t->judge, &t->choice, candidate, k) > ALIKE) t->taken[k] = TAKES;
+    t->choice = choice_without(&t->choice, candidate);
   }
   return ST_OK;
 }

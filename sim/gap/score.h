@@ -43,6 +43,9 @@ bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *bett
 // The other choice does as well, within two standard errors.
 bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other);
 
+// The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.
+double judge_likeness(const judge_t *j, const choice_t *choice, int own, int other);
+
 // Estimates, and their cluster-robust covariance (column by column of the choice; V may be null).
 void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V);
 

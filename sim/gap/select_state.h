@@ -41,6 +41,9 @@ MUST_CHECK status_t select_speeds(select_t *t, bool *known, why_t *why);
 // ST_FAILED: no memory.
 MUST_CHECK status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why);
 
+// The name is needed in one range of place, height or time only. ST_FAILED: no memory.
+MUST_CHECK status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why);
+
 // What was named, its rivals, and the least of each candidate that could have been seen.
 void select_describe(const select_t *t, found_t *found);
 

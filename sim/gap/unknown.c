@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BINS   12
+#define BINS   UNKNOWN_BINS
 #define WIDEST 6 // bins of a window
 
 // --- coordinates ------------------------------------------------------------------------------------------
@@ -48,6 +48,10 @@ const char *coordinate_name(int i) {
 }
 const char *coordinate_unit(int i) {
   return NAME[i][1];
+}
+
+bool coordinate_is_place(int i) {
+  return i == CEILING || i == HEIGHT || i == POS_X || i == POS_Y || i == TIME;
 }
 
 static double thrust_of(const grid_t *g, int j) {
@@ -99,6 +103,14 @@ static bool cut(const double *value, int n, double *sorted, int *bin, double edg
     bin[i] = k;
   }
   return true;
+}
+
+bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
+  double edge[BINS + 1];
+  const rows_t *r = list ? &s->range : &s->smooth;
+  if (r->n < 4 * BINS) return false;
+  for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
+  return cut(room, r->n, room + r->n, bin, edge);
 }
 
 // Products of indicator columns with each other and with the residual, all white.
@@ -204,8 +216,8 @@ status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[
   return good ? ST_OK : error_failed(why, "out of memory");
 }
 
-static status_t find_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                            color_t color[CHANNELS], why_t *why) {
+status_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                        color_t color[CHANNELS], why_t *why) {
   const size_t rows = most_rows(s);
   double *const copy = malloc(CHANNELS * rows * sizeof(double)), *part[CHANNELS];
   if (!copy) return error_failed(why, "out of memory");
@@ -224,7 +236,7 @@ status_t unknown_largest(const set_t *s, const model_t *m, double *const residua
                          const color_t *color, bool centred, cell_t *cell, why_t *why) {
   color_t own[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
-  if (!color) TRY(find_colors(s, m, residual, own, why));
+  if (!color) TRY(unknown_colors(s, m, residual, own, why));
   double *const room = malloc(2 * most_rows(s) * sizeof(double));
   int *const bin = malloc(most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++)

@@ -22,15 +22,26 @@ typedef struct {
 MUST_CHECK status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                   why_t *why);
 
+// Colours of the residual after such cleaning. ST_FAILED: no memory.
+MUST_CHECK status_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                   color_t color[CHANNELS], why_t *why);
+
 // The colours are those of the residual after such cleaning. ST_FAILED: no memory. residual: by channel and
 // row.
 MUST_CHECK status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                     const color_t *color, bool centred, cell_t *cell, why_t *why);
 
+#define UNKNOWN_BINS 12
+
+// The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
+// move. room: twice as many numbers as rows.
+bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);
+
 // Coordinates, for those who look where something lies.
 extern const int coordinate_count;
 const char *coordinate_name(int i);
 const char *coordinate_unit(int i);
+bool coordinate_is_place(int i); // or a time
 // NaN where the log has it not.
 double coordinate_of(int i, const grid_t *g, const model_t *m, int point);
 

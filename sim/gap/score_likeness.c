@@ -1,0 +1,28 @@
+// score_likeness.c - could one effect stand for another?
+#include "gap/lsq_blocks.h"
+#include "gap/score.h"
+
+double judge_likeness(const judge_t *j, const choice_t *choice, int own, int other) {
+  const gram_t *g = j->g;
+  const candidate_t *a = &j->c->candidate[own], *c = &j->c->candidate[other];
+  int column[COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column), size = c->n + 1;
+  double b[COLUMN_MAX], at[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
+  int order[FX_SIZE_MAX];
+  judge_estimate(j, choice, b, NULL);
+  for (int i = 0; i < n; i++) {
+    const bool mine = column[i] >= a->first && column[i] < a->first + a->n;
+    for (int k = 0; mine && k < c->n; k++)
+      G[k * size + c->n] += b[i] * g->total[column[i] * g->size + c->first + k];
+    for (int k = 0; mine && k < n; k++)
+      if (column[k] >= a->first && column[k] < a->first + a->n)
+        G[size * size - 1] += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
+  }
+  for (int i = 0; i < c->n; i++) {
+    order[i] = i;
+    G[c->n * size + i] = G[i * size + c->n];
+    for (int k = 0; k < c->n; k++) G[i * size + k] = g->total[(c->first + i) * g->size + c->first + k];
+  }
+  const double all = G[size * size - 1];
+  return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, c->n, NULL, at, NULL) / all : 0.0;
+}

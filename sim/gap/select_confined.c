@@ -1,0 +1,110 @@
+// select_confined.c - is a name needed in one part of the flights only?
+//
+// What truly acts, acts wherever its regressor is excited. With the effect's fitted contribution f and what
+// the other names leave y, both white, the slope of y over f is 1 everywhere. Where it is near 0 outside of
+// a range of place, height or time, the name stands for something that lies in that range.
+#include "gap/select_state.h"
+#include "gap/unknown.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define ABSENT 0.55 // a slope that is below this, two standard errors included
+#define STRONG 1.02 // a slope inside that is above this
+#define ENOUGH 0.05 // of the regressor's sum of squares must lie outside
+#define CLEAR  40.0 // less sum of squares by two slopes in place of one
+#define WIDER  1.5  // standard errors grow by this: white rows are not quite independent
+
+typedef struct {
+  double ff[UNKNOWN_BINS], fy[UNKNOWN_BINS];
+} slopes_t;
+
+typedef struct {
+  double *f[CHANNELS], *y[CHANNELS], *room; // white
+} parts_t;
+
+// Raw contributions first: y is what all names leave, and f.
+static status_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *why) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const int n = choice_columns(t->c, &t->choice, column);
+  const candidate_t *own = &t->c->candidate[candidate];
+  const size_t rows = (size_t)(t->s->smooth.n > t->s->range.n ? t->s->smooth.n : t->s->range.n) + 1;
+  p->room = calloc((2 * CHANNELS + 2) * rows, sizeof(double));
+  if (!p->room) return error_failed(why, "out of memory");
+  double *const f = p->room + 2 * CHANNELS * rows, *const y = f + rows;
+  judge_estimate(&t->judge, &t->choice, b, NULL);
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    p->f[ch] = p->room + 2 * ch * rows;
+    p->y[ch] = p->f[ch] + rows;
+    const rows_t *r = set_rows(t->s, (int)ch);
+    if (!t->gram.color[ch].used) continue;
+    for (int i = 0; i < r->n; i++) {
+      y[i] = t->table.x[ch][t->table.columns][i];
+      f[i] = 0.0;
+    }
+    for (int k = 0; k < n; k++) {
+      const double *x = t->table.x[ch][column[k]];
+      const bool is_own = column[k] >= own->first && column[k] < own->first + own->n;
+      for (int i = 0; x && i < r->n; i++) *(is_own ? &f[i] : &y[i]) += (is_own ? 1.0 : -1.0) * b[k] * x[i];
+    }
+    color_whiten(&t->gram.color[ch], r, f, p->f[ch]);
+    color_whiten(&t->gram.color[ch], r, y, p->y[ch]);
+  }
+  return ST_OK;
+}
+
+// in: the part in which the name is needed. Sums of f f and of f y.
+static bool absent(double ff_in, double fy_in, double ff_out, double fy_out) {
+  if (!(ff_out > ENOUGH * (ff_in + ff_out)) || !(ff_in > 0.0)) return false;
+  const double inside = fy_in / ff_in, outside = fy_out / ff_out, apart = inside - outside;
+  return outside + 2.0 * WIDER / sqrt(ff_out) < ABSENT && inside > STRONG &&
+         apart * apart * ff_in * ff_out / (ff_in + ff_out) > CLEAR * WIDER * WIDER;
+}
+
+static bool confined(const slopes_t *s) {
+  double ff = 0.0, fy = 0.0;
+  for (int i = 0; i < UNKNOWN_BINS; i++) {
+    ff += s->ff[i];
+    fy += s->fy[i];
+  }
+  for (int from = 0; from < UNKNOWN_BINS; from++) {
+    double own_ff = 0.0, own_fy = 0.0;
+    for (int to = from; to < UNKNOWN_BINS; to++) {
+      own_ff += s->ff[to];
+      own_fy += s->fy[to];
+      if (absent(own_ff, own_fy, ff - own_ff, fy - own_fy) ||
+          absent(ff - own_ff, fy - own_fy, own_ff, own_fy))
+        return true;
+    }
+  }
+  return false;
+}
+
+static void add_up(const select_t *t, const parts_t *p, int list, const int *bin, slopes_t *s) {
+  for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
+    for (int i = 0; t->gram.color[ch].used && i < set_rows(t->s, ch)->n; i++) {
+      s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
+      s->fy[bin[i]] += p->f[ch][i] * p->y[ch][i];
+    }
+}
+
+status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why) {
+  parts_t p = {.room = NULL};
+  const size_t rows = (size_t)(t->s->smooth.n > t->s->range.n ? t->s->smooth.n : t->s->range.n) + 1;
+  double *const room = malloc(2 * rows * sizeof(double));
+  int *const bin = malloc(rows * sizeof(int));
+  status_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
+  *is = false;
+  const bool curve = select_fx(t, candidate)->surface != 0; // of height: its shape is another question
+  for (int i = curve ? coordinate_count : 0; status == ST_OK && i < coordinate_count && !*is; i++)
+    for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
+      slopes_t s = {.ff = {0.0}};
+      if (!unknown_bins(t->s, t->base, i, list, room, bin)) continue;
+      add_up(t, &p, list, bin, &s);
+      *is = *is || confined(&s);
+    }
+  free(p.room);
+  free(room);
+  free(bin);
+  return status;
+}

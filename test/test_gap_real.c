@@ -1,0 +1,81 @@
+// test_gap_real.c - the workflow on recorded flights: what their publishers know is found.
+#include "gap/diagnose.h"
+#include "io/model_file.h"
+#include "test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define FLIGHTS 3
+
+typedef struct {
+  model_t vehicle;
+  gap_flight_t flight[FLIGHTS + 1]; // the last one is held out
+  diagnosis_t d;
+} case_t;
+
+static void read_all(case_t *c, const char *columns_path, const char *const file[FLIGHTS + 1]) {
+  columns_t columns;
+  why_t why;
+  CHECK_OK(columns_read(columns_path, &columns, &why));
+  for (int i = 0; i <= FLIGHTS; i++) {
+    char path[600];
+    if (!file[i]) continue;
+    snprintf(path, sizeof path, "%s/%s", test_data_dir(), file[i]);
+    CHECK_OK(gap_read(&c->flight[i], path, &columns, &c->vehicle, &why));
+  }
+}
+
+static void run(case_t *c, int n) {
+  const gap_flights_t fit = {c->flight, n}, held = {c->flight + FLIGHTS, 1};
+  const diagnose_job_t job = {.fit = &fit, .held = &held, .model = &c->vehicle, .seed = 1};
+  why_t why;
+  CHECK_OK(diagnose(&job, &c->d, &why));
+}
+
+static void close(case_t *c) {
+  diagnosis_free(&c->d);
+  for (int i = 0; i <= FLIGHTS; i++) gap_flight_free(&c->flight[i]);
+  free(c);
+}
+
+static const named_t *named(const case_t *c, const char *name) {
+  for (int i = 0; i < c->d.found.n; i++)
+    if (c->d.candidates.candidate[c->d.found.named[i].candidate].use.fx == fx_find(name))
+      return &c->d.found.named[i];
+  return NULL;
+}
+
+TEST(gap_names_the_ground_first_in_the_recorded_walks_above_it) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = calloc(1, sizeof *c);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_neural_swarm", &c->vehicle, &why));
+  read_all(c, "tools/columns/neural_swarm.toml",
+           (const char *[]){"ground_effect/21_randomwalk_s_cf50_00.csv",
+                            "ground_effect/21_randomwalk_s_cf50_02.csv", NULL,
+                            "ground_effect/21_randomwalk_s_cf50_04.csv"});
+  run(c, 2);
+  CHECK(c->d.found.n > 0 && named(c, "ground") == &c->d.found.named[0]);
+  const gap_part_t *z = &c->d.held_out.channel[CH_FZ];
+  CHECK(z->after_sd < 0.5 * z->before_sd);
+  close(c);
+}
+
+TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = calloc(1, sizeof *c);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_imrc", &c->vehicle, &why));
+  c->vehicle.motor_tau_s = 1e-3;
+  read_all(c, "tools/columns/imrc.toml",
+           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv",
+                            "imu_rpm_500hz/jana05.csv", "imu_rpm_500hz/jana10.csv"});
+  run(c, 3);
+  const named_t *lag = named(c, "motor_lag"), *drag = named(c, "rotor_drag");
+  if (CHECK(lag != NULL)) CHECK_NEAR(lag->value[0], 0.076, 0.019); // 57-95 ms
+  // k of a unit of mass, at the speed of four rotors in hover: 0.36-0.45 1/s
+  const double sum_radps = 4.0 * sqrt(0.25 * c->vehicle.mass_kg * 9.80665 / c->vehicle.frame.kf_Ns2);
+  if (CHECK(drag != NULL)) CHECK_NEAR(drag->value[0] * sum_radps / c->vehicle.mass_kg, 0.405, 0.045);
+  close(c);
+}
