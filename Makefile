@@ -8,6 +8,7 @@ OPT = -O3
 
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev
 DEMO_PACKAGES = gnuplot-nox
+PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
@@ -26,14 +27,15 @@ LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplu
 
 FLIGHT_SRC = $(wildcard src/*.c)
 NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
+FIRMWARE_SRC = $(wildcard src/firmware/*.c)
+SIM_SRC    = $(wildcard sim/*.c sim/crazyflie/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
 SIM_CPP    = $(wildcard sim/*.cpp sim/gap/*.cpp sim/io/*.cpp sim/plant/*.cpp)
 TEST_SRC   = $(wildcard test/*.c) $(filter-out test/exam/main.c,$(wildcard test/exam/*.c))
 EXAM_SRC   = $(wildcard test/exam/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 GEN        = out/gen/fx_table.c out/gen/curve_table.c out/gen/scenario_table.c out/gen/vehicle_table.c
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
-SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
+SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(FIRMWARE_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP) $(GEN))
 PROGRAMS   = fly learn effectiveness gap slot bench
 
 ifeq ($(MAKELEVEL),0)
@@ -54,7 +56,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights touches slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force
+.PHONY: help demo flights touches slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -62,6 +64,8 @@ setup:  ## install the Debian packages that the build needs
 	@tools/setup.sh $(PACKAGES)
 setup-demo:
 	@tools/setup.sh $(PACKAGES) $(DEMO_PACKAGES)
+setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor
+	@tools/setup.sh $(PIL_PACKAGES)
 setup-lint:
 	@tools/setup.sh $(PACKAGES) $(LINT_PACKAGES)
 
@@ -71,6 +75,13 @@ setup-lint:
 $(B)/src/%.o: src/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) $(FLIGHT_FLAGS) -Iinclude -c $< -o $@
+# The app, unchanged, between stand-ins of the firmware's headers.
+$(B)/src/firmware/%.o: src/firmware/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h -c $< -o $@
+$(B)/sim/crazyflie/%.o: sim/crazyflie/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim -Isim/crazyflie -c $< -o $@
 $(B)/sim/plant/%.o: sim/plant/%.c | setup
 	@mkdir -p $(@D)
 	@$(C) -Isim -c $< -o $@
@@ -82,19 +93,28 @@ $(B)/sim/effects/%.o: sim/effects/%.c | setup
 	@$(C) -Isim -c $< -o $@
 $(B)/sim/many.o: sim/many.c | setup
 	@mkdir -p $(@D)
-	@$(C) $(OMP) -Iinclude -Isim -c $< -o $@
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -c $< -o $@
+$(B)/test/pil/%.o: test/pil/%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim/crazyflie -Isim -c $< -o $@
+$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
+	@mkdir -p $(@D)
+	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+$(B)/test/test_app%.o: test/test_app%.c | setup
+	@mkdir -p $(@D)
+	@$(C) -Iinclude -Isrc -Isim -Itest -Isim/crazyflie -c $< -o $@
 $(B)/test/exam/main.o: test/exam/main.c | setup
 	@mkdir -p $(@D)
-	@$(C) $(OMP) -Iinclude -Isim -Itest -c $< -o $@
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/test/test_faults.o: test/test_faults.c | setup
 	@mkdir -p $(@D)
-	@$(C) $(OMP) -Iinclude -Isim -Itest -c $< -o $@
+	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/%.o: %.c | setup
 	@mkdir -p $(@D)
-	@$(C) -Iinclude -Isim -Itest -c $< -o $@
+	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 $(B)/%.o: %.cpp | setup
 	@mkdir -p $(@D)
-	@$(CPP) -Iinclude -Isim -Itest -c $< -o $@
+	@$(CPP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
 
 out/gen/%_table.c: force
 	@tools/table.sh $* $@
@@ -144,8 +164,9 @@ faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how of
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
 	@out/exam $(or $(SEED),10001) 200
 
-check: test sanitize clang  ## the long tests, also with sanitizers and clang
+check: test sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
+	+@tools/seeded.sh
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
 	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/gap out/sanitize/bin/learn out/sanitize/bin/effectiveness
@@ -172,6 +193,22 @@ format: setup-lint  ## bring every source into the one format
 
 docs: setup-demo out/fly out/gap out/learn out/effectiveness out/slot out/bench $(B)/bin/tests  ## write the tables and figures of README.md
 	@tools/docs.sh "$(DATA)"
+
+tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness
+
+seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word)
+	+@tools/seeded.sh "$(W)"
+
+pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
+	+@tools/pil.sh
+
+firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" plus
+
+cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus)
+	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
+	+@tools/firmware.sh cload "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 
 clean:  ## remove everything that was made
 	@rm -rf out

@@ -2,6 +2,7 @@
 #include "catalogue.h"
 
 #include "flight/params.h"
+#include "param_spec.h"
 #include "plant/noise6.h"
 #include "plant/sensors.h"
 #include "scenario/scenario.h"
@@ -31,6 +32,13 @@ void catalogue_params(bool markdown) {
     snprintf(range, sizeof range, "%s to %s", shortest(r->min, min), shortest(r->max, max));
     printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", r->name, r->unit,
            shortest(r->initial, initial), range, r->help);
+  }
+  for (int i = 0; i < param_app_count; i++) {
+    const param_app_t *a = &param_app_table[i];
+    char range[32];
+    snprintf(range, sizeof range, "0 to %g", (double)a->max);
+    printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", a->name, "", "0",
+           range, a->help);
   }
 }
 

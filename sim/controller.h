@@ -20,6 +20,7 @@ typedef struct {
 // What a controller thinks, for logs. NaN or 0 where it has no such thought.
 typedef struct {
   double zc_m;               // ceiling distance; NaN: none known
+  double ceiling_z_m;        // height of the ceiling, latched (flight/hold.h); NaN: none known
   double ratio, slope_per_m; // of the believed curve
   double y;                  // the ratio that taught the curve at this tick; NaN: none did
   double weights[CURVE_WEIGHTS];

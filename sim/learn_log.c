@@ -99,7 +99,8 @@ static view_t look(pass_t *p, const flight_tick_t *tick) {
   };
   if (tick->split) start(p, &in, tick);
   const float mass_kg = p->job->param.pos.mass_kg;
-  const sync_out_t x = sync_step(&p->sync, &p->coef, &in);
+  sync_out_t x;
+  sync_step(&p->sync, &p->coef, &in, &x);
   view_t view = {
       .sample = learn_sample(&p->sync, &x, mass_kg),
       .lift_N = x.thrust_N * x.up_w.z,

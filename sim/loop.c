@@ -103,7 +103,7 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
                   outcome_t *outcome, why_t *why) {
   flight_loop_t f = {.plan = plan, .controller = controller, .gap_min_m = HUGE_VAL};
   f.sense.applied_N = plan->start_thrust_N;
-  f.thoughts = (thoughts_t){.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
+  f.thoughts = (thoughts_t){.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   *outcome = (outcome_t){.finite = true};
   const double start_s = wall_s();
   kalman_z_init(&f.kalman, KALMAN_ACC_MPS2, fmax(plan->noise.down_m, 1e-4), controller->period_s,

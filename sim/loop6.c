@@ -26,6 +26,7 @@ typedef struct {
   double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
   bool range_new;
   int way;
+  double ceiling_z_m; // as the pilot thinks it, at the last sample
 } flight6_t;
 
 static double wall_s(void) {
@@ -110,7 +111,9 @@ static void order(flight6_t *f, double t_s) {
   const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
   const bool on = t_s >= f->plan->take_off_s;
   for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT6_POSITION : PILOT6_OFF;
-  f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - rest_m};
+  const bool thought = f->plan->below_estimate && isfinite(f->ceiling_z_m);
+  const double down_m = thought ? f->model->ceiling_m - f->ceiling_z_m : rest_m;
+  f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - down_m};
   f->in.set.thrust_N = 0.0;
 }
 
@@ -128,8 +131,9 @@ static void pilot_ms(flight6_t *f, const truth_t *truth) {
 
 static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
                      why_t *why) {
-  thoughts_t thoughts = {.zc_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
+  thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   if (f->ask) f->ask(f->pilot->state, &thoughts);
+  f->ceiling_z_m = thoughts.ceiling_z_m;
   const tick6_t tick = {
       .t_s = t_s,
       .setpoint_m = f->plan->plan.way[f->way].setpoint_m,
@@ -197,6 +201,7 @@ static status_t open(flight6_t *f, why_t *why) {
     ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
   }
   for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
   return ST_OK;
 }
@@ -208,7 +213,7 @@ status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pi
   *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
-  f->range_m = (double)NAN;
+  f->range_m = f->ceiling_z_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = wall_s();
   status_t status = open(f, why);

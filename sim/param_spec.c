@@ -1,25 +1,45 @@
 // param_spec.c - a parameter of the flight code as a person sets it.
 #include "param_spec.h"
 
+#include "crazyflie/sections.h"
+#include "firmware/glue.h"
 #include "io/number.h"
 #include <string.h>
 
-status_t param_parse(const char *text, const param_row_t **row, float *value, why_t *why) {
+#define APP_ROW(name_, type, field, max_, help_) {.name = "ceil." #name_, .help = help_, .max = max_},
+const param_app_t param_app_table[] = {APP_PARAMS(APP_ROW)};
+const int param_app_count = (int)(sizeof param_app_table / sizeof *param_app_table);
+
+static const param_app_t *find_app(const char *name) {
+  for (int i = 0; i < param_app_count; i++)
+    if (strcmp(param_app_table[i].name, name) == 0) return &param_app_table[i];
+  return NULL;
+}
+
+static bool fits(const param_set_t *set, double number) {
+  flight_param_t trial;
+  params_default(&trial);
+  if (set->row) return params_set(&trial, set->row, (float)number) == ST_OK;
+  return number >= 0.0 && number <= (double)set->app->max && number == (double)(int)number;
+}
+
+status_t param_parse(const char *text, param_set_t *set, why_t *why) {
   char name[32];
   const size_t size = strcspn(text, "=");
   if (text[size] != '=' || size >= sizeof name)
     return error_set(why, "--set %s: allowed is group.name=value", text);
   memcpy(name, text, size);
   name[size] = '\0';
-  *row = params_find(name);
-  if (!*row) return error_set(why, "--set %s: no such parameter; fly --params lists them", name);
+  *set = (param_set_t){.row = params_find(name), .app = find_app(name)};
+  if ((!set->row && !set->app) || !sections_param(name))
+    return error_set(why, "--set %s: no such parameter; fly --params lists them", name);
   double number;
-  flight_param_t trial;
-  params_default(&trial);
-  if (!number_parse(text + size + 1, &number) || params_set(&trial, *row, (float)number) != ST_OK)
-    return error_set(why, "--set %s: allowed is a %snumber from %g to %g", text,
-                     (*row)->type == PARAM_INT ? "whole " : "", (double)(*row)->min, (double)(*row)->max);
-  *value = (float)number;
+  const bool whole = !set->row || set->row->type == PARAM_INT;
+  if (!number_parse(text + size + 1, &number) || !fits(set, number))
+    return error_set(why, "--set %s: allowed is a %snumber from %g to %g", text, whole ? "whole " : "",
+                     set->row ? (double)set->row->min : 0.0,
+                     set->row ? (double)set->row->max : (double)set->app->max);
+  set->value = (float)number;
   return ST_OK;
 }
 

@@ -5,8 +5,24 @@
 #include "error.h"
 #include "flight/params.h"
 
-// ST_BAD_INPUT: not of that form, no such parameter, or out of its range.
-MUST_CHECK status_t param_parse(const char *text, const param_row_t **row, float *value, why_t *why);
+// A parameter of the app alone, which the flight code does not have (ceil.shadow).
+typedef struct {
+  const char *name, *help;
+  float max; // whole numbers from 0
+} param_app_t;
+
+extern const param_app_t param_app_table[];
+extern const int param_app_count;
+
+typedef struct {
+  const param_row_t *row; // null: one of the app
+  const param_app_t *app; // null: one of the flight code
+  float value;
+} param_set_t;
+
+// The app has to have it (crazyflie/sections.h). ST_BAD_INPUT: not of that form, no such parameter, or out of
+// its range.
+MUST_CHECK status_t param_parse(const char *text, param_set_t *set, why_t *why);
 
 // ST_BAD_INPUT: the set as a whole contradicts itself (params_check).
 MUST_CHECK status_t param_check_all(const flight_param_t *p, why_t *why);

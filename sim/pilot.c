@@ -1,6 +1,8 @@
 // pilot.c - the flight code at the controls.
 #include "pilot.h"
 
+#include <string.h>
+
 _Static_assert(RBF_N == CURVE_WEIGHTS, "logs hold all the weights");
 
 status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
@@ -11,6 +13,7 @@ status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
 static void tell(const pilot_t *p, const outer_out_t *out, bool taught, thoughts_t *thoughts) {
   thoughts->y = taught ? (double)p->flight.learn.y : (double)NAN;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
+  thoughts->ceiling_z_m = (double)out->ceiling_z_m;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
   for (int i = 0; i < RBF_N; i++) {
@@ -32,7 +35,8 @@ static double step(void *state, const sense_t *in, thoughts_t *thoughts) {
       .setpoint = {.pos_w_m = {.z = (float)in->setpoint_m}},
   };
   const unsigned taught_before = p->flight.learn.rls.count;
-  const outer_out_t out = outer_step(&p->flight, &p->param, &flight_in);
+  if (memcmp(&p->param, &p->flight.param, sizeof p->param) != 0) (void)!outer_tune(&p->flight, &p->param);
+  const outer_out_t out = *outer_step(&p->flight, &flight_in);
   outer_learn(&p->flight);
   tell(p, &out, p->flight.learn.rls.count != taught_before, thoughts);
   return (double)out.thrust_N;

@@ -1,62 +1,74 @@
 // pilot_flight.c - the whole flight code as a pilot.
 #include "pilot_flight.h"
 
-#include <math.h>
+#include "crazyflie/sections.h"
+#include "error.h"
+#include <stdlib.h>
+#include <string.h>
 
 _Static_assert(MOTORS == PILOT6_MOTORS, "the same vehicle on both sides");
 
-static v3_t v3_from(d3_t a) {
-  return (v3_t){(float)a.x, (float)a.y, (float)a.z};
+static bool is_weight(const param_row_t *row) {
+  const size_t first = offsetof(flight_param_t, curve.fixed);
+  return row->offset >= first && row->offset < first + sizeof(rbf_weights_t);
 }
 
-static axis_mode_t axis_from(pilot6_mode_t mode) {
-  return mode == PILOT6_POSITION ? AXIS_POSITION : mode == PILOT6_VELOCITY ? AXIS_VELOCITY : AXIS_OFF;
+// Writes what differs from what the app was told.
+static bool send(pilot_flight_t *p) {
+  bool known = true, weights = false;
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *const row = &params_table[i];
+    const char *const at = (const char *)&p->param + row->offset, *const was =
+                                                                      (const char *)&p->sent + row->offset;
+    if (memcmp(at, was, 4) == 0) continue;
+    known = crazyflie_set(&p->vehicle, row->name, (double)params_get(&p->param, row)) && known;
+    weights = weights || is_weight(row);
+  }
+  p->sent = p->param;
+  if (weights) known = crazyflie_set(&p->vehicle, "ceil.commit", COMMIT_TYPED) && known;
+  return known;
 }
 
-static flight_setpoint_t setpoint_from(const pilot6_setpoint_t *set) {
-  return (flight_setpoint_t){
-      .x = axis_from(set->mode[0]),
-      .y = axis_from(set->mode[1]),
-      .z = axis_from(set->mode[2]),
-      .pos_w_m = v3_from(set->pos_w_m),
-      .vel_mps = v3_from(set->vel_mps),
-      .vel_in_body = set->vel_in_body,
-      .acc_w_mps2 = v3_from(set->acc_w_mps2),
-      .thrust_N = (float)set->thrust_N,
-      .yaw = set->yaw_by_rate ? YAW_RATE : YAW_ANGLE,
-      .yaw_rad = (float)set->yaw_rad,
-      .yaw_rate_radps = set->yaw_by_rate ? (float)set->yaw_rate_radps : 0.0f,
-  };
+// At every call, or the second of so many as loop6 keeps its samples. Without memory the rows end.
+static void keep_log(pilot_flight_t *p, uint32_t step) {
+  if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
+  const int width = sections_logs();
+  if (p->n_log == p->room_log) {
+    const int room = p->room_log ? 2 * p->room_log : 1024;
+    float *const more = realloc(p->log, (size_t)room * (size_t)width * sizeof *more);
+    if (!more) p->log_every_ms = 0;
+    if (!more) return;
+    p->log = more;
+    p->room_log = room;
+  }
+  crazyflie_logs(&p->vehicle, p->log + (size_t)p->n_log++ * (size_t)width);
 }
 
 static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
   pilot_flight_t *const p = state;
-  flight_in_t f = {
-      .step = in->step,
-      .rate_b_radps = v3_from(in->gyro_b_radps),
-      .acc_b_mps2 = v3_from(in->acc_b_mps2),
-      .pos_w_m = v3_from(in->pos_w_m),
-      .vel_w_mps = v3_from(in->vel_w_mps),
-      .q_wb = {(float)in->q_wb.w, (float)in->q_wb.x, (float)in->q_wb.y, (float)in->q_wb.z},
-      .range_new = in->range_new,
-      .range_m = (float)in->range_m,
-      .range_age_s = (float)in->range_age_s,
-      .setpoint = setpoint_from(&in->set),
-  };
-  for (int i = 0; i < MOTORS; i++) f.force_N[i] = (float)in->applied_N[i];
-  const flight_out_t out = flight_step(&p->flight, &p->param, &f);
-  for (int i = 0; i < MOTORS; i++) motor_N[i] = (double)out.motors.force_N[i];
+  if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
+  crazyflie_ms(&p->vehicle, in, motor_N);
+  if (p->log_every_ms > 0) keep_log(p, in->step);
 }
 
 static void reset(void *state) {
   pilot_flight_t *const p = state;
-  // The parameters passed when the pilot was made.
-  (void)!flight_init(&p->flight, &p->param);
+  (void)send(p);
+  crazyflie_start(&p->vehicle);
 }
 
-status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, pilot6_t *pilot) {
+status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
+                           pilot6_t *pilot) {
+  TRY(params_check(param));
+  crazyflie_init(&p->vehicle, model);
+  p->flight = &p->vehicle.app.flight;
   p->param = *param;
-  TRY(flight_init(&p->flight, param));
+  p->log = NULL;
+  p->n_log = p->room_log = 0;
+  p->log_every_ms = 0;
+  memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
+  if (!send(p)) return ST_FAILED;
+  crazyflie_start(&p->vehicle);
   *pilot = (pilot6_t){.state = p, .step = step, .reset = reset};
   return ST_OK;
 }

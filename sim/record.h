@@ -38,6 +38,9 @@ typedef struct {
   sample_t *sample;
   int n, room;
   sample6_t *more; // as many, or a null pointer: flown on the vertical axis
+  float *app;      // as many rows of the app's logs (sections_logs()), or a null pointer
+  int n_calls;     // not 0: `app` has a row for each call, so many, and only it is written
+  float *param;    // what the app flew with, as params_table; or a null pointer
 } record_t;
 
 // Makes room for so many samples in all: what is known beforehand need not be moved while it grows.

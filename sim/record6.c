@@ -21,10 +21,11 @@ static sample_t sample_of(const tick6_t *t) {
   const body_t *b = t->body;
   const axes_t axes = axes_of(t->truth->q_wb);
   const double gap_m = record6_gap_m(b);
-  double thrust_N = 0.0, command_N = 0.0;
+  double thrust_N = 0.0, command_N = 0.0, applied_N = 0.0;
   for (int i = 0; i < ROTORS; i++) {
     thrust_N += b->y[RIGID_THRUST_N + i];
     command_N += t->motor_N[i];
+    applied_N += t->in->applied_N[i];
   }
   return (sample_t){
       .t_s = t->t_s,
@@ -42,7 +43,7 @@ static sample_t sample_of(const tick6_t *t) {
       .sense = {.z_m = t->in->pos_w_m.z,
                 .climb_mps = t->in->vel_w_mps.z,
                 .acc_mps2 = t->in->acc_b_mps2.z - 9.81,
-                .applied_N = command_N,
+                .applied_N = applied_N,
                 .range_new = t->range_new,
                 .range_m = t->range_m},
       .thoughts = *t->thoughts,

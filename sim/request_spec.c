@@ -5,6 +5,7 @@
 #include "io/number.h"
 #include "param_spec.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define NAME_MAX 24
@@ -26,8 +27,9 @@ status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *nam
 
 status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
   r->log_500_Hz = strcmp(text, "500") == 0;
-  if (r->log_500_Hz || strcmp(text, "100") == 0) return ST_OK;
-  return error_set(why, "--log-rate %s: allowed are 100, 500", text);
+  r->log_calls = strcmp(text, "1000") == 0;
+  if (r->log_500_Hz || r->log_calls || strcmp(text, "100") == 0) return ST_OK;
+  return error_set(why, "--log-rate %s: allowed are 100, 500, 1000", text);
 }
 
 // One of the level's numbers, as "acc.z=0.1".
@@ -97,9 +99,25 @@ status_t request_take_integrator(request_t *r, const char *name, why_t *why) {
 
 status_t request_take_set(request_t *r, const char *text, why_t *why) {
   if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
-  TRY(param_parse(text, &r->set[r->n_set].row, &r->set[r->n_set].value, why));
+  TRY(param_parse(text, &r->set[r->n_set], why));
   r->n_set++;
   return ST_OK;
+}
+
+status_t request_take_sets(request_t *r, const char *path, why_t *why) {
+  FILE *const file = fopen(path, "r");
+  if (!file) return error_set(why, "%s: cannot be read", path);
+  char line[128];
+  status_t status = ST_OK;
+  for (int n = 1; status == ST_OK && fgets(line, sizeof line, file); n++) {
+    line[strcspn(line, "\r\n")] = '\0';
+    if (line[0] == '\0' || line[0] == '#') continue;
+    why_t cause;
+    status = request_take_set(r, line, &cause);
+    if (status != ST_OK) status = error_set(why, "%s:%d: %s", path, n, cause.text);
+  }
+  fclose(file);
+  return status;
 }
 
 status_t request_take_effect(request_t *r, const char *spec, why_t *why) {

@@ -49,6 +49,7 @@ status_t request_apply(const request_t *request, model_t *model, flight_param_t 
   for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(model, &request->effect[i], why));
   for (int i = 0; i < request->n_set; i++) {
     const param_row_t *row = request->set[i].row;
+    if (!row) continue; // the app's
     if (params_set(flight, row, request->set[i].value) != ST_OK)
       return error_set(why, "--set %s: allowed is %g to %g", row->name, (double)row->min, (double)row->max);
     // A weight that is set is also where learning starts.
@@ -76,12 +77,17 @@ static status_t check_vertical(const setup_t *setup, int n_set, why_t *why) {
 status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   TRY(check_vertical(setup, request->n_set, why));
+  for (int i = 0; i < request->n_set; i++)
+    if (request->set[i].app)
+      return error_set(why, "--set %s: this scenario is flown on the vertical axis, where there is no app",
+                       request->set[i].app->name);
   if (request->noise6)
     return error_set(why,
                      "--noise %s: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3",
                      request->noise6->name);
-  if (request->log_500_Hz)
-    return error_set(why, "--log-rate 500: this scenario is flown on the vertical axis; allowed is 100");
+  if (request->log_500_Hz || request->log_calls)
+    return error_set(why, "--log-rate %d: this scenario is flown on the vertical axis; allowed is 100",
+                     request->log_calls ? 1000 : 500);
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;

@@ -4,6 +4,7 @@
 
 #include "flight/params.h"
 #include "loop.h"
+#include "param_spec.h"
 #include "peers/pid.h"
 #include "plant/noise6.h"
 #include "segments.h"
@@ -35,7 +36,7 @@ typedef struct {
   plan_t plan;
 } setup_t;
 
-#define REQUEST_MAX 64
+#define REQUEST_MAX 128
 
 // What the command line asks for, over what the scenario brings.
 typedef struct {
@@ -48,11 +49,10 @@ typedef struct {
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has
-  struct {
-    const param_row_t *row;
-    float value;
-  } set[REQUEST_MAX];
+  param_set_t set[REQUEST_MAX];
   int n_set;
+  bool log;        // keeps the app's logs, in six degrees of freedom
+  bool log_calls;  // with log: the app's logs of every call, and nothing else; six degrees of freedom
   bool log_500_Hz; // six degrees of freedom: a sample every 2 ms instead of 10
   uint64_t seed;
   integrate_kind_t integrate;

@@ -75,6 +75,7 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   setup->plan.record_every = request->log_500_Hz ? 1 : 0;
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
+  setup->request = request;
   return ST_OK;
 }
 
@@ -82,6 +83,7 @@ void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
   plan_t *plan = &setup->plan.plan;
   const double hover_s = 12.0; // at the first gap, take-off included
   setup->plan.take_off_s = 1.0;
+  setup->plan.below_estimate = true;
   plan->n_way = n;
   for (int i = 0; i < n; i++) {
     const double at_s = i == 0 ? 0.0 : hover_s + hold_s * (i - 1);
@@ -97,33 +99,53 @@ void setup6_close_ladder(setup6_t *setup) {
 
 static void ask_flight(const void *state, thoughts_t *thoughts) {
   const pilot_flight_t *p = state;
-  const outer_out_t *out = &p->flight.out.outer;
+  const outer_out_t *out = &p->flight->out.outer;
   thoughts->zc_m = out->zc_known ? (double)out->zc_m : (double)NAN;
+  thoughts->ceiling_z_m = (double)out->ceiling_z_m;
   thoughts->ratio = (double)out->at.ratio;
   thoughts->slope_per_m = (double)out->at.slope_per_m;
-  thoughts->guard_now = p->flight.guard.now;
-  thoughts->guard_latched = p->flight.guard.latched;
+  thoughts->guard_now = p->flight->guard.now;
+  thoughts->guard_latched = p->flight->guard.latched;
   for (int i = 0; i < RBF_N; i++) {
-    thoughts->weights[i] = (double)p->flight.outer.learn.rls.theta.w[i];
-    thoughts->variance[i] = (double)p->flight.outer.learn.rls.P[i][i];
+    thoughts->weights[i] = (double)p->flight->outer.learn.rls.theta.w[i];
+    thoughts->variance[i] = (double)p->flight->outer.learn.rls.P[i][i];
   }
 }
 
+// What only the app knows.
+static void take_request(pilot_flight_t *p, const request_t *request) {
+  if (!request) return;
+  for (int i = 0; i < request->n_set; i++)
+    if (request->set[i].app)
+      (void)crazyflie_set(&p->vehicle, request->set[i].app->name, (double)request->set[i].value);
+  p->log_every_ms = !request->log ? 0 : request->log_calls ? 1 : request->log_500_Hz ? 2 : 10;
+}
+
+static status_t keep_params(const flight_param_t *param, record_t *record, why_t *why) {
+  record->param = malloc((size_t)params_count * sizeof(float));
+  if (!record->param) return error_failed(why, "out of memory");
+  for (int i = 0; i < params_count; i++) record->param[i] = params_get(param, &params_table[i]);
+  return ST_OK;
+}
+
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
-  pilot_flight_t *p = malloc(sizeof *p);
-  if (!p) return error_failed(why, "out of memory");
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
+  pilot_flight_t p;
   pilot6_t pilot;
-  status_t status = pilot_flight_init(p, &param, &pilot);
-  if (status != ST_OK)
-    (void)!error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
-  else
-    status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record, &flown->more,
-                       &flown->flown.outcome, why);
-  flown->flown.weights = live ? p->flight.outer.learn.rls.theta : param.curve.fixed;
-  free(p);
+  const status_t opened = pilot_flight_init(&p, &param, &setup->model, &pilot);
+  if (opened != ST_OK)
+    return error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
+  take_request(&p, setup->request);
+  const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
+                                    &flown->more, &flown->flown.outcome, why);
+  flown->flown.record.app = p.log;
+  if (p.log_every_ms == 1) flown->flown.record.n_calls = p.n_log;
+  TRY(keep_params(&param, &flown->flown.record, why));
+  if (setup->request && setup->request->log && status == ST_OK && p.n_log < flown->flown.record.n)
+    return error_failed(why, "out of memory");
+  flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
   return status;
 }
 

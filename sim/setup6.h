@@ -14,6 +14,7 @@ typedef struct {
   stock_pid_param_t stock_pid;
   air_garage_param_t air_garage; // infinitely far ceiling: it gets the model's, counted from the propellers
   plan6_t plan;
+  const request_t *request; // parameters of the app, and whether its logs are kept; null: neither
 } setup6_t;
 
 // The thesis's experiments: a Crazyflie 2.1 with both decks under a ceiling at 0.5 m whose effect is
@@ -26,7 +27,8 @@ MUST_CHECK status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
 // they do not know.
 MUST_CHECK status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
 
-// Waypoints at these gaps below the ceiling, hold_s each, after a take-off and a hover at the first.
+// Waypoints at these gaps below the ceiling, hold_s each, after a take-off and a hover at the first: below
+// the ceiling as the controller thinks it; who thinks of none is told where it is.
 void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s);
 
 // That of the close flight and of the learning flight: 20 cm, then 10 to 2 cm in steps of 2 cm, 10 s each.

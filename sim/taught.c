@@ -21,7 +21,8 @@ int taught_of(const record_t *record, const setup_t *setup, double far_m, taught
                           .q_wb = {.w = 1.0f},
                           .thrust_N = (float)s->sense.applied_N};
     if (i == 0) sync_start(&sync, &in);
-    const sync_out_t x = sync_step(&sync, &coef, &in);
+    sync_out_t x;
+    sync_step(&sync, &coef, &in, &x);
     learn_sample_t sample = learn_sample(&sync, &x, p->pos.mass_kg);
     sample.known = !isnan(s->thoughts.zc_m);
     sample.zc_m = sync_distance_m(&sync, &coef, sample.known, sample.known ? (float)s->thoughts.zc_m : 0.0f);

@@ -12,25 +12,21 @@
 #define FLOOR_SHARE  0.5f    // of the weight that something else than the rotors carries: a floor
 #define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
-static status_t tune_inner(flight_t *f, const flight_param_t *p) {
-  TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
-  f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
-  return ST_OK;
-}
-
-static status_t tune(flight_t *f, const flight_param_t *p) {
-  TRY(params_check(p));
-  TRY(tune_inner(f, p));
-  f->param = *p;
-  return ST_OK;
-}
-
 status_t flight_init(flight_t *f, const flight_param_t *p) {
-  flight_t fresh = {.out = {.q_ref = {.w = 1.0f}}};
-  TRY(tune(&fresh, p));
-  TRY(outer_init(&fresh.outer, p, OUTER_S));
-  fresh.out.outer = fresh.outer.out;
-  *f = fresh;
+  TRY(params_check(p)); // a set that passes is one that can be flown
+  memset(f, 0, sizeof *f);
+  f->out.q_ref = (quat_t){.w = 1.0f};
+  TRY(outer_init(&f->outer, p, OUTER_S));
+  f->out.outer = f->outer.out;
+  f->yaw_rad = NAN;
+  return flight_tune(f, p);
+}
+
+status_t flight_tune(flight_t *f, const flight_param_t *p) {
+  TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
+  f->outer.coef.period_s = OUTER_S;
+  TRY(outer_take(&f->outer, p));
+  f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
   return ST_OK;
 }
 
@@ -73,26 +69,25 @@ static float thrust_of(const float force_N[MOTORS]) {
   return force_N[0] + force_N[1] + force_N[2] + force_N[3];
 }
 
-static void run_outer(flight_t *f, const flight_in_t *in) {
+static APART void run_outer(flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) {
     outer_rest(&f->outer);
     f->range_waits = false; // when the height is taken up again it is no measurement of then
     f->out.outer = f->outer.out;
     return;
   }
-  const outer_in_t outer_in = {
-      .pos_w_m = in->pos_w_m,
-      .vel_w_mps = in->vel_w_mps,
-      .acc_b_mps2 = in->acc_b_mps2,
-      .q_wb = in->q_wb,
-      .thrust_N = thrust_of(in->force_N),
-      .range_new = f->range_waits,
-      .range_m = f->range_m,
-      .range_age_s = f->range_age_s,
-      .setpoint = position_wanted(in),
-  };
+  outer_in_t *const x = &f->outer_in;
+  x->pos_w_m = in->pos_w_m;
+  x->vel_w_mps = in->vel_w_mps;
+  x->acc_b_mps2 = in->acc_b_mps2;
+  x->q_wb = in->q_wb;
+  x->thrust_N = thrust_of(in->force_N);
+  x->range_new = f->range_waits;
+  x->range_m = f->range_m;
+  x->range_age_s = f->range_age_s;
+  x->setpoint = position_wanted(in);
   f->range_waits = false;
-  f->out.outer = outer_step(&f->outer, &f->param, &outer_in);
+  f->out.outer = *outer_step(&f->outer, x);
 }
 
 // Direction of the thrust from roll and pitch wanted about the heading's axes.
@@ -107,11 +102,18 @@ static v3_t direction_by_hand(const flight_setpoint_t *sp, sincos_t h, float til
 // The heading that is held: what was asked for, or turned by the rate from where the vehicle looked.
 static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   const flight_setpoint_t *sp = &in->setpoint;
-  if (sp->yaw == YAW_ANGLE) return trig_sincos(sp->yaw_rad);
+  if (sp->yaw == YAW_ANGLE) {
+    if (sp->yaw_rad == f->yaw_rad) return f->heading_ref;
+    f->yaw_rad = sp->yaw_rad;
+    return trig_sincos(sp->yaw_rad);
+  }
+  f->yaw_rad = NAN;
   const sincos_t now = heading(in->q_wb), ref = f->heading_known ? f->heading_ref : now;
   const sincos_t turn = trig_sincos(INNER_S * sp->yaw_rate_radps);
   const sincos_t next = {ref.sin * turn.cos + ref.cos * turn.sin, ref.cos * turn.cos - ref.sin * turn.sin};
-  const bool too_far = next.cos * now.cos + next.sin * now.sin < LEAD_COS;
+  // Back towards the vehicle is always allowed, or it would be held for ever.
+  const float lead_cos = next.cos * now.cos + next.sin * now.sin;
+  const bool too_far = lead_cos < LEAD_COS && lead_cos < ref.cos * now.cos + ref.sin * now.sin;
   const sincos_t held = too_far ? ref : next;
   const float k = 1.0f / sqrtf(held.sin * held.sin + held.cos * held.cos);
   return (sincos_t){k * held.sin, k * held.cos};
@@ -133,45 +135,47 @@ static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thr
 
 // What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
 static float ceiling_Nms(const flight_t *f, float thrust_N) {
-  const float cutoff_Hz = f->param.att_cutoff_Hz, arm_m = f->param.mixer.arm_m;
-  const float lag_s = f->param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
-  return f->param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
+  const float cutoff_Hz = f->outer.param.att_cutoff_Hz, arm_m = f->outer.param.mixer.arm_m;
+  const float lag_s = f->outer.param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
+  return f->outer.param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
 }
 
-static void run_inner(flight_t *f, const flight_in_t *in) {
+static APART void run_inner(flight_t *f, const flight_in_t *in) {
   const flight_setpoint_t *sp = &in->setpoint;
   const bool by_hand = sp->x == AXIS_OFF || sp->y == AXIS_OFF;
   f->heading_ref = heading_wanted(f, in);
   f->heading_known = true;
-  const v3_t up =
-      by_hand ? direction_by_hand(sp, f->heading_ref, f->param.pos.tilt_max_rad) : f->out.outer.up_w;
   const float thrust_N = thrust_wanted_N(f, in);
-  const mixer_out_t given = mixer_of(&f->param.mixer, in->force_N);
-  const att_indi_in_t att_in = {
-      .rate_b_radps = in->rate_b_radps,
-      .q_wb = quat_unit(in->q_wb),
-      .q_ref = att_indi_reference(up, f->heading_ref),
-      .yaw_rate_radps = sp->yaw_rate_radps,
-      .torque_b_Nm = given.torque_b_Nm,
-      .ceiling_Nms = ceiling_Nms(f, given.thrust_N),
-      .ratio = f->param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f,
-  };
-  f->out.q_ref = att_in.q_ref;
   // After missed calls the rate has changed for longer.
   const float period_s = f->inner_ms > 2 ? 0.001f * (float)f->inner_ms : INNER_S;
   f->inner_ms = 0;
+  if (motors_off(f, sp, thrust_N)) {
+    f->out.motors = (mixer_out_t){.thrust_N = 0.0f};
+    att_indi_reset(&f->att);
+    f->heading_known = false; // who carries the vehicle turns it
+    return;
+  }
+  const v3_t up =
+      by_hand ? direction_by_hand(sp, f->heading_ref, f->outer.param.pos.tilt_max_rad) : f->out.outer.up_w;
+  const mixer_out_t given = mixer_of(&f->outer.param.mixer, in->force_N);
+  att_indi_in_t *const x = &f->att_in;
+  x->rate_b_radps = in->rate_b_radps;
+  x->q_wb = quat_unit(in->q_wb);
+  x->q_ref = att_indi_reference(up, f->heading_ref);
+  x->yaw_rate_radps = sp->yaw_rate_radps;
+  x->torque_b_Nm = given.torque_b_Nm;
+  x->ceiling_Nms = ceiling_Nms(f, given.thrust_N);
+  x->ratio = f->outer.param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f;
+  f->out.q_ref = x->q_ref;
   const v3_t torque =
-      att_indi_step(&f->att, &f->param.att, &f->att_filter, f->att_lag_share, period_s, &att_in);
-  f->out.motors = mixer_mix(&f->param.mixer, torque, thrust_N);
-  if (!motors_off(f, sp, thrust_N)) return;
-  f->out.motors = mixer_of(&f->param.mixer, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
-  att_indi_reset(&f->att);
+      att_indi_step(&f->att, &f->outer.param.att, &f->att_filter, f->att_lag_share, period_s, x);
+  f->out.motors = mixer_mix(&f->outer.param.mixer, torque, thrust_N);
 }
 
 // Nothing to stay upright with: all motors alike.
 static void run_blind(flight_t *f, float thrust_N) {
   const float each_N = 0.25f * thrust_N;
-  f->out.motors = mixer_of(&f->param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
+  f->out.motors = mixer_of(&f->outer.param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
 }
 
 static void run(flight_t *f, const flight_in_t *in) {
@@ -182,30 +186,26 @@ static void run(flight_t *f, const flight_in_t *in) {
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   // What is wrong teaches nothing; least of all an acceleration that was made up.
-  if ((f->due & FLIGHT_LEARN) && f->guard.now == 0 && !f->guard.acc_lost) outer_learn(&f->outer);
+  const bool teaches = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
+  if ((f->due & FLIGHT_LEARN) && teaches) outer_learn(&f->outer);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 
-// A bit that flipped in what only parameters make would stay for ever.
-static void scrub(flight_t *f) {
-  count(f, tune_inner(f, &f->param));
-  count(f, sync_tune(&f->outer.coef, f->param.cutoff_Hz, f->param.motor_tau_s, OUTER_S));
-}
-
-flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *raw) {
-  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p));
-  if (!watch_time(f, raw->step)) return f->out;
-  flight_in_t in = *raw;
-  watch_inputs(f, &in);
-  if (f->due & FLIGHT_SCRUB) scrub(f);
+const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {
+  if (!watch_time(f, raw->step)) return &f->out;
+  flight_in_t *const in = &f->in;
+  *in = *raw;
+  watch_inputs(f, in);
+  // A bit that flipped in what only parameters make would stay for ever.
+  if (f->due & FLIGHT_SCRUB) count(f, flight_tune(f, &f->outer.param));
   if (f->guard.now & GUARD_SETPOINT) count(f, ST_BAD_SETPOINT);
-  const status_t judged = check_in(&in);
+  const status_t judged = check_in(in);
   count(f, judged);
   if (judged == ST_OK)
-    run(f, &in);
+    run(f, in);
   else if (f->guard.action == GUARD_HAND_OVER)
-    run_blind(f, in.setpoint.thrust_N);
+    run_blind(f, in->setpoint.thrust_N);
   else if (f->due & FLIGHT_OUTER && f->outer.missed < 1000)
     f->outer.missed++;
-  return f->out;
+  return &f->out;
 }

@@ -78,9 +78,7 @@ static void decide(guard_t *g, const guard_in_t *in) {
   }
 }
 
-void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *raw) {
-  guard_in_t seen = *raw;
-  const guard_in_t *const in = &seen;
+void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in) {
   g->flown = g->flown || in->airborne;
   const unsigned kept = g->now;
   const bool good = guard_plausible(in);
@@ -89,7 +87,7 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *raw) {
   if (good) {
     if (!g->started) judge_begin(g, in);
     g->started = true;
-    now |= judge_motion(g, &seen);
+    now |= judge_motion(g, in);
     now |= judge_ceiling(g, p, in);
   }
   now &= ~(unsigned)GUARD_SETPOINT;

@@ -30,7 +30,7 @@ static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t
   if (!in->range_new) return now | (g->now & GUARD_RANGE_ODD);
   if (!valid || (in->zc_known && in->range_m >= in->range_floor_m && fabsf(in->range_m - in->zc_m) > ODD_M))
     now |= GUARD_RANGE_ODD;
-  if (in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
+  if (valid && in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
     g->range_same++;
     g->range_same_ms += g->range_new_ms;
     g->range_new_ms = 0;

@@ -9,26 +9,37 @@
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
 
-static status_t tune(outer_t *f, const flight_param_t *p, float period_s) {
-  TRY(params_check(p));
-  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, period_s));
-  f->param = *p;
-  return ST_OK;
-}
-
 status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   if (!(period_s >= 0.001f && period_s <= 0.1f)) return ST_BAD_PARAM;
-  outer_t fresh = {.out = AT_REST};
-  TRY(tune(&fresh, p, period_s));
-  TRY(learn_init(&fresh.learn, &p->learn, &p->curve.fixed));
-  ceiling_init(&fresh.ceiling, period_s);
-  hold_init(&fresh.hold);
-  *f = fresh;
+  TRY(params_check(p));
+  sync_coef_t coef;
+  TRY(sync_tune(&coef, p->cutoff_Hz, p->motor_tau_s, period_s));
+  // From here on nothing fails: a whole set's weights are ones that can be learned from. No second state: it
+  // would not fit onto the vehicle's stack.
+  memset(f, 0, sizeof *f);
+  f->coef = coef;
+  f->param = *p;
+  f->out = (outer_out_t)AT_REST;
+  ceiling_init(&f->ceiling, period_s);
+  hold_init(&f->hold);
+  return learn_init(&f->learn, &f->param.learn, &f->param.curve.fixed);
+}
+
+status_t outer_take(outer_t *f, const flight_param_t *p) {
+  TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, f->coef.period_s));
+  f->param = *p;
   return ST_OK;
 }
 
 static void count(outer_t *f, status_t status) {
   if (status != ST_OK) f->faults[status]++;
+}
+
+status_t outer_tune(outer_t *f, const flight_param_t *p) {
+  status_t status = params_check(p);
+  if (status == ST_OK) status = outer_take(f, p);
+  count(f, status);
+  return status;
 }
 
 static status_t check_in(const outer_in_t *in) {
@@ -43,7 +54,7 @@ static status_t check_in(const outer_in_t *in) {
 }
 
 // Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
-static void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
+static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   sync_start(&f->sync, signals);
   bias_start(&f->bias, in->pos_w_m, in->vel_w_mps);
   f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
@@ -60,15 +71,28 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   f->hold.ceiling_z_m += by_height_m - by_velocity_m;
+  f->range_height_m += by_height_m - by_velocity_m;
   return by_velocity_m;
 }
 
-static void find_ceiling(outer_t *f, const outer_in_t *in) {
+// A sensor without a time stamp gives the last value again where it has no new one: after a climb the same
+// value is no measurement.
+static bool is_repeated(outer_t *f, const outer_in_t *in) {
+  if (!(in->range_m > 0.0f && in->range_m <= CEILING_RANGE_MAX_M)) return false;
+  if (in->range_m == f->range_last_m) return fabsf(in->pos_w_m.z - f->range_height_m) > OUTER_REPEATED_M;
+  f->range_last_m = in->range_m;
+  f->range_height_m = in->pos_w_m.z;
+  return false;
+}
+
+static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
-  if (in->range_new) {
-    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt.
-    const float vertical_m = in->range_m * quat_up(f->sync.att_last).z;
+  ceiling_tilt(&f->ceiling, quat_up(f->sync.att_last).z);
+  if (in->range_new && !is_repeated(f, in)) {
+    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt as it was
+    // then.
+    const float vertical_m = in->range_m * ceiling_up(&f->ceiling, in->range_age_s);
     const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
     const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
     count(f, status);
@@ -78,7 +102,7 @@ static void find_ceiling(outer_t *f, const outer_in_t *in) {
 }
 
 // What this tick can teach; the learner decides whether it may.
-static void observe(outer_t *f, const sync_out_t *x) {
+static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
   const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;
   if (x->thrust_N < CARRYING_SHARE * weight_N)
@@ -115,41 +139,46 @@ static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   if (!f_finite(f->hold.ceiling_z_m)) return wanted;
   const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
   const float beyond_m = f_clamp(in->setpoint.pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
-  const pos_setpoint_t top = {.pos_w_m = {.z = limit_m - beyond_m}};
-  const float most_mps2 = pos_indi_wanted_acc(p, &top, in->pos_w_m, vel_mps).z;
+  const float climb_mps = p->kp_per_s * (limit_m - beyond_m - in->pos_w_m.z);
+  const float most_mps2 = f_clamp(p->kd_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
   if (wanted.z > most_mps2) wanted.z = most_mps2;
   return wanted;
 }
 
-static pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
+static APART v3_t acc_error(const outer_t *f, const outer_in_t *in, v3_t acc_w_mps2, v3_t vel_mps) {
+  return v3_sub(wanted_acc(f, in, vel_mps), acc_w_mps2);
+}
+
+static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_t at, v3_t error,
+                               float climb_mps) {
   const pos_indi_param_t *p = &f->param.pos;
-  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
-  const v3_t error = v3_sub(wanted_acc(f, in, vel), x->acc_w_mps2);
-  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, vel.z, at);
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, climb_mps, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
 
-outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in) {
-  if (memcmp(p, &f->param, sizeof *p) != 0) count(f, tune(f, p, f->coef.period_s));
+const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   const status_t judged = check_in(in);
   count(f, judged);
   if (judged != ST_OK) {
     if (f->missed < MISSED_MAX) f->missed++;
-    return f->out;
+    return &f->out;
   }
 
-  const sync_in_t signals = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
-  if (!f->started) start(f, in, &signals);
-  sync_out_t x = sync_step(&f->sync, &f->coef, &signals);
+  const sync_in_t in_sync = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
+  if (!f->started) start(f, in, &in_sync);
+  sync_out_t *const x = &f->signals;
+  sync_step(&f->sync, &f->coef, &in_sync, x);
   find_ceiling(f, in);
-  bias_step(&f->bias, &f->param.bias, x.acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
+  bias_step(&f->bias, &f->param.bias, x->acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
             f->coef.period_s * (1.0f + (float)f->missed));
-  x.acc_w_mps2 = v3_sub(x.acc_w_mps2, f->bias.bias_mps2);
+  x->acc_w_mps2 = v3_sub(x->acc_w_mps2, f->bias.bias_mps2);
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
-  observe(f, &x);
-  const pos_command_t command = fly(f, in, &x, at);
+  observe(f, x);
+  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
+  const v3_t error = acc_error(f, in, x->acc_w_mps2, vel);
+  const pos_command_t command = fly(f, x, at, error, vel.z);
   f->at_limit = command.at_limit;
   f->out = (outer_out_t){
       .up_w = command.up_w,
@@ -159,5 +188,5 @@ outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in
       .at = at,
       .ceiling_z_m = f->hold.ceiling_z_m,
   };
-  return f->out;
+  return &f->out;
 }

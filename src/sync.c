@@ -28,7 +28,7 @@ void sync_start(sync_t *s, const sync_in_t *in) {
   thrust_reset(&s->thrust, in->thrust_N);
 }
 
-sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in) {
+void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t *out) {
   const lpf2_coef_t *f = &c->filter;
   quat_t q = quat_unit(in->q_wb);
   const v3_t acc = acc_world(in->acc_b_mps2, q);
@@ -36,14 +36,12 @@ sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in) {
   s->att_last = q;
   const quat_t q_f = quat_unit((quat_t){lpf2_step(&s->att[0], f, q.w), lpf2_step(&s->att[1], f, q.x),
                                         lpf2_step(&s->att[2], f, q.y), lpf2_step(&s->att[3], f, q.z)});
-  return (sync_out_t){
-      .acc_now_w_mps2 = acc,
-      .acc_w_mps2 = {lpf2_step(&s->acc_w[0], f, acc.x), lpf2_step(&s->acc_w[1], f, acc.y),
-                     lpf2_step(&s->acc_w[2], f, acc.z)},
-      .q_wb = q_f,
-      .up_w = quat_up(q_f),
-      .thrust_N = thrust_step(&s->thrust, f, c->lag_share, c->period_s, in->thrust_N, in->at_limit),
-  };
+  out->acc_now_w_mps2 = acc;
+  out->acc_w_mps2 = (v3_t){lpf2_step(&s->acc_w[0], f, acc.x), lpf2_step(&s->acc_w[1], f, acc.y),
+                           lpf2_step(&s->acc_w[2], f, acc.z)};
+  out->q_wb = q_f;
+  out->up_w = quat_up(q_f);
+  out->thrust_N = thrust_step(&s->thrust, f, c->lag_share, c->period_s, in->thrust_N, in->at_limit);
 }
 
 float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m) {

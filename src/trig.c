@@ -1,7 +1,9 @@
-// trig.c - sine and cosine.
+// trig.c - sine, cosine and their inverse.
 #include "flight/trig.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 sincos_t trig_sincos(float x_rad) {
   if (!(fabsf(x_rad) <= 1000.0f)) return (sincos_t){0.0f, 1.0f};
@@ -21,4 +23,21 @@ sincos_t trig_sincos(float x_rad) {
   case 2: return (sincos_t){-s, -c};
   default: return (sincos_t){-c, s};
   }
+}
+
+// Abramowitz and Stegun 4.4.49, error 1e-5 before rounding; 0..1.
+static float arctan(float x) {
+  const float x2 = x * x;
+  return x * (0.9998660f + x2 * (-0.3302995f + x2 * (0.1801410f + x2 * (-0.0851330f + x2 * 0.0208351f))));
+}
+
+float trig_angle(float sin, float cos) {
+  const float s = fabsf(sin), c = fabsf(cos);
+  const bool steep = s > c;
+  const float longer = steep ? s : c;
+  if (!(longer > 0.0f && s <= FLT_MAX && c <= FLT_MAX)) return 0.0f;
+  const float first = arctan((steep ? c : s) / longer);
+  const float quarter = steep ? 1.5707963f - first : first;
+  const float half = cos < 0.0f ? 3.1415927f - quarter : quarter;
+  return sin < 0.0f ? -half : half;
 }

@@ -35,7 +35,7 @@ const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
   if (row->reasons && !(s->seen_s >= 0.0 && s->seen_s <= row->within_s)) return "reason in time";
   const bool flies_on = row->cls == 'A', ends = c->length_s < FAULTS_END_S;
   if (flies_on && ends && faults_rms_m(c, s) > 1.5 * faults_rms_m(c, usual)) return "recovery";
-  if (flies_on && (c->pilot.flight.guard.action != GUARD_FLY || fabs(faults_mean_m(c, s)) > 0.02))
+  if (flies_on && (c->pilot.flight->guard.action != GUARD_FLY || fabs(faults_mean_m(c, s)) > 0.02))
     return "flies on";
   if (strchr("BCW", row->cls) && s->end_gap_m < 0.15) return "down";
   if (row->cls == 'C' && s->over_N > 0.01 * s->hover_N) return "thrust";
@@ -51,7 +51,7 @@ void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown
          1e3 * s->gap_min_m, 1e3 * s->end_gap_m, 1e3 * faults_mean_m(c, s), 1e3 * faults_rms_m(c, s),
          1e3 * faults_rms_m(c, usual), 1e3 * s->rise_max_m, s->up_max_mps);
   printf("      latched %x after %.3f s, action %d; tilt %.1f, later %.1f deg; yaw %.1f deg\n",
-         c->pilot.flight.guard.latched, s->seen_s, (int)c->pilot.flight.guard.action, s->tilt_max_deg,
+         c->pilot.flight->guard.latched, s->seen_s, (int)c->pilot.flight->guard.action, s->tilt_max_deg,
          s->tilt_late_deg, s->yaw_late_deg);
   printf("      step %.3f N (usually %.3f), pulse %.3f N, distance wrong by %.1f mm, weights by %.3f\n",
          s->step_max_N, usual->step_max_N, s->pulse_N, 1e3 * s->zc_error_m, s->weight_change);

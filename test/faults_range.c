@@ -34,7 +34,7 @@ static void below_floor(case_t *c, pilot6_in_t *in, double since_s) {
 }
 static void locked_out(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
-  if (since_s < 5e-4) c->pilot.flight.outer.ceiling.zc_m = 0.04f;
+  if (since_s < 5e-4) c->pilot.flight->outer.ceiling.zc_m = 0.04f;
 }
 // Up and down at 0.3 m/s, 10 to 40 cm below the ceiling, while samples come late, twice or not at all.
 static void late_samples(case_t *c, pilot6_in_t *in, double since_s) {
@@ -91,7 +91,7 @@ static const char *tilted_indeed(const case_t *c, const flown_fault_t *usual) {
 // A ceiling that was never seen ends the flight at no height: it holds, or goes down.
 static const char *no_ceiling(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  return c->pilot.flight.out.outer.zc_known ? "no ceiling" : NULL;
+  return c->pilot.flight->out.outer.zc_known ? "no ceiling" : NULL;
 }
 static void from_the_start(case_t *c) {
   c->onset_s = 0.0;

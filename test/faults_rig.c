@@ -46,7 +46,7 @@ static uint64_t mixed(uint64_t bits, const double motor_N[PILOT6_MOTORS]) {
 
 static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
   case_t *const c = state;
-  const rbf_weights_t before = c->pilot.flight.outer.learn.rls.theta;
+  const rbf_weights_t before = c->pilot.flight->outer.learn.rls.theta;
   if (!c->skip) c->inner.step(c->inner.state, in, motor_N);
   if (c->twice) c->inner.step(c->inner.state, in, motor_N);
   if (c->with_shadow) {
@@ -54,7 +54,7 @@ static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTOR
     c->shadow_pilot.step(c->shadow_pilot.state, in, shadow_N);
     if (memcmp(shadow_N, motor_N, sizeof shadow_N) != 0) c->seen.shadow_differs = true;
   }
-  if (c->frozen_weights && memcmp(&before, &c->pilot.flight.outer.learn.rls.theta, sizeof before) != 0)
+  if (c->frozen_weights && memcmp(&before, &c->pilot.flight->outer.learn.rls.theta, sizeof before) != 0)
     c->seen.taught = true;
   c->seen.bits = mixed(c->seen.bits, motor_N);
 }
@@ -105,8 +105,8 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   place(c);
   c->plan.edit = fault;
   c->plan.edit_context = c;
-  return pilot_flight_init(&c->pilot, &c->param, &c->inner) == ST_OK &&
-         pilot_flight_init(&c->shadow, &c->param, &c->shadow_pilot) == ST_OK;
+  return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == ST_OK &&
+         pilot_flight_init(&c->shadow, &c->param, &c->model, &c->shadow_pilot) == ST_OK;
 }
 
 void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
@@ -122,7 +122,7 @@ void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
   outcome_t outcome = {0};
   const status_t status = loop6_fly(&c->plan, &c->model, &pilot, NULL, &record, &more, &outcome, &why);
   c->seen.bad = c->seen.bad || status != ST_OK || !outcome.finite;
-  c->seen.ratio_end = (double)c->pilot.flight.out.outer.at.ratio;
+  c->seen.ratio_end = (double)c->pilot.flight->out.outer.at.ratio;
   record_free(&record);
   record6_free(&more);
   random_close(c->r);

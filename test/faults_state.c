@@ -39,7 +39,7 @@ static void broken_covariance(case_t *c, pilot6_in_t *in, double since_s) {
   if (since_s > 5e-4) return;
   c->memory_broken = true;
   const unsigned i = c->pick % 7;
-  float(*P)[7] = c->pilot.flight.outer.learn.rls.P;
+  float(*P)[7] = c->pilot.flight->outer.learn.rls.P;
   if (c->pick & 128)
     P[i][(i + 1) % 7] += 1e-3f;
   else
@@ -75,14 +75,14 @@ static void bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
-  unsigned char *const at = (unsigned char *)&c->pilot.flight.outer.learn.rls;
+  unsigned char *const at = (unsigned char *)&c->pilot.flight->outer.learn.rls;
   at[c->pick % sizeof(rls_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 static void any_bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
-  unsigned char *const at = (unsigned char *)&c->pilot.flight;
+  unsigned char *const at = (unsigned char *)c->pilot.flight;
   at[c->pick % sizeof(flight_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 
@@ -144,7 +144,7 @@ static const char *no_drift(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
   const float at_m = (float)c->row->gap_m;
   const float before = rbf_at(&c->weights, at_m).ratio,
-              now = rbf_at(&c->pilot.flight.outer.learn.rls.theta, at_m).ratio;
+              now = rbf_at(&c->pilot.flight->outer.learn.rls.theta, at_m).ratio;
   return fabsf(now - before) > 0.01f * before ? "drift" : NULL;
 }
 static const row_t long_row = {"35 ten minutes", 'N',      0.06, EVER,  EVER, 0, 0, NULL, 0, 0, 100,

@@ -38,7 +38,7 @@ static void other_ceiling(case_t *c) {
 // Down to the floor as fast as it can: the thrust goes to nothing.
 static void falling(case_t *c, pilot6_in_t *in, double since_s) {
   (void)since_s;
-  const outer_t *o = &c->pilot.flight.outer;
+  const outer_t *o = &c->pilot.flight->outer;
   in->set.pos_w_m.z = -3.0;
   c->frozen_weights =
       o->sync.thrust.model_N < 0.25f * 9.81f * c->param.pos.mass_kg && o->sample.thrust_N < 0.1f;
@@ -81,7 +81,7 @@ static const char *overshoot_3_cm(const case_t *c, const flown_fault_t *usual) {
 }
 static const char *no_ceiling_learned(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  if (c->seen.full_max_s > 0.21 && !(c->pilot.flight.guard.latched & GUARD_SATURATED)) return "retreat";
+  if (c->seen.full_max_s > 0.21 && !(c->pilot.flight->guard.latched & GUARD_SATURATED)) return "retreat";
   return c->seen.end_gap_m > 0.3 && fabs(c->seen.ratio_end - 1.0) > 0.05 ? "ratio" : NULL;
 }
 static const char *trimmed(const case_t *c, const flown_fault_t *usual) {

@@ -7,7 +7,7 @@
 
 // Finite and within limits (G1, G2). The learner's memory may be broken until it has had its turn.
 static bool in_box(const case_t *c, double since_s) {
-  const flight_t *f = &c->pilot.flight;
+  const flight_t *f = c->pilot.flight;
   const rls_t *rls = &f->outer.learn.rls;
   const bool broken_now = c->memory_broken && since_s < 0.025;
   for (int i = 0; i < RBF_N && !broken_now; i++)
@@ -20,10 +20,11 @@ static bool in_box(const case_t *c, double since_s) {
     }
   const outer_out_t *o = &f->out.outer;
   if (!(o->zc_m >= 0.0f && o->zc_m <= 4.0f && o->at.ratio >= 0.5f && o->at.ratio <= 3.0f)) return false;
-  if (!(f->out.motors.thrust_N >= 0.0f && f->out.motors.thrust_N <= f->param.pos.thrust_max_N * 1.0001f))
+  if (!(f->out.motors.thrust_N >= 0.0f &&
+        f->out.motors.thrust_N <= f->outer.param.pos.thrust_max_N * 1.0001f))
     return false;
   for (int i = 0; i < MOTORS; i++)
-    if (!(f->out.motors.force_N[i] >= 0.0f && f->out.motors.force_N[i] <= f->param.mixer.force_max_N))
+    if (!(f->out.motors.force_N[i] >= 0.0f && f->out.motors.force_N[i] <= f->outer.param.mixer.force_max_N))
       return false;
   return true;
 }
@@ -76,7 +77,7 @@ static void thrust(case_t *c, const body_t *truth, double since_s) {
   flown_fault_t *s = &c->seen;
   double told_N = 0.0;
   for (int i = 0; i < ROTORS; i++) told_N += truth->command_N[i];
-  const double wanted_N = (double)c->pilot.flight.out.outer.thrust_N;
+  const double wanted_N = (double)c->pilot.flight->out.outer.thrust_N;
   if (since_s >= 0.0 && since_s < 1.0) s->step_max_N = fmax(s->step_max_N, fabs(wanted_N - s->wanted_N));
   s->wanted_N = wanted_N;
   s->smooth_N += (told_N - s->smooth_N) / (c->t_s < 0.5 ? 1.0 : 50.0);
@@ -91,7 +92,7 @@ static void thrust(case_t *c, const body_t *truth, double since_s) {
     return;
   }
   if (since_s < c->length_s) s->pulse_N = fmax(s->pulse_N, s->smooth_N - s->hover_N);
-  if (c->pilot.flight.guard.action == GUARD_HAND_OVER && ++s->handed_ms > 4)
+  if (c->pilot.flight->guard.action == GUARD_HAND_OVER && ++s->handed_ms > 4)
     s->over_N = fmax(s->over_N, told_N - s->hover_N);
   const bool full = told_N > 0.98 * (double)c->param.pos.thrust_max_N;
   s->full_s = full && nearest_m(truth) < 0.15 ? s->full_s + 1e-3 : 0.0;
@@ -101,7 +102,7 @@ static void thrust(case_t *c, const body_t *truth, double since_s) {
 
 static void mind(case_t *c, const body_t *truth, double since_s) {
   flown_fault_t *s = &c->seen;
-  const flight_t *f = &c->pilot.flight;
+  const flight_t *f = c->pilot.flight;
   const unsigned latched = f->guard.latched;
   if (since_s < 0.0) {
     s->early |= latched;

@@ -14,9 +14,10 @@ void hover6_start(hover6_t *r, double yaw_rad) {
   body_start_t at = {.pos_w_m = {0.0, 0.0, 0.5}, .q_wb = {cos(0.5 * yaw_rad), 0.0, 0.0, sin(0.5 * yaw_rad)}};
   for (int i = 0; i < ROTORS; i++) at.thrust_N[i] = r->in.applied_N[i] = r->model.mass_kg * 9.81 / 4.0;
   CHECK_OK(body_open(&r->body, &r->model, INTEGRATE_RK4, 0.002, &at));
-  CHECK_OK(pilot_flight_init(&r->flight, &setup.flight, &r->pilot));
+  CHECK_OK(pilot_flight_init(&r->flight, &setup.flight, &r->model, &r->pilot));
   for (int i = 0; i < 3; i++) r->in.set.mode[i] = PILOT6_POSITION;
   r->in.set.pos_w_m = at.pos_w_m;
+  r->in.vbat_V = r->body.vbat_V;
   r->in.set.yaw_rad = yaw_rad;
 }
 

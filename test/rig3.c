@@ -74,7 +74,8 @@ outer_t rig3_outer(const flight_param_t *p) {
 }
 
 outer_out_t rig3_step(outer_t *f, const flight_param_t *p, const outer_in_t *in) {
-  const outer_out_t out = outer_step(f, p, in);
+  if (memcmp(p, &f->param, sizeof *p) != 0) (void)!outer_tune(f, p);
+  const outer_out_t out = *outer_step(f, in);
   outer_learn(f);
   return out;
 }

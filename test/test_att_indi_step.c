@@ -70,3 +70,13 @@ TEST(inner_loop_remembers_the_yaw_that_was_applied_not_the_one_it_wanted) {
   CHECK(torque[0].z > 1e-6f);
   for (int k = 1; k < 5; k++) CHECK_NEAR(torque[k].z, torque[0].z, 1e-10);
 }
+
+TEST(inner_loop_takes_the_shorter_way_whatever_the_sign_of_the_quaternions) {
+  for (int signs = 0; signs < 4; signs++) {
+    ROW("signs %d", signs);
+    const float a = signs & 1 ? -1.0f : 1.0f, b = signs & 2 ? -1.0f : 1.0f;
+    const v3_t e = att_indi_error((quat_t){.w = a}, (quat_t){.w = b * 0.995f, .z = b * 0.0998f});
+    CHECK_NEAR(e.z, 0.1996, 1e-4);
+    CHECK(e.x == 0.0f && e.y == 0.0f);
+  }
+}

@@ -84,7 +84,7 @@ TEST(flight_by_hand_takes_tilts_for_radians) {
   flight_in_t in = {.q_wb = {.w = 1.0f}, .acc_b_mps2 = {.z = GRAVITY_MPS2}};
   for (int i = 0; i < MOTORS; i++) in.force_N[i] = 0.08f;
   in.setpoint = (flight_setpoint_t){.roll_rad = 0.1f, .pitch_rad = -0.2f, .thrust_N = 0.32f};
-  const flight_out_t out = flight_step(&r.flight.flight, &r.flight.param, &in);
+  const flight_out_t out = *flight_step(r.flight.flight, &in);
   const v3_t up = quat_up(out.q_ref);
   CHECK_NEAR(up.x, sin(-0.2) * cos(0.1), 1e-5);
   CHECK_NEAR(up.y, -sin(0.1), 1e-5);
@@ -151,12 +151,12 @@ TEST(flight_takes_a_changed_cut_off_over_at_once) {
   hover6_t r = {.in = {.step = 0}};
   hover6_start(&r, 0.0);
   hover6_fly(&r, 0.5);
-  const lpf2_coef_t inner = r.flight.flight.att_filter, outer = r.flight.flight.outer.coef.filter;
+  const lpf2_coef_t inner = r.flight.flight->att_filter, outer = r.flight.flight->outer.coef.filter;
   r.flight.param.cutoff_Hz = 15.0f;
   r.flight.param.att_cutoff_Hz = 30.0f;
   hover6_fly(&r, 0.02);
-  CHECK(memcmp(&inner, &r.flight.flight.att_filter, sizeof inner) != 0);
-  CHECK(memcmp(&outer, &r.flight.flight.outer.coef.filter, sizeof outer) != 0);
+  CHECK(memcmp(&inner, &r.flight.flight->att_filter, sizeof inner) != 0);
+  CHECK(memcmp(&outer, &r.flight.flight->outer.coef.filter, sizeof outer) != 0);
   hover6_fly(&r, 2.0);
   CHECK_NEAR(hover6_pos_m(&r).z, 0.5, 0.01); // without a bump
   body_close(&r.body);

@@ -141,7 +141,7 @@ static void vehicle_init(vehicle_t *v, d3_t from_m, d3_t to_m) {
   v->rig = rig6_at(&body, from_m, 0.0, true);
   flight_param_t param;
   params_default(&param);
-  CHECK_OK(pilot_flight_init(&v->state, &param, &v->pilot));
+  CHECK_OK(pilot_flight_init(&v->state, &param, NULL, &v->pilot));
   v->set = rig6_hold(to_m, 0.3);
 }
 

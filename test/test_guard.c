@@ -47,7 +47,7 @@ static void hover(guard_t *g, const hover_t *h, int ms) {
   flight_param_t p;
   params_default(&p);
   for (int i = 0; i < ms; i++) {
-    const guard_in_t in = hovering(h, i);
+    guard_in_t in = hovering(h, i);
     guard_step(g, &p.guard, &in);
   }
 }
@@ -119,13 +119,13 @@ TEST(flight_mends_what_parameters_make_within_10_ms) {
     flight_t f;
     CHECK(flight_init(&f, &p) == ST_OK);
     flight_in_t in = {.acc_b_mps2 = {0, 0, 9.81f}, .q_wb = {.w = 1.0f}, .setpoint = {.yaw = YAW_RATE}};
-    for (in.step = 0; in.step < 20; in.step++) flight_step(&f, &p, &in);
+    for (in.step = 0; in.step < 20; in.step++) flight_step(&f, &in);
     unsigned char was[4];
     unsigned char *const at = (unsigned char *)&f + row[i].at;
     memcpy(was, at, sizeof was);
     at[3] ^= 0x20;
     CHECK(memcmp(at, was, sizeof was) != 0);
-    for (const uint32_t end = in.step + 10; in.step < end; in.step++) flight_step(&f, &p, &in);
+    for (const uint32_t end = in.step + 10; in.step < end; in.step++) flight_step(&f, &in);
     CHECK(memcmp(at, was, sizeof was) == 0);
   }
 }

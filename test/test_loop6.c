@@ -16,6 +16,7 @@ typedef struct {
   double applied_N; // largest told
   double at_m[256]; // true distance to the ceiling, of the last milliseconds
   int ms, ranges;
+  double ceiling_z_m;   // thought
   double late_m, now_m; // sum of |range - true distance|: when it was measured, and when it came
 } still_t;
 
@@ -97,6 +98,20 @@ TEST(loop6_tells_the_pilot_what_was_applied_and_not_what_it_asked_for) {
   drop(&flown);
 }
 
+TEST(loop6_records_what_was_applied_since_the_last_call_beside_the_new_command) {
+  model_t m = vehicle6(HUGE_VAL);
+  still_t s = {.motor_N = 1.0};
+  flown_t6 flown;
+  why_t why;
+  if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
+  for (int i = 0; i < 2; i++) {
+    ROW("sample %d", i);
+    CHECK_NEAR(flown.record.sample[i].command_N, PILOT6_MOTORS * 1.0, 1e-12);
+    CHECK_NEAR(flown.record.sample[i].sense.applied_N, i == 0 ? WEIGHT_N : PILOT6_MOTORS * LIMIT_N, 1e-12);
+  }
+  drop(&flown);
+}
+
 TEST(loop6_tells_how_old_a_range_sample_is) {
   // In a climb at 0.2 m/s a sample of 60 to 80 ms is 14 mm off when it comes, at most 2 mm when it was
   // measured.
@@ -140,8 +155,39 @@ TEST(loop6_records_every_tick_where_it_is_asked_to) {
   drop(&flown);
 }
 
-TEST(loop6_logs_the_height_of_the_ceiling_and_what_the_guard_says) {
-  const thoughts_t thoughts = {.zc_m = 0.125, .guard_now = 64, .guard_latched = 68};
+static void think(const void *state, thoughts_t *thoughts) {
+  thoughts->ceiling_z_m = ((const still_t *)state)->ceiling_z_m;
+}
+
+TEST(loop6_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
+  static const struct {
+    const char *what;
+    bool below_estimate;
+    double ceiling_z_m, want_m; // set point: 0.1 m below it; NaN: 0.4 m, less the height of what stands
+  } row[] = {{"as it is", false, 0.44, (double)NAN},
+             {"as it is thought", true, 0.44, 0.34},
+             {"none is thought", true, (double)NAN, (double)NAN}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    model_t m = vehicle6(CEILING_M);
+    still_t s = {.motor_N = 0.25 * WEIGHT_N, .ceiling_z_m = row[i].ceiling_z_m};
+    flown_t6 flown;
+    why_t why;
+    if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
+    drop(&flown);
+    plan6_t plan = flown.plan;
+    plan.plan.n_way = 1;
+    plan.below_estimate = row[i].below_estimate;
+    const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset};
+    CHECK_OK(loop6_fly(&plan, &m, &pilot, think, &flown.record, &flown.more, &flown.outcome, &why));
+    const double want_m = isnan(row[i].want_m) ? 0.4 - m.frame.rotor_above_feet_m : row[i].want_m;
+    CHECK_NEAR(flown.more.sample[5].setpoint_z_m, want_m, 1e-12);
+    drop(&flown);
+  }
+}
+
+TEST(loop6_logs_the_latched_height_of_the_ceiling_and_what_the_guard_says) {
+  const thoughts_t thoughts = {.zc_m = 0.125, .ceiling_z_m = 0.3125, .guard_now = 64, .guard_latched = 68};
   sample_t sample = {.sense = {.z_m = 0.25}, .thoughts = thoughts};
   const record_t record = {.sample = &sample, .n = 1};
   char text[3000] = "";
@@ -157,5 +203,5 @@ TEST(loop6_logs_the_height_of_the_ceiling_and_what_the_guard_says) {
   for (const char *c = text; c < names; c++) column += *c == ',';
   const char *cell = strchr(text, '\n');
   for (int i = 0; cell && i < column; i++) cell = strchr(cell + 1, ',');
-  CHECK(cell && strncmp(cell, ",0.125000,0.375000,64,68,", 25) == 0);
+  CHECK(cell && strncmp(cell, ",0.125000,0.312500,64,68,", 25) == 0);
 }

@@ -121,6 +121,25 @@ TEST(outer_counts_a_sample_whose_age_is_none_and_flies_on_without_it) {
   }
 }
 
+TEST(outer_finds_no_bias_in_a_climb_whose_inputs_were_bad_for_a_while) {
+  flight_param_t p = rig3_param();
+  p.bias.pole_radps = 5.0f;
+  outer_t f = rig3_outer(&p);
+  for (int k = 0; k < 500; k++) {
+    ROW("tick %d", k);
+    const float climb_mps = 0.5f;
+    const outer_in_t in = {.pos_w_m = {.z = 0.01f * climb_mps * (float)k},
+                           .vel_w_mps = {.z = climb_mps},
+                           .acc_b_mps2 = {.z = k >= 400 && k < 420 ? NAN : GRAVITY_MPS2},
+                           .q_wb = {.w = 1.0f},
+                           .thrust_N = 0.314f};
+    (void)rig3_step(&f, &p, &in);
+    if (k < 390) continue; // has settled by then
+    CHECK_NEAR(f.bias.bias_mps2.z, 0.0, 1e-4);
+    CHECK_NEAR(f.bias.vel_mps.z, 0.5, 1e-4);
+  }
+}
+
 TEST(outer_outputs_stay_in_their_limits_whatever_comes) {
   // G1 and G2 of the fault list: 20000 ticks of which most have something wrong.
   static const float odd[] = {NAN,   INFINITY, -INFINITY, 1e38f,   1e-45f, 0.0f,

@@ -20,3 +20,19 @@ TEST(sine_and_cosine_of_what_is_no_angle_are_those_of_zero) {
     CHECK(t.sin == 0.0f && t.cos == 1.0f);
   }
 }
+
+TEST(the_angle_of_a_direction_is_within_a_hundred_thousandth) {
+  double worst = 0.0;
+  for (int i = -3141; i <= 3141; i++) {
+    const double x = 1e-3 * i, length = i % 2 ? 1e-3 : 1e3;
+    const float got = trig_angle((float)(length * sin(x)), (float)(length * cos(x)));
+    worst = fmax(worst, fabs((double)got - x));
+  }
+  CHECK(worst < 1.2e-5);
+  static const float none[][2] = {{0.0f, 0.0f}, {NAN, 1.0f}, {1.0f, NAN}, {INFINITY, 1.0f}};
+  for (unsigned i = 0; i < sizeof none / sizeof *none; i++) {
+    const float got = trig_angle(none[i][0], none[i][1]);
+    ROW("%u", i);
+    CHECK(fabsf(got) <= 3.2f); // finite, whatever it is
+  }
+}

@@ -37,7 +37,7 @@ mean() {
   awk -F, '
     $1 == "timestamp" { for (i = 1; i <= NF; i++) at[$i] = i; rest = -1; next }
     { if (rest < 0) { rest = $at["sim.z"]; ceiling = rest + $at["sim.gap"] }
-      t = $1 / 1e3; z = $at["sim.z"]; top = $at["ceil.height"] + rest
+      t = $1 / 1e3; z = $at["sim.z"]; top = $at["stateEstimate.z"] + $at["ceil.zc"] + rest
       n[t]++; sum[t] += z; sum2[t] += z * z; tops[t] += top; set[t] = $at["ctrltarget.z"] + rest }
     END { for (t in n) { m = sum[t] / n[t]; v = sum2[t] / n[t] - m * m
             printf "%.2f %.6f %.6f %.4f %.6f %.6f\n", t, m, sqrt(v > 0 ? v : 0), set[t], tops[t] / n[t], ceiling } }' \

@@ -1,9 +1,11 @@
 // fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
 #include "catalogue.h"
+#include "fly_usage.h"
 #include "io/model_file.h"
 #include "io/number.h"
 #include "io/whole_file.h"
 #include "many.h"
+#include "replay.h"
 #include "request_spec.h"
 #include "scenario/scenario.h"
 
@@ -26,36 +28,10 @@ typedef struct {
   int seeds; // 0: not said
   bool seed_said;
   double from, to; // NaN: not said
-  const char *log, *json, *vehicle_path;
+  const char *log, *json, *vehicle_path, *replay, *params_to;
   bool list, params, markdown, help, rate_said;
   int not_finite; // flights
 } order_t;
-
-static const char USAGE[] =
-    "usage: fly SCENARIO [options]\n"
-    "  --controller NAME        who flies; see --list\n"
-    "  --set group.name=VALUE   a parameter of the flight code; see --params (may be repeated)\n"
-    "  --effect NAME[:KEY=VALUE,...]  switches an effect of the plant on, or changes it; `none` first "
-    "switches\n"
-    "                           off what the scenario has; see --list (may be repeated)\n"
-    "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
-    "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet or real, and what of it "
-    "is\n"
-    "                           changed: real:acc.z=0.1,...; see --list\n"
-    "  --seed N                 of the noise; the first one with --seeds (1)\n"
-    "  --seeds N                flies N times, with seeds that count up (1)\n"
-    "  --from A --to B          flies seeds A to B on all processors, a line each; --json then gets JSON "
-    "lines\n"
-    "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
-    "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
-    "  --log-rate HZ            100, or 500 in six degrees of freedom (100)\n"
-    "  --json FILE              writes what is printed, and more\n"
-    "  --list                   scenarios, controllers and effects\n"
-    "  --params                 the parameters of the flight code, with unit, default and range\n"
-    "  --help                   this\n"
-    "Exit status: 0; 2 if the input is bad; 1 if something else fails, or a flight did not stay finite (what "
-    "it was\n"
-    "like is written nevertheless).\n";
 
 // --- options ------------------------------------------------------------------------------------------
 
@@ -71,6 +47,9 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   switch (option) {
   case 'c': return request_take_controller(&o->request, &o->kind, text, why);
   case 's': return request_take_set(&o->request, text, why);
+  case 'S': return request_take_sets(&o->request, text, why);
+  case 'R': o->replay = text; return ST_OK;
+  case 'T': o->params_to = text; return ST_OK;
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
@@ -118,23 +97,11 @@ static status_t check_many(const order_t *o, why_t *why) {
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'},
-      {"set", 1, 0, 's'},
-      {"effect", 1, 0, 'e'},
-      {"vehicle", 1, 0, 'v'},
-      {"noise", 1, 0, 'n'},
-      {"seed", 1, 0, 'd'},
-      {"seeds", 1, 0, 'm'},
-      {"integrator", 1, 0, 'i'},
-      {"from", 1, 0, 'f'},
-      {"to", 1, 0, 't'},
-      {"log", 1, 0, 'l'},
-      {"log-rate", 1, 0, 'r'},
-      {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},
-      {"params", 2, 0, 'P'},
-      {"help", 0, 0, 'h'},
-      {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},    {"set-from", 1, 0, 'S'},   {"params-to", 1, 0, 'T'},
+      {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'}, {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},
+      {"seed", 1, 0, 'd'},       {"seeds", 1, 0, 'm'},  {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
+      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},    {"log-rate", 1, 0, 'r'},   {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},       {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},       {0},
   };
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   opterr = 0;
@@ -145,9 +112,12 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     TRY(take_option(o, option, optarg, why));
   }
   if (o->list || o->params || o->help) return ST_OK;
+  if (o->replay && optind == argc) return ST_OK;
+  if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
   o->scenario = scenario_find(argv[optind]);
   if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
+  o->request.log = o->log != NULL;
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
   if (o->rate_said && !o->log) return error_set(why, "--log-rate: allowed with --log FILE.csv");
   return check_many(o, why);
@@ -158,18 +128,21 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 // What is written beside what is printed.
 typedef struct {
   whole_files_t files;
-  FILE *log, *json;
+  FILE *log, *json, *params;
 } output_t;
 
 static status_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->log, &out->log, why));
   TRY(whole_files_open(&out->files, o->json, &out->json, why));
+  TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
 static status_t tell(const cJSON *json, const record_t *record, output_t *out, why_t *why) {
   if (!json) return error_failed(why, "out of memory");
   if (out->log) record_write(record, out->log);
+  for (int i = 0; out->params && record->param && i < params_count; i++)
+    fprintf(out->params, "%s=%.9g\n", params_table[i].name, (double)record->param[i]);
   if (out->json) TRY(result_write(json, out->json, why));
   result_print(json, stdout);
   return ST_OK;
@@ -222,11 +195,27 @@ static status_t fly_many(order_t *o, output_t *out, why_t *why) {
   return many_fly(&m, why);
 }
 
+static status_t replay(const order_t *o, why_t *why) {
+  flight_param_t param;
+  params_default(&param);
+  for (int i = 0; i < o->request.n_set; i++)
+    if (o->request.set[i].row) TRY(params_set(&param, o->request.set[i].row, o->request.set[i].value));
+  TRY(param_check_all(&param, why));
+  replay_t r;
+  TRY(replay_fly(o->replay, &param, &r, why));
+  printf("%ld calls replayed, %ld between them not logged, %ld differ in a motor's command, by %g N at most",
+         r.calls, r.missing, r.differ, r.worst_N);
+  if (r.differ > 0) printf("; the first in line %ld", r.first_line);
+  putchar('\n');
+  return ST_OK;
+}
+
 static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
   if (order->list) catalogue_all();
   if (order->params) catalogue_params(order->markdown);
+  if (order->replay) return replay(order, why);
   if (!order->scenario) return ST_OK;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));

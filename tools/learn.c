@@ -100,10 +100,10 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 }
 
 static status_t set_param(flight_param_t *p, const char *text, why_t *why) {
-  const param_row_t *row;
-  float value;
-  TRY(param_parse(text, &row, &value, why));
-  return params_set(p, row, value);
+  param_set_t set;
+  TRY(param_parse(text, &set, why));
+  if (!set.row) return error_set(why, "--set %s: a parameter of the app, which does not fly here", text);
+  return params_set(p, set.row, set.value);
 }
 
 // --- learning -----------------------------------------------------------------------------------------

@@ -38,9 +38,11 @@ typedef struct {
   float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
-  int newest;                      // index into it
-  float rival_m;                   // mean of the samples that contradict the estimate, moved along with it
-  int rivals;                      // how many of them in a row
+  float ups[CEILING_HISTORY];      // ring: cosine of the tilt at those ticks, where ceiling_tilt told it
+  bool tilt_told;
+  int newest;    // index into both
+  float rival_m; // mean of the samples that contradict the estimate, moved along with it
+  int rivals;    // how many of them in a row
 } ceiling_t;
 
 // No ceiling in sight. period_s: time between two calls of ceiling_predict, > 0.
@@ -51,6 +53,14 @@ void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m);
 
 // The same over several periods (>= 1) of which nothing else is known: the vehicle climbed evenly.
 void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods);
+
+// The cosine of the tilt at the last ceiling_predict. Before the first call it was the same for ever; between
+// calls it stays.
+void ceiling_tilt(ceiling_t *s, float up);
+
+// The cosine of the tilt age_s ago, by which a slant range that was measured then is longer than the vertical
+// one. 1 if none was told. An age that is none counts as 0, one beyond the history as its end.
+float ceiling_up(const ceiling_t *s, float age_s);
 
 // A new range sample, vertical (tilt taken out), measured age_s ago (0..(CEILING_HISTORY - 1) periods; older
 // ones are treated as that old).

@@ -2,8 +2,9 @@
 //
 //   1000 Hz  judge the inputs (guard.h), which may put another set point in the place of the pilot's
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
-//    100 Hz  the lesson of that step (step 5 of ten: never in the same millisecond)
-//    500 Hz  inner loop: attitude to torques, mixed to four motor forces (every second step)
+//    100 Hz  the lesson of that step (step 4 of ten)
+//    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
+//    two)
 //
 // One state per vehicle, all of it in flight_t. Nothing here stops, prints or allocates. An input that is not
 // finite, or beyond what any indoor flight shows, changes nothing: the last command is given again and the
@@ -31,8 +32,8 @@ typedef struct {
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
   yaw_mode_t yaw;
-  float yaw_rad; // any angle; the shorter way round is taken
-  float yaw_rate_radps;
+  float yaw_rad;        // any angle; the shorter way round is taken
+  float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
 } flight_setpoint_t;
 
 typedef struct {
@@ -44,6 +45,7 @@ typedef struct {
   float force_N[MOTORS]; // applied since the last call: the command after mixing and limits
   bool range_new;        // as outer_in_t
   float range_m, range_age_s;
+  bool no_lesson; // it does not fly: nothing is taught
   flight_setpoint_t setpoint;
 } flight_in_t;
 
@@ -59,17 +61,24 @@ typedef struct {
   lpf2_coef_t att_filter;
   float att_lag_share;
   sincos_t heading_ref; // heading that is held; YAW_RATE turns it
-  bool heading_known;
-  flight_param_t param; // the last set that passed its checks
+  float yaw_rad;        // that heading_ref is the heading of; NaN: of none
+  bool heading_known;   // not while the motors are off
   bool range_waits;     // a range sample that the outer loop has not seen
   float range_m, range_age_s;
+  // Of this call, as the guard leaves it, and what each loop made of it: here, for the vehicle's stack is
+  // small.
+  flight_in_t in;
+  outer_in_t outer_in;
+  att_indi_in_t att_in;
   flight_out_t out;
   guard_t guard;
   flight_setpoint_t setpoint; // the last good one
   bool called;                // once at least
   uint32_t step_last;
   unsigned phase;     // of the ten milliseconds, from the step counter
-  unsigned due;       // which loops this call runs: FLIGHT_OUTER and so on
+  unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
+  unsigned waiting;   // due, but put off
+  int waited;         // calls since something waits
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
@@ -83,9 +92,13 @@ enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8 };
 // ST_BAD_PARAM: a parameter out of range; *f is kept.
 MUST_CHECK status_t flight_init(flight_t *f, const flight_param_t *p);
 
+// Other parameters from the next step on, in flight as well: a set that has passed params_check() (that takes
+// too long for a tick). ST_BAD_PARAM: a cut-off that the loop's rate does not allow, which no such set has.
+MUST_CHECK status_t flight_tune(flight_t *f, const flight_param_t *p);
+
 // One millisecond, or more if calls were missed (the step counter tells; it may wrap). A second call with the
-// same count repeats the last command. *p as in outer_step. Between the steps of a loop its last output
-// stands.
-flight_out_t flight_step(flight_t *f, const flight_param_t *p, const flight_in_t *in);
+// same count repeats the last command. Between the steps of a loop its last output stands. The
+// result is f->out.
+const flight_out_t *flight_step(flight_t *f, const flight_in_t *in);
 
 #endif

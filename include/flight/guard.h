@@ -110,8 +110,9 @@ void guard_rest(guard_t *g);
 // A number of a sensor or the estimate is out of all bounds (a part of what GUARD_NOT_A_NUMBER is raised by).
 bool guard_plausible(const guard_in_t *in);
 
-// One call of the controller. Afterwards g->action says what to do.
-void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in);
+// One call of the controller. Afterwards g->action says what to do. A velocity that is none is replaced in
+// *in.
+void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in);
 
 // The height that a retreat wants at this height.
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m);

@@ -26,7 +26,7 @@ typedef struct {
   quat_t q_wb;       // attitude, body to world
   float thrust_N;    // what was applied since the last call: the command after mixing and limits
   bool range_new;    // range_m is a sample that was not there at the last call
-  float range_m;     // upward range sensor, propeller plane to what is above, along the body's z axis
+  float range_m;     // upward range sensor, from the sensor to what is above, along the body's z axis
   float range_age_s; // time since it was measured
   pos_setpoint_t setpoint;
 } outer_in_t;
@@ -40,19 +40,22 @@ typedef struct {
   float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
-#define OUTER_CLIP_M   0.006f // a height beyond ceil.min is flown so far below it
-#define CARRYING_SHARE 0.3f   // of the weight: from here on the rotors carry
+#define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
+#define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
+#define CARRYING_SHARE   0.3f   // of the weight: from here on the rotors carry
 
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
   sync_t sync;
+  sync_out_t signals; // of the last step
   bias_t bias;
   ceiling_t ceiling;
   hold_t hold;
   learn_t learn;
   float height_last_m;
-  float carrying_s; // time since the rotors began to carry
+  float range_last_m, range_height_m; // the last range that was another one, and the height it came at
+  float carrying_s;                   // time since the rotors began to carry
   bool started, at_limit;
   learn_sample_t sample; // what the last step would teach
   bool sample_new;       // it has not been taught yet
@@ -66,9 +69,16 @@ typedef struct {
 // ST_BAD_PARAM: period_s or a parameter out of range; *f is kept.
 MUST_CHECK status_t outer_init(outer_t *f, const flight_param_t *p, float period_s);
 
-// One period. *p may differ from call to call: a set that passes its checks is taken over as a whole,
-// one that does not is counted (ST_BAD_PARAM) and the last good set flies on.
-outer_out_t outer_step(outer_t *f, const flight_param_t *p, const outer_in_t *in);
+// Other parameters from the next step on, in flight as well; the signals keep their history. ST_BAD_PARAM:
+// one is out of range, or the cut-off at this period; counted, and the last good set flies on.
+MUST_CHECK status_t outer_tune(outer_t *f, const flight_param_t *p);
+
+// The same for a set that has passed params_check(), within a tick: nothing is checked or counted but the
+// cut-off.
+MUST_CHECK status_t outer_take(outer_t *f, const flight_param_t *p);
+
+// One period. The result is f->out.
+const outer_out_t *outer_step(outer_t *f, const outer_in_t *in);
 
 // Teaches the curve what the last step measured, if it may (ceil.mode 2). A call of its own, so that it can
 // run in another tick than the step; without effect if there was no step since.

@@ -1,7 +1,8 @@
 // params.h - every tunable number once: name, unit, default, range.
 //
 // FLIGHT_PARAMS is the one table. From its rows come the firmware's parameters (group.name, at most 26
-// characters with the dot), the host's --set, the range checks and the README's table.
+// characters with the dot), the host's --set, the range checks and the README's table. A group's rows stand
+// together.
 // X(group, name, type, field of flight_param_t, unit, default, min, max, what it does)
 #ifndef FLIGHT_PARAMS_H
 #define FLIGHT_PARAMS_H
@@ -38,6 +39,10 @@ typedef struct {
   mixer_param_t mixer;
   guard_param_t guard;
 } flight_param_t;
+
+#ifndef PARAMS_YAW_ARM_M
+#define PARAMS_YAW_ARM_M 0.00735f // of legacy propellers; the firmware's build knows what it is built for
+#endif
 
 #define PARAMS_INDIPOS(X)                                                                                    \
   X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 1.0f, 0.05f, 20.0f, "wanted velocity per position error") \
@@ -82,7 +87,7 @@ typedef struct {
     "cut-off of the inner filters; 0 = none")                                                                \
   X(indiAtt, arm, PARAM_FLOAT, mixer.arm_m, "m", 0.0325f, 0.005f, 1.0f,                                      \
     "motor's distance from the x and the y axis")                                                            \
-  X(indiAtt, yawArm, PARAM_FLOAT, mixer.yaw_m, "m", 0.00735f, 0.0005f, 0.5f,                                 \
+  X(indiAtt, yawArm, PARAM_FLOAT, mixer.yaw_m, "m", PARAMS_YAW_ARM_M, 0.0005f, 0.5f,                         \
     "torque over thrust of a rotor")                                                                         \
   X(indiAtt, fMax, PARAM_FLOAT, mixer.force_max_N, "N", 0.12f, 0.01f, 10.0f, "largest thrust of one motor")
 
@@ -111,6 +116,8 @@ typedef struct {
   X(ceil, clip, PARAM_INT, curve.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                          \
   X(ceil, ratioMin, PARAM_FLOAT, curve.ratio_min, "", 0.5f, 0.1f, 1.0f, "smallest thrust ratio believed")    \
   X(ceil, ratioMax, PARAM_FLOAT, curve.ratio_max, "", 3.0f, 1.0f, 5.0f, "largest thrust ratio believed")     \
+  X(ceil, blindMax, PARAM_FLOAT, guard.blind_max_s, "s", 3.0f, 0.0f, 600.0f,                                 \
+    "nearer than ceil.near for longer than this without a range sample: retreat")                            \
   X(ceil, w1, PARAM_FLOAT, curve.fixed.w[0], "", 1.43142386f, -5.0f, 5.0f, "constant of the curve")          \
   X(ceil, w2, PARAM_FLOAT, curve.fixed.w[1], "", 0.15021046f, -5.0f, 5.0f, "weight of the bell at 0 mm")     \
   X(ceil, w3, PARAM_FLOAT, curve.fixed.w[2], "", -0.09754395f, -5.0f, 5.0f, "weight of the bell at 5 mm")    \
@@ -141,8 +148,6 @@ typedef struct {
     "learning starts this long after the rotors began to carry")
 
 #define PARAMS_GUARD(X)                                                                                      \
-  X(ceil, blindMax, PARAM_FLOAT, guard.blind_max_s, "s", 3.0f, 0.0f, 600.0f,                                 \
-    "nearer than ceil.near for longer than this without a range sample: retreat")                            \
   X(guard, safeGap, PARAM_FLOAT, guard.safe_gap_m, "m", 0.35f, 0.05f, 2.0f,                                  \
     "a retreat ends so far below the ceiling")                                                               \
   X(guard, sink, PARAM_FLOAT, guard.sink_mps, "m/s", 0.3f, 0.05f, 1.0f, "speed of a retreat, at kp 1")       \

@@ -15,6 +15,9 @@ typedef enum {
   ST_COUNT
 } status_t;
 
+// A function with a stack frame of its own: inlined, its locals would lie beside those of the deepest call.
+#define APART __attribute__((noinline))
+
 #define MUST_CHECK __attribute__((warn_unused_result))
 
 // Hands a status that is not ST_OK to the caller.

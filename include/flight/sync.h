@@ -42,7 +42,7 @@ MUST_CHECK status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s
 void sync_start(sync_t *s, const sync_in_t *in);
 
 // One period.
-sync_out_t sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in);
+void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t *out);
 
 // The distance to a surface through the same filter, once a period; where it was not known before, it starts
 // afresh.

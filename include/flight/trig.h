@@ -1,4 +1,5 @@
-// trig.h - sine and cosine from additions and products alone: the same bits on the Crazyflie and on the host.
+// trig.h - sine, cosine and their inverse from additions and products alone: the same bits on the Crazyflie
+// and on the host.
 #ifndef FLIGHT_TRIG_H
 #define FLIGHT_TRIG_H
 
@@ -8,5 +9,8 @@ typedef struct {
 
 // x_rad: within +-1000; beyond, or NaN, as for 0. Error at most 1e-6 within +-10.
 sincos_t trig_sincos(float x_rad);
+
+// The angle, -pi to pi, of a vector along (cos, sin) of any length; 0 for no direction. Error at most 1e-5.
+float trig_angle(float sin, float cos);
 
 #endif

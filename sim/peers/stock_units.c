@@ -53,7 +53,7 @@ stock_power_param_t stock_power_2022(void) {
 }
 
 void stock_power_start(stock_power_t *s) {
-  s->supply_V = SUPPLY_START_V;
+  *s = (stock_power_t){.supply_V = SUPPLY_START_V};
 }
 
 void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]) {
@@ -78,24 +78,50 @@ static double cubic_V(const double c[4], double thrust_N) {
   return cbrt(n + root) + cbrt(n - root) - shift;
 }
 
-static double wanted_V(const stock_power_param_t *p, double thrust_N) {
+// The same from a root of a thrust that was a little different, by Newton's method.
+static double near_V(const double c[4], double thrust_N, double v) {
+  for (int i = 0; i < 6; i++) {
+    const double step = (cubic_N(c, v) - thrust_N) / (c[1] + v * (2.0 * c[2] + v * 3.0 * c[3]));
+    v -= step;
+    if (fabs(step) < 1e-9) return v; // the next step would be its square
+  }
+  return cubic_V(c, thrust_N);
+}
+
+static double wanted_V(const stock_power_param_t *p, double thrust_N, double last_V) {
   const double *q = p->volt_quadratic, grams = PILOT6_MOTORS * 1e3 / G_MPS2 * thrust_N;
-  return q[0] > 0.0 ? grams * (q[0] + q[1] * grams) : cubic_V(p->volt_cubic, thrust_N);
+  if (q[0] > 0.0) return grams * (q[0] + q[1] * grams);
+  return last_V > 0.0 ? near_V(p->volt_cubic, thrust_N, last_V) : cubic_V(p->volt_cubic, thrust_N);
+}
+
+// Written so that a voltage that is not a number stops the motors.
+static double duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, double unit) {
+  const double wanted_N = p->thrust_max_N / STOCK_FULL * fmin(fmax(trunc(unit), -UNIT_MAX), UNIT_MAX);
+  if (!(wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V)) return 0.0;
+  if (wanted_N != s->wanted_N[motor]) {
+    s->wanted_N[motor] = wanted_N;
+    s->wanted_V[motor] = wanted_V(p, wanted_N, s->wanted_V[motor]);
+  }
+  return trunc(STOCK_FULL * s->wanted_V[motor] / s->supply_V);
+}
+
+void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
+                      double vbat_V, double duty[PILOT6_MOTORS]) {
+  s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
+  double most = STOCK_FULL;
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    duty[i] = duty_of(s, p, i, unit[i]);
+    most = fmax(most, duty[i]);
+  }
+  for (int i = 0; i < PILOT6_MOTORS; i++) duty[i] = fmax(duty[i] - (most - STOCK_FULL), 0.0);
 }
 
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
                       double vbat_V, double motor_N[PILOT6_MOTORS]) {
-  s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
-  double duty[PILOT6_MOTORS], most = STOCK_FULL;
+  double duty[PILOT6_MOTORS];
+  stock_power_duty(s, p, unit, vbat_V, duty);
   for (int i = 0; i < PILOT6_MOTORS; i++) {
-    const double wanted_N = p->thrust_max_N / STOCK_FULL * fmin(fmax(trunc(unit[i]), -UNIT_MAX), UNIT_MAX);
-    // Written so that a voltage that is not a number stops the motors.
-    const bool on = wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V;
-    duty[i] = on ? trunc(STOCK_FULL * wanted_V(p, wanted_N) / s->supply_V) : 0.0;
-    most = fmax(most, duty[i]);
-  }
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
-    const double share = fmax(duty[i] - (most - STOCK_FULL), 0.0) / STOCK_FULL;
+    const double share = duty[i] / STOCK_FULL;
     motor_N[i] = share > 0.0 ? fmax(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
   }
 }

@@ -53,6 +53,8 @@ stock_power_param_t stock_power_2022(void);
 
 typedef struct {
   double supply_V; // battery voltage, low-passed at 1 kHz with a gain of 0.01
+  double wanted_N[PILOT6_MOTORS],
+      wanted_V[PILOT6_MOTORS]; // the last ones, so that the cubic is solved when it changes
 } stock_power_t;
 
 void stock_power_start(stock_power_t *s);
@@ -61,10 +63,14 @@ void stock_power_start(stock_power_t *s);
 // limited.
 void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]);
 
-// Newton of each motor for units (rounded to whole ones). Volts from the cubic, duty from the filtered
+// PWM 0..65535 of each motor for units (rounded to whole ones). Volts from the cubic, duty from the filtered
 // battery; if a duty is above 65535, all four are lowered by the same amount and those below 0 stay at 0:
 // thrust goes before attitude. A motor below thrust_min_N is off, and so are all below 2 V of battery. To be
 // called every millisecond.
+void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
+                      double vbat_V, double duty[PILOT6_MOTORS]);
+
+// The same, and the newton that the cubic's propellers make of it.
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
                       double vbat_V, double motor_N[PILOT6_MOTORS]);
 

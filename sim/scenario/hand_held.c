@@ -145,7 +145,7 @@ static void carry(hand_t *s, result_t *result) {
 
 static status_t run(const request_t *request, result_t *result, why_t *why) {
   if (request->kind || request->n_set > 0 || request->n_effect > 0 || request->no_effects ||
-      request->integrate != INTEGRATE_SUNDIALS || request->log_500_Hz)
+      request->integrate != INTEGRATE_SUNDIALS || request->log_500_Hz || request->log_calls)
     return error_set(why,
                      "--controller, --set, --effect, --integrator, --log-rate: in hand-held nobody flies; "
                      "allowed are --vehicle, --noise, --seed");

@@ -188,7 +188,7 @@ status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
     param.motor_tau_s = (float)job->truth->motor_tau_s;
     param.gap_min_m = 0.0f;
     param.curve.mode = CURVE_OFF;
-    status = pilot_flight_init(own, &param, &pilot);
+    status = pilot_flight_init(own, &param, job->truth, &pilot);
   }
   if (status == ST_OK) {
     e->model = *job->truth;

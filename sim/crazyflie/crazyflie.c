@@ -1,0 +1,207 @@
+// crazyflie.c - a Crazyflie on the host.
+#include "crazyflie.h"
+
+#include "controller.h"
+#include "plant/rotor.h"
+#include "range.h"
+#include "stand_in.h"
+#include "values.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEG_PER_RAD  (180.0 / 3.14159265358979323846)
+#define G_MPS2       9.81
+#define RANGE_NONE_M 32.767f
+#define FLYING_STEPS 2000 // the supervisor's memory of a motor that turns
+#define UNIT_MAX     65535.0
+
+// --- opening --------------------------------------------------------------------------------------------
+
+// The stock controller of this project in the place of the firmware's; its mixer included.
+static void stock(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                  const state_t *state, uint32_t step) {
+  (void)setpoint, (void)sensors, (void)state, (void)step;
+  crazyflie_t *const c = context;
+  double unit[PILOT6_MOTORS];
+  stock_mix(stock_pid_command(&c->stock, c->now), unit);
+  control->controlMode = controlModeForce;
+  for (int i = 0; i < PILOT6_MOTORS; i++) control->normalizedForces[i] = (float)(unit[i] / UNIT_MAX);
+}
+
+static void take_model(crazyflie_t *c, const model_t *model) {
+  c->firmware = stock_power_legacy();
+  c->compensates = true;
+  c->map = (thrust_map_t){.kind = THRUST_MAP_VOLT_CUBIC};
+  memcpy(c->map.c, c->firmware.volt_cubic, sizeof c->firmware.volt_cubic);
+  if (model) {
+    c->compensates = model->map.kind != THRUST_MAP_NONE;
+    c->map = model->map;
+    if (model->map.kind == THRUST_MAP_VOLT_CUBIC)
+      memcpy(c->firmware.volt_cubic, model->map.c, sizeof c->firmware.volt_cubic);
+    if (model->map.kind != THRUST_MAP_STAND) c->firmware.thrust_max_N = model->thrust_max_N / PILOT6_MOTORS;
+    if (!c->compensates) c->firmware.thrust_min_N = 0.0;
+  }
+  c->around.thrust_max_N = (float)c->firmware.thrust_max_N;
+}
+
+void crazyflie_init(crazyflie_t *c, const model_t *model) {
+  *c = (crazyflie_t){.app = glue_static};
+  c->around = (stand_in_t){.app = &c->app,
+                           .has_flow = true,
+                           .has_multiranger = true,
+                           .motors_allowed = true,
+                           .stock = stock,
+                           .stock_context = c};
+  take_model(c, model);
+  c->stock.param = stock_pid_default();
+  c->stock.param.power = c->firmware;
+}
+
+void crazyflie_start(crazyflie_t *c) {
+  stand_in = &c->around;
+  memset(c->around.range_mm, 0, sizeof c->around.range_mm);
+  c->around.flying = false;
+  c->called = false;
+  c->control = (control_t){.controlMode = controlModeLegacy};
+  stock_power_start(&c->power);
+  stock_pid_reset(&c->stock);
+  controllerOutOfTreeInit();
+  (void)controllerOutOfTreeTest();
+}
+
+// --- a millisecond --------------------------------------------------------------------------------------
+
+#define TO_FIRMWARE(to, scale, from)                                                                         \
+  do {                                                                                                       \
+    (to).x = (float)((scale) * (from).x);                                                                    \
+    (to).y = (float)((scale) * (from).y);                                                                    \
+    (to).z = (float)((scale) * (from).z);                                                                    \
+  } while (0)
+
+static void measure(const pilot6_in_t *in, sensorData_t *sensors, state_t *state) {
+  TO_FIRMWARE(sensors->acc, 1.0 / G_MPS2, in->acc_b_mps2);
+  TO_FIRMWARE(sensors->gyro, DEG_PER_RAD, in->gyro_b_radps);
+  TO_FIRMWARE(state->position, 1.0, in->pos_w_m);
+  TO_FIRMWARE(state->velocity, 1.0, in->vel_w_mps);
+  TO_FIRMWARE(state->attitudeQuaternion, 1.0, in->q_wb);
+  state->attitudeQuaternion.w = (float)in->q_wb.w;
+  const stock_view_t view = stock_view(in);
+  state->attitude.roll = (float)view.roll_deg;
+  state->attitude.pitch = (float)view.pitch_deg;
+  state->attitude.yaw = (float)view.yaw_deg;
+}
+
+static stab_mode_t mode_of(pilot6_mode_t mode) {
+  return mode == PILOT6_POSITION ? modeAbs : mode == PILOT6_VELOCITY ? modeVelocity : modeDisable;
+}
+
+static setpoint_t order(const crazyflie_t *c, const pilot6_setpoint_t *set) {
+  const bool level = set->mode[0] == PILOT6_OFF || set->mode[1] == PILOT6_OFF;
+  setpoint_t sp = {
+      .mode = {.x = mode_of(set->mode[0]),
+               .y = mode_of(set->mode[1]),
+               .z = mode_of(set->mode[2]),
+               .roll = level ? modeAbs : modeDisable,
+               .pitch = level ? modeAbs : modeDisable,
+               .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
+      .velocity_body = set->vel_in_body,
+      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT6_MOTORS * c->firmware.thrust_max_N)),
+      .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
+      .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
+  };
+  TO_FIRMWARE(sp.position, 1.0, set->pos_w_m);
+  TO_FIRMWARE(sp.velocity, 1.0, set->vel_mps);
+  TO_FIRMWARE(sp.acceleration, 1.0, set->acc_w_mps2);
+  return sp;
+}
+
+// The firmware cuts metres, a float, to whole millimetres in 16 bits.
+static void range(crazyflie_t *c, const pilot6_in_t *in) {
+  if (!in->range_new) return;
+  const float m = isnan(in->range_m) ? RANGE_NONE_M : (float)in->range_m;
+  c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
+}
+
+static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+  double unit[PILOT6_MOTORS], duty[PILOT6_MOTORS];
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    const double share = fmin(fmax((double)c->control.normalizedForces[i], 0.0), 1.0);
+    unit[i] = c->around.motors_allowed ? trunc(share * UNIT_MAX) : 0.0;
+  }
+  if (c->compensates)
+    stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
+  else
+    memcpy(duty, unit, sizeof duty);
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
+    if (duty[i] > 0.0) c->turned_step = in->step;
+    c->around.flying = c->around.flying || duty[i] > 0.0;
+  }
+  if (in->step - c->turned_step >= FLYING_STEPS) c->around.flying = false;
+}
+
+// Whoever flew before has commanded this.
+static void take_over(crazyflie_t *c, const pilot6_in_t *in) {
+  c->control.controlMode = controlModeForce;
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    c->control.normalizedForces[i] = (float)(in->applied_N[i] / c->firmware.thrust_max_N);
+    c->around.flying = c->around.flying || in->applied_N[i] > 0.0;
+  }
+  c->turned_step = in->step;
+  c->power.supply_V = in->vbat_V;
+  c->called = true;
+}
+
+void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+  stand_in = &c->around;
+  if (!c->called) take_over(c, in);
+  sensorData_t sensors = {.acc = {0}};
+  state_t state = {.position = {0}};
+  measure(in, &sensors, &state);
+  range(c, in);
+  const setpoint_t setpoint = order(c, &in->set);
+  c->now = in;
+  if (c->fly)
+    c->fly(c->fly_context, &c->control, &setpoint, &sensors, &state, in->step);
+  else
+    controllerOutOfTree(&c->control, &setpoint, &sensors, &state, in->step);
+  drive(c, in, motor_N);
+}
+
+// --- looking ----------------------------------------------------------------------------------------------
+
+// The app's static state is this vehicle's copy of it.
+static void *own(const crazyflie_t *c, const void *address) {
+  const ptrdiff_t offset = (const char *)address - (const char *)&glue_static;
+  return (char *)(uintptr_t)&c->app + offset;
+}
+
+bool crazyflie_set(crazyflie_t *c, const char *name, double value) {
+  const section_param_t *const p = sections_param(name);
+  if (!p) return false;
+  stand_in = &c->around;
+  values_put(p->type, own(c, p->address), value);
+  if (p->callback) p->callback();
+  return true;
+}
+
+bool crazyflie_param(const crazyflie_t *c, const char *name, double *value) {
+  const section_param_t *const p = sections_param(name);
+  if (p) *value = values_of_param(p->type, own(c, p->address));
+  return p != NULL;
+}
+
+bool crazyflie_log(const crazyflie_t *c, const char *name, double *value) {
+  const section_log_t *const l = sections_log(name);
+  if (l) *value = values_of_log(l->type, own(c, l->address));
+  return l != NULL;
+}
+
+void crazyflie_logs(const crazyflie_t *c, float *value) {
+  const section_log_group_t *const *group;
+  const int n = sections_log_groups(&group);
+  for (int g = 0; g < n; g++)
+    for (const section_log_t *l = group[g]->log; l->name; l++)
+      *value++ = (float)values_of_log(l->type, own(c, l->address));
+}

@@ -1,0 +1,46 @@
+// sections.h - the app's parameters and logs, as its own source declares them, for the host.
+//
+// Addresses are those of the app's one static state; crazyflie.h turns them into a vehicle's own.
+#ifndef CRAZYFLIE_SECTIONS_H
+#define CRAZYFLIE_SECTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct {
+  int type; // param.h
+  const char *name;
+  void *address;
+  void (*callback)(void);
+} section_param_t;
+
+typedef struct {
+  int type; // log.h
+  const char *name;
+  const void *address;
+} section_log_t;
+
+// The lists end with a null name.
+typedef struct {
+  const char *name;
+  const section_param_t *param;
+} section_param_group_t;
+
+typedef struct {
+  const char *name;
+  const section_log_t *log;
+} section_log_group_t;
+
+// All groups, in the order of the linker; how many there are.
+int sections_param_groups(const section_param_group_t *const **first);
+int sections_log_groups(const section_log_group_t *const **first);
+
+// All logs one after the other: how many, and the name and entry of each. name: "group.name", at most 32.
+int sections_logs(void);
+const section_log_t *sections_log_at(int i, char name[32]);
+
+// "group.name"; a null pointer: there is none.
+const section_param_t *sections_param(const char *full_name);
+const section_log_t *sections_log(const char *full_name);
+
+#endif

@@ -1,0 +1,62 @@
+// stand_in.c - what lies behind the stand-ins.
+#include "stand_in.h"
+
+#include "controller_pid.h"
+#include "param.h"
+#include "range.h"
+#include "supervisor.h"
+#include "task.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+_Thread_local stand_in_t *stand_in;
+
+float rangeGet(rangeDirection_t direction) {
+  return stand_in->range_mm[direction];
+}
+
+bool supervisorIsFlying(void) {
+  return stand_in->flying;
+}
+bool supervisorAreMotorsAllowedToRun(void) {
+  return stand_in->motors_allowed;
+}
+
+void controllerPidInit(void) {}
+
+void controllerPid(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                   const state_t *state, const stabilizerStep_t step) {
+  if (stand_in->stock)
+    stand_in->stock(stand_in->stock_context, control, setpoint, sensors, state, step);
+  else
+    *control = (control_t){.controlMode = controlModeForce};
+}
+
+paramVarId_t paramGetVarId(const char *group, const char *name) {
+  if (strcmp(group, "deck") != 0) return (paramVarId_t){.valid = false};
+  if (strcmp(name, "bcFlow2") == 0) return (paramVarId_t){true, stand_in->has_flow};
+  if (strcmp(name, "bcMultiranger") == 0) return (paramVarId_t){true, stand_in->has_multiranger};
+  return (paramVarId_t){.valid = false};
+}
+
+unsigned paramGetUint(paramVarId_t id) {
+  return id.value;
+}
+
+void vTaskDelay(TickType_t ticks) {
+  if (stand_in->delay) stand_in->delay(stand_in->delay_context, ticks);
+}
+
+void stand_in_print(const char *format, ...) {
+  char line[256];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(line, sizeof line, format, args);
+  va_end(args);
+  char *const text = stand_in->console;
+  const size_t used = strlen(text), size = strlen(line);
+  const size_t over = used + size < STAND_IN_CONSOLE ? 0 : used + size - (STAND_IN_CONSOLE - 1);
+  memmove(text, text + over, used - over + 1);
+  memcpy(text + used - over, line, size + 1);
+}

@@ -1,0 +1,41 @@
+// stand_in.h - what lies behind the stand-ins of the firmware's headers in this folder: one vehicle's
+// surroundings.
+//
+// The headers beside this one have the firmware's names and hold our own text: what src/firmware uses of
+// them, as bitcraze/crazyflie-firmware 2a18fc29 documents it. They stand in the include path of src/firmware
+// and of this folder alone.
+#ifndef CRAZYFLIE_STAND_IN_H
+#define CRAZYFLIE_STAND_IN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define STAND_IN_RANGES  6
+#define STAND_IN_CONSOLE 2048
+
+struct control_s;
+struct setpoint_s;
+struct sensorData_s;
+struct state_s;
+
+typedef struct stand_in {
+  void *app;                          // the app's glue_t
+  float thrust_max_N;                 // of one motor: what a command of 1 stands for
+  uint16_t range_mm[STAND_IN_RANGES]; // by rangeDirection_t
+  bool flying, motors_allowed;        // as the supervisor says
+  bool has_flow, has_multiranger;
+  // The stock controller (number 1); null: it commands nothing.
+  void (*stock)(void *context, struct control_s *control, const struct setpoint_s *setpoint,
+                const struct sensorData_s *sensors, const struct state_s *state, uint32_t step);
+  void *stock_context;
+  void (*delay)(void *context, uint32_t ticks); // vTaskDelay; null: returns at once
+  void *delay_context;
+  char console[STAND_IN_CONSOLE]; // what was printed, its end if it was more
+} stand_in_t;
+
+// The vehicle that this thread flies now.
+extern _Thread_local stand_in_t *stand_in;
+
+void stand_in_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif

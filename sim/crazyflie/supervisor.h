@@ -1,0 +1,10 @@
+// supervisor.h - stand-in: who says whether the vehicle flies and whether its motors may run.
+#ifndef CRAZYFLIE_SUPERVISOR_H
+#define CRAZYFLIE_SUPERVISOR_H
+
+#include <stdbool.h>
+
+bool supervisorIsFlying(void);
+bool supervisorAreMotorsAllowedToRun(void);
+
+#endif

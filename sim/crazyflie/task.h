@@ -1,0 +1,9 @@
+// task.h - stand-in.
+#ifndef CRAZYFLIE_TASK_H
+#define CRAZYFLIE_TASK_H
+
+#include "FreeRTOS.h"
+
+void vTaskDelay(TickType_t ticks);
+
+#endif

@@ -1,0 +1,91 @@
+// controller.c - controllerOutOfTree(): the firmware's call every millisecond, around flight_step().
+//
+// The firmware calls it always, also unarmed and on the ground, with a set point of zeros; it selects it by
+// stabilizer.controller = 6, in flight as well. *control still holds what was commanded a millisecond ago, by
+// whoever flew then, so that taking over is no bump.
+#include "controller.h"
+
+#include "controller_pid.h"
+#include "glue.h"
+#include "range.h"
+#include "settings.h"
+#include "supervisor.h"
+#include "units.h"
+
+#define HAND_OVER_MS 1000.0f // from this controller to the stock one and back
+
+void controllerOutOfTreeInit(void) {
+  settings_start();
+  GLUE.range = (range_up_t){.started = false};
+  GLUE.stock_share = GLUE.shadow ? 1.0f : 0.0f;
+  flyable_init(&GLUE.flyable);
+  controllerPidInit();
+}
+
+bool controllerOutOfTreeTest(void) {
+  return flight_init(&GLUE.flight, &GLUE.flown) == ST_OK;
+}
+
+static void take_range(flight_in_t *in, uint32_t step) {
+  // Millimetres, whatever the firmware's header says.
+  const range_up_sample_t sample = range_up_poll(&GLUE.range, rangeGet(rangeUp), step);
+  in->range_new = sample.is_new;
+  if (!sample.is_new) return;
+  in->range_m = sample.range_m;
+  in->range_age_s = sample.age_s;
+}
+
+static APART void take_inputs(const control_t *control, const setpoint_t *setpoint,
+                              const sensorData_t *sensors, const state_t *state, uint32_t step) {
+  flight_in_t *const in = &GLUE.in;
+  in->step = step;
+  units_sensors(in, sensors, state);
+  units_applied(in->force_N, control);
+  if (!supervisorAreMotorsAllowedToRun())
+    for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
+  take_range(in, step);
+  units_setpoint(&in->setpoint, setpoint);
+  in->no_lesson = !supervisorIsFlying();
+}
+
+// What contradicts itself before it flies does not fly; in flight it is the guard's to judge.
+static void judge_flyable(const flight_in_t *in) {
+  if (!supervisorIsFlying()) flyable_step(&GLUE.flyable, in->acc_b_mps2, in->rate_b_radps, in->q_wb);
+}
+
+// From one controller to the other over a second; at once while nobody flies.
+static void hand_over(bool flying) {
+  const float wanted = GLUE.shadow ? 1.0f : 0.0f, step = 1.0f / HAND_OVER_MS;
+  const float left = wanted - GLUE.stock_share;
+  GLUE.stock_share += flying ? f_clamp(left, -step, step) : left;
+}
+
+static APART void command(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                          const state_t *state, uint32_t step) {
+  float force_N[MOTORS];
+  for (int i = 0; i < MOTORS; i++) force_N[i] = GLUE.flight.out.motors.force_N[i];
+  hand_over(supervisorIsFlying());
+  if (GLUE.stock_share > 0.0f) {
+    controllerPid(control, setpoint, sensors, state, step);
+    if (GLUE.stock_share >= 1.0f) return;
+    float stock_N[MOTORS];
+    units_applied(stock_N, control);
+    for (int i = 0; i < MOTORS; i++) force_N[i] += GLUE.stock_share * (stock_N[i] - force_N[i]);
+  }
+  units_command(control, force_N);
+}
+
+void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                         const state_t *state, const stabilizerStep_t step) {
+  settings_take(step);
+  take_inputs(control, setpoint, sensors, state, step);
+  judge_flyable(&GLUE.in);
+  const bool grounded = GLUE.flyable.not_flyable != 0;
+  if (grounded) GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
+  (void)flight_step(&GLUE.flight, &GLUE.in);
+  GLUE.learning = settings_learning();
+  if (grounded)
+    units_command(control, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
+  else
+    command(control, setpoint, sensors, state, step);
+}

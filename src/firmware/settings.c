@@ -1,0 +1,83 @@
+// settings.c - from parameters that are written one by one to sets that are flown as a whole.
+#include "settings.h"
+
+#include "glue.h"
+#include <stdatomic.h>
+
+// A value out of its range goes back to what flies. Two that contradict each other wait for the next write.
+static void mend(void) {
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *const row = &params_table[i];
+    const float value = params_get(&GLUE.tuned, row);
+    if (value >= row->min && value <= row->max) continue;
+    (void)!params_set(&GLUE.tuned, row, params_get(&GLUE.flown, row));
+  }
+}
+
+static bool judge(const rbf_weights_t *weights) {
+  GLUE.ready = 0; // a tick may come at any time
+  atomic_signal_fence(memory_order_seq_cst);
+  GLUE.candidate = GLUE.tuned;
+  GLUE.candidate.curve.fixed = *weights;
+  if (params_check(&GLUE.candidate) == ST_OK) {
+    atomic_signal_fence(memory_order_seq_cst);
+    GLUE.ready = 1;
+    return true;
+  }
+  GLUE.sets_refused++;
+  mend();
+  return false;
+}
+
+void settings_touched(void) {
+  if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned.curve.fixed : &GLUE.flown.curve.fixed)) return;
+  if (GLUE.commit != 0) GLUE.commits_refused++;
+  GLUE.commit = 0;
+}
+
+void settings_start(void) {
+  GLUE.commit = 0;
+  params_default(&GLUE.flown);
+  if (!judge(&GLUE.tuned.curve.fixed) && !judge(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
+  if (GLUE.ready) GLUE.flown = GLUE.candidate;
+  GLUE.ready = 0;
+  (void)!flight_init(&GLUE.flight, &GLUE.flown); // a set that passed its checks
+}
+
+bool settings_learning(void) {
+  return GLUE.flown.curve.mode == CURVE_LIVE && !GLUE.in.no_lesson && GLUE.in.setpoint.z != AXIS_OFF;
+}
+
+// The candidate's weights: what was typed in, or what was learned.
+static bool commit(unsigned which) {
+  learn_t *const learn = &GLUE.flight.outer.learn;
+  if (settings_learning() || (which != COMMIT_TYPED && which != COMMIT_LEARNED)) return false;
+  if (which == COMMIT_LEARNED) GLUE.candidate.curve.fixed = learn->rls.theta;
+  if (learn_init(learn, &GLUE.candidate.learn, &GLUE.candidate.curve.fixed) != ST_OK) return false;
+  GLUE.tuned.curve.fixed = GLUE.candidate.curve.fixed;
+  return true;
+}
+
+static void take_commit(unsigned which) {
+  if (commit(which)) {
+    GLUE.commits++;
+    GLUE.flown.curve.fixed = GLUE.candidate.curve.fixed; // also where another write makes another candidate
+  } else {
+    GLUE.commits_refused++;
+    GLUE.candidate.curve.fixed = GLUE.flown.curve.fixed;
+  }
+}
+
+void settings_take(uint32_t step) {
+  // A bit that flipped in the parameters would stay for ever.
+  if (step % 10 == 6) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+  if (!GLUE.ready || step % 2 == 0) return; // even steps have the outer loop and the lessons
+  if (GLUE.commit != 0) {                   // in a tick of its own: both would be too much for one
+    take_commit(GLUE.commit);
+    GLUE.commit = 0;
+    return;
+  }
+  GLUE.ready = 0;
+  GLUE.flown = GLUE.candidate;
+  (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+}

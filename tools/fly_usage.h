@@ -1,0 +1,37 @@
+// fly_usage.h - what fly --help says.
+#ifndef FLY_USAGE_H
+#define FLY_USAGE_H
+
+static const char USAGE[] =
+    "usage: fly SCENARIO [options]\n"
+    "  --controller NAME        who flies; see --list\n"
+    "  --set group.name=VALUE   a parameter of the flight code; see --params (may be repeated)\n"
+    "  --set-from FILE          a file of such lines, group.name=VALUE\n"
+    "  --effect NAME[:KEY=VALUE,...]  switches an effect of the plant on, or changes it; `none` first "
+    "switches\n"
+    "                           off what the scenario has; see --list (may be repeated)\n"
+    "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
+    "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet, real, or of these some\n"
+    "                           numbers changed: real:acc.z=0.1,...; see --list\n"
+    "  --seed N                 of the noise; the first one with --seeds (1)\n"
+    "  --seeds N                flies N times, with seeds that count up (1)\n"
+    "  --from A --to B          flies seeds A to B on all processors, a line each; --json then gets JSON "
+    "lines\n"
+    "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
+    "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
+    "  --log-rate HZ            100; in six degrees of freedom also 500, or 1000: every call of the app, for "
+    "--replay\n"
+    "  --params-to FILE         writes the parameters that were flown, for --set-from\n"
+    "  --replay FILE.csv        in place of a scenario: that log's inputs through the flight code, and "
+    "whether "
+    "it\n"
+    "                           commands what was logged\n"
+    "  --json FILE              writes what is printed, and more\n"
+    "  --list                   scenarios, controllers and effects\n"
+    "  --params                 the parameters of the flight code, with unit, default and range\n"
+    "  --help                   this\n"
+    "Exit status: 0; 2 if the input is bad; 1 if something else fails, or a flight did not stay finite (what "
+    "it was\n"
+    "like is written nevertheless).\n";
+
+#endif

@@ -1,0 +1,94 @@
+#!/bin/sh
+# pil.sh [objects] - the app for the Crazyflie's processor: what its objects call, its bits, what a call costs.
+#
+#   objects: no libm, no double, no heap, no fused multiply-add in what flies; that alone if asked for
+#   bits:    recorded calls, spoiled ones among them, answered alike by the host (compilers, levels, sanitizers)
+#            and by an emulated Cortex-M4F; and a flight whose every call is answered by the latter
+#   cost:    instructions and stack of each call, exact by the emulator's counter
+#
+# Without cross compiler or emulator it says so and is content: make setup-pil installs them.
+set -eu
+for program in arm-none-eabi-gcc qemu-system-arm; do
+  command -v $program >/dev/null || { echo "skipped: no $program; make setup-pil installs it"; exit 0; }
+done
+out=out/pil
+mkdir -p $out/objects
+app="src/*.c src/firmware/controller.c src/firmware/range_up.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
+around="test/pil/around.c test/pil/pil.c sim/crazyflie/sections.c"
+paths="-D_Thread_local= -Iinclude -Isrc -Isim/crazyflie -Isim"
+# As the firmware compiles an app (its tools/make), and with what the app adds to that: no fused multiply-add.
+own=$(sed -nE 's/^ccflags-y \+= (-f[^ ]*) .*/\1/p' src/firmware/Kbuild)
+bits="-std=gnu11 -fno-math-errno $own"
+m4="-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 $bits -fno-strict-aliasing -ffunction-sections \
+ -fdata-sections -Wall -Wdouble-promotion -Werror"
+fail() {
+  echo "pil: $*" >&2
+  exit 1
+}
+
+# --- objects ------------------------------------------------------------------------------------------------
+
+rm -f $out/objects/*
+for file in $app; do
+  arm-none-eabi-gcc $m4 -Os $paths -c "$file" -o $out/objects/"$(basename "$file" .c)".o || fail "$file does not build"
+done
+arm-none-eabi-nm $out/objects/*.o | awk '$2 ~ /[A-TV-Z]/ { print $3 }' | sort -u >$out/defined
+arm-none-eabi-nm -u $out/objects/*.o | awk '$1 == "U" { print $2 }' | sort -u | grep -vxFf $out/defined >$out/called || true
+allowed='^(memcpy|memcmp|memset|strcmp|rangeGet|controllerPid|controllerPidInit|supervisorIsFlying|supervisorAreMotorsAllowedToRun|stand_in)$'
+! grep -vE "$allowed" $out/called || fail "flight code calls what stands above: libm, double, heap or unknown"
+! arm-none-eabi-objdump -d $out/objects/*.o | grep -E 'vfma|vfms|vfnma|vfnms|\.f64' || fail "flight code has a fused or double operation"
+echo "objects: no libm, no double, no heap, no fused operation ($(wc -l <$out/called) functions called from outside)"
+[ "${1:-}" = objects ] && exit 0
+
+# --- bits ---------------------------------------------------------------------------------------------------
+
+make -s out/release/bin/pil-record
+out/release/bin/pil-record $out/trace
+
+for row in "gcc -O0" "gcc -O2" "gcc -O3" "gcc -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" "clang -O2" "clang -O3 -march=haswell"; do
+  command -v ${row%% *} >/dev/null || continue
+  $row $bits $paths $app $around test/pil/replay.c -lm -o $out/replay
+  $out/replay $out/trace $out/host.now >$out/said
+  [ -f $out/host.out ] && [ "$row" != "gcc -O0" ] || mv $out/host.now $out/host.out
+  [ ! -f $out/host.now ] || cmp $out/host.out $out/host.now || fail "$row gives other bits than gcc -O0"
+  rm -f $out/host.now
+  echo "bits: host $row: $(cat $out/said)"
+done
+
+on_target() { # LEVEL IN OUT COST BATCH
+  qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -icount shift=7 -kernel "$out/target$1.elf" \
+    -semihosting-config enable=on,target=native,arg=target,arg="$2",arg="$3",arg="$4",arg="$5"
+}
+for level in -Os -O2; do
+  arm-none-eabi-gcc $m4 $level $paths $app $around test/pil/target.c -nostartfiles --specs=nosys.specs -T test/pil/target.ld \
+    -Wl,--gc-sections -Wl,--no-warn-rwx-segments -o "$out/target$level.elf" 2>$out/link || { cat $out/link >&2; fail "the image does not build"; }
+  on_target $level $out/trace $out/target.out $out/cost$level 64
+  cmp $out/host.out $out/target.out || fail "Cortex-M4F $level gives other bits than the host"
+  echo "bits: Cortex-M4F $level: the same"
+done
+rm -f $out/to $out/from
+mkfifo $out/to $out/from
+on_target -Os $out/to $out/from - 1 &
+target=$!
+out/release/bin/pil-record $out/to $out/from >$out/said || { kill $target; fail "in the loop: $(cat $out/said)"; }
+wait $target || fail "the target did not end well"
+echo "in the loop, flown by the Cortex-M4F: $(cat $out/said)"
+
+# --- cost ---------------------------------------------------------------------------------------------------
+
+# Instructions of SysTick's ticks: 168 MHz, 128 ns an instruction. The first flight is not spoiled: 62,000 calls.
+for level in -Os -O2; do
+  od -An -v -tu4 -w8 $out/cost$level | awk -v level=$level '
+    NR == 1 { none = $1; next }
+    { n = ($1 - none) / 21.504; i = NR - 2; deep = $2 % 65536; start = int($2 / 65536) }
+    n > worst { worst = n } deep > stack { stack = deep } start > begin { begin = start }
+    i < 62000 && n > clean { clean = n }
+    i > 20000 && i < 62000 && i % 2 == 1 { inner += n; inners++ }
+    i > 20000 && i < 62000 && i % 10 == 2 { idle += n; idles++ }
+    END {
+      printf "cost: Cortex-M4F %s: worst tick %d instructions, %d in a flight without faults; units and guard alone %d, the inner loop %d more\n",
+        level, worst + 0.5, clean + 0.5, idle / idles + 0.5, inner / inners - idle / idles + 0.5
+      printf "cost: Cortex-M4F %s: deepest stack of a tick %d bytes, of the selection %d\n", level, stack, begin
+      exit !(worst <= 4000 && stack <= 512 && begin <= 512 && inner / inners - idle / idles <= 1100)
+    }' || fail "more than 4,000 instructions a tick, 1,100 for the inner loop, or 512 bytes of stack"
+done

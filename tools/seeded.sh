@@ -1,0 +1,40 @@
+#!/bin/sh
+# seeded.sh [WORD] - steps into every trap of test/seeded, in a copy of the tree, and expects the tests to say so.
+#
+# A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., or `objects`:
+# tools/pil.sh). One line for each; fails if one is not caught, or no longer changes its file.
+set -eu
+tree=out/seeded
+rm -rf $tree
+mkdir -p $tree/out
+cp -rp Makefile README.md include sim src test tools $tree
+[ ! -d out/release ] || cp -rp out/release out/gen $tree/out
+log=$PWD/out/seeded.log
+cd $tree
+unset MAKEFLAGS MAKELEVEL MFLAGS
+make tests-built >"$log" 2>&1 || { tail -5 "$log" >&2; echo "seeded: the copy does not build" >&2; exit 1; }
+
+field() { sed -n "s/^# $2: //p" "$1"; }
+missed=0 caught=0
+for trap in test/seeded/*"${1:-}"*.sed; do
+  file=$(field "$trap" file) word=$(field "$trap" test) name=$(basename "$trap" .sed)
+  cp -p "$file" before
+  sed -i -f "$trap" "$file"
+  if cmp -s before "$file"; then
+    said="MISSED: it no longer changes $file"
+  elif [ "$word" = objects ] && ! command -v arm-none-eabi-gcc >/dev/null; then
+    said="skipped: no arm-none-eabi-gcc"
+  elif if [ "$word" = objects ]; then tools/pil.sh objects; else make test W="$word"; fi >"$log" 2>&1; then
+    said="MISSED: everything passes"
+  else
+    by=$(sed -n 's/^FAILED //p' "$log" | head -1)
+    [ "$word" != objects ] || by=$(grep -m1 '^pil:' "$log" || tail -1 "$log")
+    said="caught by $by"
+    [ -n "$by" ] || said="MISSED: it does not build"
+  fi
+  case $said in MISSED*) missed=$((missed + 1)) ;; caught*) caught=$((caught + 1)) ;; esac
+  printf '%-32s %s\n' "$name" "$said"
+  cp before "$file" # newer than what was built from the trap
+done
+echo "$caught caught, $missed missed"
+[ $missed = 0 ] && [ $caught -gt 0 ]
