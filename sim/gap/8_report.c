@@ -153,7 +153,9 @@ static void warn_of_diagnosis(report_t *r) {
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.muted[ch])
-      warn(r, "%s is left out: the logged commands say too little of it (logged more slowly than given?)",
+      warn(r,
+           "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
+           "motors in another order?)",
            gap_channel[ch]);
   if (d->found.aligned_s != 0.0)
     warn(r,
