@@ -26,7 +26,10 @@ static quat_t turned(sincos_t heading) {
 quat_t att_indi_reference(v3_t up_w, sincos_t heading) {
   // The shortest rotation from the z axis to up_w, after the heading.
   const quat_t tilt = quat_unit((quat_t){1.0f + up_w.z, -up_w.y, up_w.x, 0.0f});
-  return quat_mul(tilt, turned(heading));
+  const quat_t turn = turned(heading);
+  // quat_mul(tilt, turn) without what is zero.
+  return (quat_t){tilt.w * turn.w, tilt.x * turn.w + tilt.y * turn.z, tilt.y * turn.w - tilt.x * turn.z,
+                  tilt.w * turn.z};
 }
 
 static void start(att_indi_t *s, const att_indi_in_t *in) {
@@ -47,18 +50,16 @@ static float lag(float model, float share, float input) {
 
 // The torque that the rotors give, synchronous with the filtered angular acceleration.
 static v3_t torque_now(att_indi_t *s, const lpf2_coef_t *c, float share, v3_t applied) {
-  v3_t *const m = &s->torque_model_Nm;
-  m->x = lag(m->x, share, lpf2_step(&s->torque[0], c, applied.x));
-  m->y = lag(m->y, share, lpf2_step(&s->torque[1], c, applied.y));
-  m->z = lag(m->z, share, lpf2_step(&s->torque[2], c, applied.z));
-  return *m;
+  const v3_t m = s->torque_model_Nm, filtered = lpf2_step3(s->torque, c, applied);
+  const v3_t now = {lag(m.x, share, filtered.x), lag(m.y, share, filtered.y), lag(m.z, share, filtered.z)};
+  s->torque_model_Nm = now;
+  return now;
 }
 
 static v3_t filtered_acc(att_indi_t *s, const lpf2_coef_t *c, v3_t rate, float period_s) {
   const v3_t raw = v3_scale(1.0f / period_s, v3_sub(rate, s->rate_last_radps));
   s->rate_last_radps = rate;
-  return (v3_t){lpf2_step(&s->acc[0], c, raw.x), lpf2_step(&s->acc[1], c, raw.y),
-                lpf2_step(&s->acc[2], c, raw.z)};
+  return lpf2_step3(s->acc, c, raw);
 }
 
 static float wanted_rate(const att_indi_param_t *p, float kp, float error, float extra) {
