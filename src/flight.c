@@ -66,10 +66,6 @@ static pos_setpoint_t position_wanted(const flight_in_t *in) {
   return (pos_setpoint_t){pos, vel, sp->acc_w_mps2};
 }
 
-static float thrust_of(const float force_N[MOTORS]) {
-  return force_N[0] + force_N[1] + force_N[2] + force_N[3];
-}
-
 static APART void run_outer(flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) {
     outer_rest(&f->outer);
@@ -82,7 +78,7 @@ static APART void run_outer(flight_t *f, const flight_in_t *in) {
   x->vel_w_mps = in->vel_w_mps;
   x->acc_b_mps2 = in->acc_b_mps2;
   x->q_wb = in->q_wb;
-  x->thrust_N = thrust_of(in->force_N);
+  x->thrust_N = mixer_thrust_N(in->force_N);
   x->range_new = f->range_waits;
   x->range_m = f->range_m;
   x->range_age_s = f->range_age_s;
@@ -123,7 +119,7 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
 // With the height controlled, until the outer loop has run: what the motors do.
 static float thrust_wanted_N(const flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) return in->setpoint.thrust_N;
-  return f->outer.started ? f->out.outer.thrust_N : thrust_of(in->force_N);
+  return f->outer.started ? f->out.outer.thrust_N : mixer_thrust_N(in->force_N);
 }
 
 // In flight the vehicle is kept upright also where no thrust is wanted. A floor that carries it does that
@@ -158,14 +154,13 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   }
   const v3_t up =
       by_hand ? direction_by_hand(sp, f->heading_ref, f->outer.param.pos.tilt_max_rad) : f->out.outer.up_w;
-  const mixer_out_t given = mixer_of(&f->outer.param.mixer, in->force_N);
   att_indi_in_t *const x = &f->att_in;
   x->rate_b_radps = in->rate_b_radps;
   x->q_wb = quat_unit(in->q_wb);
   x->q_ref = att_indi_reference(up, f->heading_ref);
   x->yaw_rate_radps = sp->yaw_rate_radps;
-  x->torque_b_Nm = given.torque_b_Nm;
-  x->ceiling_Nms = ceiling_Nms(f, given.thrust_N);
+  x->torque_b_Nm = mixer_torque(&f->outer.param.mixer, in->force_N);
+  x->ceiling_Nms = ceiling_Nms(f, mixer_thrust_N(in->force_N));
   x->ratio = f->outer.param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f;
   f->out.q_ref = x->q_ref;
   const v3_t torque =

@@ -1,22 +1,11 @@
-// mixer.c - torques and thrust to four motor forces. The signs are written out, roll - - + +, pitch - + + -,
-// yaw - + - +: loops over tables of them take twice the instructions.
+// mixer.c - torques and thrust to four motor forces.
 #include "flight/mixer.h"
-
-static void add_up(const mixer_param_t *p, mixer_out_t *out, float f0, float f1, float f2, float f3) {
-  out->force_N[0] = f0;
-  out->force_N[1] = f1;
-  out->force_N[2] = f2;
-  out->force_N[3] = f3;
-  out->thrust_N = f0 + f1 + f2 + f3;
-  const float a0 = p->arm_m * f0, a1 = p->arm_m * f1, a2 = p->arm_m * f2, a3 = p->arm_m * f3;
-  out->torque_b_Nm.x = -a0 - a1 + a2 + a3;
-  out->torque_b_Nm.y = a1 - a0 + a2 - a3;
-  out->torque_b_Nm.z = p->yaw_m * f1 - p->yaw_m * f0 - p->yaw_m * f2 + p->yaw_m * f3;
-}
 
 mixer_out_t mixer_of(const mixer_param_t *p, const float force_N[MOTORS]) {
   mixer_out_t out;
-  add_up(p, &out, force_N[0], force_N[1], force_N[2], force_N[3]);
+  for (int i = 0; i < MOTORS; i++) out.force_N[i] = force_N[i];
+  out.torque_b_Nm = mixer_torque(p, out.force_N);
+  out.thrust_N = mixer_thrust_N(out.force_N);
   out.gave_up_yaw = out.gave_up_thrust = out.gave_up_tilt = false;
   return out;
 }
@@ -55,8 +44,12 @@ mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N) 
   const float yaw_share = yaw_share_of(base, yaw_N, max), turn = yaw_share * yaw_N;
 
   mixer_out_t out;
-  add_up(p, &out, f_clamp(base[0] - turn, 0.0f, max), f_clamp(base[1] + turn, 0.0f, max),
-         f_clamp(base[2] - turn, 0.0f, max), f_clamp(base[3] + turn, 0.0f, max));
+  out.force_N[0] = f_clamp(base[0] - turn, 0.0f, max);
+  out.force_N[1] = f_clamp(base[1] + turn, 0.0f, max);
+  out.force_N[2] = f_clamp(base[2] - turn, 0.0f, max);
+  out.force_N[3] = f_clamp(base[3] + turn, 0.0f, max);
+  out.torque_b_Nm = mixer_torque(p, out.force_N);
+  out.thrust_N = mixer_thrust_N(out.force_N);
   out.gave_up_tilt = tilt_share < 1.0f;
   out.gave_up_thrust = fabsf(4.0f * lift - thrust_N) > 1e-6f * max;
   out.gave_up_yaw = yaw_share < 1.0f;

@@ -103,7 +103,7 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->range_m = in->range_m;
   g->range_floor_m = f->outer.param.ceiling.floor_m;
   g->range_near_m = f->outer.param.ceiling.near_m;
-  g->thrust_N = in->force_N[0] + in->force_N[1] + in->force_N[2] + in->force_N[3];
+  g->thrust_N = mixer_thrust_N(in->force_N);
   g->thrust_max_N = f->outer.param.pos.thrust_max_N;
   g->weight_N = f->outer.param.pos.mass_kg * GRAVITY_MPS2;
   g->zc_m = o->ceiling.zc_m;
