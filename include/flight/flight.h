@@ -32,7 +32,7 @@ typedef struct {
   v3_t acc_w_mps2;           // feed-forward
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
-  float yaw_rad;        // any angle; the shorter way round is taken
+  float yaw_rad;             // any angle; the shorter way round is taken
   float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
 } flight_setpoint_t;
 
