@@ -60,13 +60,26 @@ static void hand_over(bool flying) {
   GLUE.stock_share += flying ? f_clamp(left, -step, step) : left;
 }
 
+// The stock controller commands roll, pitch and yaw at 500 Hz and counts on them to stand in *control
+// between; there our forces have been written over them.
+static void run_stock(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                      const state_t *state, uint32_t step) {
+  control->roll = GLUE.stock.roll;
+  control->pitch = GLUE.stock.pitch;
+  control->yaw = GLUE.stock.yaw;
+  controllerPid(control, setpoint, sensors, state, step);
+  GLUE.stock.roll = control->roll;
+  GLUE.stock.pitch = control->pitch;
+  GLUE.stock.yaw = control->yaw;
+}
+
 static APART void command(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                           const state_t *state, uint32_t step) {
   float force_N[MOTORS];
   for (int i = 0; i < MOTORS; i++) force_N[i] = GLUE.flight.out.motors.force_N[i];
   hand_over(supervisorIsFlying());
   if (GLUE.stock_share > 0.0f) {
-    controllerPid(control, setpoint, sensors, state, step);
+    run_stock(control, setpoint, sensors, state, step);
     if (GLUE.stock_share >= 1.0f) return;
     float stock_N[MOTORS];
     units_applied(stock_N, control);

@@ -21,6 +21,9 @@ typedef struct {
   uint32_t commits, commits_refused;
   bool learning;
   float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way
+  struct {
+    int16_t roll, pitch, yaw;
+  } stock; // what it commanded last
   range_up_t range;
   flyable_t flyable;
   flight_in_t in;
