@@ -17,6 +17,8 @@ GUARD = (
     "the height estimate jumped",
     "milliseconds were missed",
     "no room to take off",
+    "the estimated velocity jumps",
+    "the thrust carries more than it should so far from a ceiling",
 )
 FLYABLE = (
     "at rest the accelerometer does not point up",
