@@ -22,9 +22,13 @@
 // commanded in *control in the steps in which it does not run.
 static void stock(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                   const state_t *state, uint32_t step) {
-  (void)setpoint, (void)sensors, (void)state;
+  (void)sensors, (void)state;
   crazyflie_t *const c = context;
-  const stock_command_t *const command = stock_pid_command(&c->stock, c->now);
+  pilot6_in_t in = *c->now;
+  in.step = step;
+  if (setpoint->mode.z == modeDisable && setpoint->thrust == 0.0f)
+    in.set = (pilot6_setpoint_t){.mode = {PILOT6_OFF, PILOT6_OFF, PILOT6_OFF}};
+  const stock_command_t *const command = stock_pid_command(&c->stock, &in);
   control->controlMode = controlModeLegacy;
   control->thrust = (float)command->thrust;
   if (!RATE_DO_EXECUTE(ATTITUDE_RATE, step) && command->thrust != 0.0) return;
