@@ -70,6 +70,17 @@ TEST(gap_reads_every_recorded_flight_by_the_files_of_the_tree) {
   }
 }
 
+TEST(gap_sees_the_recorded_inner_loop_turn_the_way_of_its_commands) {
+  if (!test_data_dir()) SKIP("no measured data");
+  char line[900], text[4000];
+  snprintf(line, sizeof line,
+           "gap --vehicle sim/vehicles/cf_inner_loop_id.toml --columns tools/columns/inner_loop_id.toml "
+           "%s/inner_loop_id/data_1901.csv",
+           test_data_dir());
+  CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "turn_x ") && strstr(text, "turn_y ") && !strstr(text, "is left out"));
+}
+
 TEST(gap_reads_what_fly_writes) {
   static const struct {
     const char *scenario, *vehicle;

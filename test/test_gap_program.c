@@ -94,6 +94,18 @@ static void check_drag(const cJSON *v) {
   CHECK_TEXT(string_of(again, "unit"), "m");
 }
 
+// Two flights of 20 s are 20 blocks: Student's 2.09 standard errors, where a normal distribution has 1.96.
+static void check_interval(const cJSON *v) {
+  const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+  const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
+  char *const page = slurp("named/report.html");
+  const char *const row = strstr(page, "<tr><td>k<td class=n>");
+  double value = 0.0, from = 0.0, to = 0.0;
+  CHECK(row && sscanf(row, "<tr><td>k<td class=n>%lf<td class=n>%lf to %lf", &value, &from, &to) == 3);
+  CHECK_NEAR(0.5 * (to - from) / number_of(k, "stderr"), 2.09, 0.05);
+  free(page);
+}
+
 static void check_page(void) {
   static const char *const holds[] = {"<!doctype html>",
                                       "<svg",
@@ -156,6 +168,7 @@ TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
   const cJSON *const held = cJSON_GetObjectItem(gap_of(v, "force_z"), "held_out");
   CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "c2.csv"));
   check_page();
+  check_interval(v);
   check_model(v);
   cJSON_Delete(v);
   cJSON_Delete(same);
@@ -201,6 +214,25 @@ TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "warnings")) sizes |=
       strstr(one->valuestring, "would have been seen from") != NULL;
   CHECK(sizes);
+  cJSON_Delete(v);
+}
+
+TEST(gap_lists_what_missing_rates_leave_untested) {
+  char text[4000];
+  CHECK(gap_logs_fly("r", 1, NULL));
+  CHECK(program_run("grep -v '^gz' tools/columns/fly.toml >$S/blind.toml; gap --vehicle $S/room.toml "
+                    "--columns $S/blind.toml --json $S/blind.json $S/r0.csv",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  cJSON *const v = verdict_of("blind.json");
+  static const char *const turns[] = {"cg_offset", "flapping", "inertia", "gyroscopic"};
+  for (unsigned i = 0; i < sizeof turns / sizeof *turns; i++) {
+    ROW("%s", turns[i]);
+    bool listed = false;
+    const cJSON *one;
+    cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "not_testable")) listed |=
+        strcmp(string_of(one, "effect"), turns[i]) == 0 && strstr(string_of(one, "why"), "residuals");
+    CHECK(listed);
+  }
   cJSON_Delete(v);
 }
 

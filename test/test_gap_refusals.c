@@ -59,6 +59,11 @@ static const struct {
      "6.554e+04 "
      "pwm; "
      "the unit percent would fit (factor 655.4)"},
+    {"range in m",
+     {.column = FC_RANGE, .scale = 0.001},
+     "column range.up: the largest range is 0.00109 m over the whole flight; allowed: 0.02 to 40 m; the unit "
+     "m "
+     "would fit (factor 1000)"},
     {"rotor speeds in rad/s",
      {.column = FC_W1, .more = 3, .scale = 0.1047198},
      "the unit rad/s would fit (factor 9.549)"},

@@ -1,6 +1,7 @@
 // test_gap_refused.c - the workflow's program and what it cannot use: one line, status 2, `refused`, and no
 // file harmed.
 #include "flight_csv.h"
+#include "gap_logs.h"
 #include "programs.h"
 #include "scratch.h"
 #include "test.h"
@@ -117,4 +118,15 @@ TEST(gap_removes_its_own_model_beside_a_refusal_and_nothing_else) {
                     sizeof text) == 2);
   CHECK(program_run("cat $S/o/model.toml", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK_TEXT(text, "name = 1\n");
+}
+
+TEST(gap_refuses_motors_whose_order_turns_the_vehicle_the_other_way) {
+  char text[4000];
+  CHECK(gap_logs_fly("o", 1, NULL));
+  CHECK(program_run("sed -e 's/indi.m1/indi.mX/' -e 's/indi.m2/indi.m1/' -e 's/indi.mX/indi.m2/' -e "
+                    "'s/indi.m3/indi.mX/' -e 's/indi.m4/indi.m3/' -e 's/indi.mX/indi.m4/' "
+                    "tools/columns/fly.toml >$S/order.toml; gap --vehicle $S/room.toml "
+                    "--columns $S/order.toml $S/o0.csv",
+                    STREAM_ERROR, text, sizeof text) == 2);
+  CHECK(strstr(text, "o0.csv: turn_y goes against what the motor commands say") != NULL);
 }

@@ -92,7 +92,7 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *fil
   cJSON_AddNumberToObject(json, "g2", r->g2);
   cJSON_AddItemToObject(json, "explained", cJSON_CreateDoubleArray(r->explained, 3));
   cJSON_AddItemToObject(json, "stock_g1", cJSON_CreateDoubleArray(stock, 3));
-  cJSON_AddNumberToObject(json, "stock_g2", EFFECTIVENESS_STOCK_G2);
+  cJSON_AddNumberToObject(json, "stock_g2_per_tick", EFFECTIVENESS_STOCK_G2);
   cJSON_AddNumberToObject(json, "lag_s", o->job.lag_s);
   cJSON_AddNumberToObject(json, "delay_s", o->job.delay_s);
   cJSON_AddNumberToObject(json, "cutoff_Hz", o->job.cutoff_Hz);

@@ -8,8 +8,9 @@
 #define WINDOWS_MIN 20 // windows from which a slope does
 #define SLOPE_MIN   0.3333
 #define SLOPE_MAX   3.0
-#define SURE        4.0 // standard errors
-#define FLIES       0.3 // of the largest thrust: it flies
+#define SURE        4.0  // standard errors
+#define FLIES       0.3  // of the largest thrust: it flies
+#define RANGE_M     0.02 // no range sensor sees nearer only
 
 static bool has(const gap_flight_t *f, signal_id_t first, int n) {
   for (int k = 0; k < n; k++)
@@ -102,6 +103,20 @@ static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const
   return ST_OK;
 }
 
+// Nearer throughout than any range sensor sees: the unit is another one. Too far is refused row by row.
+static status_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t i, why_t *why) {
+  double most_m = 0.0;
+  int n = 0;
+  for (int j = 0; j < f->n && f->v[i]; j++) {
+    if (isnan(f->v[i][j])) continue;
+    most_m = fmax(most_m, f->v[i][j]);
+    n++;
+  }
+  return n < ENOUGH || most_m >= RANGE_M
+             ? ST_OK
+             : refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
+}
+
 // Mean of thrust over what holds the vehicle up, while it flies. lift_N: thrust at sample i.
 static double lift_ratio(const gap_flight_t *f, const model_t *vehicle,
                          double (*lift_N)(const gap_flight_t *, const model_t *, int)) {
@@ -162,6 +177,8 @@ status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
   if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
   if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_drive(f, rows, &GAP_PUSH, why));
+  TRY(check_range(f, rows, SIG_RANGE, why));
+  TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
   TRY(check_commands(f, rows, why));
   return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : ST_OK;
 }

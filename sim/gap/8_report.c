@@ -1,6 +1,7 @@
 // 8_report.c - what is to be said of a study.
 #include "gap/8_report.h"
 
+#include "gap/lsq_blocks.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -42,6 +43,13 @@ static bool is_in_model(const report_t *r, const fx_t *fx) {
   return false;
 }
 
+static bool rivals_a_name(const report_t *r, const fx_t *fx) {
+  const model_t *const m = &r->study->diagnosis.extended;
+  for (int i = 0; i < m->n_fx && fx->class != FX_ALONE; i++)
+    if (m->fx[i].fx->class == fx->class) return true;
+  return false;
+}
+
 static void find_untested(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < fx_count && r->n_untested < FX_TABLE_MAX; i++) {
@@ -51,7 +59,10 @@ static void find_untested(report_t *r) {
     int n;
     const double least = least_of(d, u.fx, &c);
     u.obstacle = candidates_obstacle(u.fx, &r->study->vehicle, &d->fit);
-    if (!u.obstacle && !c) continue; // another of its class is named: it is a rival, if anything
+    if (!u.obstacle && !c) {
+      if (rivals_a_name(r, u.fx)) continue;
+      u.obstacle = "it shows in none of the residuals that can be formed from these logs";
+    }
     if (!u.obstacle) {
       u.param = &fx_use_params(&c->use, &n)[u.fx->size[0].param];
       u.typical = candidate_typical(c, 0);
@@ -142,7 +153,9 @@ static void warn_of_diagnosis(report_t *r) {
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.muted[ch])
-      warn(r, "%s is left out: the logged commands say too little of it (logged more slowly than given?)",
+      warn(r,
+           "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
+           "motors in another order?)",
            gap_channel[ch]);
   if (d->found.aligned_s != 0.0)
     warn(r,
@@ -183,9 +196,16 @@ static void warn_of_sizes(report_t *r) {
 
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why); // 8_report_evidence.c
 
+// The degrees of freedom are those of the selection's Wald test.
+static double half_interval(const diagnosis_t *d) {
+  int columns = 0;
+  for (int i = 0; i < d->found.n; i++) columns += d->candidates.candidate[d->found.named[i].candidate].n;
+  return lsq_t_quantile(0.025, fmax(d->fit.n_block - columns, 2.0));
+}
+
 status_t report_make(report_t *r, study_t *study, why_t *why) {
   const diagnosis_t *const d = &study->diagnosis;
-  *r = (report_t){.study = study};
+  *r = (report_t){.study = study, .wide = half_interval(d)};
   r->verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none";
   TRY(report_take_evidence(r, study, why));
   find_untested(r);

@@ -23,7 +23,7 @@ typedef struct {
   double x[REPORT_BINS], rows[REPORT_BINS];
   double before[REPORT_BINS], after[REPORT_BINS]; // residual
   double effect[REPORT_BINS], low[REPORT_BINS],
-      high[REPORT_BINS]; // what the effect adds, two standard errors
+      high[REPORT_BINS]; // what the effect adds, and its 95 % interval
 } profile_t;
 
 // One named effect.
@@ -55,7 +55,8 @@ typedef struct {
   untested_t untested[FX_TABLE_MAX];
   int n_warning;
   char warning[REPORT_WARNINGS][REPORT_TEXT];
-  profile_t left;                             // over the coordinate of the largest cell of what is left
+  double wide;    // half of a 95 % interval, in standard errors (Student, blocks less columns)
+  profile_t left; // over the coordinate of the largest cell of what is left
   double *before[CHANNELS], *after[CHANNELS]; // held-out rows
 } report_t;
 
@@ -85,7 +86,7 @@ bool report_can_tell(const report_t *r);
 #define REPORT_LENGTH 24
 const char *report_length(double m, char text[REPORT_LENGTH]);
 
-// "p 0.003", or " p < 1e-16" for what is smaller.
+// "p 0.003", or "p < 1e-16" for what is smaller.
 #define REPORT_P 24
 const char *report_p(double p, char text[REPORT_P]);
 

@@ -4,13 +4,13 @@
 #include "gap/unknown.h"
 #include <math.h>
 
-static void parameters(const finding_t *f, FILE *out) {
+static void parameters(const finding_t *f, double errors, FILE *out) {
   int n;
   const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
   for (int k = 0; k < f->candidate->n; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
-    const double v = f->value[k], wide = 1.96 * f->named->stderr_[k];
+    const double v = f->value[k], wide = errors * f->named->stderr_[k];
     page_text(out, "<tr><td>", p->name, "");
     fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
     page_text(out, "<td>", p->unit, "</tr>\n");
@@ -54,7 +54,7 @@ static void rivals(const finding_t *f, FILE *out) {
   }
 }
 
-void page_finding(const finding_t *f, FILE *out) {
+void page_finding(const finding_t *f, double errors, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[REPORT_P];
   page_text(out, "<section><h2>", f->fx->name, "</h2>");
@@ -65,7 +65,7 @@ void page_finding(const finding_t *f, FILE *out) {
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
   page_text(out, "", coordinate_unit(coordinate), ".</p>\n");
-  parameters(f, out);
+  parameters(f, errors, out);
   fputs("<figure>", out);
   picture_curve(f, out);
   fputs("<figcaption>What the effect adds, on flights that were not used to find "

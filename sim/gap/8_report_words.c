@@ -7,18 +7,18 @@
 
 #define WARNINGS 4 // on the screen; the files have all
 
-static void print_value(const finding_t *f, int k, FILE *out) {
+static void print_value(const finding_t *f, int k, double wide, FILE *out) {
   int n;
   const fx_param_t *const p = &fx_use_params(&f->candidate->use, &n)[f->fx->size[k].param];
-  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, f->value[k], 2.0 * f->named->stderr_[k],
+  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, f->value[k], wide * f->named->stderr_[k],
           p->unit[0] ? " " : "", p->unit);
 }
 
-static void print_effect(const finding_t *f, FILE *out) {
+static void print_effect(const finding_t *f, double wide, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[REPORT_P];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
-  for (int k = 0; k < f->candidate->n; k++) print_value(f, k, out);
+  for (int k = 0; k < f->candidate->n; k++) print_value(f, k, wide, out);
   if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
   fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, report_p(f->named->p, p));
   fprintf(out, "  seen in %s, %s %.3g to %.3g %s\n", gap_channel[f->profile.channel],
@@ -82,7 +82,7 @@ void report_words(const report_t *r, FILE *out) {
     fprintf(out, "These flights cannot tell what is missing in %s.\n", study_vehicle(s));
   else
     fprintf(out, "Nothing is missing in %s that these flights could show.\n", study_vehicle(s));
-  for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
+  for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], r->wide, out);
   if (unknown)
     fprintf(out, "\nunknown: %+.3g %s in %s, at %s %.3g to %.3g %s\n", c->size, gap_unit[c->channel],
             gap_channel[c->channel], c->coordinate, c->from, c->to, c->unit);

@@ -44,6 +44,13 @@ static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
+  for (int ch = CH_WX; ch <= CH_WZ; ch++)
+    if (best[ch].correlation > -2.0 && best[ch].correlation < MUTED_AGAINST)
+      return error_set(
+          why,
+          "%s: %s goes against what the motor commands say (correlation %.2f); allowed: rates and "
+          "commands of one sign, motors in the vehicle file's order",
+          s->grid[0].flight->name, gap_channel[ch], best[ch].correlation);
   for (int ch = CH_WX; ch <= CH_WZ; ch++) s->muted[ch] = best[ch].slope < MUTED_SLOPE;
   return ST_OK;
 }

@@ -3,15 +3,16 @@
 // Turning follows from differences of commands. Where commands are logged more slowly than they were given,
 // what is logged is mostly noise, and every effect that makes predictions smaller (inertia, lag) seems to be
 // missing. Such a channel shows by its slope: row to row, the measured turning is far less than the predicted
-// one, whatever the lag.
+// one, whatever the lag. Where it goes the other way, a sign or the order of the motors is wrong.
 #ifndef SIM_GAP_MUTED_H
 #define SIM_GAP_MUTED_H
 
 #include "gap/3_residual.h"
 
-#define MUTED_SLOPE 0.25
+#define MUTED_SLOPE   0.25
+#define MUTED_AGAINST -0.5 // correlation
 
-// Sets s->muted. ST_FAILED: no memory.
+// Sets s->muted. ST_BAD_INPUT: the vehicle turns against its commands. ST_FAILED: no memory.
 MUST_CHECK status_t muted_find(set_t *s, const model_t *m, why_t *why);
 
 #endif
