@@ -55,6 +55,8 @@ for row in "gcc -O0" "gcc -O2" "gcc -O3" "gcc -O1 -fsanitize=address,undefined -
   echo "bits: host $row: $(cat $out/said)"
 done
 
+[ "$(sed "s/.*, \([0-9]*\) floats.*/\1/" $out/said)" -ge 10000000 ] || fail "fewer than 10,000,000 floats are compared"
+
 on_target() { # LEVEL IN OUT COST BATCH
   qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial none -icount shift=7 -kernel "$out/target$1.elf" \
     -semihosting-config enable=on,target=native,arg=target,arg="$2",arg="$3",arg="$4",arg="$5"
