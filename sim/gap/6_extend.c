@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include "gap/6_extend.h"
 
+#include "gap/p_value.h"
 #include "io/model_file.h"
 #include <stdlib.h>
 #include <string.h>
@@ -40,11 +41,11 @@ static const char *unit_in_words(const char *unit) {
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
   const candidate_t *c = &job->diagnosis->candidates.candidate[named->candidate];
   int n;
+  char p[P_TEXT];
   const fx_param_t *param = fx_use_params(&c->use, &n);
-  fprintf(
-      out,
-      "\n# Found by the discrepancy workflow in %s: p %.2g, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
-      job->logs, named->p, 100.0 * named->share, c->use.fx->name);
+  fprintf(out,
+          "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
+          job->logs, p_words(named->p, p), 100.0 * named->share, c->use.fx->name);
   if (c->use.form) fprintf(out, "form = \"%s\"\n", c->use.form->name);
   for (int i = 0; i < n; i++) {
     fprintf(out, "%s = %.9g", param[i].name, c->use.p[i]);

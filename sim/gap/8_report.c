@@ -82,14 +82,6 @@ void report_why(const untested_t *u, char text[REPORT_TEXT]) {
              u->seen_from, u->param->unit[0] ? " " : "", u->param->unit, u->typical);
 }
 
-const char *report_p(double p, char text[REPORT_P]) {
-  if (p < 1e-16)
-    snprintf(text, REPORT_P, "p < 1e-16");
-  else
-    snprintf(text, REPORT_P, "p %.1g", p);
-  return text;
-}
-
 const char *report_length(double m, char text[REPORT_LENGTH]) {
   if (fabs(m) < 1.0)
     snprintf(text, REPORT_LENGTH, "%.3g mm", 1e3 * m);
@@ -217,8 +209,6 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
 }
 
 void report_free(report_t *r) {
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    free(r->before[ch]);
-    free(r->after[ch]);
-  }
+  lines_free(&r->before);
+  lines_free(&r->after);
 }

@@ -56,11 +56,11 @@ static void rivals(const finding_t *f, FILE *out) {
 
 void page_finding(const finding_t *f, double errors, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[REPORT_P];
+  char p[P_TEXT];
   page_text(out, "<section><h2>", f->fx->name, "</h2>");
   page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
   fprintf(out, "<p>It explains %.3g %% of the gap (", 100.0 * f->named->share);
-  page_text(out, "", report_p(f->named->p, p), "). ");
+  page_text(out, "", p_words(f->named->p, p), "). ");
   page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);

@@ -38,7 +38,7 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON_AddItemToArray(list, o);
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
-  add_number(o, "p", f->named->p);
+  add_number(o, "p", p_value(f->named->p));
   add_number(o, "share", f->named->share);
   cJSON *const rivals = cJSON_AddArrayToObject(o, "rivals");
   for (int i = 0; i < f->named->n_rival; i++)

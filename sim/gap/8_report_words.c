@@ -16,11 +16,11 @@ static void print_value(const finding_t *f, int k, double wide, FILE *out) {
 
 static void print_effect(const finding_t *f, double wide, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[REPORT_P];
+  char p[P_TEXT];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
   for (int k = 0; k < f->candidate->n; k++) print_value(f, k, wide, out);
   if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
-  fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, report_p(f->named->p, p));
+  fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, p_words(f->named->p, p));
   fprintf(out, "  seen in %s, %s %.3g to %.3g %s\n", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
   if (!f->named->n_rival) return;
