@@ -81,7 +81,9 @@ double report_told(const report_t *r, const profile_t *p, const double *effect);
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
 
-// Some residual can be formed; else nothing could have been found.
+// Some residual can be formed.
+bool report_has_residual(const report_t *r);
+// ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
 
 // "12.3 mm", or in metres from 1 m on.

@@ -81,7 +81,7 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
 void page_unknown(const report_t *r, FILE *out) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const cell_t *const c = &d->cell;
-  if (!(c->statistic > 0.0) || (!d->unknown && r->n_finding)) return;
+  if (!(c->statistic > 0.0) || !d->nominal_flew || (!d->unknown && r->n_finding)) return;
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);

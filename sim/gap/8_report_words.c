@@ -31,7 +31,7 @@ static void print_effect(const finding_t *f, double wide, FILE *out) {
 
 static void print_gap(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
-  if (!report_can_tell(r)) return;
+  if (!report_has_residual(r)) return;
   fprintf(out, "\nheld out: ");
   if (s->by_time)
     fprintf(out, "the last third of %s\n", s->fit.n > 1 ? "each flight" : "the flight");
