@@ -49,6 +49,7 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
   if (c->use.form) fprintf(out, "form = \"%s\"\n", c->use.form->name);
   for (int i = 0; i < n; i++) {
     fprintf(out, "%s = %.9g", param[i].name, c->use.p[i]);
+    const bool shape = c->use.fx->n_shape && c->use.fx->shape_param == i;
     bool estimated = false;
     for (int k = 0; k < c->n; k++) {
       if (c->use.fx->size[k].param != i) continue;
@@ -57,9 +58,12 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
       estimated = true;
     }
     if (estimated) continue;
-    const bool tried = c->use.fx->n_shape && c->use.fx->shape_param == i;
-    fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
-            tried ? "the best of the shapes that were tried" : "as the effect has it, not estimated");
+    if (shape && named->shape_stderr > 0.0)
+      fprintf(out, " # %s, estimated, +- %.2g (standard error)\n", unit_in_words(param[i].unit),
+              named->shape_stderr);
+    else
+      fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
+              shape ? "the best of the shapes that were tried" : "as the effect has it, not estimated");
   }
 }
 

@@ -16,9 +16,12 @@ static void parameters(const finding_t *f, double errors, FILE *out) {
     page_text(out, "<td>", p->unit, "</tr>\n");
   }
   if (f->fx->n_shape) {
+    const double v = f->candidate->use.p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
     page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>the best of %d tried", f->candidate->use.p[f->fx->shape_param],
-            f->fx->n_shape);
+    if (wide > 0.0)
+      fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    else
+      fprintf(out, "<td class=n>%.4g<td class=n>the best of %d tried", v, f->fx->n_shape);
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
   fputs("</table>\n", out);

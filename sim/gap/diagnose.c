@@ -4,6 +4,7 @@
 #include "gap/7_verify.h"
 #include "gap/contact.h"
 #include "gap/muted.h"
+#include "gap/select_shape.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,6 +109,7 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
   if (!d->nominal_flew) withdraw(d);
+  TRY(select_shapes(&d->candidates, &d->fit, job->model, &d->found, why));
   TRY(verify_names(d, job->model, why));
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");
