@@ -63,7 +63,9 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
               named->shape_stderr);
     else
       fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
-              shape ? "the best of the shapes that were tried" : "as the effect has it, not estimated");
+              !shape                       ? "as the effect has it, not estimated"
+              : isnan(named->shape_stderr) ? "estimated, standard error not known"
+                                           : "the best of the shapes that were tried");
   }
 }
 

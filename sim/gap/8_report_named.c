@@ -21,7 +21,8 @@ static void parameters(const finding_t *f, double errors, FILE *out) {
     if (wide > 0.0)
       fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
     else
-      fprintf(out, "<td class=n>%.4g<td class=n>the best of %d tried", v, f->fx->n_shape);
+      fprintf(out, "<td class=n>%.4g<td class=n>%s", v,
+              isnan(wide) ? "not known" : "the best of those tried");
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
   fputs("</table>\n", out);

@@ -43,11 +43,13 @@ static void take_bounds(polish_t *p) {
   const fx_t *const fx = p->own->use.fx;
   int n, at = 0;
   const fx_param_t *const param = fx_use_params(&p->own->use, &n);
-  for (int k = 1; k < fx->n_shape; k++)
-    if (fabs(fx->shape[k] - *number(p, SHAPE)) < fabs(fx->shape[at] - *number(p, SHAPE))) at = k;
+  while (at < fx->n_shape - 1 && fx->shape[at] < *number(p, SHAPE)) at++;
   const double here = fx->shape[at];
-  const double below = at > 0 ? fx->shape[at - 1] : here * here / fx->shape[at + 1];
-  const double above = at < fx->n_shape - 1 ? fx->shape[at + 1] : here * here / fx->shape[at - 1];
+  double below = 0.0, above = HUGE_VAL;
+  if (at > 0) below = fx->shape[at - 1];
+  if (at < fx->n_shape - 1) above = fx->shape[at + 1];
+  if (at == 0) below = here * here / above;
+  if (at == fx->n_shape - 1) above = here * here / below;
   p->unit[SHAPE] = here;
   p->low[SHAPE] = fmax(below, param[fx->shape_param].min) / here;
   p->high[SHAPE] = fmin(above, param[fx->shape_param].max) / here;
