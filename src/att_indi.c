@@ -5,11 +5,15 @@ void att_indi_reset(att_indi_t *s) {
   *s = (att_indi_t){.started = false};
 }
 
-v3_t att_indi_error(quat_t q_wb, quat_t q_ref) {
-  quat_t e = quat_mul(quat_conj(q_wb), q_ref);
+static ALWAYS_INLINE v3_t error_of(const quat_t *q_wb, const quat_t *q_ref) {
+  const quat_t e = quat_mul(quat_conj(*q_wb), *q_ref);
   // q and -q are the same attitude: the shorter way round.
   const float k = e.w < 0.0f ? -2.0f : 2.0f;
   return (v3_t){k * e.x, k * e.y, k * e.z};
+}
+
+v3_t att_indi_error(quat_t q_wb, quat_t q_ref) {
+  return error_of(&q_wb, &q_ref);
 }
 
 // A rotation about z by half the heading's angle, from the half-angle formulas; of the two, the one that does
@@ -26,10 +30,13 @@ static quat_t turned(sincos_t heading) {
 quat_t att_indi_reference(v3_t up_w, sincos_t heading) {
   // The shortest rotation from the z axis to up_w, after the heading.
   const quat_t tilt = quat_unit((quat_t){1.0f + up_w.z, -up_w.y, up_w.x, 0.0f});
-  return quat_mul(tilt, turned(heading));
+  const quat_t turn = turned(heading);
+  // quat_mul(tilt, turn) without what is zero.
+  return (quat_t){tilt.w * turn.w, tilt.x * turn.w + tilt.y * turn.z, tilt.y * turn.w - tilt.x * turn.z,
+                  tilt.w * turn.z};
 }
 
-static void start(att_indi_t *s, const att_indi_in_t *in) {
+static APART void start(att_indi_t *s, const att_indi_in_t *in) {
   const float torque[3] = {in->torque_b_Nm.x, in->torque_b_Nm.y, in->torque_b_Nm.z};
   for (int i = 0; i < 3; i++) {
     lpf2_reset(&s->acc[i], 0.0f);
@@ -47,22 +54,20 @@ static float lag(float model, float share, float input) {
 
 // The torque that the rotors give, synchronous with the filtered angular acceleration.
 static v3_t torque_now(att_indi_t *s, const lpf2_coef_t *c, float share, v3_t applied) {
-  v3_t *const m = &s->torque_model_Nm;
-  m->x = lag(m->x, share, lpf2_step(&s->torque[0], c, applied.x));
-  m->y = lag(m->y, share, lpf2_step(&s->torque[1], c, applied.y));
-  m->z = lag(m->z, share, lpf2_step(&s->torque[2], c, applied.z));
-  return *m;
+  const v3_t m = s->torque_model_Nm, filtered = lpf2_step3(s->torque, c, applied);
+  const v3_t now = {lag(m.x, share, filtered.x), lag(m.y, share, filtered.y), lag(m.z, share, filtered.z)};
+  s->torque_model_Nm = now;
+  return now;
 }
 
-static v3_t filtered_acc(att_indi_t *s, const lpf2_coef_t *c, v3_t rate, float period_s) {
-  const v3_t raw = v3_scale(1.0f / period_s, v3_sub(rate, s->rate_last_radps));
-  s->rate_last_radps = rate;
-  return (v3_t){lpf2_step(&s->acc[0], c, raw.x), lpf2_step(&s->acc[1], c, raw.y),
-                lpf2_step(&s->acc[2], c, raw.z)};
+static v3_t filtered_acc(att_indi_t *s, const lpf2_coef_t *c, const v3_t *rate, float period_s) {
+  const v3_t raw = v3_scale(1.0f / period_s, v3_sub(*rate, s->rate_last_radps));
+  s->rate_last_radps = *rate;
+  return lpf2_step3(s->acc, c, raw);
 }
 
-static float wanted_rate(const att_indi_param_t *p, float kp, float error, float extra) {
-  return f_clamp(kp * error + extra, -p->rate_max_radps, p->rate_max_radps);
+static float wanted_rate(const att_indi_param_t *p, float rate_radps) {
+  return f_clamp(rate_radps, -p->rate_max_radps, p->rate_max_radps);
 }
 
 // The ceiling's torque that this rate brings, about an axis with this gain (inertia x quick x kd).
@@ -73,21 +78,22 @@ static float ceiling_Nm(const att_indi_in_t *in, float gain_Nms, float rate_radp
 v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
                    float period_s, const att_indi_in_t *in) {
   if (!s->started) start(s, in);
-  const v3_t rate = in->rate_b_radps, error = att_indi_error(in->q_wb, in->q_ref);
+  const v3_t *const rate = &in->rate_b_radps;
+  const v3_t error = error_of(&in->q_wb, &in->q_ref);
   const v3_t acc = filtered_acc(s, c, rate, period_s);
   const v3_t now = torque_now(s, c, lag_share, in->torque_b_Nm);
   const v3_t nu = {
-      p->kd_per_s * (wanted_rate(p, p->kp_per_s, error.x, 0.0f) - rate.x),
-      p->kd_per_s * (wanted_rate(p, p->kp_per_s, error.y, 0.0f) - rate.y),
-      p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s, error.z, in->yaw_rate_radps) - rate.z),
+      p->kd_per_s * (wanted_rate(p, p->kp_per_s * error.x) - rate->x),
+      p->kd_per_s * (wanted_rate(p, p->kp_per_s * error.y) - rate->y),
+      p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s * error.z + in->yaw_rate_radps) - rate->z),
   };
   // Of the last increment what was applied: mixing gives yaw up first.
   const float g = p->g2_s / period_s, last_Nm = in->torque_b_Nm.z - s->yaw_now_Nm;
   s->yaw_now_Nm = now.z;
   const float x_kgm2 = p->quick * p->inertia_xx_kgm2, y_kgm2 = p->quick * p->inertia_yy_kgm2;
   return (v3_t){
-      now.x + (x_kgm2 * (nu.x - acc.x) + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate.x)) / in->ratio,
-      now.y + (y_kgm2 * (nu.y - acc.y) + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate.y)) / in->ratio,
+      now.x + (x_kgm2 * (nu.x - acc.x) + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x)) / in->ratio,
+      now.y + (y_kgm2 * (nu.y - acc.y) + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y)) / in->ratio,
       now.z + (p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * last_Nm) / (1.0f + g),
   };
 }

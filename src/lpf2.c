@@ -35,9 +35,3 @@ status_t lpf2_tune(lpf2_coef_t *c, float cutoff_Hz, float rate_Hz) {
 void lpf2_reset(lpf2_t *s, float value) {
   *s = (lpf2_t){value, value, value, value};
 }
-
-float lpf2_step(lpf2_t *s, const lpf2_coef_t *c, float x) {
-  const float y = c->b0 * x + c->b1 * s->x1 + c->b2 * s->x2 - c->a1 * s->y1 - c->a2 * s->y2;
-  *s = (lpf2_t){.x1 = x, .x2 = s->x1, .y1 = y, .y2 = s->y1};
-  return y;
-}

@@ -1,51 +1,55 @@
 // mixer.c - torques and thrust to four motor forces.
 #include "flight/mixer.h"
 
-// Signs of roll, pitch and yaw in the motors' forces.
-static const float ROLL[MOTORS] = {-1.0f, -1.0f, 1.0f, 1.0f};
-static const float PITCH[MOTORS] = {-1.0f, 1.0f, 1.0f, -1.0f};
-static const float YAW[MOTORS] = {-1.0f, 1.0f, -1.0f, 1.0f};
-
 mixer_out_t mixer_of(const mixer_param_t *p, const float force_N[MOTORS]) {
-  mixer_out_t out = {.thrust_N = 0.0f};
-  for (int i = 0; i < MOTORS; i++) {
-    out.force_N[i] = force_N[i];
-    out.thrust_N += force_N[i];
-    out.torque_b_Nm.x += p->arm_m * ROLL[i] * force_N[i];
-    out.torque_b_Nm.y += p->arm_m * PITCH[i] * force_N[i];
-    out.torque_b_Nm.z += p->yaw_m * YAW[i] * force_N[i];
-  }
+  mixer_out_t out;
+  for (int i = 0; i < MOTORS; i++) out.force_N[i] = force_N[i];
+  out.torque_b_Nm = mixer_torque(p, out.force_N);
+  out.thrust_N = mixer_thrust_N(out.force_N);
+  out.gave_up_yaw = out.gave_up_thrust = out.gave_up_tilt = false;
   return out;
 }
 
-// The largest share of `part`, 0..1, that keeps base + share part within 0..max.
-static float share_that_fits(const float base[MOTORS], const float part[MOTORS], float max) {
-  float share = 1.0f;
-  for (int i = 0; i < MOTORS; i++) {
-    const float room = part[i] > 0.0f ? max - base[i] : base[i];
-    const float need = fabsf(part[i]);
-    if (need * share > room) share = f_max(room, 0.0f) / need;
+// The share so far, made smaller where `need` times it does not fit into a motor's room.
+static inline float that_fits(float share, float need, float room) {
+  return need * share > room ? f_max(room, 0.0f) / need : share;
+}
+
+// The largest share of yaw, 0..1, that keeps base -+ share yaw within 0..max.
+static float yaw_share_of(const float base[MOTORS], float yaw_N, float max) {
+  if (yaw_N > 0.0f) {
+    float share = that_fits(1.0f, yaw_N, base[0]);
+    share = that_fits(share, yaw_N, max - base[1]);
+    share = that_fits(share, yaw_N, base[2]);
+    return that_fits(share, yaw_N, max - base[3]);
   }
-  return share;
+  float share = that_fits(1.0f, -yaw_N, max - base[0]);
+  share = that_fits(share, -yaw_N, base[1]);
+  share = that_fits(share, -yaw_N, max - base[2]);
+  return that_fits(share, -yaw_N, base[3]);
 }
 
 mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N) {
-  const float max = p->force_max_N;
-  const float roll = torque_b_Nm.x / (4.0f * p->arm_m), pitch = torque_b_Nm.y / (4.0f * p->arm_m);
+  const float max = p->force_max_N, arms_m = 4.0f * p->arm_m;
+  const float roll = torque_b_Nm.x / arms_m, pitch = torque_b_Nm.y / arms_m;
+  const float yaw_N = torque_b_Nm.z / (4.0f * p->yaw_m);
   // Of roll and pitch the extremes are +-(|roll| + |pitch|): their span must fit between 0 and max.
   const float half_span = fabsf(roll) + fabsf(pitch);
   const float tilt_share = 2.0f * half_span > max ? max / (2.0f * half_span) : 1.0f;
-  const float lift = f_clamp(0.25f * thrust_N, tilt_share * half_span, max - tilt_share * half_span);
+  const float span = tilt_share * half_span;
+  const float lift = f_clamp(0.25f * thrust_N, span, max - span);
 
-  float force_N[MOTORS], yaw_N[MOTORS];
-  for (int i = 0; i < MOTORS; i++) {
-    force_N[i] = lift + tilt_share * (ROLL[i] * roll + PITCH[i] * pitch);
-    yaw_N[i] = YAW[i] * torque_b_Nm.z / (4.0f * p->yaw_m);
-  }
-  const float yaw_share = share_that_fits(force_N, yaw_N, max);
-  for (int i = 0; i < MOTORS; i++) force_N[i] = f_clamp(force_N[i] + yaw_share * yaw_N[i], 0.0f, max);
+  const float same = tilt_share * (roll + pitch), other = tilt_share * (roll - pitch);
+  const float base[MOTORS] = {lift - same, lift - other, lift + same, lift + other};
+  const float yaw_share = yaw_share_of(base, yaw_N, max), turn = yaw_share * yaw_N;
 
-  mixer_out_t out = mixer_of(p, force_N);
+  mixer_out_t out;
+  out.force_N[0] = f_clamp(base[0] - turn, 0.0f, max);
+  out.force_N[1] = f_clamp(base[1] + turn, 0.0f, max);
+  out.force_N[2] = f_clamp(base[2] - turn, 0.0f, max);
+  out.force_N[3] = f_clamp(base[3] + turn, 0.0f, max);
+  out.torque_b_Nm = mixer_torque(p, out.force_N);
+  out.thrust_N = mixer_thrust_N(out.force_N);
   out.gave_up_tilt = tilt_share < 1.0f;
   out.gave_up_thrust = fabsf(4.0f * lift - thrust_N) > 1e-6f * max;
   out.gave_up_yaw = yaw_share < 1.0f;

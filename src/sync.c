@@ -37,8 +37,7 @@ void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t 
   const quat_t q_f = quat_unit((quat_t){lpf2_step(&s->att[0], f, q.w), lpf2_step(&s->att[1], f, q.x),
                                         lpf2_step(&s->att[2], f, q.y), lpf2_step(&s->att[3], f, q.z)});
   out->acc_now_w_mps2 = acc;
-  out->acc_w_mps2 = (v3_t){lpf2_step(&s->acc_w[0], f, acc.x), lpf2_step(&s->acc_w[1], f, acc.y),
-                           lpf2_step(&s->acc_w[2], f, acc.z)};
+  out->acc_w_mps2 = lpf2_step3(s->acc_w, f, acc);
   out->q_wb = q_f;
   out->up_w = quat_up(q_f);
   out->thrust_N = thrust_step(&s->thrust, f, c->lag_share, c->period_s, in->thrust_N, in->at_limit);

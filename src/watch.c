@@ -26,6 +26,16 @@ static unsigned one_of(flight_t *f, unsigned due) {
   return now;
 }
 
+static unsigned due_after(unsigned phase, unsigned ms) {
+  static const uint8_t next[10] = {
+      [0] = FLIGHT_INNER, [2] = FLIGHT_INNER, [3] = FLIGHT_LEARN, [4] = FLIGHT_INNER,
+      [6] = FLIGHT_INNER, [7] = FLIGHT_SCRUB, [8] = FLIGHT_INNER, [9] = FLIGHT_OUTER,
+  };
+  if (ms == 1) return next[phase]; // most calls by far
+  return (passes(phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(phase, ms, 4) ? FLIGHT_LEARN : 0u) |
+         (passes(phase, ms, 8) ? FLIGHT_SCRUB : 0u) | FLIGHT_INNER; // a scrub where no loop runs
+}
+
 bool watch_time(flight_t *f, uint32_t step) {
   if (!f->called) {
     f->called = true;
@@ -40,14 +50,11 @@ bool watch_time(flight_t *f, uint32_t step) {
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
-    const unsigned due = (passes(f->phase, ms, 10) ? FLIGHT_OUTER : 0u) |
-                         (passes(f->phase, ms, 4) ? FLIGHT_LEARN : 0u) |
-                         (passes(f->phase, ms, 8) ? FLIGHT_SCRUB : 0u) | // when no loop runs
-                         (ms > 1 || f->phase % 2 == 0 ? FLIGHT_INNER : 0u);
-    f->due = one_of(f, due);
+    f->due = one_of(f, due_after(f->phase, ms));
+    const unsigned to = f->phase + ms;
     // An outer period that was skipped altogether is known to the outer loop.
-    f->outer.missed += (f->phase + ms) / 10 > 1 ? (f->phase + ms) / 10 - 1 : 0;
-    f->phase = (f->phase + ms) % 10;
+    if (to >= 20) f->outer.missed += to / 10 - 1;
+    f->phase = to % 10;
     f->inner_ms += (int)ms;
     f->step_last = step - ms; // so that the guard can read the time
   }
@@ -96,7 +103,7 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->range_m = in->range_m;
   g->range_floor_m = f->outer.param.ceiling.floor_m;
   g->range_near_m = f->outer.param.ceiling.near_m;
-  g->thrust_N = in->force_N[0] + in->force_N[1] + in->force_N[2] + in->force_N[3];
+  g->thrust_N = mixer_thrust_N(in->force_N);
   g->thrust_max_N = f->outer.param.pos.thrust_max_N;
   g->weight_N = f->outer.param.pos.mass_kg * GRAVITY_MPS2;
   g->zc_m = o->ceiling.zc_m;

@@ -106,16 +106,28 @@ TEST(app_flies_a_set_from_the_next_tick_on_even_where_a_write_interrupts_one) {
   static flying_t f;
   app_start(&f);
   app_fly(&f, 10);
-  // Between the judgement of one write and its tick comes another one, which is refused: neither flies half.
+  // Between the judgement of one write and its tick comes another one, which is refused: the first one flies.
   CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 2.0));
   CHECK(crazyflie_set(&f.vehicle, "indiPos.kd", -1.0));
   app_fly(&f, 4);
   CHECK(app_log(&f, "ceil.noSet") == 1.0);
-  CHECK(f.vehicle.app.flown.pos.kd_per_s == 5.0f);
-  CHECK(crazyflie_set(&f.vehicle, "indiPos.kd", 6.0)); // the next one takes both
+  CHECK(f.vehicle.app.flight.outer.param.pos.kp_per_s == 2.0f); // what reads back is what flies
+  CHECK(f.vehicle.app.flight.outer.param.pos.kd_per_s == 5.0f);
+}
+
+TEST(app_commits_nothing_that_was_not_judged_even_where_a_tick_comes_before_the_callback) {
+  static flying_t f;
+  app_start(&f);
+  app_fly(&f, 10);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.w2", 0.25));
+  f.vehicle.app.commit = COMMIT_TYPED; // and the parameter task was interrupted
   app_fly(&f, 4);
-  CHECK(f.vehicle.app.flight.outer.param.pos.kp_per_s == 2.0f);
-  CHECK(f.vehicle.app.flight.outer.param.pos.kd_per_s == 6.0f);
+  CHECK(app_log(&f, "ceil.commits") == 0.0);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_TYPED));
+  app_fly(&f, 4);
+  CHECK(app_log(&f, "ceil.commits") == 1.0);
+  CHECK(f.vehicle.app.tuned.curve.fixed.w[1] == 0.25f);
+  CHECK(f.vehicle.app.flight.outer.param.curve.fixed.w[1] == 0.25f);
 }
 
 TEST(app_takes_weights_as_a_whole_and_only_when_told_to) {

@@ -33,6 +33,22 @@ TEST(app_takes_over_in_flight_without_a_bump_and_gives_back_likewise) {
   CHECK_NEAR(f.rig.pos_w_m.z, 0.3, 0.005);
 }
 
+TEST(app_gives_the_stock_controller_the_heading_of_now_to_turn_by_a_rate) {
+  static flying_t f;
+  app_start(&f);
+  f.set.yaw_rad = 1.0;
+  app_fly(&f, 3000);
+  CHECK_NEAR(rig6_yaw_rad(&f.rig), 1.0, 0.02);
+  f.set.yaw_by_rate = true; // at no rate: this heading
+  app_fly(&f, 100);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.shadow", 1));
+  for (int ms = 0; ms < 3000; ms++) {
+    app_fly(&f, 1);
+    if (!CHECK_NEAR(rig6_yaw_rad(&f.rig), 1.0, 0.03)) break;
+  }
+  CHECK(app_log(&f, "indi.stock") == 1.0);
+}
+
 TEST(app_in_shadow_commands_what_the_stock_controller_does_and_computes_its_own) {
   static flying_t f;
   app_start(&f);

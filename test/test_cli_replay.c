@@ -10,8 +10,8 @@
 
 TEST(replay_commands_what_was_logged_to_the_bit) {
   static const char *const flight[] = {FLY, FLY " --set indiPos.kp=1.5 --set rls.q=2e-6 --controller indi",
-                                       "fly learning-flight --integrator rk4 --log $S/calls.csv --log-rate "
-                                       "1000 --params-to $S/flown.txt"};
+                                       ("fly learning-flight --integrator rk4 --log $S/calls.csv --log-rate "
+                                        "1000 --params-to $S/flown.txt")};
   for (unsigned i = 0; i < sizeof flight / sizeof *flight; i++) {
     ROW("%s", flight[i]);
     char text[400], shell[600];

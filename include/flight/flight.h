@@ -25,14 +25,14 @@ typedef enum { YAW_ANGLE, YAW_RATE } yaw_mode_t;
 // height is not controlled: the thrust is thrust_N, and the outer loop rests.
 typedef struct {
   axis_mode_t x, y, z;
+  yaw_mode_t yaw;
+  bool vel_in_body;          // x and y of vel_mps are along the heading, not along the world's axes
   v3_t pos_w_m;              // of axes in AXIS_POSITION
   v3_t vel_mps;              // of axes in AXIS_VELOCITY; feed-forward of the others
-  bool vel_in_body;          // x and y of vel_mps are along the heading, not along the world's axes
   v3_t acc_w_mps2;           // feed-forward
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
-  yaw_mode_t yaw;
-  float yaw_rad;        // any angle; the shorter way round is taken
+  float yaw_rad;             // any angle; the shorter way round is taken
   float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
 } flight_setpoint_t;
 

@@ -12,6 +12,7 @@
 #ifndef FLIGHT_MIXER_H
 #define FLIGHT_MIXER_H
 
+#include "flight/status.h"
 #include "flight/v3.h"
 
 #define MOTORS 4
@@ -31,6 +32,19 @@ typedef struct {
 
 // Any finite numbers; the result is always within the limits.
 mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N);
+
+// Torque that four forces give. The signs are written out, roll - - + +, pitch - + + -, yaw - + - +: loops
+// over tables of them take twice the instructions.
+static ALWAYS_INLINE v3_t mixer_torque(const mixer_param_t *p, const float force_N[MOTORS]) {
+  const float f0 = force_N[0], f1 = force_N[1], f2 = force_N[2], f3 = force_N[3];
+  const float a0 = p->arm_m * f0, a1 = p->arm_m * f1, a2 = p->arm_m * f2, a3 = p->arm_m * f3;
+  return (v3_t){-a0 - a1 + a2 + a3, a1 - a0 + a2 - a3,
+                p->yaw_m * f1 - p->yaw_m * f0 - p->yaw_m * f2 + p->yaw_m * f3};
+}
+
+static ALWAYS_INLINE float mixer_thrust_N(const float force_N[MOTORS]) {
+  return force_N[0] + force_N[1] + force_N[2] + force_N[3];
+}
 
 // Torque and thrust that four forces give.
 mixer_out_t mixer_of(const mixer_param_t *p, const float force_N[MOTORS]);

@@ -18,6 +18,9 @@ typedef enum {
 // A function with a stack frame of its own: inlined, its locals would lie beside those of the deepest call.
 #define APART __attribute__((noinline))
 
+// Small and called every millisecond: a call would cost what it does.
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 #define MUST_CHECK __attribute__((warn_unused_result))
 
 // Hands a status that is not ST_OK to the caller.

@@ -18,15 +18,23 @@
 
 // --- opening --------------------------------------------------------------------------------------------
 
-// The stock controller of this project in the place of the firmware's; its mixer included.
+// The stock controller of this project in the place of the firmware's. Like that one it leaves what it
+// commanded in *control in the steps in which it does not run.
 static void stock(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                   const state_t *state, uint32_t step) {
-  (void)setpoint, (void)sensors, (void)state, (void)step;
+  (void)sensors, (void)state;
   crazyflie_t *const c = context;
-  double unit[PILOT6_MOTORS];
-  stock_mix(stock_pid_command(&c->stock, c->now), unit);
-  control->controlMode = controlModeForce;
-  for (int i = 0; i < PILOT6_MOTORS; i++) control->normalizedForces[i] = (float)(unit[i] / UNIT_MAX);
+  pilot6_in_t in = *c->now;
+  in.step = step;
+  if (setpoint->mode.z == modeDisable && setpoint->thrust == 0.0f)
+    in.set = (pilot6_setpoint_t){.mode = {PILOT6_OFF, PILOT6_OFF, PILOT6_OFF}};
+  const stock_command_t *const command = stock_pid_command(&c->stock, &in);
+  control->controlMode = controlModeLegacy;
+  control->thrust = (float)command->thrust;
+  if (!RATE_DO_EXECUTE(ATTITUDE_RATE, step) && command->thrust != 0.0) return;
+  control->roll = (int16_t)command->roll;
+  control->pitch = (int16_t)command->pitch;
+  control->yaw = (int16_t)command->yaw;
 }
 
 static void take_model(crazyflie_t *c, const model_t *model) {
@@ -123,12 +131,23 @@ static void range(crazyflie_t *c, const pilot6_in_t *in) {
   c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
 }
 
-static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
-  double unit[PILOT6_MOTORS], duty[PILOT6_MOTORS];
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
-    const double share = fmin(fmax((double)c->control.normalizedForces[i], 0.0), 1.0);
-    unit[i] = c->around.motors_allowed ? trunc(share * UNIT_MAX) : 0.0;
+// The firmware's power distribution, in the two modes that the app and the stock controller command.
+static void distribute(const control_t *control, double unit[PILOT6_MOTORS]) {
+  if (control->controlMode == controlModeLegacy) {
+    const stock_command_t command = {.roll = control->roll,
+                                     .pitch = control->pitch,
+                                     .yaw = control->yaw,
+                                     .thrust = (double)control->thrust};
+    stock_mix(&command, unit);
+    return;
   }
+  for (int i = 0; i < PILOT6_MOTORS; i++)
+    unit[i] = trunc(UNIT_MAX * fmin(fmax((double)control->normalizedForces[i], 0.0), 1.0));
+}
+
+static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+  double unit[PILOT6_MOTORS] = {0.0}, duty[PILOT6_MOTORS];
+  if (c->around.motors_allowed) distribute(&c->control, unit);
   if (c->compensates)
     stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
   else

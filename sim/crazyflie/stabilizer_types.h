@@ -87,6 +87,7 @@ typedef struct setpoint_s {
 } setpoint_t;
 
 #define RATE_MAIN_LOOP                 1000
+#define ATTITUDE_RATE                  500
 #define RATE_DO_EXECUTE(rate_Hz, step) ((step) % (RATE_MAIN_LOOP / (rate_Hz)) == 0)
 
 #endif

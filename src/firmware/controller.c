@@ -60,13 +60,35 @@ static void hand_over(bool flying) {
   GLUE.stock_share += flying ? f_clamp(left, -step, step) : left;
 }
 
+// The stock controller commands roll, pitch and yaw at 500 Hz and counts on them to stand in *control
+// between; there our forces have been written over them.
+static void run_stock(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                      const state_t *state, uint32_t step) {
+  control->roll = GLUE.stock.roll;
+  control->pitch = GLUE.stock.pitch;
+  control->yaw = GLUE.stock.yaw;
+  controllerPid(control, setpoint, sensors, state, step);
+  GLUE.stock.roll = control->roll;
+  GLUE.stock.pitch = control->pitch;
+  GLUE.stock.yaw = control->yaw;
+}
+
+// It last flew long ago, or never: the heading that it turns by a rate, and its sums, are of then. No thrust
+// wanted makes it let go of both; in step 0 each of its loops runs.
+static void start_stock(control_t *control, const sensorData_t *sensors, const state_t *state) {
+  static const setpoint_t NOTHING;
+  run_stock(control, &NOTHING, sensors, state, 0);
+}
+
 static APART void command(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                           const state_t *state, uint32_t step) {
   float force_N[MOTORS];
   for (int i = 0; i < MOTORS; i++) force_N[i] = GLUE.flight.out.motors.force_N[i];
+  const bool flew = GLUE.stock_share > 0.0f;
   hand_over(supervisorIsFlying());
   if (GLUE.stock_share > 0.0f) {
-    controllerPid(control, setpoint, sensors, state, step);
+    if (!flew) start_stock(control, sensors, state);
+    run_stock(control, setpoint, sensors, state, step);
     if (GLUE.stock_share >= 1.0f) return;
     float stock_N[MOTORS];
     units_applied(stock_N, control);

@@ -15,12 +15,16 @@ typedef struct {
   flight_param_t candidate; // a set that has passed them and waits for the next tick, if `ready`
   uint8_t shadow;           // ceil.shadow: 1: the stock controller flies, this one computes and logs
   uint8_t commit;           // ceil.commit: COMMIT_*, 0 when done
+  uint8_t commit_asked;     // what of it belongs to the candidate
   volatile uint8_t ready;
   uint8_t decks;         // DECK_*
   uint32_t sets_refused; // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
   float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way
+  struct {
+    int16_t roll, pitch, yaw;
+  } stock; // what it commanded last
   range_up_t range;
   flyable_t flyable;
   flight_in_t in;

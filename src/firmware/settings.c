@@ -14,16 +14,22 @@ static void mend(void) {
   }
 }
 
-static bool judge(const rbf_weights_t *weights) {
+// A set that passes waits for the next tick, and a commit with it: never one that was written after the
+// check.
+static bool offer(const rbf_weights_t *weights) {
   GLUE.ready = 0; // a tick may come at any time
   atomic_signal_fence(memory_order_seq_cst);
   GLUE.candidate = GLUE.tuned;
   GLUE.candidate.curve.fixed = *weights;
-  if (params_check(&GLUE.candidate) == ST_OK) {
-    atomic_signal_fence(memory_order_seq_cst);
-    GLUE.ready = 1;
-    return true;
-  }
+  GLUE.commit_asked = GLUE.commit;
+  if (params_check(&GLUE.candidate) != ST_OK) return false;
+  atomic_signal_fence(memory_order_seq_cst);
+  GLUE.ready = 1;
+  return true;
+}
+
+static bool judge(const rbf_weights_t *weights) {
+  if (offer(weights)) return true;
   GLUE.sets_refused++;
   mend();
   return false;
@@ -33,12 +39,13 @@ void settings_touched(void) {
   if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned.curve.fixed : &GLUE.flown.curve.fixed)) return;
   if (GLUE.commit != 0) GLUE.commits_refused++;
   GLUE.commit = 0;
+  (void)!offer(&GLUE.flown.curve.fixed); // what was written before, and did not fly yet
 }
 
 void settings_start(void) {
   GLUE.commit = 0;
   params_default(&GLUE.flown);
-  if (!judge(&GLUE.tuned.curve.fixed) && !judge(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
+  if (!judge(&GLUE.tuned.curve.fixed) && !offer(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
   if (GLUE.ready) GLUE.flown = GLUE.candidate;
   GLUE.ready = 0;
   (void)!flight_init(&GLUE.flight, &GLUE.flown); // a set that passed its checks
@@ -73,9 +80,9 @@ void settings_take(void) {
   // A bit that flipped in the parameters would stay for ever.
   if (phase == 5) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
   if (!GLUE.ready || phase % 2 != 0) return; // now comes the outer loop, a lesson or a scrub
-  if (GLUE.commit != 0) {                    // in a tick of its own: both would be too much for one
-    take_commit(GLUE.commit);
-    GLUE.commit = 0;
+  if (GLUE.commit_asked != 0) {              // in a tick of its own: both would be too much for one
+    take_commit(GLUE.commit_asked);
+    GLUE.commit = GLUE.commit_asked = 0;
     return;
   }
   GLUE.ready = 0;

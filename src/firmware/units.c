@@ -64,11 +64,10 @@ static float torque_N(const control_t *c, int i) {
   return 0.25f * (c->thrustSi + tilt_N + YAW[i] * c->torqueZ / THRUST2TORQUE);
 }
 
-static float motor_N(const control_t *c, int i) {
+static float others_N(const control_t *c, int i) {
   switch (c->controlMode) {
   case controlModeLegacy: return legacy_N(c, i);
   case controlModeForceTorque: return torque_N(c, i);
-  case controlModeForce: return THRUST_MAX * c->normalizedForces[i];
   default: return 0.0f;
   }
 }
@@ -76,7 +75,11 @@ static float motor_N(const control_t *c, int i) {
 // The firmware stops a motor below THRUST_MIN (11 %). Counted as the command all the same: thrust that is
 // built up from increments, as at a take-off, would otherwise never get beyond it.
 void units_applied(float force_N[MOTORS], const control_t *control) {
-  for (int i = 0; i < MOTORS; i++) force_N[i] = f_clamp(motor_N(control, i), 0.0f, THRUST_MAX);
+  if (control->controlMode == controlModeForce)
+    for (int i = 0; i < MOTORS; i++)
+      force_N[i] = f_clamp(THRUST_MAX * control->normalizedForces[i], 0.0f, THRUST_MAX);
+  else
+    for (int i = 0; i < MOTORS; i++) force_N[i] = f_clamp(others_N(control, i), 0.0f, THRUST_MAX);
 }
 
 void units_command(control_t *control, const float force_N[MOTORS]) {

@@ -1,4 +1,4 @@
 # Parameters fly unchecked.
 # file: src/firmware/settings.c
 # test: app_
-s/if (params_check(&GLUE\.candidate) == ST_OK) {/if (params_count > 0) {/
+s/if (params_check(&GLUE\.candidate) != ST_OK) return false;//
