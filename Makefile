@@ -127,6 +127,7 @@ out/gen/%_table.c: force
 $(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
+$(B)/bin/bench: $(B)/tools/bench_gap.o
 $(B)/bin/tests: $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(SIM_OBJ)
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
@@ -190,7 +191,7 @@ fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each
 	@mkdir -p out/fuzz/csv out/fuzz/usd
 	@cd out/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
 
-bench: out/bench  ## how fast it is, as ratios to real time
+bench: out/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log
 	@out/bench
 
 lint: setup-lint  ## format, static analysis, headers alone, house rules

@@ -79,3 +79,22 @@ TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
   if (CHECK(drag != NULL)) CHECK_NEAR(drag->value[0] * sum_radps / c->vehicle.mass_kg, 0.405, 0.045);
   close(c);
 }
+
+TEST(gap_keeps_no_name_that_grows_a_channel_of_the_held_out_recorded_flight) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = calloc(1, sizeof *c);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_imrc", &c->vehicle, &why));
+  c->vehicle.motor_tau_s = 1e-3;
+  read_all(c, "tools/columns/imrc.toml",
+           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv", NULL,
+                            "imu_rpm_500hz/jana05.csv"});
+  run(c, 2);
+  CHECK(named(c, "motor_lag") && named(c, "rotor_drag"));
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &c->d.held_out.channel[ch];
+    ROW("%s", gap_channel[ch]);
+    if (p->used) CHECK(p->after <= 1.05 * p->before);
+  }
+  close(c);
+}

@@ -75,7 +75,7 @@ static const struct {
     {"--seed -1 $S/a.csv", "gap: --seed -1: allowed is a whole number from 0 to 1000000000\n"},
     {"--seed 1.5 $S/a.csv", "gap: --seed 1.5: allowed is a whole number from 0 to 1000000000\n"},
     {"--out $S/a.csv $S/b.csv", "gap: --out a.csv: not a folder\n"},
-    {"--out $S/no/such $S/b.csv", "gap: --out no/such: No such file or directory\n"},
+    {"--out $S/a.csv/no/such $S/b.csv", "gap: --out a.csv: not a folder\n"},
     {"--json $S/b.csv $S/b.csv", "gap: b.csv: to be read and to be written; allowed: one of them\n"},
     {"--json $S/b.csv --hold-out $S/b.csv $S/a.csv",
      "gap: b.csv: to be read and to be written; allowed: one of them\n"},

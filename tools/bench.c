@@ -1,5 +1,7 @@
-// bench.c - how fast the closed loop runs, as ratios to real time on one core. Prints, never judges.
+// bench.c - how fast the closed loop runs, as ratios to real time on one core, and how a diagnosis grows.
+// Prints, never judges.
 #define _POSIX_C_SOURCE 199309L
+#include "bench_gap.h"
 #include "body_forces.h"
 #include "io/model_file.h"
 #include "scenario/scenario.h"
@@ -136,5 +138,6 @@ int main(void) {
   why_t why;
   status_t status = bench_six(&why);
   if (status == ST_OK) status = bench_loop6(&why);
+  if (status == ST_OK) status = bench_gap(&why);
   return error_exit("bench", status, &why);
 }

@@ -102,11 +102,24 @@ typedef struct {
   FILE *verdict, *page, *model, *curves, *json;
 } output_t;
 
-static status_t make_folder(const char *path, why_t *why) {
+static bool is_folder(const char *path) {
   struct stat s;
-  if (!path || mkdir(path, 0777) == 0) return ST_OK;
-  if (errno == EEXIST && stat(path, &s) == 0 && S_ISDIR(s.st_mode)) return ST_OK;
-  return error_set(why, "--out %.300s: %s", path, errno == EEXIST ? "not a folder" : strerror(errno));
+  return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+// With those that it lies in.
+static status_t make_folder(const char *path, why_t *why) {
+  char part[PATH_BYTES] = "";
+  for (size_t n = 1; path && n <= strlen(path); n++) {
+    if (path[n] != '/' && path[n] != '\0') continue;
+    snprintf(part, sizeof part, "%.*s", (int)n, path);
+    if (mkdir(part, 0777) == 0) continue;
+    const int cause = errno;
+    if (is_folder(part)) continue;
+    return error_set(why, "--out %.300s: %s", part,
+                     cause == EEXIST || cause == ENOTDIR ? "not a folder" : strerror(cause));
+  }
+  return ST_OK;
 }
 
 // All of them before the work begins: what cannot be written is said at once.

@@ -32,7 +32,13 @@ vehicles() {
   echo "const int vehicle_count = (int)(sizeof vehicle_table / sizeof *vehicle_table);"
 }
 
+# A test whose name is not of small letters, digits and _ would compile and never run.
 tests() {
+  odd=$(grep -HnE '^[[:space:]]*TEST[[:space:]]*\(' test/test_*.c | grep -vE ':TEST\([a-z0-9_]+\)' || true)
+  if [ "$odd" ]; then
+    echo "$odd" | sed -E 's/$/: never run; allowed: TEST(small_letters_digits_and_) at the beginning of a line/' >&2
+    exit 1
+  fi
   echo '#include "test.h"'
   rows=$(grep -HoE '^TEST\([a-z0-9_]+\)' test/test_*.c | sed -E 's/:TEST\((.*)\)/ \1/')
   echo "$rows" | while read -r _ name; do echo "TEST($name);"; done

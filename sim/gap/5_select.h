@@ -33,8 +33,9 @@ typedef struct {
 typedef struct {
   int candidate;
   double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX];
-  double p;     // of the Wald test, all its numbers together
-  double share; // of the sum of squares that the original model leaves and the effect explains
+  double shape_stderr; // of its shape (select_shape.h); NaN or 0: not known
+  double p;            // of the Wald test, all its numbers together
+  double share;        // of the sum of squares that the original model leaves and the effect explains
   int n_rival;
   const fx_t *rival[RIVAL_MAX];
   double rival_share[RIVAL_MAX]; // what each would explain in its place

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include "gap/6_extend.h"
 
+#include "gap/p_value.h"
 #include "io/model_file.h"
 #include <stdlib.h>
 #include <string.h>
@@ -40,14 +41,15 @@ static const char *unit_in_words(const char *unit) {
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
   const candidate_t *c = &job->diagnosis->candidates.candidate[named->candidate];
   int n;
+  char p[P_TEXT];
   const fx_param_t *param = fx_use_params(&c->use, &n);
-  fprintf(
-      out,
-      "\n# Found by the discrepancy workflow in %s: p %.2g, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
-      job->logs, named->p, 100.0 * named->share, c->use.fx->name);
+  fprintf(out,
+          "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
+          job->logs, p_words(named->p, p), 100.0 * named->share, c->use.fx->name);
   if (c->use.form) fprintf(out, "form = \"%s\"\n", c->use.form->name);
   for (int i = 0; i < n; i++) {
     fprintf(out, "%s = %.9g", param[i].name, c->use.p[i]);
+    const bool shape = c->use.fx->n_shape && c->use.fx->shape_param == i;
     bool estimated = false;
     for (int k = 0; k < c->n; k++) {
       if (c->use.fx->size[k].param != i) continue;
@@ -56,9 +58,14 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
       estimated = true;
     }
     if (estimated) continue;
-    const bool tried = c->use.fx->n_shape && c->use.fx->shape_param == i;
-    fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
-            tried ? "the best of the shapes that were tried" : "as the effect has it, not estimated");
+    if (shape && named->shape_stderr > 0.0)
+      fprintf(out, " # %s, estimated, +- %.2g (standard error)\n", unit_in_words(param[i].unit),
+              named->shape_stderr);
+    else
+      fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
+              !shape                       ? "as the effect has it, not estimated"
+              : isnan(named->shape_stderr) ? "estimated, standard error not known"
+                                           : "the best of the shapes that were tried");
   }
 }
 

@@ -1,8 +1,8 @@
 // 7_verify.c - flights that were not fitted to, before and after.
 #include "gap/7_verify.h"
 
+#include "gap/lines.h"
 #include <math.h>
-#include <stdlib.h>
 
 static void spread(const double *v, int n, double *rms, double *sd) {
   double sum = 0.0, squares = 0.0;
@@ -24,26 +24,10 @@ static double white_left(const rows_t *r, const color_t *c, const double *v) {
   return sum;
 }
 
-typedef struct {
-  double *r[CHANNELS];
-} lines_t;
-
-static bool lines_make(lines_t *l, const set_t *s) {
-  bool good = true;
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    l->r[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
-    good = good && l->r[ch];
-  }
-  return good;
-}
-
-static void lines_free(lines_t *l) {
-  for (int ch = 0; ch < CHANNELS; ch++) free(l->r[ch]);
-}
-
 status_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
   lines_t l;
-  status_t status = lines_make(&l, s) ? residual_of(s, m, l.r, why) : error_failed(why, "out of memory");
+  status_t status = lines_make(&l, s, why);
+  if (status == ST_OK) status = residual_of(s, m, l.r, why);
   *left = 0.0;
   for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
     if (color[ch].used) *left += white_left(set_rows(s, ch), &color[ch], l.r[ch]);
@@ -53,10 +37,11 @@ status_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], 
 
 status_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
                      held_t *held, why_t *why) {
-  lines_t b, a;
+  lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
-  const bool room_b = lines_make(&b, s), room_a = lines_make(&a, s);
-  status_t status = room_a && room_b ? residual_of(s, before, b.r, why) : error_failed(why, "out of memory");
+  status_t status = lines_make(&b, s, why);
+  if (status == ST_OK) status = lines_make(&a, s, why);
+  if (status == ST_OK) status = residual_of(s, before, b.r, why);
   if (status == ST_OK) status = residual_of(s, after, a.r, why);
   for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++) {
     gap_part_t *const p = &held->channel[ch];

@@ -50,6 +50,18 @@ static bool rivals_a_name(const report_t *r, const fx_t *fx) {
   return false;
 }
 
+// What keeps an effect from being told from these flights at all; null: nothing.
+static const char *obstacle_of(const report_t *r, const fx_t *fx) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const char *const obstacle = candidates_obstacle(fx, &r->study->vehicle, &d->fit);
+  if (obstacle) return obstacle;
+  for (int i = 0; i < d->n_withdrawn; i++)
+    if (d->withdrawn[i].fx == fx) return "the fitted flights show it, and the held-out ones contradict it";
+  if (!d->nominal_flew)
+    return "the model could not be flown along these tracks: what feedback alone would show is not known";
+  return NULL;
+}
+
 static void find_untested(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < fx_count && r->n_untested < FX_TABLE_MAX; i++) {
@@ -58,7 +70,7 @@ static void find_untested(report_t *r) {
     const candidate_t *c;
     int n;
     const double least = least_of(d, u.fx, &c);
-    u.obstacle = candidates_obstacle(u.fx, &r->study->vehicle, &d->fit);
+    u.obstacle = obstacle_of(r, u.fx);
     if (!u.obstacle && !c) {
       if (rivals_a_name(r, u.fx)) continue;
       u.obstacle = "it shows in none of the residuals that can be formed from these logs";
@@ -80,14 +92,6 @@ void report_why(const untested_t *u, char text[REPORT_TEXT]) {
     snprintf(text, REPORT_TEXT,
              "in these flights it would have been seen from %s %.2g%s%s on; typical is %.2g", u->param->name,
              u->seen_from, u->param->unit[0] ? " " : "", u->param->unit, u->typical);
-}
-
-const char *report_p(double p, char text[REPORT_P]) {
-  if (p < 1e-16)
-    snprintf(text, REPORT_P, "p < 1e-16");
-  else
-    snprintf(text, REPORT_P, "p %.1g", p);
-  return text;
 }
 
 const char *report_length(double m, char text[REPORT_LENGTH]) {
@@ -116,10 +120,14 @@ static void warn_of_logs(report_t *r) {
   }
 }
 
-bool report_can_tell(const report_t *r) {
+bool report_has_residual(const report_t *r) {
   bool any = false;
   for (int ch = 0; ch < CHANNELS; ch++) any = any || r->study->diagnosis.held_out.channel[ch].used;
   return any;
+}
+
+bool report_can_tell(const report_t *r) {
+  return r->study->diagnosis.nominal_flew && report_has_residual(r);
 }
 
 static void warn_of_gap(report_t *r) {
@@ -142,13 +150,19 @@ static void warn_of_gap(report_t *r) {
 
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  if (!report_can_tell(r))
+  if (!report_has_residual(r))
     warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
             "explain them");
   if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
     warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
             "better "
             "than before");
+  for (int i = 0; i < d->n_withdrawn; i++) {
+    const withdrawn_t *const w = &d->withdrawn[i];
+    warn(r,
+         "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
+         w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
+  }
   if (!d->nominal_flew)
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
@@ -217,8 +231,6 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
 }
 
 void report_free(report_t *r) {
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    free(r->before[ch]);
-    free(r->after[ch]);
-  }
+  lines_free(&r->before);
+  lines_free(&r->after);
 }

@@ -2,7 +2,9 @@
 #ifndef SIM_GAP_REPORT_H
 #define SIM_GAP_REPORT_H
 
+#include "gap/lines.h"
 #include "gap/manoeuvre.h"
+#include "gap/p_value.h"
 #include "gap/study.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -55,9 +57,9 @@ typedef struct {
   untested_t untested[FX_TABLE_MAX];
   int n_warning;
   char warning[REPORT_WARNINGS][REPORT_TEXT];
-  double wide;    // half of a 95 % interval, in standard errors (Student, blocks less columns)
-  profile_t left; // over the coordinate of the largest cell of what is left
-  double *before[CHANNELS], *after[CHANNELS]; // held-out rows
+  double wide;           // half of a 95 % interval, in standard errors (Student, blocks less columns)
+  profile_t left;        // over the coordinate of the largest cell of what is left
+  lines_t before, after; // held-out rows
 } report_t;
 
 // Works out what is to be said. ST_FAILED: no memory. Free it, also on an error.
@@ -79,16 +81,14 @@ double report_told(const report_t *r, const profile_t *p, const double *effect);
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
 
-// Some residual can be formed; else nothing could have been found.
+// Some residual can be formed.
+bool report_has_residual(const report_t *r);
+// ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
 
 // "12.3 mm", or in metres from 1 m on.
 #define REPORT_LENGTH 24
 const char *report_length(double m, char text[REPORT_LENGTH]);
-
-// "p 0.003", or "p < 1e-16" for what is smaller.
-#define REPORT_P 24
-const char *report_p(double p, char text[REPORT_P]);
 
 // As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}. A null
 // pointer: no memory.

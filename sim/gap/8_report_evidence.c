@@ -1,29 +1,12 @@
 // 8_report_evidence.c - where each named effect shows in the held-out flights, and how well.
 #include "gap/8_report.h"
 
+#include "gap/lines.h"
 #include "gap/unknown.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
-
-typedef struct {
-  double *r[CHANNELS];
-} lines_t;
-
-static bool lines_make(double *r[CHANNELS], const set_t *s) {
-  bool good = true;
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    r[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
-    good = good && r[ch];
-  }
-  return good;
-}
-
-static void lines_free(double *r[CHANNELS]) {
-  for (int ch = 0; ch < CHANNELS; ch++) free(r[ch]);
-}
 
 // --- named effects ----------------------------------------------------------------------------------------
 
@@ -42,7 +25,7 @@ static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f,
   without(&m, f->fx);
   TRY(residual_of(held, &m, effect, why));
   for (int ch = 0; ch < CHANNELS; ch++)
-    for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after[ch][i];
+    for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
   for (int k = 0; k < f->candidate->n; k++) {
     m = r->study->diagnosis.extended;
     fx_use_t more = f->candidate->use;
@@ -51,7 +34,7 @@ static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f,
     TRY(residual_of(held, &m, room, why));
     for (int ch = 0; ch < CHANNELS; ch++)
       for (int i = 0; i < set_rows(held, ch)->n; i++) {
-        const double step = room[ch][i] - r->after[ch][i];
+        const double step = room[ch][i] - r->after.r[ch][i];
         variance[ch][i] += step * step;
       }
   }
@@ -116,24 +99,25 @@ static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   f->candidate = &d->candidates.candidate[f->named->candidate];
   f->fx = f->candidate->use.fx;
   for (int k = 0; k < f->candidate->n; k++) f->value[k] = *candidate_value(f->candidate, k);
-  lines_t effect, variance, room;
-  const bool good[3] = {lines_make(effect.r, held), lines_make(variance.r, held), lines_make(room.r, held)};
-  status_t status = good[0] && good[1] && good[2] ? ST_OK : error_failed(why, "out of memory");
+  lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
+  status_t status = lines_make(&effect, held, why);
+  if (status == ST_OK) status = lines_make(&variance, held, why);
+  if (status == ST_OK) status = lines_make(&room, held, why);
   if (status == ST_OK) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
   if (status == ST_OK) find_place(r, f, effect.r, variance.r);
-  lines_free(effect.r);
-  lines_free(variance.r);
-  lines_free(room.r);
+  lines_free(&effect);
+  lines_free(&variance);
+  lines_free(&room);
   find_flight(f);
   return status;
 }
 
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
-  const bool good[2] = {lines_make(r->before, &d->held), lines_make(r->after, &d->held)};
-  if (!good[0] || !good[1]) return error_failed(why, "out of memory");
-  TRY(residual_of(&d->held, &study->vehicle, r->before, why));
-  TRY(residual_of(&d->held, &d->extended, r->after, why));
+  TRY(lines_make(&r->before, &d->held, why));
+  TRY(lines_make(&r->after, &d->held, why));
+  TRY(residual_of(&d->held, &study->vehicle, r->before.r, why));
+  TRY(residual_of(&d->held, &d->extended, r->after.r, why));
   r->n_finding = d->found.n;
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, i, why));
   const int coordinate = report_coordinate(d->cell.coordinate);

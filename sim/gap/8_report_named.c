@@ -16,9 +16,13 @@ static void parameters(const finding_t *f, double errors, FILE *out) {
     page_text(out, "<td>", p->unit, "</tr>\n");
   }
   if (f->fx->n_shape) {
+    const double v = f->candidate->use.p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
     page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>the best of %d tried", f->candidate->use.p[f->fx->shape_param],
-            f->fx->n_shape);
+    if (wide > 0.0)
+      fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    else
+      fprintf(out, "<td class=n>%.4g<td class=n>%s", v,
+              isnan(wide) ? "not known" : "the best of those tried");
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
   fputs("</table>\n", out);
@@ -56,11 +60,11 @@ static void rivals(const finding_t *f, FILE *out) {
 
 void page_finding(const finding_t *f, double errors, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[REPORT_P];
+  char p[P_TEXT];
   page_text(out, "<section><h2>", f->fx->name, "</h2>");
   page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
   fprintf(out, "<p>It explains %.3g %% of the gap (", 100.0 * f->named->share);
-  page_text(out, "", report_p(f->named->p, p), "). ");
+  page_text(out, "", p_words(f->named->p, p), "). ");
   page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
@@ -81,7 +85,7 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
 void page_unknown(const report_t *r, FILE *out) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const cell_t *const c = &d->cell;
-  if (!(c->statistic > 0.0) || (!d->unknown && r->n_finding)) return;
+  if (!(c->statistic > 0.0) || !d->nominal_flew || (!d->unknown && r->n_finding)) return;
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);

@@ -174,7 +174,7 @@ void report_page(const report_t *r, FILE *out) {
   overview(r, out);
   for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], r->wide, out);
   page_unknown(r, out);
-  if (report_can_tell(r)) held_out(r, out);
+  if (report_has_residual(r)) held_out(r, out);
   again(&r->study->resimulation, out);
   untested(r, out);
   warnings(r, out);

@@ -1,4 +1,4 @@
-// 8_report_page.h - the page's parts and pictures. Only the 8_report files include it.
+// 8_report_page.h - the page's parts and pictures. Only the 8_report files and their test include it.
 #ifndef SIM_GAP_REPORT_PAGE_H
 #define SIM_GAP_REPORT_PAGE_H
 

@@ -1,6 +1,7 @@
 // 8_report_pictures.c - the page's pictures.
 #include "gap/8_report_page.h"
 
+#include "by_size.h"
 #include "gap/svg.h"
 #include "gap/unknown.h"
 #include <math.h>
@@ -53,11 +54,6 @@ void picture_place(const profile_t *p, double from, double to, const char *mark,
   svg_close(&c);
 }
 
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 // What lies between 1 in 500 from below and from above: a single peak must not flatten the rest.
 static void hold_most(chart_t *c, int n, const double *t, const double *v) {
   double *const s = malloc(((size_t)n + 1) * sizeof(double));
@@ -87,31 +83,43 @@ void picture_time(const report_t *r, int channel, FILE *out) {
   }
   if (t && rows->n) {
     chart_t c = svg_frame(out);
-    hold_most(&c, rows->n, t, r->before[channel]);
-    hold_most(&c, rows->n, t, r->after[channel]);
+    hold_most(&c, rows->n, t, r->before.r[channel]);
+    hold_most(&c, rows->n, t, r->after.r[channel]);
     svg_open(&c, "Residual of the held-out flights", "time in the held-out flights, s",
              of_channel(channel, "", y));
-    svg_line(&c, rows->n, t, r->before[channel], "before thin", "before");
-    svg_line(&c, rows->n, t, r->after[channel], "after thin", "after");
+    svg_line(&c, rows->n, t, r->before.r[channel], "before thin", "before");
+    svg_line(&c, rows->n, t, r->after.r[channel], "after thin", "after");
     svg_close(&c);
   }
   free(t);
 }
 
-static double far(const resimulation_t *a, int axis) {
+static double far(const resimulation_t *a, double *const at_m[3], int axis) {
   double sum = 0.0;
   for (int j = 0; j < a->n; j++) {
-    const double off = a->before_at_m[axis][j] - a->measured_m[axis][j];
+    const double off = at_m[axis][j] - a->measured_m[axis][j];
     if (isfinite(off)) sum += off * off;
   }
   return sum;
 }
 
+// The axis that the new model improves most; where it improves none, the one that the old one misses most.
+static int axis_of(const resimulation_t *a) {
+  int better = -1, worst = 2;
+  double most = 0.0;
+  for (int k = 2; k >= 0; k--) {
+    const double before = far(a, a->before_at_m, k), gain = before - far(a, a->after_at_m, k);
+    if (before > far(a, a->before_at_m, worst)) worst = k;
+    if (!(gain > most)) continue;
+    most = gain;
+    better = k;
+  }
+  return better < 0 ? worst : better;
+}
+
 void picture_track(const resimulation_t *a, FILE *out) {
   static const char *const NAME[] = {"x, m", "y, m", "height of the centre of mass, m"};
-  int axis = 2;
-  for (int k = 0; k < 2; k++)
-    if (far(a, k) > far(a, axis)) axis = k;
+  const int axis = axis_of(a);
   chart_t c = svg_frame(out);
   svg_hold(&c, a->n, a->t_s, a->measured_m[axis]);
   svg_hold(&c, a->n, a->t_s, a->before_at_m[axis]);

@@ -46,8 +46,8 @@ static mark_t *sorted(const report_t *r, int channel, int coordinate, const doub
 
 static void add_row(profile_t *p, int bin, const report_t *r, int i, double effect, double variance) {
   p->x[bin] += at(r, p->channel, p->coordinate, i);
-  p->before[bin] += r->before[p->channel][i];
-  p->after[bin] += r->after[p->channel][i];
+  p->before[bin] += r->before.r[p->channel][i];
+  p->after[bin] += r->after.r[p->channel][i];
   p->effect[bin] += effect;
   p->low[bin] += sqrt(variance);
   p->rows[bin] += 1.0;

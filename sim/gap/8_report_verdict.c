@@ -25,11 +25,10 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
     cJSON_AddStringToObject(one, "unit", p->unit);
   }
   if (!f->fx->n_shape) return;
-  // Tried at a few values and not estimated: no standard error.
   const fx_param_t *const p = &param[f->fx->shape_param];
   cJSON *const one = cJSON_AddObjectToObject(all, p->name);
   add_number(one, "value", f->candidate->use.p[f->fx->shape_param]);
-  cJSON_AddNullToObject(one, "stderr");
+  add_number(one, "stderr", f->named->shape_stderr > 0.0 ? f->named->shape_stderr : (double)NAN);
   cJSON_AddStringToObject(one, "unit", p->unit);
 }
 
@@ -38,7 +37,7 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON_AddItemToArray(list, o);
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
-  add_number(o, "p", f->named->p);
+  add_number(o, "p", p_value(f->named->p));
   add_number(o, "share", f->named->share);
   cJSON *const rivals = cJSON_AddArrayToObject(o, "rivals");
   for (int i = 0; i < f->named->n_rival; i++)

@@ -14,13 +14,22 @@ static void print_value(const finding_t *f, int k, double wide, FILE *out) {
           p->unit[0] ? " " : "", p->unit);
 }
 
+static void print_shape(const finding_t *f, double wide, FILE *out) {
+  int n;
+  const fx_param_t *const p = &fx_use_params(&f->candidate->use, &n)[f->fx->shape_param];
+  fprintf(out, ", %s %.3g", p->name, f->candidate->use.p[f->fx->shape_param]);
+  if (f->named->shape_stderr > 0.0) fprintf(out, " +- %.2g", wide * f->named->shape_stderr);
+  if (p->unit[0] && !fx_is_number(p)) fprintf(out, " %s", p->unit);
+}
+
 static void print_effect(const finding_t *f, double wide, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[REPORT_P];
+  char p[P_TEXT];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
   for (int k = 0; k < f->candidate->n; k++) print_value(f, k, wide, out);
+  if (f->fx->n_shape) print_shape(f, wide, out);
   if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
-  fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, report_p(f->named->p, p));
+  fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, p_words(f->named->p, p));
   fprintf(out, "  seen in %s, %s %.3g to %.3g %s\n", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
   if (!f->named->n_rival) return;
@@ -31,7 +40,7 @@ static void print_effect(const finding_t *f, double wide, FILE *out) {
 
 static void print_gap(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
-  if (!report_can_tell(r)) return;
+  if (!report_has_residual(r)) return;
   fprintf(out, "\nheld out: ");
   if (s->by_time)
     fprintf(out, "the last third of %s\n", s->fit.n > 1 ? "each flight" : "the flight");

@@ -1,6 +1,7 @@
 // contact.c - instants at which the vehicle touches something.
 #include "gap/contact.h"
 
+#include "by_size.h"
 #include "gap/lsq_blocks.h"
 #include "gap/score.h"
 #include <math.h>
@@ -10,11 +11,6 @@
 #define SPREAD 3    // rows before and after: the filter reaches so far
 #define FORCE  0.15 // of gravity, at least: a curve of another shape than the candidates' misses less
 #define TURN   0.02 // the same, at a rotor's arm
-
-static int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 static double robust_sd(const double *e, int n, double *room) {
   int used = 0;

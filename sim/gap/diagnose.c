@@ -4,6 +4,7 @@
 #include "gap/7_verify.h"
 #include "gap/contact.h"
 #include "gap/muted.h"
+#include "gap/select_shape.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,8 +73,8 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   return ST_OK;
 }
 
-// Without nominal flights nobody knows what feedback alone looks like: nothing is named, and nothing was
-// testable.
+// Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
+// and nothing was testable.
 static void withdraw(diagnosis_t *d) {
   forget(&d->candidates);
   d->found.n = 0;
@@ -87,7 +88,7 @@ static status_t look_for_more(diagnosis_t *d, why_t *why) {
   double most = 0.0;
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);
-  d->unknown = d->cell.statistic > d->cell_bound;
+  d->unknown = d->nominal_flew && d->cell.statistic > d->cell_bound;
   return ST_OK;
 }
 
@@ -108,6 +109,8 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
   if (!d->nominal_flew) withdraw(d);
+  TRY(select_shapes(&d->candidates, &d->fit, job->model, &d->found, why));
+  TRY(verify_names(d, job->model, why));
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));

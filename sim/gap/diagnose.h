@@ -23,14 +23,23 @@ typedef struct {
   double left_before, left_after; // white sums of squares
 } held_t;
 
+// A name of the fitted flights that the held-out ones contradict (7_verify.h).
+typedef struct {
+  const fx_t *fx;
+  int channel;          // that it grows most
+  double without, with; // its held-out rms
+} withdrawn_t;
+
 typedef struct {
   set_t fit, held;
   candidates_t candidates;
   nominal_t nominal;
   found_t found;
+  int n_withdrawn;
+  withdrawn_t withdrawn[NAMED_MAX];
   model_t extended;
   manner_t manner;
-  bool nominal_flew; // false: it could not; thresholds are guesses then
+  bool nominal_flew; // false: it could not; then nothing is named and nothing is unknown
   double cell_bound; // of the statistic
   cell_t cell;       // the largest
   bool unknown;      // it is beyond the bound

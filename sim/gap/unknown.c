@@ -79,7 +79,7 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
   case RATE_X: return g->has_rates ? p->rate_b_radps.x : none;
   case RATE_Y: return g->has_rates ? p->rate_b_radps.y : none;
   case RATE_Z: return g->has_rates ? p->rate_b_radps.z : none;
-  case TIME: return p->t_s - g->point[0].t_s;
+  case TIME: return p->t_s - g->flight->t_s[0]; // of the log, also where a part of it is held out
   case COORDINATES: break;
   }
   return none;

@@ -1,0 +1,134 @@
+// bench_gap.c - how the time of a diagnosis grows with the log and with the candidates.
+#define _POSIX_C_SOURCE 200809L
+#include "bench_gap.h"
+
+#include "gap/diagnose.h"
+#include "io/model_file.h"
+#include "setup6.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#define RUNS   3
+#define RATE   500.0
+#define LONG_S 120.0
+
+typedef struct {
+  int candidates, named;
+} count_t;
+
+static double cpu_s(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+// Two minutes down to 4 cm below the ceiling as a log, read as any other.
+static status_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
+  char path[] = "/tmp/bench-XXXXXX";
+  columns_t columns;
+  TRY(columns_read("tools/columns/fly.toml", &columns, why));
+  const int fd = mkstemp(path);
+  FILE *const file = fd < 0 ? NULL : fdopen(fd, "w");
+  if (!file) return error_failed(why, "%s: cannot be written", path);
+  record_write(record, file);
+  fclose(file);
+  const status_t status = gap_read(log, path, &columns, vehicle, why);
+  unlink(path);
+  return status;
+}
+
+static status_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
+  static const double gap_m[] = {0.20, 0.10, 0.06, 0.04};
+  setup6_t setup;
+  flown6_t flown;
+  TRY(setup6_thesis(&setup, FLY_INDI_THEORY, why));
+  const request_t request = {.integrate = INTEGRATE_RK4, .seed = 1, .log = true, .log_500_Hz = true};
+  TRY(setup6_apply(&setup, &request, why));
+  setup6_ladder(&setup, gap_m, 4, LONG_S / 4.0);
+  TRY(setup6_fly(&setup, &flown, why));
+  record_t record = flown.flown.record;
+  record.more = flown.more.sample;
+  const status_t status = write_log(&record, log, vehicle, why);
+  flown6_free(&flown);
+  return status;
+}
+
+static status_t time_one(const gap_flight_t *log, double span_s, const model_t *m, double *best_s,
+                         count_t *count, why_t *why) {
+  gap_flight_t part = *log; // its beginning
+  while (part.n > 1 && part.t_s[part.n - 1] - part.t_s[0] > span_s) part.n--;
+  const gap_flights_t fit = {&part, 1};
+  const diagnose_job_t job = {.fit = &fit, .model = m, .seed = 1};
+  *best_s = HUGE_VAL;
+  status_t status = ST_OK;
+  for (int run = 0; run < RUNS && status == ST_OK; run++) {
+    diagnosis_t d;
+    const double from_s = cpu_s();
+    status = diagnose(&job, &d, why);
+    *best_s = fmin(*best_s, cpu_s() - from_s);
+    *count = (count_t){d.candidates.n, d.found.n};
+    diagnosis_free(&d);
+  }
+  return status;
+}
+
+// The model has every effect of the table from the `keep`-th on, at no size: they are no candidates then.
+static status_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *why) {
+  *m = *vehicle;
+  for (int i = 0, kept = 0; i < fx_count; i++) {
+    if (fx_table[i]->n_size == 0 || kept++ < keep || m->n_fx == FX_MAX) continue;
+    fx_use_t use = fx_use(fx_table[i]);
+    for (int k = 0; k < use.fx->n_size; k++) use.p[use.fx->size[k].param] = 0.0;
+    TRY(model_add_fx(m, &use, why));
+  }
+  return ST_OK;
+}
+
+static status_t by_length(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
+  double first_s = 0.0;
+  for (double span_s = 15.0; span_s <= LONG_S; span_s *= 2.0) {
+    double s;
+    count_t n;
+    TRY(time_one(log, span_s, vehicle, &s, &n, why));
+    if (span_s == 15.0) first_s = s;
+    printf("diagnosis of %3.0f s at %.0f Hz, %2d candidates, %d named: %5.2f s, %5.0f x real time; log x "
+           "%2.0f, time x "
+           "%4.1f\n",
+           span_s, RATE, n.candidates, n.named, s, span_s / s, span_s / 15.0, s / first_s);
+  }
+  return ST_OK;
+}
+
+static status_t by_candidates(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
+  static const int keep[] = {10, 17, FX_TABLE_MAX};
+  double first_s = 0.0;
+  int first_n = 1;
+  for (unsigned i = 0; i < sizeof keep / sizeof *keep; i++) {
+    model_t m;
+    double s;
+    count_t n;
+    TRY(with_fewer(vehicle, keep[i], &m, why));
+    TRY(time_one(log, 60.0, &m, &s, &n, why));
+    if (i == 0) first_s = s, first_n = n.candidates;
+    printf("diagnosis of  60 s at %.0f Hz, %2d candidates, %d named: %5.2f s; candidates x %4.2f, time x "
+           "%4.2f\n",
+           RATE, n.candidates, n.named, s, (double)n.candidates / first_n, s / first_s);
+  }
+  return ST_OK;
+}
+
+status_t bench_gap(why_t *why) {
+  model_t vehicle;
+  gap_flight_t log = {.n = 0};
+  TRY(model_builtin("cf21_legacy", &vehicle, why));
+  vehicle.n_fx = 0;
+  vehicle.ceiling_m = 0.5;
+  TRY(fly_log(&vehicle, &log, why));
+  status_t status = by_length(&log, &vehicle, why);
+  if (status == ST_OK) status = by_candidates(&log, &vehicle, why);
+  gap_flight_free(&log);
+  return status;
+}

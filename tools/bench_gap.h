@@ -1,0 +1,10 @@
+// bench_gap.h - how the time of a diagnosis grows with the log and with the candidates.
+#ifndef TOOLS_BENCH_GAP_H
+#define TOOLS_BENCH_GAP_H
+
+#include "error.h"
+
+// Prints a line each. ST_BAD_INPUT, ST_FAILED: the flight could not be made or read.
+MUST_CHECK status_t bench_gap(why_t *why);
+
+#endif
