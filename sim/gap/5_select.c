@@ -7,8 +7,6 @@
 #include <string.h>
 
 #define ROUNDS 16
-#define ALIKE  0.25 // of a name's contribution, that another one could give
-#define TAKES  2    // what was taken out as often as this does not come back
 
 const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
@@ -163,8 +161,7 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
     if (!*dropped && t->strict) TRY(select_is_confined(t, candidate, dropped, why));
     if (!*dropped) continue;
     t->taken[candidate] = TAKES;
-    for (int k = 0; k < t->c->n; k++) // nor is it what would look the same
-      if (judge_likeness(&t->judge, &t->choice, candidate, k) > ALIKE) t->taken[k] = TAKES;
+    TRY(select_forbid_alike(t, candidate, why));
     t->choice = choice_without(&t->choice, candidate);
   }
   return ST_OK;
@@ -192,6 +189,12 @@ static status_t search(select_t *t, why_t *why) {
   return look(t, why);
 }
 
+// What is left in the choice can be named.
+static status_t set_open_apart(select_t *t, found_t *found, why_t *why) {
+  while (select_drop_open(t, found)) TRY(settle(t, why));
+  return ST_OK;
+}
+
 static status_t take_timing(select_t *t, why_t *why) {
   if (t->timing < 0) return ST_OK;
   fx_use_t use = t->c->candidate[t->timing].use;
@@ -212,6 +215,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
   if (status == ST_OK) status = take_timing(&t, why);
   if (status == ST_OK) status = open_round(&t, why);
   if (status == ST_OK) status = search(&t, why);
+  if (status == ST_OK) status = set_open_apart(&t, found, why);
   if (status == ST_OK) {
     select_describe(&t, found);
     close_round(&t);

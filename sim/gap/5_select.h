@@ -6,8 +6,9 @@
 //   one), (c) a coefficient above 3 times its rms on nominal flights (nominal.h), (d) a cross-validated gain
 //   of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
 // A lag or delay below 5 ms is what feedback alone looks like, or streams that are not aligned: it is taken
-// into the model, and not named. The best one enters, what is named is estimated anew about its present
-// values, and swaps and prunings are tried; until nothing changes.
+// into the model, and not named. Nor is a name that has a rival which does as well within two standard errors
+// and could do nearly all that it does: it is left open. The best one enters, what is named is estimated anew
+// about its present values, and swaps and prunings are tried; until nothing changes.
 #ifndef SIM_GAP_SELECT_H
 #define SIM_GAP_SELECT_H
 
@@ -44,6 +45,8 @@ typedef struct {
 typedef struct {
   int n;
   named_t named[NAMED_MAX];
+  int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
+  named_t open[NAMED_MAX];  // candidate and rivals alone
   double aligned_s;         // lag or delay that is in the model without a name
   double left, left_before; // white sums of squares, with and without what is named
   double *least;            // by candidate: the smallest size that would have been seen, over what is typical
@@ -52,6 +55,8 @@ typedef struct {
 // Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
 MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                                    found_t *found, why_t *why);
+// The effect is an open name, or a rival of one.
+bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 void found_free(found_t *f);
 
 #endif

@@ -80,6 +80,7 @@ static void find_untested(report_t *r) {
       u.typical = candidate_typical(c, 0);
       u.seen_from = fmax(least * u.typical, u.fx->size[0].least);
       u.testable = least < 1.0;
+      u.open = found_is_open(&d->found, &d->candidates, u.fx);
     }
     r->untested[r->n_untested++] = u;
   }
@@ -88,6 +89,10 @@ static void find_untested(report_t *r) {
 void report_why(const untested_t *u, char text[REPORT_TEXT]) {
   if (u->obstacle)
     snprintf(text, REPORT_TEXT, "%s", u->obstacle);
+  else if (u->open)
+    snprintf(text, REPORT_TEXT, "something like it is there, and other names explain it as well");
+  else if (!isfinite(u->seen_from))
+    snprintf(text, REPORT_TEXT, "nothing in the residuals of these flights depends on it");
   else
     snprintf(text, REPORT_TEXT,
              "in these flights it would have been seen from %s %.2g%s%s on; typical is %.2g", u->param->name,
@@ -187,6 +192,21 @@ static void warn_of_diagnosis(report_t *r) {
          RESIMULATE_LOST_M, again->lost_before, again->lost_after);
 }
 
+static void warn_of_open(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < d->found.n_open; i++) {
+    const named_t *const open = &d->found.open[i];
+    char text[REPORT_TEXT] = "";
+    for (int k = 0; k < open->n_rival; k++) {
+      const size_t used = strlen(text);
+      snprintf(text + used, sizeof text - used, " or %s", open->rival[k]->name);
+    }
+    warn(r,
+         "%s%.200s is missing: these flights cannot tell which, nothing in them moves one and not the other",
+         d->candidates.candidate[open->candidate].use.fx->name, text);
+  }
+}
+
 // With nothing to say, what could have been said.
 static void warn_of_sizes(report_t *r) {
   char text[REPORT_TEXT] = "";
@@ -225,6 +245,7 @@ status_t report_make(report_t *r, study_t *study, why_t *why) {
   find_untested(r);
   warn_of_diagnosis(r);
   warn_of_gap(r);
+  warn_of_open(r);
   if (d->found.n == 0) warn_of_sizes(r);
   warn_of_logs(r);
   return ST_OK;

@@ -63,4 +63,8 @@ bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v);
 // Rms of a candidate's numbers on nominal flights, given the others of the choice; 0 without such flights.
 void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
+// The size of each number of the last candidate that would take so much from the sum of squares; HUGE_VAL:
+// none would.
+void judge_least_gain(const judge_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]);
+
 #endif

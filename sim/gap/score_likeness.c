@@ -1,6 +1,7 @@
-// score_likeness.c - could one effect stand for another?
+// score_likeness.c - could one effect stand for another, and how large must it be to be seen?
 #include "gap/lsq_blocks.h"
 #include "gap/score.h"
+#include <math.h>
 
 double judge_likeness(const judge_t *j, const choice_t *choice, int own, int other) {
   const gram_t *g = j->g;
@@ -25,4 +26,16 @@ double judge_likeness(const judge_t *j, const choice_t *choice, int own, int oth
   }
   const double all = G[size * size - 1];
   return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, c->n, NULL, at, NULL) / all : 0.0;
+}
+
+// A number b takes b^2 / (A^-1)_kk from the sum of squares.
+void judge_least_gain(const judge_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX], inverse[COLUMN_MAX * COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
+  lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, inverse);
+  for (int k = 0; k < own; k++) {
+    const double v = inverse[(n - own + k) * (n + 1)];
+    size[k] = isfinite(v) && v > 0.0 ? sqrt(gain * v) : HUGE_VAL;
+  }
 }

@@ -2,14 +2,16 @@
 //
 // What truly acts, acts wherever its regressor is excited. With the effect's fitted contribution f and what
 // the other names leave y, both white, the slope of y over f is 1 everywhere. Where it is near 0 outside of
-// a range of place, height or time, the name stands for something that lies in that range.
+// a range of place, height or time, or inside of it more than twice, the name stands for something that lies
+// in that range.
 #include "gap/select_state.h"
 #include "gap/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 
 #define ABSENT 0.55 // a slope that is below this, two standard errors included
-#define STRONG 1.02 // a slope inside that is above this
+#define STRONG 0.95 // a slope inside that is above this
+#define TWICE  2.0  // or: a slope inside above this, where outside it is below 1
 #define ENOUGH 0.05 // of the regressor's sum of squares must lie outside
 #define CLEAR  40.0 // less sum of squares by two slopes in place of one
 #define WIDER  1.5  // standard errors grow by this: white rows are not quite independent
@@ -20,6 +22,7 @@ typedef struct {
 
 typedef struct {
   double *f[CHANNELS], *y[CHANNELS], *room; // white
+  color_t color[CHANNELS];                  // of what is left but for what lies at places, times and states
 } parts_t;
 
 // Raw contributions first: y is what all names leave, and f.
@@ -29,26 +32,32 @@ static status_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *
   const int n = choice_columns(t->c, &t->choice, column);
   const candidate_t *own = &t->c->candidate[candidate];
   const size_t rows = (size_t)(t->s->smooth.n > t->s->range.n ? t->s->smooth.n : t->s->range.n) + 1;
-  p->room = calloc((2 * CHANNELS + 2) * rows, sizeof(double));
+  p->room = calloc((3 * CHANNELS + 1) * rows, sizeof(double));
   if (!p->room) return error_failed(why, "out of memory");
-  double *const f = p->room + 2 * CHANNELS * rows, *const y = f + rows;
+  double *const scratch = p->room + 3 * CHANNELS * rows, *left[CHANNELS];
   judge_estimate(&t->judge, &t->choice, b, NULL);
   for (size_t ch = 0; ch < CHANNELS; ch++) {
-    p->f[ch] = p->room + 2 * ch * rows;
-    p->y[ch] = p->f[ch] + rows;
+    double *const f = p->f[ch] = p->room + 3 * ch * rows, *const y = p->y[ch] = f + rows;
+    left[ch] = y + rows;
     const rows_t *r = set_rows(t->s, (int)ch);
-    if (!t->gram.color[ch].used) continue;
-    for (int i = 0; i < r->n; i++) {
-      y[i] = t->table.x[ch][t->table.columns][i];
-      f[i] = 0.0;
-    }
+    memcpy(y, t->table.x[ch][t->table.columns], (size_t)r->n * sizeof(double));
     for (int k = 0; k < n; k++) {
       const double *x = t->table.x[ch][column[k]];
       const bool is_own = column[k] >= own->first && column[k] < own->first + own->n;
       for (int i = 0; x && i < r->n; i++) *(is_own ? &f[i] : &y[i]) += (is_own ? 1.0 : -1.0) * b[k] * x[i];
     }
-    color_whiten(&t->gram.color[ch], r, f, p->f[ch]);
-    color_whiten(&t->gram.color[ch], r, y, p->y[ch]);
+    for (int i = 0; i < r->n; i++) left[ch][i] = y[i] - f[i];
+  }
+  TRY(unknown_colors(t->s, t->base, left, p->color, why));
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *r = set_rows(t->s, (int)ch);
+    p->color[ch].used = p->color[ch].used && t->gram.color[ch].used;
+    if (!p->color[ch].used) continue;
+    double *const part[] = {p->f[ch], p->y[ch]};
+    for (int k = 0; k < 2; k++) {
+      memcpy(scratch, part[k], (size_t)r->n * sizeof(double));
+      color_whiten(&p->color[ch], r, scratch, part[k]);
+    }
   }
   return ST_OK;
 }
@@ -57,7 +66,8 @@ static status_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *
 static bool absent(double ff_in, double fy_in, double ff_out, double fy_out) {
   if (!(ff_out > ENOUGH * (ff_in + ff_out)) || !(ff_in > 0.0)) return false;
   const double inside = fy_in / ff_in, outside = fy_out / ff_out, apart = inside - outside;
-  return outside + 2.0 * WIDER / sqrt(ff_out) < ABSENT && inside > STRONG &&
+  const bool none = outside + 2.0 * WIDER / sqrt(ff_out) < ABSENT && inside > STRONG;
+  return (none || (inside > TWICE && outside < 1.0)) &&
          apart * apart * ff_in * ff_out / (ff_in + ff_out) > CLEAR * WIDER * WIDER;
 }
 
@@ -82,7 +92,7 @@ static bool confined(const slopes_t *s) {
 
 static void add_up(const select_t *t, const parts_t *p, int list, const int *bin, slopes_t *s) {
   for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
-    for (int i = 0; t->gram.color[ch].used && i < set_rows(t->s, ch)->n; i++) {
+    for (int i = 0; p->color[ch].used && i < set_rows(t->s, ch)->n; i++) {
       s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
       s->fy[bin[i]] += p->f[ch][i] * p->y[ch][i];
     }

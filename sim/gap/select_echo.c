@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ECHO   1.3 // so much more than a name a cell must explain
-#define BEYOND 0.7 // or so much of it, though the name is there
-#define CELL   8.0 // standard errors
+#define ECHO   1.3  // so much more than a name a cell must explain
+#define BEYOND 0.7  // or so much of it, though the name is there
+#define CELL   8.0  // standard errors
+#define ALIKE  0.25 // of a name's contribution, that another one could give
 
 // What a choice leaves, row by row, in the straight line's sense.
 static status_t left_by(const select_t *t, const choice_t *choice, double *left[CHANNELS], why_t *why) {
@@ -77,4 +78,22 @@ status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why
     free(l.with[ch]);
   }
   return status;
+}
+
+// Nor is it what would look the same: white, or as a plain mean over rows. A bias has hardly a white row,
+// yet it is what a wind becomes where nobody turns.
+status_t select_forbid_alike(select_t *t, int candidate, why_t *why) {
+  const double zero[COLUMN_MAX] = {0.0};
+  int column[COLUMN_MAX];
+  const explained_t known = {choice_columns(t->c, &t->choice, column), column, zero, true};
+  gram_t plain;
+  judge_t judge = t->judge;
+  TRY(gram_make(&plain, t->s, &t->table, &known, NULL, why));
+  judge.g = &plain;
+  for (int k = 0; k < t->c->n; k++)
+    if (judge_likeness(&t->judge, &t->choice, candidate, k) > ALIKE ||
+        judge_likeness(&judge, &t->choice, candidate, k) > ALIKE)
+      t->taken[k] = TAKES;
+  gram_free(&plain);
+  return ST_OK;
 }

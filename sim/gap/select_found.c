@@ -40,17 +40,20 @@ static void find_named(const select_t *t, found_t *found) {
   }
 }
 
-// Four standard errors, or three times what feedback alone makes, whichever is more; over what is typical.
+// Four standard errors, three times what feedback alone makes, or what brings the least gain, whichever is
+// most; over what is typical. What is open was not seen at any size.
 static void find_least(const select_t *t, found_t *found) {
   for (int i = 0; i < t->c->n; i++) {
     found->least[i] = 0.0;
     if (!select_fits(t, &t->choice, i)) continue;
     const choice_t with = choice_with(&t->choice, i);
     const verdict_t v = judge_last(&t->judge, &with);
-    double rms[FX_SIZE_MAX];
+    double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX];
     judge_nominal_rms(&t->judge, &with, rms);
+    judge_least_gain(&t->judge, &with, SELECT_GAIN * found->left, gain);
+    if (found_is_open(found, t->c, select_fx(t, i))) found->least[i] = HUGE_VAL;
     for (int k = 0; k < t->c->candidate[i].n; k++) {
-      const double least = fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]);
+      const double least = fmax(fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]), gain[k]);
       found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
     }
   }

@@ -6,6 +6,8 @@
 #include "gap/score.h"
 #include <string.h>
 
+#define TAKES 2 // what was taken out as often as this does not come back
+
 typedef struct {
   candidates_t *c;
   set_t *s;
@@ -43,6 +45,14 @@ MUST_CHECK status_t select_is_echo(const select_t *t, int candidate, bool *echo,
 
 // The name is needed in one range of place, height or time only. ST_FAILED: no memory.
 MUST_CHECK status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why);
+
+// Takes what would stand for the candidate, white or as a plain mean, out of question until it is searched
+// anew. ST_FAILED: no memory.
+MUST_CHECK status_t select_forbid_alike(select_t *t, int candidate, why_t *why);
+
+// Moves a name, one at most, to found->open: another one does as well within two standard errors, and nearly
+// all that it does the other could do. False: none is so.
+bool select_drop_open(select_t *t, found_t *found);
 
 // What was named, its rivals, and the least of each candidate that could have been seen.
 void select_describe(const select_t *t, found_t *found);

@@ -107,6 +107,13 @@ static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
   }
 }
 
+bool exam_shrink(double before, double *after, double *oracle) {
+  const bool known = before > 0.0 && *oracle > 0.0 && isfinite(*after / before) && isfinite(*oracle / before);
+  *after = known ? *after / before : 0.0;
+  *oracle = known ? *oracle / before : 0.0;
+  return known;
+}
+
 static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, const model_t *truth,
                             why_t *why) {
   double *r[CHANNELS], before = 1.0;
@@ -122,8 +129,7 @@ static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base
   if (status == ST_OK) status = verify_left(&d->held, base, color, &before, why);
   if (status == ST_OK) status = verify_left(&d->held, &d->extended, color, &set->after, why);
   if (status == ST_OK) status = verify_left(&d->held, truth, color, &set->oracle, why);
-  set->after /= before;
-  set->oracle /= before;
+  set->shrink_known = status == ST_OK && exam_shrink(before, &set->after, &set->oracle);
   return status;
 }
 

@@ -25,12 +25,17 @@ typedef struct {
   bool rival_held[2]; // found, or among the rivals of a name
   bool unknown, unknown_right;
   bool says_not_testable; // of a hidden effect that was not named
-  double after, oracle;   // white sums of squares left on the held-out flight, over that before
+  bool shrink_known;      // the held-out flight has rows to compare
+  double after, oracle;   // white sums of squares left on it, over that before; 0 if not known
   char answer[160];
 } exam_set_t;
 
 // Makes, diagnoses and marks set `seed` of a kind. ST_FAILED: no memory.
 MUST_CHECK status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why);
+
+// White sums of squares become shares of `before`. False: a held-out flight without rows (all of them cut
+// off, or saturated) tells nothing; both are 0 then.
+bool exam_shrink(double before, double *after, double *oracle);
 
 // The kind of set number i in a reported exam.
 exam_kind_t exam_kind(int i);

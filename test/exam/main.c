@@ -48,7 +48,7 @@ typedef struct {
       unknown_wrong;
   rate_t recall, precision, hover_recall;
   double after, oracle;
-  int shrunk, drawn_again;
+  int shrunk, no_rows, drawn_again;
 } marks_t;
 
 static void add_one(marks_t *m, const exam_set_t *s) {
@@ -81,7 +81,8 @@ static void add(marks_t *m, const exam_set_t *s) {
   for (int k = 0; k < s->found + s->wrong; k++) count(&m->precision, k < s->found);
   m->after += s->after;
   m->oracle += s->oracle;
-  m->shrunk++;
+  m->shrunk += s->shrink_known;
+  m->no_rows += !s->shrink_known;
 }
 
 static void print_marks(const marks_t *m) {
@@ -106,7 +107,8 @@ static void print_marks(const marks_t *m) {
   const double n = fmax(m->shrunk, 1);
   printf("drawn again, because the vehicle could not fly: %d\n", m->drawn_again);
   printf("held-out sum of squares, after / with the truth (goal: 1.05)   %.3f / %.3f = %.3f\n", m->after / n,
-         m->oracle / n, m->after / m->oracle);
+         m->oracle / n, m->oracle > 0.0 ? m->after / m->oracle : 0.0);
+  printf("  left out of it, because the held-out flight has no row to compare: %d\n", m->no_rows);
 }
 
 int main(int argc, char **argv) {
