@@ -48,6 +48,7 @@ static void find_least(const select_t *t, found_t *found) {
     if (!select_fits(t, &t->choice, i)) continue;
     const choice_t with = choice_with(&t->choice, i);
     const verdict_t v = judge_last(&t->judge, &with);
+    if (!(v.stderr_[0] > 0.0)) continue; // no residual depends on it
     double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX];
     judge_nominal_rms(&t->judge, &with, rms);
     judge_least_gain(&t->judge, &with, SELECT_GAIN * found->left, gain);
