@@ -121,7 +121,7 @@ static const row_t rows[] = {
      12.0, 0, biased, NULL, 0, false, true},
     {"19 below the floor, 3 cm", 'B', 0.10, EVER, EVER, 0, 0, below_floor, GUARD_BLIND, 6.0, 100, NULL, NULL,
      0, false, false},
-    {"20 locked out at 4 cm", 'A', 0.3, 0.1, 0.1, 0, 0, locked_out, 0, 0, 100, NULL, distance_1_cm, 0, false,
+    {"20 locked out at 4 cm", 'A', 0.3, 0.1, 0.1, 0, 0, locked_out, 0, 0, 99.9, NULL, distance_1_cm, 0, false,
      false},
     {"21 range late, missed, doubled", 'N', 0.2, EVER, EVER, 0, 0, late_samples, 0, 0, 100, NULL,
      distance_2_cm, 0, false, false},
