@@ -27,7 +27,7 @@ static double cpu_s(void) {
 
 // Two minutes down to 4 cm below the ceiling as a log, read as any other.
 static status_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
-  char path[] = "/tmp/bench-XXXXXX";
+  char path[] = "out/bench-XXXXXX";
   columns_t columns;
   TRY(columns_read("tools/columns/fly.toml", &columns, why));
   const int fd = mkstemp(path);

@@ -3,19 +3,7 @@
 set -eu
 data=${1:-}
 
-# part NAME: replaces that part by standard input.
-part() {
-  new=$(mktemp)
-  awk -v start="<!-- $1 -->" -v body="$(cat)" '
-    $0 == start { print; print body; skip = 1; found = 1; next }
-    $0 == "<!-- end -->" { skip = 0 }
-    !skip { print }
-    END { exit !found }' README.md >"$new" || { echo "docs.sh: README.md has no part $1" >&2; exit 1; }
-  cat "$new" >README.md
-  rm -f "$new"
-}
-
-text() { echo '```'; cat; echo '```'; }
+. tools/part.sh
 
 got=$(mktemp)
 trap 'rm -f "$got"' EXIT
