@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 TEST(gap_gives_errors_that_hold_what_was_hidden) {
   static const struct {
@@ -85,4 +86,28 @@ TEST(gap_estimates_what_is_left_anew_when_it_withdraws_a_name) {
     CHECK_NEAR(named->value[0], least, 0.2 * named->stderr_[0]);
   }
   gap_case_free(c);
+}
+
+// Attitude control commands at 500 Hz: what a slow log misses of it looks like inertia, or like a lag.
+TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
+  static const struct {
+    const char *scenario, *controller;
+    int seed, every; // of 100 Hz
+  } row[] = {{"test-flight", "indi-theory", 2, 2},
+             {"close-flight", "indi-theory", 1, 1},
+             {"close-flight", "stock-pid", 2, 1}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s by %s at %d Hz", row[i].scenario, row[i].controller, 100 / row[i].every);
+    char line[600], text[4000];
+    snprintf(
+        line, sizeof line,
+        "(echo 'ceiling_m = 0.5'; cat sim/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly %s --controller "
+        "%s "
+        "--effect none --effect rotor_drag:k=1.7e-6 --seed %d --log $S/all.csv --log-rate 100 >$S/fly.txt; "
+        "awk 'NR == 1 || NR %% %d == 0' $S/all.csv >$S/slow.csv; "
+        "gap --vehicle $S/vehicle.toml --columns tools/columns/fly.toml $S/slow.csv",
+        row[i].scenario, row[i].controller, row[i].seed, row[i].every);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK(strstr(text, "Nothing is missing in vehicle.toml"));
+  }
 }

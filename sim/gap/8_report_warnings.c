@@ -76,10 +76,9 @@ static void warn_of_diagnosis(report_t *r) {
            gap_channel[ch]);
   if (d->found.aligned_s != 0.0)
     warn(r,
-         "commands act %.1f ms later than the model has it: below 5 ms this is what feedback alone looks "
-         "like, "
-         "and it is not named",
-         1e3 * d->found.aligned_s);
+         "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
+         "instruments that are late look like, and it is not named",
+         1e3 * d->found.aligned_s, 1e3 * candidates_least(fx_find("delay"), &d->fit));
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)

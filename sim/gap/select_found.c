@@ -25,7 +25,7 @@ static void add_errors(const select_t *t, const choice_t *last, named_t *named) 
   const fx_t *const fx = select_fx(t, named->candidate);
   judge_nominal_rms(&t->judge, last, rms);
   for (int k = 0; k < fx->n_size; k++) {
-    named->beside[k] = hypot(rms[k], fx->size[k].least / SELECT_ERRORS);
+    named->beside[k] = hypot(rms[k], candidates_least(fx, t->s) / SELECT_ERRORS);
     named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
   }
 }
@@ -39,7 +39,7 @@ static void find_named(const select_t *t, found_t *found) {
     const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
     const verdict_t v = judge_last(&t->judge, &last);
     const fx_t *fx = select_fx(t, candidate);
-    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < candidates_least(fx, t->s)) {
       found->aligned_s = v.value[0];
       continue;
     }
