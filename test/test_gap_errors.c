@@ -111,3 +111,31 @@ TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
     CHECK(strstr(text, "Nothing is missing in vehicle.toml"));
   }
 }
+
+TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
+  static const struct {
+    const char *effect;
+    int rate_Hz, every;
+    const char *named, *rival; // rival: a null pointer: none
+  } row[] = {
+      {"mass:add=0.0016", 100, 1, "thrust_scale", "mass"}, // the wrong name, and the right one beside it
+      {"mass:add=0.0016", 100, 2, "thrust_scale", "mass"},
+      {"thrust_scale:k=-0.05", 100, 1, "thrust_scale", "mass"},
+      {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", NULL},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s, %d Hz", row[i].effect, row[i].rate_Hz / row[i].every);
+    char line[600], text[4000], name[80], rivals[80];
+    snprintf(line, sizeof line,
+             "(echo 'ceiling_m = 0.5'; cat sim/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly test-flight "
+             "--controller stock-pid --effect none --effect rotor_drag:k=1.7e-6 --effect %s --log $S/all.csv "
+             "--log-rate %d >$S/fly.txt; awk 'NR == 1 || NR %% %d == 0' $S/all.csv >$S/slow.csv; "
+             "gap --vehicle $S/vehicle.toml --columns tools/columns/fly.toml $S/slow.csv",
+             row[i].effect, row[i].rate_Hz, row[i].every);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    snprintf(rivals, sizeof rivals, "would do as well: %s", row[i].rival ? row[i].rival : "");
+    snprintf(name, sizeof name, "Missing in vehicle.toml: %s", row[i].named);
+    CHECK(strstr(text, name) == text);
+    CHECK((strstr(text, rivals) != NULL) == (row[i].rival != NULL));
+  }
+}

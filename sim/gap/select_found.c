@@ -3,6 +3,11 @@
 #include "gap/select_state.h"
 #include <math.h>
 
+// Mass and thrust scale differ in turning alone.
+static bool only_turning_tells(const select_t *t, int a, int b) {
+  return select_fx(t, a)->class == FX_WEIGHT && select_fx(t, b)->class == FX_WEIGHT && candidates_slow(t->s);
+}
+
 // Another name in its place that is not worse by two standard errors of the difference.
 static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
@@ -12,7 +17,7 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    if (!only_turning_tells(t, candidate, i) && !judge_is_rival(&t->judge, &t->choice, &with)) continue;
     named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
     named->rival[named->n_rival++] = fx;
   }
