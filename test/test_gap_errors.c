@@ -139,3 +139,20 @@ TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
     CHECK((strstr(text, rivals) != NULL) == (row[i].rival != NULL));
   }
 }
+
+TEST(gap_says_that_a_range_bias_may_be_in_the_height_too) {
+  // Both sensors read too much by 20 mm, and the estimator believes the one below.
+  char text[4000];
+  CHECK(program_run(
+            "(echo 'ceiling_m = 0.5'; cat sim/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly close-flight "
+            "--controller stock-pid --effect none --effect rotor_drag:k=1.7e-6 --effect tof_bias:add=0.02 "
+            "--log "
+            "$S/bias.csv --log-rate 100 >$S/fly.txt; gap --vehicle $S/vehicle.toml --columns "
+            "tools/columns/fly.toml $S/bias.csv",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+  const char *const told = strstr(text, "tof_bias: the range sensors read too much by a constant\n  add ");
+  if (CHECK(told)) CHECK_NEAR(strtod(strstr(told, "add ") + 4, NULL), 0.04, 0.005);
+  CHECK(
+      strstr(text, "note: tof_bias: where the log's height comes from a range sensor with the same error") !=
+      NULL);
+}
