@@ -4,6 +4,7 @@
 #include "programs.h"
 #include "test.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,19 +12,23 @@
 TEST(gap_gives_errors_that_hold_what_was_hidden) {
   static const struct {
     const char *name;
-    double value;
+    double p[2];
   } row[] = {
-      {"delay", 0.010},      {"motor_lag", 0.025}, {"tof_latency", 0.025},
-      {"tof_latency", 0.06}, {"flapping", 1.3e-8}, {"climb_inflow", 3e-6},
+      {"delay", {0.010}},      {"motor_lag", {0.025}},   {"tof_latency", {0.025}},
+      {"tof_latency", {0.06}}, {"flapping", {1.3e-8}},   {"climb_inflow", {3e-6}},
+      {"inertia", {0.1, 0.1}}, {"inertia", {0.3, -0.1}}, {"cg_offset", {0.0015, -0.001}},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s %g", row[i].name, row[i].value);
-    const gap_hidden_t hidden = {1, {gap_effect(row[i].name, row[i].value, 0.0)}};
+    ROW("%s %g", row[i].name, row[i].p[0]);
+    const gap_hidden_t hidden = {1, {gap_effect(row[i].name, row[i].p[0], row[i].p[1])}};
     gap_case_t *const c = gap_case(&hidden, &hidden);
     const named_t *const named = gap_case_named(c, row[i].name);
-    if (CHECK(named)) {
-      CHECK_NEAR(named->value[0], row[i].value, 2.0 * named->stderr_[0]);
-      CHECK(named->stderr_[0] < 0.5 * row[i].value); // it is no wild guess either
+    const fx_use_t *const truth = &hidden.use[0];
+    CHECK(named);
+    for (int k = 0; named && k < truth->fx->n_size; k++) {
+      const double value = truth->p[truth->fx->size[k].param];
+      CHECK_NEAR(named->value[k], value, 2.0 * named->stderr_[k]);
+      CHECK(named->stderr_[k] < 0.5 * fabs(value)); // it is no wild guess either
     }
     gap_case_free(c);
   }
