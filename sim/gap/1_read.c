@@ -173,6 +173,7 @@ static void note_samples(gap_flight_t *f) {
 
 static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   double shift_s[SIG_COUNT] = {0.0};
+  for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = rows->columns.of[i].late_s;
   TRY(raw_read(raw, rows, &f->cut, why));
   TRY(check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));
