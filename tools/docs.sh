@@ -18,6 +18,8 @@ tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 tools/gap_demo.sh "$data" >"$got"
 text <"$got" | part gap
+tools/add_effect.sh >"$got"
+text <"$got" | part cable
 out/bench >"$got"
 text <"$got" | part bench
 for gains in '1 5' '2 8'; do
