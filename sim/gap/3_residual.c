@@ -2,12 +2,15 @@
 #include "gap/3_residual.h"
 
 #include "lowpass.h"
+#include "plant/pair.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define CUTOFF_HZ 8.0
 #define SPREAD_S  0.08 // a masked point spoils the filter's output so far around it
 #define EDGE_S    0.3  // so does the end of a segment
+#define TINY      1e-140
 
 // --- which points become rows -----------------------------------------------------------------------------
 
@@ -116,16 +119,34 @@ static double over_two(const grid_t *g, const double *v, int j) {
   return (at(g, v, j, j - 1) + 4.0 * v[j] + at(g, v, j, j + 1)) / 6.0;
 }
 
-// Forwards and backwards; every segment starts at rest.
-static void smooth(const grid_t *g, double *v) {
-  const double cutoff_Hz = fmin(CUTOFF_HZ, 0.4 / g->period_s);
+// One number of every smooth channel.
+typedef double smooth_t[CH_SMOOTH];
+
+// A number that is almost nothing is nothing: what dies away in the filter would end where processors are
+// slow.
+static pair_t not_tiny(pair_t y) {
+  const pair_bits_t is = (y > TINY) | (y < -TINY);
+  return (pair_t)(is & (pair_bits_t)y);
+}
+
+// Forwards and backwards; every segment starts at rest. All channels at once: one alone waits for itself.
+static void smooth(const grid_t *g, smooth_t *v) {
+  enum { PAIRS = CH_SMOOTH / 2 };
+  pair_t x1[PAIRS] = {{0.0}}, x2[PAIRS] = {{0.0}}, y1[PAIRS] = {{0.0}}, y2[PAIRS] = {{0.0}};
   lowpass_t f;
+  lowpass_init(&f, fmin(CUTOFF_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
   for (int way = 1; way >= -1; way -= 2) {
     const int from = way > 0 ? 0 : g->n - 1;
     for (int j = from; j >= 0 && j < g->n; j += way) {
-      if (j == from || g->point[j].segment != g->point[j - way].segment)
-        lowpass_init(&f, cutoff_Hz, 1.0 / g->period_s, v[j]);
-      v[j] = lowpass_step(&f, v[j]);
+      const bool starts = j == from || g->point[j].segment != g->point[j - way].segment;
+      for (int k = 0; k < PAIRS; k++) {
+        const pair_t x = pair_of(v[j] + 2 * k);
+        if (starts) x1[k] = x2[k] = y1[k] = y2[k] = x;
+        const pair_t y = not_tiny(f.b * (x + 2.0 * x1[k] + x2[k]) - f.a1 * y1[k] - f.a2 * y2[k]);
+        x2[k] = x1[k], x1[k] = x;
+        y2[k] = y1[k], y1[k] = y;
+        pair_put(v[j] + 2 * k, y);
+      }
     }
   }
 }
@@ -137,41 +158,54 @@ static bool is_free(const grid_t *g, int channel, int j) {
          (!turning || ((j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok)));
 }
 
-void residual_rows(const set_t *s, int flight, int channel, series_t kind, const double *series,
-                   double *scratch, double *row) {
-  const grid_t *g = &s->grid[flight];
-  const rows_t *r = set_rows(s, channel);
-  const double *from = series;
-  if (channel < CH_SMOOTH) {
-    double last = 0.0;
-    for (int j = 0; j < g->n; j++) {
-      const double v = channel < CH_FORCES        ? series[j]
-                       : kind == SERIES_PREDICTED ? over_two(g, series, j)
-                                                  : differentiated(g, series, j);
-      if (isfinite(v) && is_free(g, channel, j)) last = v;
-      scratch[j] = last; // what is masked does not spill over through the filter
-    }
-    smooth(g, scratch);
-    from = scratch;
+// What is masked does not spill over through the filter: the last value stands in for it.
+static void take(const grid_t *g, int channel, series_t kind, const double *series, smooth_t *v) {
+  double last = 0.0;
+  for (int j = 0; j < g->n; j++) {
+    const double x = channel < CH_FORCES        ? series[j]
+                     : kind == SERIES_PREDICTED ? over_two(g, series, j)
+                                                : differentiated(g, series, j);
+    if (isfinite(x) && is_free(g, channel, j)) last = x;
+    v[j][channel] = last;
   }
-  for (int i = 0; i < r->n; i++)
-    if (r->flight[i] == flight) row[i] = from[r->point[i]];
 }
 
-static double measured(const point_t *p, int channel) {
-  const double v[CHANNELS] = {p->acc_b_mps2.x,   p->acc_b_mps2.y,   p->acc_b_mps2.z, p->rate_b_radps.x,
-                              p->rate_b_radps.y, p->rate_b_radps.z, p->range_m};
-  return v[channel];
+void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
+                   double *scratch, double *const row[CHANNELS]) {
+  const grid_t *g = &s->grid[flight];
+  smooth_t *const v = (smooth_t *)scratch;
+  memset(v, 0, (size_t)g->n * sizeof *v);
+  for (int ch = 0; ch < CH_SMOOTH; ch++)
+    if (row[ch]) take(g, ch, kind, series[ch], v);
+  smooth(g, v);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *r = set_rows(s, ch);
+    const int end = rows_from(r, flight + 1);
+    for (int i = rows_from(r, flight); row[ch] && i < end; i++)
+      row[ch][i] = ch < CH_SMOOTH ? v[r->point[i]][ch] : series[ch][r->point[i]];
+  }
 }
 
-status_t residual_measured(const set_t *s, int channel, double *row, why_t *why) {
+static void measured(const point_t *p, double at[CHANNELS]) {
+  d3_put(at, p->acc_b_mps2);
+  d3_put(at + CH_FORCES, p->rate_b_radps);
+  at[CH_RANGE] = p->range_m;
+}
+
+status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
-    double *const series = malloc(2 * ((size_t)g->n + 1) * sizeof(double));
-    if (!series) return error_failed(why, "out of memory");
-    for (int j = 0; j < g->n; j++) series[j] = measured(&g->point[j], channel);
-    residual_rows(s, f, channel, SERIES_RATE, series, series + g->n, row);
-    free(series);
+    const size_t n = (size_t)g->n + 1;
+    double *const room = malloc((CHANNELS + CH_SMOOTH) * n * sizeof(double)), *series[CHANNELS];
+    if (!room) return error_failed(why, "out of memory");
+    for (size_t ch = 0; ch < CHANNELS; ch++) series[ch] = room + ch * n;
+    for (int j = 0; j < g->n; j++) {
+      double at[CHANNELS];
+      measured(&g->point[j], at);
+      for (int ch = 0; ch < CHANNELS; ch++) series[ch][j] = at[ch];
+    }
+    residual_rows(s, f, SERIES_RATE, (const double *const *)series, room + CHANNELS * n, row);
+    free(room);
   }
   return ST_OK;
 }

@@ -2,6 +2,7 @@
 #include "gap/4_candidates.h"
 
 #include "gap/2_replay.h"
+#include "gap/lines.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,15 +80,15 @@ status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m
 
 // --- residuals and columns --------------------------------------------------------------------------------
 
-// Room for one flight's replay: `n` of each channel, twice, and a scratch line.
+// Room for one flight's replay: `n` of each channel, twice, and what residual_rows wants.
 typedef struct {
   double *base[CHANNELS], *with[CHANNELS], *scratch, *room;
-} lines_t;
+} flight_lines_t;
 
-static bool lines_make(lines_t *l, const set_t *s) {
+static bool flight_lines_make(flight_lines_t *l, const set_t *s) {
   size_t most = 1;
   for (int f = 0; f < s->n_grid; f++) most = s->grid[f].n > (int)most ? (size_t)s->grid[f].n : most;
-  l->room = calloc((2 * CHANNELS + 1) * most, sizeof(double));
+  l->room = calloc((2 * CHANNELS + CH_SMOOTH) * most, sizeof(double));
   for (size_t c = 0; c < CHANNELS && l->room; c++) {
     l->base[c] = l->room + c * most;
     l->with[c] = l->room + (CHANNELS + c) * most;
@@ -96,34 +97,33 @@ static bool lines_make(lines_t *l, const set_t *s) {
   return l->room != NULL;
 }
 
-status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
-  lines_t l;
-  if (!lines_make(&l, s)) return error_failed(why, "out of memory");
-  status_t status = ST_OK;
-  for (int c = 0; c < CHANNELS && status == ST_OK; c++) status = residual_measured(s, c, r[c], why);
-  for (int f = 0; f < s->n_grid && status == ST_OK; f++) {
-    status = replay(&s->grid[f], m, l.base, why);
-    for (int c = 0; c < CHANNELS && status == ST_OK; c++) {
-      // The rows of this flight, twice: as measured in r, as predicted in a copy.
-      const rows_t *rows = set_rows(s, c);
-      double *const predicted = malloc(((size_t)rows->n + 1) * sizeof(double));
-      if (!predicted) {
-        status = error_failed(why, "out of memory");
-        break;
-      }
-      residual_rows(s, f, c, SERIES_PREDICTED, l.base[c], l.scratch, predicted);
-      for (int i = 0; i < rows->n; i++)
-        if (rows->flight[i] == f) r[c][i] -= predicted[i];
-      free(predicted);
-    }
+// As measured in r, less predicted.
+static status_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
+                              double *const r[CHANNELS], why_t *why) {
+  TRY(residual_measured(s, r, why));
+  for (int f = 0; f < s->n_grid; f++) {
+    TRY(replay(&s->grid[f], m, l->base, why));
+    residual_rows(s, f, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);
   }
+  for (int c = 0; c < CHANNELS; c++)
+    for (int i = 0; i < set_rows(s, c)->n; i++) r[c][i] -= predicted->r[c][i];
+  return ST_OK;
+}
+
+status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
+  lines_t predicted;
+  flight_lines_t l = {.room = NULL};
+  status_t status = lines_make(&predicted, s, why);
+  if (status == ST_OK && !flight_lines_make(&l, s)) status = error_failed(why, "out of memory");
+  if (status == ST_OK) status = residual_with(s, m, &l, &predicted, r, why);
   free(l.room);
+  lines_free(&predicted);
   return status;
 }
 
 // The derivative of a flight's replay with respect to size k of an effect, which the model has or gets.
 static status_t differentiate(set_t *s, int flight, const model_t *now, const candidate_t *c, int k,
-                              lines_t *l, why_t *why) {
+                              flight_lines_t *l, why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
   grid_t *g = &s->grid[flight];
   model_t m = *now;
@@ -145,18 +145,20 @@ static bool all_zero(const double *v, int n) {
   return true;
 }
 
-static status_t fill_column(table_t *t, set_t *s, int flight, int column, lines_t *l) {
+static status_t fill_column(table_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
+  double *row[CHANNELS] = {NULL};
   for (int ch = 0; ch < CHANNELS; ch++) {
     if (!residual_has(s, ch) || all_zero(l->with[ch], s->grid[flight].n)) continue;
     if (!t->x[ch][column]) t->x[ch][column] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
     if (!t->x[ch][column]) return ST_FAILED;
-    residual_rows(s, flight, ch, SERIES_PREDICTED, l->with[ch], l->scratch, t->x[ch][column]);
+    row[ch] = t->x[ch][column];
   }
+  residual_rows(s, flight, SERIES_PREDICTED, (const double *const *)l->with, l->scratch, row);
   return ST_OK;
 }
 
 static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
-                            lines_t *l, why_t *why) {
+                            flight_lines_t *l, why_t *why) {
   TRY(replay(&s->grid[flight], now, l->base, why));
   for (int i = 0; i < c->n; i++)
     for (int k = 0; k < c->candidate[i].n; k++) {
@@ -189,12 +191,12 @@ static bool table_room(table_t *t, const set_t *s) {
 }
 
 status_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why) {
-  lines_t l;
+  flight_lines_t l;
   model_t now;
   double *r[CHANNELS];
   *t = (table_t){.columns = c->columns};
   TRY(candidates_model(c, base, &now, why));
-  if (!table_room(t, s) || !lines_make(&l, s)) {
+  if (!table_room(t, s) || !flight_lines_make(&l, s)) {
     table_free(t);
     return error_failed(why, "out of memory");
   }
