@@ -19,6 +19,7 @@
 #define SELECT_NOMINAL 3.0
 #define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
 #define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
+#define SELECT_ERRORS  2.0  // standard errors that hold what is sure
 #define NAMED_MAX      8
 #define COLUMN_MAX     (NAMED_MAX * FX_SIZE_MAX)
 #define RIVAL_MAX      8
@@ -33,10 +34,14 @@ typedef struct {
 
 typedef struct {
   int candidate;
-  double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX];
-  double shape_stderr; // of its shape (select_shape.h); NaN or 0: not known
-  double p;            // of the Wald test, all its numbers together
-  double share;        // of the sum of squares that the original model leaves and the effect explains
+  double value[FX_SIZE_MAX];
+  // The regression's own standard error (robust, blocks of 2 s), and beside it the number's rms error on
+  // nominal flights, bias and all, and half the least lag or delay that is named.
+  double stderr_[FX_SIZE_MAX];
+  double beside[FX_SIZE_MAX]; // of stderr_, what is not the regression's own
+  double shape_stderr;        // of its shape (select_shape.h); NaN or 0: not known
+  double p;                   // of the Wald test, all its numbers together
+  double share;               // of the sum of squares that the original model leaves and the effect explains
   int n_rival;
   const fx_t *rival[RIVAL_MAX];
   double rival_share[RIVAL_MAX]; // what each would explain in its place
@@ -55,6 +60,11 @@ typedef struct {
 // Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
 MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                                    found_t *found, why_t *why);
+// After names were taken back (no longer marked, nor found): the values of the others, their errors, shares
+// and rivals, and what could have been seen, all anew; a name that no longer passes its gates goes, too.
+// ST_FAILED: no memory.
+MUST_CHECK status_t select_again(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
+                                 found_t *found, why_t *why);
 // The effect is an open name, or a rival of one.
 bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 void found_free(found_t *f);

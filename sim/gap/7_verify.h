@@ -13,7 +13,7 @@ MUST_CHECK status_t verify_held(set_t *s, const model_t *before, const model_t *
 #define VERIFY_GROWS 1.05
 
 // Withdraws the names that grow one by more, the worst first: they are no longer marked, nor found. The
-// others keep their values. ST_FAILED: no memory.
+// others are estimated anew beside those that are left (select_again). ST_FAILED: no memory.
 MUST_CHECK status_t verify_names(diagnosis_t *d, const model_t *base, why_t *why);
 
 // White sum of squares that a model leaves, in the colours of another one's residual.

@@ -18,6 +18,18 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
   }
 }
 
+// What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness
+// of the instruments themselves as is never named.
+static void add_errors(const select_t *t, const choice_t *last, named_t *named) {
+  double rms[FX_SIZE_MAX];
+  const fx_t *const fx = select_fx(t, named->candidate);
+  judge_nominal_rms(&t->judge, last, rms);
+  for (int k = 0; k < fx->n_size; k++) {
+    named->beside[k] = hypot(rms[k], fx->size[k].least / SELECT_ERRORS);
+    named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
+  }
+}
+
 static void find_named(const select_t *t, found_t *found) {
   const choice_t none = {.n = 0};
   found->left_before = judge_left(&t->judge, &none, NULL);
@@ -35,6 +47,7 @@ static void find_named(const select_t *t, found_t *found) {
     *named = (named_t){.candidate = candidate, .p = v.p};
     memcpy(named->value, v.value, sizeof named->value);
     memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
+    add_errors(t, &last, named);
     named->share = (judge_left(&t->judge, &rest, NULL) - found->left) / found->left_before;
     find_rivals(t, candidate, found->left_before, named);
   }

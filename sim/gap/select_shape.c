@@ -105,9 +105,10 @@ static void take_errors(polish_t *p, const double x[BOTH], named_t *named) {
   H[0][1] = (at[2][2] - at[2][0] - at[0][2] + at[0][0]) / (8.0 * h * h);
   const double determinant = H[0][0] * H[1][1] - H[0][1] * H[0][1];
   if (!(H[1][1] > 0.0) || !(determinant > 0.0)) return;
-  const double alone = p->unit[SIZE] / sqrt(H[1][1]), robust = named->stderr_[0] / alone;
+  const double squares = named->stderr_[0] * named->stderr_[0] - named->beside[0] * named->beside[0];
+  const double robust = sqrt(fmax(squares, 0.0) * H[1][1]) / p->unit[SIZE];
   named->shape_stderr = robust * p->unit[SHAPE] * sqrt(H[1][1] / determinant);
-  named->stderr_[0] = robust * p->unit[SIZE] * sqrt(H[0][0] / determinant);
+  named->stderr_[0] = hypot(robust * p->unit[SIZE] * sqrt(H[0][0] / determinant), named->beside[0]);
 }
 
 static bool is_free(const fx_t *fx, const candidate_t *c) {

@@ -107,6 +107,33 @@ static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
   }
 }
 
+bool exam_holds(const exam_value_t *v) {
+  return fabs(v->value - v->truth) <= EXAM_WITHIN * v->stderr_;
+}
+
+// A delay is flown in whole ticks.
+static double flown(const model_t *truth, const fx_use_t *hidden, int param) {
+  const double p = hidden->p[param], before_s = truth->frame.motor_delay_s;
+  if (strcmp(hidden->fx->name, "delay") != 0) return p;
+  return round((before_s + p) / EXAM_TICK_S) * EXAM_TICK_S - before_s;
+}
+
+// Hidden effects in a form of the exam's own have no such numbers.
+static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *truth) {
+  for (int i = 0; i < d->found.n; i++) {
+    const named_t *const named = &d->found.named[i];
+    const candidate_t *const c = &d->candidates.candidate[named->candidate];
+    for (int q = 0; q < truth->n_fx; q++)
+      for (int k = 0; truth->fx[q].fx == c->use.fx && k < c->n && set->n_value < EXAM_VALUES; k++) {
+        const int param = c->use.fx->size[k].param;
+        int n;
+        set->value[set->n_value++] =
+            (exam_value_t){c->use.fx->name, fx_use_params(&c->use, &n)[param].name,
+                           flown(truth, &truth->fx[q], param), named->value[k], named->stderr_[k]};
+      }
+  }
+}
+
 bool exam_shrink(double before, double *after, double *oracle) {
   const bool known = before > 0.0 && *oracle > 0.0 && isfinite(*after / before) && isfinite(*oracle / before);
   *after = known ? *after / before : 0.0;
@@ -144,6 +171,7 @@ static status_t examine(exam_set_t *set, const model_t *base, const model_t *tru
     mark_names(set, d);
     mark_unknown(set, d);
     mark_not_testable(set, d);
+    mark_values(set, d, truth);
     status = mark_shrink(set, d, base, truth, why);
   }
   diagnosis_free(d);

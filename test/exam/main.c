@@ -28,6 +28,10 @@ static void print_line(unsigned long seed, const exam_set_t *s) {
          : s->found < s->n ? " MISSED"
                            : "",
          s->after, s->oracle);
+  for (int i = 0; i < s->n_value; i++)
+    printf("    %s.%s %.4g: %.4g +- %.2g, %+.1f standard errors\n", s->value[i].name, s->value[i].param,
+           s->value[i].truth, s->value[i].value, s->value[i].stderr_,
+           (s->value[i].value - s->value[i].truth) / s->value[i].stderr_);
 }
 
 typedef struct {
@@ -46,7 +50,7 @@ static void print_rate(const char *what, const rate_t *r) {
 typedef struct {
   rate_t alarm, band[4], two, two_large, rival, strange, located, hover, hover_says, large, large_own,
       unknown_wrong;
-  rate_t recall, precision, hover_recall;
+  rate_t recall, precision, hover_recall, values;
   double after, oracle;
   int shrunk, no_rows, drawn_again;
 } marks_t;
@@ -60,6 +64,7 @@ static void add_one(marks_t *m, const exam_set_t *s) {
 static void add(marks_t *m, const exam_set_t *s) {
   m->drawn_again += s->drawn_again;
   if (!s->flew) return;
+  for (int i = 0; i < s->n_value; i++) count(&m->values, exam_holds(&s->value[i]));
   if (s->kind == EXAM_NOTHING) count(&m->alarm, s->wrong > 0);
   if (s->kind == EXAM_NOTHING) count(&m->unknown_wrong, s->unknown);
   if (s->kind == EXAM_ONE) add_one(m, s);
@@ -99,6 +104,7 @@ static void print_marks(const marks_t *m) {
   print_rate("hidden effects that were named, all sizes", &m->recall);
   print_rate("names that were hidden", &m->precision);
   print_rate("a name, or its rivals, hold the truth (goal: 95 %)", &m->rival);
+  print_rate("named, library form: a number within two standard errors", &m->values);
   print_rate("outside the library: no wrong name (goal: 90 %)", &m->strange);
   print_rate("outside the library, unknown said: channel, coordinate right", &m->located);
   print_rate("hover only: nothing wrong named", &m->hover);
