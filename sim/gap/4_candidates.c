@@ -24,7 +24,8 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
   if (fx->n_size == 0) return "it has no numbers that could be estimated";
   if (fx->surface == SURFACE_CEILING || strcmp(fx->name, "ceiling_rpm") == 0)
     if (!isfinite(m->ceiling_m)) return "the vehicle file has no ceiling";
-  if (place && !g->has_position) return "the log has no position";
+  if (fx->at_wall && !isfinite(m->wall_y_m)) return "the vehicle file has no wall";
+  if ((place || fx->at_wall) && !g->has_position) return "the log has no position";
   if (strncmp(fx->name, "tof_", 4) == 0 && !residual_has(s, CH_RANGE))
     return "the log has no range sensor's samples";
   if (strcmp(fx->name, "battery_sag") == 0 && !g->has_vbat) return "the log has no battery voltage";
@@ -35,10 +36,11 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
   return NULL;
 }
 
-static void add(candidates_t *c, const fx_t *fx, int shape) {
+static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
   for (int k = 0; k < fx->n_size; k++) to->use.p[fx->size[k].param] = 0.0;
+  if (fx->at_wall) to->use.p[0] = m->wall_y_m;
   if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[shape];
   c->columns += to->n;
 }
@@ -48,7 +50,7 @@ status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_
   if (!c->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < fx_count; i++) {
     if (is_on(m, fx_table[i]) || candidates_obstacle(fx_table[i], m, s)) continue;
-    for (int k = 0; k == 0 || k < fx_table[i]->n_shape; k++) add(c, fx_table[i], k);
+    for (int k = 0; k == 0 || k < fx_table[i]->n_shape; k++) add(c, fx_table[i], m, k);
   }
   return ST_OK;
 }
@@ -67,7 +69,7 @@ double candidate_typical(const candidate_t *c, int k) {
   const fx_param_t *param = fx_use_params(&c->use, &n);
   const fx_size_t *size = c->use.fx->size;
   double typical = fabs(param[size[k].param].nominal);
-  for (int i = 0; i < c->n; i++) typical = fmax(typical, fabs(param[size[i].param].nominal));
+  for (int i = 0; i < c->n && typical == 0.0; i++) typical = fabs(param[size[i].param].nominal);
   return typical > 0.0 ? typical : size[k].step;
 }
 
@@ -121,7 +123,8 @@ status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_
   return status;
 }
 
-// The derivative of a flight's replay with respect to size k of an effect, which the model has or gets.
+// The derivative of a flight's replay with respect to size k of an effect, which the model has or gets; base:
+// the model's own.
 static status_t differentiate(set_t *s, int flight, const model_t *now, const candidate_t *c, int k,
                               flight_lines_t *l, why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
@@ -157,15 +160,40 @@ static status_t fill_column(table_t *t, set_t *s, int flight, int column, const 
   return ST_OK;
 }
 
-static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
-                            flight_lines_t *l, why_t *why) {
-  TRY(replay(&s->grid[flight], now, l->base, why));
+// The effect that a candidate is another shape of, if that one is named.
+static const fx_t *named_otherwise(const candidates_t *c, int candidate) {
   for (int i = 0; i < c->n; i++)
+    if (i != candidate && c->candidate[i].named && c->candidate[i].use.fx == c->candidate[candidate].use.fx)
+      return c->candidate[i].use.fx;
+  return NULL;
+}
+
+// The columns of the candidates that start from this model: of all but the other shapes of a named effect, or
+// of those of one that the model has no longer.
+static status_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
+                          const candidates_t *c, flight_lines_t *l, why_t *why) {
+  TRY(replay(&s->grid[flight], m, l->base, why));
+  for (int i = 0; i < c->n; i++) {
+    if (named_otherwise(c, i) != dropped) continue;
     for (int k = 0; k < c->candidate[i].n; k++) {
-      TRY(differentiate(s, flight, now, &c->candidate[i], k, l, why));
+      TRY(differentiate(s, flight, m, &c->candidate[i], k, l, why));
       if (fill_column(t, s, flight, c->candidate[i].first + k, l) != ST_OK)
         return error_failed(why, "out of memory");
     }
+  }
+  return ST_OK;
+}
+
+static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
+                            flight_lines_t *l, why_t *why) {
+  TRY(fill_from(t, s, flight, now, NULL, c, l, why));
+  for (int i = 0; i < c->n; i++) {
+    const fx_t *const fx = c->candidate[i].use.fx;
+    if (!c->candidate[i].named || fx->n_shape < 2) continue;
+    model_t m = *now;
+    model_drop_fx(&m, fx);
+    TRY(fill_from(t, s, flight, &m, fx, c, l, why));
+  }
   return ST_OK;
 }
 

@@ -12,19 +12,11 @@ status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
 
 // --- named effects ----------------------------------------------------------------------------------------
 
-static void without(model_t *m, const fx_t *fx) {
-  for (int i = 0; i < m->n_fx; i++)
-    if (m->fx[i].fx == fx) {
-      m->fx[i] = m->fx[--m->n_fx];
-      return;
-    }
-}
-
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
 static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
                              double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
   model_t m = r->study->diagnosis.extended;
-  without(&m, f->fx);
+  model_drop_fx(&m, f->fx);
   TRY(residual_of(held, &m, effect, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
