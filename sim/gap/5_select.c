@@ -207,10 +207,12 @@ static status_t take_timing(select_t *t, why_t *why) {
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
-  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double))};
+  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                     .echo = calloc((size_t)c->n + 1, sizeof(bool))};
   t.taken = calloc((size_t)c->n + 1, sizeof(int));
   t.never = calloc((size_t)c->n + 1, sizeof(bool));
-  status_t status = found->least && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
+  status_t status =
+      found->least && found->echo && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) status = select_timing(&t, why);
   if (status == ST_OK) status = take_timing(&t, why);
   if (status == ST_OK) status = open_round(&t, why);
@@ -227,5 +229,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
 
 void found_free(found_t *f) {
   free(f->least);
+  free(f->echo);
   f->least = NULL;
+  f->echo = NULL;
 }
