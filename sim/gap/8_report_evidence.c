@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#define NEAR_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
+
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
 
 // --- named effects ----------------------------------------------------------------------------------------
@@ -83,6 +85,9 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
     report_profile(r, effect[channel], variance[channel], &span, &p);
     f->profile = p, f->where = span;
   }
+  f->matters = f->fx->surface ? (span_t){0.0, NEAR_M} : f->where;
+  f->before = report_rms(r, &f->profile, &f->matters, r->before.r[channel]);
+  f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
 }
 
 static void find_flight(finding_t *f) {
