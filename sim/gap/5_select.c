@@ -225,5 +225,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
 
 void found_free(found_t *f) {
   free(f->least);
+  free(f->echo);
   f->least = NULL;
+  f->echo = NULL;
 }

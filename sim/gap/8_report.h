@@ -48,6 +48,7 @@ typedef struct {
   const fx_param_t *param;   // of its size; null: it could not be looked for
   double seen_from, typical; // of param: the smallest size that would have been seen, and what is typical
   const char *obstacle;      // null: none
+  bool echo;                 // something like it is there, at one place, time or state only
   bool open;                 // it, or one that these flights cannot tell from it, is missing
   bool testable;             // its typical size would have been seen
 } untested_t;

@@ -5,9 +5,10 @@
 status_t select_room(select_t *t, found_t *found, why_t *why) {
   const size_t n = (size_t)t->c->n + 1;
   if (!found->least) found->least = calloc(n, sizeof(double));
+  if (!found->echo) found->echo = calloc(n, sizeof(bool));
   t->taken = calloc(n, sizeof(int));
   t->never = calloc(n, sizeof(bool));
-  return found->least && t->taken && t->never ? ST_OK : error_failed(why, "out of memory");
+  return found->least && found->echo && t->taken && t->never ? ST_OK : error_failed(why, "out of memory");
 }
 
 // A lag or delay by rotor speeds stays as it is; what else is marked is chosen.
@@ -23,6 +24,7 @@ static void take_marked(select_t *t, const found_t *found) {
     t->c->candidate[t->timing].named = false; // it is in the base
   }
   for (int i = 0; i < t->c->n; i++) {
+    if (found->echo[i]) t->taken[i] = TAKES;
     t->never[i] = by_speeds && select_fx(t, i)->class == FX_TIMING;
     if (t->c->candidate[i].named) t->choice = choice_with(&t->choice, i);
   }

@@ -53,26 +53,6 @@ static void find_named(const select_t *t, found_t *found) {
   }
 }
 
-// Four standard errors, three times what feedback alone makes, or what brings the least gain, whichever is
-// most; over what is typical. What is open was not seen at any size.
-static void find_least(const select_t *t, found_t *found) {
-  for (int i = 0; i < t->c->n; i++) {
-    found->least[i] = 0.0;
-    if (!select_fits(t, &t->choice, i)) continue;
-    const choice_t with = choice_with(&t->choice, i);
-    const verdict_t v = judge_last(&t->judge, &with);
-    if (!(v.stderr_[0] > 0.0)) continue; // no residual depends on it
-    double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX];
-    judge_nominal_rms(&t->judge, &with, rms);
-    judge_least_gain(&t->judge, &with, SELECT_GAIN * found->left, gain);
-    if (found_is_open(found, t->c, select_fx(t, i))) found->least[i] = HUGE_VAL;
-    for (int k = 0; k < t->c->candidate[i].n; k++) {
-      const double least = fmax(fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]), gain[k]);
-      found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
-    }
-  }
-}
-
 // The others' shares become shares of what was left without it.
 static void find_timing(const select_t *t, found_t *found) {
   candidate_t *const c = &t->c->candidate[t->timing];
@@ -110,5 +90,5 @@ void select_describe(const select_t *t, found_t *found) {
   find_named(t, found);
   if (t->timing >= 0 && found->n < NAMED_MAX) find_timing(t, found);
   sort(t, found);
-  find_least(t, found);
+  select_find_least(t, found);
 }

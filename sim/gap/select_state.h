@@ -74,6 +74,14 @@ bool select_prune_one(select_t *t);
 // A lag or delay by rotor speeds goes into the base.
 MUST_CHECK status_t select_take_timing(select_t *t, why_t *why);
 
+#define SELECT_SAME 0.997 // of a name's contribution, that a rival could give
+
+// Another name, and not one of the same class, that may stand in the choice in place of `own`.
+bool select_may_stand_for(const select_t *t, const choice_t *rest, int own, int other);
+
+// found->least and found->echo, by candidate.
+void select_find_least(const select_t *t, found_t *found);
+
 // What was named, its rivals, and the least of each candidate that could have been seen.
 void select_describe(const select_t *t, found_t *found);
 

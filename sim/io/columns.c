@@ -123,6 +123,9 @@ columns_t columns_crazyflie(void) {
     c.of[SIG_AX + i].late_s = 7.5e-3;
     c.of[SIG_GX + i].late_s = 2.8e-3;
   }
+  // The Multi-ranger's task fetches samples of 60 to 80 ms; downward, 25 ms of exposure (plant/range.h).
+  c.of[SIG_RANGE].late_s = 70e-3;
+  c.of[SIG_RANGE_DOWN].late_s = 13e-3;
   // The firmware's attitude.pitch is nose up positive; its quaternion is right-handed.
   c.of[SIG_PITCH].factor *= -1.0;
   return c;

@@ -11,10 +11,10 @@
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
 //
 // What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (0 to 100) before the row's
-// time: the delay of a filter, 7.5 ms of the Crazyflie's accelerometer and 2.8 ms of its gyro. Signals and
-// units: columns.c. Attitude is a quaternion qw..qz that turns body into world (for the inverse: scale = -1
-// on qx, qy, qz), or roll, pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as
-// right-handed with y left).
+// time: the delay of a filter, 7.5 ms of the Crazyflie's accelerometer and 2.8 ms of its gyro, or the age of
+// a sample, 70 ms of its upward range and 13 ms of the downward one. Signals and units: columns.c. Attitude
+// is a quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll,
+// pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
 //
 // Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
 // all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
