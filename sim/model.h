@@ -6,6 +6,7 @@
 
 #include "effects/fx.h"
 #include "error.h"
+#include "flown_by.h"
 #include "plant/battery.h"
 #include "plant/thrust_map.h"
 #include <stdbool.h>
@@ -40,6 +41,7 @@ typedef struct {
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
+  flown_by_t flown_by;     // of its logs
   int n_fx;
   fx_use_t fx[FX_MAX]; // what acts; at most one of a name
 } model_t;

@@ -2,8 +2,9 @@
 // through the same sensors, rates and noise. What the workflow sees in them is what feedback and noise alone
 // produce.
 //
-// The pilot is a cascade of proportional loops whose gains are fitted to the log: moments on rates and
-// attitude, thrust on climb and height. Noise and disturbance are those of the log: sensors by what two
+// The pilot is the one that the vehicle file names ([controller], nominal_known.h), else a cascade of
+// proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
+// height. Noise and disturbance are those of the log: sensors by what two
 // successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by what the residual
 // has beyond that.
 #ifndef SIM_GAP_NOMINAL_H

@@ -1,5 +1,5 @@
 // nominal_fly.c - the model in closed loop along a log's track.
-#include "gap/nominal_pilot.h"
+#include "gap/nominal_known.h"
 
 #include "body_forces.h"
 #include <math.h>
@@ -146,6 +146,14 @@ static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   return good;
 }
 
+static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
+  const point_t *track = &f->g->point[f->at];
+  if (f->known)
+    known_steer(f->known, step_s, track, seen, motor_N);
+  else
+    pilot_steer(f, step_s, track, seen, motor_N);
+}
+
 static status_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
@@ -158,7 +166,7 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
         const point_t truth = is(f), seen = see(f, &truth);
-        pilot_steer(f, step_s, &f->g->point[f->at], &seen, motor_N);
+        steer(f, step_s, &seen, motor_N);
         if (k == 0) write(f, f->log, &seen, motor_N, t_s);
         if (k == 0 && f->truth) write(f, f->truth, &truth, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
@@ -184,7 +192,10 @@ static status_t take_off(nominal_flight_t *f, const model_t *m, unsigned long se
   pilot_tame(f);
   pilot_trim(f);
   f->random = random_open(seed + 1);
-  return f->random ? ST_OK : error_failed(why, "out of memory");
+  if (!f->random) return error_failed(why, "out of memory");
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+  const point_t truth = is(f), seen = see(f, &truth);
+  return known_open(&f->known, f, &seen, why);
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
@@ -204,6 +215,7 @@ status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsig
   if (status == ST_OK) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
+  known_close(f.known);
   if (status != ST_OK) gap_flight_free(flight);
   if (status != ST_OK && truth) gap_flight_free(truth);
   return status;

@@ -1,6 +1,7 @@
 // model_file.c - vehicle files.
 #include "io/model_file.h"
 
+#include "io/controller_file.h"
 #include "io/effect_spec.h"
 #include "io/frame_file.h"
 #include "io/toml.h"
@@ -131,8 +132,9 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
 
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
-      "name",     "mass_kg",    "rotor_radius_m", "motor_tau_s", "thrust_min_N", "thrust_max_N", "ceiling_m",
-      "wall_y_m", "thrust_map", "body",           "rotors",      "battery",      "effect",       NULL};
+      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
+      "thrust_max_N", "ceiling_m", "wall_y_m",       "thrust_map",  "body",
+      "rotors",       "battery",   "controller",     "effect",      NULL};
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
@@ -144,6 +146,7 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
     TRY(read_map(map, &m->map, why));
   }
   TRY(frame_read(root, m, why));
+  TRY(controller_read(root, m, why));
   return read_effects(root, path, m, why);
 }
 

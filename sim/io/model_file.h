@@ -9,6 +9,7 @@
 //                           is c = [0, 0, k]): see plant/thrust_map.h
 //   [body] [rotors] [battery]   see io/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
 //   battery
+//   [controller]            who flew its logs, see io/controller_file.h; left out: not known
 //   [[effect]]              any number of them
 //   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
 //                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
