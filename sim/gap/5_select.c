@@ -24,14 +24,14 @@ bool select_fits(const select_t *t, const choice_t *choice, int candidate) {
 // --- estimates
 // ----------------------------------------------------------------------------------------------
 
-void select_close_round(select_t *t) {
+static void close_round(select_t *t) {
   judge_free(&t->judge);
   gram_free(&t->gram);
   table_free(&t->table);
 }
 
 // Columns, colours and products about the present values.
-status_t select_open_round(select_t *t, why_t *why) {
+static status_t open_round(select_t *t, why_t *why) {
   const candidates_t *c = t->c;
   int column[COLUMN_MAX], n = 0;
   double b[COLUMN_MAX];
@@ -43,7 +43,7 @@ status_t select_open_round(select_t *t, why_t *why) {
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
   if (status == ST_OK)
     status = gram_make(&t->gram, t->s, &t->table, &known, t->strict ? NULL : t->judge.color_ridge, why);
-  if (status != ST_OK) select_close_round(t);
+  if (status != ST_OK) close_round(t);
   return status;
 }
 
@@ -127,7 +127,7 @@ static bool swap_one(select_t *t) {
 }
 
 // Takes out what no longer passes beside the others.
-bool select_prune_one(select_t *t) {
+static bool prune_one(select_t *t) {
   const double now = judge_left(&t->judge, &t->choice, NULL);
   for (int i = 0; i < t->choice.n; i++) {
     const choice_t rest = choice_without(&t->choice, t->choice.of[i]);
@@ -143,12 +143,12 @@ bool select_prune_one(select_t *t) {
   return false;
 }
 
-status_t select_settle(select_t *t, why_t *why) {
+static status_t settle(select_t *t, why_t *why) {
   for (int i = 0; i < 4; i++) {
     const double change = take_values(t);
     if (change < 1e-3) break;
-    select_close_round(t);
-    TRY(select_open_round(t, why));
+    close_round(t);
+    TRY(open_round(t, why));
   }
   return ST_OK;
 }
@@ -169,10 +169,10 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
 
 static status_t look(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
-    bool changed = select_prune_one(t) || swap_one(t) || add_best(t);
+    bool changed = prune_one(t) || swap_one(t) || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return ST_OK;
-    TRY(select_settle(t, why));
+    TRY(settle(t, why));
   }
   return ST_OK;
 }
@@ -184,18 +184,18 @@ static status_t search(select_t *t, why_t *why) {
   TRY(look(t, why));
   t->strict = true;
   memset(t->taken, 0, (size_t)t->c->n * sizeof(int));
-  select_close_round(t);
-  TRY(select_open_round(t, why));
+  close_round(t);
+  TRY(open_round(t, why));
   return look(t, why);
 }
 
 // What is left in the choice can be named.
 static status_t set_open_apart(select_t *t, found_t *found, why_t *why) {
-  while (select_drop_open(t, found)) TRY(select_settle(t, why));
+  while (select_drop_open(t, found)) TRY(settle(t, why));
   return ST_OK;
 }
 
-status_t select_take_timing(select_t *t, why_t *why) {
+static status_t take_timing(select_t *t, why_t *why) {
   if (t->timing < 0) return ST_OK;
   fx_use_t use = t->c->candidate[t->timing].use;
   use.p[use.fx->size[0].param] = t->timing_s;
@@ -207,16 +207,20 @@ status_t select_take_timing(select_t *t, why_t *why) {
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
-  *found = (found_t){.least = NULL};
-  status_t status = select_room(&t, found, why);
+  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                     .echo = calloc((size_t)c->n + 1, sizeof(bool))};
+  t.taken = calloc((size_t)c->n + 1, sizeof(int));
+  t.never = calloc((size_t)c->n + 1, sizeof(bool));
+  status_t status =
+      found->least && found->echo && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) status = select_timing(&t, why);
-  if (status == ST_OK) status = select_take_timing(&t, why);
-  if (status == ST_OK) status = select_open_round(&t, why);
+  if (status == ST_OK) status = take_timing(&t, why);
+  if (status == ST_OK) status = open_round(&t, why);
   if (status == ST_OK) status = search(&t, why);
   if (status == ST_OK) status = set_open_apart(&t, found, why);
   if (status == ST_OK) {
     select_describe(&t, found);
-    select_close_round(&t);
+    close_round(&t);
   }
   free(t.taken);
   free(t.never);
