@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
+
 // --- the list
 // -----------------------------------------------------------------------------------------------
 
@@ -14,6 +16,20 @@ static bool is_on(const model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++)
     if (strcmp(m->fx[i].fx->name, fx->name) == 0) return true;
   return false;
+}
+
+static double slowest_Hz(const set_t *s) {
+  double rate_Hz = HUGE_VAL;
+  for (int f = 0; f < s->n_grid; f++) rate_Hz = fmin(rate_Hz, s->grid[f].flight->rate_Hz);
+  return rate_Hz;
+}
+
+bool candidates_slow(const set_t *s) {
+  return slowest_Hz(s) < COMMANDS_HZ;
+}
+
+double candidates_least(const fx_t *fx, const set_t *s) {
+  return fx->class == FX_TIMING ? fmax(fx->size[0].least, 1.0 / slowest_Hz(s)) : 0.0;
 }
 
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s) {
@@ -31,6 +47,8 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
   if (strcmp(fx->name, "battery_sag") == 0 && !g->has_vbat) return "the log has no battery voltage";
   if (fx->load && !g->has_velocity && strcmp(fx->name, "gyroscopic") != 0) return "the log has no velocity";
   if (strcmp(fx->name, "wind") == 0 && !g->has_attitude) return "the log has no attitude";
+  if (strcmp(fx->name, "inertia") == 0 && candidates_slow(s))
+    return "the log is too slow: what commands did between two samples looks like it";
   if (strncmp(fx->name, "tof_", 4) != 0 && !forces && !moments)
     return "the log has neither acceleration nor rates";
   return NULL;
