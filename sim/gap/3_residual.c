@@ -174,10 +174,14 @@ void residual_rows(const set_t *s, int flight, series_t kind, const double *cons
                    double *scratch, double *const row[CHANNELS]) {
   const grid_t *g = &s->grid[flight];
   smooth_t *const v = (smooth_t *)scratch;
+  bool any = false;
   memset(v, 0, (size_t)g->n * sizeof *v);
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
-    if (row[ch]) take(g, ch, kind, series[ch], v);
-  smooth(g, v);
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    if (!row[ch]) continue;
+    take(g, ch, kind, series[ch], v);
+    any = true;
+  }
+  if (any) smooth(g, v);
   for (int ch = 0; ch < CHANNELS; ch++) {
     const rows_t *r = set_rows(s, ch);
     const int end = rows_from(r, flight + 1);

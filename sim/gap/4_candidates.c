@@ -122,15 +122,13 @@ status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_
 }
 
 // The derivative of a flight's replay with respect to size k of an effect, which the model has or gets.
-static status_t differentiate(set_t *s, int flight, const model_t *now, const candidate_t *c, int k,
+static status_t differentiate(set_t *s, int flight, const path_t *now, const candidate_t *c, int k,
                               flight_lines_t *l, why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
   grid_t *g = &s->grid[flight];
-  model_t m = *now;
   fx_use_t more = c->use;
   more.p[size->param] += size->step;
-  TRY(model_add_fx(&m, &more, why));
-  TRY(replay(g, &m, l->with, why));
+  TRY(replay_with(g, now, &more, l->with, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int j = 0; j < g->n; j++) {
       const double d = (l->with[ch][j] - l->base[ch][j]) / size->step;
@@ -157,9 +155,8 @@ static status_t fill_column(table_t *t, set_t *s, int flight, int column, const 
   return ST_OK;
 }
 
-static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
-                            flight_lines_t *l, why_t *why) {
-  TRY(replay(&s->grid[flight], now, l->base, why));
+static status_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, const candidates_t *c,
+                             flight_lines_t *l, why_t *why) {
   for (int i = 0; i < c->n; i++)
     for (int k = 0; k < c->candidate[i].n; k++) {
       TRY(differentiate(s, flight, now, &c->candidate[i], k, l, why));
@@ -167,6 +164,15 @@ static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now
         return error_failed(why, "out of memory");
     }
   return ST_OK;
+}
+
+static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
+                            flight_lines_t *l, why_t *why) {
+  path_t path;
+  status_t status = replay_keep(&s->grid[flight], now, &path, l->base, why);
+  if (status == ST_OK) status = fill_columns(t, s, flight, &path, c, l, why);
+  path_free(&path);
+  return status;
 }
 
 // The residual gets back what the straight line says that the named effects do.
