@@ -11,11 +11,14 @@
 TEST(gap_blocks_fit_a_line_as_by_hand) {
   static const double one[] = {1.0, 1.0, 1.0, 1.0}, x[] = {0.0, 1.0, 2.0, 3.0}, y[] = {1.0, 2.0, 4.0, 7.0};
   static const int all[] = {0, 1, 2};
-  double G[9] = {0.0}, b[2], inverse[4];
+  double G[9] = {0.0}, also[9] = {0.0}, b[2], inverse[4];
   // As two blocks: sums of products add up.
   for (int from = 0; from < 4; from += 2)
-    lsq_add_products(2, 3, (const double *const[]){one + from, x + from, y + from}, all, 3, G);
+    lsq_add_products(2, 3, (const double *const[]){one + from, x + from, y + from}, all, 3, G,
+                     from ? also : NULL);
   CHECK_NEAR(G[8], 70.0, 1e-12);
+  CHECK_NEAR(also[5], 29.0, 1e-12); // 2 * 4 + 3 * 7, of the second block
+  CHECK_NEAR(also[7], 29.0, 1e-12);
   CHECK_NEAR(lsq_solve_products(G, 3, all, 2, NULL, b, inverse), 1.0, 1e-9);
   CHECK_NEAR(b[0], 0.5, 1e-9);
   CHECK_NEAR(b[1], 2.0, 1e-9);
