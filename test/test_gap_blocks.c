@@ -1,11 +1,13 @@
 // test_gap_blocks.c - least squares by blocks, and white rows: values by hand and coefficients that are
 // known.
 #include "gap/lsq_blocks.h"
+#include "gap/nth.h"
 #include "gap/whiten.h"
 #include "plant/random.h"
 #include "test.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 // y = 1, 2, 4, 7 over x = 0, 1, 2, 3 and a constant: slope 2, offset 0.5, and 0.5, -0.5, -0.5, 0.5 is left.
 TEST(gap_blocks_fit_a_line_as_by_hand) {
@@ -105,4 +107,15 @@ TEST(gap_whitening_wants_rows_enough) {
   static const bool follows[ROWS] = {false, true, true, true, true};
   const rows_t few = {.n = 5, .follows = (bool *)follows};
   CHECK(!color_fit(&few, v).used);
+}
+
+TEST(gap_nth_smallest_is_that_of_the_sorted_list) {
+  static const double v[] = {3.0, -1.0, 7.0, 3.0, 0.5, 9.0}, sorted[] = {-1.0, 0.5, 3.0, 3.0, 7.0, 9.0};
+  for (int k = 0; k < 6; k++) {
+    double room[6];
+    ROW("%d", k);
+    memcpy(room, v, sizeof v);
+    CHECK_NEAR(nth_smallest(room, 6, k), sorted[k], 0.0);
+    for (int i = 0; i < 6; i++) CHECK(i < k ? room[i] <= sorted[k] : room[i] >= sorted[k]);
+  }
 }
