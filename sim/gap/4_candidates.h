@@ -35,7 +35,7 @@ double candidates_least(const fx_t *fx, const set_t *s);
 
 // The number of candidate i's size k.
 double *candidate_value(const candidate_t *c, int k);
-// What is typical of it; never 0.
+// What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.
 double candidate_typical(const candidate_t *c, int k);
 
 // The model with what is named. ST_BAD_INPUT: too many effects.

@@ -30,6 +30,7 @@ typedef struct {
   int n, size;
   double *total;          // n matrices
   double *cell;           // n numbers: the largest statistic of unknown.h
+  double *kept;           // by column: what is found of a size, because what it is multiplied by has errors
   double floor[CHANNELS]; // rms of a residual row
 } nominal_t;
 
@@ -53,21 +54,22 @@ typedef struct {
   named_t named[NAMED_MAX];
   int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
   named_t open[NAMED_MAX];  // candidate and rivals alone
+  int rounds;               // times that all columns were formed: the time of a selection goes with it
   double aligned_s;         // lag or delay that is in the model without a name
   double left, left_before; // white sums of squares, with and without what is named
-  double *least;            // by candidate: the smallest size that would have been seen, over what is typical
+  double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
+  bool *echo; // by candidate: something like it is there, at one place, time or state only: it was not tried
 } found_t;
 
 // Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
 MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                                    found_t *found, why_t *why);
-// After names were taken back (no longer marked, nor found): the values of the others, their errors, shares
-// and rivals, and what could have been seen, all anew; a name that no longer passes its gates goes, too.
-// ST_FAILED: no memory.
-MUST_CHECK status_t select_again(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
-                                 found_t *found, why_t *why);
 // The effect is an open name, or a rival of one.
 bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
+// The smallest size of an effect that would have been seen, over what is typical: of its shapes the one
+// nearest to what is typical, of its rotors the one that shows worst. HUGE_VAL: none would. which (may be
+// null): the candidate; a null pointer where no residual depends on it.
+double found_least(const found_t *f, const candidates_t *c, const fx_t *fx, const candidate_t **which);
 void found_free(found_t *f);
 
 #endif

@@ -32,20 +32,20 @@ static likeness_t compare(const rows_t *r, const double *measured, const double 
 // Where turning follows the commands best: over the first of the lags, by channel.
 static status_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
                         why_t *why) {
-  double *r[CHANNELS];
+  double *r[CHANNELS], *measured[CHANNELS] = {NULL};
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
-  double *const measured = room + CHANNELS * n;
   for (size_t ch = 0; ch < CHANNELS; ch++) {
     best[ch] = (likeness_t){1.0, -2.0};
     r[ch] = room + ch * n;
   }
+  for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
+  TRY(residual_measured(s, measured, why));
   for (unsigned i = 0; i < lags; i++) {
     model_t slower = *m;
     slower.motor_tau_s += MORE_TAU_S[i];
     TRY(residual_of(s, &slower, r, why));
     for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-      TRY(residual_measured(s, ch, measured, why));
-      const likeness_t now = compare(&s->smooth, measured, r[ch]);
+      const likeness_t now = compare(&s->smooth, measured[ch], r[ch]);
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
@@ -126,7 +126,7 @@ status_t muted_find(set_t *s, const model_t *m, why_t *why) {
   memset(s->muted, 0, sizeof s->muted);
   if (!residual_has(s, CH_WX)) return ST_OK;
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
-  double *const room = calloc((CHANNELS + 1) * n, sizeof(double));
+  double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
   const status_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
   free(room);
   return status;

@@ -8,7 +8,8 @@ static bool only_turning_tells(const select_t *t, int a, int b) {
   return select_fx(t, a)->class == FX_WEIGHT && select_fx(t, b)->class == FX_WEIGHT && candidates_slow(t->s);
 }
 
-// Another name in its place that is not worse by two standard errors of the difference.
+// Another name in its place that is not worse by two standard errors of the difference, at a size that it can
+// have.
 static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
   const double without = judge_left(&t->judge, &rest, NULL);
@@ -17,7 +18,8 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!only_turning_tells(t, candidate, i) && !judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    const bool rival = judge_is_rival(&t->judge, &t->choice, &with) && judge_is_possible(&t->judge, &with);
+    if (!rival && !only_turning_tells(t, candidate, i)) continue;
     named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
     named->rival[named->n_rival++] = fx;
   }
@@ -58,26 +60,6 @@ static void find_named(const select_t *t, found_t *found) {
   }
 }
 
-// Four standard errors, three times what feedback alone makes, or what brings the least gain, whichever is
-// most; over what is typical. What is open was not seen at any size.
-static void find_least(const select_t *t, found_t *found) {
-  for (int i = 0; i < t->c->n; i++) {
-    found->least[i] = 0.0;
-    if (!select_fits(t, &t->choice, i)) continue;
-    const choice_t with = choice_with(&t->choice, i);
-    const verdict_t v = judge_last(&t->judge, &with);
-    if (!(v.stderr_[0] > 0.0)) continue; // no residual depends on it
-    double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX];
-    judge_nominal_rms(&t->judge, &with, rms);
-    judge_least_gain(&t->judge, &with, SELECT_GAIN * found->left, gain);
-    if (found_is_open(found, t->c, select_fx(t, i))) found->least[i] = HUGE_VAL;
-    for (int k = 0; k < t->c->candidate[i].n; k++) {
-      const double least = fmax(fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]), gain[k]);
-      found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
-    }
-  }
-}
-
 // The others' shares become shares of what was left without it.
 static void find_timing(const select_t *t, found_t *found) {
   candidate_t *const c = &t->c->candidate[t->timing];
@@ -115,5 +97,5 @@ void select_describe(const select_t *t, found_t *found) {
   find_named(t, found);
   if (t->timing >= 0 && found->n < NAMED_MAX) find_timing(t, found);
   sort(t, found);
-  find_least(t, found);
+  select_find_least(t, found);
 }

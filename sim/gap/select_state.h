@@ -17,6 +17,7 @@ typedef struct {
   table_t table;
   gram_t gram;
   judge_t judge;
+  int rounds;  // times that the columns were formed
   bool strict; // colours of what is named alone, not of all candidates
   int *taken;  // by candidate: how often it was taken in
   bool *never; // by candidate: it is out of question
@@ -39,9 +40,6 @@ MUST_CHECK status_t select_timing(select_t *t, why_t *why);
 // The same by measured rotor speeds. known: there are some; then nothing else has a say in it.
 MUST_CHECK status_t select_speeds(select_t *t, bool *known, why_t *why);
 
-// Rotor speeds were measured in every flight of the set.
-bool select_has_speeds(const set_t *s);
-
 // Something at one place, time or state explains more than this name does: the name is an echo of it.
 // ST_FAILED: no memory.
 MUST_CHECK status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why);
@@ -57,22 +55,13 @@ MUST_CHECK status_t select_forbid_alike(select_t *t, int candidate, why_t *why);
 // all that it does the other could do. False: none is so.
 bool select_drop_open(select_t *t, found_t *found);
 
-// What a select_t and what it finds need. ST_FAILED: no memory; t->taken and t->never are the caller's to
-// free.
-MUST_CHECK status_t select_room(select_t *t, found_t *found, why_t *why);
+#define SELECT_SAME 0.997 // of a name's contribution, that a rival could give
 
-// Columns, colours and products about the present values. ST_FAILED: no memory; it is closed then.
-MUST_CHECK status_t select_open_round(select_t *t, why_t *why);
-void select_close_round(select_t *t);
+// Another name, and not one of the same class, that may stand in the choice in place of `own`.
+bool select_may_stand_for(const select_t *t, const choice_t *rest, int own, int other);
 
-// Values of what is chosen, estimated until they stay. ST_FAILED: no memory; the round is closed then.
-MUST_CHECK status_t select_settle(select_t *t, why_t *why);
-
-// Takes one out that no longer passes beside the others. False: all do.
-bool select_prune_one(select_t *t);
-
-// A lag or delay by rotor speeds goes into the base.
-MUST_CHECK status_t select_take_timing(select_t *t, why_t *why);
+// found->least and found->echo, by candidate.
+void select_find_least(const select_t *t, found_t *found);
 
 // What was named, its rivals, and the least of each candidate that could have been seen.
 void select_describe(const select_t *t, found_t *found);

@@ -97,13 +97,15 @@ static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
   set->unknown_right = place && (set->strange.channels >> d->cell.channel & 1u);
 }
 
+// What the verdict lists: effects whose typical size would not have been seen; and smallest sizes.
 static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
   for (int k = 0; k < set->n; k++) {
-    bool seen = false;
-    for (int i = 0; i < d->candidates.n; i++)
-      if (same(d->candidates.candidate[i].use.fx->name, set->hidden[k]) && d->found.least[i] < set->times[k])
-        seen = true;
-    set->says_not_testable = set->says_not_testable || !seen;
+    const fx_t *const fx = fx_find(set->hidden[k]);
+    const double told = found_least(&d->found, &d->candidates, fx, NULL);
+    bool withdrawn = false;
+    for (int i = 0; i < d->n_withdrawn; i++) withdrawn = withdrawn || d->withdrawn[i].fx == fx;
+    set->least[k] = told / truth_typical(set->hidden[k]);
+    if (told >= 1.0 || withdrawn || set->least[k] > set->times[k]) set->says_not_testable = true;
   }
 }
 

@@ -33,7 +33,8 @@ typedef struct {
   bool exact;         // every hidden one, and nothing else
   bool rival_held[2]; // found, or among the rivals of a name
   bool unknown, unknown_right;
-  bool says_not_testable; // of a hidden effect that was not named
+  double least[2];        // smallest size told, over the exam's typical one
+  bool says_not_testable; // of a hidden effect that was not named: typical ones are not, or none of its size
   bool shrink_known;      // the held-out flight has rows to compare
   double after, oracle;   // white sums of squares left on it, over that before; 0 if not known
   char answer[160];
