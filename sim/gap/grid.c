@@ -174,5 +174,6 @@ void grid_free(grid_t *g) {
     free(g->motors[i].thrust_N[0]);
   }
   free(g->point);
+  free(g->mark);
   *g = (grid_t){.n = 0};
 }
