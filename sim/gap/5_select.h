@@ -47,6 +47,7 @@ typedef struct {
   named_t named[NAMED_MAX];
   int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
   named_t open[NAMED_MAX];  // candidate and rivals alone
+  int rounds;               // times that all columns were formed: the time of a selection goes with it
   double aligned_s;         // lag or delay that is in the model without a name
   double left, left_before; // white sums of squares, with and without what is named
   double *least;            // by candidate: the smallest size that would have been seen, over what is typical

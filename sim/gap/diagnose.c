@@ -57,6 +57,7 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   found_t first;
   model_t m;
   TRY(select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why));
+  d->rounds = first.rounds;
   found_free(&first);
   TRY(candidates_model(&d->candidates, job->model, &m, why));
   TRY(find_residual(d, &m, why));
@@ -112,6 +113,7 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "looking for missing effects");
   TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
                      why));
+  d->rounds += d->found.rounds;
   if (!d->nominal_flew) withdraw(d);
   TRY(select_shapes(&d->candidates, &d->fit, job->model, &d->found, why));
   TRY(verify_names(d, job->model, why));
