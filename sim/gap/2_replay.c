@@ -24,11 +24,13 @@ static void place_motors(body_t *b, const lagged_t *motors, int j) {
   }
 }
 
-// The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough.
+// The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
+// is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
 static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const point_t *p, const axes_t *axes) {
   const double up = fmax(axes_up_b(axes).z, 0.1);
-  const double above_m = m->ceiling_m - p->pos_w_m.z - body_rotor_z_m(m);
-  const double below_m = p->pos_w_m.z - body_rest_z_m(m);
+  const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
+  const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);
+  const double below_m = z_m - body_rest_z_m(m);
   const double side = g->range_up ? -1.0 : 1.0;
   return (fx_sensed_t){.range_m = (g->range_up ? above_m : below_m) / up,
                        .range_rate_mps = side * p->vel_w_mps.z / up};

@@ -63,11 +63,14 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
   return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
 }
 
-static double range_of(const grid_t *g, int from) {
+static void take_range(const grid_t *g, int from, point_t *p) {
   const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
-  for (int i = from; range && i < from + g->every; i++)
-    if (isfinite(range[i])) return range[i];
-  return (double)NAN;
+  p->range_m = (double)NAN;
+  for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
+    if (isfinite(range[i])) {
+      p->range_m = range[i];
+      p->range_before_s = p->t_s - g->flight->t_s[i];
+    }
 }
 
 static bool finite3(d3_t a) {
@@ -103,7 +106,8 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
-  p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
+  take_range(g, from, &p);
+  if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
   p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;

@@ -78,6 +78,10 @@ double lsq_f_above(double f, double n1, double n2) {
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(n1, n2), f));
 }
 
+double lsq_f_quantile(double p, double n1, double n2) {
+  return boost::math::quantile(boost::math::complement(boost::math::fisher_f(n1, n2), p));
+}
+
 double lsq_t_quantile(double p, double n) {
   return boost::math::quantile(boost::math::complement(boost::math::students_t(n), p));
 }

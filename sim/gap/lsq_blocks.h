@@ -31,6 +31,9 @@ double lsq_wald(const double *b, const double *V, int n);
 // Probability of an F-distributed number above f.
 double lsq_f_above(double f, double n1, double n2);
 
+// The value that it exceeds with probability p.
+double lsq_f_quantile(double p, double n1, double n2);
+
 // The value that a Student-distributed number exceeds with probability p.
 double lsq_t_quantile(double p, double n);
 

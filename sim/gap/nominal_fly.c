@@ -1,5 +1,5 @@
 // nominal_fly.c - the model in closed loop along a log's track.
-#include "gap/nominal_pilot.h"
+#include "gap/nominal_known.h"
 
 #include "body_forces.h"
 #include <math.h>
@@ -70,19 +70,29 @@ static void drift(nominal_flight_t *f, double step_s) {
   f->angle_off_rad = drifted(f, f->angle_off_rad, &f->w->slow_angle_rad, step_s);
 }
 
-static point_t see(const nominal_flight_t *f) {
+static point_t is(const nominal_flight_t *f) {
   const body_t *b = &f->body;
-  const fx_sensed_t truth = sensed(f);
+  const fx_sensed_t s = sensed(f);
+  return (point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
+                   .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
+                   .q_wb = dq_of(b->y + RIGID_Q_WB),
+                   .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
+                   .acc_b_mps2 = s.acc_b_mps2,
+                   .range_m = s.range_m,
+                   .vbat_V = b->vbat_V};
+}
+
+static point_t see(const nominal_flight_t *f, const point_t *truth) {
   const manner_t *w = f->w;
   const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, w->angle_rad));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  return (point_t){.pos_w_m = noisy3(f, d3_add(d3_of(b->y + RIGID_POS_M), f->pos_off_m), w->pos_m),
-                   .vel_w_mps = noisy3(f, d3_add(d3_of(b->y + RIGID_VEL_MPS), f->vel_off_mps), w->vel_mps),
-                   .q_wb = dq_mul(dq_of(b->y + RIGID_Q_WB), wrong),
-                   .rate_b_radps = noisy3(f, d3_of(b->y + RIGID_RATE_RADPS), w->gyro_radps),
-                   .acc_b_mps2 = noisy3(f, truth.acc_b_mps2, w->acc_mps2),
-                   .range_m = noisy(f, truth.range_m, w->range_m),
-                   .vbat_V = noisy(f, b->vbat_V, w->vbat_V)};
+  return (point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
+                   .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
+                   .q_wb = dq_mul(truth->q_wb, wrong),
+                   .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
+                   .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
+                   .range_m = noisy(f, truth->range_m, w->range_m),
+                   .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
 }
 
 static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
@@ -91,8 +101,8 @@ static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
     if (log->v[signal + k]) log->v[signal + k][i] = x[k];
 }
 
-static void write(const nominal_flight_t *f, const point_t *p, const double motor_N[ROTORS], double t_s) {
-  gap_flight_t *const log = f->log;
+static void write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+                  const double motor_N[ROTORS], double t_s) {
   const int i = log->n++;
   log->t_s[i] = t_s;
   log->saturated[i] = f->body.on_floor || f->body.on_ceiling;
@@ -136,6 +146,14 @@ static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   return good;
 }
 
+static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
+  const point_t *track = &f->g->point[f->at];
+  if (f->known)
+    known_steer(f->known, step_s, track, seen, motor_N);
+  else
+    pilot_steer(f, step_s, track, seen, motor_N);
+}
+
 static status_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
@@ -147,9 +165,10 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
       for (int k = 0; k < inner; k++) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        const point_t seen = see(f);
-        pilot_steer(f, step_s, &f->g->point[f->at], &seen, motor_N);
-        if (k == 0) write(f, &seen, motor_N, t_s);
+        const point_t truth = is(f), seen = see(f, &truth);
+        steer(f, step_s, &seen, motor_N);
+        if (k == 0) write(f, f->log, &seen, motor_N, t_s);
+        if (k == 0 && f->truth) write(f, f->truth, &truth, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
@@ -157,6 +176,7 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
         return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
     }
   f->log->rate_Hz = 1.0 / log_s;
+  if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
   return ST_OK;
 }
 
@@ -172,24 +192,31 @@ static status_t take_off(nominal_flight_t *f, const model_t *m, unsigned long se
   pilot_tame(f);
   pilot_trim(f);
   f->random = random_open(seed + 1);
-  return f->random ? ST_OK : error_failed(why, "out of memory");
+  if (!f->random) return error_failed(why, "out of memory");
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+  const point_t truth = is(f), seen = see(f, &truth);
+  return known_open(&f->known, f, &seen, why);
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
-                     gap_flight_t *flight, why_t *why) {
-  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .to = g->n};
+                     gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
+  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n};
   model_t with;
   *flight = (gap_flight_t){.n = 0};
+  if (truth) *truth = (gap_flight_t){.n = 0};
   TRY(disturbed(m, w, &with, why));
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
-  if (!log_room(flight, g, (size_t)(f.to - f.from + 1) * (size_t)g->every))
-    return error_failed(why, "out of memory");
-  status_t status = take_off(&f, &with, seed, why);
+  const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
+  status_t status = log_room(flight, g, room) && (!truth || log_room(truth, g, room))
+                        ? take_off(&f, &with, seed, why)
+                        : error_failed(why, "out of memory");
   if (status == ST_OK) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
+  known_close(f.known);
   if (status != ST_OK) gap_flight_free(flight);
+  if (status != ST_OK && truth) gap_flight_free(truth);
   return status;
 }

@@ -12,13 +12,14 @@ typedef struct {
   double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
   body_t body;
   random_t *random;
-  gap_flight_t *log;
+  gap_flight_t *log, *truth;                  // truth: what a log without errors would say; may be null
   int from, to, at;                           // points of the track
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
+  struct known *known; // who flew, where the vehicle file says so (nominal_known.h); else null
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.

@@ -2,12 +2,14 @@
 //
 //   name = "..."            and the numbers mass_kg, rotor_radius_m, motor_tau_s, thrust_min_N, thrust_max_N
 //   ceiling_m = 0.5         left out: no ceiling
+//   wall_y_m = 1.0          left out: no wall that the workflow could find an effect of
 //   [thrust_map]            left out: commands are newton
 //   kind = "stand"          five numbers c = [...]; or "volt_cubic", "pwm_cubic" (four), "speed" (three; k
 //   w^2
 //                           is c = [0, 0, k]): see plant/thrust_map.h
 //   [body] [rotors] [battery]   see io/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
 //   battery
+//   [controller]            who flew its logs, see io/controller_file.h; left out: not known
 //   [[effect]]              any number of them
 //   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
 //                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
