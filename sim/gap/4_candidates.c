@@ -121,20 +121,18 @@ status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_
   return status;
 }
 
-// The derivative of a flight's replay with respect to size k of an effect, which the model has or gets.
-static status_t differentiate(set_t *s, int flight, const model_t *now, const candidate_t *c, int k,
-                              lines_t *l, why_t *why) {
+status_t candidate_differentiate(grid_t *g, const model_t *now, const candidate_t *c, int k,
+                                 double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
-  grid_t *g = &s->grid[flight];
   model_t m = *now;
   fx_use_t more = c->use;
   more.p[size->param] += size->step;
   TRY(model_add_fx(&m, &more, why));
-  TRY(replay(g, &m, l->with, why));
+  TRY(replay(g, &m, with, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int j = 0; j < g->n; j++) {
-      const double d = (l->with[ch][j] - l->base[ch][j]) / size->step;
-      l->with[ch][j] = isfinite(d) ? d : 0.0;
+      const double d = (with[ch][j] - base[ch][j]) / size->step;
+      with[ch][j] = isfinite(d) ? d : 0.0;
     }
   return ST_OK;
 }
@@ -160,7 +158,7 @@ static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now
   TRY(replay(&s->grid[flight], now, l->base, why));
   for (int i = 0; i < c->n; i++)
     for (int k = 0; k < c->candidate[i].n; k++) {
-      TRY(differentiate(s, flight, now, &c->candidate[i], k, l, why));
+      TRY(candidate_differentiate(&s->grid[flight], now, &c->candidate[i], k, l->base, l->with, why));
       if (fill_column(t, s, flight, c->candidate[i].first + k, l) != ST_OK)
         return error_failed(why, "out of memory");
     }

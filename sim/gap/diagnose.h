@@ -35,6 +35,8 @@ typedef struct {
   candidates_t candidates;
   nominal_t nominal;
   found_t found;
+  const char
+      *why_not_confirmed; // why the reference could not be the instrument; null: it was, or is not there
   int n_withdrawn;
   withdrawn_t withdrawn[NAMED_MAX];
   model_t extended;

@@ -21,8 +21,10 @@ typedef struct {
   dq_t q_wb;
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
-  double range_m; // fresh, else NaN
-  double clear_m; // least distance of any part of it from ceiling or floor, as estimated
+  double range_m;          // fresh, else NaN
+  double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
+  d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
+  double set_yaw_rad;
 } point_t;
 
 #define GRID_MOTORS 4 // motor histories kept

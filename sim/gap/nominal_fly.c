@@ -8,6 +8,12 @@
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
+// A known pilot is not a tamed one, and may end on the floor, where the log's vehicle flew on: it is put
+// back.
+#define DOWN_S   0.2 // of contact
+#define UP_LEAST 0.5 // cosine of the tilt
+#define MASK_S   0.4 // until what it does is its own again
+#define PUT_MAX  20
 
 // Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
@@ -95,7 +101,7 @@ static void write(const nominal_flight_t *f, const point_t *p, const double moto
   gap_flight_t *const log = f->log;
   const int i = log->n++;
   log->t_s[i] = t_s;
-  log->saturated[i] = f->body.on_floor || f->body.on_ceiling;
+  log->saturated[i] = f->body.on_floor || f->body.on_ceiling || t_s < f->masked_to_s;
   put3(log, SIG_X, i, d3_add(p->pos_w_m, d3(0.0, 0.0, -body_rest_z_m(f->m))));
   put3(log, SIG_VX, i, p->vel_w_mps);
   put3(log, SIG_AX, i, p->acc_b_mps2);
@@ -144,6 +150,47 @@ static void steer(nominal_flight_t *f, double step_s, const point_t *seen, doubl
     pilot_steer(f, step_s, track, seen, motor_N);
 }
 
+// On the track, hovering, with a fresh pilot.
+static status_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
+  const point_t *p = &f->g->point[f->at];
+  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
+  // Motors faster than the step need a finer one.
+  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
+    return error_failed(why, "%s: a model that cannot be flown", m->name);
+  f->body.vbat_V = p->vbat_V;
+  body_effects(&f->body, 0.0);
+  pilot_tame(f);
+  pilot_trim(f);
+  return ST_OK;
+}
+
+static status_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+  const point_t seen = see(f);
+  return known_open(&f->known, f, &seen, why);
+}
+
+static bool is_down(nominal_flight_t *f, double span_s) {
+  const axes_t axes = axes_of(dq_of(f->body.y + RIGID_Q_WB));
+  f->down_s += f->body.on_floor || f->body.on_ceiling ? span_s : 0.0;
+  return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
+}
+
+static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+  const model_t *m = f->body.model;
+  if (++f->puts > PUT_MAX)
+    return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+  f->down_s = 0.0;
+  f->masked_to_s = t_s + MASK_S;
+  body_close(&f->body);
+  f->body.integrate = NULL;
+  known_close(f->known);
+  f->known = NULL;
+  TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
+  return find_pilot(f, m, why);
+}
+
 static status_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
@@ -163,32 +210,22 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
       if (f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M))
         return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+      if (f->known && is_down(f, log_s)) TRY(put_back(f, t_s, why));
     }
   f->log->rate_Hz = 1.0 / log_s;
   return ST_OK;
 }
 
-static status_t take_off(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
-  const point_t *p = &f->g->point[f->from];
-  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
-  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
-  // Motors faster than the step need a finer one.
-  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
-    return error_failed(why, "%s: a model that cannot be flown", m->name);
-  f->body.vbat_V = p->vbat_V;
-  body_effects(&f->body, 0.0);
-  pilot_tame(f);
-  pilot_trim(f);
-  f->random = random_open(seed + 1);
-  if (!f->random) return error_failed(why, "out of memory");
-  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
-  const point_t seen = see(f);
-  return known_open(&f->known, f, &seen, why);
+static status_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
+  f->at = f->from;
+  TRY(start_at(f, m, f->seed, why));
+  f->random = random_open(f->seed + 1);
+  return f->random ? find_pilot(f, m, why) : error_failed(why, "out of memory");
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
                      gap_flight_t *flight, why_t *why) {
-  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .to = g->n};
+  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .to = g->n, .seed = seed};
   model_t with;
   *flight = (gap_flight_t){.n = 0};
   TRY(disturbed(m, w, &with, why));
@@ -197,7 +234,7 @@ status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsig
   if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
   if (!log_room(flight, g, (size_t)(f.to - f.from + 1) * (size_t)g->every))
     return error_failed(why, "out of memory");
-  status_t status = take_off(&f, &with, seed, why);
+  status_t status = take_off(&f, &with, why);
   if (status == ST_OK) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);

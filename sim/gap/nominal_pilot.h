@@ -19,7 +19,10 @@ typedef struct {
   double lift_trim;                           // thrust over weight that holds it
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
-  struct known *known; // who flew, where the vehicle file says so (nominal_known.h); else null
+  unsigned long seed;
+  double down_s, masked_to_s; // in contact since it was put on its track; of the log
+  int puts;                   // how often it was put back
+  struct known *known;        // who flew, where the vehicle file says so (nominal_known.h); else null
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.
