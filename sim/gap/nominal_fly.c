@@ -13,7 +13,7 @@
 #define DOWN_S   0.2 // of contact
 #define UP_LEAST 0.5 // cosine of the tilt
 #define MASK_S   0.4 // until what it does is its own again
-#define PUT_MAX  20
+#define PUT_S    3.0 // more often it cannot fly there
 
 // Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
@@ -177,10 +177,13 @@ static bool is_down(nominal_flight_t *f, double span_s) {
   return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
 }
 
+static status_t cannot_fly(const nominal_flight_t *f, why_t *why) {
+  return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+}
+
 static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   const model_t *m = f->body.model;
-  if (++f->puts > PUT_MAX)
-    return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+  if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
   f->down_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
@@ -208,9 +211,9 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
         body_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
-      if (f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M))
-        return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
-      if (f->known && is_down(f, log_s)) TRY(put_back(f, t_s, why));
+      const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);
+      if (!f->known && lost) return cannot_fly(f, why);
+      if (f->known && (lost || is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
   f->log->rate_Hz = 1.0 / log_s;
   return ST_OK;
