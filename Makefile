@@ -57,7 +57,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights touches slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded tests-built report setup-pil
+.PHONY: help demo flights touches recorded slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -158,6 +158,9 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 touches: out/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each
 	@tools/touches.sh
 
+recorded: out/gap  ## what the workflow finds in recorded flights (DATA=DIR)
+	@tools/recorded.sh "$(DATA)"
+
 slot: out/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
 	@out/slot "$(DATA)"
 
@@ -176,6 +179,7 @@ exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 	+@tools/seeded.sh
+	@tools/add_effect.sh | grep -q '^cable: '
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers
 	@$(MAKE) B=out/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' out/sanitize/bin/tests out/sanitize/bin/fly out/sanitize/bin/gap out/sanitize/bin/learn out/sanitize/bin/effectiveness
@@ -210,6 +214,9 @@ seeded:  ## steps into every trap of test/seeded and expects the tests to say so
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
 	+@tools/pil.sh
+
+add-effect: out/fly out/gap  ## try the README's page on adding an effect, in a copy of the tree
+	+@tools/add_effect.sh
 
 report:  ## the image's size (after make firmware) and the target's figures into README.md
 	+@tools/report.sh

@@ -46,6 +46,14 @@ status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
   return ST_OK;
 }
 
+void model_drop_fx(model_t *m, const fx_t *fx) {
+  for (int i = 0; i < m->n_fx; i++) {
+    if (m->fx[i].fx != fx) continue;
+    m->fx[i] = m->fx[--m->n_fx];
+    return;
+  }
+}
+
 double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
   double ratio = 1.0;
   for (int i = 0; i < m->n_fx; i++)

@@ -37,6 +37,7 @@ typedef struct {
   double thrust_max_N;   // > thrust_min_N
   thrust_map_t map;      // PWM and volts to newton per motor
   double ceiling_m;      // height of the ceiling, INFINITY: none; z = 0 is the ground
+  double wall_y_m;       // a wall in the plane of this y, INFINITY: none; what it does is an effect
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
@@ -51,6 +52,9 @@ frame_t model_frame_like_crazyflie(const model_t *m);
 // Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already, or the effect
 // `mass` leaves less than a tenth of the model's mass.
 MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
+
+// Switches it off, if it is on.
+void model_drop_fx(model_t *m, const fx_t *fx);
 
 // What the rotors' thrust is multiplied by at this place: 1 and the excess of every effect (thesis 3.1.4).
 double model_thrust_ratio(const model_t *m, const fx_place_t *place);

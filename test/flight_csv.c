@@ -127,6 +127,12 @@ void flight_csv_values(double t_s, double v[FC_COLUMNS]) {
   values(t_s, t_s, t_s, v);
 }
 
+columns_t flight_csv_columns(void) {
+  columns_t c = columns_crazyflie();
+  for (int i = 0; i < SIG_COLUMNS; i++) c.of[i].late_s = 0.0;
+  return c;
+}
+
 static size_t write_names(const flight_csv_t *f, char *text, size_t room) {
   size_t used = 0;
   for (int c = 0; c < FC_COLUMNS; c++) {

@@ -2,6 +2,8 @@
 #ifndef FLIGHT_CSV_H
 #define FLIGHT_CSV_H
 
+#include "io/columns.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -65,6 +67,9 @@ const char *flight_csv_file(const flight_csv_t *f, const char *name);
 
 // The values of all columns at t_s, as a perfect log has them.
 void flight_csv_values(double t_s, double v[FC_COLUMNS]);
+
+// The columns to read such a log by: the Crazyflie's, of sensors without filters.
+columns_t flight_csv_columns(void);
 
 extern const char *const flight_csv_name[FC_COLUMNS];
 

@@ -30,9 +30,18 @@ static const struct {
 } TOLD[] = {{SIG_SET_X, "ctrltarget.x"}, {SIG_SET_Y, "ctrltarget.y"}, {SIG_SET_Z, "ctrltarget.z"}};
 #define COLUMNS (sizeof COLUMN / sizeof *COLUMN)
 
+// As late as the Crazyflie's filters make it.
+static double cell(const gap_flight_t *f, const columns_t *columns, unsigned k, int i) {
+  const double *const v = f->v[COLUMN[k].signal];
+  const double at = fmax(i - columns->of[COLUMN[k].signal].late_s * f->rate_Hz, 0.0), part = at - floor(at);
+  const int j = (int)at;
+  return COLUMN[k].factor * (part > 0.0 ? (1.0 - part) * v[j] + part * v[j + 1] : v[j]);
+}
+
 void gap_log_write(const gap_flight_t *f, const char *path) {
   FILE *const file = fopen(path, "w");
   if (!file) abort();
+  const columns_t columns = columns_crazyflie();
   fputs("timestamp", file);
   for (unsigned k = 0; k < COLUMNS; k++) fprintf(file, ",%s", COLUMN[k].name);
   for (int k = 0; k < 3 && f->v[SIG_SET_X]; k++) fprintf(file, ",%s", TOLD[k].name);
@@ -40,11 +49,11 @@ void gap_log_write(const gap_flight_t *f, const char *path) {
   for (int i = 0; i < f->n; i++) {
     fprintf(file, "%.3f", 1e3 * f->t_s[i]);
     for (unsigned k = 0; k < COLUMNS; k++) {
-      const double v = f->v[COLUMN[k].signal][i];
+      const double v = cell(f, &columns, k, i);
       if (isnan(v))
         fputs(",nan", file);
       else
-        fprintf(file, ",%.8g", COLUMN[k].factor * v);
+        fprintf(file, ",%.8g", v);
     }
     for (int k = 0; k < 3 && f->v[SIG_SET_X]; k++) fprintf(file, ",%.8g", f->v[TOLD[k].signal][i]);
     fputc('\n', file);
@@ -53,6 +62,7 @@ void gap_log_write(const gap_flight_t *f, const char *path) {
 }
 
 void gap_log_write_usd(const gap_flight_t *f, const char *path) {
+  const columns_t columns = columns_crazyflie();
   usd_bytes_t b = {0};
   usd_put(&b, 0xBC, 1);
   usd_put(&b, 2, 2);
@@ -68,8 +78,7 @@ void gap_log_write_usd(const gap_flight_t *f, const char *path) {
   for (int i = 0; i < f->n; i++) {
     usd_put(&b, 0, 2);
     usd_put(&b, (uint64_t)llround(1e6 * f->t_s[i]), 8);
-    for (unsigned k = 0; k < COLUMNS; k++)
-      usd_put_float(&b, (float)(COLUMN[k].factor * f->v[COLUMN[k].signal][i]));
+    for (unsigned k = 0; k < COLUMNS; k++) usd_put_float(&b, (float)cell(f, &columns, k, i));
   }
   usd_put_crc(&b);
   FILE *const file = fopen(path, "wb");

@@ -5,7 +5,8 @@
 
 #include "exam/flights.h"
 
-// Writes a flight as CSV with the columns of tools/columns/fly.toml.
+// Writes a flight as CSV with the columns of tools/columns/fly.toml, force and rates late as its filters make
+// them.
 void gap_log_write(const gap_flight_t *flight, const char *path);
 
 // The same as a uSD log, in floats.

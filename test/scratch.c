@@ -39,6 +39,15 @@ const char *scratch_file(const char *name, const char *text, long size) {
   return path;
 }
 
+char *scratch_text(const char *name) {
+  FILE *const file = fopen(scratch_path(name), "rb");
+  char *const text = calloc(1, 1u << 20);
+  if (!text) abort();
+  if (file) text[fread(text, 1, (1u << 20) - 1, file)] = '\0';
+  if (file) fclose(file);
+  return text;
+}
+
 const char *scratch_short(const char *text) {
   const size_t size = strlen(folder);
   return size > 0 && strncmp(text, folder, size) == 0 && text[size] == '/' ? text + size + 1 : text;

@@ -8,6 +8,9 @@ const char *scratch_file(const char *name, const char *text, long size);
 // The path of that name; nothing is written. Good until the next call.
 const char *scratch_path(const char *name);
 
+// What stands in the file of that name, up to 1 MiB; empty if there is none. Free it.
+char *scratch_text(const char *name);
+
 // The text without the scratch folder's path in front.
 const char *scratch_short(const char *text);
 

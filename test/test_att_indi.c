@@ -239,20 +239,3 @@ TEST(inner_loop_takes_over_without_a_bump) {
   CHECK_NEAR(torque.y, -2e-4, 1e-9);
   CHECK_NEAR(torque.z, 3e-5, 1e-9);
 }
-
-TEST(attitude_reference_points_the_thrust_and_the_nose) {
-  for (int deg = -175; deg <= 180; deg += 5) {
-    ROW("%d deg", deg);
-    const double yaw = deg * 3.14159265358979 / 180.0;
-    const sincos_t heading = {(float)sin(yaw), (float)cos(yaw)};
-    const v3_t up = {0.2f, -0.1f, sqrtf(0.95f)};
-    const quat_t q = att_indi_reference(up, heading);
-    const v3_t got = quat_up(q),
-               level = quat_to_world(att_indi_reference((v3_t){0, 0, 1}, heading), (v3_t){1, 0, 0});
-    CHECK_NEAR(quat_dot(q, q), 1.0, 1e-5);
-    CHECK_NEAR(got.x, up.x, 1e-5);
-    CHECK_NEAR(got.y, up.y, 1e-5);
-    CHECK_NEAR(level.x, cos(yaw), 1e-5);
-    CHECK_NEAR(level.y, sin(yaw), 1e-5);
-  }
-}

@@ -1,4 +1,5 @@
-// test_att_indi_step.c - single steps of the inner loop: start, bound of the rates, memory of the yaw.
+// test_att_indi_step.c - single steps of the inner loop: start, bound of the rates, memory of the yaw,
+// reference.
 #include "flight/att_indi.h"
 #include "flight/params.h"
 #include "test.h"
@@ -78,5 +79,22 @@ TEST(inner_loop_takes_the_shorter_way_whatever_the_sign_of_the_quaternions) {
     const v3_t e = att_indi_error((quat_t){.w = a}, (quat_t){.w = b * 0.995f, .z = b * 0.0998f});
     CHECK_NEAR(e.z, 0.1996, 1e-4);
     CHECK(e.x == 0.0f && e.y == 0.0f);
+  }
+}
+
+TEST(attitude_reference_points_the_thrust_and_the_nose) {
+  for (int deg = -175; deg <= 180; deg += 5) {
+    ROW("%d deg", deg);
+    const double yaw = deg * 3.14159265358979 / 180.0;
+    const sincos_t heading = {(float)sin(yaw), (float)cos(yaw)};
+    const v3_t up = {0.2f, -0.1f, sqrtf(0.95f)};
+    const quat_t q = att_indi_reference(up, heading);
+    const v3_t got = quat_up(q),
+               level = quat_to_world(att_indi_reference((v3_t){0, 0, 1}, heading), (v3_t){1, 0, 0});
+    CHECK_NEAR(quat_dot(q, q), 1.0, 1e-5);
+    CHECK_NEAR(got.x, up.x, 1e-5);
+    CHECK_NEAR(got.y, up.y, 1e-5);
+    CHECK_NEAR(level.x, cos(yaw), 1e-5);
+    CHECK_NEAR(level.y, sin(yaw), 1e-5);
   }
 }

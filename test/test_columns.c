@@ -96,6 +96,8 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
       {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
        "c.toml:3: scale: 0; allowed: any other number"},
+      {"late", TIME "z = {column = \"z\", unit = \"m\", late_ms = 101}\n",
+       "c.toml:3: late_ms: 101 is out of range; allowed: 0 to 100"},
       {"no frame", TIME "az = {column = \"z\", unit = \"g\"}\n",
        "c.toml:1: acceleration: missing; allowed: a text in quotes"},
       {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",

@@ -52,7 +52,7 @@ static double nominal_restless_N(const rig_t *r, flown_by_kind_t kind) {
   why_t why = {""};
   model_t m = r->vehicle;
   m.flown_by = (flown_by_t){.kind = kind, .pid = stock_pid_default()};
-  if (!CHECK_OK(nominal_fly(&r->set.grid[0], &m, &r->manner, 5, &flown, &why))) return 0.0;
+  if (!CHECK_OK(nominal_fly(&r->set.grid[0], &m, &r->manner, 5, &flown, NULL, &why))) return 0.0;
   const double median_N = restless_N(&flown);
   gap_flight_free(&flown);
   return median_N;

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 static status_t read_log(gap_flight_t *f, const char *path, why_t *why) {
-  const columns_t columns = columns_crazyflie();
+  const columns_t columns = flight_csv_columns();
   model_t vehicle;
   TRY(model_builtin("cf21_legacy", &vehicle, why));
   return gap_read(f, path, &columns, &vehicle, why);
@@ -169,7 +169,7 @@ TEST(gap_reads_half_an_hour_of_a_log_of_any_length_in_64_megabytes) {
 TEST(stream_all) {
   const char *const rows = getenv("STREAM_ROWS");
   if (!rows) SKIP("reads the standard input; the test of long logs starts it");
-  const columns_t columns = columns_crazyflie();
+  const columns_t columns = flight_csv_columns();
   log_rows_t log;
   log_row_t row;
   model_t vehicle;

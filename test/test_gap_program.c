@@ -5,8 +5,8 @@
 #include "programs.h"
 #include "scratch.h"
 #include "test.h"
+#include "verdicts.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,95 +14,38 @@
 #define DRAG_KG 3e-6
 #define GAP     "gap --vehicle $S/room.toml --columns tools/columns/fly.toml "
 
-static char *slurp(const char *name) {
-  FILE *const file = fopen(scratch_path(name), "rb");
-  char *const text = calloc(1, 1u << 20);
-  if (!text) abort();
-  if (file) text[fread(text, 1, (1u << 20) - 1, file)] = '\0';
-  if (file) fclose(file);
-  return text;
-}
-
-static cJSON *verdict_of(const char *name) {
-  char *const text = slurp(name);
-  cJSON *const json = cJSON_Parse(text);
-  free(text);
-  return json;
-}
-
-static const char *string_of(const cJSON *o, const char *key) {
-  const cJSON *const s = cJSON_GetObjectItem(o, key);
-  return cJSON_IsString(s) ? s->valuestring : "";
-}
-
-static double number_of(const cJSON *o, const char *key) {
-  const cJSON *const v = cJSON_GetObjectItem(o, key);
-  return cJSON_IsNumber(v) ? v->valuedouble : (double)NAN;
-}
-
-// Every key of the specification, of its type, and no other.
-static void check_shape(const cJSON *v) {
-  static const char *const keys[] = {"verdict",      "effects",      "unknown", "gap",
-                                     "resimulation", "not_testable", "warnings"};
-  static const char *const lists[] = {"effects", "gap", "not_testable", "warnings"};
-  CHECK(cJSON_GetArraySize(v) == 7);
-  for (unsigned i = 0; i < 7; i++) {
-    ROW("%s", keys[i]);
-    CHECK(cJSON_HasObjectItem(v, keys[i]));
-  }
-  for (unsigned i = 0; i < 4; i++) CHECK(cJSON_IsArray(cJSON_GetObjectItem(v, lists[i])));
-  const cJSON *one;
-  cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "not_testable")) {
-    CHECK(cJSON_GetArraySize(one) == 3 && string_of(one, "effect")[0] && string_of(one, "why")[0] &&
-          string_of(one, "fly")[0]);
-  }
-  cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "gap")) {
-    CHECK(cJSON_GetArraySize(one) == 6 && string_of(one, "channel")[0] && string_of(one, "unit")[0]);
-    CHECK(number_of(one, "before") > 0.0 && number_of(one, "after") > 0.0 && number_of(one, "floor") > 0.0);
-    CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(one, "held_out")) > 0);
-  }
-  cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "warnings")) CHECK(cJSON_IsString(one));
-}
-
-static const cJSON *gap_of(const cJSON *v, const char *channel) {
-  const cJSON *one;
-  cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "gap")) if (strcmp(string_of(one, "channel"), channel) ==
-                                                             0) return one;
-  return NULL;
-}
-
 // --- something named ------------------------------------------------------------------------------------
 
 static void check_drag(const cJSON *v) {
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
-  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 1 && cJSON_GetArraySize(effect) == 7);
-  CHECK_TEXT(string_of(effect, "name"), "rotor_drag");
-  CHECK(number_of(effect, "p") < 1e-4 && number_of(effect, "share") > 0.05);
-  CHECK(cJSON_IsArray(cJSON_GetObjectItem(effect, "rivals")) && string_of(effect, "fly")[0]);
+  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 1 && cJSON_GetArraySize(effect) == 8);
+  CHECK_TEXT(verdict_string(effect, "name"), "rotor_drag");
+  CHECK(verdict_number(effect, "p") < 1e-4 && verdict_number(effect, "share") > 0.05);
+  CHECK(cJSON_IsArray(cJSON_GetObjectItem(effect, "rivals")) && verdict_string(effect, "fly")[0]);
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
-  CHECK_NEAR(number_of(k, "value"), DRAG_KG, 0.1 * DRAG_KG);
-  CHECK(number_of(k, "stderr") > 0.0 && number_of(k, "stderr") < 0.1 * DRAG_KG);
-  CHECK_TEXT(string_of(k, "unit"), "kg");
+  CHECK_NEAR(verdict_number(k, "value"), DRAG_KG, 0.1 * DRAG_KG);
+  CHECK(verdict_number(k, "stderr") > 0.0 && verdict_number(k, "stderr") < 0.1 * DRAG_KG);
+  CHECK_TEXT(verdict_string(k, "unit"), "kg");
   const cJSON *const where = cJSON_GetObjectItem(effect, "where");
-  CHECK(strcmp(string_of(where, "coordinate"), "v_x") == 0 ||
-        strcmp(string_of(where, "coordinate"), "v_y") == 0);
-  CHECK_TEXT(string_of(where, "unit"), "m/s");
-  CHECK(number_of(where, "from") < -0.1 && number_of(where, "to") > 0.1);
-  const cJSON *const x = gap_of(v, "force_x"), *const again = cJSON_GetObjectItem(v, "resimulation");
-  CHECK(number_of(x, "after") < 0.8 * number_of(x, "before"));
-  CHECK(number_of(again, "after") < 0.9 * number_of(again, "before"));
-  CHECK_TEXT(string_of(again, "unit"), "m");
+  CHECK(strcmp(verdict_string(where, "coordinate"), "v_x") == 0 ||
+        strcmp(verdict_string(where, "coordinate"), "v_y") == 0);
+  CHECK_TEXT(verdict_string(where, "unit"), "m/s");
+  CHECK(verdict_number(where, "from") < -0.1 && verdict_number(where, "to") > 0.1);
+  const cJSON *const x = verdict_gap(v, "force_x"), *const again = cJSON_GetObjectItem(v, "resimulation");
+  CHECK(verdict_number(x, "after") < 0.8 * verdict_number(x, "before"));
+  CHECK(verdict_number(again, "after") < 0.9 * verdict_number(again, "before"));
+  CHECK_TEXT(verdict_string(again, "unit"), "m");
 }
 
 // Two flights of 20 s are 20 blocks: Student's 2.09 standard errors, where a normal distribution has 1.96.
 static void check_interval(const cJSON *v) {
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
-  char *const page = slurp("named/report.html");
+  char *const page = scratch_text("named/report.html");
   const char *const row = strstr(page, "<tr><td>k<td class=n>");
   double value = 0.0, from = 0.0, to = 0.0;
   CHECK(row && sscanf(row, "<tr><td>k<td class=n>%lf<td class=n>%lf to %lf", &value, &from, &to) == 3);
-  CHECK_NEAR(0.5 * (to - from) / number_of(k, "stderr"), 2.09, 0.05);
+  CHECK_NEAR(0.5 * (to - from) / verdict_number(k, "stderr"), 2.09, 0.05);
   free(page);
 }
 
@@ -119,7 +62,7 @@ static void check_page(void) {
                                       "</html>"};
   static const char *const never[] = {"<script", "http", "src=", "href=", "url(",
                                       "@import", ">nan", "Lnan", "Mnan"};
-  char *const page = slurp("named/report.html");
+  char *const page = scratch_text("named/report.html");
   for (unsigned i = 0; i < sizeof holds / sizeof *holds; i++) {
     ROW("%s", holds[i]);
     CHECK(strstr(page, holds[i]));
@@ -135,7 +78,7 @@ static void check_page(void) {
 static void check_model(const cJSON *v) {
   model_t m, plain;
   why_t why = {""};
-  char text[2000], *const file = slurp("named/model.toml");
+  char text[2000], *const file = scratch_text("named/model.toml");
   CHECK(strstr(file, "utiasDSL/drone-models") &&
         strstr(file, "# Found by the discrepancy workflow in 2 flights"));
   free(file);
@@ -146,7 +89,7 @@ static void check_model(const cJSON *v) {
   CHECK_TEXT(m.fx[0].fx->name, "rotor_drag");
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
-  CHECK_NEAR(m.fx[0].p[0], number_of(k, "value"), 1e-8 * DRAG_KG);
+  CHECK_NEAR(m.fx[0].p[0], verdict_number(k, "value"), 1e-8 * DRAG_KG);
   CHECK(program_run("fly ceiling-gap --vehicle $S/named/model.toml", STREAM_ERROR, text, sizeof text) == 0);
   CHECK_TEXT(text, "");
 }
@@ -160,12 +103,12 @@ TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
         0);
   CHECK(strstr(text, "Missing in room.toml: rotor_drag.\n") != NULL);
   CHECK(strstr(text, "held out: 1 of 3 flights\n") != NULL);
-  cJSON *const v = verdict_of("named/verdict.json"), *const same = verdict_of("same.json");
-  CHECK_TEXT(string_of(v, "verdict"), "named");
+  cJSON *const v = verdict_read("named/verdict.json"), *const same = verdict_read("same.json");
+  CHECK_TEXT(verdict_string(v, "verdict"), "named");
   CHECK(cJSON_Compare(v, same, true));
-  check_shape(v);
+  verdict_check(v);
   check_drag(v);
-  const cJSON *const held = cJSON_GetObjectItem(gap_of(v, "force_z"), "held_out");
+  const cJSON *const held = cJSON_GetObjectItem(verdict_gap(v, "force_z"), "held_out");
   CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "c2.csv"));
   check_page();
   check_interval(v);
@@ -185,12 +128,12 @@ TEST(gap_reads_a_usd_log_as_the_same_flight_and_holds_out_what_it_is_told) {
     CHECK(program_run(i ? GAP "--json $S/k.json --hold-out $S/b1.bin $S/b?.bin"
                         : GAP "--json $S/k.json --hold-out $S/b1.csv $S/b?.csv",
                       STREAM_OUTPUT, text, sizeof text) == 0);
-    cJSON *const v = verdict_of("k.json");
+    cJSON *const v = verdict_read("k.json");
     const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
-    CHECK_TEXT(string_of(effect, "name"), "rotor_drag");
-    const cJSON *const held = cJSON_GetObjectItem(gap_of(v, "force_x"), "held_out");
+    CHECK_TEXT(verdict_string(effect, "name"), "rotor_drag");
+    const cJSON *const held = cJSON_GetObjectItem(verdict_gap(v, "force_x"), "held_out");
     CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "b1."));
-    k[i] = number_of(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
+    k[i] = verdict_number(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
     cJSON_Delete(v);
   }
   CHECK_NEAR(k[1], k[0], 0.01 * k[0]); // floats: other last digits, a tenth of the standard error
@@ -204,9 +147,9 @@ TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   CHECK(program_run(GAP "--json $S/none.json $S/n0.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "Nothing is missing in room.toml that these flights could show.\n") != NULL);
   CHECK(strstr(text, "held out: the last third of the flight\n") != NULL);
-  cJSON *const v = verdict_of("none.json");
-  CHECK_TEXT(string_of(v, "verdict"), "none");
-  check_shape(v);
+  cJSON *const v = verdict_read("none.json");
+  CHECK_TEXT(verdict_string(v, "verdict"), "none");
+  verdict_check(v);
   CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 0 &&
         cJSON_IsNull(cJSON_GetObjectItem(v, "unknown")));
   bool sizes = false;
@@ -223,14 +166,15 @@ TEST(gap_lists_what_missing_rates_leave_untested) {
   CHECK(program_run("grep -v '^gz' tools/columns/fly.toml >$S/blind.toml; gap --vehicle $S/room.toml "
                     "--columns $S/blind.toml --json $S/blind.json $S/r0.csv",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  cJSON *const v = verdict_of("blind.json");
+  cJSON *const v = verdict_read("blind.json");
   static const char *const turns[] = {"cg_offset", "flapping", "inertia", "gyroscopic"};
   for (unsigned i = 0; i < sizeof turns / sizeof *turns; i++) {
     ROW("%s", turns[i]);
     bool listed = false;
     const cJSON *one;
     cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "not_testable")) listed |=
-        strcmp(string_of(one, "effect"), turns[i]) == 0 && strstr(string_of(one, "why"), "residuals");
+        strcmp(verdict_string(one, "effect"), turns[i]) == 0 &&
+        strstr(verdict_string(one, "why"), "residuals");
     CHECK(listed);
   }
   cJSON_Delete(v);
@@ -242,14 +186,15 @@ TEST(gap_says_where_something_without_a_name_is) {
   const fx_use_t push = truth_strange(1, 3.0, &answer);
   CHECK(gap_logs_fly("u", 2, &push));
   CHECK(program_run(GAP "--json $S/unknown.json $S/u?.csv", STREAM_OUTPUT, text, sizeof text) == 0);
-  cJSON *const v = verdict_of("unknown.json");
+  cJSON *const v = verdict_read("unknown.json");
   const cJSON *const u = cJSON_GetObjectItem(v, "unknown");
-  CHECK_TEXT(string_of(v, "verdict"), "unknown");
-  check_shape(v);
+  CHECK_TEXT(verdict_string(v, "verdict"), "unknown");
+  verdict_check(v);
   CHECK(cJSON_GetArraySize(u) == 6);
-  CHECK_TEXT(string_of(u, "coordinate"), answer.coordinate);
-  CHECK(strcmp(string_of(u, "channel"), "force_x") == 0 || strcmp(string_of(u, "channel"), "force_y") == 0);
-  CHECK_TEXT(string_of(u, "unit"), "m/s2");
-  CHECK(number_of(u, "from") < number_of(u, "to") && number_of(u, "size") != 0.0);
+  CHECK_TEXT(verdict_string(u, "coordinate"), answer.coordinate);
+  CHECK(strcmp(verdict_string(u, "channel"), "force_x") == 0 ||
+        strcmp(verdict_string(u, "channel"), "force_y") == 0);
+  CHECK_TEXT(verdict_string(u, "unit"), "m/s2");
+  CHECK(verdict_number(u, "from") < verdict_number(u, "to") && verdict_number(u, "size") != 0.0);
   cJSON_Delete(v);
 }

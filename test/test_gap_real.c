@@ -87,16 +87,25 @@ TEST(gap_names_the_ground_first_in_the_recorded_walks_above_it) {
   close(c);
 }
 
-TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
-  if (!test_data_dir()) SKIP("no measured data");
+// Flights with rotor speeds, diagnosed with a vehicle that has neither lag nor drag. third: may be null.
+static case_t *with_rotor_speeds(const char *third, const char *held) {
   case_t *c = calloc(1, sizeof *c);
+  char file[2][40];
   why_t why;
   CHECK_OK(model_builtin("cf21_imrc", &c->vehicle, &why));
   c->vehicle.motor_tau_s = 1e-3;
+  snprintf(file[0], sizeof file[0], "imu_rpm_500hz/%s.csv", third ? third : "");
+  snprintf(file[1], sizeof file[1], "imu_rpm_500hz/%s.csv", held);
   read_all(c, "tools/columns/imrc.toml",
-           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv",
-                            "imu_rpm_500hz/jana05.csv", "imu_rpm_500hz/jana10.csv"});
-  run(c, 3);
+           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv", third ? file[0] : NULL,
+                            file[1]});
+  run(c, third ? 3 : 2);
+  return c;
+}
+
+TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = with_rotor_speeds("jana05", "jana10");
   const named_t *lag = named(c, "motor_lag"), *drag = named(c, "rotor_drag");
   if (CHECK(lag != NULL)) CHECK_NEAR(lag->value[0], 0.076, 0.019); // 57-95 ms
   // k of a unit of mass, at the speed of four rotors in hover: 0.36-0.45 1/s
@@ -107,14 +116,7 @@ TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
 
 TEST(gap_keeps_no_name_that_grows_a_channel_of_the_held_out_recorded_flight) {
   if (!test_data_dir()) SKIP("no measured data");
-  case_t *c = calloc(1, sizeof *c);
-  why_t why;
-  CHECK_OK(model_builtin("cf21_imrc", &c->vehicle, &why));
-  c->vehicle.motor_tau_s = 1e-3;
-  read_all(c, "tools/columns/imrc.toml",
-           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv", NULL,
-                            "imu_rpm_500hz/jana05.csv"});
-  run(c, 2);
+  case_t *c = with_rotor_speeds(NULL, "jana05");
   CHECK(named(c, "motor_lag") && named(c, "rotor_drag"));
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &c->d.held_out.channel[ch];

@@ -8,7 +8,7 @@
 #include <string.h>
 
 static status_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
-  const columns_t columns = columns_crazyflie();
+  const columns_t columns = flight_csv_columns();
   model_t vehicle;
   TRY(model_builtin("cf21_legacy", &vehicle, why));
   return gap_read(f, flight_csv_file(made, "f.csv"), &columns, &vehicle, why);

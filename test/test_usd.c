@@ -177,7 +177,7 @@ static const char *write_flight(size_t cut) {
 }
 
 TEST(gap_reads_a_usd_log_as_the_csv_of_the_same_flight) {
-  const columns_t columns = columns_crazyflie();
+  const columns_t columns = flight_csv_columns();
   model_t vehicle;
   gap_flight_t csv, usd, cut;
   why_t why = {""};

@@ -18,6 +18,9 @@ tools/demo.sh "$data" >"$got"
 sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 tools/gap_demo.sh "$data" >"$got"
 text <"$got" | part gap
+[ -z "$data" ] || tools/recorded.sh "$data" | text | part recorded
+tools/add_effect.sh >"$got"
+text <"$got" | part cable
 out/bench >"$got"
 text <"$got" | part bench
 for gains in '1 5' '2 8'; do

@@ -3,27 +3,12 @@
 
 #include "controller_pid.h"
 #include "param.h"
-#include "range.h"
-#include "supervisor.h"
 #include "task.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 _Thread_local stand_in_t *stand_in;
-
-float rangeGet(rangeDirection_t direction) {
-  return stand_in->range_mm[direction];
-}
-
-bool supervisorIsFlying(void) {
-  return stand_in->flying;
-}
-bool supervisorAreMotorsAllowedToRun(void) {
-  return stand_in->motors_allowed;
-}
-
-void controllerPidInit(void) {}
 
 void controllerPid(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                    const state_t *state, const stabilizerStep_t step) {

@@ -137,6 +137,7 @@ typedef struct {
   double shape[FX_SHAPE_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
+  bool at_wall;             // parameter 0 is where a wall is: the workflow takes it from the vehicle file
   int n_param;
   fx_param_t param[FX_PARAM_MAX];
   // What the rotor's thrust is multiplied by, minus one. Several effects add (thesis 3.1.4).

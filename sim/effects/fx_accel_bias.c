@@ -12,8 +12,8 @@ const fx_t fx_accel_bias = {
     .n_size = 3,
     .size = {{0, 0.01, 0, 0.0}, {1, 0.01, 0, 0.0}, {2, 0.01, 0, 0.0}},
     .n_param = 3,
-    .param = {{"x", "m/s2", -10.0, 0.12, 10.0},
-              {"y", "m/s2", -10.0, 0.0, 10.0},
-              {"z", "m/s2", -10.0, 0.0, 10.0}},
+    .param = {{"x", "m/s2", -1.0, 0.12, 1.0}, // beyond 0.1 g a sensor is broken, or it is something else
+              {"y", "m/s2", -1.0, 0.0, 1.0},
+              {"z", "m/s2", -1.0, 0.0, 1.0}},
     .sense = sense,
 };

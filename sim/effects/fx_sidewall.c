@@ -19,6 +19,13 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_sidewall = {
     .name = "sidewall",
     .brief = "a wall pulls the vehicle and turns its top towards itself",
+    .fly = "slow approaches to the wall, sideways",
+    .n_size = 2,
+    .size = {{1, 1e-4, 0, 0.0}, {2, 1e-6, 0, 0.0}},
+    .shape_param = 3,
+    .n_shape = 5,
+    .shape = {0.02, 0.04, 0.07, 0.12, 0.2},
+    .at_wall = true,
     .n_param = 4,
     .param = {{"y", "m", -100.0, 1.0, 100.0},
               {"force", "N", -0.5, 5e-3, 0.5},

@@ -9,8 +9,8 @@
 #define BAD_SHARE   0.05  // of the rows: more cells that are no numbers are refused
 #define SKEW_SPAN_S 300.0 // the skew is told from so much of a flight
 #define SKEW_MIN_S  0.0005
-#define SKEW_MAX_S  0.025
-#define SKEW_SURE   3.0 // standard errors
+#define SKEW_MAX_S  0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
+#define SKEW_SURE   3.0  // standard errors
 #define SKEW_ROUNDS 3
 
 #define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
@@ -174,6 +174,7 @@ static void note_samples(gap_flight_t *f) {
 
 static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   double shift_s[SIG_COUNT] = {0.0};
+  for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = rows->columns.of[i].late_s;
   TRY(raw_read(raw, rows, &f->cut, why));
   TRY(check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));

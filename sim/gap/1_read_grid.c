@@ -110,10 +110,11 @@ static void resample(const raw_t *raw, const segment_t *s, double period_s, doub
 }
 
 // New samples go to the nearest instant.
-static void place(const raw_t *raw, const double *v, const segment_t *s, double period_s, double *out) {
+static void place(const raw_t *raw, const double *v, const segment_t *s, double period_s, double shift_s,
+                  double *out) {
   for (int k = 0; k < s->n; k++) out[k] = (double)NAN;
   for (int i = s->first; i <= s->last; i++) {
-    const double k = floor((raw->t_s[i] - s->start_s) / period_s + 0.5);
+    const double k = floor((raw->t_s[i] - shift_s - s->start_s) / period_s + 0.5);
     if (!isnan(v[i]) && k >= 0.0 && k < s->n) out[(int)k] = v[i];
   }
 }
@@ -149,7 +150,7 @@ static status_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, 
   if (!out) return error_failed(why, "out of memory");
   for (segment_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
     if (signal == SIG_RANGE || signal == SIG_RANGE_DOWN)
-      place(raw, raw->v[signal], &s, g->period_s, out + s.at);
+      place(raw, raw->v[signal], &s, g->period_s, shift_s, out + s.at);
     else
       resample(raw, &s, g->period_s, shift_s, signal, out + s.at);
   }

@@ -1,13 +1,11 @@
 // 3_residual.c - measured less predicted, as rows for least squares.
 #include "gap/3_residual.h"
 
-#include "lowpass.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define CUTOFF_HZ 8.0
-#define SPREAD_S  0.08 // a masked point spoils the filter's output so far around it
-#define EDGE_S    0.3  // so does the end of a segment
+#define SPREAD_S 0.08 // a masked point spoils the filter's output so far around it
+#define EDGE_S   0.3  // so does the end of a segment
 
 // --- which points become rows -----------------------------------------------------------------------------
 
@@ -59,6 +57,20 @@ static void add_flight(set_t *s, int flight, const bool *good) {
   if (g->n) s->n_block += (int)((end_s - start_s) / BLOCK_S) + 1;
 }
 
+// Measured and predicted alike; turning is a difference over two points.
+static bool mark(grid_t *g) {
+  g->mark = malloc((size_t)g->n + 1);
+  for (int j = 0; g->mark && j < g->n; j++) {
+    const bool first = j == 0 || g->point[j].segment != g->point[j - 1].segment;
+    const bool last = j + 1 == g->n || g->point[j].segment != g->point[j + 1].segment;
+    const bool beside = (j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok);
+    g->mark[j] =
+        (unsigned char)((g->point[j].ok ? MARK_FREE : 0) | (g->point[j].ok && beside ? MARK_TURN_FREE : 0) |
+                        (first ? MARK_FIRST : 0) | (last ? MARK_LAST : 0));
+  }
+  return g->mark != NULL;
+}
+
 status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   *s = (set_t){.grid = grid, .n_grid = n, .n_half = 2 * n};
   size_t points = 0, most = 1, blocks = 1;
@@ -70,7 +82,8 @@ status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   }
   bool *const good = malloc(most * sizeof(bool));
   s->half = calloc(blocks, sizeof(int));
-  const bool room = rows_room(&s->smooth, points) && rows_room(&s->range, points);
+  bool room = rows_room(&s->smooth, points) && rows_room(&s->range, points);
+  for (int i = 0; i < n && room; i++) room = mark(&grid[i]);
   if (!good || !s->half || !room) {
     free(good);
     return error_failed(why, "out of memory");
@@ -101,77 +114,29 @@ void set_free(set_t *s) {
   *s = (set_t){.n_grid = 0};
 }
 
-// --- rows of a series
-// ---------------------------------------------------------------------------------------
+// --- what was measured
+// --------------------------------------------------------------------------------------
 
-static double at(const grid_t *g, const double *v, int j, int k) {
-  return k >= 0 && k < g->n && g->point[k].segment == g->point[j].segment ? v[k] : v[j];
+static void measured(const point_t *p, double at[CHANNELS]) {
+  d3_put(at, p->acc_b_mps2);
+  d3_put(at + CH_FORCES, p->rate_b_radps);
+  at[CH_RANGE] = p->range_m;
 }
 
-static double differentiated(const grid_t *g, const double *v, int j) {
-  return (at(g, v, j, j + 1) - at(g, v, j, j - 1)) / (2.0 * g->period_s);
-}
-
-static double over_two(const grid_t *g, const double *v, int j) {
-  return (at(g, v, j, j - 1) + 4.0 * v[j] + at(g, v, j, j + 1)) / 6.0;
-}
-
-// Forwards and backwards; every segment starts at rest.
-static void smooth(const grid_t *g, double *v) {
-  const double cutoff_Hz = fmin(CUTOFF_HZ, 0.4 / g->period_s);
-  lowpass_t f;
-  for (int way = 1; way >= -1; way -= 2) {
-    const int from = way > 0 ? 0 : g->n - 1;
-    for (int j = from; j >= 0 && j < g->n; j += way) {
-      if (j == from || g->point[j].segment != g->point[j - way].segment)
-        lowpass_init(&f, cutoff_Hz, 1.0 / g->period_s, v[j]);
-      v[j] = lowpass_step(&f, v[j]);
-    }
-  }
-}
-
-// Measured and predicted alike; turning is a difference over two points.
-static bool is_free(const grid_t *g, int channel, int j) {
-  const bool turning = channel >= CH_FORCES;
-  return g->point[j].ok &&
-         (!turning || ((j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok)));
-}
-
-void residual_rows(const set_t *s, int flight, int channel, series_t kind, const double *series,
-                   double *scratch, double *row) {
-  const grid_t *g = &s->grid[flight];
-  const rows_t *r = set_rows(s, channel);
-  const double *from = series;
-  if (channel < CH_SMOOTH) {
-    double last = 0.0;
-    for (int j = 0; j < g->n; j++) {
-      const double v = channel < CH_FORCES        ? series[j]
-                       : kind == SERIES_PREDICTED ? over_two(g, series, j)
-                                                  : differentiated(g, series, j);
-      if (isfinite(v) && is_free(g, channel, j)) last = v;
-      scratch[j] = last; // what is masked does not spill over through the filter
-    }
-    smooth(g, scratch);
-    from = scratch;
-  }
-  for (int i = 0; i < r->n; i++)
-    if (r->flight[i] == flight) row[i] = from[r->point[i]];
-}
-
-static double measured(const point_t *p, int channel) {
-  const double v[CHANNELS] = {p->acc_b_mps2.x,   p->acc_b_mps2.y,   p->acc_b_mps2.z, p->rate_b_radps.x,
-                              p->rate_b_radps.y, p->rate_b_radps.z, p->range_m};
-  return v[channel];
-}
-
-status_t residual_measured(const set_t *s, int channel, double *row, why_t *why) {
+status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
-    double *const series = malloc(2 * ((size_t)g->n + 1) * sizeof(double));
-    if (!series) return error_failed(why, "out of memory");
-    for (int j = 0; j < g->n; j++) series[j] = measured(&g->point[j], channel);
-    residual_rows(s, f, channel, SERIES_RATE, series, series + g->n, row);
-    free(series);
+    const size_t n = (size_t)g->n + 1;
+    double *const room = malloc((CHANNELS + CH_SMOOTH) * n * sizeof(double)), *series[CHANNELS];
+    if (!room) return error_failed(why, "out of memory");
+    for (size_t ch = 0; ch < CHANNELS; ch++) series[ch] = room + ch * n;
+    for (int j = 0; j < g->n; j++) {
+      double at[CHANNELS];
+      measured(&g->point[j], at);
+      for (int ch = 0; ch < CHANNELS; ch++) series[ch][j] = at[ch];
+    }
+    residual_rows(s, f, SERIES_RATE, (const double *const *)series, room + CHANNELS * n, row);
+    free(room);
   }
   return ST_OK;
 }

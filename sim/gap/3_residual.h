@@ -39,12 +39,27 @@ void set_free(set_t *s);
 
 typedef enum { SERIES_PREDICTED, SERIES_RATE } series_t; // values, or a rate whose derivative is wanted
 
-// One channel of one flight, by point, to that flight's rows of it. scratch: as long as the flight's grid.
-void residual_rows(const set_t *s, int flight, int channel, series_t kind, const double *series,
-                   double *scratch, double *row);
+// The first row of a flight or of the next ones; rows are in the flights' order.
+static inline int rows_from(const rows_t *r, int flight) {
+  int low = 0, high = r->n;
+  while (low < high) {
+    const int middle = low + (high - low) / 2;
+    if (r->flight[middle] < flight)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
 
-// What was measured, rows of a channel over all flights. ST_FAILED: no memory.
-MUST_CHECK status_t residual_measured(const set_t *s, int channel, double *row, why_t *why);
+// One flight, channel by channel by point, to that flight's rows. row: a null pointer where a channel is not
+// wanted. scratch: CH_SMOOTH numbers per point of the flight's grid. Of a smooth channel's numbers, those
+// below 1e-140 become 0.
+void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
+                   double *scratch, double *const row[CHANNELS]);
+
+// What was measured, rows over all flights of the channels for which there is room. ST_FAILED: no memory.
+MUST_CHECK status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why);
 
 // The channel can be formed from these logs.
 bool residual_has(const set_t *s, int channel);

@@ -5,6 +5,7 @@
 #ifndef SIM_GAP_CANDIDATES_H
 #define SIM_GAP_CANDIDATES_H
 
+#include "gap/2_replay.h"
 #include "gap/3_residual.h"
 
 typedef struct {
@@ -25,17 +26,25 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
 MUST_CHECK status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why);
 void candidates_free(candidates_t *c);
 
+// Commands are logged much more slowly than attitude control gives them: how strongly they turn the vehicle
+// cannot be told, nor inertia from lag, nor mass from thrust scale.
+bool candidates_slow(const set_t *s);
+
+// Of a lag or delay, what is never named: fx->size.least, or one period of the slowest log, whichever is
+// more. Of other effects 0.
+double candidates_least(const fx_t *fx, const set_t *s);
+
 // The number of candidate i's size k.
 double *candidate_value(const candidate_t *c, int k);
-// What is typical of it; never 0.
+// What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.
 double candidate_typical(const candidate_t *c, int k);
 
 // The model with what is named. ST_BAD_INPUT: too many effects.
 MUST_CHECK status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
 
 // The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
-// gets. base: the model's own replay. ST_FAILED: no memory.
-MUST_CHECK status_t candidate_differentiate(grid_t *g, const model_t *now, const candidate_t *c, int k,
+// gets. now, base: the model's own replay, kept. ST_BAD_INPUT: too many effects.
+MUST_CHECK status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
                                             double *const base[CHANNELS], double *const with[CHANNELS],
                                             why_t *why);
 

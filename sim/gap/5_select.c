@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define ROUNDS 16
+#define SETTLE 6
 
 const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
@@ -39,6 +40,7 @@ static status_t open_round(select_t *t, why_t *why) {
     for (int k = 0; k < c->candidate[t->choice.of[i]].n; k++)
       b[n++] = *candidate_value(&c->candidate[t->choice.of[i]], k);
   const explained_t known = {choice_columns(c, &t->choice, column), column, b, false};
+  t->rounds++;
   TRY(table_make(&t->table, t->s, t->base, c, why));
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
   if (status == ST_OK)
@@ -54,8 +56,9 @@ static double within(const candidate_t *c, int k, double value) {
   return fmin(fmax(value, size->sign > 0 ? 0.0 : param->min), param->max);
 }
 
-// Names what is chosen, with its values. Returns the largest change, in parts of what is typical.
-static double take_values(select_t *t) {
+// Names what is chosen, and brings its values by this share of the way to what is estimated now. Returns the
+// largest way, in parts of what is typical.
+static double take_values(select_t *t, double share) {
   double b[COLUMN_MAX], most = 0.0;
   int n = 0;
   judge_estimate(&t->judge, &t->choice, b, NULL);
@@ -67,9 +70,9 @@ static double take_values(select_t *t) {
   for (int i = 0; i < t->choice.n; i++) {
     candidate_t *c = &t->c->candidate[t->choice.of[i]];
     for (int k = 0; k < c->n; k++) {
-      const double value = within(c, k, b[n++]);
-      most = fmax(most, fabs(value - *candidate_value(c, k)) / candidate_typical(c, k));
-      *candidate_value(c, k) = value;
+      double *const value = candidate_value(c, k), way = within(c, k, b[n++]) - *value;
+      most = fmax(most, fabs(way) / candidate_typical(c, k));
+      *value += share * way;
     }
   }
   return most;
@@ -143,10 +146,14 @@ static bool prune_one(select_t *t) {
   return false;
 }
 
+// Straight lines about the last values, until these stay; by half where they only go to and fro.
 static status_t settle(select_t *t, why_t *why) {
-  for (int i = 0; i < 4; i++) {
-    const double change = take_values(t);
+  double last = HUGE_VAL, share = 1.0;
+  for (int i = 0; i < SETTLE; i++) {
+    const double change = take_values(t, share);
     if (change < 1e-3) break;
+    if (change > 0.7 * last) share = 0.5;
+    last = change;
     close_round(t);
     TRY(open_round(t, why));
   }
@@ -207,10 +214,12 @@ static status_t take_timing(select_t *t, why_t *why) {
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
-  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double))};
+  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                     .echo = calloc((size_t)c->n + 1, sizeof(bool))};
   t.taken = calloc((size_t)c->n + 1, sizeof(int));
   t.never = calloc((size_t)c->n + 1, sizeof(bool));
-  status_t status = found->least && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
+  status_t status =
+      found->least && found->echo && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) status = select_timing(&t, why);
   if (status == ST_OK) status = take_timing(&t, why);
   if (status == ST_OK) status = open_round(&t, why);
@@ -218,6 +227,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
   if (status == ST_OK) status = set_open_apart(&t, found, why);
   if (status == ST_OK) {
     select_describe(&t, found);
+    found->rounds = t.rounds;
     close_round(&t);
   }
   free(t.taken);
@@ -227,5 +237,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
 
 void found_free(found_t *f) {
   free(f->least);
+  free(f->echo);
   f->least = NULL;
+  f->echo = NULL;
 }

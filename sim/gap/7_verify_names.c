@@ -26,7 +26,16 @@ static status_t measure(diagnosis_t *d, const model_t *base, double rms[CHANNELS
   return status;
 }
 
-// The name that grows some channel most, if it is by more than it may; -1: none.
+// Sum over the channels of the logarithm of what the rms is multiplied by.
+static double balance(const double with[CHANNELS], const double without[CHANNELS]) {
+  double sum = 0.0;
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (with[ch] > 0.0 && without[ch] > 0.0) sum += log(with[ch] / without[ch]);
+  return sum;
+}
+
+// The name that grows some channel most, if it is by more than it may and the others do not gain twice as
+// much; -1: none.
 static status_t find_worst(diagnosis_t *d, const model_t *base, int *worst, withdrawn_t *why_so, why_t *why) {
   double with[CHANNELS], without[CHANNELS], most = VERIFY_GROWS;
   *worst = -1;
@@ -37,8 +46,10 @@ static status_t find_worst(diagnosis_t *d, const model_t *base, int *worst, with
     const status_t status = measure(d, base, without, why);
     c->named = true;
     if (status != ST_OK) return status;
+    const double total = balance(with, without);
     for (int ch = 0; ch < CHANNELS; ch++) {
       if (!(without[ch] > 0.0) || !(with[ch] > most * without[ch])) continue;
+      if (total < -log(with[ch] / without[ch])) continue;
       most = with[ch] / without[ch];
       *worst = i;
       *why_so = (withdrawn_t){c->use.fx, ch, without[ch], with[ch]};

@@ -8,21 +8,6 @@
 
 // --- what could have been seen ----------------------------------------------------------------------------
 
-// Of the shapes of an effect the one that shows best; of its rotors the one that shows worst.
-static double least_of(const diagnosis_t *d, const fx_t *fx, const candidate_t **which) {
-  double least = 0.0;
-  *which = NULL;
-  for (int i = 0; i < d->candidates.n; i++) {
-    const candidate_t *const c = &d->candidates.candidate[i];
-    if (c->use.fx != fx || !(d->found.least[i] > 0.0)) continue;
-    const bool worst = !fx->surface && fx->n_shape > 0 && fx_is_number(&fx->param[fx->shape_param]);
-    if (*which && (worst ? d->found.least[i] < least : d->found.least[i] > least)) continue;
-    least = d->found.least[i];
-    *which = c;
-  }
-  return fmax(least, SELECT_LEAST);
-}
-
 static bool is_in_model(const report_t *r, const fx_t *fx) {
   const model_t *const m = &r->study->diagnosis.extended;
   for (int i = 0; i < m->n_fx; i++)
@@ -56,7 +41,7 @@ static void find_untested(report_t *r) {
     if (is_in_model(r, u.fx)) continue;
     const candidate_t *c;
     int n;
-    const double least = least_of(d, u.fx, &c);
+    const double least = found_least(&d->found, &d->candidates, u.fx, &c);
     u.obstacle = obstacle_of(r, u.fx);
     if (!u.obstacle && !c) {
       if (rivals_a_name(r, u.fx)) continue;
@@ -65,8 +50,9 @@ static void find_untested(report_t *r) {
     if (!u.obstacle) {
       u.param = &fx_use_params(&c->use, &n)[u.fx->size[0].param];
       u.typical = candidate_typical(c, 0);
-      u.seen_from = fmax(least * u.typical, u.fx->size[0].least);
-      u.testable = least < 1.0;
+      u.seen_from = fmax(least * u.typical, candidates_least(u.fx, &d->fit));
+      u.testable = u.seen_from < u.typical;
+      u.echo = d->found.echo[c - d->candidates.candidate];
       u.open = found_is_open(&d->found, &d->candidates, u.fx);
     }
     r->untested[r->n_untested++] = u;
@@ -78,8 +64,10 @@ void report_why(const untested_t *u, char text[REPORT_TEXT]) {
     snprintf(text, REPORT_TEXT, "%s", u->obstacle);
   else if (u->open)
     snprintf(text, REPORT_TEXT, "something like it is there, and other names explain it as well");
-  else if (!isfinite(u->seen_from))
-    snprintf(text, REPORT_TEXT, "nothing in the residuals of these flights depends on it");
+  else if (u->echo)
+    snprintf(text, REPORT_TEXT, "something like it is there, at one place, time or state only");
+  else if (!(u->seen_from <= u->param->max))
+    snprintf(text, REPORT_TEXT, "next to nothing in the residuals of these flights depends on it alone");
   else
     snprintf(text, REPORT_TEXT,
              "in these flights it would have been seen from %s %.2g%s%s on; typical is %.2g", u->param->name,

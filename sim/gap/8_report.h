@@ -36,6 +36,9 @@ typedef struct {
   double value[FX_SIZE_MAX]; // as the new model has them
   span_t where;              // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
+  // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
+  span_t matters;
+  double before, after;      // rms of the held-out rows there
   char fly[MANOEUVRE_BYTES]; // what would tell it from its rivals, or show it better
 } finding_t;
 
@@ -45,6 +48,7 @@ typedef struct {
   const fx_param_t *param;   // of its size; null: it could not be looked for
   double seen_from, typical; // of param: the smallest size that would have been seen, and what is typical
   const char *obstacle;      // null: none
+  bool echo;                 // something like it is there, at one place, time or state only
   bool open;                 // it, or one that these flights cannot tell from it, is missing
   bool testable;             // its typical size would have been seen
 } untested_t;
@@ -78,6 +82,8 @@ int report_coordinate(const char *name);
 // how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
 span_t report_where(const report_t *r, const profile_t *p, const double *effect);
 double report_told(const report_t *r, const profile_t *p, const double *effect);
+// Rms of a residual in a range of the profile's coordinate, in its channel; 0 without a row there.
+double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual);
 
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
@@ -94,8 +100,9 @@ bool report_can_tell(const report_t *r);
 #define REPORT_LENGTH 24
 const char *report_length(double m, char text[REPORT_LENGTH]);
 
-// As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}. A null
-// pointer: no memory.
+// As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}; an effect
+// has "matters" besides: {"channel", "unit", "from", "to", "before", "after"}, as finding_t. A null pointer:
+// no memory.
 cJSON *report_verdict(const report_t *r);
 // The verdict `refused`, with the line that says why as its one warning.
 cJSON *report_refused(const char *line);

@@ -6,23 +6,17 @@
 #include <math.h>
 #include <string.h>
 
+#define NEAR_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
+
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
 
 // --- named effects ----------------------------------------------------------------------------------------
-
-static void without(model_t *m, const fx_t *fx) {
-  for (int i = 0; i < m->n_fx; i++)
-    if (m->fx[i].fx == fx) {
-      m->fx[i] = m->fx[--m->n_fx];
-      return;
-    }
-}
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
 static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
                              double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
   model_t m = r->study->diagnosis.extended;
-  without(&m, f->fx);
+  model_drop_fx(&m, f->fx);
   TRY(residual_of(held, &m, effect, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
@@ -83,6 +77,9 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
     report_profile(r, effect[channel], variance[channel], &span, &p);
     f->profile = p, f->where = span;
   }
+  f->matters = f->fx->surface ? (span_t){0.0, NEAR_M} : f->where;
+  f->before = report_rms(r, &f->profile, &f->matters, r->before.r[channel]);
+  f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
 }
 
 static void find_flight(finding_t *f) {

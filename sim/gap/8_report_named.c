@@ -68,7 +68,14 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
   page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
-  page_text(out, "", coordinate_unit(coordinate), ".</p>\n");
+  page_text(out, "", coordinate_unit(coordinate), ".");
+  if (f->before > 0.0) {
+    fprintf(out, " On the held-out flights, at %.3g to %.3g ", f->matters.from, f->matters.to);
+    page_text(out, "", coordinate_unit(coordinate), "");
+    fprintf(out, ", its rms is %.3g before and %.3g %s after.", f->before, f->after,
+            gap_unit[f->profile.channel]);
+  }
+  fputs("</p>\n", out);
   parameters(f, errors, out);
   if (report_confirm(f, words)) page_text(out, "<p>", words, ".</p>\n");
   fputs("<figure>", out);

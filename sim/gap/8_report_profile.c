@@ -133,3 +133,14 @@ double report_told(const report_t *r, const profile_t *p, const double *effect) 
   }
   return n > 0.0 ? fmax(square_correlation(sum[0], n), square_correlation(sum[1], n)) : -1.0;
 }
+
+double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual) {
+  double sum = 0.0, n = 0.0;
+  for (int i = 0; i < set_rows(&r->study->diagnosis.held, p->channel)->n; i++) {
+    const double x = at(r, p->channel, p->coordinate, i);
+    if (!(x >= span->from && x <= span->to)) continue;
+    sum += residual[i] * residual[i];
+    n += 1.0;
+  }
+  return n > 0.0 ? sqrt(sum / n) : 0.0;
+}

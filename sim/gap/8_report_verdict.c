@@ -71,6 +71,13 @@ static void add_effect(cJSON *list, const finding_t *f) {
   add_number(where, "from", f->where.from);
   add_number(where, "to", f->where.to);
   cJSON_AddStringToObject(where, "unit", coordinate_unit(f->profile.coordinate));
+  cJSON *const matters = cJSON_AddObjectToObject(o, "matters");
+  cJSON_AddStringToObject(matters, "channel", gap_channel[f->profile.channel]);
+  cJSON_AddStringToObject(matters, "unit", gap_unit[f->profile.channel]);
+  add_number(matters, "from", f->matters.from);
+  add_number(matters, "to", f->matters.to);
+  add_number(matters, "before", f->before);
+  add_number(matters, "after", f->after);
   cJSON_AddStringToObject(o, "fly", f->fly);
   add_instrument(o, f);
 }

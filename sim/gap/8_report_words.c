@@ -30,8 +30,14 @@ static void print_effect(const finding_t *f, double wide, FILE *out) {
   if (f->fx->n_shape) print_shape(f, wide, out);
   if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
   fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, p_words(f->named->p, p));
-  fprintf(out, "  seen in %s, %s %.3g to %.3g %s\n", gap_channel[f->profile.channel],
+  fprintf(out, "  seen in %s, %s %.3g to %.3g %s", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
+  if (f->before > 0.0 && f->fx->surface)
+    fprintf(out, "; held out, nearer than %.3g m: %.3g -> %.3g %s rms", f->matters.to, f->before, f->after,
+            gap_unit[f->profile.channel]);
+  else if (f->before > 0.0)
+    fprintf(out, "; held out, there: %.3g -> %.3g %s rms", f->before, f->after, gap_unit[f->profile.channel]);
+  fputc('\n', out);
   if (report_confirm(f, words)) fprintf(out, "  %s\n", words);
   if (!f->named->n_rival) return;
   fputs("  would do as well:", out);

@@ -64,11 +64,14 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
   return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
 }
 
-static double range_of(const grid_t *g, int from) {
+static void take_range(const grid_t *g, int from, point_t *p) {
   const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
-  for (int i = from; range && i < from + g->every; i++)
-    if (isfinite(range[i])) return range[i];
-  return (double)NAN;
+  p->range_m = (double)NAN;
+  for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
+    if (isfinite(range[i])) {
+      p->range_m = range[i];
+      p->range_before_s = p->t_s - g->flight->t_s[i];
+    }
 }
 
 static bool finite3(d3_t a) {
@@ -104,7 +107,8 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
-  p.range_m = g->range_up && above_m < BLIND_M ? (double)NAN : range_of(g, from);
+  take_range(g, from, &p);
+  if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
   set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
@@ -177,73 +181,6 @@ void grid_free(grid_t *g) {
     free(g->motors[i].thrust_N[0]);
   }
   free(g->point);
+  free(g->mark);
   *g = (grid_t){.n = 0};
-}
-
-// --- motors -------------------------------------------------------------------------------------------
-
-// What one rotor's thrust was at sample i - shift, and how fast it rose.
-typedef struct {
-  const double *thrust_N, *command_N;
-  double shift, per_tau;
-} history_t;
-
-static void look_back(const history_t *h, int first, int i, double *thrust_N, double *rise_Nps) {
-  const double at = fmax((double)i - h->shift, (double)first);
-  const int low = (int)at;
-  const double share = at - low, thrust = h->thrust_N[low];
-  *rise_Nps += (h->command_N[low] - thrust) * h->per_tau;
-  *thrust_N += share > 0.0 ? thrust + share * (h->thrust_N[low + 1] - thrust) : thrust;
-}
-
-// A command holds until the next sample; it was there long enough at the start of a segment.
-static void lag(const grid_t *g, const double *command_N, int n, double tau_s, double *thrust_N) {
-  const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
-  const double share = 1.0 - exp(-1.0 / (g->flight->rate_Hz * tau_s));
-  double f = command_N[0];
-  for (int i = 0; i < n; i++) {
-    if (i > 0 && segment && segment[i] != segment[i - 1]) f = command_N[i];
-    thrust_N[i] = f;
-    f += share * (command_N[i] - f);
-  }
-}
-
-static void average(const grid_t *g, const history_t *h, double *thrust_N, double *rise_Nps) {
-  const gap_flight_t *f = g->flight;
-  int i = 0, first = 0;
-  for (int j = 0; j < g->n; j++) {
-    // As take_points has walked.
-    while (f->segment && f->segment[g->from + i] != f->segment[g->from + i + g->every - 1]) i++;
-    if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
-    thrust_N[j] = rise_Nps[j] = 0.0;
-    for (int k = i; k < i + g->every; k++) look_back(h, first, k, &thrust_N[j], &rise_Nps[j]);
-    thrust_N[j] /= g->every;
-    rise_Nps[j] /= g->every;
-    i += g->every;
-  }
-}
-
-const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
-  for (int i = 0; i < GRID_MOTORS; i++)
-    if (g->motors[i].thrust_N[0] && g->motors[i].tau_s == tau_s && g->motors[i].delay_s == delay_s)
-      return &g->motors[i];
-  lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
-  const size_t n = (size_t)g->n;
-  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
-  double *const fine = malloc((size_t)g->samples * sizeof(double));
-  if (!m->thrust_N[0] || !fine) {
-    free(fine);
-    return NULL;
-  }
-  m->tau_s = tau_s;
-  m->delay_s = delay_s;
-  for (int k = 0; k < ROTORS; k++) {
-    m->thrust_N[k] = m->thrust_N[0] + (size_t)k * n;
-    m->rise_Nps[k] = m->thrust_N[0] + (size_t)(ROTORS + k) * n;
-    lag(g, g->command_N[k], g->samples, tau_s, fine);
-    const history_t h = {fine, g->command_N[k], delay_s * g->flight->rate_Hz, 1.0 / tau_s};
-    average(g, &h, m->thrust_N[k], m->rise_Nps[k]);
-  }
-  free(fine);
-  return m;
 }

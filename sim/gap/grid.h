@@ -22,10 +22,14 @@ typedef struct {
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
   double range_m;          // fresh, else NaN
+  double range_before_s;   // so long before t_s it was taken
   double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
   d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
   double set_yaw_rad;
 } point_t;
+
+// Of a point. Free: it can be compared, by its own value or (turning) by its neighbours' too.
+enum { MARK_FREE = 1, MARK_TURN_FREE = 2, MARK_FIRST = 4, MARK_LAST = 8 }; // first, last: of a segment
 
 #define GRID_MOTORS 4 // motor histories kept
 
@@ -41,6 +45,7 @@ typedef struct {
   double period_s;          // of points
   int n;
   point_t *point;
+  unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged

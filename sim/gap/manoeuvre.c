@@ -76,13 +76,16 @@ static const struct {
     {"motor_lag", "inertia", "slow and fast attitude doublets: lag hurts the fast ones alone"},
     {"delay", "inertia", "slow and fast attitude doublets: delay hurts the fast ones alone"},
     {"motor_damage", "cg_offset", "throttle steps: a weak rotor yaws the vehicle too, an offset does not"},
-    {"mass", "thrust_scale", "attitude doublets: a thrust scale changes moments too, a mass does not"},
+    {"mass", "thrust_scale",
+     "attitude doublets, logged at 500 Hz: a thrust scale changes moments too, a mass does not"},
     {"mass", "accel_bias", "throttle steps of 20 %: a bias stays, what a mass does grows with the thrust"},
     {"thrust_scale", "accel_bias", "throttle steps of 20 %: a bias stays, a scale grows with the thrust"},
     {"thrust_scale", "thrust_curve", "long climbs and descents with a wide range of throttle"},
     {"thrust_scale", "inertia", "throttle steps without turning, then attitude doublets"},
     {"accel_bias", "imu_misalignment",
      "throttle steps of 20 %: a bias stays, the other grows with the thrust"},
+    {"sidewall", "wind", "the same height beside the wall and away from it: wind is there too"},
+    {"sidewall", "accel_bias", "beside the wall and away from it: a bias stays"},
     {"accel_bias", "wind", "a full yaw turn on the spot: a bias turns with the body, wind does not"},
     {"imu_misalignment", "wind",
      "a full yaw turn on the spot: the sensor turns with the body, wind does not"},
@@ -98,8 +101,7 @@ where_t manoeuvre_where(const fx_t *fx) {
 }
 
 const char *manoeuvre_show(const fx_t *fx) {
-  if (fx->fly) return fx->fly;
-  return strcmp(fx->name, "sidewall") == 0 ? "a slow approach to the wall, sideways" : "any flight";
+  return fx->fly ? fx->fly : "any flight";
 }
 
 static bool is(const char *a, const char *b, const fx_t *x, const fx_t *y) {

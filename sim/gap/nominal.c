@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CALMER 4    // times that a flight is tried again with less disturbance
-#define LONG_S 60.0 // of a flight, so much is flown
+#define CALMER     4    // times that a flight is tried again with less disturbance
+#define LONG_S     60.0 // of a flight, so much is flown
+#define KEPT_LEAST 0.02
 
 // A part of a grid that is short enough: its first points.
 static grid_t beginning(const grid_t *g) {
@@ -30,20 +31,23 @@ static void calm(manner_t *w) {
   w->tilt_gain = 50.0;
 }
 
-static status_t fly_all(gap_flights_t *to, const set_t *s, const model_t *m, const manner_t *w,
-                        unsigned long seed, why_t *why) {
+// truth: the same flights without errors; may be null.
+static status_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
+                        const manner_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t part = beginning(&s->grid[f]);
     if (part.n < 50) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
     manner_t calmer = *w;
-    status_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], why);
+    gap_flight_t *const is = truth ? &truth->flight[to->n] : NULL;
+    status_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
     for (int k = 0; k < CALMER && status != ST_OK; k++) {
       calm(&calmer);
-      status = nominal_fly(&part, m, &calmer, own, &to->flight[to->n], why);
+      status = nominal_fly(&part, m, &calmer, own, &to->flight[to->n], is, why);
     }
     if (status != ST_OK) return status;
     to->n++;
+    if (truth) truth->n++;
   }
   return ST_OK;
 }
@@ -71,7 +75,48 @@ static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
       }
 }
 
-static status_t judge(nominal_t *n, int i, set_t *s, const nominal_job_t *job, why_t *why) {
+// What least squares find of a size, whose column holds errors: x x' / x x, both white.
+static status_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
+                          const color_t color[CHANNELS], why_t *why) {
+  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  double *const x = malloc(2 * rows * sizeof(double));
+  if (!x) return error_failed(why, "out of memory");
+  double *const y = x + rows;
+  for (int k = 0; k < n->size - 1; k++) {
+    double xx = 0.0, xy = 0.0;
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      if (!color[ch].used || !seen->x[ch][k]) continue;
+      const rows_t *r = set_rows(s, ch);
+      color_whiten(&color[ch], r, seen->x[ch][k], x);
+      if (is->x[ch][k]) color_whiten(&color[ch], r, is->x[ch][k], y);
+      for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
+      for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
+    }
+    if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
+  }
+  free(x);
+  return ST_OK;
+}
+
+// The same flights without errors have the same rows, but for a few that errors move out of sight: then
+// nothing is known.
+static status_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
+                        const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
+  set_t own = {.n_grid = 0};
+  table_t is = {.columns = 0};
+  status_t status = set_of(&own, truth, job->base, why);
+  memcpy(own.muted, seen->muted, sizeof own.muted);
+  if (status == ST_OK && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
+    status = table_make(&is, &own, job->base, job->c, why);
+    if (status == ST_OK) status = find_kept(n, seen, t, &is, color, why);
+    if (status == ST_OK) table_free(&is);
+  }
+  set_free(&own);
+  return status;
+}
+
+static status_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+                      why_t *why) {
   table_t t;
   gram_t g;
   cell_t cell;
@@ -90,25 +135,29 @@ static status_t judge(nominal_t *n, int i, set_t *s, const nominal_job_t *job, w
   if (status == ST_OK) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
+    if (truth) status = compare(n, s, &t, g.color, truth, job, why);
     gram_free(&g);
-    status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
-    n->cell[i] = cell.statistic;
   }
+  if (status == ST_OK) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
+  if (status == ST_OK) n->cell[i] = cell.statistic;
   table_free(&t);
   return status;
 }
 
 static status_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
   const set_t *s = job->set;
-  gap_flights_t flown = {.flight = calloc((size_t)s->n_grid, sizeof(gap_flight_t))};
+  const size_t flights = (size_t)s->n_grid;
+  gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
+  gap_flights_t *const is = i == 0 ? &truth : NULL;
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
-  status_t status = fly_all(&flown, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  truth.flight = flown.flight + flights;
+  status_t status = fly_all(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
   if (status == ST_OK) status = set_of(&own, &flown, job->base, why);
   memcpy(own.muted, s->muted, sizeof own.muted);
-  if (status == ST_OK) status = judge(n, i, &own, job, why);
+  if (status == ST_OK) status = judge(n, i, &own, is, job, why);
   set_free(&own);
-  for (int f = 0; f < flown.n; f++) gap_flight_free(&flown.flight[f]);
+  for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
   return status;
 }
@@ -117,7 +166,9 @@ status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   *n = (nominal_t){.size = job->c->columns + 1};
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
   n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
-  status_t status = n->total && n->cell ? ST_OK : error_failed(why, "out of memory");
+  n->kept = malloc((size_t)n->size * sizeof(double));
+  for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
+  status_t status = n->total && n->cell && n->kept ? ST_OK : error_failed(why, "out of memory");
   for (int i = 0; i < NOMINAL_FLIGHTS && status == ST_OK; i++, n->n++) status = one(n, i, job, why);
   if (status != ST_OK) nominal_free(n);
   return status;
@@ -126,5 +177,6 @@ status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
 void nominal_free(nominal_t *n) {
   free(n->total);
   free(n->cell);
+  free(n->kept);
   *n = (nominal_t){.n = 0};
 }

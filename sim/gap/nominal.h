@@ -29,9 +29,10 @@ typedef struct {
 // residual: of the best model so far, by channel and row of the set.
 manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]);
 
-// One flight along the track of grid g. ST_FAILED: no memory, or the vehicle was lost. Free the flight.
+// One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
+// estimates. ST_FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
 MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
-                                gap_flight_t *flight, why_t *why);
+                                gap_flight_t *flight, gap_flight_t *truth, why_t *why);
 
 // What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
 // estimate is an error.
@@ -45,7 +46,8 @@ typedef struct {
 } nominal_job_t;
 
 // NOMINAL_FLIGHTS times all flights of the set: sums of products of the candidates' columns with the
-// residual, and the largest cell of each (unknown.h). ST_FAILED as above.
+// residual, and the largest cell of each (unknown.h); of the first one, by column x and without errors x',
+// what least squares find of a size: x x' / x x. ST_FAILED as above.
 MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 

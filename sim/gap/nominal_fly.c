@@ -3,8 +3,6 @@
 
 #include "body_forces.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
@@ -76,71 +74,33 @@ static void drift(nominal_flight_t *f, double step_s) {
   f->angle_off_rad = drifted(f, f->angle_off_rad, &f->w->slow_angle_rad, step_s);
 }
 
-static point_t see(const nominal_flight_t *f) {
+static point_t is(const nominal_flight_t *f) {
   const body_t *b = &f->body;
-  const fx_sensed_t truth = sensed(f);
+  const fx_sensed_t s = sensed(f);
+  return (point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
+                   .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
+                   .q_wb = dq_of(b->y + RIGID_Q_WB),
+                   .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
+                   .acc_b_mps2 = s.acc_b_mps2,
+                   .range_m = s.range_m,
+                   .vbat_V = b->vbat_V};
+}
+
+static point_t see(const nominal_flight_t *f, const point_t *truth) {
   const manner_t *w = f->w;
   const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, w->angle_rad));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  return (point_t){.pos_w_m = noisy3(f, d3_add(d3_of(b->y + RIGID_POS_M), f->pos_off_m), w->pos_m),
-                   .vel_w_mps = noisy3(f, d3_add(d3_of(b->y + RIGID_VEL_MPS), f->vel_off_mps), w->vel_mps),
-                   .q_wb = dq_mul(dq_of(b->y + RIGID_Q_WB), wrong),
-                   .rate_b_radps = noisy3(f, d3_of(b->y + RIGID_RATE_RADPS), w->gyro_radps),
-                   .acc_b_mps2 = noisy3(f, truth.acc_b_mps2, w->acc_mps2),
-                   .range_m = noisy(f, truth.range_m, w->range_m),
-                   .vbat_V = noisy(f, b->vbat_V, w->vbat_V)};
-}
-
-static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
-  const double x[3] = {v.x, v.y, v.z};
-  for (int k = 0; k < 3; k++)
-    if (log->v[signal + k]) log->v[signal + k][i] = x[k];
-}
-
-static void write(const nominal_flight_t *f, const point_t *p, const double motor_N[ROTORS], double t_s) {
-  gap_flight_t *const log = f->log;
-  const int i = log->n++;
-  log->t_s[i] = t_s;
-  log->saturated[i] = f->body.on_floor || f->body.on_ceiling || t_s < f->masked_to_s;
-  put3(log, SIG_X, i, d3_add(p->pos_w_m, d3(0.0, 0.0, -body_rest_z_m(f->m))));
-  put3(log, SIG_VX, i, p->vel_w_mps);
-  put3(log, SIG_AX, i, p->acc_b_mps2);
-  put3(log, SIG_GX, i, p->rate_b_radps);
-  put3(log, SIG_QX, i, d3(p->q_wb.x, p->q_wb.y, p->q_wb.z));
-  if (log->v[SIG_QW]) log->v[SIG_QW][i] = p->q_wb.w;
-  if (log->v[SIG_VBAT]) log->v[SIG_VBAT][i] = p->vbat_V;
-  double sum_N = 0.0;
-  for (int k = 0; k < ROTORS; k++) {
-    if (log->v[SIG_M1 + k]) log->v[SIG_M1 + k][i] = motor_N[k];
-    sum_N += motor_N[k];
-  }
-  if (log->v[SIG_THRUST]) log->v[SIG_THRUST][i] = sum_N;
-  double *const range = log->range_up_m ? log->range_up_m : log->range_down_m;
-  if (range) range[i] = isfinite(f->g->point[f->at].range_m) ? p->range_m : (double)NAN;
+  return (point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
+                   .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
+                   .q_wb = dq_mul(truth->q_wb, wrong),
+                   .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
+                   .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
+                   .range_m = noisy(f, truth->range_m, w->range_m),
+                   .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
 }
 
 // --- the flight
 // ---------------------------------------------------------------------------------------------------
-
-static double *column(size_t n) {
-  return malloc(n * sizeof(double));
-}
-
-// The signals that the log has. Motors are newton.
-static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
-  const gap_flight_t *like = g->flight;
-  *log = (gap_flight_t){.motors_N = true};
-  bool good = (log->t_s = column(n)) != NULL;
-  good = (log->saturated = calloc(n, sizeof(bool))) && good; // where it touches, too
-  for (int i = SIG_X; i <= SIG_VBAT; i++)
-    if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
-  if (g->range_up)
-    good = (log->range_up_m = log->v[SIG_RANGE] = column(n)) && good;
-  else if (like->range_down_m)
-    good = (log->range_down_m = log->v[SIG_RANGE_DOWN] = column(n)) && good;
-  snprintf(log->name, sizeof log->name, "nominal flight");
-  return good;
-}
 
 static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
   const point_t *track = &f->g->point[f->at];
@@ -167,7 +127,7 @@ static status_t start_at(nominal_flight_t *f, const model_t *m, unsigned long se
 
 static status_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
   if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
-  const point_t seen = see(f);
+  const point_t truth = is(f), seen = see(f, &truth);
   return known_open(&f->known, f, &seen, why);
 }
 
@@ -205,9 +165,10 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
       for (int k = 0; k < inner; k++) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        const point_t seen = see(f);
+        const point_t truth = is(f), seen = see(f, &truth);
         steer(f, step_s, &seen, motor_N);
-        if (k == 0) write(f, &seen, motor_N, t_s);
+        if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
+        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
@@ -216,6 +177,7 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
       if (f->known && (lost || is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
   f->log->rate_Hz = 1.0 / log_s;
+  if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
   return ST_OK;
 }
 
@@ -227,21 +189,25 @@ static status_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
-                     gap_flight_t *flight, why_t *why) {
-  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .to = g->n, .seed = seed};
+                     gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
+  nominal_flight_t f = {
+      .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
   model_t with;
   *flight = (gap_flight_t){.n = 0};
+  if (truth) *truth = (gap_flight_t){.n = 0};
   TRY(disturbed(m, w, &with, why));
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
-  if (!log_room(flight, g, (size_t)(f.to - f.from + 1) * (size_t)g->every))
-    return error_failed(why, "out of memory");
-  status_t status = take_off(&f, &with, why);
+  const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
+  status_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
+                        ? take_off(&f, &with, why)
+                        : error_failed(why, "out of memory");
   if (status == ST_OK) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
   known_close(f.known);
   if (status != ST_OK) gap_flight_free(flight);
+  if (status != ST_OK && truth) gap_flight_free(truth);
   return status;
 }

@@ -12,7 +12,7 @@ typedef struct {
   double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
   body_t body;
   random_t *random;
-  gap_flight_t *log;
+  gap_flight_t *log, *truth;                  // truth: what a log without errors would say; may be null
   int from, to, at;                           // points of the track
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
@@ -34,5 +34,12 @@ void pilot_tame(nominal_flight_t *f);
 
 // Finds what holds the body level, and gives it that.
 void pilot_trim(nominal_flight_t *f);
+
+// The signals that the log of grid g has, with room for so many samples. Motors are newton. False: no memory.
+bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n);
+
+// One sample more, with what is seen (or is true) at it.
+void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+                       const double motor_N[ROTORS], double t_s);
 
 #endif

@@ -46,6 +46,9 @@ bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other
 // The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.
 double judge_likeness(const judge_t *j, const choice_t *choice, int own, int other);
 
+// The part of a column that the candidate alone could give in its place, 0 to 1.
+double judge_alike(const judge_t *j, int column, int candidate);
+
 // Estimates, and their cluster-robust covariance (column by column of the choice; V may be null).
 void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V);
 
@@ -59,6 +62,9 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice);
 
 // It may be in the choice: gates (a), (b), (c).
 bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v);
+
+// The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
+bool judge_is_possible(const judge_t *j, const choice_t *choice);
 
 // Rms of a candidate's numbers on nominal flights, given the others of the choice; 0 without such flights.
 void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);

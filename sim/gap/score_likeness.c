@@ -28,6 +28,19 @@ double judge_likeness(const judge_t *j, const choice_t *choice, int own, int oth
   return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, c->n, NULL, at, NULL) / all : 0.0;
 }
 
+double judge_alike(const judge_t *j, int column, int candidate) {
+  const candidate_t *const c = &j->c->candidate[candidate];
+  const int size = j->g->size, n = c->n + 1;
+  double b[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
+  int of[FX_SIZE_MAX + 1], order[FX_SIZE_MAX];
+  for (int i = 0; i < c->n; i++) of[order[i] = i] = c->first + i;
+  of[c->n] = column;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) G[i * n + k] = j->g->total[of[i] * size + of[k]];
+  const double all = G[n * n - 1];
+  return all > 0.0 ? 1.0 - lsq_solve_products(G, n, order, c->n, NULL, b, NULL) / all : 0.0;
+}
+
 // A number b takes b^2 / (A^-1)_kk from the sum of squares.
 void judge_least_gain(const judge_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]) {
   int column[COLUMN_MAX];

@@ -105,7 +105,8 @@ status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *w
   int *const bin = malloc(rows * sizeof(int));
   status_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
   *is = false;
-  const bool curve = select_fx(t, candidate)->surface != 0; // of height: its shape is another question
+  const fx_t *const fx = select_fx(t, candidate);
+  const bool curve = fx->surface || fx->at_wall; // of a distance: its shape is another question
   for (int i = curve ? coordinate_count : 0; status == ST_OK && i < coordinate_count && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       slopes_t s = {.ff = {0.0}};

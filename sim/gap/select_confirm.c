@@ -1,7 +1,6 @@
 // select_confirm.c - the names once more, with the reference trajectory as the instrument.
 #include "gap/select_confirm.h"
 
-#include "gap/2_replay.h"
 #include "gap/lsq_blocks.h"
 #include "gap/lsq_instrument.h"
 #include "gap/set_points.h"
@@ -41,7 +40,7 @@ static status_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int 
   TRY(set_points_track(g, &track, why));
   for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
   why_t lost;
-  *flew = nominal_fly(&track, &room, &manner, 1, flown, &lost) == ST_OK;
+  *flew = nominal_fly(&track, &room, &manner, 1, flown, NULL, &lost) == ST_OK;
   free(track.point);
   return ST_OK;
 }
@@ -49,17 +48,17 @@ static status_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int 
 // --- columns ----------------------------------------------------------------------------------------------
 
 typedef struct {
-  double *base[CHANNELS], *with[CHANNELS], *series, *scratch, *room;
+  double *base[CHANNELS], *with[CHANNELS], *series[CHANNELS], *scratch, *room;
 } room_t;
 
 static bool room_make(room_t *r, size_t n) {
-  r->room = calloc((2 * CHANNELS + 2) * (n + 1), sizeof(double));
+  r->room = calloc((3 * CHANNELS + CH_SMOOTH) * (n + 1), sizeof(double));
   for (size_t ch = 0; r->room && ch < CHANNELS; ch++) {
     r->base[ch] = r->room + ch * (n + 1);
     r->with[ch] = r->room + (CHANNELS + ch) * (n + 1);
+    r->series[ch] = r->room + (2 * CHANNELS + ch) * (n + 1);
   }
-  r->series = r->room ? r->room + 2 * CHANNELS * (n + 1) : NULL;
-  r->scratch = r->room ? r->series + n + 1 : NULL;
+  r->scratch = r->room ? r->room + 3 * CHANNELS * (n + 1) : NULL;
   return r->room != NULL;
 }
 
@@ -72,20 +71,26 @@ static void shift(const grid_t *log, const grid_t *quiet, int first, int lag, co
   }
 }
 
+static double **instrument(confirming_t *t, int channel, int column, int lag) {
+  const int group = channel < CH_FORCES ? 0 : channel < CH_SMOOTH ? 1 : 2;
+  return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + CONFIRM_LAGS * group + lag];
+}
+
 static status_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, room_t *r, int column,
                                 why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   const int step = (int)fmax(1.0, round(CONFIRM_LAG_S / g->period_s));
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    if (!t->table.x[ch][column]) continue; // the name does not show there
-    const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
-    for (int l = 0; l < CONFIRM_LAGS; l++) {
-      double **const to = &t->table.x[ch][t->names.columns + INSTRUMENTS * column + CONFIRM_LAGS * group + l];
+  for (int l = 0; l < CONFIRM_LAGS; l++) {
+    double *row[CHANNELS] = {NULL};
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      if (!t->table.x[ch][column]) continue; // the name does not show there
+      double **const to = instrument(t, ch, column, l);
       if (!*to) *to = calloc((size_t)set_rows(t->s, ch)->n + 1, sizeof(double));
       if (!*to) return error_failed(why, "out of memory");
-      shift(g, quiet, first, (l - CONFIRM_LAGS / 2) * step, r->with[ch], r->series);
-      residual_rows(t->s, flight, ch, SERIES_PREDICTED, r->series, r->scratch, *to);
+      row[ch] = *to;
+      shift(g, quiet, first, (l - CONFIRM_LAGS / 2) * step, r->with[ch], r->series[ch]);
     }
+    residual_rows(t->s, flight, SERIES_PREDICTED, (const double *const *)r->series, r->scratch, row);
   }
   return ST_OK;
 }
@@ -93,14 +98,16 @@ static status_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int 
 static status_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   room_t r;
+  path_t path;
   if (!room_make(&r, (size_t)(g->n > quiet->n ? g->n : quiet->n))) return error_failed(why, "out of memory");
-  status_t status = replay(quiet, &t->now, r.base, why);
+  status_t status = replay_keep(quiet, &t->now, &path, r.base, why);
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n && status == ST_OK; k++) {
       const candidate_t *c = &t->names.candidate[i];
-      status = candidate_differentiate(quiet, &t->now, c, k, r.base, r.with, why);
+      status = candidate_differentiate(quiet, &path, c, k, r.base, r.with, why);
       if (status == ST_OK) status = put_instruments(t, flight, quiet, first, &r, c->first + k, why);
     }
+  path_free(&path);
   free(r.room);
   return status;
 }
@@ -161,7 +168,8 @@ typedef struct {
   double V[COLUMN_MAX * COLUMN_MAX], apart[COLUMN_MAX * COLUMN_MAX];
 } fit_t;
 
-static void answer(const candidate_t *c, const fit_t *f, int all, confirm_t *a) {
+static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named) {
+  confirm_t *const a = &named->confirm;
   double differ[FX_SIZE_MAX];
   bool beyond = false;
   *a = (confirm_t){.answer = CONFIRM_WEAK, .F = HUGE_VAL, .blocks = HUGE_VAL};
@@ -175,7 +183,8 @@ static void answer(const candidate_t *c, const fit_t *f, int all, confirm_t *a) 
     a->value[k] = f->b[i];
     a->stderr_[k] = sqrt(f->V[i * (all + 1)]);
     differ[k] = f->b[i] - f->plain[i];
-    beyond = beyond || fabs(differ[k]) > a->stderr_[k]; // less does not matter, however sure it is
+    // Less does not matter, however sure it is: the named error already holds it.
+    beyond = beyond || fabs(differ[k]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
   a->p = wald_p(a->value, f->V, c->first, c->n, all, free);
   a->p_apart = wald_p(differ, f->apart, c->first, c->n, all, free);
@@ -203,7 +212,7 @@ static status_t judge(const confirming_t *t, found_t *found, why_t *why) {
     for (int k = 0; k < t->names.n; k++) {
       if (t->of[k] != found->named[i].candidate) continue;
       found->named[i].confirm = (confirm_t){.answer = CONFIRM_WEAK};
-      if (good) answer(&t->names.candidate[k], f, n, &found->named[i].confirm);
+      if (good) answer(&t->names.candidate[k], f, n, &found->named[i]);
     }
   const status_t status = f ? ST_OK : error_failed(why, "out of memory");
   free(f);

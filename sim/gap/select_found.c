@@ -3,7 +3,13 @@
 #include "gap/select_state.h"
 #include <math.h>
 
-// Another name in its place that is not worse by two standard errors of the difference.
+// Mass and thrust scale differ in turning alone.
+static bool only_turning_tells(const select_t *t, int a, int b) {
+  return select_fx(t, a)->class == FX_WEIGHT && select_fx(t, b)->class == FX_WEIGHT && candidates_slow(t->s);
+}
+
+// Another name in its place that is not worse by two standard errors of the difference, at a size that it can
+// have.
 static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
   const double without = judge_left(&t->judge, &rest, NULL);
@@ -12,9 +18,22 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    const bool rival = judge_is_rival(&t->judge, &t->choice, &with) && judge_is_possible(&t->judge, &with);
+    if (!rival && !only_turning_tells(t, candidate, i)) continue;
     named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
     named->rival[named->n_rival++] = fx;
+  }
+}
+
+// What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness
+// of the instruments themselves as is never named.
+static void add_errors(const select_t *t, const choice_t *last, named_t *named) {
+  double rms[FX_SIZE_MAX];
+  const fx_t *const fx = select_fx(t, named->candidate);
+  judge_nominal_rms(&t->judge, last, rms);
+  for (int k = 0; k < fx->n_size; k++) {
+    named->beside[k] = hypot(rms[k], candidates_least(fx, t->s) / SELECT_ERRORS);
+    named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
   }
 }
 
@@ -27,7 +46,7 @@ static void find_named(const select_t *t, found_t *found) {
     const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
     const verdict_t v = judge_last(&t->judge, &last);
     const fx_t *fx = select_fx(t, candidate);
-    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < candidates_least(fx, t->s)) {
       found->aligned_s = v.value[0];
       continue;
     }
@@ -35,28 +54,9 @@ static void find_named(const select_t *t, found_t *found) {
     *named = (named_t){.candidate = candidate, .p = v.p};
     memcpy(named->value, v.value, sizeof named->value);
     memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
+    add_errors(t, &last, named);
     named->share = (judge_left(&t->judge, &rest, NULL) - found->left) / found->left_before;
     find_rivals(t, candidate, found->left_before, named);
-  }
-}
-
-// Four standard errors, three times what feedback alone makes, or what brings the least gain, whichever is
-// most; over what is typical. What is open was not seen at any size.
-static void find_least(const select_t *t, found_t *found) {
-  for (int i = 0; i < t->c->n; i++) {
-    found->least[i] = 0.0;
-    if (!select_fits(t, &t->choice, i)) continue;
-    const choice_t with = choice_with(&t->choice, i);
-    const verdict_t v = judge_last(&t->judge, &with);
-    if (!(v.stderr_[0] > 0.0)) continue; // no residual depends on it
-    double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX];
-    judge_nominal_rms(&t->judge, &with, rms);
-    judge_least_gain(&t->judge, &with, SELECT_GAIN * found->left, gain);
-    if (found_is_open(found, t->c, select_fx(t, i))) found->least[i] = HUGE_VAL;
-    for (int k = 0; k < t->c->candidate[i].n; k++) {
-      const double least = fmax(fmax(4.0 * v.stderr_[k], SELECT_NOMINAL * rms[k]), gain[k]);
-      found->least[i] = fmax(found->least[i], least / candidate_typical(&t->c->candidate[i], k));
-    }
   }
 }
 
@@ -97,5 +97,5 @@ void select_describe(const select_t *t, found_t *found) {
   find_named(t, found);
   if (t->timing >= 0 && found->n < NAMED_MAX) find_timing(t, found);
   sort(t, found);
-  find_least(t, found);
+  select_find_least(t, found);
 }

@@ -1,10 +1,8 @@
 // select_open.c - names that these flights cannot tell from others.
 #include "gap/select_state.h"
 
-#define SAME 0.997 // of a name's contribution, that a rival could give
-
 // Another class: of lag and delay, or of mass and thrust scale, either is right.
-static bool may_stand_for(const select_t *t, const choice_t *rest, int own, int other) {
+bool select_may_stand_for(const select_t *t, const choice_t *rest, int own, int other) {
   const fx_t *const a = select_fx(t, own), *const b = select_fx(t, other);
   return a != b && (a->class == FX_ALONE || a->class != b->class) && !t->never[other] &&
          select_fits(t, rest, other);
@@ -14,11 +12,11 @@ static named_t open_one(const select_t *t, int candidate) {
   const choice_t rest = choice_without(&t->choice, candidate);
   named_t open = {.candidate = candidate};
   for (int i = 0; i < t->c->n && open.n_rival < RIVAL_MAX; i++) {
-    if (!may_stand_for(t, &rest, candidate, i)) continue;
+    if (!select_may_stand_for(t, &rest, candidate, i)) continue;
     if (open.n_rival && open.rival[open.n_rival - 1] == select_fx(t, i)) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
-    if (judge_likeness(&t->judge, &t->choice, candidate, i) < SAME) continue;
+    if (!judge_is_rival(&t->judge, &t->choice, &with) || !judge_is_possible(&t->judge, &with)) continue;
+    if (judge_likeness(&t->judge, &t->choice, candidate, i) < SELECT_SAME) continue;
     open.rival[open.n_rival++] = select_fx(t, i);
   }
   return open;

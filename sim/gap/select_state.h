@@ -17,6 +17,7 @@ typedef struct {
   table_t table;
   gram_t gram;
   judge_t judge;
+  int rounds;  // times that the columns were formed
   bool strict; // colours of what is named alone, not of all candidates
   int *taken;  // by candidate: how often it was taken in
   bool *never; // by candidate: it is out of question
@@ -53,6 +54,14 @@ MUST_CHECK status_t select_forbid_alike(select_t *t, int candidate, why_t *why);
 // Moves a name, one at most, to found->open: another one does as well within two standard errors, and nearly
 // all that it does the other could do. False: none is so.
 bool select_drop_open(select_t *t, found_t *found);
+
+#define SELECT_SAME 0.997 // of a name's contribution, that a rival could give
+
+// Another name, and not one of the same class, that may stand in the choice in place of `own`.
+bool select_may_stand_for(const select_t *t, const choice_t *rest, int own, int other);
+
+// found->least and found->echo, by candidate.
+void select_find_least(const select_t *t, found_t *found);
 
 // What was named, its rivals, and the least of each candidate that could have been seen.
 void select_describe(const select_t *t, found_t *found);

@@ -20,9 +20,8 @@ static status_t lines_make(lines_t *l, const set_t *s, why_t *why) {
   for (size_t ch = 0; ch < CHANNELS; ch++) {
     l->r[ch] = l->room + ch * n;
     l->measured[ch] = l->room + (CHANNELS + ch) * n;
-    TRY(residual_measured(s, (int)ch, l->measured[ch], why));
   }
-  return ST_OK;
+  return residual_measured(s, l->measured, why);
 }
 
 // n log(1 - c^2), c: correlation from row to row of what was measured and what was predicted. A scale that is

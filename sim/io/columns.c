@@ -125,6 +125,14 @@ columns_t columns_crazyflie(void) {
     to->factor = unit_find(ROWS[i].kind, ROWS[i].unit)->si;
     to->optional = i != SIG_TIME;
   }
+  // The firmware's two-pole low-passes of 30 and 80 Hz: sqrt(2)/(2 pi f).
+  for (int i = 0; i < 3; i++) {
+    c.of[SIG_AX + i].late_s = 7.5e-3;
+    c.of[SIG_GX + i].late_s = 2.8e-3;
+  }
+  // The Multi-ranger's task fetches samples of 60 to 80 ms; downward, 25 ms of exposure (plant/range.h).
+  c.of[SIG_RANGE].late_s = 70e-3;
+  c.of[SIG_RANGE_DOWN].late_s = 13e-3;
   // The firmware's attitude.pitch is nose up positive; its quaternion is right-handed.
   c.of[SIG_PITCH].factor *= -1.0;
   return c;
@@ -152,7 +160,7 @@ static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why
 }
 
 static status_t read_column(toml_t columns, signal_id_t signal, columns_t *c, why_t *why) {
-  static const char *const keys[] = {"column", "unit", "scale", "offset", "optional", NULL};
+  static const char *const keys[] = {"column", "unit", "scale", "offset", "late_ms", "optional", NULL};
   column_t *const to = &c->of[signal];
   double scale = 1.0;
   toml_t t;
@@ -163,6 +171,9 @@ static status_t read_column(toml_t columns, signal_id_t signal, columns_t *c, wh
   if (toml_has(t, "scale")) TRY(toml_double(t, "scale", -1e9, 1e9, &scale, why));
   if (scale == 0.0) return toml_refuse(t, "scale", why, "0; allowed: any other number");
   if (toml_has(t, "offset")) TRY(toml_double(t, "offset", -1e12, 1e12, &to->offset, why));
+  double late_ms = 0.0;
+  if (toml_has(t, "late_ms")) TRY(toml_double(t, "late_ms", 0.0, 100.0, &late_ms, why));
+  to->late_s = 1e-3 * late_ms;
   if (toml_has(t, "optional")) TRY(toml_bool(t, "optional", &to->optional, why));
   to->factor *= scale;
   return ST_OK;

@@ -10,9 +10,11 @@
 //   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
 //
-// What we read is  scale x cell in SI + offset  (offset in SI). Signals and units: columns.c. Attitude is a
-// quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll, pitch,
-// yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
+// What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (0 to 100) before the row's
+// time: the delay of a filter, 7.5 ms of the Crazyflie's accelerometer and 2.8 ms of its gyro, or the age of
+// a sample, 70 ms of its upward range and 13 ms of the downward one. Signals and units: columns.c. Attitude
+// is a quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll,
+// pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
 //
 // Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
 // all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
@@ -90,6 +92,7 @@ typedef struct {
   char unit[12];
   double factor; // SI per unit of the cell, with sign and scale
   double offset; // SI
+  double late_s; // 0..0.1  between what was and its row
   bool optional; // may be missing in the CSV
 } column_t;
 

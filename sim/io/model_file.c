@@ -132,12 +132,14 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
 
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
-      "name",       "mass_kg", "rotor_radius_m", "motor_tau_s", "thrust_min_N", "thrust_max_N", "ceiling_m",
-      "thrust_map", "body",    "rotors",         "battery",     "controller",   "effect",       NULL};
+      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
+      "thrust_max_N", "ceiling_m", "wall_y_m",       "thrust_map",  "body",
+      "rotors",       "battery",   "controller",     "effect",      NULL};
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
   if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.05, 1e3, &m->ceiling_m, why));
+  if (toml_has(root, "wall_y_m")) TRY(toml_double(root, "wall_y_m", -1e3, 1e3, &m->wall_y_m, why));
   if (toml_has(root, "thrust_map")) {
     toml_t map;
     TRY(toml_table(root, "thrust_map", &map, why));
@@ -149,7 +151,7 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
 }
 
 static status_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *why) {
-  model_t fresh = {.ceiling_m = HUGE_VAL, .map = {.kind = THRUST_MAP_NONE}};
+  model_t fresh = {.ceiling_m = HUGE_VAL, .wall_y_m = HUGE_VAL, .map = {.kind = THRUST_MAP_NONE}};
   const status_t status = read_root(toml_root(file), path, &fresh, why);
   toml_close(file);
   if (status == ST_OK) *m = fresh;

@@ -97,13 +97,42 @@ static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
   set->unknown_right = place && (set->strange.channels >> d->cell.channel & 1u);
 }
 
+// What the verdict lists: effects whose typical size would not have been seen; and smallest sizes.
 static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
   for (int k = 0; k < set->n; k++) {
-    bool seen = false;
-    for (int i = 0; i < d->candidates.n; i++)
-      if (same(d->candidates.candidate[i].use.fx->name, set->hidden[k]) && d->found.least[i] < set->times[k])
-        seen = true;
-    set->says_not_testable = set->says_not_testable || !seen;
+    const fx_t *const fx = fx_find(set->hidden[k]);
+    const double told = found_least(&d->found, &d->candidates, fx, NULL);
+    bool withdrawn = false;
+    for (int i = 0; i < d->n_withdrawn; i++) withdrawn = withdrawn || d->withdrawn[i].fx == fx;
+    set->least[k] = told / truth_typical(set->hidden[k]);
+    if (told >= 1.0 || withdrawn || set->least[k] > set->times[k]) set->says_not_testable = true;
+  }
+}
+
+bool exam_holds(const exam_value_t *v) {
+  return fabs(v->value - v->truth) <= EXAM_WITHIN * v->stderr_;
+}
+
+// A delay is flown in whole ticks.
+static double flown(const model_t *truth, const fx_use_t *hidden, int param) {
+  const double p = hidden->p[param], before_s = truth->frame.motor_delay_s;
+  if (strcmp(hidden->fx->name, "delay") != 0) return p;
+  return round((before_s + p) / EXAM_TICK_S) * EXAM_TICK_S - before_s;
+}
+
+// Hidden effects in a form of the exam's own have no such numbers.
+static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *truth) {
+  for (int i = 0; i < d->found.n; i++) {
+    const named_t *const named = &d->found.named[i];
+    const candidate_t *const c = &d->candidates.candidate[named->candidate];
+    for (int q = 0; q < truth->n_fx; q++)
+      for (int k = 0; truth->fx[q].fx == c->use.fx && k < c->n && set->n_value < EXAM_VALUES; k++) {
+        const int param = c->use.fx->size[k].param;
+        int n;
+        set->value[set->n_value++] =
+            (exam_value_t){c->use.fx->name, fx_use_params(&c->use, &n)[param].name,
+                           flown(truth, &truth->fx[q], param), named->value[k], named->stderr_[k]};
+      }
   }
 }
 
@@ -144,6 +173,7 @@ static status_t examine(exam_set_t *set, const model_t *base, const model_t *tru
     mark_names(set, d);
     mark_unknown(set, d);
     mark_not_testable(set, d);
+    mark_values(set, d, truth);
     status = mark_shrink(set, d, base, truth, why);
   }
   diagnosis_free(d);

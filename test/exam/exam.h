@@ -8,6 +8,15 @@
 
 #define EXAM_FIT 3 // flights to fit; one more is held out
 
+// A number of a hidden effect in a form of sim/effects that was named, and what was said of it.
+typedef struct {
+  const char *name, *param;
+  double truth, value, stderr_;
+} exam_value_t;
+
+#define EXAM_VALUES (2 * FX_SIZE_MAX)
+#define EXAM_WITHIN 2.0 // standard errors: what the truth is to lie within, in 95 of 100
+
 typedef enum { EXAM_NOTHING, EXAM_ONE, EXAM_TWO, EXAM_STRANGE, EXAM_HOVER, EXAM_KINDS } exam_kind_t;
 
 // One data set, and how it was answered.
@@ -24,14 +33,20 @@ typedef struct {
   bool exact;         // every hidden one, and nothing else
   bool rival_held[2]; // found, or among the rivals of a name
   bool unknown, unknown_right;
-  bool says_not_testable; // of a hidden effect that was not named
+  double least[2];        // smallest size told, over the exam's typical one
+  bool says_not_testable; // of a hidden effect that was not named: typical ones are not, or none of its size
   bool shrink_known;      // the held-out flight has rows to compare
   double after, oracle;   // white sums of squares left on it, over that before; 0 if not known
   char answer[160];
+  int n_value;
+  exam_value_t value[EXAM_VALUES];
 } exam_set_t;
 
 // Makes, diagnoses and marks set `seed` of a kind. ST_FAILED: no memory.
 MUST_CHECK status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why);
+
+// The truth lies within EXAM_WITHIN standard errors.
+bool exam_holds(const exam_value_t *v);
 
 // White sums of squares become shares of `before`. False: a held-out flight without rows (all of them cut
 // off, or saturated) tells nothing; both are 0 then.

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP_S    0.002
 #define ACC_SD    0.5 // m/s2, white at 500 Hz
 #define GYRO_SD   0.02
 #define TURB_SD   0.06
@@ -51,7 +50,7 @@ static d3_t normal3(const exam_t *e, double sd) {
 
 // Estimates err together for some 30 ms.
 static void drift(exam_t *e) {
-  const double keep = exp(-STEP_S / 0.03), fresh = sqrt(1.0 - keep * keep);
+  const double keep = exp(-EXAM_TICK_S / 0.03), fresh = sqrt(1.0 - keep * keep);
   for (int i = 0; i < 9; i++)
     e->slow[i] = keep * e->slow[i] + normal(e, fresh * (i < 3 ? POS_SD : i < 6 ? VEL_SD : ANGLE_SD));
 }
@@ -91,7 +90,7 @@ static const signal_id_t TOLD[] = {SIG_SET_X,  SIG_SET_Y,  SIG_SET_Z,  SIG_SET_V
 #define N_TOLD (sizeof TOLD / sizeof *TOLD)
 
 static bool log_room(gap_flight_t *f, size_t n, bool told) {
-  *f = (gap_flight_t){.motors_N = true, .rate_Hz = 1.0 / STEP_S};
+  *f = (gap_flight_t){.motors_N = true, .rate_Hz = 1.0 / EXAM_TICK_S};
   bool good = (f->t_s = malloc(n * sizeof(double))) != NULL;
   good = (f->range_up_m = f->v[SIG_RANGE] = malloc(n * sizeof(double))) && good;
   for (unsigned i = 0; i < sizeof LOGGED / sizeof *LOGGED; i++)
@@ -135,11 +134,11 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
   double motor_N[4], z_m = 0.4, down_s = 0.0;
   for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
   pilot->reset(pilot->state);
-  for (long tick = 0; tick < lround(EXAM_SPAN_S / STEP_S); tick++) {
-    const double t_s = (double)tick * STEP_S;
+  for (long tick = 0; tick < lround(EXAM_SPAN_S / EXAM_TICK_S); tick++) {
+    const double t_s = (double)tick * EXAM_TICK_S;
     wish_t wish = plan_wish(plan, t_s);
-    z_m +=
-        (wish.pos.z - z_m) * STEP_S / (fabs(wish.pos.z - 0.4) < 0.21 ? 0.03 : 0.25); // no step into a surface
+    z_m += (wish.pos.z - z_m) * EXAM_TICK_S /
+           (fabs(wish.pos.z - 0.4) < 0.21 ? 0.03 : 0.25); // no step into a surface
     wish.pos.z = z_m;
     drift(e);
     in = measure(e, &in);
@@ -149,10 +148,10 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
     for (int ms = 0; ms < 2; ms++, in.step++, in.range_new = false) pilot->step(pilot->state, &in, motor_N);
     for (int i = 0; i < 4; i++) motor_N[i] = fmin(fmax(motor_N[i], 0.0), 0.25 * e->model.thrust_max_N);
     write(f, e, &in, motor_N, t_s, tick % 50 == 0 ? in.range_m : (double)NAN);
-    body_tick(&e->body, motor_N, STEP_S);
+    body_tick(&e->body, motor_N, EXAM_TICK_S);
     for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
     const d3_t at = d3_of(e->body.y + RIGID_POS_M);
-    down_s += at.z < body_rest_z_m(&e->model) + 1e-3 ? STEP_S : 0.0;
+    down_s += at.z < body_rest_z_m(&e->model) + 1e-3 ? EXAM_TICK_S : 0.0;
     if (e->body.broken || !(d3_norm(d3_sub(at, wish.pos)) < LOST_M) || down_s > DOWN_S)
       return error_failed(why, "the exam's vehicle crashed");
   }
@@ -165,7 +164,7 @@ static status_t start(exam_t *e, const exam_flight_t *job, why_t *why) {
   e->random = random_open(job->seed * 31u + 7u);
   if (!e->random) return error_failed(why, "out of memory");
   at.discharged = random_uniform(e->random, 0.05, 0.85);
-  if (body_open(&e->body, &e->model, INTEGRATE_RK4, STEP_S, &at) == ST_OK) return ST_OK;
+  if (body_open(&e->body, &e->model, INTEGRATE_RK4, EXAM_TICK_S, &at) == ST_OK) return ST_OK;
   return error_failed(why, "the exam's vehicle cannot fly");
 }
 
@@ -203,7 +202,7 @@ status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
     e->model = *job->truth;
     status = turbulence(e, why);
   }
-  if (status == ST_OK && !log_room(f, (size_t)(EXAM_SPAN_S / STEP_S) + 8, job->set_points))
+  if (status == ST_OK && !log_room(f, (size_t)(EXAM_SPAN_S / EXAM_TICK_S) + 8, job->set_points))
     status = error_failed(why, "out of memory");
   if (status == ST_OK) status = start(e, job, why);
   if (status == ST_OK) {

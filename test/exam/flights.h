@@ -6,6 +6,7 @@
 #include "gap/flight.h"
 
 #define EXAM_SPAN_S 20.0
+#define EXAM_TICK_S 0.002
 
 typedef struct {
   const model_t *truth; // with what is hidden

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SETS_MAX 4000
 
@@ -21,13 +22,20 @@ static void print_line(unsigned long seed, const exam_set_t *s) {
     snprintf(both, sizeof both, "%s%s", hidden, hidden + 80);
     snprintf(hidden, sizeof hidden, "%s", both);
   }
-  printf("%lu %s%s: %s -> %s%s%s%s after %.3f oracle %.3f\n", seed, KIND[s->kind], s->own_form ? "*" : "",
+  char told[80] = "";
+  for (int k = 0; k < s->n; k++)
+    snprintf(told + strlen(told), sizeof told - strlen(told), " told x%.2f", s->least[k]);
+  printf("%lu %s%s: %s -> %s%s%s%s%s after %.3f oracle %.3f\n", seed, KIND[s->kind], s->own_form ? "*" : "",
          hidden, s->answer, s->unknown ? " UNKNOWN" : "", s->unknown_right ? "(right)" : "",
          !s->flew          ? " CRASHED"
          : s->wrong        ? " WRONG"
          : s->found < s->n ? " MISSED"
                            : "",
-         s->after, s->oracle);
+         told, s->after, s->oracle);
+  for (int i = 0; i < s->n_value; i++)
+    printf("    %s.%s %.4g: %.4g +- %.2g, %+.1f standard errors\n", s->value[i].name, s->value[i].param,
+           s->value[i].truth, s->value[i].value, s->value[i].stderr_,
+           (s->value[i].value - s->value[i].truth) / s->value[i].stderr_);
 }
 
 typedef struct {
@@ -46,7 +54,7 @@ static void print_rate(const char *what, const rate_t *r) {
 typedef struct {
   rate_t alarm, band[4], two, two_large, rival, strange, located, hover, hover_says, large, large_own,
       unknown_wrong;
-  rate_t recall, precision, hover_recall;
+  rate_t recall, precision, hover_recall, values, promise, too_large;
   double after, oracle;
   int shrunk, no_rows, drawn_again;
 } marks_t;
@@ -57,9 +65,18 @@ static void add_one(marks_t *m, const exam_set_t *s) {
   if (times >= 1.0) count(s->own_form ? &m->large_own : &m->large, s->exact);
 }
 
+// Where one effect is hidden: the smallest size told, against the answer.
+static void add_told(marks_t *m, const exam_set_t *s) {
+  if (s->n != 1) return;
+  if (s->least[0] <= s->times[0]) count(&m->promise, s->found == 0);
+  if (s->found == 1) count(&m->too_large, s->least[0] > s->times[0]);
+}
+
 static void add(marks_t *m, const exam_set_t *s) {
   m->drawn_again += s->drawn_again;
   if (!s->flew) return;
+  for (int i = 0; i < s->n_value; i++) count(&m->values, exam_holds(&s->value[i]));
+  add_told(m, s);
   if (s->kind == EXAM_NOTHING) count(&m->alarm, s->wrong > 0);
   if (s->kind == EXAM_NOTHING) count(&m->unknown_wrong, s->unknown);
   if (s->kind == EXAM_ONE) add_one(m, s);
@@ -99,11 +116,14 @@ static void print_marks(const marks_t *m) {
   print_rate("hidden effects that were named, all sizes", &m->recall);
   print_rate("names that were hidden", &m->precision);
   print_rate("a name, or its rivals, hold the truth (goal: 95 %)", &m->rival);
+  print_rate("named, library form: a number within two standard errors", &m->values);
   print_rate("outside the library: no wrong name (goal: 90 %)", &m->strange);
   print_rate("outside the library, unknown said: channel, coordinate right", &m->located);
   print_rate("hover only: nothing wrong named", &m->hover);
   print_rate("hover only: named", &m->hover_recall);
   print_rate("hover only, not named: says it could not be tested", &m->hover_says);
+  print_rate("one hidden, not smaller than told to be seen: not named", &m->promise);
+  print_rate("one hidden and named: smaller than told to be seen", &m->too_large);
   const double n = fmax(m->shrunk, 1);
   printf("drawn again, because the vehicle could not fly: %d\n", m->drawn_again);
   printf("held-out sum of squares, after / with the truth (goal: 1.05)   %.3f / %.3f = %.3f\n", m->after / n,

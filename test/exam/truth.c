@@ -5,6 +5,7 @@
 #include "plant/battery.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // --- forms of the exam's own ------------------------------------------------------------------------------
 
@@ -141,6 +142,14 @@ fx_use_t truth_effect(int i, double times, double which, bool own_form) {
     use.p[1] = size * sin(angle);
   }
   return use;
+}
+
+double truth_typical(const char *name) {
+  int i = 0, n;
+  while (i < TRUTH_EFFECTS - 1 && strcmp(row[i].name, name) != 0) i++;
+  const fx_use_t use = truth_effect(i, 1.0, 0.0, false), typical = fx_use(use.fx);
+  const int param = use.fx->size[0].param;
+  return fabs(use.p[param] / fx_use_params(&typical, &n)[param].nominal);
 }
 
 // --- outside the library -----------------------------------------------------------------------------------

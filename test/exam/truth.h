@@ -12,6 +12,8 @@
 // own_form: in a form that sim/effects has not, where there is one; else that of sim/effects.
 fx_use_t truth_effect(int i, double times, double which, bool own_form);
 const char *truth_name(int i);
+// What the exam calls typical of an effect, over what the library does.
+double truth_typical(const char *name);
 
 // An effect that no library has, and what the right answer is: channels (bits of 1 << CH_*) and coordinate.
 typedef struct {

@@ -1,0 +1,24 @@
+#!/bin/sh
+# add_effect.sh - tries the README's page on adding an effect: its file goes into a copy of the tree, is hidden
+# in four flights, and is looked for.
+set -eu
+copy=out/add-effect
+rm -rf $copy
+mkdir -p $copy/out
+cp -a Makefile src include sim tools $copy
+cp -a out/release $copy/out
+awk '/^### Add an effect/ { page = 1 } page && /^```c/ { code = 1; next } code && /^```/ { exit } code' README.md >$copy/fx.c
+name=$(sed -n '1s|^// fx_\([a-z_]*\)\.c - .*|\1|p' $copy/fx.c)
+mv $copy/fx.c "$copy/sim/effects/fx_$name.c"
+make -C $copy out/fly out/gap >/dev/null
+cd $copy
+{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >out/vehicle.toml
+for seed in 1 2 3 4; do
+  [ ! -t 2 ] || printf '\r  flying %d of 4' $seed >&2
+  out/fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 \
+    --effect "$name:k=0.03" --seed $seed --log "out/flight$seed.csv" --log-rate 500 >/dev/null
+done
+[ ! -t 2 ] || printf '\r%20s\r' '' >&2
+out/gap --vehicle out/vehicle.toml --columns tools/columns/fly.toml out/flight?.csv >out/said
+# What is named, and what the held-out flight flown again gained.
+awk '/^(Missing|None|flown again)/ || named; { named = index($0, name ":") == 1 } named' name="$name" out/said
