@@ -15,7 +15,8 @@
 #define RATE    500.0
 #define LONG_S  120.0
 #define SHORT_S 15.0
-#define ROUND_S 10.0
+#define ROUNDS  12
+#define ROUND_S (LONG_S / ROUNDS)
 #define START_S 5.0 // it flies, and is where it was told to be
 #define ROOM    4   // effects that a model with fewer candidates can still get
 
@@ -49,8 +50,8 @@ static status_t write_log(const record_t *record, gap_flight_t *log, const model
 static void plan_rounds(const setup6_t *setup, plan_t *plan) {
   static const double gap_m[] = {0.20, 0.04};
   enum { STEPS = sizeof gap_m / sizeof *gap_m };
-  _Static_assert((int)(LONG_S / ROUND_S) * STEPS <= WAYPOINTS_MAX, "every round has room");
-  plan->n_way = (int)(LONG_S / ROUND_S) * STEPS;
+  _Static_assert(ROUNDS * STEPS <= WAYPOINTS_MAX, "every round has room");
+  plan->n_way = ROUNDS * STEPS;
   for (int i = 0; i < plan->n_way; i++)
     plan->way[i] = (waypoint_t){ROUND_S / STEPS * i, setup->model.ceiling_m - gap_m[i % STEPS]};
   plan->end_s = START_S + LONG_S + 1.0;

@@ -94,10 +94,9 @@ static bool cut(const double *value, int n, double *parted, int *bin, double edg
     if (isnan(value[i])) return false;
     parted[i] = value[i];
   }
-  for (int k = 0, from = 0; k <= BINS; k++) {
-    const int at = k * (n - 1) / BINS;
+  for (int k = 0, from = 0, at = 0; k <= BINS; k++, from = at) {
+    at = k * (n - 1) / BINS;
     edge[k] = nth_smallest(parted + from, n - from, at - from);
-    from = at;
   }
   if (!(edge[BINS] - edge[0] > 1e-9)) return false;
   for (int i = 0; i < n; i++) {
