@@ -58,7 +58,9 @@ static void warn_of_instrument(report_t *r) {
     const confirm_t *const a = &d->found.named[i].confirm;
     const char *const name = d->candidates.candidate[d->found.named[i].candidate].use.fx->name;
     if (a->answer == CONFIRM_NO)
-      warn(r, "%s is not confirmed by the set points as instrument: what feedback makes may stand behind it",
+      warn(r,
+           "%s is not confirmed by the set points as instrument: it may be feedback, or they show too little "
+           "of it",
            name);
     else if (a->apart)
       warn(r,
