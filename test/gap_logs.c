@@ -23,6 +23,11 @@ static const struct {
     {SIG_GZ, "gyro.z", 57.29577951},   {SIG_M1, "indi.m1", 1.0},          {SIG_M2, "indi.m2", 1.0},
     {SIG_M3, "indi.m3", 1.0},          {SIG_M4, "indi.m4", 1.0},          {SIG_VBAT, "pm.vbat", 1.0},
     {SIG_RANGE, "range.up", 1000.0}};
+// Where the flight has them.
+static const struct {
+  signal_id_t signal;
+  const char *name;
+} TOLD[] = {{SIG_SET_X, "ctrltarget.x"}, {SIG_SET_Y, "ctrltarget.y"}, {SIG_SET_Z, "ctrltarget.z"}};
 #define COLUMNS (sizeof COLUMN / sizeof *COLUMN)
 
 // As late as the Crazyflie's filters make it.
@@ -39,6 +44,7 @@ void gap_log_write(const gap_flight_t *f, const char *path) {
   const columns_t columns = columns_crazyflie();
   fputs("timestamp", file);
   for (unsigned k = 0; k < COLUMNS; k++) fprintf(file, ",%s", COLUMN[k].name);
+  for (int k = 0; k < 3 && f->v[SIG_SET_X]; k++) fprintf(file, ",%s", TOLD[k].name);
   fputc('\n', file);
   for (int i = 0; i < f->n; i++) {
     fprintf(file, "%.3f", 1e3 * f->t_s[i]);
@@ -49,6 +55,7 @@ void gap_log_write(const gap_flight_t *f, const char *path) {
       else
         fprintf(file, ",%.8g", v);
     }
+    for (int k = 0; k < 3 && f->v[SIG_SET_X]; k++) fprintf(file, ",%.8g", f->v[TOLD[k].signal][i]);
     fputc('\n', file);
   }
   if (fclose(file) != 0) abort();

@@ -86,7 +86,9 @@ TEST(columns_files_are_refused_with_line_and_key) {
       {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
        "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
        "pitch, yaw, "
-       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4"},
+       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4, set_x, "
+       "set_y, set_z, "
+       "set_vx, set_vy, set_vz, set_yaw"},
       {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
        "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
       {"motor unit", TIME "m1 = {column = \"z\", unit = \"rps\"}\n",

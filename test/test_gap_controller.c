@@ -94,9 +94,11 @@ TEST(gap_flies_nominal_flights_by_the_vehicle_file_s_controller_and_keeps_it) {
 TEST(gap_cannot_tell_where_the_vehicle_file_s_controller_does_not_fly_it) {
   char text[6000];
   CHECK(gap_logs_fly("odd", 2, NULL));
-  CHECK(program_run("cp $S/room.toml $S/odd.toml; printf '\\n[controller]\\nkind = \"stock-pid\"\\n"
-                    "pid_rate.roll_kp = 0\\npid_rate.roll_ki = 0\\npid_rate.roll_kd = 0\\n' >>$S/odd.toml; "
+  CHECK(program_run("cp $S/room.toml $S/odd.toml; printf '\n[controller]\nkind = \"stock-pid\"\n"
+                    "posCtlPid.thrustBase = 0\nposCtlPid.thrustMin = 0\nvelCtlPid.vzKp = 0\n"
+                    "velCtlPid.vzKi = 0\n' >>$S/odd.toml; "
                     "gap --vehicle $S/odd.toml --columns tools/columns/fly.toml $S/odd?.csv",
                     STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "These flights cannot tell what is missing in odd.toml.\n") == text);
+  CHECK(strstr(text, "note: the model could not be flown along these tracks") != NULL);
 }

@@ -68,6 +68,7 @@ static status_t drop_rest(raw_t *raw, const log_rows_t *rows, why_t *why) {
   for (int i = SIG_QW; i <= SIG_QZ && !whole; i++) raw_drop(raw, (signal_id_t)i);
   const double rest_m = rows->columns.rest_height_m;
   for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
+  for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
   return ST_OK;
 }
 

@@ -5,6 +5,7 @@
 #ifndef SIM_GAP_CANDIDATES_H
 #define SIM_GAP_CANDIDATES_H
 
+#include "gap/2_replay.h"
 #include "gap/3_residual.h"
 
 typedef struct {
@@ -40,6 +41,12 @@ double candidate_typical(const candidate_t *c, int k);
 
 // The model with what is named. ST_BAD_INPUT: too many effects.
 MUST_CHECK status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
+
+// The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
+// gets. now, base: the model's own replay, kept. ST_BAD_INPUT: too many effects.
+MUST_CHECK status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
+                                            double *const base[CHANNELS], double *const with[CHANNELS],
+                                            why_t *why);
 
 // Columns and residual by row. x[channel][column]: a null pointer where the column is zero throughout. The
 // last column (number `columns`) is the residual with what is named taken out again, in the straight line's

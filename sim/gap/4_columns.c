@@ -47,19 +47,16 @@ status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_
   return status;
 }
 
-// The derivative of a flight's replay with respect to size k of an effect, which the model has or gets; base:
-// the model's own.
-static status_t differentiate(set_t *s, int flight, const path_t *now, const candidate_t *c, int k,
-                              flight_lines_t *l, why_t *why) {
+status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
+                                 double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
-  grid_t *g = &s->grid[flight];
   fx_use_t more = c->use;
   more.p[size->param] += size->step;
-  TRY(replay_with(g, now, &more, l->with, why));
+  TRY(replay_with(g, now, &more, with, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int j = 0; j < g->n; j++) {
-      const double d = (l->with[ch][j] - l->base[ch][j]) / size->step;
-      l->with[ch][j] = isfinite(d) ? d : 0.0;
+      const double d = (with[ch][j] - base[ch][j]) / size->step;
+      with[ch][j] = isfinite(d) ? d : 0.0;
     }
   return ST_OK;
 }
@@ -95,7 +92,7 @@ static status_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now
   for (int i = 0; i < c->n; i++) {
     if (named_otherwise(c, i) != dropped) continue;
     for (int k = 0; k < c->candidate[i].n; k++) {
-      TRY(differentiate(s, flight, now, &c->candidate[i], k, l, why));
+      TRY(candidate_differentiate(&s->grid[flight], now, &c->candidate[i], k, l->base, l->with, why));
       if (fill_column(t, s, flight, c->candidate[i].first + k, l) != ST_OK)
         return error_failed(why, "out of memory");
     }

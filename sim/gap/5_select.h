@@ -34,6 +34,19 @@ typedef struct {
   double floor[CHANNELS]; // rms of a residual row
 } nominal_t;
 
+// What the reference trajectory as an instrument says of a name (select_confirm.h).
+typedef enum { CONFIRM_NOT_TRIED, CONFIRM_WEAK, CONFIRM_NO, CONFIRM_YES } confirm_answer_t;
+
+typedef struct {
+  confirm_answer_t answer;
+  double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX]; // not where it is weak
+  double F;                                        // of the first stage, its weakest number
+  double blocks;                                   // that tell of it, as if all told as much
+  double p;                                        // of all its numbers together
+  double p_apart;                                  // of its distance from least squares (Hausman)
+  bool apart;                                      // they differ by more than the errors of both allow
+} confirm_t;
+
 typedef struct {
   int candidate;
   double value[FX_SIZE_MAX];
@@ -47,6 +60,7 @@ typedef struct {
   int n_rival;
   const fx_t *rival[RIVAL_MAX];
   double rival_share[RIVAL_MAX]; // what each would explain in its place
+  confirm_t confirm;
 } named_t;
 
 typedef struct {

@@ -88,6 +88,9 @@ double report_rms(const report_t *r, const profile_t *p, const span_t *span, con
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
 
+// What the reference as the instrument says of a name, in words; false: it was not tried.
+bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
+
 // Some residual can be formed.
 bool report_has_residual(const report_t *r);
 // ... and it is known what feedback alone makes of it; else nothing could have been found.

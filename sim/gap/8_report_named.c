@@ -60,7 +60,7 @@ static void rivals(const finding_t *f, FILE *out) {
 
 void page_finding(const finding_t *f, double errors, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[P_TEXT];
+  char p[P_TEXT], words[REPORT_TEXT];
   page_text(out, "<section><h2>", f->fx->name, "</h2>");
   page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
   fprintf(out, "<p>It explains %.3g %% of the gap (", 100.0 * f->named->share);
@@ -77,6 +77,7 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
   }
   fputs("</p>\n", out);
   parameters(f, errors, out);
+  if (report_confirm(f, words)) page_text(out, "<p>", words, ".</p>\n");
   fputs("<figure>", out);
   picture_curve(f, out);
   fputs("<figcaption>What the effect adds, on flights that were not used to find "

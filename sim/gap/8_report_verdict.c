@@ -32,6 +32,30 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
   cJSON_AddStringToObject(one, "unit", p->unit);
 }
 
+// Only where it was tried.
+static void add_instrument(cJSON *o, const finding_t *f) {
+  static const char *const answer[] = {"", "instrument too weak", "not confirmed", "confirmed"};
+  const confirm_t *const a = &f->named->confirm;
+  int n;
+  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
+  if (a->answer == CONFIRM_NOT_TRIED) return;
+  const bool weak = a->answer == CONFIRM_WEAK;
+  cJSON *const i = cJSON_AddObjectToObject(o, "instrument");
+  cJSON_AddStringToObject(i, "answer", answer[a->answer]);
+  add_number(i, "F", a->F);
+  cJSON *const all = cJSON_AddObjectToObject(i, "parameters");
+  for (int k = 0; k < f->candidate->n && !weak; k++) {
+    const fx_param_t *const p = &param[f->fx->size[k].param];
+    cJSON *const one = cJSON_AddObjectToObject(all, p->name);
+    add_number(one, "value", a->value[k]);
+    add_number(one, "stderr", a->stderr_[k]);
+    cJSON_AddStringToObject(one, "unit", p->unit);
+  }
+  add_number(i, "p", weak ? (double)NAN : p_value(a->p));
+  add_number(i, "p_apart", weak ? (double)NAN : p_value(a->p_apart));
+  cJSON_AddBoolToObject(i, "apart", a->apart);
+}
+
 static void add_effect(cJSON *list, const finding_t *f) {
   cJSON *const o = cJSON_CreateObject();
   cJSON_AddItemToArray(list, o);
@@ -55,6 +79,7 @@ static void add_effect(cJSON *list, const finding_t *f) {
   add_number(matters, "before", f->before);
   add_number(matters, "after", f->after);
   cJSON_AddStringToObject(o, "fly", f->fly);
+  add_instrument(o, f);
 }
 
 static void add_unknown(cJSON *root, const diagnosis_t *d) {

@@ -51,6 +51,26 @@ static void warn_of_gap(report_t *r) {
   }
 }
 
+static void warn_of_instrument(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (d->why_not_confirmed) warn(r, "no name is confirmed: %s", d->why_not_confirmed);
+  for (int i = 0; i < d->found.n; i++) {
+    const confirm_t *const a = &d->found.named[i].confirm;
+    const char *const name = d->candidates.candidate[d->found.named[i].candidate].use.fx->name;
+    if (a->answer == CONFIRM_NO)
+      warn(r,
+           "%s is not confirmed by the set points as instrument: it may be feedback, or they show too little "
+           "of it",
+           name);
+    else if (a->apart)
+      warn(r,
+           "%s: the set points as instrument give another size than least squares (p %.1g): feedback or "
+           "noise is "
+           "in the size that is named",
+           name, a->p_apart);
+  }
+}
+
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   if (!report_has_residual(r))
@@ -139,6 +159,7 @@ static void warn_of_names(report_t *r) {
 void report_warn(report_t *r) {
   warn_of_names(r);
   warn_of_diagnosis(r);
+  warn_of_instrument(r);
   warn_of_gap(r);
   warn_of_open(r);
   if (r->study->diagnosis.found.n == 0) warn_of_sizes(r);

@@ -24,7 +24,7 @@ static void print_shape(const finding_t *f, double wide, FILE *out) {
 
 static void print_effect(const finding_t *f, double wide, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[P_TEXT];
+  char p[P_TEXT], words[REPORT_TEXT];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
   for (int k = 0; k < f->candidate->n; k++) print_value(f, k, wide, out);
   if (f->fx->n_shape) print_shape(f, wide, out);
@@ -38,6 +38,7 @@ static void print_effect(const finding_t *f, double wide, FILE *out) {
   else if (f->before > 0.0)
     fprintf(out, "; held out, there: %.3g -> %.3g %s rms", f->before, f->after, gap_unit[f->profile.channel]);
   fputc('\n', out);
+  if (report_confirm(f, words)) fprintf(out, "  %s\n", words);
   if (!f->named->n_rival) return;
   fputs("  would do as well:", out);
   for (int i = 0; i < f->named->n_rival; i++) fprintf(out, "%s %s", i ? "," : "", f->named->rival[i]->name);

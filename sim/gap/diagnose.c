@@ -4,6 +4,7 @@
 #include "gap/7_verify.h"
 #include "gap/contact.h"
 #include "gap/muted.h"
+#include "gap/select_confirm.h"
 #include "gap/select_shape.h"
 #include <math.h>
 #include <stdlib.h>
@@ -130,6 +131,7 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "looking for missing effects");
   TRY(find_names(d, job->model, why));
   TRY(verify_names(d, job->model, why));
+  TRY(select_confirm(&d->candidates, &d->fit, job->model, &d->manner, &d->found, &d->why_not_confirmed, why));
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));

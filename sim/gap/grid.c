@@ -2,6 +2,7 @@
 #include "gap/grid.h"
 
 #include "body_forces.h"
+#include "gap/set_points.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,6 +109,7 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
   take_range(g, from, &p);
   if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
+  set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
   p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
@@ -166,6 +168,7 @@ status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const mod
     return error_failed(why, "out of memory");
   TRY(take_commands(g, m, to - from, why));
   take_points(g, m, to);
+  set_points_judge(g);
   return ST_OK;
 }
 

@@ -21,9 +21,11 @@ typedef struct {
   dq_t q_wb;
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
-  double range_m;        // fresh, else NaN
-  double range_before_s; // so long before t_s it was taken
-  double clear_m;        // least distance of any part of it from ceiling or floor, as estimated
+  double range_m;          // fresh, else NaN
+  double range_before_s;   // so long before t_s it was taken
+  double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
+  d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
+  double set_yaw_rad;
 } point_t;
 
 // Of a point. Free: it can be compared, by its own value or (turning) by its neighbours' too.

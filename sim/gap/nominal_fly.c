@@ -3,11 +3,15 @@
 
 #include "body_forces.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
+// A known pilot is not a tamed one, and may end on the floor, where the log's vehicle flew on: it is put
+// back.
+#define DOWN_S   0.2 // of contact
+#define UP_LEAST 0.5 // cosine of the tilt
+#define MASK_S   0.4 // until what it does is its own again
+#define PUT_S    3.0 // more often it cannot fly there
 
 // Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
@@ -95,56 +99,8 @@ static point_t see(const nominal_flight_t *f, const point_t *truth) {
                    .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
 }
 
-static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
-  const double x[3] = {v.x, v.y, v.z};
-  for (int k = 0; k < 3; k++)
-    if (log->v[signal + k]) log->v[signal + k][i] = x[k];
-}
-
-static void write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
-                  const double motor_N[ROTORS], double t_s) {
-  const int i = log->n++;
-  log->t_s[i] = t_s;
-  log->saturated[i] = f->body.on_floor || f->body.on_ceiling;
-  put3(log, SIG_X, i, d3_add(p->pos_w_m, d3(0.0, 0.0, -body_rest_z_m(f->m))));
-  put3(log, SIG_VX, i, p->vel_w_mps);
-  put3(log, SIG_AX, i, p->acc_b_mps2);
-  put3(log, SIG_GX, i, p->rate_b_radps);
-  put3(log, SIG_QX, i, d3(p->q_wb.x, p->q_wb.y, p->q_wb.z));
-  if (log->v[SIG_QW]) log->v[SIG_QW][i] = p->q_wb.w;
-  if (log->v[SIG_VBAT]) log->v[SIG_VBAT][i] = p->vbat_V;
-  double sum_N = 0.0;
-  for (int k = 0; k < ROTORS; k++) {
-    if (log->v[SIG_M1 + k]) log->v[SIG_M1 + k][i] = motor_N[k];
-    sum_N += motor_N[k];
-  }
-  if (log->v[SIG_THRUST]) log->v[SIG_THRUST][i] = sum_N;
-  double *const range = log->range_up_m ? log->range_up_m : log->range_down_m;
-  if (range) range[i] = isfinite(f->g->point[f->at].range_m) ? p->range_m : (double)NAN;
-}
-
 // --- the flight
 // ---------------------------------------------------------------------------------------------------
-
-static double *column(size_t n) {
-  return malloc(n * sizeof(double));
-}
-
-// The signals that the log has. Motors are newton.
-static bool log_room(gap_flight_t *log, const grid_t *g, size_t n) {
-  const gap_flight_t *like = g->flight;
-  *log = (gap_flight_t){.motors_N = true};
-  bool good = (log->t_s = column(n)) != NULL;
-  good = (log->saturated = calloc(n, sizeof(bool))) && good; // where it touches, too
-  for (int i = SIG_X; i <= SIG_VBAT; i++)
-    if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
-  if (g->range_up)
-    good = (log->range_up_m = log->v[SIG_RANGE] = column(n)) && good;
-  else if (like->range_down_m)
-    good = (log->range_down_m = log->v[SIG_RANGE_DOWN] = column(n)) && good;
-  snprintf(log->name, sizeof log->name, "nominal flight");
-  return good;
-}
 
 static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
   const point_t *track = &f->g->point[f->at];
@@ -152,6 +108,50 @@ static void steer(nominal_flight_t *f, double step_s, const point_t *seen, doubl
     known_steer(f->known, step_s, track, seen, motor_N);
   else
     pilot_steer(f, step_s, track, seen, motor_N);
+}
+
+// On the track, hovering, with a fresh pilot.
+static status_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
+  const point_t *p = &f->g->point[f->at];
+  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
+  // Motors faster than the step need a finer one.
+  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
+    return error_failed(why, "%s: a model that cannot be flown", m->name);
+  f->body.vbat_V = p->vbat_V;
+  body_effects(&f->body, 0.0);
+  pilot_tame(f);
+  pilot_trim(f);
+  return ST_OK;
+}
+
+static status_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+  const point_t truth = is(f), seen = see(f, &truth);
+  return known_open(&f->known, f, &seen, why);
+}
+
+static bool is_down(nominal_flight_t *f, double span_s) {
+  const axes_t axes = axes_of(dq_of(f->body.y + RIGID_Q_WB));
+  f->down_s += f->body.on_floor || f->body.on_ceiling ? span_s : 0.0;
+  return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
+}
+
+static status_t cannot_fly(const nominal_flight_t *f, why_t *why) {
+  return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+}
+
+static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+  const model_t *m = f->body.model;
+  if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
+  f->down_s = 0.0;
+  f->masked_to_s = t_s + MASK_S;
+  body_close(&f->body);
+  f->body.integrate = NULL;
+  known_close(f->known);
+  f->known = NULL;
+  TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
+  return find_pilot(f, m, why);
 }
 
 static status_t fly(nominal_flight_t *f, why_t *why) {
@@ -167,40 +167,31 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
         f->body.vbat_V = f->g->point[f->at].vbat_V;
         const point_t truth = is(f), seen = see(f, &truth);
         steer(f, step_s, &seen, motor_N);
-        if (k == 0) write(f, f->log, &seen, motor_N, t_s);
-        if (k == 0 && f->truth) write(f, f->truth, &truth, motor_N, t_s);
+        if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
+        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
         body_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
-      if (f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M))
-        return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+      const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);
+      if (!f->known && lost) return cannot_fly(f, why);
+      if (f->known && (lost || is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
   f->log->rate_Hz = 1.0 / log_s;
   if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
   return ST_OK;
 }
 
-static status_t take_off(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
-  const point_t *p = &f->g->point[f->from];
-  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
-  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
-  // Motors faster than the step need a finer one.
-  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
-    return error_failed(why, "%s: a model that cannot be flown", m->name);
-  f->body.vbat_V = p->vbat_V;
-  body_effects(&f->body, 0.0);
-  pilot_tame(f);
-  pilot_trim(f);
-  f->random = random_open(seed + 1);
-  if (!f->random) return error_failed(why, "out of memory");
-  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
-  const point_t truth = is(f), seen = see(f, &truth);
-  return known_open(&f->known, f, &seen, why);
+static status_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
+  f->at = f->from;
+  TRY(start_at(f, m, f->seed, why));
+  f->random = random_open(f->seed + 1);
+  return f->random ? find_pilot(f, m, why) : error_failed(why, "out of memory");
 }
 
 status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
                      gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
-  nominal_flight_t f = {.g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n};
+  nominal_flight_t f = {
+      .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
   model_t with;
   *flight = (gap_flight_t){.n = 0};
   if (truth) *truth = (gap_flight_t){.n = 0};
@@ -209,8 +200,8 @@ status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsig
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
-  status_t status = log_room(flight, g, room) && (!truth || log_room(truth, g, room))
-                        ? take_off(&f, &with, seed, why)
+  status_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
+                        ? take_off(&f, &with, why)
                         : error_failed(why, "out of memory");
   if (status == ST_OK) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);

@@ -33,6 +33,21 @@ static double ahead(const pid_gain_t *p, double mps) {
   return p->kp > 0.0 ? mps / p->kp : 0.0;
 }
 
+// The log's own set points, axis by axis: a place; a speed alone; both.
+static void take_logged(pilot6_setpoint_t *set, const point_t *track) {
+  const double place_m[3] = {track->set_w_m.x, track->set_w_m.y, track->set_w_m.z};
+  const double speed_mps[3] = {track->set_w_mps.x, track->set_w_mps.y, track->set_w_mps.z};
+  double *const to_m[3] = {&set->pos_w_m.x, &set->pos_w_m.y, &set->pos_w_m.z};
+  double *const to_mps[3] = {&set->vel_mps.x, &set->vel_mps.y, &set->vel_mps.z};
+  for (int i = 0; i < 3; i++) {
+    const bool place = isfinite(place_m[i]), speed = isfinite(speed_mps[i]);
+    if (place) *to_m[i] = place_m[i];
+    if (place || speed) *to_mps[i] = speed ? speed_mps[i] : 0.0;
+    if (speed && !place) set->mode[i] = PILOT6_VELOCITY;
+  }
+  if (isfinite(track->set_yaw_rad)) set->yaw_rad = track->set_yaw_rad;
+}
+
 static void order(known_t *k, const point_t *track) {
   pilot6_setpoint_t *const set = &k->in.set;
   const pid_gain_t *pos = k->m->flown_by.pid.position.pos;
@@ -43,6 +58,7 @@ static void order(known_t *k, const point_t *track) {
   if (by_pid(k))
     set->pos_w_m = d3_add(set->pos_w_m, d3(ahead(&pos[0], v.x), ahead(&pos[1], v.y), ahead(&pos[2], v.z)));
   set->yaw_rad = yaw_of(track->q_wb);
+  take_logged(set, track);
 }
 
 static void show(known_t *k, const point_t *seen, double step_s) {

@@ -2,8 +2,8 @@
 // ([controller]): the firmware's PID with its gains, or the flight code itself, at the firmware's rates.
 // Within sim/gap only.
 //
-// Where the log has no set points the pilot is given those along the track: its place and speed, for the PID,
-// which takes no speed, the place ahead at which it wants the track's speed.
+// It gets the log's set points. Where there are none it is given those along the track: its place and speed,
+// for the PID, which takes no speed, the place ahead at which it wants the track's speed.
 #ifndef GAP_NOMINAL_KNOWN_H
 #define GAP_NOMINAL_KNOWN_H
 

@@ -19,7 +19,10 @@ typedef struct {
   double lift_trim;                           // thrust over weight that holds it
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
-  struct known *known; // who flew, where the vehicle file says so (nominal_known.h); else null
+  unsigned long seed;
+  double down_s, masked_to_s; // in contact since it was put on its track; of the log
+  int puts;                   // how often it was put back
+  struct known *known;        // who flew, where the vehicle file says so (nominal_known.h); else null
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.
@@ -31,5 +34,12 @@ void pilot_tame(nominal_flight_t *f);
 
 // Finds what holds the body level, and gives it that.
 void pilot_trim(nominal_flight_t *f);
+
+// The signals that the log of grid g has, with room for so many samples. Motors are newton. False: no memory.
+bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n);
+
+// One sample more, with what is seen (or is true) at it.
+void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+                       const double motor_N[ROTORS], double t_s);
 
 #endif

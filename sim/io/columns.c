@@ -52,6 +52,13 @@ static const struct {
     [SIG_W2] = {"w2", KIND_SPIN, 0.0, 1e4, "rpm.m2", "rpm"},
     [SIG_W3] = {"w3", KIND_SPIN, 0.0, 1e4, "rpm.m3", "rpm"},
     [SIG_W4] = {"w4", KIND_SPIN, 0.0, 1e4, "rpm.m4", "rpm"},
+    [SIG_SET_X] = {"set_x", KIND_LENGTH, -1e4, 1e4, "ctrltarget.x", "m"},
+    [SIG_SET_Y] = {"set_y", KIND_LENGTH, -1e4, 1e4, "ctrltarget.y", "m"},
+    [SIG_SET_Z] = {"set_z", KIND_LENGTH, -1e4, 1e4, "ctrltarget.z", "m"},
+    [SIG_SET_VX] = {"set_vx", KIND_SPEED, -1e4, 1e4, "ctrltarget.vx", "m/s"},
+    [SIG_SET_VY] = {"set_vy", KIND_SPEED, -1e4, 1e4, "ctrltarget.vy", "m/s"},
+    [SIG_SET_VZ] = {"set_vz", KIND_SPEED, -1e4, 1e4, "ctrltarget.vz", "m/s"},
+    [SIG_SET_YAW] = {"set_yaw", KIND_ANGLE, -1e3, 1e3, "ctrltarget.yaw", "deg"},
 };
 
 // What a motor command may be instead, and its bounds then.

@@ -18,7 +18,8 @@
 //
 // Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
 // all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
-// them. w1..w4 are measured rotor speeds. range looks up, range_down down.
+// them. w1..w4 are measured rotor speeds. range looks up, range_down down. set_x, set_y, set_z, set_vx,
+// set_vy, set_vz and set_yaw are the controller's set points, in the world's axes and the frame of x, y, z.
 #ifndef SIM_IO_COLUMNS_H
 #define SIM_IO_COLUMNS_H
 
@@ -62,6 +63,13 @@ typedef enum {
   SIG_W2,
   SIG_W3,
   SIG_W4,
+  SIG_SET_X, // what the controller was told: a place, a speed, a heading
+  SIG_SET_Y,
+  SIG_SET_Z,
+  SIG_SET_VX,
+  SIG_SET_VY,
+  SIG_SET_VZ,
+  SIG_SET_YAW,
   SIG_F1, // from here on: no columns of a log but made of them; newton of each motor, as commanded
   SIG_F2,
   SIG_F3,

@@ -85,13 +85,17 @@ static double range_up(exam_t *e) {
 static const signal_id_t LOGGED[] = {SIG_X,  SIG_Y,  SIG_Z,  SIG_VX, SIG_VY, SIG_VZ, SIG_AX,
                                      SIG_AY, SIG_AZ, SIG_QW, SIG_QX, SIG_QY, SIG_QZ, SIG_GX,
                                      SIG_GY, SIG_GZ, SIG_M1, SIG_M2, SIG_M3, SIG_M4, SIG_VBAT};
+static const signal_id_t TOLD[] = {SIG_SET_X,  SIG_SET_Y,  SIG_SET_Z,  SIG_SET_VX,
+                                   SIG_SET_VY, SIG_SET_VZ, SIG_SET_YAW};
+#define N_TOLD (sizeof TOLD / sizeof *TOLD)
 
-static bool log_room(gap_flight_t *f, size_t n) {
+static bool log_room(gap_flight_t *f, size_t n, bool told) {
   *f = (gap_flight_t){.motors_N = true, .rate_Hz = 1.0 / EXAM_TICK_S};
   bool good = (f->t_s = malloc(n * sizeof(double))) != NULL;
   good = (f->range_up_m = f->v[SIG_RANGE] = malloc(n * sizeof(double))) && good;
   for (unsigned i = 0; i < sizeof LOGGED / sizeof *LOGGED; i++)
     good = (f->v[LOGGED[i]] = malloc(n * sizeof(double))) && good;
+  for (unsigned i = 0; told && i < N_TOLD; i++) good = (f->v[TOLD[i]] = malloc(n * sizeof(double))) && good;
   snprintf(f->name, sizeof f->name, "exam");
   return good;
 }
@@ -107,6 +111,11 @@ static void write(gap_flight_t *f, const exam_t *e, const pilot6_in_t *in, const
                            in->gyro_b_radps.z, motor_N[0],         motor_N[1],
                            motor_N[2],         motor_N[3],         in->vbat_V};
   for (unsigned k = 0; k < sizeof LOGGED / sizeof *LOGGED; k++) f->v[LOGGED[k]][i] = values[k];
+  const pilot6_setpoint_t *set = &in->set;
+  const double told[] = {set->pos_w_m.x, set->pos_w_m.y, set->pos_w_m.z - body_rest_z_m(&e->model),
+                         set->vel_mps.x, set->vel_mps.y, set->vel_mps.z,
+                         set->yaw_rad};
+  for (unsigned k = 0; k < N_TOLD && f->v[TOLD[k]]; k++) f->v[TOLD[k]][i] = told[k];
   f->t_s[i] = t_s;
   f->range_up_m[i] = range_m;
 }
@@ -193,7 +202,7 @@ status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
     e->model = *job->truth;
     status = turbulence(e, why);
   }
-  if (status == ST_OK && !log_room(f, (size_t)(EXAM_SPAN_S / EXAM_TICK_S) + 8))
+  if (status == ST_OK && !log_room(f, (size_t)(EXAM_SPAN_S / EXAM_TICK_S) + 8, job->set_points))
     status = error_failed(why, "out of memory");
   if (status == ST_OK) status = start(e, job, why);
   if (status == ST_OK) {

@@ -13,6 +13,7 @@ typedef struct {
   bool hover_only;
   bool indi; // flown by the flight code, else by the firmware's PID
   unsigned long seed;
+  bool set_points; // the log has them, too
 } exam_flight_t;
 
 // ST_FAILED: no memory, or it crashed. Free it.
