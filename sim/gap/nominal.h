@@ -45,9 +45,9 @@ typedef struct {
   unsigned long seed;
 } nominal_job_t;
 
-// NOMINAL_FLIGHTS times all flights of the set: sums of products of the candidates' columns with the
-// residual, and the largest cell of each (unknown.h); of the first one, by column x and without errors x',
-// what least squares find of a size: x x' / x x. ST_FAILED as above.
+// NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
+// candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
+// column x and without errors x', what least squares find of a size: x x' / x x. ST_FAILED as above.
 MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 
