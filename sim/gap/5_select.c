@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define ROUNDS 16
+#define SETTLE 6
 
 const fx_t *select_fx(const select_t *t, int candidate) {
   return t->c->candidate[candidate].use.fx;
@@ -24,14 +25,14 @@ bool select_fits(const select_t *t, const choice_t *choice, int candidate) {
 // --- estimates
 // ----------------------------------------------------------------------------------------------
 
-void select_close_round(select_t *t) {
+static void close_round(select_t *t) {
   judge_free(&t->judge);
   gram_free(&t->gram);
   table_free(&t->table);
 }
 
 // Columns, colours and products about the present values.
-status_t select_open_round(select_t *t, why_t *why) {
+static status_t open_round(select_t *t, why_t *why) {
   const candidates_t *c = t->c;
   int column[COLUMN_MAX], n = 0;
   double b[COLUMN_MAX];
@@ -43,7 +44,7 @@ status_t select_open_round(select_t *t, why_t *why) {
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
   if (status == ST_OK)
     status = gram_make(&t->gram, t->s, &t->table, &known, t->strict ? NULL : t->judge.color_ridge, why);
-  if (status != ST_OK) select_close_round(t);
+  if (status != ST_OK) close_round(t);
   return status;
 }
 
@@ -54,8 +55,9 @@ static double within(const candidate_t *c, int k, double value) {
   return fmin(fmax(value, size->sign > 0 ? 0.0 : param->min), param->max);
 }
 
-// Names what is chosen, with its values. Returns the largest change, in parts of what is typical.
-static double take_values(select_t *t) {
+// Names what is chosen, and brings its values by this share of the way to what is estimated now. Returns the
+// largest way, in parts of what is typical.
+static double take_values(select_t *t, double share) {
   double b[COLUMN_MAX], most = 0.0;
   int n = 0;
   judge_estimate(&t->judge, &t->choice, b, NULL);
@@ -67,9 +69,9 @@ static double take_values(select_t *t) {
   for (int i = 0; i < t->choice.n; i++) {
     candidate_t *c = &t->c->candidate[t->choice.of[i]];
     for (int k = 0; k < c->n; k++) {
-      const double value = within(c, k, b[n++]);
-      most = fmax(most, fabs(value - *candidate_value(c, k)) / candidate_typical(c, k));
-      *candidate_value(c, k) = value;
+      double *const value = candidate_value(c, k), way = within(c, k, b[n++]) - *value;
+      most = fmax(most, fabs(way) / candidate_typical(c, k));
+      *value += share * way;
     }
   }
   return most;
@@ -127,7 +129,7 @@ static bool swap_one(select_t *t) {
 }
 
 // Takes out what no longer passes beside the others.
-bool select_prune_one(select_t *t) {
+static bool prune_one(select_t *t) {
   const double now = judge_left(&t->judge, &t->choice, NULL);
   for (int i = 0; i < t->choice.n; i++) {
     const choice_t rest = choice_without(&t->choice, t->choice.of[i]);
@@ -143,12 +145,16 @@ bool select_prune_one(select_t *t) {
   return false;
 }
 
-status_t select_settle(select_t *t, why_t *why) {
-  for (int i = 0; i < 4; i++) {
-    const double change = take_values(t);
+// Straight lines about the last values, until these stay; by half where they only go to and fro.
+static status_t settle(select_t *t, why_t *why) {
+  double last = HUGE_VAL, share = 1.0;
+  for (int i = 0; i < SETTLE; i++) {
+    const double change = take_values(t, share);
     if (change < 1e-3) break;
-    select_close_round(t);
-    TRY(select_open_round(t, why));
+    if (change > 0.7 * last) share = 0.5;
+    last = change;
+    close_round(t);
+    TRY(open_round(t, why));
   }
   return ST_OK;
 }
@@ -169,10 +175,10 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
 
 static status_t look(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
-    bool changed = select_prune_one(t) || swap_one(t) || add_best(t);
+    bool changed = prune_one(t) || swap_one(t) || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return ST_OK;
-    TRY(select_settle(t, why));
+    TRY(settle(t, why));
   }
   return ST_OK;
 }
@@ -184,18 +190,18 @@ static status_t search(select_t *t, why_t *why) {
   TRY(look(t, why));
   t->strict = true;
   memset(t->taken, 0, (size_t)t->c->n * sizeof(int));
-  select_close_round(t);
-  TRY(select_open_round(t, why));
+  close_round(t);
+  TRY(open_round(t, why));
   return look(t, why);
 }
 
 // What is left in the choice can be named.
 static status_t set_open_apart(select_t *t, found_t *found, why_t *why) {
-  while (select_drop_open(t, found)) TRY(select_settle(t, why));
+  while (select_drop_open(t, found)) TRY(settle(t, why));
   return ST_OK;
 }
 
-status_t select_take_timing(select_t *t, why_t *why) {
+static status_t take_timing(select_t *t, why_t *why) {
   if (t->timing < 0) return ST_OK;
   fx_use_t use = t->c->candidate[t->timing].use;
   use.p[use.fx->size[0].param] = t->timing_s;
@@ -207,16 +213,20 @@ status_t select_take_timing(select_t *t, why_t *why) {
 status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                         found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
-  *found = (found_t){.least = NULL};
-  status_t status = select_room(&t, found, why);
+  *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                     .echo = calloc((size_t)c->n + 1, sizeof(bool))};
+  t.taken = calloc((size_t)c->n + 1, sizeof(int));
+  t.never = calloc((size_t)c->n + 1, sizeof(bool));
+  status_t status =
+      found->least && found->echo && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
   if (status == ST_OK) status = select_timing(&t, why);
-  if (status == ST_OK) status = select_take_timing(&t, why);
-  if (status == ST_OK) status = select_open_round(&t, why);
+  if (status == ST_OK) status = take_timing(&t, why);
+  if (status == ST_OK) status = open_round(&t, why);
   if (status == ST_OK) status = search(&t, why);
   if (status == ST_OK) status = set_open_apart(&t, found, why);
   if (status == ST_OK) {
     select_describe(&t, found);
-    select_close_round(&t);
+    close_round(&t);
   }
   free(t.taken);
   free(t.never);

@@ -62,11 +62,6 @@ typedef struct {
 // Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
 MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
                                    found_t *found, why_t *why);
-// After names were taken back (no longer marked, nor found): the values of the others, their errors, shares
-// and rivals, and what could have been seen, all anew; a name that no longer passes its gates goes, too.
-// ST_FAILED: no memory.
-MUST_CHECK status_t select_again(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
-                                 found_t *found, why_t *why);
 // The effect is an open name, or a rival of one.
 bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 // The smallest size of an effect that would have been seen, over what is typical: of its shapes the one

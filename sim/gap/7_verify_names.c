@@ -2,7 +2,6 @@
 #include "gap/7_verify.h"
 
 #include "gap/lines.h"
-#include "gap/select_shape.h"
 #include <math.h>
 
 static double rms_of(const double *v, int n) {
@@ -141,8 +140,6 @@ status_t verify_names(diagnosis_t *d, const model_t *base, why_t *why) {
     if (worst < 0) return ST_OK;
     d->n_withdrawn++;
     withdraw(d, worst);
-    TRY(select_again(&d->candidates, &d->fit, base, &d->nominal, &d->found, why));
-    TRY(select_shapes(&d->candidates, &d->fit, base, &d->found, why));
   }
   return ST_OK;
 }

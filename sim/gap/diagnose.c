@@ -96,6 +96,21 @@ static status_t look_for_more(diagnosis_t *d, why_t *why) {
   return ST_OK;
 }
 
+// Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
+// names.
+static status_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
+  const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
+  bool again;
+  TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
+  if (!nominal) withdraw(d);
+  TRY(select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why));
+  if (!again) return ST_OK;
+  found_free(&d->found);
+  forget(&d->candidates);
+  TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
+  return select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why);
+}
+
 static void tell(const diagnose_job_t *job, const char *what) {
   if (job->progress) job->progress(what);
 }
@@ -110,10 +125,7 @@ status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
-  TRY(select_effects(&d->candidates, &d->fit, job->model, d->nominal_flew ? &d->nominal : NULL, &d->found,
-                     why));
-  if (!d->nominal_flew) withdraw(d);
-  TRY(select_shapes(&d->candidates, &d->fit, job->model, &d->found, why));
+  TRY(find_names(d, job->model, why));
   TRY(verify_names(d, job->model, why));
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");

@@ -214,16 +214,29 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice) {
   return v;
 }
 
+// Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
+static bool can_be(const candidate_t *c, int k, double value, double margin) {
+  const fx_size_t *size = &c->use.fx->size[k];
+  int n;
+  const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
+  const double least = size->sign > 0 ? 0.0 : param->min;
+  return value - margin <= param->max && (size->sign > 0 ? value + margin > least : value + margin >= least);
+}
+
+bool judge_is_possible(const judge_t *j, const choice_t *choice) {
+  const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
+  const verdict_t v = judge_last(j, choice);
+  for (int k = 0; k < c->n; k++)
+    if (!can_be(c, k, v.value[k], 2.0 * v.stderr_[k])) return false;
+  return true;
+}
+
 bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   double largest = 0.0; // in parts of what is typical
   if (!j->nominal && c->use.fx->only_beside_nominal) return false;
   for (int k = 0; k < c->n; k++) {
-    const fx_size_t *size = &c->use.fx->size[k];
-    int n;
-    const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
-    if (size->sign > 0 && v->value[k] <= 0.0) return false;
-    if (v->value[k] > param->max || (size->sign == 0 && v->value[k] < param->min)) return false;
+    if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / candidate_typical(c, k));
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;

@@ -63,6 +63,9 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice);
 // It may be in the choice: gates (a), (b), (c).
 bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v);
 
+// The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
+bool judge_is_possible(const judge_t *j, const choice_t *choice);
+
 // Rms of a candidate's numbers on nominal flights, given the others of the choice; 0 without such flights.
 void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 

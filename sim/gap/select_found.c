@@ -3,7 +3,8 @@
 #include "gap/select_state.h"
 #include <math.h>
 
-// Another name in its place that is not worse by two standard errors of the difference.
+// Another name in its place that is not worse by two standard errors of the difference, at a size that it can
+// have.
 static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
   const choice_t rest = choice_without(&t->choice, candidate);
   const double without = judge_left(&t->judge, &rest, NULL);
@@ -12,7 +13,7 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    if (!judge_is_rival(&t->judge, &t->choice, &with) || !judge_is_possible(&t->judge, &with)) continue;
     named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
     named->rival[named->n_rival++] = fx;
   }

@@ -15,7 +15,7 @@ static named_t open_one(const select_t *t, int candidate) {
     if (!select_may_stand_for(t, &rest, candidate, i)) continue;
     if (open.n_rival && open.rival[open.n_rival - 1] == select_fx(t, i)) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with)) continue;
+    if (!judge_is_rival(&t->judge, &t->choice, &with) || !judge_is_possible(&t->judge, &with)) continue;
     if (judge_likeness(&t->judge, &t->choice, candidate, i) < SELECT_SAME) continue;
     open.rival[open.n_rival++] = select_fx(t, i);
   }

@@ -148,11 +148,15 @@ static status_t polish(polish_t *p, named_t *named, why_t *why) {
   return p->failed ? error_failed(why, "%s", p->why.text) : ST_OK;
 }
 
-status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, why_t *why) {
+status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
+                       why_t *why) {
+  *changed = false;
   for (int i = 0; i < found->n; i++) {
     candidate_t *const own = &c->candidate[found->named[i].candidate];
     polish_t p = {.c = c, .own = own, .s = s, .base = base, .n = SIZE + own->n};
-    if (is_free(own->use.fx, own)) TRY(polish(&p, &found->named[i], why));
+    if (!is_free(own->use.fx, own)) continue;
+    TRY(polish(&p, &found->named[i], why));
+    *changed = true;
   }
   return ST_OK;
 }

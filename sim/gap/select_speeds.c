@@ -70,7 +70,7 @@ static double best_in(speeds_t *s, double from, double to) {
   return 0.5 * (from + to);
 }
 
-bool select_has_speeds(const set_t *s) {
+static bool all_measured(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     if (!s->grid[f].measured_N[ROTORS - 1]) return false;
   return s->n_grid > 0;
@@ -88,7 +88,7 @@ static void take(speeds_t *s, double value, double none, double now) {
 
 status_t select_speeds(select_t *t, bool *known, why_t *why) {
   speeds_t s = {.t = t, .candidate = -1, .why = why, .status = ST_OK};
-  *known = select_has_speeds(t->s);
+  *known = all_measured(t->s);
   if (!*known) return ST_OK;
   const double none = judge(&s, 0.0);
   double least = none - fmax(BETTER, PART * fabs(none));

@@ -39,9 +39,6 @@ MUST_CHECK status_t select_timing(select_t *t, why_t *why);
 // The same by measured rotor speeds. known: there are some; then nothing else has a say in it.
 MUST_CHECK status_t select_speeds(select_t *t, bool *known, why_t *why);
 
-// Rotor speeds were measured in every flight of the set.
-bool select_has_speeds(const set_t *s);
-
 // Something at one place, time or state explains more than this name does: the name is an echo of it.
 // ST_FAILED: no memory.
 MUST_CHECK status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why);
@@ -56,23 +53,6 @@ MUST_CHECK status_t select_forbid_alike(select_t *t, int candidate, why_t *why);
 // Moves a name, one at most, to found->open: another one does as well within two standard errors, and nearly
 // all that it does the other could do. False: none is so.
 bool select_drop_open(select_t *t, found_t *found);
-
-// What a select_t and what it finds need. ST_FAILED: no memory; t->taken and t->never are the caller's to
-// free.
-MUST_CHECK status_t select_room(select_t *t, found_t *found, why_t *why);
-
-// Columns, colours and products about the present values. ST_FAILED: no memory; it is closed then.
-MUST_CHECK status_t select_open_round(select_t *t, why_t *why);
-void select_close_round(select_t *t);
-
-// Values of what is chosen, estimated until they stay. ST_FAILED: no memory; the round is closed then.
-MUST_CHECK status_t select_settle(select_t *t, why_t *why);
-
-// Takes one out that no longer passes beside the others. False: all do.
-bool select_prune_one(select_t *t);
-
-// A lag or delay by rotor speeds goes into the base.
-MUST_CHECK status_t select_take_timing(select_t *t, why_t *why);
 
 #define SELECT_SAME 0.997 // of a name's contribution, that a rival could give
 
