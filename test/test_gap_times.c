@@ -1,5 +1,6 @@
 // test_gap_times.c - what comes and goes in flight has no name: every effect of the library acts all the
 // time.
+#include "gap_logs.h"
 #include "programs.h"
 #include "test.h"
 
@@ -29,4 +30,23 @@ TEST(gap_gives_no_name_to_what_begins_in_flight) {
     const char *const unknown = strstr(text, "\nunknown: ");
     CHECK(unknown && strstr(unknown, "force_z,") && strstr(unknown, row[i].seen_in));
   }
+}
+
+// Flights so wild that the nominal ones are as wild: nothing stands out, and still far more is left than
+// usual.
+TEST(gap_does_not_say_that_nothing_is_missing_where_much_is_left) {
+  char text[6000], file[20];
+  fx_use_t broken = fx_use(fx_find("motor_damage"));
+  broken.p[0] = 1.0;
+  broken.p[1] = 0.2;
+  broken.p[2] = 8.0;
+  for (unsigned long i = 1; i <= 3; i++) {
+    snprintf(file, sizeof file, "wild%lu.csv", i);
+    CHECK(gap_logs_fly_one(file, i, true, &broken));
+  }
+  CHECK(program_run("gap --vehicle $S/room.toml --columns tools/columns/fly.toml $S/wild?.csv", STREAM_OUTPUT,
+                    text, sizeof text) == 0);
+  CHECK(strstr(text, "Nothing can be named that is missing in room.toml, and more is left than noise") ==
+        text);
+  CHECK(strstr(text, "note: force_z: ") != NULL);
 }
