@@ -12,36 +12,49 @@ static fx_place_t place_of(const body_t *b, double z_m, const axes_t *axes, int 
   const double rotor_z_m = z_m + b->rigid.rotor_x_m[rotor] * axes_up_b(axes).x +
                            b->rigid.rotor_y_m[rotor] * axes_up_b(axes).y +
                            b->rigid.rotor_z_m[rotor] * axes_up_b(axes).z;
-  return (fx_place_t){.ceiling_gap_m = fmax(b->touch.ceiling_m - rotor_z_m, 0.0),
-                      .ground_gap_m = fmax(rotor_z_m, 0.0),
+  const double above_m = b->touch.ceiling_m - rotor_z_m;
+  return (fx_place_t){.ceiling_gap_m = above_m > 0.0 ? above_m : 0.0,
+                      .ground_gap_m = rotor_z_m > 0.0 ? rotor_z_m : 0.0,
                       .radius_m = b->model->rotor_radius_m};
 }
 
-// What the surroundings multiply each rotor's thrust by; z_m: height of the centre of mass.
-static void look_at_surfaces(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
-  for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
-  if (b->n_excess == 0) return;
+// Where the rotors are; z_m: height of the centre of mass.
+static inline fx_places_t places_of(const body_t *b, double z_m, const axes_t *axes) {
   const d3_t up = axes_up_b(axes);
   const rigid_t *r = &b->rigid;
+  const pair_t zero = pair_both(0.0);
   fx_places_t at;
   at.radius_m = b->model->rotor_radius_m;
-  const pair_t zero = pair_both(0.0);
   for (int i = 0; i < ROTORS; i += 2) {
     const pair_t rotor_z_m = z_m + (up.x * pair_of(r->rotor_x_m + i) + up.y * pair_of(r->rotor_y_m + i) +
                                     up.z * pair_of(r->rotor_z_m + i));
     pair_put(at.ceiling_gap_m + i, pair_max(b->touch.ceiling_m - rotor_z_m, zero));
     pair_put(at.ground_gap_m + i, pair_max(rotor_z_m, zero));
   }
+  return at;
+}
+
+// What the surroundings multiply each rotor's thrust by.
+static void look_at_surfaces(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
+  for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
+  if (b->n_excess == 0) return;
+  const fx_places_t at = places_of(b, z_m, axes);
   for (int k = 0; k < b->n_excess; k++) fx_add_excess(b->excess[k], &at, ratio);
 }
 
-static void effects_load(const body_t *b, const double *y, const axes_t *axes, const double speed[ROTORS],
-                         load_t *load) {
+static fx_motion_t motion_of(const body_t *b, const double *y, const axes_t *axes,
+                             const double speed[ROTORS]) {
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
   motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
   for (int i = 0; i < ROTORS; i++) motion.rotor_sum_radps += speed[i];
   for (int i = 0; i < ROTORS; i++) motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
+  return motion;
+}
+
+static void effects_load(const body_t *b, const double *y, const axes_t *axes, const double speed[ROTORS],
+                         load_t *load) {
+  const fx_motion_t motion = motion_of(b, y, axes, speed);
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
 }
 
@@ -62,6 +75,18 @@ static inline void look_at(const body_t *b, int surfaces, const double *y, body_
 
 void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
   look_at(b, surfaces, y, look);
+}
+
+void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look) {
+  if (more->fx->excess) {
+    const fx_places_t at = places_of(b, y[RIGID_POS_M + 2], &look->axes);
+    fx_add_excess(more, &at, look->ratio);
+  }
+  if (!more->fx->load) return;
+  if (!look->loaded) look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  look->loaded = true;
+  const fx_motion_t motion = motion_of(b, y, &look->axes, look->speed_radps);
+  more->fx->load(more, &motion, &look->load);
 }
 
 static inline void derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
@@ -107,6 +132,18 @@ fx_plant_t body_untouched(const model_t *m) {
                       .delay_s = m->frame.motor_delay_s};
 }
 
+// Divisions only where something has changed.
+static void take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
+  const d3_t was = r->inertia_kgm2;
+  if (r->mass_kg == plant->mass_kg && r->motor_tau_s == plant->motor_tau_s && was.x == J_kgm2.x &&
+      was.y == J_kgm2.y && was.z == J_kgm2.z)
+    return;
+  r->inertia_kgm2 = J_kgm2;
+  r->mass_kg = plant->mass_kg;
+  r->motor_tau_s = plant->motor_tau_s;
+  rigid_tune(r);
+}
+
 void body_effects(body_t *b, double span_s) {
   const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
@@ -125,10 +162,7 @@ void body_effects(body_t *b, double span_s) {
     if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
   }
   const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
-  b->rigid.inertia_kgm2 = d3(J.x * grown.x, J.y * grown.y, J.z * grown.z);
-  b->rigid.mass_kg = b->plant.mass_kg;
-  b->rigid.motor_tau_s = b->plant.motor_tau_s;
-  rigid_tune(&b->rigid);
+  take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
   memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
   if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);

@@ -7,6 +7,10 @@
 // What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
 void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look);
 
+// Adds what one effect more does to the rotors and the body, after those of the model; not what it does at
+// the beginning of a tick.
+void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look);
+
 // dydt at state y, with what acts there or without having looked.
 void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);

@@ -1,21 +1,26 @@
 // test_gap_blocks.c - least squares by blocks, and white rows: values by hand and coefficients that are
 // known.
 #include "gap/lsq_blocks.h"
+#include "gap/nth.h"
 #include "gap/whiten.h"
 #include "plant/random.h"
 #include "test.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 // y = 1, 2, 4, 7 over x = 0, 1, 2, 3 and a constant: slope 2, offset 0.5, and 0.5, -0.5, -0.5, 0.5 is left.
 TEST(gap_blocks_fit_a_line_as_by_hand) {
   static const double one[] = {1.0, 1.0, 1.0, 1.0}, x[] = {0.0, 1.0, 2.0, 3.0}, y[] = {1.0, 2.0, 4.0, 7.0};
   static const int all[] = {0, 1, 2};
-  double G[9] = {0.0}, b[2], inverse[4];
+  double G[9] = {0.0}, also[9] = {0.0}, b[2], inverse[4];
   // As two blocks: sums of products add up.
   for (int from = 0; from < 4; from += 2)
-    lsq_add_products(2, 3, (const double *const[]){one + from, x + from, y + from}, all, 3, G);
+    lsq_add_products(2, 3, (const double *const[]){one + from, x + from, y + from}, all, 3, G,
+                     from ? also : NULL);
   CHECK_NEAR(G[8], 70.0, 1e-12);
+  CHECK_NEAR(also[5], 29.0, 1e-12); // 2 * 4 + 3 * 7, of the second block
+  CHECK_NEAR(also[7], 29.0, 1e-12);
   CHECK_NEAR(lsq_solve_products(G, 3, all, 2, NULL, b, inverse), 1.0, 1e-9);
   CHECK_NEAR(b[0], 0.5, 1e-9);
   CHECK_NEAR(b[1], 2.0, 1e-9);
@@ -102,4 +107,15 @@ TEST(gap_whitening_wants_rows_enough) {
   static const bool follows[ROWS] = {false, true, true, true, true};
   const rows_t few = {.n = 5, .follows = (bool *)follows};
   CHECK(!color_fit(&few, v).used);
+}
+
+TEST(gap_nth_smallest_is_that_of_the_sorted_list) {
+  static const double v[] = {3.0, -1.0, 7.0, 3.0, 0.5, 9.0}, sorted[] = {-1.0, 0.5, 3.0, 3.0, 7.0, 9.0};
+  for (int k = 0; k < 6; k++) {
+    double room[6];
+    ROW("%d", k);
+    memcpy(room, v, sizeof v);
+    CHECK_NEAR(nth_smallest(room, 6, k), sorted[k], 0.0);
+    for (int i = 0; i < 6; i++) CHECK(i < k ? room[i] <= sorted[k] : room[i] >= sorted[k]);
+  }
 }

@@ -1,18 +1,13 @@
 // 3_residual.c - measured less predicted, as rows for least squares.
 #include "gap/3_residual.h"
 
-#include "lowpass.h"
-#include "plant/pair.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#define CUTOFF_HZ 8.0
-#define SPREAD_S  0.08 // a masked point spoils the filter's output so far around it
-#define EDGE_S    0.3  // so does the end of a segment
-#define TINY      1e-140
-#define LEAST_S   1.0
-#define NEAR_M    0.003
+#define SPREAD_S 0.08 // a masked point spoils the filter's output so far around it
+#define EDGE_S   0.3  // so does the end of a segment
+#define LEAST_S  1.0
+#define NEAR_M   0.003
 
 // --- which points become rows -----------------------------------------------------------------------------
 
@@ -64,6 +59,20 @@ static void add_flight(set_t *s, int flight, const bool *good) {
   if (g->n) s->n_block += (int)((end_s - start_s) / BLOCK_S) + 1;
 }
 
+// Measured and predicted alike; turning is a difference over two points.
+static bool mark(grid_t *g) {
+  g->mark = malloc((size_t)g->n + 1);
+  for (int j = 0; g->mark && j < g->n; j++) {
+    const bool first = j == 0 || g->point[j].segment != g->point[j - 1].segment;
+    const bool last = j + 1 == g->n || g->point[j].segment != g->point[j + 1].segment;
+    const bool beside = (j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok);
+    g->mark[j] =
+        (unsigned char)((g->point[j].ok ? MARK_FREE : 0) | (g->point[j].ok && beside ? MARK_TURN_FREE : 0) |
+                        (first ? MARK_FIRST : 0) | (last ? MARK_LAST : 0));
+  }
+  return g->mark != NULL;
+}
+
 static status_t no_rows(const grid_t *g, why_t *why) {
   const char *const name = g->flight->name;
   const double span_s = g->n * g->period_s;
@@ -90,7 +99,8 @@ status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   }
   bool *const good = malloc(most * sizeof(bool));
   s->half = calloc(blocks, sizeof(int));
-  const bool room = rows_room(&s->smooth, points) && rows_room(&s->range, points);
+  bool room = rows_room(&s->smooth, points) && rows_room(&s->range, points);
+  for (int i = 0; i < n && room; i++) room = mark(&grid[i]);
   if (!good || !s->half || !room) {
     free(good);
     return error_failed(why, "out of memory");
@@ -120,87 +130,8 @@ void set_free(set_t *s) {
   *s = (set_t){.n_grid = 0};
 }
 
-// --- rows of a series
-// ---------------------------------------------------------------------------------------
-
-static double at(const grid_t *g, const double *v, int j, int k) {
-  return k >= 0 && k < g->n && g->point[k].segment == g->point[j].segment ? v[k] : v[j];
-}
-
-static double differentiated(const grid_t *g, const double *v, int j) {
-  return (at(g, v, j, j + 1) - at(g, v, j, j - 1)) / (2.0 * g->period_s);
-}
-
-static double over_two(const grid_t *g, const double *v, int j) {
-  return (at(g, v, j, j - 1) + 4.0 * v[j] + at(g, v, j, j + 1)) / 6.0;
-}
-
-// One number of every smooth channel.
-typedef double smooth_t[CH_SMOOTH];
-
-// A number that is almost nothing is nothing: what dies away in the filter would end where processors are
-// slow.
-static pair_t not_tiny(pair_t y) {
-  const pair_bits_t is = (y > TINY) | (y < -TINY);
-  return (pair_t)(is & (pair_bits_t)y);
-}
-
-// Forwards and backwards; every segment starts at rest. All channels at once: one alone waits for itself.
-static void smooth(const grid_t *g, smooth_t *v) {
-  enum { PAIRS = CH_SMOOTH / 2 };
-  pair_t x1[PAIRS] = {{0.0}}, x2[PAIRS] = {{0.0}}, y1[PAIRS] = {{0.0}}, y2[PAIRS] = {{0.0}};
-  lowpass_t f;
-  lowpass_init(&f, fmin(CUTOFF_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
-  for (int way = 1; way >= -1; way -= 2) {
-    const int from = way > 0 ? 0 : g->n - 1;
-    for (int j = from; j >= 0 && j < g->n; j += way) {
-      const bool starts = j == from || g->point[j].segment != g->point[j - way].segment;
-      for (int k = 0; k < PAIRS; k++) {
-        const pair_t x = pair_of(v[j] + 2 * k);
-        if (starts) x1[k] = x2[k] = y1[k] = y2[k] = x;
-        const pair_t y = not_tiny(f.b * (x + 2.0 * x1[k] + x2[k]) - f.a1 * y1[k] - f.a2 * y2[k]);
-        x2[k] = x1[k], x1[k] = x;
-        y2[k] = y1[k], y1[k] = y;
-        pair_put(v[j] + 2 * k, y);
-      }
-    }
-  }
-}
-
-// Measured and predicted alike; turning is a difference over two points.
-static bool is_free(const grid_t *g, int channel, int j) {
-  const bool turning = channel >= CH_FORCES;
-  return g->point[j].ok &&
-         (!turning || ((j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok)));
-}
-
-// What is masked does not spill over through the filter: the last value stands in for it.
-static void take(const grid_t *g, int channel, series_t kind, const double *series, smooth_t *v) {
-  double last = 0.0;
-  for (int j = 0; j < g->n; j++) {
-    const double x = channel < CH_FORCES        ? series[j]
-                     : kind == SERIES_PREDICTED ? over_two(g, series, j)
-                                                : differentiated(g, series, j);
-    if (isfinite(x) && is_free(g, channel, j)) last = x;
-    v[j][channel] = last;
-  }
-}
-
-void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
-                   double *scratch, double *const row[CHANNELS]) {
-  const grid_t *g = &s->grid[flight];
-  smooth_t *const v = (smooth_t *)scratch;
-  memset(v, 0, (size_t)g->n * sizeof *v);
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
-    if (row[ch]) take(g, ch, kind, series[ch], v);
-  smooth(g, v);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const rows_t *r = set_rows(s, ch);
-    const int end = rows_from(r, flight + 1);
-    for (int i = rows_from(r, flight); row[ch] && i < end; i++)
-      row[ch][i] = ch < CH_SMOOTH ? v[r->point[i]][ch] : series[ch][r->point[i]];
-  }
-}
+// --- what was measured
+// --------------------------------------------------------------------------------------
 
 static void measured(const point_t *p, double at[CHANNELS]) {
   d3_put(at, p->acc_b_mps2);

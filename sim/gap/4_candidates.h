@@ -26,6 +26,14 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
 MUST_CHECK status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why);
 void candidates_free(candidates_t *c);
 
+// Commands are logged much more slowly than attitude control gives them: how strongly they turn the vehicle
+// cannot be told, nor inertia from lag, nor mass from thrust scale.
+bool candidates_slow(const set_t *s);
+
+// Of a lag or delay, what is never named: fx->size.least, or one period of the slowest log, whichever is
+// more. Of other effects 0.
+double candidates_least(const fx_t *fx, const set_t *s);
+
 // The number of candidate i's size k.
 double *candidate_value(const candidate_t *c, int k);
 // What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.

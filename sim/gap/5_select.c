@@ -40,6 +40,7 @@ static status_t open_round(select_t *t, why_t *why) {
     for (int k = 0; k < c->candidate[t->choice.of[i]].n; k++)
       b[n++] = *candidate_value(&c->candidate[t->choice.of[i]], k);
   const explained_t known = {choice_columns(c, &t->choice, column), column, b, false};
+  t->rounds++;
   TRY(table_make(&t->table, t->s, t->base, c, why));
   status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
   if (status == ST_OK)
@@ -226,6 +227,7 @@ status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const no
   if (status == ST_OK) status = set_open_apart(&t, found, why);
   if (status == ST_OK) {
     select_describe(&t, found);
+    found->rounds = t.rounds;
     close_round(&t);
   }
   free(t.taken);

@@ -5,10 +5,11 @@
 //   (b) the sign that physics gives it, and a size of at least 0.12 of what is typical (and its own least
 //   one), (c) a coefficient above 3 times its rms on nominal flights (nominal.h), (d) a cross-validated gain
 //   of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
-// A lag or delay below 5 ms is what feedback alone looks like, or streams that are not aligned: it is taken
-// into the model, and not named. Nor is a name that has a rival which does as well within two standard errors
-// and could do nearly all that it does: it is left open. The best one enters, what is named is estimated anew
-// about its present values, and swaps and prunings are tried; until nothing changes.
+// A lag or delay below 5 ms, or below one period of the log, is what feedback alone looks like, or streams
+// that are not aligned: it is taken into the model, and not named. Nor is a name that has a rival which does
+// as well within two standard errors and could do nearly all that it does: it is left open. The best one
+// enters, what is named is estimated anew about its present values, and swaps and prunings are tried; until
+// nothing changes.
 #ifndef SIM_GAP_SELECT_H
 #define SIM_GAP_SELECT_H
 
@@ -53,6 +54,7 @@ typedef struct {
   named_t named[NAMED_MAX];
   int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
   named_t open[NAMED_MAX];  // candidate and rivals alone
+  int rounds;               // times that all columns were formed: the time of a selection goes with it
   double aligned_s;         // lag or delay that is in the model without a name
   double left, left_before; // white sums of squares, with and without what is named
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none

@@ -74,10 +74,9 @@ static void warn_of_diagnosis(report_t *r) {
            gap_channel[ch]);
   if (d->found.aligned_s != 0.0)
     warn(r,
-         "commands act %.1f ms later than the model has it: below 5 ms this is what feedback alone looks "
-         "like, "
-         "and it is not named",
-         1e3 * d->found.aligned_s);
+         "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
+         "instruments that are late look like, and it is not named",
+         1e3 * d->found.aligned_s, 1e3 * candidates_least(fx_find("delay"), &d->fit));
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)
@@ -122,7 +121,21 @@ static void warn_of_sizes(report_t *r) {
   if (text[0]) warn(r, "would have been seen from this size on: %s", text);
 }
 
+// The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias
+// over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone.
+static void warn_of_names(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < r->n_finding; i++)
+    if (strcmp(r->finding[i].fx->name, "tof_bias") == 0 && d->fit.grid[0].range_up)
+      warn(r,
+           "tof_bias: where the log's height comes from a range sensor with the same error (a flow deck's), "
+           "it "
+           "is half of the %.3g m, and the log cannot tell",
+           r->finding[i].value[0]);
+}
+
 void report_warn(report_t *r) {
+  warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_gap(r);
   warn_of_open(r);

@@ -1,8 +1,8 @@
 // contact.c - instants at which the vehicle touches something.
 #include "gap/contact.h"
 
-#include "by_size.h"
 #include "gap/lsq_blocks.h"
+#include "gap/nth.h"
 #include "gap/score.h"
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +17,7 @@ static double robust_sd(const double *e, int n, double *room) {
   for (int i = 0; i < n; i++)
     if (e[i] != 0.0) room[used++] = fabs(e[i]);
   if (!used) return HUGE_VAL;
-  qsort(room, (size_t)used, sizeof(double), by_size);
-  return room[used / 2] / 0.6745;
+  return nth_smallest(room, used, used / 2) / 0.6745;
 }
 
 // Rows `from` to `to` have no part in any sequence any more.

@@ -57,6 +57,7 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   found_t first;
   model_t m;
   TRY(select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why));
+  d->rounds = first.rounds;
   found_free(&first);
   TRY(candidates_model(&d->candidates, job->model, &m, why));
   TRY(find_residual(d, &m, why));
@@ -102,12 +103,14 @@ static status_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
   const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
   bool again;
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
+  d->rounds += d->found.rounds;
   if (!nominal) withdraw(d);
   TRY(select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why));
   if (!again) return ST_OK;
   found_free(&d->found);
   forget(&d->candidates);
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
+  d->rounds += d->found.rounds;
   return select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why);
 }
 

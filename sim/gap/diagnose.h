@@ -35,6 +35,7 @@ typedef struct {
   candidates_t candidates;
   nominal_t nominal;
   found_t found;
+  int rounds; // times that all columns were formed, by the first look and the last
   int n_withdrawn;
   withdrawn_t withdrawn[NAMED_MAX];
   model_t extended;

@@ -26,6 +26,9 @@ typedef struct {
   double clear_m;        // least distance of any part of it from ceiling or floor, as estimated
 } point_t;
 
+// Of a point. Free: it can be compared, by its own value or (turning) by its neighbours' too.
+enum { MARK_FREE = 1, MARK_TURN_FREE = 2, MARK_FIRST = 4, MARK_LAST = 8 }; // first, last: of a segment
+
 #define GRID_MOTORS 4 // motor histories kept
 
 // Thrust of the rotors in free air for one lag and delay, at the points.
@@ -40,6 +43,7 @@ typedef struct {
   double period_s;          // of points
   int n;
   point_t *point;
+  unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged

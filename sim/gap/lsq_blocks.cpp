@@ -9,13 +9,16 @@
 using matrix_t = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using view_t = Eigen::Map<const matrix_t>;
 
-void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G) {
+void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
+                      double *also) {
   Eigen::MatrixXd x(rows, n);
   for (int j = 0; j < n; j++) x.col(j) = Eigen::Map<const Eigen::VectorXd>(X[j], rows);
   Eigen::MatrixXd products(n, n);
   products.triangularView<Eigen::Upper>() = x.transpose() * x;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) G[column[i] * size + column[j]] += i <= j ? products(i, j) : products(j, i);
+  products.triangularView<Eigen::StrictlyLower>() = products.transpose();
+  for (double *to : {G, also})
+    for (int i = 0; to && i < n; i++)
+      for (int j = 0; j < n; j++) to[column[i] * size + column[j]] += products(j, i);
 }
 
 static void take(const double *G, int size, const int *column, int n, Eigen::MatrixXd &A,

@@ -12,8 +12,9 @@ extern "C" {
 #endif
 
 // Adds the products of some columns. X: column number j starts at X[j], `rows` numbers; column[j]: which one
-// of G it is.
-void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G);
+// of G it is. also: gets them too, or null.
+void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
+                      double *also);
 
 // The best b (n numbers) for the regressors column[0..n-1] of G, whose size is `size` (the last is
 // explained). ridge (a null pointer for none): is added to the diagonal, by regressor of G. inverse: n x n,

@@ -1,8 +1,8 @@
 // manner.c - how a flight was flown and measured.
 #include "gap/nominal.h"
 
-#include "by_size.h"
 #include "gap/lsq_blocks.h"
+#include "gap/nth.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,8 +19,7 @@ static double noise_of(const grid_t *g, const double *v) {
     const double x = fabs(v[i] - 3.0 * v[i - 1] + 3.0 * v[i - 2] - v[i - 3]);
     if (isfinite(x)) d[n++] = x;
   }
-  if (n) qsort(d, (size_t)n, sizeof(double), by_size);
-  const double sd = n ? d[n / 2] / 0.6745 / sqrt(20.0) : 0.0;
+  const double sd = n ? nth_smallest(d, n, n / 2) / 0.6745 / sqrt(20.0) : 0.0;
   free(d);
   return sd;
 }

@@ -8,6 +8,10 @@
 
 static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
 
+#define ORDERS  24   // of four motors
+#define FOLLOWS 0.35 // correlation
+#define BETTER  0.3  // of correlation
+
 typedef struct {
   double slope, correlation;
 } likeness_t;
@@ -25,8 +29,9 @@ static likeness_t compare(const rows_t *r, const double *measured, const double 
   return pp > 0.0 && yy > 0.0 ? (likeness_t){yp / pp, yp / sqrt(yy * pp)} : (likeness_t){1.0, 1.0};
 }
 
-static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
-  likeness_t best[CHANNELS];
+// Where turning follows the commands best: over the first of the lags, by channel.
+static status_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
+                        why_t *why) {
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
   for (size_t ch = 0; ch < CHANNELS; ch++) {
@@ -35,7 +40,7 @@ static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
   }
   for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
   TRY(residual_measured(s, measured, why));
-  for (unsigned i = 0; i < sizeof MORE_TAU_S / sizeof *MORE_TAU_S; i++) {
+  for (unsigned i = 0; i < lags; i++) {
     model_t slower = *m;
     slower.motor_tau_s += MORE_TAU_S[i];
     TRY(residual_of(s, &slower, r, why));
@@ -44,6 +49,65 @@ static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
+  return ST_OK;
+}
+
+// --- the order of the motors ------------------------------------------------------------------------------
+
+static void reorder(set_t *s, const int order[ROTORS]) {
+  for (int f = 0; f < s->n_grid; f++) {
+    grid_t *const g = &s->grid[f];
+    double *was[ROTORS];
+    memcpy(was, g->command_N, sizeof was);
+    for (int k = 0; k < ROTORS; k++) g->command_N[order[k]] = was[k];
+    for (int i = 0; i < GRID_MOTORS; i++) g->motors[i].tau_s = (double)NAN; // of other commands
+  }
+}
+
+// Order number i of 24; order[k]: the motor that column k is.
+static void order_of(int i, int order[ROTORS]) {
+  int left[ROTORS] = {0, 1, 2, 3};
+  for (int k = 0, n = ROTORS; k < ROTORS; k++, n--) {
+    order[k] = left[i % n];
+    for (int at = i % n; at < n - 1; at++) left[at] = left[at + 1];
+    i /= n;
+  }
+}
+
+static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[CHANNELS]) {
+  int better = 0;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) {
+    if (!(other[ch].correlation > FOLLOWS)) return false;
+    better += other[ch].correlation > given[ch].correlation + BETTER;
+  }
+  return better >= 2;
+}
+
+static status_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
+                           why_t *why) {
+  for (int i = 1; i < ORDERS; i++) {
+    likeness_t other[CHANNELS];
+    int order[ROTORS], back[ROTORS];
+    order_of(i, order);
+    for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
+    reorder(s, order);
+    const status_t status = best_of(s, m, 1, room, other, why);
+    reorder(s, back);
+    TRY(status);
+    if (!is_better(given, other)) continue;
+    return error_set(
+        why,
+        "%s: the rates contradict the motor commands, and follow them if m1 to m4 are motors %d, "
+        "%d, %d and %d; allowed: motors in the vehicle file's order",
+        s->grid[0].flight->name, order[0] + 1, order[1] + 1, order[2] + 1, order[3] + 1);
+  }
+  return ST_OK;
+}
+
+static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
+  likeness_t best[CHANNELS];
+  bool any = false;
+  TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
   for (int ch = CH_WX; ch <= CH_WZ; ch++)
     if (best[ch].correlation > -2.0 && best[ch].correlation < MUTED_AGAINST)
       return error_set(
@@ -51,8 +115,11 @@ static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
           "%s: %s goes against what the motor commands say (correlation %.2f); allowed: rates and "
           "commands of one sign, motors in the vehicle file's order",
           s->grid[0].flight->name, gap_channel[ch], best[ch].correlation);
-  for (int ch = CH_WX; ch <= CH_WZ; ch++) s->muted[ch] = best[ch].slope < MUTED_SLOPE;
-  return ST_OK;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) {
+    s->muted[ch] = best[ch].slope < MUTED_SLOPE;
+    any = any || s->muted[ch];
+  }
+  return any ? find_order(s, m, best, room, why) : ST_OK;
 }
 
 status_t muted_find(set_t *s, const model_t *m, why_t *why) {

@@ -3,6 +3,11 @@
 #include "gap/select_state.h"
 #include <math.h>
 
+// Mass and thrust scale differ in turning alone.
+static bool only_turning_tells(const select_t *t, int a, int b) {
+  return select_fx(t, a)->class == FX_WEIGHT && select_fx(t, b)->class == FX_WEIGHT && candidates_slow(t->s);
+}
+
 // Another name in its place that is not worse by two standard errors of the difference, at a size that it can
 // have.
 static void find_rivals(const select_t *t, int candidate, double left_before, named_t *named) {
@@ -13,7 +18,8 @@ static void find_rivals(const select_t *t, int candidate, double left_before, na
     if (fx == select_fx(t, candidate) || t->never[i] || !select_fits(t, &rest, i)) continue;
     if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
     const choice_t with = choice_with(&rest, i);
-    if (!judge_is_rival(&t->judge, &t->choice, &with) || !judge_is_possible(&t->judge, &with)) continue;
+    const bool rival = judge_is_rival(&t->judge, &t->choice, &with) && judge_is_possible(&t->judge, &with);
+    if (!rival && !only_turning_tells(t, candidate, i)) continue;
     named->rival_share[named->n_rival] = (without - judge_left(&t->judge, &with, NULL)) / left_before;
     named->rival[named->n_rival++] = fx;
   }
@@ -26,7 +32,7 @@ static void add_errors(const select_t *t, const choice_t *last, named_t *named) 
   const fx_t *const fx = select_fx(t, named->candidate);
   judge_nominal_rms(&t->judge, last, rms);
   for (int k = 0; k < fx->n_size; k++) {
-    named->beside[k] = hypot(rms[k], fx->size[k].least / SELECT_ERRORS);
+    named->beside[k] = hypot(rms[k], candidates_least(fx, t->s) / SELECT_ERRORS);
     named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
   }
 }
@@ -40,7 +46,7 @@ static void find_named(const select_t *t, found_t *found) {
     const choice_t rest = choice_without(&t->choice, candidate), last = choice_with(&rest, candidate);
     const verdict_t v = judge_last(&t->judge, &last);
     const fx_t *fx = select_fx(t, candidate);
-    if (fx->class == FX_TIMING && fabs(v.value[0]) < fx->size[0].least) {
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < candidates_least(fx, t->s)) {
       found->aligned_s = v.value[0];
       continue;
     }

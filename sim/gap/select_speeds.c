@@ -115,6 +115,6 @@ status_t select_speeds(select_t *t, bool *known, why_t *why) {
     }
   }
   // A delay of 3 ms is not named; nor is the lag that would do instead.
-  if (t->timing >= 0 && fabs(t->timing_s) < select_fx(t, t->timing)->size[0].least) t->timing = -1;
+  if (t->timing >= 0 && fabs(t->timing_s) < candidates_least(select_fx(t, t->timing), t->s)) t->timing = -1;
   return s.status;
 }

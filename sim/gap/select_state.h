@@ -17,6 +17,7 @@ typedef struct {
   table_t table;
   gram_t gram;
   judge_t judge;
+  int rounds;  // times that the columns were formed
   bool strict; // colours of what is named alone, not of all candidates
   int *taken;  // by candidate: how often it was taken in
   bool *never; // by candidate: it is out of question

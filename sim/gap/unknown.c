@@ -1,7 +1,7 @@
 // unknown.c - where a residual is largest.
 #include "gap/unknown.h"
 
-#include "by_size.h"
+#include "gap/nth.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,13 +89,15 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
 // ---------------------------------------------------------------------------------------------------
 
 // The bin of every row, and the edges (BINS + 1). False: the coordinate is not there or does not move.
-static bool cut(const double *value, int n, double *sorted, int *bin, double edge[BINS + 1]) {
+static bool cut(const double *value, int n, double *parted, int *bin, double edge[BINS + 1]) {
   for (int i = 0; i < n; i++) {
     if (isnan(value[i])) return false;
-    sorted[i] = value[i];
+    parted[i] = value[i];
   }
-  qsort(sorted, (size_t)n, sizeof(double), by_size);
-  for (int k = 0; k <= BINS; k++) edge[k] = sorted[k * (n - 1) / BINS];
+  for (int k = 0, from = 0, at = 0; k <= BINS; k++, from = at) {
+    at = k * (n - 1) / BINS;
+    edge[k] = nth_smallest(parted + from, n - from, at - from);
+  }
   if (!(edge[BINS] - edge[0] > 1e-9)) return false;
   for (int i = 0; i < n; i++) {
     int k = 0;

@@ -107,8 +107,7 @@ static bool add_channel(gram_t *g, const set_t *s, const table_t *t, int ch) {
     for (int k = 0; k < w.n; k++) from[k] = w.x[k] + i;
     const size_t room = (size_t)(g->size * g->size);
     const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
-    lsq_add_products(end - i, w.n, from, w.column, g->size, g->block + (size_t)r->block[i] * room);
-    lsq_add_products(end - i, w.n, from, w.column, g->size,
+    lsq_add_products(end - i, w.n, from, w.column, g->size, g->block + (size_t)r->block[i] * room,
                      g->by_group[group] + (size_t)g->half[r->block[i]] * room);
     i = end;
   }
