@@ -26,8 +26,14 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
   };
 }
 
+double model_fx_least(const model_t *m, const fx_use_t *use, int param) {
+  int n;
+  const double least = fx_use_params(use, &n)[param].min;
+  return use->fx == fx_find("mass") && param == 0 ? fmax(least, (LIGHTEST - 1.0) * m->mass_kg) : least;
+}
+
 static status_t check_mass(const model_t *m, const fx_use_t *use, why_t *why) {
-  const double least_kg = (LIGHTEST - 1.0) * m->mass_kg;
+  const double least_kg = model_fx_least(m, use, 0);
   if (use->fx != fx_find("mass") || use->p[0] >= least_kg) return ST_OK;
   return error_set(why, "effect mass: add = %g kg to a vehicle of %g kg; allowed: %.3g or more", use->p[0],
                    m->mass_kg, least_kg);

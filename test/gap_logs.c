@@ -117,3 +117,17 @@ bool gap_logs_fly(const char *name, int n, const fx_use_t *hidden) {
   }
   return good;
 }
+
+bool gap_logs_fly_one(const char *file, unsigned long seed, bool indi, const fx_use_t *hidden) {
+  model_t truth;
+  why_t why;
+  gap_flight_t f = {.n = 0};
+  const exam_flight_t job = {.truth = &truth, .seed = seed, .indi = indi};
+  write_vehicle();
+  const bool good = exam_vehicle(&truth, &why) == ST_OK &&
+                    (!hidden || model_add_fx(&truth, hidden, &why) == ST_OK) &&
+                    exam_fly(&job, &f, &why) == ST_OK;
+  if (good) gap_log_write(&f, scratch_path(file));
+  gap_flight_free(&f);
+  return good;
+}

@@ -17,4 +17,8 @@ void gap_log_write_usd(const gap_flight_t *flight, const char *path);
 // crashed.
 bool gap_logs_fly(const char *name, int n, const fx_use_t *hidden);
 
+// One flight of that seed, written as FILE beside room.toml; indi: flown by the flight code. False: it
+// crashed.
+bool gap_logs_fly_one(const char *file, unsigned long seed, bool indi, const fx_use_t *hidden);
+
 #endif

@@ -65,6 +65,7 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
 }
 
 static status_t take_paths(order_t *o, why_t *why) {
+  if (o->json && !o->json[0]) return error_set(why, "--json: an empty path; allowed: a file's");
   if (!o->out) return ST_OK;
   const int a = snprintf(o->verdict, PATH_BYTES, "%s/verdict.json", o->out);
   snprintf(o->page, PATH_BYTES, "%s/report.html", o->out);

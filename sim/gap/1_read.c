@@ -188,7 +188,8 @@ static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) 
   TRY(align(f, raw, shift_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
-    return table_refuse(&rows->table, 0, -1, why, "%d samples without a gap; allowed: a flight", f->n);
+    return table_refuse(&rows->table, 0, -1, why,
+                        "%d samples without a gap; allowed: a second of flight or more", f->n);
   note_samples(f);
   return gap_check(f, rows, why);
 }

@@ -1,8 +1,12 @@
 // 1_read_check.c - stage 1: do a flight's signals agree with physics and with each other?
 #include "gap/1_read.h"
 
+#include "body.h"
+
 #include <math.h>
 
+#define ABOVE_M     0.1 // an estimate of height may be wrong by as much
+#define ABOVE_SHARE 0.1
 #define G_MPS2      9.81
 #define ENOUGH      50 // samples from which a mean says something
 #define WINDOWS_MIN 20 // windows from which a slope does
@@ -172,11 +176,31 @@ static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, wh
       rows->vehicle.name, ratio);
 }
 
+// Heights of another room, or from another floor.
+static status_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  const model_t *m = &rows->vehicle;
+  const double rotors_m = body_rest_z_m(m) + body_rotor_z_m(m);
+  double most_m = 0.0;
+  int n = 0, above = 0;
+  for (int i = 0; i < f->n; i++) {
+    const double over_m = f->v[SIG_Z][i] + rotors_m - m->ceiling_m;
+    if (isnan(over_m)) continue;
+    n++;
+    above += over_m > ABOVE_M;
+    most_m = fmax(most_m, over_m);
+  }
+  if (n < ENOUGH || above <= ABOVE_SHARE * n) return ST_OK;
+  return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
+                      "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g); allowed: below it",
+                      most_m, m->name, m->ceiling_m);
+}
+
 status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   TRY(check_acceleration(f, rows, why));
   if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
   if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
   if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_drive(f, rows, &GAP_PUSH, why));
+  if (has(f, SIG_Z, 1) && isfinite(rows->vehicle.ceiling_m)) TRY(check_ceiling(f, rows, why));
   TRY(check_range(f, rows, SIG_RANGE, why));
   TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
   TRY(check_commands(f, rows, why));

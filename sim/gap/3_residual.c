@@ -6,6 +6,8 @@
 
 #define SPREAD_S 0.08 // a masked point spoils the filter's output so far around it
 #define EDGE_S   0.3  // so does the end of a segment
+#define LEAST_S  1.0
+#define NEAR_M   0.003
 
 // --- which points become rows -----------------------------------------------------------------------------
 
@@ -71,6 +73,21 @@ static bool mark(grid_t *g) {
   return g->mark != NULL;
 }
 
+static status_t no_rows(const grid_t *g, why_t *why) {
+  const char *const name = g->flight->name;
+  const double span_s = g->n * g->period_s;
+  int near = 0;
+  for (int j = 0; j < g->n; j++) near += g->point[j].clear_m < NEAR_M;
+  if (span_s < LEAST_S)
+    return error_set(why, "%s: %.2g s of flight; allowed: %g s or more", name, span_s, LEAST_S);
+  if (2 * near > g->n)
+    return error_set(
+        why, "%s: on the floor, or at the vehicle file's ceiling or above it; allowed: free flight", name);
+  return error_set(
+      why, "%s: no instant at which motors carry it, free of floor and ceiling, with every signal there",
+      name);
+}
+
 status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   *s = (set_t){.grid = grid, .n_grid = n, .n_half = 2 * n};
   size_t points = 0, most = 1, blocks = 1;
@@ -94,8 +111,7 @@ status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   }
   free(good);
   if (s->smooth.n > 0) return ST_OK;
-  return error_set(why, "%s: no instant at which it flies freely with every signal there",
-                   n ? grid[0].flight->name : "no flight");
+  return n ? no_rows(&grid[0], why) : error_set(why, "no flight");
 }
 
 static void rows_free(rows_t *r) {

@@ -55,7 +55,11 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
 static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
-  for (int k = 0; k < fx->n_size; k++) to->use.p[fx->size[k].param] = 0.0;
+  for (int k = 0; k < fx->n_size; k++) {
+    const int param = fx->size[k].param;
+    to->use.p[param] = 0.0;
+    to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
+  }
   if (fx->at_wall) to->use.p[0] = m->wall_y_m;
   if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[shape];
   c->columns += to->n;

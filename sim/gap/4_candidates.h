@@ -9,8 +9,9 @@
 #include "gap/3_residual.h"
 
 typedef struct {
-  fx_use_t use; // with its shape; its sizes are 0 while it is not named
-  int first, n; // columns
+  fx_use_t use;              // with its shape; its sizes are 0 while it is not named
+  int first, n;              // columns
+  double least[FX_SIZE_MAX]; // that its numbers can be, by sign and for this vehicle
   bool named;
 } candidate_t;
 

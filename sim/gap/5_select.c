@@ -53,7 +53,7 @@ static double within(const candidate_t *c, int k, double value) {
   int n;
   const fx_size_t *size = &c->use.fx->size[k];
   const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
-  return fmin(fmax(value, size->sign > 0 ? 0.0 : param->min), param->max);
+  return fmin(fmax(value, c->least[k]), param->max);
 }
 
 // Names what is chosen, and brings its values by this share of the way to what is estimated now. Returns the

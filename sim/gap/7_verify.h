@@ -9,7 +9,9 @@ MUST_CHECK status_t verify_held(set_t *s, const model_t *before, const model_t *
                                 const nominal_t *nominal, held_t *held, why_t *why);
 
 // What a name may grow the held-out rms of any channel by, beside the other names, where it does not shrink
-// the others by twice that (in logarithms).
+// the others by twice that (in logarithms). Not counted is what the errors of what multiplies the name, as
+// velocities, make of a right one where the vehicle hardly moves: flights of the model along the held-out
+// tracks tell it.
 #define VERIFY_GROWS 1.05
 
 // Withdraws the names that grow one by more, the worst first: they are no longer marked, nor found. The

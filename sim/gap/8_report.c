@@ -92,6 +92,29 @@ bool report_can_tell(const report_t *r) {
   return r->study->diagnosis.nominal_flew && report_has_residual(r);
 }
 
+#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
+
+bool report_leaves_much(const report_t *r, int channel) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const gap_part_t *const p = &d->held_out.channel[channel];
+  return p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor;
+}
+
+bool report_leaves_any(const report_t *r) {
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (report_leaves_much(r, ch)) return true;
+  return false;
+}
+
+const char *report_headline(const report_t *r) {
+  if (r->study->diagnosis.unknown) return "Something is missing that cannot be named";
+  if (!report_can_tell(r)) return "These flights cannot tell what is missing";
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (report_leaves_much(r, ch))
+      return "Nothing can be named, and more is left than noise and feedback leave";
+  return "Nothing is missing that these flights could show";
+}
+
 // --- the whole --------------------------------------------------------------------------------------------
 
 status_t report_take_evidence(report_t *r, study_t *study, why_t *why); // 8_report_evidence.c

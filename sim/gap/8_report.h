@@ -95,6 +95,11 @@ bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
 bool report_has_residual(const report_t *r);
 // ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
+// Far more is left of a held-out channel than noise and feedback alone leave.
+bool report_leaves_much(const report_t *r, int channel);
+bool report_leaves_any(const report_t *r); // of one channel or more
+// What the page says at its top where nothing is named.
+const char *report_headline(const report_t *r);
 
 // "12.3 mm", or in metres from 1 m on.
 #define REPORT_LENGTH 24

@@ -44,9 +44,7 @@ static void headline(const report_t *r, FILE *out) {
   fputs("<h1>", out);
   for (int i = 0; i < r->n_finding; i++) page_text(out, i ? ", " : "Missing: ", r->finding[i].fx->name, "");
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
-  const char *none = "Nothing is missing that these flights could show";
-  if (!report_can_tell(r)) none = "These flights cannot tell what is missing";
-  if (!r->n_finding) fputs(s->diagnosis.unknown ? "Something is missing that cannot be named" : none, out);
+  if (!r->n_finding) fputs(report_headline(r), out);
   page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
   if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");

@@ -5,8 +5,6 @@
 #include <stdarg.h>
 #include <string.h>
 
-#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
-
 static void warn(report_t *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 static void warn(report_t *r, const char *format, ...) {
@@ -43,7 +41,7 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor)
+    if (report_leaves_much(r, ch))
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
            "much flight",

@@ -96,6 +96,11 @@ void report_words(const report_t *r, FILE *out) {
     fprintf(out, "Something is missing in %s that cannot be named.\n", study_vehicle(s));
   else if (!report_can_tell(r))
     fprintf(out, "These flights cannot tell what is missing in %s.\n", study_vehicle(s));
+  else if (report_leaves_any(r))
+    fprintf(out,
+            "Nothing can be named that is missing in %s, and more is left than noise and feedback leave (see "
+            "the notes).\n",
+            study_vehicle(s));
   else
     fprintf(out, "Nothing is missing in %s that these flights could show.\n", study_vehicle(s));
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], r->wide, out);

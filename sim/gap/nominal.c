@@ -64,6 +64,31 @@ static status_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, w
   return status;
 }
 
+status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                       unsigned long seed, why_t *why) {
+  const size_t n = (size_t)like->n_grid + 1;
+  *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
+                 .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
+  if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
+  TRY(fly_all(&a->seen_flights, &a->is_flights, like, m, manner, seed, why));
+  TRY(set_of(&a->seen, &a->seen_flights, m, why));
+  TRY(set_of(&a->is, &a->is_flights, m, why));
+  memcpy(a->seen.muted, like->muted, sizeof a->seen.muted);
+  memcpy(a->is.muted, like->muted, sizeof a->is.muted);
+  return ST_OK;
+}
+
+void along_free(along_t *a) {
+  set_free(&a->seen);
+  set_free(&a->is);
+  for (int f = 0; f < a->seen_flights.n; f++) {
+    gap_flight_free(&a->seen_flights.flight[f]);
+    gap_flight_free(&a->is_flights.flight[f]);
+  }
+  free(a->seen_flights.flight);
+  free(a->is_flights.flight);
+}
+
 // The residual of the flown model, without what table_make adds of the effects that it has.
 static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
   for (int i = 0; i < c->n; i++)

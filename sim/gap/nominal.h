@@ -34,6 +34,17 @@ manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHAN
 MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
                                 gap_flight_t *flight, gap_flight_t *truth, why_t *why);
 
+// One flight along each flight of a set, by a model, as it is seen and as it is: a set of each, with the same
+// channels. ST_FAILED as above. Free it, also on an error.
+typedef struct {
+  set_t seen, is;
+  gap_flights_t seen_flights, is_flights;
+} along_t;
+
+MUST_CHECK status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                                  unsigned long seed, why_t *why);
+void along_free(along_t *a);
+
 // What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
 // estimate is an error.
 typedef struct {

@@ -219,7 +219,7 @@ static bool can_be(const candidate_t *c, int k, double value, double margin) {
   const fx_size_t *size = &c->use.fx->size[k];
   int n;
   const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
-  const double least = size->sign > 0 ? 0.0 : param->min;
+  const double least = c->least[k];
   return value - margin <= param->max && (size->sign > 0 ? value + margin > least : value + margin >= least);
 }
 

@@ -4,17 +4,22 @@
 // the other names leave y, both white, the slope of y over f is 1 everywhere. Where it is near 0 outside of
 // a range of place, height or time, or inside of it more than twice, the name stands for something that lies
 // in that range.
+//
+// Nor is a name known that is excited at some time only, where a constant in every channel from then to then
+// does as well: something may have begun there, or gone.
 #include "gap/select_state.h"
 #include "gap/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define ABSENT 0.55 // a slope that is below this, two standard errors included
-#define STRONG 0.95 // a slope inside that is above this
-#define TWICE  2.0  // or: a slope inside above this, where outside it is below 1
-#define ENOUGH 0.05 // of the regressor's sum of squares must lie outside
-#define CLEAR  40.0 // less sum of squares by two slopes in place of one
-#define WIDER  1.5  // standard errors grow by this: white rows are not quite independent
+#define ABSENT  0.55 // a slope that is below this, two standard errors included
+#define STRONG  0.95 // a slope inside that is above this
+#define TWICE   2.0  // or: a slope inside above this, where outside it is below 1
+#define ENOUGH  0.05 // of the regressor's sum of squares must lie outside
+#define CLEAR   40.0 // less sum of squares by two slopes in place of one
+#define AS_WELL 0.9  // of what a name gives, that constants give
+#define BESIDE  3    // bins of time, at least, in which the name is not excited
+#define WIDER   1.5  // standard errors grow by this: white rows are not quite independent
 
 typedef struct {
   double ff[UNKNOWN_BINS], fy[UNKNOWN_BINS];
@@ -98,6 +103,53 @@ static void add_up(const select_t *t, const parts_t *p, int list, const int *bin
     }
 }
 
+// Sums over bins of time: of the name's contribution, and of what constants in each channel would give.
+typedef struct {
+  double ff[UNKNOWN_BINS], fy, wy[CH_SMOOTH][UNKNOWN_BINS], ww[CH_SMOOTH][UNKNOWN_BINS];
+} times_t;
+
+static void add_times(const select_t *t, const parts_t *p, const int *bin, times_t *s) {
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    const rows_t *const r = &t->s->smooth;
+    const color_t *const c = &p->color[ch];
+    for (int i = 0; c->used && i < r->n; i++) {
+      if (!color_reaches(r, i)) continue;
+      const double w = (1.0 - c->a1 - c->a2) / c->sd; // a constant, white
+      s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
+      s->fy += p->f[ch][i] * p->y[ch][i];
+      s->wy[ch][bin[i]] += w * p->y[ch][i];
+      s->ww[ch][bin[i]] += w * w;
+    }
+  }
+}
+
+static double by_constants(const times_t *s, int from, int to) {
+  double sum = 0.0;
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    double wy = 0.0, ww = 0.0;
+    for (int i = from; i <= to; i++) {
+      wy += s->wy[ch][i];
+      ww += s->ww[ch][i];
+    }
+    if (ww > 0.0) sum += wy * wy / ww;
+  }
+  return sum;
+}
+
+static bool at_times(const times_t *s) {
+  double ff = 0.0;
+  for (int i = 0; i < UNKNOWN_BINS; i++) ff += s->ff[i];
+  for (int from = 0; ff > 0.0 && from < UNKNOWN_BINS; from++) {
+    double inside = 0.0;
+    for (int to = from; to < UNKNOWN_BINS && to - from < UNKNOWN_BINS - BESIDE; to++) {
+      inside += s->ff[to];
+      if (inside > (1.0 - ENOUGH) * ff && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
+        return true;
+    }
+  }
+  return false;
+}
+
 status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why) {
   parts_t p = {.room = NULL};
   const size_t rows = (size_t)(t->s->smooth.n > t->s->range.n ? t->s->smooth.n : t->s->range.n) + 1;
@@ -110,9 +162,11 @@ status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *w
   for (int i = curve ? coordinate_count : 0; status == ST_OK && i < coordinate_count && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       slopes_t s = {.ff = {0.0}};
+      times_t at = {.fy = 0.0};
       if (!unknown_bins(t->s, t->base, i, list, room, bin)) continue;
       add_up(t, &p, list, bin, &s);
-      *is = *is || confined(&s);
+      if (list == 0 && strcmp(coordinate_name(i), "time") == 0) add_times(t, &p, bin, &at);
+      *is = *is || confined(&s) || at_times(&at);
     }
   free(p.room);
   free(room);
