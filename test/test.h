@@ -48,4 +48,7 @@ const char *test_data_dir(void);
 // True in `make check`: tests may take minutes.
 bool test_long(void);
 
+// Rows of a table that takes long: all of them there, else the first few.
+#define FEW_OR_ALL(table, few) (test_long() ? sizeof(table) / sizeof *(table) : (few))
+
 #endif

@@ -71,7 +71,7 @@ TEST(gap_confirms_what_is_hidden_with_the_set_points_as_instrument) {
       {{"delay:add=0.01", false, false, false}, "delay", 0.01},
       {{"delay:add=0.01", false, true, true}, "delay", 0.01},
   };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
     ROW("%s, %s%s", row[i].name, row[i].how.indi ? "flight code" : "PID", row[i].how.known ? ", known" : "");
     char name[32] = "";
     const confirm_t a = first_name(&row[i].how, name).confirm;

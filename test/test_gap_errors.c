@@ -13,11 +13,11 @@ TEST(gap_gives_errors_that_hold_what_was_hidden) {
     const char *name;
     double p[2];
   } row[] = {
-      {"delay", {0.010}},      {"motor_lag", {0.025}},   {"tof_latency", {0.025}},
-      {"tof_latency", {0.06}}, {"flapping", {1.3e-8}},   {"climb_inflow", {3e-6}},
-      {"inertia", {0.1, 0.1}}, {"inertia", {0.3, -0.1}}, {"cg_offset", {0.0015, -0.001}},
+      {"delay", {0.010}},       {"inertia", {0.3, -0.1}}, {"flapping", {1.3e-8}},
+      {"motor_lag", {0.025}},   {"tof_latency", {0.025}}, {"tof_latency", {0.06}},
+      {"climb_inflow", {3e-6}}, {"inertia", {0.1, 0.1}},  {"cg_offset", {0.0015, -0.001}},
   };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) {
     ROW("%s %g", row[i].name, row[i].p[0]);
     const gap_hidden_t hidden = {1, {gap_effect(row[i].name, row[i].p[0], row[i].p[1])}};
     gap_case_t *const c = gap_case(&hidden, &hidden);
@@ -40,7 +40,7 @@ TEST(gap_gives_errors_that_hold_the_lateness_of_instruments) {
     const char *name, *effect;
     double value;
   } row[] = {{"delay", "delay:add=0.01", 0.01}, {"motor_lag", "motor_lag:add=0.025", 0.025}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s", row[i].effect);
     char line[700], text[200];
     double value = 0.0, stderr_ = 0.0;
@@ -79,7 +79,7 @@ TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
   } row[] = {{"test-flight", "indi-theory", 2, 2},
              {"close-flight", "indi-theory", 1, 1},
              {"close-flight", "stock-pid", 2, 1}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s by %s at %d Hz", row[i].scenario, row[i].controller, 100 / row[i].every);
     char line[600], text[4000];
     snprintf(
@@ -106,7 +106,7 @@ TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
       {"thrust_scale:k=-0.05", 100, 1, "thrust_scale", "mass"},
       {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", NULL},
   };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s, %d Hz", row[i].effect, row[i].rate_Hz / row[i].every);
     char line[600], text[4000], name[80], rivals[80];
     snprintf(line, sizeof line,

@@ -18,7 +18,7 @@ TEST(gap_gives_no_name_to_what_begins_in_flight) {
   char text[6000], line[600];
   CHECK(program_run("{ echo 'ceiling_m = 0.5'; cat sim/vehicles/cf21_legacy.toml; } >$S/own.toml",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s", row[i].effect);
     snprintf(line, sizeof line,
              "for s in 1 2 3; do fly test-flight --controller indi-theory --effect none --effect "

@@ -6,8 +6,8 @@
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
-// A known pilot is not a tamed one, and may end on the floor, where the log's vehicle flew on: it is put
-// back.
+// What is lost is put back on the track. A known pilot is not a tamed one, and may end on the floor, where
+// the log's vehicle flew on.
 #define DOWN_S   0.2 // of contact
 #define UP_LEAST 0.5 // cosine of the tilt
 #define MASK_S   0.4 // until what it does is its own again
@@ -173,8 +173,7 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
       const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);
-      if (!f->known && lost) return cannot_fly(f, why);
-      if (f->known && (lost || is_down(f, log_s))) TRY(put_back(f, t_s, why));
+      if (lost || (f->known && is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
   f->log->rate_Hz = 1.0 / log_s;
   if (f->truth) f->truth->rate_Hz = 1.0 / log_s;

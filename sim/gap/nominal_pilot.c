@@ -8,15 +8,40 @@
 #define QUICK_S  0.03 // slower motors get commands with a lead, so that they are as quick as this
 #define SWIFT    1.3  // rate gain times lag at most: the cascade rings beyond
 #define TILT_MAX 0.5
+#define AHEAD_S  0.1  // the track's acceleration is a difference over this on both sides
+#define SURE     2.0  // standard errors of it
+#define SPARE    0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW      2.0
+
+// How the track is bent, where that is more than errors of its velocity: in a hover those would shake the
+// vehicle.
+static d3_t track_acc(const nominal_flight_t *f) {
+  const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s)), from = f->at - side, to = f->at + side;
+  const point_t *p = f->g->point;
+  if (!f->g->has_velocity || from < f->from || to >= f->to) return d3(0.0, 0.0, 0.0);
+  const double span_s = p[to].t_s - p[from].t_s;
+  if (span_s > 4.0 * AHEAD_S) return d3(0.0, 0.0, 0.0);
+  const d3_t acc = d3_scale(1.0 / span_s, d3_sub(p[to].vel_w_mps, p[from].vel_w_mps));
+  const double error = SURE * sqrt(2.0) * hypot(f->w->vel_mps, f->w->slow_vel_mps.sd) / span_s;
+  return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
+}
 
 static d3_t wanted_acc(const nominal_flight_t *f, const point_t *track, const point_t *seen) {
   const d3_t off = d3_sub(track->pos_w_m, seen->pos_w_m), slip = d3_sub(track->vel_w_mps, seen->vel_w_mps);
   const manner_t *w = f->w;
   const bool place = f->g->has_position;
   const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
-  return d3(fmax(-6.0, fmin(6.0, x + f->push * slip.x)), fmax(-6.0, fmin(6.0, y + f->push * slip.y)),
-            fmax(-5.0, fmin(5.0, w->height_gain * off.z + w->climb_gain * slip.z)));
+  const d3_t feed = track_acc(f);
+  return d3(fmax(-6.0, fmin(6.0, feed.x + x + f->push * slip.x)),
+            fmax(-6.0, fmin(6.0, feed.y + y + f->push * slip.y)),
+            fmax(-5.0, fmin(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));
+}
+
+// What the motors can give: height first, for what is left behind on a level comes back.
+static d3_t within_thrust(const nominal_flight_t *f, d3_t acc) {
+  const double most = SPARE * f->m->thrust_max_N / f->lift_trim / f->m->mass_kg, level = hypot(acc.x, acc.y);
+  const double z = fmin(acc.z, most), share = sqrt(fmax(most * most - z * z, 0.0)) / fmax(level, 1e-9);
+  return share < 1.0 ? d3(share * acc.x, share * acc.y, z) : acc;
 }
 
 static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_N[ROTORS]) {
@@ -41,7 +66,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const
                  double motor_N[ROTORS]) {
   const manner_t *w = f->w;
   const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
-  const d3_t acc = d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
+  const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, PLANT_GRAVITY_MPS2)));
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
   const double roll = fmax(-TILT_MAX, fmin(TILT_MAX, -pull_b.y)),
                pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));

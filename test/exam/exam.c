@@ -89,6 +89,7 @@ static void mark_names(exam_set_t *set, const diagnosis_t *d) {
 
 static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
   set->unknown = d->unknown;
+  set->cell = d->cell;
   if (set->kind != EXAM_STRANGE || !d->unknown) return;
   const char *at = set->strange.coordinate, *said = d->cell.coordinate;
   const bool level = strcmp(at, "xy") == 0 && (strcmp(said, "x") == 0 || strcmp(said, "y") == 0);

@@ -33,6 +33,7 @@ typedef struct {
   bool exact;         // every hidden one, and nothing else
   bool rival_held[2]; // found, or among the rivals of a name
   bool unknown, unknown_right;
+  cell_t cell;            // of what has no name
   double least[2];        // smallest size told, over the exam's typical one
   bool says_not_testable; // of a hidden effect that was not named: typical ones are not, or none of its size
   bool shrink_known;      // the held-out flight has rows to compare

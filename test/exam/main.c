@@ -25,8 +25,12 @@ static void print_line(unsigned long seed, const exam_set_t *s) {
   char told[80] = "";
   for (int k = 0; k < s->n; k++)
     snprintf(told + strlen(told), sizeof told - strlen(told), " told x%.2f", s->least[k]);
-  printf("%lu %s%s: %s -> %s%s%s%s%s after %.3f oracle %.3f\n", seed, KIND[s->kind], s->own_form ? "*" : "",
-         hidden, s->answer, s->unknown ? " UNKNOWN" : "", s->unknown_right ? "(right)" : "",
+  char unknown[80] = "";
+  if (s->unknown)
+    snprintf(unknown, sizeof unknown, " UNKNOWN%s %s at %s %.3g to %.3g", s->unknown_right ? "(right)" : "",
+             gap_channel[s->cell.channel], s->cell.coordinate, s->cell.from, s->cell.to);
+  printf("%lu %s%s: %s -> %s%s%s%s after %.3f oracle %.3f\n", seed, KIND[s->kind], s->own_form ? "*" : "",
+         hidden, s->answer, unknown,
          !s->flew          ? " CRASHED"
          : s->wrong        ? " WRONG"
          : s->found < s->n ? " MISSED"
