@@ -1,10 +1,14 @@
-// test_main.c - runs the tests whose file or name contains the word of the first argument.
+// test_main.c - runs the tests whose file or name contains the word of the first argument: each file in a
+// process of its own, as many at once as there are cores, their output in order.
+#define _XOPEN_SOURCE 700 // fileno
 #include "test.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 static char row[160];
 static int failures;        // of the running test
@@ -84,18 +88,99 @@ static void run(const test_t *test, tally_t *sum) {
   fflush(stdout);
 }
 
+static bool is_wanted(const test_t *test, const char *word) {
+  return strstr(test->file, word) || strstr(test->name, word);
+}
+
+// The tests of a file, from `first` up to the next file's.
+typedef struct {
+  int first, end;
+  pid_t process; // 0: it has ended
+  int status;
+  FILE *output;
+  int told[2]; // a pipe for its tally
+} job_t;
+
+static tally_t run_file(int first, int end, const char *word) {
+  tally_t sum = {0};
+  for (int i = first; i < end; i++)
+    if (is_wanted(&test_table[i], word)) run(&test_table[i], &sum);
+  if (sum.passed + sum.failed > 0)
+    printf("%-28s %4d passed %4d failed\n", test_table[first].file, sum.passed, sum.failed);
+  fflush(stdout);
+  return sum;
+}
+
+static void start(job_t *job, const char *word) {
+  job->output = tmpfile();
+  if (!job->output || pipe(job->told) != 0) abort();
+  fflush(stdout);
+  job->process = fork();
+  if (job->process < 0) abort();
+  if (job->process > 0) {
+    close(job->told[1]);
+    return;
+  }
+  if (dup2(fileno(job->output), STDOUT_FILENO) < 0) abort();
+  const tally_t sum = run_file(job->first, job->end, word);
+  if (write(job->told[1], &sum, sizeof sum) != sizeof sum) abort();
+  exit(0);
+}
+
+static void wait_for_one(job_t *job, int n) {
+  int status;
+  const pid_t process = wait(&status);
+  for (int i = 0; i < n; i++) {
+    if (job[i].process != process) continue;
+    job[i].process = 0;
+    job[i].status = status;
+  }
+}
+
+static void tell(job_t *job, tally_t *sum) {
+  char text[4096];
+  tally_t own;
+  const bool told = read(job->told[0], &own, sizeof own) == sizeof own;
+  rewind(job->output);
+  for (size_t n; (n = fread(text, 1, sizeof text, job->output)) > 0;) fwrite(text, 1, n, stdout);
+  fclose(job->output);
+  close(job->told[0]);
+  if (!told || job->status != 0) {
+    printf("%s: died (status %d)\n", test_table[job->first].file, job->status);
+    own = (tally_t){.failed = 1};
+  }
+  fflush(stdout);
+  sum->passed += own.passed;
+  sum->failed += own.failed;
+  sum->skipped += own.skipped;
+}
+
+// Those files that have a test that is wanted.
+static int list_jobs(job_t *job, const char *word) {
+  int n = 0;
+  for (int i = 0; i < test_count; i++) {
+    const bool opens = i == 0 || strcmp(test_table[i].file, test_table[i - 1].file) != 0;
+    if (opens && (n == 0 || job[n - 1].end > 0)) n++;
+    if (opens) job[n - 1] = (job_t){.first = i};
+    job[n - 1].end = is_wanted(&test_table[i], word) || job[n - 1].end ? i + 1 : 0;
+  }
+  return n > 0 && job[n - 1].end == 0 ? n - 1 : n;
+}
+
 int main(int argc, char **argv) {
   const char *word = argc > 1 ? argv[1] : "";
-  tally_t sum = {0}, file = {0};
-  for (int i = 0; i < test_count; i++) {
-    const test_t *test = &test_table[i];
-    if (strstr(test->file, word) || strstr(test->name, word)) run(test, &sum);
-    const bool last_of_file = i + 1 == test_count || strcmp(test->file, test_table[i + 1].file) != 0;
-    const int ran = sum.passed + sum.failed - file.passed - file.failed;
-    if (last_of_file && ran > 0)
-      printf("%-28s %4d passed %4d failed\n", test->file, sum.passed - file.passed, sum.failed - file.failed);
-    if (last_of_file) file = sum;
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  job_t *const job = calloc((size_t)test_count + 1, sizeof *job);
+  tally_t sum = {0};
+  if (!job) abort();
+  const int n = list_jobs(job, word);
+  for (int told = 0, begun = 0, running = 0; told < n;) {
+    for (; begun < n && running < (cores > 1 ? cores : 1); running++) start(&job[begun++], word);
+    wait_for_one(job, begun);
+    running--;
+    while (told < begun && job[told].process == 0) tell(&job[told++], &sum);
   }
+  free(job);
   if (sum.skipped) printf("%d skipped\n", sum.skipped);
   printf("%d passed, %d failed\n", sum.passed, sum.failed);
   return sum.failed > 0 || sum.passed == 0;
