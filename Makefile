@@ -174,7 +174,7 @@ test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=
 	@tools/test_cf.sh "$(CF_PACKAGES)" "$(W)"
 
 exam: out/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
-	@out/exam $(or $(SEED),70001) 200
+	@out/exam $(or $(SEED),80001) 200
 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"

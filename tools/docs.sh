@@ -36,7 +36,7 @@ tools/identify.sh "$data" >"$got"
 text <"$got" | part identify
 tools/touches.sh >"$got"
 text <"$got" | part touches
-out/exam 70001 200 >"$got"
+out/exam 80001 200 >"$got"
 text <"$got" | part exam
 out/slot "$data" >"$got"
 text <"$got" | part slot
