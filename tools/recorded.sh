@@ -23,6 +23,7 @@ told() {
   awk '
     /^(gap:|Nothing|These|Something|unknown:)/ { sub(dir, ""); print "  " $0 }
     /^[a-z_]+: / && !/^(unknown|held out|note|gap):/ { name = $1; sub(":", "", name); getline; print "  " name $0 }
+    /nearer than/ { sub(/.*held out, /, ""); print "  held out, " $0 }
     /^  force_z / { print "  force_z m/s2, held out: " $3 " -> " $4 }
     /^note: .* is withdrawn/ { print "  " $2 " is withdrawn" }' dir="$data/" $out/said | sed 's/  */ /g; s/^/ /'
   echo
