@@ -2,6 +2,7 @@
 #include "gap/muted.h"
 
 #include "gap/4_candidates.h"
+#include "gap/increments.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,15 +19,9 @@ typedef struct {
 
 // Of the increments of what was measured and what was predicted.
 static likeness_t compare(const rows_t *r, const double *measured, const double *residual) {
-  double yy = 0.0, pp = 0.0, yp = 0.0;
-  for (int i = 1; i < r->n; i++) {
-    if (!r->follows[i]) continue;
-    const double y = measured[i] - measured[i - 1], p = y - (residual[i] - residual[i - 1]);
-    yy += y * y;
-    pp += p * p;
-    yp += y * p;
-  }
-  return pp > 0.0 && yy > 0.0 ? (likeness_t){yp / pp, yp / sqrt(yy * pp)} : (likeness_t){1.0, 1.0};
+  const increments_t s = increments_of(r, measured, residual);
+  return s.pp > 0.0 && s.yy > 0.0 ? (likeness_t){s.yp / s.pp, s.yp / sqrt(s.yy * s.pp)}
+                                  : (likeness_t){1.0, 1.0};
 }
 
 // Where turning follows the commands best: over the first of the lags, by channel.

@@ -1,4 +1,5 @@
 // select_timing.c - lags and delays that are too long for a straight line, by trying them.
+#include "gap/increments.h"
 #include "gap/select_state.h"
 #include <math.h>
 #include <stdlib.h>
@@ -27,17 +28,8 @@ static status_t lines_make(lines_t *l, const set_t *s, why_t *why) {
 // n log(1 - c^2), c: correlation from row to row of what was measured and what was predicted. A scale that is
 // wrong does not change it, nor does what is slow.
 static double unlike(const rows_t *r, const double *measured, const double *residual) {
-  double yy = 0.0, pp = 0.0, yp = 0.0;
-  int n = 0;
-  for (int i = 1; i < r->n; i++) {
-    if (!r->follows[i]) continue;
-    const double y = measured[i] - measured[i - 1], p = y - (residual[i] - residual[i - 1]);
-    yy += y * y;
-    pp += p * p;
-    yp += y * p;
-    n++;
-  }
-  return yy > 0.0 && pp > 0.0 ? n * log(fmax(1.0 - yp * yp / yy / pp, 1e-9)) : 0.0;
+  const increments_t s = increments_of(r, measured, residual);
+  return s.yy > 0.0 && s.pp > 0.0 ? s.n * log(fmax(1.0 - s.yp * s.yp / s.yy / s.pp, 1e-9)) : 0.0;
 }
 
 static status_t judge(select_t *t, const model_t *m, lines_t *l, double *sum, why_t *why) {

@@ -107,12 +107,22 @@ static bool cut(const double *value, int n, double *parted, int *bin, double edg
   return true;
 }
 
-bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
-  double edge[BINS + 1];
-  const rows_t *r = list ? &s->range : &s->smooth;
+// A list's rows: 0: smooth, 1: range.
+static const rows_t *rows_of(const set_t *s, int list) {
+  return list ? &s->range : &s->smooth;
+}
+
+static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin,
+                    double edge[BINS + 1]) {
+  const rows_t *r = rows_of(s, list);
   if (r->n < 4 * BINS) return false;
   for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
   return cut(room, r->n, room + r->n, bin, edge);
+}
+
+bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
+  double edge[BINS + 1];
+  return bins_of(s, m, coordinate, list, room, bin, edge);
 }
 
 // Products of indicator columns with each other and with the residual, all white.
@@ -165,14 +175,10 @@ static void scan(const set_t *s, const model_t *m, int coordinate, double *const
   products_t p;
   double edge[BINS + 1];
   for (int list = 0; list < 2; list++) {
-    const rows_t *r = list ? &s->range : &s->smooth;
-    if (r->n < 4 * BINS) continue;
-    for (int i = 0; i < r->n; i++)
-      room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
-    if (!cut(room, r->n, room + r->n, bin, edge)) continue;
+    if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
       if (!color[ch].used) continue;
-      add_up(&p, r, &color[ch], residual[ch], bin);
+      add_up(&p, rows_of(s, list), &color[ch], residual[ch], bin);
       look_at(&p, centred, ch, coordinate, edge, cell);
     }
   }
@@ -193,13 +199,9 @@ static void clean(const set_t *s, const model_t *m, int coordinate, double *cons
                   double *room, int *bin) {
   double edge[BINS + 1];
   for (int list = 0; list < 2; list++) {
-    const rows_t *r = list ? &s->range : &s->smooth;
-    if (r->n < 4 * BINS) continue;
-    for (int i = 0; i < r->n; i++)
-      room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
-    if (!cut(room, r->n, room + r->n, bin, edge)) continue;
+    if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
-      if (residual_has(s, ch)) flatten(r, bin, residual[ch]);
+      if (residual_has(s, ch)) flatten(rows_of(s, list), bin, residual[ch]);
   }
 }
 
