@@ -17,7 +17,7 @@ static void fly_steps(int i, unsigned long seed) {
   flown6_t flown;
   why_t why;
   double gap_m[STEPS];
-  char name[16];
+  char name[24];
   request_t request = {.seed = seed, .log = true, .log_500_Hz = true, .no_effects = true, .n_effect = 1};
   request.effect[0] = fx_use(fx_find("rotor_drag")); // as the vehicle file has it, and no ceiling effect
   request.effect[0].p[0] = 1.7e-6;
