@@ -72,7 +72,7 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
   if (f->before > 0.0) {
     fprintf(out, " On the held-out flights, at %.3g to %.3g ", f->matters.from, f->matters.to);
     page_text(out, "", coordinate_unit(coordinate), "");
-    fprintf(out, ", its rms is %.3g before and %.3g %s after.", f->before, f->after,
+    fprintf(out, ", the residual's rms is %.3g before and %.3g %s after.", f->before, f->after,
             gap_unit[f->profile.channel]);
   }
   fputs("</p>\n", out);
