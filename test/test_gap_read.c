@@ -159,7 +159,7 @@ static const struct {
      0,
      NULL},
     {"a gap of 20 ms", {.from_s = 5.0, .gap_rows = 2}, NULL, 0, 0, 1, NULL},
-    {"a gap of 1 s", {.from_s = 5.0, .gap_rows = 100}, NULL, 0, 0, 2, "1 gaps in time split the flight"},
+    {"a gap of 1 s", {.from_s = 5.0, .gap_rows = 100}, NULL, 0, 0, 2, "gaps in time split the flight: 1"},
     {"time that stands",
      {.from_s = 5.0, .same_rows = 1},
      NULL,

@@ -46,14 +46,20 @@ static const char USAGE[] =
 
 // --- options ------------------------------------------------------------------------------------------
 
+static status_t take_once(const char **to, const char *option, const char *text, why_t *why) {
+  if (*to) return error_set(why, "--%s: given twice; allowed: once", option);
+  *to = text;
+  return ST_OK;
+}
+
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double seed;
   switch (option) {
-  case 'v': o->study.vehicle = text; return ST_OK;
-  case 'c': o->study.columns = text; return ST_OK;
+  case 'v': return take_once(&o->study.vehicle, "vehicle", text, why);
+  case 'c': return take_once(&o->study.columns, "columns", text, why);
   case 'x': o->hold_out[o->study.n_hold_out++] = text; return ST_OK;
-  case 'o': o->out = text; return ST_OK;
-  case 'j': o->json = text; return ST_OK;
+  case 'o': return take_once(&o->out, "out", text, why);
+  case 'j': return take_once(&o->json, "json", text, why);
   case 'h': o->help = true; return ST_OK;
   case 's':
     if (!number_parse(text, &seed) || !(seed >= 0.0 && seed <= 1e9) || seed != (double)(unsigned long)seed)
@@ -101,6 +107,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 typedef struct {
   whole_files_t files;
   FILE *verdict, *page, *model, *curves, *json;
+  char *words; // for standard output, once the files are there
 } output_t;
 
 static bool is_folder(const char *path) {
@@ -146,7 +153,15 @@ static status_t write_json(cJSON *json, const output_t *w, why_t *why) {
   return status;
 }
 
-static status_t write_all(const report_t *r, const output_t *w, why_t *why) {
+static status_t write_words(const report_t *r, output_t *w, why_t *why) {
+  size_t size;
+  FILE *const out = open_memstream(&w->words, &size);
+  if (!out) return error_failed(why, "out of memory");
+  report_words(r, out);
+  return fclose(out) == 0 ? ST_OK : error_failed(why, "out of memory");
+}
+
+static status_t write_all(const report_t *r, output_t *w, why_t *why) {
   const study_t *const s = r->study;
   char logs[120];
   snprintf(logs, sizeof logs, "%d flight%s, seed %lu", s->fit.n, s->fit.n > 1 ? "s" : "", s->order.seed);
@@ -155,8 +170,7 @@ static status_t write_all(const report_t *r, const output_t *w, why_t *why) {
   if (w->page) report_page(r, w->page);
   if (w->curves) report_curves(r, w->curves);
   if (w->model) TRY(extend_write(&job, w->model, why));
-  report_words(r, stdout);
-  return ST_OK;
+  return write_words(r, w, why);
 }
 
 static bool begins(const char *path, const char *text) {
@@ -218,7 +232,9 @@ int main(int argc, char **argv) {
   if (status == ST_OK && order.help) fputs(USAGE, stdout);
   if (status == ST_OK && !order.help) status = work(&order, &out, &begun, &why);
   const int ended = whole_files_exit(&out.files, "gap", status, &why);
+  if (ended == 0 && out.words) fputs(out.words, stdout);
   if (begun && ended == 2) refuse(&order, &why);
+  free(out.words);
   free(order.hold_out);
   return ended;
 }

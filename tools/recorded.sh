@@ -19,23 +19,26 @@ told() {
   file=sim/vehicles/$vehicle.toml
   [ -f "$file" ] || file=$out/$vehicle.toml
   # shellcheck disable=SC2086
-  out/gap --vehicle "$file" --columns tools/columns/"$columns".toml $logs >$out/said 2>&1 || true
+  out/gap --vehicle "$file" --columns tools/columns/"$columns".toml --json $out/verdict.json $logs >$out/said 2>&1 || [ $? -eq 2 ]
   awk '
     /^(gap:|Nothing|These|Something|unknown:)/ { sub(dir, ""); print "  " $0 }
     /^[a-z_]+: / && !/^(unknown|held out|note|gap):/ { name = $1; sub(":", "", name); getline; print "  " name $0 }
     /nearer than/ { sub(/.*held out, /, ""); print "  held out, " $0 }
     /^  force_z / { print "  force_z m/s2, held out: " $3 " -> " $4 }
-    /^note: .* is withdrawn/ { print "  " $2 " is withdrawn" }' dir="$data/" $out/said | sed 's/  */ /g; s/^/ /'
+    /^  would do as well/ { sub(/; to tell.*/, ""); print "   " $0 }' dir="$data/" $out/said | sed 's/  */ /g; s/^/ /'
+  grep -oE '"([a-z_]+ is withdrawn|[a-z_]+ or [a-z_]+ is missing|[a-z_]+: [0-9.e-]+ [a-z0-9/]+ is left)[^"]*"' $out/verdict.json |
+    sed 's/"//g; s/^/  /' || true
   echo
 }
 
-# A vehicle file that has neither lag nor drag.
+# The brushless vehicle that flew, 37 g; and a vehicle file that has neither lag nor drag.
+sed 's/^\(mass_kg *= *\)[0-9.]*/\10.037/' sim/vehicles/cf21_brushless.toml >$out/cf21_brushless_37g.toml
 sed 's/^\(motor_tau_s *= *\)[0-9.]*/\10.001/' sim/vehicles/cf21_imrc.toml >$out/cf21_imrc_without_lag.toml
 ground=ground_effect/21_randomwalk_s_cf50
 told cf21_neural_swarm neural_swarm ${ground}_00.csv ${ground}_02.csv ${ground}_04.csv
 told cf21_imrc_without_lag imrc imu_rpm_500hz/jana00.csv imu_rpm_500hz/jana03.csv imu_rpm_500hz/jana05.csv imu_rpm_500hz/jana10.csv
 told cf21_imrc imrc imu_rpm_500hz/jana00.csv imu_rpm_500hz/jana03.csv imu_rpm_500hz/jana05.csv imu_rpm_500hz/jana10.csv
-told cf21_brushless imrc brushless/flight00.csv brushless/flight12.csv brushless/flight22.csv
+told cf21_brushless_37g imrc brushless/flight00.csv brushless/flight12.csv brushless/flight22.csv
 told cf21_nanobench nanobench nanobench/B2_circle_slow_rep1.csv nanobench/B5_helix_fast_rep1.csv
 told quad15 quad15 quad15/hovering.csv
 told cf_inner_loop_id inner_loop_id inner_loop_id/data_1901.csv

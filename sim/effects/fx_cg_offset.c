@@ -9,7 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_cg_offset = {
     .name = "cg_offset",
     .brief = "the centre of mass lies elsewhere than the vehicle file has it",
-    .fly = "any flight",
+    .fly = "a calm hover",
     .n_size = 2,
     .size = {{0, 1e-4, 0, 0.0}, {1, 1e-4, 0, 0.0}},
     .n_param = 3,

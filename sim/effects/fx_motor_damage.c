@@ -9,7 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_motor_damage = {
     .name = "motor_damage",
     .brief = "one rotor gives less thrust",
-    .fly = "any flight",
+    .fly = "a calm hover",
     .n_size = 1,
     .size = {{1, 1e-3, 1, 0.0}},
     .shape_param = 0,

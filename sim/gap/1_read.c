@@ -169,7 +169,8 @@ static void note_samples(gap_flight_t *f) {
   for (int i = 0; i < f->n; i++) masked += f->saturated[i];
   if (masked)
     note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
-  if (f->n > 0 && f->segment[f->n - 1] > 0) note(f, "%d gaps in time split the flight", f->segment[f->n - 1]);
+  if (f->n > 0 && f->segment[f->n - 1] > 0)
+    note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
 }
 
 static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
@@ -183,7 +184,8 @@ static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) 
   TRY(raw_free_of_repeats(raw, &slow, why));
   if (slow)
     note(f,
-         "%d streams are slower than the log and repeat themselves: they are drawn through their new values",
+         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
+         "values",
          slow);
   TRY(align(f, raw, shift_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));

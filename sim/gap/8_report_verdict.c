@@ -144,6 +144,8 @@ cJSON *report_verdict(const report_t *r) {
     cJSON_AddStringToObject(o, "unit", "m");
     add_number(o, "before", s->resimulation.before_m);
     add_number(o, "after", s->resimulation.after_m);
+    add_number(o, "height_before", s->resimulation.before_height_m);
+    add_number(o, "height_after", s->resimulation.after_height_m);
   } else
     cJSON_AddNullToObject(root, "resimulation");
   add_untested(root, r);

@@ -77,7 +77,7 @@ static void print_untested(const report_t *r, FILE *out) {
     if (!r->untested[i].obstacle && r->untested[i].testable) continue;
     fprintf(out, "%s%s",
             n ? (n % 7 ? ", " : ",\n  ")
-              : "\ncannot be told from these flights (the report says what to fly):\n  ",
+              : "\ncannot be told from these flights (the report of --out says what to fly):\n  ",
             r->untested[i].fx->name);
     n++;
   }
@@ -111,5 +111,6 @@ void report_words(const report_t *r, FILE *out) {
   print_untested(r, out);
   for (int i = 0; i < r->n_warning && i < WARNINGS; i++)
     fprintf(out, "%snote: %s\n", i ? "" : "\n", r->warning[i]);
-  if (r->n_warning > WARNINGS) fprintf(out, "note: and %d more in the report\n", r->n_warning - WARNINGS);
+  if (r->n_warning > WARNINGS)
+    fprintf(out, "note: and %d more in the report of --out\n", r->n_warning - WARNINGS);
 }

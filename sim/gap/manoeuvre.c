@@ -62,6 +62,8 @@ static const struct {
     {"rotor_drag", "imu_misalignment", "level flight at a steady speed, then throttle steps on the spot"},
     {"flapping", "cg_offset", "sideways steps both ways: flapping turns round, an offset stays"},
     {"flapping", "motor_damage", "sideways steps both ways: flapping turns round, a weak rotor stays weak"},
+    {"motor_damage", "inertia", "a calm hover: damage shows there, inertia in attitude doublets alone"},
+    {"cg_offset", "inertia", "a calm hover: an offset shows there, inertia in attitude doublets alone"},
     {"climb_inflow", "motor_lag", "a long steady climb: lag ends with the throttle step, inflow stays"},
     {"climb_inflow", "delay", "a long steady climb: delay ends with the throttle step, inflow stays"},
     {"climb_inflow", "body_drag", "climbs at 0.5 and 1 m/s: one doubles, the other grows fourfold"},

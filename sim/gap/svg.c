@@ -20,7 +20,7 @@ void html_text(FILE *out, const char *text) {
     case '>': fputs("&gt;", out); break;
     case '"': fputs("&quot;", out); break;
     case '\'': fputs("&#39;", out); break;
-    default: fputc(*c < 0x20 || *c >= 0x7f ? '?' : *c, out);
+    default: fputc(*c < 0x20 || *c == 0x7f ? '?' : *c, out); // the page is UTF-8
     }
 }
 
