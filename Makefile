@@ -57,7 +57,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights touches recorded slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil
+.PHONY: help demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -157,6 +157,9 @@ flights: setup-demo out/fly  ## the thesis's flights: seven controllers, ten see
 
 touches: out/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each
 	@tools/touches.sh
+
+example-seeds: out/fly out/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden
+	@tools/gap_seeds.sh
 
 recorded: out/gap  ## what the workflow finds in recorded flights (DATA=DIR)
 	@tools/recorded.sh "$(DATA)"

@@ -19,6 +19,8 @@ sed -E '/^pictures/,$d; s#/[^ ]*/##' "$got" | sed '$d' | text | part demo
 tools/gap_demo.sh "$data" >"$got"
 text <"$got" | part gap
 [ -z "$data" ] || tools/recorded.sh "$data" | text | part recorded
+tools/gap_seeds.sh >"$got"
+text <"$got" | part seeds
 tools/add_effect.sh >"$got"
 text <"$got" | part cable
 out/bench >"$got"
