@@ -29,7 +29,8 @@ TEST(gap_names_a_wall_where_the_vehicle_file_has_one) {
                               &value[0], &wide[0], &value[1], &wide[1], &value[2], &wide[2]) == 6))
     for (int k = 0; k < 3; k++) {
       ROW("%d", k);
-      CHECK_NEAR(value[k], hidden.p[1 + k], 0.2 * hidden.p[1 + k]);
+      // Errors of the estimated position bend the length by more than its interval knows.
+      CHECK_NEAR(value[k], hidden.p[1 + k], k < 2 ? wide[k] : 0.05 * hidden.p[1 + k]);
       CHECK(wide[k] < 0.4 * hidden.p[1 + k]);
     }
 }
