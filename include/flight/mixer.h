@@ -30,7 +30,8 @@ typedef struct {
   bool gave_up_yaw, gave_up_thrust, gave_up_tilt; // what was asked for and could not be had
 } mixer_out_t;
 
-// Any finite numbers; the result is always within the limits.
+// Any numbers; the result is always within the limits. A torque that is not a number is taken for none, a
+// thrust that is not for the least that the torque allows.
 mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N);
 
 // Torque that four forces give. The signs are written out, roll - - + +, pitch - + + -, yaw - + - +: loops
