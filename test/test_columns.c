@@ -102,6 +102,14 @@ TEST(columns_files_are_refused_with_line_and_key) {
        "c.toml:1: acceleration: missing; allowed: a text in quotes"},
       {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
        "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
+      {"three motors",
+       TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"N\"}\n"
+            "m4 = {column = \"d\", unit = \"N\"}\n",
+       "c.toml:3: m1: without m3; allowed: m1 to m4, or none of them"},
+      {"no first motor", TIME "m2 = {column = \"b\", unit = \"N\"}\n",
+       "c.toml:3: m2: without m1; allowed: m1 to m4, or none of them"},
+      {"one rotor's speed", TIME "w4 = {column = \"d\", unit = \"rpm\"}\n",
+       "c.toml:3: w4: without w1; allowed: w1 to w4, or none of them"},
       {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
        "c.toml:4: m2: a command in pwm beside one in N; allowed: all of one kind"},
   };

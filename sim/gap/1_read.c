@@ -15,8 +15,12 @@
 
 #define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 
-static const signals_t ATTITUDE = BITS(SIG_QW, SIG_QZ), PLACE = BITS(SIG_X, SIG_VZ);
+#define ATTITUDE_BITS BITS(SIG_QW, SIG_QZ)
+static const signals_t ATTITUDE = ATTITUDE_BITS, PLACE = BITS(SIG_X, SIG_VZ);
 static const signals_t GYRO = BITS(SIG_GX, SIG_GZ), FORCE = BITS(SIG_AX, SIG_AZ);
+// Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
+static const signals_t WHOLE[] = {ATTITUDE_BITS, BITS(SIG_M1, SIG_M4), BITS(SIG_F1, SIG_F4),
+                                  BITS(SIG_W1, SIG_W4)};
 
 void gap_flight_free(gap_flight_t *f) {
   for (int i = 0; i < SIG_COUNT; i++) free(f->v[i]);
@@ -50,9 +54,24 @@ static bool logged(const raw_t *raw, signals_t signals) {
   return true;
 }
 
+// Drops the group unless all of it is there, and says what its others wait for.
+static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
+  const char *lacks = NULL, *there = NULL;
+  for (int i = 0; i < SIG_COUNT; i++) {
+    if (!(group & SIGNAL_BIT(i))) continue;
+    const char *const name = i < SIG_COLUMNS ? columns_name((signal_id_t)i) : NULL;
+    if (raw->v[i] && !there) there = name;
+    if (!raw->v[i] && !lacks) lacks = name;
+    if (!logged(raw, group)) raw_drop(raw, (signal_id_t)i);
+  }
+  if (!there || !lacks) return;
+  note(f, "no %s: %s and the others beside it are not used", lacks, there);
+  if (!(group & ATTITUDE)) f->motor_lacks = lacks;
+}
+
 // What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
 // and what has no value anywhere.
-static status_t drop_rest(raw_t *raw, const log_rows_t *rows, why_t *why) {
+static status_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
   bool any = false;
   for (int i = 0; i < SIG_COUNT; i++) {
     const bool angle = i >= SIG_ROLL && i <= SIG_YAW, torque = i >= SIG_TX && i <= SIG_TZ;
@@ -63,9 +82,7 @@ static status_t drop_rest(raw_t *raw, const log_rows_t *rows, why_t *why) {
   if (!any)
     return table_refuse(&rows->table, 1, -1, why,
                         "no signal of a flight; allowed: columns of --columns FILE");
-  // Three quarters of an attitude are none.
-  const bool whole = logged(raw, ATTITUDE);
-  for (int i = SIG_QW; i <= SIG_QZ && !whole; i++) raw_drop(raw, (signal_id_t)i);
+  for (unsigned k = 0; k < sizeof WHOLE / sizeof *WHOLE; k++) drop_part(f, raw, WHOLE[k]);
   const double rest_m = rows->columns.rest_height_m;
   for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
   for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
@@ -179,7 +196,7 @@ static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) 
   TRY(raw_read(raw, rows, &f->cut, why));
   TRY(check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));
-  TRY(drop_rest(raw, rows, why));
+  TRY(drop_rest(f, raw, rows, why));
   int slow;
   TRY(raw_free_of_repeats(raw, &slow, why));
   if (slow)

@@ -24,6 +24,7 @@ typedef struct {
   // SIG_THRUST: of all together. SIG_VBAT: the last one known.
   double *v[SIG_COUNT];
   bool motors_N;                // SIG_M*: newton
+  const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
   double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
   double *range_up_m,
       *range_down_m; // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged

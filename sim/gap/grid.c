@@ -26,19 +26,30 @@ static bool has(const gap_flight_t *f, int from, int to) {
 
 // --- commands -----------------------------------------------------------------------------------------
 
+// By motor, and not only all together.
+static bool each_commanded(const gap_flight_t *f) {
+  return has(f, SIG_F1, SIG_F4) || (f->motors_N && has(f, SIG_M1, SIG_M4));
+}
+
 static double newton(const gap_flight_t *f, int rotor, int i) {
-  if (f->v[SIG_F1 + rotor]) return f->v[SIG_F1 + rotor][i];
-  return f->motors_N && f->v[SIG_M1 + rotor] ? f->v[SIG_M1 + rotor][i] : f->v[SIG_THRUST][i] / ROTORS;
+  if (!each_commanded(f)) return f->v[SIG_THRUST][i] / ROTORS;
+  return f->v[(has(f, SIG_F1, SIG_F4) ? SIG_F1 : SIG_M1) + rotor][i];
 }
 
 static bool has_commands(const gap_flight_t *f) {
-  return f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || f->v[SIG_THRUST];
+  return each_commanded(f) || f->v[SIG_THRUST];
+}
+
+static bool has_speeds(const gap_flight_t *f) {
+  for (int k = 0; k < ROTORS; k++)
+    if (!f->motor_speed_radps[k]) return false;
+  return true;
 }
 
 static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
   const gap_flight_t *f = g->flight;
   const bool commands = has_commands(f);
-  g->has_moments = f->v[SIG_F4] || (f->motors_N && f->v[SIG_M4]) || (!commands && f->motor_speed_radps[3]);
+  g->has_moments = each_commanded(f) || !commands;
   for (int k = 0; k < ROTORS; k++) {
     g->command_N[k] = malloc((size_t)n * sizeof(double));
     if (!g->command_N[k]) return error_failed(why, "out of memory");
@@ -126,7 +137,7 @@ static void take_speeds(grid_t *g, const model_t *m, int from) {
 }
 
 static bool speeds_room(grid_t *g, size_t points) {
-  if (!g->flight->motor_speed_radps[3] || !has_commands(g->flight)) return true;
+  if (!has_speeds(g->flight) || !has_commands(g->flight)) return true;
   for (int k = 0; k < ROTORS; k++)
     if (!(g->measured_N[k] = malloc((points + 1) * sizeof(double)))) return false;
   return true;
@@ -161,8 +172,9 @@ status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const mod
   g->has_force = has(f, SIG_AX, SIG_AZ);
   g->has_vbat = f->v[SIG_VBAT] != NULL;
   g->range_up = isfinite(m->ceiling_m) && f->range_up_m;
-  if (!has_commands(f) && !f->motor_speed_radps[3])
-    return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed", f->name);
+  if (!has_commands(f) && !has_speeds(f))
+    return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed%s%s", f->name,
+                     f->motor_lacks ? "; missing: " : "", f->motor_lacks ? f->motor_lacks : "");
   g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
   if (!g->point || !speeds_room(g, (size_t)((to - from) / g->every)))
     return error_failed(why, "out of memory");

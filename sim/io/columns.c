@@ -216,13 +216,27 @@ static status_t read_kinds(toml_t t, columns_t *c, why_t *why) {
   return ST_OK;
 }
 
+// Three of four motors say nothing of a vehicle.
+static status_t check_motors(toml_t t, const columns_t *c, why_t *why) {
+  static const signal_id_t group[] = {SIG_M1, SIG_W1};
+  for (unsigned g = 0; g < sizeof group / sizeof *group; g++) {
+    int lacks = -1, there = -1;
+    for (int i = (int)group[g] + 3; i >= (int)group[g]; i--) *(c->of[i].column[0] ? &there : &lacks) = i;
+    if (there >= 0 && lacks >= 0)
+      return toml_refuse(t, ROWS[there].name, why, "without %s; allowed: %s to %s, or none of them",
+                         ROWS[lacks].name, ROWS[group[g]].name, ROWS[group[g] + 3].name);
+  }
+  return ST_OK;
+}
+
 static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
   const char *keys[SIG_COLUMNS + 1] = {NULL};
   for (int i = 0; i < SIG_COLUMNS; i++) keys[i] = ROWS[i].name;
   TRY(toml_only(t, keys, why));
   for (int i = 0; i < SIG_COLUMNS; i++)
     if (i == SIG_TIME || toml_has(t, ROWS[i].name)) TRY(read_column(t, (signal_id_t)i, c, why));
-  return read_kinds(t, c, why);
+  TRY(read_kinds(t, c, why));
+  return check_motors(t, c, why);
 }
 
 static status_t read_root(toml_t root, columns_t *c, why_t *why) {
