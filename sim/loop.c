@@ -1,11 +1,10 @@
 // loop.c - one flight.
-#define _POSIX_C_SOURCE 200809L // clock_gettime
 #include "loop.h"
 
+#include "cpu_time.h"
 #include "estimator/kalman_z.h"
 #include "world.h"
 #include <math.h>
-#include <time.h>
 
 #define RECORD_PERIOD_S  0.01
 #define DOWN_PERIOD_S    0.02 // downward range sensor
@@ -24,12 +23,6 @@ typedef struct {
   double gust_mps2, gap_min_m;
   int way;
 } flight_loop_t;
-
-static double wall_s(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now); // the time of day can be set meanwhile
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 // Every how many ticks something of that period happens; at least every tick.
 static long ticks_of(double period_s, double tick_s) {
@@ -105,7 +98,7 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
   f.sense.applied_N = plan->start_thrust_N;
   f.thoughts = (thoughts_t){.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   *outcome = (outcome_t){.finite = true};
-  const double start_s = wall_s();
+  const double start_s = cpu_time_s();
   kalman_z_init(&f.kalman, KALMAN_ACC_MPS2, fmax(plan->noise.down_m, 1e-4), controller->period_s,
                 (int)ticks_of(DOWN_PERIOD_S, controller->period_s), plan->start_z_m);
   f.random = random_open(plan->seed);
@@ -116,7 +109,7 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
                    plan->start_z_m, plan->start_thrust_N);
   if (status == ST_OK) status = run(&f, record, outcome);
   outcome->contacts = f.world.contacts;
-  outcome->realtime_factor = plan->end_s / fmax(wall_s() - start_s, 1e-9);
+  outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);
   if (f.world.integrate) world_close(&f.world);
   random_close(f.random);
   return status == ST_OK ? ST_OK : error_failed(why, "the flight could not be run: out of memory");

@@ -1,9 +1,9 @@
 // loop6.c - one flight in six degrees of freedom.
 #include "loop6.h"
 
+#include "cpu_time.h"
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 #define RECORD_EVERY 5     // ticks of 2 ms
 #define IDLE_N       0.002 // of one motor: below, it stands
@@ -28,12 +28,6 @@ typedef struct {
   int way;
   double ceiling_z_m; // as the pilot thinks it, at the last sample
 } flight6_t;
-
-static double wall_s(void) {
-  struct timespec now;
-  timespec_get(&now, TIME_UTC);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static truth_t truth_of(const flight6_t *f) {
   const body_t *b = &f->body;
@@ -215,11 +209,11 @@ status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pi
   f->up_min = 1.0;
   f->range_m = f->ceiling_z_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
-  const double start_s = wall_s();
+  const double start_s = cpu_time_s();
   status_t status = open(f, why);
   if (status == ST_OK) status = run(f, record, more, outcome, why);
   outcome->contacts = f->body.ceiling_contacts;
-  outcome->realtime_factor = plan->plan.end_s / fmax(wall_s() - start_s, 1e-9);
+  outcome->realtime_factor = cpu_time_factor(plan->plan.end_s, start_s);
   if (f->body.integrate) body_close(&f->body);
   random_close(f->random);
   free(f);

@@ -142,11 +142,12 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
                                     &flown->more, &flown->flown.outcome, why);
   flown->flown.record.app = p.log;
   if (p.log_every_ms == 1) flown->flown.record.n_calls = p.n_log;
+  TRY(status);
   TRY(keep_params(&param, &flown->flown.record, why));
-  if (setup->request && setup->request->log && status == ST_OK && p.n_log < flown->flown.record.n)
+  if (setup->request && setup->request->log && p.n_log < flown->flown.record.n)
     return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
-  return status;
+  return ST_OK;
 }
 
 static pilot6_t air_garage_knowing(const setup6_t *setup, air_garage_t *s) {
@@ -200,7 +201,11 @@ status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
   *flown = (flown6_t){.flown = {.plan = setup->plan.plan}};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
   const bool stock = setup->kind >= FLY_STOCK_PID;
-  TRY(stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why));
+  const status_t status = stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why);
+  if (status != ST_OK) {
+    flown6_free(flown);
+    return status;
+  }
   flown->flown.n_segment = segments_of(&flown->flown.record, &flown->flown.plan, flown->flown.segment);
   measure_tilt(flown);
   return ST_OK;

@@ -40,7 +40,7 @@ typedef struct {
   double tilt_max_rad[WAYPOINTS_MAX]; // of each segment
 } flown6_t;
 
-// ST_BAD_INPUT: as loop6_fly. Free what was flown.
+// ST_BAD_INPUT: as loop6_fly; then nothing is left to free. Else free what was flown.
 MUST_CHECK status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why);
 
 void flown6_free(flown6_t *flown);

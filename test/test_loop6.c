@@ -1,10 +1,12 @@
 // test_loop6.c - the loop in six degrees of freedom: what the pilot is told, and what is recorded.
+#define _POSIX_C_SOURCE 200809L // nanosleep
 #include "loop6.h"
 #include "segments.h"
 #include "vehicle6.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #define CEILING_M 0.5
 #define LIMIT_N   0.15 // of a motor of vehicle6()
@@ -53,18 +55,23 @@ typedef struct {
 } flown_t6;
 
 // From 0.1 m, climbing at climb_mps; two set points, 0.4 m and from half the time on 0.45 m.
-static status_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
+static status_t fly_with(loop6_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
+                         model_t *model, why_t *why) {
   const double f = 0.25 * WEIGHT_N;
   *flown = (flown_t6){
       .plan = {
           .plan = {.way = {{0.0, 0.4}, {0.5 * end_s, 0.45}}, .n_way = 2, .end_s = end_s},
           .start = {.pos_w_m = {0.0, 0.0, 0.1}, .vel_w_mps = {0.0, 0.0, climb_mps}, .thrust_N = {f, f, f, f}},
           .in_flight = true,
-          .edit = watch,
+          .edit = edit,
           .edit_context = s}};
   flown->plan.plan.integrate = INTEGRATE_RK4;
   const pilot6_t pilot = {.state = s, .step = still_step, .reset = still_reset};
   return loop6_fly(&flown->plan, model, &pilot, NULL, &flown->record, &flown->more, &flown->outcome, why);
+}
+
+static status_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
+  return fly_with(watch, s, climb_mps, end_s, flown, model, why);
 }
 
 static void drop(flown_t6 *flown) {
@@ -85,6 +92,24 @@ TEST(loop6_counts_a_contact_that_lasts_in_each_segment) {
   CHECK(segment[0].contacts >= 1); // it may bounce
   CHECK(segment[1].contacts == 1);
   CHECK_NEAR(flown.record.sample[flown.record.n - 1].gap_m, 0.008, 1e-4);
+  drop(&flown);
+}
+
+// As if another program had the processor for half a second.
+static void sleep_once(void *context, const body_t *truth, pilot6_in_t *in) {
+  still_t *const s = context;
+  (void)truth, (void)in;
+  if (s->ms++ == 0) nanosleep(&(struct timespec){.tv_nsec = 500000000}, NULL);
+}
+
+TEST(loop6_counts_its_own_time_on_the_processor_and_no_other) {
+  model_t m = vehicle6(HUGE_VAL);
+  still_t s = {.motor_N = 0.25 * WEIGHT_N};
+  flown_t6 flown;
+  why_t why;
+  if (!CHECK_OK(fly_with(sleep_once, &s, 0.0, 0.5, &flown, &m, &why))) return;
+  // By the wall clock it would be below 1; even under sanitizers the loop itself is ten times as fast.
+  CHECK(flown.outcome.realtime_factor > 2.0 && isfinite(flown.outcome.realtime_factor));
   drop(&flown);
 }
 

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include <math.h>
+#include <string.h>
 
 static bool fly(int hold, flown6_t *flown) {
   setup6_t setup;
@@ -37,5 +38,22 @@ TEST(setup6_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_
     if (!hold) CHECK_NEAR(off_m, 0.0, 3e-3); // the estimate is some milliseconds older than the log
     CHECK_NEAR(gap_off_m, 0.0, hold ? 1e-9 : 2e-3);
     flown6_free(&flown);
+  }
+}
+
+// A mass that an effect makes nothing of: the body cannot be opened, after the app was.
+TEST(setup6_leaves_nothing_to_free_of_a_flight_that_failed) {
+  static const fly_kind_t kind[] = {FLY_INDI_THEORY, FLY_INDI_LEARNED, FLY_STOCK_PID};
+  for (unsigned i = 0; i < sizeof kind / sizeof *kind; i++) {
+    ROW("%s", fly_name[kind[i]]);
+    setup6_t setup;
+    flown6_t flown;
+    why_t why = {""};
+    if (!CHECK_OK(setup6_thesis(&setup, kind[i], &why))) return;
+    setup.model.frame.inertia_kgm2[1] = 0.0;
+    CHECK_STATUS(ST_BAD_INPUT, setup6_fly(&setup, &flown, &why));
+    CHECK(strstr(why.text, "such a vehicle cannot fly") != NULL);
+    const record_t *const r = &flown.flown.record;
+    CHECK(!r->sample && !r->more && !r->app && !r->param && !flown.more.sample);
   }
 }

@@ -76,6 +76,41 @@ static const struct {
      "v.toml:10: name: effect ceiling stands twice; allowed: once"},
 };
 
+#define LIFTS(mass, thrust)                                                                                  \
+  "name = \"v\"\nmass_kg = " mass "\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = -1\n"         \
+  "thrust_max_N = " thrust "\n"
+
+TEST(vehicle_file_is_refused_where_the_thrust_is_no_match_for_the_weight) {
+  static const struct {
+    const char *what, *text, *want;
+  } row[] = {
+      {"grams", LIFTS("32.9", "0.6"),
+       "v.toml:2: mass_kg: 32.9 kg weigh 323 N, and thrust_max_N is 0.6; allowed with that: 0.00122 to "
+       "0.0612 kg"},
+      {"millinewton", LIFTS("0.0329", "600"),
+       "v.toml:2: mass_kg: 0.0329 kg weigh 0.323 N, and thrust_max_N is 600; allowed with that: 1.22 to 61.2 "
+       "kg"},
+      {"its weight", LIFTS("0.1", "0.981"),
+       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 0.981; allowed with that: 0.002 to 0.1 "
+       "kg"},
+      {"a little more", LIFTS("0.1", "0.99"), ""},
+      {"50 times", LIFTS("0.1", "49"), ""},
+      {"more than that", LIFTS("0.1", "49.2"),
+       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 49.2; allowed with that: 0.1 to 5.02 "
+       "kg"},
+      {"none", LIFTS("0.1", "0"), "v.toml:6: thrust_max_N: 0; allowed: more than the weight, 0.981 N"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    const status_t status = model_read(scratch_file("v.toml", row[i].text, -1), &m, &why);
+    CHECK_STATUS(row[i].want[0] ? ST_BAD_INPUT : ST_OK, status);
+    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    if (status != ST_OK) CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+  }
+}
+
 TEST(vehicle_file_is_refused_with_line_and_key) {
   for (unsigned i = 0; i < sizeof bad_vehicle / sizeof *bad_vehicle; i++) {
     ROW("%s", bad_vehicle[i].what);

@@ -1,15 +1,14 @@
 // bench.c - how fast the closed loop runs, as ratios to real time on one core, and how a diagnosis grows.
 // Prints, never judges.
-#define _POSIX_C_SOURCE 199309L
 #include "bench_gap.h"
 #include "body_forces.h"
+#include "cpu_time.h"
 #include "io/model_file.h"
 #include "scenario/scenario.h"
 #include "setup6.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #define RUNS     7
 #define FLIGHT_S 600.0
@@ -42,12 +41,6 @@ static status_t factor(const row_t *row, double *best, why_t *why) {
   return ST_OK;
 }
 
-static double now_s(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 // Six degrees of freedom under a ceiling at 2 cm, drag on; level, so that a law of one line holds it there.
 static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor, why_t *why) {
   static body_t b;
@@ -59,20 +52,20 @@ static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor
   const double z_m = 0.98 - body_rotor_z_m(&m), f = 0.25 * m.mass_kg * PLANT_GRAVITY_MPS2;
   const body_start_t start = {.pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {f, f, f, f}};
   if (body_open(&b, &m, kind, TICK_S, &start) != ST_OK) return error_failed(why, "out of memory");
-  double t_s = now_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
+  double t_s = cpu_time_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
   memcpy(y, b.y, sizeof y);
   for (int i = 0; i < CALLS; i++) {
     y[RIGID_POS_M + 2] = z_m + 1e-9 * dydt[RIGID_VEL_MPS + 2]; // so that no call can be left out
     body_derivative(&b, 0, y, dydt);
   }
-  *derivative_ns = 1e9 * (now_s() - t_s) / CALLS;
-  t_s = now_s();
+  *derivative_ns = 1e9 * (cpu_time_s() - t_s) / CALLS;
+  t_s = cpu_time_s();
   for (int i = 0; i < CALLS; i++) {
     const double c = 0.92 * f * (1.0 + 12.0 * (z_m - b.y[RIGID_POS_M + 2]) - 2.0 * b.y[RIGID_VEL_MPS + 2]);
     const double command_N[ROTORS] = {c, c, c, c};
     body_tick(&b, command_N, TICK_S);
   }
-  *factor = CALLS * TICK_S / (now_s() - t_s);
+  *factor = cpu_time_factor(CALLS * TICK_S, t_s);
   if (b.ceiling_contacts > 0) fprintf(stderr, "bench: the ceiling was touched\n");
   body_close(&b);
   return ST_OK;

@@ -6,10 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RIVAL_ERRORS 2.0
-#define HARM         0.01 // of the sum of squares of a group of channels
-#define CLUSTER      1.5  // standard errors grow by this: white rows are not quite independent
-#define FAR          10.0 // times the typical size: what the ridge takes to be possible
+#define HARM 0.01 // of the sum of squares of a group of channels
+#define FAR  10.0 // times the typical size: what the ridge takes to be possible
 
 status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
                     why_t *why) {
@@ -146,7 +144,7 @@ bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other
   for (int i = n; i < n + m; i++) b[i] = -b[i];
   for (int i = 0; i < n + m; i++)
     for (int k = 0; k < n + m; k++) apart += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
-  return left_other - left < RIVAL_ERRORS * 2.0 * sqrt(fmax(apart, 0.0)) * CLUSTER;
+  return left_other - left < JUDGE_RIVAL_SPAN * sqrt(fmax(apart, 0.0));
 }
 
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.

@@ -40,7 +40,11 @@ double judge_fitted(const judge_t *j, const choice_t *choice);
 // The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there.
 bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better);
 
-// The other choice does as well, within two standard errors.
+// The other choice does as well, within two standard errors: it leaves D more, and D <= JUDGE_RIVAL_SPAN d
+// where the two fits are d apart, white, because D has a standard error of 2 d.
+#define JUDGE_CLUSTER    1.5 // standard errors grow by this: white rows are not quite independent
+#define JUDGE_RIVAL_SPAN (2.0 * 2.0 * JUDGE_CLUSTER)
+#define JUDGE_RIVAL_LEFT (JUDGE_RIVAL_SPAN * JUDGE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
 bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other);
 
 // The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.

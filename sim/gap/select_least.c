@@ -8,17 +8,16 @@
 #include "gap/select_state.h"
 #include <math.h>
 
-#define MISSED     2.0  // errors by which an estimate may be too small
-#define RIVAL_LEFT 36.0 // sum of squares by which a rival must do worse (judge_is_rival: D > 6 sqrt(D))
+#define MISSED 2.0 // errors by which an estimate may be too small
 
 // Another name stands for it so well that it stays open until it is larger: the part of its sum of squares
-// that the other one cannot give must be RIVAL_LEFT.
+// that the other one cannot give must be JUDGE_RIVAL_LEFT.
 static double gain_of_rivals(const select_t *t, int candidate, int k) {
   double alike = 0.0;
   for (int i = 0; i < t->c->n; i++)
     if (select_may_stand_for(t, &t->choice, candidate, i))
       alike = fmax(alike, judge_alike(&t->judge, t->c->candidate[candidate].first + k, i));
-  return alike < SELECT_SAME ? 0.0 : alike < 1.0 ? RIVAL_LEFT / (1.0 - alike) : HUGE_VAL;
+  return alike < SELECT_SAME ? 0.0 : alike < 1.0 ? JUDGE_RIVAL_LEFT / (1.0 - alike) : HUGE_VAL;
 }
 
 // In parts of what is typical.

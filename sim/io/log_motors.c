@@ -32,26 +32,25 @@ static void unmix(log_motors_t *m, const frame_t *f) {
   }
 }
 
-// Why the vehicle's map cannot tell the commands in newton; null: it can.
-static const char *map_lacks(const columns_t *c, const model_t *vehicle, bool speed, signals_t has) {
-  static char text[200];
+// Why the vehicle's map cannot tell the commands in newton; empty: it can.
+static void map_lacks(const columns_t *c, const model_t *vehicle, bool speed, signals_t has,
+                      char text[LOG_MOTORS_LACKS]) {
   const thrust_map_t *const map = &vehicle->map;
   if (map->kind == THRUST_MAP_NONE) {
-    snprintf(text, sizeof text,
+    snprintf(text, LOG_MOTORS_LACKS,
              "a motor command, but vehicle %s has no [thrust_map]; choose one that has (--vehicle)",
              vehicle->name);
-    return text;
+    return;
   }
   if (thrust_map_takes_speed(map) != speed) {
-    snprintf(text, sizeof text, "a command in %s, but the [thrust_map] of vehicle %s takes %s",
+    snprintf(text, LOG_MOTORS_LACKS, "a command in %s, but the [thrust_map] of vehicle %s takes %s",
              speed ? "rad/s" : "pwm", vehicle->name, speed ? "pwm" : "rad/s");
-    return text;
+    return;
   }
-  if (!thrust_map_needs_voltage(map) || (has & SIGNAL_BIT(SIG_VBAT))) return NULL;
+  if (!thrust_map_needs_voltage(map) || (has & SIGNAL_BIT(SIG_VBAT))) return;
   const char *const vbat = c->of[SIG_VBAT].column;
-  snprintf(text, sizeof text, "column %s: missing; the thrust map needs the battery's voltage",
+  snprintf(text, LOG_MOTORS_LACKS, "column %s: missing; the thrust map needs the battery's voltage",
            vbat[0] ? vbat : "for vbat");
-  return text;
 }
 
 static log_motors_kind_t kind_of(const columns_t *c, signals_t has) {
@@ -62,23 +61,24 @@ static log_motors_kind_t kind_of(const columns_t *c, signals_t has) {
   return LOG_MOTORS_NONE;
 }
 
-const char *log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *vehicle,
-                            signals_t *has) {
+void log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *vehicle, signals_t *has,
+                     char lacks[LOG_MOTORS_LACKS]) {
   *m = (log_motors_t){.kind = kind_of(columns, *has), .total_logged = *has & THRUST && !columns->mixed_pwm};
   const bool by_map =
       m->kind == LOG_MOTORS_MAP || m->kind == LOG_MOTORS_MIX_PWM || m->kind == LOG_MOTORS_TOTAL_PWM;
   const bool speed = m->kind == LOG_MOTORS_MAP && columns->motors == MOTORS_RADPS;
-  const char *const lacks = by_map ? map_lacks(columns, vehicle, speed, *has) : NULL;
+  lacks[0] = '\0';
+  if (by_map) map_lacks(columns, vehicle, speed, *has, lacks);
   if (m->kind == LOG_MOTORS_MIX_PWM) *has |= MOTORS;
-  if (lacks) {
+  if (lacks[0]) {
     if (columns->mixed_pwm) *has &= ~THRUST;
     if (m->kind != LOG_MOTORS_MIX_PWM) m->kind = m->total_logged ? LOG_MOTORS_TOTAL : LOG_MOTORS_NONE;
-    return m->total_logged ? NULL : lacks;
+    if (m->total_logged) lacks[0] = '\0';
+    return;
   }
   if (m->kind == LOG_MOTORS_MIX) unmix(m, &vehicle->frame);
   if (m->kind != LOG_MOTORS_NONE) *has |= THRUST;
   if (m->kind >= LOG_MOTORS_EACH) *has |= NEWTON;
-  return NULL;
 }
 
 // The map's lower bound must not hide a gap.

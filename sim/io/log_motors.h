@@ -22,10 +22,11 @@ typedef struct {
   double unmix[ROTORS][4]; // newton of each rotor per newton and Nm
 } log_motors_t;
 
-// `has`: signals that the rows have; what the motors add is set in it. Returns null, or why what the log says
-// of its motors cannot be told in newton (text, good until the next call).
-const char *log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *vehicle,
-                            signals_t *has);
+// `has`: signals that the rows have; what the motors add is set in it. lacks: why what the log says of its
+// motors cannot be told in newton; empty: it can.
+#define LOG_MOTORS_LACKS 200
+void log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *vehicle, signals_t *has,
+                     char lacks[LOG_MOTORS_LACKS]);
 
 // Fills v[SIG_THRUST], v[SIG_F*] and, from a mix in pwm, v[SIG_M*]. True if a motor is at its limit.
 bool log_motors_fill(const log_motors_t *m, const columns_t *columns, const model_t *vehicle,

@@ -33,10 +33,10 @@ static status_t bind(log_rows_t *r, why_t *why) {
 static status_t derive(log_rows_t *r, why_t *why) {
   if (has(r, TILT)) r->has |= QUATERNION;
   if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~BITS(SIG_AX, SIG_AZ);
-  const char *const lacks = log_motors_init(&r->motors, &r->columns, &r->vehicle, &r->has);
-  if (lacks) snprintf(r->lacks, sizeof r->lacks, "%s", lacks);
-  if (!lacks || r->care == LOG_MEND) return ST_OK;
-  return table_refuse(&r->table, 0, strncmp(lacks, "column", 6) == 0 ? -1 : r->at[SIG_M1], why, "%s", lacks);
+  log_motors_init(&r->motors, &r->columns, &r->vehicle, &r->has, r->lacks);
+  if (!r->lacks[0] || r->care == LOG_MEND) return ST_OK;
+  return table_refuse(&r->table, 0, strncmp(r->lacks, "column", 6) == 0 ? -1 : r->at[SIG_M1], why, "%s",
+                      r->lacks);
 }
 
 static status_t check_need(const log_rows_t *r, signals_t need, why_t *why) {

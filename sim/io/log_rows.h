@@ -28,8 +28,9 @@ typedef struct {
   int at[SIG_COUNT]; // column in the table, -1: none
   signals_t has;     // what rows deliver
   log_motors_t motors;
-  char lacks[200]; // LOG_MEND: why commands are not told in newton; "": they are, or there are none
-  bool any;        // `last` is one
+  char lacks[LOG_MOTORS_LACKS]; // LOG_MEND: why commands are not told in newton; "": they are, or there are
+                                // none
+  bool any;                     // `last` is one
   log_row_t last;
   double vbat_V;     // the last one known
   long missing, bad; // cells

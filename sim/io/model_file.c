@@ -5,9 +5,14 @@
 #include "io/effect_spec.h"
 #include "io/frame_file.h"
 #include "io/toml.h"
+#include "plant/vertical.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+// Thrust over weight. The thesis's quickest vehicle has 20, racers 15.
+#define LIFT_MIN 1.0
+#define LIFT_MAX 50.0
 
 static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
   static const char *const keys[] = {"kind", "c", NULL};
@@ -130,6 +135,20 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
   return ST_OK;
 }
 
+// Grams for kilograms, or millinewton for newton, make a vehicle that cannot leave the ground or that no step
+// of the integrator follows.
+static status_t check_lift(toml_t root, const model_t *m, why_t *why) {
+  const double weight_N = m->mass_kg * PLANT_GRAVITY_MPS2, lift = m->thrust_max_N / weight_N;
+  if (lift > LIFT_MIN && lift <= LIFT_MAX) return ST_OK;
+  const double most_kg = m->thrust_max_N / PLANT_GRAVITY_MPS2;
+  if (!(most_kg > 0.0))
+    return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than the weight, %.3g N",
+                       m->thrust_max_N, weight_N);
+  return toml_refuse(root, "mass_kg", why,
+                     "%g kg weigh %.3g N, and thrust_max_N is %g; allowed with that: %.3g to %.3g kg",
+                     m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
+}
+
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
       "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
@@ -138,6 +157,7 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
+  TRY(check_lift(root, m, why));
   if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.05, 1e3, &m->ceiling_m, why));
   if (toml_has(root, "wall_y_m")) TRY(toml_double(root, "wall_y_m", -1e3, 1e3, &m->wall_y_m, why));
   if (toml_has(root, "thrust_map")) {
