@@ -40,6 +40,7 @@ typedef struct {
   csv_file_t *file;
   int column[COLUMNS];
   double last[COLUMNS];      // row before
+  bool moved[COLUMNS];       // between any two rows
   double lagged[3];          // motors
   double sent[DELAY_MAX][3]; // the newest commands, by tick
   signal_t rate[3], motor[3];
@@ -183,6 +184,8 @@ static status_t take_rows(pass_t *p, why_t *why) {
     TRY(read_row(p, row, why));
     long n = 0;
     if (p->since_start >= 0) TRY(ticks_since(p, row, &n, why));
+    for (int i = 0; i < COLUMNS && p->since_start >= 0; i++)
+      p->moved[i] = p->moved[i] || row[i] != p->last[i];
     if (n == 0) start(p, row);
     if (n == 0 && p->job->as_stock) tick(p, row, row);
     bridge(p, row, n);
@@ -201,10 +204,12 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
                      "%s: no row counts; allowed: controller.cmd_thrust of %g and more (--thrust-min), "
                      "%g s after a start",
                      csv_path(p->file), p->job->thrust_min, EFFECTIVENESS_SETTLE_S);
-  if (!(s->uu > 0.0))
+  // Filters round: what stands still leaves a little that is no movement.
+  const bool commanded = p->moved[COMMAND + axis] && s->uu > 0.0 && (n == 1 || s->vv > 0.0);
+  if (!commanded || !p->moved[RATE + axis] || !(s->yy > 0.0))
     return error_set(why,
                      "%s: column %s: never moves while it counts (%ld ticks); allowed: a flight that turns",
-                     csv_path(p->file), names[COMMAND + axis], r->used);
+                     csv_path(p->file), names[(commanded ? RATE : COMMAND) + axis], r->used);
   // Both unknowns in rad/s2 of their own regressor's rms, so that the matrix is well scaled.
   const double ku = sqrt(s->uu), kv = n == 2 ? sqrt(s->vv) : 1.0;
   const double A[4] = {1.0, s->uv / (ku * kv), s->uv / (ku * kv), 1.0}, b[2] = {s->uy / ku, s->vy / kv};
@@ -213,7 +218,9 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
   r->g1[axis] = x[0] / ku;
   if (n == 2) r->g2 = x[1] / kv;
   r->explained[axis] = (x[0] * b[0] + x[1] * b[1] * (n == 2)) / s->yy;
-  return ST_OK;
+  if (isfinite(r->g1[axis]) && isfinite(r->g2) && isfinite(r->explained[axis])) return ST_OK;
+  return error_set(why, "%s: columns %s, %s: too large to be fitted; allowed: rad/s and 16-bit units",
+                   csv_path(p->file), names[RATE + axis], names[COMMAND + axis]);
 }
 
 static status_t fit(pass_t *p, why_t *why) {

@@ -9,7 +9,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#define FIELDS_MAX 64
+#define FIELDS_MAX  64
+#define MOTOR_MAX_N 200.0 // as of any log (io/columns.c)
 
 typedef struct {
   int column, type;
@@ -61,6 +62,9 @@ static status_t compare(const player_t *p, replay_t *r, why_t *why) {
   for (int i = 0; i < MOTORS; i++) {
     double logged;
     TRY(csv_number(p->file, p->motor[i], CSV_GAP_REFUSED, &logged, why));
+    if (!(fabs(logged) <= MOTOR_MAX_N))
+      return csv_refuse(p->file, p->motor[i], why, "%g N is not plausible; allowed: -%g to %g N", logged,
+                        MOTOR_MAX_N, MOTOR_MAX_N);
     const float now_N = p->flight.out.motors.force_N[i], then_N = (float)logged;
     differs = differs || memcmp(&now_N, &then_N, sizeof now_N) != 0;
     r->worst_N = fmax(r->worst_N, fabs((double)now_N - (double)then_N));

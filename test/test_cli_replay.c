@@ -56,6 +56,11 @@ TEST(replay_refuses_what_it_cannot_play) {
       {"echo indiPos.kp=1e9 >$S/p.txt; fly --replay $S/l.csv --set-from $S/p.txt",
        "p.txt:1: --set indiPos.kp=1e9: allowed is a number from 0.05 to 20\n"},
       {"fly --replay $S/l.csv --set-from $S/none.txt", "none.txt: cannot be read\n"},
+      // More than a float holds: line 4's command of motor 2.
+      {FLY
+       " >/dev/null; awk -F, -v OFS=, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == \"indi.m2\") m = i } "
+       "NR == 4 { $m = \"1e300\" } 1' $S/calls.csv >$S/huge.csv; fly --replay $S/huge.csv",
+       "huge.csv:4: column indi.m2: 1e+300 N is not plausible; allowed: -200 to 200 N\n"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     char text[600];

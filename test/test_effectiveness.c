@@ -156,3 +156,59 @@ TEST(effectiveness_refuses_bad_logs_with_one_line) {
     CHECK(found.rows == -1);
   }
 }
+
+// A second and a half of one row every 2 ms: sines in every column, but for one that stands still or is 1e200
+// times as large.
+static const char *spoilt(int column, double times) {
+  const char *path = scratch_path("spoilt.csv");
+  FILE *file = fopen(path, "w");
+  if (!file) return path;
+  fputs(HEAD, file);
+  for (int i = 0; i < 750; i++) {
+    double v[8];
+    for (int k = 0; k < 8; k++) v[k] = k == 4 ? 40000.0 : (k < 4 ? 0.3 : 900.0) * sin(0.02 * (k + 3) * i);
+    if (column > 0) v[column] = times > 0.0 ? times * v[column] : 0.3;
+    fprintf(file, "%d", 2 * i);
+    for (int k = 1; k < 8; k++) fprintf(file, ",%.9g", v[k]);
+    fputc('\n', file);
+  }
+  fclose(file);
+  return path;
+}
+
+TEST(effectiveness_is_a_number_or_refused) {
+  static const struct {
+    const char *what;
+    int column;
+    double times; // 0: the column stands still
+    const char *line;
+  } row[] = {
+      {"all move", 0, 0.0, ""},
+      {"the gyro's roll stands", 1, 0.0,
+       "spoilt.csv: column controller.r_roll: never moves while it counts (500 ticks); "
+       "allowed: a flight that turns"},
+      {"the gyro's yaw stands", 3, 0.0,
+       "spoilt.csv: column controller.r_yaw: never moves while it counts (500 ticks); "
+       "allowed: a flight that turns"},
+      {"the command of pitch stands", 6, 0.0,
+       "spoilt.csv: column controller.cmd_pitch: never moves while it counts (500 ticks); "
+       "allowed: a flight that turns"},
+      {"the command of yaw stands", 7, 0.0,
+       "spoilt.csv: column controller.cmd_yaw: never moves while it counts (500 ticks); "
+       "allowed: a flight that turns"},
+      {"a gyro without bounds", 2, 1e200,
+       "spoilt.csv: columns controller.r_pitch, controller.cmd_pitch: too large to be fitted; "
+       "allowed: rad/s and 16-bit units"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const effectiveness_job_t job = effectiveness_default();
+    effectiveness_t found = {.rows = -1};
+    why_t why = {""};
+    const status_t status = effectiveness_fit(spoilt(row[i].column, row[i].times), &job, &found, &why);
+    CHECK_STATUS(row[i].line[0] ? ST_BAD_INPUT : ST_OK, status);
+    CHECK_TEXT(scratch_short(why.text), row[i].line);
+    if (status != ST_OK) continue;
+    for (int k = 0; k < 3; k++) CHECK(isfinite(found.g1[k]) && isfinite(found.explained[k]));
+  }
+}
