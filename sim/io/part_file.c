@@ -1,93 +1,135 @@
-// part_file.c - files that do not outlive an interruption.
-#define _XOPEN_SOURCE 700 // mkstemp, sigaction
+// part_file.c - files that have no name until they are complete.
+#define _GNU_SOURCE // O_TMPFILE
 #include "io/part_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#define NAME_MAX_BYTES 4096
+#define PATH_BYTES 4200
+#define LINK_BYTES 40 // "/proc/self/fd/" and a number
+#define TRIES      100
 
-// A signal handler can read nothing but what stands still: `taken` says which names do.
-static char names[PART_FILES_MAX][NAME_MAX_BYTES];
-static volatile sig_atomic_t taken[PART_FILES_MAX];
-static volatile sig_atomic_t holds, waiting;
+// --- signals ------------------------------------------------------------------------------------------
 
-// Only calls that POSIX allows in a signal handler.
-static void interrupted(int number) {
-  if (holds > 0) {
-    waiting = number;
-    return;
-  }
-  for (int i = 0; i < PART_FILES_MAX; i++)
-    if (taken[i]) unlink(names[i]);
-  signal(number, SIG_DFL);
-  raise(number);
-}
+// All that end a process by default and can be waited with: a crash (SIGSEGV ..) cannot.
+static const int SIGNALS[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGABRT, SIGPIPE,   SIGALRM, SIGTERM, SIGUSR1,
+                              SIGUSR2, SIGXCPU, SIGXFSZ, SIGPROF, SIGVTALRM, SIGIO,   SIGPWR};
+#define SIGNALS_ALL ((int)(sizeof SIGNALS / sizeof *SIGNALS))
 
-static void listen(void) {
-  static const int number[] = {SIGINT, SIGTERM, SIGHUP};
-  for (unsigned i = 0; i < sizeof number / sizeof *number; i++) {
-    struct sigaction old, ours = {.sa_handler = interrupted, .sa_flags = SA_RESTART};
-    sigemptyset(&ours.sa_mask);
-    const bool free = sigaction(number[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL;
-    if (free) sigaction(number[i], &ours, NULL);
-  }
+static volatile sig_atomic_t waiting[SIGNALS_ALL];
+static bool ours[SIGNALS_ALL];
+
+static void note(int number) {
+  for (int i = 0; i < SIGNALS_ALL; i++)
+    if (SIGNALS[i] == number) waiting[i] = 1;
 }
 
 void part_hold(void) {
-  holds++;
+  for (int i = 0; i < SIGNALS_ALL; i++) {
+    struct sigaction old, hold = {.sa_handler = note, .sa_flags = SA_RESTART};
+    sigemptyset(&hold.sa_mask);
+    ours[i] = sigaction(SIGNALS[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL;
+    if (ours[i]) sigaction(SIGNALS[i], &hold, NULL);
+  }
 }
 
 void part_release(void) {
-  holds--;
-  if (holds > 0 || !waiting) return;
-  const int number = waiting;
-  waiting = 0;
-  raise(number);
-}
-
-// -1: there is none.
-static int index_of(const char *name) {
-  for (int i = 0; i < PART_FILES_MAX; i++)
-    if (name ? taken[i] && strcmp(names[i], name) == 0 : !taken[i]) return i;
-  return -1;
-}
-
-static void forget(const char *name) {
-  const int at = index_of(name);
-  if (at >= 0) taken[at] = 0;
-}
-
-int part_file_open(char *name) {
-  const int at = index_of(NULL);
-  if (at < 0 || strlen(name) >= NAME_MAX_BYTES) {
-    errno = at < 0 ? EMFILE : ENAMETOOLONG;
-    return -1;
+  for (int i = 0; i < SIGNALS_ALL; i++)
+    if (ours[i]) signal(SIGNALS[i], SIG_DFL);
+  for (int i = 0; i < SIGNALS_ALL; i++) {
+    if (waiting[i]) raise(SIGNALS[i]);
+    waiting[i] = 0;
   }
-  listen();
+}
+
+// --- files --------------------------------------------------------------------------------------------
+
+static const char *own_link(const part_t *p, char text[LINK_BYTES]) {
+  snprintf(text, LINK_BYTES, "/proc/self/fd/%d", p->file);
+  return text;
+}
+
+bool part_open_unlinked(part_t *p, const char *folder) {
+  char name[PATH_BYTES];
+  *p = (part_t){.file = -1};
+  if (snprintf(name, sizeof name, "%s/.part-XXXXXX", folder) >= (int)sizeof name) {
+    errno = ENAMETOOLONG;
+    return false;
+  }
   part_hold();
-  const int file = mkstemp(name);
-  if (file >= 0) {
-    memcpy(names[at], name, strlen(name) + 1);
-    atomic_thread_fence(memory_order_release); // the name first: the handler may run in another thread
-    taken[at] = 1;
-  }
+  p->file = mkostemp(name, O_CLOEXEC);
+  if (p->file >= 0) unlink(name);
   part_release();
-  return file;
+  return p->file >= 0;
 }
 
-void part_file_remove(const char *name) {
-  remove(name);
-  forget(name);
+bool part_open(part_t *p, const char *folder) {
+  char text[LINK_BYTES];
+  struct stat s;
+  p->file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  // A name is given through /proc, which a bare root may lack.
+  p->linkable = p->file >= 0 && stat(own_link(p, text), &s) == 0;
+  if (p->file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return p->file >= 0;
+  return part_open_unlinked(p, folder);
 }
 
-bool part_file_move(const char *name, const char *place) {
-  if (rename(name, place) != 0) return false;
-  forget(name);
+int part_writer(const part_t *p) {
+  return fcntl(p->file, F_DUPFD_CLOEXEC, 0);
+}
+
+// The name's last letters, not yet there: by process and attempt.
+static void draw(char *tail, int attempt) {
+  static const char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+  unsigned long number = (unsigned long)getpid() * TRIES + (unsigned long)attempt;
+  for (int i = 0; i < 6; i++, number /= sizeof letters - 1) tail[i] = letters[number % (sizeof letters - 1)];
+}
+
+static bool link_to(const part_t *p, char *name) {
+  char text[LINK_BYTES];
+  for (int i = 0; i < TRIES; i++) {
+    draw(name + strlen(name) - 6, i);
+    if (linkat(AT_FDCWD, own_link(p, text), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0) return true;
+    if (errno != EEXIST) return false;
+  }
+  return false;
+}
+
+static bool copy(int from, int to) {
+  char block[65536];
+  off_t at = 0;
+  for (ssize_t n; (n = pread(from, block, sizeof block, at)) != 0; at += n) {
+    if (n < 0) return false;
+    for (ssize_t done = 0, more; done < n; done += more)
+      if ((more = write(to, block + done, (size_t)(n - done))) < 0) return false;
+  }
   return true;
+}
+
+static bool copy_to(const part_t *p, char *name) {
+  struct stat s;
+  const int file = fstat(p->file, &s) == 0 ? mkostemp(name, O_CLOEXEC) : -1;
+  if (file < 0) return false;
+  (void)!fchown(file, s.st_uid, s.st_gid); // only root may; the others keep theirs
+  bool good = fchmod(file, s.st_mode & 07777) == 0 && copy(p->file, file);
+  if (close(file) != 0) good = false;
+  if (good) return true;
+  const int cause = errno;
+  unlink(name);
+  errno = cause;
+  return false;
+}
+
+bool part_name(const part_t *p, char *name) {
+  return p->linkable ? link_to(p, name) : copy_to(p, name);
+}
+
+void part_close(part_t *p) {
+  if (p->file >= 0) close(p->file);
+  p->file = -1;
 }

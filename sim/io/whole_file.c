@@ -2,7 +2,6 @@
 #define _XOPEN_SOURCE 700 // realpath, fchown
 #include "io/whole_file.h"
 
-#include "io/part_file.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,19 +18,20 @@ static int folder_size(const char *path) {
   return slash ? (int)(slash - path) + 1 : 0;
 }
 
-// The path without links, so that two ways to one place compare equal. False: errno says why.
-static bool resolve(const char *path, bool there, char target[WHOLE_PATH_MAX]) {
+// The path with a folder without links, so that two ways to one place compare equal. The last part of it is
+// no link. False: errno says why.
+static bool resolve(const char *path, char target[WHOLE_PATH_MAX]) {
   char folder[WHOLE_PATH_MAX];
   const int size = folder_size(path);
-  const char *const name = there ? "" : path + size;
-  if (!there && name[0] == '\0') return false;
-  if (snprintf(folder, sizeof folder, "%.*s", size, size ? path : "") >= (int)sizeof folder) {
+  errno = ENOENT;
+  if (path[size] == '\0') return false;
+  if (snprintf(folder, sizeof folder, "%.*s", size, path) >= (int)sizeof folder) {
     errno = ENAMETOOLONG;
     return false;
   }
-  char *const real = realpath(there ? path : size ? folder : ".", NULL);
+  char *const real = realpath(size ? folder : ".", NULL);
   if (!real) return false;
-  const int used = snprintf(target, WHOLE_PATH_MAX, "%s%s%s", real, there ? "" : "/", name);
+  const int used = snprintf(target, WHOLE_PATH_MAX, "%s%s%s", real, real[1] == '\0' ? "" : "/", path + size);
   free(real);
   if (used >= WHOLE_PATH_MAX) errno = ENAMETOOLONG;
   return used < WHOLE_PATH_MAX;
@@ -58,37 +58,37 @@ static status_t open_direct(whole_file_t *f, const char *path, const struct stat
 static status_t open_beside(whole_file_t *f, const char *path, const struct stat *there, why_t *why) {
   // Moving a file there would not ask.
   if (there && access(f->target, W_OK) != 0) return cannot(path, why);
-  const int used =
-      snprintf(f->beside, sizeof f->beside, "%.*s.part-XXXXXX", folder_size(f->target), f->target);
-  if (used >= (int)sizeof f->beside) return error_set(why, "%.60s...: the path is too long", path);
-  const int file = part_file_open(f->beside);
-  if (file < 0) return cannot(path, why);
+  char folder[WHOLE_PATH_MAX];
+  const int size = folder_size(f->target);
+  snprintf(folder, sizeof folder, "%.*s", size, f->target);
+  if (!part_open(&f->part, folder)) return cannot(path, why);
   const mode_t mask = umask(0);
   umask(mask);
-  if (there) (void)!fchown(file, there->st_uid, there->st_gid); // only root may; the others keep theirs
-  (void)!fchmod(file, there ? there->st_mode & 07777 : 0666 & ~mask);
-  f->file = fdopen(file, "w");
+  if (there) (void)!fchown(f->part.file, there->st_uid, there->st_gid); // only root may; others keep theirs
+  (void)!fchmod(f->part.file, there ? there->st_mode & 07777 : 0666 & ~mask);
+  const int writer = part_writer(&f->part);
+  f->file = writer < 0 ? NULL : fdopen(writer, "w");
   if (f->file) return ST_OK;
-  close(file);
-  part_file_remove(f->beside);
+  if (writer >= 0) close(writer);
+  part_close(&f->part);
   return error_failed(why, "%.300s: %s", path, strerror(errno));
 }
 
 static status_t open_one(whole_file_t *f, const char *path, why_t *why) {
-  struct stat s;
+  struct stat s, link;
   const bool there = stat(path, &s) == 0;
   if (!there && errno != ENOENT) return cannot(path, why);
-  if (!there && lstat(path, &s) == 0)
-    return error_set(why, "%.300s: a link to nowhere; allowed: a file", path);
+  const bool linked = lstat(path, &link) == 0 && S_ISLNK(link.st_mode);
   if (there && S_ISDIR(s.st_mode)) return error_set(why, "%.300s: a folder; allowed: a file", path);
   const bool file = !there || (S_ISREG(s.st_mode) && !is_output(&s));
-  errno = ENOENT;
-  // Pipes of the shell have no path behind the link.
-  if (!resolve(path, there, f->target)) {
-    if (file) return cannot(path, why);
-    snprintf(f->target, sizeof f->target, "%s", path);
-  }
-  return file ? open_beside(f, path, there ? &s : NULL, why) : open_direct(f, path, &s, why);
+  if (linked && file)
+    return error_set(why, "%.300s: a symbolic link; allowed: a file, or a name that is not taken", path);
+  if (file && !resolve(path, f->target)) return cannot(path, why);
+  if (file) return open_beside(f, path, there ? &s : NULL, why);
+  char *const real = realpath(path, NULL); // none behind the link to a pipe of the shell
+  snprintf(f->target, sizeof f->target, "%s", real ? real : path);
+  free(real);
+  return open_direct(f, path, &s, why);
 }
 
 status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why) {
@@ -99,7 +99,7 @@ status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t
   struct stat output;
   if (fstat(STDOUT_FILENO, &output) != 0) return error_failed(why, "standard output: it is closed");
   whole_file_t *const f = &w->of[w->n];
-  *f = (whole_file_t){.file = NULL};
+  *f = (whole_file_t){.part = {.file = -1}};
   TRY(open_one(f, path, why));
   w->n++;
   for (int i = 0; i + 1 < w->n; i++)
@@ -110,12 +110,12 @@ status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t
 }
 
 status_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why) {
-  char real[WHOLE_PATH_MAX];
-  if (!path || !resolve(path, true, real)) return ST_OK;
-  for (int i = 0; i < w->n; i++)
-    if (!w->of[i].direct && strcmp(w->of[i].target, real) == 0)
-      return error_set(why, "%.300s: to be read and to be written; allowed: one of them", path);
-  return ST_OK;
+  char *const real = path ? realpath(path, NULL) : NULL;
+  bool written = false;
+  for (int i = 0; real && i < w->n; i++)
+    written = written || (!w->of[i].direct && strcmp(w->of[i].target, real) == 0);
+  free(real);
+  return written ? error_set(why, "%.300s: to be read and to be written; allowed: one of them", path) : ST_OK;
 }
 
 static bool copy(FILE *from, FILE *to) {
@@ -134,20 +134,32 @@ static void close_file(FILE **file, bool *good) {
   *file = NULL;
 }
 
-// All but the move: after this nothing that is common can fail any more.
+static status_t not_written(const whole_file_t *f, why_t *why) {
+  return error_failed(why, "%.300s: cannot be written: %s", f->target, strerror(errno));
+}
+
 static status_t finish(whole_file_t *f, why_t *why) {
   errno = EIO;
   bool good = fflush(f->file) == 0 && !ferror(f->file);
   if (good && f->direct) good = copy(f->file, f->direct);
   close_file(&f->file, &good);
   close_file(&f->direct, &good);
-  return good ? ST_OK : error_failed(why, "%.300s: cannot be written: %s", f->target, strerror(errno));
+  return good ? ST_OK : not_written(f, why);
+}
+
+// After this nothing that is common can fail any more.
+static status_t name(whole_file_t *f, why_t *why) {
+  if (f->part.file < 0) return ST_OK;
+  const int used =
+      snprintf(f->beside, sizeof f->beside, "%.*s.part-XXXXXX", folder_size(f->target), f->target);
+  if (used < (int)sizeof f->beside && part_name(&f->part, f->beside)) return ST_OK;
+  f->beside[0] = '\0';
+  return not_written(f, why);
 }
 
 static status_t move(whole_file_t *f, why_t *why) {
   if (f->beside[0] == '\0') return ST_OK;
-  if (!part_file_move(f->beside, f->target))
-    return error_failed(why, "%.300s: cannot be written: %s", f->target, strerror(errno));
+  if (rename(f->beside, f->target) != 0) return not_written(f, why);
   f->beside[0] = '\0';
   return ST_OK;
 }
@@ -161,9 +173,10 @@ status_t whole_files_commit(whole_files_t *w, why_t *why) {
   for (int i = 0; i < w->n && status == ST_OK; i++)
     if (w->of[i].direct) status = finish(&w->of[i], why);
   part_hold(); // all in their places, or none
+  for (int i = 0; i < w->n && status == ST_OK; i++) status = name(&w->of[i], why);
   for (int i = 0; i < w->n && status == ST_OK; i++) status = move(&w->of[i], why);
-  part_release();
   whole_files_drop(w);
+  part_release();
   return status;
 }
 
@@ -172,7 +185,8 @@ void whole_files_drop(whole_files_t *w) {
     bool good = true;
     close_file(&w->of[i].file, &good);
     close_file(&w->of[i].direct, &good);
-    if (w->of[i].beside[0]) part_file_remove(w->of[i].beside);
+    if (w->of[i].beside[0]) unlink(w->of[i].beside);
+    part_close(&w->of[i].part);
   }
   w->n = 0;
 }

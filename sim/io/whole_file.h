@@ -1,12 +1,14 @@
 // whole_file.h - what a program writes: every file complete, or none of them there.
 //
 // All are opened first, filled, and put in their places together at the end. What is a file, or not there
-// yet, is written beside its place and moved there; through a symbolic link it is the link's target that is
-// replaced. What is no file (a device, a pipe, the standard output) gets its text at the end, in one go.
+// yet, has no name until then (io/part_file.h) and is moved to its place. A symbolic link to a file is
+// refused: it is neither followed nor replaced. What is no file (a device, a pipe, the standard output), also
+// through a link, gets its text at the end, in one go.
 #ifndef SIM_IO_WHOLE_FILE_H
 #define SIM_IO_WHOLE_FILE_H
 
 #include "error.h"
+#include "io/part_file.h"
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -17,7 +19,8 @@ typedef struct {
   FILE *file;                  // to write to
   FILE *direct;                // the device or pipe that gets the text at the end; null: it is a file
   char target[WHOLE_PATH_MAX]; // its place, without links
-  char beside[WHOLE_PATH_MAX]; // where it is until then; empty: in a file without a name
+  part_t part;                 // where it is until the end, if direct is null
+  char beside[WHOLE_PATH_MAX]; // its name between the end and its place; empty: none
 } whole_file_t;
 
 // All zero: none.
@@ -26,8 +29,8 @@ typedef struct {
   int n;
 } whole_files_t;
 
-// One more file to write, *file; path null: none, *file null. ST_BAD_INPUT: a folder, a link to nowhere, a
-// place that another one of the files has already, or that cannot be written.
+// One more file to write, *file; path null: none, *file null. ST_BAD_INPUT: a folder, a symbolic link to a
+// file or to nowhere, a place that another one of the files has already, or that cannot be written.
 MUST_CHECK status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why);
 
 // ST_BAD_INPUT: this file, which is read (null: none is), would be written too.
