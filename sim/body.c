@@ -13,6 +13,11 @@
 double body_rest_z_m(const model_t *model) {
   return model->frame.cg_above_feet_m;
 }
+body_start_t body_standing(const model_t *model) {
+  const d3_t up = model_floor_up_w(model); // the shortest turn from level to it
+  return (body_start_t){.pos_w_m = d3_scale(body_rest_z_m(model), up),
+                        .q_wb = dq_unit((dq_t){1.0 + up.z, -up.y, up.x, 0.0})};
+}
 double body_rotor_z_m(const model_t *model) {
   return model->frame.rotor_above_feet_m - model->frame.cg_above_feet_m;
 }
@@ -29,7 +34,7 @@ static void derivative(void *self, const double *y, double *dydt) {
 }
 
 static void look_now(body_t *b) {
-  body_look(b, TOUCH_FLOOR | TOUCH_CEILING, b->y, &b->look);
+  body_look(b, TOUCH_FLOOR | TOUCH_CEILING | TOUCH_WALL, b->y, &b->look);
   b->look_is_y = true;
 }
 
@@ -57,6 +62,7 @@ static void take_start(body_t *b, const body_start_t *start) {
   // A delay of k ticks brings the first k times what the motors do already.
   for (int i = 0; i < BODY_QUEUE; i++) memcpy(b->queue_N[i], start->thrust_N, sizeof b->queue_N[i]);
   b->rigid.vertical_only = start->vertical_only;
+  b->rigid.held = start->held;
   b->charge = 1.0 - start->discharged;
 }
 
@@ -88,8 +94,7 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
                        .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
-  b->touch.ceiling_m = model->ceiling_m;
-  b->touch.disc_radius_m = model->rotor_radius_m;
+  body_surround(&b->touch, model);
   body_place(b, b->plant.cg_b_m);
   collect_effects(b);
   take_start(b, start);
@@ -105,6 +110,13 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   const status_t status = integrate_open(&b->integrate, kind, &ode);
   if (status != ST_OK) body_close(b);
   return status;
+}
+
+void body_hold(body_t *b, bool held) {
+  b->rigid.held = held;
+  for (int i = 0; held && i < 3; i++) b->y[RIGID_VEL_MPS + i] = b->y[RIGID_RATE_RADPS + i] = 0.0;
+  b->look_is_y = false;
+  look_now(b);
 }
 
 void body_close(body_t *b) {
@@ -124,7 +136,7 @@ static int touched(bool *on, double gap_m) {
 
 static void watch_contacts(body_t *b) {
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
-  const touch_gap_t gap = touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &axes);
+  const touch_gap_t gap = touch_gap(&b->touch, d3_of(b->y + RIGID_POS_M), &axes);
   b->floor_contacts += touched(&b->on_floor, gap.floor_m);
   b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
 }
@@ -133,8 +145,11 @@ static void watch_contacts(body_t *b) {
 static int surfaces_within(const body_t *b, double span_s) {
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS);
-  const double speed = fabs(b->y[RIGID_VEL_MPS + 2]) + b->touch.beside_m * (fabs(rate.x) + fabs(rate.y));
-  return touch_near(&b->touch, b->y[RIGID_POS_M + 2], &axes, MARGIN_M + speed * span_s);
+  const d3_t vel = d3_of(b->y + RIGID_VEL_MPS);
+  const bool level = b->touch.floor_up_w.z == 1.0 && !isfinite(b->touch.wall_y_m);
+  const double speed = (level ? fabs(vel.z) : d3_norm(vel)) +
+                       b->touch.beside_m * (fabs(rate.x) + fabs(rate.y) + (level ? 0.0 : fabs(rate.z)));
+  return touch_near(&b->touch, d3_of(b->y + RIGID_POS_M), &axes, MARGIN_M + speed * span_s);
 }
 
 static void advance(body_t *b, double span_s) {
@@ -224,5 +239,5 @@ double body_thrust_ratio(const body_t *b, int rotor) {
 }
 
 touch_gap_t body_clearance(const body_t *b) {
-  return touch_gap(&b->touch, b->y[RIGID_POS_M + 2], &b->look.axes);
+  return touch_gap(&b->touch, d3_of(b->y + RIGID_POS_M), &b->look.axes);
 }

@@ -3,8 +3,8 @@
 // alone.
 //
 // Each rotor has its own distance from ceiling and ground, along the world's vertical from its centre;
-// ceiling and ground effect add their excess (thesis 3.1.4). The floor is at z = 0, the ceiling at
-// model.ceiling_m.
+// ceiling and ground effect add their excess (thesis 3.1.4). The floor goes through the origin and may slope;
+// the ceiling is at model.ceiling_m, a wall that is solid at model.wall_y_m.
 #ifndef SIM_BODY_H
 #define SIM_BODY_H
 
@@ -26,6 +26,7 @@ typedef struct {
   double discharged;       // 0: the battery is full, 1: empty
   uint64_t seed;           // of what is random (gusts)
   bool vertical_only;      // all but height, climb and thrust stand still
+  bool held;               // as by body_hold()
 } body_start_t;
 
 // All that the derivative at a state needs besides the commands.
@@ -82,6 +83,15 @@ d3_t body_angular_acc_b_radps2(const body_t *b);
 double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
 double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by
 touch_gap_t body_clearance(const body_t *b);           // of the point that is nearest; below 0: in contact
+
+// Something holds the vehicle where it is, whatever the rotors do; or lets go of it.
+void body_hold(body_t *b, bool held);
+
+// At rest on the floor over the origin, motors off, x forward as far as the floor is level.
+body_start_t body_standing(const model_t *model);
+
+// Floor, ceiling, wall and the rotors' radius, as the model has them.
+void body_surround(touch_t *t, const model_t *model);
 
 // Height of the centre of mass at rest on the floor, level.
 double body_rest_z_m(const model_t *model);

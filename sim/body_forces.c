@@ -8,37 +8,32 @@
 
 // --- forces -------------------------------------------------------------------------------------------
 
-static fx_place_t place_of(const body_t *b, double z_m, const axes_t *axes, int rotor) {
-  const double rotor_z_m = z_m + b->rigid.rotor_x_m[rotor] * axes_up_b(axes).x +
-                           b->rigid.rotor_y_m[rotor] * axes_up_b(axes).y +
-                           b->rigid.rotor_z_m[rotor] * axes_up_b(axes).z;
-  const double above_m = b->touch.ceiling_m - rotor_z_m;
-  return (fx_place_t){.ceiling_gap_m = above_m > 0.0 ? above_m : 0.0,
-                      .ground_gap_m = rotor_z_m > 0.0 ? rotor_z_m : 0.0,
-                      .radius_m = b->model->rotor_radius_m};
+// How far each rotor is from the place of the centre of mass, along a direction in body axes.
+static inline pair_t along(const rigid_t *r, int i, d3_t to) {
+  return to.x * pair_of(r->rotor_x_m + i) + to.y * pair_of(r->rotor_y_m + i) +
+         to.z * pair_of(r->rotor_z_m + i);
 }
 
-// Where the rotors are; z_m: height of the centre of mass.
-static inline fx_places_t places_of(const body_t *b, double z_m, const axes_t *axes) {
-  const d3_t up = axes_up_b(axes);
+// Where the rotors are; pos_w_m: of the centre of mass.
+static inline fx_places_t places_of(const body_t *b, d3_t pos_w_m, const axes_t *axes) {
+  const d3_t up = axes_up_b(axes), floor_up = axes_to_body(axes, b->touch.floor_up_w);
+  const double above_m = touch_above_floor_m(&b->touch, pos_w_m);
   const rigid_t *r = &b->rigid;
   const pair_t zero = pair_both(0.0);
   fx_places_t at;
   at.radius_m = b->model->rotor_radius_m;
   for (int i = 0; i < ROTORS; i += 2) {
-    const pair_t rotor_z_m = z_m + (up.x * pair_of(r->rotor_x_m + i) + up.y * pair_of(r->rotor_y_m + i) +
-                                    up.z * pair_of(r->rotor_z_m + i));
-    pair_put(at.ceiling_gap_m + i, pair_max(b->touch.ceiling_m - rotor_z_m, zero));
-    pair_put(at.ground_gap_m + i, pair_max(rotor_z_m, zero));
+    pair_put(at.ceiling_gap_m + i, pair_max(b->touch.ceiling_m - (pos_w_m.z + along(r, i, up)), zero));
+    pair_put(at.ground_gap_m + i, pair_max(above_m + along(r, i, floor_up), zero));
   }
   return at;
 }
 
 // What the surroundings multiply each rotor's thrust by.
-static void look_at_surfaces(const body_t *b, double z_m, const axes_t *axes, double ratio[ROTORS]) {
+static void look_at_surfaces(const body_t *b, const double *y, const axes_t *axes, double ratio[ROTORS]) {
   for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
   if (b->n_excess == 0) return;
-  const fx_places_t at = places_of(b, z_m, axes);
+  const fx_places_t at = places_of(b, d3_of(y + RIGID_POS_M), axes);
   for (int k = 0; k < b->n_excess; k++) fx_add_excess(b->excess[k], &at, ratio);
 }
 
@@ -60,7 +55,7 @@ static void effects_load(const body_t *b, const double *y, const axes_t *axes, c
 
 static inline void look_at(const body_t *b, int surfaces, const double *y, body_look_t *look) {
   look->axes = axes_of(dq_of(y + RIGID_Q_WB));
-  look_at_surfaces(b, y[RIGID_POS_M + 2], &look->axes, look->ratio);
+  look_at_surfaces(b, y, &look->axes, look->ratio);
   rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
   look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
   if (!look->loaded) return;
@@ -69,7 +64,7 @@ static inline void look_at(const body_t *b, int surfaces, const double *y, body_
     look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
   if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
   if (!surfaces) return;
-  const int near = surfaces & touch_near(&b->touch, y[RIGID_POS_M + 2], &look->axes, 0.0);
+  const int near = surfaces & touch_near(&b->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);
   if (near) touch_load(&b->touch, near, y, &look->axes, &look->load);
 }
 
@@ -79,7 +74,7 @@ void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look
 
 void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look) {
   if (more->fx->excess) {
-    const fx_places_t at = places_of(b, y[RIGID_POS_M + 2], &look->axes);
+    const fx_places_t at = places_of(b, d3_of(y + RIGID_POS_M), &look->axes);
     fx_add_excess(more, &at, look->ratio);
   }
   if (!more->fx->load) return;
@@ -105,6 +100,13 @@ void body_derivative(const body_t *b, int surfaces, const double *y, double *dyd
 }
 
 // --- the model, as the effects leave it ------------------------------------------------------------------
+
+void body_surround(touch_t *t, const model_t *model) {
+  t->ceiling_m = model->ceiling_m;
+  t->wall_y_m = model->wall_solid ? model->wall_y_m : HUGE_VAL;
+  t->floor_up_w = model_floor_up_w(model);
+  t->disc_radius_m = model->rotor_radius_m;
+}
 
 void body_place(body_t *b, d3_t cg) {
   const frame_t *f = &b->model->frame;
@@ -150,7 +152,9 @@ void body_effects(body_t *b, double span_s) {
   b->plant = body_untouched(m);
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   fx_place_t place[ROTORS];
-  for (int i = 0; i < ROTORS; i++) place[i] = place_of(b, b->y[RIGID_POS_M + 2], &axes, i);
+  const fx_places_t at = places_of(b, d3_of(b->y + RIGID_POS_M), &axes);
+  for (int i = 0; i < ROTORS; i++)
+    place[i] = (fx_place_t){at.ceiling_gap_m[i], at.ground_gap_m[i], at.radius_m};
   for (int k = 0; k < m->n_fx; k++) {
     const fx_tick_t tick = {.t_s = b->t_s,
                             .span_s = span_s,

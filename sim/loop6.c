@@ -38,12 +38,15 @@ static truth_t truth_of(const flight6_t *f) {
   bool motors = false;
   for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
   const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
+  const d3_t floor_up_w = b->touch.floor_up_w, pos_w_m = d3_of(y + RIGID_POS_M);
+  const double floor_up = fmax(d3_dot(axes.z, floor_up_w), 1e-3);
   // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
   fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
                        .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
                        .range_rate_mps = -climb_mps};
-  fx_sensed_t below = {.range_m = (y[RIGID_POS_M + 2] - body_rest_z_m(f->model)) / up,
-                       .range_rate_mps = climb_mps};
+  fx_sensed_t below = {.range_m =
+                           (touch_above_floor_m(&b->touch, pos_w_m) - body_rest_z_m(f->model)) / floor_up,
+                       .range_rate_mps = d3_dot(floor_up_w, d3_of(y + RIGID_VEL_MPS)) / floor_up};
   model_sense(f->model, &above);
   model_sense(f->model, &below);
   return (truth_t){
@@ -155,6 +158,7 @@ static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *
   for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
     const double t_s = (double)tick * LOOP6_TICK_S;
     order(f, t_s);
+    if (f->body.rigid.held && t_s >= f->plan->held_s) body_hold(&f->body, false);
     const truth_t truth = truth_of(f);
     pilot_ms(f, &truth);
     pilot_ms(f, &truth);
@@ -172,8 +176,8 @@ static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *
 
 static status_t open(flight6_t *f, why_t *why) {
   const plan_t *plan = &f->plan->plan;
-  body_start_t start = {.pos_w_m = {.z = body_rest_z_m(f->model)}};
-  if (f->plan->in_flight) start = f->plan->start;
+  body_start_t start = f->plan->in_flight ? f->plan->start : body_standing(f->model);
+  start.held = f->plan->held_s > 0.0;
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
   const status_t opened = body_open(&f->body, f->model, plan->integrate,
                                     plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);

@@ -29,6 +29,7 @@ typedef struct {
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
+  double held_s;       // something holds the vehicle where it starts until then
   bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
   int record_every;    // ticks for a sample; 0: 5, that is 10 ms
   double take_off_s;   // the height is controlled from here on; before, the motors are off

@@ -52,6 +52,11 @@ status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
   return ST_OK;
 }
 
+d3_t model_floor_up_w(const model_t *m) {
+  const d3_t up = d3(0.0 - m->floor_rise_x, 0.0 - m->floor_rise_y, 1.0); // no -0 where it is level
+  return d3_scale(1.0 / d3_norm(up), up);
+}
+
 void model_drop_fx(model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++) {
     if (m->fx[i].fx != fx) continue;

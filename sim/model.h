@@ -37,7 +37,9 @@ typedef struct {
   double thrust_max_N;   // > thrust_min_N
   thrust_map_t map;      // PWM and volts to newton per motor
   double ceiling_m;      // height of the ceiling, INFINITY: none; z = 0 is the ground
-  double wall_y_m;       // a wall in the plane of this y, INFINITY: none; what it does is an effect
+  double wall_y_m;       // a wall in the plane of this y, INFINITY: none; what its air does is an effect
+  bool wall_solid;       // and it can be touched
+  double floor_rise_x, floor_rise_y; // how steeply the floor rises along x and y: tangents; 0: level
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
@@ -55,6 +57,9 @@ double model_fx_least(const model_t *m, const fx_use_t *use, int param);
 // Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already, or the effect
 // `mass` leaves less than a tenth of the model's mass.
 MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
+
+// The floor's normal, world axes, of length 1.
+d3_t model_floor_up_w(const model_t *m);
 
 // Switches it off, if it is on.
 void model_drop_fx(model_t *m, const fx_t *fx);

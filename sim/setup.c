@@ -35,6 +35,10 @@ static void take_vehicle(model_t *model, const model_t *vehicle) {
   const model_t scenario = *model;
   *model = *vehicle;
   if (!isfinite(vehicle->ceiling_m)) model->ceiling_m = scenario.ceiling_m;
+  if (vehicle->floor_rise_x == 0.0 && vehicle->floor_rise_y == 0.0) {
+    model->floor_rise_x = scenario.floor_rise_x;
+    model->floor_rise_y = scenario.floor_rise_y;
+  }
   if (has_surface(vehicle)) return;
   for (int i = 0; i < scenario.n_fx && model->n_fx < FX_MAX; i++)
     if (scenario.fx[i].fx->surface) model->fx[model->n_fx++] = scenario.fx[i];

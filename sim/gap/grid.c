@@ -122,7 +122,7 @@ static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch,
   if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
   set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
-  const touch_gap_t gap = touch_gap(touch, p.pos_w_m.z, &axes);
+  const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);
   p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
   p.ok = is_good(g, &p, m, &gap, from);
   return p;
@@ -146,8 +146,7 @@ static bool speeds_room(grid_t *g, size_t points) {
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
   body_t b = {.model = m}; // the points that can touch
-  b.touch.ceiling_m = m->ceiling_m;
-  b.touch.disc_radius_m = m->rotor_radius_m;
+  body_surround(&b.touch, m);
   body_place(&b, d3(0.0, 0.0, 0.0));
   for (int i = g->from; i + g->every <= to;) {
     const int *segment = g->flight->segment;

@@ -151,15 +151,20 @@ static status_t check_lift(toml_t root, const model_t *m, why_t *why) {
 
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   static const char *const keys[] = {
-      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s", "thrust_min_N",
-      "thrust_max_N", "ceiling_m", "wall_y_m",       "thrust_map",  "body",
-      "rotors",       "battery",   "controller",     "effect",      NULL};
+      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s",  "thrust_min_N",
+      "thrust_max_N", "ceiling_m", "wall_y_m",       "floor_rise_x", "floor_rise_y",
+      "thrust_map",   "body",      "rotors",         "battery",      "controller",
+      "effect",       NULL};
   TRY(toml_only(root, keys, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
   TRY(check_lift(root, m, why));
   if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.05, 1e3, &m->ceiling_m, why));
   if (toml_has(root, "wall_y_m")) TRY(toml_double(root, "wall_y_m", -1e3, 1e3, &m->wall_y_m, why));
+  if (toml_has(root, "floor_rise_x"))
+    TRY(toml_double(root, "floor_rise_x", -1.0, 1.0, &m->floor_rise_x, why));
+  if (toml_has(root, "floor_rise_y"))
+    TRY(toml_double(root, "floor_rise_y", -1.0, 1.0, &m->floor_rise_y, why));
   if (toml_has(root, "thrust_map")) {
     toml_t map;
     TRY(toml_table(root, "thrust_map", &map, why));

@@ -3,6 +3,7 @@
 //   name = "..."            and the numbers mass_kg, rotor_radius_m, motor_tau_s, thrust_min_N, thrust_max_N
 //   ceiling_m = 0.5         left out: no ceiling
 //   wall_y_m = 1.0          left out: no wall that the workflow could find an effect of
+//   floor_rise_x = 0.087    and floor_rise_y: how steeply the floor rises along x and y; left out: level
 //   [thrust_map]            left out: commands are newton
 //   kind = "stand"          five numbers c = [...]; or "volt_cubic", "pwm_cubic" (four), "speed" (three; k
 //   w^2

@@ -49,6 +49,7 @@ typedef struct {
   double per_mass, per_tau, per_root_kf, half_I_per_kf; // set by rigid_tune
   d3_t per_inertia;                                     // set by rigid_tune
   bool vertical_only;                                   // all but height, climb and thrust stand still
+  bool held;                                            // all but the thrust stands still
 } rigid_t;
 
 // Force and moment about the centre of mass, body axes.

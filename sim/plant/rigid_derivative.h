@@ -77,9 +77,9 @@ static inline void rigid_derivative(const rigid_t *r, const double y[RIGID_N], c
   }
   rigid_translate(r, y, axes, force_b_N, dydt);
   rigid_rotate(r, y, moment_b_Nm, all.spin_Nms, dydt);
-  if (!r->vertical_only) return;
+  if (!r->vertical_only && !r->held) return;
   for (int i = 0; i < RIGID_THRUST_N; i++)
-    if (i != RIGID_POS_M + 2 && i != RIGID_VEL_MPS + 2) dydt[i] = 0.0;
+    if (r->held || (i != RIGID_POS_M + 2 && i != RIGID_VEL_MPS + 2)) dydt[i] = 0.0;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// touch.c - contact of feet, body and blades with floor and ceiling.
+// touch.c - contact of feet, body and blades with floor, ceiling and wall.
 #include "plant/touch.h"
 
 enum { FEET, TOPS, DISCS, GROUPS };
@@ -26,41 +26,64 @@ void touch_init(touch_t *t, double mass_kg) {
   t->grip_Nspm = TOUCH_GRIP * mass_kg;
 }
 
-int touch_near(const touch_t *t, double z_m, const axes_t *axes, double margin_m) {
-  const d3_t up = axes_up_b(axes);
-  const double beside_m = t->beside_m * (fabs(up.x) + fabs(up.y)) + margin_m;
-  const double below_m = up.z > 0.0 ? up.z * t->below_m : -up.z * t->above_m;
-  const double above_m = up.z > 0.0 ? up.z * t->above_m : -up.z * t->below_m;
-  return (z_m < below_m + beside_m ? TOUCH_FLOOR : 0) |
-         (t->ceiling_m - z_m < above_m + beside_m ? TOUCH_CEILING : 0);
+// A surface as the vehicle sees it: which way it lies from the centre of mass (body axes, length 1), and how
+// far.
+typedef struct {
+  d3_t towards_b;
+  double room_m;
+} side_t;
+
+static side_t floor_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
+  return (side_t){d3_scale(-1.0, axes_to_body(axes, t->floor_up_w)), touch_above_floor_m(t, pos_w_m)};
 }
 
-// How far a disc's nearest point towards `side` (+1: up, -1: down) lies from its centre, times `up`.
-static double disc_reach_m(const touch_t *t, d3_t up, double side) {
-  const double flat = up.x * up.x + up.y * up.y;
-  return side * t->disc_radius_m / sqrt(flat + TOUCH_LEVEL * TOUCH_LEVEL);
+static side_t ceiling_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
+  return (side_t){axes_up_b(axes), t->ceiling_m - pos_w_m.z};
 }
 
-static d3_t point_of(const touch_t *t, int g, int i, d3_t up, double reach_m) {
+static side_t wall_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
+  const double side = t->wall_y_m < 0.0 ? -1.0 : 1.0;
+  return (side_t){axes_to_body(axes, d3(0.0, side, 0.0)), side * (t->wall_y_m - pos_w_m.y)};
+}
+
+// Whether a point may be nearer to it than margin_m.
+static bool is_near(const touch_t *t, side_t side, double margin_m) {
+  const d3_t to = side.towards_b;
+  const double along_m = to.z > 0.0 ? to.z * t->above_m : -to.z * t->below_m;
+  return side.room_m < along_m + t->beside_m * (fabs(to.x) + fabs(to.y)) + margin_m;
+}
+
+int touch_near(const touch_t *t, d3_t pos_w_m, const axes_t *axes, double margin_m) {
+  return (is_near(t, floor_of(t, pos_w_m, axes), margin_m) ? TOUCH_FLOOR : 0) |
+         (is_near(t, ceiling_of(t, pos_w_m, axes), margin_m) ? TOUCH_CEILING : 0) |
+         (is_near(t, wall_of(t, pos_w_m, axes), margin_m) ? TOUCH_WALL : 0);
+}
+
+// How far a disc's nearest point towards the surface lies from its centre, times `to`.
+static double disc_reach_m(const touch_t *t, d3_t to) {
+  return t->disc_radius_m / sqrt(to.x * to.x + to.y * to.y + TOUCH_LEVEL * TOUCH_LEVEL);
+}
+
+static d3_t point_of(const touch_t *t, int g, int i, d3_t to, double reach_m) {
   const d3_t p = group_of(t, g)[i];
-  return g == DISCS ? d3_add(p, d3(reach_m * up.x, reach_m * up.y, 0.0)) : p;
+  return g == DISCS ? d3_add(p, d3(reach_m * to.x, reach_m * to.y, 0.0)) : p;
 }
 
-// The largest of side * up' p over all points.
-static double farthest_m(const touch_t *t, d3_t up, double side) {
-  const double reach_m = disc_reach_m(t, up, side);
+// The distance that is left between the surface and the point that is nearest to it.
+static double left_m(const touch_t *t, side_t side) {
+  const double reach_m = disc_reach_m(t, side.towards_b);
   double most_m = -HUGE_VAL;
   for (int g = 0; g < GROUPS; g++)
     for (int i = 0; i < 4; i++) {
-      const double at_m = side * d3_dot(up, point_of(t, g, i, up, reach_m));
+      const double at_m = d3_dot(side.towards_b, point_of(t, g, i, side.towards_b, reach_m));
       most_m = at_m > most_m ? at_m : most_m;
     }
-  return most_m;
+  return side.room_m - most_m;
 }
 
-touch_gap_t touch_gap(const touch_t *t, double z_m, const axes_t *axes) {
-  const d3_t up = axes_up_b(axes);
-  return (touch_gap_t){z_m - farthest_m(t, up, -1.0), t->ceiling_m - z_m - farthest_m(t, up, 1.0)};
+touch_gap_t touch_gap(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
+  return (touch_gap_t){left_m(t, floor_of(t, pos_w_m, axes)), left_m(t, ceiling_of(t, pos_w_m, axes)),
+                       left_m(t, wall_of(t, pos_w_m, axes))};
 }
 
 // One point, depth_m inside a surface whose normal (out of the surface) is n.
@@ -78,29 +101,28 @@ static void push(const touch_t *t, d3_t point, double depth_m, d3_t n, d3_t vel_
   load_add(load, force, d3_cross(point, force));
 }
 
-// No point of the group lies more than this towards `side`.
-static double bound_m(const touch_t *t, int g, d3_t up, double side) {
-  const double z_m = side * up.z > 0.0 ? t->highest_m[g] : t->lowest_m[g];
-  return side * up.z * z_m + t->beside_m * (fabs(up.x) + fabs(up.y));
+// No point of the group lies more than this towards the surface.
+static double bound_m(const touch_t *t, int g, d3_t to) {
+  return to.z * (to.z > 0.0 ? t->highest_m[g] : t->lowest_m[g]) + t->beside_m * (fabs(to.x) + fabs(to.y));
 }
 
-static void press(const touch_t *t, double side, double room_m, const double y[RIGID_N], const axes_t *axes,
-                  load_t *load) {
-  const d3_t up = axes_up_b(axes), rate_b = d3_of(y + RIGID_RATE_RADPS);
+static void press(const touch_t *t, side_t side, const double y[RIGID_N], const axes_t *axes, load_t *load) {
+  const d3_t to = side.towards_b, rate_b = d3_of(y + RIGID_RATE_RADPS);
   const d3_t vel_b = axes_to_body(axes, d3_of(y + RIGID_VEL_MPS));
-  const double reach_m = disc_reach_m(t, up, side);
+  const double reach_m = disc_reach_m(t, to);
   for (int g = 0; g < GROUPS; g++) {
-    if (bound_m(t, g, up, side) <= room_m) continue;
+    if (bound_m(t, g, to) <= side.room_m) continue;
     for (int i = 0; i < 4; i++) {
-      const d3_t point = point_of(t, g, i, up, reach_m);
-      const double depth_m = side * d3_dot(up, point) - room_m;
-      if (depth_m > 0.0) push(t, point, depth_m, d3_scale(-side, up), vel_b, rate_b, load);
+      const d3_t point = point_of(t, g, i, to, reach_m);
+      const double depth_m = d3_dot(to, point) - side.room_m;
+      if (depth_m > 0.0) push(t, point, depth_m, d3_scale(-1.0, to), vel_b, rate_b, load);
     }
   }
 }
 
 void touch_load(const touch_t *t, int surfaces, const double y[RIGID_N], const axes_t *axes, load_t *load) {
-  const double z_m = y[RIGID_POS_M + 2];
-  if (surfaces & TOUCH_FLOOR) press(t, -1.0, z_m, y, axes, load);
-  if (surfaces & TOUCH_CEILING) press(t, 1.0, t->ceiling_m - z_m, y, axes, load);
+  const d3_t pos_w_m = d3_of(y + RIGID_POS_M);
+  if (surfaces & TOUCH_FLOOR) press(t, floor_of(t, pos_w_m, axes), y, axes, load);
+  if (surfaces & TOUCH_CEILING) press(t, ceiling_of(t, pos_w_m, axes), y, axes, load);
+  if (surfaces & TOUCH_WALL) press(t, wall_of(t, pos_w_m, axes), y, axes, load);
 }
