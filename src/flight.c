@@ -160,7 +160,10 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   x->q_ref = att_indi_reference(up, f->heading_ref);
   x->yaw_rate_radps = sp->yaw_rate_radps;
   x->torque_b_Nm = mixer_torque(&f->outer.param.mixer, in->force_N);
-  x->ceiling_Nms = ceiling_Nms(f, mixer_thrust_N(in->force_N));
+  const float applied_N = mixer_thrust_N(in->force_N), held_N = f->outer.param.att.trim * applied_N;
+  x->ceiling_Nms = ceiling_Nms(f, applied_N);
+  x->trim_Nm = held_N * f->outer.param.mixer.arm_m;
+  x->trim_yaw_Nm = held_N * f->outer.param.mixer.yaw_m;
   x->ratio = f->outer.param.tilt_share > 0.0f ? f->out.outer.at.ratio : 1.0f;
   f->out.q_ref = x->q_ref;
   const v3_t torque =

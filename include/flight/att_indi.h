@@ -20,6 +20,15 @@
 // inverted pendulum, 11 rad/s at 2 cm, of which the increment learns late by lag, the motors' and the
 // filter's. The term is bounded, so that a curve that is nonsense cannot make the loop unstable in free air
 // (from 2.1 on it would be; in contact, 1.5 is needed).
+//
+// The same law is tau = J (rate'_f + quick (nu - rate'_f)) + d with d = tau_f - J rate'_f, the moment from
+// outside that the increments have come to hold against. What trims (a weak motor, the centre of mass beside
+// the middle, a bent blade, the blades' flapping) is made by the rotors, and is a share of arm x thrust. What
+// holds (a floor, a ceiling, a wall, a hand) has no bound, and the increments would wind up against it, the
+// mixer raising the thrust to make room for them. So d counts within trim x arm x thrust alone, in yaw trim
+// times the rotors' torque: about both axes together below what the thrust gives room for (trim < 0.5), a
+// torque that is held raises no thrust. The law is the printed one to the bit while d is within.
+// A motor 20 % weak needs 0.05, the centre of mass 5 mm off both axes 0.15 and 0.23 in a turn.
 #ifndef FLIGHT_ATT_INDI_H
 #define FLIGHT_ATT_INDI_H
 
@@ -38,6 +47,7 @@ typedef struct {
   float g2_s;                                              // >= 0
   float rate_max_radps;                                    // > 0  bound of the wanted rates
   float quick; // > 0  how many times faster than the motors the acceleration is to follow
+  float trim;  // 0..0.5  of arm x thrust: the largest moment from outside that is held against
 } att_indi_param_t;
 
 typedef struct {
@@ -55,6 +65,8 @@ typedef struct {
   v3_t torque_b_Nm;     // applied since the last call, after mixing
   float ceiling_Nms;    // <= 0   k lag: torque about x and y per rate; 0: no ceiling
   float ratio;          // > 0    of the thrust to that in free air
+  float trim_Nm;        // >= 0   largest torque that is held against about x and y
+  float trim_yaw_Nm;    // >= 0   about z
 } att_indi_in_t;
 
 // Forgets everything; the next step starts from what it gets.

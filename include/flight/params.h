@@ -83,6 +83,8 @@ typedef struct {
     "bound of the wanted rates")                                                                             \
   X(indiAtt, quick, PARAM_FLOAT, att.quick, "", 2.0f, 0.5f, 4.0f,                                            \
     "how many times faster than the motors the acceleration follows")                                        \
+  X(indiAtt, trim, PARAM_FLOAT, att.trim, "", 0.25f, 0.05f, 0.4f,                                            \
+    "of arm x thrust: the largest torque from outside that is held against")                                 \
   X(indiAtt, cutoff, PARAM_FLOAT, att_cutoff_Hz, "Hz", 20.0f, 0.0f, 200.0f,                                  \
     "cut-off of the inner filters; 0 = none")                                                                \
   X(indiAtt, arm, PARAM_FLOAT, mixer.arm_m, "m", 0.0325f, 0.005f, 1.0f,                                      \
