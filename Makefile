@@ -57,7 +57,7 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 
-.PHONY: help demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil
+.PHONY: help demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-demo setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -128,7 +128,8 @@ $(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 $(B)/bin/bench: $(B)/tools/bench_gap.o
-$(B)/bin/tests: $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(SIM_OBJ)
+TESTS_OBJ = $(call objects,$(TEST_SRC) $(TEST_CPP) out/gen/test_table.c) $(SIM_OBJ)
+$(B)/bin/tests: $(TESTS_OBJ)
 	@mkdir -p $(@D)
 	@$(CC) $(SANITIZE) $^ $(LIBS) -o $@
 
@@ -214,6 +215,13 @@ tests-built: $(B)/bin/tests out/fly out/learn out/effectiveness
 
 seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word)
 	+@tools/seeded.sh "$(W)"
+
+# N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
+N = 300
+mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file)
+	@FLIGHT='$(C) $(FLIGHT_FLAGS) -Iinclude' APP='$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h' \
+	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
+	 PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
 	+@tools/pil.sh
