@@ -1,11 +1,10 @@
-// lsq.cpp - linear least squares by a complete orthogonal decomposition.
+// lsq.cpp - linear least squares.
 #include "lsq.h"
 
-#include <Eigen/Dense>
+#include "dense.h"
 
 void lsq_solve(int rows, int columns, const double *A, const double *b, double *x) {
-  using matrix_t = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const matrix_t> A_(A, rows, columns);
-  const Eigen::Map<const Eigen::VectorXd> b_(b, rows);
-  Eigen::Map<Eigen::VectorXd>(x, columns) = A_.completeOrthogonalDecomposition().solve(b_);
+  using by_row = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  Eigen::Map<VectorXd>(x, columns) =
+      dense_least_squares(by_row(A, rows, columns), Eigen::Map<const VectorXd>(b, rows));
 }

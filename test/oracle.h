@@ -1,5 +1,4 @@
-// oracle.h - linear algebra in double by Eigen, and the C++ library's random numbers: what our own are
-// compared with.
+// oracle.h - eigenvalues in double, and the C++ library's random numbers: what our own are compared with.
 #ifndef TEST_ORACLE_H
 #define TEST_ORACLE_H
 
@@ -10,9 +9,6 @@ extern "C" {
 #endif
 
 #define ORACLE_N 7
-
-// The x that makes |A x - y| smallest; A has n >= ORACLE_N rows and full rank.
-void oracle_least_squares(int n, const double (*A)[ORACLE_N], const double *y, double x[ORACLE_N]);
 
 // The eigenvalues of a symmetric matrix, the smallest first. Only the lower triangle is read.
 void oracle_eigenvalues(const double A[ORACLE_N][ORACLE_N], double values[ORACLE_N]);

@@ -1,7 +1,7 @@
 // test_rls.c - the learner of the weights: golden values and a double oracle.
 #include "flight/rls.h"
 #include "lesson.h"
-#include "oracle.h"
+#include "lsq.h"
 #include "random.h"
 #include "test.h"
 
@@ -111,7 +111,7 @@ TEST(rls_of_the_thesis_is_least_squares_with_a_prior) {
       y[401 + i] = (double)lesson_flat.w[i] / sqrt((double)p->p0);
     }
     double w[N];
-    oracle_least_squares(401 + N, (const double(*)[N])A, y, w);
+    lsq_solve(401 + N, N, &A[0][0], y, w);
     for (int i = 0; i < N; i++) {
       ROW("lambda %g p0 %g, w%d", (double)p->lambda, (double)p->p0, i + 1);
       CHECK_NEAR(s.theta.w[i], w[i], 1e-5);

@@ -1,7 +1,7 @@
 // lsq_blocks.cpp - least squares from sums of products.
 #include "gap/lsq_blocks.h"
 
-#include <Eigen/Dense>
+#include "dense.h"
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -11,18 +11,15 @@ using view_t = Eigen::Map<const matrix_t>;
 
 void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
                       double *also) {
-  Eigen::MatrixXd x(rows, n);
-  for (int j = 0; j < n; j++) x.col(j) = Eigen::Map<const Eigen::VectorXd>(X[j], rows);
-  Eigen::MatrixXd products(n, n);
-  products.triangularView<Eigen::Upper>() = x.transpose() * x;
-  products.triangularView<Eigen::StrictlyLower>() = products.transpose();
+  MatrixXd x(rows, n);
+  for (int j = 0; j < n; j++) x.col(j) = Eigen::Map<const VectorXd>(X[j], rows);
+  const MatrixXd products = dense_gram(x);
   for (double *to : {G, also})
     for (int i = 0; to && i < n; i++)
       for (int j = 0; j < n; j++) to[column[i] * size + column[j]] += products(j, i);
 }
 
-static void take(const double *G, int size, const int *column, int n, Eigen::MatrixXd &A,
-                 Eigen::VectorXd &c) {
+static void take(const double *G, int size, const int *column, int n, MatrixXd &A, VectorXd &c) {
   const view_t all(G, size, size);
   A.resize(n, n);
   c.resize(n);
@@ -36,40 +33,39 @@ double lsq_solve_products(const double *G, int size, const int *column, int n, c
                           double *inverse) {
   const double all = G[size * size - 1];
   if (n == 0) return all;
-  Eigen::MatrixXd A;
-  Eigen::VectorXd c;
+  MatrixXd A;
+  VectorXd c;
   take(G, size, column, n, A, c);
-  const Eigen::MatrixXd plain = A;
+  const MatrixXd plain = A;
   for (int i = 0; i < n; i++) A(i, i) += (ridge ? ridge[column[i]] : 0.0) + 1e-12 * A(i, i) + 1e-300;
   // Scaled to a unit diagonal: regressors differ by many powers of ten.
-  const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> factors((scale.asDiagonal() * A * scale.asDiagonal()).eval());
-  const Eigen::VectorXd x = scale.asDiagonal() * factors.solve((scale.asDiagonal() * c).eval());
-  Eigen::Map<Eigen::VectorXd>(b, n) = x;
-  if (inverse) {
-    const Eigen::MatrixXd unit = factors.solve(Eigen::MatrixXd::Identity(n, n));
-    Eigen::Map<matrix_t>(inverse, n, n) = scale.asDiagonal() * unit * scale.asDiagonal();
-  }
-  return all - 2.0 * x.dot(c) + x.dot(plain * x);
+  const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  MatrixXd unit;
+  const VectorXd scaled =
+      dense_solve_symmetric(dense_scaled(A, scale), scale.cwiseProduct(c), inverse ? &unit : nullptr);
+  const VectorXd x = scale.cwiseProduct(scaled);
+  Eigen::Map<VectorXd>(b, n) = x;
+  if (inverse) Eigen::Map<matrix_t>(inverse, n, n) = dense_scaled(unit, scale);
+  return all - 2.0 * x.dot(c) + x.dot(dense_apply(plain, x));
 }
 
 double lsq_left(const double *G, int size, const int *column, int n, const double *b) {
   const double all = G[size * size - 1];
   if (n == 0) return all;
-  Eigen::MatrixXd A;
-  Eigen::VectorXd c;
+  MatrixXd A;
+  VectorXd c;
   take(G, size, column, n, A, c);
-  const Eigen::Map<const Eigen::VectorXd> x(b, n);
-  return all - 2.0 * x.dot(c) + x.dot(A * x);
+  const VectorXd x = Eigen::Map<const VectorXd>(b, n);
+  return all - 2.0 * x.dot(c) + x.dot(dense_apply(A, x));
 }
 
 double lsq_wald(const double *b, const double *V, int n) {
-  const Eigen::Map<const Eigen::VectorXd> x(b, n);
+  const Eigen::Map<const VectorXd> x(b, n);
   const view_t spread(V, n, n);
   if (!(spread.diagonal().minCoeff() > 0.0)) return HUGE_VAL;
-  const Eigen::VectorXd scale = spread.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::VectorXd y = scale.asDiagonal() * x;
-  return y.dot((scale.asDiagonal() * spread * scale.asDiagonal()).ldlt().solve(y));
+  const VectorXd scale = spread.diagonal().cwiseSqrt().cwiseInverse();
+  const VectorXd y = scale.cwiseProduct(x);
+  return y.dot(dense_solve_symmetric(dense_scaled(spread, scale), y));
 }
 
 double lsq_f_above(double f, double n1, double n2) {

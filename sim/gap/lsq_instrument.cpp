@@ -1,11 +1,9 @@
 // lsq_instrument.cpp - two-stage least squares from sums of products.
 #include "gap/lsq_instrument.h"
 
-#include <Eigen/Dense>
+#include "dense.h"
 #include <cmath>
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using view_t = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 using out_t = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
@@ -22,7 +20,7 @@ struct stage_t {
 };
 
 MatrixXd products(const stage_t &s, const double *G) {
-  return s.scale.asDiagonal() * MatrixXd(view_t(G, s.size, s.size)) * s.scale.asDiagonal();
+  return dense_scaled(view_t(G, s.size, s.size), s.scale);
 }
 
 int first_of(const stage_t &s, int k) {
@@ -32,7 +30,7 @@ int first_of(const stage_t &s, int k) {
 VectorXd fitted(const MatrixXd &G, int at, int n, int k) {
   MatrixXd Z = G.block(at, at, n, n);
   Z.diagonal().array() += 1e-9;
-  return Z.ldlt().solve(G.block(at, k, n, 1));
+  return dense_solve_symmetric(Z, G.col(k).segment(at, n));
 }
 
 void project(stage_t &s, const MatrixXd &G) {
@@ -51,7 +49,7 @@ double strength(const stage_t &s, int k, const VectorXd &w, double instruments, 
   double ww = 0.0, wx = 0.0, sum = 0.0;
   VectorXd ww_b(s.p->n_block), wx_b(s.p->n_block);
   for (int b = 0; b < s.p->n_block; b++) {
-    const VectorXd Gw = products(s, s.p->block + (ptrdiff_t)b * s.size * s.size) * w;
+    const VectorXd Gw = dense_apply(products(s, s.p->block + (ptrdiff_t)b * s.size * s.size), w);
     ww += ww_b(b) = w.dot(Gw);
     wx += wx_b(b) = Gw(k);
   }
@@ -93,20 +91,20 @@ struct fit_t {
 
 bool fit(const stage_t &s, const MatrixXd &G, fit_t &f) {
   const int n = s.p->n;
-  const MatrixXd A = s.P.transpose() * G.leftCols(n);
-  const Eigen::FullPivLU<MatrixXd> lu(A);
-  if (!lu.isInvertible()) return false;
-  f.inverse = lu.inverse();
-  f.b = f.inverse * (s.P.transpose() * G.col(s.size - 1));
+  const MatrixXd Pt = s.P.transpose();
+  if (!dense_invert(dense_product(Pt, G.leftCols(n)), f.inverse)) return false;
+  f.b = dense_apply(f.inverse, dense_apply(Pt, G.col(s.size - 1)));
   return f.b.allFinite();
 }
 
 // The same without one block.
 VectorXd without(const stage_t &s, const MatrixXd &G, const fit_t &f, const MatrixXd &block) {
-  const MatrixXd A = s.P.transpose() * (G - block).leftCols(s.p->n);
-  const Eigen::FullPivLU<MatrixXd> lu(A);
-  if (lu.isInvertible()) return lu.solve(s.P.transpose() * (G - block).col(s.size - 1));
-  return f.b - f.inverse * (s.P.transpose() * (block.col(s.size - 1) - block.leftCols(s.p->n) * f.b));
+  const MatrixXd Pt = s.P.transpose(), left = G - block;
+  MatrixXd inverse;
+  if (dense_invert(dense_product(Pt, left.leftCols(s.p->n)), inverse))
+    return dense_apply(inverse, dense_apply(Pt, left.col(s.size - 1)));
+  const VectorXd own = block.col(s.size - 1) - dense_apply(block.leftCols(s.p->n), f.b);
+  return f.b - dense_apply(f.inverse, dense_apply(Pt, own));
 }
 
 // Takes out of the instruments what is too weak, the weakest first: without it the others may be strong.
@@ -121,7 +119,7 @@ bool settle(stage_t &s, const MatrixXd &G, double *F, double *blocks, fit_t &f) 
     }
     for (int k = 0; k < s.p->n; k++) {
       if (s.own(k)) continue;
-      F[k] = strength(s, k, s.P * f.inverse.row(k).transpose(), instruments_of(s, k), &blocks[k]);
+      F[k] = strength(s, k, dense_apply(s.P, f.inverse.row(k)), instruments_of(s, k), &blocks[k]);
       if (F[k] < s.p->least && (weakest < 0 || F[k] < F[weakest])) weakest = k;
     }
     if (weakest < 0) return true;
@@ -141,8 +139,8 @@ void spreads(const stage_t &two, const fit_t &iv, const stage_t &one, const fit_
     const MatrixXd g = products(two, own), h = products(one, own);
     if (!(g(last, last) > 0.0)) continue;
     const VectorXd u = without(two, G, iv, g) - iv.b, d = u - (without(one, H, ls, h) - ls.b);
-    spread += u * u.transpose();
-    apart += d * d.transpose();
+    spread += dense_product(u, u.transpose());
+    apart += dense_product(d, d.transpose());
     used += 1.0;
   }
   spread *= (used - 1.0) / std::fmax(used, 1.0);
@@ -173,7 +171,7 @@ bool lsq_instrument(const lsq_instrument_t *p, const lsq_instrumented_t *out) {
   const VectorXd unit = two.scale.head(n) / two.scale(size - 1);
   Eigen::Map<VectorXd>(out->b, n) = iv.b.cwiseProduct(unit);
   Eigen::Map<VectorXd>(out->plain, n) = ls.b.cwiseProduct(unit);
-  out_t(out->V, n, n) = unit.asDiagonal() * spread * unit.asDiagonal();
-  out_t(out->apart, n, n) = unit.asDiagonal() * differ * unit.asDiagonal();
+  out_t(out->V, n, n) = dense_scaled(spread, unit);
+  out_t(out->apart, n, n) = dense_scaled(differ, unit);
   return true;
 }
