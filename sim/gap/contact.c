@@ -83,7 +83,7 @@ static int look(const set_t *s, const model_t *m, const table_t *t, const gram_t
 
 static status_t pass(set_t *s, const candidates_t *c, const model_t *m, const table_t *t, const room_t *room,
                      int *found, why_t *why) {
-  gram_t g;
+  gram_t g = {0};
   judge_t j;
   TRY(judge_make(&j, c, &g, NULL, why));
   const status_t status = gram_make(&g, s, t, NULL, j.color_ridge, why);
