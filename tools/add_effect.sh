@@ -2,15 +2,16 @@
 # add_effect.sh - tries the README's page on adding an effect: its file goes into a copy of the tree, is hidden
 # in four flights, and is looked for.
 set -eu
-copy=out/add-effect
+o=${O:-out}
+copy=$o/add-effect
 rm -rf $copy
 mkdir -p $copy/out
 cp -a Makefile src include sim tools $copy
-cp -a out/release $copy/out
+cp -a "$o/release" "$o/gen" $copy/out
 awk '/^### Add an effect/ { page = 1 } page && /^```c/ { code = 1; next } code && /^```/ { exit } code' README.md >$copy/fx.c
 name=$(sed -n '1s|^// fx_\([a-z_]*\)\.c - .*|\1|p' $copy/fx.c)
 mv $copy/fx.c "$copy/sim/effects/fx_$name.c"
-make -C $copy out/fly out/gap >/dev/null
+make -C $copy O=out out/fly out/gap >/dev/null
 cd $copy
 { echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >out/vehicle.toml
 for seed in 1 2 3 4; do

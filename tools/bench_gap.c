@@ -32,7 +32,9 @@ static double cpu_s(void) {
 
 // As a log, read as any other.
 static status_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
-  char path[] = "out/bench-XXXXXX";
+  const char *const folder = getenv("O");
+  char path[4096];
+  snprintf(path, sizeof path, "%s/bench-XXXXXX", folder && folder[0] ? folder : "out");
   columns_t columns;
   TRY(columns_read("tools/columns/fly.toml", &columns, why));
   const int fd = mkstemp(path);

@@ -2,7 +2,8 @@
 # demo.sh [DATA] - flies the thesis's appendix A, learns the curve in simulation and from real flights, draws pictures.
 set -eu
 data=${1:-}
-out=out/demo
+o=${O:-out}
+out=$o/demo
 rm -rf $out
 mkdir -p $out
 
@@ -11,7 +12,7 @@ fly() {
   name=$1 label=$2
   shift 2
   [ ! -t 2 ] || printf '\r  flying %-40s' "$label" >&2
-  out/fly appendix-a --log "$out/$name.csv" "$@" >"$out/$name.txt"
+  "$o/fly" appendix-a --log "$out/$name.csv" "$@" >"$out/$name.txt"
   awk -v label="$label" '
     function mm(x) { return x < 0.005 ? "0" : sprintf("%.2f", x) }
     $1 == "0.48" { printf "  %-34s %12s %8s %10s %9s\n", label, mm($2), $4 == "-" ? "-" : sprintf("%.2f", $4), sprintf("%.1f", $9), $10 }' \
@@ -33,7 +34,7 @@ done
 echo "Appendix A of the thesis, flown by the flight code"
 cat $out/table.txt
 
-out/fly learning-1d --log $out/learning.csv >$out/learning.txt
+"$o/fly" learning-1d --log $out/learning.csv >$out/learning.txt
 echo
 echo "Learning flight, 10 to 2 cm in steps of 2 cm, noise N1: weights learned from nothing"
 awk '/ceil\.w/ { printf "  %s = %s\n", $1, $2 }' $out/learning.txt
@@ -42,7 +43,7 @@ flights=$data/ground_effect
 if [ -n "$data" ] && [ -d "$flights" ]; then
   echo
   echo "Real flights over the ground (two to learn from, one held out)"
-  out/learn "$flights/21_randomwalk_s_cf50_00.csv" "$flights/21_randomwalk_s_cf50_04.csv" \
+  "$o/learn" "$flights/21_randomwalk_s_cf50_00.csv" "$flights/21_randomwalk_s_cf50_04.csv" \
     --hold-out "$flights/21_randomwalk_s_cf50_02.csv" --columns tools/columns/neural_swarm.toml \
     --vehicle sim/vehicles/cf21_neural_swarm.toml --surface ground --points $out/ground_points.csv \
     --json $out/ground.json

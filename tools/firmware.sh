@@ -21,8 +21,8 @@ legacy | plus) ;;
 *) echo "PROPELLERS=$propellers: allowed is legacy or plus" >&2; exit 2 ;;
 esac
 
-tree=$PWD/out/firmware/$propellers
-mkdir -p "$tree/src"
+mkdir -p "${O:-out}/firmware/$propellers/src"
+tree=$(cd "${O:-out}/firmware/$propellers" && pwd)
 rm -rf "$tree/src" "$tree/include" # links to what is no more
 cp -rs "$PWD/src" "$PWD/include" "$tree"
 ln -sf src/firmware/Kbuild "$tree/Kbuild"

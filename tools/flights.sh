@@ -1,13 +1,14 @@
 #!/bin/sh
 # flights.sh - the thesis's flights (section 5.3): ten seeds of each controller, tables, pictures like figures 9 to 13.
 set -eu
-out=out/flights seeds=10
+o=${O:-out}
+out=$o/flights seeds=10 here=$PWD
 rm -rf $out
 mkdir -p $out
 controllers='indi indi-theory indi-rbf indi-learned stock-pid stock-indi air-garage'
 
 say() { [ ! -t 2 ] || printf '\r  flying %-40s' "$*" >&2; }
-fly() { out/fly "$@" --integrator rk4; }
+fly() { "$o/fly" "$@" --integrator rk4; }
 
 # lines FILE: it must have one for each flight.
 lines() {
@@ -22,7 +23,7 @@ table() {
     lines "$out/$1.$controller.jsonl"
   done
   # All touch at the last distance of the close flight.
-  (cd $out && awk -v sd_of_free=$([ "$1" = test-flight ] && echo 1 || echo 0) -f ../../tools/flights.awk \
+  (cd $out && awk -v sd_of_free=$([ "$1" = test-flight ] && echo 1 || echo 0) -f "$here/tools/flights.awk" \
     $(printf "$1.%s.jsonl " $controllers))
 }
 
@@ -69,7 +70,7 @@ say "pictures, learning"
 fly learning-flight --from 1 --to $seeds --json $out/learned.jsonl >$out/learned.txt
 lines $out/learned.jsonl
 sed 's/.*"weights":\[\([^]]*\)\].*/\1/' $out/learned.jsonl >$out/learned.weights
-fitted=$(out/fly --params | awk '/^ceil\.w[1-7]/ { printf "%s%s", comma, $2; comma = "," }')
+fitted=$("$o/fly" --params | awk '/^ceil\.w[1-7]/ { printf "%s%s", comma, $2; comma = "," }')
 [ ! -t 2 ] || printf '\r  %-48s\r' '' >&2
 
 cd $out
@@ -98,7 +99,7 @@ G
 done
 
 gnuplot <<G
-load "../../tools/curves.gp"
+load "$here/tools/curves.gp"
 set terminal pngcairo size 1000,560 font "Sans,13"
 set output "figure_12.png"
 set title "The learned curve of $seeds learning flights beside the theory (thesis figure 12)"

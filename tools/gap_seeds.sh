@@ -1,7 +1,8 @@
 #!/bin/sh
 # gap_seeds.sh - the README's example on other seeds: what is said where a ceiling alone is hidden, and where nothing is.
 set -eu
-out=out/seeds
+o=${O:-out}
+out=$o/seeds
 rm -rf $out
 mkdir -p $out
 { echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >$out/vehicle.toml
@@ -13,14 +14,14 @@ for hidden in nothing exponential square-root; do
     [ ! -t 2 ] || printf '\r  %s, set %d of 8 ' $hidden $set >&2
     for k in 1 2 3 4; do
       # shellcheck disable=SC2086
-      out/fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 $effect \
+      "$o/fly" test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 $effect \
         --seed $((1000 * set + k)) --log "$out/flight$k.csv" --log-rate 500 >/dev/null
     done
     for cut in whole airborne; do
       [ $cut = whole ] || for k in 1 2 3 4; do
         awk -F, 'NR == 1 || $1 > 7000' "$out/flight$k.csv" >"$out/cut$k.csv" && mv "$out/cut$k.csv" "$out/flight$k.csv"
       done
-      out/gap --vehicle $out/vehicle.toml --columns tools/columns/fly.toml $out/flight?.csv >$out/said
+      "$o/gap" --vehicle $out/vehicle.toml --columns tools/columns/fly.toml $out/flight?.csv >$out/said
       awk -v hidden=$hidden -v cut=$cut '
         /^Missing/ { sub(/.*: /, ""); sub(/\.$/, ""); names = $0 }
         /^Something/ { names = "no name, something unknown" }

@@ -30,13 +30,14 @@ done
 if grep -nE '\b(double|malloc|calloc|realloc|free|printf)\b' src/*.c include/flight/*.h | grep -vE '//.*\b(double|free)\b'; then
   fail "flight code has a double, an allocation or a print"
 fi
-make -s B=out/release $(for c in src/*.c; do echo "out/release/${c%.c}.o"; done) || fail "flight code does not build"
-calls=$(nm -u out/release/src/*.o | sed -nE 's/^ +U (.*)/\1/p' | sort -u)
+b=${O:-out}/release
+make -s O="${O:-out}" B="$b" $(for c in src/*.c; do echo "$b/${c%.c}.o"; done) || fail "flight code does not build"
+calls=$(nm -u "$b"/src/*.o | sed -nE 's/^ +U (.*)/\1/p' | sort -u)
 for call in $calls; do
   case $call in
   memcpy | memcmp | memset | strcmp) continue ;; # the firmware has these
   esac
-  nm out/release/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
+  nm "$b"/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
 done
 
 # Nature does not know the controller, nor the flight code the simulator.

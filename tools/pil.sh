@@ -11,7 +11,8 @@ set -eu
 for program in arm-none-eabi-gcc qemu-system-arm; do
   command -v $program >/dev/null || { echo "skipped: no $program; make setup-pil installs it"; exit 0; }
 done
-out=out/pil
+o=${O:-out}
+out=$o/pil
 mkdir -p $out/objects
 app="src/*.c src/firmware/controller.c src/firmware/range_up.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
 around="test/pil/around.c test/pil/pil.c sim/crazyflie/stand_in_vehicle.c sim/crazyflie/sections.c"
@@ -42,8 +43,8 @@ echo "objects: no libm, no double, no heap, no fused operation ($(wc -l <$out/ca
 
 # --- bits ---------------------------------------------------------------------------------------------------
 
-make -s out/release/bin/pil-record
-out/release/bin/pil-record $out/trace
+make -s O="$o" "$o/release/bin/pil-record"
+"$o/release/bin/pil-record" $out/trace
 
 for row in "gcc -O0" "gcc -O2" "gcc -O3" "gcc -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" "clang -O2" "clang -O3 -march=haswell"; do
   command -v ${row%% *} >/dev/null || continue
@@ -72,7 +73,7 @@ rm -f $out/to $out/from
 mkfifo $out/to $out/from
 on_target -Os $out/to $out/from - 1 &
 target=$!
-out/release/bin/pil-record $out/to $out/from >$out/said || { kill $target; fail "in the loop: $(cat $out/said)"; }
+"$o/release/bin/pil-record" $out/to $out/from >$out/said || { kill $target; fail "in the loop: $(cat $out/said)"; }
 wait $target || fail "the target did not end well"
 echo "in the loop, flown by the Cortex-M4F: $(cat $out/said)"
 

@@ -1,12 +1,13 @@
 #!/bin/sh
 # plots.sh DIR - draws what demo.sh flew into DIR.
 set -eu
+here=$PWD
 cd "$1"
 
 # The learned weights of fly's output as gnuplot variables.
 weights() { awk '/ceil\.w/ { printf "w%d=%s;", ++n, $NF }' "$1"; }
 
-cat >style.gp <<'G'
+cat >style.gp <<G
 set terminal pngcairo size 1000,640 font "Sans,13"
 set datafile separator ","
 set datafile missing "nan"
@@ -14,7 +15,7 @@ set key autotitle columnhead
 set grid lc rgb "#dddddd"
 set border 3
 set tics nomirror
-load "../../tools/curves.gp"
+load "$here/tools/curves.gp"
 G
 
 for cutoff in 0 8; do

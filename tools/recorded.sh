@@ -6,7 +6,8 @@ if [ -z "$data" ]; then
   echo 'skipped: no measured data'
   exit
 fi
-out=out/recorded
+o=${O:-out}
+out=$o/recorded
 mkdir -p $out
 
 # gap with the files of the tree; logs are named from DATA on.
@@ -19,7 +20,7 @@ told() {
   file=sim/vehicles/$vehicle.toml
   [ -f "$file" ] || file=$out/$vehicle.toml
   # shellcheck disable=SC2086
-  out/gap --vehicle "$file" --columns tools/columns/"$columns".toml --json $out/verdict.json $logs >$out/said 2>&1 || [ $? -eq 2 ]
+  "$o/gap" --vehicle "$file" --columns tools/columns/"$columns".toml --json $out/verdict.json $logs >$out/said 2>&1 || [ $? -eq 2 ]
   awk '
     /^(gap:|Nothing|These|Something|unknown:)/ { sub(dir, ""); print "  " $0 }
     /^[a-z_]+: / && !/^(unknown|held out|note|gap):/ { name = $1; sub(":", "", name); getline; print "  " name $0 }

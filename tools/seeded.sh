@@ -4,14 +4,15 @@
 # A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., or `objects`:
 # tools/pil.sh). One line for each; fails if one is not caught, or no longer changes its file.
 set -eu
-tree=out/seeded
+o=${O:-out}
+tree=$o/seeded
 rm -rf $tree
 mkdir -p $tree/out
 cp -rp Makefile README.md include sim src test tools $tree
-[ ! -d out/release ] || cp -rp out/release out/gen $tree/out
-log=$PWD/out/seeded.log
+[ ! -d "$o/release" ] || cp -rp "$o/release" "$o/gen" $tree/out
+log=$(cd "$o" && pwd)/seeded.log
 cd $tree
-unset MAKEFLAGS MAKELEVEL MFLAGS
+unset MAKEFLAGS MAKELEVEL MFLAGS O
 make tests-built >"$log" 2>&1 || { tail -5 "$log" >&2; echo "seeded: the copy does not build" >&2; exit 1; }
 
 field() { sed -n "s/^# $2: //p" "$1"; }

@@ -1,5 +1,13 @@
 #!/bin/sh
-# setup.sh PACKAGE... - installs the Debian packages that are missing, or says how to.
+# setup.sh PACKAGE... - installs the Debian packages that are missing, or prints the one line that does.
+export LC_ALL=C
+
+# Two that run side by side would fight for apt's lock: the second waits, and then finds everything there.
+o=${O:-out}
+mkdir -p "$o" || exit 2
+exec 9>"$o/setup.lock"
+flock 9
+
 missing=
 for package in "$@"; do
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)
@@ -7,22 +15,52 @@ for package in "$@"; do
 done
 [ -z "$missing" ] && exit 0
 
+install="apt-get install -y --no-install-recommends"
 if [ "$(id -u)" = 0 ]; then
   as_root=
 elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
   as_root=sudo
 else
-  echo "packages are missing; type this once, then run make again:" >&2
-  echo "  sudo sh -c 'apt-get update && apt-get install --no-install-recommends$missing'" >&2
-  exit 1
+  # A bare Debian has no sudo.
+  command -v sudo >/dev/null && become='sudo sh' || become=su
+  echo "$become -c 'apt-get update && $install$missing'" >&2
+  exit 2
 fi
-echo "installing$missing"
+
 log=$(mktemp)
-if $as_root apt-get update >"$log" 2>&1 &&
-  DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y --no-install-recommends $missing >>"$log" 2>&1; then
-  rm -f "$log"
-else
+failed() {
   tail -5 "$log" >&2
   echo "could not install$missing; the whole log is in $log" >&2
   exit 1
-fi
+}
+
+# Of apt's lines on its progress, every tenth per cent; where a person looks on, each. The rest goes into the log.
+[ -t 2 ] && step=1 || step=10
+progress() {
+  told=0
+  while IFS=: read -r kind _ percent rest; do
+    case $kind in
+    dlstatus) part=$((${percent%.*} / 2)) ;;
+    pmstatus) part=$((50 + ${percent%.*} / 2)) ;;
+    *) echo "$kind $percent $rest" >>"$log" && continue ;;
+    esac
+    [ $part -ge $((told + step)) ] || continue
+    told=$((part - part % step))
+    [ $step = 1 ] && printf '\r  installing: %d %% ' $told >&2 || echo "  installing: $told %" >&2
+  done
+  [ $step != 1 ] || printf '\r%30s\r' '' >&2
+}
+
+echo "to be installed:$missing"
+$as_root apt-get update >"$log" 2>&1 || failed
+$as_root apt-get install --assume-no --no-install-recommends $missing 2>/dev/null |
+  awk '/ newly installed/ { n = $3 } / of archives/ { sub(/Need to get /, ""); sub(/ of archives.*/, ""); get = $0 }
+    / will be used/ { sub(/After this operation, /, ""); sub(/ of additional.*/, ""); use = $0 }
+    END { if (n) printf "with what they need %d packages: %s to fetch, %s on disk; some minutes\n", n, get, use }'
+status=$(mktemp)
+{
+  $as_root env DEBIAN_FRONTEND=noninteractive $install -o APT::Status-Fd=1 $missing 2>&1
+  echo $? >"$status"
+} | progress
+[ "$(cat "$status")" = 0 ] || failed
+rm -f "$log" "$status"

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.." || exit 1
 export PYTHONDONTWRITEBYTECODE=1
 which='test_*.py'
 if tools/setup.sh $1 && tools/cf_venv.sh; then
-  python=out/cf/bin/python
+  python=${O:-out}/cf/bin/python
   [ -d "${FIRMWARE_TREE:-.}/src/firmware" ] || echo "skipped: no src/firmware, so nothing is declared"
 else
   python=python3

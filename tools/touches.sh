@@ -2,7 +2,8 @@
 # touches.sh [FLIGHTS] - how often the thesis's flights touch the ceiling: many seeds of each, real noise.
 set -eu
 flights=${1:-1000}
-out=out/touches
+o=${O:-out}
+out=$o/touches
 mkdir -p $out
 
 # touching DISTANCE_M FILE: flights that touched while that far below the ceiling was commanded, and all.
@@ -26,7 +27,7 @@ row() {
   distance=$1 scenario=$2 controller=$3 what=$4
   shift 4
   [ ! -t 2 ] || printf '\r  flying %-50s' "$scenario, $controller, $what" >&2
-  out/fly "$scenario" --controller "$controller" "$@" --integrator rk4 --from 1 --to $flights --json $out/all.jsonl >/dev/null
+  "$o/fly" "$scenario" --controller "$controller" "$@" --integrator rk4 --from 1 --to $flights --json $out/all.jsonl >/dev/null
   share=$(touching "$distance" $out/all.jsonl) || { echo "touches.sh: $out/all.jsonl: not what was asked for" >&2; exit 1; }
   [ ! -t 2 ] || printf '\r%-60s\r' '' >&2
   printf '%-13s %-13s %4.0f mm  %-13s  %s\n' "$scenario" "$controller" "$(echo "$distance" | awk '{ print 1e3 * $1 }')" "$share" "$what"

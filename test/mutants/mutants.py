@@ -144,7 +144,7 @@ def main(count: str, seed: str, word: str = "") -> int:
     if not sources:
         raise SystemExit(f"mutants: W={word}: no file of src or src/firmware has that in its name")
     words = {name: os.environ[name].split() for name in ("FLIGHT", "APP", "LINK", "LIBRARIES", "OBJECTS")}
-    bench = trial.Bench(trial.Tools(*words.values()), Path("out/mutants"))
+    bench = trial.Bench(trial.Tools(*words.values()), Path(os.environ.get("O", "out"), "mutants"))
     named = equivalent()
     drawn = draw(lines_of(sources), int(count), random.Random(int(seed)))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
