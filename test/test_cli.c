@@ -166,3 +166,13 @@ TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
   CHECK(program_run("learn $S/six.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "ceil.w7 = ") != NULL);
 }
+
+TEST(a_word_that_no_test_has_is_told_and_is_no_success) {
+  char text[500];
+  CHECK(program_run("tests no_such_test", STREAM_ERROR, text, sizeof text) == 2);
+  CHECK_TEXT(text, "tests: no test's file or name has the word `no_such_test`\n");
+  // A part of a name is enough.
+  CHECK(program_run("tests quadrature_of_a", STREAM_OUTPUT, text, sizeof text) == 2);
+  CHECK(program_run("tests oracle_gives_the_eigenvalues", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "\n1 passed, 0 failed\n") != NULL);
+}

@@ -174,6 +174,11 @@ int main(int argc, char **argv) {
   tally_t sum = {0};
   if (!job) abort();
   const int n = list_jobs(job, word);
+  if (n == 0) {
+    fprintf(stderr, "tests: no test's file or name has the word `%s`\n", word);
+    free(job);
+    return 2;
+  }
   for (int told = 0, begun = 0, running = 0; told < n;) {
     for (; begun < n && running < (cores > 1 ? cores : 1); running++) start(&job[begun++], word);
     wait_for_one(job, begun);
