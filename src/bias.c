@@ -1,51 +1,64 @@
 // bias.c - the accelerometer's bias and a velocity free of it.
 #include "flight/bias.h"
 
+#include "flight/expneg.h"
+
+#define STATE_MAX 2000.0f // m/s2 and m/s: more than all of a state together can be
+
 void bias_start(bias_t *s, v3_t pos_m, v3_t vel_mps) {
-  *s = (bias_t){.pos_m = pos_m, .vel_mps = vel_mps};
+  *s = (bias_t){.pos_last_m = pos_m, .vel_slow_mps = vel_mps};
 }
 
 void bias_shift(bias_t *s, v3_t by_m) {
-  s->pos_m = v3_add(s->pos_m, by_m);
-  s->pos_slow_m = v3_add(s->pos_slow_m, by_m);
+  s->pos_last_m = v3_add(s->pos_last_m, by_m);
 }
 
 v3_t bias_free_velocity(const bias_t *s, v3_t vel_mps) {
   return v3_sub(vel_mps, s->vel_off_mps);
 }
 
-static void compare(bias_t *s, float vel_s, v3_t pos_m, v3_t vel_mps, float dt) {
-  if (!(vel_s > 0.0f)) {
-    s->compared = false;
-    s->vel_off_mps = (v3_t){0.0f, 0.0f, 0.0f};
-    return;
-  }
-  if (!s->compared) {
-    s->pos_slow_m = v3_sub(pos_m, v3_scale(vel_s, vel_mps));
-    s->vel_slow_mps = vel_mps;
-    s->compared = true;
-  }
-  const float share = f_clamp(dt / vel_s, 0.0f, 1.0f), per_s = 1.0f / f_max(vel_s, 1e-3f);
-  s->pos_slow_m = v3_add(s->pos_slow_m, v3_scale(share, v3_sub(pos_m, s->pos_slow_m)));
-  s->vel_slow_mps = v3_add(s->vel_slow_mps, v3_scale(share, v3_sub(vel_mps, s->vel_slow_mps)));
-  s->vel_off_mps = v3_sub(s->vel_slow_mps, v3_scale(per_s, v3_sub(pos_m, s->pos_slow_m)));
+// Whatever is not finite or far out shows in the sum. A wrong pos_last_m is a jump.
+static bool is_state(const bias_t *s) {
+  const v3_t found = v3_add(v3_add(s->bias_mps2, s->first), s->vel_off_mps);
+  return v3_within(v3_add(found, v3_add(s->acc_slow_mps2, s->vel_slow_mps)), STATE_MAX);
 }
 
-void bias_step(bias_t *s, const bias_param_t *p, v3_t acc_mps2, v3_t pos_m, v3_t vel_mps, float period_s) {
-  if (!(p->pole_radps > 0.0f)) {
-    bias_start(s, pos_m, vel_mps);
-    return;
-  }
-  compare(s, p->vel_s, pos_m, vel_mps, period_s);
-  const float w = p->pole_radps, dt = period_s;
-  const v3_t acc = v3_sub(acc_mps2, s->bias_mps2);
-  s->pos_m = v3_add(s->pos_m, v3_scale(dt, v3_add(s->vel_mps, v3_scale(0.5f * dt, acc))));
-  s->vel_mps = v3_add(s->vel_mps, v3_scale(dt, acc));
+static v3_t nearer_to(v3_t from, float share, v3_t to) {
+  return v3_add(from, v3_scale(share, v3_sub(to, from)));
+}
 
-  const v3_t e = v3_sub(pos_m, s->pos_m);
-  const v3_t b = v3_sub(s->bias_mps2, v3_scale(dt * w * w * w, e));
-  s->pos_m = v3_add(s->pos_m, v3_scale(dt * 3.0f * w, e));
-  s->vel_mps = v3_add(s->vel_mps, v3_scale(dt * 3.0f * w * w, e));
-  const float max = p->max_mps2;
-  s->bias_mps2 = (v3_t){f_clamp(b.x, -max, max), f_clamp(b.y, -max, max), f_clamp(b.z, -max, max)};
+static v3_t bounded(v3_t a, float max) {
+  return (v3_t){f_clamp(a.x, -max, max), f_clamp(a.y, -max, max), f_clamp(a.z, -max, max)};
+}
+
+status_t bias_step(bias_t *s, const bias_param_t *p, v3_t acc_mps2, v3_t pos_m, v3_t vel_mps,
+                   float period_s) {
+  const bool known = is_state(s);
+  if (!(p->pole_radps > 0.0f) || !known) {
+    bias_start(s, pos_m, vel_mps);
+    return known ? ST_OK : ST_BAD_STATE;
+  }
+  const float per_s = 1.0f / period_s;
+  const v3_t rate_mps = v3_scale(per_s, v3_sub(pos_m, s->pos_last_m)), off_mps = v3_sub(vel_mps, rate_mps);
+  s->pos_last_m = pos_m;
+  if (!(period_s <= BIAS_GAP_S)) {
+    s->vel_slow_mps = bias_free_velocity(s, vel_mps);
+    s->acc_slow_mps2 = s->first = s->bias_mps2;
+    return ST_OK;
+  }
+  if (!v3_within(off_mps, BIAS_JUMP_MPS)) return ST_OK;
+
+  const float share = 1.0f - expneg(p->pole_radps * period_s);
+  // The change of the change of position is of one interval ago: so is <a> before this sample.
+  const v3_t motion_mps2 = v3_scale(share * per_s, v3_sub(rate_mps, s->vel_slow_mps));
+  s->first = bounded(nearer_to(s->first, share, v3_sub(s->acc_slow_mps2, motion_mps2)), p->max_mps2);
+  s->bias_mps2 = bounded(nearer_to(s->bias_mps2, share, s->first), p->max_mps2);
+  s->acc_slow_mps2 = nearer_to(s->acc_slow_mps2, share, acc_mps2);
+  s->vel_slow_mps = nearer_to(s->vel_slow_mps, share, rate_mps);
+
+  if (p->vel_s > 0.0f)
+    s->vel_off_mps = nearer_to(s->vel_off_mps, 1.0f - expneg(period_s / p->vel_s), off_mps);
+  else
+    s->vel_off_mps = (v3_t){0.0f, 0.0f, 0.0f};
+  return ST_OK;
 }

@@ -56,8 +56,9 @@ static status_t check_in(const outer_in_t *in) {
 // Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
 static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   sync_start(&f->sync, signals);
-  bias_start(&f->bias, in->pos_w_m, in->vel_w_mps);
-  f->height_last_m = in->pos_w_m.z - in->vel_w_mps.z * f->coef.period_s;
+  const v3_t before_m = v3_sub(in->pos_w_m, v3_scale(f->coef.period_s, in->vel_w_mps));
+  bias_start(&f->bias, before_m, in->vel_w_mps);
+  f->height_last_m = before_m.z;
   f->missed = 0;
   f->started = true;
 }
@@ -170,8 +171,8 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   sync_out_t *const x = &f->signals;
   sync_step(&f->sync, &f->coef, &in_sync, x);
   find_ceiling(f, in);
-  bias_step(&f->bias, &f->param.bias, x->acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
-            f->coef.period_s * (1.0f + (float)f->missed));
+  count(f, bias_step(&f->bias, &f->param.bias, x->acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
+                     f->coef.period_s * (1.0f + (float)f->missed)));
   x->acc_w_mps2 = v3_sub(x->acc_w_mps2, f->bias.bias_mps2);
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);

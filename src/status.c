@@ -11,6 +11,7 @@ const char *status_name(status_t status) {
       [ST_JUMP] = "height jump",
       [ST_NOT_TAUGHT] = "sample not taught",
       [ST_SINGULAR] = "singular",
+      [ST_BAD_STATE] = "bad state",
   };
   const unsigned i = (unsigned)status;
   return i < ST_COUNT ? name[i] : "unknown status";

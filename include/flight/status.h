@@ -12,6 +12,7 @@ typedef enum {
   ST_JUMP,         // the height jumped by more than the velocity explains; the velocity was used
   ST_NOT_TAUGHT,   // a sample may not teach the curve (too far, too tilted, too little thrust, ...)
   ST_SINGULAR,     // a matrix that has to be positive definite is not
+  ST_BAD_STATE,    // what was remembered is no state (a flipped bit); it started afresh
   ST_COUNT
 } status_t;
 

@@ -166,5 +166,6 @@ U32(badInput, flight.faults[ST_BAD_INPUT])
 U32(badSet, flight.faults[ST_BAD_SETPOINT])
 U32(badRange, flight.outer.faults[ST_BAD_RANGE])
 U32(jump, flight.outer.faults[ST_JUMP])
+U32(badState, flight.outer.faults[ST_BAD_STATE])
 LOG_GROUP_STOP(guard)
 // clang-format on
