@@ -13,7 +13,7 @@ OPT = -O3
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox
 # What some goals need besides.
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck python3
-LINT_GOALS    = lint format clang fuzz check mutants setup-lint
+LINT_GOALS    = lint format clang fuzz check mutants coverage setup-lint
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 CF_PACKAGES   = python3-venv
 
@@ -66,7 +66,7 @@ help:  ## what can be made
 	@echo
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -245,6 +245,13 @@ tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
 seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word)
 	+@tools/seeded.sh "$(W)"
+
+# The flight code as written, without the optimiser's own branches; the rest need not be slow.
+coverage:  ## which lines and branches the tests run, by folder; of src and src/firmware every branch (DATA=DIR)
+	@$(MAKE) B=$(O)/coverage OPT=-O1 SANITIZE=--coverage WARN= FLIGHT_FLAGS='$(FLIGHT_FLAGS) -O0' $(TESTED:%=$(O)/coverage/bin/%)
+	@find $(O)/coverage -name '*.gcda' -delete
+	@DATA="$(DATA)" PROGRAMS=$(O)/coverage/bin OMP_NUM_THREADS=1 $(O)/coverage/bin/tests
+	@PYTHONDONTWRITEBYTECODE=1 python3 test/coverage/coverage.py $(O)/coverage
 
 # N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
 N = 300

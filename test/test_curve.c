@@ -131,6 +131,27 @@ TEST(curve_stays_in_its_bounds_whatever_the_weights_say) {
       }
 }
 
+TEST(curve_that_just_reaches_a_bound_keeps_its_slope) {
+  curve_param_t p = plain_curve(CURVE_FIXED);
+  const rbf_point_t free = curve_at(&p, &LIVE, true, 0.02f);
+  static const struct {
+    const char *what;
+    float min, max; // of the ratio
+    bool kept;
+  } row[] = {
+      {"the least is its own", 1.0f, 2.0f, true},
+      {"the least is above it", 1.0001f, 2.0f, false},
+      {"the largest is its own", 0.5f, 1.0f, true},
+      {"the largest is below it", 0.5f, 0.9999f, false},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    p.ratio_min = row[i].min * free.ratio;
+    p.ratio_max = row[i].max * free.ratio;
+    CHECK(curve_at(&p, &LIVE, true, 0.02f).slope_per_m == (row[i].kept ? free.slope_per_m : 0.0f));
+  }
+}
+
 TEST(curve_is_finite_for_every_finite_distance) {
   static const float z[] = {-FLT_MAX, -1e10f, -1.0f, -0.0f, 0.0f, FLT_MIN, 1.0f, FLT_MAX};
   for (int32_t mode = CURVE_OFF; mode <= CURVE_THEORY; mode++)

@@ -38,6 +38,22 @@ TEST(expneg_is_within_one_ulp_of_exp_from_0_to_87) {
   CHECK_NEAR(worst, 0.0, 1.0);
 }
 
+TEST(expneg_takes_the_nearer_power_of_two) {
+  // x = (n + just under 1/2) ln 2: with n the result is the nearest float to exp(-x), with n + 1 its
+  // neighbour.
+  static const struct {
+    float x, want;
+  } row[] = {
+      {5.1722641f, 0x1.73b38ep-8f},   {5.88481951f, 0x1.6c8e9p-9f},   {6.57796669f, 0x1.6c8e9p-10f},
+      {16.2584591f, 0x1.754038p-24f}, {20.4429893f, 0x1.6bccbap-30f}, {27.3481236f, 0x1.758236p-40f},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%.9g", (double)row[i].x);
+    CHECK(row[i].want == (float)exp(-(double)row[i].x));
+    CHECK(expneg(row[i].x) == row[i].want);
+  }
+}
+
 TEST(expneg_never_rises) {
   // Equally spaced: two neighbours differ by more than the rounding does, except where both are 1.
   int rises = 0;
