@@ -278,6 +278,9 @@ cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 	+@tools/firmware.sh cload "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 
+fresh:  ## the README's commands in a bare Debian 12, as root and as a user (root, debootstrap)
+	+@tools/ci/fresh.sh
+
 clean:  ## remove everything that was made
 	@rm -rf $(O)
 
