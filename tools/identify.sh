@@ -1,19 +1,17 @@
 #!/bin/sh
 # identify.sh [DATA] - what out/effectiveness makes of a simulated flight, and of the firmware's own log where it is at hand.
 set -eu
-data=${1:-}
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+DATA=${1:-} o=${O:-out}
+. tools/typed.sh
 
-out/fly inner-loop --integrator rk4 --log "$log" --log-rate 500 >/dev/null
+typed "$o/fly inner-loop --log $o/shaken.csv --log-rate 500 >$o/shaken.txt"
 for options in '--lag 0.08 --delay 0.006' '--lag 0.08'; do
-  echo "\$ effectiveness flight.csv $options"
-  out/effectiveness "$log" $options
+  typed "$o/effectiveness $o/shaken.csv $options"
   echo
 done
-echo '$ effectiveness data_1901.csv --as-stock'
-if [ -n "$data" ]; then
-  out/effectiveness "$data/inner_loop_id/data_1901.csv" --as-stock
+if [ -n "$DATA" ]; then
+  # shellcheck disable=SC2016 # the folder is the reader's
+  typed "$o/effectiveness "'"$DATA/inner_loop_id/data_1901.csv" --as-stock'
 else
-  echo 'skipped, no measured data'
+  echo "$o/effectiveness data_1901.csv --as-stock: skipped, no measured data"
 fi

@@ -67,6 +67,8 @@ trap 'exit 1' HUP INT TERM
 debootstrap --variant=minbase --cache-dir="$top/archives" $suite "$top/bare" "$mirror" >"$top/log" 2>&1 || fail "no bare root"
 cp /etc/resolv.conf "$top/bare/etc/resolv.conf"
 apt-config dump | grep '^Acquire::.*[Pp]roxy' >"$top/bare/etc/apt/apt.conf.d/90proxy" || true
+# Its files need not survive a power cut.
+echo force-unsafe-io >"$top/bare/etc/dpkg/dpkg.cfg.d/unsafe"
 within bare 'apt-get update && apt-get install -y --no-install-recommends gcc make git' >"$top/log" 2>&1 || fail "no gcc, make and git"
 leave
 git clone -q --no-hardlinks . "$top/bare/srv/flight"
