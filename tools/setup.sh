@@ -27,8 +27,9 @@ else
   exit 2
 fi
 
-log=$(mktemp)
+log=$(mktemp) status=$(mktemp)
 failed() {
+  rm -f "$status"
   tail -5 "$log" >&2
   echo "could not install$missing; the whole log is in $log" >&2
   exit 1
@@ -38,11 +39,12 @@ failed() {
 [ -t 2 ] && step=1 || step=10
 progress() {
   told=0
-  while IFS=: read -r kind _ percent rest; do
-    case $kind in
-    dlstatus) part=$((${percent%.*} / 2)) ;;
-    pmstatus) part=$((50 + ${percent%.*} / 2)) ;;
-    *) echo "$kind $percent $rest" >>"$log" && continue ;;
+  while IFS= read -r line; do
+    percent=${line#*:*:}
+    case $line in
+    dlstatus:*) part=$((${percent%%[.:]*} / 2)) ;;
+    pmstatus:*) part=$((50 + ${percent%%[.:]*} / 2)) ;;
+    *) echo "$line" >>"$log" && continue ;;
     esac
     [ $part -ge $((told + step)) ] || continue
     told=$((part - part % step))
@@ -57,7 +59,6 @@ $as_root apt-get install --assume-no --no-install-recommends $missing 2>/dev/nul
   awk '/ newly installed/ { n = $3 } / of archives/ { sub(/Need to get /, ""); sub(/ of archives.*/, ""); get = $0 }
     / will be used/ { sub(/After this operation, /, ""); sub(/ of additional.*/, ""); use = $0 }
     END { if (n) printf "with what they need %d packages: %s to fetch, %s on disk; some minutes\n", n, get, use }'
-status=$(mktemp)
 {
   $as_root env DEBIAN_FRONTEND=noninteractive $install -o APT::Status-Fd=1 $missing 2>&1
   echo $? >"$status"
