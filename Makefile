@@ -64,20 +64,21 @@ help:  ## what can be made
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
 	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
 	@echo
-	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew'
+	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
+	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
 .PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
 # One target and one list, whatever is asked for: two apt-gets side by side fight for a lock.
-setup:  ## install the Debian packages that demo and test need
+setup:  ## install the Debian packages that demo and test need; minutes
 	@tools/setup.sh $(PACKAGES) $(if $(filter $(LINT_GOALS),$(MAKECMDGOALS)),$(LINT_PACKAGES))
 setup-lint: setup
-setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor
+setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor; minutes
 	@tools/setup.sh $(PIL_PACKAGES)
 .PHONY: setup-cf test-cf
-setup-cf:  ## cflib for tools/cf.py, into out/cf
+setup-cf:  ## cflib for tools/cf.py, into out/cf; a minute
 	@tools/setup.sh $(CF_PACKAGES)
 	@tools/cf_venv.sh
 
@@ -175,75 +176,75 @@ $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
 
 # --- what people do -----------------------------------------------------------------------------------
 
-demo: setup $(O)/fly $(O)/learn $(O)/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights)
+demo: setup $(O)/fly $(O)/learn $(O)/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights); a minute
 	@tools/demo.sh "$(DATA)"
 	@echo
 	@tools/gap_demo.sh "$(DATA)"
 
-flights: setup $(O)/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures
+flights: setup $(O)/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures; a minute
 	@tools/flights.sh
 
-touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each
+touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each; minutes
 	@tools/touches.sh
 
-example-seeds: $(O)/fly $(O)/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden
+example-seeds: $(O)/fly $(O)/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden; minutes
 	@tools/gap_seeds.sh
 
-recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR)
+recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR); minutes
 	@tools/recorded.sh "$(DATA)"
 
-slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights)
+slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights); a minute
 	@$(O)/slot "$(DATA)"
 
-test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too)
+test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too); minutes
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 
-faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should
+faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
-test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it)
+test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it); a minute
 	@tools/test_cf.sh "$(CF_PACKAGES)" "$(W)"
 
-exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST)
+exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
 	@$(O)/exam $(or $(SEED),80001) 200
 
-check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps
+check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
 	+@tools/seeded.sh
 	@tools/add_effect.sh | grep -q '^cable: '
 
-sanitize:  ## the tests with address and undefined-behaviour sanitizers
+sanitize:  ## the tests with address and undefined-behaviour sanitizers; 10 min
 	@$(MAKE) B=$(O)/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' $(TESTED:%=$(O)/sanitize/bin/%)
 	@DATA="$(DATA)" PROGRAMS=$(O)/sanitize/bin $(O)/sanitize/bin/tests "$(W)"
 
-debug:  ## the programs and the tests, not optimised, for a debugger: out/debug/bin
+debug:  ## the programs and the tests, not optimised, for a debugger: out/debug/bin; a minute
 	@$(MAKE) B=$(O)/debug OPT='-O0 -g3' $(patsubst %,$(O)/debug/bin/%,tests $(PROGRAMS))
 
-clang: setup-lint  ## everything again, and the tests, with clang
+clang: setup-lint  ## everything again, and the tests, with clang; minutes
 	@$(MAKE) B=$(O)/clang CC=clang CXX=clang++ $(TESTED:%=$(O)/clang/bin/%)
 	@DATA="$(DATA)" PROGRAMS=$(O)/clang/bin $(O)/clang/bin/tests "$(W)"
 
 FUZZ_S = 60
-fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each
+fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each; minutes
 	@$(MAKE) B=$(O)/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(O)/fuzz/bin/fuzz_csv $(O)/fuzz/bin/fuzz_usd
 	@mkdir -p $(O)/fuzz/csv $(O)/fuzz/usd
 	@cd $(O)/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
 
-bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log
+bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log; a minute
 	@$(O)/bench
 
-lint: setup-lint  ## format, static analysis, headers alone, house rules
+lint: setup-lint  ## format, static analysis, headers alone, house rules; minutes
 	+@tools/lint.sh
 
-format: setup-lint  ## bring every source into the one format
+format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
 
-docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of README.md
+docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of README.md; an hour
 	@tools/docs.sh "$(DATA)"
 
 tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
-seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word)
+seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word); half an hour
 	+@tools/seeded.sh "$(W)"
 
 # The flight code as written, without the optimiser's own branches; the rest need not be slow.
@@ -255,30 +256,30 @@ coverage:  ## which lines and branches the tests run, by folder; of src and src/
 
 # N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
 N = 300
-mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file)
+mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file); an hour
 	@FLIGHT='$(C) $(FLIGHT_FLAGS) -Iinclude' APP='$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h' \
 	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
 	 PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 
-pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs)
+pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs); minutes
 	+@tools/pil.sh
 
-add-effect: $(O)/fly $(O)/gap  ## try the README's page on adding an effect, in a copy of the tree
+add-effect: $(O)/fly $(O)/gap  ## try the README's page on adding an effect, in a copy of the tree; a minute
 	+@tools/add_effect.sh
 
-report:  ## the image's size (after make firmware) and the target's figures into README.md
+report:  ## the image's size (after make firmware) and the target's figures into README.md; minutes
 	+@tools/report.sh
 
-firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source)
+firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source); minutes
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" plus
 	@cat $(O)/firmware/legacy/size $(O)/firmware/plus/size >$(O)/firmware/size
 
-cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus)
+cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus); minutes
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 	+@tools/firmware.sh cload "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 
-fresh:  ## the README's commands in a bare Debian 12, as root and as a user (root, debootstrap)
+fresh:  ## the README's commands in a bare Debian 12, as root and as a user (root, debootstrap); half an hour
 	+@tools/ci/fresh.sh
 
 clean:  ## remove everything that was made

@@ -18,6 +18,8 @@ mirror=$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Pa
 
 mkdir -p "${O:-out}/fresh/archives/partial"
 top=$(cd "${O:-out}/fresh" && pwd)
+exec 8>"$top/lock"
+flock -n 8 || { echo "fresh: another one runs in $top" >&2; exit 1; }
 leave() {
   for mounted in "$top"/*/proc "$top"/*/var/cache/apt/archives; do
     ! mountpoint -q "$mounted" || umount -l "$mounted"
