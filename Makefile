@@ -40,7 +40,7 @@ TEST_SRC   = $(wildcard test/*.c) $(filter-out test/exam/main.c,$(wildcard test/
 EXAM_SRC   = $(wildcard test/exam/*.c)
 TEST_CPP   = $(wildcard test/*.cpp)
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
-TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle)
+TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle) $(B)/gen/version.o
 SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(FIRMWARE_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP)) $(TABLES)
 PROGRAMS   = fly learn effectiveness gap slot bench
 # What the tests run.
@@ -155,6 +155,8 @@ $(B)/%.o: %.cpp $(B)/flags | setup
 
 $(O)/gen/%_table.c: $(force_tables) | setup
 	@tools/table.sh $* $@
+$(O)/gen/version.c: $(force_tables)
+	@tools/version.sh $@
 
 $(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
 	@$(call link,$(CC)) $(LIBS) -o $@

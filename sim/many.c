@@ -38,6 +38,19 @@ static void sum_up(cJSON *json, uint64_t seed, line_t *line) {
            line->finite ? "finite" : "not-finite");
 }
 
+// The command that flies this flight alone, whatever the work was cut into.
+static void add_made(const many_t *m, const result_t *result, uint64_t seed) {
+  char number[24];
+  made_t made = *m->made;
+  made.command = NULL;
+  snprintf(number, sizeof number, "%llu", (unsigned long long)seed);
+  made_words(&made, m->made->command);
+  made_word(&made, "--seed");
+  made_word(&made, number);
+  made_add(result->json, &made, (double)seed, result->record.n);
+  made_free(&made);
+}
+
 static line_t fly(const many_t *m, uint64_t seed) {
   line_t line = {.status = ST_OK};
   request_t request = *m->request;
@@ -48,6 +61,7 @@ static line_t fly(const many_t *m, uint64_t seed) {
   line.status = m->scenario->run(&request, &result, &line.why);
   if (line.status == ST_OK) sum_up(result.json, seed, &line);
   if (line.status == ST_OK && m->json) {
+    add_made(m, &result, seed);
     line.json = cJSON_PrintUnformatted(result.json);
     if (!line.json) line.status = error_failed(&line.why, "out of memory");
   }

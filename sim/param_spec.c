@@ -16,6 +16,13 @@ static const param_app_t *find_app(const char *name) {
   return NULL;
 }
 
+const char *param_hint(const char *name, char hint[NEAREST_HINT]) {
+  nearest_t nearest = nearest_to(name);
+  for (int i = 0; i < params_count; i++) nearest_try(&nearest, params_table[i].name);
+  for (int i = 0; i < param_app_count; i++) nearest_try(&nearest, param_app_table[i].name);
+  return nearest_hint(&nearest, hint);
+}
+
 static bool fits(const param_set_t *set, double number) {
   flight_param_t trial;
   params_default(&trial);
@@ -24,7 +31,7 @@ static bool fits(const param_set_t *set, double number) {
 }
 
 status_t param_parse(const char *text, param_set_t *set, why_t *why) {
-  char name[32];
+  char name[32], hint[NEAREST_HINT];
   const size_t size = strcspn(text, "=");
   if (text[size] != '=' || size >= sizeof name)
     return error_set(why, "--set %s: allowed is group.name=value", text);
@@ -32,7 +39,8 @@ status_t param_parse(const char *text, param_set_t *set, why_t *why) {
   name[size] = '\0';
   *set = (param_set_t){.row = params_find(name), .app = find_app(name)};
   if ((!set->row && !set->app) || !sections_param(name))
-    return error_set(why, "--set %s: no such parameter; fly --params lists them", name);
+    return error_set(why, "--set %s: no such parameter%s; fly --params lists them", name,
+                     param_hint(name, hint));
   double number;
   const bool whole = !set->row || set->row->type == PARAM_INT;
   if (!number_parse(text + size + 1, &number) || !fits(set, number))

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "flight/params.h"
+#include "io/nearest.h"
 
 // A parameter of the app alone, which the flight code does not have (ceil.shadow).
 typedef struct {
@@ -23,6 +24,9 @@ typedef struct {
 // The app has to have it (crazyflie/sections.h). ST_BAD_INPUT: not of that form, no such parameter, or out of
 // its range.
 MUST_CHECK status_t param_parse(const char *text, param_set_t *set, why_t *why);
+
+// Behind a name that is no parameter: the one that may be meant (io/nearest.h). Returns hint.
+const char *param_hint(const char *name, char hint[NEAREST_HINT]);
 
 // ST_BAD_INPUT: the set as a whole contradicts itself (params_check).
 MUST_CHECK status_t param_check_all(const flight_param_t *p, why_t *why);

@@ -2,6 +2,7 @@
 #include "request_spec.h"
 
 #include "io/effect_spec.h"
+#include "io/nearest.h"
 #include "io/number.h"
 #include "param_spec.h"
 
@@ -12,7 +13,10 @@
 #define ITEM_MAX 64
 
 status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *name, why_t *why) {
+  char hint[NEAREST_HINT];
+  nearest_t nearest = nearest_to(name);
   for (int i = 0; i < FLY_COUNT; i++) {
+    if (fly_name[i]) nearest_try(&nearest, fly_name[i]);
     if (!fly_name[i] || strcmp(fly_name[i], name) != 0) continue;
     *kind = (fly_kind_t)i;
     r->kind = kind;
@@ -20,9 +24,9 @@ status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *nam
   }
   return error_set(
       why,
-      "--controller %s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
+      "--controller %s%s: allowed are indi, indi-theory, indi-rbf, indi-learned; on the vertical axis "
       "pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage",
-      name);
+      name, nearest_hint(&nearest, hint));
 }
 
 status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
@@ -32,9 +36,15 @@ status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
   return error_set(why, "--log-rate %s: allowed are 100, 500, 1000", text);
 }
 
+static bool is_field(const char *name) {
+  for (int i = 0; i < noise6_field_count; i++)
+    if (strcmp(noise6_fields[i].name, name) == 0) return true;
+  return false;
+}
+
 // One of the level's numbers, as "acc.z=0.1".
 static status_t set_noise(noise6_t *noise, const char *item, why_t *why) {
-  char name[NAME_MAX];
+  char name[NAME_MAX] = "";
   const size_t size = strcspn(item, "=");
   double value;
   if (item[size] == '=' && size < sizeof name) {
@@ -42,7 +52,11 @@ static status_t set_noise(noise6_t *noise, const char *item, why_t *why) {
     name[size] = '\0';
     if (number_parse(item + size + 1, &value) && noise6_set(noise, name, value)) return ST_OK;
   }
-  return error_set(why, "--noise %s: allowed is KEY=VALUE, keys and ranges as fly --list shows them", item);
+  char hint[NEAREST_HINT];
+  nearest_t nearest = nearest_to(name);
+  for (int i = 0; i < noise6_field_count; i++) nearest_try(&nearest, noise6_fields[i].name);
+  return error_set(why, "--noise %s%s: allowed is KEY=VALUE, keys and ranges as fly --list shows them", item,
+                   is_field(name) ? "" : nearest_hint(&nearest, hint));
 }
 
 static status_t take_numbers(request_t *r, const char *items, why_t *why) {
@@ -80,21 +94,27 @@ status_t request_take_noise(request_t *r, const char *name, why_t *why) {
     r->noise = &noise_levels[i];
     return ST_OK;
   }
+  char hint[NEAREST_HINT];
+  nearest_t nearest = nearest_to(name);
+  for (int i = 0; i < noise_count; i++) nearest_try(&nearest, noise_levels[i].name);
+  for (int i = 0; i < noise6_count; i++) nearest_try(&nearest, noise6_levels[i].name);
   return error_set(
       why,
-      "--noise %s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
+      "--noise %s%s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
       "of freedom",
-      name);
+      name, nearest_hint(&nearest, hint));
 }
 
 status_t request_take_integrator(request_t *r, const char *name, why_t *why) {
-  static const char *const names[] = {"sundials", "rk4", "reference"};
+  static const char *const names[] = {"sundials", "rk4", "reference", NULL};
+  char hint[NEAREST_HINT];
   for (int i = 0; i < 3; i++) {
     if (strcmp(names[i], name) != 0) continue;
     r->integrate = (integrate_kind_t)i;
     return ST_OK;
   }
-  return error_set(why, "--integrator %s: allowed are sundials, rk4, reference", name);
+  return error_set(why, "--integrator %s%s: allowed are sundials, rk4, reference", name,
+                   nearest_of(name, names, hint));
 }
 
 status_t request_take_set(request_t *r, const char *text, why_t *why) {

@@ -146,7 +146,8 @@ TEST(fly_writes_the_same_lines_however_the_work_was_cut) {
   static char text[3][4000];
   char line[300];
   for (int i = 0; i < 3; i++) {
-    snprintf(line, sizeof line, "fly close-flight --integrator rk4 --from %d --to %d --json $S/cut_%d",
+    snprintf(line, sizeof line,
+             "SOURCE_DATE_EPOCH=1 fly close-flight --integrator rk4 --from %d --to %d --json $S/cut_%d",
              row[i].from, row[i].to, i);
     CHECK(program_run(line, STREAM_OUTPUT, text[i], sizeof text[i]) == 0);
   }

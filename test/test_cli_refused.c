@@ -12,8 +12,30 @@ static const struct {
     {"fly", "fly: one scenario is needed; fly --list shows them\n"},
     {"fly loop-the-loop", "fly: loop-the-loop: no such scenario; fly --list shows them\n"},
     {"fly appendix-a appendix-a", "fly: one scenario is needed; fly --list shows them\n"},
-    {"fly appendix-a --wings", "fly: --wings: not an option, or without its value; fly --help lists them\n"},
-    {"fly appendix-a --seed", "fly: --seed: not an option, or without its value; fly --help lists them\n"},
+    {"fly appendix-a --wings",
+     "fly: --wings: not an option; allowed: --controller, --set, --set-from, --params-to, --replay, "
+     "--effect, --vehicle, --noise, --seed, --seeds, --integrator, --from, --to, --log, --log-rate, --json, "
+     "--list, --logs, --params, --help, --version\n"},
+    {"fly appendix-a --seed", "fly: --seed: its value is missing; allowed: --seed VALUE\n"},
+    {"fly --help=3", "fly: --help: takes no value; allowed: --help\n"},
+    {"fly close-fligth",
+     "fly: close-fligth: no such scenario (did you mean close-flight?); fly --list shows them\n"},
+    {"fly appendix-a --controller indi-rfb",
+     "fly: --controller indi-rfb (did you mean indi-rbf?): allowed are indi, indi-theory, indi-rbf, "
+     "indi-learned; on the vertical axis pid, pid-ff; in six degrees of freedom stock-pid, stock-indi, "
+     "air-garage\n"},
+    {"fly appendix-a --set indipos.kp=1",
+     "fly: --set indipos.kp: no such parameter (did you mean indiPos.kp?); fly --params lists them\n"},
+    {"fly appendix-a --integrator sundial",
+     "fly: --integrator sundial (did you mean sundials?): allowed are sundials, rk4, reference\n"},
+    {"fly close-flight --noise reel",
+     "fly: --noise reel (did you mean real?): allowed are none, n1, n2, n3 on the vertical axis, quiet, real "
+     "in six degrees of freedom\n"},
+    {"fly appendix-a --vehicle sim/vehicles/cf21_legcay.toml",
+     "fly: sim/vehicles/cf21_legcay.toml: cannot be opened: No such file or directory (did you mean "
+     "sim/vehicles/cf21_legacy.toml?)\n"},
+    {"fly appendix-a --vehicle cf21_plus", "fly: cf21_plus: cannot be opened: No such file or directory (did "
+                                           "you mean sim/vehicles/cf21_plus.toml?)\n"},
     {"fly appendix-a --seed -3", "fly: --seed -3: allowed is a whole number from 0 to 1000000000\n"},
     {"fly appendix-a --seeds 0", "fly: --seeds 0: allowed is a whole number from 1 to 10000\n"},
     {"fly appendix-a --controller lqr",
@@ -22,7 +44,7 @@ static const struct {
      "pid-ff; in six degrees of freedom stock-pid, stock-indi, air-garage\n"},
     {"fly appendix-a --set indiPos.kp", "fly: --set indiPos.kp: allowed is group.name=value\n"},
     {"fly appendix-a --set indiPos.kq=1",
-     "fly: --set indiPos.kq: no such parameter; fly --params lists them\n"},
+     "fly: --set indiPos.kq: no such parameter (did you mean indiPos.kp?); fly --params lists them\n"},
     {"fly appendix-a --set indiPos.kp=-1", "fly: --set indiPos.kp=-1: allowed is a number from 0.05 to 20\n"},
     {"fly appendix-a --set indiPos.kp=nan",
      "fly: --set indiPos.kp=nan: allowed is a number from 0.05 to 20\n"},
@@ -48,8 +70,8 @@ static const struct {
      "fly: --noise real: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3\n"},
     {"fly close-flight --noise real:acc.z=-1",
      "fly: --noise acc.z=-1: allowed is KEY=VALUE, keys and ranges as fly --list shows them\n"},
-    {"fly close-flight --noise real:acc.w=1",
-     "fly: --noise acc.w=1: allowed is KEY=VALUE, keys and ranges as fly --list shows them\n"},
+    {"fly close-flight --noise real:acc.w=1", "fly: --noise acc.w=1 (did you mean acc.z?): allowed is "
+                                              "KEY=VALUE, keys and ranges as fly --list shows them\n"},
     {"fly close-flight --noise n1",
      "fly: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real\n"},
     {"fly appendix-a --integrator euler", "fly: --integrator euler: allowed are sundials, rk4, reference\n"},
@@ -102,9 +124,12 @@ static const struct {
     {"effectiveness a.csv b.csv", "effectiveness: one log is needed; allowed: effectiveness LOG.csv\n"},
     {"effectiveness a.csv --lag 0", "effectiveness: --lag 0: allowed is a number from 0.001 to 0.5\n"},
     {"effectiveness a.csv --poles 3", "effectiveness: --poles 3: allowed are 2, 4\n"},
-    {"effectiveness a.csv --wings", "effectiveness: --wings: not an option, or without its value; allowed: "
-                                    "--lag, --delay, --cutoff, --poles, "
-                                    "--thrust-min, --as-stock, --json, --help\n"},
+    {"effectiveness a.csv --wings",
+     "effectiveness: --wings: not an option; allowed: --lag, --delay, --cutoff, "
+     "--poles, --thrust-min, --as-stock, --json, --help, --version\n"},
+    {"learn a.csv --veihcle x",
+     "learn: --veihcle: not an option (did you mean --vehicle?); allowed: --columns, --vehicle, --surface, "
+     "--hold-out, --set, --json, --points, --help, --version\n"},
     {"effectiveness /no/such.csv",
      "effectiveness: /no/such.csv: cannot be opened: No such file or directory\n"},
 };

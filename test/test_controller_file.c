@@ -56,7 +56,8 @@ TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
        "v.toml:9: posCtl: unknown key; allowed: kind, full_scale_N, posCtlPid, velCtlPid, pid_attitude, "
        "pid_rate"},
       {"gain", "kind = \"stock-pid\"\npid_rate.roll_kff = 1\n",
-       "v.toml:9: roll_kff: unknown key; allowed: roll_kp, roll_ki, roll_kd, pitch_kp, pitch_ki, pitch_kd, "
+       "v.toml:9: roll_kff: unknown key (did you mean roll_kp?); allowed: roll_kp, roll_ki, roll_kd, "
+       "pitch_kp, pitch_ki, pitch_kd, "
        "yaw_kp, yaw_ki, yaw_kd"},
       {"below 0", "kind = \"stock-pid\"\npid_rate.roll_kp = -1\n",
        "v.toml:9: roll_kp: -1 is out of range; allowed: 0 to 100000"},
@@ -67,7 +68,7 @@ TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
       {"a gain is a table", "kind = \"stock-pid\"\nposCtlPid = 1\n",
        "v.toml:9: posCtlPid: wrong type; allowed: a table"},
       {"parameter", "kind = \"indi\"\nindiPos.kq = 1\n",
-       "v.toml:9: kq: unknown parameter; allowed: those of fly --params"},
+       "v.toml:9: kq: unknown parameter (did you mean indiPos.kp?); allowed: those of fly --params"},
       {"range", "kind = \"indi\"\nindiPos.mass = 99\n",
        "v.toml:9: mass: 99 is out of range; allowed: 0.01 to 2"},
       {"fraction", "kind = \"indi\"\nceil.mode = 0.5\n", "v.toml:9: mode: 0.5; allowed: a whole number"},

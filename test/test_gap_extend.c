@@ -21,7 +21,7 @@ static status_t extend(const char *path, const char *text, const candidate_t *ca
   size_t used = 0;
   TRY(model_read_text(path, text, base, why));
   FILE *const file = open_memstream(&made, &used);
-  const extend_job_t job = {path, text, base, &d, "3 flights, seed 1"};
+  const extend_job_t job = {path, text, base, &d, "3 flights, seed 1", NULL};
   const status_t status = extend_write(&job, file, why);
   fclose(file);
   snprintf(out, size, "%s", made);

@@ -59,7 +59,9 @@ TEST(gap_refuses_with_one_line_status_two_and_a_verdict_that_says_where) {
     CHECK(cJSON_IsString(said) && strncmp(text + 5, said->valuestring, strlen(said->valuestring)) == 0);
     const cJSON *const verdict = cJSON_GetObjectItem(v, "verdict");
     CHECK_TEXT(cJSON_IsString(verdict) ? verdict->valuestring : "", "refused");
-    CHECK(cJSON_GetArraySize(v) == 7);
+    CHECK(cJSON_GetArraySize(v) == 8);
+    const cJSON *const made = cJSON_GetObjectItem(v, "made");
+    CHECK(strncmp(cJSON_GetStringValue(cJSON_GetObjectItem(made, "command")), "gap --out ", 10) == 0);
     cJSON_Delete(v);
     CHECK(program_run("ls -A $S/o", STREAM_OUTPUT, text, sizeof text) == 0);
     CHECK_TEXT(text, "report.html\nverdict.json\n");
@@ -71,7 +73,11 @@ static const struct {
   const char *arguments, *line;
 } AT_ONCE[] = {
     {"", "gap: no log; allowed: gap [options] LOG...\n"},
-    {"--wings $S/a.csv", "gap: --wings: not an option, or without its value; gap --help lists them\n"},
+    {"--wings $S/a.csv", "gap: --wings: not an option; allowed: --vehicle, --columns, --hold-out, --out, "
+                         "--json, --seed, --help, --version\n"},
+    {"--hold_out $S/a.csv", "gap: --hold_out: not an option (did you mean --hold-out?); allowed: --vehicle, "
+                            "--columns, --hold-out, --out, "
+                            "--json, --seed, --help, --version\n"},
     {"--seed -1 $S/a.csv", "gap: --seed -1: allowed is a whole number from 0 to 1000000000\n"},
     {"--seed 1.5 $S/a.csv", "gap: --seed 1.5: allowed is a whole number from 0 to 1000000000\n"},
     {"--out $S/a.csv $S/b.csv", "gap: --out a.csv: not a folder\n"},
@@ -101,7 +107,7 @@ TEST(gap_refuses_at_once_what_it_is_told_wrongly_and_writes_nothing) {
 TEST(gap_escapes_what_it_is_told_in_its_page) {
   char text[4000];
   CHECK(program_run("gap --out $S/o '$S/<i>&\"x\".csv'", STREAM_ERROR, text, sizeof text) == 2);
-  CHECK(program_run("tail -n 3 $S/o/report.html", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(program_run("tail -n 5 $S/o/report.html", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "&lt;i&gt;&amp;&quot;x&quot;.csv: cannot be opened") && !strstr(text, "<i>"));
 }
 

@@ -6,10 +6,13 @@
 static const char VALUES[] =
     "s = \"text\"\nx = 2\ny = 0.5\nb = true\nl = [1, 2.5]\n[t]\nk = 1\n[[a]]\nn = 1\n[[a]]\nn = 2\n";
 
+static const char *const KEYS[] = {"a", "b", NULL};
+static const toml_kind_t KIND = {"a test file", "none.toml", KEYS};
+
 TEST(toml_reads_values) {
   toml_file_t *file;
   why_t why;
-  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &why))) return;
+  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &KIND, &why))) return;
   const toml_t root = toml_root(file);
   char s[8];
   double x, list[3];
@@ -40,7 +43,7 @@ TEST(toml_reads_values) {
 TEST(toml_refuses_other_types_and_ranges) {
   toml_file_t *file;
   why_t why;
-  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &why))) return;
+  if (!CHECK_OK(toml_open(&file, scratch_file("t.toml", VALUES, -1), &KIND, &why))) return;
   const toml_t root = toml_root(file);
   char s[8];
   double x, list[3];
@@ -67,8 +70,8 @@ TEST(toml_refuses_other_types_and_ranges) {
 TEST(toml_refuses_what_is_no_file) {
   toml_file_t *file;
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("none.toml"), &why));
+  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("none.toml"), &KIND, &why));
   CHECK_TEXT(scratch_short(why.text), "none.toml: cannot be opened: No such file or directory");
-  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("."), &why));
+  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("."), &KIND, &why));
   CHECK_TEXT(scratch_short(why.text), ".: cannot be read: Is a directory");
 }

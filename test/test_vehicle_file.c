@@ -146,7 +146,7 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
     const char *spec, *want;
   } row[] = {
       {"", "unknown effect ``; allowed: " ALL_EFFECTS},
-      {"wing:x=1", "unknown effect `wing`; allowed: " ALL_EFFECTS},
+      {"wing:x=1", "unknown effect `wing` (did you mean wind?); allowed: " ALL_EFFECTS},
       {"ceiling:", "effect ceiling: ``; allowed: key=value"},
       {"ceiling:Ca", "effect ceiling: `Ca`; allowed: key=value"},
       {"ceiling:Ca=", "effect ceiling: Ca: not a number: ``"},

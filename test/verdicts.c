@@ -24,11 +24,11 @@ double verdict_number(const cJSON *o, const char *key) {
 }
 
 void verdict_check(const cJSON *v) {
-  static const char *const keys[] = {"verdict",      "effects",      "unknown", "gap",
-                                     "resimulation", "not_testable", "warnings"};
+  static const char *const keys[] = {"verdict",      "effects",      "unknown",  "gap",
+                                     "resimulation", "not_testable", "warnings", "made"};
   static const char *const lists[] = {"effects", "gap", "not_testable", "warnings"};
-  CHECK(cJSON_GetArraySize(v) == 7);
-  for (unsigned i = 0; i < 7; i++) {
+  CHECK(cJSON_GetArraySize(v) == 8);
+  for (unsigned i = 0; i < 8; i++) {
     ROW("%s", keys[i]);
     CHECK(cJSON_HasObjectItem(v, keys[i]));
   }

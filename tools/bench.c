@@ -4,6 +4,7 @@
 #include "body_forces.h"
 #include "cpu_time.h"
 #include "io/model_file.h"
+#include "made.h"
 #include "scenario/scenario.h"
 #include "setup6.h"
 
@@ -112,7 +113,7 @@ static status_t bench_loop6(why_t *why) {
   return ST_OK;
 }
 
-int main(void) {
+int main(int argc, char **argv) {
   static const row_t rows[] = {
       {"closed loop, learning, noise, SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, 1},
       {"closed loop, learning, no noise, SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, 0},
@@ -120,6 +121,14 @@ int main(void) {
       {"closed loop, learning, no noise, Runge-Kutta by hand 2 ms", INTEGRATE_RK4, 0},
       {"closed loop, learning, noise, SUNDIALS order 5 adaptive", INTEGRATE_REFERENCE, 1},
   };
+  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
+    made_version("bench");
+    return 0;
+  }
+  if (argc > 1) {
+    why_t line;
+    return error_exit("bench", error_set(&line, "%s: allowed: bench, or bench --version", argv[1]), &line);
+  }
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     why_t why;
     double best;

@@ -5,9 +5,12 @@ Exit status: 0 done, 1 it could not be done (it has landed, unless the link is l
 """
 
 import argparse
+import difflib
 import math
 import os
+import re
 import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -25,8 +28,33 @@ URI = "radio://0/80/2M/E7E7E7E7E7"
 
 
 class Parser(argparse.ArgumentParser):
+    def words(self) -> set[str]:
+        """Options and commands, those of its commands included."""
+        found = {option for action in self._actions for option in action.option_strings}
+        for action in self._actions:
+            for name, of_command in action.choices.items() if isinstance(action.choices, dict) else ():
+                found |= {name} | of_command.words()
+        return found
+
     def error(self, message: str):
-        raise Refused(f"{message}; {self.prog} --help says what is allowed")
+        known = self.words()
+        typed = [word for word in re.findall(r"--[\w-]+|(?<=invalid choice: ')[^']*", message) if word not in known]
+        like = [near for word in typed for near in difflib.get_close_matches(word, sorted(known), 1, 0.7)]
+        meant = f" (did you mean {like[0]}?)" if like else ""
+        raise Refused(f"{message}{meant}; {self.prog} --help says what is allowed")
+
+
+def version() -> str:
+    """As the programs that are compiled say it."""
+    root = Path(__file__).resolve().parents[1]
+    said = subprocess.run(["tools/version.sh"], cwd=root, capture_output=True, text=True, check=False).stdout
+    return f"cf.py {said.strip() or 'of a version that is not known'}"
+
+
+class Version(argparse.Action):
+    def __call__(self, parser, *_: object) -> None:
+        print(version())
+        parser.exit()
 
 
 def between(least: float, most: float, unit: str):
@@ -64,6 +92,7 @@ def flight_options(command: argparse.ArgumentParser) -> None:
 def parser() -> argparse.ArgumentParser:
     top = Parser(prog="cf.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("--uri", default=os.environ.get("CFLIB_URI", URI), help=f"default CFLIB_URI, else {URI}")
+    top.add_argument("--version", action=Version, nargs=0, help="version and commit")
     dry = argparse.ArgumentParser(add_help=False)
     dry.add_argument("--dry-run", action="store_true", help="print what would be sent; no radio, no cflib")
     commands = top.add_subparsers(dest="command", required=True, parser_class=Parser)

@@ -2,10 +2,12 @@
 #include "effectiveness.h"
 
 #include "io/number.h"
+#include "io/option.h"
 #include "io/whole_file.h"
+#include "made.h"
 #include "result.h"
 
-#include <getopt.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +15,8 @@
 typedef struct {
   effectiveness_job_t job;
   const char *log, *json;
-  bool help;
+  bool help, version;
+  made_t made;
 } order_t;
 
 static const char USAGE[] =
@@ -27,6 +30,7 @@ static const char USAGE[] =
     "counts,\n"
     "                     gaps are not seen; options after it change it\n"
     "  --json FILE        writes the fit\n"
+    "  --version          version and commit\n"
     "  --help             this\n"
     "\n"
     "Columns: tick (ms, 500 Hz), controller.r_roll, r_pitch, r_yaw (rad/s), controller.cmd_roll, cmd_pitch,\n"
@@ -58,27 +62,26 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 't': return take_number("--thrust-min", text, 0.0, 65535.0, &o->job.thrust_min, why);
   case 's': o->job = effectiveness_stock(); return ST_OK;
   case 'j': o->json = text; return ST_OK;
+  case 'V': o->version = true; return ST_OK;
   default: o->help = true; return ST_OK;
   }
 }
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"lag", 1, 0, 'l'},   {"delay", 1, 0, 'd'},      {"cutoff", 1, 0, 'c'},
-      {"poles", 1, 0, 'p'}, {"thrust-min", 1, 0, 't'}, {"as-stock", 0, 0, 's'},
-      {"json", 1, 0, 'j'},  {"help", 0, 0, 'h'},       {0},
+      {"lag", 1, 0, 'l'},        {"delay", 1, 0, 'd'},
+      {"cutoff", 1, 0, 'c'},     {"poles", 1, 0, 'p'},
+      {"thrust-min", 1, 0, 't'}, {"as-stock", 0, 0, 's'},
+      {"json", 1, 0, 'j'},       {"help", 0, 0, 'h'},
+      {"version", 0, 0, 'V'},    {0},
   };
-  *o = (order_t){.job = effectiveness_default()};
+  *o = (order_t){.job = effectiveness_default(), .made = made_by("effectiveness", argc, argv)};
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-    if (option == '?')
-      return error_set(why,
-                       "%s: not an option, or without its value; allowed: --lag, --delay, --cutoff, --poles, "
-                       "--thrust-min, --as-stock, --json, --help",
-                       argv[optind - 1]);
+    if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
   }
-  if (o->help) return ST_OK;
+  if (o->help || o->version) return ST_OK;
   if (argc - optind != 1) return error_set(why, "one log is needed; allowed: effectiveness LOG.csv");
   o->log = argv[optind];
   return ST_OK;
@@ -100,6 +103,7 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *fil
   cJSON_AddNumberToObject(json, "bridged", (double)r->bridged);
   cJSON_AddNumberToObject(json, "starts", (double)r->starts);
   cJSON_AddNumberToObject(json, "used", (double)r->used);
+  made_add(json, &o->made, (double)NAN, (double)r->rows);
   const status_t status = result_write(json, file, why);
   cJSON_Delete(json);
   return status;
@@ -127,27 +131,27 @@ static void print(const order_t *o, const effectiveness_t *r) {
                "little");
 }
 
-static status_t run(whole_files_t *files, int argc, char **argv, why_t *why) {
-  order_t order;
+static status_t run(order_t *o, whole_files_t *files, int argc, char **argv, why_t *why) {
   effectiveness_t result = {.rows = 0};
   FILE *json;
-  TRY(take_order(&order, argc, argv, why));
-  if (order.help) {
-    fputs(USAGE, stdout);
-    return ST_OK;
-  }
-  TRY(whole_files_open(files, order.json, &json, why));
-  TRY(whole_files_spare(files, order.log, why));
-  TRY(effectiveness_fit(order.log, &order.job, &result, why));
-  if (json) TRY(write_json(&order, &result, json, why));
-  print(&order, &result);
+  TRY(take_order(o, argc, argv, why));
+  if (o->help) fputs(USAGE, stdout);
+  if (o->version) made_version("effectiveness");
+  if (!o->log) return ST_OK;
+  TRY(whole_files_open(files, o->json, &json, why));
+  TRY(whole_files_spare(files, o->log, why));
+  TRY(effectiveness_fit(o->log, &o->job, &result, why));
+  if (json) TRY(write_json(o, &result, json, why));
+  print(o, &result);
   return ST_OK;
 }
 
 int main(int argc, char **argv) {
+  static order_t order;
   static whole_files_t files;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  const status_t status = run(&files, argc, argv, &why);
+  const status_t status = run(&order, &files, argc, argv, &why);
+  made_free(&order.made);
   return whole_files_exit(&files, "effectiveness", status, &why);
 }

@@ -3,13 +3,14 @@
 #include "fly_usage.h"
 #include "io/model_file.h"
 #include "io/number.h"
+#include "io/option.h"
 #include "io/whole_file.h"
+#include "made.h"
 #include "many.h"
 #include "replay.h"
 #include "request_spec.h"
 #include "scenario/scenario.h"
 
-#include <getopt.h>
 #include <limits.h>
 #include <math.h>
 #include <signal.h>
@@ -30,7 +31,10 @@ typedef struct {
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path, *replay, *params_to;
   bool list, logs, params, markdown, help, rate_said;
-  int not_finite; // flights
+  bool version;
+  made_t made, each; // each: of one of many flights, but for its seed
+  int not_finite;    // flights
+  double rows;       // recorded
 } order_t;
 
 // --- options ------------------------------------------------------------------------------------------
@@ -40,6 +44,13 @@ static status_t take_count(const char *option, const char *text, double min, dou
   if (number_parse(text, value) && *value >= min && *value <= max && *value == (double)(long)*value)
     return ST_OK;
   return error_set(why, "%s %s: allowed is a whole number from %.0f to %.0f", option, text, min, max);
+}
+
+static status_t take_params(order_t *o, const char *form, why_t *why) {
+  o->params = true;
+  o->markdown = form != NULL;
+  if (!form || strcmp(form, "markdown") == 0) return ST_OK;
+  return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
 static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
@@ -73,11 +84,8 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'j': o->json = text; return ST_OK;
   case 'L': o->list = true; return ST_OK;
   case 'G': o->logs = true; return ST_OK;
-  case 'P':
-    o->params = true;
-    o->markdown = text != NULL;
-    if (!text || strcmp(text, "markdown") == 0) return ST_OK;
-    return error_set(why, "--params=%s: allowed is --params, or --params=markdown", text);
+  case 'P': return take_params(o, text, why);
+  case 'V': o->version = true; return ST_OK;
   case 'h': o->help = true; return ST_OK;
   }
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
@@ -98,28 +106,33 @@ static status_t check_many(const order_t *o, why_t *why) {
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},        {"set-from", 1, 0, 'S'},
-      {"params-to", 1, 0, 'T'},  {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'},
-      {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},      {"seed", 1, 0, 'd'},
-      {"seeds", 1, 0, 'm'},      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
-      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},        {"log-rate", 1, 0, 'r'},
-      {"json", 1, 0, 'j'},       {"list", 0, 0, 'L'},       {"logs", 0, 0, 'G'},
-      {"params", 2, 0, 'P'},     {"help", 0, 0, 'h'},       {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},
+      {"set-from", 1, 0, 'S'},   {"params-to", 1, 0, 'T'},
+      {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'},
+      {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},
+      {"seed", 1, 0, 'd'},       {"seeds", 1, 0, 'm'},
+      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
+      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},
+      {"log-rate", 1, 0, 'r'},   {"json", 1, 0, 'j'},
+      {"list", 0, 0, 'L'},       {"logs", 0, 0, 'G'},
+      {"params", 2, 0, 'P'},     {"help", 0, 0, 'h'},
+      {"version", 0, 0, 'V'},    {0},
   };
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
+  o->made = made_by("fly", argc, argv);
+  o->each = made_by("fly", 0, NULL);
   opterr = 0;
-  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-    if (option == '?')
-      return error_set(why, "%s: not an option, or without its value; fly --help lists them",
-                       argv[optind - 1]);
+  for (int option, at; (option = getopt_long(argc, argv, "", options, &at)) != -1;) {
+    if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
+    if (!strchr("ftjlT", option)) made_option(&o->each, options[at].name, optarg);
   }
-  if (o->list || o->logs || o->params || o->help) return ST_OK;
+  if (o->list || o->logs || o->params || o->help || o->version) return ST_OK;
   if (o->replay && optind == argc) return ST_OK;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
-  o->scenario = scenario_find(argv[optind]);
-  if (!o->scenario) return error_set(why, "%s: no such scenario; fly --list shows them", argv[optind]);
+  TRY(scenario_take(argv[optind], &o->scenario, why));
+  made_word(&o->each, o->scenario->name);
   o->request.log = o->log != NULL;
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
   if (o->rate_said && !o->log) return error_set(why, "--log-rate: allowed with --log FILE.csv");
@@ -141,9 +154,11 @@ static status_t open_output(const order_t *o, output_t *out, why_t *why) {
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
-static status_t tell(const cJSON *json, const record_t *record, output_t *out, why_t *why) {
+static status_t tell(const order_t *o, cJSON *json, const record_t *record, output_t *out, why_t *why) {
   if (!json) return error_failed(why, "out of memory");
+  made_add(json, &o->made, (double)o->request.seed, o->rows);
   if (out->log) record_write(record, out->log);
+  if (out->params) made_comment(&o->made, out->params);
   for (int i = 0; out->params && record->param && i < params_count; i++)
     fprintf(out->params, "%s=%.9g\n", params_table[i].name, (double)record->param[i]);
   if (out->json) TRY(result_write(json, out->json, why));
@@ -169,13 +184,14 @@ static status_t fly(order_t *o, output_t *out, why_t *why) {
     o->not_finite += cJSON_IsFalse(cJSON_GetObjectItem(result.json, "finite"));
     record_free(&record);
     record = result.record;
+    o->rows += record.n;
     if (o->seeds > 1 && isatty(STDERR_FILENO)) fprintf(stderr, "\r%d of %d flights", i + 1, o->seeds);
   }
   if (o->seeds > 1 && isatty(STDERR_FILENO)) fputc('\n', stderr);
   if (status == ST_OK) {
     cJSON *all =
         o->seeds > 1 ? result_over_seeds(json, o->seeds, o->request.seed) : cJSON_Duplicate(json[0], true);
-    status = tell(all, &record, out, why);
+    status = tell(o, all, &record, out, why);
     cJSON_Delete(all);
   }
   for (int i = 0; json && i < o->seeds; i++) cJSON_Delete(json[i]);
@@ -194,6 +210,7 @@ static status_t fly_many(order_t *o, output_t *out, why_t *why) {
       .json = out->json,
       .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
       .not_finite = &o->not_finite,
+      .made = &o->each,
   };
   return many_fly(&m, why);
 }
@@ -216,6 +233,7 @@ static status_t replay(const order_t *o, why_t *why) {
 static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
+  if (order->version) made_version("fly");
   if (order->list) catalogue_all();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
@@ -233,6 +251,8 @@ int main(int argc, char **argv) {
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
   const status_t status = run(&order, &out, argc, argv, &why);
   const int ended = whole_files_exit(&out.files, "fly", status, &why);
+  made_free(&order.made);
+  made_free(&order.each);
   if (ended != 0 || order.not_finite == 0) return ended;
   return error_exit("fly", error_failed(&why, "not finite: %d of the flights", order.not_finite), &why);
 }

@@ -30,6 +30,7 @@ static const char USAGE[] =
     "  --list                   scenarios, controllers and effects\n"
     "  --logs                   what the app logs, by group\n"
     "  --params                 the parameters of the flight code, with unit, default and range\n"
+    "  --version                version and commit\n"
     "  --help                   this\n"
     "Exit status: 0; 2 if the input is bad; 1 if something else fails, or a flight did not stay finite (what "
     "it was\n"

@@ -4,10 +4,10 @@
 #include "gap/6_extend.h"
 #include "gap/8_report.h"
 #include "io/number.h"
+#include "io/option.h"
 #include "io/whole_file.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,8 @@ typedef struct {
   study_order_t study;
   const char **hold_out;
   const char *out, *json; // null: not said
-  bool help;
+  bool help, version;
+  made_t made;
   char verdict[PATH_BYTES], page[PATH_BYTES], model[PATH_BYTES], curves[PATH_BYTES]; // in the folder `out`
 } order_t;
 
@@ -38,6 +39,7 @@ static const char USAGE[] =
     "                   nothing else there is touched, and without --out or --json no file is\n"
     "  --json FILE      writes verdict.json there\n"
     "  --seed N         of the flights that show what feedback alone does (1)\n"
+    "  --version        version and commit\n"
     "  --help           this\n"
     "LOG: a CSV or the .bin of a uSD deck. Exit status: 0, whatever is found; 2 if the input is bad (then\n"
     "verdict.json says `refused` and why, and model.toml and curves.csv of an earlier run are removed); 1 if "
@@ -61,6 +63,7 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'o': return take_once(&o->out, "out", text, why);
   case 'j': return take_once(&o->json, "json", text, why);
   case 'h': o->help = true; return ST_OK;
+  case 'V': o->version = true; return ST_OK;
   case 's':
     if (!number_parse(text, &seed) || !(seed >= 0.0 && seed <= 1e9) || seed != (double)(unsigned long)seed)
       return error_set(why, "--seed %.40s: allowed is a whole number from 0 to 1000000000", text);
@@ -82,22 +85,23 @@ static status_t take_paths(order_t *o, why_t *why) {
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"vehicle", 1, 0, 'v'}, {"columns", 1, 0, 'c'}, {"hold-out", 1, 0, 'x'}, {"out", 1, 0, 'o'},
-      {"json", 1, 0, 'j'},    {"seed", 1, 0, 's'},    {"help", 0, 0, 'h'},     {0}};
+      {"vehicle", 1, 0, 'v'}, {"columns", 1, 0, 'c'}, {"hold-out", 1, 0, 'x'},
+      {"out", 1, 0, 'o'},     {"json", 1, 0, 'j'},    {"seed", 1, 0, 's'},
+      {"help", 0, 0, 'h'},    {"version", 0, 0, 'V'}, {0}};
   o->study.seed = 1;
+  o->made = made_by("gap", argc, argv);
+  o->study.made = &o->made;
   o->hold_out = calloc((size_t)argc + 1, sizeof *o->hold_out);
   if (!o->hold_out) return error_failed(why, "out of memory");
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-    if (option == '?')
-      return error_set(why, "%.80s: not an option, or without its value; gap --help lists them",
-                       argv[optind - 1]);
+    if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
   }
   o->study.hold_out = o->hold_out;
   o->study.log = (const char *const *)argv + optind;
   o->study.n_log = argc - optind;
-  if (o->help) return ST_OK;
+  if (o->help || o->version) return ST_OK;
   if (o->study.n_log == 0) return error_set(why, "no log; allowed: gap [options] LOG...");
   return take_paths(o, why);
 }
@@ -164,8 +168,12 @@ static status_t write_words(const report_t *r, output_t *w, why_t *why) {
 static status_t write_all(const report_t *r, output_t *w, why_t *why) {
   const study_t *const s = r->study;
   char logs[120];
-  snprintf(logs, sizeof logs, "%d flight%s, seed %lu", s->fit.n, s->fit.n > 1 ? "s" : "", s->order.seed);
-  const extend_job_t job = {study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis, logs};
+  long rows = 0;
+  for (int i = 0; i < s->fit.n; i++) rows += s->flight[i].rows;
+  snprintf(logs, sizeof logs, "%d flight%s, %ld rows, seed %lu", s->fit.n, s->fit.n > 1 ? "s" : "", rows,
+           s->order.seed);
+  const extend_job_t job = {study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis, logs,
+                            s->order.made};
   TRY(write_json(report_verdict(r), w, why));
   if (w->page) report_page(r, w->page);
   if (w->curves) report_curves(r, w->curves);
@@ -193,8 +201,8 @@ static void refuse(const order_t *o, const why_t *line) {
   output_t w = {.verdict = NULL};
   why_t why;
   status_t status = open_output(o, true, &w, &why);
-  if (status == ST_OK) status = write_json(report_refused(line->text), &w, &why);
-  if (status == ST_OK && w.page) report_page_refused(line->text, w.page);
+  if (status == ST_OK) status = write_json(report_refused(line->text, &o->study), &w, &why);
+  if (status == ST_OK && w.page) report_page_refused(line->text, &o->study, w.page);
   if (status == ST_OK && whole_files_commit(&w.files, &why) == ST_OK) remove_found(o);
   whole_files_drop(&w.files);
 }
@@ -230,11 +238,13 @@ int main(int argc, char **argv) {
   status_t status = take_order(&order, argc, argv, &why);
   if (isatty(STDERR_FILENO)) order.study.progress = progress;
   if (status == ST_OK && order.help) fputs(USAGE, stdout);
-  if (status == ST_OK && !order.help) status = work(&order, &out, &begun, &why);
+  if (status == ST_OK && order.version) made_version("gap");
+  if (status == ST_OK && !order.help && !order.version) status = work(&order, &out, &begun, &why);
   const int ended = whole_files_exit(&out.files, "gap", status, &why);
   if (ended == 0 && out.words) fputs(out.words, stdout);
   if (begun && ended == 2) refuse(&order, &why);
   free(out.words);
   free(order.hold_out);
+  made_free(&order.made);
   return ended;
 }

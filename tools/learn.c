@@ -1,12 +1,13 @@
 // learn.c - the flight code's own learner over recorded flights: prints the weights and what they explain.
 #define _POSIX_C_SOURCE 200809L // stat
 #include "io/model_file.h"
+#include "io/option.h"
 #include "io/whole_file.h"
 #include "learn_log.h"
+#include "made.h"
 #include "param_spec.h"
 #include "result.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -21,7 +22,8 @@ typedef struct {
   int n_log, n_held_out, n_set;
   const char *columns, *vehicle, *json, *points;
   int surface;
-  bool help;
+  bool help, version;
+  made_t made;
 } order_t;
 
 // What is written beside what is printed.
@@ -48,6 +50,7 @@ static const char USAGE[] =
     "                           Other than there: rls.q is 0, and near the ground ceil.w1..w7 are 1, 0, ...\n"
     "  --points FILE.csv        writes every sample that taught: distance and measured thrust ratio\n"
     "  --json FILE              writes weights and residuals\n"
+    "  --version                version and commit\n"
     "  --help                   this\n";
 
 // --- options ------------------------------------------------------------------------------------------
@@ -74,28 +77,28 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'p': return append(o->set, &o->n_set, text, why);
   case 'x': o->points = text; return ST_OK;
   case 'j': o->json = text; return ST_OK;
+  case 'V': o->version = true; return ST_OK;
   default: o->help = true; return ST_OK;
   }
 }
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"columns", 1, 0, 'c'},  {"vehicle", 1, 0, 'v'}, {"surface", 1, 0, 's'},
-      {"hold-out", 1, 0, 'o'}, {"set", 1, 0, 'p'},     {"json", 1, 0, 'j'},
-      {"points", 1, 0, 'x'},   {"help", 0, 0, 'h'},    {0},
+      {"columns", 1, 0, 'c'}, {"vehicle", 1, 0, 'v'},
+      {"surface", 1, 0, 's'}, {"hold-out", 1, 0, 'o'},
+      {"set", 1, 0, 'p'},     {"json", 1, 0, 'j'},
+      {"points", 1, 0, 'x'},  {"help", 0, 0, 'h'},
+      {"version", 0, 0, 'V'}, {0},
   };
-  *o = (order_t){.surface = SURFACE_CEILING};
+  *o = (order_t){.surface = SURFACE_CEILING, .made = made_by("learn", argc, argv)};
   opterr = 0;
   for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-    if (option == '?')
-      return error_set(why,
-                       "%s: not an option, or without its value; allowed: --columns, --vehicle, --surface, "
-                       "--hold-out, --set, --points, --json, --help",
-                       argv[optind - 1]);
+    if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
   }
   for (int i = optind; i < argc; i++) TRY(append(o->log, &o->n_log, argv[i], why));
-  if (o->n_log == 0 && !o->help) return error_set(why, "no flight to learn from; allowed: learn LOG.csv...");
+  if (o->n_log == 0 && !o->help && !o->version)
+    return error_set(why, "no flight to learn from; allowed: learn LOG.csv...");
   return ST_OK;
 }
 
@@ -185,6 +188,7 @@ static cJSON *json_of(const order_t *o, const lesson_t *r) {
     cJSON_AddNumberToObject(item, "bias_mN", 1e3 * s->bias_N);
     cJSON_AddItemToArray(list, item);
   }
+  made_add(json, &o->made, (double)NAN, (double)r->learn.rls.count + (double)r->learn.refused);
   return json;
 }
 
@@ -233,6 +237,10 @@ static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t 
     fputs(USAGE, stdout);
     return ST_OK;
   }
+  if (order->version) {
+    made_version("learn");
+    return ST_OK;
+  }
   TRY(open_output(order, out, why));
   TRY(learn(order, &lesson, out->points, why));
   if (out->json) TRY(write_json(order, &lesson, out->json, why));
@@ -246,5 +254,6 @@ int main(int argc, char **argv) {
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
   const status_t status = run(&order, &out, argc, argv, &why);
+  made_free(&order.made);
   return whole_files_exit(&out.files, "learn", status, &why);
 }

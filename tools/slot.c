@@ -1,5 +1,6 @@
 // slot.c - the hover in a gap of 71 mm: what each form of the ceiling effect makes of it, beside the real
 // flights.
+#include "made.h"
 #include "slot_many.h"
 
 #include <stdio.h>
@@ -56,13 +57,17 @@ static status_t run(const char *folder, why_t *why) {
   return fly("air garage, square root, 36 g", FLY_AIR_GARAGE, SLOT_CEILING, 0.0, why);
 }
 
-static const char USAGE[] = "usage: slot [FOLDER of recorded flights]\n";
+static const char USAGE[] = "usage: slot [FOLDER of recorded flights]\n       slot --version\n";
 
 int main(int argc, char **argv) {
   why_t why;
   const char *const folder = argc > 1 && argv[1][0] ? argv[1] : NULL;
   if (argc == 2 && strcmp(argv[1], "--help") == 0) {
     fputs(USAGE, stdout);
+    return 0;
+  }
+  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
+    made_version("slot");
     return 0;
   }
   const bool bad = argc > 2 || (folder && folder[0] == '-');

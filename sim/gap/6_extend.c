@@ -85,6 +85,8 @@ status_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   if (!made) return error_failed(why, "out of memory");
   fprintf(made, "# Written by gap: %s and what was missing in it (%d named). Rewritten by the next run.\n",
           job->path, job->diagnosis->found.n);
+  if (job->made) made_comment(job->made, made);
+  if (job->made) fprintf(made, "# %s\n", job->logs);
   write_text(job, made);
   for (int i = 0; i < job->diagnosis->found.n; i++) write_effect(job, &job->diagnosis->found.named[i], made);
   status_t status = fclose(made) == 0 && text ? ST_OK : error_failed(why, "out of memory");

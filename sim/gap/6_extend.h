@@ -7,13 +7,15 @@
 #define SIM_GAP_EXTEND_H
 
 #include "gap/diagnose.h"
+#include "made.h"
 #include <stdio.h>
 
 typedef struct {
   const char *path, *text; // of the vehicle file
   const model_t *model;    // what it says
   const diagnosis_t *diagnosis;
-  const char *logs; // what it was found in, in words
+  const char *logs;   // what it was found in, in words
+  const made_t *made; // how; null: not said
 } extend_job_t;
 
 // ST_BAD_INPUT: with the named effects the text is no vehicle file any more (an effect list that cannot be

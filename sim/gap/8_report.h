@@ -110,7 +110,7 @@ const char *report_length(double m, char text[REPORT_LENGTH]);
 // no memory.
 cJSON *report_verdict(const report_t *r);
 // The verdict `refused`, with the line that says why as its one warning.
-cJSON *report_refused(const char *line);
+cJSON *report_refused(const char *line, const study_order_t *order);
 // ST_FAILED: no memory for the text.
 MUST_CHECK status_t report_write_json(const cJSON *json, FILE *out, why_t *why);
 
@@ -122,6 +122,6 @@ void report_curves(const report_t *r, FILE *out);
 
 // A page that needs nothing else.
 void report_page(const report_t *r, FILE *out);
-void report_page_refused(const char *line, FILE *out);
+void report_page_refused(const char *line, const study_order_t *order, FILE *out);
 
 #endif

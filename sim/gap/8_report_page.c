@@ -166,6 +166,23 @@ static void warnings(const report_t *r, FILE *out) {
   fputs("</ul></section>\n", out);
 }
 
+static void made(const study_order_t *o, const char *rows, FILE *out) {
+  if (!o->made) return;
+  page_text(out, "<footer class=quiet><p>", o->made->by, "");
+  page_text(out, ", ", o->made->date, "");
+  fprintf(out, ", seed %lu%s</p>\n", o->seed, rows);
+  page_text(out, "<p><code>", o->made->command ? o->made->command : "", "</code></p></footer>\n");
+}
+
+static void foot(const study_t *s, FILE *out) {
+  char text[80];
+  long rows = 0;
+  for (int i = 0; i < s->fit.n + s->held.n; i++) rows += s->flight[i].rows;
+  snprintf(text, sizeof text, ", %ld rows of %d flight%s", rows, s->fit.n + s->held.n,
+           s->fit.n + s->held.n > 1 ? "s" : "");
+  made(&s->order, text, out);
+}
+
 void report_page(const report_t *r, FILE *out) {
   fputs(HEAD, out);
   headline(r, out);
@@ -176,11 +193,13 @@ void report_page(const report_t *r, FILE *out) {
   again(&r->study->resimulation, out);
   untested(r, out);
   warnings(r, out);
+  foot(r->study, out);
   fputs(FOOT, out);
 }
 
-void report_page_refused(const char *line, FILE *out) {
+void report_page_refused(const char *line, const study_order_t *order, FILE *out) {
   fputs(HEAD, out);
   page_text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
+  made(order, "", out);
   fputs(FOOT, out);
 }

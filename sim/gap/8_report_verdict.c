@@ -130,6 +130,23 @@ static void add_untested(cJSON *root, const report_t *r) {
   }
 }
 
+// Which rows: of each log as they stand in it, and the samples that they became.
+static void add_made(cJSON *root, const study_t *s) {
+  double rows = 0.0;
+  for (int i = 0; i < s->fit.n + s->held.n; i++) rows += (double)s->flight[i].rows;
+  if (!s->order.made) return;
+  made_add(root, s->order.made, (double)s->order.seed, rows);
+  cJSON *const logs = cJSON_AddArrayToObject(cJSON_GetObjectItem(root, "made"), "logs");
+  for (int i = 0; i < s->fit.n + s->held.n; i++) {
+    cJSON *const o = cJSON_CreateObject();
+    cJSON_AddItemToArray(logs, o);
+    cJSON_AddStringToObject(o, "file", s->flight[i].name);
+    cJSON_AddNumberToObject(o, "rows", (double)s->flight[i].rows);
+    cJSON_AddNumberToObject(o, "samples", s->flight[i].n);
+    cJSON_AddBoolToObject(o, "held_out", i >= s->fit.n);
+  }
+}
+
 cJSON *report_verdict(const report_t *r) {
   const study_t *const s = r->study;
   cJSON *const root = cJSON_CreateObject();
@@ -151,10 +168,11 @@ cJSON *report_verdict(const report_t *r) {
   add_untested(root, r);
   cJSON *const warnings = cJSON_AddArrayToObject(root, "warnings");
   for (int i = 0; i < r->n_warning; i++) cJSON_AddItemToArray(warnings, cJSON_CreateString(r->warning[i]));
+  add_made(root, s);
   return root;
 }
 
-cJSON *report_refused(const char *line) {
+cJSON *report_refused(const char *line, const study_order_t *order) {
   cJSON *const root = cJSON_CreateObject();
   if (!root) return NULL;
   cJSON_AddStringToObject(root, "verdict", "refused");
@@ -165,6 +183,7 @@ cJSON *report_refused(const char *line) {
   cJSON_AddArrayToObject(root, "not_testable");
   cJSON *const warnings = cJSON_AddArrayToObject(root, "warnings");
   cJSON_AddItemToArray(warnings, cJSON_CreateString(line));
+  if (order->made) made_add(root, order->made, (double)order->seed, (double)NAN);
   return root;
 }
 

@@ -5,6 +5,7 @@
 
 #include "gap/7_resimulate.h"
 #include "gap/diagnose.h"
+#include "made.h"
 
 #define STUDY_VEHICLE "cf21_legacy" // of sim/vehicles, where no file is named
 
@@ -15,6 +16,7 @@ typedef struct {
   const char *const *hold_out; // logs; they may be among `log` too. None: see study_t
   int n_hold_out;
   unsigned long seed;
+  const made_t *made;                 // how the program was called; null: not said
   void (*progress)(const char *what); // may be null
 } study_order_t;
 

@@ -149,11 +149,7 @@ static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why
       to->factor = unit->si;
       return ST_OK;
     }
-    const unit_t *other;
-    for (int i = 0; (other = unit_at((kind_t)kind, i)) != NULL; i++) {
-      const size_t used = strlen(list);
-      snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", other->name);
-    }
+    unit_list((kind_t)kind, list, sizeof list);
   }
   return toml_refuse(t, "unit", why, "unknown unit `%s` of %s; allowed: %s", to->unit, ROWS[signal].name,
                      list);
@@ -218,13 +214,12 @@ static status_t read_kinds(toml_t t, columns_t *c, why_t *why) {
 
 // Three of four motors say nothing of a vehicle.
 static status_t check_motors(toml_t t, const columns_t *c, why_t *why) {
-  static const signal_id_t group[] = {SIG_M1, SIG_W1};
-  for (unsigned g = 0; g < sizeof group / sizeof *group; g++) {
+  for (int first = SIG_M1; first <= SIG_W1; first += SIG_W1 - SIG_M1) {
     int lacks = -1, there = -1;
-    for (int i = (int)group[g] + 3; i >= (int)group[g]; i--) *(c->of[i].column[0] ? &there : &lacks) = i;
+    for (int i = first + 3; i >= first; i--) *(c->of[i].column[0] ? &there : &lacks) = i;
     if (there >= 0 && lacks >= 0)
       return toml_refuse(t, ROWS[there].name, why, "without %s; allowed: %s to %s, or none of them",
-                         ROWS[lacks].name, ROWS[group[g]].name, ROWS[group[g] + 3].name);
+                         ROWS[lacks].name, ROWS[first].name, ROWS[first + 3].name);
   }
   return ST_OK;
 }
@@ -239,10 +234,12 @@ static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
   return check_motors(t, c, why);
 }
 
+static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "columns", NULL};
+static const toml_kind_t COLUMNS_FILE = {"a columns file", "tools/columns/fly.toml", ROOT_KEYS};
+
 static status_t read_root(toml_t root, columns_t *c, why_t *why) {
-  static const char *const keys[] = {"rest_height_m", "acceleration", "columns", NULL};
   toml_t columns;
-  TRY(toml_only(root, keys, why));
+  TRY(toml_only(root, ROOT_KEYS, why));
   TRY(toml_table(root, "columns", &columns, why));
   TRY(read_columns(columns, c, why));
   if (c->of[SIG_AX].column[0] || c->of[SIG_AZ].column[0]) TRY(read_frame(root, &c->acc, why));
@@ -253,7 +250,7 @@ static status_t read_root(toml_t root, columns_t *c, why_t *why) {
 
 status_t columns_read(const char *path, columns_t *c, why_t *why) {
   toml_file_t *file;
-  TRY(toml_open(&file, path, why));
+  TRY(toml_open(&file, path, &COLUMNS_FILE, why));
   columns_t fresh = {.acc = ACC_BODY, .rest_height_m = (double)NAN};
   const status_t status = read_root(toml_root(file), &fresh, why);
   toml_close(file);

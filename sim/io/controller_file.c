@@ -2,6 +2,7 @@
 #include "io/controller_file.h"
 
 #include "flight/params.h"
+#include "io/nearest.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -82,12 +83,20 @@ static status_t read_pid(toml_t t, model_t *m, why_t *why) {
 
 // --- our own flight code ----------------------------------------------------------------------------------
 
+static status_t no_param(toml_t group, const char *key, const char *name, why_t *why) {
+  char hint[NEAREST_HINT];
+  nearest_t nearest = nearest_to(name);
+  for (int i = 0; i < params_count; i++) nearest_try(&nearest, params_table[i].name);
+  return toml_refuse(group, key, why, "unknown parameter%s; allowed: those of fly --params",
+                     nearest_hint(&nearest, hint));
+}
+
 // One parameter; `all` has those before it.
 static status_t read_param(toml_t group, const char *key, const char *name, flown_by_t *by,
                            flight_param_t *all, why_t *why) {
   const param_row_t *const row = params_find(name);
   double value;
-  if (!row) return toml_refuse(group, key, why, "unknown parameter; allowed: those of fly --params");
+  if (!row) return no_param(group, key, name, why);
   if (by->n_set == FLOWN_BY_SETS)
     return toml_refuse(group, key, why, "one too many; allowed: %d parameters", FLOWN_BY_SETS);
   TRY(toml_double(group, key, (double)row->min, (double)row->max, &value, why));
@@ -132,5 +141,8 @@ status_t controller_read(toml_t root, model_t *m, why_t *why) {
   TRY(toml_string(t, "kind", kind, sizeof kind, why));
   if (strcmp(kind, "stock-pid") == 0) return read_pid(t, m, why);
   if (strcmp(kind, "indi") == 0) return read_indi(t, m, why);
-  return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stock-pid, indi", kind);
+  char hint[NEAREST_HINT];
+  static const char *const kinds[] = {"stock-pid", "indi", NULL};
+  return toml_refuse(t, "kind", why, "unknown kind `%s`%s; allowed: stock-pid, indi", kind,
+                     nearest_of(kind, kinds, hint));
 }

@@ -2,6 +2,7 @@
 #include "io/effect_spec.h"
 
 #include "io/csv.h"
+#include "io/nearest.h"
 #include "io/number.h"
 #include <stdio.h>
 #include <string.h>
@@ -17,9 +18,14 @@ static void list_add(char list[LIST_MAX], const char *item) {
 status_t effect_start(fx_use_t *use, const char *name, why_t *why) {
   const fx_t *fx = fx_find(name);
   if (!fx) {
-    char list[LIST_MAX] = "", shown[NUMBER_SHOWN];
-    for (int i = 0; i < fx_count; i++) list_add(list, fx_table[i]->name);
-    return error_set(why, "unknown effect `%s`; allowed: %s", number_shown(name, shown), list);
+    char list[LIST_MAX] = "", shown[NUMBER_SHOWN], hint[NEAREST_HINT];
+    nearest_t nearest = nearest_to(name);
+    for (int i = 0; i < fx_count; i++) {
+      list_add(list, fx_table[i]->name);
+      nearest_try(&nearest, fx_table[i]->name);
+    }
+    return error_set(why, "unknown effect `%s`%s; allowed: %s", number_shown(name, shown),
+                     nearest_hint(&nearest, hint), list);
   }
   *use = fx_use(fx);
   return ST_OK;
@@ -29,11 +35,15 @@ status_t effect_set_form(fx_use_t *use, const char *form, why_t *why) {
   if (!use->fx->surface) return error_set(why, "effect %s has no forms", use->fx->name);
   const curve_t *curve = curve_find(form);
   if (!curve || !(curve->surfaces & use->fx->surface)) {
-    char list[LIST_MAX] = "", shown[NUMBER_SHOWN];
-    for (int i = 0; i < curve_count; i++)
-      if (curve_table[i]->surfaces & use->fx->surface) list_add(list, curve_table[i]->name);
-    return error_set(why, "effect %s: unknown form `%s`; allowed: %s", use->fx->name,
-                     number_shown(form, shown), list);
+    char list[LIST_MAX] = "", shown[NUMBER_SHOWN], hint[NEAREST_HINT];
+    nearest_t nearest = nearest_to(form);
+    for (int i = 0; i < curve_count; i++) {
+      if (!(curve_table[i]->surfaces & use->fx->surface)) continue;
+      list_add(list, curve_table[i]->name);
+      nearest_try(&nearest, curve_table[i]->name);
+    }
+    return error_set(why, "effect %s: unknown form `%s`%s; allowed: %s", use->fx->name,
+                     number_shown(form, shown), nearest_hint(&nearest, hint), list);
   }
   fx_use_form(use, curve);
   use->points.n = 0;
@@ -41,9 +51,12 @@ status_t effect_set_form(fx_use_t *use, const char *form, why_t *why) {
 }
 
 static status_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
-  char list[LIST_MAX] = "", item[100], shown[NUMBER_SHOWN];
+  char list[LIST_MAX] = "", item[100], shown[NUMBER_SHOWN], hint[NEAREST_HINT];
   int n;
   const fx_param_t *param = fx_use_params(use, &n);
+  nearest_t nearest = nearest_to(key);
+  for (int i = 0; i < n; i++) nearest_try(&nearest, param[i].name);
+  if (use->fx->surface) nearest_try(&nearest, "form");
   if (use->fx->surface) list_add(list, "form");
   if (use->form && use->form->needs_points) list_add(list, "file");
   for (int i = 0; i < n; i++) {
@@ -51,9 +64,9 @@ static status_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
              param[i].unit[0] ? " " : "", param[i].unit);
     list_add(list, item);
   }
-  return error_set(why, "effect %s%s%s: unknown key `%s`; allowed: %s", use->fx->name,
+  return error_set(why, "effect %s%s%s: unknown key `%s`%s; allowed: %s", use->fx->name,
                    use->form ? ", form " : "", use->form ? use->form->name : "", number_shown(key, shown),
-                   list);
+                   nearest_hint(&nearest, hint), list);
 }
 
 status_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {

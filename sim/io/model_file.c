@@ -1,14 +1,17 @@
 // model_file.c - vehicle files.
+#define _POSIX_C_SOURCE 200809L // access
 #include "io/model_file.h"
 
 #include "io/controller_file.h"
 #include "io/effect_spec.h"
 #include "io/frame_file.h"
+#include "io/nearest.h"
 #include "io/toml.h"
 #include "plant/vertical.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 // Thrust over weight. The thesis's quickest vehicle has 20, racers 15.
 #define LIFT_MIN 1.0
@@ -149,13 +152,15 @@ static status_t check_lift(toml_t root, const model_t *m, why_t *why) {
                      m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
 }
 
+static const char *const ROOT_KEYS[] = {
+    "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s",  "thrust_min_N",
+    "thrust_max_N", "ceiling_m", "wall_y_m",       "floor_rise_x", "floor_rise_y",
+    "thrust_map",   "body",      "rotors",         "battery",      "controller",
+    "effect",       NULL};
+static const toml_kind_t VEHICLE_FILE = {"a vehicle file", "sim/vehicles/cf21_legacy.toml", ROOT_KEYS};
+
 static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
-  static const char *const keys[] = {
-      "name",         "mass_kg",   "rotor_radius_m", "motor_tau_s",  "thrust_min_N",
-      "thrust_max_N", "ceiling_m", "wall_y_m",       "floor_rise_x", "floor_rise_y",
-      "thrust_map",   "body",      "rotors",         "battery",      "controller",
-      "effect",       NULL};
-  TRY(toml_only(root, keys, why));
+  TRY(toml_only(root, ROOT_KEYS, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
   TRY(check_lift(root, m, why));
@@ -183,15 +188,30 @@ static status_t read_file(toml_file_t *file, const char *path, model_t *m, why_t
   return status;
 }
 
+// Where there is no such file: a vehicle of which the path is the name, or nearly.
+static status_t no_file(const char *path, why_t *why) {
+  const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
+  char word[NEAREST_LETTERS + 1] = "";
+  const size_t size = strlen(name), end = size > 5 && strcmp(name + size - 5, ".toml") == 0 ? size - 5 : size;
+  if (end < sizeof word) memcpy(word, name, end);
+  nearest_t nearest = nearest_to(word);
+  for (int i = 0; i < vehicle_count; i++) nearest_try(&nearest, vehicle_table[i].name);
+  if (!nearest.name) return ST_OK;
+  return error_set(why,
+                   "%.200s: cannot be opened: No such file or directory (did you mean sim/vehicles/%s.toml?)",
+                   path, nearest.name);
+}
+
 status_t model_read(const char *path, model_t *m, why_t *why) {
+  if (access(path, F_OK) != 0) TRY(no_file(path, why));
   toml_file_t *file;
-  TRY(toml_open(&file, path, why));
+  TRY(toml_open(&file, path, &VEHICLE_FILE, why));
   return read_file(file, path, m, why);
 }
 
 status_t model_read_text(const char *path, const char *text, model_t *m, why_t *why) {
   toml_file_t *file;
-  TRY(toml_open_text(&file, path, text, why));
+  TRY(toml_open_text(&file, path, text, &VEHICLE_FILE, why));
   return read_file(file, path, m, why);
 }
 

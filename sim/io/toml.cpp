@@ -2,6 +2,8 @@
 #define TOML_HEADER_ONLY 0 // the code comes from the library: compiles in a fraction of the time
 #include "io/toml.h"
 
+#include "io/nearest.h"
+
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -40,21 +42,30 @@ status_t wrong_type(toml_t t, const char *key, const char *type, why_t *why) {
   return toml_refuse(t, key, why, "wrong type; allowed: %s", type);
 }
 
-status_t parse(toml_file_t &file, std::istream &stream, why_t *why) {
+// name, mass_kg, ..: what stands at the root.
+std::string keys_of(const toml_kind_t *kind) {
+  std::string list;
+  for (const char *const *key = kind->keys; *key; key++)
+    list += (list.empty() ? "" : ", ") + std::string(*key);
+  return list;
+}
+
+status_t parse(toml_file_t &file, std::istream &stream, const toml_kind_t *kind, why_t *why) {
   try {
     file.root = toml::parse(stream, file.path);
   } catch (const toml::parse_error &e) {
     const std::string what(e.description());
-    return error_set(why, "%s:%u:%u: %s; allowed: TOML", file.path.c_str(), e.source().begin.line,
-                     e.source().begin.column, what.c_str());
+    return error_set(why, "%s:%u:%u: %s; allowed: %s in TOML (as %s) with %s", file.path.c_str(),
+                     e.source().begin.line, e.source().begin.column, what.c_str(), kind->what, kind->example,
+                     keys_of(kind).c_str());
   }
   return ST_OK;
 }
 
-status_t read(toml_file_t &file, const char *text, why_t *why) {
+status_t read(toml_file_t &file, const char *text, const toml_kind_t *kind, why_t *why) {
   if (text) {
     std::istringstream stream(text);
-    return parse(file, stream, why);
+    return parse(file, stream, kind, why);
   }
   std::ifstream stream(file.path, std::ios::binary);
   const int cause = errno;
@@ -62,14 +73,14 @@ status_t read(toml_file_t &file, const char *text, why_t *why) {
   errno = 0;
   stream.peek();
   if (errno != 0) return error_set(why, "%s: cannot be read: %s", file.path.c_str(), std::strerror(errno));
-  return parse(file, stream, why);
+  return parse(file, stream, kind, why);
 }
 
-status_t open(toml_file_t **file, const char *path, const char *text, why_t *why) {
+status_t open(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind, why_t *why) {
   *file = nullptr;
   try {
     toml_file_t *const fresh = new toml_file_t{path, {}};
-    const status_t status = read(*fresh, text, why);
+    const status_t status = read(*fresh, text, kind, why);
     if (status == ST_OK)
       *file = fresh;
     else
@@ -82,12 +93,13 @@ status_t open(toml_file_t **file, const char *path, const char *text, why_t *why
 
 } // namespace
 
-status_t toml_open(toml_file_t **file, const char *path, why_t *why) {
-  return open(file, path, nullptr, why);
+status_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why) {
+  return open(file, path, nullptr, kind, why);
 }
 
-status_t toml_open_text(toml_file_t **file, const char *path, const char *text, why_t *why) {
-  return open(file, path, text, why);
+status_t toml_open_text(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind,
+                        why_t *why) {
+  return open(file, path, text, kind, why);
 }
 
 void toml_close(toml_file_t *file) {
@@ -213,7 +225,8 @@ status_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
       const size_t used = std::strlen(list);
       std::snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", *a);
     }
-    return toml_refuse(t, key, why, "unknown key; allowed: %s", list);
+    char hint[NEAREST_HINT];
+    return toml_refuse(t, key, why, "unknown key%s; allowed: %s", nearest_of(key, allowed, hint), list);
   }
   return ST_OK;
 }

@@ -21,11 +21,18 @@ typedef struct {
   const void *table;
 } toml_t;
 
+// What the file is to be, for the message where it is no TOML at all.
+typedef struct {
+  const char *what, *example; // "a vehicle file", "sim/vehicles/cf21_legacy.toml"
+  const char *const *keys;    // of its root; ends with a null pointer
+} toml_kind_t;
+
 // ST_BAD_INPUT: no such file, a folder, not TOML (with line and column); *file is null then.
-MUST_CHECK status_t toml_open(toml_file_t **file, const char *path, why_t *why);
+MUST_CHECK status_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why);
 
 // The same from a text in memory; `path` is what errors call it.
-MUST_CHECK status_t toml_open_text(toml_file_t **file, const char *path, const char *text, why_t *why);
+MUST_CHECK status_t toml_open_text(toml_file_t **file, const char *path, const char *text,
+                                   const toml_kind_t *kind, why_t *why);
 
 // A null pointer is allowed.
 void toml_close(toml_file_t *file);

@@ -1,7 +1,7 @@
 // units.c - the units that logs come in.
 #include "io/units.h"
 
-#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #define PI        3.14159265358979323846
@@ -32,4 +32,12 @@ const unit_t *unit_find(kind_t kind, const char *name) {
   for (int i = 0; (unit = unit_at(kind, i)) != NULL; i++)
     if (strcmp(unit->name, name) == 0) return unit;
   return NULL;
+}
+
+void unit_list(kind_t kind, char *list, size_t size) {
+  const unit_t *unit;
+  for (int i = 0; (unit = unit_at(kind, i)) != NULL; i++) {
+    const size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s", used ? ", " : "", unit->name);
+  }
 }

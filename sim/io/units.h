@@ -2,6 +2,8 @@
 #ifndef SIM_IO_UNITS_H
 #define SIM_IO_UNITS_H
 
+#include <stddef.h>
+
 typedef enum {
   KIND_TIME,
   KIND_LENGTH,
@@ -28,5 +30,8 @@ const unit_t *unit_at(kind_t kind, int i);
 
 // The unit of that name; a null pointer if the kind has none.
 const unit_t *unit_find(kind_t kind, const char *name);
+
+// Adds the names of a kind's units to a list, with commas.
+void unit_list(kind_t kind, char *list, size_t size);
 
 #endif

@@ -2,6 +2,8 @@
 #include "scenario/scenario.h"
 
 #include "io/model_file.h"
+#include "io/nearest.h"
+#include "io/number.h"
 #include <math.h>
 #include <string.h>
 
@@ -11,6 +13,16 @@ const scenario_t *scenario_find(const char *name) {
   for (int i = 0; i < scenario_count; i++)
     if (strcmp(scenario_table[i]->name, name) == 0) return scenario_table[i];
   return NULL;
+}
+
+status_t scenario_take(const char *name, const scenario_t **scenario, why_t *why) {
+  char shown[NUMBER_SHOWN], hint[NEAREST_HINT];
+  nearest_t nearest = nearest_to(name);
+  *scenario = scenario_find(name);
+  if (*scenario) return ST_OK;
+  for (int i = 0; i < scenario_count; i++) nearest_try(&nearest, scenario_table[i]->name);
+  return error_set(why, "%s: no such scenario%s; fly --list shows them", number_shown(name, shown),
+                   nearest_hint(&nearest, hint));
 }
 
 status_t scenario_check_ladder(const model_t *model, why_t *why) {

@@ -17,6 +17,8 @@ extern const int scenario_count;
 
 // A null pointer where there is none of that name.
 const scenario_t *scenario_find(const char *name);
+// The same for a person. ST_BAD_INPUT: there is none; names the one that may be meant.
+MUST_CHECK status_t scenario_take(const char *name, const scenario_t **scenario, why_t *why);
 
 // The thesis's appendix A: 32 g under a ceiling at 0.5 m, ceiling term not clipped, everything measured
 // exactly. ST_BAD_INPUT: a fault of the build, not of the user.

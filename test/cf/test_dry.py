@@ -49,6 +49,23 @@ class DryRun(unittest.TestCase):
                 self.assertEqual((ran.returncode, ran.stderr), (0, ""))
                 self.assertIn(says, ran.stdout)
 
+    def test_it_says_its_version(self) -> None:
+        ran = self.cf("--version")
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
+        self.assertRegex(ran.stdout, r"^cf\.py \d\S* \(commit .+\)\n$")
+
+    def test_it_says_what_may_be_meant(self) -> None:
+        for words, says in (
+            (("lern",), "(did you mean learn?)"),
+            (("params", "gett", "ceil.min"), "(did you mean get?)"),
+            (("learn", "--dryrun"), "(did you mean --dry-run?)"),
+            (("learn", "--hold", "99"), "argument --hold: 99: allowed are 1 to 60 s; "),
+        ):
+            with self.subTest(words=words):
+                ran = self.cf(*words)
+                self.assertEqual((ran.returncode, ran.stderr.count("\n")), (2, 1))
+                self.assertIn(says, ran.stderr)
+
     def test_it_writes_no_file(self) -> None:
         for words in (("log", "acc.z", "--out"), ("learn", "--log"), ("test-flight", "--log")):
             self.cf(*words, self.folder / "x.csv", "--dry-run")

@@ -1,5 +1,6 @@
 // main.c - sits an exam of many sets and prints the marks: main FIRST_SEED SETS [lines].
 #include "exam/exam.h"
+#include "made.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -137,6 +138,10 @@ static void print_marks(const marks_t *m) {
 
 int main(int argc, char **argv) {
   static exam_set_t sets[SETS_MAX];
+  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
+    made_version("exam");
+    return 0;
+  }
   const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1;
   const int n = argc > 2 ? atoi(argv[2]) : 20, only = argc > 4 ? atoi(argv[4]) : -1;
   if (n < 1 || n > SETS_MAX) return 2;
