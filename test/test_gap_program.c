@@ -59,6 +59,10 @@ static void check_page(void) {
                                       "On flights that were not used",
                                       "Flown again in closed loop",
                                       "What these flights cannot tell",
+                                      "<footer class=quiet><p>gap ",
+                                      "seed 1, ",
+                                      " rows of 3 flights</p>",
+                                      "<p><code>gap --vehicle ",
                                       "</html>"};
   static const char *const never[] = {"<script", "http", "src=", "href=", "url(",
                                       "@import", ">nan", "Lnan", "Mnan"};
@@ -80,7 +84,9 @@ static void check_model(const cJSON *v) {
   why_t why = {""};
   char text[2000], *const file = scratch_text("named/model.toml");
   CHECK(strstr(file, "utiasDSL/drone-models") &&
-        strstr(file, "# Found by the discrepancy workflow in 2 flights"));
+        strstr(file, "# Found by the discrepancy workflow in 2 flights, "));
+  CHECK(strstr(file, "# Written by gap: ") == file && strstr(file, "\n# made by gap ") &&
+        strstr(file, "\n# gap --vehicle ") && strstr(file, " rows, seed 1\n"));
   free(file);
   CHECK_OK(model_read(scratch_path("room.toml"), &plain, &why));
   CHECK_OK(model_read(scratch_path("named/model.toml"), &m, &why));
