@@ -1,4 +1,5 @@
 // request_spec.c - what the command line asks for, from text.
+#define _POSIX_C_SOURCE 200809L // getline
 #include "request_spec.h"
 
 #include "io/effect_spec.h"
@@ -7,6 +8,7 @@
 #include "param_spec.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define NAME_MAX 24
@@ -127,15 +129,17 @@ status_t request_take_set(request_t *r, const char *text, why_t *why) {
 status_t request_take_sets(request_t *r, const char *path, why_t *why) {
   FILE *const file = fopen(path, "r");
   if (!file) return error_set(why, "%s: cannot be read", path);
-  char line[128];
+  char *line = NULL; // a comment may be long: it holds a command line
+  size_t room = 0;
   status_t status = ST_OK;
-  for (int n = 1; status == ST_OK && fgets(line, sizeof line, file); n++) {
+  for (int n = 1; status == ST_OK && getline(&line, &room, file) >= 0; n++) {
     line[strcspn(line, "\r\n")] = '\0';
     if (line[0] == '\0' || line[0] == '#') continue;
     why_t cause;
     status = request_take_set(r, line, &cause);
     if (status != ST_OK) status = error_set(why, "%s:%d: %s", path, n, cause.text);
   }
+  free(line);
   fclose(file);
   return status;
 }

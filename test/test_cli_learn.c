@@ -68,10 +68,12 @@ static const struct {
     {"columns file missing", "$S/l_flight.csv --columns $S/l_no.toml",
      "learn: l_no.toml: cannot be opened: No such file or directory\n"},
     {"broken TOML", "$S/l_flight.csv --columns $S/l_broken.toml",
-     "learn: l_broken.toml:2:9: Error while parsing table header: expected ']', saw '\\n'; allowed: "
-     "TOML\n"},
+     "learn: l_broken.toml:2:9: Error while parsing table header: expected ']', saw '\\n'; allowed: a "
+     "columns file in TOML (as "
+     "tools/columns/fly.toml) with rest_height_m, acceleration, columns\n"},
     {"unknown vehicle key", "$S/l_flight.csv --vehicle $S/l_unknown.toml",
-     "learn: l_unknown.toml:3: mass_g: unknown key; allowed: name, mass_kg, rotor_radius_m, motor_tau_s, "
+     "learn: l_unknown.toml:3: mass_g: unknown key (did you mean mass_kg?); allowed: name, mass_kg, "
+     "rotor_radius_m, motor_tau_s, "
      "thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, floor_rise_y, thrust_map, body, rotors, "
      "battery, controller, "
      "effect\n"},
