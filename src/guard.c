@@ -63,7 +63,9 @@ static void decide(guard_t *g, const guard_in_t *in) {
   g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
   if (g->action == GUARD_RETREAT) {
     g->retreat_ms = judge_longer(g->retreat_ms, true, in->ms);
-    const bool other = in->setpoint_good && fabsf(in->asked_z_m - g->asked_at_m) > OTHER_M;
+    // Where it began while a velocity was asked for (NaN), any height is another one.
+    const bool other =
+        in->setpoint_good && f_finite(in->asked_z_m) && !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
     if (g->quiet_ms > QUIET_MS && other) g->action = GUARD_FLY;
     return;
   }
