@@ -75,9 +75,8 @@ static float ceiling_Nm(const att_indi_in_t *in, float gain_Nms, float rate_radp
   return f_clamp(in->ceiling_Nms, -ATT_INDI_CEILING_MAX * gain_Nms, 0.0f) * rate_radps;
 }
 
-// What the increments hold against about one axis, beyond what trims: `held_Nm` is what the rotors give now
-// and the vehicle does not show. Exactly 0 within the bound.
-static float beyond_trim_Nm(float held_Nm, float most_Nm) {
+// What is held against about one axis beyond `most_Nm`: exactly 0 within.
+static float beyond_Nm(float held_Nm, float most_Nm) {
   return held_Nm - f_clamp(held_Nm, -most_Nm, most_Nm);
 }
 
@@ -95,20 +94,23 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
   };
   // Of the last increment what was applied: mixing gives yaw up first.
   const float g = p->g2_s / period_s, last_Nm = in->torque_b_Nm.z - s->yaw_now_Nm;
-  const v3_t held_Nm = {in->ratio * now.x - p->inertia_xx_kgm2 * acc.x,
-                        in->ratio * now.y - p->inertia_yy_kgm2 * acc.y,
-                        now.z + g * (now.z - s->yaw_now_Nm) - p->inertia_zz_kgm2 * acc.z};
-  s->yaw_now_Nm = now.z;
   const float x_kgm2 = p->quick * p->inertia_xx_kgm2, y_kgm2 = p->quick * p->inertia_yy_kgm2;
-  return (v3_t){
-      now.x + (x_kgm2 * (nu.x - acc.x) + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x) -
-               beyond_trim_Nm(held_Nm.x, in->trim_Nm)) /
-                  in->ratio,
-      now.y + (y_kgm2 * (nu.y - acc.y) + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y) -
-               beyond_trim_Nm(held_Nm.y, in->trim_Nm)) /
-                  in->ratio,
-      now.z + (p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * last_Nm -
-               beyond_trim_Nm(held_Nm.z, in->trim_yaw_Nm)) /
-                  (1.0f + g),
-  };
+  v3_t step = {x_kgm2 * (nu.x - acc.x), y_kgm2 * (nu.y - acc.y),
+               p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * last_Nm};
+  if (in->ceiling_Nms < 0.0f) { // else there is nothing to add
+    step.x += ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x);
+    step.y += ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y);
+  }
+  // What the rotors give now and the vehicle does not show.
+  const v3_t held = {in->ratio * now.x - p->inertia_xx_kgm2 * acc.x,
+                     in->ratio * now.y - p->inertia_yy_kgm2 * acc.y,
+                     now.z + g * (now.z - s->yaw_now_Nm) - p->inertia_zz_kgm2 * acc.z};
+  s->yaw_now_Nm = now.z;
+  const float most = in->trim_Nm, most_yaw = in->trim_yaw_Nm;
+  if (!(fabsf(held.x) <= most && fabsf(held.y) <= most && fabsf(held.z) <= most_yaw)) {
+    step.x -= beyond_Nm(held.x, most);
+    step.y -= beyond_Nm(held.y, most);
+    step.z -= beyond_Nm(held.z, most_yaw);
+  }
+  return (v3_t){now.x + step.x / in->ratio, now.y + step.y / in->ratio, now.z + step.z / (1.0f + g)};
 }

@@ -27,6 +27,7 @@ status_t flight_tune(flight_t *f, const flight_param_t *p) {
   f->outer.coef.period_s = OUTER_S;
   TRY(outer_take(&f->outer, p));
   f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
+  f->att_lag_s = p->motor_tau_s + (p->att_cutoff_Hz > 0.0f ? FILTER_DELAY / p->att_cutoff_Hz : 0.0f);
   return ST_OK;
 }
 
@@ -132,9 +133,9 @@ static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thr
 
 // What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
 static float ceiling_Nms(const flight_t *f, float thrust_N) {
-  const float cutoff_Hz = f->outer.param.att_cutoff_Hz, arm_m = f->outer.param.mixer.arm_m;
-  const float lag_s = f->outer.param.motor_tau_s + (cutoff_Hz > 0.0f ? FILTER_DELAY / cutoff_Hz : 0.0f);
-  return f->outer.param.tilt_share * thrust_N * f->out.outer.at.slope_per_m * arm_m * arm_m * lag_s;
+  const float slope_per_m = f->out.outer.at.slope_per_m, arm_m = f->outer.param.mixer.arm_m;
+  if (slope_per_m == 0.0f) return 0.0f; // most of a flight
+  return f->outer.param.tilt_share * thrust_N * slope_per_m * arm_m * arm_m * f->att_lag_s;
 }
 
 static APART void run_inner(flight_t *f, const flight_in_t *in) {
@@ -173,7 +174,7 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
 
 // Nothing to stay upright with: all motors alike.
 static void run_blind(flight_t *f, float thrust_N) {
-  const float each_N = 0.25f * thrust_N;
+  const float each_N = f_clamp(0.25f * thrust_N, 0.0f, f->outer.param.mixer.force_max_N);
   f->out.motors = mixer_of(&f->outer.param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
 }
 

@@ -92,6 +92,7 @@ for level in -Os -O2; do
       printf "cost: Cortex-M4F %s: worst tick %d instructions, %d in a flight without faults; units and guard alone %d, the inner loop %d more\n",
         level, worst + 0.5, clean + 0.5, idle / idles + 0.5, inner / inners - idle / idles + 0.5
       printf "cost: Cortex-M4F %s: deepest stack of a tick %d bytes, of the selection %d\n", level, stack, begin
-      exit !(worst <= 4000 && stack <= 512 && begin <= 512 && inner / inners - idle / idles <= 700)
-    }' || fail "more than 4,000 instructions a tick, 700 for the inner loop, or 512 bytes of stack"
+      most = level == "-Os" ? 700 : 760 # the firmware is built with -Os
+      exit !(worst <= 4000 && stack <= 512 && begin <= 512 && inner / inners - idle / idles <= most)
+    }' || fail "more than 4,000 instructions a tick, 700 for the inner loop (760 with -O2), or 512 bytes of stack"
 done

@@ -60,6 +60,7 @@ typedef struct {
   att_indi_t att;
   lpf2_coef_t att_filter;
   float att_lag_share;
+  float att_lag_s;      // of motors and filter together
   sincos_t heading_ref; // heading that is held; YAW_RATE turns it
   float yaw_rad;        // that heading_ref is the heading of; NaN: of none
   bool heading_known;   // not while the motors are off
