@@ -2,6 +2,7 @@
 #include "result.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
@@ -47,7 +48,27 @@ static void replace_number(cJSON *o, const char *key, double value) {
   cJSON_ReplaceItemInObject(o, key, cJSON_CreateNumber(value));
 }
 
+// In what the flight code flew otherwise than it ships; over several flights, in all of them together.
+static void add_set(cJSON *json, const flown_t *flown) {
+  const float *const flew = flown->record.param;
+  if (!flew) return; // another flew
+  cJSON *set = cJSON_GetObjectItem(json, "set");
+  if (!set) set = cJSON_AddObjectToObject(json, "set");
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *const row = &params_table[i];
+    if (flew[i] == params_get(&flown->shipped, row)) continue;
+    cJSON_DeleteItemFromObject(set, row->name);
+    char text[32]; // the shortest decimal number that is this float: what a person would type
+    for (int digits = 6; digits <= 9; digits++) {
+      snprintf(text, sizeof text, "%.*g", digits, (double)flew[i]);
+      if (strtof(text, NULL) == flew[i]) break;
+    }
+    cJSON_AddRawToObject(set, row->name, text);
+  }
+}
+
 static void add_totals(result_t *r, flown_t *flown, int contacts) {
+  add_set(r->json, flown);
   replace_number(r->json, "contacts", number(r->json, "contacts") + contacts);
   replace_number(r->json, "realtime_factor", flown->outcome.realtime_factor);
   if (!flown->outcome.finite) cJSON_ReplaceItemInObject(r->json, "finite", cJSON_CreateFalse());
@@ -143,8 +164,18 @@ static bool is_table(const cJSON *item) {
   return cJSON_IsArray(item) && cJSON_IsObject(item->child) && strcmp(item->string, "flights") != 0;
 }
 
+static void print_set(const cJSON *set, FILE *out) {
+  const cJSON *item;
+  if (!set) return;
+  fputs("parameters as shipped", out);
+  if (set->child) fputs(", but for", out);
+  cJSON_ArrayForEach(item, set) fprintf(out, " --set %s=%s", item->string, item->valuestring);
+  fputc('\n', out);
+}
+
 void result_print(const cJSON *json, FILE *out) {
   const cJSON *item;
+  print_set(cJSON_GetObjectItem(json, "set"), out);
   cJSON_ArrayForEach(item, json) {
     if (!is_table(item)) continue;
     fprintf(out, "%s\n", item->string);
@@ -206,6 +237,8 @@ cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
     cJSON_AddNumberToObject(flight, "seed", (double)(first_seed + (uint64_t)i));
     cJSON_AddItemToArray(flights, flight);
   }
+  const cJSON *const set = cJSON_GetObjectItem(json[0], "set"); // the seeds differ in nothing else
+  if (set) cJSON_AddItemToObject(all, "set", cJSON_Duplicate(set, true));
   cJSON_AddItemToObject(all, "segments", segments_over_seeds(json, n));
   cJSON_AddNumberToObject(all, "contacts", contacts);
   cJSON_AddBoolToObject(all, "finite", finite);

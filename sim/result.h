@@ -7,7 +7,9 @@
 #include <stdio.h>
 
 typedef struct {
-  cJSON *json;     // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds
+  // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds; "set": {...}, the
+  // parameters in which the flight code flew otherwise than it ships, as --set takes them
+  cJSON *json;
   record_t record; // of the flight that --log writes
 } result_t;
 

@@ -5,6 +5,7 @@
 #include "pilot.h"
 #include "plant/vertical.h"
 #include <math.h>
+#include <stdlib.h>
 
 const char *const fly_name[FLY_COUNT] = {
     [FLY_INDI] = "indi",
@@ -106,6 +107,18 @@ void setup_learning_ladder(plan_t *plan, double ceiling_m) {
   plan->start_z_m = plan->start_thrust_N = 0.0;
 }
 
+status_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown, why_t *why) {
+  flight_param_t *const shipped = &flown->shipped;
+  params_default(shipped);
+  shipped->curve.mode = (int32_t)mode_of[kind];
+  if (kind == FLY_INDI_LIVE) shipped->curve.fixed = (rbf_weights_t){{1.0f}};
+  if (kind == FLY_INDI_LEARNED) shipped->curve.fixed = flies->curve.fixed;
+  flown->record.param = malloc((size_t)params_count * sizeof(float));
+  if (!flown->record.param) return error_failed(why, "out of memory");
+  for (int i = 0; i < params_count; i++) flown->record.param[i] = params_get(flies, &params_table[i]);
+  return ST_OK;
+}
+
 static status_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
   pilot_t pilot;
   flight_param_t param = setup->flight;
@@ -115,6 +128,7 @@ static status_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
     return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.1 to 45 Hz");
   const controller_t controller = pilot_controller(&pilot);
   TRY(loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why));
+  TRY(setup_keep_params(setup->kind, &pilot.flight.param, flown, why));
   flown->weights = live ? pilot.flight.learn.rls.theta : param.curve.fixed;
   return ST_OK;
 }

@@ -73,7 +73,8 @@ typedef struct {
   outcome_t outcome;
   segment_t segment[WAYPOINTS_MAX];
   int n_segment;
-  rbf_weights_t weights; // at the end of the flight, where the flight code flew
+  rbf_weights_t weights;  // at the end of the flight, where the flight code flew
+  flight_param_t shipped; // what ships with that controller: what record.param is held against
 } flown_t;
 
 // ST_FAILED: as loop_fly. ST_BAD_INPUT: a filter that the controller's rate does not allow, or
@@ -81,6 +82,12 @@ typedef struct {
 MUST_CHECK status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
 
 void flown_free(flown_t *flown);
+
+// The parameters of one that flies are kept with what it did, and what ships beside them: every default, but
+// for what the controller's name stands for, the curve's mode, where it learns from nothing 1 + 0, and where
+// it has learned, what it learned. ST_FAILED: no memory.
+MUST_CHECK status_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown,
+                                      why_t *why);
 
 // Hover 20 cm below the ceiling, then 10, 8, 6, 4, 2 cm, 10 s each (thesis section 5.3).
 void setup_learning_ladder(plan_t *plan, double ceiling_m);

@@ -23,13 +23,7 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   fx_use_t ceiling = fx_use(fx_find("ceiling"));
   ceiling.p[1] = DECAY_PER_M * setup->model.rotor_radius_m;
   TRY(model_add_fx(&setup->model, &ceiling, why));
-  params_default(&setup->flight);
-  setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
-  setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
-  setup->flight.gap_min_m = 0.0f;       // the thesis flies to 2 cm
-  setup->flight.bias.pole_radps = 0.0f; // and knows no bias
-  setup->flight.guard.blind_max_s = 60.0f;
-  setup->flight.guard.take_off_m = 0.0f; // and takes off in a gap of 71 mm
+  params_default(&setup->flight); // what ships is what flies
   return ST_OK;
 }
 
@@ -121,13 +115,6 @@ static void take_request(pilot_flight_t *p, const request_t *request) {
   p->log_every_ms = !request->log ? 0 : request->log_calls ? 1 : request->log_500_Hz ? 2 : 10;
 }
 
-static status_t keep_params(const flight_param_t *param, record_t *record, why_t *why) {
-  record->param = malloc((size_t)params_count * sizeof(float));
-  if (!record->param) return error_failed(why, "out of memory");
-  for (int i = 0; i < params_count; i++) record->param[i] = params_get(param, &params_table[i]);
-  return ST_OK;
-}
-
 static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
@@ -143,7 +130,7 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   flown->flown.record.app = p.log;
   if (p.log_every_ms == 1) flown->flown.record.n_calls = p.n_log;
   TRY(status);
-  TRY(keep_params(&param, &flown->flown.record, why));
+  TRY(setup_keep_params(setup->kind, &p.flight->outer.param, &flown->flown, why)); // the app's own
   if (setup->request && setup->request->log && p.n_log < flown->flown.record.n)
     return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;

@@ -80,7 +80,6 @@ status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m,
   setup->model.ceiling_m = ceiling ? rest_m + SLOT_REST_M : HUGE_VAL;
   if (ceiling) TRY(add_effect(&setup->model, SLOT_CEILING, why));
   TRY(add_effect(&setup->model, SLOT_GROUND, why));
-  setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
   setup->stock_pid.power = setup->air_garage.pid.power = stock_power_2022();
   // Its heights are those of the marker, as is its position; here that is 0 at rest.
   setup->air_garage.ceiling_m = SLOT_REST_M + MARKER_DOWN_M;

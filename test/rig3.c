@@ -63,6 +63,8 @@ outer_in_t rig3_sense(const rig3_t *v, v3_t goal_m) {
 flight_param_t rig3_param(void) {
   flight_param_t p;
   params_default(&p);
+  p.pos.mass_kg = 0.032f; // this vehicle's own
+  p.motor_tau_s = 0.0625f;
   return p;
 }
 

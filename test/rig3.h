@@ -30,7 +30,7 @@ quat_t rig3_attitude(const double up[3], double yaw);
 // What the vehicle's sensors say; a range sample on every tenth tick.
 outer_in_t rig3_sense(const rig3_t *v, v3_t goal_m);
 
-// The parameters as they are without a change, and a loop that never flew.
+// The parameters as they ship but for mass and lag, and a loop that never flew.
 flight_param_t rig3_param(void);
 outer_t rig3_outer(const flight_param_t *p);
 

@@ -41,11 +41,11 @@ TEST(flight_takes_the_ceilings_torque_of_four_arms_out_and_divides_by_its_ratio)
     const char *what;
     float share, cutoff_Hz, ratio, slope_per_m;
     double lag_s;
-  } row[] = {{"free air", 1.0f, 0.0f, 1.0f, 0.0f, 0.0625},
-             {"near", 1.0f, 0.0f, 1.25f, -8.0f, 0.0625},
-             {"filtered", 1.0f, 20.0f, 1.25f, -8.0f, 0.0625 + 0.2251 / 20.0},
-             {"half of it", 0.5f, 0.0f, 1.25f, -8.0f, 0.0625},
-             {"none of it", 0.0f, 0.0f, 1.25f, -8.0f, 0.0625}};
+  } row[] = {{"free air", 1.0f, 0.0f, 1.0f, 0.0f, 0.08},
+             {"near", 1.0f, 0.0f, 1.25f, -8.0f, 0.08},
+             {"filtered", 1.0f, 20.0f, 1.25f, -8.0f, 0.08 + 0.2251 / 20.0},
+             {"half of it", 0.5f, 0.0f, 1.25f, -8.0f, 0.08},
+             {"none of it", 0.0f, 0.0f, 1.25f, -8.0f, 0.08}};
   const double rate = 0.2, arm_m = 0.0325, damping_Nms = 2.0 * 16.57e-6 * 12.0;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);

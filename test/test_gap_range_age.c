@@ -24,6 +24,8 @@ static void fly_steps(int i, unsigned long seed) {
   for (int k = 0; k < STEPS; k++) gap_m[k] = k % 2 ? 0.06 : 0.30;
   if (!CHECK_OK(setup6_thesis(&setup, FLY_INDI_THEORY, &why))) return;
   if (!CHECK_OK(setup6_apply(&setup, &request, &why))) return;
+  setup.flight.bias.pole_radps = 0.0f; // with it the flights show too little of the latency
+  setup.flight.guard.blind_max_s = SETUP6_BLIND_S;
   setup6_ladder(&setup, gap_m, STEPS, 2.0);
   if (!CHECK_OK(setup6_fly(&setup, &flown, &why))) return;
   snprintf(name, sizeof name, "age%d.csv", i);

@@ -99,6 +99,7 @@ static status_t bench_loop6(why_t *why) {
     TRY(setup6_thesis(&setup, FLY_INDI_RBF, why));
     const request_t request = {.integrate = k ? INTEGRATE_RK4 : INTEGRATE_SUNDIALS, .seed = 1};
     TRY(setup6_apply(&setup, &request, why));
+    setup.flight.guard.blind_max_s = SETUP6_BLIND_S;
     setup6_ladder(&setup, gap_m, 4, 10.0);
     double best = 0.0;
     for (int run = 0; run < RUNS; run++) {

@@ -27,6 +27,17 @@ FNR == 1 {
   order[++controllers] = who
 }
 
+# What the flight code flew with, as fly prints it.
+FNR == 1 && match($0, /"set":\{[^}]*\}/) {
+  but = substr($0, RSTART + 7, RLENGTH - 8)
+  gsub(/"/, "", but)
+  gsub(/:/, "=", but)
+  gsub(/,/, " --set ", but)
+  but = "indi*: parameters as shipped" (but == "" ? "" : ", but for --set " but)
+  if (said != "" && said != but) { print "flights.awk: not all with the same parameters" >"/dev/stderr"; failed = 1; exit 1 }
+  said = but
+}
+
 {
   flights[who]++
   ceiling_mm = 1e3 * of($0, "ceiling_m")
@@ -67,6 +78,7 @@ function free_sd(k,   i, n, mean, first) {
 
 END {
   if (failed) exit 1
+  if (said != "") print said
   printf "R = %.2f mm\n", radius_mm
   printf "%-13s %10s  %12s  %12s  %6s  %6s  %5s %8s  %12s  %5s\n", "", "commanded", "mean", "sd", "error", "oscil.",
     "con-", "flights", "smallest gap", "tilt"

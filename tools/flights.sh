@@ -49,6 +49,7 @@ mean() {
 cat <<'T'
 Six degrees of freedom, real sensors, ten flights each, 10 s at each distance, the last 5 s measured. Distances are from
 the propellers to the ceiling, R is their radius. sd: over all flights and instants; oscillation: about each flight's own mean.
+Each row: fly SCENARIO --controller CONTROLLER --integrator rk4 --from 1 --to 10, with what its table's head sets.
 
 T
 for scenario in test-flight close-flight; do

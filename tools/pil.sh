@@ -79,17 +79,18 @@ echo "in the loop, flown by the Cortex-M4F: $(cat $out/said)"
 
 # --- cost ---------------------------------------------------------------------------------------------------
 
-# Instructions of SysTick's ticks: 168 MHz, 128 ns an instruction. The first flight is not spoiled: 62,000 calls.
+# Instructions of SysTick's ticks: 168 MHz, 128 ns an instruction. The first three flights fly as shipped and are
+# not spoiled: 174,000 calls.
 for level in -Os -O2; do
   od -An -v -tu4 -w8 $out/cost$level | awk -v level=$level '
     NR == 1 { none = $1; next }
     { n = ($1 - none) / 21.504; i = NR - 2; deep = $2 % 65536; start = int($2 / 65536) }
     n > worst { worst = n } deep > stack { stack = deep } start > begin { begin = start }
-    i < 62000 && n > clean { clean = n }
+    i < 174000 && n > clean { clean = n }
     i > 20000 && i < 62000 && i % 2 == 1 { inner += n; inners++ }
     i > 20000 && i < 62000 && i % 10 == 2 { idle += n; idles++ }
     END {
-      printf "cost: Cortex-M4F %s: worst tick %d instructions, %d in a flight without faults; units and guard alone %d, the inner loop %d more\n",
+      printf "cost: Cortex-M4F %s: worst tick %d instructions, %d in flights as shipped; units and guard alone %d, the inner loop %d more\n",
         level, worst + 0.5, clean + 0.5, idle / idles + 0.5, inner / inners - idle / idles + 0.5
       printf "cost: Cortex-M4F %s: deepest stack of a tick %d bytes, of the selection %d\n", level, stack, begin
       most = level == "-Os" ? 700 : 760 # the firmware is built with -Os

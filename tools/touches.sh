@@ -22,20 +22,22 @@ touching() {
     END { if (failed || seen != NR || NR == 0) exit 1; printf "%d of %d", hit, NR }' "$2"
 }
 
-# row DISTANCE_M SCENARIO CONTROLLER WHAT OPTIONS...
+# row DISTANCE_M SCENARIO CONTROLLER OPTIONS...
 row() {
-  distance=$1 scenario=$2 controller=$3 what=$4
-  shift 4
-  [ ! -t 2 ] || printf '\r  flying %-50s' "$scenario, $controller, $what" >&2
+  distance=$1 scenario=$2 controller=$3
+  shift 3
+  [ ! -t 2 ] || printf '\r  flying %-50s' "$scenario, $controller" >&2
   "$o/fly" "$scenario" --controller "$controller" "$@" --integrator rk4 --from 1 --to $flights --json $out/all.jsonl >/dev/null
   share=$(touching "$distance" $out/all.jsonl) || { echo "touches.sh: $out/all.jsonl: not what was asked for" >&2; exit 1; }
   [ ! -t 2 ] || printf '\r%-60s\r' '' >&2
-  printf '%-13s %-13s %4.0f mm  %-13s  %s\n' "$scenario" "$controller" "$(echo "$distance" | awk '{ print 1e3 * $1 }')" "$share" "$what"
+  printf '%-13s %-13s %4.0f mm  %-13s  %s\n' "$scenario" "$controller" "$(echo "$distance" | awk '{ print 1e3 * $1 }')" "$share" "$*" |
+    sed 's/ *$//'
 }
 
-echo 'flight        controller    ordered  touched there  lag of the motors'
-row 0.03 test-flight indi '80 ms'
-row 0.03 test-flight indi '62.5 ms, and told so (the thesis)' --effect motor_lag:add=-0.0175 --set indiPos.tauMot=0.0625
+"$o/fly" close-flight --integrator rk4 | sed -n 's/^parameters .*/&; the second row: motors as the thesis has them/p'
+echo 'flight        controller    ordered  touched there  besides'
+row 0.03 test-flight indi
+row 0.03 test-flight indi --effect motor_lag:add=-0.0175 --set indiPos.tauMot=0.0625
 for controller in indi-theory indi-rbf indi-learned; do
-  row 0.02 close-flight $controller '80 ms'
+  row 0.02 close-flight $controller
 done

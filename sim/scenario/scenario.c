@@ -41,13 +41,17 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
       // Table 4.2's gains for 0.40 m, scaled to the mass.
       .pid = {.p = 2.24, .i = 0.32, .d = 0.512, .n_per_s = 100.0, .limit_N = 0.64, .ratio_max = 1.6},
   };
+  TRY(model_builtin("thesis_1d", &setup->model, why));
+  // Appendix A's own numbers; `fly` prints them.
   params_default(&setup->flight);
+  setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
+  setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
   setup->flight.pos.thrust_max_N = 0.6f;
   setup->flight.curve.clip = 0;
   setup->flight.gap_min_m = 0.0f;
   setup->flight.bias.pole_radps = 0.0f; // the thesis knows none
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
-  return model_builtin("thesis_1d", &setup->model, why);
+  return ST_OK;
 }
 
 status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
@@ -61,6 +65,7 @@ status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t
 
 status_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
   TRY(setup6_thesis(setup, kind, why));
+  setup->flight.guard.blind_max_s = SETUP6_BLIND_S;
   TRY(setup6_apply(setup, request, why));
   return scenario_check_ladder(&setup->model, why);
 }

@@ -1,8 +1,9 @@
 // record.c - flies the simulated vehicle and writes every call of the app down: record TRACE, or has the
 // calls answered elsewhere, over two pipes: record TO FROM.
 //
-// The trace: a learning flight, a flight with weights, and flights whose inputs, parameters and time are
-// spoiled.
+// The trace: a learning flight and a flight with weights, both as the app ships but for the time that they
+// stay close (ceil.blindMax), a flight as it ships to the letter, that retreats, and flights whose inputs,
+// parameters and time are spoiled.
 #include "controller.h"
 #include "param_spec.h"
 #include "pil.h"
@@ -127,7 +128,7 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
   if (r->from) ask(r, control);
 }
 
-static int fly_one(recorder_t *r, fly_kind_t kind, double end_s, uint64_t seed) {
+static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, uint64_t seed) {
   setup6_t setup;
   why_t why;
   record_t record = {0};
@@ -140,6 +141,7 @@ static int fly_one(recorder_t *r, fly_kind_t kind, double end_s, uint64_t seed) 
   r->step_off = seed % 2 ? 0xffff0000u : 0u; // some counters wrap on the way
   if (setup6_thesis(&setup, kind, &why) != ST_OK) return error_exit("record", ST_FAILED, &why);
   setup6_close_ladder(&setup);
+  if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
   setup.plan.plan.seed = seed;
   setup.plan.plan.integrate = INTEGRATE_RK4;
@@ -158,18 +160,21 @@ static int fly_one(recorder_t *r, fly_kind_t kind, double end_s, uint64_t seed) 
 static int fly_trace(recorder_t *r) {
   static const struct {
     fly_kind_t kind;
+    float blind_s; // 0: as shipped
     double end_s;
     bool inputs, params, time;
-  } row[] = {{FLY_INDI_LIVE, 62.0, false, false, false},
-             {FLY_INDI_RBF, 25.0, false, true, false},
-             {FLY_INDI_LIVE, 25.0, true, false, false},
-             {FLY_INDI_RBF, 25.0, true, true, true},
-             {FLY_INDI_LIVE, 25.0, true, true, true}};
+  } row[] = {{FLY_INDI_LIVE, SETUP6_BLIND_S, 62.0, false, false, false},
+             {FLY_INDI_RBF, SETUP6_BLIND_S, 62.0, false, false, false},
+             {FLY_INDI_RBF, 0.0f, 50.0, false, false, false},
+             {FLY_INDI_RBF, SETUP6_BLIND_S, 25.0, false, true, false},
+             {FLY_INDI_LIVE, SETUP6_BLIND_S, 25.0, true, false, false},
+             {FLY_INDI_RBF, SETUP6_BLIND_S, 25.0, true, true, true},
+             {FLY_INDI_LIVE, SETUP6_BLIND_S, 25.0, true, true, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     r->inputs = row[i].inputs;
     r->params = row[i].params;
     r->time = row[i].time;
-    if (fly_one(r, row[i].kind, row[i].end_s, 1 + i) != 0) return 1;
+    if (fly_one(r, row[i].kind, row[i].blind_s, row[i].end_s, 1 + i) != 0) return 1;
   }
   return 0;
 }
@@ -186,7 +191,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "record: %s: cannot be opened\n", argv[argc - 1]);
     return 2;
   }
-  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, 62.0, 1) : fly_trace(&r);
+  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, SETUP6_BLIND_S, 62.0, 1) : fly_trace(&r);
   if (r.from) printf("%ld differ\n", r.differ);
   if (r.from) fclose(r.from);
   return fclose(r.to) == 0 && r.differ == 0 ? failed : 1;
