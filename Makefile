@@ -259,6 +259,7 @@ coverage:  ## which lines and branches the tests run, by folder; of src and src/
 # N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
 N = 300
 mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file); an hour
+	@PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/test_mutate.py
 	@FLIGHT='$(C) $(FLIGHT_FLAGS) -Iinclude' APP='$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h' \
 	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
 	 PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"

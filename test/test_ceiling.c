@@ -171,6 +171,17 @@ TEST(ceiling_estimate_that_is_wrongly_far_comes_down_when_the_sensor_says_near) 
   }
 }
 
+TEST(ceiling_that_was_overruled_takes_three_more_samples_to_be_overruled_again) {
+  // The sensor sits at its floor while the vehicle goes down: each sample means a distance that is farther.
+  ceiling_t s = below_ceiling(0.3f);
+  for (int sample = 1; sample <= 6; sample++) {
+    ROW("sample %d", sample);
+    for (int i = 0; i < BELOW_EVERY; i++) ceiling_predict(&s, &below_param, -0.001f);
+    CHECK_OK(ceiling_correct(&s, &below_param, 0.042f, 0.1f));
+    CHECK((s.blind_s == 0.0f) == (sample % 3 == 0));
+  }
+}
+
 TEST(ceiling_beyond_far_is_no_ceiling) {
   ceiling_t s;
   ceiling_init(&s, BELOW_PERIOD_S);

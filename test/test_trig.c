@@ -36,3 +36,8 @@ TEST(the_angle_of_a_direction_is_within_a_hundred_thousandth) {
     CHECK(fabsf(got) <= 3.2f); // finite, whatever it is
   }
 }
+
+TEST(the_angle_straight_back_is_plus_half_a_turn) {
+  CHECK_NEAR(trig_angle(0.0f, -1.0f), 3.1415927, 1e-6);
+  CHECK_NEAR(trig_angle(-1e-6f, -1.0f), -3.1415917, 1e-6);
+}

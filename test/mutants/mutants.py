@@ -119,11 +119,11 @@ def try_one(bench: trial.Bench, places: list[Place], named: set[str], folder: Pa
     return None
 
 
+def tell_survivor(place: Place) -> None:
+    print(f"\n{place.source}:{place.line()} ({place.mutant.kind})\n{place.diff()}", flush=True)
+
+
 def tell(judged: list[tuple[Place, trial.Verdict]], seed: int) -> int:
-    survivors = [place for place, verdict in judged if verdict.what == "survives"]
-    for place in survivors:
-        rows = place.diff().splitlines()
-        print(f"\n{place.source}:{place.line()} ({place.mutant.kind})", *rows, sep="\n")
     n = Counter(verdict.what for _, verdict in judged)
     own = sum(1 for place, v in judged if v.by and v.by in trial.files_of(place.source))
     counted = n["killed"] + n["survives"]
@@ -152,6 +152,8 @@ def main(count: str, seed: str, word: str = "") -> int:
         judged = []
         for i, each in enumerate(tried):
             judged += filter(None, [each.result()])
+            if each.result() and each.result()[1].what == "survives":
+                tell_survivor(each.result()[0])
             if sys.stderr.isatty():
                 print(f"\r{i + 1} of {len(drawn)}", end="", file=sys.stderr)
     return tell(judged, int(seed))

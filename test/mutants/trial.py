@@ -1,7 +1,8 @@
 """trial.py - builds one mutant in a copy and asks the tests about it.
 
-Only the changed file is compiled; everything else was linked into one object before. Compiled as it ships, it is held
-against the original, bit for bit; what differs is compiled again with a trap on undefined behaviour, and tested.
+Only the changed file is compiled, with a trap on undefined behaviour; everything else was linked into one object before.
+What its module's tests let by is compiled again as it ships and held against the original, bit for bit, and goes on to
+the other tests where it differs.
 """
 
 import re
@@ -17,7 +18,7 @@ from pathlib import Path
 FLIGHTS = ("test_learning_flight.c", "test_faults.c")
 LEFT_OUT = ("test_flights6.c", "test_flight_log.c")
 SEEDS_OF_FAULTS = "3"
-TRAPS = ("-fsanitize=undefined", "-fno-sanitize=alignment", "-fsanitize-undefined-trap-on-error")
+TRAPS = ("-O1", "-fsanitize=undefined", "-fno-sanitize=alignment", "-fsanitize-undefined-trap-on-error")
 LINE = re.compile(r"^(\d+) passed, (\d+) failed$", re.MULTILINE)
 
 
@@ -53,7 +54,6 @@ class Bench:
         for source, built in self.modules.items():  # a copy: another build may go on beside this
             self.modules[source] = shutil.copy(built, folder / source.replace("/", "_").replace(".c", ".o"))
         self.original = self.link(folder / "tests", {})
-        self.as_it_is = {s: self.compile(s, Path(s).read_text(), folder / Path(s).stem) for s in self.modules}
 
     def link(self, program: Path, changed: dict[str, Path]) -> Path:
         modules = [str(changed.get(source, built)) for source, built in self.modules.items()]
@@ -124,15 +124,16 @@ class Verdict:
 
 def judge(bench: Bench, source: str, text: str, folder: Path) -> Verdict:
     """One mutant: a text in the place of a source's."""
+    own, others = bench.test_files(source)
     try:
-        built = bench.compile(source, text, folder)
-        if not built:
+        trapped = bench.compile(source, text, folder, TRAPS)
+        if not trapped:
             return Verdict("does not compile")
-        if built.read_bytes() == bench.as_it_is[source].read_bytes():
+        program = bench.link(folder / "tests", {source: trapped})
+        by = bench.killed_by(program, own)
+        if not by and bench.compile(source, text, folder).read_bytes() == Path(bench.modules[source]).read_bytes():
             return Verdict("same object")
-        program = bench.link(folder / "tests", {source: bench.compile(source, text, folder, TRAPS)})
-        own, others = bench.test_files(source)
-        by = bench.killed_by(program, own) or bench.killed_by(program, others)
+        by = by or bench.killed_by(program, others)
         return Verdict("killed", by) if by else Verdict("survives")
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -1,0 +1,32 @@
+// test_sync.c - signals through one and the same filter.
+#include "flight/sync.h"
+#include "test.h"
+
+#define PERIOD_S 0.01f
+
+static sync_coef_t coef(void) {
+  sync_coef_t c;
+  CHECK_OK(sync_tune(&c, 8.0f, 0.06f, PERIOD_S));
+  return c;
+}
+
+static const sync_in_t HOVER = {
+    .acc_b_mps2 = {0.0f, 0.0f, 9.81f}, .q_wb = {1.0f, 0.0f, 0.0f, 0.0f}, .thrust_N = 0.3f};
+
+TEST(distance_that_comes_into_sight_starts_its_filter_afresh) {
+  const sync_coef_t c = coef();
+  sync_t s;
+  sync_start(&s, &HOVER);
+  ROW("first seen");
+  CHECK_NEAR(sync_distance_m(&s, &c, true, 0.5f), 0.5, 1e-6);
+  ROW("filtered from then on");
+  const float next_m = sync_distance_m(&s, &c, true, 0.1f);
+  CHECK(next_m > 0.4f && next_m < 0.5f);
+  ROW("out of sight it is what was said");
+  CHECK(sync_distance_m(&s, &c, false, 0.2f) == 0.2f);
+  ROW("seen again");
+  CHECK_NEAR(sync_distance_m(&s, &c, true, 0.3f), 0.3, 1e-6);
+  ROW("seen at once after a new start");
+  sync_start(&s, &HOVER);
+  CHECK_NEAR(sync_distance_m(&s, &c, true, 0.05f), 0.05, 1e-6);
+}
