@@ -13,8 +13,8 @@
   "*assume-no*) echo 0 upgraded, 2 newly installed, 0 to remove and 0 not upgraded.; "                       \
   "echo Need to get 31 kB of archives.; "                                                                    \
   "echo After this operation, 1,388 MB of additional disk space will be used.; exit 1;; "                    \
-  "*Status-Fd*) echo dlstatus:1:50.1:a; echo pmstatus:b:40.0:c; echo E: broken: by chance; exit "            \
-  "${APT:-0};; esac'; "
+  "*Status-Fd=3*) echo dlstatus:1:50.1:a >&3; echo pmstatus:b:40.0:c >&3; echo E: broken: by chance; "       \
+  "exit ${APT:-0};; esac'; "
 
 TEST(setup_prints_one_line_without_root_and_nothing_where_nothing_is_missing) {
   static const struct {

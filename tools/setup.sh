@@ -35,7 +35,7 @@ failed() {
   exit 1
 }
 
-# Of apt's lines on its progress, every tenth per cent; where a person looks on, each. The rest goes into the log.
+# Of apt's lines on its progress, every tenth per cent; where a person looks on, each.
 [ -t 2 ] && step=1 || step=10
 progress() {
   told=0
@@ -44,7 +44,7 @@ progress() {
     case $line in
     dlstatus:*) part=$((${percent%%[.:]*} / 2)) ;;
     pmstatus:*) part=$((50 + ${percent%%[.:]*} / 2)) ;;
-    *) echo "$line" >>"$log" && continue ;;
+    *) continue ;;
     esac
     [ $part -ge $((told + step)) ] || continue
     told=$((part - part % step))
@@ -59,8 +59,10 @@ $as_root apt-get install --assume-no --no-install-recommends $missing 2>/dev/nul
   awk '/ newly installed/ { n = $3 } / of archives/ { sub(/Need to get /, ""); sub(/ of archives.*/, ""); get = $0 }
     / will be used/ { sub(/After this operation, /, ""); sub(/ of additional.*/, ""); use = $0 }
     END { if (n) printf "with what they need %d packages: %s to fetch, %s on disk; some minutes\n", n, get, use }'
+# apt closes the descriptor of its progress to the packages' own scripts, so that it must not be one that they print to;
+# and sudo closes all but the first three, so that it is opened behind it.
 {
-  $as_root env DEBIAN_FRONTEND=noninteractive $install -o APT::Status-Fd=1 $missing 2>&1
+  $as_root sh -c "DEBIAN_FRONTEND=noninteractive exec $install -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 $missing 3>&1 >&2" 2>>"$log"
   echo $? >"$status"
 } | progress
 [ "$(cat "$status")" = 0 ] || failed

@@ -30,6 +30,7 @@ remove() {
   rm -rf --one-file-system "$top/bare" "$top/root" "$top/user"
 }
 fail() {
+  cat "$top"/root/tmp/tmp.* "$top"/user/tmp/tmp.* >>"$top/log" 2>/dev/null || true
   tail -15 "$top/log" >&2
   echo "fresh: $*; the whole log is $top/log" >&2
   exit 1
@@ -41,12 +42,12 @@ lasted() {
   began=$now
 }
 
-# within ROOT LINE: in the root, with nothing of this machine but its proxy.
+# within ROOT LINE: in the root, with nothing of this machine but its proxy, nor with its terminal: apt in the background stops at one.
 within() {
   root=$top/$1
   mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
   mountpoint -q "$root/var/cache/apt/archives" || mount --bind "$top/archives" "$root/var/cache/apt/archives"
-  env -i HOME=/root TERM=dumb LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+http_proxy="$http_proxy"} \
+  setsid -w env -i HOME=/root TERM=dumb LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+http_proxy="$http_proxy"} \
     ${https_proxy:+https_proxy="$https_proxy"} chroot "$root" sh -c "$2" </dev/null
 }
 as_user() { within user "su flyer -c 'cd /srv/flight && $1 O=/home/flyer/out'"; }
