@@ -5,8 +5,8 @@
 #ifndef FLIGHT_EXPNEG_H
 #define FLIGHT_EXPNEG_H
 
-// x: 0..inf. Result: 1..0, at most 1 ulp from exp(-x) up to x = 87; 0 beyond (exp(-87) is the
-// smallest normal float). Negative x and NaN give 1.
+// x: 0..inf. Result: 1..0, at most 1.03 ulp from exp(-x) up to x = 87 (1.0246 over all floats, near 81.4); 0
+// beyond (exp(-87) is the smallest normal float). Negative x and NaN give 1.
 float expneg(float x);
 
 #endif
