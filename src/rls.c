@@ -2,6 +2,7 @@
 #include "flight/rls.h"
 
 #include "flight/v3.h"
+#include <limits.h>
 
 static float dot(const float a[RBF_N], const float b[RBF_N]) {
   float sum = 0.0f;
@@ -24,8 +25,16 @@ static bool in_box(const rbf_weights_t *w) {
 }
 
 static void restart(rls_t *s, float p0) {
+  s->p0 = p0;
   for (int i = 0; i < RBF_N; i++)
     for (int j = 0; j < RBF_N; j++) s->P[i][j] = i == j ? p0 : 0.0f;
+}
+
+// Only lambda/p0 matters: p0 is the unit of P.
+static void lower(rls_t *s, float p0) {
+  const float k = p0 / s->p0;
+  for (int i = 0; i < RBF_N; i++)
+    for (int j = 0; j < RBF_N; j++) s->P[i][j] *= k;
 }
 
 // A covariance has a diagonal between 0 and p0, and P_ij^2 <= P_ii P_jj; a' P a of a sample tells the rest.
@@ -50,12 +59,15 @@ status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t *start) {
 status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float y) {
   TRY(param_check(p));
   if (!f_finite(y) || !f_finite(dot(a, a))) return ST_BAD_INPUT;
+  if (p->p0 < s->p0) lower(s, p->p0);
+  s->p0 = p->p0;
 
   float Pa[RBF_N];
   for (int i = 0; i < RBF_N; i++) Pa[i] = dot(s->P[i], a);
   const float aPa = dot(a, Pa);
-  if (!is_covariance(s, p->p0, aPa)) {
+  if (!is_covariance(s, p->p0, aPa) || !in_box(&s->theta)) {
     restart(s, p->p0);
+    for (int i = 0; i < RBF_N; i++) s->theta.w[i] = f_bound(s->theta.w[i], RLS_WEIGHT_MAX);
     return ST_SINGULAR;
   }
   const float inv_s = 1.0f / (aPa + p->lambda);
@@ -70,8 +82,8 @@ status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float 
     // Both triangles get the same product, so that P stays symmetric to the bit.
     for (int j = 0; j <= i; j++) s->P[i][j] = s->P[j][i] = s->P[i][j] - Pa[i] * Pa[j] * inv_s;
     // Bounded: a walk without an end is wind-up.
-    if (p->form == RLS_RANDOM_WALK && s->P[i][i] < p->p0) s->P[i][i] += p->q;
+    if (p->form == RLS_RANDOM_WALK) s->P[i][i] = f_min(s->P[i][i] + p->q, p->p0);
   }
-  s->count++;
+  if (s->count < UINT_MAX) s->count++;
   return ST_OK;
 }

@@ -9,6 +9,10 @@
 // walk of the weights, P_ii += q while P_ii < p0, so that the curve can follow a drift and P stays bounded.
 // Dividing P by lambda, as the name forgetting factor suggests, makes P grow without bound in every direction
 // that a hover does not excite; it is not offered.
+//
+// p0 is the largest variance that a weight has, at the start and ever after, in both forms: the walk ends
+// there, also where q is as large as p0. A p0 that is lowered takes all of P down by the same factor; one that
+// is raised lets the walk go farther.
 #ifndef FLIGHT_RLS_H
 #define FLIGHT_RLS_H
 
@@ -28,6 +32,7 @@ typedef struct {
 typedef struct {
   rbf_weights_t theta;   // the estimate; each within +-RLS_WEIGHT_MAX
   float P[RBF_N][RBF_N]; // its covariance, symmetric to the bit
+  float p0;              // that bounds P
   unsigned count;        // samples taken in
 } rls_t;
 
@@ -40,7 +45,8 @@ MUST_CHECK status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t
 // One sample: y measured where the regressor is a (0..1 each, rbf_basis).
 // ST_BAD_INPUT: a or y not finite, or the weights would leave their box; nothing has changed.
 // ST_BAD_PARAM: a parameter out of range; nothing has changed.
-// ST_SINGULAR: P was no covariance any more (a flipped bit); it starts again from p0 I, theta is kept.
+// ST_SINGULAR: P was no covariance any more (a flipped bit); it starts again from p0 I, theta is kept; a
+// weight that was out of its box, too, is brought back to it (NaN to 0).
 MUST_CHECK status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float y);
 
 #endif
