@@ -4,12 +4,12 @@
 #include "flight/bounds.h"
 #include "flight/trig.h"
 #include "flight/watch.h"
+#include <limits.h>
 #include <string.h>
 
 #define INNER_S      0.002f
 #define OUTER_S      0.01f
 #define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
-#define FLOOR_SHARE  0.5f    // of the weight that something else than the rotors carries: a floor
 #define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
 
 status_t flight_init(flight_t *f, const flight_param_t *p) {
@@ -32,7 +32,7 @@ status_t flight_tune(flight_t *f, const flight_param_t *p) {
 }
 
 static void count(flight_t *f, status_t status) {
-  if (status != ST_OK) f->faults[status]++;
+  if (status != ST_OK && f->faults[status] < UINT_MAX) f->faults[status]++;
 }
 
 // The outer loop judges what only it uses. What the guard finds no fault with is not judged again.
@@ -127,8 +127,7 @@ static float thrust_wanted_N(const flight_t *f, const flight_in_t *in) {
 // better: there the inner loop would tip it over.
 static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thrust_N) {
   if (thrust_N > 0.0f) return false;
-  const learn_sample_t *x = &f->outer.sample;
-  return sp->z == AXIS_OFF || x->force_N - x->thrust_N > FLOOR_SHARE * x->weight_N;
+  return sp->z == AXIS_OFF || outer_on_floor(&f->outer);
 }
 
 // What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
@@ -221,7 +220,7 @@ const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {
     run(f, in);
   else if (f->guard.action == GUARD_HAND_OVER)
     run_blind(f, in->setpoint.thrust_N);
-  else if (f->due & FLIGHT_OUTER && f->outer.missed < 1000)
-    f->outer.missed++;
+  else if (f->due & FLIGHT_OUTER)
+    outer_miss(&f->outer, 1);
   return &f->out;
 }

@@ -13,10 +13,11 @@
 #define QUIET_MS       1000
 #define RETREAT_MS     100.0f // until a retreat has its full speed
 #define VEL_CUT_MS     2000
+#define LANDED_MS      100 // a bump in flight is shorter
 
 #define SENDS_DOWN                                                                                           \
   (GUARD_ACC_FROZEN | GUARD_RANGE_LOST | GUARD_RANGE_FROZEN | GUARD_BLIND | GUARD_SATURATED |                \
-   GUARD_TOO_NEAR | GUARD_VELOCITY | GUARD_RATIO)
+   GUARD_TOO_NEAR | GUARD_VELOCITY | GUARD_RATIO | GUARD_HEIGHT_LOST)
 
 void guard_init(guard_t *g) {
   *g = (guard_t){.action = GUARD_FLY};
@@ -38,7 +39,7 @@ bool guard_plausible(const guard_in_t *in) {
 
 // Slow mean of the thrust that carries, for when nothing better is known.
 static void learn_hover(guard_t *g, const guard_in_t *in) {
-  if (g->now != 0 || !in->airborne) return;
+  if (g->now != 0 || !in->carries) return;
   const float least = 0.3f * in->weight_N;
   if (!(g->hover_N > least)) g->hover_N = in->weight_N;
   g->hover_N += 0.002f * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - g->hover_N);
@@ -50,11 +51,18 @@ static bool refused(const guard_t *g, const guard_param_t *p, const guard_in_t *
          g->range_last_m < p->take_off_m;
 }
 
+// What has flown is in the air until a floor carries it, however little thrust it gives: it may be falling.
+static void find_airborne(guard_t *g, const guard_in_t *in) {
+  g->flown = g->flown || in->carries;
+  g->floor_ms = judge_longer(g->floor_ms, in->on_floor && !in->carries, in->ms);
+  g->airborne = in->carries || (g->airborne && g->floor_ms < LANDED_MS);
+}
+
 static void decide(guard_t *g, const guard_in_t *in) {
   const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > NAN_CUT_MS) ||
                     ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GYRO_CUT_MS) ||
                     g->tilt_ms > TILT_CUT_MS || g->vel_odd_ms > VEL_CUT_MS;
-  if (ends && in->airborne) g->action = GUARD_HAND_OVER;
+  if (ends && g->airborne) g->action = GUARD_HAND_OVER;
   if (g->action == GUARD_HAND_OVER) {
     g->handed_ms = judge_longer(g->handed_ms, true, in->ms);
     return;
@@ -69,7 +77,7 @@ static void decide(guard_t *g, const guard_in_t *in) {
     if (g->quiet_ms > QUIET_MS && other) g->action = GUARD_FLY;
     return;
   }
-  if (down && in->airborne) {
+  if (down && g->airborne) {
     g->action = GUARD_RETREAT;
     g->retreat_ms = 0;
     g->hold_w_m = in->pos_w_m;
@@ -81,7 +89,7 @@ static void decide(guard_t *g, const guard_in_t *in) {
 }
 
 void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in) {
-  g->flown = g->flown || in->airborne;
+  find_airborne(g, in);
   const unsigned kept = g->now;
   const bool good = guard_plausible(in);
   g->bad_ms = f_clamp(g->bad_ms + (good ? -0.25f : 1.0f) * (float)in->ms, 0.0f, 3.0f * NAN_CUT_MS);

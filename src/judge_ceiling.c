@@ -31,8 +31,8 @@ static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t
   if (!valid || (in->zc_known && in->range_m >= in->range_floor_m && fabsf(in->range_m - in->zc_m) > ODD_M))
     now |= GUARD_RANGE_ODD;
   if (valid && in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
-    g->range_same++;
-    g->range_same_ms += g->range_new_ms;
+    if (g->range_same < RANGE_SAME) g->range_same++;
+    g->range_same_ms = judge_longer(g->range_same_ms, true, g->range_new_ms);
     g->range_new_ms = 0;
     const float moved_m = fabsf(in->pos_w_m.z - g->range_z_m);
     return g->range_same >= RANGE_SAME && g->range_same_ms >= RANGE_SAME_MS && moved_m > MOVED_M
@@ -50,7 +50,7 @@ static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t
 static unsigned judge_ratio(guard_t *g, const guard_in_t *in) {
   const float dt = 1e-3f * (float)in->ms;
   const float ratio = in->force_N / f_max(in->thrust_now_N, 0.3f * in->weight_N);
-  g->carried_s = in->airborne ? f_clamp(g->carried_s + dt, 0.0f, 10.0f) : 0.0f;
+  g->carried_s = in->carries ? f_clamp(g->carried_s + dt, 0.0f, 10.0f) : 0.0f;
   if (g->carried_s < RATIO_AFTER_S) {
     g->ratio_usual = ratio;
     return 0u;

@@ -1,4 +1,5 @@
 // judge_motion.c - what is wrong with the inertial sensors and the estimated velocity.
+#include "flight/bounds.h"
 #include "flight/judge.h"
 
 #define ACC_CLIP_MPS2  196.2f // 20 g
@@ -16,6 +17,7 @@
 #define VEL_CALM_MS    50
 #define IMPACT_MPS2    25.0f // along an axis
 #define IMPACT_MS      300
+#define OFF_MS         250 // garbage that goes as it came is shorter
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);
@@ -120,6 +122,8 @@ unsigned judge_motion(guard_t *g, guard_in_t *in) {
   const quat_t q_wb = quat_unit(in->q_wb);
   now |= judge_inertial(g, in, q_wb);
   now |= judge_bias(g, in, q_wb);
+  g->off_ms = judge_longer(g->off_ms, fabsf(in->height_off_m) > BOUND_HEIGHT_OFF_M, in->ms);
+  if (g->off_ms >= OFF_MS) now |= GUARD_HEIGHT_LOST;
   g->vel_last = in->vel_w_mps;
   return now;
 }

@@ -2,9 +2,8 @@
 #include "flight/outer.h"
 
 #include "flight/bounds.h"
+#include <limits.h>
 #include <string.h>
-
-#define MISSED_MAX 1000 // ticks; nobody flies on after so many
 
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
@@ -32,7 +31,7 @@ status_t outer_take(outer_t *f, const flight_param_t *p) {
 }
 
 static void count(outer_t *f, status_t status) {
-  if (status != ST_OK) f->faults[status]++;
+  if (status != ST_OK && f->faults[status] < UINT_MAX) f->faults[status]++;
 }
 
 status_t outer_tune(outer_t *f, const flight_param_t *p) {
@@ -161,8 +160,9 @@ static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_
 const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   const status_t judged = check_in(in);
   count(f, judged);
+  if (f->missed > OUTER_MISSED_MAX) f->missed = OUTER_MISSED_MAX; // a flipped bit
   if (judged != ST_OK) {
-    if (f->missed < MISSED_MAX) f->missed++;
+    outer_miss(f, 1);
     return &f->out;
   }
 

@@ -3,8 +3,9 @@
 
 #include "flight/bounds.h"
 
-#define MS_MAX   50 // a longer pause is taken for this long
-#define WAIT_MAX 3  // calls
+#define MS_MAX       50 // a longer pause is taken for this long
+#define WAIT_MAX     3  // calls
+#define INNER_MS_MAX 1000
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
   const unsigned to = from + ms; // from < 10
@@ -53,9 +54,9 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->due = one_of(f, due_after(f->phase, ms));
     const unsigned to = f->phase + ms;
     // An outer period that was skipped altogether is known to the outer loop.
-    if (to >= 20) f->outer.missed += to / 10 - 1;
+    if (to >= 20) outer_miss(&f->outer, to / 10 - 1);
     f->phase = to % 10;
-    f->inner_ms += (int)ms;
+    f->inner_ms = f->inner_ms < INNER_MS_MAX ? f->inner_ms + (int)ms : INNER_MS_MAX;
     f->step_last = step - ms; // so that the guard can read the time
   }
   return true;
@@ -77,7 +78,7 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
     const float dz_m = z_m - f->height_m;
     const float most_m = BOUND_HEIGHT_JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
     if (f->height_seen && fabsf(dz_m) > most_m) {
-      f->height_off_m += dz_m;
+      f->height_off_m = f_clamp(f->height_off_m + dz_m, -2.0f * BOUND_POS_M, 2.0f * BOUND_POS_M);
       f->guard.latched |= GUARD_HEIGHT_JUMP;
     }
     f->height_m = z_m;
@@ -93,7 +94,8 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   if (z_m > top_m) z_m = top_m;
   g->ms = ms;
   g->wanted = in->setpoint.z != AXIS_OFF;
-  g->airborne = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f;
+  g->carries = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f;
+  g->on_floor = outer_on_floor(o);
   g->rate_b_radps = in->rate_b_radps;
   g->acc_b_mps2 = in->acc_b_mps2;
   g->pos_w_m = in->pos_w_m;
@@ -111,6 +113,7 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->ceiling_z_m = o->out.ceiling_z_m;
   g->zc_known = o->ceiling.known;
   g->setpoint_good = setpoint_good;
+  g->height_off_m = f->height_off_m;
   g->find_bias = f->outer.param.bias.pole_radps > 0.0f;
   g->force_N = o->sample.force_N;
   g->thrust_now_N = o->sample.thrust_N;

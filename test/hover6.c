@@ -26,6 +26,7 @@ void hover6_sense(hover6_t *r) {
   r->in.gyro_b_radps = d3_of(y + RIGID_RATE_RADPS);
   r->in.acc_b_mps2 = d3_add(body_specific_force_b_mps2(&r->body), r->acc_bias_b_mps2);
   r->in.pos_w_m = d3_of(y + RIGID_POS_M);
+  r->in.pos_w_m.z += r->height_off_m;
   r->in.vel_w_mps = d3_of(y + RIGID_VEL_MPS);
   r->in.q_wb = dq_of(y + RIGID_Q_WB);
 }

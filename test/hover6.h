@@ -13,12 +13,13 @@ typedef struct {
   pilot6_t pilot;
   pilot6_in_t in;
   d3_t acc_bias_b_mps2;
+  double height_off_m; // of the estimate
 } hover6_t;
 
 // *r is zeroed before. body_close(&r->body) when done.
 void hover6_start(hover6_t *r, double yaw_rad);
 
-// What is true, with the bias on the accelerometer.
+// What is true, with the bias on the accelerometer and the height's error.
 void hover6_sense(hover6_t *r);
 
 // The same measurements for so long; motor_N is the last command.

@@ -19,7 +19,7 @@ static guard_in_t hovering(const hover_t *h, int ms) {
   return (guard_in_t){
       .ms = 1,
       .wanted = true,
-      .airborne = true,
+      .carries = true,
       .rate_b_radps = {noise, -noise, noise},
       .acc_b_mps2 = {noise, noise, 9.81f + noise},
       .pos_w_m = {.z = CEILING_M - h->zc_m},

@@ -79,11 +79,12 @@ typedef struct {
   unsigned phase;     // of the ten milliseconds, from the step counter
   unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
   unsigned waiting;   // due, but put off
-  int waited;         // calls since something waits
+  unsigned waited;    // calls since something waits
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
-  float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go
+  float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go;
+                      // within twice BOUND_POS_M, and beyond BOUND_HEIGHT_OFF_M a reason to go down
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
 } flight_t;
 

@@ -37,6 +37,7 @@ typedef enum {
   GUARD_NO_ROOM = 1 << 15,     // a take-off under a ceiling nearer than guard.takeOff
   GUARD_VELOCITY = 1 << 16,    // the estimated velocity jumps
   GUARD_RATIO = 1 << 17,       // the thrust carries more than it should so far from a ceiling
+  GUARD_HEIGHT_LOST = 1 << 18, // resets of the estimated height sum up to more than 1 m, for 250 ms
 } guard_reason_t;
 
 typedef struct {
@@ -51,7 +52,8 @@ typedef struct {
 typedef struct {
   int ms;        // since the last call, >= 1
   bool wanted;   // the height is controlled
-  bool airborne; // the height is controlled, and the rotors carry
+  bool carries;  // the height is controlled, and so much thrust is given that the rotors carry
+  bool on_floor; // something else than the rotors carries
   v3_t rate_b_radps, acc_b_mps2, pos_w_m, vel_w_mps;
   quat_t q_wb;
   bool range_new;
@@ -62,6 +64,7 @@ typedef struct {
   bool setpoint_good;
   float setpoint_z_m; // wanted height, limits included; NaN: none
   float asked_z_m;    // the same without limits
+  float height_off_m; // sum of the height's resets
   bool find_bias;     // the accelerometer's bias is looked for; else it is taken off as a fault only
   float force_N,
       thrust_now_N;      // along the thrust: what accelerates the mass, what the motors give in free air
@@ -79,12 +82,13 @@ typedef struct {
   v3_t hold_w_m;       // place over which it goes down
   int retreat_ms;      // since the retreat began
   int handed_ms;       // since the hand-over
+  bool airborne;       // has flown and not landed since the height is controlled
   // Not for callers.
   bool started;
   v3_t rate_last, acc_last, vel_last;
   float rate_life, acc_life; // mean change per millisecond
   v3_t vel_raw;
-  int vel_calm_ms, vel_odd_ms, impact_ms, range_same_ms, range_new_ms, ratio_ms;
+  int vel_calm_ms, vel_odd_ms, impact_ms, range_same_ms, range_new_ms, ratio_ms, floor_ms, off_ms;
   float ratio_usual, carried_s;
   int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms;
   float bad_ms;

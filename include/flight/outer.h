@@ -43,6 +43,8 @@ typedef struct {
 #define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
 #define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
 #define CARRYING_SHARE   0.3f   // of the weight: from here on the rotors carry
+#define FLOOR_SHARE      0.5f   // of the weight that something else than the rotors carries: a floor
+#define OUTER_MISSED_MAX 1000   // ticks; nobody flies on after so many
 
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks
@@ -83,6 +85,16 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in);
 // Teaches the curve what the last step measured, if it may (ceil.mode 2). A call of its own, so that it can
 // run in another tick than the step; without effect if there was no step since.
 void outer_learn(outer_t *f);
+
+// So many more periods without a step.
+static inline void outer_miss(outer_t *f, unsigned ticks) {
+  f->missed = f->missed + ticks < OUTER_MISSED_MAX ? f->missed + ticks : OUTER_MISSED_MAX;
+}
+
+// Something else than the rotors carries: a floor, a hand.
+static inline bool outer_on_floor(const outer_t *f) {
+  return f->sample.force_N - f->sample.thrust_N > FLOOR_SHARE * f->sample.weight_N;
+}
 
 // On the ground, or with the height not controlled: filters, thrust state and ceiling estimate start afresh
 // with the next step. What was learned is kept.
