@@ -31,15 +31,13 @@ static void judge_up(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
     s->not_flyable &= ~(unsigned)FLYABLE_UP;
 }
 
-static void judge_axis(flyable_t *s, int axis, float change, float explained, unsigned reason) {
-  if (fabsf(explained) < TURNED_MPS2) return;
-  s->cross[axis] = FORGET * s->cross[axis] + change * explained;
-  s->square[axis] = FORGET * s->square[axis] + explained * explained;
-  if (s->square[axis] < ENOUGH) return;
-  if (s->cross[axis] < EXPLAINED * s->square[axis])
-    s->not_flyable |= reason;
-  else
-    s->not_flyable &= ~reason;
+// What of `reason` the turn so far says; `now` where it says nothing.
+static unsigned judge_turn(flyable_turn_t *s, unsigned now, float change, float explained, unsigned reason) {
+  if (fabsf(explained) < TURNED_MPS2) return now;
+  s->cross = FORGET * s->cross + change * explained;
+  s->square = FORGET * s->square + explained * explained;
+  if (s->square < ENOUGH) return now;
+  return s->cross < EXPLAINED * s->square ? now | reason : now & ~reason;
 }
 
 static bool jolted(v3_t acc) {
@@ -57,6 +55,7 @@ void flyable_step(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
   if (++s->stretch_ms < STRETCH_MS) return;
   s->stretch_ms = 0;
   if (jolted(acc) || jolted(s->acc_from)) return;
-  judge_axis(s, 0, acc.x - s->acc_from.x, s->explained.x, FLYABLE_TURN_X);
-  judge_axis(s, 1, acc.y - s->acc_from.y, s->explained.y, FLYABLE_TURN_Y);
+  const v3_t change = v3_sub(acc, s->acc_from);
+  s->not_flyable = judge_turn(&s->turn_x, s->not_flyable, change.x, s->explained.x, FLYABLE_TURN_X);
+  s->not_flyable = judge_turn(&s->turn_y, s->not_flyable, change.y, s->explained.y, FLYABLE_TURN_Y);
 }

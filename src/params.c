@@ -58,8 +58,7 @@ status_t params_check(const flight_param_t *p) {
   }
   if (p->cutoff_Hz > 0.0f && p->cutoff_Hz < PARAMS_CUTOFF_MIN_HZ) return ST_BAD_PARAM;
   if (p->att_cutoff_Hz > 0.0f && p->att_cutoff_Hz < PARAMS_ATT_CUTOFF_MIN_HZ) return ST_BAD_PARAM;
-  if (p->learn.rls.q > p->learn.rls.p0) return ST_BAD_PARAM;
   if (p->ceiling.floor_m > p->ceiling.near_m) return ST_BAD_PARAM;
-  if (p->ceiling.near_m >= p->ceiling.far_m || p->learn.near_m >= p->learn.far_m) return ST_BAD_PARAM;
+  if (p->learn.near_m >= p->learn.far_m) return ST_BAD_PARAM;
   return ST_OK;
 }

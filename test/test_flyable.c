@@ -115,3 +115,79 @@ TEST(what_is_no_number_says_nothing_about_being_flyable) {
   flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){0.0f, 0.0f, 0.0f}, (quat_t){.w = NAN});
   CHECK(s.steady_s == before.steady_s && s.stretch_ms == before.stretch_ms && s.not_flyable == 0);
 }
+
+// Stands still with this force along z until the wrong of it shows; -1: it never does.
+static int ms_until_wrong(flyable_t *s, v3_t acc, float rate_radps) {
+  for (int ms = 1; ms <= 2000; ms++) {
+    flyable_step(s, acc, (v3_t){rate_radps, 0.0f, 0.0f}, (quat_t){.w = 1.0f});
+    if (s->not_flyable != 0) return ms;
+  }
+  return -1;
+}
+
+TEST(a_wrong_up_is_told_after_so_long_and_taken_back_at_once) {
+  static const struct {
+    const char *what;
+    v3_t acc;
+    float rate_radps;
+    int ms;
+  } row[] = {
+      {"3.9 m/s2 off", {3.9f, 0, 9.81f}, 0.0f, -1},   {"4.1 m/s2 off", {4.1f, 0, 9.81f}, 0.0f, 499},
+      {"hardly turned", {4.1f, 0, 9.81f}, 0.1f, 499}, {"turned", {4.1f, 0, 9.81f}, 0.11f, -1},
+      {"half of g and more", {0, 0, 5.9f}, 0.0f, -1}, {"too heavy", {0, 0, 14.0f}, 0.0f, 499},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    flyable_t s;
+    flyable_init(&s);
+    const int ms = ms_until_wrong(&s, row[i].acc, row[i].rate_radps);
+    CHECK_NEAR(ms, row[i].ms, row[i].ms < 0 ? 0 : 1); // 200 ms still, 300 ms wrong
+    if (ms < 0) continue;
+    CHECK(s.not_flyable == FLYABLE_UP);
+    flyable_step(&s, (v3_t){0, 0, 9.81f}, (v3_t){0, 0, 0}, (quat_t){.w = 1.0f});
+    CHECK(s.not_flyable == 0);
+  }
+}
+
+// Turned about y at a steady rate for some stretches of 0.1 s, as a sensor feels it whose x is k of the
+// truth.
+static unsigned turned(float rate_radps, int stretches, float k, float size_mps2) {
+  flyable_t s;
+  flyable_init(&s);
+  for (int ms = 0; ms < 100 * stretches; ms++) {
+    const float angle = rate_radps * 0.001f * (float)ms;
+    const v3_t acc = {-k * size_mps2 * sinf(angle), 0.0f,
+                      size_mps2 * sqrtf(1.0f - k * k * sinf(angle) * sinf(angle))};
+    flyable_step(&s, acc, (v3_t){0.0f, rate_radps, 0.0f}, (quat_t){.w = 1.0f});
+  }
+  return s.not_flyable;
+}
+
+TEST(a_turn_tells_of_a_wrong_axis_from_so_much_on) {
+  static const struct {
+    const char *what;
+    float rate_radps;
+    int stretches;
+    float k, size_mps2;
+    unsigned want;
+  } row[] = {
+      {"right", 1.5f, 3, 1.0f, 9.81f, 0},
+      {"the other way round", 1.5f, 3, -1.0f, 9.81f, FLYABLE_TURN_X},
+      {"a third", 1.5f, 3, 0.35f, 9.81f, FLYABLE_TURN_X},
+      {"a half", 1.5f, 3, 0.47f, 9.81f, 0},
+      {"one stretch, (1.39 m/s2)^2", 1.42f, 1, -1.0f, 9.81f, 0},
+      {"one stretch, (1.45 m/s2)^2", 1.49f, 1, -1.0f, 9.81f, FLYABLE_TURN_X},
+      {"two of (1 m/s2)^2, one forgotten by 2 %", 1.02f, 2, -1.0f, 9.81f, 0},
+      {"two of (1.1 m/s2)^2", 1.13f, 2, -1.0f, 9.81f, FLYABLE_TURN_X},
+      {"too slow to say anything", 0.5f, 12, -1.0f, 9.81f, 0},
+      {"just not too slow", 0.62f, 12, -1.0f, 9.81f, FLYABLE_TURN_X},
+      {"a jolt upwards", 1.5f, 3, -1.0f, 12.9f, 0},
+      {"a jolt downwards", 1.5f, 3, -1.0f, 6.7f, 0},
+      {"not quite a jolt", 1.5f, 3, -1.0f, 12.7f, FLYABLE_TURN_X},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    CHECK((turned(row[i].rate_radps, row[i].stretches, row[i].k, row[i].size_mps2) & ~(unsigned)FLYABLE_UP) ==
+          row[i].want);
+  }
+}

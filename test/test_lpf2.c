@@ -108,6 +108,7 @@ TEST(lpf2_keeps_its_coefficients_when_it_cannot_use_the_new_ones) {
       {"cut-off infinite", INFINITY, 100.0f}, {"rate zero", 0.0f, 0.0f},
       {"rate negative", 8.0f, -100.0f},       {"rate nan", 8.0f, NAN},
       {"rate infinite", 8.0f, INFINITY},      {"both infinite", INFINITY, INFINITY},
+      {"rate above 100 kHz", 200.0f, 1.1e5f}, {"cut-off below 0.001 of the rate", 0.099f, 100.0f},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);

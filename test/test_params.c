@@ -168,6 +168,10 @@ TEST(params_check_finds_numbers_that_contradict_each_other) {
       {"one distance to learn from", {"rls.zMin", "rls.zMax"}, {0.05f, 0.05f}, ST_BAD_PARAM},
       {"a millimetre to learn from", {"rls.zMin", "rls.zMax"}, {0.05f, 0.051f}, ST_OK},
       {"walk as large as the start", {"rls.q", "rls.p0"}, {1e-3f, 1e-3f}, ST_OK},
+      {"no filter at all", {"indiPos.cutoff", "indiAtt.cutoff"}, {0.0f, 0.0f}, ST_OK},
+      {"cut-offs at their least", {"indiPos.cutoff", "indiAtt.cutoff"}, {0.1f, 0.5f}, ST_OK},
+      {"outer cut-off below its least", {"indiPos.cutoff", "indiAtt.cutoff"}, {0.0999f, 0.0f}, ST_BAD_PARAM},
+      {"inner cut-off below its least", {"indiPos.cutoff", "indiAtt.cutoff"}, {0.0f, 0.499f}, ST_BAD_PARAM},
       {"floor beyond the gate", {"ceil.floor", "ceil.near"}, {0.06f, 0.05f}, ST_BAD_PARAM},
       {"floor at the gate", {"ceil.floor", "ceil.near"}, {0.05f, 0.05f}, ST_OK},
       {"gate far out, ceiling near", {"ceil.near", "ceil.far"}, {0.2f, 0.25f}, ST_OK},
@@ -178,5 +182,18 @@ TEST(params_check_finds_numbers_that_contradict_each_other) {
     flight_param_t p = defaults();
     for (int k = 0; k < 2; k++) CHECK_OK(params_set(&p, params_find(row[i].name[k]), row[i].value[k]));
     CHECK_STATUS(row[i].want, params_check(&p));
+  }
+}
+
+TEST(params_that_have_to_be_in_order_are_so_by_their_ranges) {
+  static const struct {
+    const char *less, *more;
+    bool may_meet;
+  } row[] = {
+      {"rls.q", "rls.p0", true}, {"ceil.near", "ceil.far", false}, {"ceil.ratioMin", "ceil.ratioMax", true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].less);
+    const float most = params_find(row[i].less)->max, least = params_find(row[i].more)->min;
+    CHECK(row[i].may_meet ? most <= least : most < least);
   }
 }

@@ -20,11 +20,16 @@ typedef enum {
   FLYABLE_TURN_Y = 1 << 2, // along y
 } flyable_reason_t;
 
+// Of the change along one axis: sum(da c), sum(c^2).
+typedef struct {
+  float cross, square;
+} flyable_turn_t;
+
 typedef struct {
   unsigned not_flyable; // flyable_reason_t; 0: nothing speaks against it
   // Not for callers.
   v3_t acc_from, explained;
-  float cross[2], square[2]; // x, y: sum(da c), sum(c^2)
+  flyable_turn_t turn_x, turn_y;
   float wrong_s, steady_s;
   int stretch_ms;
 } flyable_t;

@@ -192,8 +192,8 @@ MUST_CHECK status_t params_set(flight_param_t *p, const param_row_t *row, float 
 #define PARAMS_CUTOFF_MIN_HZ     0.1f // of indiPos.cutoff, unless it is 0
 #define PARAMS_ATT_CUTOFF_MIN_HZ 0.5f // of indiAtt.cutoff, unless it is 0
 
-// ST_BAD_PARAM: some parameter is out of its range, or two contradict each other (rls.q > rls.p0,
-// ceil.floor > ceil.near, ceil.near >= ceil.far, rls.zMin >= rls.zMax).
+// ST_BAD_PARAM: some parameter is out of its range, or two contradict each other (ceil.floor > ceil.near,
+// rls.zMin >= rls.zMax). The ranges alone keep rls.q <= rls.p0 and ceil.near < ceil.far.
 MUST_CHECK status_t params_check(const flight_param_t *p);
 
 #endif

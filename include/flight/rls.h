@@ -11,8 +11,8 @@
 // that a hover does not excite; it is not offered.
 //
 // p0 is the largest variance that a weight has, at the start and ever after, in both forms: the walk ends
-// there, also where q is as large as p0. A p0 that is lowered takes all of P down by the same factor; one that
-// is raised lets the walk go farther.
+// there, also where q is as large as p0. A p0 that is lowered takes all of P down by the same factor; one
+// that is raised lets the walk go farther.
 #ifndef FLIGHT_RLS_H
 #define FLIGHT_RLS_H
 
