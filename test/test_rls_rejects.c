@@ -195,6 +195,24 @@ TEST(rls_recovers_from_any_flipped_bit_of_p) {
   }
 }
 
+TEST(rls_takes_parameters_up_to_their_limits) {
+  static const struct {
+    rls_param_t p;
+    status_t want;
+  } row[] = {
+      {{.lambda = 1e-6f, .p0 = 1}, ST_OK},     {{.lambda = 0.99e-6f, .p0 = 1}, ST_BAD_PARAM},
+      {{.lambda = 1e6f, .p0 = 1}, ST_OK},      {{.lambda = 1.01e6f, .p0 = 1}, ST_BAD_PARAM},
+      {{.lambda = 1, .p0 = 1e-6f}, ST_OK},     {{.lambda = 1, .p0 = 0.99e-6f}, ST_BAD_PARAM},
+      {{.lambda = 1, .p0 = 1e6f}, ST_OK},      {{.lambda = 1, .p0 = 1.01e6f}, ST_BAD_PARAM},
+      {{.lambda = 1, .p0 = 1, .q = 1}, ST_OK}, {{.lambda = 1, .p0 = 1, .q = 1.01f}, ST_BAD_PARAM},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%u", i);
+    rls_t s;
+    CHECK_STATUS(row[i].want, rls_init(&s, &row[i].p, &lesson_flat));
+  }
+}
+
 TEST(rls_walks_to_p0_and_no_farther_whatever_q) {
   // q = p0 once restarted the covariance at every second sample.
   static const float qs[] = {0.0f, 1e-6f, 1e-4f, 1e-3f};
