@@ -43,4 +43,38 @@ static inline guard_in_t hovering(const hover_t *h, int ms) {
   };
 }
 
+static const hover_t HOVERING_FREE = {0.30f, 0.30f, 0.30f, 1.0f}, HOVERING_NEAR = {0.10f, 0.10f, 0.10f, 1.0f};
+
+// What is wrong with the inputs; ms: since it began.
+typedef void hovering_edit_fn(guard_in_t *in, float value, int ms);
+
+typedef struct {
+  guard_t g;
+  int ms, since_ms; // of the flight, of the fault
+} watched_t;
+
+static inline guard_param_t hovering_param(void) {
+  flight_param_t p;
+  params_default(&p);
+  return p.guard;
+}
+
+static inline void hovering_fly(watched_t *w, const hover_t *h, hovering_edit_fn *edit, float value,
+                                int span_ms) {
+  const guard_param_t p = hovering_param();
+  for (int k = 0; k < span_ms; k++) {
+    guard_in_t in = hovering(h, w->ms++);
+    if (edit) edit(&in, value, ++w->since_ms);
+    guard_step(&w->g, &p, &in);
+  }
+}
+
+// After three seconds without a fault.
+static inline watched_t hovering_started(const hover_t *h) {
+  watched_t w = {.ms = 1};
+  guard_init(&w.g);
+  hovering_fly(&w, h, NULL, 0.0f, 3000);
+  return w;
+}
+
 #endif
