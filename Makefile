@@ -78,7 +78,7 @@ setup-lint: setup
 setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor; minutes
 	@tools/setup.sh $(PIL_PACKAGES)
 .PHONY: setup-cf test-cf
-setup-cf:  ## cflib for tools/cf.py, into out/cf; a minute
+setup-cf:  ## cflib for tools/cf.py and cfloader for cload, into out/cf; a minute
 	@tools/setup.sh $(CF_PACKAGES)
 	@tools/cf_venv.sh
 
@@ -279,7 +279,6 @@ firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFL
 	@cat $(O)/firmware/legacy/size $(O)/firmware/plus/size >$(O)/firmware/size
 
 cload:  ## build, and flash over the radio (CRAZYFLIE_BASE=DIR PROPELLERS=legacy or plus); minutes
-	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 	+@tools/firmware.sh cload "$(CRAZYFLIE_BASE)" "$(PROPELLERS)"
 
 fresh:  ## the README's commands in a bare Debian 12, as root and as a user (root, debootstrap); half an hour

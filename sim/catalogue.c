@@ -36,10 +36,10 @@ void catalogue_params(bool markdown) {
   }
   for (int i = 0; i < param_app_count; i++) {
     const param_app_t *a = &param_app_table[i];
-    char range[32];
+    char initial[32], range[32];
     snprintf(range, sizeof range, "0 to %g", (double)a->max);
-    printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", a->name, "", "0",
-           range, a->help);
+    printf(markdown ? "| `%s` | %s | %s | %s | %s |\n" : "%-16s %-5s %12s  %-20s %s\n", a->name, "",
+           shortest(a->initial, initial), range, a->help);
   }
 }
 

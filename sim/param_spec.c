@@ -6,7 +6,8 @@
 #include "io/number.h"
 #include <string.h>
 
-#define APP_ROW(name_, type, field, max_, help_) {.name = "ceil." #name_, .help = help_, .max = max_},
+#define APP_ROW(name_, type, field, initial_, max_, help_)                                                   \
+  {.name = "ceil." #name_, .help = help_, .initial = initial_, .max = max_},
 const param_app_t param_app_table[] = {APP_PARAMS(APP_ROW)};
 const int param_app_count = (int)(sizeof param_app_table / sizeof *param_app_table);
 

@@ -9,7 +9,7 @@
 // A parameter of the app alone, which the flight code does not have (ceil.shadow).
 typedef struct {
   const char *name, *help;
-  float max; // whole numbers from 0
+  float initial, max; // whole numbers from 0
 } param_app_t;
 
 extern const param_app_t param_app_table[];

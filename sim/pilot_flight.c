@@ -3,15 +3,11 @@
 
 #include "crazyflie/sections.h"
 #include "error.h"
+#include "firmware/settings.h"
 #include <stdlib.h>
 #include <string.h>
 
 _Static_assert(MOTORS == PILOT6_MOTORS, "the same vehicle on both sides");
-
-static bool is_weight(const param_row_t *row) {
-  const size_t first = offsetof(flight_param_t, curve.fixed);
-  return row->offset >= first && row->offset < first + sizeof(rbf_weights_t);
-}
 
 // Writes what differs from what the app was told.
 static bool send(pilot_flight_t *p) {
@@ -22,7 +18,7 @@ static bool send(pilot_flight_t *p) {
                                                                       (const char *)&p->sent + row->offset;
     if (memcmp(at, was, 4) == 0) continue;
     known = crazyflie_set(&p->vehicle, row->name, (double)params_get(&p->param, row)) && known;
-    weights = weights || is_weight(row);
+    weights = weights || settings_is_weight(row);
   }
   p->sent = p->param;
   if (weights) known = crazyflie_set(&p->vehicle, "ceil.commit", COMMIT_TYPED) && known;
@@ -67,7 +63,8 @@ status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const
   p->n_log = p->room_log = 0;
   p->log_every_ms = 0;
   memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
-  if (!send(p)) return ST_FAILED;
+  // As a pilot does who has seen enough of it in shadow.
+  if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return ST_FAILED;
   crazyflie_start(&p->vehicle);
   *pilot = (pilot6_t){.state = p, .step = step, .reset = reset};
   return ST_OK;

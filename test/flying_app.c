@@ -8,6 +8,7 @@ void app_start(flying_t *f) {
   f->rig = rig6_at(&body, d3(0.0, 0.0, 0.3), 0.0, true);
   f->set = rig6_hold(d3(0.0, 0.0, 0.3), 0.0);
   crazyflie_init(&f->vehicle, NULL);
+  CHECK(crazyflie_set(&f->vehicle, "ceil.shadow", 0));
   CHECK(crazyflie_set(&f->vehicle, "indiPos.mass", body.mass_kg));
   CHECK(crazyflie_set(&f->vehicle, "indiPos.tauMot", body.tau_s));
   crazyflie_start(&f->vehicle);

@@ -1,5 +1,6 @@
 // test_app_units.c - the border of the app: units, signs, frames, and what counts as a new range sample.
 #include "crazyflie/stand_in.h"
+#include "firmware/glue.h"
 #include "firmware/range_up.h"
 #include "firmware/units.h"
 #include "test.h"
@@ -67,6 +68,81 @@ TEST(app_reads_every_kind_of_set_point_that_the_firmware_makes) {
   const setpoint_t none = {.attitudeRate.yaw = 50.0f}; // unarmed: zeros, whatever is left over
   units_setpoint(&sp, &none);
   CHECK(sp.z == AXIS_OFF && sp.thrust_N == 0.0f && sp.yaw_rate_radps == 0.0f);
+}
+
+TEST(app_names_the_set_points_that_it_does_not_fly) {
+  static const setpoint_mode_t by_hand = {.roll = modeAbs, .pitch = modeAbs, .yaw = modeVelocity};
+  static const setpoint_mode_t place = {.x = modeAbs, .y = modeAbs, .z = modeAbs, .quat = modeAbs};
+  const struct {
+    const char *what;
+    setpoint_t sp;
+    unsigned want;
+  } row[] = {
+      {"nothing", {.timestamp = 0}, 0},
+      {"by hand", {.mode = by_hand, .attitudeRate.yaw = 9.0f}, 0},
+      {"rate of roll", {.mode = {.roll = modeVelocity, .pitch = modeAbs}}, NOT_FLOWN_RATES},
+      {"rate of pitch", {.mode = {.roll = modeAbs, .pitch = modeVelocity}}, NOT_FLOWN_RATES},
+      {"full state", {.mode = place}, 0},
+      {"with a rate of yaw", {.mode = place, .attitudeRate.yaw = 9.0f}, 0},
+      {"with a rate of roll", {.mode = place, .attitudeRate.roll = 9.0f}, NOT_FLOWN_TURN},
+      {"with a rate of pitch", {.mode = place, .attitudeRate.pitch = -9.0f}, NOT_FLOWN_TURN},
+      {"quaternion alone", {.mode = {.quat = modeAbs}}, NOT_FLOWN_QUAT},
+      {"quaternion and x", {.mode = {.x = modeAbs, .quat = modeAbs}}, NOT_FLOWN_QUAT},
+      {"quaternion and y", {.mode = {.y = modeAbs, .quat = modeAbs}}, NOT_FLOWN_QUAT},
+      {"rates and quaternion",
+       {.mode = {.roll = modeVelocity, .quat = modeAbs}},
+       NOT_FLOWN_RATES | NOT_FLOWN_QUAT},
+      {"rates, full state",
+       {.mode = {.x = modeAbs, .y = modeAbs, .roll = modeVelocity, .quat = modeAbs},
+        .attitudeRate.roll = 1.0f},
+       NOT_FLOWN_RATES | NOT_FLOWN_TURN},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    CHECK(units_not_flown(&row[i].sp) == row[i].want);
+    flight_setpoint_t sp; // level, whatever stands in its angles
+    setpoint_t tilted = row[i].sp;
+    tilted.attitude.roll = tilted.attitude.pitch = 20.0f;
+    units_setpoint(&sp, &tilted);
+    if (row[i].want != 0) CHECK(sp.roll_rad == 0.0f && sp.pitch_rad == 0.0f);
+  }
+}
+
+// Thrust of a motor by its voltage, legacy propellers.
+#define LEGACY                                                                                               \
+  { -0.0148307f, 0.0472447f, -0.0184736f, 0.00596092f }
+
+TEST(app_counts_as_applied_what_a_low_battery_lets_through) {
+  static stand_in_t low = {.thrust_max_N = 0.12f, .volt_N = LEGACY};
+  static const struct {
+    float battery_V;
+    uint16_t duty[MOTORS];
+    float want_N[MOTORS]; // of 0.1 N each: by hand from the map
+  } row[] = {
+      {3.7f,
+       {65535, 65535, 65535, 65535},
+       {0.1f, 0.1f, 0.1f, 0.1f}}, // could give more than is ever asked for
+      {2.99f, {65535, 65535, 65535, 65535}, {0.1f, 0.1f, 0.1f, 0.1f}},
+      {2.5f, {65534, 60000, 30000, 0}, {0.1f, 0.1f, 0.1f, 0.1f}}, // not at the limit
+      {2.5f, {65535, 52428, 26214, 0}, {0.0809604f, 0.0534517f, 0.0199013f, 0.0f}},
+      {2.5f, {52428, 65535, 0, 26214}, {0.0534517f, 0.0809604f, 0.0f, 0.0199013f}},
+      {2.5f, {26214, 0, 65535, 52428}, {0.0199013f, 0.0f, 0.0809604f, 0.0534517f}},
+      {2.5f, {0, 26214, 52428, 65535}, {0.0f, 0.0199013f, 0.0534517f, 0.0809604f}},
+  };
+  stand_in = &low;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g V, row %u", (double)row[i].battery_V, i);
+    low.battery_V = row[i].battery_V;
+    memcpy(low.duty, row[i].duty, sizeof low.duty);
+    float force_N[MOTORS] = {0.1f, 0.1f, 0.1f, 0.1f};
+    units_cap(force_N);
+    for (int k = 0; k < MOTORS; k++) CHECK_NEAR(force_N[k], row[i].want_N[k], 1e-6);
+  }
+  // Never more than was asked for.
+  float force_N[MOTORS] = {0.01f, 0.01f, 0.01f, 0.01f};
+  low.battery_V = 2.5f;
+  units_cap(force_N);
+  CHECK(force_N[3] == 0.01f && force_N[0] == 0.0f);
 }
 
 TEST(app_knows_what_each_mode_of_the_power_distribution_does_to_the_motors) {

@@ -1,6 +1,7 @@
 // test_app_vehicle.c - the app as it runs on the vehicle: shadow flight, hand-overs, what it refuses, what it
 // says.
 #include "app.h"
+#include "firmware/units.h"
 #include "flying_app.h"
 #include "test.h"
 
@@ -98,6 +99,42 @@ TEST(app_counts_as_applied_nothing_while_the_motors_are_not_allowed_to_run) {
   f.vehicle.around.motors_allowed = false;
   app_fly(&f, 1);
   CHECK(app_log(&f, "indiIn.f1") == 0.0);
+}
+
+// At 2.55 V the motors give 0.34 N at most, and it weighs 0.32 N.
+TEST(app_takes_the_cap_of_a_low_battery_for_what_the_motors_did) {
+  static flying_t f;
+  app_start(&f);
+  app_fly(&f, 1000);
+  f.rig.vbat_V = 2.55;
+  f.set.mode[2] = PILOT6_VELOCITY;
+  int full = 0, lowered = 0;
+  double worst_N = 0.0;
+  for (int ms = 0; ms < 6000; ms++) {
+    // Up and down, tilting: the cap takes as much from those that are not full.
+    f.set.vel_mps = d3(0.0, 0.0, ms / 500 % 2 == 0 ? 0.8 : -0.4);
+    f.set.pos_w_m = d3(ms / 700 % 2 == 0 ? 0.2 : -0.2, 0.0, 0.3);
+    double motor_N[PILOT6_MOTORS];
+    const pilot6_in_t in = rig6_sense(&f.rig, &f.set);
+    bool is_full = false;
+    for (int i = 0; i < PILOT6_MOTORS; i++) is_full = is_full || f.vehicle.around.duty[i] == UINT16_MAX;
+    float asked_N[MOTORS];
+    units_applied(asked_N, &f.vehicle.control);
+    double got_N[PILOT6_MOTORS];
+    memcpy(got_N, f.rig.command_N, sizeof got_N);
+    crazyflie_ms(&f.vehicle, &in, motor_N);
+    if (is_full && ms > 600) { // the firmware's filtered voltage has come down
+      full++;
+      for (int i = 0; i < PILOT6_MOTORS; i++) {
+        worst_N = fmax(worst_N, fabs((double)f.vehicle.app.in.force_N[i] - got_N[i]));
+        lowered += (double)asked_N[i] > got_N[i] + 0.003;
+      }
+    }
+    rig6_step(&f.rig, motor_N);
+  }
+  ROW("%d milliseconds at the limit, %d motors lowered by more than 3 mN", full, lowered);
+  CHECK(full > 1000 && lowered > 1000);
+  CHECK(worst_N < 1e-4); // of 0.12 N
 }
 
 TEST(app_teaches_nothing_while_the_supervisor_says_it_does_not_fly) {

@@ -51,6 +51,11 @@ static void take_model(crazyflie_t *c, const model_t *model) {
     if (!c->compensates) c->firmware.thrust_min_N = 0.0;
   }
   c->around.thrust_max_N = (float)c->firmware.thrust_max_N;
+  for (int i = 0; i < STAND_IN_VOLT_N; i++) c->around.volt_N[i] = (float)c->firmware.volt_cubic[i];
+  if (c->compensates) return;
+  // A command is duty: what it amounts to the firmware does not know, and so no voltage is too low for it.
+  memset(c->around.volt_N, 0, sizeof c->around.volt_N);
+  c->around.volt_N[0] = (float)c->firmware.thrust_max_N;
 }
 
 void crazyflie_init(crazyflie_t *c, const model_t *model) {
@@ -152,8 +157,10 @@ static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
     stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
   else
     memcpy(duty, unit, sizeof duty);
+  c->around.battery_V = (float)in->vbat_V;
   for (int i = 0; i < PILOT6_MOTORS; i++) {
     motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
+    c->around.duty[i] = (uint16_t)duty[i];
     if (duty[i] > 0.0) c->turned_step = in->step;
     c->around.flying = c->around.flying || duty[i] > 0.0;
   }
@@ -169,6 +176,7 @@ static void take_over(crazyflie_t *c, const pilot6_in_t *in) {
   }
   c->turned_step = in->step;
   c->power.supply_V = in->vbat_V;
+  c->around.battery_V = (float)in->vbat_V;
   c->called = true;
 }
 
@@ -190,10 +198,8 @@ void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
 
 // --- looking ----------------------------------------------------------------------------------------------
 
-// The app's static state is this vehicle's copy of it.
 static void *own(const crazyflie_t *c, const void *address) {
-  const ptrdiff_t offset = (const char *)address - (const char *)&glue_static;
-  return (char *)(uintptr_t)&c->app + offset;
+  return stand_in_own(&c->around, address);
 }
 
 bool crazyflie_set(crazyflie_t *c, const char *name, double value) {

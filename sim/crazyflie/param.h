@@ -31,12 +31,20 @@
 
 typedef struct {
   bool valid;
-  unsigned value;
+  unsigned deck;                // there, or not
+  const section_param_t *param; // of the app; null: a deck's
 } paramVarId_t;
 #define PARAM_VARID_IS_VALID(id) ((id).valid)
 
 // Of the deck parameters alone.
 paramVarId_t paramGetVarId(const char *group, const char *name);
 unsigned paramGetUint(paramVarId_t id);
+
+// Of the app's parameters alone, "group.name".
+paramVarId_t paramGetVarIdFromComplete(const char *name);
+
+// Writes the value, tells the client and calls back, as the firmware does.
+void paramSetInt(paramVarId_t id, int value);
+void paramSetFloat(paramVarId_t id, float value);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct {
+typedef struct section_param {
   int type; // param.h
   const char *name;
   void *address;

@@ -2,8 +2,10 @@
 #include "stand_in.h"
 
 #include "controller_pid.h"
+#include "firmware/glue.h"
 #include "param.h"
 #include "task.h"
+#include "values.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,13 +22,38 @@ void controllerPid(control_t *control, const setpoint_t *setpoint, const sensorD
 
 paramVarId_t paramGetVarId(const char *group, const char *name) {
   if (strcmp(group, "deck") != 0) return (paramVarId_t){.valid = false};
-  if (strcmp(name, "bcFlow2") == 0) return (paramVarId_t){true, stand_in->has_flow};
-  if (strcmp(name, "bcMultiranger") == 0) return (paramVarId_t){true, stand_in->has_multiranger};
+  if (strcmp(name, "bcFlow2") == 0) return (paramVarId_t){true, stand_in->has_flow, NULL};
+  if (strcmp(name, "bcMultiranger") == 0) return (paramVarId_t){true, stand_in->has_multiranger, NULL};
+  if (strcmp(name, "bcUSD") == 0) return (paramVarId_t){true, stand_in->has_usd, NULL};
   return (paramVarId_t){.valid = false};
 }
 
 unsigned paramGetUint(paramVarId_t id) {
-  return id.value;
+  return id.deck;
+}
+
+paramVarId_t paramGetVarIdFromComplete(const char *name) {
+  const section_param_t *const param = sections_param(name);
+  return (paramVarId_t){param != NULL, 0, param};
+}
+
+static void tell(const section_param_t *param, double value) {
+  void *const at = stand_in_own(stand_in, param->address);
+  values_put(param->type, at, value);
+  if (stand_in->told) stand_in->told(stand_in->told_context, param, values_of_param(param->type, at));
+  if (param->callback) param->callback();
+}
+
+void paramSetInt(paramVarId_t id, int value) {
+  tell(id.param, id.param->type & PARAM_UINT8 ? (double)(unsigned)value : (double)value);
+}
+void paramSetFloat(paramVarId_t id, float value) {
+  tell(id.param, (double)value);
+}
+
+void *stand_in_own(const stand_in_t *around, const void *address) {
+  const ptrdiff_t offset = (const char *)address - (const char *)&glue_static;
+  return (char *)around->app + offset;
 }
 
 void vTaskDelay(TickType_t ticks) {

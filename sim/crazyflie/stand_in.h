@@ -12,7 +12,10 @@
 
 #define STAND_IN_RANGES  6
 #define STAND_IN_CONSOLE 2048
+#define STAND_IN_MOTORS  4
+#define STAND_IN_VOLT_N  4
 
+struct section_param;
 struct control_s;
 struct setpoint_s;
 struct sensorData_s;
@@ -23,7 +26,13 @@ typedef struct stand_in {
   float thrust_max_N;                 // of one motor: what a command of 1 stands for
   uint16_t range_mm[STAND_IN_RANGES]; // by rangeDirection_t
   bool flying, motors_allowed;        // as the supervisor says
-  bool has_flow, has_multiranger;
+  float volt_N[STAND_IN_VOLT_N];      // thrust of a motor by its voltage: the firmware's cubic
+  float battery_V;                    // as last measured
+  uint16_t duty[STAND_IN_MOTORS];     // of the motors in the last millisecond
+  bool has_flow, has_multiranger, has_usd;
+  // What the firmware tells the client of a parameter; null: nobody listens.
+  void (*told)(void *context, const struct section_param *param, double value);
+  void *told_context;
   // The stock controller (number 1); null: it commands nothing.
   void (*stock)(void *context, struct control_s *control, const struct setpoint_s *setpoint,
                 const struct sensorData_s *sensors, const struct state_s *state, uint32_t step);
@@ -35,6 +44,9 @@ typedef struct stand_in {
 
 // The vehicle that this thread flies now.
 extern _Thread_local stand_in_t *stand_in;
+
+// The app's static state is this vehicle's copy of it.
+void *stand_in_own(const stand_in_t *around, const void *address);
 
 void stand_in_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

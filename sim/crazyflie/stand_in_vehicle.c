@@ -1,5 +1,7 @@
 // stand_in_vehicle.c - what the app asks of the vehicle, on the host and on the emulated processor alike.
 #include "controller_pid.h"
+#include "motors.h"
+#include "pm.h"
 #include "range.h"
 #include "stand_in.h"
 #include "supervisor.h"
@@ -13,6 +15,13 @@ bool supervisorIsFlying(void) {
 }
 bool supervisorAreMotorsAllowedToRun(void) {
   return stand_in->motors_allowed;
+}
+
+uint16_t motorsGetRatio(uint32_t motor) {
+  return stand_in->duty[motor];
+}
+float pmGetBatteryVoltage(void) {
+  return stand_in->battery_V;
 }
 
 void controllerPidInit(void) {}

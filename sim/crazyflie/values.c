@@ -15,10 +15,12 @@ static double within(double value, double min, double max) {
 void values_put(int param_type, void *at, double value) {
   const float real = (float)value;
   const uint8_t small = (uint8_t)within(value, 0.0, 255.0);
+  const uint32_t natural = (uint32_t)within(value, 0.0, 4294967295.0);
   const int32_t whole = (int32_t)within(value, -2147483648.0, 2147483647.0);
   switch (KIND(param_type)) {
   case PARAM_FLOAT: memcpy(at, &real, sizeof real); break;
   case PARAM_UINT8: memcpy(at, &small, sizeof small); break;
+  case PARAM_UINT32: memcpy(at, &natural, sizeof natural); break;
   case PARAM_INT32: memcpy(at, &whole, sizeof whole); break;
   }
 }
@@ -45,6 +47,7 @@ double values_of_param(int param_type, const void *at) {
   switch (KIND(param_type)) {
   case PARAM_FLOAT: READ(float, at);
   case PARAM_UINT8: READ(uint8_t, at);
+  case PARAM_UINT32: READ(uint32_t, at);
   case PARAM_INT32: READ(int32_t, at);
   }
   return (double)NAN;

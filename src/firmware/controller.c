@@ -17,6 +17,7 @@
 void controllerOutOfTreeInit(void) {
   settings_start();
   GLUE.range = (range_up_t){.started = false};
+  GLUE.not_flown = 0;
   GLUE.stock_share = GLUE.shadow ? 1.0f : 0.0f;
   flyable_init(&GLUE.flyable);
   controllerPidInit();
@@ -41,10 +42,13 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   in->step = step;
   units_sensors(in, sensors, state);
   units_applied(in->force_N, control);
+  units_cap(in->force_N);
   if (!supervisorAreMotorsAllowedToRun())
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
   units_setpoint(&in->setpoint, setpoint);
+  // For a person to read: in the call of ten in which no loop runs.
+  if (GLUE.flight.phase == 1) GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
   in->no_lesson = !supervisorIsFlying();
 }
 

@@ -9,6 +9,8 @@
 #include "flight/flyable.h"
 #include "range_up.h"
 
+#define PUT_BACK_WORDS 3 // of 32 rows each
+
 typedef struct {
   flight_param_t tuned; // as the parameters are written, one by one and at any time
   flight_param_t flown; // the last set that passed its checks as a whole; its weights are the committed ones
@@ -17,8 +19,16 @@ typedef struct {
   uint8_t commit;           // ceil.commit: COMMIT_*, 0 when done
   uint8_t commit_asked;     // what of it belongs to the candidate
   volatile uint8_t ready;
-  uint8_t decks;         // DECK_*
-  uint32_t sets_refused; // parameter sets that failed their checks
+  uint8_t telling;       // the client is being told: what is written now is no write of its
+  uint8_t weights_mixed; // at the start the stored weights did not belong together
+  uint32_t weights_sum;  // ceil.wSum: stored with the weights, says that they are one set
+  uint32_t sum_flown;    // what it is for the weights that fly
+  uint32_t sum_default;  // of the table's weights
+  uint8_t started;
+  uint32_t put_back[PUT_BACK_WORDS]; // rows of params_table whose value was refused, as bits
+  uint8_t decks;                     // DECK_*
+  uint8_t not_flown;                 // NOT_FLOWN_*, since the controller was selected
+  uint32_t sets_refused;             // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
   float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way
@@ -33,12 +43,16 @@ typedef struct {
 
 enum { COMMIT_TYPED = 1, COMMIT_LEARNED = 2 };
 enum { DECK_FLOW = 1, DECK_MULTIRANGER = 2 };
+// Set points, or parts of them, that this controller does not fly.
+enum { NOT_FLOWN_RATES = 1, NOT_FLOWN_QUAT = 2, NOT_FLOWN_TURN = 4 };
 
-// Parameters that are the app's own: X(name in group ceil, type, field of glue_t, largest, what it does).
+// Parameters that are the app's own: X(name in group ceil, type, field of glue_t, default, largest, what it
+// does). A vehicle that was never told otherwise flies the stock controller.
 #define APP_PARAMS(X)                                                                                        \
-  X(commit, PARAM_UINT8, commit, 2,                                                                          \
+  X(commit, PARAM_UINT8, commit, 0, 2,                                                                       \
     "1 takes ceil.w1..w7 at once, 2 the learned rls.w1..w7; refused while learning; 0 when done")            \
-  X(shadow, PARAM_UINT8, shadow, 1, "1: the stock controller flies, this one computes and logs")
+  X(shadow, PARAM_UINT8 | PARAM_PERSISTENT, shadow, 1, 1,                                                    \
+    "1: the stock controller flies, this one computes and logs")
 
 extern glue_t glue_static;
 

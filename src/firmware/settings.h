@@ -7,21 +7,31 @@
 //   1  takes ceil.w1..w7 at once
 //   2  copies the learned rls.w1..w7 into them, and takes those; refused while learning
 // Either way learning goes on from there.
+//
+// A client stores parameters one by one, and may be interrupted. So a commit also makes ceil.wSum of the
+// weights: only those whose sum it is are flown at the start. It is 0 for the weights of the table, so that a
+// vehicle on which nothing was stored flies them.
 #ifndef FIRMWARE_SETTINGS_H
 #define FIRMWARE_SETTINGS_H
 
+#include "flight/params.h"
 #include <stdbool.h>
 
-// A fresh controller with what the parameters say now, the weights included; defaults for what is refused.
+// A fresh controller with what the parameters say now. What is refused is put back to what flew before, to
+// the defaults at first; weights that do not belong together (GLUE.weights_mixed) as a whole. Weights whose
+// commit waits for this are taken.
 void settings_start(void);
 
 // Once a tick, before anything else; acts in every second one.
 void settings_take(void);
 
+// One of ceil.w1..w7.
+bool settings_is_weight(const param_row_t *row);
+
 // A lesson may be taught now.
 bool settings_learning(void);
 
-// Called by the firmware's parameter task after every write.
+// After every write, in the parameter task; what it puts back is noted in GLUE.put_back.
 void settings_touched(void);
 
 #endif

@@ -5,22 +5,22 @@
 #include "platform_defaults.h"
 #define PARAMS_YAW_ARM_M THRUST2TORQUE
 
+#include "client.h"
 #include "glue.h"
 #include "log.h"
 #include "param.h"
-#include "settings.h"
 
 #define INITIAL(group, name, type, field, unit, initial, ...) .field = initial,
-glue_t glue_static = {.tuned = {FLIGHT_PARAMS(INITIAL)}};
+#define APP_INITIAL(name, type, field, initial, ...)          .field = initial,
+glue_t glue_static = {.tuned = {FLIGHT_PARAMS(INITIAL)}, APP_PARAMS(APP_INITIAL)};
 
 // --- parameters -------------------------------------------------------------------------------------------
 
 #define PARAM_INT PARAM_INT32
 #define ROW(group, name, type, field, ...)                                                                   \
-  PARAM_ADD_WITH_CALLBACK(type | PARAM_PERSISTENT, name, &glue_static.tuned.field, settings_touched)
+  PARAM_ADD_WITH_CALLBACK(type | PARAM_PERSISTENT, name, &glue_static.tuned.field, client_wrote)
 
-#define APP_ROW(name, type, field, ...)                                                                      \
-  PARAM_ADD_WITH_CALLBACK(type, name, &glue_static.field, settings_touched)
+#define APP_ROW(name, type, field, ...) PARAM_ADD_WITH_CALLBACK(type, name, &glue_static.field, client_wrote)
 
 // clang-format off
 PARAM_GROUP_START(indiPos)
@@ -34,6 +34,8 @@ PARAM_GROUP_STOP(indiAtt)
 PARAM_GROUP_START(ceil)
 PARAMS_CEIL(ROW)
 APP_PARAMS(APP_ROW)
+// Made by the app at a commit; a client only stores it, after the weights.
+PARAM_ADD_WITH_CALLBACK(PARAM_UINT32 | PARAM_PERSISTENT, wSum, &glue_static.weights_sum, client_wrote)
 PARAM_GROUP_STOP(ceil)
 
 PARAM_GROUP_START(rls)

@@ -2,7 +2,10 @@
 #include "units.h"
 
 #include "flight/trig.h"
+#include "glue.h"
+#include "motors.h"
 #include "platform_defaults.h"
+#include "pm.h"
 
 #define RAD_PER_DEG 0.017453293f
 #define UNITS_MAX   65535.0f
@@ -46,6 +49,14 @@ void units_setpoint(flight_setpoint_t *to, const setpoint_t *sp) {
   to->yaw_rate_radps = sp->mode.yaw == modeDisable && !by_quat ? 0.0f : RAD_PER_DEG * sp->attitudeRate.yaw;
 }
 
+unsigned units_not_flown(const setpoint_t *sp) {
+  const setpoint_mode_t *const m = &sp->mode;
+  const unsigned rates = m->roll == modeVelocity || m->pitch == modeVelocity ? NOT_FLOWN_RATES : 0;
+  if (m->quat != modeAbs) return rates;
+  if (m->x == modeDisable || m->y == modeDisable) return rates | NOT_FLOWN_QUAT;
+  return sp->attitudeRate.roll != 0.0f || sp->attitudeRate.pitch != 0.0f ? rates | NOT_FLOWN_TURN : rates;
+}
+
 // --- motors -----------------------------------------------------------------------------------------------
 
 // Which motors a positive roll, pitch and yaw adds to; in the legacy mode pitch and yaw have the other sign.
@@ -80,6 +91,26 @@ void units_applied(float force_N[MOTORS], const control_t *control) {
       force_N[i] = f_clamp(THRUST_MAX * control->normalizedForces[i], 0.0f, THRUST_MAX);
   else
     for (int i = 0; i < MOTORS; i++) force_N[i] = f_clamp(others_N(control, i), 0.0f, THRUST_MAX);
+}
+
+// The firmware's map of these propellers, from the voltage at a motor.
+static float of_voltage_N(float motor_V) {
+  return VMOTOR2THRUST0 + motor_V * (VMOTOR2THRUST1 + motor_V * (VMOTOR2THRUST2 + motor_V * VMOTOR2THRUST3));
+}
+
+void units_cap(float force_N[MOTORS]) {
+  const float supply_V = pmGetBatteryVoltage();
+  if (of_voltage_N(supply_V) >= THRUST_MAX) return; // nothing that can be asked for is too much
+  uint16_t duty[MOTORS];
+  bool full = false;
+  for (unsigned i = 0; i < MOTORS; i++) {
+    duty[i] = motorsGetRatio(i);
+    full = full || duty[i] == UINT16_MAX;
+  }
+  if (!full) return;
+  const float motor_V = supply_V / UNITS_MAX;
+  for (int i = 0; i < MOTORS; i++)
+    force_N[i] = f_clamp(of_voltage_N(motor_V * (float)duty[i]), 0.0f, force_N[i]);
 }
 
 void units_command(control_t *control, const float force_N[MOTORS]) {

@@ -16,11 +16,19 @@
 // Sensors and estimate; all else of *in is kept.
 void units_sensors(flight_in_t *in, const sensorData_t *sensors, const state_t *state);
 
-// Rate mode (roll and pitch modeVelocity without x and y) is flown level: there is no rate controller.
+// What is not flown (units_not_flown) is level, at the thrust that it asks for: there is no rate controller.
 void units_setpoint(flight_setpoint_t *to, const setpoint_t *setpoint);
+
+// NOT_FLOWN_*: roll and pitch by their rates; an attitude as quaternion where x and y are not controlled; the
+// rates of roll and pitch that a full state brings along.
+unsigned units_not_flown(const setpoint_t *setpoint);
 
 // The force that the firmware's power distribution asks of each motor, in any of its three modes.
 void units_applied(float force_N[MOTORS], const control_t *control);
+
+// What of it the motors got in the last millisecond. A battery below some 3.0 V under load cannot give full
+// thrust; the firmware then lowers the duty of all motors alike, until the highest is full.
+void units_cap(float force_N[MOTORS]);
 
 // The firmware's own force mode: ForceTorque would mix again and undo what the mixer gave up first.
 void units_command(control_t *control, const float force_N[MOTORS]);

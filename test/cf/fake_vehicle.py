@@ -36,6 +36,7 @@ class FakeVehicle:
         self.theta = [1.0] + 6 * [0.0]
         self.on_step: Callable[[FakeVehicle], None] = lambda _: None
         self.store_fails: set[str] = set()
+        self.param["ceil.shadow"] = 0  # its user has seen enough of the shadow
         self.publish()
 
     @property
@@ -63,6 +64,7 @@ class FakeVehicle:
             self.taught = 0
         elif which:
             self.refused += 1
+        self.param["ceil.wSum"] = 1000 + self.commits  # another one for another set
         if not 0 <= self.param.get("ceil.min", 0) <= 0.5:
             self.param["ceil.min"] = declared_initial(self.param_rows, "ceil.min")
 

@@ -33,8 +33,11 @@ class Declared(unittest.TestCase):
         self.assertLessEqual(set(app.LOGS), set(self.logs))
 
     def test_what_is_stored_is_persistent(self) -> None:
-        for name in app.WEIGHTS:
+        for name in (*app.STORED, "ceil.shadow"):
             self.assertTrue(self.params[name].persistent, name)
+
+    def test_it_starts_in_shadow(self) -> None:
+        self.assertEqual(self.params["ceil.shadow"].initial, 1)
 
     def test_the_reasons_have_the_bits_of_the_headers(self) -> None:
         for header, prefix, names in (("guard.h", "GUARD", reasons.GUARD), ("flyable.h", "FLYABLE", reasons.FLYABLE)):

@@ -72,7 +72,9 @@ void pil_unpack(const pil_in_t *in, setpoint_t *sp, sensorData_t *sensors, state
 // --- the call
 // -----------------------------------------------------------------------------------------------
 
-static stand_in_t around = {.app = &glue_static, .thrust_max_N = 0.12f};
+static stand_in_t around = {.app = &glue_static,
+                            .thrust_max_N = 0.12f,
+                            .volt_N = {-0.0148307449f, 0.0472446524f, -0.0184736436f, 0.00596092394f}};
 static control_t control;
 static setpoint_t setpoint;
 static sensorData_t sensors;
@@ -99,10 +101,13 @@ void pil_before(const pil_in_t *in) {
   pil_unpack(in, &setpoint, &sensors, &state);
   step = in->step;
   around.range_mm[rangeUp] = (uint16_t)in->range_mm;
+  around.battery_V = in->battery_V;
+  for (int i = 0; i < 4; i++) around.duty[i] = (uint16_t)in->duty[i];
   around.flying = (in->flags & PIL_FLYING) != 0;
   around.motors_allowed = (in->flags & PIL_ALLOWED) != 0;
   if (in->flags & PIL_START) {
     params_default(&glue_static.tuned);
+    glue_static.shadow = 0;
     memcpy(control.normalizedForces, in->applied, sizeof in->applied);
     control.controlMode = controlModeForce;
     controllerOutOfTreeInit();

@@ -21,6 +21,8 @@ typedef struct {
   uint32_t step, flags, range_mm, in_body;
   int32_t param; // row of params_table that is written before the call, PIL_COMMIT, or PIL_NO_PARAM
   float value;
+  float battery_V;
+  uint32_t duty[4]; // of the motors in the last millisecond
   float applied[4]; // PIL_START: what was commanded before, of THRUST_MAX
   float acc[3], gyro[3], pos[3], vel[3], q[4], att[3];
   uint32_t mode[7];

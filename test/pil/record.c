@@ -50,6 +50,14 @@ static void spoil_inputs(recorder_t *r, pil_in_t *in) {
   memcpy(word, &r->odd, sizeof *word);
 }
 
+// A battery that cannot give what is asked for, and the motors as the firmware's cap leaves them.
+static void spoil_battery(recorder_t *r, pil_in_t *in) {
+  if (random_uniform(r->random, 0.0, 1.0) > 0.2) return;
+  in->battery_V = (float)random_uniform(r->random, 2.2, 3.1);
+  for (int i = 0; i < 4; i++) in->duty[i] = (uint32_t)random_uniform(r->random, 40000.0, 65535.0);
+  in->duty[(int)random_uniform(r->random, 0.0, 4.0 - 1e-9)] = 65535;
+}
+
 static void spoil_params(recorder_t *r, pil_in_t *in) {
   if (random_uniform(r->random, 0.0, 1.0) > 0.02) return;
   in->param = (int32_t)random_uniform(r->random, -2.0, params_count - 1e-9);
@@ -86,6 +94,7 @@ static void write_param(recorder_t *r, const pil_in_t *in) {
 
 static void spoil(recorder_t *r, pil_in_t *in) {
   if (r->inputs) spoil_inputs(r, in);
+  if (r->inputs) spoil_battery(r, in);
   if (r->params) spoil_params(r, in);
   if (r->time) spoil_time(r, in);
 }
@@ -104,8 +113,9 @@ static void ask(recorder_t *r, control_t *control) {
 static void fly(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                 const state_t *state, uint32_t step) {
   recorder_t *const r = context;
-  const stand_in_t *around = &r->pilot.vehicle.around;
-  pil_in_t in = {.param = PIL_NO_PARAM, .range_mm = around->range_mm[4]};
+  stand_in_t *const around = &r->pilot.vehicle.around;
+  pil_in_t in = {.param = PIL_NO_PARAM, .range_mm = around->range_mm[4], .battery_V = around->battery_V};
+  for (int i = 0; i < 4; i++) in.duty[i] = around->duty[i];
   in.flags = (r->first ? PIL_START : 0u) | (around->flying ? PIL_FLYING : 0u) |
              (around->motors_allowed ? PIL_ALLOWED : 0u);
   memcpy(in.applied, control->normalizedForces, sizeof in.applied);
@@ -116,6 +126,8 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
   if (r->calls == params_count) in = (in.param = PIL_COMMIT, in.value = 1.0f, in);
   if (r->calls > 1000) spoil(r, &in);
   if (r->calls > 1000) write_param(r, &in);
+  around->battery_V = in.battery_V;
+  for (int i = 0; i < 4; i++) around->duty[i] = (uint16_t)in.duty[i];
   r->first = false;
   r->calls++;
   if (fwrite(&in, sizeof in, 1, r->to) != 1) exit(1);

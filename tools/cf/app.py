@@ -6,6 +6,7 @@ from .monitor import WATCHED
 
 WEIGHTS = tuple(f"ceil.w{i}" for i in range(1, 8))
 LEARNED = tuple(f"rls.w{i}" for i in range(1, 8))
+STORED = (*WEIGHTS, "ceil.wSum")  # the sum last: only weights that were stored as a whole have it
 FROM_NOTHING = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # a thrust ratio of 1 at any distance
 COMMIT_TYPED, COMMIT_LEARNED = 1, 2  # ceil.commit
 MODE_FIXED, MODE_LIVE = 1, 2  # ceil.mode
@@ -15,7 +16,7 @@ DECKS_ALL = 3  # ceil.decks
 NO_APP = "this Crazyflie does not run the app; flash the app first, make firmware and make cload"
 
 PARAMS = (
-    *WEIGHTS,
+    *STORED,
     "ceil.commit",
     "ceil.mode",
     "ceil.min",

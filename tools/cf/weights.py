@@ -59,11 +59,11 @@ def take_learned(vehicle: Craft, now: Monitor) -> None:
 
 
 def store_weights(vehicle: Craft) -> None:
-    for i, name in enumerate(app.WEIGHTS):
+    for i, name in enumerate(app.STORED):
         try:
             vehicle.store(name)
         except Failed as why:
-            left = " ".join(app.WEIGHTS[i:])
-            raise Failed(f"{why}; the learned weights fly, but until these are stored too they go with the "
-                         f"power: params store {left}") from None
+            left = " ".join(app.STORED[i:])
+            raise Failed(f"{why}; the learned weights fly, but until these are stored too the shipped ones come "
+                         f"with the power: params store {left}") from None
     say("the weights are stored; they fly with ceil.mode 1")

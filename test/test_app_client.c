@@ -1,0 +1,119 @@
+// test_app_client.c - what the client on the ground is told: it shows what it wrote, until it hears better.
+#include "crazyflie/sections.h"
+#include "flying_app.h"
+#include "test.h"
+
+#include <string.h>
+
+// A client as the firmware's own is: of what it writes it believes the echo, and then what it is told.
+typedef struct {
+  flying_t flying;
+  const section_param_t *param; // that it looks at
+  double shown;
+  int told; // of all parameters
+} watched_t;
+
+static void hear(void *context, const section_param_t *param, double value) {
+  watched_t *const w = context;
+  w->told++;
+  if (param == w->param) w->shown = value;
+}
+
+static void ticks(void *context, uint32_t ms) {
+  app_fly(&((watched_t *)context)->flying, (int)ms);
+}
+
+static void start(watched_t *w) {
+  app_start(&w->flying);
+  w->told = 0;
+  stand_in_t *const around = &w->flying.vehicle.around;
+  around->told = hear;
+  around->delay = ticks; // while the parameter task rests, the others run
+  around->told_context = around->delay_context = w;
+}
+
+static void type(watched_t *w, const char *name, double value) {
+  w->param = sections_param(name);
+  w->shown = value;
+  CHECK(crazyflie_set(&w->flying.vehicle, name, value));
+}
+
+static double param(const watched_t *w, const char *name) {
+  double value = (double)NAN;
+  CHECK(crazyflie_param(&w->flying.vehicle, name, &value));
+  return value;
+}
+
+TEST(app_tells_the_client_of_every_parameter_that_it_puts_back) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *row = &params_table[i];
+    const bool whole = row->type == PARAM_INT;
+    const double odd[] = {(double)row->max * 1.01 + 1.0, (double)row->min - 1.0, whole ? 1e9 : (double)NAN};
+    for (unsigned k = 0; k < sizeof odd / sizeof *odd; k++) {
+      ROW("%s = %g", row->name, odd[k]);
+      const double before = param(&w, row->name);
+      w.told = 0;
+      type(&w, row->name, odd[k]);
+      const bool weight = strncmp(row->name, "ceil.w", 6) == 0; // judged when it is to be flown
+      if (weight) CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_TYPED));
+      CHECK(w.shown == before && param(&w, row->name) == before);
+      CHECK(w.told == (weight ? 2 : 1)); // of that one alone, once, and that the commit is over
+    }
+  }
+}
+
+TEST(app_tells_nothing_of_what_it_takes_or_lets_wait) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  type(&w, "indiPos.kp", 2.0);
+  type(&w, "rls.zMin", 0.1); // against rls.zMax: the next write may mend it
+  CHECK(param(&w, "rls.zMin") == (double)0.1f);
+  type(&w, "ceil.w2", 0.25);
+  type(&w, "ceil.shadow", 1.0);
+  CHECK(w.told == 0);
+}
+
+TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  type(&w, "ceil.w2", 0.25);
+  type(&w, "ceil.commit", COMMIT_TYPED);
+  CHECK(w.shown == 0.0 && w.told == 2); // ceil.commit and ceil.wSum
+  CHECK(app_log(&w.flying, "ceil.commits") == 1.0);
+  // The learned ones stand in the parameters now.
+  w.flying.vehicle.app.flight.outer.learn.rls.theta.w[3] = 0.125f;
+  w.param = sections_param("ceil.w4");
+  w.told = 0;
+  CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_LEARNED));
+  CHECK(w.shown == 0.125 && w.told == RBF_N + 2);
+  // Refused in the tick: it learns.
+  type(&w, "ceil.mode", CURVE_LIVE);
+  app_fly(&w.flying, 10);
+  w.told = 0;
+  type(&w, "ceil.commit", COMMIT_LEARNED);
+  CHECK(w.shown == 0.0 && app_log(&w.flying, "ceil.noCommit") == 1.0);
+  CHECK(param(&w, "ceil.w4") == 0.125);
+}
+
+TEST(app_waits_for_a_tick_no_longer_than_the_link_bears) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  w.flying.vehicle.around.delay = NULL; // another controller flies: no tick comes
+  type(&w, "ceil.commit", COMMIT_TYPED);
+  CHECK(w.shown == COMMIT_TYPED && w.told == 0);
+}
+
+TEST(app_lets_nobody_else_write_the_sum_of_the_weights) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  const double before = param(&w, "ceil.wSum");
+  type(&w, "ceil.wSum", 12345.0);
+  CHECK(w.shown == before && param(&w, "ceil.wSum") == before);
+}
