@@ -19,6 +19,7 @@ status_t flight_init(flight_t *f, const flight_param_t *p) {
   TRY(outer_init(&f->outer, p, OUTER_S));
   f->out.outer = f->outer.out;
   f->yaw_rad = NAN;
+  by_hand_init(&f->by_hand);
   return flight_tune(f, p);
 }
 

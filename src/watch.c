@@ -147,6 +147,26 @@ static void set_what_flies(const flight_t *f, flight_in_t *in) {
   }
 }
 
+// Under a ceiling a thrust by hand becomes a climb.
+static APART void keep_out(flight_t *f, flight_in_t *in, int ms) {
+  const flight_param_t *p = &f->outer.param;
+  const by_hand_param_t param = {.kp_per_s = p->pos.kp_per_s,
+                                 .gap_min_m = p->gap_min_m,
+                                 .up_offset_m = p->up_offset_m,
+                                 .floor_m = p->ceiling.floor_m,
+                                 .weight_N = p->pos.mass_kg * GRAVITY_MPS2};
+  const by_hand_in_t x = {.period_s = 0.001f * f_clamp((float)ms, 1.0f, 50.0f),
+                          .thrust_N = in->setpoint.thrust_N,
+                          .climb_mps = in->vel_w_mps.z,
+                          .q_wb = in->q_wb,
+                          .range_new = in->range_new,
+                          .range_m = in->range_m,
+                          .range_age_s = in->range_age_s};
+  if (!by_hand_step(&f->by_hand, &param, &x, &in->setpoint.vel_mps.z)) return;
+  in->setpoint.z = AXIS_VELOCITY;
+  in->setpoint.acc_w_mps2.z = 0.0f;
+}
+
 void watch_inputs(flight_t *f, flight_in_t *in) {
   const int ms = (int)(in->step - f->step_last);
   f->step_last = in->step;
@@ -155,6 +175,10 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
     f->setpoint = in->setpoint;
   else
     in->setpoint = f->setpoint;
+  if (in->setpoint.z == AXIS_OFF)
+    keep_out(f, in, ms);
+  else
+    by_hand_init(&f->by_hand); // what was seen then is not known now
   if (in->setpoint.z == AXIS_OFF) {
     f->height_off_m = 0.0f;
     f->height_seen = false;

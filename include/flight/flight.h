@@ -13,6 +13,7 @@
 #define FLIGHT_FLIGHT_H
 
 #include "flight/att_indi.h"
+#include "flight/by_hand.h"
 #include "flight/guard.h"
 #include "flight/mixer.h"
 #include "flight/outer.h"
@@ -83,6 +84,7 @@ typedef struct {
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
+  by_hand_t by_hand;  // while the pilot does not have the height controlled
   float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go;
                       // within twice BOUND_POS_M, and beyond BOUND_HEIGHT_OFF_M a reason to go down
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults

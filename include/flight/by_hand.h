@@ -1,0 +1,49 @@
+// by_hand.h - the keep-out where the height is flown by hand.
+//
+// Thrust by hand knows no ceiling. Where one comes near, as fast as the vehicle rises, the stick becomes a
+// climb: the thrust beyond the weight asks for a velocity, upwards no more than the room that is left allows,
+// and the outer loop flies it, with the guard looking on. Away from the ceiling it is thrust again.
+//
+//   climb = min(BY_HAND_STICK_MPS (T / m g - 1), kp room),  room = gap - ceil.min - BY_HAND_ROOM_M
+#ifndef FLIGHT_BY_HAND_H
+#define FLIGHT_BY_HAND_H
+
+#include "flight/v3.h"
+#include <stdbool.h>
+
+#define BY_HAND_ROOM_M                                                                                       \
+  0.08f // added to ceil.min: the sensor, which is blind below 4 cm, is to see the ceiling
+#define BY_HAND_NEAR_M  0.3f // of room: at rest the stick is a climb from here on
+#define BY_HAND_LEAVE_M 0.1f // farther than that it is thrust again
+#define BY_HAND_REACT_S                                                                                      \
+  0.4f // a sample's age (0.1) and interval (0.1), lag of the motors and of the loop (0.2)
+#define BY_HAND_BRAKE_MPS2 5.0f // half of gravity, which is all that brakes a climb
+#define BY_HAND_STICK_MPS  2.0f // climb for twice the weight
+#define BY_HAND_BELIEVE_S  0.5f // so long without a sample the ceiling is believed to be there still
+
+typedef struct {
+  float gap_m;   // propellers to ceiling, moved on by the climb between samples
+  float since_s; // since the last sample that saw it; from BY_HAND_BELIEVE_S on none is known
+  bool held;     // the stick is a climb
+} by_hand_t;
+
+typedef struct {
+  float kp_per_s, gap_min_m, up_offset_m, floor_m, weight_N;
+} by_hand_param_t;
+
+typedef struct {
+  float period_s;
+  float thrust_N; // asked for
+  float climb_mps;
+  quat_t q_wb;
+  bool range_new;
+  float range_m, range_age_s;
+} by_hand_in_t;
+
+// No ceiling is known.
+void by_hand_init(by_hand_t *s);
+
+// One call. True: the height is to be flown at *climb_mps.
+bool by_hand_step(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float *climb_mps);
+
+#endif

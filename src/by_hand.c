@@ -1,0 +1,35 @@
+// by_hand.c - the keep-out where the height is flown by hand.
+#include "flight/by_hand.h"
+
+#include "flight/bounds.h"
+#include "flight/ceiling.h"
+
+#define UPRIGHT 0.7f // cosine of the tilt: beyond 45 degrees the sensor looks at a wall
+
+void by_hand_init(by_hand_t *s) {
+  *s = (by_hand_t){.since_s = BY_HAND_BELIEVE_S};
+}
+
+static void look(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float climb_mps) {
+  const quat_t q = in->q_wb;
+  const float up = 1.0f - 2.0f * (q.x * q.x + q.y * q.y);
+  // Below its floor the sensor speaks of nothing; what is known moves on.
+  if (!(in->range_m >= p->floor_m && in->range_m <= CEILING_RANGE_MAX_M && up >= UPRIGHT)) return;
+  s->gap_m = (in->range_m - p->up_offset_m) * up - climb_mps * in->range_age_s;
+  s->since_s = 0.0f;
+}
+
+bool by_hand_step(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float *climb_mps) {
+  const float climb = fabsf(in->climb_mps) <= BOUND_VEL_MPS ? in->climb_mps : 0.0f;
+  if (s->since_s < BY_HAND_BELIEVE_S) s->gap_m -= climb * in->period_s;
+  s->since_s = f_clamp(s->since_s + in->period_s, 0.0f, BY_HAND_BELIEVE_S);
+  if (in->range_new) look(s, p, in, climb);
+  const float room_m = s->gap_m - p->gap_min_m - BY_HAND_ROOM_M, rise = f_max(climb, 0.0f);
+  const float needs_m = BY_HAND_NEAR_M + rise * BY_HAND_REACT_S + rise * rise * (0.5f / BY_HAND_BRAKE_MPS2);
+  const bool known = s->since_s < BY_HAND_BELIEVE_S;
+  s->held = known && in->thrust_N > 0.0f && room_m < needs_m + (s->held ? BY_HAND_LEAVE_M : 0.0f);
+  const float asked_mps = BY_HAND_STICK_MPS * (in->thrust_N / p->weight_N - 1.0f),
+              most_mps = p->kp_per_s * room_m;
+  *climb_mps = f_clamp(asked_mps < most_mps ? asked_mps : most_mps, -BY_HAND_STICK_MPS, BY_HAND_STICK_MPS);
+  return s->held;
+}
