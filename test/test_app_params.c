@@ -177,3 +177,34 @@ TEST(app_commits_learned_weights_but_not_while_it_learns) {
   CHECK(crazyflie_param(&f.vehicle, "ceil.w4", &w4)); // from here it can be stored
   CHECK((float)w4 == 0.123f && f.vehicle.app.flown.curve.fixed.w[3] == 0.123f);
 }
+
+TEST(app_refuses_a_commit_of_what_cannot_be_flown_and_takes_one_where_the_height_is_not_controlled) {
+  static flying_t f;
+  app_start(&f);
+  app_fly(&f, 10);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.commit", 3)); // there is none
+  app_fly(&f, 4);
+  CHECK(app_log(&f, "ceil.noCommit") == 1.0 && app_log(&f, "ceil.commits") == 0.0);
+  static const float odd[] = {NAN, HUGE_VALF, 5.5f, -5.5f};
+  for (unsigned i = 0; i < sizeof odd / sizeof *odd; i++) {
+    ROW("%g", (double)odd[i]);
+    const rbf_weights_t before = f.vehicle.app.flown.curve.fixed;
+    f.vehicle.app.flight.outer.learn.rls.theta.w[2] = odd[i];
+    CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
+    app_fly(&f, 4);
+    CHECK(app_log(&f, "ceil.noCommit") == 2.0 + i && app_log(&f, "ceil.commits") == 0.0);
+    CHECK(memcmp(&f.vehicle.app.flown.curve.fixed, &before, sizeof before) == 0);
+    CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 1.0 + 0.1 * i)); // and what comes after it is taken
+    app_fly(&f, 4);
+    CHECK(f.vehicle.app.flight.outer.param.pos.kp_per_s == 1.0f + 0.1f * (float)i);
+  }
+  f.vehicle.app.flight.outer.learn.rls.theta.w[2] = 0.5f;
+  CHECK(crazyflie_set(&f.vehicle, "ceil.mode", CURVE_LIVE));
+  f.set.mode[2] = PILOT6_OFF;
+  f.set.thrust_N = 9.81 * f.rig.param.mass_kg;
+  app_fly(&f, 4);
+  CHECK(app_log(&f, "ceil.learning") == 0.0);
+  CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
+  app_fly(&f, 4);
+  CHECK(app_log(&f, "ceil.commits") == 1.0);
+}

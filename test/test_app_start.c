@@ -51,6 +51,71 @@ TEST(app_says_at_the_start_what_it_is_which_decks_there_are_and_who_flies) {
   }
 }
 
+// What changes while it runs: set before a rest of the task, said after it.
+static const struct {
+  const char *what;
+  unsigned not_flyable, latched, not_flown;
+  bool mixed, shadow;
+  const char *want; // all that is said
+} change[] = {
+    {"nothing", 0, 0, 0, false, false, ""},
+    {"up", FLYABLE_UP, 0, 0, false, false,
+     "CEIL: NOT FLYABLE: at rest the accelerometer does not point up\n"},
+    {"up still", FLYABLE_UP, 0, 0, false, false, ""},
+    {"turns about x", FLYABLE_TURN_X, 0, 0, false, false,
+     "CEIL: NOT FLYABLE: gyro and accelerometer contradict each other\n"},
+    {"turns about y", FLYABLE_TURN_Y, 0, 0, false, false,
+     "CEIL: NOT FLYABLE: gyro and accelerometer contradict each other\n"},
+    {"flyable", 0, 0, 0, false, false, "CEIL: Flyable again\n"},
+    {"a reason", 0, 0x10, 0, false, false, "CEIL: Guard: reasons 0x10\n"},
+    {"rates", 0, 0x10, NOT_FLOWN_RATES, false, false,
+     "CEIL: REFUSED: set points of rates. Level, at that thrust\n"},
+    {"another kind", 0, 0x10, NOT_FLOWN_RATES | NOT_FLOWN_QUAT, false, false,
+     "CEIL: REFUSED: attitude as quaternion without position. Level, at that thrust\n"},
+    {"a third", 0, 0x10, NOT_FLOWN_RATES | NOT_FLOWN_QUAT | NOT_FLOWN_TURN, false, false,
+     "CEIL: REFUSED: rates of roll and pitch of a full state. The rest is flown\n"},
+    {"selected anew", 0, 0, 0, true, false,
+     "CEIL: WEIGHTS REFUSED: ceil.w1..w7 are not one set (ceil.wSum). The last good ones fly\n"
+     "CEIL: Guard: reasons 0x0\n"},
+    {"mixed still", 0, 0, 0, true, false, ""},
+    {"shadow", 0, 0, 0, true, true,
+     "CEIL: SHADOW: the stock controller flies, this one computes (ceil.shadow 0: it flies)\n"},
+    {"back", 0, 0, 0, false, false, "CEIL: This controller flies (ceil.shadow 1: the stock one)\n"},
+};
+#define CHANGES (int)(sizeof change / sizeof *change)
+
+static int rests;
+
+static void change_something(void *context, uint32_t ticks) {
+  CHECK(ticks == 500);
+  crazyflie_t *const c = context;
+  if (rests > 0) {
+    ROW("%s", change[rests - 1].what);
+    CHECK_TEXT(c->around.console, change[rests - 1].want);
+  }
+  if (rests == CHANGES) longjmp(out, 1);
+  c->around.console[0] = '\0';
+  c->app.flyable.not_flyable = change[rests].not_flyable;
+  c->app.flight.guard.latched = change[rests].latched;
+  c->app.not_flown = (uint8_t)change[rests].not_flown;
+  c->app.weights_mixed = change[rests].mixed;
+  c->app.shadow = change[rests].shadow;
+  rests++;
+}
+
+TEST(app_says_once_what_changes_while_it_runs) {
+  static crazyflie_t c;
+  crazyflie_init(&c, NULL);
+  CHECK(crazyflie_set(&c, "ceil.shadow", 0));
+  crazyflie_start(&c);
+  c.around.no_usd_driver = c.around.has_usd = true;
+  c.around.delay = change_something;
+  c.around.delay_context = &c;
+  rests = 0;
+  if (setjmp(out) == 0) appMain();
+  CHECK(rests == CHANGES);
+}
+
 // --- stored values ----------------------------------------------------------------------------------------
 
 // As the firmware does when the power comes: stored values without a callback, then the controller.

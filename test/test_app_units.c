@@ -163,6 +163,10 @@ TEST(app_knows_what_each_mode_of_the_power_distribution_does_to_the_motors) {
   control.controlMode = controlModeForceTorque;
   units_applied(force_N, &control);
   for (int i = 0; i < MOTORS; i++) CHECK_NEAR(force_N[i], want.force_N[i], 1e-7);
+  // A mode that is none of them: nothing is known of it.
+  control = (control_t){.thrust = 30000.0f, .controlMode = (control_mode_t)7};
+  units_applied(force_N, &control);
+  for (int i = 0; i < MOTORS; i++) CHECK(force_N[i] == 0.0f);
   // Forces: there and back; what is no number is nothing.
   units_command(&control, (const float[MOTORS]){0.06f, 0.2f, -1.0f, NAN});
   CHECK(control.controlMode == controlModeForce);
@@ -190,6 +194,18 @@ TEST(app_finds_new_range_samples_in_a_value_without_a_time) {
   CHECK(n >= 18 && n <= 20);
   CHECK(odd == 0);
   CHECK(late_s <= 0.0011);
+}
+
+TEST(app_catches_up_with_the_range_sensor_after_a_pause) {
+  range_up_t s = {.started = false};
+  CHECK(range_up_poll(&s, 500.0f, 1000).is_new);
+  CHECK(!range_up_poll(&s, 500.0f, 1119).is_new);
+  CHECK(range_up_poll(&s, 500.0f, 1120).is_new); // its time was 1100
+  CHECK(s.at_ms == 1100);
+  CHECK(range_up_poll(&s, 500.0f, 1299).is_new && s.at_ms == 1200);
+  CHECK(range_up_poll(&s, 500.0f, 1400).is_new && s.at_ms == 1380); // when there were others nobody knows
+  CHECK(!range_up_poll(&s, 500.0f, 1499).is_new);
+  CHECK(range_up_poll(&s, 500.0f, 1500).is_new);
 }
 
 TEST(app_reports_a_range_sensor_that_never_started_as_samples_of_zero) {

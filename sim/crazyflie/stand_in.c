@@ -24,7 +24,8 @@ paramVarId_t paramGetVarId(const char *group, const char *name) {
   if (strcmp(group, "deck") != 0) return (paramVarId_t){.valid = false};
   if (strcmp(name, "bcFlow2") == 0) return (paramVarId_t){true, stand_in->has_flow, NULL};
   if (strcmp(name, "bcMultiranger") == 0) return (paramVarId_t){true, stand_in->has_multiranger, NULL};
-  if (strcmp(name, "bcUSD") == 0) return (paramVarId_t){true, stand_in->has_usd, NULL};
+  if (strcmp(name, "bcUSD") == 0 && !stand_in->no_usd_driver)
+    return (paramVarId_t){true, stand_in->has_usd, NULL};
   return (paramVarId_t){.valid = false};
 }
 

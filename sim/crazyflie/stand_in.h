@@ -30,6 +30,7 @@ typedef struct stand_in {
   float battery_V;                    // as last measured
   uint16_t duty[STAND_IN_MOTORS];     // of the motors in the last millisecond
   bool has_flow, has_multiranger, has_usd;
+  bool no_usd_driver; // the image does not know that deck
   // What the firmware tells the client of a parameter; null: nobody listens.
   void (*told)(void *context, const struct section_param *param, double value);
   void *told_context;
