@@ -38,6 +38,8 @@ typedef struct {
 
 #define REQUEST_MAX 128
 
+struct usd_deck;
+
 // What the command line asks for, over what the scenario brings.
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
@@ -51,9 +53,10 @@ typedef struct {
   bool no_effects; // first switches off what the scenario has
   param_set_t set[REQUEST_MAX];
   int n_set;
-  bool log;        // keeps the app's logs, in six degrees of freedom
-  bool log_calls;  // with log: the app's logs of every call, and nothing else; six degrees of freedom
-  bool log_500_Hz; // six degrees of freedom: a sample every 2 ms instead of 10
+  bool log;             // keeps the app's logs, in six degrees of freedom
+  bool log_calls;       // with log: the app's logs of every call, and nothing else; six degrees of freedom
+  bool log_500_Hz;      // six degrees of freedom: a sample every 2 ms instead of 10
+  struct usd_deck *usd; // on board, six degrees of freedom; null: none
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;

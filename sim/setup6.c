@@ -1,6 +1,7 @@
 // setup6.c - everything that one flight in six degrees of freedom needs.
 #include "setup6.h"
 
+#include "crazyflie/usd_deck.h"
 #include "io/model_file.h"
 #include "peers/air_garage.h"
 #include "peers/stock_indi.h"
@@ -112,6 +113,7 @@ static void take_request(pilot_flight_t *p, const request_t *request) {
   for (int i = 0; i < request->n_set; i++)
     if (request->set[i].app)
       (void)crazyflie_set(&p->vehicle, request->set[i].app->name, (double)request->set[i].value);
+  if (request->usd) usd_deck_start(request->usd, &p->vehicle);
   p->log_every_ms = !request->log ? 0 : request->log_calls ? 1 : request->log_500_Hz ? 2 : 10;
 }
 
@@ -167,6 +169,9 @@ static status_t learn_first(setup6_t *setup, why_t *why) {
   setup6_t learning = *setup;
   learning.flight.curve.mode = CURVE_LIVE;
   setup6_close_ladder(&learning);
+  request_t unseen = setup->request ? *setup->request : (request_t){.seed = 0};
+  unseen.usd = NULL; // what is written is the flight that is asked for
+  if (setup->request) learning.request = &unseen;
   flown6_t flight = {.more = {0}};
   const status_t status = fly_flight(&learning, &flight, why);
   setup->flight.curve.fixed = flight.flown.weights;

@@ -13,7 +13,8 @@ static const struct {
     {"fly loop-the-loop", "fly: loop-the-loop: no such scenario; fly --list shows them\n"},
     {"fly appendix-a appendix-a", "fly: one scenario is needed; fly --list shows them\n"},
     {"fly appendix-a --wings",
-     "fly: --wings: not an option; allowed: --controller, --set, --set-from, --params-to, --replay, "
+     "fly: --wings: not an option; allowed: --controller, --set, --set-from, --params-to, --usd, "
+     "--usd-config, --replay, "
      "--effect, --vehicle, --noise, --seed, --seeds, --integrator, --from, --to, --log, --log-rate, --json, "
      "--list, --logs, --params, --help, --version\n"},
     {"fly appendix-a --seed", "fly: --seed: its value is missing; allowed: --seed VALUE\n"},

@@ -1,5 +1,6 @@
 // fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
 #include "catalogue.h"
+#include "crazyflie/usd_deck.h"
 #include "fly_usage.h"
 #include "io/model_file.h"
 #include "io/number.h"
@@ -29,7 +30,7 @@ typedef struct {
   int seeds; // 0: not said
   bool seed_said;
   double from, to; // NaN: not said
-  const char *log, *json, *vehicle_path, *replay, *params_to;
+  const char *log, *json, *vehicle_path, *replay, *params_to, *usd, *usd_config;
   bool list, logs, params, markdown, help, rate_said;
   bool version;
   made_t made, each; // each: of one of many flights, but for its seed
@@ -61,6 +62,8 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'S': return request_take_sets(&o->request, text, why);
   case 'R': o->replay = text; return ST_OK;
   case 'T': o->params_to = text; return ST_OK;
+  case 'u': o->usd = text; return ST_OK;
+  case 'U': o->usd_config = text; return ST_OK;
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
@@ -101,23 +104,21 @@ static status_t check_many(const order_t *o, why_t *why) {
   if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
   if (o->seed_said) return error_set(why, "--seed: allowed is either that or --from and --to");
   if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
+  if (o->usd) return error_set(why, "--usd: one flight can be written; leave out --from and --to");
   return ST_OK;
 }
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+  // clang-format off
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'},
-      {"set-from", 1, 0, 'S'},   {"params-to", 1, 0, 'T'},
-      {"replay", 1, 0, 'R'},     {"effect", 1, 0, 'e'},
-      {"vehicle", 1, 0, 'v'},    {"noise", 1, 0, 'n'},
-      {"seed", 1, 0, 'd'},       {"seeds", 1, 0, 'm'},
-      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'},
-      {"to", 1, 0, 't'},         {"log", 1, 0, 'l'},
-      {"log-rate", 1, 0, 'r'},   {"json", 1, 0, 'j'},
-      {"list", 0, 0, 'L'},       {"logs", 0, 0, 'G'},
-      {"params", 2, 0, 'P'},     {"help", 0, 0, 'h'},
-      {"version", 0, 0, 'V'},    {0},
+      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
+      {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
+      {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
+      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
+      {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"logs", 0, 0, 'G'},
+      {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'}, {"version", 0, 0, 'V'}, {0},
   };
+  // clang-format on
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   o->made = made_by("fly", argc, argv);
   o->each = made_by("fly", 0, NULL);
@@ -135,22 +136,26 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   made_word(&o->each, o->scenario->name);
   o->request.log = o->log != NULL;
   if (o->log && o->seeds > 1) return error_set(why, "--log: one flight can be written; leave out --seeds");
+  if (!o->usd != !o->usd_config)
+    return error_set(why, "--usd, --usd-config: both are needed; the config is tools/usd/config.txt");
+  if (o->usd && o->seeds > 1) return error_set(why, "--usd: one flight can be written; leave out --seeds");
   if (o->rate_said && !o->log) return error_set(why, "--log-rate: allowed with --log FILE.csv");
   return check_many(o, why);
 }
 
 // --- flying -------------------------------------------------------------------------------------------
 
-// What is written beside what is printed.
-typedef struct {
+typedef struct { // what is written beside what is printed
   whole_files_t files;
-  FILE *log, *json, *params;
+  FILE *log, *json, *params, *usd;
 } output_t;
 
 static status_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->log, &out->log, why));
   TRY(whole_files_open(&out->files, o->json, &out->json, why));
   TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
+  TRY(whole_files_open(&out->files, o->usd, &out->usd, why));
+  TRY(whole_files_spare(&out->files, o->usd_config, why));
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
@@ -200,6 +205,17 @@ static status_t fly(order_t *o, output_t *out, why_t *why) {
   return status;
 }
 
+static status_t fly_with_deck(order_t *o, output_t *out, why_t *why) {
+  static usd_deck_t deck;
+  TRY(usd_deck_init(&deck, o->usd_config, out->usd, why));
+  o->request.usd = &deck;
+  TRY(fly(o, out, why));
+  if (deck.flights != 1)
+    return error_set(why, "--usd: %d flights of the app in 6-DoF; allowed is one", deck.flights);
+  usd_deck_stop(&deck);
+  return ST_OK;
+}
+
 static status_t fly_many(order_t *o, output_t *out, why_t *why) {
   const many_t m = {
       .scenario = o->scenario,
@@ -215,21 +231,6 @@ static status_t fly_many(order_t *o, output_t *out, why_t *why) {
   return many_fly(&m, why);
 }
 
-static status_t replay(const order_t *o, why_t *why) {
-  flight_param_t param;
-  params_default(&param);
-  for (int i = 0; i < o->request.n_set; i++)
-    if (o->request.set[i].row) TRY(params_set(&param, o->request.set[i].row, o->request.set[i].value));
-  TRY(param_check_all(&param, why));
-  replay_t r;
-  TRY(replay_fly(o->replay, &param, &r, why));
-  printf("%ld calls replayed, %ld between them not logged, %ld differ in a motor's command, by %g N at most",
-         r.calls, r.missing, r.differ, r.worst_N);
-  if (r.differ > 0) printf("; the first in line %ld", r.first_line);
-  putchar('\n');
-  return ST_OK;
-}
-
 static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
@@ -237,10 +238,11 @@ static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t 
   if (order->list) catalogue_all();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
-  if (order->replay) return replay(order, why);
+  if (order->replay) return replay_told(order->replay, &order->request, why);
   if (!order->scenario) return ST_OK;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));
+  if (out->usd) return fly_with_deck(order, out, why);
   return many(order) ? fly_many(order, out, why) : fly(order, out, why);
 }
 

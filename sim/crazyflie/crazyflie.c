@@ -198,6 +198,11 @@ void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
 
 // --- looking ----------------------------------------------------------------------------------------------
 
+// The app's static state is this vehicle's copy of it.
+const void *crazyflie_at(const crazyflie_t *c, const void *address) {
+  return stand_in_own(&c->around, address);
+}
+
 static void *own(const crazyflie_t *c, const void *address) {
   return stand_in_own(&c->around, address);
 }

@@ -50,4 +50,7 @@ bool crazyflie_param(const crazyflie_t *c, const char *name, double *value);
 void crazyflie_logs(const crazyflie_t *c, float *value);
 bool crazyflie_log(const crazyflie_t *c, const char *name, double *value);
 
+// Where this vehicle has what a parameter's or log's address (sections.h) is of.
+const void *crazyflie_at(const crazyflie_t *c, const void *address);
+
 #endif

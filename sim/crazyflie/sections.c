@@ -6,6 +6,8 @@
 extern const section_param_group_t *const __start_crazyflie_params[], *const __stop_crazyflie_params[];
 extern const section_log_group_t *const __start_crazyflie_logs[], *const __stop_crazyflie_logs[];
 
+extern const section_event_t *const __start_crazyflie_events[], *const __stop_crazyflie_events[];
+
 static int between(const void *start, const void *stop) {
   return (int)(((uintptr_t)stop - (uintptr_t)start) / sizeof(void *));
 }
@@ -67,5 +69,12 @@ const section_log_t *sections_log_at(int i, char name[32]) {
       return l;
     }
   }
+  return NULL;
+}
+
+const section_event_t *sections_event(const char *name) {
+  const int n = between(__start_crazyflie_events, __stop_crazyflie_events);
+  for (int i = 0; i < n; i++)
+    if (strcmp(__start_crazyflie_events[i]->name, name) == 0) return __start_crazyflie_events[i];
   return NULL;
 }

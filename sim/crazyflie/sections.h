@@ -39,6 +39,14 @@ int sections_log_groups(const section_log_group_t *const **first);
 int sections_logs(void);
 const section_log_t *sections_log_at(int i, char name[32]);
 
+// Where the app triggers the firmware's events.
+typedef struct {
+  const char *name;
+} section_event_t;
+
+// A null pointer: the app triggers none of that name.
+const section_event_t *sections_event(const char *name);
+
 // "group.name"; a null pointer: there is none.
 const section_param_t *sections_param(const char *full_name);
 const section_log_t *sections_log(const char *full_name);

@@ -1,7 +1,10 @@
 // stand_in.c - what lies behind the stand-ins.
 #include "stand_in.h"
 
+#include "commander.h"
 #include "controller_pid.h"
+#include "crtp_commander_high_level.h"
+#include "crtp_supervisor.h"
 #include "firmware/glue.h"
 #include "param.h"
 #include "task.h"
@@ -57,7 +60,28 @@ void *stand_in_own(const stand_in_t *around, const void *address) {
   return (char *)around->app + offset;
 }
 
+void crtpSupervisorNotifyEmergencyStopWatchdog(void) {
+  stand_in->fed_ms = stand_in->clock_ms;
+}
+uint32_t crtpSupervisorGetEmergencyStopWatchdogNotificationTick(void) {
+  return stand_in->fed_ms;
+}
+
+void commanderRelaxPriority(void) {
+  stand_in->relaxed++;
+}
+int crtpCommanderHighLevelLandWithVelocity(const float height_m, const float velocity_m_s, bool relative) {
+  stand_in->landings += !relative;
+  stand_in->landing_m = height_m;
+  stand_in->landing_mps = velocity_m_s;
+  return stand_in->no_landing;
+}
+
+TickType_t xTaskGetTickCount(void) {
+  return stand_in->clock_ms;
+}
 void vTaskDelay(TickType_t ticks) {
+  stand_in->clock_ms += ticks;
   if (stand_in->delay) stand_in->delay(stand_in->delay_context, ticks);
 }
 

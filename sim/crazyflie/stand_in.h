@@ -38,6 +38,13 @@ typedef struct stand_in {
   void (*stock)(void *context, struct control_s *control, const struct setpoint_s *setpoint,
                 const struct sensorData_s *sensors, const struct state_s *state, uint32_t step);
   void *stock_context;
+  // The uSD deck takes an event; null: there is no deck, or it does not write.
+  void (*event)(void *context, const char *name);
+  void *event_context;
+  uint32_t fed_ms, clock_ms; // of the watchdog, last; now
+  bool no_landing;           // the high-level commander refuses
+  int landings, relaxed;     // how often it was asked for one, and the priority given back
+  float landing_mps, landing_m;
   void (*delay)(void *context, uint32_t ticks); // vTaskDelay; null: returns at once
   void *delay_context;
   char console[STAND_IN_CONSOLE]; // what was printed, its end if it was more

@@ -12,6 +12,7 @@
 
 typedef struct {
   unsigned id;
+  char name[USD_NAME_MAX];
   int n, bytes;               // variables; bytes of a record without its head
   int column[USD_COLUMN_MAX]; // of each variable
   char type[USD_COLUMN_MAX];
@@ -21,6 +22,7 @@ typedef struct {
 
 typedef struct {
   long record;
+  const event_t *event;
   double value[USD_COLUMN_MAX];
 } row_t;
 
@@ -33,6 +35,7 @@ struct usd_file {
   char name[USD_COLUMN_MAX][USD_NAME_MAX];
   long records;
   bool ended;
+  bool in_order; // of the file: rows do not wait
   char damage[160];
   int n_waiting;
   row_t row, waiting[MERGED + 1]; // oldest last
@@ -93,6 +96,7 @@ static status_t take_event(usd_file_t *f, bool *fixed, why_t *why) {
   TRY(take_name(f, name, why));
   TRY(take_number(f, 2, &n, why));
   *fixed = strcmp(name, "fixedFrequency") == 0;
+  snprintf(event->name, sizeof event->name, "%.*s", USD_NAME_MAX - 1, name);
   for (unsigned i = 0; i < n; i++) TRY(take_variable(f, event, why));
   event->last_ms = -HUGE_VAL;
   f->n_event++;
@@ -183,6 +187,7 @@ static bool take_record(usd_file_t *f, row_t *row, bool *is_row) {
   for (int i = 0; i < f->n_column; i++) row->value[i] = (double)NAN;
   row->value[0] = t_ms;
   row->record = f->records;
+  row->event = event;
   for (int i = 0; i < event->n; i++) row->value[event->column[i]] = crc_stream_value(&f->in, event->type[i]);
   *is_row = event->read;
   return true;
@@ -196,7 +201,7 @@ static void keep_waiting(usd_file_t *f, const row_t *row) {
 }
 
 bool usd_next(usd_file_t *f) {
-  const int wait = f->n_event > 1 && f->event[0].read && f->event[1].read ? MERGED : 0;
+  const int wait = !f->in_order && f->n_event > 1 && f->event[0].read && f->event[1].read ? MERGED : 0;
   while (!f->ended && f->n_waiting <= wait) {
     bool is_row;
     if (take_record(f, &f->row, &is_row) && is_row) keep_waiting(f, &f->row);
@@ -204,6 +209,29 @@ bool usd_next(usd_file_t *f) {
   if (f->n_waiting == 0) return false;
   f->row = f->waiting[--f->n_waiting];
   return true;
+}
+
+bool usd_only(usd_file_t *f, const char *const *events, int n) {
+  bool wanted[USD_EVENT_MAX], any = false;
+  for (int i = 0; i < f->n_event; i++) {
+    wanted[i] = false;
+    for (int k = 0; k < n; k++) wanted[i] = wanted[i] || strcmp(f->event[i].name, events[k]) == 0;
+    any = any || wanted[i];
+  }
+  for (int i = 0; any && i < f->n_event; i++) f->event[i].read = wanted[i];
+  f->in_order = f->in_order || any;
+  return any;
+}
+
+bool usd_has(const usd_file_t *f, const char *event, int column) {
+  for (int i = 0; i < f->n_event; i++)
+    for (int k = 0; k < f->event[i].n && strcmp(f->event[i].name, event) == 0; k++)
+      if (f->event[i].column[k] == column) return true;
+  return false;
+}
+
+const char *usd_event(const usd_file_t *f) {
+  return f->row.event->name;
 }
 
 int usd_find(const usd_file_t *f, const char *name) {

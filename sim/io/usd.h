@@ -34,6 +34,16 @@ int usd_find(const usd_file_t *file, const char *name);
 // The name of a column that there is.
 const char *usd_name(const usd_file_t *file, int column);
 
+// From now on rows are the records of these events alone, in the order of the file. False: it names none of
+// them, and nothing has changed.
+bool usd_only(usd_file_t *file, const char *const *events, int n);
+
+// That event has a column of this number.
+bool usd_has(const usd_file_t *file, const char *event, int column);
+
+// The name of the event that the present row is a record of.
+const char *usd_event(const usd_file_t *file);
+
 // The next row; false at the end or at a damage.
 bool usd_next(usd_file_t *file);
 

@@ -8,6 +8,7 @@
 #include "controller_pid.h"
 #include "glue.h"
 #include "range.h"
+#include "recorder.h"
 #include "settings.h"
 #include "supervisor.h"
 #include "units.h"
@@ -18,6 +19,7 @@ void controllerOutOfTreeInit(void) {
   settings_start();
   GLUE.range = (range_up_t){.started = false};
   GLUE.not_flown = 0;
+  GLUE.recorder = (recording_t){.calls = 0};
   GLUE.stock_share = GLUE.shadow ? 1.0f : 0.0f;
   flyable_init(&GLUE.flyable);
   controllerPidInit();
@@ -114,4 +116,5 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     units_command(control, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});
   else
     command(control, setpoint, sensors, state, step);
+  recorder_call();
 }

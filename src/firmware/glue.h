@@ -8,6 +8,7 @@
 #include "flight/flight.h"
 #include "flight/flyable.h"
 #include "range_up.h"
+#include "recorder.h"
 
 #define PUT_BACK_WORDS 3 // of 32 rows each
 
@@ -37,6 +38,7 @@ typedef struct {
   } stock; // what it commanded last
   range_up_t range;
   flyable_t flyable;
+  recording_t recorder;
   flight_in_t in;
   flight_t flight;
 } glue_t;

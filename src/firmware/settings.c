@@ -120,6 +120,7 @@ static bool commit(unsigned which) {
 static void take_commit(unsigned which) {
   if (commit(which)) {
     GLUE.commits++;
+    GLUE.recorder.tunes++;
     GLUE.flown.curve.fixed = GLUE.candidate.curve.fixed; // also where another write makes another candidate
     make_sum();
   } else {
@@ -140,5 +141,6 @@ void settings_take(void) {
   }
   GLUE.ready = 0;
   GLUE.flown = GLUE.candidate;
+  GLUE.recorder.tunes++;
   (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }

@@ -52,13 +52,18 @@ PARAM_GROUP_STOP(guard)
 #define U8(name, field)  LOG_ADD(LOG_UINT8, name, &glue_static.field)
 #define U32(name, field) LOG_ADD(LOG_UINT32, name, &glue_static.field)
 
-// What is commanded: newton; m1..m4 by this controller, also while the stock one flies.
+// What is commanded: newton, newton metres; by this controller, also while the stock one flies. thrust is what
+// the height loop wants; m1..m4, and total, tx, ty, tz which these four give, are after mixing and limits.
 LOG_GROUP_START(indi)
 F(thrust, flight.out.outer.thrust_N)
 F(m1, flight.out.motors.force_N[0])
 F(m2, flight.out.motors.force_N[1])
 F(m3, flight.out.motors.force_N[2])
 F(m4, flight.out.motors.force_N[3])
+F(total, flight.out.motors.thrust_N)
+F(tx, flight.out.motors.torque_b_Nm.x)
+F(ty, flight.out.motors.torque_b_Nm.y)
+F(tz, flight.out.motors.torque_b_Nm.z)
 F(model, flight.outer.sync.thrust.model_N)
 F(bias, flight.outer.bias.bias_mps2.z)
 F(qw, flight.out.q_ref.w)
@@ -122,6 +127,17 @@ F(thrust, in.setpoint.thrust_N)
 F(yaw, in.setpoint.yaw_rad)
 F(yawRate, in.setpoint.yaw_rate_radps)
 LOG_GROUP_STOP(indiSet)
+
+// Which rows of the uSD deck belong together (recorder.h): the stamps of each event, at its head and its end.
+LOG_GROUP_START(indiRec)
+U32(calls, recorder.calls)
+U32(stepEnd, in.step)
+U8(state, recorder.state)
+U8(stateEnd, recorder.state)
+U8(set, recorder.set)
+U8(setEnd, recorder.set)
+U8(tunes, recorder.tunes)
+LOG_GROUP_STOP(indiRec)
 
 LOG_GROUP_START(ceil)
 F(zc, flight.out.outer.zc_m)
