@@ -166,6 +166,8 @@ class FakeLink(CRTPDriver):
     def _supervisor(self, channel: int, data: bytes) -> None:
         if channel == 1 and data[0] == 4:
             self._v.feed()
+        elif channel == 1 and data[0] == 3:
+            self._v.emergency_stop()
         elif channel == 1 and data[0] == 1:
             self._say(9, 1, bytes((0x81, 1, 1)))
 

@@ -78,6 +78,11 @@ class FakeVehicle:
         self.sent.append(("stop",))
         self.flying = False
 
+    def emergency_stop(self) -> None:
+        self.sent.append(("cut",))
+        self.flying, self.locked, self.z_m = False, True, 0.0
+        self.wrong["supervisor.info"] = ARMED | LOCKED
+
     def feed(self) -> None:
         self.fed += 1
 

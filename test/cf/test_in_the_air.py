@@ -122,7 +122,7 @@ class InTheAir(OverTheLink):
         self.assertEqual(self.flown(), ["take off"] + 4 * ["go to"] + ["land", "stop"])
 
     def test_a_lost_link_is_told_and_the_log_is_named_as_cut(self) -> None:
-        says = ("watchdog stops the motors within a second", "while it was told to land: look where it is")
+        says = ("the app lands it where it is", "while it was told to land: look where it is")
         for told in (True, False):  # by the driver, or by the packets that do not come
             with self.subTest(told=told):
                 self.setUp()

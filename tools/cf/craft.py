@@ -63,9 +63,12 @@ class Craft(Protocol):
 
     def stop(self) -> None: ...
 
+    def cut(self) -> None:
+        """Stops the motors at once, also in the air; the Crazyflie must be restarted. Of any thread; never raises."""
+
     def feed(self, on: bool) -> None:
-        """Feeds the firmware's watchdog from now on, or no more. Once fed, it stops the motors a second after the
-        last time, whether this program died or the link was lost; and the Crazyflie must be restarted."""
+        """Feeds the firmware's watchdog from now on, or no more. Once it starves, whether this program died or the
+        link was lost, the app lands (src/firmware/radio.h) and the Crazyflie must be restarted."""
 
     def fed(self) -> bool: ...
 

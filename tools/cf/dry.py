@@ -148,6 +148,9 @@ class DryVehicle:
     def stop(self) -> None:
         self._would("stop the motors")
 
+    def cut(self) -> None:
+        self._would("cut the motors")
+
     def feed(self, on: bool) -> None:
         self._would("feed the watchdog five times a second" if on else "feed the watchdog no more")
         self._fed = on

@@ -9,5 +9,9 @@ class Failed(Exception):
     """Anything else. Exit 1."""
 
 
+class Stopped(Failed):
+    """The motors were cut by hand. Exit 1."""
+
+
 class LinkLost(Failed):
     """The Crazyflie no longer answers. Exit 1."""

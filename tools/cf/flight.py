@@ -9,12 +9,14 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from threading import Event
 
 from . import preflight
 from .craft import Craft
-from .errors import Failed, LinkLost
+from .errors import Failed, LinkLost, Stopped
 from .monitor import Monitor
 from .reasons import ACTIONS, GUARD, RETREAT, words
+from .stop_key import stop_key
 from .terminal import progress, say
 
 APPROACH_M = 0.40  # the first hover: the ceiling is in sight, and far
@@ -48,8 +50,9 @@ def deferred() -> Iterator[list[int]]:
 
 
 class Flight:
-    def __init__(self, vehicle: Craft, now: Monitor, plan: Plan, ends: list[int]) -> None:
-        """ends: not empty once somebody wants it down."""
+    def __init__(self, vehicle: Craft, now: Monitor, plan: Plan, ends: list[int], pressed: Event) -> None:
+        """ends: not empty once somebody wants it down. pressed: the motors were cut by hand."""
+        self._pressed = pressed
         self._vehicle, self._now, self._plan, self._ends = vehicle, now, plan, ends
         self._floor_m = now["stateEstimate.z"]
         self._x_m, self._y_m = now["stateEstimate.x"], now["stateEstimate.y"]
@@ -83,6 +86,10 @@ class Flight:
             return f"the ceiling's height went from {self._ceiling_m:.3f} to {now['ceil.height']:.3f} m"
         return ""
 
+    def _cut(self) -> None:
+        if self._pressed.is_set():
+            raise Stopped("stopped by hand: the motors were cut, and it fell from where it was")
+
     def _sees_ceiling(self) -> bool:
         return bool(self._now["ceil.known"]) and math.isfinite(self._now["ceil.height"])
 
@@ -97,6 +104,7 @@ class Flight:
             left_s = end_s - self._vehicle.now()
             progress(f"{what}: z {now['stateEstimate.z']:.3f} m, {near}, {now['pm.vbat']:.2f} V, {left_s:.0f} s left")
             self._vehicle.sleep(PERIOD_S)
+            self._cut()
             if self._ends:
                 raise KeyboardInterrupt
             for line in self._vehicle.said():
@@ -147,7 +155,7 @@ class Flight:
             self._vehicle.stop()
             self._vehicle.sleep(0.5)
         except LinkLost as lost:
-            raise LinkLost(f"{lost}: the firmware's watchdog stops the motors within a second") from None
+            raise LinkLost(f"{lost}: the app lands it where it is, then the firmware's watchdog locks it") from None
         if not seen:
             raise LinkLost("no log packets came while it was told to land: look where it is")
 
@@ -158,20 +166,29 @@ class Flight:
         while self._vehicle.now() < end_s and (not seen or self._now.bit(preflight.FLYING)):
             progress(f"landing: z {self._now['stateEstimate.z']:.3f} m")
             self._vehicle.sleep(PERIOD_S)
+            self._cut()
             self._vehicle.alive()
             seen = self._now.fresh()
+        self._cut()
         return seen
 
 
 def fly(vehicle: Craft, now: Monitor, plan: Plan) -> None:
-    """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it may have."""
-    preflight.arm(vehicle, now)
+    """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it may have. Stopped: it fell."""
+    with stop_key(vehicle) as pressed:
+        preflight.arm(vehicle, now)
+        _fly(vehicle, now, plan, pressed)
+
+
+def _fly(vehicle: Craft, now: Monitor, plan: Plan, pressed: Event) -> None:
     with deferred() as ends:
-        flight = Flight(vehicle, now, plan, ends)
+        flight = Flight(vehicle, now, plan, ends, pressed)
         try:
             flight.up()
             for gap_m in plan.gaps_m:
                 flight.to(gap_m)
+        except Stopped:
+            raise
         except BaseException as why:
             say(f"{str(why) or 'interrupted'}")
             flight.land()

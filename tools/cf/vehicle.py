@@ -13,6 +13,7 @@ from .terminal import progress
 
 ANSWER_S = 3.0  # the longest that an answer may take
 CONNECT_S = 30.0
+CUTS, CUT_S = 3, 0.01  # nothing answers an emergency stop: it is said again
 FEED_S = 0.2  # the firmware's watchdog stops the motors after 1 s
 URIS = "allowed are radio://0/80/2M/E7E7E7E7E7, usb://0, udp://HOST:PORT and what else cflib knows"
 
@@ -193,6 +194,14 @@ class Vehicle:
     def stop(self) -> None:
         self.alive()
         self._cf.high_level_commander.stop()
+
+    def cut(self) -> None:
+        for _ in range(CUTS):
+            try:
+                self._cf.supervisor.send_emergency_stop()
+            except Exception:  # the link is lost: the watchdog's turn
+                return
+            time.sleep(CUT_S)
 
     def feed(self, on: bool) -> None:
         if self._fed:
