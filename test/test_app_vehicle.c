@@ -158,7 +158,7 @@ static void nap(void *context, uint32_t ticks) {
   (void)ticks;
   crazyflie_t *const c = context;
   if (naps == 0) c->app.flyable.not_flyable = FLYABLE_UP;
-  if (naps++ == 2) longjmp(out, 1);
+  if (naps++ == 12) longjmp(out, 1);
 }
 
 TEST(app_says_on_the_console_what_is_missing_and_what_is_wrong) {

@@ -90,6 +90,9 @@ void appMain(void) {
   tell_decks();
   for (;;) {
     told = tell_changes(told);
-    vTaskDelay(M2T(500));
+    for (int i = 0; i < 5; i++) {
+      vTaskDelay(M2T(100));
+      radio_watch();
+    }
   }
 }

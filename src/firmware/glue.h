@@ -7,6 +7,7 @@
 
 #include "flight/flight.h"
 #include "flight/flyable.h"
+#include "radio.h"
 #include "range_up.h"
 #include "recorder.h"
 
@@ -39,6 +40,7 @@ typedef struct {
   range_up_t range;
   flyable_t flyable;
   recording_t recorder;
+  radio_t radio;
   flight_in_t in;
   flight_t flight;
 } glue_t;
