@@ -1,7 +1,7 @@
 // effectiveness.c - control effectiveness by least squares.
 #include "effectiveness.h"
 
-#include "io/csv.h"
+#include "effectiveness_log.h"
 #include "lowpass.h"
 #include "lsq.h"
 #include <math.h>
@@ -10,19 +10,6 @@
 #define TICK_MS (1e3 * EFFECTIVENESS_PERIOD_S)
 
 #define DELAY_MAX 64 // ticks, more than EFFECTIVENESS_DELAY_S
-
-enum { TIME, RATE, COMMAND = 4, THRUST = 7, COLUMNS };
-
-static const char *const names[COLUMNS] = {
-    "tick",
-    "controller.r_roll",
-    "controller.r_pitch",
-    "controller.r_yaw",
-    "controller.cmd_roll",
-    "controller.cmd_pitch",
-    "controller.cmd_yaw",
-    "controller.cmd_thrust",
-};
 
 // A signal through both sections of the filter, and its last three values.
 typedef struct {
@@ -37,8 +24,7 @@ typedef struct {
 
 typedef struct {
   const effectiveness_job_t *job;
-  csv_file_t *file;
-  int column[COLUMNS];
+  effectiveness_log_t log;
   double last[COLUMNS];      // row before
   bool moved[COLUMNS];       // between any two rows
   double lagged[3];          // motors
@@ -50,11 +36,13 @@ typedef struct {
 } pass_t;
 
 effectiveness_job_t effectiveness_default(void) {
-  return (effectiveness_job_t){.lag_s = 0.0625, .cutoff_Hz = 4.0, .poles = 4, .thrust_min = 10000.0};
+  return (effectiveness_job_t){
+      .lag_s = 0.0625, .cutoff_Hz = 4.0, .poles = 4, .thrust_min = 10000.0, .motor_max_N = 0.12};
 }
 
 effectiveness_job_t effectiveness_stock(void) {
-  return (effectiveness_job_t){.lag_s = 0.0617, .cutoff_Hz = 4.0, .poles = 4, .as_stock = true};
+  return (effectiveness_job_t){
+      .lag_s = 0.0617, .cutoff_Hz = 4.0, .poles = 4, .as_stock = true, .motor_max_N = 0.12};
 }
 
 // --- signals ------------------------------------------------------------------------------------------
@@ -117,7 +105,7 @@ static void tick(pass_t *p, const double before[COLUMNS], const double row[COLUM
   }
   p->since_start++;
   const bool settled = (double)p->since_start * EFFECTIVENESS_PERIOD_S >= EFFECTIVENESS_SETTLE_S;
-  const bool flies = p->column[THRUST] < 0 || row[THRUST] >= job->thrust_min;
+  const bool flies = p->log.column[THRUST] < 0 || row[THRUST] >= job->thrust_min;
   if (!job->as_stock && !(settled && flies)) return;
   p->result->used++;
   for (int i = 0; i < 3; i++) sum(p, i);
@@ -125,33 +113,13 @@ static void tick(pass_t *p, const double before[COLUMNS], const double row[COLUM
 
 // --- the log ------------------------------------------------------------------------------------------
 
-static status_t find_columns(pass_t *p, why_t *why) {
-  for (int i = 0; i < COLUMNS; i++) p->column[i] = csv_find(p->file, names[i]);
-  if (p->column[TIME] < 0) p->column[TIME] = csv_find(p->file, "timestamp");
-  for (int i = 0; i < THRUST; i++)
-    if (p->column[i] < 0)
-      return csv_refuse(p->file, -1, why, "column %s: missing%s", names[i],
-                        i == TIME ? "; allowed: tick or timestamp, in ms" : "");
-  return ST_OK;
-}
-
-static status_t read_row(pass_t *p, double row[COLUMNS], why_t *why) {
-  for (int i = 0; i < COLUMNS; i++) {
-    row[i] = 0.0;
-    if (p->column[i] >= 0) TRY(csv_number(p->file, p->column[i], CSV_GAP_REFUSED, &row[i], why));
-  }
-  row[RATE + 2] = -row[RATE + 2]; // clockwise, as its command
-  p->result->rows++;
-  return ST_OK;
-}
-
 // Ticks since the row before: 1, or more in a gap.
 static status_t ticks_since(const pass_t *p, const double row[COLUMNS], long *n, why_t *why) {
   const double passed_ms = row[TIME] - p->last[TIME];
   *n = 1;
   if (!(passed_ms > 0.0))
-    return csv_refuse(p->file, p->column[TIME], why, "%g after %g; allowed: rising", row[TIME],
-                      p->last[TIME]);
+    return table_refuse(&p->log.table, 0, p->log.column[TIME], why, "%g after %g; allowed: rising", row[TIME],
+                        p->last[TIME]);
   if (p->job->as_stock) return ST_OK;
   if (passed_ms > 1e3 * EFFECTIVENESS_GAP_S) {
     *n = 0;
@@ -159,8 +127,8 @@ static status_t ticks_since(const pass_t *p, const double row[COLUMNS], long *n,
   }
   *n = lround(passed_ms / TICK_MS);
   if (fabs(passed_ms - TICK_MS * (double)*n) > 0.5)
-    return csv_refuse(p->file, p->column[TIME], why,
-                      "%g ms after the row before; allowed: multiples of %g ms", passed_ms, TICK_MS);
+    return table_refuse(&p->log.table, 0, p->log.column[TIME], why,
+                        "%g ms after the row before; allowed: multiples of %g ms", passed_ms, TICK_MS);
   return ST_OK;
 }
 
@@ -179,9 +147,12 @@ static void bridge(pass_t *p, const double row[COLUMNS], long n) {
 static status_t take_rows(pass_t *p, why_t *why) {
   double row[COLUMNS];
   for (bool more;;) {
-    TRY(csv_next(p->file, &more, why));
+    TRY(table_next(&p->log.table, &more, why));
     if (!more) return ST_OK;
-    TRY(read_row(p, row, why));
+    TRY(effectiveness_log_row(&p->log, row, why));
+    // Every call was logged: the inner loop runs in the odd ones.
+    if (p->log.own && fmod(row[TIME], 2.0) < 1.0) continue;
+    p->result->rows++;
     long n = 0;
     if (p->since_start >= 0) TRY(ticks_since(p, row, &n, why));
     for (int i = 0; i < COLUMNS && p->since_start >= 0; i++)
@@ -199,17 +170,17 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
   const sums_t *s = &p->sums[axis];
   effectiveness_t *const r = p->result;
   const int n = axis == 2 ? 2 : 1;
-  if (r->used == 0 && p->column[THRUST] >= 0)
+  if (r->used == 0 && p->log.column[THRUST] >= 0)
     return error_set(why,
                      "%s: no row counts; allowed: controller.cmd_thrust of %g and more (--thrust-min), "
                      "%g s after a start",
-                     csv_path(p->file), p->job->thrust_min, EFFECTIVENESS_SETTLE_S);
+                     p->log.table.path, p->job->thrust_min, EFFECTIVENESS_SETTLE_S);
   // Filters round: what stands still leaves a little that is no movement.
   const bool commanded = p->moved[COMMAND + axis] && s->uu > 0.0 && (n == 1 || s->vv > 0.0);
   if (!commanded || !p->moved[RATE + axis] || !(s->yy > 0.0))
     return error_set(why,
                      "%s: column %s: never moves while it counts (%ld ticks); allowed: a flight that turns",
-                     csv_path(p->file), names[(commanded ? RATE : COMMAND) + axis], r->used);
+                     p->log.table.path, effectiveness_names[(commanded ? RATE : COMMAND) + axis], r->used);
   // Both unknowns in rad/s2 of their own regressor's rms, so that the matrix is well scaled.
   const double ku = sqrt(s->uu), kv = n == 2 ? sqrt(s->vv) : 1.0;
   const double A[4] = {1.0, s->uv / (ku * kv), s->uv / (ku * kv), 1.0}, b[2] = {s->uy / ku, s->vy / kv};
@@ -220,15 +191,15 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
   r->explained[axis] = (x[0] * b[0] + x[1] * b[1] * (n == 2)) / s->yy;
   if (isfinite(r->g1[axis]) && isfinite(r->g2) && isfinite(r->explained[axis])) return ST_OK;
   return error_set(why, "%s: columns %s, %s: too large to be fitted; allowed: rad/s and 16-bit units",
-                   csv_path(p->file), names[RATE + axis], names[COMMAND + axis]);
+                   p->log.table.path, effectiveness_names[RATE + axis], effectiveness_names[COMMAND + axis]);
 }
 
 static status_t fit(pass_t *p, why_t *why) {
-  TRY(find_columns(p, why));
+  TRY(effectiveness_log_find(&p->log, why));
   TRY(take_rows(p, why));
   if (p->result->bridged > p->result->rows)
     return error_set(why, "%s: %ld rows and %ld ticks missing between them; allowed: a log at 500 Hz",
-                     csv_path(p->file), p->result->rows, p->result->bridged);
+                     p->log.table.path, p->result->rows, p->result->bridged);
   for (int i = 0; i < 3; i++) TRY(solve(p, i, why));
   return ST_OK;
 }
@@ -236,10 +207,10 @@ static status_t fit(pass_t *p, why_t *why) {
 status_t effectiveness_fit(const char *path, const effectiveness_job_t *job, effectiveness_t *result,
                            why_t *why) {
   effectiveness_t found = {.rows = 0};
-  pass_t p = {.job = job, .since_start = -1, .result = &found};
-  TRY(csv_open(&p.file, path, why));
+  pass_t p = {.job = job, .log = {.motor_max_N = job->motor_max_N}, .since_start = -1, .result = &found};
+  TRY(table_open(&p.log.table, path, why));
   const status_t status = fit(&p, why);
-  csv_close(p.file);
+  table_close(&p.log.table);
   if (status == ST_OK) *result = found;
   return status;
 }

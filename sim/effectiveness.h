@@ -9,7 +9,9 @@
 //
 // The log has the Crazyflie's columns: tick or timestamp (ms), controller.r_roll, r_pitch, r_yaw (rad/s; roll
 // right, nose up, counter-clockwise), controller.cmd_roll, cmd_pitch, cmd_yaw (units; yaw CLOCKWISE), and,
-// where it is there, controller.cmd_thrust (units). Results count yaw clockwise.
+// where it is there, controller.cmd_thrust (units). Results count yaw clockwise. While the app flies those
+// stand still: a log without them is read by the app's own, indiIn.step, p, q, r and indi.m1..m4, from which
+// the command is made; at 500 Hz, or every call, as the uSD deck writes it (tools/usd/config.txt).
 #ifndef SIM_EFFECTIVENESS_H
 #define SIM_EFFECTIVENESS_H
 
@@ -28,8 +30,10 @@ typedef struct {
   double cutoff_Hz;  // 0.1 to 100
   int poles;         // 2 or 4
   double thrust_min; // units: rows below do not count (only where cmd_thrust is logged)
-  bool as_stock;     // as the firmware's own numbers were found: rows follow each other whatever their tick,
-                     // everything counts from the first row on, and u is the lag's output at the same row
+  double
+      motor_max_N; // of the app's own columns: what 65535 stands for, THRUST_MAX of the firmware's platform
+  bool as_stock;   // as the firmware's own numbers were found: rows follow each other whatever their tick,
+                   // everything counts from the first row on, and u is the lag's output at the same row
 } effectiveness_job_t;
 
 // 62.5 ms, 4 Hz, 4 poles, thrust above 10000.

@@ -127,7 +127,7 @@ static const struct {
     {"effectiveness a.csv --poles 3", "effectiveness: --poles 3: allowed are 2, 4\n"},
     {"effectiveness a.csv --wings",
      "effectiveness: --wings: not an option; allowed: --lag, --delay, --cutoff, "
-     "--poles, --thrust-min, --as-stock, --json, --help, --version\n"},
+     "--poles, --thrust-min, --motor-max, --as-stock, --json, --help, --version\n"},
     {"learn a.csv --veihcle x",
      "learn: --veihcle: not an option (did you mean --vehicle?); allowed: --columns, --vehicle, --surface, "
      "--hold-out, --set, --json, --points, --help, --version\n"},

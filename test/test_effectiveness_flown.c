@@ -1,6 +1,7 @@
 // test_effectiveness_flown.c - G1 and G2 from logs of the complete loop.
 #include "effectiveness.h"
 #include "io/model_file.h"
+#include "programs.h"
 #include "scenario/scenario.h"
 #include "scratch.h"
 #include "test.h"
@@ -53,6 +54,34 @@ TEST(effectiveness_is_recovered_from_flights_of_fly) {
     why_t why;
     if (!CHECK_OK(effectiveness_fit(path, &job, &found, &why))) return;
     CHECK(found.bridged == 0 && found.rows > 32000); // 500 Hz
+    for (int k = 0; k < 3; k++) CHECK_NEAR(found.g1[k] / g1[k], 1.0, 0.05);
+    CHECK_NEAR(found.g2 / g2, 1.0, 0.05);
+  }
+}
+
+// On the vehicle controller.* stand still while the app flies.
+TEST(effectiveness_is_recovered_from_what_the_deck_writes_of_the_app) {
+  static const char *const log[] = {"log00", "calls.csv"};
+  char text[400];
+  CHECK(program_run("fly inner-loop --integrator rk4 --usd $S/log00 --usd-config tools/usd/config.txt "
+                    "--log $S/calls.csv --log-rate 1000 >$S/said",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  for (unsigned i = 0; i < sizeof log / sizeof *log; i++) {
+    ROW("%s", log[i]);
+    model_t model;
+    why_t why;
+    effectiveness_t found;
+    double g1[3], g2;
+    if (!CHECK_OK(model_builtin("cf21_legacy", &model, &why))) return;
+    truth(&model, g1, &g2);
+    effectiveness_job_t job = effectiveness_default();
+    job.lag_s = model.motor_tau_s;
+    job.delay_s = model.frame.motor_delay_s + 0.0028;
+    job.motor_max_N = 0.25 * model.thrust_max_N;
+    char path[400];
+    snprintf(path, sizeof path, "%s", scratch_path(log[i]));
+    if (!CHECK_OK(effectiveness_fit(path, &job, &found, &why))) return;
+    CHECK(found.bridged == 0 && found.rows > 32000);
     for (int k = 0; k < 3; k++) CHECK_NEAR(found.g1[k] / g1[k], 1.0, 0.05);
     CHECK_NEAR(found.g2 / g2, 1.0, 0.05);
   }

@@ -20,12 +20,14 @@ typedef struct {
 } order_t;
 
 static const char USAGE[] =
-    "usage: effectiveness LOG.csv [options]\n"
+    "usage: effectiveness LOG [options]\n"
     "  --lag S            first-order lag of the motors, seconds (0.0625)\n"
     "  --delay S          from a command to the lag, the gyro's filter included; whole ticks of 2 ms (0)\n"
     "  --cutoff HZ        of the low-pass that all signals pass (4)\n"
     "  --poles N          of that low-pass: 2 or 4 (4)\n"
     "  --thrust-min UNITS rows with less thrust do not count, where controller.cmd_thrust is logged (10000)\n"
+    "  --motor-max N      of the app's own logs: THRUST_MAX of the firmware, of one motor (0.12; with the\n"
+    "                     thrust upgrade 0.18)\n"
     "  --as-stock         as the firmware's own numbers were found: 61.7 ms, 4 Hz, 4 poles, every row "
     "counts,\n"
     "                     gaps are not seen; options after it change it\n"
@@ -34,7 +36,9 @@ static const char USAGE[] =
     "  --help             this\n"
     "\n"
     "Columns: tick (ms, 500 Hz), controller.r_roll, r_pitch, r_yaw (rad/s), controller.cmd_roll, cmd_pitch,\n"
-    "cmd_yaw (16-bit units). Yaw is counted clockwise, as its command.\n";
+    "cmd_yaw (16-bit units); or the app's own, indiIn.step, p, q, r and indi.m1..m4, as the uSD deck writes "
+    "them.\n"
+    "Yaw is counted clockwise, as its command.\n";
 
 static status_t take_number(const char *option, const char *text, double min, double max, double *value,
                             why_t *why) {
@@ -60,6 +64,7 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'c': return take_number("--cutoff", text, 0.1, 100.0, &o->job.cutoff_Hz, why);
   case 'p': return take_poles(&o->job.poles, text, why);
   case 't': return take_number("--thrust-min", text, 0.0, 65535.0, &o->job.thrust_min, why);
+  case 'm': return take_number("--motor-max", text, 0.01, 10.0, &o->job.motor_max_N, why);
   case 's': o->job = effectiveness_stock(); return ST_OK;
   case 'j': o->json = text; return ST_OK;
   case 'V': o->version = true; return ST_OK;
@@ -69,11 +74,17 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
 
 static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
-      {"lag", 1, 0, 'l'},        {"delay", 1, 0, 'd'},
-      {"cutoff", 1, 0, 'c'},     {"poles", 1, 0, 'p'},
-      {"thrust-min", 1, 0, 't'}, {"as-stock", 0, 0, 's'},
-      {"json", 1, 0, 'j'},       {"help", 0, 0, 'h'},
-      {"version", 0, 0, 'V'},    {0},
+      {"lag", 1, 0, 'l'},
+      {"delay", 1, 0, 'd'},
+      {"cutoff", 1, 0, 'c'},
+      {"poles", 1, 0, 'p'},
+      {"thrust-min", 1, 0, 't'},
+      {"motor-max", 1, 0, 'm'},
+      {"as-stock", 0, 0, 's'},
+      {"json", 1, 0, 'j'},
+      {"help", 0, 0, 'h'},
+      {"version", 0, 0, 'V'},
+      {0},
   };
   *o = (order_t){.job = effectiveness_default(), .made = made_by("effectiveness", argc, argv)};
   opterr = 0;
