@@ -161,7 +161,7 @@ static bool keep(void *context, const char *event, double t_s, unsigned char *va
   return l->torn;
 }
 
-TEST(usd_replay_says_what_is_lost_and_is_back_to_a_ten_millionth_of_a_newton_within_a_second) {
+TEST(usd_replay_says_what_is_lost_and_is_back_to_a_fifth_of_a_millinewton_within_a_second) {
   flight_param_t param;
   (void)fly_with_deck("test-flight", (usd_card_t){0}, "log00", &param);
   for (unsigned i = 0; i < sizeof lost / sizeof *lost; i++) {
@@ -180,10 +180,11 @@ TEST(usd_replay_says_what_is_lost_and_is_back_to_a_ten_millionth_of_a_newton_wit
     CHECK(r.known.differ == 0);
     CHECK((r.known.calls > 19990) == !(any && start));
     CHECK_NEAR(r.settling.calls, any ? REPLAY_SETTLE_CALLS : 0.0, 0.0);
-    // 3 mN are a twenty-fifth of what a motor gives in hover: the filters start from what they first see.
-    CHECK(r.settling.worst_N < 3e-3);
+    // 4 mN are a twentieth of what a motor gives in hover: the filters start from what they first see.
+    CHECK(r.settling.worst_N < 4e-3);
     CHECK((r.settled.calls > 15000) == any);
-    CHECK(r.settled.worst_N < 1e-7);
+    // The observer of the accelerometer's bias forgets at 1 rad/s: without it 1e-7 N are left.
+    CHECK(r.settled.worst_N < 2e-4);
   }
 }
 
@@ -206,7 +207,7 @@ TEST(usd_replay_follows_a_card_that_loses_rows) {
     CHECK((deck.written < deck.asked) == row[i].loses);
     CHECK((r.missing > 0) == row[i].loses);
     CHECK(r.known.calls > 0 && r.known.differ == 0);
-    CHECK(r.settled.worst_N < 1e-6);
+    CHECK(r.settled.worst_N < 2e-4);
   }
 }
 
