@@ -47,7 +47,10 @@ void recorder_call(void) {
   if (r->calls < UINT32_MAX) r->calls++;
   const bool writes = usddeckLoggingEnabled();
   if (writes) {
-    const bool anew = !r->wrote || r->calls % RECORDER_ANEW_MS == 0;
+    r->stale = r->stale || r->calls % RECORDER_ANEW_MS == 0;
+    const bool anew =
+        !r->wrote || (r->stale && GLUE.flight.due == 0); // a call in which no loop ran has the time
+    r->stale = r->stale && !anew;
     if (anew || state_changed(r, in)) write_state(r, in);
     // Bytes between its fields that differ cost a row, no more.
     if (anew || DIFFERS(r->setpoint, in->setpoint)) write_set(r, in);

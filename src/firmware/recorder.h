@@ -10,8 +10,8 @@
 //
 // A row for which the card's buffer has no room is lost, and nothing in the file says so. Hence every call
 // carries its number and those of the state and the set that it flew, and all three are written anew every
-// 100 calls: what is lost is seen, and is lost for a tenth of a second at most. Each row has its stamp at
-// both ends, should someone have it written from another task.
+// 100 calls or few more: what is lost is seen, and is lost for a tenth of a second at most. Each row has its
+// stamp at both ends, should someone have it written from another task.
 #ifndef FIRMWARE_RECORDER_H
 #define FIRMWARE_RECORDER_H
 
@@ -24,6 +24,7 @@ typedef struct {
   uint8_t state, set; // count the rows of each event; wrap
   uint8_t tunes;      // sets of parameters taken since the selection; wraps
   bool wrote;         // the deck took the last call
+  bool stale;         // estimate and set point are due to be written anew
   // As they were last written.
   uint8_t no_lesson, tunes_told;
   float range_m, range_age_s;
