@@ -239,7 +239,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules; minute
 	+@tools/lint.sh
 
 format: setup-lint  ## bring every source into the one format; seconds
-	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
+	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
 docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of README.md; an hour
 	@tools/docs.sh "$(DATA)"

@@ -1,5 +1,5 @@
 // dense.cpp - dense matrices by Eigen.
-#include "dense.h"
+#include "dense.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>

@@ -1,7 +1,7 @@
 // lsq.cpp - linear least squares.
 #include "lsq.h"
 
-#include "dense.h"
+#include "dense.hpp"
 
 void lsq_solve(int rows, int columns, const double *A, const double *b, double *x) {
   using by_row = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;

@@ -76,49 +76,50 @@ TEST(columns_bring_every_frame_to_ours) {
 
 #define TIME "[columns]\ntime = {column = \"t\", unit = \"s\"}\n"
 
+static const struct {
+  const char *what, *text, *want;
+} refused[] = {
+    {"empty", "", "c.toml:1: columns: missing; allowed: a table"},
+    {"no time", "[columns]\n", "c.toml:1: time: missing; allowed: a table"},
+    {"key", "x = 1\n" TIME, "c.toml:1: x: unknown key; allowed: rest_height_m, acceleration, columns"},
+    {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
+     "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
+     "pitch, yaw, "
+     "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4, set_x, "
+     "set_y, set_z, "
+     "set_vx, set_vy, set_vz, set_yaw"},
+    {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
+     "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
+    {"motor unit", TIME "m1 = {column = \"z\", unit = \"rps\"}\n",
+     "c.toml:3: unit: unknown unit `rps` of m1; allowed: pwm, percent, share, rad/s, rpm, N, mN, gram"},
+    {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
+    {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
+     "c.toml:3: scale: 0; allowed: any other number"},
+    {"late", TIME "z = {column = \"z\", unit = \"m\", late_ms = 101}\n",
+     "c.toml:3: late_ms: 101 is out of range; allowed: 0 to 100"},
+    {"no frame", TIME "az = {column = \"z\", unit = \"g\"}\n",
+     "c.toml:1: acceleration: missing; allowed: a text in quotes"},
+    {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
+     "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
+    {"three motors",
+     TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"N\"}\n"
+          "m4 = {column = \"d\", unit = \"N\"}\n",
+     "c.toml:3: m1: without m3; allowed: m1 to m4, or none of them"},
+    {"no first motor", TIME "m2 = {column = \"b\", unit = \"N\"}\n",
+     "c.toml:3: m2: without m1; allowed: m1 to m4, or none of them"},
+    {"one rotor's speed", TIME "w4 = {column = \"d\", unit = \"rpm\"}\n",
+     "c.toml:3: w4: without w1; allowed: w1 to w4, or none of them"},
+    {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
+     "c.toml:4: m2: a command in pwm beside one in N; allowed: all of one kind"},
+};
+
 TEST(columns_files_are_refused_with_line_and_key) {
-  static const struct {
-    const char *what, *text, *want;
-  } row[] = {
-      {"empty", "", "c.toml:1: columns: missing; allowed: a table"},
-      {"no time", "[columns]\n", "c.toml:1: time: missing; allowed: a table"},
-      {"key", "x = 1\n" TIME, "c.toml:1: x: unknown key; allowed: rest_height_m, acceleration, columns"},
-      {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
-       "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
-       "pitch, yaw, "
-       "gx, gy, gz, m1, m2, m3, m4, thrust, vbat, range, range_down, tx, ty, tz, w1, w2, w3, w4, set_x, "
-       "set_y, set_z, "
-       "set_vx, set_vy, set_vz, set_yaw"},
-      {"unit", TIME "z = {column = \"z\", unit = \"foot\"}\n",
-       "c.toml:3: unit: unknown unit `foot` of z; allowed: m, cm, mm"},
-      {"motor unit", TIME "m1 = {column = \"z\", unit = \"rps\"}\n",
-       "c.toml:3: unit: unknown unit `rps` of m1; allowed: pwm, percent, share, rad/s, rpm, N, mN, gram"},
-      {"no unit", TIME "z = {column = \"z\"}\n", "c.toml:3: unit: missing; allowed: a text in quotes"},
-      {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
-       "c.toml:3: scale: 0; allowed: any other number"},
-      {"late", TIME "z = {column = \"z\", unit = \"m\", late_ms = 101}\n",
-       "c.toml:3: late_ms: 101 is out of range; allowed: 0 to 100"},
-      {"no frame", TIME "az = {column = \"z\", unit = \"g\"}\n",
-       "c.toml:1: acceleration: missing; allowed: a text in quotes"},
-      {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
-       "c.toml:1: acceleration: unknown frame `x`; allowed: body, world, world_with_gravity"},
-      {"three motors",
-       TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"N\"}\n"
-            "m4 = {column = \"d\", unit = \"N\"}\n",
-       "c.toml:3: m1: without m3; allowed: m1 to m4, or none of them"},
-      {"no first motor", TIME "m2 = {column = \"b\", unit = \"N\"}\n",
-       "c.toml:3: m2: without m1; allowed: m1 to m4, or none of them"},
-      {"one rotor's speed", TIME "w4 = {column = \"d\", unit = \"rpm\"}\n",
-       "c.toml:3: w4: without w1; allowed: w1 to w4, or none of them"},
-      {"both", TIME "m1 = {column = \"a\", unit = \"N\"}\nm2 = {column = \"b\", unit = \"pwm\"}\n",
-       "c.toml:4: m2: a command in pwm beside one in N; allowed: all of one kind"},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof refused / sizeof *refused; i++) {
+    ROW("%s", refused[i].what);
     columns_t c = {.rest_height_m = 7.0};
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, columns_read(scratch_file("c.toml", row[i].text, -1), &c, &why));
-    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    CHECK_STATUS(ST_BAD_INPUT, columns_read(scratch_file("c.toml", refused[i].text, -1), &c, &why));
+    CHECK_TEXT(scratch_short(why.text), refused[i].want);
     CHECK_NEAR(c.rest_height_m, 7.0, 0.0);
   }
 }

@@ -6,7 +6,7 @@ fail() {
   echo "lint: $*" >&2
   bad=1
 }
-sources=$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp')
+sources=$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
 clang-format --dry-run -Werror $sources || fail "clang-format: make format mends it"
 
@@ -46,7 +46,7 @@ grep -nE '#include "' src/*.c include/flight/*.h | grep -v '"flight/' && fail "f
 
 for file in $sources; do
   lines=$(wc -l <"$file")
-  [ "$lines" -le 260 ] || fail "$file has $lines lines: it holds two things"
+  [ "$lines" -le 400 ] || fail "$file has $lines lines: it holds two things"
 done
 tools/long_functions.awk $sources || fail "functions over 40 lines"
 PYTHONDONTWRITEBYTECODE=1 python3 tools/lint_python.py $(find tools test -name '*.py') || fail "Python"

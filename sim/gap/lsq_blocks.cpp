@@ -1,7 +1,7 @@
 // lsq_blocks.cpp - least squares from sums of products.
 #include "gap/lsq_blocks.h"
 
-#include "dense.h"
+#include "dense.hpp"
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // lsq_instrument.cpp - two-stage least squares from sums of products.
 #include "gap/lsq_instrument.h"
 
-#include "dense.h"
+#include "dense.hpp"
 #include <cmath>
 
 using view_t = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;

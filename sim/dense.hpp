@@ -1,7 +1,7 @@
-// dense.h - what the C++ files do with dense matrices, by Eigen, compiled once: each file that factorises or
-// multiplies by itself takes 5 to 15 s of a processor and up to 700 MB for it.
-#ifndef SIM_DENSE_H
-#define SIM_DENSE_H
+// dense.hpp - what the C++ files do with dense matrices, by Eigen, compiled once: each file that factorises
+// or multiplies by itself takes 5 to 15 s of a processor and up to 700 MB for it.
+#ifndef SIM_DENSE_HPP
+#define SIM_DENSE_HPP
 
 #include <Eigen/Core>
 
