@@ -150,9 +150,13 @@ static status_t finish(whole_file_t *f, why_t *why) {
 // After this nothing that is common can fail any more.
 static status_t name(whole_file_t *f, why_t *why) {
   if (f->part.file < 0) return ST_OK;
-  const int used =
-      snprintf(f->beside, sizeof f->beside, "%.*s.part-XXXXXX", folder_size(f->target), f->target);
-  if (used < (int)sizeof f->beside && part_name(&f->part, f->beside)) return ST_OK;
+  static const char own[] = ".part-XXXXXX";
+  const size_t folder = (size_t)folder_size(f->target);
+  if (folder + sizeof own <= sizeof f->beside) {
+    memcpy(f->beside, f->target, folder);
+    memcpy(f->beside + folder, own, sizeof own);
+    if (part_name(&f->part, f->beside)) return ST_OK;
+  }
   f->beside[0] = '\0';
   return not_written(f, why);
 }
