@@ -29,7 +29,7 @@ TEST(oracle_gives_the_eigenvalues_of_a_chain_of_springs) {
   for (int i = 0; i < ORACLE_N; i++) {
     A[i][i] = 2.0;
     if (i > 0) A[i][i - 1] = -1.0;
-    if (i > 0) A[i - 1][i] = NAN; // is not read
+    if (i > 0) A[i - 1][i] = (double)NAN; // is not read
   }
   oracle_eigenvalues((const double(*)[ORACLE_N])A, value);
   for (int k = 0; k < ORACLE_N; k++) CHECK_NEAR(value[k], 2.0 - 2.0 * cos((k + 1) * acos(-1.0) / 8.0), 1e-14);
