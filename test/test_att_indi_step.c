@@ -83,6 +83,30 @@ TEST(inner_loop_does_about_y_what_it_does_about_x) {
   }
 }
 
+TEST(inner_loop_gives_up_what_is_held_against_beyond_its_trim_about_each_axis) {
+  // Torque that is applied for long and turns nothing: something holds the vehicle.
+  const v3_t applied = {2e-3f, -3e-3f, 1e-3f};
+  v3_t torque[2];
+  for (int bounded = 0; bounded < 2; bounded++) {
+    loop_t l = fresh(20.0f);
+    const float trim_Nm = bounded ? 5e-4f : 1.0f;
+    const att_indi_in_t in = {.q_wb = {1, 0, 0, 0},
+                              .q_ref = {1, 0, 0, 0},
+                              .torque_b_Nm = applied,
+                              .ratio = 1,
+                              .trim_Nm = trim_Nm,
+                              .trim_yaw_Nm = trim_Nm};
+    for (int i = 0; i < 500; i++)
+      torque[bounded] = att_indi_step(&l.att, &l.param.att, &l.filter, 0.03f, TICK_S, &in);
+  }
+  CHECK_NEAR(torque[0].x, 2e-3, 1e-7);
+  CHECK_NEAR(torque[1].x, 5e-4, 1e-7);
+  CHECK_NEAR(torque[0].y, -3e-3, 1e-7);
+  CHECK_NEAR(torque[1].y, -5e-4, 1e-7);
+  CHECK_NEAR(torque[0].z, 1e-3, 1e-7);
+  CHECK_NEAR(torque[1].z, 1e-3 - 5e-4 / (1.0 + (double)(G2_S / TICK_S)), 1e-7);
+}
+
 TEST(inner_loop_remembers_the_yaw_that_was_applied_not_the_one_it_wanted) {
   // Mixing gave all of the yaw up, five times: the next increment is the first one again.
   loop_t l = fresh(0.0f);

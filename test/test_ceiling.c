@@ -176,7 +176,7 @@ TEST(ceiling_that_was_overruled_takes_three_more_samples_to_be_overruled_again) 
   ceiling_t s = below_ceiling(0.3f);
   for (int sample = 1; sample <= 6; sample++) {
     ROW("sample %d", sample);
-    for (int i = 0; i < BELOW_EVERY; i++) ceiling_predict(&s, &below_param, -0.001f);
+    for (int i = 0; i < BELOW_EVERY; i++) ceiling_predict(&s, &below_param, -0.0005f);
     CHECK_OK(ceiling_correct(&s, &below_param, 0.042f, 0.1f));
     CHECK((s.blind_s == 0.0f) == (sample % 3 == 0));
   }
