@@ -19,6 +19,7 @@ GUARD = (
     "no room to take off",
     "the estimated velocity jumps",
     "the thrust carries more than it should so far from a ceiling",
+    "resets of the estimated height sum up to more than a metre",
 )
 FLYABLE = (
     "at rest the accelerometer does not point up",
