@@ -11,8 +11,7 @@ void by_hand_init(by_hand_t *s) {
 }
 
 static void look(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float climb_mps) {
-  const quat_t q = in->q_wb;
-  const float up = 1.0f - 2.0f * (q.x * q.x + q.y * q.y);
+  const float up = quat_up(in->q_wb).z;
   // Below its floor the sensor speaks of nothing; what is known moves on.
   if (!(in->range_m >= p->floor_m && in->range_m <= CEILING_RANGE_MAX_M && up >= UPRIGHT)) return;
   s->gap_m = (in->range_m - p->up_offset_m) * up - climb_mps * in->range_age_s;
