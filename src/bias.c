@@ -31,33 +31,48 @@ static v3_t bounded(v3_t a, float max) {
   return (v3_t){f_clamp(a.x, -max, max), f_clamp(a.y, -max, max), f_clamp(a.z, -max, max)};
 }
 
-status_t bias_step(bias_t *s, const bias_param_t *p, v3_t acc_mps2, v3_t pos_m, v3_t vel_mps,
-                   float period_s) {
+void bias_tune(bias_coef_t *c, const bias_param_t *p, float period_s) {
+  c->period_s = period_s;
+  c->per_s = 1.0f / period_s;
+  c->share = 1.0f - expneg(p->pole_radps * period_s);
+  c->vel_share = p->vel_s > 0.0f ? 1.0f - expneg(period_s / p->vel_s) : 0.0f;
+}
+
+float bias_take(bias_t *s, const bias_param_t *p, float more_mps2) {
+  const float held_mps2 = f_clamp(s->bias_mps2.z + more_mps2, -p->max_mps2, p->max_mps2);
+  const float taken_mps2 = held_mps2 - s->bias_mps2.z;
+  s->bias_mps2.z = held_mps2;
+  s->first.z += taken_mps2;
+  s->acc_slow_mps2.z += taken_mps2;
+  return taken_mps2;
+}
+
+status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t acc_mps2, v3_t pos_m,
+                   v3_t vel_mps) {
   const bool known = is_state(s);
   if (!(p->pole_radps > 0.0f) || !known) {
     bias_start(s, pos_m, vel_mps);
     return known ? ST_OK : ST_BAD_STATE;
   }
-  const float per_s = 1.0f / period_s;
-  const v3_t rate_mps = v3_scale(per_s, v3_sub(pos_m, s->pos_last_m)), off_mps = v3_sub(vel_mps, rate_mps);
+  const v3_t rate_mps = v3_scale(c->per_s, v3_sub(pos_m, s->pos_last_m)), off_mps = v3_sub(vel_mps, rate_mps);
   s->pos_last_m = pos_m;
-  if (!(period_s <= BIAS_GAP_S)) {
+  if (!(c->period_s <= BIAS_GAP_S)) {
     s->vel_slow_mps = bias_free_velocity(s, vel_mps);
     s->acc_slow_mps2 = s->first = s->bias_mps2;
     return ST_OK;
   }
   if (!v3_within(off_mps, BIAS_JUMP_MPS)) return ST_OK;
 
-  const float share = 1.0f - expneg(p->pole_radps * period_s);
+  const float share = c->share;
   // The change of the change of position is of one interval ago: so is <a> before this sample.
-  const v3_t motion_mps2 = v3_scale(share * per_s, v3_sub(rate_mps, s->vel_slow_mps));
+  const v3_t motion_mps2 = v3_scale(share * c->per_s, v3_sub(rate_mps, s->vel_slow_mps));
   s->first = bounded(nearer_to(s->first, share, v3_sub(s->acc_slow_mps2, motion_mps2)), p->max_mps2);
   s->bias_mps2 = bounded(nearer_to(s->bias_mps2, share, s->first), p->max_mps2);
   s->acc_slow_mps2 = nearer_to(s->acc_slow_mps2, share, acc_mps2);
   s->vel_slow_mps = nearer_to(s->vel_slow_mps, share, rate_mps);
 
   if (p->vel_s > 0.0f)
-    s->vel_off_mps = nearer_to(s->vel_off_mps, 1.0f - expneg(period_s / p->vel_s), off_mps);
+    s->vel_off_mps = nearer_to(s->vel_off_mps, c->vel_share, off_mps);
   else
     s->vel_off_mps = (v3_t){0.0f, 0.0f, 0.0f};
   return ST_OK;

@@ -129,3 +129,12 @@ float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N) {
   if ((g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0) return 0.0f;
   return p->share * f_clamp(g->hover_N, 0.5f * weight_N, 1.3f * weight_N);
 }
+
+float guard_settled_bias_mps2(const guard_t *g) {
+  return g->bias_s < JUDGE_SETTLED_S ? 0.0f : g->bias_mps2;
+}
+
+void guard_give_bias(guard_t *g, float given_mps2) {
+  g->bias_mps2 -= given_mps2;
+  g->acc_bias_mps2 -= given_mps2;
+}

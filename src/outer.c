@@ -18,6 +18,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   memset(f, 0, sizeof *f);
   f->coef = coef;
   f->param = *p;
+  bias_tune(&f->bias_coef, &f->param.bias, period_s);
   f->out = (outer_out_t)AT_REST;
   ceiling_init(&f->ceiling, period_s);
   hold_init(&f->hold);
@@ -27,6 +28,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
 status_t outer_take(outer_t *f, const flight_param_t *p) {
   TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, f->coef.period_s));
   f->param = *p;
+  bias_tune(&f->bias_coef, &f->param.bias, f->coef.period_s);
   return ST_OK;
 }
 
@@ -101,6 +103,21 @@ static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   hold_step(&f->hold, &f->ceiling, in->pos_w_m.z, f->coef.period_s * (float)ticks, f->param.hold);
 }
 
+// After missed periods the step is a longer one.
+static status_t find_bias(outer_t *f, const outer_in_t *in, v3_t acc_w_mps2) {
+  bias_coef_t late;
+  if (f->missed > 0) bias_tune(&late, &f->param.bias, f->coef.period_s * (1.0f + (float)f->missed));
+  const bias_coef_t *const c = f->missed > 0 ? &late : &f->bias_coef;
+  return bias_step(&f->bias, &f->param.bias, c, acc_w_mps2, in->pos_w_m, in->vel_w_mps);
+}
+
+float outer_take_bias(outer_t *f, float more_mps2) {
+  if (!f->started || !(f->param.bias.pole_radps > 0.0f)) return 0.0f;
+  const float taken_mps2 = bias_take(&f->bias, &f->param.bias, more_mps2);
+  sync_shift_acc(&f->sync, taken_mps2);
+  return taken_mps2;
+}
+
 // What this tick can teach; the learner decides whether it may.
 static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
@@ -171,8 +188,7 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   sync_out_t *const x = &f->signals;
   sync_step(&f->sync, &f->coef, &in_sync, x);
   find_ceiling(f, in);
-  count(f, bias_step(&f->bias, &f->param.bias, x->acc_now_w_mps2, in->pos_w_m, in->vel_w_mps,
-                     f->coef.period_s * (1.0f + (float)f->missed)));
+  count(f, find_bias(f, in, x->acc_now_w_mps2));
   x->acc_w_mps2 = v3_sub(x->acc_w_mps2, f->bias.bias_mps2);
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);

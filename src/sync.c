@@ -43,6 +43,14 @@ void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t 
   out->thrust_N = thrust_step(&s->thrust, f, c->lag_share, c->period_s, in->thrust_N, in->at_limit);
 }
 
+void sync_shift_acc(sync_t *s, float by_mps2) {
+  lpf2_t *const z = &s->acc_w[2];
+  z->x1 += by_mps2;
+  z->x2 += by_mps2;
+  z->y1 += by_mps2;
+  z->y2 += by_mps2;
+}
+
 float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m) {
   if (known && !s->distance_known) lpf2_reset(&s->distance, distance_m);
   s->distance_known = known;

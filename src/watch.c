@@ -122,6 +122,13 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN;
 }
 
+// Two who hold each a part of the accelerometer's bias would keep parts that cancel: what has settled is the
+// outer loop's.
+static void hand_bias_over(flight_t *f) {
+  const float settled_mps2 = guard_settled_bias_mps2(&f->guard);
+  if (settled_mps2 != 0.0f) guard_give_bias(&f->guard, outer_take_bias(&f->outer, settled_mps2));
+}
+
 // Without an accelerometer: what the thrust that the motors give does.
 static void mend_acceleration(const flight_t *f, flight_in_t *in) {
   const guard_t *g = &f->guard;
@@ -188,6 +195,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   guard_in_t guard_in;
   see(&guard_in, f, in, ms, good);
   guard_step(&f->guard, &f->outer.param.guard, &guard_in);
+  hand_bias_over(f);
   if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
   mend_acceleration(f, in);
   if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"

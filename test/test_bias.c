@@ -9,6 +9,13 @@
 
 static const v3_t NONE = {0, 0, 0};
 
+static status_t step_of(bias_t *s, const bias_param_t *p, v3_t acc_mps2, v3_t pos_m, v3_t vel_mps,
+                        float period_s) {
+  bias_coef_t c;
+  bias_tune(&c, p, period_s);
+  return bias_step(s, p, &c, acc_mps2, pos_m, vel_mps);
+}
+
 static bias_t started(void) {
   bias_t s;
   bias_start(&s, NONE, NONE);
@@ -17,7 +24,7 @@ static bias_t started(void) {
 
 // A vehicle that stands still and feels acc_mps2 for so many steps.
 static void stand(bias_t *s, const bias_param_t *p, v3_t acc_mps2, float period_s, int steps) {
-  for (int k = 0; k < steps; k++) CHECK_OK(bias_step(s, p, acc_mps2, NONE, NONE, period_s));
+  for (int k = 0; k < steps; k++) CHECK_OK(step_of(s, p, acc_mps2, NONE, NONE, period_s));
 }
 
 TEST(bias_is_found_as_fast_as_three_lags_at_its_pole) {
@@ -70,7 +77,7 @@ TEST(bias_stays_in_its_bound_whatever_the_pole_the_interval_and_the_inputs) {
     const v3_t acc = {(float)(100.0 * random_normal(r)), (float)(1.0 * random_normal(r)), 1000.0f};
     const v3_t pos = {(float)(1.0 * random_normal(r)), 0.0f, (float)(3000.0 * random_normal(r))};
     const v3_t vel = {(float)(3.0 * random_normal(r)), (float)(0.1 * random_normal(r)), 20.0f};
-    if (!CHECK_OK(bias_step(&s, &p, acc, pos, vel, period_s))) return;
+    if (!CHECK_OK(step_of(&s, &p, acc, pos, vel, period_s))) return;
     if (!CHECK(v3_within(s.bias_mps2, 5.0f) && v3_within(s.vel_off_mps, BIAS_JUMP_MPS))) return;
   }
   random_close(r);
@@ -95,8 +102,8 @@ TEST(bias_takes_no_motion_for_one) {
     double z = 0.5, v = 0.0, worst = 0.0, off = 0.0;
     for (double t = 0.0; t < 30.0; t += dt) {
       const double a = sin(1.3 * t) + (fmod(t, 7.0) < 1.0 ? 1.0 : fmod(t, 7.0) < 2.0 ? -1.0 : 0.0);
-      CHECK_OK(bias_step(&s, &p, (v3_t){.z = (float)a}, (v3_t){.z = (float)z}, (v3_t){.z = (float)v},
-                         row[i].period_s));
+      CHECK_OK(step_of(&s, &p, (v3_t){.z = (float)a}, (v3_t){.z = (float)z}, (v3_t){.z = (float)v},
+                       row[i].period_s));
       z += dt * v + 0.5 * dt * dt * a;
       v += dt * a;
       worst = fmax(worst, fabs((double)s.bias_mps2.z));
@@ -112,13 +119,13 @@ TEST(bias_finds_what_the_velocity_is_wrong_by) {
   bias_t s;
   bias_start(&s, (v3_t){.x = -0.01f}, (v3_t){.x = 1.0f});
   for (int k = 0; k <= 250; k++) { // at 1 m/s
-    CHECK_OK(bias_step(&s, &p, NONE, (v3_t){.x = 0.01f * (float)k}, (v3_t){.x = 1.05f, .z = -0.1f}, 0.01f));
+    CHECK_OK(step_of(&s, &p, NONE, (v3_t){.x = 0.01f * (float)k}, (v3_t){.x = 1.05f, .z = -0.1f}, 0.01f));
     const double share = 1.0 - exp(-0.01 * (k + 1) / 0.5);
     CHECK_NEAR(s.vel_off_mps.x, 0.05 * share, 1e-4);
     CHECK_NEAR(bias_free_velocity(&s, (v3_t){.z = -0.1f}).z, -0.1 * (1.0 - share), 1e-5);
   }
   const bias_param_t off = {.pole_radps = 1.0f, .max_mps2 = 0.5f, .vel_s = 0.0f};
-  CHECK_OK(bias_step(&s, &off, NONE, (v3_t){.x = 2.51f}, (v3_t){.x = 1.05f}, 0.01f));
+  CHECK_OK(step_of(&s, &off, NONE, (v3_t){.x = 2.51f}, (v3_t){.x = 1.05f}, 0.01f));
   CHECK(s.vel_off_mps.x == 0.0f && s.vel_off_mps.y == 0.0f && s.vel_off_mps.z == 0.0f);
 }
 
@@ -139,10 +146,10 @@ TEST(bias_learns_nothing_of_a_gap_or_a_jump) {
     bias_t s = started();
     stand(&s, &p, (v3_t){.z = 0.1f}, 0.01f, 2000);
     const v3_t there = {.z = row[i].moved_m};
-    CHECK_OK(bias_step(&s, &p, (v3_t){.z = 0.1f}, there, NONE, row[i].period_s));
+    CHECK_OK(step_of(&s, &p, (v3_t){.z = 0.1f}, there, NONE, row[i].period_s));
     float worst = 0.0f;
     for (int k = 0; k < 1000; k++) {
-      CHECK_OK(bias_step(&s, &p, (v3_t){.z = 0.1f}, there, NONE, 0.01f));
+      CHECK_OK(step_of(&s, &p, (v3_t){.z = 0.1f}, there, NONE, 0.01f));
       worst = f_max(fabsf(s.bias_mps2.z - 0.1f), worst);
     }
     CHECK((worst > 5e-3f) == row[i].learns);
@@ -155,14 +162,14 @@ TEST(bias_goes_on_after_a_gap_with_the_velocity_of_then) {
   stand(&s, &p, (v3_t){.z = 0.1f}, 0.01f, 1000);
   for (int k = 1; k <= 50; k++) { // it starts to climb with 2 m/s2
     const float t_s = 0.01f * (float)k;
-    CHECK_OK(bias_step(&s, &p, (v3_t){.z = 2.1f}, (v3_t){.z = t_s * t_s}, (v3_t){.z = 2.0f * t_s}, 0.01f));
+    CHECK_OK(step_of(&s, &p, (v3_t){.z = 2.1f}, (v3_t){.z = t_s * t_s}, (v3_t){.z = 2.0f * t_s}, 0.01f));
   }
   CHECK_NEAR(s.bias_mps2.z, 0.1, 0.02); // the climb begins between two samples
   float z_m = 2.25f;                    // and is found at 1 m/s
-  CHECK_OK(bias_step(&s, &p, (v3_t){.z = 0.1f}, (v3_t){.z = z_m}, (v3_t){.z = 1.0f}, 2.0f));
+  CHECK_OK(step_of(&s, &p, (v3_t){.z = 0.1f}, (v3_t){.z = z_m}, (v3_t){.z = 1.0f}, 2.0f));
   for (int k = 0; k < 500; k++) {
     z_m += 0.01f;
-    CHECK_OK(bias_step(&s, &p, (v3_t){.z = 0.1f}, (v3_t){.z = z_m}, (v3_t){.z = 1.0f}, 0.01f));
+    CHECK_OK(step_of(&s, &p, (v3_t){.z = 0.1f}, (v3_t){.z = z_m}, (v3_t){.z = 1.0f}, 0.01f));
     if (!CHECK_NEAR(s.bias_mps2.z, 0.1, 0.02)) return;
   }
 }
@@ -172,7 +179,7 @@ TEST(bias_shifts_with_the_origin) {
   bias_t s = started();
   const v3_t by_m = {0.02f, -0.03f, 0.04f};
   bias_shift(&s, by_m);
-  for (int k = 0; k < 100; k++) CHECK_OK(bias_step(&s, &p, NONE, by_m, NONE, 0.01f));
+  for (int k = 0; k < 100; k++) CHECK_OK(step_of(&s, &p, NONE, by_m, NONE, 0.01f));
   CHECK(v3_within(s.bias_mps2, 1e-6f) && v3_within(s.vel_off_mps, 1e-6f));
 }
 
@@ -187,7 +194,7 @@ TEST(bias_starts_afresh_where_its_state_is_none) {
       memcpy((char *)&s + at, &odd[i], sizeof(float));
       const bool place = at >= offsetof(bias_t, pos_last_m) && at < offsetof(bias_t, acc_slow_mps2);
       // A place that is none is a jump: nothing is lost.
-      CHECK_STATUS(place ? ST_OK : ST_BAD_STATE, bias_step(&s, &p, (v3_t){.z = 0.1f}, NONE, NONE, 0.01f));
+      CHECK_STATUS(place ? ST_OK : ST_BAD_STATE, step_of(&s, &p, (v3_t){.z = 0.1f}, NONE, NONE, 0.01f));
       CHECK_NEAR(s.bias_mps2.z, place ? 0.1 : 0.0, 1e-4);
       CHECK(v3_within(s.vel_off_mps, 1e-4f));
       stand(&s, &p, (v3_t){.z = 0.1f}, 0.01f, 1500);

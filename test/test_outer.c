@@ -41,6 +41,41 @@ TEST(outer_takes_over_without_a_bump) {
     }
 }
 
+// The same flight twice: with the bias taken off by somebody else all along, and from some tick on by the
+// observer.
+TEST(outer_takes_a_bias_over_without_a_bump) {
+  static const struct {
+    const char *what;
+    float pole_radps, more_mps2, taken_mps2;
+    double bump_N; // rounding; at its bound the observer does not follow the noise
+  } row[] = {
+      {"within the bound", 1.0f, 0.3f, 0.3f, 1e-6},
+      {"downwards", 1.0f, -0.3f, -0.3f, 1e-6},
+      {"beyond the bound", 1.0f, 0.9f, 0.5f, 3e-5},
+      {"none is looked for", 0.0f, 0.3f, 0.0f, 1e-6},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    flight_param_t p = rig3_param();
+    p.bias.pole_radps = row[i].pole_radps;
+    outer_t f = rig3_outer(&p), twin = rig3_outer(&p);
+    CHECK(outer_take_bias(&f, row[i].more_mps2) == 0.0f); // before the first step
+    outer_in_t in = {.acc_b_mps2 = {0, 0, GRAVITY_MPS2}, .q_wb = {.w = 1.0f}, .thrust_N = 0.32f};
+    float taken_mps2 = 0.0f;
+    double bump_N = 0.0;
+    for (int k = 0; k < 400; k++) {
+      in.acc_b_mps2.z = GRAVITY_MPS2 + 0.1f * (float)(k % 7 - 3);
+      const outer_out_t alone = rig3_step(&twin, &p, &in);
+      if (k == 100) taken_mps2 = outer_take_bias(&f, row[i].more_mps2);
+      in.acc_b_mps2.z += taken_mps2;
+      bump_N = fmax(bump_N, fabs((double)(rig3_step(&f, &p, &in).thrust_N - alone.thrust_N)));
+    }
+    CHECK_NEAR(taken_mps2, row[i].taken_mps2, 1e-3);
+    CHECK_NEAR(f.bias.bias_mps2.z - twin.bias.bias_mps2.z, taken_mps2, 1e-3);
+    CHECK_NEAR(bump_N, 0.0, row[i].bump_N);
+  }
+}
+
 TEST(outer_settles_at_the_set_point_in_all_three_axes) {
   static const struct {
     double x, y, z, yaw;

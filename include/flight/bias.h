@@ -47,13 +47,26 @@ typedef struct {
   v3_t acc_slow_mps2, vel_slow_mps, first; // <a>, <r>, <o>
 } bias_t;
 
+// What a step of this period does; made anew when parameters change.
+typedef struct {
+  float period_s, per_s;  // of a step, and its inverse
+  float share, vel_share; // g, and 1 - exp(-dt/T)
+} bias_coef_t;
+
+// period_s: > 0.
+void bias_tune(bias_coef_t *c, const bias_param_t *p, float period_s);
+
 // No bias known. The position is that of one period before the first step.
 void bias_start(bias_t *s, v3_t pos_m, v3_t vel_mps);
 
-// One period, > 0. acc_mps2: measured, without gravity. All finite.
+// One period. acc_mps2: measured, without gravity. All finite.
 // ST_BAD_STATE: the state was none (a flipped bit); it starts afresh.
-MUST_CHECK status_t bias_step(bias_t *s, const bias_param_t *p, v3_t acc_mps2, v3_t pos_m, v3_t vel_mps,
-                              float period_s);
+MUST_CHECK status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t acc_mps2,
+                              v3_t pos_m, v3_t vel_mps);
+
+// The acceleration will come with this much more of bias along z, known by somebody else until now. What it
+// can hold it takes, and what it took is the result.
+float bias_take(bias_t *s, const bias_param_t *p, float more_mps2);
 
 // The estimator's velocity without what it is wrong by.
 v3_t bias_free_velocity(const bias_t *s, v3_t vel_mps);

@@ -124,4 +124,9 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
 // The thrust of a hand-over now.
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N);
 
+// The accelerometer's bias as far as it has settled since it stepped; 0: nothing has.
+float guard_settled_bias_mps2(const guard_t *g);
+// Somebody else takes so much of it off from now on.
+void guard_give_bias(guard_t *g, float given_mps2);
+
 #endif

@@ -49,6 +49,7 @@ typedef struct {
 typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
+  bias_coef_t bias_coef; // of one period
   sync_t sync;
   sync_out_t signals; // of the last step
   bias_t bias;
@@ -81,6 +82,11 @@ MUST_CHECK status_t outer_take(outer_t *f, const flight_param_t *p);
 
 // One period. The result is f->out.
 const outer_out_t *outer_step(outer_t *f, const outer_in_t *in);
+
+// From now on the acceleration comes with this much more of bias along the world's z. What the observer can
+// hold is taken over without a bump, and is the result: 0 before the first step, or where no bias is looked
+// for.
+float outer_take_bias(outer_t *f, float more_mps2);
 
 // Teaches the curve what the last step measured, if it may (ceil.mode 2). A call of its own, so that it can
 // run in another tick than the step; without effect if there was no step since.

@@ -44,6 +44,9 @@ void sync_start(sync_t *s, const sync_in_t *in);
 // One period.
 void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t *out);
 
+// As if all accelerations along the world's z had been by so much larger.
+void sync_shift_acc(sync_t *s, float by_mps2);
+
 // The distance to a surface through the same filter, once a period; where it was not known before, it starts
 // afresh.
 float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m);
