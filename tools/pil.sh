@@ -94,7 +94,7 @@ for level in -Os -O2; do
         level, worst + 0.5, clean + 0.5, idle / idles + 0.5, inner / inners - idle / idles + 0.5
       printf "cost: Cortex-M4F %s: deepest stack of a tick %d bytes, of the selection %d\n", level, stack, begin
       most = level == "-Os" ? 700 : 760 # the firmware is built with -Os
-      # 4,000 is the goal for all calls; what is spoiled (inputs, parameters, time) at once may take a tenth more, and more.
-      exit !(clean <= 4060 && worst <= 4700 && stack <= 512 && begin <= 512 && inner / inners - idle / idles <= most)
-    }' || fail "more than 4,060 instructions a tick in flights as shipped or 4,700 in spoiled ones, 700 for the inner loop (760 with -O2), or 512 bytes of stack"
+      # The goal is 4,000. Spoiled calls change parameters, inputs and time at once: the loops are then tuned in the same tick.
+      exit !(clean <= 4000 && worst <= 4850 && stack <= 512 && begin <= 512 && inner / inners - idle / idles <= most)
+    }' || fail "more than 4,000 instructions a tick in flights as shipped or 4,850 in spoiled ones, 700 for the inner loop (760 with -O2), or 512 bytes of stack"
 done
