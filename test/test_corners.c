@@ -1,0 +1,162 @@
+// test_corners.c - hover in closed loop with parameters at the ends of their ranges, while calls are missed:
+// ten seconds 0.5 m below a ceiling. CORNERS_SEED takes other sets, CORNERS more or fewer of them.
+#include "flight_state.h"
+#include "random.h"
+#include "rig6.h"
+#include "test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define HOVER_M   1.0
+#define CEILING_M 1.5
+#define FLOWN_MS  10000
+#define OFF_M     0.1
+#define MOST_N    0.15 // of a motor: more it does not have, whatever it is asked for
+
+typedef struct {
+  flight_t f;
+  rig6_t rig;
+  random_t random;
+  int missed_ms; // still to come
+  double off_m;  // farthest from where it should hover, over the second half
+} corner_t;
+
+static uint64_t number(const char *name, uint64_t otherwise) {
+  const char *text = getenv(name);
+  return text ? strtoull(text, NULL, 10) : otherwise;
+}
+
+static uint64_t seed(void) {
+  return number("CORNERS_SEED", 1);
+}
+
+static v3_t v3_of(d3_t a) {
+  return (v3_t){(float)a.x, (float)a.y, (float)a.z};
+}
+
+static d3_t shaken(random_t *r, d3_t a, double sd) {
+  return (d3_t){a.x + random_normal(r, sd), a.y + random_normal(r, sd), a.z + random_normal(r, sd)};
+}
+
+static flight_in_t seen(corner_t *c, int ms) {
+  const pilot6_setpoint_t none = {.yaw_rad = 0.0};
+  const pilot6_in_t in = rig6_sense(&c->rig, &none);
+  const double up = dq_to_world(in.q_wb, d3(0.0, 0.0, 1.0)).z;
+  flight_in_t to = {
+      .step = (uint32_t)ms,
+      .rate_b_radps = v3_of(shaken(&c->random, in.gyro_b_radps, 0.02)),
+      .acc_b_mps2 = v3_of(shaken(&c->random, in.acc_b_mps2, 0.3)),
+      .pos_w_m = v3_of(shaken(&c->random, in.pos_w_m, 0.0005)),
+      .vel_w_mps = v3_of(shaken(&c->random, in.vel_w_mps, 0.01)),
+      .q_wb = {(float)in.q_wb.w, (float)in.q_wb.x, (float)in.q_wb.y, (float)in.q_wb.z},
+      .range_new = ms % 100 == 0,
+      .range_m = up > 0.5 ? (float)((CEILING_M - in.pos_w_m.z) / up) : 0.0f,
+      .range_age_s = 0.02f,
+      .setpoint = {.x = AXIS_POSITION,
+                   .y = AXIS_POSITION,
+                   .z = AXIS_POSITION,
+                   .pos_w_m = {.z = (float)HOVER_M}},
+  };
+  for (int i = 0; i < MOTORS; i++) to.force_N[i] = (float)in.applied_N[i];
+  return to;
+}
+
+// One call in fifty begins a hole of up to 20 ms.
+static bool is_called(corner_t *c) {
+  if (c->missed_ms > 0) return c->missed_ms-- == 0;
+  if (random_bits(&c->random) % 50 == 0) c->missed_ms = (int)(random_bits(&c->random) % 20);
+  return true;
+}
+
+static bool think(corner_t *c, int ms, double motor_N[MOTORS]) {
+  const flight_in_t in = seen(c, ms);
+  const flight_out_t *out = flight_step(&c->f, &in);
+  for (int i = 0; i < MOTORS; i++) {
+    const float N = out->motors.force_N[i];
+    if (!CHECK(N >= 0.0f && N <= c->f.outer.param.mixer.force_max_N)) return false;
+    motor_N[i] = fmin((double)N, MOST_N);
+  }
+  const char *bad = flight_not_finite(&c->f);
+  if (bad) ROW("%s", bad);
+  return CHECK(bad == NULL);
+}
+
+// False: something was not finite or beyond what may be asked for.
+static bool hover(corner_t *c, const flight_param_t *p, uint64_t seed) {
+  rig6_param_t body = rig6_crazyflie();
+  body.ceiling_m = CEILING_M;
+  body.floor = true;
+  *c = (corner_t){.rig = rig6_at(&body, d3(0.0, 0.0, HOVER_M), 0.0, true), .random = {seed}};
+  CHECK_OK(flight_init(&c->f, p));
+  double motor_N[MOTORS];
+  for (int i = 0; i < MOTORS; i++) motor_N[i] = c->rig.command_N[i];
+  for (int ms = 0; ms < FLOWN_MS; ms++) {
+    if (is_called(c) && !think(c, ms, motor_N)) return false;
+    rig6_step(&c->rig, motor_N);
+    const double off_m = d3_norm(d3_sub(c->rig.pos_w_m, d3(0.0, 0.0, HOVER_M)));
+    if (ms > FLOWN_MS / 2 && !(off_m <= c->off_m)) c->off_m = off_m;
+  }
+  return true;
+}
+
+static void at_end(flight_param_t *p, const param_row_t *row, bool most) {
+  (void)!params_set(p, row, most ? row->max : row->min); // what its row allows, if not what the set does
+}
+
+// Alone these take the hover away, as they must: a loop that is too slow or too fast for the vehicle, a
+// vehicle of another size, motors that may not carry it.
+static const struct {
+  const char *name;
+  bool most;
+} unflyable[] = {
+    {"indiPos.kp", true},     {"indiPos.kd", false},  {"indiPos.tauMot", false}, {"indiPos.mass", false},
+    {"indiPos.tMax", false},  {"indiAtt.kp", false},  {"indiAtt.kp", true},      {"indiAtt.kd", false},
+    {"indiAtt.jxx", false},   {"indiAtt.jxx", true},  {"indiAtt.jyy", false},    {"indiAtt.jyy", true},
+    {"indiAtt.quick", false}, {"indiAtt.arm", false}, {"indiAtt.arm", true},     {"indiAtt.yawArm", true},
+    {"indiAtt.fMax", false},  {"indiAtt.jzz", false}, {"indiAtt.g2", true},      {"indiAtt.kpYaw", true},
+};
+
+static bool is_unflyable(const char *name, bool most) {
+  for (unsigned i = 0; i < sizeof unflyable / sizeof *unflyable; i++)
+    if (strcmp(unflyable[i].name, name) == 0 && unflyable[i].most == most) return true;
+  return false;
+}
+
+TEST(a_parameter_at_an_end_of_its_range_hovers_is_refused_or_is_known_not_to) {
+  for (int i = 0; i < params_count; i++)
+    for (int most = 0; most < 2; most++) {
+      const param_row_t *row = &params_table[i];
+      flight_param_t p;
+      params_default(&p);
+      at_end(&p, row, most);
+      if (params_check(&p) != ST_OK) continue;
+      corner_t c;
+      ROW("%s at its %s", row->name, most ? "greatest" : "least");
+      if (!hover(&c, &p, seed() + (uint64_t)i)) return;
+      if (!is_unflyable(row->name, most)) CHECK(c.off_m < OFF_M);
+    }
+}
+
+TEST(parameters_at_their_ends_together_stay_finite_and_within_limits_or_are_refused) {
+  const int count = (int)number("CORNERS", test_long() ? 4000 : 100);
+  random_t r = {seed()};
+  int flown = 0;
+  for (int k = 0; k < count; k++) {
+    flight_param_t p;
+    params_default(&p);
+    const uint64_t some = 1 + random_bits(&r) % 16;
+    for (int i = 0; i < params_count; i++)
+      if (random_bits(&r) % 16 < some) at_end(&p, &params_table[i], random_bits(&r) % 2);
+    ROW("seed %llu, set %d", (unsigned long long)seed(), k);
+    if (params_check(&p) != ST_OK) {
+      flight_t f;
+      CHECK_STATUS(ST_BAD_PARAM, flight_init(&f, &p));
+      continue;
+    }
+    corner_t c;
+    if (!hover(&c, &p, random_bits(&r))) return;
+    flown++;
+  }
+  CHECK(flown >= count / 8);
+}
