@@ -1,13 +1,15 @@
 // test_learning_flight.c - the curve learned in simulated learning flights at noise N1, and flying with it
 // (acceptance P2), and the sweeps of the thesis's appendix B.
 #include "flights.h"
+#include "share.h"
 #include "taught.h"
 #include "test.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SEEDS 10
+#define SEEDS      10
+#define SEEDS_LONG 200
 
 // A learning flight from the weights `from`, in a plant whose ceiling has the coefficients ca, cb.
 static setup_t learning_setup(const rbf_weights_t *from, double ca, double cb, uint64_t seed) {
@@ -51,19 +53,23 @@ static int contacts_at(const rbf_weights_t *w, const setup_t *learned, double ga
 static const rbf_weights_t ONES = {{1.0f}};
 
 TEST(learning_flight_finds_the_curve_where_it_has_been) {
+  const int seeds = test_long() ? SEEDS_LONG : SEEDS;
+  int close = 0, low = 0;
   double sum = 0.0;
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+  for (int i = 0; i < seeds; i++) {
+    const uint64_t seed = share_seed(1) + (uint64_t)i;
     ROW("seed %d", (int)seed);
     const setup_t setup = learning_setup(&ONES, 0.44, 1.8, seed);
     const rbf_weights_t w = learn(&setup);
     const misfit_t m = taught_misfit(&w, &setup.model, 0.02, 0.10);
-    CHECK(m.rms < 0.003); // acceptance P2 (L)
-    CHECK(m.max < 0.012);
-    CHECK(m.at_1cm < 0.0); // nearer than it has been the curve is too low
-    CHECK(m.peak_m <= 0.016);
+    close += m.rms < 0.003 && m.max < 0.012;    // acceptance P2 (L)
+    low += m.at_1cm < 0.0 && m.peak_m <= 0.016; // nearer than it has been the curve is too low
     sum += m.rms;
   }
-  CHECK_NEAR(sum / SEEDS, 0.0012, 0.0004); // the prototype's
+  ROW("%d flights", seeds);
+  CHECK_SHARE(close, seeds, 0.9); // 190 of 200 were
+  CHECK_SHARE(low, seeds, 0.98);
+  CHECK_NEAR(sum / seeds, 0.0012, 0.0004); // the prototype's
 }
 
 TEST(curve_learned_from_nothing_is_no_guide_nearer_than_it_was_learned) {
