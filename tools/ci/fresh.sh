@@ -55,11 +55,11 @@ packages() { within "$1" 'dpkg-query -W' | sort; }
 
 # again ROOT COMMAND...: what was installed and compiled once is not a second time.
 again() {
-  root=$1
+  machine=$1
   shift
-  packages "$root" >"$top/before"
+  packages "$machine" >"$top/before"
   "$@" >"$top/log" 2>&1 || fail "the second demo fails"
-  packages "$root" | cmp -s "$top/before" - || fail "the second demo changes the packages"
+  packages "$machine" | cmp -s "$top/before" - || fail "the second demo changes the packages"
   ! grep -E 'to be installed|compiling' "$top/log" || fail "the second demo installs or compiles"
 }
 passes() { grep -q '^[1-9][0-9]* passed, 0 failed$' "$top/log"; }
