@@ -24,6 +24,8 @@ fx_use_t gap_effect(const char *name, double p0, double p1);
 
 // Flies and diagnoses; the held-out flight may hide something else.
 gap_case_t *gap_case(const gap_hidden_t *fit, const gap_hidden_t *held);
+// Flights of other seeds: this one and the next GAP_CASE_FIT.
+gap_case_t *gap_case_of_seed(const gap_hidden_t *fit, const gap_hidden_t *held, uint64_t seed);
 void gap_case_free(gap_case_t *c);
 
 // What was named of an effect; a null pointer: it was not.

@@ -15,6 +15,7 @@
 // and what the row asks for besides. FAULTS_TABLE=1 prints the table (`make faults`), 2 tells of the flights
 // that did not keep it, 3 of all; FAULTS_SEEDS=N flies so many, FAULTS_ROW=BEGINNING only such rows.
 #include "faults.h"
+#include "share.h"
 #include "test.h"
 
 #include <stdio.h>
@@ -102,12 +103,6 @@ static void print(const row_t *row, const tally_t *t, int seeds) {
   printf("%-38s %5.1f  %6d  %8s%s\n", row->name, 100.0 * t->kept / seeds, t->touched, gap, why);
 }
 
-// What may fail of so few flights, if the promise is of many.
-static int may_fail(const row_t *row, int seeds) {
-  if (row->promise >= 100.0) return 0;
-  return (int)((1.0 - 0.01 * row->promise) * seeds + 1e-6) + (seeds < 1000 ? 2 : 0);
-}
-
 TEST(faults_of_the_list_end_as_they_should) {
   const char *tell = getenv("FAULTS_TABLE"), *many = getenv("FAULTS_SEEDS");
   const int seeds = many ? atoi(many) : test_long() ? 1000 : 20;
@@ -116,12 +111,12 @@ TEST(faults_of_the_list_end_as_they_should) {
   tally_t tally[ROWS_MAX];
   for (int k = 0; k < n; k++) tally[k] = (tally_t){.gap_m = HUGE_VAL};
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < seeds; i++) fly_seed(rows, n, FIRST_SEED + (uint64_t)i, tally, tell);
+  for (int i = 0; i < seeds; i++) fly_seed(rows, n, share_seed(FIRST_SEED) + (uint64_t)i, tally, tell);
   if (tell) printf("%-38s %5s  %6s  %8s  %s\n", "", "kept", "touch", "nearest", "not kept");
   for (int k = 0; k < n; k++) {
     if (tell) print(rows[k], &tally[k], seeds);
     ROW("%s: %d of %d (%s)", rows[k]->name, tally[k].kept, seeds, tally[k].why[0] ? tally[k].why[0] : "");
-    CHECK(seeds - tally[k].kept <= may_fail(rows[k], seeds));
+    CHECK_SHARE(tally[k].kept, seeds, 0.01 * rows[k]->promise);
     CHECK(rows[k]->touches || tally[k].touched == 0);
   }
 }

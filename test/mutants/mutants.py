@@ -160,5 +160,6 @@ def main(count: str, seed: str, word: str = "") -> int:
 
 
 if __name__ == "__main__":
+    os.environ.pop("SEED", None)  # of the draw, not of the flights
     os.environ.update(OMP_NUM_THREADS="1", FAULTS_SEEDS=trial.SEEDS_OF_FAULTS)  # the mutants share the cores
     sys.exit(main(*sys.argv[1:]))
