@@ -20,7 +20,8 @@
 #include "error.h"
 #include "setup.h"
 
-#define REPLAY_SETTLE_CALLS 1000 // 1 s: eight periods of the filter, 8 Hz; the bias observer's 1 rad/s leaves uN
+// 1 s: eight periods of the filter, 8 Hz. The bias observer, 1 rad/s, still remembers a third: up to 0.25 mN.
+#define REPLAY_SETTLE_CALLS 1000
 
 typedef struct {
   long calls;      // replayed
