@@ -100,13 +100,51 @@ TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
   CHECK(param(&w, "ceil.w4") == 0.125);
 }
 
+// Rests of the parameter task, and the one in which a tick takes what it waits for; 0: another controller
+// flies, and none does.
+typedef struct {
+  watched_t *watched;
+  int rests, taken_in;
+  uint32_t waited_ms;
+} waiting_t;
+
+static void rest(void *context, uint32_t ms) {
+  waiting_t *const w = context;
+  w->waited_ms += ms;
+  if (++w->rests == w->taken_in) app_fly(&w->watched->flying, 2);
+}
+
 TEST(app_waits_for_a_tick_no_longer_than_the_link_bears) {
+  static const struct {
+    int taken_in, rests;
+    bool told;
+  } row[] = {{1, 1, true}, {9, 9, true}, {10, 10, true}, {11, 10, false}, {0, 10, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("taken in rest %d", row[i].taken_in);
+    static watched_t w;
+    start(&w);
+    app_fly(&w.flying, 10);
+    waiting_t waiting = {.watched = &w, .taken_in = row[i].taken_in};
+    w.flying.vehicle.around.delay = rest;
+    w.flying.vehicle.around.delay_context = &waiting;
+    type(&w, "ceil.commit", COMMIT_TYPED);
+    CHECK_NEAR(waiting.rests, row[i].rests, 0);
+    CHECK_NEAR(waiting.waited_ms, 2 * row[i].rests, 0); // a tick takes it every second millisecond
+    CHECK(w.shown == (row[i].told ? 0.0 : COMMIT_TYPED));
+    CHECK((w.told > 0) == row[i].told);
+  }
+}
+
+TEST(app_tells_of_each_parameter_once_and_of_none_beyond_the_last) {
   static watched_t w;
   start(&w);
   app_fly(&w.flying, 10);
-  w.flying.vehicle.around.delay = NULL; // another controller flies: no tick comes
-  type(&w, "ceil.commit", COMMIT_TYPED);
-  CHECK(w.shown == COMMIT_TYPED && w.told == 0);
+  uint32_t *const put_back = w.flying.vehicle.app.put_back;
+  CHECK(params_count < 32 * PUT_BACK_WORDS);
+  memset(put_back, 0xff, sizeof w.flying.vehicle.app.put_back); // also what is of no parameter
+  type(&w, "ceil.shadow", 1.0);
+  CHECK_NEAR(w.told, params_count, 0);
+  for (int i = 0; i < PUT_BACK_WORDS; i++) CHECK(put_back[i] == 0);
 }
 
 TEST(app_lets_nobody_else_write_the_sum_of_the_weights) {
