@@ -65,6 +65,38 @@ TEST(app_tells_the_client_of_every_parameter_that_it_puts_back) {
   }
 }
 
+TEST(app_puts_nothing_back_that_is_at_a_bound_of_its_range) {
+  static watched_t w;
+  for (int high = 0; high < 2; high++) {
+    start(&w);
+    app_fly(&w.flying, 10);
+    flight_param_t *const tuned = &w.flying.vehicle.app.tuned;
+    for (int i = 0; i < params_count; i++) {
+      const param_row_t *const row = &params_table[i];
+      CHECK_OK(params_set(tuned, row, high ? row->max : row->min));
+    }
+    type(&w, "indiPos.kp", -1.0);
+    CHECK(w.told == 1 && w.shown == 1.0);
+    for (int i = 0; i < params_count; i++) {
+      const param_row_t *const row = &params_table[i];
+      ROW("%s", row->name);
+      if (strcmp(row->name, "indiPos.kp") != 0) CHECK(params_get(tuned, row) == (high ? row->max : row->min));
+    }
+  }
+}
+
+TEST(app_tells_the_client_with_its_next_write_which_weights_it_put_back_at_the_start) {
+  static watched_t w;
+  start(&w);
+  rbf_weights_t *const stored = &w.flying.vehicle.app.tuned.curve.fixed;
+  stored->w[1] += 0.25f; // without the sum of such a set
+  stored->w[6] += 0.25f;
+  crazyflie_start(&w.flying.vehicle);
+  CHECK(w.told == 0);
+  type(&w, "ceil.shadow", 0.0);
+  CHECK(w.told == 2);
+}
+
 TEST(app_tells_nothing_of_what_it_takes_or_lets_wait) {
   static watched_t w;
   start(&w);

@@ -89,8 +89,11 @@ static int rests, tenths;
 // Twice a second something is told; the radio is watched ten times a second.
 static void change_something(void *context, uint32_t ticks) {
   CHECK(ticks == 100);
-  if (tenths++ % 5 != 0) return;
   crazyflie_t *const c = context;
+  if (tenths++ % 5 != 0) {
+    CHECK_TEXT(c->around.console, "");
+    return;
+  }
   if (rests > 0) {
     ROW("%s", change[rests - 1].what);
     CHECK_TEXT(c->around.console, change[rests - 1].want);

@@ -145,6 +145,16 @@ TEST(app_counts_as_applied_what_a_low_battery_lets_through) {
   CHECK(force_N[3] == 0.01f && force_N[0] == 0.0f);
 }
 
+TEST(app_takes_a_battery_that_just_gives_full_thrust_for_no_low_one) {
+  static stand_in_t enough = {.thrust_max_N = 0.12f, .volt_N = {0.0f, 0.03f}, .battery_V = 4.0f};
+  stand_in = &enough;
+  enough.duty[0] = UINT16_MAX;
+  enough.duty[1] = 30000;
+  float force_N[MOTORS] = {0.1f, 0.1f, 0.1f, 0.1f};
+  units_cap(force_N);
+  CHECK(force_N[0] == 0.1f && force_N[1] == 0.1f);
+}
+
 TEST(app_knows_what_each_mode_of_the_power_distribution_does_to_the_motors) {
   stand_in = &around;
   const float unit = 0.12f / 65535.0f;
@@ -170,6 +180,8 @@ TEST(app_knows_what_each_mode_of_the_power_distribution_does_to_the_motors) {
   // Forces: there and back; what is no number is nothing.
   units_command(&control, (const float[MOTORS]){0.06f, 0.2f, -1.0f, NAN});
   CHECK(control.controlMode == controlModeForce);
+  static const float share[MOTORS] = {0.5f, 1.0f, 0.0f, 0.0f};
+  for (int i = 0; i < MOTORS; i++) CHECK(control.normalizedForces[i] == share[i]);
   units_applied(force_N, &control);
   CHECK_NEAR(force_N[0], 0.06, 1e-8);
   CHECK(force_N[1] == 0.12f && force_N[2] == 0.0f && force_N[3] == 0.0f);
@@ -217,4 +229,41 @@ TEST(app_reports_a_range_sensor_that_never_started_as_samples_of_zero) {
     if (got.is_new) CHECK(got.range_m == 0.0f);
   }
   CHECK(n >= 8 && n <= 9);
+}
+
+TEST(app_counts_no_motor_with_more_than_it_can_give_or_with_less_than_nothing) {
+  stand_in = &around;
+  static const control_t beyond[] = {
+      {.normalizedForces = {1.5f, -0.5f, 1.5f, -0.5f}, .controlMode = controlModeForce},
+      {.yaw = 30000, .thrust = 40000.0f, .controlMode = controlModeLegacy},
+      {.thrustSi = 0.24f, .torqueZ = -0.00735f, .controlMode = controlModeForceTorque},
+  };
+  for (unsigned i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+    ROW("mode %d", (int)beyond[i].controlMode);
+    float force_N[MOTORS];
+    units_applied(force_N, &beyond[i]);
+    CHECK(force_N[0] == 0.12f && force_N[2] == 0.12f);
+    CHECK(beyond[i].controlMode == controlModeLegacy || (force_N[1] == 0.0f && force_N[3] == 0.0f));
+  }
+}
+
+TEST(app_takes_the_heading_from_a_quaternion_however_it_leans) {
+  static const struct {
+    float yaw, pitch, roll; // rad, turned in this order
+  } row[] = {
+      {0.7f, 0.0f, 0.0f}, {0.7f, 0.3f, 0.0f}, {0.7f, 0.0f, 0.4f}, {-2.5f, -0.5f, 0.6f}, {3.0f, 0.4f, -0.5f}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("row %u", i);
+    const float cy = cosf(0.5f * row[i].yaw), sy = sinf(0.5f * row[i].yaw), cp = cosf(0.5f * row[i].pitch),
+                sp = sinf(0.5f * row[i].pitch), cr = cosf(0.5f * row[i].roll), sr = sinf(0.5f * row[i].roll);
+    const setpoint_t asked = {.mode = {.quat = modeAbs, .x = modeAbs, .y = modeAbs, .z = modeAbs},
+                              .attitudeQuaternion = {.w = cr * cp * cy + sr * sp * sy,
+                                                     .x = sr * cp * cy - cr * sp * sy,
+                                                     .y = cr * sp * cy + sr * cp * sy,
+                                                     .z = cr * cp * sy - sr * sp * cy}};
+    flight_setpoint_t got;
+    units_setpoint(&got, &asked);
+    CHECK(got.yaw == YAW_ANGLE);
+    CHECK_NEAR(got.yaw_rad, row[i].yaw, 1e-3);
+  }
 }

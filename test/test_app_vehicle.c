@@ -167,7 +167,9 @@ TEST(app_says_on_the_console_what_is_missing_and_what_is_wrong) {
     const char *want;
   } row[] = {{true, true, "Flow and multiranger decks are there"},
              {false, true, "MISSING: flow deck"},
-             {true, false, "MISSING: multiranger deck"}};
+             {true, false, "MISSING: multiranger deck"},
+             {false, false, "MISSING: flow deck"},
+             {false, false, "MISSING: multiranger deck"}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     static crazyflie_t c;
     crazyflie_init(&c, NULL);
@@ -181,5 +183,26 @@ TEST(app_says_on_the_console_what_is_missing_and_what_is_wrong) {
     ROW("%s: %s", row[i].want, c.around.console);
     CHECK(strstr(c.around.console, row[i].want) != NULL);
     CHECK(strstr(c.around.console, "NOT FLYABLE: at rest") != NULL);
+    CHECK(c.app.decks == (row[i].flow ? DECK_FLOW : 0) + (row[i].multiranger ? DECK_MULTIRANGER : 0));
   }
+}
+
+// The task rests for a tenth of a second each time; silent since the first millisecond.
+static void fall_silent(void *context, uint32_t ticks) {
+  (void)ticks;
+  crazyflie_t *const c = context;
+  CHECK_NEAR(c->around.landings, c->around.clock_ms > 600, 0);
+  if (c->around.clock_ms > 600) longjmp(out, 1);
+}
+
+TEST(app_watches_the_radio_ten_times_a_second) {
+  static crazyflie_t c;
+  crazyflie_init(&c, NULL);
+  crazyflie_start(&c);
+  c.around.flying = true;
+  c.around.fed_ms = 1;
+  c.around.delay = fall_silent;
+  c.around.delay_context = &c;
+  if (setjmp(out) == 0) appMain();
+  CHECK(c.around.clock_ms == 700);
 }
