@@ -3,6 +3,7 @@
 #include "crazyflie/controller.h"
 #include "crazyflie/crazyflie.h"
 #include "crazyflie/range.h"
+#include "firmware/units.h"
 #include "test.h"
 
 // What the firmware hands the app in a call.
@@ -141,6 +142,9 @@ TEST(app_hands_over_within_a_second_in_the_air_and_at_once_on_the_floor) {
   CHECK(b.vehicle.app.stock_share == 1.0f);
 }
 
+// What it commands.
+static const control_t STOCK = {.roll = 2000, .pitch = -1000, .yaw = 500, .thrust = 30000.0f};
+
 typedef struct {
   int calls;
   uint32_t step;      // of the last one
@@ -156,7 +160,7 @@ static void watch(void *context, control_t *control, const setpoint_t *setpoint,
   s->step = step;
   s->thrust = setpoint->thrust;
   s->nothing_in_all += step == 0 && setpoint->thrust == 0.0f && setpoint->mode.roll == modeDisable;
-  control->controlMode = controlModeLegacy;
+  *control = STOCK;
 }
 
 TEST(app_has_the_stock_controller_let_go_of_what_it_knew_before_it_flies_again) {
@@ -173,6 +177,30 @@ TEST(app_has_the_stock_controller_let_go_of_what_it_knew_before_it_flies_again) 
   CHECK(seen.step == 7 && seen.thrust == 40000.0f);
   call(&b, 10);
   CHECK(seen.calls == 12 && seen.nothing_in_all == 1 && seen.step == 17);
+}
+
+TEST(app_commands_a_part_of_both_on_the_way_and_then_what_the_stock_controller_does) {
+  static border_t b;
+  start(&b);
+  stock_seen_t seen = {.calls = 0};
+  b.vehicle.around.stock = watch;
+  b.vehicle.around.stock_context = &seen;
+  b.vehicle.app.shadow = 1;
+  float stock_N[MOTORS];
+  units_applied(stock_N, &STOCK);
+  for (int ms = 1; ms < 1000; ms++) {
+    ROW("call %d", ms);
+    call(&b, 1);
+    CHECK(b.control.controlMode == controlModeForce);
+    for (int i = 0; i < MOTORS; i++) {
+      const float own_N = b.vehicle.app.flight.out.motors.force_N[i];
+      const double want_N = (double)own_N + 0.001 * ms * (double)(stock_N[i] - own_N);
+      CHECK_NEAR(0.12f * b.control.normalizedForces[i], want_N, 1e-5);
+    }
+  }
+  call(&b, 2);
+  CHECK(b.control.controlMode == controlModeLegacy && b.control.thrust == STOCK.thrust);
+  CHECK(b.control.roll == STOCK.roll && b.control.pitch == STOCK.pitch && b.control.yaw == STOCK.yaw);
 }
 
 TEST(app_that_is_not_flyable_stops_its_motors_whatever_they_did_and_whoever_flies) {

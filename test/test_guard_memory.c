@@ -45,6 +45,7 @@ TEST(guard_learns_hover_thrust_as_a_mean_over_half_a_second) {
       {"more than there is", 0.30f, 2.0f, 1, true, 0.3 + 0.002 * (0.6 - 0.3)},
       {"nothing known: the weight", 0.0f, 0.33f, 1, true, 0.33},
       {"less known than 0.3 of the weight", 0.098f, 0.33f, 1, true, 0.33},
+      {"as much known", 0.3f * 0.33f, 0.33f, 1, true, 0.33},
       {"a little more known", 0.1f, 0.33f, 1, true, 0.10046},
       {"it does not carry", 0.30f, 0.40f, 1, false, 0.3},
   };

@@ -115,6 +115,8 @@ static const struct {
     {"at the floor, the height does not", 0.0449f, 0.08f, 0.08f, 2.0f, 0, 4},
     {"not nearer than wanted by 15 mm", 0.050f, 0.08f, 0.0649f, 2.0f, 5, 3},
     {"nearer than wanted by 15 mm", 0.050f, 0.08f, 0.0651f, 2.0f, 5, 7},
+    {"just not at the floor", 0.045f, 0.08f, 0.10f, 2.0f, 0, 2},
+    {"just not very near", 0.055f, 0.08f, 0.10f, 2.0f, 5, 3},
     {"not very near", 0.0551f, 0.08f, 0.10f, 2.0f, 5, 3},
     {"just very near", 0.0549f, 0.08f, 0.10f, 2.0f, 5, 7},
     {"just after a step of the bias", 0.050f, 0.08f, 0.10f, 1.9f, 5, 3},

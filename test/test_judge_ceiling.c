@@ -70,6 +70,8 @@ TEST(guard_keeps_an_odd_range_in_mind_until_the_next_sample) {
   CHECK(g.now == GUARD_RANGE_ODD);
   sample(&g, 0.3f, 0.3f, 1.0f);
   CHECK(g.now == 0);
+  sample(&g, 0.0f, 0.05f, 1.0f); // by 5 cm, and no more
+  CHECK(g.now == 0);
 }
 
 TEST(guard_knows_a_ceiling_that_was_near_from_the_range_that_it_can_see) {
@@ -108,7 +110,8 @@ TEST(guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed) {
   } row[] = {{1.1f, 1, 1.0 + 0.1 * 0.001 / 5.0},
              {1.1f, 10, 1.0 + 0.1 * 0.01 / 5.0},
              {0.9f, 1, 1.0 - 0.1 * 0.001 / 2.0},
-             {0.9f, 50, 1.0 - 0.1 * 0.05 / 2.0}};
+             {0.9f, 50, 1.0 - 0.1 * 0.05 / 2.0},
+             {0.9f, 5000, 0.9}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g for %d ms", (double)row[i].ratio, row[i].ms);
     guard_t g = begun();
@@ -132,6 +135,37 @@ TEST(guard_has_no_usual_ratio_in_the_first_second_in_the_air) {
   CHECK(g.ratio_usual == 1.5f && g.ratio_ms == 0 && g.now == 0);
   judge(&g, in, 20000);
   CHECK_NEAR(g.carried_s, 10.0, 1e-3); // and no longer
+}
+
+TEST(guard_finds_nothing_carried_too_much_where_nothing_is_carried) {
+  static const float force_N[] = {0.0f, -0.1f};
+  for (unsigned i = 0; i < sizeof force_N / sizeof *force_N; i++) {
+    ROW("%g N", (double)force_N[i]);
+    guard_t g = begun();
+    guard_in_t in = under(0.3f);
+    in.force_N = force_N[i];
+    judge(&g, in, 900);
+    CHECK(g.now == 0 && g.ratio_ms == 0);
+  }
+  guard_t g = begun();
+  guard_in_t in = under(0.3f);
+  in.force_N = 0.0f;
+  judge(&g, in, 1500);
+  CHECK(g.now == 0 && g.ratio_usual == 0.0f);
+}
+
+TEST(guard_counts_no_sample_that_is_as_near_as_is_allowed) {
+  guard_t g = begun();
+  guard_in_t in = under(0.3f);
+  in.range_new = true;
+  in.range_m = 0.05f;
+  in.pos_w_m.z = in.setpoint_z_m = 0.0f;
+  in.ceiling_z_m = in.range_m + 0.015f;
+  judge(&g, in, 1);
+  CHECK(g.nearer == 0);
+  in.setpoint_z_m = -0.01f;
+  judge(&g, in, 1);
+  CHECK(g.nearer == 1); // the height knows it, to the bit
 }
 
 TEST(guard_takes_the_sum_of_what_is_too_near_as_it_stands) {

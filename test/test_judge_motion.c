@@ -79,8 +79,9 @@ TEST(guard_holds_a_settled_bias_against_its_bounds) {
   static const struct {
     float bias_mps2;
     bool before, after;
-  } row[] = {{0.499f, false, false}, {0.501f, false, true}, {-0.499f, false, false}, {-0.501f, false, true},
-             {0.249f, true, false},  {0.251f, true, true},  {-0.251f, true, true},   {-0.249f, true, false}};
+  } row[] = {{0.499f, false, false},  {0.5f, false, false},   {0.25f, true, false},  {0.501f, false, true},
+             {-0.499f, false, false}, {-0.501f, false, true}, {0.249f, true, false}, {0.251f, true, true},
+             {-0.251f, true, true},   {-0.249f, true, false}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g m/s2 after %d", (double)row[i].bias_mps2, row[i].before);
     guard_t g = begun();
@@ -92,6 +93,25 @@ TEST(guard_holds_a_settled_bias_against_its_bounds) {
     CHECK(((g.now & GUARD_ACC_BIAS) != 0) == row[i].before);
     judge(&g, in, 1);
     CHECK(((g.now & GUARD_ACC_BIAS) != 0) == row[i].after);
+    CHECK(g.bias_s == JUDGE_SETTLED_S && g.bias_mps2 == row[i].bias_mps2);
+  }
+}
+
+TEST(guard_takes_a_long_pause_for_no_more_than_one_whole_sample_of_the_bias) {
+  static const struct {
+    float since_s;
+    double bias_mps2;
+  } row[] = {{2.0f, 0.0}, {0.1f, 0.2}, {0.5f, 0.2 * 0.4}, {1.0f, 0.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g s after a step", (double)row[i].since_s);
+    guard_t g = begun();
+    guard_in_t in = resting();
+    in.acc_b_mps2.z += 0.2f;
+    in.ms = 200;
+    g.bias_s = row[i].since_s;
+    judge(&g, in, 1);
+    CHECK_NEAR(g.bias_fast_mps2, 0.2, 1e-5);
+    CHECK_NEAR(g.bias_mps2, row[i].bias_mps2, 1e-5);
   }
 }
 
@@ -247,9 +267,19 @@ TEST(guard_takes_a_sensor_for_frozen_that_was_alive) {
     CHECK(g.now == 0);
     judge(&g, resting(), 1);
     CHECK(g.now == row[i].want);
-    judge(&g, resting(), 100); // its life is not forgotten
-    CHECK(g.now == row[i].want);
+    const float life[] = {g.rate_life, g.acc_life};
+    CHECK_NEAR(life[0], 0.78568 * (double)row[i].rate_life, 1e-7); // 0.99 ^ 24
+    judge(&g, resting(), 100);
+    CHECK(g.now == row[i].want && g.rate_life == life[0] && g.acc_life == life[1]);
   }
+  guard_t g = begun();
+  g.rate_same_ms = 30;
+  g.rate_life = 5e-4f;
+  judge(&g, resting(), 1);
+  CHECK(g.now == 0);
+  g.rate_life = 5.001e-4f;
+  judge(&g, resting(), 1);
+  CHECK(g.now == GUARD_GYRO_FROZEN);
 }
 
 TEST(guard_measures_a_sensors_life_by_its_change_in_a_millisecond) {
@@ -281,4 +311,16 @@ TEST(guard_remembers_a_clipped_acceleration_for_200_ms) {
   g.acc_clip_ms = 5;
   judge(&g, in, 1);
   CHECK(g.acc_clip_ms == 2);
+}
+
+TEST(guard_allows_a_lean_of_60_degrees_to_the_bit) {
+  guard_t g = begun();
+  guard_in_t in = resting();
+  in.q_wb = (quat_t){.w = 0.866025388f, .x = 0.5f};
+  CHECK(quat_up(quat_unit(in.q_wb)).z == 0.5f);
+  judge(&g, in, 5);
+  CHECK(g.now == 0 && g.tilt_ms == 0);
+  in.q_wb.x = 0.5001f;
+  judge(&g, in, 5);
+  CHECK(g.now == GUARD_TILT && g.tilt_ms == 5);
 }

@@ -157,6 +157,16 @@ TEST(watch_takes_a_jump_of_the_height_out_that_its_velocity_does_not_explain) {
   }
 }
 
+TEST(watch_takes_a_centimetre_for_no_jump) {
+  flight_in_t in;
+  flight_t f = hovering(&in);
+  in.pos_w_m.z = 0.0f;
+  (void)watch(&f, &in, 1);
+  in.pos_w_m.z = BOUND_HEIGHT_JUMP_M;
+  (void)watch(&f, &in, 1);
+  CHECK(f.height_off_m == 0.0f);
+}
+
 TEST(watch_learns_no_height_from_an_estimate_that_is_out_of_its_bounds) {
   static const struct {
     float z_m, climb_mps;
@@ -353,6 +363,10 @@ TEST(watch_makes_a_climb_of_a_thrust_by_hand_under_a_ceiling) {
   const flight_in_t flown = watch(&f, &in, 7);
   CHECK_NEAR(f.by_hand.gap_m, 0.493, 1e-6);
   CHECK_NEAR(f.by_hand.since_s, 0.107, 1e-6);
+  (void)watch(&f, &in, 1);
+  CHECK_NEAR(f.by_hand.gap_m, 0.492, 1e-6);
+  (void)watch(&f, &in, 50);
+  CHECK_NEAR(f.by_hand.gap_m, 0.442, 1e-6);
   CHECK(flown.setpoint.z == AXIS_VELOCITY && flown.setpoint.acc_w_mps2.z == 0.0f);
   CHECK(flown.setpoint.acc_w_mps2.y == 2.0f && flown.setpoint.vel_mps.z > 0.0f);
   f.by_hand.since_s = BY_HAND_BELIEVE_S;
