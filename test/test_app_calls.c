@@ -46,7 +46,9 @@ TEST(app_selected_anew_knows_nothing_of_what_was_before) {
   glue_t *const app = &b.vehicle.app;
   app->flyable.not_flyable = FLYABLE_UP;
   CHECK(app->range.started && app->not_flown != 0 && app->recorder.calls == 20);
+  CHECK(b.vehicle.around.stock_starts == 1);
   controllerOutOfTreeInit();
+  CHECK(b.vehicle.around.stock_starts == 2);
   CHECK(!app->range.started && app->not_flown == 0 && app->recorder.calls == 0);
   CHECK(app->flyable.not_flyable == 0 && app->flight.phase == 0 && !app->flight.called);
 }

@@ -38,6 +38,7 @@ typedef struct stand_in {
   void (*stock)(void *context, struct control_s *control, const struct setpoint_s *setpoint,
                 const struct sensorData_s *sensors, const struct state_s *state, uint32_t step);
   void *stock_context;
+  int stock_starts; // how often it was told to begin
   // The uSD deck takes an event; null: there is no deck, or it does not write.
   void (*event)(void *context, const char *name);
   void *event_context;

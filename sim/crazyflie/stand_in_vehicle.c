@@ -34,4 +34,6 @@ void eventTrigger(const eventtrigger *event) {
   if (stand_in->event) stand_in->event(stand_in->event_context, event->name);
 }
 
-void controllerPidInit(void) {}
+void controllerPidInit(void) {
+  stand_in->stock_starts++;
+}
