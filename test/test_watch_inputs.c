@@ -157,6 +157,21 @@ TEST(watch_takes_a_jump_of_the_height_out_that_its_velocity_does_not_explain) {
   }
 }
 
+TEST(watch_shows_the_guard_how_far_the_height_has_jumped) {
+  for (int side = -1; side <= 1; side += 2) {
+    ROW("side %d", side);
+    flight_in_t in;
+    flight_t f = hovering(&in);
+    (void)watch(&f, &in, 1);
+    in.pos_w_m.z += 0.99f * (float)side;
+    (void)watch(&f, &in, 1);
+    CHECK(f.guard.off_ms == 0);
+    in.pos_w_m.z += 0.02f * (float)side;
+    (void)watch(&f, &in, 3);
+    CHECK(f.guard.off_ms == 3);
+  }
+}
+
 TEST(watch_takes_a_centimetre_for_no_jump) {
   flight_in_t in;
   flight_t f = hovering(&in);
