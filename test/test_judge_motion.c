@@ -100,18 +100,19 @@ TEST(guard_holds_a_settled_bias_against_its_bounds) {
 TEST(guard_takes_a_long_pause_for_no_more_than_one_whole_sample_of_the_bias) {
   static const struct {
     float since_s;
-    double bias_mps2;
-  } row[] = {{2.0f, 0.0}, {0.1f, 0.2}, {0.5f, 0.2 * 0.4}, {1.0f, 0.0}};
+    int ms;
+    double share;
+  } row[] = {{2.0f, 200, 0.0}, {0.1f, 200, 1.0}, {0.5f, 200, 0.4}, {1.0f, 200, 0.0}, {0.01f, 10, 0.1}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g s after a step", (double)row[i].since_s);
     guard_t g = begun();
     guard_in_t in = resting();
     in.acc_b_mps2.z += 0.2f;
-    in.ms = 200;
+    in.ms = row[i].ms;
     g.bias_s = row[i].since_s;
     judge(&g, in, 1);
-    CHECK_NEAR(g.bias_fast_mps2, 0.2, 1e-5);
-    CHECK_NEAR(g.bias_mps2, row[i].bias_mps2, 1e-5);
+    CHECK_NEAR(g.bias_fast_mps2, row[i].ms == 200 ? 0.2 : 0.02, 1e-5);
+    CHECK_NEAR(g.bias_mps2, 0.2 * row[i].share, 1e-5);
   }
 }
 

@@ -322,20 +322,23 @@ TEST(watch_takes_a_bias_off_where_one_is_looked_for) {
 }
 
 TEST(watch_hands_a_settled_bias_over_to_the_outer_loop) {
-  for (int settled = 0; settled < 2; settled++) {
-    ROW("settled %d", settled);
+  static const struct {
+    float bias_mps2, since_s;
+    bool settled;
+  } row[] = {{0.2f, 1.99f, false}, {0.2f, 2.0f, true}, {1.0f, 2.0f, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("row %u", i);
     flight_in_t in;
     flight_t f = hovering(&in);
     f.outer.started = true;
     f.guard.started = true;
-    f.guard.bias_mps2 = 0.2f;
-    f.guard.bias_s = settled ? 2.0f : 1.99f;
-    const float known_mps2 = f.outer.bias.bias_mps2.z;
+    f.guard.bias_mps2 = row[i].bias_mps2;
+    f.guard.bias_s = row[i].since_s;
     (void)watch(&f, &in, 1);
-    const float taken_mps2 = f.outer.bias.bias_mps2.z - known_mps2;
-    CHECK((taken_mps2 > 0.0f) == (settled == 1));
-    CHECK_NEAR(f.guard.bias_mps2, 0.2f - taken_mps2, 1e-6);
-    CHECK_NEAR(f.guard.acc_bias_mps2, 0.2f - taken_mps2, 1e-6);
+    const float taken_mps2 = f.outer.bias.bias_mps2.z;
+    CHECK((taken_mps2 > 0.0f) == row[i].settled);
+    CHECK_NEAR(f.guard.bias_mps2, row[i].bias_mps2 - taken_mps2, 1e-6);
+    CHECK_NEAR(f.guard.acc_bias_mps2, row[i].bias_mps2 - taken_mps2, 1e-6);
   }
 }
 
