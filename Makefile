@@ -242,7 +242,7 @@ format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
 docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of README.md; an hour
-	@tools/docs.sh "$(DATA)"
+	+@tools/docs.sh "$(DATA)"
 
 tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
