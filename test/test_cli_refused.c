@@ -88,7 +88,7 @@ static const struct {
     {"fly close-flight --from 1 --to 2 --seed 7", "fly: --seed: allowed is either that or --from and --to\n"},
     {"fly close-flight --log x.csv --log-rate 200", "fly: --log-rate 200: allowed are 100, 500, 1000\n"},
     {"fly close-flight --log-rate 500", "fly: --log-rate: allowed with --log FILE.csv\n"},
-    {"fly appendix-a --log x.csv --log-rate 500",
+    {"fly appendix-a --log $S/x.csv --log-rate 500",
      "fly: --log-rate 500: this scenario is flown on the vertical axis; allowed is 100\n"},
     {"fly --params=html", "fly: --params=html: allowed is --params, or --params=markdown\n"},
     {"fly close-flight --vehicle sim/vehicles/thesis_1d.toml",
