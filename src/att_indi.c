@@ -38,10 +38,7 @@ quat_t att_indi_reference(v3_t up_w, sincos_t heading) {
 
 static APART void start(att_indi_t *s, const att_indi_in_t *in) {
   const float torque[3] = {in->torque_b_Nm.x, in->torque_b_Nm.y, in->torque_b_Nm.z};
-  for (int i = 0; i < 3; i++) {
-    lpf2_reset(&s->acc[i], 0.0f);
-    lpf2_reset(&s->torque[i], torque[i]);
-  }
+  for (int i = 0; i < 3; i++) lpf2_reset(&s->torque[i], torque[i]);
   s->torque_model_Nm = in->torque_b_Nm;
   s->rate_last_radps = in->rate_b_radps;
   s->yaw_now_Nm = in->torque_b_Nm.z;

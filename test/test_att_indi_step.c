@@ -107,6 +107,23 @@ TEST(inner_loop_gives_up_what_is_held_against_beyond_its_trim_about_each_axis) {
   CHECK_NEAR(torque[1].z, 1e-3 - 5e-4 / (1.0 + (double)(G2_S / TICK_S)), 1e-7);
 }
 
+// While it grows, the rotors' inertia gives g times the growth besides: that is held against, too.
+TEST(inner_loop_takes_the_torque_of_the_rotors_inertia_for_held_where_nothing_turns) {
+  const float share = 0.03f, applied_Nm = 1e-3f, trim_Nm = 1e-4f, g = G2_S / TICK_S;
+  float yaw_Nm[2];
+  for (int bounded = 0; bounded < 2; bounded++) {
+    loop_t l = fresh(0.0f);
+    att_indi_in_t in = {.q_wb = {1, 0, 0, 0}, .q_ref = {1, 0, 0, 0}, .ratio = 1, .trim_Nm = 1.0f};
+    in.trim_yaw_Nm = bounded ? trim_Nm : 1.0f;
+    for (int k = 0; k < 2; k++) {
+      in.torque_b_Nm.z = k ? applied_Nm : 0.0f;
+      yaw_Nm[bounded] = att_indi_step(&l.att, &l.param.att, &l.filter, share, TICK_S, &in).z;
+    }
+  }
+  const float held_Nm = (1.0f + g) * share * applied_Nm;
+  CHECK_NEAR(yaw_Nm[0] - yaw_Nm[1], (held_Nm - trim_Nm) / (1.0f + g), 1e-9);
+}
+
 TEST(inner_loop_remembers_the_yaw_that_was_applied_not_the_one_it_wanted) {
   // Mixing gave all of the yaw up, five times: the next increment is the first one again.
   loop_t l = fresh(0.0f);

@@ -206,8 +206,9 @@ TEST(bias_is_bounded_and_off_when_its_pole_is_zero) {
   bias_t s = started();
   const bias_param_t bounded = {.pole_radps = 1.0f, .max_mps2 = 0.3f},
                      off = {.pole_radps = 0.0f, .max_mps2 = 0.3f};
-  stand(&s, &bounded, (v3_t){-5.0f, 0.0f, 5.0f}, 0.01f, 3000);
+  stand(&s, &bounded, (v3_t){-5.0f, -5.0f, 5.0f}, 0.01f, 3000);
   CHECK_NEAR(s.bias_mps2.z, 0.3, 1e-5);
+  CHECK_NEAR(s.bias_mps2.y, -0.3, 1e-5);
   CHECK_NEAR(s.bias_mps2.x, -0.3, 1e-5);
   stand(&s, &bounded, NONE, 0.01f, 1200); // of the 5 m/s2 no more is left than one lag keeps
   CHECK_NEAR(s.bias_mps2.z, 0.0, 0.02);
