@@ -61,3 +61,23 @@ TEST(flight_does_not_take_up_a_range_sample_from_before_it_flew) {
   CHECK(!r.flight.flight->outer.ceiling.known);
   body_close(&r.body);
 }
+
+TEST(flight_counts_a_set_point_that_is_not_a_number_and_no_other) {
+  hover6_t r = {.in = {.step = 0}};
+  hover6_start(&r, 0.0);
+  hover6_fly(&r, 1.0);
+  flight_t *const f = r.flight.flight;
+  for (int i = ST_OK + 1; i < ST_COUNT; i++) CHECK(f->faults[i] == 0u);
+  flight_in_t in = r.flight.vehicle.app.in;
+  for (unsigned k = 1; k <= 3; k++) {
+    in.step++;
+    in.setpoint.yaw_rad = NAN;
+    (void)flight_step(f, &in);
+    CHECK(f->faults[ST_BAD_SETPOINT] == k);
+  }
+  in.step++;
+  in.setpoint.yaw_rad = 0.0f;
+  (void)flight_step(f, &in);
+  CHECK(f->faults[ST_BAD_SETPOINT] == 3u);
+  body_close(&r.body);
+}
