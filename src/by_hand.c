@@ -13,7 +13,8 @@ void by_hand_init(by_hand_t *s) {
 static void look(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float climb_mps) {
   const float up = quat_up(in->q_wb).z;
   // Below its floor the sensor speaks of nothing; what is known moves on.
-  if (!(in->range_m >= p->floor_m && in->range_m <= CEILING_RANGE_MAX_M && up >= UPRIGHT)) return;
+  const float least_m = f_max(p->floor_m, CEILING_RANGE_MIN_M); // a sensor that never began says 0
+  if (!(in->range_m >= least_m && in->range_m <= CEILING_RANGE_MAX_M && up >= UPRIGHT)) return;
   s->gap_m = (in->range_m - p->up_offset_m) * up - climb_mps * in->range_age_s;
   s->since_s = 0.0f;
 }

@@ -1,4 +1,5 @@
 // judge_ceiling.c - what is wrong with the range sensor, the distance and the thrust near a ceiling.
+#include "flight/ceiling.h"
 #include "flight/judge.h"
 
 #define RANGE_MS      250
@@ -21,7 +22,7 @@
 
 static unsigned judge_range(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   unsigned now = g->now & GUARD_RANGE_FROZEN;
-  const bool valid = in->range_m >= GUARD_RANGE_MIN_M && in->range_m <= 4.0f;
+  const bool valid = in->range_m >= CEILING_RANGE_MIN_M && in->range_m <= CEILING_RANGE_MAX_M;
   if (in->zc_known) g->near_seen = in->zc_m < NEAR_M && in->zc_m >= in->range_near_m;
   g->range_ms = judge_longer(g->range_ms, !(in->range_new && valid), in->ms);
   g->range_new_ms = judge_longer(g->range_new_ms, true, in->ms);

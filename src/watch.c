@@ -93,7 +93,7 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   float top_m = o->out.ceiling_z_m - f->outer.param.gap_min_m, z_m = in->setpoint.pos_w_m.z;
   if (z_m > top_m) z_m = top_m;
   g->ms = ms;
-  g->wanted = in->setpoint.z != AXIS_OFF;
+  g->wanted = in->setpoint.z != AXIS_OFF && !f->by_hand.held;
   g->carries = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f;
   g->on_floor = outer_on_floor(o);
   g->rate_b_radps = in->rate_b_radps;
@@ -198,6 +198,6 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   hand_bias_over(f);
   if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
   mend_acceleration(f, in);
-  if (in->range_m < GUARD_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
+  if (in->range_m < CEILING_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   set_what_flies(f, in);
 }

@@ -182,3 +182,32 @@ TEST(by_hand_no_thrust_at_all_stops_the_motors_under_a_ceiling_too) {
   fly(&w, 50);
   CHECK(app_log(&w.f, "indi.m1") == 0.0 && !w.f.vehicle.app.flight.by_hand.held);
 }
+
+// Stick closed and opened again where it hovers: nearer than guard.takeOff.
+TEST(by_hand_a_stick_that_is_closed_and_opened_again_catches_it) {
+  static flown_t w;
+  start(&w, 0.3, 1.45);
+  CHECK(crazyflie_set(&w.f.vehicle, "guard.takeOff", 0.2));
+  fly(&w, 6000);
+  CHECK(CEILING_M - w.f.rig.pos_w_m.z < 0.12);
+  w.thrust = 0.0;
+  fly(&w, 60);
+  w.thrust = 1.45;
+  fly(&w, 30);
+  CHECK(app_log(&w.f, "guard.action") == 0.0 && app_log(&w.f, "indi.m1") > 0.0);
+  fly(&w, 3000);
+  CHECK(app_log(&w.f, "guard.action") == 0.0);
+  CHECK(CEILING_M - w.f.rig.pos_w_m.z < 0.3 && w.nearest_m > 0.06);
+}
+
+TEST(by_hand_a_sensor_that_never_began_is_no_ceiling) {
+  by_hand_param_t param = PARAM;
+  param.floor_m = 0.0f;
+  by_hand_t s;
+  by_hand_init(&s);
+  float climb_mps;
+  by_hand_in_t in = in_of(0.0f, 0.45f, 0.0f);
+  CHECK(!by_hand_step(&s, &param, &in, &climb_mps));
+  in.range_m = 0.01f;
+  CHECK(by_hand_step(&s, &param, &in, &climb_mps));
+}

@@ -89,7 +89,7 @@ static const struct {
     {"range stops, nearer than it sees", GUARD_RANGE_LOST, &HOVERING_NEAR, range_stops_at, 0.0499f},
     {"a sample of the sensor's floor", GUARD_RANGE_ODD, &HOVERING_NEAR, range_at_floor, 0.0449f},
     {"any sample, no ceiling known", GUARD_RANGE_ODD, &HOVERING_FREE, range_odd_unknown, 0.1f},
-    {"a sample of 1 cm", GUARD_RANGE_ODD, &HOVERING_FREE, range_odd_unknown, GUARD_RANGE_MIN_M},
+    {"a sample of 1 cm", GUARD_RANGE_ODD, &HOVERING_FREE, range_odd_unknown, CEILING_RANGE_MIN_M},
     {"a sample of 4 m", GUARD_RANGE_ODD, &HOVERING_FREE, range_odd_unknown, 4.0f},
     {"blind, no ceiling known", GUARD_BLIND, &HOVERING_NEAR, blind_unknown, 10.0f},
     {"the sensor's floor again and again", GUARD_RANGE_FROZEN, &HOVERING_NEAR, floor_freezes, 0.02f},

@@ -366,8 +366,8 @@ TEST(watch_takes_a_range_of_less_than_a_centimetre_for_none) {
   flight_t f = hovering(&in);
   in.range_m = 0.0099f;
   CHECK(watch(&f, &in, 1).range_m == 0.0f);
-  in.range_m = GUARD_RANGE_MIN_M;
-  CHECK(watch(&f, &in, 1).range_m == GUARD_RANGE_MIN_M);
+  in.range_m = CEILING_RANGE_MIN_M;
+  CHECK(watch(&f, &in, 1).range_m == CEILING_RANGE_MIN_M);
 }
 
 // --- by hand ----------------------------------------------------------------------------------------------

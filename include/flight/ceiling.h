@@ -24,8 +24,9 @@ typedef struct {
   float far_m;   // > near_m   farther than this there is no ceiling
 } ceiling_param_t;
 
-#define CEILING_HISTORY     32   // ticks of climb that are remembered: the oldest sample that can be used
-#define CEILING_RANGE_MAX_M 4.0f // the sensor's range; 32.767 m is its word for "no echo"
+#define CEILING_HISTORY     32    // ticks of climb that are remembered: the oldest sample that can be used
+#define CEILING_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: below this it speaks another unit
+#define CEILING_RANGE_MAX_M 4.0f  // the sensor's range; 32.767 m is its word for "no echo"
 // A sample that is nearer by this is taken at once, one that is farther as a rival.
 #define CEILING_JUMP_M      0.05f
 #define CEILING_AGREE_M     0.02f // samples agree when they are within this of their mean, else they contradict

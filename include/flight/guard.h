@@ -51,7 +51,7 @@ typedef struct {
 
 typedef struct {
   int ms;        // since the last call, >= 1
-  bool wanted;   // the height is controlled
+  bool wanted;   // the pilot has the height controlled
   bool carries;  // the height is controlled, and so much thrust is given that the rotors carry
   bool on_floor; // something else than the rotors carries
   v3_t rate_b_radps, acc_b_mps2, pos_w_m, vel_w_mps;
@@ -102,8 +102,6 @@ typedef struct {
   bool flown;
   float asked_at_m; // the pilot's height when the retreat began
 } guard_t;
-
-#define GUARD_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: below this it speaks another unit
 
 // Nothing is wrong, nothing known.
 void guard_init(guard_t *g);
