@@ -39,6 +39,7 @@ void bias_tune(bias_coef_t *c, const bias_param_t *p, float period_s) {
 }
 
 float bias_take(bias_t *s, const bias_param_t *p, float more_mps2) {
+  if (!is_state(s) || !f_finite(more_mps2)) return 0.0f; // the next step mends the state
   const float held_mps2 = f_clamp(s->bias_mps2.z + more_mps2, -p->max_mps2, p->max_mps2);
   const float taken_mps2 = held_mps2 - s->bias_mps2.z;
   s->bias_mps2.z = held_mps2;

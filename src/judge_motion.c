@@ -64,7 +64,7 @@ static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float 
   }
   if (g->bias_s < BIAS_SLOW_S) g->bias_mps2 += f_clamp(dt / f_max(g->bias_s, BIAS_FAST_S), 0.0f, 1.0f) * rest;
   if (g->bias_s < JUDGE_SETTLED_S) g->bias_s += dt;
-  g->bias_mps2 = f_clamp(g->bias_mps2, -BIAS_MAX_MPS2, BIAS_MAX_MPS2);
+  g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
 }
 
 static void begin_window(guard_t *g, const guard_in_t *in) {

@@ -76,6 +76,23 @@ TEST(outer_takes_a_bias_over_without_a_bump) {
   }
 }
 
+TEST(outer_takes_no_bias_into_a_state_that_is_none_and_none_that_is_no_number) {
+  static const struct {
+    float held_mps2, more_mps2;
+  } row[] = {{NAN, 0.1f}, {1e10f, 0.1f}, {0.0f, NAN}, {0.0f, INFINITY}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("row %u", i);
+    flight_param_t p = rig3_param();
+    outer_t f = rig3_outer(&p);
+    const outer_in_t in = {.acc_b_mps2 = {0, 0, GRAVITY_MPS2}, .q_wb = {.w = 1.0f}, .thrust_N = 0.32f};
+    for (int k = 0; k < 10; k++) (void)rig3_step(&f, &p, &in);
+    f.bias.bias_mps2.z = row[i].held_mps2;
+    CHECK(outer_take_bias(&f, row[i].more_mps2) == 0.0f);
+    CHECK_NEAR(rig3_step(&f, &p, &in).thrust_N, 0.32, 0.01);
+    CHECK_NEAR(f.bias.bias_mps2.z, 0.0, 1e-3);
+  }
+}
+
 TEST(outer_settles_at_the_set_point_in_all_three_axes) {
   static const struct {
     double x, y, z, yaw;
