@@ -28,8 +28,8 @@ static void descend(radio_t *r, uint32_t now_ms) {
 
 void radio_watch(void) {
   radio_t *const r = &GLUE.radio;
-  const uint32_t now_ms = xTaskGetTickCount(), fed_ms = last_fed_ms();
-  const bool others = fed_ms != r->fed_ms; // somebody else fed since
+  const uint32_t fed_ms = last_fed_ms(), now_ms = xTaskGetTickCount(); // in this order: now is not before
+  const bool others = fed_ms != r->fed_ms;                             // somebody else fed since
   const bool leave = !supervisorIsFlying() || fed_ms == 0 || GLUE.flight.guard.action == GUARD_HAND_OVER;
   if (leave || others) r->descends = false;
   if (leave) return;
