@@ -97,6 +97,14 @@ TEST(app_tells_the_client_with_its_next_write_which_weights_it_put_back_at_the_s
   CHECK(w.told == 2);
 }
 
+TEST(app_takes_more_than_the_largest_shadow_for_the_largest_and_says_so) {
+  static watched_t w;
+  start(&w);
+  app_fly(&w.flying, 10);
+  type(&w, "ceil.shadow", 7.0);
+  CHECK(w.told == 1 && param(&w, "ceil.shadow") == 1.0);
+}
+
 TEST(app_tells_nothing_of_what_it_takes_or_lets_wait) {
   static watched_t w;
   start(&w);

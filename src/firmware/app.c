@@ -79,7 +79,8 @@ static told_t tell_changes(told_t was) {
     DEBUG_PRINT("WEIGHTS REFUSED: ceil.w1..w7 are not one set (ceil.wSum). The last good ones fly\n");
   if (is.not_flyable != was.not_flyable) tell_flyable(is.not_flyable);
   if (is.latched != was.latched) DEBUG_PRINT("Guard: reasons 0x%x\n", is.latched);
-  if (is.refused != was.refused) DEBUG_PRINT("Parameters out of range, the last good set flies on\n");
+  if (is.refused != was.refused)
+    DEBUG_PRINT("Parameters refused (out of range, or against each other): the last good set flies\n");
   tell_not_flown(is.not_flown & ~was.not_flown);
   return is;
 }

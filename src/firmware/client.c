@@ -45,11 +45,13 @@ void client_wrote(void) {
   if (GLUE.telling) return;
   const unsigned asked = GLUE.commit;
   const uint32_t sum = GLUE.weights_sum;
+  const uint8_t shadow = GLUE.shadow;
   settings_touched();
   const bool done = asked != 0 && is_taken();
   GLUE.telling = 1;
   tell_rows(done && asked == COMMIT_LEARNED);
   if (done) tell_whole("ceil.commit", 0);
+  if (GLUE.shadow != shadow) tell_whole("ceil.shadow", GLUE.shadow);
   if (GLUE.weights_sum != sum) tell_whole("ceil.wSum", GLUE.weights_sum);
   GLUE.telling = 0;
 }

@@ -66,6 +66,7 @@ static bool judge(const rbf_weights_t *weights) {
 }
 
 void settings_touched(void) {
+  if (GLUE.shadow > 1) GLUE.shadow = 1;
   GLUE.weights_sum = GLUE.sum_flown; // the app's alone to make
   if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned.curve.fixed : &GLUE.flown.curve.fixed)) return;
   if (GLUE.commit != 0) GLUE.commits_refused++;
