@@ -98,7 +98,7 @@ $(B)/flags:
 ifdef COUNTING
 begin = : compiling
 else
-TOTAL = $(eval TOTAL := $(shell env -u MAKEFLAGS $(MAKE) -n COUNTING=1 $(MAKEOVERRIDES) $(MAKECMDGOALS) 2>/dev/null | grep -c '^: compiling'))$(TOTAL)
+TOTAL = $(eval TOTAL := $(shell env -u MAKEFLAGS $(MAKE) -n COUNTING=1 $(foreach v,B O CC CXX OPT SANITIZE,'$(v)=$($(v))') $(MAKECMDGOALS) 2>/dev/null | grep -c '^: compiling'))$(TOTAL)
 said  = compiling $(words $(BEGUN)) of $(TOTAL)
 begin = $(eval BEGUN += x)mkdir -p $(@D); if [ -t 2 ]; then printf '\r  $(said) ' >&2; \
   else $(if $(filter %00 %20 %40 %60 %80,$(words $(BEGUN))),echo '  $(said)' >&2,:); fi
@@ -212,7 +212,9 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
+	@STORM_TICKS=10000000 CORNERS=4000 $(O)/sanitize/bin/tests test_storm
 	+@tools/seeded.sh
+	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
 	@tools/add_effect.sh | grep -q '^cable: '
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers; 10 min

@@ -46,7 +46,7 @@ fi
 # A configuration of before keeps what this one does not name.
 cmp -s "$tree/app-config" "$tree/app-config.built" || rm -f "$tree/build/.config"
 
-APP_VERSION=$(git describe --tags --always --dirty 2>/dev/null || echo unknown)
+APP_VERSION=$(tools/version.sh)
 export APP_VERSION
 oot() {
   env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL make -j"$(nproc)" -f "$base/tools/make/oot.mk" \
@@ -64,7 +64,7 @@ if grep -n 'warning:' "$log"; then
   exit 1
 fi
 {
-  echo "$propellers propellers: out/firmware/$propellers/build/cf2.bin"
+  echo "$propellers propellers: $tree/build/cf2.bin"
   grep -E '^(Flash|RAM|CCM) ' "$log" | sed -E 's/\|[^|]*$//; s/^/  /; s/ *$//'
 } >"$tree/size"
 cat "$tree/size"
