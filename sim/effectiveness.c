@@ -146,12 +146,19 @@ static void bridge(pass_t *p, const double row[COLUMNS], long n) {
 
 static status_t take_rows(pass_t *p, why_t *why) {
   double row[COLUMNS];
+  long even = 0;
   for (bool more;;) {
     TRY(table_next(&p->log.table, &more, why));
+    if (!more && even > 0 && p->result->rows == 0)
+      return table_refuse(
+          &p->log.table, 0, p->log.column[TIME], why,
+          "even in all rows; allowed: those of odd steps, in which the inner loop runs, or of every call");
     if (!more) return ST_OK;
     TRY(effectiveness_log_row(&p->log, row, why));
     // Every call was logged: the inner loop runs in the odd ones.
-    if (p->log.own && fmod(row[TIME], 2.0) < 1.0) continue;
+    const bool is_even = p->log.own && fmod(row[TIME], 2.0) < 1.0;
+    even += is_even;
+    if (is_even) continue;
     p->result->rows++;
     long n = 0;
     if (p->since_start >= 0) TRY(ticks_since(p, row, &n, why));

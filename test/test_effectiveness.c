@@ -144,6 +144,10 @@ TEST(effectiveness_refuses_bad_logs_with_one_line) {
        "controller.cmd_yaw\n0,0,0,0,0,0,0\n2,0,0,0,0,0,0\n",
        "bad.csv: column controller.cmd_roll: never moves while it counts (0 ticks); allowed: a flight that "
        "turns"},
+      {"indiIn.step,indiIn.p,indiIn.q,indiIn.r,indi.m1,indi.m2,indi.m3,indi.m4\n2,0,0,0,0,0,0,0\n4,0,0,0,0,0,"
+       "0,0\n",
+       "bad.csv: column indiIn.step: even in all rows; allowed: those of odd steps, in which the inner loop "
+       "runs, or of every call"},
   };
   const effectiveness_job_t job = effectiveness_default();
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
