@@ -29,6 +29,13 @@ static learn_t fresh(void) {
   return s;
 }
 
+TEST(learner_begins_without_a_sample_whatever_was_there) {
+  learn_t s;
+  memset(&s, 0x55, sizeof s);
+  CHECK_OK(learn_init(&s, &P, &FLAT));
+  CHECK(s.y == 0.0f && s.refused == 0u);
+}
+
 // Whether the sample teaches; if not, nothing but the counter of refusals may have changed.
 static bool teaches(const learn_sample_t *x) {
   learn_t s = fresh();

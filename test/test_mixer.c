@@ -59,6 +59,8 @@ TEST(mixer_keeps_roll_and_pitch_before_thrust_before_yaw) {
       {"falling", {2e-3f, -1e-3f, 0}, 0.0f, false, true, false},
       {"yaw alone too much", {0, 0, 5e-3f}, 0.32f, false, false, true},
       {"roll beyond everything", {1.0f, 0, 0}, 0.32f, true, true, false},
+      {"all that there is", {0, 0, 0}, 0.48f, false, false, false},
+      {"a micronewton more", {0, 0, 0}, 0.480001f, false, true, false},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);

@@ -30,3 +30,21 @@ TEST(distance_that_comes_into_sight_starts_its_filter_afresh) {
   sync_start(&s, &HOVER);
   CHECK_NEAR(sync_distance_m(&s, &c, true, 0.05f), 0.05, 1e-6);
 }
+
+TEST(sync_starts_with_the_attitude_of_now_whatever_it_was_before) {
+  const sync_coef_t c = coef();
+  sync_t s, twin = {.distance_known = false};
+  sync_in_t in = HOVER;
+  sync_start(&twin, &in);
+  s = twin;
+  s.att_last = (quat_t){-1.0f, 0.0f, 0.0f, 0.0f}; // the same attitude with the other sign
+  sync_start(&s, &in);
+  for (int k = 0; k < 20; k++) {
+    sync_out_t out, want;
+    in.q_wb = quat_unit((quat_t){1.0f, 0.01f * (float)k, 0.0f, 0.0f});
+    sync_step(&s, &c, &in, &out);
+    sync_step(&twin, &c, &in, &want);
+    ROW("step %d", k);
+    CHECK(out.up_w.y == want.up_w.y && out.q_wb.w == want.q_wb.w);
+  }
+}

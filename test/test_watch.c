@@ -186,3 +186,18 @@ TEST(watch_refuses_a_set_point_of_which_one_number_is_beyond_its_bound) {
     CHECK(!good(bound[i].at, NAN) && !good(bound[i].at, INFINITY));
   }
 }
+
+// --- height -----------------------------------------------------------------------------------------------
+
+TEST(watch_takes_no_height_for_a_jump_while_the_height_is_let_go) {
+  flight_t f = fresh();
+  flight_in_t in = {.q_wb = {.w = 1.0f}, .acc_b_mps2 = {.z = GRAVITY_MPS2}, .setpoint = {.yaw = YAW_RATE}};
+  for (int k = 0; k < 4; k++) {
+    in.step++;
+    in.pos_w_m.z = (float)k;
+    CHECK(watch_time(&f, in.step));
+    flight_in_t seen = in;
+    watch_inputs(&f, &seen);
+    CHECK(seen.pos_w_m.z == (float)k && f.guard.latched == 0u);
+  }
+}
