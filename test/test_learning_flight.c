@@ -69,7 +69,9 @@ TEST(learning_flight_finds_the_curve_where_it_has_been) {
   ROW("%d flights", seeds);
   CHECK_SHARE(close, seeds, 0.9); // 190 of 200 were
   CHECK_SHARE(low, seeds, 0.98);
-  CHECK_NEAR(sum / seeds, 0.0012, 0.0004); // the prototype's
+  // The prototype's mean, 0.3e-3 for its own few flights; ours scatter by 0.74e-3, of which 3.3 are one in a
+  // thousand.
+  CHECK_NEAR(sum / seeds, 0.0012, 0.0003 + 3.3 * 0.00074 / sqrt(seeds));
 }
 
 TEST(curve_learned_from_nothing_is_no_guide_nearer_than_it_was_learned) {
