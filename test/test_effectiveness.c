@@ -146,7 +146,8 @@ TEST(effectiveness_refuses_bad_logs_with_one_line) {
        "turns"},
       {"indiIn.step,indiIn.p,indiIn.q,indiIn.r,indi.m1,indi.m2,indi.m3,indi.m4\n2,0,0,0,0,0,0,0\n4,0,0,0,0,0,"
        "0,0\n",
-       "bad.csv: column indiIn.step: even in all rows; allowed: those of odd steps, in which the inner loop "
+       "bad.csv:3: column indiIn.step: even in all rows; allowed: those of odd steps, in which the inner "
+       "loop "
        "runs, or of every call"},
   };
   const effectiveness_job_t job = effectiveness_default();
