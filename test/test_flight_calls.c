@@ -59,3 +59,16 @@ TEST(flight_stops_its_motors_where_no_thrust_is_wanted_by_hand_however_it_lies) 
   for (int i = 0; i < MOTORS; i++) CHECK(f.out.motors.force_N[i] == 0.0f);
   CHECK(!f.att.started && !f.heading_known);
 }
+
+TEST(flight_begins_level_and_shows_no_outer_loop_while_the_height_is_let_go) {
+  flight_in_t in;
+  flight_t f = fresh(&in);
+  CHECK(f.out.q_ref.w == 1.0f && f.out.q_ref.x == 0.0f && f.out.outer.thrust_N == 0.0f);
+  for (int ms = 0; ms < 40; ms++) {
+    if (ms == 20) CHECK(f.out.outer.thrust_N > 0.2f);
+    if (ms == 20) in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE, .thrust_N = HOVER_N};
+    in.step++;
+    (void)flight_step(&f, &in);
+  }
+  CHECK(f.out.outer.thrust_N == 0.0f && f.out.outer.up_w.z == 1.0f);
+}

@@ -102,6 +102,20 @@ TEST(guard_keeps_a_reason_while_samples_are_bad) {
   CHECK(g.now == (GUARD_ACC_CLIPPED | GUARD_NOT_A_NUMBER));
 }
 
+TEST(guard_lets_a_set_point_that_is_good_again_be_good_while_samples_are_bad) {
+  guard_t g = begun();
+  guard_in_t in = at_rest();
+  in.setpoint_good = false;
+  step(&g, in, 1);
+  CHECK(g.now == GUARD_SETPOINT);
+  in.rate_b_radps.x = NAN;
+  step(&g, in, 1);
+  CHECK(g.now == (GUARD_SETPOINT | GUARD_NOT_A_NUMBER));
+  in.setpoint_good = true;
+  step(&g, in, 1);
+  CHECK(g.now == GUARD_NOT_A_NUMBER);
+}
+
 TEST(guard_does_without_an_accelerometer_that_was_clipped_for_200_ms) {
   guard_t g = begun();
   guard_in_t in = at_rest();

@@ -41,6 +41,7 @@ TEST(guard_takes_a_range_for_frozen_that_is_the_same_for_long_enough_and_often_e
   } row[] = {
       {"three in 201 ms", 67, 3, 0.03f, true}, {"three in 198 ms", 66, 3, 0.03f, false},
       {"four in 200 ms", 50, 4, 0.03f, true},  {"two in 300 ms", 150, 2, 0.03f, false},
+      {"199 in 199 ms", 1, 199, 0.03f, false}, {"200 in 200 ms", 1, 200, 0.03f, true},
       {"in a hover", 100, 10, 0.0199f, false}, {"in a descent", 100, 3, -0.0201f, true},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
