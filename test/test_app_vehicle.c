@@ -161,6 +161,10 @@ static void nap(void *context, uint32_t ticks) {
   if (naps++ == 12) longjmp(out, 1);
 }
 
+static void run_until_out(void) {
+  if (setjmp(out) == 0) appMain();
+}
+
 TEST(app_says_on_the_console_what_is_missing_and_what_is_wrong) {
   static const struct {
     bool flow, multiranger;
@@ -179,7 +183,7 @@ TEST(app_says_on_the_console_what_is_missing_and_what_is_wrong) {
     c.around.delay = nap;
     c.around.delay_context = &c;
     naps = 0;
-    if (setjmp(out) == 0) appMain();
+    run_until_out();
     ROW("%s: %s", row[i].want, c.around.console);
     CHECK(strstr(c.around.console, row[i].want) != NULL);
     CHECK(strstr(c.around.console, "NOT FLYABLE: at rest") != NULL);
@@ -203,6 +207,6 @@ TEST(app_watches_the_radio_ten_times_a_second) {
   c.around.fed_ms = 1;
   c.around.delay = fall_silent;
   c.around.delay_context = &c;
-  if (setjmp(out) == 0) appMain();
+  run_until_out();
   CHECK(c.around.clock_ms == 700);
 }
