@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """cf.py - a Crazyflie that runs the app, from the laptop: parameters, logs, the learning flight, the test flight.
 
-Exit status: 0 done, 1 it could not be done, or was stopped by hand (it has landed, unless the link is lost or the motors were stopped), 2 bad input, 130 Ctrl-C.
+Exit status: 0 done, 1 it could not be done or was stopped by hand (it has landed, unless the link is lost or the motors
+were stopped), 2 bad input, 130 Ctrl-C.
 """
 
 import argparse
