@@ -11,7 +11,8 @@
 // right, nose up, counter-clockwise), controller.cmd_roll, cmd_pitch, cmd_yaw (units; yaw CLOCKWISE), and,
 // where it is there, controller.cmd_thrust (units). Results count yaw clockwise. While the app flies those
 // stand still: a log without them is read by the app's own, indiIn.step, p, q, r and indi.m1..m4, from which
-// the command is made; at 500 Hz in odd steps, or every call, as the uSD deck writes it (tools/usd/config.txt).
+// the command is made; at 500 Hz in odd steps, or every call, as the uSD deck writes it
+// (tools/usd/config.txt).
 #ifndef SIM_EFFECTIVENESS_H
 #define SIM_EFFECTIVENESS_H
 

@@ -98,9 +98,7 @@ TEST(guard_holds_a_settled_bias_against_its_bounds) {
 }
 
 TEST(guard_bounds_a_bias_that_is_none_and_forgets_one_that_is_no_number) {
-  static const struct {
-    float held_mps2, want_mps2;
-  } row[] = {{4.0f, 3.0f}, {-1e10f, -3.0f}, {NAN, 0.0f}};
+  static const struct { float held_mps2, want_mps2; } row[] = {{4.0f, 3.0f}, {-1e10f, -3.0f}, {NAN, 0.0f}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("row %u", i);
     guard_t g = begun();
