@@ -64,7 +64,7 @@ if grep -n 'warning:' "$log"; then
   exit 1
 fi
 {
-  echo "$propellers propellers: $tree/build/cf2.bin"
+  echo "$propellers propellers: ${tree#"$PWD"/}/build/cf2.bin"
   grep -E '^(Flash|RAM|CCM) ' "$log" | sed -E 's/\|[^|]*$//; s/^/  /; s/ *$//'
 } >"$tree/size"
 cat "$tree/size"
