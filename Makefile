@@ -212,7 +212,7 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
-	@STORM_TICKS=10000000 CORNERS=4000 $(O)/sanitize/bin/tests test_storm
+	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
 	+@tools/seeded.sh
 	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
 	@tools/add_effect.sh | grep -q '^cable: '

@@ -35,10 +35,11 @@ typedef struct {
   replay_part_t settling, settled; // without it: up to REPLAY_SETTLE_CALLS behind the loss, and beyond
   uint32_t first_call;             // of the log, since the controller was selected; 0: it does not say
   long missing;                    // calls between two that were replayed
-  long torn;                       // rows with two stamps that differ; they are not used
-  long incomplete;                 // of `missing`: calls whose state or set point is not in the log
-  long tuned_line;                 // where other parameters were taken first; 0: nowhere
-  char damage[400];                // of the file, behind its last row; empty: none
+  long torn;        // rows with two stamps that differ; they are not used, calls among them likewise
+  long incomplete;  // calls whose state or set point is not in the log; between two that were, also in
+                    // `missing`
+  long tuned_line;  // where other parameters were taken first; 0: nowhere
+  char damage[400]; // of the file, behind its last row; empty: none
 } replay_t;
 
 // ST_BAD_INPUT: no such log, a column is missing or not a number, no call. ST_BAD_PARAM as flight_init.

@@ -38,8 +38,8 @@ static void tell_lost(const replay_t *r) {
 
 static void tell(const replay_t *r) {
   const replay_part_t all = replay_all(r);
-  printf("%ld calls replayed, %ld between them not logged, %ld differ in a motor's command, by %g N at most",
-         all.calls, r->missing - r->incomplete, all.differ, all.worst_N);
+  printf("%ld calls replayed, %ld between them left out, %ld differ in a motor's command, by %g N at most",
+         all.calls, r->missing, all.differ, all.worst_N);
   if (all.differ > 0) printf("; the first in line %ld", all.first_line);
   putchar('\n');
   tell_lost(r);

@@ -234,7 +234,7 @@ TEST(usd_replay_is_what_fly_does) {
       {"fly test-flight --integrator rk4 --usd $S/log --usd-config " CONFIG
        " --params-to $S/p >$S/said && fly --replay $S/log --set-from $S/p",
        0, STREAM_OUTPUT,
-       "42002 calls replayed, 0 between them not logged, 0 differ in a motor's command, by 0 N at most\n"},
+       "42002 calls replayed, 0 between them left out, 0 differ in a motor's command, by 0 N at most\n"},
       {"fly test-flight --usd $S/log2", 2, STREAM_ERROR,
        "fly: --usd, --usd-config: both are needed; the config is tools/usd/config.txt\n"},
       {"fly learning-1d --usd $S/log2 --usd-config " CONFIG, 2, STREAM_ERROR,
