@@ -60,6 +60,9 @@ TEST(the_workflow_names_what_an_exam_hides_and_nothing_else) {
   CHECK_SHARE(m.nothing - m.alarms, m.nothing, 0.95);
   CHECK_SHARE(m.strange - m.wrong, m.strange, 0.95);
   CHECK_SHARE(m.hover - m.guessed, m.hover, 0.95);
+  const int wrong = m.large - m.exact + m.alarms + m.wrong + m.guessed;
+  const int marked = m.large + m.nothing + m.strange + m.hover;
+  CHECK_SHARE(marked - wrong, marked, 0.95); // few of a kind see little, all of them more
 }
 
 // Each was promised to be seen from a smaller size on: a curve that falls off slowly shows in any hover; a
