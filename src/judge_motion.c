@@ -87,7 +87,8 @@ static unsigned judge_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const float error = (g->window_mps - (in->vel_w_mps.z - g->window_vel_mps)) / dt;
   find_bias(g, in, f_clamp(error, -BIAS_MAX_MPS2, BIAS_MAX_MPS2), dt);
   begin_window(g, in);
-  return fabsf(g->bias_mps2) > (kept ? 0.5f : 1.0f) * BIAS_MPS2 ? GUARD_ACC_BIAS : 0u;
+  const float all_mps2 = g->bias_mps2 + in->bias_known_mps2;
+  return fabsf(all_mps2) > (kept ? 0.5f : 1.0f) * BIAS_MPS2 ? GUARD_ACC_BIAS : 0u;
 }
 
 // What jumps by 5 g in velocity is none: the last good one goes on with the accelerometer, until what comes
@@ -104,7 +105,8 @@ static unsigned judge_velocity(guard_t *g, guard_in_t *in) {
   if (!g->vel_lost) return 0u;
   const v3_t force = quat_to_world(quat_unit(in->q_wb), in->acc_b_mps2);
   in->vel_w_mps = g->vel_last;
-  in->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - g->acc_bias_mps2);
+  const float bias_mps2 = g->acc_bias_mps2 + in->bias_known_mps2;
+  in->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - bias_mps2);
   return GUARD_VELOCITY;
 }
 

@@ -221,6 +221,37 @@ TEST(guard_carries_a_lost_velocity_on_with_what_is_felt) {
   CHECK_NEAR(g.vel_last.z, 0.06, 1e-6);
 }
 
+TEST(guard_carries_a_lost_velocity_on_without_the_bias_that_the_outer_loop_knows) {
+  guard_t g = begun();
+  guard_in_t in = resting();
+  in.bias_known_mps2 = 0.4f;
+  in.acc_b_mps2.z += 0.4f;
+  in.vel_w_mps.x = 3.0f;
+  for (int k = 0; k < 40; k++) {
+    in.vel_w_mps.x = -in.vel_w_mps.x; // never calm
+    judge(&g, in, 1);
+  }
+  CHECK(g.vel_lost);
+  CHECK_NEAR(g.vel_last.z, 0.0, 1e-4);
+}
+
+TEST(guard_takes_what_it_holds_and_what_the_outer_loop_knows_for_one_bias) {
+  static const struct {
+    float held_mps2, known_mps2;
+    bool fault;
+  } row[] = {{0.2f, 0.5f, true}, {0.0f, 0.499f, false}, {-0.2f, 0.5f, false}, {-0.2f, -0.5f, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("row %u", i);
+    guard_t g = begun();
+    guard_in_t in = resting();
+    g.bias_mps2 = row[i].held_mps2;
+    in.bias_known_mps2 = row[i].known_mps2;
+    in.acc_b_mps2.z += row[i].held_mps2 + row[i].known_mps2;
+    judge(&g, in, 10);
+    CHECK(((g.now & GUARD_ACC_BIAS) != 0) == row[i].fault);
+  }
+}
+
 TEST(guard_believes_a_velocity_that_jumps_within_300_ms_of_an_impact) {
   static const struct {
     float felt_mps2;

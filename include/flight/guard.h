@@ -95,7 +95,7 @@ typedef struct {
   bool near_seen;
   float range_last_m, range_z_m;
   int range_same;
-  float bias_mps2, bias_fast_mps2, bias_s; // all that was found; what is new in it; time of its mean
+  float bias_mps2, bias_fast_mps2, bias_s; // found and not given away; what is new in it; time of its mean
   float window_mps, window_vel_mps; // of one period of the estimator: acceleration summed up, climb before
   int window_ms;
   int nearer; // what range samples say of it, summed up
