@@ -8,8 +8,8 @@
 #define INNER_MS_MAX 1000
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
-  const unsigned to = from + ms; // from < 10
-  return (at > from && at <= to) || (at + 10 > from && at + 10 <= to) || ms >= 10;
+  const unsigned to = from + ms; // from < 10, so that at + 10 is beyond it
+  return (at > from && at <= to) || at + 10 <= to;
 }
 
 // A call costs no more than one loop, also after missed calls: the others wait for one that has none, unless
@@ -129,11 +129,13 @@ static void hand_bias_over(flight_t *f) {
   if (settled_mps2 != 0.0f) guard_give_bias(&f->guard, outer_take_bias(&f->outer, settled_mps2));
 }
 
-// Without an accelerometer: what the thrust that the motors give does.
+// Without an accelerometer: what the thrust that the motors give does, with the bias that the outer loop will
+// take off.
 static void mend_acceleration(const flight_t *f, flight_in_t *in) {
   const guard_t *g = &f->guard;
   if (g->acc_lost && g->hover_N > 0.0f) {
-    in->acc_b_mps2 = (v3_t){0.0f, 0.0f, GRAVITY_MPS2 * f->outer.sync.thrust.model_N / g->hover_N};
+    const v3_t model = {0.0f, 0.0f, GRAVITY_MPS2 * f->outer.sync.thrust.model_N / g->hover_N};
+    in->acc_b_mps2 = v3_add(model, quat_to_body(quat_unit(in->q_wb), f->outer.bias.bias_mps2));
   } else if (g->acc_bias_mps2 != 0.0f) {
     const v3_t bias_b = quat_to_body(quat_unit(in->q_wb), (v3_t){0.0f, 0.0f, g->acc_bias_mps2});
     in->acc_b_mps2 = v3_sub(in->acc_b_mps2, bias_b);

@@ -61,3 +61,28 @@ TEST(flight_goes_down_where_resets_of_the_height_sum_up) {
     body_close(&r.body);
   }
 }
+
+// A clipped accelerometer is replaced by what the thrust does; the bias that the outer loop takes off must be
+// in it.
+TEST(flight_holds_its_height_where_an_accelerometer_with_a_bias_is_lost) {
+  static const double bias_mps2[] = {0.0, 0.45, -0.45};
+  for (unsigned i = 0; i < sizeof bias_mps2 / sizeof *bias_mps2; i++) {
+    ROW("bias %g m/s2", bias_mps2[i]);
+    hover6_t r = {.in = {.step = 0}};
+    hover6_start(&r, 0.0);
+    hover6_fly(&r, 2.0);
+    r.acc_bias_b_mps2.z = bias_mps2[i];
+    hover6_fly(&r, 10.0);
+    const double z_m = hover6_pos_m(&r).z;
+    double worst_m = 0.0;
+    for (int k = 0; k < 500; k++) {
+      r.acc_bias_b_mps2.z = k < 250 ? 300.0 : bias_mps2[i]; // beyond 20 g for half a second
+      r.acc_bias_b_mps2.z += k % 2 ? 0.05 : -0.05;          // not frozen
+      hover6_fly(&r, 0.002);
+      worst_m = fmax(worst_m, fabs(hover6_pos_m(&r).z - z_m));
+    }
+    ROW("bias %g m/s2: %g mm off", bias_mps2[i], 1e3 * worst_m);
+    CHECK(worst_m < 0.005);
+    body_close(&r.body);
+  }
+}
