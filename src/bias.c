@@ -19,7 +19,7 @@ v3_t bias_free_velocity(const bias_t *s, v3_t vel_mps) {
 
 // Whatever is not finite or far out shows in the sum. A wrong pos_last_m is a jump.
 static bool is_state(const bias_t *s) {
-  const v3_t found = v3_add(v3_add(s->bias_mps2, s->first), s->vel_off_mps);
+  const v3_t found = v3_add(v3_add(s->bias_mps2, s->first_mps2), s->vel_off_mps);
   return v3_within(v3_add(found, v3_add(s->acc_slow_mps2, s->vel_slow_mps)), STATE_MAX);
 }
 
@@ -43,7 +43,7 @@ float bias_take(bias_t *s, const bias_param_t *p, float more_mps2) {
   const float held_mps2 = f_clamp(s->bias_mps2.z + more_mps2, -p->max_mps2, p->max_mps2);
   const float taken_mps2 = held_mps2 - s->bias_mps2.z;
   s->bias_mps2.z = held_mps2;
-  s->first.z += taken_mps2;
+  s->first_mps2.z += taken_mps2;
   s->acc_slow_mps2.z += taken_mps2;
   return taken_mps2;
 }
@@ -59,7 +59,7 @@ status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t 
   s->pos_last_m = pos_m;
   if (!(c->period_s <= BIAS_GAP_S)) {
     s->vel_slow_mps = bias_free_velocity(s, vel_mps);
-    s->acc_slow_mps2 = s->first = s->bias_mps2;
+    s->acc_slow_mps2 = s->first_mps2 = s->bias_mps2;
     return ST_OK;
   }
   if (!v3_within(off_mps, BIAS_JUMP_MPS)) return ST_OK;
@@ -67,8 +67,9 @@ status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t 
   const float share = c->share;
   // The change of the change of position is of one interval ago: so is <a> before this sample.
   const v3_t motion_mps2 = v3_scale(share * c->per_s, v3_sub(rate_mps, s->vel_slow_mps));
-  s->first = bounded(nearer_to(s->first, share, v3_sub(s->acc_slow_mps2, motion_mps2)), p->max_mps2);
-  s->bias_mps2 = bounded(nearer_to(s->bias_mps2, share, s->first), p->max_mps2);
+  s->first_mps2 =
+      bounded(nearer_to(s->first_mps2, share, v3_sub(s->acc_slow_mps2, motion_mps2)), p->max_mps2);
+  s->bias_mps2 = bounded(nearer_to(s->bias_mps2, share, s->first_mps2), p->max_mps2);
   s->acc_slow_mps2 = nearer_to(s->acc_slow_mps2, share, acc_mps2);
   s->vel_slow_mps = nearer_to(s->vel_slow_mps, share, rate_mps);
 

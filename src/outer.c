@@ -114,7 +114,7 @@ static status_t find_bias(outer_t *f, const outer_in_t *in, v3_t acc_w_mps2) {
 float outer_take_bias(outer_t *f, float more_mps2) {
   if (!f->started || !(f->param.bias.pole_radps > 0.0f)) return 0.0f;
   const float taken_mps2 = bias_take(&f->bias, &f->param.bias, more_mps2);
-  sync_shift_acc(&f->sync, taken_mps2);
+  if (taken_mps2 != 0.0f) sync_shift_acc(&f->sync, taken_mps2); // at its bound nothing is left to do
   return taken_mps2;
 }
 

@@ -42,9 +42,9 @@ typedef struct {
 } bias_param_t;
 
 typedef struct {
-  v3_t bias_mps2, vel_off_mps;             // what acceleration and velocity are wrong by
-  v3_t pos_last_m;                         // at the last step
-  v3_t acc_slow_mps2, vel_slow_mps, first; // <a>, <r>, <o>
+  v3_t bias_mps2, vel_off_mps;                  // what acceleration and velocity are wrong by
+  v3_t pos_last_m;                              // at the last step
+  v3_t acc_slow_mps2, vel_slow_mps, first_mps2; // <a>, <r>, <o>
 } bias_t;
 
 // What a step of this period does; made anew when parameters change.
@@ -64,8 +64,9 @@ void bias_start(bias_t *s, v3_t pos_m, v3_t vel_mps);
 MUST_CHECK status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t acc_mps2,
                               v3_t pos_m, v3_t vel_mps);
 
-// The acceleration will come with this much more of bias along z, known by somebody else until now. What it
-// can hold it takes, and what it took is the result.
+// The acceleration will come with this much more of bias along the world's z, known by somebody else until
+// now. What it can hold it takes, and what it took is the result: whoever filters the acceleration shifts it
+// by as much (sync_shift_acc).
 float bias_take(bias_t *s, const bias_param_t *p, float more_mps2);
 
 // The estimator's velocity without what it is wrong by.
