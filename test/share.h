@@ -26,7 +26,8 @@ int share_fewest(int n, double promise);
 // of its own for each N (1 to 999999). Cases count up from it by less than 10,000.
 uint64_t share_seed(uint64_t usual);
 
-// `kept` of n, where `promise` of all are promised; says how many were wanted.
+// `kept` of n, where `promise` of all are promised; says how many were wanted. Of so
+// few that none would do it fails.
 #define CHECK_SHARE(kept, n, promise) share_check(__FILE__, __LINE__, #kept, (kept), (n), (promise))
 bool share_check(const char *file, int line, const char *what, int kept, int n, double promise);
 

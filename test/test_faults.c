@@ -116,8 +116,8 @@ TEST(faults_of_the_list_end_as_they_should) {
   for (int k = 0; k < n; k++) {
     if (tell) print(rows[k], &tally[k], seeds);
     ROW("%s: %d of %d (%s)", rows[k]->name, tally[k].kept, seeds, tally[k].why[0] ? tally[k].why[0] : "");
-    CHECK_SHARE(tally[k].kept, seeds, 0.01 * rows[k]->promise);
-    if (!rows[k]->touches) CHECK_SHARE(seeds - tally[k].touched, seeds, 0.01 * rows[k]->promise);
+    if (rows[k]->promise > 0.0) CHECK_SHARE(tally[k].kept, seeds, 0.01 * rows[k]->promise);
+    if (!rows[k]->touches) CHECK_SHARE(seeds - tally[k].touched, seeds, 0.998);
   }
 }
 
