@@ -68,3 +68,18 @@ TEST(radio_silence_is_heard_when_the_clock_runs_over) {
   radio_watch();
   CHECK(around.landings == 1 && around.fed_ms == 400);
 }
+
+TEST(radio_silence_is_the_laptops_alone) {
+  // Put down, and flown again with nobody there since: what fed the watchdog last was the app itself.
+  glue_static.radio = (radio_t){.descends = false};
+  stand_in_t around = {.app = &glue_static, .flying = true, .fed_ms = 1000, .clock_ms = 1600};
+  stand_in = &around;
+  radio_watch();
+  CHECK(around.landings == 1 && around.fed_ms == 1600);
+  around.flying = false;
+  radio_watch();
+  around.flying = true;
+  around.clock_ms = 2400;
+  radio_watch();
+  CHECK(around.landings == 1 && !glue_static.radio.descends);
+}

@@ -12,6 +12,14 @@ TEST(ceiling_is_unknown_until_a_sample_shows_it) {
   CHECK(s.zc_m == 0.3f);
 }
 
+TEST(ceiling_takes_the_vehicle_for_level_until_it_is_told) {
+  ceiling_t s;
+  ceiling_init(&s, BELOW_PERIOD_S);
+  CHECK(ceiling_up(&s, 0.1f) == 1.0f);
+  ceiling_tilt(&s, 0.9f);
+  CHECK(ceiling_up(&s, 0.1f) == 0.9f);
+}
+
 TEST(ceiling_moves_by_exactly_what_the_vehicle_climbs) {
   ceiling_t s = below_ceiling(0.4f);
   ceiling_predict(&s, &below_param, 0.02f);

@@ -72,3 +72,12 @@ TEST(flight_begins_level_and_shows_no_outer_loop_while_the_height_is_let_go) {
   }
   CHECK(f.out.outer.thrust_N == 0.0f && f.out.outer.up_w.z == 1.0f);
 }
+
+TEST(flight_has_no_heading_with_its_nose_straight_up_and_takes_x_for_ahead) {
+  flight_in_t in;
+  flight_t f = fresh(&in);
+  in.q_wb = (quat_t){.w = 0.70710678f, .y = -0.70710678f};
+  in.setpoint.yaw = YAW_RATE;
+  for (int ms = 0; ms < 3; ms++, in.step++) (void)flight_step(&f, &in);
+  CHECK(f.heading_ref.cos == 1.0f && f.heading_ref.sin == 0.0f);
+}

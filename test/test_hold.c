@@ -117,3 +117,32 @@ TEST(hold_is_not_ended_by_samples_that_come_in_a_burst) {
   look(&l, 0.0f, 0.40f, true);
   CHECK_NEAR(l.hold.ceiling_z_m, 1.0, 1e-4);
 }
+
+TEST(hold_follows_what_is_far_or_new_and_keeps_what_is_near) {
+  static const struct {
+    const char *what;
+    bool latch, known, follows;
+    int samples, against;
+    float held_z_m, zc_m, seen_m;
+  } row[] = {
+      {"not latched", false, true, true, 10, 0, 1.2f, 0.1f, 0.1f},
+      {"never seen before", true, true, true, 0, 0, NAN, 0.1f, 0.1f},
+      {"far", true, true, true, 10, 0, 1.2f, 0.3f, 0.3f},
+      {"near", true, true, false, 10, 0, 1.2f, 0.1f, 0.3f},
+      {"far, but seen near", true, true, false, 10, 0, 1.2f, 0.3f, 0.1f},
+      {"far, of few samples", true, true, false, 9, 0, 1.2f, 0.3f, 0.3f},
+      {"far, and contradicted", true, true, false, 10, 1, 1.2f, 0.3f, 0.3f},
+      {"not known", false, false, false, 10, 0, 1.2f, 0.3f, 0.3f},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    ceiling_t c;
+    ceiling_init(&c, BELOW_PERIOD_S);
+    c.known = row[i].known;
+    c.zc_m = row[i].zc_m;
+    c.seen_m = row[i].seen_m;
+    hold_t s = {.ceiling_z_m = row[i].held_z_m, .samples = row[i].samples, .against = row[i].against};
+    hold_step(&s, &c, 0.8f, BELOW_PERIOD_S, row[i].latch);
+    CHECK(s.ceiling_z_m == (row[i].follows ? 0.8f + row[i].zc_m : row[i].held_z_m));
+  }
+}

@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include <float.h>
+#include <limits.h>
 #include <string.h>
 
 TEST(outer_changes_nothing_on_an_input_that_is_not_a_number) {
@@ -164,4 +165,18 @@ TEST(outer_outputs_stay_in_their_limits_whatever_comes) {
       if (!(fabsf(f.learn.rls.theta.w[i]) <= RLS_WEIGHT_MAX)) bad++;
   }
   CHECK(bad == 0);
+}
+
+TEST(outer_counts_no_further_than_a_counter_goes_and_mends_one_that_is_none) {
+  flight_param_t p;
+  rig3_t v;
+  outer_t f = rig3_in_flight(&p, &v);
+  outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 0.94f});
+  in.acc_b_mps2.x = NAN;
+  f.faults[ST_BAD_INPUT] = UINT_MAX;
+  (void)rig3_step(&f, &p, &in);
+  CHECK(f.faults[ST_BAD_INPUT] == UINT_MAX);
+  f.missed = 2 * OUTER_MISSED_MAX; // a flipped bit
+  (void)rig3_step(&f, &p, &in);
+  CHECK(f.missed == OUTER_MISSED_MAX);
 }
