@@ -82,8 +82,7 @@ TEST(fly_writes_nothing_when_something_is_wrong) {
        "fly: --controller: pid-tables flies pid and pid-ff\n", 2},
       {"fly appendix-a --json $S/c_own.toml --vehicle $S/c_own.toml",
        "fly: c_own.toml: to be read and to be written; allowed: one of them\n", 2},
-      // A disk that is full after 512 bytes or 1 KB, as the shell counts.
-      {"trap '' XFSZ; export GCOV_PREFIX=$S; ulimit -f 1; fly appendix-a --json $S/c_old --log $S/new.csv",
+      {"trap '' XFSZ; " PROGRAM_DISK_FULL "fly appendix-a --json $S/c_old --log $S/new.csv",
        "fly: new.csv: cannot be written: File too large\n", 1},
       {"fly appendix-a --json $S/c_old --log $S/new.csv >/dev/full",
        "fly: standard output: cannot be written\n", 1},

@@ -108,7 +108,7 @@ TEST(learn_exits_with_one_when_it_cannot_tell) {
   } row[] = {
       {"learn $S/l_flight.csv " VEHICLE " --points $S/l_new.csv --json $S/l_new.json >/dev/full",
        "learn: standard output: cannot be written\n"},
-      {"trap '' XFSZ; export GCOV_PREFIX=$S; ulimit -f 1; learn $S/l_flight.csv " VEHICLE
+      {"trap '' XFSZ; " PROGRAM_DISK_FULL "learn $S/l_flight.csv " VEHICLE
        " --json $S/l_new.json --points $S/l_new.csv",
        "learn: l_new.csv: cannot be written: File too large\n"},
       {"learn --help >/dev/full", "learn: standard output: cannot be written\n"},

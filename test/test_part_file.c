@@ -56,7 +56,8 @@ TEST(fly_that_is_ended_by_a_signal_leaves_nothing_beside) {
 TEST(fly_that_may_write_no_more_leaves_nothing_beside) {
   char before[4000], after[4000], text[400];
   program_listing(before, sizeof before);
-  CHECK(program_run("ulimit -c 0; ulimit -f 1; env --default-signal fly appendix-a --log $S/p_full.csv",
+  CHECK(program_run("ulimit -c 0; " PROGRAM_DISK_FULL
+                    "env --default-signal fly appendix-a --log $S/p_full.csv",
                     STREAM_OUTPUT, text, sizeof text) == 128 + SIGXFSZ);
   program_listing(after, sizeof after);
   CHECK_TEXT(after, before);
