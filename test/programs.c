@@ -28,5 +28,5 @@ int program_run(const char *line, stream_t stream, char *text, size_t size) {
 }
 
 void program_listing(char *text, size_t size) {
-  if (program_run("ls -AR $S", STREAM_OUTPUT, text, size) != 0) abort();
+  if (program_run("ls -AR -I .counts $S", STREAM_OUTPUT, text, size) != 0) abort();
 }

@@ -14,7 +14,7 @@ int program_run(const char *line, stream_t stream, char *text, size_t size);
 void program_listing(char *text, size_t size);
 
 // Of a shell line: a disk that is full after 512 bytes or 1 KB, as the shell counts. What coverage counts is
-// kept away from it: it would spoil what others counted.
-#define PROGRAM_DISK_FULL "export GCOV_PREFIX=/dev/null GCOV_ERROR_FILE=/dev/null; ulimit -f 1; "
+// written apart: cut off, it would spoil what others counted.
+#define PROGRAM_DISK_FULL "export GCOV_PREFIX=$S/.counts GCOV_ERROR_FILE=/dev/null; ulimit -f 1; "
 
 #endif
