@@ -31,17 +31,14 @@ OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
 LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
 
-FLIGHT_SRC = $(wildcard src/*.c)
-NATURE_SRC = $(wildcard sim/plant/*.c sim/effects/*.c)
-FIRMWARE_SRC = $(wildcard src/firmware/*.c)
-SIM_SRC    = $(wildcard sim/*.c sim/crazyflie/*.c sim/gap/*.c sim/io/*.c sim/peers/*.c sim/estimator/*.c sim/scenario/*.c)
-SIM_CPP    = $(wildcard sim/*.cpp sim/gap/*.cpp sim/io/*.cpp sim/plant/*.cpp)
-TEST_SRC   = $(wildcard test/*.c) $(filter-out test/exam/main.c,$(wildcard test/exam/*.c))
-EXAM_SRC   = $(wildcard test/exam/*.c)
-TEST_CPP   = $(wildcard test/*.cpp)
+# Every source of some folders.
+sources    = $(sort $(shell find $(1) -name '*.c' -o -name '*.cpp' 2>/dev/null))
+EXAM_SRC  := $(filter-out test/exam/test_%,$(call sources,test/exam))
+TEST_SRC  := $(filter-out test/exam/main.c,$(call sources,test/rig test/unit test/program test/faults test/exam))
+SIM_SRC   := $(call sources,src sim)
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle) $(B)/gen/version.o
-SIM_OBJ    = $(call objects,$(FLIGHT_SRC) $(FIRMWARE_SRC) $(NATURE_SRC) $(SIM_SRC) $(SIM_CPP)) $(TABLES)
+SIM_OBJ    = $(call objects,$(SIM_SRC)) $(TABLES)
 PROGRAMS   = fly learn effectiveness gap slot bench
 # What the tests run.
 TESTED     = tests fly gap learn effectiveness
@@ -106,52 +103,34 @@ force_tables = force
 endif
 link  = mkdir -p $(@D); [ ! -t 2 ] || printf '\r%40s\r' '' >&2; $(1) $(SANITIZE) $(filter-out $(B)/flags,$^)
 
-# The include path is the architecture: flight code and nature do not see each other.
-$(B)/src/%.o: src/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(FLIGHT_FLAGS) -Iinclude -c $< -o $@
+# The include path is the architecture: what each folder sees, the folder's own line where it has one. Flight code and
+# nature do not see each other.
+$(B)/%.o: SEES = -Iinclude -Isrc -Isim
+$(B)/test/%.o $(B)/gen/%.o: SEES = -Iinclude -Isrc -Isim -Itest
+$(B)/src/%.o: SEES = $(SEES_OF_SRC)
+SEES_OF_SRC = $(FLIGHT_FLAGS) -Iinclude
 # The app, unchanged, between stand-ins of the firmware's headers.
-$(B)/src/firmware/%.o: src/firmware/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h -c $< -o $@
-$(B)/sim/crazyflie/%.o: sim/crazyflie/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Iinclude -Isrc -Isim -Isim/crazyflie -c $< -o $@
-$(B)/sim/plant/%.o: sim/plant/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Isim -c $< -o $@
-$(B)/sim/plant/%.o: sim/plant/%.cpp $(B)/flags | setup
-	@$(begin)
-	@$(CPP) -Isim -c $< -o $@
-$(B)/sim/effects/%.o: sim/effects/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Isim -c $< -o $@
-$(B)/sim/many.o: sim/many.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(OMP) -Iinclude -Isrc -Isim -c $< -o $@
-$(B)/test/pil/%.o: test/pil/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Iinclude -Isrc -Isim/crazyflie -Isim -c $< -o $@
-$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
-	@$(call link,$(CC)) $(LIBS) -o $@
-$(B)/test/test_app%.o: test/test_app%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Iinclude -Isrc -Isim -Itest -Isim/crazyflie -c $< -o $@
-$(B)/test/exam/main.o: test/exam/main.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
-$(B)/test/test_faults.o: test/test_faults.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(OMP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
-$(B)/gen/%.o: $(O)/gen/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
+$(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
+SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
+$(B)/sim/plant/%.o $(B)/sim/effects/%.o: SEES = -Isim
+$(B)/sim/plant/integrate.o: SEES = -Iinclude -Isim
+$(B)/sim/crazyflie/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
+$(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
+$(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
+# They fly many vehicles at once.
+$(B)/sim/flight/many.o $(B)/test/exam/main.o $(B)/test/faults/test_faults.o: MANY = $(OMP)
+
 $(B)/%.o: %.c $(B)/flags | setup
 	@$(begin)
-	@$(C) -Iinclude -Isrc -Isim -Itest -c $< -o $@
+	@$(C) $(SEES) $(MANY) -c $< -o $@
 $(B)/%.o: %.cpp $(B)/flags | setup
 	@$(begin)
-	@$(CPP) -Iinclude -Isrc -Isim -Itest -c $< -o $@
+	@$(CPP) $(SEES) -c $< -o $@
+$(B)/gen/%.o: $(O)/gen/%.c $(B)/flags | setup
+	@$(begin)
+	@$(C) $(SEES) -c $< -o $@
+$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
+	@$(call link,$(CC)) $(LIBS) -o $@
 
 $(O)/gen/%_table.c: $(force_tables) | setup
 	@tools/table.sh $* $@
@@ -161,14 +140,14 @@ $(O)/gen/version.c: $(force_tables)
 $(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
 	@$(call link,$(CC)) $(LIBS) -o $@
 $(B)/bin/bench: $(B)/tools/bench_gap.o
-TESTS_OBJ = $(call objects,$(TEST_SRC) $(TEST_CPP)) $(B)/gen/test_table.o $(SIM_OBJ)
+TESTS_OBJ = $(call objects,$(TEST_SRC)) $(B)/gen/test_table.o $(SIM_OBJ)
 $(B)/bin/tests: $(TESTS_OBJ)
 	@$(call link,$(CC)) $(LIBS) -o $@
 
 $(B)/bin/exam: $(call objects,$(EXAM_SRC)) $(SIM_OBJ)
 	@$(call link,$(CC)) $(LIBS) -o $@
 
-$(B)/bin/fuzz_%: $(B)/test/fuzz/fuzz_%.o $(call objects,test/fuzz/fuzz.c test/flight_csv.c test/usd_bytes.c test/scratch.c) $(SIM_OBJ)
+$(B)/bin/fuzz_%: $(B)/test/fuzz/fuzz_%.o $(call objects,test/fuzz/fuzz.c test/rig/flight_csv.c test/rig/usd_bytes.c test/rig/scratch.c) $(SIM_OBJ)
 	@$(call link,$(CXX)) -fsanitize=fuzzer $(LIBS) -o $@
 
 $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
@@ -262,7 +241,7 @@ coverage:  ## which lines and branches the tests run, by folder; of src and src/
 N = 300
 mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file); an hour
 	@PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/test_mutate.py
-	@FLIGHT='$(C) $(FLIGHT_FLAGS) -Iinclude' APP='$(C) $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h' \
+	@FLIGHT='$(C) $(SEES_OF_SRC)' APP='$(C) $(SEES_OF_APP)' \
 	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
 	 PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 

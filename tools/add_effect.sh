@@ -13,7 +13,7 @@ name=$(sed -n '1s|^// fx_\([a-z_]*\)\.c - .*|\1|p' $copy/fx.c)
 mv $copy/fx.c "$copy/sim/effects/fx_$name.c"
 make -C $copy O=out out/fly out/gap >/dev/null
 cd $copy
-{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >out/vehicle.toml
+{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >out/vehicle.toml
 for seed in 1 2 3 4; do
   [ ! -t 2 ] || printf '\r  flying %d of 4' $seed >&2
   out/fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 \

@@ -1,12 +1,12 @@
 // bench.c - how fast the closed loop runs, as ratios to real time on one core, and how a diagnosis grows.
 // Prints, never judges.
+#include "base/cpu_time.h"
+#include "base/made.h"
 #include "bench_gap.h"
-#include "body_forces.h"
-#include "cpu_time.h"
-#include "io/model_file.h"
-#include "made.h"
-#include "scenario/scenario.h"
-#include "setup6.h"
+#include "body/body_forces.h"
+#include "flight/scenario.h"
+#include "flight/setup6.h"
+#include "vehicle/model_file.h"
 
 #include <stdio.h>
 #include <string.h>

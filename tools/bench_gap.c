@@ -2,9 +2,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench_gap.h"
 
+#include "flight/setup6.h"
 #include "gap/diagnose.h"
-#include "io/model_file.h"
-#include "setup6.h"
+#include "vehicle/model_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef TOOLS_BENCH_GAP_H
 #define TOOLS_BENCH_GAP_H
 
-#include "error.h"
+#include "base/error.h"
 
 // Prints a line each. ST_BAD_INPUT, ST_FAILED: the flight could not be made or read.
 MUST_CHECK status_t bench_gap(why_t *why);

@@ -45,7 +45,7 @@ if [ -n "$data" ] && [ -d "$flights" ]; then
   echo "Real flights over the ground (two to learn from, one held out)"
   "$o/learn" "$flights/21_randomwalk_s_cf50_00.csv" "$flights/21_randomwalk_s_cf50_04.csv" \
     --hold-out "$flights/21_randomwalk_s_cf50_02.csv" --columns tools/columns/neural_swarm.toml \
-    --vehicle sim/vehicles/cf21_neural_swarm.toml --surface ground --points $out/ground_points.csv \
+    --vehicle sim/vehicle/vehicles/cf21_neural_swarm.toml --surface ground --points $out/ground_points.csv \
     --json $out/ground.json
 elif [ -n "$data" ]; then
   echo "skipped: no ground_effect folder in $data"

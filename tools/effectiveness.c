@@ -1,11 +1,11 @@
 // effectiveness.c - control effectiveness of the inner loop from a 500 Hz log, beside the firmware's numbers.
-#include "effectiveness.h"
+#include "logs/effectiveness.h"
 
-#include "io/number.h"
-#include "io/option.h"
-#include "io/whole_file.h"
-#include "made.h"
-#include "result.h"
+#include "base/made.h"
+#include "base/number.h"
+#include "base/option.h"
+#include "base/whole_file.h"
+#include "flight/result.h"
 
 #include <math.h>
 #include <signal.h>

@@ -1,16 +1,16 @@
 // fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
-#include "catalogue.h"
+#include "base/made.h"
+#include "base/number.h"
+#include "base/option.h"
+#include "base/whole_file.h"
 #include "crazyflie/usd_deck.h"
+#include "flight/catalogue.h"
+#include "flight/many.h"
+#include "flight/request_spec.h"
+#include "flight/scenario.h"
 #include "fly_usage.h"
-#include "io/model_file.h"
-#include "io/number.h"
-#include "io/option.h"
-#include "io/whole_file.h"
-#include "made.h"
-#include "many.h"
-#include "replay.h"
-#include "request_spec.h"
-#include "scenario/scenario.h"
+#include "logs/replay.h"
+#include "vehicle/model_file.h"
 
 #include <limits.h>
 #include <math.h>

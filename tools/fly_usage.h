@@ -10,7 +10,7 @@ static const char USAGE[] =
     "  --effect NAME[:KEY=VALUE,...]  switches an effect of the plant on, or changes it; `none` first "
     "switches\n"
     "                           off what the scenario has; see --list (may be repeated)\n"
-    "  --vehicle FILE           a vehicle file (sim/vehicles/*.toml)\n"
+    "  --vehicle FILE           a vehicle file (sim/vehicle/vehicles/*.toml)\n"
     "  --noise LEVEL            none, n1, n2 or n3; in six degrees of freedom quiet, real, or of these some\n"
     "                           numbers changed: real:acc.z=0.1,...; see --list\n"
     "  --seed N                 of the noise; the first one with --seeds (1)\n"

@@ -1,11 +1,11 @@
 // gap.c - finds where flight logs and a vehicle model disagree, names the missing effect, and shows it on
 // held-out flights.
 #define _POSIX_C_SOURCE 200809L
-#include "gap/6_extend.h"
-#include "gap/8_report.h"
-#include "io/number.h"
-#include "io/option.h"
-#include "io/whole_file.h"
+#include "base/number.h"
+#include "base/option.h"
+#include "base/whole_file.h"
+#include "gap/6_extend/extend.h"
+#include "gap/8_report/report.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -27,7 +27,8 @@ typedef struct {
 
 static const char USAGE[] =
     "usage: gap [options] LOG...\n"
-    "  --vehicle FILE   a vehicle file (sim/vehicles/*.toml; else the Crazyflie 2.1 with legacy propellers)\n"
+    "  --vehicle FILE   a vehicle file (sim/vehicle/vehicles/*.toml; else the Crazyflie 2.1 with legacy "
+    "propellers)\n"
     "  --columns FILE   which column of the logs is what (tools/columns/*.toml; else the Crazyflie's own "
     "names)\n"
     "  --hold-out LOG   a log that nothing is fitted to (may be repeated; else the last third: of three or "

@@ -9,7 +9,7 @@ mkdir -p "$d"
 
 # What the workflow is given knows the ceiling's height, and nothing of what it does. What flies has a ceiling
 # effect of another form than the ones that are tried.
-{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >"$d/vehicle.toml"
+{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >"$d/vehicle.toml"
 typed "for seed in 1 2 3 4; do
     $o/fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 --effect ceiling:form=square-root \\
       --seed \$seed --log $d/flight\$seed.csv --log-rate 500 >/dev/null
@@ -36,6 +36,6 @@ if [ -n "$DATA" ] && [ -d "$DATA/ground_effect" ]; then
   echo
   echo 'Real flights over the ground:'
   # shellcheck disable=SC2016 # the folder is the reader's
-  typed "$o/gap --vehicle sim/vehicles/cf21_neural_swarm.toml --columns tools/columns/neural_swarm.toml --out $d/ground "'\
+  typed "$o/gap --vehicle sim/vehicle/vehicles/cf21_neural_swarm.toml --columns tools/columns/neural_swarm.toml --out $d/ground "'\
     --hold-out "$DATA/ground_effect/21_randomwalk_s_cf50_02.csv" "$DATA"/ground_effect/21_randomwalk_s_cf50_*.csv'
 fi

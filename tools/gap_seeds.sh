@@ -5,7 +5,7 @@ o=${O:-out}
 out=$o/seeds
 rm -rf $out
 mkdir -p $out
-{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicles/cf21_legacy.toml; } >$out/vehicle.toml
+{ echo 'ceiling_m = 0.5 # of the simulated room'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >$out/vehicle.toml
 : >$out/table
 for hidden in nothing exponential square-root; do
   effect=

@@ -1,12 +1,12 @@
 // learn.c - the flight code's own learner over recorded flights: prints the weights and what they explain.
 #define _POSIX_C_SOURCE 200809L // stat
-#include "io/model_file.h"
-#include "io/option.h"
-#include "io/whole_file.h"
-#include "learn_log.h"
-#include "made.h"
-#include "param_spec.h"
-#include "result.h"
+#include "base/made.h"
+#include "base/option.h"
+#include "base/whole_file.h"
+#include "flight/result.h"
+#include "logs/learn_log.h"
+#include "pilots/param_spec.h"
+#include "vehicle/model_file.h"
 
 #include <math.h>
 #include <signal.h>
@@ -43,7 +43,8 @@ typedef struct {
 static const char USAGE[] =
     "usage: learn LOG.csv... [options]\n"
     "  --columns FILE.toml      how these logs name things (tools/columns/*.toml); else as the Crazyflie\n"
-    "  --vehicle FILE.toml      motor lag, thrust map, mass (sim/vehicles/*.toml); without: cf21_legacy\n"
+    "  --vehicle FILE.toml      motor lag, thrust map, mass (sim/vehicle/vehicles/*.toml); without: "
+    "cf21_legacy\n"
     "  --surface NAME           ceiling or ground (ceiling)\n"
     "  --hold-out LOG.csv       not learned from; says what the curve explains (may be repeated)\n"
     "  --set group.name=VALUE   a parameter of the flight code; fly --params lists them (may be repeated).\n"

@@ -7,6 +7,7 @@ fail() {
   bad=1
 }
 sources=$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
+tests=$(find test -name 'test_*.c')
 
 clang-format --dry-run -Werror $sources || fail "clang-format: make format mends it"
 
@@ -52,8 +53,8 @@ tools/long_functions.awk $sources || fail "functions over 40 lines"
 PYTHONDONTWRITEBYTECODE=1 python3 tools/lint_python.py $(find tools test -name '*.py') || fail "Python"
 # The README's reading rules name the tests that pin them; and the table of tests takes lower-case names only.
 for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' README.md); do
-  grep -q "^TEST($test)" test/*.c || fail "README.md names the test $test, which does not exist"
+  grep -q "^TEST($test)" $tests || fail "README.md names the test $test, which does not exist"
 done
-grep -nE '^TEST\(' test/*.c | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
+grep -nE '^TEST\(' $tests | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
 [ $bad = 0 ] && echo "lint: clean"
 exit $bad

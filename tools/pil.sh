@@ -16,7 +16,7 @@ out=$o/pil
 mkdir -p $out/objects
 app="src/*.c src/firmware/controller.c src/firmware/range_up.c src/firmware/recorder.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
 around="test/pil/around.c test/pil/pil.c sim/crazyflie/stand_in_vehicle.c sim/crazyflie/sections.c"
-paths="-D_Thread_local= -Iinclude -Isrc -Isim/crazyflie -Isim"
+paths="-D_Thread_local= -Iinclude -Isrc -Isim/crazyflie -Isim -Itest"
 # As the firmware compiles an app (its tools/make), and with what the app adds to that: no fused multiply-add.
 own=$(sed -nE 's/^ccflags-y \+= (-f[^ ]*) .*/\1/p' src/firmware/Kbuild)
 bits="-std=gnu11 -fno-math-errno $own"

@@ -17,7 +17,7 @@ told() {
   logs=
   for log; do logs="$logs $data/$log"; done
   echo "$vehicle.toml, $*"
-  file=sim/vehicles/$vehicle.toml
+  file=sim/vehicle/vehicles/$vehicle.toml
   [ -f "$file" ] || file=$out/$vehicle.toml
   # shellcheck disable=SC2086
   "$o/gap" --vehicle "$file" --columns tools/columns/"$columns".toml --json $out/verdict.json $logs >$out/said 2>&1 || [ $? -eq 2 ]
@@ -33,8 +33,8 @@ told() {
 }
 
 # The brushless vehicle that flew, 37 g; and a vehicle file that has neither lag nor drag.
-sed 's/^\(mass_kg *= *\)[0-9.]*/\10.037/' sim/vehicles/cf21_brushless.toml >$out/cf21_brushless_37g.toml
-sed 's/^\(motor_tau_s *= *\)[0-9.]*/\10.001/' sim/vehicles/cf21_imrc.toml >$out/cf21_imrc_without_lag.toml
+sed 's/^\(mass_kg *= *\)[0-9.]*/\10.037/' sim/vehicle/vehicles/cf21_brushless.toml >$out/cf21_brushless_37g.toml
+sed 's/^\(motor_tau_s *= *\)[0-9.]*/\10.001/' sim/vehicle/vehicles/cf21_imrc.toml >$out/cf21_imrc_without_lag.toml
 ground=ground_effect/21_randomwalk_s_cf50
 told cf21_neural_swarm neural_swarm ${ground}_00.csv ${ground}_02.csv ${ground}_04.csv
 told cf21_imrc_without_lag imrc imu_rpm_500hz/jana00.csv imu_rpm_500hz/jana03.csv imu_rpm_500hz/jana05.csv imu_rpm_500hz/jana10.csv

@@ -1,7 +1,7 @@
 // slot.c - the hover in a gap of 71 mm: what each form of the ceiling effect makes of it, beside the real
 // flights.
-#include "made.h"
-#include "slot_many.h"
+#include "base/made.h"
+#include "flight/slot_many.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -19,11 +19,11 @@ of() {
   echo "const int ${kind}_count = (int)(sizeof ${kind}_table / sizeof *${kind}_table);"
 }
 
-# The files of sim/vehicles as C strings.
+# The files of sim/vehicle/vehicles as C strings.
 vehicles() {
-  echo '#include "io/model_file.h"'
+  echo '#include "vehicle/model_file.h"'
   echo "const vehicle_text_t vehicle_table[] = {"
-  for path in sim/vehicles/*.toml; do
+  for path in sim/vehicle/vehicles/*.toml; do
     echo "    {\"$(basename "$path" .toml)\","
     sed -E 's/\\/\\\\/g; s/"/\\"/g; s/.*/     "&\\n"/' "$path"
     echo "    },"
@@ -34,13 +34,14 @@ vehicles() {
 
 # A test whose name is not of small letters, digits and _ would compile and never run.
 tests() {
-  odd=$(grep -HnE '^[[:space:]]*TEST[[:space:]]*\(' test/test_*.c | grep -vE ':TEST\([a-z0-9_]+\)' || true)
+  files=$(find test -name 'test_*.c' | LC_ALL=C sort)
+  odd=$(grep -HnE '^[[:space:]]*TEST[[:space:]]*\(' $files | grep -vE ':TEST\([a-z0-9_]+\)' || true)
   if [ "$odd" ]; then
     echo "$odd" | sed -E 's/$/: never run; allowed: TEST(small_letters_digits_and_) at the beginning of a line/' >&2
     exit 1
   fi
-  echo '#include "test.h"'
-  rows=$(grep -HoE '^TEST\([a-z0-9_]+\)' test/test_*.c | sed -E 's/:TEST\((.*)\)/ \1/')
+  echo '#include "rig/test.h"'
+  rows=$(grep -HoE '^TEST\([a-z0-9_]+\)' $files | sed -E 's/:TEST\((.*)\)/ \1/')
   echo "$rows" | while read -r _ name; do echo "TEST($name);"; done
   echo "const test_t test_table[] = {"
   echo "$rows" | while read -r path name; do
@@ -53,7 +54,7 @@ tests() {
 case $kind in
 fx) of fx_t effects/fx.h sim/effects ;;
 curve) of curve_t effects/fx.h sim/effects ;;
-scenario) of scenario_t scenario/scenario.h sim/scenario ;;
+scenario) of scenario_t flight/scenario.h sim/flight/scenario ;;
 vehicle) vehicles ;;
 test) tests ;;
 *) echo "table.sh: unknown kind $kind" >&2; exit 2 ;;

@@ -21,7 +21,7 @@ mkdir -p "$(dirname "$file")"
 new=$(mktemp)
 trap 'rm -f "$new"' EXIT
 {
-  echo '#include "version.h"'
+  echo '#include "base/version.h"'
   echo "const char version_text[] = \"$text\";"
 } >"$new"
 cmp -s "$new" "$file" || cp "$new" "$file"

@@ -21,7 +21,7 @@
 //
 //   off += (1 - exp(-dt/T)) (v - r - off)
 //
-// (0.153 s x bias behind the firmware's Kalman filter, measured on sim/estimator; 0 where only the
+// (0.153 s x bias behind the firmware's Kalman filter, measured on sim/sense; 0 where only the
 // controller's accelerometer is wrong).
 //
 // What the vehicle did in a gap longer than BIAS_GAP_S nobody knows, and a position that moves otherwise than

@@ -8,8 +8,8 @@
 #include "crazyflie/stabilizer_types.h"
 #include "crazyflie/stand_in.h"
 #include "firmware/glue.h"
-#include "model.h"
-#include "peers/stock_pid.h"
+#include "vehicle/model.h"
+#include "crazyflie/stock_pid.h"
 
 typedef struct {
   glue_t app; // the app's state: to be looked at, and for faults to be put in

@@ -1,7 +1,7 @@
 // usd_config.c - the uSD deck's config.txt.
 #include "usd_config.h"
 
-#include "io/number.h"
+#include "base/number.h"
 #include "sections.h"
 #include <ctype.h>
 #include <errno.h>

@@ -8,7 +8,7 @@
 #ifndef CRAZYFLIE_USD_CONFIG_H
 #define CRAZYFLIE_USD_CONFIG_H
 
-#include "error.h"
+#include "base/error.h"
 #include <stdbool.h>
 
 #define USD_CONFIG_EVENTS    20

@@ -5,8 +5,8 @@
 #ifndef SIM_EFFECTS_FX_H
 #define SIM_EFFECTS_FX_H
 
-#include "plant/pair.h"
-#include "plant/random.h"
+#include "base/pair.h"
+#include "base/random.h"
 #include "plant/rigid.h"
 #include <stdbool.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 // diagnose.c - the workflow on flights in memory: stages 2 to 7.
 #include "gap/diagnose.h"
 
-#include "gap/7_verify.h"
-#include "gap/contact.h"
-#include "gap/muted.h"
-#include "gap/select_confirm.h"
-#include "gap/select_shape.h"
+#include "gap/2_predict/muted.h"
+#include "gap/5_infer/confirm.h"
+#include "gap/5_infer/contact.h"
+#include "gap/5_infer/shape.h"
+#include "gap/7_verify/verify.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef SIM_GAP_DIAGNOSE_H
 #define SIM_GAP_DIAGNOSE_H
 
-#include "gap/nominal.h"
+#include "gap/3_feedback/nominal.h"
 
 typedef struct {
   const gap_flights_t *fit, *held; // held: none: the last third of each flight's time
@@ -23,7 +23,7 @@ typedef struct {
   double left_before, left_after; // white sums of squares
 } held_t;
 
-// A name of the fitted flights that the held-out ones contradict (7_verify.h).
+// A name of the fitted flights that the held-out ones contradict (verify.h).
 typedef struct {
   const fx_t *fx;
   int channel;          // that it grows most

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L // strdup
 #include "gap/study.h"
 
-#include "io/model_file.h"
+#include "vehicle/model_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

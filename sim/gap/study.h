@@ -3,11 +3,11 @@
 #ifndef SIM_GAP_STUDY_H
 #define SIM_GAP_STUDY_H
 
-#include "gap/7_resimulate.h"
+#include "base/made.h"
+#include "gap/7_verify/resimulate.h"
 #include "gap/diagnose.h"
-#include "made.h"
 
-#define STUDY_VEHICLE "cf21_legacy" // of sim/vehicles, where no file is named
+#define STUDY_VEHICLE "cf21_legacy" // of sim/vehicle/vehicles, where no file is named
 
 typedef struct {
   const char *vehicle, *columns; // files; null: STUDY_VEHICLE, and the Crazyflie's own names

@@ -8,7 +8,7 @@
 #ifndef SIM_PLANT_DECAY_H
 #define SIM_PLANT_DECAY_H
 
-#include "plant/pair.h"
+#include "base/pair.h"
 
 #define DECAY_FAR 700.0 // k d; from here on the result is 0
 

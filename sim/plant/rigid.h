@@ -13,7 +13,7 @@
 #ifndef SIM_PLANT_RIGID_H
 #define SIM_PLANT_RIGID_H
 
-#include "plant/d3.h"
+#include "base/d3.h"
 #include "plant/vertical.h"
 #include <stdbool.h>
 

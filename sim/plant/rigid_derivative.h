@@ -3,7 +3,7 @@
 #ifndef SIM_PLANT_RIGID_DERIVATIVE_H
 #define SIM_PLANT_RIGID_DERIVATIVE_H
 
-#include "plant/pair.h"
+#include "base/pair.h"
 #include "plant/rigid.h"
 
 // Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.

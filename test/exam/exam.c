@@ -1,7 +1,7 @@
 // exam.c - the hidden-effect exam.
 #include "exam/exam.h"
 
-#include "gap/7_verify.h"
+#include "gap/7_verify/verify.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 // flights.c - flights for an exam.
 #include "exam/flights.h"
 
-#include "body.h"
+#include "body/body.h"
+#include "crazyflie/stock_pid.h"
 #include "exam/plan.h"
-#include "io/model_file.h"
-#include "peers/stock_pid.h"
-#include "pilot_flight.h"
+#include "pilots/pilot_flight.h"
+#include "vehicle/model_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

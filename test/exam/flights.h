@@ -3,7 +3,7 @@
 #ifndef TEST_EXAM_FLIGHTS_H
 #define TEST_EXAM_FLIGHTS_H
 
-#include "gap/flight.h"
+#include "gap/1_read/flight.h"
 
 #define EXAM_SPAN_S 20.0
 #define EXAM_TICK_S 0.002

@@ -1,6 +1,6 @@
 // main.c - sits an exam of many sets and prints the marks: main FIRST_SEED SETS [lines].
+#include "base/made.h"
 #include "exam/exam.h"
-#include "made.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 #ifndef EXAM_PLAN_H
 #define EXAM_PLAN_H
 
-#include "gap/flight.h"
-#include "plant/random.h"
+#include "base/random.h"
+#include "gap/1_read/flight.h"
 
 #define EXAM_CEILING_M 0.8
 #define EXAM_PIECES                                                                                          \

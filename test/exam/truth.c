@@ -1,7 +1,7 @@
 // truth.c - what an exam hides.
 #include "exam/truth.h"
 
-#include "gap/grid.h"
+#include "gap/2_predict/grid.h"
 #include "plant/battery.h"
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #ifndef TEST_EXAM_TRUTH_H
 #define TEST_EXAM_TRUTH_H
 
-#include "model.h"
+#include "vehicle/model.h"
 
 #define TRUTH_EFFECTS 19 // of the library, with a typical size
 #define TRUTH_STRANGE 6  // outside the library

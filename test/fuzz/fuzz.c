@@ -1,9 +1,9 @@
 // fuzz.c - stage 1 of the workflow on any bytes.
 #define _GNU_SOURCE // memfd_create
-#include "fuzz.h"
+#include "fuzz/fuzz.h"
 
-#include "gap/flight.h"
-#include "io/model_file.h"
+#include "gap/1_read/flight.h"
+#include "vehicle/model_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

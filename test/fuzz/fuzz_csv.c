@@ -1,6 +1,6 @@
 // fuzz_csv.c - any bytes as a CSV.
-#include "flight_csv.h"
-#include "fuzz.h"
+#include "fuzz/fuzz.h"
+#include "rig/flight_csv.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,7 +1,7 @@
 // fuzz_usd.c - any bytes as a uSD log.
-#include "flight_csv.h"
-#include "fuzz.h"
-#include "usd_bytes.h"
+#include "fuzz/fuzz.h"
+#include "rig/flight_csv.h"
+#include "rig/usd_bytes.h"
 
 #include <stdio.h>
 

@@ -43,7 +43,7 @@ class Bench:
         self.tools, self.folder = tools, folder
         self.modules = {source_of(o): o for o in tools.objects if source_of(o)}
         self.seconds: dict[str, float] = {}  # of the tests of a file, with the original
-        self.locks: dict[str, threading.Lock] = {f.name: threading.Lock() for f in Path("test").glob("test_*.c")}
+        self.locks: dict[str, threading.Lock] = {f.name: threading.Lock() for f in Path("test").rglob("test_*.c")}
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         self.rest = folder / "rest.o"
@@ -112,7 +112,7 @@ def source_of(built: str) -> str | None:
 def files_of(source: str) -> list[str]:
     """The test files of a module, by their names."""
     word = "app" if source.startswith("src/firmware/") else Path(source).stem
-    names = sorted(f.name for f in Path("test").glob("test_*.c"))
+    names = sorted(f.name for f in Path("test").rglob("test_*.c"))
     return [n for n in names if (n == f"test_{word}.c" or n.startswith(f"test_{word}_")) and n not in (*FLIGHTS, *LEFT_OUT)]
 
 

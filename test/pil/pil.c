@@ -1,5 +1,5 @@
 // pil.c - one call of the app as a record of words.
-#include "pil.h"
+#include "pil/pil.h"
 
 #include "controller.h"
 #include "firmware/glue.h"

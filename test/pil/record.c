@@ -5,11 +5,11 @@
 // stay close (ceil.blindMax), a flight as it ships to the letter, that retreats, and flights whose inputs,
 // parameters and time are spoiled.
 #include "controller.h"
-#include "param_spec.h"
-#include "pil.h"
-#include "pilot_flight.h"
-#include "plant/random.h"
-#include "setup6.h"
+#include "pilots/param_spec.h"
+#include "pil/pil.h"
+#include "pilots/pilot_flight.h"
+#include "base/random.h"
+#include "flight/setup6.h"
 
 #include <stdio.h>
 #include <stdlib.h>

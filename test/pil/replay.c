@@ -1,5 +1,5 @@
 // replay.c - records in, answers out, on the host: replay IN OUT.
-#include "pil.h"
+#include "pil/pil.h"
 #include <stdio.h>
 
 int main(int argc, char **argv) {

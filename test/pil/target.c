@@ -3,7 +3,7 @@
 // Command line by semihosting: IN OUT COST BATCH. Answers are written after every BATCH records, so that 1
 // closes a loop over two pipes. COST (`-`: none) gets two words a call: ticks of SysTick, and bytes of stack
 // below the caller.
-#include "pil.h"
+#include "pil/pil.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,12 @@
+// clip.h - a number, or the bound that it is beyond.
+#ifndef SIM_BASE_CLIP_H
+#define SIM_BASE_CLIP_H
+
+#include <math.h>
+
+// lo <= hi. NaN becomes lo.
+static inline double clip(double x, double lo, double hi) {
+  return fmin(fmax(x, lo), hi);
+}
+
+#endif

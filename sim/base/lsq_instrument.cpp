@@ -1,0 +1,177 @@
+// lsq_instrument.cpp - two-stage least squares from sums of products.
+#include "base/lsq_instrument.h"
+
+#include "base/dense.hpp"
+#include <cmath>
+
+using view_t = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using out_t = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+#define F_MAX 1e6
+
+namespace {
+
+struct stage_t {
+  const lsq_instrument_t *p;
+  int size;
+  VectorXd scale;                            // of the columns, to a unit diagonal
+  MatrixXd P;                                // xhat = P' z: size x n, in scaled columns
+  Eigen::Array<bool, Eigen::Dynamic, 1> own; // stands for itself
+};
+
+MatrixXd products(const stage_t &s, const double *G) {
+  return dense_scaled(view_t(G, s.size, s.size), s.scale);
+}
+
+int first_of(const stage_t &s, int k) {
+  return s.p->n + k * s.p->sets * s.p->lags;
+}
+
+VectorXd fitted(const MatrixXd &G, int at, int n, int k) {
+  MatrixXd Z = G.block(at, at, n, n);
+  Z.diagonal().array() += 1e-9;
+  return dense_solve_symmetric(Z, G.col(k).segment(at, n));
+}
+
+void project(stage_t &s, const MatrixXd &G) {
+  const int n = s.p->sets * s.p->lags;
+  s.P = MatrixXd::Zero(s.size, s.p->n);
+  for (int k = 0; k < s.p->n; k++)
+    if (s.own(k))
+      s.P(k, k) = 1.0;
+    else
+      s.P.block(first_of(s, k), k, n, 1) = fitted(G, first_of(s, k), n, k);
+}
+
+// Slope of x_k on w = Z a over its error, squared, over so many instruments that were fitted. blocks: how
+// many of equal weight would say as much.
+double strength(const stage_t &s, int k, const VectorXd &w, double instruments, double *blocks) {
+  double ww = 0.0, wx = 0.0, sum = 0.0;
+  VectorXd ww_b(s.p->n_block), wx_b(s.p->n_block);
+  for (int b = 0; b < s.p->n_block; b++) {
+    const VectorXd Gw = dense_apply(products(s, s.p->block + (ptrdiff_t)b * s.size * s.size), w);
+    ww += ww_b(b) = w.dot(Gw);
+    wx += wx_b(b) = Gw(k);
+  }
+  const double slope = wx / ww;
+  for (int b = 0; b < s.p->n_block; b++) sum += std::pow(wx_b(b) - slope * ww_b(b), 2);
+  const double f = wx * wx / std::fmax(sum, 1e-300) / instruments;
+  *blocks = wx * wx / std::fmax(wx_b.squaredNorm(), 1e-300);
+  return std::isfinite(f) ? std::fmin(f, F_MAX) : 0.0;
+}
+
+double instruments_of(const stage_t &s, int k) {
+  return (double)(s.scale.segment(first_of(s, k), s.p->sets * s.p->lags).array() > 0.0).count();
+}
+
+// Leaves out the sets that are too weak, and gives x_k itself where none is left. F: of the best set then.
+void choose(stage_t &s, double *F) {
+  const int lags = s.p->lags;
+  const MatrixXd G = products(s, s.p->total);
+  for (int k = 0; k < s.p->n; k++) {
+    F[k] = 0.0;
+    for (int i = 0; i < s.p->sets; i++) {
+      const int at = first_of(s, k) + i * lags;
+      VectorXd w = VectorXd::Zero(s.size);
+      w.segment(at, lags) = fitted(G, at, lags, k);
+      const bool there = G.diagonal().segment(at, lags).maxCoeff() > 0.0;
+      double blocks;
+      const double f = there ? strength(s, k, w, lags, &blocks) : 0.0;
+      F[k] = std::fmax(F[k], f);
+      if (f < s.p->least) s.scale.segment(at, lags).setZero();
+    }
+    s.own(k) = instruments_of(s, k) == 0.0;
+  }
+}
+
+struct fit_t {
+  MatrixXd inverse; // (Xhat' X)^-1
+  VectorXd b;
+};
+
+bool fit(const stage_t &s, const MatrixXd &G, fit_t &f) {
+  const int n = s.p->n;
+  const MatrixXd Pt = s.P.transpose();
+  if (!dense_invert(dense_product(Pt, G.leftCols(n)), f.inverse)) return false;
+  f.b = dense_apply(f.inverse, dense_apply(Pt, G.col(s.size - 1)));
+  return f.b.allFinite();
+}
+
+// The same without one block.
+VectorXd without(const stage_t &s, const MatrixXd &G, const fit_t &f, const MatrixXd &block) {
+  const MatrixXd Pt = s.P.transpose(), left = G - block;
+  MatrixXd inverse;
+  if (dense_invert(dense_product(Pt, left.leftCols(s.p->n)), inverse))
+    return dense_apply(inverse, dense_apply(Pt, left.col(s.size - 1)));
+  const VectorXd own = block.col(s.size - 1) - dense_apply(block.leftCols(s.p->n), f.b);
+  return f.b - dense_apply(f.inverse, dense_apply(Pt, own));
+}
+
+// Takes out of the instruments what is too weak, the weakest first: without it the others may be strong.
+bool settle(stage_t &s, const MatrixXd &G, double *F, double *blocks, fit_t &f) {
+  for (;;) {
+    project(s, G);
+    int weakest = -1;
+    if (!fit(s, G, f)) {
+      if (s.own.all()) return false;
+      s.own.setConstant(true);
+      continue;
+    }
+    for (int k = 0; k < s.p->n; k++) {
+      if (s.own(k)) continue;
+      F[k] = strength(s, k, dense_apply(s.P, f.inverse.row(k)), instruments_of(s, k), &blocks[k]);
+      if (F[k] < s.p->least && (weakest < 0 || F[k] < F[weakest])) weakest = k;
+    }
+    if (weakest < 0) return true;
+    s.own(weakest) = true;
+  }
+}
+
+// Jackknife over the blocks: of `two`, and of its distance from `one`.
+void spreads(const stage_t &two, const fit_t &iv, const stage_t &one, const fit_t &ls, MatrixXd &spread,
+             MatrixXd &apart) {
+  const int n = two.p->n, last = two.size - 1;
+  const MatrixXd G = products(two, two.p->total), H = products(one, one.p->total);
+  double used = 0.0;
+  spread = apart = MatrixXd::Zero(n, n);
+  for (int i = 0; i < two.p->n_block; i++) {
+    const double *own = two.p->block + (ptrdiff_t)i * two.size * two.size;
+    const MatrixXd g = products(two, own), h = products(one, own);
+    if (!(g(last, last) > 0.0)) continue;
+    const VectorXd u = without(two, G, iv, g) - iv.b, d = u - (without(one, H, ls, h) - ls.b);
+    spread += dense_product(u, u.transpose());
+    apart += dense_product(d, d.transpose());
+    used += 1.0;
+  }
+  spread *= (used - 1.0) / std::fmax(used, 1.0);
+  apart *= (used - 1.0) / std::fmax(used, 1.0);
+}
+
+} // namespace
+
+bool lsq_instrument(const lsq_instrument_t *p, const lsq_instrumented_t *out) {
+  const int n = p->n, size = n + n * p->sets * p->lags + 1;
+  stage_t two = {
+      p, size, VectorXd::Zero(size), {}, Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, false)};
+  for (int i = 0; i < size; i++) {
+    const double square = p->total[i * (size + 1)];
+    two.scale(i) = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+  }
+  if (n == 0 || !(two.scale.head(n).minCoeff() > 0.0) || !(two.scale(size - 1) > 0.0)) return false;
+  stage_t one = two;
+  one.own.setConstant(true);
+  choose(two, out->F);
+  const MatrixXd G = products(one, p->total);
+  fit_t ls, iv;
+  project(one, G);
+  if (!fit(one, G, ls) || !settle(two, products(two, p->total), out->F, out->blocks, iv)) return false;
+  MatrixXd spread, differ;
+  spreads(two, iv, one, ls, spread, differ);
+  // Back to the regressors' own units.
+  const VectorXd unit = two.scale.head(n) / two.scale(size - 1);
+  Eigen::Map<VectorXd>(out->b, n) = iv.b.cwiseProduct(unit);
+  Eigen::Map<VectorXd>(out->plain, n) = ls.b.cwiseProduct(unit);
+  out_t(out->V, n, n) = dense_scaled(spread, unit);
+  out_t(out->apart, n, n) = dense_scaled(differ, unit);
+  return true;
+}

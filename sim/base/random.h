@@ -1,0 +1,29 @@
+// random.h - repeatable noise. The same seed gives the same numbers.
+#ifndef SIM_BASE_RANDOM_H
+#define SIM_BASE_RANDOM_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct noise_source random_t;
+
+// Null if there is no memory.
+random_t *random_open(uint64_t seed);
+// Normally distributed, mean 0, standard deviation 1.
+double random_normal(random_t *r);
+// n numbers (even) of mean 0 and standard deviation 1, each the sum of two even ones: a triangle, never
+// beyond 2.45. Ten times as fast as normal ones; for noise that a filter averages afterwards, which makes it
+// normal.
+void random_triangles(random_t *r, int n, double *out);
+// Evenly distributed over lo..hi.
+double random_uniform(random_t *r, double lo, double hi);
+void random_close(random_t *r);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,243 @@
+// body.c - a vehicle with six degrees of freedom in its surroundings.
+#include "body/body.h"
+
+#include "body/body_forces.h"
+#include "plant/rigid_derivative.h"
+#include "plant/rotor.h"
+#include <math.h>
+#include <string.h>
+
+#define CHUNK_S  0.01 // a longer tick looks for surfaces in between
+#define MARGIN_M 2e-3 // how much nearer than by its speed a vehicle may come in a chunk
+
+double body_rest_z_m(const model_t *model) {
+  return model->frame.cg_above_feet_m;
+}
+body_start_t body_standing(const model_t *model) {
+  const d3_t up = model_floor_up_w(model); // the shortest turn from level to it
+  return (body_start_t){.pos_w_m = d3_scale(body_rest_z_m(model), up),
+                        .q_wb = dq_unit((dq_t){1.0 + up.z, -up.y, up.x, 0.0})};
+}
+double body_rotor_z_m(const model_t *model) {
+  return model->frame.rotor_above_feet_m - model->frame.cg_above_feet_m;
+}
+
+static void derivative(void *self, const double *y, double *dydt) {
+  body_t *b = self;
+  if (!b->look_is_y) {
+    body_derivative(b, b->surfaces, y, dydt);
+    return;
+  }
+  // The first call of a tick is at the tick's start, whichever integrator it is.
+  body_derivative_seen(b, y, &b->look, dydt);
+  b->look_is_y = false;
+}
+
+static void look_now(body_t *b) {
+  body_look(b, TOUCH_FLOOR | TOUCH_CEILING | TOUCH_WALL, b->y, &b->look);
+  b->look_is_y = true;
+}
+
+// --- opening --------------------------------------------------------------------------------------------
+
+static void collect_effects(body_t *b) {
+  for (int k = 0; k < b->model->n_fx; k++) {
+    const fx_use_t *use = &b->model->fx[k];
+    if (use->fx->excess) b->excess[b->n_excess++] = use;
+    if (use->fx->load) b->load[b->n_load++] = use;
+    b->n_tick += use->fx->tick != NULL;
+  }
+}
+
+static void take_start(body_t *b, const body_start_t *start) {
+  const dq_t q = start->q_wb;
+  const bool level = !(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > 0.0);
+  d3_put(b->y + RIGID_POS_M, start->pos_w_m);
+  d3_put(b->y + RIGID_VEL_MPS, start->vel_w_mps);
+  d3_put(b->y + RIGID_RATE_RADPS, start->rate_b_radps);
+  b->y[RIGID_Q_WB] = level ? 1.0 : q.w;
+  d3_put(b->y + RIGID_Q_WB + 1, d3(q.x, q.y, q.z));
+  rigid_normalise(b->y);
+  for (int i = 0; i < ROTORS; i++) b->y[RIGID_THRUST_N + i] = b->command_N[i] = start->thrust_N[i];
+  // A delay of k ticks brings the first k times what the motors do already.
+  for (int i = 0; i < BODY_QUEUE; i++) memcpy(b->queue_N[i], start->thrust_N, sizeof b->queue_N[i]);
+  b->rigid.vertical_only = start->vertical_only;
+  b->rigid.held = start->held;
+  b->charge = 1.0 - start->discharged;
+}
+
+static void look_at_battery(body_t *b) {
+  b->current_A = battery_current_A(&b->model->battery, b->y + RIGID_THRUST_N, ROTORS);
+  b->vbat_V = battery_voltage_V(&b->model->battery, b->charge, b->current_A);
+}
+
+static bool model_is_good(const model_t *m) {
+  const frame_t *f = &m->frame;
+  return m->mass_kg > 0.0 && m->motor_tau_s > 0.0 && f->kf_Ns2 > 0.0 && f->inertia_kgm2[0] > 0.0 &&
+         f->inertia_kgm2[1] > 0.0 && f->inertia_kgm2[2] > 0.0;
+}
+
+status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
+                   const body_start_t *start) {
+  memset(b, 0, sizeof *b);
+  if (!model_is_good(model)) return ST_BAD_INPUT;
+  const frame_t *f = &model->frame;
+  b->model = model;
+  b->plant = body_untouched(model);
+  b->rigid = (rigid_t){.mass_kg = model->mass_kg,
+                       .inertia_kgm2 = d3_of(f->inertia_kgm2),
+                       .torque_ratio_m = f->torque_ratio_m,
+                       .kf_Ns2 = f->kf_Ns2,
+                       .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
+                       .motor_tau_s = model->motor_tau_s,
+                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                       .torque_scale = {1.0, 1.0, 1.0, 1.0}};
+  rigid_tune(&b->rigid);
+  memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
+  body_surround(&b->touch, model);
+  body_place(b, b->plant.cg_b_m);
+  collect_effects(b);
+  take_start(b, start);
+  look_at_battery(b);
+  b->random = random_open(start->seed);
+  if (!b->random) return ST_FAILED;
+  if (b->n_tick > 0) body_effects(b, 0.0);
+  look_now(b);
+  const touch_gap_t gap = body_clearance(b);
+  b->on_floor = gap.floor_m < BODY_RELEASE_M;
+  b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
+  const ode_t ode = {.n = RIGID_N, .derivative = derivative, .context = b, .step_s = step_s};
+  const status_t status = integrate_open(&b->integrate, kind, &ode);
+  if (status != ST_OK) body_close(b);
+  return status;
+}
+
+void body_hold(body_t *b, bool held) {
+  b->rigid.held = held;
+  for (int i = 0; held && i < 3; i++) b->y[RIGID_VEL_MPS + i] = b->y[RIGID_RATE_RADPS + i] = 0.0;
+  b->look_is_y = false;
+  look_now(b);
+}
+
+void body_close(body_t *b) {
+  integrate_close(b->integrate);
+  random_close(b->random);
+  b->integrate = NULL;
+  b->random = NULL;
+}
+
+// --- a tick ---------------------------------------------------------------------------------------------
+
+static int touched(bool *on, double gap_m) {
+  const bool was = *on;
+  *on = gap_m <= 0.0 || (was && gap_m < BODY_RELEASE_M);
+  return *on && !was;
+}
+
+static void watch_contacts(body_t *b) {
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const touch_gap_t gap = touch_gap(&b->touch, d3_of(b->y + RIGID_POS_M), &axes);
+  b->floor_contacts += touched(&b->on_floor, gap.floor_m);
+  b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
+}
+
+// The surfaces that may be touched within span_s.
+static int surfaces_within(const body_t *b, double span_s) {
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS);
+  const d3_t vel = d3_of(b->y + RIGID_VEL_MPS);
+  const bool level = b->touch.floor_up_w.z == 1.0 && !isfinite(b->touch.wall_y_m);
+  const double speed = (level ? fabs(vel.z) : d3_norm(vel)) +
+                       b->touch.beside_m * (fabs(rate.x) + fabs(rate.y) + (level ? 0.0 : fabs(rate.z)));
+  return touch_near(&b->touch, d3_of(b->y + RIGID_POS_M), &axes, MARGIN_M + speed * span_s);
+}
+
+static void advance(body_t *b, double span_s) {
+  bool event;
+  b->surfaces = surfaces_within(b, span_s);
+  const int parts = b->surfaces ? (int)ceil(span_s / TOUCH_STEP_S - 1e-9) : 1;
+  for (int i = 0; i < parts && !b->broken; i++) {
+    b->broken = !isfinite(integrate_to(b->integrate, b->y, span_s / parts, &event));
+    if (b->surfaces || b->on_floor || b->on_ceiling) watch_contacts(b);
+  }
+}
+
+static void delay_commands(body_t *b, double span_s) {
+  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
+  const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
+  memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
+  memcpy(b->rigid.command_N, b->queue_N[(b->queued - ticks) % BODY_QUEUE], sizeof b->command_N);
+  b->queued++;
+}
+
+static void tick(body_t *b, double span_s) {
+  if (b->n_tick > 0) {
+    body_effects(b, span_s);
+    b->look_is_y = false;
+  }
+  delay_commands(b, span_s);
+  const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
+  for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
+  rigid_normalise(b->y);
+  look_now(b);
+  b->broken = b->broken || !isfinite(b->y[RIGID_POS_M + 2]) || !isfinite(b->y[RIGID_Q_WB]);
+  b->charge = battery_discharge(&b->model->battery, b->charge, b->current_A, span_s);
+  look_at_battery(b);
+  b->t_s += span_s;
+}
+
+void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
+  const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
+  for (int i = 0; i < ROTORS; i++) {
+    const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
+    b->command_N[i] = command < max_N ? command : max_N;
+  }
+  tick(b, span_s);
+}
+
+void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s) {
+  for (int i = 0; i < ROTORS; i++)
+    b->command_N[i] = rotor_command_N(&b->model->map, pwm[i], b->vbat_V, b->model->thrust_max_N / ROTORS);
+  tick(b, span_s);
+}
+
+// --- looking ----------------------------------------------------------------------------------------------
+
+static void derivative_now(const body_t *b, double dydt[RIGID_N]) {
+  body_derivative_seen(b, b->y, &b->look, dydt);
+}
+
+d3_t body_angular_acc_b_radps2(const body_t *b) {
+  double dydt[RIGID_N];
+  derivative_now(b, dydt);
+  return d3_of(dydt + RIGID_RATE_RADPS);
+}
+
+d3_t body_specific_force_b_mps2(const body_t *b) {
+  double dydt[RIGID_N];
+  derivative_now(b, dydt);
+  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
+  const d3_t imu = d3_sub(d3_of(b->model->frame.imu_m), b->plant.cg_b_m);
+  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
+  return d3_add(axes_to_body(&b->look.axes, acc_w),
+                d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
+}
+
+static double rotor_z_m(const body_t *b, int i) {
+  const rigid_t *r = &b->rigid;
+  return b->y[RIGID_POS_M + 2] +
+         d3_dot(axes_up_b(&b->look.axes), d3(r->rotor_x_m[i], r->rotor_y_m[i], r->rotor_z_m[i]));
+}
+
+double body_ceiling_gap_m(const body_t *b, int rotor) {
+  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
+  return gap_m > 0.0 ? gap_m : 0.0;
+}
+
+double body_thrust_ratio(const body_t *b, int rotor) {
+  return b->look.ratio[rotor];
+}
+
+touch_gap_t body_clearance(const body_t *b) {
+  return touch_gap(&b->touch, d3_of(b->y + RIGID_POS_M), &b->look.axes);
+}

@@ -1,0 +1,103 @@
+// body.h - a vehicle with six degrees of freedom in its surroundings: rigid body, rotors, battery, effects,
+// contact and integrator together, one tick at a time. The sibling of world.h, which has the vertical axis
+// alone.
+//
+// Each rotor has its own distance from ceiling and ground, along the world's vertical from its centre;
+// ceiling and ground effect add their excess (thesis 3.1.4). The floor goes through the origin and may slope;
+// the ceiling is at model.ceiling_m, a wall that is solid at model.wall_y_m.
+#ifndef SIM_BODY_BODY_H
+#define SIM_BODY_BODY_H
+
+#include "plant/integrate.h"
+#include "plant/rigid.h"
+#include "plant/touch.h"
+#include "vehicle/model.h"
+#include <stdint.h>
+
+#define BODY_QUEUE 256 // ticks; a longer delay than this is cut to it
+
+// Where a flight starts. All zero: see each line.
+typedef struct {
+  d3_t pos_w_m; // centre of mass; body_rest_z_m() is its height at rest on the floor
+  d3_t vel_w_mps;
+  dq_t q_wb; // all zero: level, x forward
+  d3_t rate_b_radps;
+  double thrust_N[ROTORS]; // in free air
+  double discharged;       // 0: the battery is full, 1: empty
+  uint64_t seed;           // of what is random (gusts)
+  bool vertical_only;      // all but height, climb and thrust stand still
+  bool held;               // as by body_hold()
+} body_start_t;
+
+// All that the derivative at a state needs besides the commands.
+typedef struct {
+  axes_t axes;
+  double ratio[ROTORS], speed_radps[ROTORS];
+  bool loaded; // else load is not set: nothing acts but the rotors
+  load_t load;
+} body_look_t;
+
+typedef struct {
+  const model_t *model; // owned by the caller; must outlive the body and must not change
+  rigid_t rigid;
+  touch_t touch;
+  double y[RIGID_N];        // see plant/rigid.h; the quaternion is of unit length at ticks. To be read only
+  double command_N[ROTORS]; // as given to the last tick, within the model's limits, before the delay
+  double t_s;               // since the start
+  double charge, current_A, vbat_V;
+  int ceiling_contacts, floor_contacts; // how often each was touched; resting from the start does not count
+  bool on_ceiling, on_floor;            // touching since the last contact, until the gap is BODY_RELEASE_M
+  bool broken;                          // the solver gave up, or the state is not finite; it stands still
+  // Not for callers.
+  integrate_t *integrate;
+  random_t *random;
+  fx_plant_t plant; // what the effects made of the model for this tick
+  double memory[FX_MAX][FX_MEMORY];
+  const fx_use_t *excess[FX_MAX], *load[FX_MAX];
+  int n_excess, n_load, n_tick;
+  int surfaces;     // TOUCH_* that are near enough to look at
+  body_look_t look; // at y, between ticks
+  bool look_is_y;   // also at the integrator's next call
+  double queue_N[BODY_QUEUE][ROTORS];
+  unsigned queued;
+} body_t;
+
+#define BODY_RELEASE_M 1e-3
+
+// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range. ST_FAILED: no
+// memory. The body must not be moved in memory; close what was opened.
+MUST_CHECK status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
+                              const body_start_t *start);
+
+// Moves on by span_s with commands in newton per motor (what the thrust in free air will settle at; within a
+// quarter of the model's thrust limits), or in PWM 0..65535 through the thrust map at the battery's voltage.
+void body_tick(body_t *b, const double command_N[ROTORS], double span_s);
+void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s);
+
+// Specific force at the accelerometer, body axes: what a perfect one reads, +g along z at rest.
+d3_t body_specific_force_b_mps2(const body_t *b);
+
+// Angular acceleration, body axes.
+d3_t body_angular_acc_b_radps2(const body_t *b);
+
+double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
+double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by
+touch_gap_t body_clearance(const body_t *b);           // of the point that is nearest; below 0: in contact
+
+// Something holds the vehicle where it is, whatever the rotors do; or lets go of it.
+void body_hold(body_t *b, bool held);
+
+// At rest on the floor over the origin, motors off, x forward as far as the floor is level.
+body_start_t body_standing(const model_t *model);
+
+// Floor, ceiling, wall and the rotors' radius, as the model has them.
+void body_surround(touch_t *t, const model_t *model);
+
+// Height of the centre of mass at rest on the floor, level.
+double body_rest_z_m(const model_t *model);
+// Height of the rotors' plane over the centre of mass, level.
+double body_rotor_z_m(const model_t *model);
+
+void body_close(body_t *b);
+
+#endif

@@ -1,0 +1,55 @@
+// pilot6.h - what flies in six degrees of freedom: measurements and a set point in, four motor forces out,
+// every millisecond. The flight code and its peers alike.
+//
+// World x, y level, z up; body x forward, y left, z up. Motors as on the Crazyflie, seen from above: m1 front
+// right, m2 back right, m3 back left, m4 front left; the air turns the body clockwise for m1 and m3 and
+// counter-clockwise for m2 and m4. Who does not run at every call keeps its last output.
+#ifndef SIM_CRAZYFLIE_PILOT6_H
+#define SIM_CRAZYFLIE_PILOT6_H
+
+#include "base/d3.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+#define PILOT6_MOTORS   4
+#define PILOT6_PERIOD_S 1e-3
+
+typedef enum {
+  PILOT6_OFF,      // x or y: fly level; z: thrust_N is what the motors give
+  PILOT6_POSITION, // hold the position; velocity and acceleration are feed-forward
+  PILOT6_VELOCITY, // hold the velocity; acceleration is feed-forward
+} pilot6_mode_t;
+
+typedef struct {
+  pilot6_mode_t mode[3]; // x, y, z; of the world, or of the heading while vel_in_body
+  d3_t pos_w_m;
+  bool vel_in_body; // vel_mps is along the heading: x forward, y left, z up; else along the world's axes
+  d3_t vel_mps;
+  d3_t acc_w_mps2; // without gravity
+  bool yaw_by_rate;
+  double yaw_rad;        // counter-clockwise from above, any number of turns; unless yaw_by_rate
+  double yaw_rate_radps; // if yaw_by_rate
+  double thrust_N;       // of all motors together, mode[2] off; 0: the motors stop
+} pilot6_setpoint_t;
+
+typedef struct {
+  uint32_t step;                   // counts calls; 1 kHz
+  d3_t gyro_b_radps;               // as measured
+  d3_t acc_b_mps2;                 // as measured: specific force, +9.81 on z at rest
+  d3_t pos_w_m, vel_w_mps;         // as estimated
+  dq_t q_wb;                       // as estimated; of length 1
+  double applied_N[PILOT6_MOTORS]; // command that was applied since the last call, after its limits
+  double vbat_V;                   // as measured
+  bool range_new;                  // range_m was not there at the last call
+  double range_m, range_age_s;     // upward range sensor, along body z; NaN: no valid distance
+  pilot6_setpoint_t set;
+} pilot6_in_t;
+
+typedef struct {
+  void *state;
+  // Fills motor_N, m1..m4, each finite and >= 0.
+  void (*step)(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]);
+  void (*reset)(void *state); // as after power-on; parameters stay
+} pilot6_t;
+
+#endif

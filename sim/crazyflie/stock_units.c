@@ -1,0 +1,127 @@
+// stock_units.c - the border between SI and the units of the Crazyflie's firmware.
+#include "crazyflie/stock_units.h"
+
+#define SUPPLY_START_V 4.2
+#define SUPPLY_GAIN    0.01
+#define SUPPLY_MIN_V   2.0
+#define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
+#define G_MPS2         9.81
+
+stock_view_t stock_view(const pilot6_in_t *in) {
+  const dq_t q = in->q_wb;
+  const double lean = 2.0 * (q.w * q.y - q.x * q.z); // sine of the nose-down angle
+  return (stock_view_t){
+      .gyro_dps = d3_scale(STOCK_DEG, in->gyro_b_radps),
+      .acc_g = d3_scale(1.0 / G_MPS2, in->acc_b_mps2),
+      .roll_deg = STOCK_DEG * atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)),
+      .pitch_deg = -STOCK_DEG * asin(fmin(fmax(lean, -1.0), 1.0)),
+      .yaw_deg = STOCK_DEG * atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)),
+  };
+}
+
+double stock_cap_deg(double angle_deg) {
+  return fabs(angle_deg) <= 180.0 ? angle_deg : remainder(angle_deg, 360.0);
+}
+
+stock_power_param_t stock_power_legacy(void) {
+  return (stock_power_param_t){
+      .volt_cubic = {-0.014830744918356092, 0.04724465241828281, -0.01847364358025878, 0.005960923942142},
+      .thrust_min_N = 0.012817578393224994,
+      .thrust_max_N = 0.12,
+  };
+}
+
+stock_power_param_t stock_power_plus(void) {
+  return (stock_power_param_t){
+      .volt_cubic = {-0.02476537915958403, 0.06523793527519485, -0.026792504967750107, 0.006776789303971145},
+      .thrust_min_N = 0.012817578393224994,
+      .thrust_max_N = 0.12,
+  };
+}
+
+stock_power_param_t stock_power_60g(void) {
+  stock_power_param_t p = stock_power_legacy();
+  p.thrust_max_N = 0.060 * G_MPS2 / PILOT6_MOTORS;
+  return p;
+}
+
+stock_power_param_t stock_power_2022(void) {
+  stock_power_param_t p = stock_power_60g();
+  p.volt_quadratic[0] = 0.088;
+  p.volt_quadratic[1] = -0.0006239;
+  return p;
+}
+
+void stock_power_start(stock_power_t *s) {
+  *s = (stock_power_t){.supply_V = SUPPLY_START_V};
+}
+
+void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]) {
+  const double t = command->thrust, yaw = trunc(command->yaw);
+  const double r = trunc(trunc(command->roll) / 2.0), p = trunc(trunc(command->pitch) / 2.0);
+  unit[0] = trunc(t - r + p + yaw);
+  unit[1] = trunc(t - r - p - yaw);
+  unit[2] = trunc(t + r - p + yaw);
+  unit[3] = trunc(t + r + p - yaw);
+}
+
+static double cubic_N(const double c[4], double v) {
+  return c[0] + v * (c[1] + v * (c[2] + v * c[3]));
+}
+
+// The real root of the cubic, which rises everywhere (Cardano): with v = t - b/(3a), t^3 + 3 m t = 2 n.
+static double cubic_V(const double c[4], double thrust_N) {
+  const double shift = c[2] / (3.0 * c[3]);
+  const double m = c[1] / (3.0 * c[3]) - shift * shift;
+  const double n = 0.5 * (shift * c[1] / c[3] - (c[0] - thrust_N) / c[3]) - shift * shift * shift;
+  const double root = sqrt(n * n + m * m * m);
+  return cbrt(n + root) + cbrt(n - root) - shift;
+}
+
+// The same from a root of a thrust that was a little different, by Newton's method.
+static double near_V(const double c[4], double thrust_N, double v) {
+  for (int i = 0; i < 6; i++) {
+    const double step = (cubic_N(c, v) - thrust_N) / (c[1] + v * (2.0 * c[2] + v * 3.0 * c[3]));
+    v -= step;
+    if (fabs(step) < 1e-9) return v; // the next step would be its square
+  }
+  return cubic_V(c, thrust_N);
+}
+
+static double wanted_V(const stock_power_param_t *p, double thrust_N, double last_V) {
+  const double *q = p->volt_quadratic, grams = PILOT6_MOTORS * 1e3 / G_MPS2 * thrust_N;
+  if (q[0] > 0.0) return grams * (q[0] + q[1] * grams);
+  return last_V > 0.0 ? near_V(p->volt_cubic, thrust_N, last_V) : cubic_V(p->volt_cubic, thrust_N);
+}
+
+// Written so that a voltage that is not a number stops the motors.
+static double duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, double unit) {
+  const double wanted_N = p->thrust_max_N / STOCK_FULL * fmin(fmax(trunc(unit), -UNIT_MAX), UNIT_MAX);
+  if (!(wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V)) return 0.0;
+  if (wanted_N != s->wanted_N[motor]) {
+    s->wanted_N[motor] = wanted_N;
+    s->wanted_V[motor] = wanted_V(p, wanted_N, s->wanted_V[motor]);
+  }
+  return trunc(STOCK_FULL * s->wanted_V[motor] / s->supply_V);
+}
+
+void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
+                      double vbat_V, double duty[PILOT6_MOTORS]) {
+  s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
+  double most = STOCK_FULL;
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    duty[i] = duty_of(s, p, i, unit[i]);
+    most = fmax(most, duty[i]);
+  }
+  for (int i = 0; i < PILOT6_MOTORS; i++) duty[i] = fmax(duty[i] - (most - STOCK_FULL), 0.0);
+}
+
+void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
+                      double vbat_V, double motor_N[PILOT6_MOTORS]) {
+  double duty[PILOT6_MOTORS];
+  stock_power_duty(s, p, unit, vbat_V, duty);
+  for (int i = 0; i < PILOT6_MOTORS; i++) {
+    const double share = duty[i] / STOCK_FULL;
+    motor_N[i] = share > 0.0 ? fmax(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
+  }
+}

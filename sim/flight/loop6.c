@@ -1,0 +1,225 @@
+// loop6.c - one flight in six degrees of freedom.
+#include "flight/loop6.h"
+
+#include "base/cpu_time.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define RECORD_EVERY 5     // ticks of 2 ms
+#define IDLE_N       0.002 // of one motor: below, it stands
+
+typedef struct {
+  const plan6_t *plan;
+  const model_t *model;
+  const pilot6_t *pilot;
+  loop6_ask_t ask;
+  body_t body;
+  random_t *random;
+  imu_t imu;
+  range_t range;
+  mocap_t mocap;
+  ekf_in_t seen; // the pose is only there with motion capture
+  ekf_t ekf;
+  pilot6_in_t in;
+  ekf_out_t estimate;
+  double motor_N[PILOT6_MOTORS];
+  double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
+  bool range_new;
+  int way;
+  double ceiling_z_m; // as the pilot thinks it, at the last sample
+} flight6_t;
+
+static truth_t truth_of(const flight6_t *f) {
+  const body_t *b = &f->body;
+  const double *y = b->y;
+  const dq_t q = dq_of(y + RIGID_Q_WB);
+  const axes_t axes = axes_of(q);
+  const double up = fmax(axes_up_b(&axes).z, 1e-3);
+  bool motors = false;
+  for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
+  const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
+  const d3_t floor_up_w = b->touch.floor_up_w, pos_w_m = d3_of(y + RIGID_POS_M);
+  const double floor_up = fmax(d3_dot(axes.z, floor_up_w), 1e-3);
+  // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
+  fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
+                       .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
+                       .range_rate_mps = -climb_mps};
+  fx_sensed_t below = {.range_m =
+                           (touch_above_floor_m(&b->touch, pos_w_m) - body_rest_z_m(f->model)) / floor_up,
+                       .range_rate_mps = d3_dot(floor_up_w, d3_of(y + RIGID_VEL_MPS)) / floor_up};
+  model_sense(f->model, &above);
+  model_sense(f->model, &below);
+  return (truth_t){
+      .pos_w_m = d3_of(y + RIGID_POS_M),
+      .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
+      .q_wb = q,
+      .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
+      .force_b_mps2 = above.acc_b_mps2,
+      .up_m = above.range_m,
+      .down_m = below.range_m,
+      .motors = motors,
+  };
+}
+
+// Motion capture in place of the downward sensors; its zero is the height at rest.
+static void see_by_mocap(flight6_t *f, const truth_t *truth) {
+  truth_t seen = *truth;
+  seen.pos_w_m.z -= body_rest_z_m(f->model);
+  const mocap_sample_t pose = mocap_step(&f->mocap, &f->plan->mocap, f->random, &seen);
+  f->seen.range_new = f->seen.flow_new = false;
+  f->seen.pose_new = pose.is_new;
+  f->seen.pose_m = pose.pos_w_m;
+  f->seen.pose_q = pose.q_wb;
+}
+
+// One millisecond of sensors and estimator, from what is true at the start of the tick.
+static void sense(flight6_t *f, const truth_t *truth) {
+  const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
+  const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
+  ekf_in_t *const seen = &f->seen;
+  seen->imu = imu;
+  seen->motors = truth->motors;
+  seen->range_new = range.down_new;
+  seen->range_m = range.down_m;
+  seen->flow_new = range.flow_new;
+  seen->flow_x = range.flow_x;
+  seen->flow_y = range.flow_y;
+  seen->flow_span_s = range.flow_span_s;
+  if (f->plan->mocap.period_s > 0.0) see_by_mocap(f, truth);
+  // Taken before the update: it is what the update before this one finished.
+  f->estimate = f->ekf.out;
+  f->in.pos_w_m = f->ekf.out.pos_w_m;
+  f->in.vel_w_mps = f->ekf.out.vel_w_mps;
+  f->in.q_wb = f->ekf.out.q_wb;
+  ekf_update(&f->ekf, seen);
+  f->in.gyro_b_radps = imu.gyro_b_radps;
+  f->in.acc_b_mps2 = imu.acc_b_mps2;
+  f->in.range_new = range.up_new;
+  f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
+  f->in.range_age_s = LOOP6_UP_AGE_S;
+  if (range.up_new) f->range_m = f->in.range_m;
+  f->range_new = f->range_new || range.up_new;
+}
+
+// The estimator's zero is the height at rest; the plan's heights are of the rotors' plane.
+static void order(flight6_t *f, double t_s) {
+  const plan_t *plan = &f->plan->plan;
+  while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
+  const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
+  const bool on = t_s >= f->plan->take_off_s;
+  for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT6_POSITION : PILOT6_OFF;
+  const bool thought = f->plan->below_estimate && isfinite(f->ceiling_z_m);
+  const double down_m = thought ? f->model->ceiling_m - f->ceiling_z_m : rest_m;
+  f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - down_m};
+  f->in.set.thrust_N = 0.0;
+}
+
+static void pilot_ms(flight6_t *f, const truth_t *truth) {
+  sense(f, truth);
+  if (f->plan->edit) {
+    pilot6_in_t in = f->in;
+    f->plan->edit(f->plan->edit_context, &f->body, &in);
+    f->pilot->step(f->pilot->state, &in, f->motor_N);
+  } else {
+    f->pilot->step(f->pilot->state, &f->in, f->motor_N);
+  }
+  f->in.step++;
+}
+
+static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
+                     why_t *why) {
+  thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
+  if (f->ask) f->ask(f->pilot->state, &thoughts);
+  f->ceiling_z_m = thoughts.ceiling_z_m;
+  const tick6_t tick = {
+      .t_s = t_s,
+      .setpoint_m = f->plan->plan.way[f->way].setpoint_m,
+      .body = &f->body,
+      .truth = truth,
+      .in = &f->in,
+      .estimate = &f->estimate,
+      .motor_N = f->motor_N,
+      .thoughts = &thoughts,
+      .up_min = f->up_min,
+      .gap_min_m = f->gap_min_m,
+      .range_new = f->range_new,
+      .range_m = f->range_m,
+  };
+  f->gap_min_m = HUGE_VAL;
+  f->up_min = 1.0;
+  f->range_new = false;
+  return record6_add(record, more, &tick, why);
+}
+
+static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+  const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
+  const int every = f->plan->record_every > 0 ? f->plan->record_every : RECORD_EVERY;
+  TRY(record6_reserve(record, more, (int)(ticks / every) + 1, why));
+  for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
+    const double t_s = (double)tick * LOOP6_TICK_S;
+    order(f, t_s);
+    if (f->body.rigid.held && t_s >= f->plan->held_s) body_hold(&f->body, false);
+    const truth_t truth = truth_of(f);
+    pilot_ms(f, &truth);
+    pilot_ms(f, &truth);
+    const axes_t axes = axes_of(truth.q_wb);
+    f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
+    if (tick % every == 0) TRY(keep(f, record, more, t_s, &truth, why));
+    body_tick(&f->body, f->motor_N, LOOP6_TICK_S);
+    for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
+    f->in.vbat_V = f->body.vbat_V;
+    f->gap_min_m = fmin(f->gap_min_m, record6_gap_m(&f->body));
+    outcome->finite = !f->body.broken;
+  }
+  return ST_OK;
+}
+
+static status_t open(flight6_t *f, why_t *why) {
+  const plan_t *plan = &f->plan->plan;
+  body_start_t start = f->plan->in_flight ? f->plan->start : body_standing(f->model);
+  start.held = f->plan->held_s > 0.0;
+  start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
+  const status_t opened = body_open(&f->body, f->model, plan->integrate,
+                                    plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);
+  if (opened == ST_BAD_INPUT)
+    return error_set(
+        why,
+        "vehicle %s with its effects: mass, inertia, motor lag or kf not above 0; such a vehicle "
+        "cannot fly",
+        f->model->name);
+  f->random = random_open(plan->seed);
+  if (opened != ST_OK || !f->random) return error_failed(why, "out of memory");
+  imu_init(&f->imu);
+  range_init(&f->range);
+  f->mocap = (mocap_t){0};
+  ekf_init(&f->ekf, &ekf_firmware, 0.0);
+  f->in.q_wb = (dq_t){1.0, 0.0, 0.0, 0.0};
+  if (f->plan->in_flight) {
+    const d3_t rest = {0.0, 0.0, -body_rest_z_m(f->model)};
+    ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
+  }
+  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  f->in.vbat_V = f->body.vbat_V;
+  f->pilot->reset(f->pilot->state);
+  return ST_OK;
+}
+
+status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
+                   record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+  flight6_t *f = calloc(1, sizeof *f);
+  if (!f) return error_failed(why, "out of memory");
+  *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
+  f->gap_min_m = HUGE_VAL;
+  f->up_min = 1.0;
+  f->range_m = f->ceiling_z_m = (double)NAN;
+  *outcome = (outcome_t){.finite = true};
+  const double start_s = cpu_time_s();
+  status_t status = open(f, why);
+  if (status == ST_OK) status = run(f, record, more, outcome, why);
+  outcome->contacts = f->body.ceiling_contacts;
+  outcome->realtime_factor = cpu_time_factor(plan->plan.end_s, start_s);
+  if (f->body.integrate) body_close(&f->body);
+  random_close(f->random);
+  free(f);
+  return status;
+}

@@ -1,0 +1,100 @@
+// many.c - many flights of one scenario, one line each.
+#include "flight/many.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  status_t status;
+  why_t why;
+  char text[160];
+  char *json; // null: not asked for
+  bool finite;
+} line_t;
+
+static double of(const cJSON *o, const char *key) {
+  const cJSON *item = cJSON_GetObjectItem(o, key);
+  return cJSON_IsNumber(item) ? item->valuedouble : (double)NAN;
+}
+
+// What a flight came to: the extremes over its segments.
+static void sum_up(cJSON *json, uint64_t seed, line_t *line) {
+  double gap_mm = (double)NAN, tilt_deg = (double)NAN;
+  const cJSON *s;
+  cJSON_ArrayForEach(s, cJSON_GetObjectItem(json, "segments")) {
+    gap_mm = fmin(gap_mm, of(s, "min_gap_mm"));
+    tilt_deg = fmax(tilt_deg, of(s, "tilt_max_deg"));
+  }
+  cJSON_DeleteItemFromObject(json, "realtime_factor");
+  cJSON_AddNumberToObject(json, "seed", (double)seed);
+  cJSON_AddNumberToObject(json, "min_gap_mm", gap_mm);
+  if (isfinite(tilt_deg)) cJSON_AddNumberToObject(json, "tilt_max_deg", tilt_deg);
+  line->finite = cJSON_IsTrue(cJSON_GetObjectItem(json, "finite"));
+  const int used = snprintf(line->text, sizeof line->text, "seed %llu contacts %.0f gap_mm %.2f",
+                            (unsigned long long)seed, of(json, "contacts"), gap_mm);
+  char tilt[40] = "";
+  if (isfinite(tilt_deg)) snprintf(tilt, sizeof tilt, " tilt_deg %.2f", tilt_deg);
+  snprintf(line->text + used, sizeof line->text - (size_t)used, "%s %s", tilt,
+           line->finite ? "finite" : "not-finite");
+}
+
+// The command that flies this flight alone, whatever the work was cut into.
+static void add_made(const many_t *m, const result_t *result, uint64_t seed) {
+  char number[24];
+  made_t made = *m->made;
+  made.command = NULL;
+  snprintf(number, sizeof number, "%llu", (unsigned long long)seed);
+  made_words(&made, m->made->command);
+  made_word(&made, "--seed");
+  made_word(&made, number);
+  made_add(result->json, &made, (double)seed, result->record.n);
+  made_free(&made);
+}
+
+static line_t fly(const many_t *m, uint64_t seed) {
+  line_t line = {.status = ST_OK};
+  request_t request = *m->request;
+  request.seed = seed;
+  result_t result;
+  line.status = result_init(&result, &line.why);
+  if (line.status != ST_OK) return line;
+  line.status = m->scenario->run(&request, &result, &line.why);
+  if (line.status == ST_OK) sum_up(result.json, seed, &line);
+  if (line.status == ST_OK && m->json) {
+    add_made(m, &result, seed);
+    line.json = cJSON_PrintUnformatted(result.json);
+    if (!line.json) line.status = error_failed(&line.why, "out of memory");
+  }
+  result_free(&result);
+  return line;
+}
+
+static void write_line(const many_t *m, const line_t *line, uint64_t done) {
+  fprintf(m->text, "%s\n", line->text);
+  if (line->json) fprintf(m->json, "%s\n", line->json);
+  if (m->progress)
+    fprintf(stderr, "\r%llu of %llu flights", (unsigned long long)done,
+            (unsigned long long)(m->to - m->from + 1));
+}
+
+// The first failure, in the order of the seeds, ends what is written.
+status_t many_fly(const many_t *m, why_t *why) {
+  const long n = (long)(m->to - m->from) + 1;
+  status_t status = ST_OK; // touched in the ordered part alone; so is the count
+  *m->not_finite = 0;
+#pragma omp parallel for ordered schedule(dynamic, 1)
+  for (long i = 0; i < n; i++) {
+    line_t line = fly(m, m->from + (uint64_t)i);
+#pragma omp ordered
+    if (status == ST_OK && line.status == ST_OK) {
+      write_line(m, &line, (uint64_t)i + 1);
+      *m->not_finite += !line.finite;
+    } else if (status == ST_OK) {
+      status = line.status;
+      *why = line.why;
+    }
+    free(line.json);
+  }
+  if (m->progress) fputc('\n', stderr);
+  return status;
+}

@@ -1,0 +1,140 @@
+// record.c - a flight in memory, and as a log.
+#include "flight/record.h"
+
+#include "crazyflie/sections.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define APP_LOGS_MAX 256
+#define G_MPS2       9.81
+#define DEG_PER_RAD  (180.0 / 3.14159265358979323846)
+
+status_t record_reserve(record_t *r, int room) {
+  if (room <= r->room) return ST_OK;
+  sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
+  if (!more) return ST_FAILED;
+  r->sample = more;
+  r->room = room;
+  return ST_OK;
+}
+
+status_t record_add(record_t *r, const sample_t *sample) {
+  if (r->n == r->room) TRY(record_reserve(r, r->room ? 2 * r->room : 4096));
+  r->sample[r->n++] = *sample;
+  return ST_OK;
+}
+
+void record_free(record_t *r) {
+  free(r->sample);
+  free(r->more);
+  free(r->app);
+  free(r->param);
+  *r = (record_t){0};
+}
+
+// --- as a log -----------------------------------------------------------------------------------------
+
+static const char NAMES[] =
+    "timestamp,ctrltarget.z,stateEstimate.z,stateEstimate.vz,stateEstimate.qw,stateEstimate.qx,"
+    "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,range.up,indi.thrust,indi.applied,ceil.zc,"
+    "ceil.height,guard.now,guard.latched,ceil.ratio,ceil.slope,rls.y,rls.w1,rls.w2,rls.w3,rls.w4,rls.w5,rls."
+    "w6,rls.w7,rls.p1,rls.p2,rls.p3,"
+    "rls.p4,rls.p5,rls.p6,rls.p7,sim.z,sim.vz,sim.gap,sim.thrust,sim.ratio,sim.contacts";
+static const char MORE_NAMES[] =
+    ",stateEstimate.x,stateEstimate.y,stateEstimate.vx,stateEstimate.vy,gyro.x,gyro.y,gyro.z,indi.m1,"
+    "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt,controller.r_roll,controller.r_pitch,"
+    "controller.r_yaw,controller.cmd_roll,controller.cmd_pitch,controller.cmd_yaw,controller.cmd_thrust";
+
+// The app's logs that are no columns already.
+static bool is_new(const char *name) {
+  const char *const lists[] = {NAMES, MORE_NAMES};
+  const size_t size = strlen(name);
+  for (int i = 0; i < 2; i++) {
+    for (const char *at = lists[i]; (at = strstr(at, name)) != NULL; at += size)
+      if ((at == lists[i] || at[-1] == ',') && (at[size] == ',' || at[size] == '\0')) return false;
+  }
+  return true;
+}
+
+// Which of the app's logs are columns; returns how many logs there are.
+static int choose(bool column[APP_LOGS_MAX]) {
+  char name[32];
+  int n = 0;
+  for (; n < APP_LOGS_MAX && sections_log_at(n, name); n++) column[n] = is_new(name);
+  return n;
+}
+
+static void write_names(FILE *file, const record_t *r, const bool *column, int n) {
+  char name[32];
+  fputs(NAMES, file);
+  if (r->more) fputs(MORE_NAMES, file);
+  for (int i = 0; i < n; i++)
+    if (r->app && column[i] && sections_log_at(i, name)) fprintf(file, ",%s", name);
+  fputc('\n', file);
+}
+
+// What flies on the vertical axis is level.
+static void write_attitude(FILE *file, const sample_t *s, const sample6_t *s6) {
+  if (!s6) {
+    fprintf(file, "1,0,0,0,0,0,%.6f,", s->sense.acc_mps2 / G_MPS2 + 1.0);
+    return;
+  }
+  const dq_t q = s6->estimate.q_wb;
+  const d3_t a = d3_scale(1.0 / G_MPS2, s6->acc_b_mps2);
+  fprintf(file, "%.7f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f,", q.w, q.x, q.y, q.z, a.x, a.y, a.z);
+}
+
+static void write_more(FILE *file, const sample6_t *s) {
+  const d3_t p = s->estimate.pos_w_m, v = s->estimate.vel_w_mps, w = d3_scale(DEG_PER_RAD, s->gyro_b_radps);
+  fprintf(file, ",%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f", p.x, p.y, v.x, v.y, w.x, w.y, w.z);
+  for (int i = 0; i < 4; i++) fprintf(file, ",%.6f", s->motor_N[i]);
+  fprintf(file, ",%.4f,%.6f,%.6f,%.4f", s->vbat_V, s->pos_w_m.x, s->pos_w_m.y, DEG_PER_RAD * s->tilt_rad);
+  const d3_t r = s->gyro_b_radps; // roll right, nose up, counter-clockwise
+  fprintf(file, ",%.7f,%.7f,%.7f,%.2f,%.2f,%.2f,%.2f", r.x, -r.y, r.z, s->command_roll, s->command_pitch,
+          s->command_yaw, s->command_thrust);
+}
+
+static void write_sample(FILE *file, const sample_t *s, const sample6_t *s6) {
+  fprintf(file, "%.3f,%.4f,%.6f,%.6f,", 1e3 * s->t_s, s6 ? s6->setpoint_z_m : s->setpoint_m, s->sense.z_m,
+          s->sense.climb_mps);
+  write_attitude(file, s, s6);
+  const thoughts_t *th = &s->thoughts;
+  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%u,%u,", 1e3 * s->sense.range_m, s->command_N, s->sense.applied_N,
+          th->zc_m, th->ceiling_z_m, th->guard_now, th->guard_latched);
+  fprintf(file, "%.6f,%.5f,%.5f,", s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
+  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
+  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);
+  fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,
+          s->contacts);
+  if (s6) write_more(file, s6);
+}
+
+static void write_calls(const record_t *r, FILE *file) {
+  char name[32];
+  const int n = sections_logs();
+  for (int k = 0; k < n && sections_log_at(k, name); k++) fprintf(file, k ? ",%s" : "%s", name);
+  fputc('\n', file);
+  for (int i = 0; i < r->n_calls; i++) {
+    for (int k = 0; k < n; k++)
+      fprintf(file, k ? ",%.9g" : "%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
+    fputc('\n', file);
+  }
+}
+
+void record_write(const record_t *r, FILE *file) {
+  if (r->n_calls > 0) {
+    write_calls(r, file);
+    return;
+  }
+  bool column[APP_LOGS_MAX];
+  const int n = choose(column);
+  write_names(file, r, column, n);
+  for (int i = 0; i < r->n; i++) {
+    write_sample(file, &r->sample[i], r->more ? &r->more[i] : NULL);
+    for (int k = 0; k < n; k++)
+      if (r->app && column[k]) fprintf(file, ",%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
+    fputc('\n', file);
+  }
+}

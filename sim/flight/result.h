@@ -1,0 +1,50 @@
+// result.h - what a scenario found: segments, totals, and tables of its own; as JSON and as text.
+#ifndef SIM_FLIGHT_RESULT_H
+#define SIM_FLIGHT_RESULT_H
+
+#include "flight/setup6.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+
+typedef struct {
+  // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds; "set": {...}, the
+  // parameters in which the flight code flew otherwise than it ships, as --set takes them
+  cJSON *json;
+  record_t record; // of the flight that --log writes
+} result_t;
+
+// An empty result. ST_FAILED: no memory.
+MUST_CHECK status_t result_init(result_t *r, why_t *why);
+void result_free(result_t *r);
+
+// Adds the flight's segments, contacts and finiteness. Keeps the record of the last flight added
+// (the flown's record is taken over).
+void result_add_flight(result_t *r, flown_t *flown);
+
+// The same in six degrees of freedom: each segment also has "tilt_max_deg". *flown is then empty.
+void result_add_flight6(result_t *r, flown6_t *flown);
+
+// Adds a table "learned" with the weights, as parameters to type in, and the array "weights".
+void result_add_weights(result_t *r, const rbf_weights_t *weights);
+
+// Adds one segment alone, and the flight's totals: for scenarios of many flights with one interesting segment
+// each.
+void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label);
+
+// A row of a table "name"; created when new. Fill it with cJSON_AddNumberToObject.
+cJSON *result_add_row(result_t *r, const char *table);
+
+// Every table, as aligned text, and the totals if somebody flew.
+void result_print(const cJSON *json, FILE *out);
+
+// ST_FAILED: no memory for the text. If the file took it, the stream knows.
+MUST_CHECK status_t result_write(const cJSON *json, FILE *file, why_t *why);
+
+// The same scenario with several seeds. "segments" becomes the mean over the flights (null where one is null;
+// contacts add up; the smallest gap is the smallest, the largest tilt the largest), "contacts" the sum,
+// "finite" false where one is not, "realtime_factor" the mean. "flights" holds each one's own with its seed.
+// What a scenario adds of its own stands there alone: what of a table may be averaged is not known here. A
+// null pointer: no memory.
+cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed);
+
+#endif

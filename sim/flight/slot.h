@@ -1,0 +1,59 @@
+// slot.h - the air garage's hover between a deck and a ceiling, 71 mm apart: what is flown, and what a track
+// of it says.
+//
+// Protocol (XinLong-Li/air_garage_cflib 15c885b, table flights of 23 and 27 August 2024): at rest on the
+// deck, then "10 mm above rest" and 15 s of hover, pose by motion capture. Seed k flies under what was
+// measured of real flight k mod 8: how its markers' body was turned against the vehicle at rest, and how
+// slowly it was told to rise.
+#ifndef SIM_FLIGHT_SLOT_H
+#define SIM_FLIGHT_SLOT_H
+
+#include "flight/setup6.h"
+
+#define SLOT_REST_M    0.0404 // propellers to ceiling at rest: 0.8349 - 0.7915 - 0.003 m
+#define SLOT_RISE_M    0.010  // commanded above rest
+#define SLOT_NEAR_M    0.012  // nearer is captured; all real flights are nearer than 10 mm or farther than 18
+#define SLOT_CAUGHT_S  0.3    // ... for so long in all
+#define SLOT_LIFT_M    0.006  // higher than rest by this much: it flies
+#define SLOT_FLIGHTS   8      // real ones in this gap
+#define SLOT_TAKEOFF_S 0.5
+// Ground effect as measured with a Crazyflie 2.1 over clearance h of its feet, 1 + 0.174 exp(-0.820 h/R)
+// (flights of aerorobotics/neural-swarm 48b1851), here over the propellers' height h + 30 mm.
+#define SLOT_GROUND "ground:form=exponential,Ca=0.496,Cb=0.82"
+// The form that fits at the weight which flights over the open deck say (README, a real gap).
+#define SLOT_CEILING "ceiling:form=square-root"
+
+// The vehicle, before its weight is spread.
+MUST_CHECK status_t slot_vehicle(model_t *model, why_t *why);
+
+// Of the k-th real flight: its file, and the height of its ceiling over the floor; 1: its take-off was the
+// quick one.
+const char *slot_real(int k, double *ceiling_m);
+int slot_late(int k);
+
+// A flight of the scenario, complete but for what the user asks for. ceiling: else the open deck.
+MUST_CHECK status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
+
+typedef struct {
+  double t_s, gap_m; // propellers' plane to ceiling
+} slot_point_t;
+
+typedef struct {
+  bool captured;
+  double median_m;  // of the captured samples; NaN: none
+  double closest_m; // of all
+  double lift_s;    // from motors on to SLOT_LIFT_M above rest; NaN: never
+} slot_seen_t;
+
+// start_s: motors on. ST_BAD_INPUT: no points. ST_FAILED: no memory.
+MUST_CHECK status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen,
+                               why_t *why);
+
+// A motion-capture CSV (t, x, y, z of the marker): marker 3 mm below the propellers. ST_BAD_INPUT: as
+// csv_open.
+MUST_CHECK status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why);
+
+MUST_CHECK status_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen,
+                                      why_t *why);
+
+#endif

@@ -1,0 +1,26 @@
+// taught.h - what a flight could teach: distance and measured thrust ratio, as the learner on board sees
+// them.
+#ifndef SIM_FLIGHT_TAUGHT_H
+#define SIM_FLIGHT_TAUGHT_H
+
+#include "base/error.h"
+#include "flight/setup.h"
+
+typedef struct {
+  double t_s, zc_m, y;
+} taught_t;
+
+// The samples of the record that may teach by the rules of setup->flight, up to far_m. *taught has room for
+// record->n; returns how many.
+int taught_of(const record_t *record, const setup_t *setup, double far_m, taught_t *taught);
+
+// How a curve differs from the plant's over near_m..far_m in 1 mm steps.
+typedef struct {
+  double rms, max; // of the difference, no unit
+  double at_1cm;   // difference at 1 cm
+  double peak_m;   // where the curve is highest, 0 to 10 cm
+} misfit_t;
+
+misfit_t taught_misfit(const rbf_weights_t *w, const model_t *model, double near_m, double far_m);
+
+#endif

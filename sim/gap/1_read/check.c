@@ -1,0 +1,208 @@
+// check.c - stage 1: do a flight's signals agree with physics and with each other?
+#include "gap/1_read/read.h"
+
+#include "body/body.h"
+
+#include <math.h>
+
+#define ABOVE_M     0.1 // an estimate of height may be wrong by as much
+#define ABOVE_SHARE 0.1
+#define G_MPS2      9.81
+#define ENOUGH      50 // samples from which a mean says something
+#define WINDOWS_MIN 20 // windows from which a slope does
+#define SLOPE_MIN   0.3333
+#define SLOPE_MAX   3.0
+#define SURE        4.0  // standard errors
+#define FLIES       0.3  // of the largest thrust: it flies
+#define RANGE_M     0.02 // no range sensor sees nearer only
+
+static bool has(const gap_flight_t *f, signal_id_t first, int n) {
+  for (int k = 0; k < n; k++)
+    if (!f->v[(int)first + k]) return false;
+  return true;
+}
+
+static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
+                       double max, why_t *why) {
+  char text[COLUMNS_HINT];
+  const char *const si = columns_si(&rows->columns, i);
+  return table_refuse(&rows->table, 0, rows->at[i], why,
+                      "%s %.3g %s over the whole flight; allowed: %.4g to %.4g %s%s", what, value, si, min,
+                      max, si, columns_hint(&rows->columns, i, value, min, max, text));
+}
+
+static double size(double *const v[3], int i) {
+  return sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
+}
+
+static status_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  double sum = 0.0, up = 0.0;
+  int n = 0, n_up = 0;
+  if (!has(f, SIG_AX, 3)) return ST_OK;
+  for (int i = 0; i < f->n; i++) {
+    const double acc_mps2 = size(&f->v[SIG_AX], i);
+    if (isnan(acc_mps2)) continue;
+    sum += acc_mps2;
+    n++;
+    if (!has(f, SIG_QW, 4)) continue;
+    const double w = f->v[SIG_QW][i], x = f->v[SIG_QX][i], y = f->v[SIG_QY][i], z = f->v[SIG_QZ][i];
+    const double up_mps2 = 2.0 * (x * z - w * y) * f->v[SIG_AX][i] + 2.0 * (y * z + w * x) * f->v[SIG_AY][i] +
+                           (1.0 - 2.0 * (x * x + y * y)) * f->v[SIG_AZ][i];
+    if (isnan(up_mps2)) continue;
+    up += up_mps2;
+    n_up++;
+  }
+  if (n >= ENOUGH && !(sum / n >= 0.5 * G_MPS2 && sum / n <= 1.5 * G_MPS2))
+    return refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, 0.5 * G_MPS2, 1.5 * G_MPS2, why);
+  if (n_up >= ENOUGH && f->n > 2.0 * f->rate_Hz && !(up / n_up >= 0.6 * G_MPS2 && up / n_up <= 1.4 * G_MPS2))
+    return table_refuse(&rows->table, 0, rows->at[SIG_AZ], why,
+                        "turned by the attitude, the mean specific force upwards is %.3g m/s2 over the whole "
+                        "flight; allowed: 5.886 to 13.73 (wrong frame, sign or order of the attitude?)",
+                        up / n_up);
+  return ST_OK;
+}
+
+typedef struct {
+  double n, gg, mg, mm, mean;
+} slope_t;
+
+// The slope of what moves against what drives it, over the windows in which one of both does.
+static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
+  const int m = gap_drive_samples(f, drive);
+  double n = 0.0;
+  for (int pass = 0; pass < 2; pass++)
+    for (int i = 0; i + m < f->n; i += m) {
+      window_t w;
+      if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
+      n += pass == 0;
+      for (int k = 0; k < 3; k++) {
+        // A constant offset of the sensor is no movement.
+        if (pass == 0) slope[k].mean += (w.driven[k] - slope[k].mean) / n;
+        const double g = w.driven[k] - slope[k].mean, moved = w.moved[k];
+        if (pass == 0 || (fabs(g) < drive->least && fabs(moved) < drive->least)) continue;
+        slope[k].n += 1.0;
+        slope[k].gg += g * g, slope[k].mg += moved * g, slope[k].mm += moved * moved;
+      }
+    }
+}
+
+static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
+  slope_t slope[3] = {0};
+  slopes(f, drive, slope);
+  for (int k = 0; k < 3; k++) {
+    const slope_t *const s = &slope[k];
+    const signal_id_t column = (signal_id_t)((int)drive->driver + k);
+    if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
+    const double b = s->mg / s->gg;
+    const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
+    if (b + SURE * stderr_b >= SLOPE_MIN && b - SURE * stderr_b <= SLOPE_MAX) continue;
+    char text[COLUMNS_HINT] = "";
+    if (b > 0.0 && b * b * s->gg > 0.5 * s->mm)
+      columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
+    return table_refuse(
+        &rows->table, 0, rows->at[column], why,
+        "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",
+        drive->moves, b, 'x' + k, drive->by, text);
+  }
+  return ST_OK;
+}
+
+// Nearer throughout than any range sensor sees: the unit is another one. Too far is refused row by row.
+static status_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t i, why_t *why) {
+  double most_m = 0.0;
+  int n = 0;
+  for (int j = 0; j < f->n && f->v[i]; j++) {
+    if (isnan(f->v[i][j])) continue;
+    most_m = fmax(most_m, f->v[i][j]);
+    n++;
+  }
+  return n < ENOUGH || most_m >= RANGE_M
+             ? ST_OK
+             : refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
+}
+
+// Mean of thrust over what holds the vehicle up, while it flies. lift_N: thrust at sample i.
+static double lift_ratio(const gap_flight_t *f, const model_t *vehicle,
+                         double (*lift_N)(const gap_flight_t *, const model_t *, int)) {
+  double most_N = 0.0, sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < f->n; i++) most_N = fmax(most_N, lift_N(f, vehicle, i));
+  for (int i = 0; i < f->n; i++) {
+    const double thrust_N = lift_N(f, vehicle, i);
+    const double acc_mps2 = has(f, SIG_AX, 3) ? size(&f->v[SIG_AX], i) : G_MPS2;
+    if (!(thrust_N > FLIES * most_N) || !(acc_mps2 > 0.2 * G_MPS2)) continue;
+    sum += thrust_N / (vehicle->mass_kg * acc_mps2);
+    n++;
+  }
+  return n >= ENOUGH ? sum / n : (double)NAN;
+}
+
+static double by_command_N(const gap_flight_t *f, const model_t *vehicle, int i) {
+  (void)vehicle;
+  return f->v[SIG_THRUST][i];
+}
+
+static double by_speed_N(const gap_flight_t *f, const model_t *vehicle, int i) {
+  double sum = 0.0;
+  for (int k = 0; k < 4; k++) sum += f->v[SIG_W1 + k][i] * f->v[SIG_W1 + k][i];
+  return vehicle->frame.kf_Ns2 * sum;
+}
+
+static status_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  char text[COLUMNS_HINT];
+  const double ratio = lift_ratio(f, &rows->vehicle, by_speed_N);
+  if (!(ratio < 0.2 || ratio > 5.0)) return ST_OK;
+  return table_refuse(
+      &rows->table, 0, rows->at[SIG_W1], why,
+      "rotors of vehicle %s at these speeds give %.3g times what its acceleration takes; allowed: 0.2 to 5%s",
+      rows->vehicle.name, ratio,
+      columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
+}
+
+static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  const bool each = rows->at[SIG_M1] >= 0, pwm = each && rows->columns.motors == MOTORS_PWM;
+  double most = 0.0;
+  for (int k = 0; k < 4 && pwm && has(f, SIG_M1, 4); k++)
+    for (int i = 0; i < f->n; i++) most = fmax(most, f->v[SIG_M1 + k][i]);
+  if (most > 0.0 && most <= 100.0)
+    return refuse(rows, SIG_M1, "the largest motor command is", most, 1000.0, 65536.0, why);
+  if (!has(f, SIG_THRUST, 1)) return ST_OK;
+  const double ratio = lift_ratio(f, &rows->vehicle, by_command_N);
+  if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return ST_OK;
+  return table_refuse(
+      &rows->table, 0, rows->at[each ? SIG_M1 : SIG_THRUST], why,
+      "commands to vehicle %s give %.3g times what its acceleration takes; allowed: 0.33 to 3 "
+      "(is it the right vehicle and unit?)",
+      rows->vehicle.name, ratio);
+}
+
+// Heights of another room, or from another floor.
+static status_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  const model_t *m = &rows->vehicle;
+  const double rotors_m = body_rest_z_m(m) + body_rotor_z_m(m);
+  double most_m = 0.0;
+  int n = 0, above = 0;
+  for (int i = 0; i < f->n; i++) {
+    const double over_m = f->v[SIG_Z][i] + rotors_m - m->ceiling_m;
+    if (isnan(over_m)) continue;
+    n++;
+    above += over_m > ABOVE_M;
+    most_m = fmax(most_m, over_m);
+  }
+  if (n < ENOUGH || above <= ABOVE_SHARE * n) return ST_OK;
+  return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
+                      "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g); allowed: below it",
+                      most_m, m->name, m->ceiling_m);
+}
+
+status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  TRY(check_acceleration(f, rows, why));
+  if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
+  if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
+  if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_drive(f, rows, &GAP_PUSH, why));
+  if (has(f, SIG_Z, 1) && isfinite(rows->vehicle.ceiling_m)) TRY(check_ceiling(f, rows, why));
+  TRY(check_range(f, rows, SIG_RANGE, why));
+  TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
+  TRY(check_commands(f, rows, why));
+  return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : ST_OK;
+}

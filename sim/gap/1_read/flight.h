@@ -1,0 +1,59 @@
+// flight.h - a recorded flight in SI on one time base, signal by signal: what the workflow's stages work on.
+#ifndef SIM_GAP_1_READ_FLIGHT_H
+#define SIM_GAP_1_READ_FLIGHT_H
+
+#include "base/error.h"
+#include "logs/columns.h"
+#include "vehicle/model.h"
+#include <stdbool.h>
+
+#define GAP_FLIGHT_S   1800.0 // at most so much of a log is used
+#define GAP_RATE_HZ    500.0  // a faster log is thinned to this
+#define GAP_NOTES      16
+#define GAP_NOTE_BYTES 200
+
+typedef struct {
+  char name[256]; // of the log, for messages
+  int n;          // samples
+  double *t_s;    // strictly increasing, uniform within a segment; the log's own zero
+  // Per signal (logs/columns.h): n numbers, NaN: none at this instant; null: not logged. SIG_A*: specific
+  // force in body axes; SIG_QW..QZ: body to world, length 1, no jumps of sign; SIG_ROLL..YAW: always null
+  // (see SIG_Q*). SIG_Z: 0 at rest on the floor, if the columns file says where that is. SIG_M*: newton, or
+  // the argument of the vehicle's thrust map (0..65535, or rad/s). SIG_F*: newton of each motor in free air
+  // as commanded, by the map, whatever the log's unit; null if the map or the voltage it needs is missing.
+  // SIG_THRUST: of all together. SIG_VBAT: the last one known.
+  double *v[SIG_COUNT];
+  bool motors_N;                // SIG_M*: newton
+  const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
+  double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
+  double *range_up_m,
+      *range_down_m; // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged
+  bool *saturated;   // a motor was at a limit (the sample is masked)
+  int *segment;      // 0, 1, 2..: a new one after every gap; filters start again
+  double rate_Hz;    // median sample rate
+
+  // What the reader found and mended, for the report.
+  double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see
+  double velocity_late_s; // ... velocity and position behind the accelerometer
+  long rows;              // of the log that were read
+  long cells_bad;         // text or infinite: taken as missing
+  long cells_missing;     // empty or nan
+  bool cut;               // the log is longer than GAP_FLIGHT_S
+  int n_note;
+  char note[GAP_NOTES][GAP_NOTE_BYTES]; // one sentence each, with file, line and column where there is one
+} gap_flight_t;
+
+typedef struct {
+  gap_flight_t *flight;
+  int n;
+} gap_flights_t;
+
+// Reads a CSV or a uSD log, brings its streams to one uniform time base, masks, aligns and checks it. Signals
+// that are not in the log are null. ST_BAD_INPUT: not such a file, or signals that are out of range, stuck,
+// or contradict physics or each other; names file, line and column. *f is empty then. The caller frees.
+MUST_CHECK status_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns,
+                             const model_t *vehicle, why_t *why);
+
+void gap_flight_free(gap_flight_t *f);
+
+#endif

@@ -1,0 +1,237 @@
+// read.c - stage 1: a log becomes a flight.
+#include "gap/1_read/read.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BAD_SHARE   0.05  // of the rows: more cells that are no numbers are refused
+#define SKEW_SPAN_S 300.0 // the skew is told from so much of a flight
+#define SKEW_MIN_S  0.0005
+#define SKEW_MAX_S  0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
+#define SKEW_SURE   3.0  // standard errors
+#define SKEW_ROUNDS 3
+
+#define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
+
+#define ATTITUDE_BITS BITS(SIG_QW, SIG_QZ)
+static const signals_t ATTITUDE = ATTITUDE_BITS, PLACE = BITS(SIG_X, SIG_VZ);
+static const signals_t GYRO = BITS(SIG_GX, SIG_GZ), FORCE = BITS(SIG_AX, SIG_AZ);
+// Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
+static const signals_t WHOLE[] = {ATTITUDE_BITS, BITS(SIG_M1, SIG_M4), BITS(SIG_F1, SIG_F4),
+                                  BITS(SIG_W1, SIG_W4)};
+
+void gap_flight_free(gap_flight_t *f) {
+  for (int i = 0; i < SIG_COUNT; i++) free(f->v[i]);
+  free(f->t_s);
+  free(f->segment);
+  free(f->saturated);
+  *f = (gap_flight_t){0};
+}
+
+static void note(gap_flight_t *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void note(gap_flight_t *f, const char *format, ...) {
+  if (f->n_note == GAP_NOTES) return;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(f->note[f->n_note++], GAP_NOTE_BYTES, format, args);
+  va_end(args);
+}
+
+// --- the rows ----------------------------------------------------------------------------------------------
+
+static bool all_gaps(const raw_t *raw, const double *v) {
+  for (int i = 0; i < raw->n; i++)
+    if (!isnan(v[i])) return false;
+  return true;
+}
+
+static bool logged(const raw_t *raw, signals_t signals) {
+  for (int i = 0; i < SIG_COUNT; i++)
+    if ((signals & SIGNAL_BIT(i)) && !raw->v[i]) return false;
+  return true;
+}
+
+// Drops the group unless all of it is there, and says what its others wait for.
+static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
+  const char *lacks = NULL, *there = NULL;
+  for (int i = 0; i < SIG_COUNT; i++) {
+    if (!(group & SIGNAL_BIT(i))) continue;
+    const char *const name = i < SIG_COLUMNS ? columns_name((signal_id_t)i) : NULL;
+    if (raw->v[i] && !there) there = name;
+    if (!raw->v[i] && !lacks) lacks = name;
+    if (!logged(raw, group)) raw_drop(raw, (signal_id_t)i);
+  }
+  if (!there || !lacks) return;
+  note(f, "no %s: %s and the others beside it are not used", lacks, there);
+  if (!(group & ATTITUDE)) f->motor_lacks = lacks;
+}
+
+// What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
+// and what has no value anywhere.
+static status_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
+  bool any = false;
+  for (int i = 0; i < SIG_COUNT; i++) {
+    const bool angle = i >= SIG_ROLL && i <= SIG_YAW, torque = i >= SIG_TX && i <= SIG_TZ;
+    if (raw->v[i] && (i == SIG_TIME || angle || torque || all_gaps(raw, raw->v[i])))
+      raw_drop(raw, (signal_id_t)i);
+    any = any || raw->v[i];
+  }
+  if (!any)
+    return table_refuse(&rows->table, 1, -1, why,
+                        "no signal of a flight; allowed: columns of --columns FILE");
+  for (unsigned k = 0; k < sizeof WHOLE / sizeof *WHOLE; k++) drop_part(f, raw, WHOLE[k]);
+  const double rest_m = rows->columns.rest_height_m;
+  for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
+  for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
+  return ST_OK;
+}
+
+static status_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why) {
+  char damage[480];
+  f->cells_bad = rows->bad;
+  f->cells_missing = rows->missing;
+  f->rows = raw->rows;
+  f->motors_N = rows->columns.motors == MOTORS_N;
+  if ((double)rows->bad > BAD_SHARE * (double)raw->rows)
+    return table_refuse(&rows->table, rows->bad_line, rows->bad_column, why,
+                        "not a number, the first of %ld such cells in %ld rows; allowed: 5 %%", rows->bad,
+                        raw->rows);
+  if (rows->bad) {
+    why_t where;
+    (void)table_refuse(&rows->table, rows->bad_line, rows->bad_column, &where,
+                       "the first of %ld cells that are no numbers; they are left out", rows->bad);
+    note(f, "%.190s", where.text);
+  }
+  if (rows->missing) note(f, "%ld cells are empty or nan", rows->missing);
+  if (table_damage(&rows->table, damage, sizeof damage)) note(f, "%.170s; what is before it is used", damage);
+  if (f->cut)
+    note(f, "longer than %.0f min: the rest, from line %ld on, is not used", GAP_FLIGHT_S / 60.0,
+         table_line(&rows->table));
+  if (raw->merged)
+    note(f, "%ld rows of the same or almost the same time as the one before are merged", raw->merged);
+  if (raw->thin > 1) note(f, "thinned to means of %d rows", raw->thin);
+  if (raw->range_unusable)
+    note(f, "%ld range samples of 0 or of no return are left out", raw->range_unusable);
+  if (rows->lacks[0]) note(f, "no thrust: %.180s", rows->lacks);
+  return ST_OK;
+}
+
+// --- the streams' times
+// -------------------------------------------------------------------------------------
+
+static void set_shift(double shift_s[SIG_COUNT], signals_t signals, double late_s) {
+  for (int i = 0; i < SIG_COUNT; i++)
+    if (signals & SIGNAL_BIT(i)) shift_s[i] = late_s;
+}
+
+typedef struct {
+  const char *what, *driver;
+  signals_t need, moved;
+  skew_t (*skew)(const gap_flight_t *f);
+} stream_t;
+
+// How late the stream is, by rounds: each looks at what the one before has left.
+static status_t tell_late(raw_t *raw, const stream_t *s, double shift_s[SIG_COUNT], skew_t *told,
+                          why_t *why) {
+  *told = (skew_t){0.0, HUGE_VAL};
+  for (int round = 0; round < SKEW_ROUNDS; round++) {
+    gap_flight_t part = {0};
+    set_shift(shift_s, s->moved, told->late_s);
+    const status_t status = gap_grid(&part, raw, s->need, shift_s, SKEW_SPAN_S, false, why);
+    const skew_t rest = status == ST_OK ? s->skew(&part) : *told;
+    gap_flight_free(&part);
+    TRY(status);
+    told->late_s += rest.late_s;
+    told->stderr_s = rest.stderr_s;
+    if (!(fabs(told->late_s) <= SKEW_MAX_S) || !isfinite(rest.stderr_s)) break;
+  }
+  return ST_OK;
+}
+
+static status_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_t *why) {
+  const stream_t stream[] = {
+      {"attitude", "gyro", ATTITUDE | GYRO, ATTITUDE, gap_skew_attitude},
+      {"velocity", "accelerometer", ATTITUDE | FORCE | PLACE, PLACE, gap_skew_velocity},
+  };
+  double *const late_s[] = {&f->attitude_late_s, &f->velocity_late_s};
+  for (int k = 0; k < 2; k++) {
+    const stream_t *const s = &stream[k];
+    skew_t told;
+    const signals_t need = k == 0 ? s->need : s->need & ~BITS(SIG_X, SIG_Z);
+    if (!logged(raw, need)) continue;
+    TRY(tell_late(raw, s, shift_s, &told, why));
+    const bool sure = isfinite(told.stderr_s) && fabs(told.late_s) > SKEW_SURE * told.stderr_s;
+    const bool small = fabs(told.late_s) <= SKEW_MAX_S;
+    const bool mend = sure && small && fabs(told.late_s) >= SKEW_MIN_S;
+    if (sure && !small)
+      note(f, "the %s seems %.0f ms late against the %s: more than can be mended", s->what, 1e3 * told.late_s,
+           s->driver);
+    if (mend)
+      note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", s->what,
+           1e3 * told.late_s, 1e3 * told.stderr_s, s->driver);
+    *late_s[k] = mend ? told.late_s : 0.0;
+    set_shift(shift_s, s->moved, *late_s[k]);
+  }
+  return ST_OK;
+}
+
+// --- the whole
+// ------------------------------------------------------------------------------------------------
+
+static void note_samples(gap_flight_t *f) {
+  int masked = 0;
+  for (int i = 0; i < f->n; i++) masked += f->saturated[i];
+  if (masked)
+    note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
+  if (f->n > 0 && f->segment[f->n - 1] > 0)
+    note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
+}
+
+static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
+  double shift_s[SIG_COUNT] = {0.0};
+  for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = rows->columns.of[i].late_s;
+  TRY(raw_read(raw, rows, &f->cut, why));
+  TRY(check_cells(f, raw, rows, why));
+  TRY(raw_check_stuck(raw, rows, why));
+  TRY(drop_rest(f, raw, rows, why));
+  int slow;
+  TRY(raw_free_of_repeats(raw, &slow, why));
+  if (slow)
+    note(f,
+         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
+         "values",
+         slow);
+  TRY(align(f, raw, shift_s, why));
+  TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
+  if (f->n < 10)
+    return table_refuse(&rows->table, 0, -1, why,
+                        "%d samples without a gap; allowed: a second of flight or more", f->n);
+  note_samples(f);
+  return gap_check(f, rows, why);
+}
+
+static void name_ranges(gap_flight_t *f) {
+  for (int i = 0; i < 4; i++) f->motor_speed_radps[i] = f->v[SIG_W1 + i];
+  f->range_up_m = f->v[SIG_RANGE];
+  f->range_down_m = f->v[SIG_RANGE_DOWN];
+}
+
+status_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns, const model_t *vehicle,
+                  why_t *why) {
+  log_rows_t rows;
+  raw_t raw = {0};
+  *f = (gap_flight_t){0};
+  TRY(log_rows_open(&rows, path, columns, vehicle, LOG_MEND, 0, why));
+  snprintf(f->name, sizeof f->name, "%s", path);
+  const status_t status = make(f, &raw, &rows, why);
+  raw_free(&raw);
+  log_rows_close(&rows);
+  if (status == ST_OK)
+    name_ranges(f);
+  else
+    gap_flight_free(f);
+  return status;
+}

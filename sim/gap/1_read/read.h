@@ -1,0 +1,73 @@
+// read.h - the parts of stage 1, in the order in which they run. Only the 1_read files include it.
+#ifndef SIM_GAP_1_READ_READ_H
+#define SIM_GAP_1_READ_READ_H
+
+#include "gap/1_read/flight.h"
+#include "logs/log_rows.h"
+
+// The log's rows as they came, but for what is merged: column by column.
+typedef struct {
+  int n, room;
+  double *t_s;
+  double *v[SIG_COUNT]; // null: not delivered
+  bool *at_limit;
+  long *line;
+  double period_s;          // median distance of rows
+  double slow_s[SIG_COUNT]; // usual distance of new values, where that is longer; else 0
+  int thin;                 // rows of the log per row
+  long rows;                // of the log
+  long merged;              // rows at, or almost at, the time of the one before
+  long range_unusable;      // samples of 0 and of no return
+} raw_t;
+
+void raw_free(raw_t *raw);
+void raw_drop(raw_t *raw, signal_id_t signal);
+
+// Reads rows until the end or GAP_FLIGHT_S. Thins to about GAP_RATE_HZ by means; merges rows of almost one
+// time; keeps of the ranges what is new. ST_BAD_INPUT: as log_rows_next, or the rows' distance is not that of
+// a flight log.
+MUST_CHECK status_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
+
+// ST_BAD_INPUT: a signal that stands still while the vehicle flies. ST_FAILED: no memory.
+MUST_CHECK status_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why);
+
+// A slower stream repeats its last value until the next: makes the repeats gaps, so that what is between new
+// values is a line and not a stair, which would be late by half a step. Returns in how many streams.
+// ST_FAILED: no memory.
+MUST_CHECK status_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why);
+
+// The uniform time base: shift_s[i] is taken from the time stamps of signal i. Signals not in `want` are
+// left out; at most limit_s of flight. ST_FAILED: no memory.
+MUST_CHECK status_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
+                             double limit_s, bool drop, why_t *why);
+
+// How far two streams are apart in time.
+typedef struct {
+  double late_s, stderr_s; // stderr_s infinite: cannot be told
+} skew_t;
+
+skew_t gap_skew_attitude(const gap_flight_t *f); // against the gyro
+skew_t gap_skew_velocity(const gap_flight_t *f); // against the accelerometer
+
+// ST_BAD_INPUT: signals contradict physics or each other over the whole flight.
+MUST_CHECK status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
+
+// What a stream moved over a window of samples, and what the one that drives it says.
+typedef struct {
+  double moved[3], driven[3];
+  double ends[3]; // of the driving signal: last minus first
+} window_t;
+
+typedef struct {
+  const char *moves, *by;                                       // in words
+  signal_id_t driver;                                           // the first of its three columns
+  double span_s, least;                                         // a window's length; what is a movement
+  bool (*at)(const gap_flight_t *f, int i, int m, window_t *w); // false: not all there
+} drive_t;
+
+extern const drive_t GAP_TURN, GAP_PUSH, GAP_GO; // attitude by gyro, velocity by force, position by velocity
+
+// Samples of a window.
+int gap_drive_samples(const gap_flight_t *f, const drive_t *drive);
+
+#endif

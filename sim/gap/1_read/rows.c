@@ -1,0 +1,176 @@
+// rows.c - stage 1: the rows of a log in memory, thinned and merged.
+#include "gap/1_read/read.h"
+
+#include "base/by_size.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST       512  // rows from which the rate is told
+#define BUNCH       0.25 // rows closer than this share of the median distance came late, together
+#define RATE_MIN_HZ 40.0
+#define RATE_MAX_HZ 2200.0
+#define NO_RETURN_M 32.0 // sensors say 32.766 or 32.767 m where nothing comes back
+
+// The mean of rows of almost one time.
+typedef struct {
+  int rows, n[SIG_COUNT];
+  double first_s, sum_s, sum[SIG_COUNT];
+  bool at_limit;
+  long line;
+} bin_t;
+
+typedef struct {
+  log_row_t row;
+  long line;
+} early_t;
+
+static const signals_t RANGES = SIGNAL_BIT(SIG_RANGE) | SIGNAL_BIT(SIG_RANGE_DOWN);
+
+void raw_drop(raw_t *raw, signal_id_t signal) {
+  free(raw->v[signal]);
+  raw->v[signal] = NULL;
+}
+
+void raw_free(raw_t *raw) {
+  for (int i = 0; i < SIG_COUNT; i++) raw_drop(raw, (signal_id_t)i);
+  free(raw->t_s);
+  free(raw->at_limit);
+  free(raw->line);
+  *raw = (raw_t){0};
+}
+
+static bool grow(void **array, size_t room, size_t size) {
+  void *const more = realloc(*array, room * size);
+  if (more) *array = more;
+  return more != NULL;
+}
+
+static bool raw_grow(raw_t *raw, signals_t has) {
+  if (raw->n < raw->room) return true;
+  const size_t room = raw->room ? (size_t)raw->room * 3 / 2 : 8192;
+  bool good = grow((void **)&raw->t_s, room, sizeof(double)) &&
+              grow((void **)&raw->at_limit, room, sizeof(bool)) &&
+              grow((void **)&raw->line, room, sizeof(long));
+  for (int i = 0; good && i < SIG_COUNT; i++)
+    if (has & SIGNAL_BIT(i)) good = grow((void **)&raw->v[i], room, sizeof(double));
+  if (good) raw->room = (int)room;
+  return good;
+}
+
+static status_t bin_close(bin_t *b, raw_t *raw, signals_t has, why_t *why) {
+  if (b->rows == 0) return ST_OK;
+  if (!raw_grow(raw, has)) return error_failed(why, "out of memory at %d rows", raw->n);
+  raw->t_s[raw->n] = b->sum_s / b->rows;
+  raw->at_limit[raw->n] = b->at_limit;
+  raw->line[raw->n] = b->line;
+  for (int i = 0; i < SIG_COUNT; i++)
+    if (raw->v[i]) raw->v[i][raw->n] = b->n[i] ? b->sum[i] / b->n[i] : (double)NAN;
+  raw->n++;
+  *b = (bin_t){0};
+  return ST_OK;
+}
+
+static status_t bin_add(bin_t *b, raw_t *raw, const early_t *e, signals_t has, why_t *why) {
+  const double *const v = e->row.v, t_s = v[SIG_TIME];
+  const bool bunched = b->rows > 0 && t_s - b->sum_s / b->rows < BUNCH * raw->period_s;
+  if (!bunched && b->rows >= raw->thin) TRY(bin_close(b, raw, has, why));
+  if (bunched) raw->merged++;
+  if (b->rows == 0) {
+    b->first_s = t_s;
+    b->line = e->line;
+  }
+  b->rows++;
+  b->sum_s += t_s;
+  b->at_limit = b->at_limit || e->row.at_limit;
+  for (int i = 0; i < SIG_COUNT; i++) {
+    if (isnan(v[i])) continue;
+    const bool newest = RANGES & SIGNAL_BIT(i);
+    b->sum[i] = newest ? v[i] : b->sum[i] + v[i];
+    b->n[i] = newest ? 1 : b->n[i] + 1;
+  }
+  return ST_OK;
+}
+
+static status_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_t *rows, why_t *why) {
+  double dt_s[FIRST];
+  for (int i = 1; i < n; i++) dt_s[i - 1] = early[i].row.v[SIG_TIME] - early[i - 1].row.v[SIG_TIME];
+  if (n < 3) return table_refuse(&rows->table, 0, -1, why, "%d rows; allowed: a flight", n);
+  qsort(dt_s, (size_t)n - 1, sizeof *dt_s, by_size);
+  raw->period_s = dt_s[(n - 1) / 2];
+  const double min_s = 1.0 / RATE_MAX_HZ, max_s = 1.0 / RATE_MIN_HZ;
+  if (!(raw->period_s >= min_s && raw->period_s <= max_s)) {
+    char hint[COLUMNS_HINT];
+    columns_hint(&rows->columns, SIG_TIME, raw->period_s, min_s, max_s, hint);
+    return table_refuse(&rows->table, 0, rows->at[SIG_TIME], why,
+                        "rows are apart by %.3g s; allowed: %.2g to %.2g s%s", raw->period_s, min_s, max_s,
+                        hint);
+  }
+  raw->thin = (int)(1.0 / (raw->period_s * GAP_RATE_HZ) + 0.25);
+  if (raw->thin < 1) raw->thin = 1;
+  return ST_OK;
+}
+
+// A sensor slower than the log stands in it as a value that stays, or with gaps between.
+static void keep_new_ranges(raw_t *raw, double *v, double last_m[2]) {
+  static const signal_id_t range[2] = {SIG_RANGE, SIG_RANGE_DOWN};
+  for (int k = 0; k < 2; k++) {
+    double *const now_m = &v[range[k]];
+    const bool repeat = *now_m == last_m[k];
+    last_m[k] = *now_m;
+    if (repeat || isnan(*now_m)) {
+      *now_m = (double)NAN;
+    } else if (!(*now_m > 0.0 && *now_m < NO_RETURN_M)) {
+      raw->range_unusable++;
+      *now_m = (double)NAN;
+    }
+  }
+}
+
+typedef struct {
+  early_t early[FIRST + 1];
+  int n; // of early; beyond FIRST the rate is told
+  bin_t bin;
+} reader_t;
+
+static status_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
+  if (r->n < FIRST) {
+    r->n++;
+    return ST_OK;
+  }
+  if (raw->thin == 0) {
+    TRY(tell_rate(raw, r->early, r->n, rows, why));
+    for (int i = 0; i < r->n; i++) TRY(bin_add(&r->bin, raw, &r->early[i], rows->has, why));
+  }
+  return bin_add(&r->bin, raw, &r->early[FIRST], rows->has, why);
+}
+
+static status_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
+  double last_m[2] = {(double)NAN, (double)NAN};
+  for (;;) {
+    early_t *const e = &r->early[r->n];
+    bool more;
+    TRY(log_rows_next(rows, &e->row, &more, why));
+    if (!more) break;
+    e->line = table_line(&rows->table);
+    keep_new_ranges(raw, e->row.v, last_m);
+    *cut = e != r->early && e->row.v[SIG_TIME] - r->early[0].row.v[SIG_TIME] > GAP_FLIGHT_S;
+    if (*cut) break;
+    raw->rows++;
+    TRY(take_row(r, raw, rows, why));
+  }
+  if (raw->thin == 0) {
+    TRY(tell_rate(raw, r->early, r->n, rows, why));
+    for (int i = 0; i < r->n; i++) TRY(bin_add(&r->bin, raw, &r->early[i], rows->has, why));
+  }
+  return bin_close(&r->bin, raw, rows->has, why);
+}
+
+status_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
+  *cut = false;
+  reader_t *const reader = calloc(1, sizeof *reader);
+  if (!reader) return error_failed(why, "out of memory");
+  const status_t status = read_all(reader, raw, rows, cut, why);
+  free(reader);
+  return status;
+}

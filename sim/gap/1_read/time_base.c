@@ -1,0 +1,182 @@
+// time_base.c - stage 1: streams with time stamps of their own on one uniform time base.
+#include "gap/1_read/read.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define SPLIT_PERIODS 5.0 // a longer gap between rows splits the flight ..
+#define SPLIT_S       0.04
+#define BRIDGE_S      0.12 // so much of one signal may be missing ..
+#define BRIDGE_SLOW   3.0  // or so many usual distances of a slow one
+#define CURVE_MAX_S   0.05 // a slower stream gets lines
+#define UNEVEN        3.0  // neighbours this much farther than each other: no curve is laid through them
+
+typedef struct {
+  int first, last; // rows
+  int at, n;       // samples
+  double start_s;
+} segment_t;
+
+static const signals_t LINEAR =
+    SIGNAL_BIT(SIG_M1) | SIGNAL_BIT(SIG_M2) | SIGNAL_BIT(SIG_M3) | SIGNAL_BIT(SIG_M4) | SIGNAL_BIT(SIG_F1) |
+    SIGNAL_BIT(SIG_F2) | SIGNAL_BIT(SIG_F3) | SIGNAL_BIT(SIG_F4) | SIGNAL_BIT(SIG_THRUST) |
+    SIGNAL_BIT(SIG_VBAT) | SIGNAL_BIT(SIG_SET_X) | SIGNAL_BIT(SIG_SET_Y) | SIGNAL_BIT(SIG_SET_Z) |
+    SIGNAL_BIT(SIG_SET_VX) | SIGNAL_BIT(SIG_SET_VY) | SIGNAL_BIT(SIG_SET_VZ) | SIGNAL_BIT(SIG_SET_YAW);
+
+// The mean distance of rows, gaps left out; no shorter than that of GAP_RATE_HZ.
+static double grid_period(const raw_t *raw) {
+  const double usual_s = raw->period_s * raw->thin;
+  double sum_s = 0.0;
+  int n = 0;
+  for (int i = 1; i < raw->n; i++) {
+    const double dt_s = raw->t_s[i] - raw->t_s[i - 1];
+    if (dt_s < 0.7 * usual_s || dt_s > 1.3 * usual_s) continue;
+    sum_s += dt_s;
+    n++;
+  }
+  return fmax(n > 0 ? sum_s / n : usual_s, 1.0 / GAP_RATE_HZ);
+}
+
+// The next run of rows without a gap that splits; false: none is left.
+static bool next_segment(const raw_t *raw, double period_s, double margin_s, double end_s, segment_t *s) {
+  const double split_s = fmax(SPLIT_PERIODS * raw->period_s * raw->thin, SPLIT_S);
+  s->at += s->n;
+  s->first = s->last + 1;
+  if (s->first >= raw->n || raw->t_s[s->first] > end_s) return false;
+  s->last = s->first;
+  while (s->last + 1 < raw->n && raw->t_s[s->last + 1] - raw->t_s[s->last] <= split_s &&
+         raw->t_s[s->last + 1] <= end_s)
+    s->last++;
+  s->start_s = raw->t_s[s->first] + margin_s;
+  const double span_s = raw->t_s[s->last] - margin_s - s->start_s;
+  s->n = span_s < 0.0 ? 0 : (int)(span_s / period_s + 1e-6) + 1;
+  return true;
+}
+
+// A cubic through four points, between the second and the third; straight where it is uneven.
+static double curve(const double t[4], const double y[4], double at) {
+  const double h = t[2] - t[1], s = (at - t[1]) / h, slope = (y[2] - y[1]) / h;
+  const double before = t[1] - t[0], after = t[3] - t[2];
+  if (!(before < UNEVEN * h && before > h / UNEVEN && after < UNEVEN * h && after > h / UNEVEN))
+    return y[1] + s * h * slope;
+  const double m1 = ((y[1] - y[0]) / before * h + slope * before) / (before + h);
+  const double m2 = (slope * after + (y[3] - y[2]) / after * h) / (after + h);
+  const double r = 1.0 - s;
+  return r * r * (1.0 + 2.0 * s) * y[1] + s * s * (1.0 + 2.0 * r) * y[2] + h * s * r * (r * m1 - s * m2);
+}
+
+static int next_finite(const double *v, int i, int last) {
+  while (i <= last && isnan(v[i])) i++;
+  return i;
+}
+
+// Between rows 1 and 2 of four that have the signal; NaN where these are too far apart.
+static double between(const raw_t *raw, const int row[4], int last, int signal, double at_s) {
+  const double *const v = raw->v[signal], slow_s = raw->slow_s[signal];
+  double t[4], y[4];
+  for (int i = 0; i < 4; i++) {
+    const int j = row[i] <= last ? row[i] : row[2];
+    t[i] = raw->t_s[j];
+    y[i] = v[j];
+  }
+  if (t[2] - t[1] > fmax(BRIDGE_S, BRIDGE_SLOW * slow_s)) return (double)NAN;
+  if (at_s < t[1]) return y[1];
+  if (!(LINEAR & SIGNAL_BIT(signal)) && slow_s < CURVE_MAX_S) return curve(t, y, at_s);
+  return y[1] + (at_s - t[1]) / (t[2] - t[1]) * (y[2] - y[1]);
+}
+
+static void resample(const raw_t *raw, const segment_t *s, double period_s, double shift_s, int signal,
+                     double *out) {
+  const double *const v = raw->v[signal], near_s = 0.6 * period_s;
+  int row[4];
+  row[1] = row[0] = next_finite(v, s->first, s->last);
+  row[2] = next_finite(v, row[1] + 1, s->last);
+  row[3] = next_finite(v, row[2] + 1, s->last);
+  for (int k = 0; k < s->n; k++) {
+    const double at_s = s->start_s + period_s * k + shift_s;
+    while (row[2] <= s->last && raw->t_s[row[2]] < at_s) {
+      row[0] = row[1];
+      row[1] = row[2];
+      row[2] = row[3];
+      row[3] = next_finite(v, row[3] + 1, s->last);
+    }
+    out[k] = (double)NAN;
+    if (row[1] > s->last || at_s < raw->t_s[row[1]] - near_s) continue;
+    if (row[2] <= s->last)
+      out[k] = between(raw, row, s->last, signal, at_s);
+    else if (at_s < raw->t_s[row[1]] + near_s)
+      out[k] = v[row[1]];
+  }
+}
+
+// New samples go to the nearest instant.
+static void place(const raw_t *raw, const double *v, const segment_t *s, double period_s, double shift_s,
+                  double *out) {
+  for (int k = 0; k < s->n; k++) out[k] = (double)NAN;
+  for (int i = s->first; i <= s->last; i++) {
+    const double k = floor((raw->t_s[i] - shift_s - s->start_s) / period_s + 0.5);
+    if (!isnan(v[i]) && k >= 0.0 && k < s->n) out[(int)k] = v[i];
+  }
+}
+
+static void mark(gap_flight_t *f, const raw_t *raw, const segment_t *s, int number, double period_s) {
+  for (int k = 0; k < s->n; k++) {
+    f->t_s[s->at + k] = s->start_s + period_s * k;
+    f->segment[s->at + k] = number;
+  }
+  for (int i = s->first; i <= s->last; i++) {
+    if (!raw->at_limit[i]) continue;
+    const double k = floor((raw->t_s[i] - s->start_s) / period_s);
+    for (int j = 0; j < 2; j++)
+      if (k + j >= 0.0 && k + j < s->n) f->saturated[s->at + (int)k + j] = true;
+  }
+}
+
+static void unit_quaternions(gap_flight_t *f) {
+  double *const *q = &f->v[SIG_QW];
+  for (int i = 0; q[0] && i < f->n; i++) {
+    const double norm = sqrt(q[0][i] * q[0][i] + q[1][i] * q[1][i] + q[2][i] * q[2][i] + q[3][i] * q[3][i]);
+    for (int k = 0; k < 4; k++) q[k][i] /= norm;
+  }
+}
+
+typedef struct {
+  double period_s, margin_s, end_s;
+} grid_t;
+
+static status_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, int signal, double shift_s,
+                            why_t *why) {
+  double *const out = f->v[signal] = malloc(((size_t)f->n + 1) * sizeof(double));
+  if (!out) return error_failed(why, "out of memory");
+  for (segment_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
+    if (signal == SIG_RANGE || signal == SIG_RANGE_DOWN)
+      place(raw, raw->v[signal], &s, g->period_s, shift_s, out + s.at);
+    else
+      resample(raw, &s, g->period_s, shift_s, signal, out + s.at);
+  }
+  return ST_OK;
+}
+
+status_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
+                  double limit_s, bool drop, why_t *why) {
+  grid_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
+  for (int i = 0; i < SIG_COUNT; i++) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
+  int number = 0;
+  f->n = 0;
+  for (segment_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);) f->n = s.at + s.n;
+  f->rate_Hz = 1.0 / g.period_s;
+  const size_t n = (size_t)f->n + 1;
+  f->t_s = malloc(n * sizeof(double));
+  f->segment = malloc(n * sizeof(int));
+  f->saturated = calloc(n, sizeof(bool));
+  if (!f->t_s || !f->segment || !f->saturated) return error_failed(why, "out of memory");
+  for (segment_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);)
+    if (s.n > 0) mark(f, raw, &s, number++, g.period_s);
+  for (int i = SIG_X; i < SIG_COUNT; i++) {
+    if (!raw->v[i] || !(want & SIGNAL_BIT(i))) continue;
+    TRY(fill_signal(f, raw, &g, i, shift_s[i], why));
+    if (drop) raw_drop(raw, (signal_id_t)i);
+  }
+  unit_quaternions(f);
+  return ST_OK;
+}

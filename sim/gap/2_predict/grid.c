@@ -1,0 +1,197 @@
+// grid.c - a part of a flight on a coarser grid.
+#include "gap/2_predict/grid.h"
+
+#include "body/body_forces.h"
+#include "gap/2_predict/set_points.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define POINT_HZ  50.0
+#define FLIES     0.3   // of the weight: with less thrust it stands or falls
+#define CLEAR_M   5e-3  // of the feet from the floor
+#define TOP_M     2e-3  // of anything from the ceiling
+#define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
+#define NOMINAL_V 3.7   // where no voltage is logged
+
+const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
+                                           "turn_y",  "turn_z",  "range"};
+const char *const gap_unit[CHANNELS] = {"m/s2", "m/s2", "m/s2", "rad/s2", "rad/s2", "rad/s2", "m"};
+
+static bool has(const gap_flight_t *f, int from, int to) {
+  for (int i = from; i <= to; i++)
+    if (!f->v[i]) return false;
+  return true;
+}
+
+// --- commands -----------------------------------------------------------------------------------------
+
+// By motor, and not only all together.
+static bool each_commanded(const gap_flight_t *f) {
+  return has(f, SIG_F1, SIG_F4) || (f->motors_N && has(f, SIG_M1, SIG_M4));
+}
+
+static double newton(const gap_flight_t *f, int rotor, int i) {
+  if (!each_commanded(f)) return f->v[SIG_THRUST][i] / ROTORS;
+  return f->v[(has(f, SIG_F1, SIG_F4) ? SIG_F1 : SIG_M1) + rotor][i];
+}
+
+static bool has_commands(const gap_flight_t *f) {
+  return each_commanded(f) || f->v[SIG_THRUST];
+}
+
+static bool has_speeds(const gap_flight_t *f) {
+  for (int k = 0; k < ROTORS; k++)
+    if (!f->motor_speed_radps[k]) return false;
+  return true;
+}
+
+static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
+  const gap_flight_t *f = g->flight;
+  const bool commands = has_commands(f);
+  g->has_moments = each_commanded(f) || !commands;
+  for (int k = 0; k < ROTORS; k++) {
+    g->command_N[k] = malloc((size_t)n * sizeof(double));
+    if (!g->command_N[k]) return error_failed(why, "out of memory");
+    double last = 0.0;
+    for (int i = 0; i < n; i++) {
+      const double speed = commands ? 0.0 : f->motor_speed_radps[k][g->from + i];
+      const double now = commands ? newton(f, k, g->from + i) : m->frame.kf_Ns2 * speed * speed;
+      g->command_N[k][i] = last = isfinite(now) ? now : last;
+    }
+  }
+  return ST_OK;
+}
+
+// --- points -------------------------------------------------------------------------------------------
+
+static double mean(const double *v, int from, int n) {
+  double sum = 0.0;
+  for (int i = from; i < from + n; i++) sum += v[i];
+  return sum / n;
+}
+
+static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
+  return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
+}
+
+static void take_range(const grid_t *g, int from, point_t *p) {
+  const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
+  p->range_m = (double)NAN;
+  for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
+    if (isfinite(range[i])) {
+      p->range_m = range[i];
+      p->range_before_s = p->t_s - g->flight->t_s[i];
+    }
+}
+
+static bool finite3(d3_t a) {
+  return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const touch_gap_t *gap, int from) {
+  double thrust_N = 0.0;
+  for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
+  for (int i = from; i < from + g->every; i++)
+    if (g->flight->saturated && g->flight->saturated[i]) return false;
+  if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
+  return thrust_N > FLIES * m->mass_kg * PLANT_GRAVITY_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
+         finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
+}
+
+static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch, int from) {
+  const gap_flight_t *f = g->flight;
+  const int n = g->every, middle = from + n / 2;
+  point_t p = {
+      .t_s = mean(f->t_s, from, n), .segment = f->segment ? f->segment[from] : 0, .q_wb = {.w = 1.0}};
+  if (g->has_position)
+    p.pos_w_m = mean3(f, SIG_X, from, n);
+  else if (f->v[SIG_Z])
+    p.pos_w_m.z = mean(f->v[SIG_Z], from, n);
+  p.pos_w_m.z += body_rest_z_m(m);
+  if (g->has_velocity) p.vel_w_mps = mean3(f, SIG_VX, from, n);
+  if (g->has_attitude) {
+    p.q_wb = (dq_t){f->v[SIG_QW][middle], f->v[SIG_QX][middle], f->v[SIG_QY][middle], f->v[SIG_QZ][middle]};
+    if (isfinite(p.q_wb.w)) p.q_wb = dq_unit(p.q_wb);
+  }
+  if (g->has_rates) p.rate_b_radps = mean3(f, SIG_GX, from, n);
+  if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
+  p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
+  const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
+  take_range(g, from, &p);
+  if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
+  set_point_read(g, m, from, &p);
+  const axes_t axes = axes_of(p.q_wb);
+  const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);
+  p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
+  p.ok = is_good(g, &p, m, &gap, from);
+  return p;
+}
+
+// Measured thrust of the point that comes next.
+static void take_speeds(grid_t *g, const model_t *m, int from) {
+  for (int k = 0; k < ROTORS; k++) {
+    const double speed = mean(g->flight->motor_speed_radps[k], from, g->every);
+    g->measured_N[k][g->n] = m->frame.kf_Ns2 * speed * speed;
+  }
+}
+
+static bool speeds_room(grid_t *g, size_t points) {
+  if (!has_speeds(g->flight) || !has_commands(g->flight)) return true;
+  for (int k = 0; k < ROTORS; k++)
+    if (!(g->measured_N[k] = malloc((points + 1) * sizeof(double)))) return false;
+  return true;
+}
+
+// Points do not reach over the end of a segment.
+static void take_points(grid_t *g, const model_t *m, int to) {
+  body_t b = {.model = m}; // the points that can touch
+  body_surround(&b.touch, m);
+  body_place(&b, d3(0.0, 0.0, 0.0));
+  for (int i = g->from; i + g->every <= to;) {
+    const int *segment = g->flight->segment;
+    if (segment && segment[i] != segment[i + g->every - 1]) {
+      i++;
+      continue;
+    }
+    if (g->measured_N[0]) take_speeds(g, m, i);
+    g->point[g->n++] = point_of(g, m, &b.touch, i);
+    i += g->every;
+  }
+}
+
+status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
+  *g = (grid_t){.flight = f, .from = from, .samples = to - from};
+  g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
+  g->period_s = g->every / f->rate_Hz;
+  g->has_position = has(f, SIG_X, SIG_Z);
+  g->has_velocity = has(f, SIG_VX, SIG_VZ);
+  g->has_attitude = has(f, SIG_QW, SIG_QZ);
+  g->has_rates = has(f, SIG_GX, SIG_GZ);
+  g->has_force = has(f, SIG_AX, SIG_AZ);
+  g->has_vbat = f->v[SIG_VBAT] != NULL;
+  g->range_up = isfinite(m->ceiling_m) && f->range_up_m;
+  if (!has_commands(f) && !has_speeds(f))
+    return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed%s%s", f->name,
+                     f->motor_lacks ? "; missing: " : "", f->motor_lacks ? f->motor_lacks : "");
+  g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
+  if (!g->point || !speeds_room(g, (size_t)((to - from) / g->every)))
+    return error_failed(why, "out of memory");
+  TRY(take_commands(g, m, to - from, why));
+  take_points(g, m, to);
+  set_points_judge(g);
+  return ST_OK;
+}
+
+void grid_free(grid_t *g) {
+  for (int k = 0; k < ROTORS; k++) {
+    free(g->command_N[k]);
+    free(g->measured_N[k]);
+  }
+  for (int i = 0; i < GRID_MOTORS; i++) {
+    free(g->motors[i].thrust_N[0]);
+  }
+  free(g->point);
+  free(g->mark);
+  *g = (grid_t){.n = 0};
+}

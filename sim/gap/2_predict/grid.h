@@ -1,0 +1,66 @@
+// grid.h - a part of a flight on a coarser grid, about 50 Hz: means over whole numbers of samples.
+#ifndef SIM_GAP_2_PREDICT_GRID_H
+#define SIM_GAP_2_PREDICT_GRID_H
+
+#include "body/body.h"
+#include "gap/1_read/flight.h"
+
+// Residuals. Force: specific force, measured less predicted. Rate: angular acceleration. Range: of the upward
+// sensor where the vehicle file has a ceiling, else of the downward one.
+enum { CH_FX, CH_FY, CH_FZ, CH_WX, CH_WY, CH_WZ, CH_RANGE, CHANNELS };
+#define CH_FORCES 3
+#define CH_SMOOTH 6 // channels that are filtered
+
+extern const char *const gap_channel[CHANNELS], *const gap_unit[CHANNELS];
+
+typedef struct {
+  double t_s;
+  int segment;
+  bool ok;                 // flying, nothing touched, no motor at a limit, every signal there
+  d3_t pos_w_m, vel_w_mps; // centre of mass; the floor is at 0
+  dq_t q_wb;
+  d3_t rate_b_radps, acc_b_mps2;
+  double vbat_V;
+  double range_m;          // fresh, else NaN
+  double range_before_s;   // so long before t_s it was taken
+  double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
+  d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
+  double set_yaw_rad;
+} point_t;
+
+// Of a point. Free: it can be compared, by its own value or (turning) by its neighbours' too.
+enum { MARK_FREE = 1, MARK_TURN_FREE = 2, MARK_FIRST = 4, MARK_LAST = 8 }; // first, last: of a segment
+
+#define GRID_MOTORS 4 // motor histories kept
+
+// Thrust of the rotors in free air for one lag and delay, at the points.
+typedef struct {
+  double tau_s, delay_s;
+  double *thrust_N[ROTORS], *rise_Nps[ROTORS];
+} lagged_t;
+
+typedef struct {
+  const gap_flight_t *flight;
+  int from, samples, every; // the first sample, how many, how many a point
+  double period_s;          // of points
+  int n;
+  point_t *point;
+  unsigned char *mark; // MARK_*, by point; null until the grid is in a set
+  bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
+  double *command_N[ROTORS];  // by sample, from `from`
+  double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
+  lagged_t motors[GRID_MOTORS];
+  int motors_used;
+} grid_t;
+
+// The samples from..to-1 of a flight. ST_BAD_INPUT: what the log lacks makes it useless; ST_FAILED: no
+// memory.
+MUST_CHECK status_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int to, const model_t *m,
+                              why_t *why);
+void grid_free(grid_t *g);
+
+// Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
+// memory.
+const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s);
+
+#endif

@@ -1,0 +1,128 @@
+// muted.c - channels in which these logs cannot be compared with any model.
+#include "gap/2_predict/muted.h"
+
+#include "gap/2_predict/increments.h"
+#include "gap/4_candidates/candidates.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
+
+#define ORDERS  24   // of four motors
+#define FOLLOWS 0.35 // correlation
+#define BETTER  0.3  // of correlation
+
+typedef struct {
+  double slope, correlation;
+} likeness_t;
+
+// Of the increments of what was measured and what was predicted.
+static likeness_t compare(const rows_t *r, const double *measured, const double *residual) {
+  const increments_t s = increments_of(r, measured, residual);
+  return s.pp > 0.0 && s.yy > 0.0 ? (likeness_t){s.yp / s.pp, s.yp / sqrt(s.yy * s.pp)}
+                                  : (likeness_t){1.0, 1.0};
+}
+
+// Where turning follows the commands best: over the first of the lags, by channel.
+static status_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
+                        why_t *why) {
+  double *r[CHANNELS], *measured[CHANNELS] = {NULL};
+  const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    best[ch] = (likeness_t){1.0, -2.0};
+    r[ch] = room + ch * n;
+  }
+  for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
+  TRY(residual_measured(s, measured, why));
+  for (unsigned i = 0; i < lags; i++) {
+    model_t slower = *m;
+    slower.motor_tau_s += MORE_TAU_S[i];
+    TRY(residual_of(s, &slower, r, why));
+    for (int ch = CH_WX; ch <= CH_WZ; ch++) {
+      const likeness_t now = compare(&s->smooth, measured[ch], r[ch]);
+      if (now.correlation > best[ch].correlation) best[ch] = now;
+    }
+  }
+  return ST_OK;
+}
+
+// --- the order of the motors ------------------------------------------------------------------------------
+
+static void reorder(set_t *s, const int order[ROTORS]) {
+  for (int f = 0; f < s->n_grid; f++) {
+    grid_t *const g = &s->grid[f];
+    double *was[ROTORS];
+    memcpy(was, g->command_N, sizeof was);
+    for (int k = 0; k < ROTORS; k++) g->command_N[order[k]] = was[k];
+    for (int i = 0; i < GRID_MOTORS; i++) g->motors[i].tau_s = (double)NAN; // of other commands
+  }
+}
+
+// Order number i of 24; order[k]: the motor that column k is.
+static void order_of(int i, int order[ROTORS]) {
+  int left[ROTORS] = {0, 1, 2, 3};
+  for (int k = 0, n = ROTORS; k < ROTORS; k++, n--) {
+    order[k] = left[i % n];
+    for (int at = i % n; at < n - 1; at++) left[at] = left[at + 1];
+    i /= n;
+  }
+}
+
+static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[CHANNELS]) {
+  int better = 0;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) {
+    if (!(other[ch].correlation > FOLLOWS)) return false;
+    better += other[ch].correlation > given[ch].correlation + BETTER;
+  }
+  return better >= 2;
+}
+
+static status_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
+                           why_t *why) {
+  for (int i = 1; i < ORDERS; i++) {
+    likeness_t other[CHANNELS];
+    int order[ROTORS], back[ROTORS];
+    order_of(i, order);
+    for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
+    reorder(s, order);
+    const status_t status = best_of(s, m, 1, room, other, why);
+    reorder(s, back);
+    TRY(status);
+    if (!is_better(given, other)) continue;
+    return error_set(
+        why,
+        "%s: the rates contradict the motor commands, and follow them if m1 to m4 are motors %d, "
+        "%d, %d and %d; allowed: motors in the vehicle file's order",
+        s->grid[0].flight->name, order[0] + 1, order[1] + 1, order[2] + 1, order[3] + 1);
+  }
+  return ST_OK;
+}
+
+static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
+  likeness_t best[CHANNELS];
+  bool any = false;
+  TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
+  for (int ch = CH_WX; ch <= CH_WZ; ch++)
+    if (best[ch].correlation > -2.0 && best[ch].correlation < MUTED_AGAINST)
+      return error_set(
+          why,
+          "%s: %s goes against what the motor commands say (correlation %.2f); allowed: rates and "
+          "commands of one sign, motors in the vehicle file's order",
+          s->grid[0].flight->name, gap_channel[ch], best[ch].correlation);
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) {
+    s->muted[ch] = best[ch].slope < MUTED_SLOPE;
+    any = any || s->muted[ch];
+  }
+  return any ? find_order(s, m, best, room, why) : ST_OK;
+}
+
+status_t muted_find(set_t *s, const model_t *m, why_t *why) {
+  memset(s->muted, 0, sizeof s->muted);
+  if (!residual_has(s, CH_WX)) return ST_OK;
+  const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
+  const status_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
+  free(room);
+  return status;
+}

@@ -1,0 +1,187 @@
+// predict.c - measured state and logged commands through the model, one derivative at a time.
+#include "gap/2_predict/predict.h"
+
+#include "body/body_forces.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- one point --------------------------------------------------------------------------------------------
+
+static void place_body(body_t *b, const point_t *p) {
+  d3_put(b->y + RIGID_POS_M, p->pos_w_m);
+  d3_put(b->y + RIGID_VEL_MPS, p->vel_w_mps);
+  b->y[RIGID_Q_WB] = p->q_wb.w;
+  d3_put(b->y + RIGID_Q_WB + 1, d3(p->q_wb.x, p->q_wb.y, p->q_wb.z));
+  d3_put(b->y + RIGID_RATE_RADPS, p->rate_b_radps);
+  b->vbat_V = p->vbat_V;
+}
+
+static void place_motors(body_t *b, const lagged_t *motors, int j) {
+  for (int k = 0; k < ROTORS; k++) {
+    b->y[RIGID_THRUST_N + k] = motors->thrust_N[k][j];
+    b->rigid.command_N[k] = motors->thrust_N[k][j] + motors->rise_Nps[k][j] * b->rigid.motor_tau_s;
+  }
+}
+
+// The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
+// is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
+static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const point_t *p, const axes_t *axes) {
+  const double up = fmax(axes_up_b(axes).z, 0.1);
+  const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
+  const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);
+  const double below_m = z_m - body_rest_z_m(m);
+  const double side = g->range_up ? -1.0 : 1.0;
+  return (fx_sensed_t){.range_m = (g->range_up ? above_m : below_m) / up,
+                       .range_rate_mps = side * p->vel_w_mps.z / up};
+}
+
+// From `sight` on.
+static void predict(const body_t *b, passed_t *at) {
+  double dydt[RIGID_N];
+  body_derivative_seen(b, b->y, &at->look, dydt);
+  const d3_t pull =
+      d3(dydt[RIGID_VEL_MPS], dydt[RIGID_VEL_MPS + 1], dydt[RIGID_VEL_MPS + 2] + PLANT_GRAVITY_MPS2);
+  at->sensed = at->sight;
+  at->sensed.acc_b_mps2 = axes_to_body(&at->look.axes, pull);
+  model_sense(b->model, &at->sensed);
+  at->turn_radps2 = d3_of(dydt + RIGID_RATE_RADPS);
+}
+
+static void put(const fx_sensed_t *sensed, d3_t turn_radps2, int j, double *const out[CHANNELS]) {
+  double now[CHANNELS];
+  d3_put(now, sensed->acc_b_mps2);
+  d3_put(now + CH_WX, turn_radps2);
+  now[CH_RANGE] = sensed->range_m;
+  for (int c = 0; c < CHANNELS; c++) out[c][j] = now[c];
+}
+
+// --- the whole --------------------------------------------------------------------------------------------
+
+static void keep(path_t *path, const body_t *b, passed_t *at, int j) {
+  rigid_t now = b->rigid;
+  memset(now.command_N, 0, sizeof now.command_N);
+  if (j == 0 || memcmp(&now, &path->rigid[path->n_rigid - 1], sizeof now) != 0)
+    path->rigid[path->n_rigid++] = now;
+  at->rigid = path->n_rigid - 1;
+  at->air_w_mps = b->plant.air_w_mps;
+  path->at[j] = *at;
+}
+
+static status_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS], why_t *why) {
+  place_body(b, &g->point[0]);
+  if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
+  const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
+  if (!motors) return error_failed(why, "out of memory");
+  const double start_s = g->point[0].t_s;
+  for (int j = 0; j < g->n; j++) {
+    passed_t at;
+    place_body(b, &g->point[j]);
+    b->t_s = g->point[j].t_s - start_s;
+    place_motors(b, motors, j);
+    if (b->n_tick > 0) body_effects(b, g->period_s);
+    body_look(b, 0, b->y, &at.look);
+    at.sight = in_sight(g, b->model, &g->point[j], &at.look.axes);
+    predict(b, &at);
+    if (path) keep(path, b, &at, j);
+    put(&at.sensed, at.turn_radps2, j, out);
+  }
+  return ST_OK;
+}
+
+static status_t open_body(body_t *b, const grid_t *g, const model_t *m, why_t *why) {
+  const body_start_t start = {.seed = 1};
+  if (body_open(b, m, INTEGRATE_RK4, g->period_s, &start) == ST_OK) return ST_OK;
+  return error_failed(why, "%s: a model that cannot be replayed", m->name);
+}
+
+static status_t replay_into(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],
+                            why_t *why) {
+  body_t b;
+  if (g->n == 0) return ST_OK;
+  TRY(open_body(&b, g, m, why));
+  const status_t status = run(g, &b, path, out, why);
+  body_close(&b);
+  return status;
+}
+
+status_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why) {
+  return replay_into(g, m, NULL, out, why);
+}
+
+// --- one effect more --------------------------------------------------------------------------------------
+
+status_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS], why_t *why) {
+  const size_t n = (size_t)g->n + 1;
+  *path = (path_t){.model = m, .at = malloc(n * sizeof(passed_t)), .rigid = malloc(n * sizeof(rigid_t))};
+  if (!path->at || !path->rigid) return error_failed(why, "out of memory");
+  return replay_into(g, m, path, out, why);
+}
+
+void path_free(path_t *path) {
+  free(path->at);
+  free(path->rigid);
+  *path = (path_t){.at = NULL};
+}
+
+// What moves the vehicle.
+static status_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t *more,
+                          double *const out[CHANNELS], why_t *why) {
+  place_body(b, &g->point[0]);
+  if (b->n_tick > 0) body_effects(b, g->period_s);
+  const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
+  if (!motors) return error_failed(why, "out of memory");
+  for (int j = 0, rigid = -1; j < g->n; j++) {
+    passed_t at = path->at[j];
+    place_body(b, &g->point[j]);
+    if (at.rigid != rigid) b->rigid = path->rigid[rigid = at.rigid];
+    b->plant.air_w_mps = at.air_w_mps;
+    place_motors(b, motors, j);
+    body_look_more(b, more, b->y, &at.look);
+    predict(b, &at);
+    put(&at.sensed, at.turn_radps2, j, out);
+  }
+  return ST_OK;
+}
+
+// What only its sensors see.
+static void run_sensed(const grid_t *g, const path_t *path, const fx_use_t *more,
+                       double *const out[CHANNELS]) {
+  for (int j = 0; j < g->n; j++) {
+    fx_sensed_t sensed = path->at[j].sensed;
+    more->fx->sense(more, &sensed);
+    put(&sensed, path->at[j].turn_radps2, j, out);
+  }
+}
+
+// The other ones: effects of both kinds, or that change the vehicle for a tick.
+static status_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
+                         why_t *why) {
+  model_t m = *path->model;
+  TRY(model_add_fx(&m, more, why));
+  return replay(g, &m, out, why);
+}
+
+static bool has(const model_t *m, const fx_t *fx) {
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx == fx) return true;
+  return false;
+}
+
+status_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
+                     why_t *why) {
+  const fx_t *const fx = more->fx;
+  const bool moves = fx->load || fx->excess, full = path->model->n_fx == FX_MAX;
+  if (fx->tick || moves == (fx->sense != NULL) || full || has(path->model, fx))
+    return run_anew(g, path, more, out, why);
+  if (!moves) {
+    run_sensed(g, path, more, out);
+    return ST_OK;
+  }
+  body_t b;
+  if (g->n == 0) return ST_OK;
+  TRY(open_body(&b, g, path->model, why));
+  const status_t status = run_moved(g, &b, path, more, out, why);
+  body_close(&b);
+  return status;
+}

@@ -1,0 +1,38 @@
+// predict.h - what the model says at every instant of a flight: the measured state and the logged commands
+// put into the plant, one derivative at a time, never a free run.
+#ifndef SIM_GAP_2_PREDICT_PREDICT_H
+#define SIM_GAP_2_PREDICT_PREDICT_H
+
+#include "gap/2_predict/grid.h"
+
+// out[channel][point]: specific force and angular acceleration in body axes, and the range sensor's reading
+// (NaN where nothing is in sight), with the model's own effects. ST_FAILED: no memory.
+MUST_CHECK status_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why);
+
+// What a replay went through at a point.
+typedef struct {
+  body_look_t look;
+  fx_sensed_t sight, sensed; // before and after the model's effects on sensors; sight without a force
+  d3_t turn_radps2, air_w_mps;
+  int rigid; // which one it was
+} passed_t;
+
+// A replay, kept: with it, the same model with one effect more costs what that effect changes.
+typedef struct {
+  const model_t *model; // the caller's; must not change
+  passed_t *at;
+  rigid_t *rigid; // without commands; as many as differ from the one before
+  int n_rigid;
+} path_t;
+
+// As replay(), and keeps it. Free it, also on an error.
+MUST_CHECK status_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],
+                                why_t *why);
+void path_free(path_t *path);
+
+// The replay of the path's model with an effect added, or in place of its own one of that name. Same numbers
+// as replay() of such a model, to the bit. ST_BAD_INPUT: as model_add_fx.
+MUST_CHECK status_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more,
+                                double *const out[CHANNELS], why_t *why);
+
+#endif

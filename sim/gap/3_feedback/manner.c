@@ -1,0 +1,166 @@
+// manner.c - how a flight was flown and measured.
+#include "gap/3_feedback/nominal.h"
+
+#include "base/lsq_blocks.h"
+#include "base/nth.h"
+#include <math.h>
+#include <stdlib.h>
+
+static double clamp(double v, double lo, double hi) {
+  return v >= lo ? fmin(v, hi) : lo; // NaN: lo
+}
+
+// Sd of white noise on a smooth signal: of third differences, by their median, so that jumps do not count.
+static double noise_of(const grid_t *g, const double *v) {
+  if (!v || g->samples < 16) return 0.0;
+  double *const d = malloc((size_t)g->samples * sizeof(double));
+  int n = 0;
+  for (int i = g->from + 3; d && i < g->from + g->samples; i++) {
+    const double x = fabs(v[i] - 3.0 * v[i - 1] + 3.0 * v[i - 2] - v[i - 3]);
+    if (isfinite(x)) d[n++] = x;
+  }
+  const double sd = n ? nth_smallest(d, n, n / 2) / 0.6745 / sqrt(20.0) : 0.0;
+  free(d);
+  return sd;
+}
+
+static double largest_noise(const set_t *s, int from, int to) {
+  double most = 0.0;
+  for (int i = from; i <= to; i++) most = fmax(most, noise_of(&s->grid[0], s->grid[0].flight->v[i]));
+  return most;
+}
+
+// --- gains: least squares of increments of a command on increments of what it is fed by
+// ----------------------------
+
+typedef struct {
+  double aa, ab, bb, ac, bc;
+} two_t;
+
+static void two_add(two_t *t, double a, double b, double c) {
+  t->aa += a * a;
+  t->ab += a * b;
+  t->bb += b * b;
+  t->ac += a * c;
+  t->bc += b * c;
+}
+
+// c = -x a - y b
+static void two_solve(const two_t *t, double *x, double *y) {
+  const double det = t->aa * t->bb - t->ab * t->ab;
+  const bool good = det > 1e-9 * t->aa * t->bb;
+  *x = good ? -(t->ac * t->bb - t->bc * t->ab) / det : (double)NAN;
+  *y = good ? -(t->bc * t->aa - t->ac * t->ab) / det : (double)NAN;
+}
+
+static d3_t tilt_of(const point_t *p) {
+  const axes_t a = axes_of(p->q_wb);
+  const d3_t up = axes_up_b(&a);
+  return d3(up.y, -up.x, 0.0); // roll and pitch, small
+}
+
+// What the commands of a point mean: angular acceleration and thrust over mass.
+static d3_t turn_of(const grid_t *g, const model_t *m, int j, double *lift_mps2) {
+  const frame_t *f = &m->frame;
+  d3_t moment = {0.0, 0.0, 0.0};
+  *lift_mps2 = 0.0;
+  for (int k = 0; k < ROTORS; k++) {
+    double newton = 0.0;
+    for (int i = j * g->every; i < (j + 1) * g->every && i < g->samples; i++)
+      newton += g->command_N[k][i] / g->every;
+    *lift_mps2 += newton / m->mass_kg;
+    moment = d3_add(moment, d3(f->rotor_y_m[k] * newton, -f->rotor_x_m[k] * newton,
+                               -f->rotor_spin[k] * f->torque_ratio_m * newton));
+  }
+  return d3(moment.x / f->inertia_kgm2[0], moment.y / f->inertia_kgm2[1], moment.z / f->inertia_kgm2[2]);
+}
+
+static void find_gains(const set_t *s, const model_t *m, manner_t *w) {
+  two_t roll = {0}, pitch = {0}, climb = {0};
+  const grid_t *g = &s->grid[0];
+  for (int j = 2; j < g->n; j++) {
+    const point_t *p = &g->point[j], *q = &g->point[j - 2];
+    if (!p->ok || !q->ok || p->segment != q->segment || p->segment != 0) continue;
+    double lift, lift_before;
+    const d3_t turn = d3_sub(turn_of(g, m, j, &lift), turn_of(g, m, j - 2, &lift_before));
+    const d3_t rate = d3_sub(p->rate_b_radps, q->rate_b_radps), tilt = d3_sub(tilt_of(p), tilt_of(q));
+    two_add(&roll, rate.x, tilt.x, turn.x);
+    two_add(&pitch, rate.y, tilt.y, turn.y);
+    two_add(&climb, p->vel_w_mps.z - q->vel_w_mps.z, p->pos_w_m.z - q->pos_w_m.z, lift - lift_before);
+  }
+  double tilt[2];
+  two_solve(&roll, &w->rate_gain[0], &tilt[0]);
+  two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
+  two_solve(&climb, &w->climb_gain, &w->height_gain);
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], 8.0, 40.0);
+  w->rate_gain[2] = 5.0;
+  const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
+  w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), 0.1 * least * least, 0.35 * least * least);
+  w->climb_gain = clamp(w->climb_gain, 2.0, 8.0);
+  w->height_gain =
+      clamp(w->height_gain, 0.1 * w->climb_gain * w->climb_gain, 0.3 * w->climb_gain * w->climb_gain);
+}
+
+// --- disturbance
+// --------------------------------------------------------------------------------------------------
+
+// Variance and correlation over one row, about the mean; less what white noise of variance `noise` would make
+// of it.
+static double disturbance(const set_t *s, int ch, const double *r, double noise, double *row_correlation) {
+  const rows_t *rows = set_rows(s, ch);
+  double sum = 0.0, squares = 0.0, next = 0.0;
+  int n = rows->n, pairs = 0;
+  for (int i = 0; i < n; i++) sum += r[i];
+  const double mean = n && ch < CH_FORCES ? sum / n : 0.0; // a standing moment is a disturbance, too
+  for (int i = 0; i < n; i++) {
+    squares += (r[i] - mean) * (r[i] - mean);
+    if (i < 2 || !rows->follows[i] || !rows->follows[i - 1]) continue;
+    next += (r[i] - mean) * (r[i - 2] - mean); // two rows apart: the filter has no say there
+    pairs++;
+  }
+  const double variance = n ? squares / n : 0.0;
+  *row_correlation = variance > 0.0 && pairs ? next / pairs / variance : 0.0;
+  return fmax(variance - noise, 0.0);
+}
+
+// What the filter leaves of white noise of the samples, in the variance of a row.
+static double filtered(const grid_t *g, int ch, double sd) {
+  const double share = fmin(1.0, 13.0 * g->period_s); // of the variance, both ways of the filter
+  const double mean = sd * sd / g->every * share;
+  return ch < CH_FORCES ? mean : mean * 900.0; // a derivative: about (2 pi 5 Hz)^2
+}
+
+static void find_disturbance(const set_t *s, double *const r[CHANNELS], manner_t *w) {
+  const grid_t *g = &s->grid[0];
+  double tau[2] = {0.0, 0.0};
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    double correlation = 0.0;
+    const bool force = ch < CH_FORCES;
+    const double noise = filtered(g, ch, force ? w->acc_mps2 : w->gyro_radps);
+    const double sd = residual_has(s, ch) ? sqrt(disturbance(s, ch, r[ch], noise, &correlation)) : 0.0;
+    if (force)
+      w->force_mps2[ch] = sd;
+    else
+      w->turn_radps2[ch - CH_WX] = sd;
+    if (sd > 0.0) tau[!force] += (-2.0 / RESIDUAL_HZ / log(clamp(correlation, 0.05, 0.98))) / 3.0;
+  }
+  w->force_tau_s = clamp(tau[0], 0.05, 3.0);
+  w->turn_tau_s = clamp(tau[1], 0.05, 3.0);
+}
+
+manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]) {
+  manner_t w = {0};
+  const gap_flight_t *f = s->grid[0].flight;
+  w.acc_mps2 = largest_noise(s, SIG_AX, SIG_AZ);
+  w.gyro_radps = largest_noise(s, SIG_GX, SIG_GZ);
+  w.vel_mps = largest_noise(s, SIG_VX, SIG_VZ);
+  w.pos_m = largest_noise(s, SIG_Z, SIG_Z);
+  w.angle_rad = 2.0 * largest_noise(s, SIG_QX, SIG_QY);
+  w.vbat_V = f->v[SIG_VBAT] ? largest_noise(s, SIG_VBAT, SIG_VBAT) : 0.0;
+  const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
+  w.range_m = range.used ? range.sd : 0.005;
+  slow_errors(&s->grid[0], &w.slow_pos_m, &w.slow_vel_mps, &w.slow_angle_rad);
+  find_gains(s, m, &w);
+  find_disturbance(s, residual, &w);
+  return w;
+}

@@ -1,0 +1,207 @@
+// nominal.c - what the workflow sees in flights in which nothing is hidden.
+#include "gap/3_feedback/nominal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CALMER     4    // times that a flight is tried again with less disturbance
+#define LONG_S     60.0 // of a flight, so much is flown
+#define KEPT_LEAST 0.02
+
+// A part of a grid that is short enough: its first points.
+static grid_t beginning(const grid_t *g) {
+  grid_t part = *g;
+  const int most = (int)(LONG_S / g->period_s);
+  int from = 0;
+  while (from < g->n && !g->point[from].ok) from++;
+  if (part.n > from + most) part.n = from + most;
+  return part;
+}
+
+// A vehicle that is lost in the log's disturbance gets less of it.
+static void calm(manner_t *w) {
+  for (int i = 0; i < 3; i++) {
+    w->force_mps2[i] *= 0.5;
+    w->turn_radps2[i] *= 0.5;
+  }
+  w->acc_mps2 *= 0.7;
+  w->gyro_radps *= 0.7;
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = 15.0;
+  w->tilt_gain = 50.0;
+}
+
+// truth: the same flights without errors; may be null.
+static status_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
+                        const manner_t *w, unsigned long seed, why_t *why) {
+  for (int f = 0; f < s->n_grid; f++) {
+    const grid_t part = beginning(&s->grid[f]);
+    if (part.n < 50) continue;
+    const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
+    manner_t calmer = *w;
+    gap_flight_t *const is = truth ? &truth->flight[to->n] : NULL;
+    status_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
+    for (int k = 0; k < CALMER && status != ST_OK; k++) {
+      calm(&calmer);
+      status = nominal_fly(&part, m, &calmer, own, &to->flight[to->n], is, why);
+    }
+    if (status != ST_OK) return status;
+    to->n++;
+    if (truth) truth->n++;
+  }
+  return ST_OK;
+}
+
+static status_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
+  grid_t *const grid = calloc((size_t)flown->n + 1, sizeof(grid_t));
+  if (!grid) return error_failed(why, "out of memory");
+  status_t status = ST_OK;
+  for (int f = 0; f < flown->n && status == ST_OK; f++)
+    status = grid_make(&grid[f], &flown->flight[f], 0, flown->flight[f].n, m, why);
+  if (status == ST_OK) return set_make(s, grid, flown->n, why);
+  for (int f = 0; f < flown->n; f++) grid_free(&grid[f]);
+  free(grid);
+  return status;
+}
+
+status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                       unsigned long seed, why_t *why) {
+  const size_t n = (size_t)like->n_grid + 1;
+  *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
+                 .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
+  if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
+  TRY(fly_all(&a->seen_flights, &a->is_flights, like, m, manner, seed, why));
+  TRY(set_of(&a->seen, &a->seen_flights, m, why));
+  TRY(set_of(&a->is, &a->is_flights, m, why));
+  memcpy(a->seen.muted, like->muted, sizeof a->seen.muted);
+  memcpy(a->is.muted, like->muted, sizeof a->is.muted);
+  return ST_OK;
+}
+
+void along_free(along_t *a) {
+  set_free(&a->seen);
+  set_free(&a->is);
+  for (int f = 0; f < a->seen_flights.n; f++) {
+    gap_flight_free(&a->seen_flights.flight[f]);
+    gap_flight_free(&a->is_flights.flight[f]);
+  }
+  free(a->seen_flights.flight);
+  free(a->is_flights.flight);
+}
+
+// The residual of the flown model, without what table_make adds of the effects that it has.
+static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
+  for (int i = 0; i < c->n; i++)
+    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
+      for (int ch = 0; ch < CHANNELS; ch++) {
+        const double *x = t->x[ch][c->candidate[i].first + k];
+        const double value = *candidate_value(&c->candidate[i], k);
+        for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] -= value * x[r];
+      }
+}
+
+// What least squares find of a size, whose column holds errors: x x' / x x, both white.
+static status_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
+                          const color_t color[CHANNELS], why_t *why) {
+  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  double *const x = malloc(2 * rows * sizeof(double));
+  if (!x) return error_failed(why, "out of memory");
+  double *const y = x + rows;
+  for (int k = 0; k < n->size - 1; k++) {
+    double xx = 0.0, xy = 0.0;
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      if (!color[ch].used || !seen->x[ch][k]) continue;
+      const rows_t *r = set_rows(s, ch);
+      color_whiten(&color[ch], r, seen->x[ch][k], x);
+      if (is->x[ch][k]) color_whiten(&color[ch], r, is->x[ch][k], y);
+      for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
+      for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
+    }
+    if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
+  }
+  free(x);
+  return ST_OK;
+}
+
+// The same flights without errors have the same rows, but for a few that errors move out of sight: then
+// nothing is known.
+static status_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
+                        const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
+  set_t own = {.n_grid = 0};
+  table_t is = {.columns = 0};
+  status_t status = set_of(&own, truth, job->base, why);
+  memcpy(own.muted, seen->muted, sizeof own.muted);
+  if (status == ST_OK && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
+    status = table_make(&is, &own, job->base, job->c, why);
+    if (status == ST_OK) status = find_kept(n, seen, t, &is, color, why);
+    if (status == ST_OK) table_free(&is);
+  }
+  set_free(&own);
+  return status;
+}
+
+static status_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+                      why_t *why) {
+  table_t t;
+  gram_t g;
+  cell_t cell;
+  double *residual[CHANNELS];
+  const explained_t nothing = {.n = 0};
+  TRY(table_make(&t, s, job->base, job->c, why));
+  take_named(&t, s, job->c);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    residual[ch] = t.x[ch][t.columns];
+    const int rows = set_rows(s, ch)->n;
+    double sum = 0.0;
+    for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
+    n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
+  }
+  status_t status = gram_make(&g, s, &t, &nothing, NULL, why);
+  if (status == ST_OK) {
+    memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
+           (size_t)(n->size * n->size) * sizeof(double));
+    if (truth) status = compare(n, s, &t, g.color, truth, job, why);
+    gram_free(&g);
+  }
+  if (status == ST_OK) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
+  if (status == ST_OK) n->cell[i] = cell.statistic;
+  table_free(&t);
+  return status;
+}
+
+static status_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
+  const set_t *s = job->set;
+  const size_t flights = (size_t)s->n_grid;
+  gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
+  gap_flights_t *const is = i == 0 ? &truth : NULL;
+  set_t own = {.n_grid = 0};
+  if (!flown.flight) return error_failed(why, "out of memory");
+  truth.flight = flown.flight + flights;
+  status_t status = fly_all(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  if (status == ST_OK) status = set_of(&own, &flown, job->base, why);
+  memcpy(own.muted, s->muted, sizeof own.muted);
+  if (status == ST_OK) status = judge(n, i, &own, is, job, why);
+  set_free(&own);
+  for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
+  free(flown.flight);
+  return status;
+}
+
+status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
+  *n = (nominal_t){.size = job->c->columns + 1};
+  n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
+  n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
+  n->kept = malloc((size_t)n->size * sizeof(double));
+  for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
+  status_t status = n->total && n->cell && n->kept ? ST_OK : error_failed(why, "out of memory");
+  for (int i = 0; i < NOMINAL_FLIGHTS && status == ST_OK; i++, n->n++) status = one(n, i, job, why);
+  if (status != ST_OK) nominal_free(n);
+  return status;
+}
+
+void nominal_free(nominal_t *n) {
+  free(n->total);
+  free(n->cell);
+  free(n->kept);
+  *n = (nominal_t){.n = 0};
+}

@@ -1,0 +1,65 @@
+// nominal.h - flights in which nothing is hidden: the model itself, in closed loop along a log's own track,
+// through the same sensors, rates and noise. What the workflow sees in them is what feedback and noise alone
+// produce.
+//
+// The pilot is the one that the vehicle file names ([controller], nominal_known.h), else a cascade of
+// proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
+// height. Noise and disturbance are those of the log: sensors by what two
+// successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by what the residual
+// has beyond that.
+#ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
+#define SIM_GAP_3_FEEDBACK_NOMINAL_H
+
+#include "gap/3_feedback/manner_slow.h"
+#include "gap/5_infer/select.h"
+#include "gap/5_infer/unknown.h"
+
+#define NOMINAL_FLIGHTS 10
+
+// How a flight was flown and measured.
+typedef struct {
+  double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
+  double climb_gain, height_gain; // 1/s, 1/s2
+  double acc_mps2, gyro_radps, vel_mps, pos_m, angle_rad, vbat_V, range_m; // sd of a sample
+  slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
+  double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
+  double turn_radps2[3], turn_tau_s;
+} manner_t;
+
+// residual: of the best model so far, by channel and row of the set.
+manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]);
+
+// One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
+// estimates. ST_FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
+MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
+                                gap_flight_t *flight, gap_flight_t *truth, why_t *why);
+
+// One flight along each flight of a set, by a model, as it is seen and as it is: a set of each, with the same
+// channels. ST_FAILED as above. Free it, also on an error.
+typedef struct {
+  set_t seen, is;
+  gap_flights_t seen_flights, is_flights;
+} along_t;
+
+MUST_CHECK status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                                  unsigned long seed, why_t *why);
+void along_free(along_t *a);
+
+// What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
+// estimate is an error.
+typedef struct {
+  const set_t *set;
+  const model_t *base;   // without
+  model_t flown;         // with
+  const candidates_t *c; // marks and values
+  const manner_t *manner;
+  unsigned long seed;
+} nominal_job_t;
+
+// NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
+// candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
+// column x and without errors x', what least squares find of a size: x x' / x x. ST_FAILED as above.
+MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
+void nominal_free(nominal_t *n);
+
+#endif

@@ -1,0 +1,212 @@
+// nominal_fly.c - the model in closed loop along a log's track.
+#include "gap/3_feedback/nominal_known.h"
+
+#include "body/body_forces.h"
+#include <math.h>
+
+#define STEP_S 0.002
+#define LOST_M 3.0 // so far off its track the vehicle is lost
+// What is lost is put back on the track. A known pilot is not a tamed one, and may end on the floor, where
+// the log's vehicle flew on.
+#define DOWN_S   0.2 // of contact
+#define UP_LEAST 0.5 // cosine of the tilt
+#define MASK_S   0.4 // until what it does is its own again
+#define PUT_S    3.0 // more often it cannot fly there
+
+// Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
+static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
+  const double *p = use->p;
+  double *const m = t->memory;
+  for (int i = 0; i < 6; i++) {
+    const double keep = m[6] > 0.0 ? exp(-t->span_s / p[i < 3 ? 6 : 7]) : 0.0;
+    m[i] = keep * m[i] + p[i] * sqrt(1.0 - keep * keep) * random_normal(t->random);
+  }
+  m[6] = 1.0;
+  plant->force_w_N = d3_add(plant->force_w_N, d3_of(m));
+  plant->moment_b_Nm = d3_add(plant->moment_b_Nm, d3_of(m + 3));
+}
+
+static const fx_t disturb = {.name = "disturbance", .n_param = FX_PARAM_MAX, .tick = tick};
+
+static status_t disturbed(const model_t *m, const manner_t *w, model_t *out, why_t *why) {
+  fx_use_t use = {.fx = &disturb};
+  for (int i = 0; i < 3; i++) {
+    use.p[i] = m->mass_kg * w->force_mps2[i];
+    use.p[3 + i] = m->frame.inertia_kgm2[i] * w->turn_radps2[i];
+  }
+  use.p[6] = w->force_tau_s;
+  use.p[7] = w->turn_tau_s;
+  *out = *m;
+  return model_add_fx(out, &use, why);
+}
+
+// --- sensors
+// ------------------------------------------------------------------------------------------------------
+
+static double noisy(const nominal_flight_t *f, double v, double sd) {
+  return v + sd * random_normal(f->random);
+}
+static d3_t noisy3(const nominal_flight_t *f, d3_t v, double sd) {
+  return d3(noisy(f, v.x, sd), noisy(f, v.y, sd), noisy(f, v.z, sd));
+}
+
+static fx_sensed_t sensed(const nominal_flight_t *f) {
+  const body_t *b = &f->body;
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const double up = fmax(axes_up_b(&axes).z, 0.1), z = b->y[RIGID_POS_M + 2];
+  const double far_m = f->g->range_up ? f->m->ceiling_m - z - body_rotor_z_m(f->m) : z - body_rest_z_m(f->m);
+  const double side = f->g->range_up ? -1.0 : 1.0;
+  fx_sensed_t s = {.acc_b_mps2 = body_specific_force_b_mps2(b),
+                   .range_m = far_m / up,
+                   .range_rate_mps = side * b->y[RIGID_VEL_MPS + 2] / up};
+  model_sense(f->m, &s);
+  return s;
+}
+
+static d3_t drifted(const nominal_flight_t *f, d3_t off, const slow_t *slow, double step_s) {
+  const double keep = slow->tau_s > 0.0 ? exp(-step_s / slow->tau_s) : 0.0;
+  return noisy3(f, d3_scale(keep, off), slow->sd * sqrt(1.0 - keep * keep));
+}
+
+static void drift(nominal_flight_t *f, double step_s) {
+  f->pos_off_m = drifted(f, f->pos_off_m, &f->w->slow_pos_m, step_s);
+  f->vel_off_mps = drifted(f, f->vel_off_mps, &f->w->slow_vel_mps, step_s);
+  f->angle_off_rad = drifted(f, f->angle_off_rad, &f->w->slow_angle_rad, step_s);
+}
+
+static point_t is(const nominal_flight_t *f) {
+  const body_t *b = &f->body;
+  const fx_sensed_t s = sensed(f);
+  return (point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
+                   .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
+                   .q_wb = dq_of(b->y + RIGID_Q_WB),
+                   .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
+                   .acc_b_mps2 = s.acc_b_mps2,
+                   .range_m = s.range_m,
+                   .vbat_V = b->vbat_V};
+}
+
+static point_t see(const nominal_flight_t *f, const point_t *truth) {
+  const manner_t *w = f->w;
+  const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, w->angle_rad));
+  const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
+  return (point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
+                   .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
+                   .q_wb = dq_mul(truth->q_wb, wrong),
+                   .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
+                   .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
+                   .range_m = noisy(f, truth->range_m, w->range_m),
+                   .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
+}
+
+// --- the flight
+// ---------------------------------------------------------------------------------------------------
+
+static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
+  const point_t *track = &f->g->point[f->at];
+  if (f->known)
+    known_steer(f->known, step_s, track, seen, motor_N);
+  else
+    pilot_steer(f, step_s, track, seen, motor_N);
+}
+
+// On the track, hovering, with a fresh pilot.
+static status_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
+  const point_t *p = &f->g->point[f->at];
+  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
+  // Motors faster than the step need a finer one.
+  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
+    return error_failed(why, "%s: a model that cannot be flown", m->name);
+  f->body.vbat_V = p->vbat_V;
+  body_effects(&f->body, 0.0);
+  pilot_tame(f);
+  pilot_trim(f);
+  return ST_OK;
+}
+
+static status_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+  const point_t truth = is(f), seen = see(f, &truth);
+  return known_open(&f->known, f, &seen, why);
+}
+
+static bool is_down(nominal_flight_t *f, double span_s) {
+  const axes_t axes = axes_of(dq_of(f->body.y + RIGID_Q_WB));
+  f->down_s += f->body.on_floor || f->body.on_ceiling ? span_s : 0.0;
+  return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
+}
+
+static status_t cannot_fly(const nominal_flight_t *f, why_t *why) {
+  return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+}
+
+static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+  const model_t *m = f->body.model;
+  if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
+  f->down_s = 0.0;
+  f->masked_to_s = t_s + MASK_S;
+  body_close(&f->body);
+  f->body.integrate = NULL;
+  known_close(f->known);
+  f->known = NULL;
+  TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
+  return find_pilot(f, m, why);
+}
+
+static status_t fly(nominal_flight_t *f, why_t *why) {
+  const double log_s = f->g->period_s / f->g->every;
+  const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
+  const double step_s = log_s / inner, start_s = f->g->point[f->from].t_s;
+  double motor_N[ROTORS];
+  for (f->at = f->from; f->at < f->to; f->at++)
+    for (int i = 0; i < per_point; i++) {
+      const double t_s = start_s + ((f->at - f->from) * per_point + i) * log_s;
+      for (int k = 0; k < inner; k++) {
+        drift(f, step_s);
+        f->body.vbat_V = f->g->point[f->at].vbat_V;
+        const point_t truth = is(f), seen = see(f, &truth);
+        steer(f, step_s, &seen, motor_N);
+        if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
+        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
+        body_tick(&f->body, motor_N, step_s);
+      }
+      const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
+      const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);
+      if (lost || (f->known && is_down(f, log_s))) TRY(put_back(f, t_s, why));
+    }
+  f->log->rate_Hz = 1.0 / log_s;
+  if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
+  return ST_OK;
+}
+
+static status_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
+  f->at = f->from;
+  TRY(start_at(f, m, f->seed, why));
+  f->random = random_open(f->seed + 1);
+  return f->random ? find_pilot(f, m, why) : error_failed(why, "out of memory");
+}
+
+status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
+                     gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
+  nominal_flight_t f = {
+      .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
+  model_t with;
+  *flight = (gap_flight_t){.n = 0};
+  if (truth) *truth = (gap_flight_t){.n = 0};
+  TRY(disturbed(m, w, &with, why));
+  while (f.from < g->n && !g->point[f.from].ok) f.from++;
+  while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
+  if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
+  const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
+  status_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
+                        ? take_off(&f, &with, why)
+                        : error_failed(why, "out of memory");
+  if (status == ST_OK) status = fly(&f, why);
+  if (f.body.integrate) body_close(&f.body);
+  random_close(f.random);
+  known_close(f.known);
+  if (status != ST_OK) gap_flight_free(flight);
+  if (status != ST_OK && truth) gap_flight_free(truth);
+  return status;
+}

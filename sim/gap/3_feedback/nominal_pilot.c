@@ -1,0 +1,118 @@
+// nominal_pilot.c - who flies the nominal flights.
+#include "gap/3_feedback/nominal_pilot.h"
+
+#include "body/body_forces.h"
+#include <math.h>
+#include <string.h>
+
+#define QUICK_S  0.03 // slower motors get commands with a lead, so that they are as quick as this
+#define SWIFT    1.3  // rate gain times lag at most: the cascade rings beyond
+#define TILT_MAX 0.5
+#define AHEAD_S  0.1  // the track's acceleration is a difference over this on both sides
+#define SURE     2.0  // standard errors of it
+#define SPARE    0.95 // of the motors' thrust; the rest turns the vehicle
+#define YAW      2.0
+
+// How the track is bent, where that is more than errors of its velocity: in a hover those would shake the
+// vehicle.
+static d3_t track_acc(const nominal_flight_t *f) {
+  const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s)), from = f->at - side, to = f->at + side;
+  const point_t *p = f->g->point;
+  if (!f->g->has_velocity || from < f->from || to >= f->to) return d3(0.0, 0.0, 0.0);
+  const double span_s = p[to].t_s - p[from].t_s;
+  if (span_s > 4.0 * AHEAD_S) return d3(0.0, 0.0, 0.0);
+  const d3_t acc = d3_scale(1.0 / span_s, d3_sub(p[to].vel_w_mps, p[from].vel_w_mps));
+  const double error = SURE * sqrt(2.0) * hypot(f->w->vel_mps, f->w->slow_vel_mps.sd) / span_s;
+  return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
+}
+
+static d3_t wanted_acc(const nominal_flight_t *f, const point_t *track, const point_t *seen) {
+  const d3_t off = d3_sub(track->pos_w_m, seen->pos_w_m), slip = d3_sub(track->vel_w_mps, seen->vel_w_mps);
+  const manner_t *w = f->w;
+  const bool place = f->g->has_position;
+  const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
+  const d3_t feed = track_acc(f);
+  return d3(fmax(-6.0, fmin(6.0, feed.x + x + f->push * slip.x)),
+            fmax(-6.0, fmin(6.0, feed.y + y + f->push * slip.y)),
+            fmax(-5.0, fmin(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));
+}
+
+// What the motors can give: height first, for what is left behind on a level comes back.
+static d3_t within_thrust(const nominal_flight_t *f, d3_t acc) {
+  const double most = SPARE * f->m->thrust_max_N / f->lift_trim / f->m->mass_kg, level = hypot(acc.x, acc.y);
+  const double z = fmin(acc.z, most), share = sqrt(fmax(most * most - z * z, 0.0)) / fmax(level, 1e-9);
+  return share < 1.0 ? d3(share * acc.x, share * acc.y, z) : acc;
+}
+
+static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_N[ROTORS]) {
+  const frame_t *f = &m->frame;
+  const double roll = turn_radps2.x * f->inertia_kgm2[0], pitch = turn_radps2.y * f->inertia_kgm2[1];
+  const double yaw = turn_radps2.z * f->inertia_kgm2[2];
+  for (int k = 0; k < ROTORS; k++) {
+    const double x = f->rotor_x_m[k], y = f->rotor_y_m[k];
+    const double turn = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
+    motor_N[k] = 0.25 * lift_N + 0.25 * roll / y - 0.25 * pitch / x + turn;
+  }
+}
+
+// load: of the weight.
+static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
+  const double lift_N = f->lift_trim * load * f->m->mass_kg * PLANT_GRAVITY_MPS2;
+  mix(f->m, lift_N, d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2)), motor_N);
+  for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
+}
+
+void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
+                 double motor_N[ROTORS]) {
+  const manner_t *w = f->w;
+  const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
+  const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, PLANT_GRAVITY_MPS2)));
+  const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
+  const double roll = fmax(-TILT_MAX, fmin(TILT_MAX, -pull_b.y)),
+               pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));
+  const d3_t nose_b = axes_to_body(&axes, track_axes.x);
+  const double yaw = atan2(nose_b.y, nose_b.x);
+  const d3_t rate = seen->rate_b_radps;
+  const d3_t turn =
+      d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x, w->tilt_gain * pitch - w->rate_gain[1] * rate.y,
+         w->rate_gain[2] * (YAW * yaw - rate.z));
+  const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / PLANT_GRAVITY_MPS2;
+  const double tau_s = f->body.rigid.motor_tau_s, lead = fmax(tau_s / QUICK_S - 1.0, 0.0);
+  const double share = 1.0 - exp(-step_s / QUICK_S);
+  f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
+  f->load_slow += share * (load - f->load_slow);
+  hold(f, load + lead * (load - f->load_slow),
+       d3_add(turn, d3_scale(lead, d3_sub(turn, f->turn_slow_radps2))), motor_N);
+}
+
+void pilot_tame(nominal_flight_t *f) {
+  const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * f->body.plant.delay_s);
+  manner_t *const w = &f->own;
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
+  const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
+  w->tilt_gain = fmin(w->tilt_gain, 0.25 * least * least);
+  f->push = fmin(3.0, fmax(0.8, 0.5 * w->tilt_gain / least));
+  f->level = 0.66 * f->push;
+}
+
+// Turning and lift at rest, level, show what the effects do to it; twice, because the lift changes the
+// turning.
+void pilot_trim(nominal_flight_t *f) {
+  body_t *const b = &f->body;
+  double at[RIGID_N], rates[RIGID_N];
+  f->lift_trim = f->load_slow = 1.0;
+  for (int i = 0; i < 3; i++) {
+    memcpy(at, b->y, sizeof at);
+    at[RIGID_Q_WB] = 1.0;
+    for (int k = 1; k < 4; k++) at[RIGID_Q_WB + k] = 0.0;
+    for (int k = 0; k < 3; k++) at[RIGID_VEL_MPS + k] = at[RIGID_RATE_RADPS + k] = 0.0;
+    hold(f, 1.0, d3(0.0, 0.0, 0.0), at + RIGID_THRUST_N);
+    memcpy(b->y + RIGID_THRUST_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    memcpy(b->command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    memcpy(b->rigid.command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
+    body_derivative(b, 0.0, at, rates);
+    f->turn_trim_radps2 = d3_sub(f->turn_trim_radps2, d3_of(rates + RIGID_RATE_RADPS));
+    f->lift_trim *=
+        PLANT_GRAVITY_MPS2 / fmax(PLANT_GRAVITY_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * PLANT_GRAVITY_MPS2);
+  }
+}

@@ -1,0 +1,45 @@
+// nominal_pilot.h - a nominal flight, and the pilot that flies it. Within sim/gap only.
+#ifndef SIM_GAP_3_FEEDBACK_NOMINAL_PILOT_H
+#define SIM_GAP_3_FEEDBACK_NOMINAL_PILOT_H
+
+#include "gap/3_feedback/nominal.h"
+
+typedef struct {
+  const grid_t *g;
+  const model_t *m;
+  manner_t own; // as the log was flown, as far as this pilot can
+  const manner_t *w;
+  double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
+  body_t body;
+  random_t *random;
+  gap_flight_t *log, *truth;                  // truth: what a log without errors would say; may be null
+  int from, to, at;                           // points of the track
+  d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
+  d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
+  double lift_trim;                           // thrust over weight that holds it
+  d3_t turn_slow_radps2;                      // commands as slower motors follow them
+  double load_slow;
+  unsigned long seed;
+  double down_s, masked_to_s; // in contact since it was put on its track; of the log
+  int puts;                   // how often it was put back
+  struct known *known;        // who flew, where the vehicle file says so (nominal_known.h); else null
+} nominal_flight_t;
+
+// Commands that bring the vehicle, as it is seen, to its track.
+void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
+                 double motor_N[ROTORS]);
+
+// Gains that do not ring with the body's lag.
+void pilot_tame(nominal_flight_t *f);
+
+// Finds what holds the body level, and gives it that.
+void pilot_trim(nominal_flight_t *f);
+
+// The signals that the log of grid g has, with room for so many samples. Motors are newton. False: no memory.
+bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n);
+
+// One sample more, with what is seen (or is true) at it.
+void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+                       const double motor_N[ROTORS], double t_s);
+
+#endif

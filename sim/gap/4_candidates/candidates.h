@@ -1,0 +1,68 @@
+// candidates.h - the effects that the model lacks, and what each would add to every residual.
+//
+// An effect with a shape (the decay of a ceiling effect, the rotor that is damaged) is a candidate once for
+// each shape. A column is the derivative of the replay with respect to one number of a candidate.
+#ifndef SIM_GAP_4_CANDIDATES_CANDIDATES_H
+#define SIM_GAP_4_CANDIDATES_CANDIDATES_H
+
+#include "gap/2_predict/predict.h"
+#include "gap/2_predict/residual.h"
+
+typedef struct {
+  fx_use_t use;              // with its shape; its sizes are 0 while it is not named
+  int first, n;              // columns
+  double least[FX_SIZE_MAX]; // that its numbers can be, by sign and for this vehicle
+  bool named;
+} candidate_t;
+
+typedef struct {
+  candidate_t *candidate;
+  int n, columns;
+} candidates_t;
+
+// Why an effect cannot be looked for in these logs at all; a null pointer: it can.
+const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s);
+
+// ST_FAILED: no memory.
+MUST_CHECK status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why);
+void candidates_free(candidates_t *c);
+
+// Commands are logged much more slowly than attitude control gives them: how strongly they turn the vehicle
+// cannot be told, nor inertia from lag, nor mass from thrust scale.
+bool candidates_slow(const set_t *s);
+
+// Of a lag or delay, what is never named: fx->size.least, or one period of the slowest log, whichever is
+// more. Of other effects 0.
+double candidates_least(const fx_t *fx, const set_t *s);
+
+// The number of candidate i's size k.
+double *candidate_value(const candidate_t *c, int k);
+// What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.
+double candidate_typical(const candidate_t *c, int k);
+
+// The model with what is named. ST_BAD_INPUT: too many effects.
+MUST_CHECK status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
+
+// The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
+// gets. now, base: the model's own replay, kept. ST_BAD_INPUT: too many effects.
+MUST_CHECK status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
+                                            double *const base[CHANNELS], double *const with[CHANNELS],
+                                            why_t *why);
+
+// Columns and residual by row. x[channel][column]: a null pointer where the column is zero throughout. The
+// last column (number `columns`) is the residual with what is named taken out again, in the straight line's
+// sense, so that coefficients are whole values.
+typedef struct {
+  int columns;
+  double **x[CHANNELS];
+  double *room;
+} table_t;
+
+// ST_FAILED: no memory. wanted (a null pointer: all): by candidate.
+MUST_CHECK status_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why);
+void table_free(table_t *t);
+
+// Residual of a model, by row: r[channel], rows of that channel. ST_FAILED: no memory.
+MUST_CHECK status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
+
+#endif

@@ -1,0 +1,23 @@
+// confirm.h - after the selection: the names once more, with the reference trajectory as the
+// instrument.
+//
+// Feedback makes what disturbs the vehicle correlate with its states and commands, and noise of the states
+// weakens what depends on them: both bias least squares. What the controller was told depends on neither. The
+// model is flown along the logs' set points, without noise and disturbance, by the pilot of the nominal
+// flights; what each name adds there (its columns, through the same 8 Hz filter, at three lags) is a filter
+// of the reference and of nothing else, and the instruments of two-stage least squares (lsq_instrument.h).
+#ifndef SIM_GAP_5_INFER_CONFIRM_H
+#define SIM_GAP_5_INFER_CONFIRM_H
+
+#include "gap/3_feedback/nominal.h"
+
+#define CONFIRM_F     10.0 // of the first stage, at least (Staiger and Stock 1997)
+#define CONFIRM_LAGS  3
+#define CONFIRM_LAG_S 0.08 // from one to the next
+
+// Sets found->named[].confirm; nothing changes where no log has set points, or the model cannot be flown
+// along them (*why_not says so, else it is null). Names and their values stay. ST_FAILED: no memory.
+MUST_CHECK status_t select_confirm(const candidates_t *c, set_t *s, const model_t *base,
+                                   const manner_t *manner, found_t *found, const char **why_not, why_t *why);
+
+#endif

@@ -1,0 +1,162 @@
+// shape.c - the shapes of what is named, between the values that were tried.
+#include "gap/5_infer/shape.h"
+
+#include "base/lsq_blocks.h"
+#include "gap/2_predict/lines.h"
+#include "gap/7_verify/verify.h"
+#include <math.h>
+#include <nlopt.h>
+#include <string.h>
+
+enum { SHAPE, SIZE, MOST = SIZE + FX_SIZE_MAX }; // the variables, over what is typical of each: shape, sizes
+
+typedef struct {
+  const candidates_t *c;
+  candidate_t *own;
+  set_t *s;
+  const model_t *base;
+  color_t color[CHANNELS];
+  int n;
+  double unit[MOST], low[MOST], high[MOST];
+  bool failed;
+  why_t why;
+} polish_t;
+
+static double *number(polish_t *p, int i) {
+  const fx_t *const fx = p->own->use.fx;
+  return &p->own->use.p[i == SHAPE ? fx->shape_param : fx->size[i - SIZE].param];
+}
+
+// The white sum of squares that shape and sizes leave.
+static double left_with(unsigned n, const double *x, double *gradient, void *data) {
+  polish_t *const p = data;
+  model_t m;
+  double left = HUGE_VAL;
+  (void)n;
+  (void)gradient;
+  for (int i = 0; i < p->n; i++) *number(p, i) = x[i] * p->unit[i];
+  if (candidates_model(p->c, p->base, &m, &p->why) != ST_OK ||
+      verify_left(p->s, &m, p->color, &left, &p->why) != ST_OK)
+    p->failed = true;
+  return left;
+}
+
+// Between its neighbours, which lost; at an end of the list as far again.
+static void take_bounds(polish_t *p) {
+  const fx_t *const fx = p->own->use.fx;
+  int n, at = 0;
+  const fx_param_t *const param = fx_use_params(&p->own->use, &n);
+  while (at < fx->n_shape - 1 && fx->shape[at] < *number(p, SHAPE)) at++;
+  const double here = fx->shape[at];
+  double below = 0.0, above = HUGE_VAL;
+  if (at > 0) below = fx->shape[at - 1];
+  if (at < fx->n_shape - 1) above = fx->shape[at + 1];
+  if (at == 0) below = here * here / above;
+  if (at == fx->n_shape - 1) above = here * here / below;
+  p->unit[SHAPE] = here;
+  p->low[SHAPE] = fmax(below, param[fx->shape_param].min) / here;
+  p->high[SHAPE] = fmin(above, param[fx->shape_param].max) / here;
+  for (int k = 0; k < fx->n_size; k++) {
+    const fx_size_t *const size = &fx->size[k];
+    double *const unit = &p->unit[SIZE + k];
+    *unit = candidate_typical(p->own, k);
+    p->low[SIZE + k] = fmax(size->sign > 0 ? 0.0 : -HUGE_VAL, param[size->param].min) / *unit;
+    p->high[SIZE + k] = param[size->param].max / *unit;
+  }
+}
+
+static status_t take_colors(polish_t *p, why_t *why) {
+  model_t m;
+  lines_t l = {.r = {NULL}};
+  TRY(candidates_model(p->c, p->base, &m, why));
+  status_t status = lines_make(&l, p->s, why);
+  if (status == ST_OK) status = residual_of(p->s, &m, l.r, why);
+  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
+    p->color[ch] = residual_has(p->s, ch) ? color_fit(set_rows(p->s, ch), l.r[ch]) : (color_t){.used = false};
+  lines_free(&l);
+  return status;
+}
+
+static status_t search(polish_t *p, double x[MOST], why_t *why) {
+  double least, start[MOST], step[MOST], enough[MOST];
+  for (int i = 0; i < p->n; i++) start[i] = x[i], step[i] = 0.1, enough[i] = 1e-3;
+  const double before = left_with((unsigned)p->n, start, NULL, p);
+  nlopt_opt opt = nlopt_create(NLOPT_LN_BOBYQA, (unsigned)p->n);
+  if (!opt) return error_failed(why, "out of memory");
+  nlopt_set_min_objective(opt, left_with, p);
+  nlopt_set_lower_bounds(opt, p->low);
+  nlopt_set_upper_bounds(opt, p->high);
+  nlopt_set_initial_step(opt, step);
+  nlopt_set_xtol_abs(opt, enough);
+  nlopt_set_maxeval(opt, SHAPE_TRIES);
+  const nlopt_result result = nlopt_optimize(opt, x, &least);
+  nlopt_destroy(opt);
+  if ((result < 0 && result != NLOPT_ROUNDOFF_LIMITED) || !(least < before)) memcpy(x, start, sizeof start);
+  return ST_OK;
+}
+
+// Half of the second derivative, by differences that are far within what white rows can tell apart.
+static double curvature(polish_t *p, const double x[MOST], int i, int k) {
+  const double h = 0.02;
+  double sum = 0.0;
+  for (int a = -1; a <= 1; a += 2)
+    for (int b = -1; b <= 1; b += 2) {
+      double at[MOST];
+      memcpy(at, x, sizeof at);
+      at[i] += a * (i == k ? 0.5 * h : h), at[k] += b * (i == k ? 0.5 * h : h);
+      sum += a * b * left_with((unsigned)p->n, at, NULL, p);
+    }
+  return i == k ? sum / (2.0 * h * h) : sum / (8.0 * h * h);
+}
+
+static void take_errors(polish_t *p, const double x[MOST], named_t *named) {
+  double G[(MOST + 1) * (MOST + 1)] = {0.0}, b[MOST], inverse[MOST * MOST];
+  const int n = p->n, size = n + 1, column[MOST] = {0, 1, 2, 3};
+  named->shape_stderr = (double)NAN;
+  for (int i = 0; i < n; i++)
+    if (!(x[i] - 0.02 > p->low[i] && x[i] + 0.02 < p->high[i])) return;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) G[i * size + k] = curvature(p, x, i, k);
+  lsq_solve_products(G, size, column, n, NULL, b, inverse);
+  for (int i = 0; i < n; i++)
+    if (!(G[i * (size + 1)] > 0.0) || !(inverse[i * (n + 1)] > 0.0)) return;
+  double robust = 0.0; // over what the curvature says of a size alone
+  for (int k = 0; k < n - SIZE; k++) {
+    const int i = SIZE + k;
+    const double squares = named->stderr_[k] * named->stderr_[k] - named->beside[k] * named->beside[k];
+    const double own = sqrt(fmax(squares, 0.0) * G[i * (size + 1)]) / p->unit[i];
+    named->stderr_[k] = hypot(own * p->unit[i] * sqrt(inverse[i * (n + 1)]), named->beside[k]);
+    robust = fmax(robust, own);
+  }
+  named->shape_stderr = robust * p->unit[SHAPE] * sqrt(inverse[0]);
+}
+
+static bool is_free(const fx_t *fx, const candidate_t *c) {
+  int n;
+  return fx->n_shape > 1 && !fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
+}
+
+static status_t polish(polish_t *p, named_t *named, why_t *why) {
+  take_bounds(p);
+  TRY(take_colors(p, why));
+  double x[MOST] = {0.0};
+  for (int i = 0; i < p->n; i++) x[i] = fmin(fmax(*number(p, i) / p->unit[i], p->low[i]), p->high[i]);
+  TRY(search(p, x, why));
+  take_errors(p, x, named);
+  (void)left_with((unsigned)p->n, x, NULL, p);
+  for (int k = 0; k < p->n - SIZE; k++) named->value[k] = *number(p, SIZE + k);
+  return p->failed ? error_failed(why, "%s", p->why.text) : ST_OK;
+}
+
+status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
+                       why_t *why) {
+  *changed = false;
+  for (int i = 0; i < found->n; i++) {
+    candidate_t *const own = &c->candidate[found->named[i].candidate];
+    polish_t p = {.c = c, .own = own, .s = s, .base = base, .n = SIZE + own->n};
+    if (!is_free(own->use.fx, own)) continue;
+    TRY(polish(&p, &found->named[i], why));
+    *changed = true;
+  }
+  return ST_OK;
+}

@@ -1,0 +1,252 @@
+// unknown.c - where a residual is largest.
+#include "gap/5_infer/unknown.h"
+
+#include "base/nth.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BINS   UNKNOWN_BINS
+#define WIDEST 6 // bins of a window
+
+// --- coordinates ------------------------------------------------------------------------------------------
+
+typedef enum {
+  CEILING,
+  HEIGHT,
+  POS_X,
+  POS_Y,
+  VEL_X,
+  VEL_Y,
+  VEL_Z,
+  VOLTAGE,
+  THRUST,
+  RATE_X,
+  RATE_Y,
+  RATE_Z,
+  TIME,
+  COORDINATES
+} coordinate_t;
+
+static const char *const NAME[COORDINATES][2] = {[CEILING] = {"ceiling distance", "m"},
+                                                 [HEIGHT] = {"height", "m"},
+                                                 [POS_X] = {"x", "m"},
+                                                 [POS_Y] = {"y", "m"},
+                                                 [VEL_X] = {"v_x", "m/s"},
+                                                 [VEL_Y] = {"v_y", "m/s"},
+                                                 [VEL_Z] = {"v_z", "m/s"},
+                                                 [VOLTAGE] = {"voltage", "V"},
+                                                 [THRUST] = {"thrust", "N"},
+                                                 [RATE_X] = {"roll rate", "rad/s"},
+                                                 [RATE_Y] = {"pitch rate", "rad/s"},
+                                                 [RATE_Z] = {"yaw rate", "rad/s"},
+                                                 [TIME] = {"time", "s"}};
+
+const int coordinate_count = COORDINATES;
+const char *coordinate_name(int i) {
+  return NAME[i][0];
+}
+const char *coordinate_unit(int i) {
+  return NAME[i][1];
+}
+
+bool coordinate_is_place(int i) {
+  return i == CEILING || i == HEIGHT || i == POS_X || i == POS_Y || i == TIME;
+}
+
+static double thrust_of(const grid_t *g, int j) {
+  double sum = 0.0;
+  for (int k = 0; k < ROTORS; k++) sum += g->motors[0].thrust_N[k][j];
+  return sum;
+}
+
+double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
+  const point_t *p = &g->point[j];
+  const double none = (double)NAN;
+  const axes_t axes = axes_of(p->q_wb);
+  const d3_t v = axes_to_body(&axes, p->vel_w_mps);
+  const double up_m = m->ceiling_m - p->pos_w_m.z - body_rotor_z_m(m);
+  switch ((coordinate_t)i) {
+  case CEILING: return g->has_position && isfinite(up_m) ? up_m : none;
+  case HEIGHT: return g->has_position ? p->pos_w_m.z - body_rest_z_m(m) : none;
+  case POS_X: return g->has_position ? p->pos_w_m.x : none;
+  case POS_Y: return g->has_position ? p->pos_w_m.y : none;
+  case VEL_X: return g->has_velocity ? v.x : none;
+  case VEL_Y: return g->has_velocity ? v.y : none;
+  case VEL_Z: return g->has_velocity ? v.z : none;
+  case VOLTAGE: return g->has_vbat ? p->vbat_V : none;
+  case THRUST: return g->motors[0].thrust_N[0] ? thrust_of(g, j) : none;
+  case RATE_X: return g->has_rates ? p->rate_b_radps.x : none;
+  case RATE_Y: return g->has_rates ? p->rate_b_radps.y : none;
+  case RATE_Z: return g->has_rates ? p->rate_b_radps.z : none;
+  case TIME: return p->t_s - g->flight->t_s[0]; // of the log, also where a part of it is held out
+  case COORDINATES: break;
+  }
+  return none;
+}
+
+// --- bins
+// ---------------------------------------------------------------------------------------------------
+
+// The bin of every row, and the edges (BINS + 1). False: the coordinate is not there or does not move.
+static bool cut(const double *value, int n, double *parted, int *bin, double edge[BINS + 1]) {
+  for (int i = 0; i < n; i++) {
+    if (isnan(value[i])) return false;
+    parted[i] = value[i];
+  }
+  for (int k = 0, from = 0, at = 0; k <= BINS; k++, from = at) {
+    at = k * (n - 1) / BINS;
+    edge[k] = nth_smallest(parted + from, n - from, at - from);
+  }
+  if (!(edge[BINS] - edge[0] > 1e-9)) return false;
+  for (int i = 0; i < n; i++) {
+    int k = 0;
+    while (k < BINS - 1 && value[i] >= edge[k + 1]) k++;
+    bin[i] = k;
+  }
+  return true;
+}
+
+// A list's rows: 0: smooth, 1: range.
+static const rows_t *rows_of(const set_t *s, int list) {
+  return list ? &s->range : &s->smooth;
+}
+
+static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin,
+                    double edge[BINS + 1]) {
+  const rows_t *r = rows_of(s, list);
+  if (r->n < 4 * BINS) return false;
+  for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
+  return cut(room, r->n, room + r->n, bin, edge);
+}
+
+bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
+  double edge[BINS + 1];
+  return bins_of(s, m, coordinate, list, room, bin, edge);
+}
+
+// Products of indicator columns with each other and with the residual, all white.
+typedef struct {
+  double D[BINS + 1][BINS + 1], y[BINS + 1]; // the last: a constant
+} products_t;
+
+static void add_up(products_t *p, const rows_t *r, const color_t *c, const double *v, const int *bin) {
+  const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
+  const double constant = weight[0] + weight[1] + weight[2];
+  memset(p, 0, sizeof *p);
+  for (int i = 2; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    const double white = weight[0] * v[i] + weight[1] * v[i - 1] + weight[2] * v[i - 2];
+    for (int a = 0; a < 3; a++) {
+      const int k = bin[i - a];
+      p->y[k] += weight[a] * white;
+      p->D[k][BINS] += weight[a] * constant;
+      for (int b = 0; b < 3; b++) p->D[k][bin[i - b]] += weight[a] * weight[b];
+    }
+    p->y[BINS] += constant * white;
+    p->D[BINS][BINS] += constant * constant;
+  }
+}
+
+static void look_at(const products_t *p, bool centred, int channel, int coordinate,
+                    const double edge[BINS + 1], cell_t *cell) {
+  const double all = p->D[BINS][BINS];
+  if (!(all > 0.0)) return;
+  for (int from = 0; from < BINS; from++) {
+    double y = 0.0, own = 0.0, cross = 0.0;
+    for (int to = from; to < BINS && to < from + WIDEST; to++) {
+      y += p->y[to];
+      cross += p->D[to][BINS];
+      for (int k = from; k <= to; k++) own += (k == to ? 1.0 : 2.0) * p->D[k][to];
+      const double share = centred ? cross / all : 0.0;
+      const double free_y = y - share * p->y[BINS], free_own = own - share * cross;
+      if (!(free_own > 1e-3 * own)) continue;
+      const double statistic = fabs(free_y) / sqrt(free_own);
+      if (statistic > cell->statistic)
+        *cell = (cell_t){channel,    NAME[coordinate][0], NAME[coordinate][1],
+                         edge[from], edge[to + 1],        free_y / free_own,
+                         statistic};
+    }
+  }
+}
+
+static void scan(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
+                 const color_t *color, bool centred, double *room, int *bin, cell_t *cell) {
+  products_t p;
+  double edge[BINS + 1];
+  for (int list = 0; list < 2; list++) {
+    if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
+    for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
+      if (!color[ch].used) continue;
+      add_up(&p, rows_of(s, list), &color[ch], residual[ch], bin);
+      look_at(&p, centred, ch, coordinate, edge, cell);
+    }
+  }
+}
+
+// Subtracts the mean of every bin.
+static void flatten(const rows_t *r, const int *bin, double *v) {
+  double sum[BINS] = {0.0};
+  int n[BINS] = {0};
+  for (int i = 0; i < r->n; i++) {
+    sum[bin[i]] += v[i];
+    n[bin[i]]++;
+  }
+  for (int i = 0; i < r->n; i++) v[i] -= sum[bin[i]] / n[bin[i]];
+}
+
+static void clean(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
+                  double *room, int *bin) {
+  double edge[BINS + 1];
+  for (int list = 0; list < 2; list++) {
+    if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
+    for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
+      if (residual_has(s, ch)) flatten(rows_of(s, list), bin, residual[ch]);
+  }
+}
+
+static size_t most_rows(const set_t *s) {
+  return (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+}
+
+status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
+  double *const room = malloc(2 * most_rows(s) * sizeof(double));
+  int *const bin = malloc(most_rows(s) * sizeof(int));
+  for (int sweep = 0; room && bin && sweep < 2; sweep++)
+    for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
+  const bool good = room && bin;
+  free(room);
+  free(bin);
+  return good ? ST_OK : error_failed(why, "out of memory");
+}
+
+status_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                        color_t color[CHANNELS], why_t *why) {
+  const size_t rows = most_rows(s);
+  double *const copy = malloc(CHANNELS * rows * sizeof(double)), *part[CHANNELS];
+  if (!copy) return error_failed(why, "out of memory");
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    part[ch] = copy + ch * rows;
+    memcpy(part[ch], residual[ch], (size_t)set_rows(s, (int)ch)->n * sizeof(double));
+  }
+  const status_t status = unknown_clean(s, m, part, why);
+  for (int ch = 0; ch < CHANNELS; ch++)
+    color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), part[ch]) : (color_t){.used = false};
+  free(copy);
+  return status;
+}
+
+status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                         const color_t *color, bool centred, cell_t *cell, why_t *why) {
+  color_t own[CHANNELS];
+  *cell = (cell_t){.statistic = 0.0};
+  if (!color) TRY(unknown_colors(s, m, residual, own, why));
+  double *const room = malloc(2 * most_rows(s) * sizeof(double));
+  int *const bin = malloc(most_rows(s) * sizeof(int));
+  for (int i = 0; room && bin && i < COORDINATES; i++)
+    scan(s, m, i, residual, color ? color : own, centred, room, bin, cell);
+  const bool good = room && bin;
+  free(room);
+  free(bin);
+  return good ? ST_OK : error_failed(why, "out of memory");
+}

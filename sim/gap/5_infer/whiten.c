@@ -1,0 +1,196 @@
+// whiten.c - residual and columns made white, and their sums of products.
+#include "gap/5_infer/whiten.h"
+
+#include "base/lsq_blocks.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS_MIN 40
+
+bool color_reaches(const rows_t *r, int row) {
+  return row >= 2 && r->follows[row] && r->follows[row - 1];
+}
+
+// Normal equations of an autoregression of second order.
+color_t color_fit(const rows_t *r, const double *v) {
+  double s11 = 0.0, s12 = 0.0, s22 = 0.0, s01 = 0.0, s02 = 0.0, s00 = 0.0;
+  int n = 0;
+  for (int i = 2; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    const double y = v[i], p = v[i - 1], q = v[i - 2];
+    s00 += y * y;
+    s01 += y * p;
+    s02 += y * q;
+    s11 += p * p;
+    s12 += p * q;
+    s22 += q * q;
+    n++;
+  }
+  const double det = s11 * s22 - s12 * s12;
+  if (n < ROWS_MIN || !(det > 1e-12 * s11 * s22)) return (color_t){.used = false};
+  color_t c = {.a1 = (s01 * s22 - s02 * s12) / det, .a2 = (s02 * s11 - s01 * s12) / det};
+  c.sd = sqrt(fmax(s00 - c.a1 * s01 - c.a2 * s02, 0.0) / n);
+  c.used = c.sd > 0.0;
+  return c;
+}
+
+static color_t color_plain(const rows_t *r, const double *v) {
+  double squares = 0.0;
+  for (int i = 0; i < r->n; i++) squares += v[i] * v[i];
+  const color_t c = color_fit(r, v);
+  return (color_t){.sd = r->n ? sqrt(squares / r->n) : 0.0, .used = c.used};
+}
+
+void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
+  const double per_sd = 1.0 / c->sd;
+  for (int i = 0; i < r->n; i++)
+    out[i] = color_reaches(r, i) ? per_sd * (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) : 0.0;
+}
+
+// The colour of what some columns leave, apart from its mean; plain: its spread alone.
+static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const explained_t *e) {
+  const int n = e->n, *column = e->column;
+  const double *b = e->b;
+  const rows_t *r = set_rows(s, ch);
+  double *const left = malloc(((size_t)r->n + 1) * sizeof(double));
+  if (!left) return false;
+  for (int i = 0; i < r->n; i++) left[i] = t->x[ch][t->columns][i];
+  for (int k = 0; k < n; k++) {
+    const double *x = t->x[ch][column[k]];
+    for (int i = 0; x && i < r->n; i++) left[i] -= b[k] * x[i];
+  }
+  double mean = 0.0;
+  for (int i = 0; i < r->n; i++) mean += left[i] / r->n;
+  for (int i = 0; i < r->n; i++) left[i] -= mean;
+  g->color[ch] = (color_t){.used = false};
+  if (residual_has(s, ch)) g->color[ch] = e->plain ? color_plain(r, left) : color_fit(r, left);
+  free(left);
+  return true;
+}
+
+// White columns of a channel: which ones, and where they begin.
+typedef struct {
+  int n, *column;
+  double *room, **x;
+} white_t;
+
+static void white_free(white_t *w) {
+  free(w->column);
+  free(w->room);
+  free(w->x);
+}
+
+static bool white_make(white_t *w, const set_t *s, const table_t *t, int ch, const color_t *color) {
+  const rows_t *r = set_rows(s, ch);
+  const size_t n = (size_t)t->columns + 1;
+  *w = (white_t){.column = malloc(n * sizeof(int)), .x = malloc(n * sizeof(double *))};
+  for (int i = 0; w->column && i <= t->columns; i++)
+    if (t->x[ch][i]) w->column[w->n++] = i;
+  w->room = malloc((size_t)w->n * ((size_t)r->n + 1) * sizeof(double));
+  if (!w->column || !w->x || !w->room) return false;
+  for (int i = 0; i < w->n; i++) {
+    w->x[i] = w->room + (size_t)i * (size_t)r->n;
+    color_whiten(color, r, t->x[ch][w->column[i]], w->x[i]);
+  }
+  return true;
+}
+
+static bool add_channel(gram_t *g, const set_t *s, const table_t *t, int ch) {
+  const rows_t *r = set_rows(s, ch);
+  white_t w;
+  const bool made = white_make(&w, s, t, ch, &g->color[ch]);
+  const double **from = malloc(((size_t)w.n + 1) * sizeof(double *));
+  for (int i = 0; made && from && i < r->n;) {
+    int end = i;
+    while (end < r->n && r->block[end] == r->block[i]) g->rows += color_reaches(r, end++);
+    for (int k = 0; k < w.n; k++) from[k] = w.x[k] + i;
+    const size_t room = (size_t)(g->size * g->size);
+    const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
+    lsq_add_products(end - i, w.n, from, w.column, g->size, g->block + (size_t)r->block[i] * room,
+                     g->by_group[group] + (size_t)g->half[r->block[i]] * room);
+    i = end;
+  }
+  const bool done = made && from;
+  free(from);
+  white_free(&w);
+  return done;
+}
+
+static void add_up(gram_t *g) {
+  const size_t n = (size_t)(g->size * g->size);
+  for (int b = 0; b < g->n_block; b++)
+    for (size_t i = 0; i < n; i++) {
+      const double v = g->block[(size_t)b * n + i];
+      g->by_half[(size_t)g->half[b] * n + i] += v;
+      g->total[i] += v;
+    }
+}
+
+static void empty(gram_t *g) {
+  const size_t room = (size_t)(g->size * g->size);
+  memset(g->block, 0, (size_t)g->n_block * room * sizeof(double));
+  memset(g->by_half, 0, (size_t)g->n_half * room * sizeof(double));
+  memset(g->total, 0, room * sizeof(double));
+  for (int i = 0; i < GROUPS; i++) memset(g->by_group[i], 0, (size_t)g->n_half * room * sizeof(double));
+  g->rows = 0;
+}
+
+static bool fill(gram_t *g, const set_t *s, const table_t *t, const explained_t *e) {
+  bool good = true;
+  empty(g);
+  for (int ch = 0; ch < CHANNELS && good; ch++) {
+    good = fit_color(g, s, t, ch, e);
+    if (good && g->color[ch].used) good = add_channel(g, s, t, ch);
+  }
+  if (good) add_up(g);
+  return good;
+}
+
+// In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
+// least squares come first; an autoregression of the raw residual would hide what is slow in it.
+static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ridge) {
+  const int n = t->columns;
+  int *const column = malloc(((size_t)n + 1) * sizeof(int));
+  double *const b = malloc(((size_t)n + 1) * sizeof(double));
+  explained_t e = {0, column, b, true};
+  bool good = column && b && fill(g, s, t, &e);
+  for (int i = 0; good && i < n; i++) column[i] = i;
+  e = (explained_t){n, column, b, false};
+  for (int i = 0; good && i < 2; i++) {
+    lsq_solve_products(g->total, g->size, column, n, ridge, b, NULL);
+    good = fill(g, s, t, &e);
+  }
+  free(column);
+  free(b);
+  return good;
+}
+
+status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known, const double *ridge,
+                   why_t *why) {
+  *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
+  const size_t room = (size_t)(g->size * g->size);
+  g->block = calloc((size_t)g->n_block * room, sizeof(double));
+  g->by_half = calloc((size_t)g->n_half * room, sizeof(double));
+  g->total = calloc(room, sizeof(double));
+  bool good = g->block && g->by_half && g->total;
+  for (int i = 0; i < GROUPS; i++) {
+    g->by_group[i] = calloc((size_t)g->n_half * room, sizeof(double));
+    good = good && g->by_group[i];
+  }
+  if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, known);
+  if (good) return ST_OK;
+  gram_free(g);
+  return error_failed(why, "out of memory");
+}
+
+void gram_free(gram_t *g) {
+  free(g->block);
+  free(g->by_half);
+  free(g->total);
+  for (int i = 0; i < GROUPS; i++) {
+    free(g->by_group[i]);
+    g->by_group[i] = NULL;
+  }
+  g->block = g->by_half = g->total = NULL;
+}

@@ -1,0 +1,190 @@
+// resimulate.c - the held-out flight flown again by a model.
+#include "gap/7_verify/resimulate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define STEP_S 0.002
+#define LEVEL  2.0 // 1/s: position errors to velocity, level (as the nominal flights' pilot)
+#define PUSH   3.0 // 1/s: velocity errors to acceleration, level
+// At least so stiff in height: a ceiling pulls harder the nearer the vehicle is (thesis 3.1.4), and a pilot
+// who is softer than that loses the right model as he does the wrong one.
+#define HEIGHT 16.0 // 1/s2
+#define CLIMB  8.0  // 1/s
+
+typedef struct {
+  const grid_t *g;
+  const model_t *pilots; // whose mass and rotors the pilot reckons with: the same for every model
+  const manner_t *manner;
+  body_t body;
+} again_t;
+
+// --- the pilot ------------------------------------------------------------------------------------------
+
+static void correct(const again_t *a, const point_t *track, double motor_N[ROTORS]) {
+  const frame_t *f = &a->pilots->frame;
+  const manner_t *w = a->manner;
+  const double *y = a->body.y;
+  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB)), wanted = axes_of(track->q_wb);
+  const d3_t off = d3_sub(track->pos_w_m, d3_of(y + RIGID_POS_M));
+  const d3_t slip = d3_sub(track->vel_w_mps, d3_of(y + RIGID_VEL_MPS));
+  const d3_t turn = d3_sub(track->rate_b_radps, d3_of(y + RIGID_RATE_RADPS));
+  const d3_t push = d3(PUSH * (LEVEL * off.x + slip.x), PUSH * (LEVEL * off.y + slip.y), 0.0);
+  // Where the thrust should point: as it was measured, and towards the track.
+  const d3_t up_w = d3_add_scaled(wanted.z, 1.0 / PLANT_GRAVITY_MPS2, push);
+  const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(up_w), up_w));
+  const d3_t nose_b = axes_to_body(&axes, wanted.x);
+  const double roll = f->inertia_kgm2[0] * (w->tilt_gain * -pull_b.y + w->rate_gain[0] * turn.x);
+  const double pitch = f->inertia_kgm2[1] * (w->tilt_gain * pull_b.x + w->rate_gain[1] * turn.y);
+  const double yaw = f->inertia_kgm2[2] * w->rate_gain[2] * (2.0 * atan2(nose_b.y, nose_b.x) + turn.z);
+  const double lift =
+      a->pilots->mass_kg * (fmax(w->height_gain, HEIGHT) * off.z + fmax(w->climb_gain, CLIMB) * slip.z);
+  for (int k = 0; k < ROTORS; k++) {
+    const double spin = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
+    const double more = 0.25 * lift + 0.25 * roll / f->rotor_y_m[k] - 0.25 * pitch / f->rotor_x_m[k] + spin;
+    motor_N[k] = fmax(0.0, fmin(motor_N[k] + more, 0.25 * a->pilots->thrust_max_N));
+  }
+}
+
+// --- the flight -----------------------------------------------------------------------------------------
+
+static status_t put(again_t *a, const model_t *m, int j, why_t *why) {
+  const point_t *p = &a->g->point[j];
+  body_start_t start = {.pos_w_m = p->pos_w_m,
+                        .vel_w_mps = p->vel_w_mps,
+                        .q_wb = p->q_wb,
+                        .rate_b_radps = p->rate_b_radps,
+                        .seed = 1};
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][j * a->g->every];
+  if (a->body.integrate) body_close(&a->body);
+  a->body.integrate = NULL;
+  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) == ST_OK)
+    return ST_OK;
+  return error_failed(why, "%s: a model that cannot be flown", m->name);
+}
+
+// One point's samples.
+static void fly_point(again_t *a, int j, int first_sample) {
+  const grid_t *g = a->g;
+  const double log_s = g->period_s / g->every;
+  const int inner = (int)fmax(1.0, round(log_s / STEP_S));
+  for (int i = first_sample; i < first_sample + g->every; i++)
+    for (int k = 0; k < inner; k++) {
+      double motor_N[ROTORS];
+      for (int r = 0; r < ROTORS; r++) motor_N[r] = g->command_N[r][i];
+      a->body.vbat_V = g->point[j].vbat_V;
+      correct(a, &g->point[j], motor_N);
+      body_tick(&a->body, motor_N, log_s / inner);
+    }
+}
+
+typedef struct {
+  double squares, height_squares;
+  long points;
+  int lost;
+} tally_t;
+
+// The sample with which a point begins: points leave out what a segment's end cuts off.
+static int sample_of(const grid_t *g, int j) {
+  const double log_s = g->period_s / g->every;
+  const int i = (int)lround((g->point[j].t_s - g->flight->t_s[g->from]) / log_s - 0.5 * (g->every - 1));
+  return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
+}
+
+static status_t fly(again_t *a, const model_t *m, tally_t *tally, double *const at_m[3], why_t *why) {
+  const grid_t *g = a->g;
+  bool flying = false;
+  for (int j = 0; j < g->n; j++) {
+    const point_t *p = &g->point[j];
+    const bool go_on = flying && p->ok && p->segment == g->point[j - 1].segment;
+    for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = (double)NAN;
+    flying = p->ok;
+    if (!p->ok) continue;
+    if (!go_on) TRY(put(a, m, j, why));
+    const double *pos = a->body.y + RIGID_POS_M;
+    double far_m = d3_norm(d3_sub(d3_of(pos), p->pos_w_m));
+    const double off_z_m = fmin(fabs(pos[2] - p->pos_w_m.z), RESIMULATE_LOST_M); // NaN: lost
+    if (a->body.broken || !(far_m <= RESIMULATE_LOST_M)) {
+      far_m = RESIMULATE_LOST_M;
+      tally->lost++;
+      TRY(put(a, m, j, why));
+    }
+    tally->squares += far_m * far_m;
+    tally->height_squares += off_z_m * off_z_m;
+    tally->points++;
+    for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = pos[k];
+    fly_point(a, j, sample_of(g, j));
+  }
+  return ST_OK;
+}
+
+static status_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const manner_t *manner,
+                        tally_t *tally, double *const at_m[3], why_t *why) {
+  *tally = (tally_t){.squares = 0.0};
+  status_t status = ST_OK;
+  for (int f = 0; f < held->n_grid && status == ST_OK; f++) {
+    again_t *const a = calloc(1, sizeof *a);
+    if (!a) return error_failed(why, "out of memory");
+    a->g = &held->grid[f], a->pilots = pilots, a->manner = manner;
+    status = fly(a, m, tally, f == 0 ? at_m : NULL, why);
+    if (a->body.integrate) body_close(&a->body);
+    free(a);
+  }
+  return status;
+}
+
+static const char *obstacle(const set_t *held, const model_t *m) {
+  const grid_t *g = &held->grid[0];
+  if (!g->has_position) return "the log has no position";
+  if (!g->has_velocity) return "the log has no velocity";
+  if (!g->has_attitude || !g->has_rates) return "the log has no attitude or no rates";
+  for (int k = 0; k < ROTORS; k++)
+    if (m->frame.rotor_x_m[k] == 0.0 || m->frame.rotor_y_m[k] == 0.0)
+      return "the pilot is made for rotors beside both axes";
+  return NULL;
+}
+
+static bool take_room(resimulation_t *r, const grid_t *g) {
+  r->n = g->n;
+  bool good = (r->t_s = calloc((size_t)g->n + 1, sizeof(double))) != NULL;
+  for (int k = 0; k < 3; k++) {
+    good = (r->measured_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
+    good = (r->before_at_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
+    good = (r->after_at_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
+  }
+  for (int j = 0; good && j < g->n; j++) {
+    r->t_s[j] = g->point[j].t_s - g->point[0].t_s;
+    d3_t at = g->point[j].pos_w_m;
+    if (!g->point[j].ok) at = d3((double)NAN, (double)NAN, (double)NAN);
+    r->measured_m[0][j] = at.x, r->measured_m[1][j] = at.y, r->measured_m[2][j] = at.z;
+  }
+  return good;
+}
+
+status_t resimulate(const set_t *held, const model_t *before, const model_t *after, const manner_t *manner,
+                    resimulation_t *r, why_t *why) {
+  tally_t b, a;
+  *r = (resimulation_t){.why_not = obstacle(held, before)};
+  if (r->why_not) return ST_OK;
+  if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
+  TRY(fly_all(held, before, before, manner, &b, r->before_at_m, why));
+  TRY(fly_all(held, after, before, manner, &a, r->after_at_m, why));
+  r->why_not = "the vehicle does not fly";
+  if (b.points == 0 || a.points == 0) return ST_OK;
+  r->flew = true;
+  r->before_m = sqrt(b.squares / (double)b.points), r->after_m = sqrt(a.squares / (double)a.points);
+  r->before_height_m = sqrt(b.height_squares / (double)b.points);
+  r->after_height_m = sqrt(a.height_squares / (double)a.points);
+  r->lost_before = b.lost, r->lost_after = a.lost;
+  return ST_OK;
+}
+
+void resimulation_free(resimulation_t *r) {
+  free(r->t_s);
+  for (int k = 0; k < 3; k++) {
+    free(r->measured_m[k]);
+    free(r->before_at_m[k]);
+    free(r->after_at_m[k]);
+  }
+  *r = (resimulation_t){.flew = false};
+}

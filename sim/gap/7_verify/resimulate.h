@@ -1,0 +1,31 @@
+// resimulate.h - the held-out flight flown again by a model, in closed loop: does it stay on the measured
+// track?
+//
+// The motors get the logged commands, plus what a pilot adds who sees how far the simulated vehicle is from
+// the measured track: proportional in place, velocity, attitude and rates, with gains fitted to the log
+// (nominal.h), in height at least those of resimulate.c, the same for every model. A model without error
+// needs no correction and stays on the track.
+#ifndef SIM_GAP_7_VERIFY_RESIMULATE_H
+#define SIM_GAP_7_VERIFY_RESIMULATE_H
+
+#include "gap/3_feedback/nominal.h"
+
+// Places over the points of the first held-out flight; NaN where nothing flies.
+typedef struct {
+  bool flew; // false: see why_not
+  const char *why_not;
+  double before_m, after_m;               // rms distance from the measured track, all held-out flights
+  double before_height_m, after_height_m; // in height alone
+  int lost_before, lost_after; // times that the vehicle was more than RESIMULATE_LOST_M away and was put back
+  int n;
+  double *t_s, *measured_m[3], *before_at_m[3], *after_at_m[3];
+} resimulation_t;
+
+#define RESIMULATE_LOST_M 2.0
+
+// ST_FAILED: no memory. Free it, also on an error.
+MUST_CHECK status_t resimulate(const set_t *held, const model_t *before, const model_t *after,
+                               const manner_t *manner, resimulation_t *r, why_t *why);
+void resimulation_free(resimulation_t *r);
+
+#endif

@@ -1,0 +1,61 @@
+// verify.c - flights that were not fitted to, before and after.
+#include "gap/7_verify/verify.h"
+
+#include "gap/2_predict/lines.h"
+#include <math.h>
+
+static void spread(const double *v, int n, double *rms, double *sd) {
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < n; i++) {
+    sum += v[i];
+    squares += v[i] * v[i];
+  }
+  *rms = n ? sqrt(squares / n) : 0.0;
+  *sd = n ? sqrt(fmax(squares / n - sum * sum / n / n, 0.0)) : 0.0;
+}
+
+static double white_left(const rows_t *r, const color_t *c, const double *v) {
+  double sum = 0.0;
+  for (int i = 2; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    const double e = (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) / c->sd;
+    sum += e * e;
+  }
+  return sum;
+}
+
+status_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
+  lines_t l;
+  status_t status = lines_make(&l, s, why);
+  if (status == ST_OK) status = residual_of(s, m, l.r, why);
+  *left = 0.0;
+  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
+    if (color[ch].used) *left += white_left(set_rows(s, ch), &color[ch], l.r[ch]);
+  lines_free(&l);
+  return status;
+}
+
+status_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
+                     held_t *held, why_t *why) {
+  lines_t b, a = {.r = {NULL}};
+  *held = (held_t){.left_before = 0.0};
+  status_t status = lines_make(&b, s, why);
+  if (status == ST_OK) status = lines_make(&a, s, why);
+  if (status == ST_OK) status = residual_of(s, before, b.r, why);
+  if (status == ST_OK) status = residual_of(s, after, a.r, why);
+  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++) {
+    gap_part_t *const p = &held->channel[ch];
+    const rows_t *rows = set_rows(s, ch);
+    const color_t color = residual_has(s, ch) ? color_fit(rows, a.r[ch]) : (color_t){.used = false};
+    p->used = color.used;
+    p->floor = nominal->floor[ch];
+    if (!p->used) continue;
+    spread(b.r[ch], rows->n, &p->before, &p->before_sd);
+    spread(a.r[ch], rows->n, &p->after, &p->after_sd);
+    held->left_before += white_left(rows, &color, b.r[ch]);
+    held->left_after += white_left(rows, &color, a.r[ch]);
+  }
+  lines_free(&b);
+  lines_free(&a);
+  return status;
+}

@@ -1,0 +1,124 @@
+// evidence.c - where each named effect shows in the held-out flights, and how well.
+#include "gap/8_report/report.h"
+
+#include "gap/2_predict/lines.h"
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <string.h>
+
+#define NEAR_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
+
+status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
+
+// --- named effects ----------------------------------------------------------------------------------------
+
+// What the effect adds to each channel, and its variance by the standard errors of its sizes.
+static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
+                             double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
+  model_t m = r->study->diagnosis.extended;
+  model_drop_fx(&m, f->fx);
+  TRY(residual_of(held, &m, effect, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
+  for (int k = 0; k < f->candidate->n; k++) {
+    m = r->study->diagnosis.extended;
+    fx_use_t more = f->candidate->use;
+    more.p[f->fx->size[k].param] += f->named->stderr_[k];
+    TRY(model_add_fx(&m, &more, why));
+    TRY(residual_of(held, &m, room, why));
+    for (int ch = 0; ch < CHANNELS; ch++)
+      for (int i = 0; i < set_rows(held, ch)->n; i++) {
+        const double step = room[ch][i] - r->after.r[ch][i];
+        variance[ch][i] += step * step;
+      }
+  }
+  return ST_OK;
+}
+
+static int channel_of(const report_t *r, const char *wanted, double *const effect[CHANNELS]) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  double most = -1.0;
+  int best = CH_FZ;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (!p->used || !(p->after > 0.0)) continue;
+    if (wanted && strcmp(wanted, gap_channel[ch]) == 0) return ch;
+    double sum = 0.0;
+    for (int i = 0; i < set_rows(&d->held, ch)->n; i++) sum += effect[ch][i] * effect[ch][i];
+    if (!(sum / (p->after * p->after) > most)) continue;
+    most = sum / (p->after * p->after);
+    best = ch;
+  }
+  return best;
+}
+
+static bool is_wanted(const where_t *where, int coordinate) {
+  const char *const name = coordinate_name(coordinate);
+  if (!where->coordinate[0]) return strcmp(name, "time") != 0;
+  for (int k = 0; k < 2; k++)
+    if (where->coordinate[k] && strcmp(name, where->coordinate[k]) == 0) return true;
+  return false;
+}
+
+// Of the coordinates that an effect depends on the one that tells most of it; else time.
+static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
+                       double *const variance[CHANNELS]) {
+  const where_t where = manoeuvre_where(f->fx);
+  const int channel = channel_of(r, where.channel, effect), time = report_coordinate("time");
+  double most = -1.0;
+  for (int k = 0; k <= coordinate_count; k++) {
+    const bool last = k == coordinate_count;
+    profile_t p = {.channel = channel, .coordinate = last ? time : k};
+    if (last ? most >= 0.0 : !is_wanted(&where, k)) continue;
+    const span_t span = report_where(r, &p, effect[channel]);
+    const double told = report_told(r, &p, effect[channel]);
+    if (!last && !(told > most)) continue;
+    most = told;
+    report_profile(r, effect[channel], variance[channel], &span, &p);
+    f->profile = p, f->where = span;
+  }
+  f->matters = f->fx->surface ? (span_t){0.0, NEAR_M} : f->where;
+  f->before = report_rms(r, &f->profile, &f->matters, r->before.r[channel]);
+  f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
+}
+
+static void find_flight(finding_t *f) {
+  if (f->named->n_rival)
+    manoeuvre_apart(f->fx, f->named->rival[0], f->fly);
+  else
+    snprintf(f->fly, sizeof f->fly, "%s", manoeuvre_show(f->fx));
+}
+
+static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  finding_t *const f = &r->finding[i];
+  f->named = &d->found.named[i];
+  f->candidate = &d->candidates.candidate[f->named->candidate];
+  f->fx = f->candidate->use.fx;
+  for (int k = 0; k < f->candidate->n; k++) f->value[k] = *candidate_value(f->candidate, k);
+  lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
+  status_t status = lines_make(&effect, held, why);
+  if (status == ST_OK) status = lines_make(&variance, held, why);
+  if (status == ST_OK) status = lines_make(&room, held, why);
+  if (status == ST_OK) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
+  if (status == ST_OK) find_place(r, f, effect.r, variance.r);
+  lines_free(&effect);
+  lines_free(&variance);
+  lines_free(&room);
+  find_flight(f);
+  return status;
+}
+
+status_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
+  diagnosis_t *const d = &study->diagnosis;
+  TRY(lines_make(&r->before, &d->held, why));
+  TRY(lines_make(&r->after, &d->held, why));
+  TRY(residual_of(&d->held, &study->vehicle, r->before.r, why));
+  TRY(residual_of(&d->held, &d->extended, r->after.r, why));
+  r->n_finding = d->found.n;
+  for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, i, why));
+  const int coordinate = report_coordinate(d->cell.coordinate);
+  r->left = (profile_t){.channel = d->cell.channel, .coordinate = coordinate};
+  if (d->cell.statistic > 0.0 && coordinate >= 0) report_profile(r, NULL, NULL, NULL, &r->left);
+  return ST_OK;
+}

@@ -1,0 +1,109 @@
+// named.c - the page's part on what is missing: each name, and what has none.
+#include "gap/8_report/page.h"
+
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+
+static void parameters(const finding_t *f, double errors, FILE *out) {
+  int n;
+  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
+  fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
+  for (int k = 0; k < f->candidate->n; k++) {
+    const fx_param_t *const p = &param[f->fx->size[k].param];
+    const double v = f->value[k], wide = errors * f->named->stderr_[k];
+    page_text(out, "<tr><td>", p->name, "");
+    fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    page_text(out, "<td>", p->unit, "</tr>\n");
+  }
+  if (f->fx->n_shape) {
+    const double v = f->candidate->use.p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
+    page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
+    if (wide > 0.0)
+      fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    else
+      fprintf(out, "<td class=n>%.4g<td class=n>%s", v,
+              isnan(wide) ? "not known" : "the best of those tried");
+    page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
+  }
+  fputs("</table>\n", out);
+}
+
+static void share_row(const char *name, double share, double most, const char *style, FILE *out) {
+  page_text(out, "<tr><td>", name, "");
+  fprintf(out,
+          "<td class=n>%.3g %%<td style=\"width:60%%\"><span class=\"bar %s\" "
+          "style=\"width:%.1f%%\"></span></tr>\n",
+          100.0 * share, style, 100.0 * fmin(fmax(share / most, 0.0), 1.0));
+}
+
+static void rivals(const finding_t *f, FILE *out) {
+  const named_t *const k = f->named;
+  if (!k->n_rival) {
+    fputs("<p>No other name does as well within two standard errors.</p>\n", out);
+    return;
+  }
+  double most = fmax(k->share, 1e-9);
+  for (int i = 0; i < k->n_rival; i++) most = fmax(most, k->rival_share[i]);
+  fputs("<figure><figcaption>Rivals: what each name would explain of the gap in this "
+        "place</figcaption><table>\n",
+        out);
+  share_row(f->fx->name, k->share, most, "after", out);
+  for (int i = 0; i < k->n_rival; i++) share_row(k->rival[i]->name, k->rival_share[i], most, "floor", out);
+  fputs("</table></figure>\n", out);
+  for (int i = 0; i < k->n_rival; i++) {
+    char fly[MANOEUVRE_BYTES];
+    manoeuvre_apart(f->fx, k->rival[i], fly);
+    page_text(out, "<p>To tell it from ", k->rival[i]->name, ", fly: ");
+    page_text(out, "", fly, ".</p>\n");
+  }
+}
+
+void page_finding(const finding_t *f, double errors, FILE *out) {
+  const int coordinate = f->profile.coordinate;
+  char p[P_TEXT], words[REPORT_TEXT];
+  page_text(out, "<section><h2>", f->fx->name, "</h2>");
+  page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
+  fprintf(out, "<p>It explains %.3g %% of the gap (", 100.0 * f->named->share);
+  page_text(out, "", p_words(f->named->p, p), "). ");
+  page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
+  page_text(out, "", coordinate_name(coordinate), "");
+  fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
+  page_text(out, "", coordinate_unit(coordinate), ".");
+  if (f->before > 0.0) {
+    fprintf(out, " On the held-out flights, at %.3g to %.3g ", f->matters.from, f->matters.to);
+    page_text(out, "", coordinate_unit(coordinate), "");
+    fprintf(out, ", the residual's rms is %.3g before and %.3g %s after.", f->before, f->after,
+            gap_unit[f->profile.channel]);
+  }
+  fputs("</p>\n", out);
+  parameters(f, errors, out);
+  if (report_confirm(f, words)) page_text(out, "<p>", words, ".</p>\n");
+  fputs("<figure>", out);
+  picture_curve(f, out);
+  fputs("<figcaption>What the effect adds, on flights that were not used to find "
+        "it</figcaption></figure>\n<figure>",
+        out);
+  picture_place(&f->profile, 0.0, 0.0, NULL, out);
+  fputs("<figcaption>Where the gap was: measured less predicted, before and after</figcaption></figure>\n",
+        out);
+  rivals(f, out);
+  fputs("</section>\n", out);
+}
+
+void page_unknown(const report_t *r, FILE *out) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const cell_t *const c = &d->cell;
+  if (!(c->statistic > 0.0) || !d->nominal_flew || (!d->unknown && r->n_finding)) return;
+  fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
+                   : "<section><h2>The largest remainder</h2>\n<p>",
+        out);
+  fprintf(out, "%+.3g %s in ", c->size, gap_unit[c->channel]);
+  page_text(out, "", gap_channel[c->channel], ", at ");
+  page_text(out, "", c->coordinate, "");
+  fprintf(out, " %.3g to %.3g ", c->from, c->to);
+  page_text(out, "", c->unit, "");
+  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>\n<figure>", c->statistic,
+          d->cell_bound, d->unknown ? "" : ": chance");
+  picture_place(&r->left, c->from, c->to, "the largest cell", out);
+  fputs("<figcaption>The held-out flights over that coordinate</figcaption></figure></section>\n", out);
+}

@@ -1,0 +1,146 @@
+// profile.c - held-out rows over a coordinate.
+#include "gap/8_report/report.h"
+
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS_MIN 6    // of a range
+#define OUTSIDE  0.01 // of the rows, on each side, that no range reaches to
+#define TAIL     0.05 // of the sum of squares on each side of `where`
+
+int report_coordinate(const char *name) {
+  for (int i = 0; i < coordinate_count; i++)
+    if (name && strcmp(coordinate_name(i), name) == 0) return i;
+  return -1;
+}
+
+static double at(const report_t *r, int channel, int coordinate, int row) {
+  const set_t *const s = &r->study->diagnosis.held;
+  const rows_t *const rows = set_rows(s, channel);
+  return coordinate_of(coordinate, &s->grid[rows->flight[row]], &r->study->vehicle, rows->point[row]);
+}
+
+typedef struct {
+  double x, square;
+} mark_t;
+
+static int by_x(const void *a, const void *b) {
+  const double x = ((const mark_t *)a)->x, y = ((const mark_t *)b)->x;
+  return (x > y) - (x < y);
+}
+
+// The rows' coordinates, ascending; the caller frees. Null: no memory, or nothing there.
+static mark_t *sorted(const report_t *r, int channel, int coordinate, const double *effect, int *n) {
+  const rows_t *const rows = set_rows(&r->study->diagnosis.held, channel);
+  mark_t *const mark = malloc(((size_t)rows->n + 1) * sizeof *mark);
+  *n = 0;
+  for (int i = 0; mark && i < rows->n; i++) {
+    const double x = at(r, channel, coordinate, i);
+    if (!isnan(x)) mark[(*n)++] = (mark_t){x, effect ? effect[i] * effect[i] : 0.0};
+  }
+  if (mark && *n) qsort(mark, (size_t)*n, sizeof *mark, by_x);
+  return mark;
+}
+
+static void add_row(profile_t *p, int bin, const report_t *r, int i, double effect, double variance) {
+  p->x[bin] += at(r, p->channel, p->coordinate, i);
+  p->before[bin] += r->before.r[p->channel][i];
+  p->after[bin] += r->after.r[p->channel][i];
+  p->effect[bin] += effect;
+  p->low[bin] += sqrt(variance);
+  p->rows[bin] += 1.0;
+}
+
+// Sums become means; what has too few rows goes.
+static void close_bins(profile_t *p, double errors) {
+  p->n = 0;
+  for (int k = 0; k < REPORT_BINS; k++) {
+    const double n = p->rows[k];
+    if (n < ROWS_MIN) continue;
+    const int to = p->n++;
+    const double effect = p->effect[k] / n, wide = errors * p->low[k] / n;
+    p->x[to] = p->x[k] / n, p->rows[to] = n;
+    p->before[to] = p->before[k] / n, p->after[to] = p->after[k] / n;
+    p->effect[to] = effect, p->low[to] = effect - wide, p->high[to] = effect + wide;
+  }
+}
+
+// What a picture spans: all rows but the outermost, or what matters and about as much beside it.
+static span_t span_of(const report_t *r, const profile_t *p, const span_t *near) {
+  int n;
+  mark_t *const mark = sorted(r, p->channel, p->coordinate, NULL, &n);
+  span_t s = {0.0, 0.0};
+  if (n) s = (span_t){mark[(int)(OUTSIDE * n)].x, mark[n - 1 - (int)(OUTSIDE * n)].x};
+  free(mark);
+  if (!near || 3.0 * (near->to - near->from) > s.to - s.from) return s;
+  const double wide = fmax(near->to - near->from, 0.05 * (s.to - s.from));
+  return (span_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
+}
+
+void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+                    profile_t *p) {
+  *p = (profile_t){.channel = p->channel, .coordinate = p->coordinate};
+  const span_t s = span_of(r, p, near);
+  const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
+  for (int i = 0; i < rows->n && s.to > s.from; i++) {
+    const double x = at(r, p->channel, p->coordinate, i);
+    if (!(x >= s.from && x <= s.to)) continue;
+    const int bin = (int)fmin(REPORT_BINS - 1, floor(REPORT_BINS * (x - s.from) / (s.to - s.from)));
+    add_row(p, bin, r, i, effect ? effect[i] : 0.0, variance ? variance[i] : 0.0);
+  }
+  close_bins(p, r->wide);
+}
+
+// --- which coordinate -------------------------------------------------------------------------------------
+
+// Where the middle 90 % of what the effect does lie.
+span_t report_where(const report_t *r, const profile_t *p, const double *effect) {
+  int n;
+  double all = 0.0, sum = 0.0;
+  mark_t *const mark = sorted(r, p->channel, p->coordinate, effect, &n);
+  for (int i = 0; i < n; i++) all += mark[i].square;
+  span_t where = n ? (span_t){mark[0].x, mark[0].x} : (span_t){0.0, 0.0};
+  bool begun = false;
+  for (int i = 0; i < n; i++) {
+    sum += mark[i].square;
+    if (!begun && sum >= TAIL * all) where.from = mark[i].x, begun = true;
+    if (sum <= (1.0 - TAIL) * all) where.to = mark[i].x;
+  }
+  free(mark);
+  where.to = fmax(where.from, where.to);
+  return where;
+}
+
+static double square_correlation(const double *sum, double n) {
+  const double xx = sum[2] - sum[0] * sum[0] / n, yy = sum[3] - sum[1] * sum[1] / n;
+  const double xy = sum[4] - sum[0] * sum[1] / n;
+  return xx > 0.0 && yy > 1e-12 * sum[3] ? xy * xy / (xx * yy) : 0.0;
+}
+
+double report_told(const report_t *r, const profile_t *p, const double *effect) {
+  const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
+  double sum[2][5] = {{0.0}}, n = 0.0;
+  for (int i = 0; i < rows->n; i++) {
+    const double x = at(r, p->channel, p->coordinate, i), y = effect[i];
+    if (isnan(x)) continue;
+    n += 1.0;
+    for (int k = 0; k < 2; k++) {
+      const double own = k ? fabs(x) : x, add[5] = {own, y, own * own, y * y, own * y};
+      for (int q = 0; q < 5; q++) sum[k][q] += add[q];
+    }
+  }
+  return n > 0.0 ? fmax(square_correlation(sum[0], n), square_correlation(sum[1], n)) : -1.0;
+}
+
+double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual) {
+  double sum = 0.0, n = 0.0;
+  for (int i = 0; i < set_rows(&r->study->diagnosis.held, p->channel)->n; i++) {
+    const double x = at(r, p->channel, p->coordinate, i);
+    if (!(x >= span->from && x <= span->to)) continue;
+    sum += residual[i] * residual[i];
+    n += 1.0;
+  }
+  return n > 0.0 ? sqrt(sum / n) : 0.0;
+}

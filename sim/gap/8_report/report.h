@@ -1,0 +1,127 @@
+// report.h - what a study found, in words, as verdict.json, and as report.html.
+#ifndef SIM_GAP_8_REPORT_REPORT_H
+#define SIM_GAP_8_REPORT_REPORT_H
+
+#include "gap/2_predict/lines.h"
+#include "gap/4_candidates/manoeuvre.h"
+#include "gap/5_infer/p_value.h"
+#include "gap/study.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+
+#define REPORT_BINS     24
+#define REPORT_TEXT     320
+#define REPORT_WARNINGS 64
+
+// Where an effect does most of what it does; a picture shows that and what is beside it.
+typedef struct {
+  double from, to;
+} span_t;
+
+// Means over ranges of a coordinate, held-out rows of one channel.
+typedef struct {
+  int channel, coordinate;
+  int n; // ranges that hold rows enough
+  double x[REPORT_BINS], rows[REPORT_BINS];
+  double before[REPORT_BINS], after[REPORT_BINS]; // residual
+  double effect[REPORT_BINS], low[REPORT_BINS],
+      high[REPORT_BINS]; // what the effect adds, and its 95 % interval
+} profile_t;
+
+// One named effect.
+typedef struct {
+  const named_t *named;
+  const candidate_t *candidate;
+  const fx_t *fx;
+  double value[FX_SIZE_MAX]; // as the new model has them
+  span_t where;              // of the profile's coordinate: there lie the middle 90 % of its sum of squares
+  profile_t profile;
+  // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
+  span_t matters;
+  double before, after;      // rms of the held-out rows there
+  char fly[MANOEUVRE_BYTES]; // what would tell it from its rivals, or show it better
+} finding_t;
+
+// What an effect that was not named would have needed.
+typedef struct {
+  const fx_t *fx;
+  const fx_param_t *param;   // of its size; null: it could not be looked for
+  double seen_from, typical; // of param: the smallest size that would have been seen, and what is typical
+  const char *obstacle;      // null: none
+  bool echo;                 // something like it is there, at one place, time or state only
+  bool open;                 // it, or one that these flights cannot tell from it, is missing
+  bool testable;             // its typical size would have been seen
+} untested_t;
+
+typedef struct {
+  const study_t *study;
+  const char *verdict; // "named", "none", "unknown"
+  int n_finding;
+  finding_t finding[NAMED_MAX];
+  int n_untested;
+  untested_t untested[FX_TABLE_MAX];
+  int n_warning;
+  char warning[REPORT_WARNINGS][REPORT_TEXT];
+  double wide;           // half of a 95 % interval, in standard errors (Student, blocks less columns)
+  profile_t left;        // over the coordinate of the largest cell of what is left
+  lines_t before, after; // held-out rows
+} report_t;
+
+// Works out what is to be said. ST_FAILED: no memory. Free it, also on an error.
+MUST_CHECK status_t report_make(report_t *r, study_t *study, why_t *why);
+void report_free(report_t *r);
+
+// A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
+// near: null, or the part that matters.
+void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+                    profile_t *p);
+
+// The coordinate of that name (unknown.h); -1: none, or a null pointer.
+int report_coordinate(const char *name);
+// Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
+// how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
+span_t report_where(const report_t *r, const profile_t *p, const double *effect);
+double report_told(const report_t *r, const profile_t *p, const double *effect);
+// Rms of a residual in a range of the profile's coordinate, in its channel; 0 without a row there.
+double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual);
+
+// What to fly so that an effect could be tested, and why it could not, in words.
+void report_why(const untested_t *u, char text[REPORT_TEXT]);
+
+// What the reference as the instrument says of a name, in words; false: it was not tried.
+bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
+
+// Some residual can be formed.
+bool report_has_residual(const report_t *r);
+// ... and it is known what feedback alone makes of it; else nothing could have been found.
+bool report_can_tell(const report_t *r);
+// Far more is left of a held-out channel than noise and feedback alone leave.
+bool report_leaves_much(const report_t *r, int channel);
+bool report_leaves_any(const report_t *r); // of one channel or more
+// What the page says at its top where nothing is named.
+const char *report_headline(const report_t *r);
+
+// "12.3 mm", or in metres from 1 m on.
+#define REPORT_LENGTH 24
+const char *report_length(double m, char text[REPORT_LENGTH]);
+
+// As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}; an effect
+// has "matters" besides: {"channel", "unit", "from", "to", "before", "after"}, as finding_t. A null pointer:
+// no memory.
+cJSON *report_verdict(const report_t *r);
+// The verdict `refused`, with the line that says why as its one warning.
+cJSON *report_refused(const char *line, const study_order_t *order);
+// ST_FAILED: no memory for the text.
+MUST_CHECK status_t report_write_json(const cJSON *json, FILE *out, why_t *why);
+
+// One screen.
+void report_words(const report_t *r, FILE *out);
+
+// The numbers of the page's pictures of named effects: a row for each mean over a range of the coordinate.
+void report_curves(const report_t *r, FILE *out);
+
+// A page that needs nothing else.
+void report_page(const report_t *r, FILE *out);
+void report_page_refused(const char *line, const study_order_t *order, FILE *out);
+
+#endif

@@ -1,0 +1,165 @@
+// warnings.c - what is to be known beside the verdict.
+#include "gap/8_report/report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+static void warn(report_t *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void warn(report_t *r, const char *format, ...) {
+  if (r->n_warning == REPORT_WARNINGS) return;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(r->warning[r->n_warning++], REPORT_TEXT, format, args);
+  va_end(args);
+}
+
+static const char *base_name(const char *path) {
+  const char *const slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static void warn_of_logs(report_t *r) {
+  const study_t *const s = r->study;
+  for (int i = 0; i < s->fit.n + s->held.n; i++) {
+    const gap_flight_t *const f = &s->flight[i];
+    for (int k = 0; k < f->n_note; k++) {
+      const bool named = strncmp(f->note[k], f->name, strlen(f->name)) == 0;
+      warn(r, "%s%s%s", named ? "" : base_name(f->name), named ? "" : ": ", f->note[k]);
+    }
+  }
+}
+
+static void warn_of_gap(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && p->after > 1.05 * p->before)
+      warn(r, "%s: the gap grew on the held-out flights, %.3g to %.3g %s", gap_channel[ch], p->before,
+           p->after, gap_unit[ch]);
+  }
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (report_leaves_much(r, ch))
+      warn(r,
+           "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
+           "much flight",
+           gap_channel[ch], p->after, gap_unit[ch], p->floor);
+  }
+}
+
+static void warn_of_instrument(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (d->why_not_confirmed) warn(r, "no name is confirmed: %s", d->why_not_confirmed);
+  for (int i = 0; i < d->found.n; i++) {
+    const confirm_t *const a = &d->found.named[i].confirm;
+    const char *const name = d->candidates.candidate[d->found.named[i].candidate].use.fx->name;
+    if (a->answer == CONFIRM_NO)
+      warn(r,
+           "%s is not confirmed by the set points as instrument: it may be feedback, or they show too little "
+           "of it",
+           name);
+    else if (a->apart)
+      warn(r,
+           "%s: the set points as instrument give another size than least squares (p %.1g): feedback or "
+           "noise is "
+           "in the size that is named",
+           name, a->p_apart);
+  }
+}
+
+static void warn_of_diagnosis(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (!report_has_residual(r))
+    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
+            "explain them");
+  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
+    warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
+            "better "
+            "than before");
+  for (int i = 0; i < d->n_withdrawn; i++) {
+    const withdrawn_t *const w = &d->withdrawn[i];
+    warn(r,
+         "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
+         w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
+  }
+  if (!d->nominal_flew)
+    warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (d->fit.muted[ch])
+      warn(r,
+           "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
+           "motors in another order?)",
+           gap_channel[ch]);
+  if (d->found.aligned_s != 0.0)
+    warn(r,
+         "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
+         "instruments that are late look like, and it is not named",
+         1e3 * d->found.aligned_s, 1e3 * candidates_least(fx_find("delay"), &d->fit));
+  const resimulation_t *const again = &r->study->resimulation;
+  if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
+  if (again->lost_before || again->lost_after)
+    warn(r,
+         "flown again, the vehicle was put back when it was more than %.0f m off the measured track; times "
+         "with the old "
+         "model: %d, with the new one: %d",
+         RESIMULATE_LOST_M, again->lost_before, again->lost_after);
+}
+
+static void warn_of_open(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < d->found.n_open; i++) {
+    const named_t *const open = &d->found.open[i];
+    char text[REPORT_TEXT] = "";
+    for (int k = 0; k < open->n_rival; k++) {
+      const size_t used = strlen(text);
+      snprintf(text + used, sizeof text - used, " or %s", open->rival[k]->name);
+    }
+    warn(r,
+         "%s%.200s is missing: these flights cannot tell which, nothing in them moves one and not the other",
+         d->candidates.candidate[open->candidate].use.fx->name, text);
+  }
+}
+
+// With nothing to say, what could have been said.
+static void warn_of_sizes(report_t *r) {
+  char text[REPORT_TEXT] = "";
+  for (int i = 0; i < r->n_untested; i++) {
+    const untested_t *const u = &r->untested[i];
+    if (u->obstacle || !u->testable) continue;
+    char one[120];
+    snprintf(one, sizeof one, "%s%s %s %.2g%s%s", text[0] ? ", " : "", u->fx->name, u->param->name,
+             u->seen_from, u->param->unit[0] ? " " : "", u->param->unit);
+    if (strlen(text) + strlen(one) + 40 > sizeof text) {
+      warn(r, "would have been seen from this size on: %s", text);
+      text[0] = '\0';
+      memmove(one, one + 2, strlen(one) - 1);
+    }
+    strcat(text, one);
+  }
+  if (text[0]) warn(r, "would have been seen from this size on: %s", text);
+}
+
+// The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias
+// over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone.
+static void warn_of_names(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < r->n_finding; i++)
+    if (strcmp(r->finding[i].fx->name, "tof_bias") == 0 && d->fit.grid[0].range_up)
+      warn(r,
+           "tof_bias: where the log's height comes from a range sensor with the same error (a flow deck's), "
+           "it "
+           "is half of the %.3g m, and the log cannot tell",
+           r->finding[i].value[0]);
+}
+
+void report_warn(report_t *r) {
+  warn_of_names(r);
+  warn_of_diagnosis(r);
+  warn_of_instrument(r);
+  warn_of_gap(r);
+  warn_of_open(r);
+  if (r->study->diagnosis.found.n == 0) warn_of_sizes(r);
+  warn_of_logs(r);
+}

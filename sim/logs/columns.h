@@ -1,0 +1,127 @@
+// columns.h - which column of a log is which of our signals, with units, signs and frames; one per
+// laboratory.
+//
+// A columns file (tools/columns/*.toml):
+//
+//   rest_height_m = 0.05                         optional: what z says when the vehicle stands on the ground
+//   acceleration = "body"                        specific force in body axes (+1 g on z at rest), or
+//                                                "world" (gravity taken out), or "world_with_gravity"
+//   [columns]                                    SIGNAL = {column, unit, and where wanted
+//   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
+//   pitch = {column = "pitch", unit = "deg", scale = -1}
+//
+// What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (0 to 100) before the row's
+// time: the delay of a filter, 7.5 ms of the Crazyflie's accelerometer and 2.8 ms of its gyro, or the age of
+// a sample, 70 ms of its upward range and 13 ms of the downward one. Signals and units: columns.c. Attitude
+// is a quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll,
+// pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
+//
+// Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
+// all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
+// them. w1..w4 are measured rotor speeds. range looks up, range_down down. set_x, set_y, set_z, set_vx,
+// set_vy, set_vz and set_yaw are the controller's set points, in the world's axes and the frame of x, y, z.
+#ifndef SIM_LOGS_COLUMNS_H
+#define SIM_LOGS_COLUMNS_H
+
+#include "base/error.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum {
+  SIG_TIME,
+  SIG_X,
+  SIG_Y,
+  SIG_Z,
+  SIG_VX,
+  SIG_VY,
+  SIG_VZ,
+  SIG_AX,
+  SIG_AY,
+  SIG_AZ,
+  SIG_QW,
+  SIG_QX,
+  SIG_QY,
+  SIG_QZ,
+  SIG_ROLL,
+  SIG_PITCH,
+  SIG_YAW,
+  SIG_GX,
+  SIG_GY,
+  SIG_GZ,
+  SIG_M1,
+  SIG_M2,
+  SIG_M3,
+  SIG_M4,
+  SIG_THRUST,
+  SIG_VBAT,
+  SIG_RANGE,
+  SIG_RANGE_DOWN,
+  SIG_TX,
+  SIG_TY,
+  SIG_TZ,
+  SIG_W1,
+  SIG_W2,
+  SIG_W3,
+  SIG_W4,
+  SIG_SET_X, // what the controller was told: a place, a speed, a heading
+  SIG_SET_Y,
+  SIG_SET_Z,
+  SIG_SET_VX,
+  SIG_SET_VY,
+  SIG_SET_VZ,
+  SIG_SET_YAW,
+  SIG_F1, // from here on: no columns of a log but made of them; newton of each motor, as commanded
+  SIG_F2,
+  SIG_F3,
+  SIG_F4,
+  SIG_COUNT
+} signal_id_t;
+
+#define SIG_COLUMNS SIG_F1 // so many can be columns
+
+typedef uint64_t signals_t;
+#define SIGNAL_BIT(signal) ((signals_t)1 << (signal))
+
+typedef enum { ACC_BODY, ACC_WORLD, ACC_WORLD_WITH_GRAVITY } acc_frame_t;
+typedef enum { MOTORS_PWM, MOTORS_RADPS, MOTORS_N } motors_t;
+
+#define COLUMN_NAME_MAX 64
+
+typedef struct {
+  char column[COLUMN_NAME_MAX]; // "": not in this log
+  char unit[12];
+  double factor; // SI per unit of the cell, with sign and scale
+  double offset; // SI
+  double late_s; // 0..0.1  between what was and its row
+  bool optional; // may be missing in the CSV
+} column_t;
+
+typedef struct {
+  acc_frame_t acc;
+  motors_t motors;      // what m1..m4 are
+  bool mixed_pwm;       // thrust, tx, ty and tz are pwm
+  double rest_height_m; // NaN: not said
+  column_t of[SIG_COUNT];
+} columns_t;
+
+// What a Crazyflie logs, under its own names (also what the simulator writes). All but the time may be
+// missing.
+columns_t columns_crazyflie(void);
+
+// ST_BAD_INPUT: not a columns file; names file, line, key and what is allowed. *c is kept.
+MUST_CHECK status_t columns_read(const char *path, columns_t *c, why_t *why);
+
+// The signal's name in columns files, and the SI unit of what is read.
+const char *columns_name(signal_id_t signal);
+const char *columns_si(const columns_t *c, signal_id_t signal);
+
+// Bounds of what is plausible, in SI.
+void columns_bounds(const columns_t *c, signal_id_t signal, double *min, double *max);
+
+// The units in which a value (SI, as read) would lie in min..max, with the factors to them, as the end of a
+// message: "; the unit mm would fit (factor 0.001)". Empty if there is none. Returns text.
+#define COLUMNS_HINT 120
+const char *columns_hint(const columns_t *c, signal_id_t signal, double value, double min, double max,
+                         char text[COLUMNS_HINT]);
+
+#endif

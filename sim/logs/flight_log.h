@@ -1,0 +1,49 @@
+// flight_log.h - a recorded flight on the flight code's 100 Hz grid, in SI, tick by tick, in fixed memory.
+//
+// A log with three rows or more per tick: their mean; a slower one: straight lines between rows. Rows without
+// a signal that is needed are left out and counted. Where rows are more than FLIGHT_LOG_GAP_S apart the
+// flight is split: a new grid starts, the tick says so, and whoever filters starts again. Time that does not
+// increase is refused, never sorted.
+#ifndef SIM_LOGS_FLIGHT_LOG_H
+#define SIM_LOGS_FLIGHT_LOG_H
+
+#include "base/error.h"
+#include "logs/log_rows.h"
+#include <stdbool.h>
+
+#define FLIGHT_LOG_PERIOD_S 0.01
+#define FLIGHT_LOG_GAP_S    0.15
+
+typedef struct {
+  double v[SIG_COUNT]; // as in log_row_t; SIG_RANGE: the newest sample
+  double applied_N;    // thrust command during the period that ends with the tick
+  bool split;          // the first tick, or the first one after a gap
+  bool at_limit;       // a motor was at full command during the period
+  bool range_new;      // SIG_RANGE was not there at the last tick
+} flight_tick_t;
+
+typedef struct flight_log flight_log_t;
+
+typedef struct {
+  long rows, gaps, ticks, splits; // gaps: rows left out
+} flight_log_count_t;
+
+// need: SIGNAL_BITs of the signals without which a row is of no use. Errors: as log_rows_open; *log is null
+// then.
+MUST_CHECK status_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
+                                    const model_t *vehicle, signals_t need, why_t *why);
+
+// *more is false at the end. ST_BAD_INPUT: as log_rows_next; at the end also if the signals contradict
+// physics or each other over the whole flight: rows too close or too far, mean |acceleration| not near 1 g, z
+// not moving as vz says, commands that never exceed 100.
+MUST_CHECK status_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why);
+
+// The log holds this signal.
+bool flight_log_has(const flight_log_t *log, signal_id_t signal);
+
+flight_log_count_t flight_log_count(const flight_log_t *log);
+
+// A null pointer is allowed.
+void flight_log_close(flight_log_t *log);
+
+#endif

@@ -1,0 +1,51 @@
+// log_rows.h - the rows of a flight log, one after the other, in SI and our frames.
+#ifndef SIM_LOGS_LOG_ROWS_H
+#define SIM_LOGS_LOG_ROWS_H
+
+#include "logs/columns.h"
+#include "logs/log_motors.h"
+#include "logs/table.h"
+#include "vehicle/model.h"
+
+// LOG_STRICT: a cell that is no number is refused, and so are commands that the vehicle's map cannot tell in
+// newton, and time that stands. LOG_MEND: such cells are taken as missing and counted, such commands have no
+// newton, a row cut off at the end is left out; for time that stands the rows are handed on.
+typedef enum { LOG_STRICT, LOG_MEND } log_care_t;
+
+typedef struct {
+  // SI; NaN: a gap, or not logged. SIG_AX..: specific force in body axes. SIG_QW..: length one, turns body
+  // into world, no jumps of sign. SIG_THRUST, SIG_F1..: newton in free air of all motors together and of
+  // each, as commanded. SIG_VBAT: the last one known.
+  double v[SIG_COUNT];
+  bool at_limit; // a motor is at full command
+} log_row_t;
+
+typedef struct {
+  table_t table;
+  columns_t columns;
+  model_t vehicle;
+  log_care_t care;
+  int at[SIG_COUNT]; // column in the table, -1: none
+  signals_t has;     // what rows deliver
+  log_motors_t motors;
+  char lacks[LOG_MOTORS_LACKS]; // LOG_MEND: why commands are not told in newton; "": they are, or there are
+                                // none
+  bool any;                     // `last` is one
+  log_row_t last;
+  double vbat_V;     // the last one known
+  long missing, bad; // cells
+  long bad_line;     // of the first bad one
+  int bad_column;
+} log_rows_t;
+
+// ST_BAD_INPUT: no table, a column of the columns file is missing, or a signal in `need` (SIGNAL_BITs).
+MUST_CHECK status_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns,
+                                  const model_t *vehicle, log_care_t care, signals_t need, why_t *why);
+
+// ST_BAD_INPUT: not a number, beyond what is plausible (names the unit that would fit), or time that does not
+// increase. LOG_STRICT: also a uSD log that is damaged, behind its last row.
+MUST_CHECK status_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why);
+
+void log_rows_close(log_rows_t *r);
+
+#endif

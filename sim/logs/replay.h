@@ -1,0 +1,54 @@
+// replay.h - a recorded flight's inputs through the flight code: does it command what was logged?
+//
+// The log is one of two.
+//   CSV  every call of the app, a row each, with its groups indiIn, indiSet (what the flight code was given),
+//   indiRec
+//        and indi.m1..m4 (what it commanded): fly --log-rate 1000 writes it
+//   uSD  the events indiCall, indiState and indiSet (src/firmware/recorder.h), as tools/usd/config.txt has
+//   them logged
+//
+// Where the log begins with the call at which the controller was selected and has every call since, the
+// commands must be the same to the bit: the history is known. Behind calls that are not in the log, or where
+// it begins in mid flight, they cannot be promised to be: filters, ceiling, lesson and the guard's memory are
+// then not those of the flight. Those calls are counted apart, with how far off they are while the filters
+// settle and after. Missing calls are leapt over as missed ones are in flight.
+//
+// The parameters are those of the whole flight; the log tells where others were taken.
+#ifndef SIM_LOGS_REPLAY_H
+#define SIM_LOGS_REPLAY_H
+
+#include "base/error.h"
+#include "flight/setup.h"
+
+// 1 s: eight periods of the filter, 8 Hz. The bias observer, 1 rad/s, still remembers a third: up to 0.25 mN.
+#define REPLAY_SETTLE_CALLS 1000
+
+typedef struct {
+  long calls;      // replayed
+  long differ;     // a motor's command is not the logged one, bit for bit
+  long first_line; // of the log that differs; 0: none
+  double worst_N;  // largest difference of a motor
+} replay_part_t;
+
+typedef struct {
+  replay_part_t known;             // with all that went before
+  replay_part_t settling, settled; // without it: up to REPLAY_SETTLE_CALLS behind the loss, and beyond
+  uint32_t first_call;             // of the log, since the controller was selected; 0: it does not say
+  long missing;                    // calls between two that were replayed
+  long torn;        // rows with two stamps that differ; they are not used, calls among them likewise
+  long incomplete;  // calls whose state or set point is not in the log; between two that were, also in
+                    // `missing`
+  long tuned_line;  // where other parameters were taken first; 0: nowhere
+  char damage[400]; // of the file, behind its last row; empty: none
+} replay_t;
+
+// ST_BAD_INPUT: no such log, a column is missing or not a number, no call. ST_BAD_PARAM as flight_init.
+MUST_CHECK status_t replay_fly(const char *path, const flight_param_t *param, replay_t *result, why_t *why);
+
+// All three.
+replay_part_t replay_all(const replay_t *r);
+
+// With the parameters that a request sets, and told on the standard output. Errors as above.
+MUST_CHECK status_t replay_told(const char *path, const request_t *request, why_t *why);
+
+#endif

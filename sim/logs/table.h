@@ -1,0 +1,42 @@
+// table.h - a log as a table of numbers under names, row by row: a CSV (base/csv.h), or a uSD log
+// (logs/usd.h), which its first byte tells.
+//
+// Errors are one line, `FILE:LINE: column NAME: what`; for a uSD log LINE is the number of the record.
+#ifndef SIM_LOGS_TABLE_H
+#define SIM_LOGS_TABLE_H
+
+#include "base/csv.h"
+#include "logs/usd.h"
+#include <stdarg.h>
+
+typedef struct {
+  csv_file_t *csv; // one of both is there
+  usd_file_t *usd;
+  char path[256];
+} table_t;
+
+// ST_BAD_INPUT: as csv_open or usd_open.
+MUST_CHECK status_t table_open(table_t *t, const char *path, why_t *why);
+
+void table_close(table_t *t);
+
+// The column called `name`, counted from 0; -1 if there is none.
+int table_find(const table_t *t, const char *name);
+
+// The next row; *more is false at the end, and where a uSD log is damaged. ST_BAD_INPUT: as csv_next.
+MUST_CHECK status_t table_next(table_t *t, bool *more, why_t *why);
+
+// As csv_number; a uSD log has NaN for a gap.
+MUST_CHECK status_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why);
+
+// The number of the present row's line or record.
+long table_line(const table_t *t);
+
+// After the last row: what is damaged and where (one sentence), or false.
+bool table_damage(const table_t *t, char *text, size_t size);
+
+// An error in a column (-1: none) at a line (0: the present one). Returns ST_BAD_INPUT.
+status_t table_refuse(const table_t *t, long line, int column, why_t *why, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+#endif

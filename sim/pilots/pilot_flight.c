@@ -1,0 +1,71 @@
+// pilot_flight.c - the whole flight code as a pilot.
+#include "pilots/pilot_flight.h"
+
+#include "base/error.h"
+#include "crazyflie/sections.h"
+#include "firmware/settings.h"
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert(MOTORS == PILOT6_MOTORS, "the same vehicle on both sides");
+
+// Writes what differs from what the app was told.
+static bool send(pilot_flight_t *p) {
+  bool known = true, weights = false;
+  for (int i = 0; i < params_count; i++) {
+    const param_row_t *const row = &params_table[i];
+    const char *const at = (const char *)&p->param + row->offset, *const was =
+                                                                      (const char *)&p->sent + row->offset;
+    if (memcmp(at, was, 4) == 0) continue;
+    known = crazyflie_set(&p->vehicle, row->name, (double)params_get(&p->param, row)) && known;
+    weights = weights || settings_is_weight(row);
+  }
+  p->sent = p->param;
+  if (weights) known = crazyflie_set(&p->vehicle, "ceil.commit", COMMIT_TYPED) && known;
+  return known;
+}
+
+// At every call, or the second of so many as loop6 keeps its samples. Without memory the rows end.
+static void keep_log(pilot_flight_t *p, uint32_t step) {
+  if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
+  const int width = sections_logs();
+  if (p->n_log == p->room_log) {
+    const int room = p->room_log ? 2 * p->room_log : 1024;
+    float *const more = realloc(p->log, (size_t)room * (size_t)width * sizeof *more);
+    if (!more) p->log_every_ms = 0;
+    if (!more) return;
+    p->log = more;
+    p->room_log = room;
+  }
+  crazyflie_logs(&p->vehicle, p->log + (size_t)p->n_log++ * (size_t)width);
+}
+
+static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+  pilot_flight_t *const p = state;
+  if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
+  crazyflie_ms(&p->vehicle, in, motor_N);
+  if (p->log_every_ms > 0) keep_log(p, in->step);
+}
+
+static void reset(void *state) {
+  pilot_flight_t *const p = state;
+  (void)send(p);
+  crazyflie_start(&p->vehicle);
+}
+
+status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
+                           pilot6_t *pilot) {
+  TRY(params_check(param));
+  crazyflie_init(&p->vehicle, model);
+  p->flight = &p->vehicle.app.flight;
+  p->param = *param;
+  p->log = NULL;
+  p->n_log = p->room_log = 0;
+  p->log_every_ms = 0;
+  memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
+  // As a pilot does who has seen enough of it in shadow.
+  if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return ST_FAILED;
+  crazyflie_start(&p->vehicle);
+  *pilot = (pilot6_t){.state = p, .step = step, .reset = reset};
+  return ST_OK;
+}

@@ -1,0 +1,38 @@
+// integrate.h - an ordinary differential equation, moved from one instant to the next. Knows nothing of what
+// it integrates.
+#ifndef SIM_PLANT_INTEGRATE_H
+#define SIM_PLANT_INTEGRATE_H
+
+#include "base/error.h"
+#include <stdbool.h>
+
+#define ODE_MAX 32 // largest number of states
+
+typedef enum {
+  INTEGRATE_SUNDIALS,  // ERKStep, fixed step, classic four-stage table: the one to fly with
+  INTEGRATE_RK4,       // the same method by hand: the cross-check, and six times as fast
+  INTEGRATE_REFERENCE, // ERKStep, order 5, adaptive, rtol 1e-9, atol 1e-11: what the others are judged by
+} integrate_kind_t;
+
+typedef struct {
+  int n; // states, 1..ODE_MAX
+  void (*derivative)(void *context, const double *y, double *dydt);
+  // Above 0 as long as the derivative holds. The step ends where it comes to 0. Null: always (and faster).
+  double (*margin)(void *context, const double *y);
+  void *context;
+  double step_s; // > 0, of the fixed-step kinds
+} ode_t;
+
+typedef struct integrate integrate_t;
+
+// ST_BAD_INPUT: n or step_s out of range. ST_FAILED: no memory. Close what was opened.
+MUST_CHECK status_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode);
+
+// Moves y by span_s, or less if the margin comes to 0: then *event is true. Returns the time that passed; NaN
+// if the solver gave up (y is then not to be used). Nothing is carried over from call to call, so that inputs
+// in `context` may change in between: a solver that is not restarted reuses the derivative of the old input.
+double integrate_to(integrate_t *i, double *y, double span_s, bool *event);
+
+void integrate_close(integrate_t *i);
+
+#endif

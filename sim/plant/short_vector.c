@@ -1,0 +1,64 @@
+// short_vector.c - vectors of a few numbers for SUNDIALS.
+#include "plant/short_vector.h"
+
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+
+// All vectors of one integrator are of one length. Arguments may be one and the same vector: element by
+// element that does no harm.
+static void put_const(realtype c, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(z);
+  realtype *out = NV_DATA_S(z);
+  for (sunindextype i = 0; i < n; i++) out[i] = c;
+}
+
+static void scale(realtype c, N_Vector x, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(z);
+  const realtype *in = NV_DATA_S(x);
+  realtype *out = NV_DATA_S(z);
+  if (c == 1.0)
+    memmove(out, in, (size_t)n * sizeof *out);
+  else
+    for (sunindextype i = 0; i < n; i++) out[i] = c * in[i];
+}
+
+static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(z);
+  const realtype *p = NV_DATA_S(x), *q = NV_DATA_S(y);
+  realtype *out = NV_DATA_S(z);
+  for (sunindextype i = 0; i < n; i++) out[i] = a * p[i] + b * q[i];
+}
+
+// c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
+static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(z);
+  realtype sum[SHORT_VECTOR_MAX] = {0.0};
+  for (int k = 0; k < terms; k++) {
+    if (c[k] == 0.0) continue;
+    const realtype factor = c[k], *in = NV_DATA_S(x[k]);
+    for (sunindextype i = 0; i < n; i++) sum[i] += factor * in[i];
+  }
+  memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
+  return 0;
+}
+
+static realtype wrms_norm(N_Vector x, N_Vector weight) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const realtype *p = NV_DATA_S(x), *w = NV_DATA_S(weight);
+  realtype sum = 0.0;
+  for (sunindextype i = 0; i < n; i++) sum += p[i] * w[i] * (p[i] * w[i]);
+  return sqrt(sum / (realtype)n);
+}
+
+N_Vector short_vector_new(int n, SUNContext context) {
+  N_Vector v = n <= SHORT_VECTOR_MAX ? N_VNew_Serial(n, context) : NULL;
+  if (!v) return NULL;
+  v->ops->nvconst = put_const;
+  v->ops->nvscale = scale;
+  v->ops->nvlinearsum = linear_sum;
+  v->ops->nvlinearcombination = linear_combination;
+  v->ops->nvwrmsnorm = wrms_norm;
+  N_VConst(0.0, v);
+  return v;
+}

@@ -1,0 +1,24 @@
+// controller_file.h - the table [controller] of a vehicle file: who flew its logs.
+//
+//   kind = "stock-pid"      the Crazyflie's PID cascade (crazyflie/stock_pid.h); its gains under the
+//   firmware's own
+//                           parameter names, as shipped where they are left out:
+//                           posCtlPid.xKp, xKi, xKd, yKp .. zKd, xVelMax, yVelMax, zVelMax, thrustBase,
+//                           thrustMin; velCtlPid.vxKp .. vzKd; pid_attitude.roll_kp .. yaw_kd;
+//                           pid_rate.roll_kp .. yaw_kd
+//   full_scale_N = 0.12     of one motor at 65535; left out: a quarter of the vehicle's thrust_max_N
+//
+//   kind = "indi"           this project's flight code; parameters under their names (indiPos.cutoff = 8), at
+//                           their defaults where they are left out, but for indiPos.mass and indiPos.tauMot,
+//                           which are then those of the vehicle file
+#ifndef SIM_VEHICLE_CONTROLLER_FILE_H
+#define SIM_VEHICLE_CONTROLLER_FILE_H
+
+#include "base/error.h"
+#include "base/toml.h"
+#include "vehicle/model.h"
+
+// Needs m->thrust_max_N. ST_BAD_INPUT: a key is missing, unknown, of another type, or out of range.
+MUST_CHECK status_t controller_read(toml_t root, model_t *m, why_t *why);
+
+#endif

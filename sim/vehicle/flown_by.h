@@ -1,0 +1,24 @@
+// flown_by.h - who flew the logs of a vehicle, as far as its file says (the table [controller],
+// vehicle/controller_file.h).
+#ifndef SIM_VEHICLE_FLOWN_BY_H
+#define SIM_VEHICLE_FLOWN_BY_H
+
+#include "crazyflie/stock_pid.h"
+
+typedef enum { FLOWN_BY_UNKNOWN, FLOWN_BY_STOCK_PID, FLOWN_BY_INDI } flown_by_kind_t;
+
+#define FLOWN_BY_SETS 32
+
+typedef struct {
+  char name[28]; // group.name of flight/params.h
+  double value;
+} flown_by_set_t;
+
+typedef struct {
+  flown_by_kind_t kind;
+  stock_pid_param_t pid; // FLOWN_BY_STOCK_PID; of its power thrust_max_N alone: what 65535 stands for
+  int n_set;             // FLOWN_BY_INDI: what differs from the flight code's defaults
+  flown_by_set_t set[FLOWN_BY_SETS];
+} flown_by_t;
+
+#endif

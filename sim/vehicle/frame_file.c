@@ -1,0 +1,110 @@
+// frame_file.c - what a vehicle file says of body, rotors and battery.
+#include "vehicle/frame_file.h"
+
+typedef struct {
+  const char *key;
+  double min, max, *value;
+} number_t;
+
+// The numbers that are there; the others are kept.
+static status_t read_numbers(toml_t t, const number_t *row, int n, why_t *why) {
+  for (int i = 0; i < n; i++)
+    if (toml_has(t, row[i].key)) TRY(toml_double(t, row[i].key, row[i].min, row[i].max, row[i].value, why));
+  return ST_OK;
+}
+
+// A list of exactly n numbers within min..max, if it is there.
+static status_t read_list(toml_t t, const char *key, int n, double min, double max, double *value,
+                          why_t *why) {
+  double list[ROTORS];
+  int got;
+  if (!toml_has(t, key)) return ST_OK;
+  TRY(toml_doubles(t, key, n, list, &got, why));
+  if (got != n) return toml_refuse(t, key, why, "%d numbers; allowed: %d", got, n);
+  for (int i = 0; i < n; i++)
+    if (!(list[i] >= min && list[i] <= max))
+      return toml_refuse(t, key, why, "%g is out of range; allowed: %g to %g", list[i], min, max);
+  for (int i = 0; i < n; i++) value[i] = list[i];
+  return ST_OK;
+}
+
+static status_t read_body(toml_t t, frame_t *f, why_t *why) {
+  static const char *const keys[] = {"inertia_kgm2",
+                                     "cg_above_feet_m",
+                                     "rotor_above_feet_m",
+                                     "top_above_rotor_m",
+                                     "top_half_m",
+                                     "imu_m",
+                                     NULL};
+  const number_t row[] = {
+      {"cg_above_feet_m", 1e-4, 2.0, &f->cg_above_feet_m},
+      {"rotor_above_feet_m", 0.0, 2.0, &f->rotor_above_feet_m},
+      {"top_above_rotor_m", -2.0, 2.0, &f->top_above_rotor_m},
+      {"top_half_m", 0.0, 2.0, &f->top_half_m},
+  };
+  TRY(toml_only(t, keys, why));
+  TRY(read_numbers(t, row, (int)(sizeof row / sizeof *row), why));
+  TRY(read_list(t, "inertia_kgm2", 3, 1e-9, 1e3, f->inertia_kgm2, why));
+  return read_list(t, "imu_m", 3, -1.0, 1.0, f->imu_m, why);
+}
+
+static status_t read_rotors(toml_t t, frame_t *f, why_t *why) {
+  static const char *const keys[] = {"x_m",    "y_m",          "spin",    "torque_ratio_m",
+                                     "kf_Ns2", "inertia_kgm2", "delay_s", NULL};
+  const number_t row[] = {
+      {"torque_ratio_m", 0.0, 1.0, &f->torque_ratio_m},
+      {"kf_Ns2", 1e-12, 1.0, &f->kf_Ns2},
+      {"inertia_kgm2", 0.0, 1.0, &f->rotor_inertia_kgm2},
+      {"delay_s", 0.0, 0.2, &f->motor_delay_s},
+  };
+  TRY(toml_only(t, keys, why));
+  TRY(read_numbers(t, row, (int)(sizeof row / sizeof *row), why));
+  TRY(read_list(t, "x_m", ROTORS, -5.0, 5.0, f->rotor_x_m, why));
+  TRY(read_list(t, "y_m", ROTORS, -5.0, 5.0, f->rotor_y_m, why));
+  TRY(read_list(t, "spin", ROTORS, -1.0, 1.0, f->rotor_spin, why));
+  for (int i = 0; i < ROTORS; i++)
+    if (f->rotor_spin[i] > -1.0 && f->rotor_spin[i] < 1.0)
+      return toml_refuse(t, "spin", why, "%g; allowed: 1 and -1", f->rotor_spin[i]);
+  return ST_OK;
+}
+
+static status_t read_battery(toml_t t, battery_param_t *b, why_t *why) {
+  static const char *const keys[] = {"capacity_Ah", "resistance_ohm", "idle_A", "a_ApN",
+                                     "b_ApN2",      "open_V",         NULL};
+  double capacity_Ah;
+  TRY(toml_only(t, keys, why));
+  TRY(toml_double(t, "capacity_Ah", 1e-3, 1e3, &capacity_Ah, why));
+  TRY(toml_double(t, "resistance_ohm", 0.0, 10.0, &b->resistance_ohm, why));
+  TRY(toml_double(t, "idle_A", 0.0, 100.0, &b->idle_A, why));
+  TRY(toml_double(t, "a_ApN", 0.0, 1e3, &b->a_ApN, why));
+  TRY(toml_double(t, "b_ApN2", 0.0, 1e4, &b->b_ApN2, why));
+  TRY(toml_doubles(t, "open_V", BATTERY_TABLE_MAX, b->open_V, &b->n, why));
+  if (b->n < 2) return toml_refuse(t, "open_V", why, "%d numbers; allowed: 2 to %d", b->n, BATTERY_TABLE_MAX);
+  for (int i = 0; i < b->n; i++)
+    if (!(b->open_V[i] >= (i ? b->open_V[i - 1] : 0.0) && b->open_V[i] <= 100.0))
+      return toml_refuse(t, "open_V", why, "%g; allowed: 0 to 100, not falling", b->open_V[i]);
+  b->capacity_As = 3600.0 * capacity_Ah;
+  return ST_OK;
+}
+
+status_t frame_read(toml_t root, model_t *m, why_t *why) {
+  toml_t t;
+  frame_t frame = model_frame_like_crazyflie(m);
+  battery_param_t battery = {0};
+  if (toml_has(root, "body")) {
+    TRY(toml_table(root, "body", &t, why));
+    TRY(read_body(t, &frame, why));
+  }
+  if (toml_has(root, "rotors")) {
+    TRY(toml_table(root, "rotors", &t, why));
+    TRY(read_rotors(t, &frame, why));
+  }
+  if (toml_has(root, "battery")) {
+    TRY(toml_table(root, "battery", &t, why));
+    TRY(read_battery(t, &battery, why));
+  }
+  m->frame = frame;
+  m->frame_told = toml_has(root, "body") && toml_has(root, "rotors");
+  m->battery = battery;
+  return ST_OK;
+}

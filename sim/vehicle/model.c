@@ -1,0 +1,78 @@
+// model.c - the effects of a model.
+#include "vehicle/model.h"
+
+#include <string.h>
+
+// Crazyflie 2.1 with legacy propellers, decks on: the sources stand in vehicles/cf21_legacy.toml.
+#define CF_MASS_KG  0.0329
+#define CF_RADIUS_M 0.02355
+#define LIGHTEST    0.1 // of the vehicle's mass: with less left, no step of the integrator is short enough
+
+frame_t model_frame_like_crazyflie(const model_t *m) {
+  const double size = m->rotor_radius_m / CF_RADIUS_M, weight = m->mass_kg / CF_MASS_KG;
+  const double inertia = weight * size * size, arm_m = 0.03253 * size;
+  return (frame_t){
+      .inertia_kgm2 = {16.8e-6 * inertia, 16.8e-6 * inertia, 29.8e-6 * inertia},
+      .rotor_x_m = {arm_m, -arm_m, -arm_m, arm_m},
+      .rotor_y_m = {-arm_m, -arm_m, arm_m, arm_m},
+      .rotor_spin = {1.0, -1.0, 1.0, -1.0},
+      .torque_ratio_m = 0.00735 * size,
+      .kf_Ns2 = 2.0e-8 * size * size * size * size,
+      .rotor_inertia_kgm2 = 34.52e-9 * inertia,
+      .cg_above_feet_m = 0.017 * size,
+      .rotor_above_feet_m = 0.030 * size,
+      .top_above_rotor_m = 0.008 * size,
+      .top_half_m = 0.015 * size,
+  };
+}
+
+double model_fx_least(const model_t *m, const fx_use_t *use, int param) {
+  int n;
+  const double least = fx_use_params(use, &n)[param].min;
+  return use->fx == fx_find("mass") && param == 0 ? fmax(least, (LIGHTEST - 1.0) * m->mass_kg) : least;
+}
+
+static status_t check_mass(const model_t *m, const fx_use_t *use, why_t *why) {
+  const double least_kg = model_fx_least(m, use, 0);
+  if (use->fx != fx_find("mass") || use->p[0] >= least_kg) return ST_OK;
+  return error_set(why, "effect mass: add = %g kg to a vehicle of %g kg; allowed: %.3g or more", use->p[0],
+                   m->mass_kg, least_kg);
+}
+
+status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
+  TRY(check_mass(m, use, why));
+  for (int i = 0; i < m->n_fx; i++) {
+    if (m->fx[i].fx != use->fx) continue;
+    m->fx[i] = *use;
+    return ST_OK;
+  }
+  if (m->n_fx == FX_MAX)
+    return error_set(why, "effect %s: at most %d effects at once", use->fx->name, FX_MAX);
+  m->fx[m->n_fx++] = *use;
+  return ST_OK;
+}
+
+d3_t model_floor_up_w(const model_t *m) {
+  const d3_t up = d3(0.0 - m->floor_rise_x, 0.0 - m->floor_rise_y, 1.0); // no -0 where it is level
+  return d3_scale(1.0 / d3_norm(up), up);
+}
+
+void model_drop_fx(model_t *m, const fx_t *fx) {
+  for (int i = 0; i < m->n_fx; i++) {
+    if (m->fx[i].fx != fx) continue;
+    m->fx[i] = m->fx[--m->n_fx];
+    return;
+  }
+}
+
+double model_thrust_ratio(const model_t *m, const fx_place_t *place) {
+  double ratio = 1.0;
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx->excess) ratio += m->fx[i].fx->excess(&m->fx[i], place);
+  return ratio;
+}
+
+void model_sense(const model_t *m, fx_sensed_t *sensed) {
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx->sense) m->fx[i].fx->sense(&m->fx[i], sensed);
+}

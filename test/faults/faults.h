@@ -1,0 +1,125 @@
+// faults.h - one flight under a ceiling with one fault in it, what it was like, and whether that will do.
+#ifndef TEST_FAULTS_FAULTS_H
+#define TEST_FAULTS_FAULTS_H
+
+#include "base/random.h"
+#include "body/body.h"
+#include "flight/setup6.h"
+#include "pilots/pilot_flight.h"
+
+#define FAULTS_CEILING_M 0.5
+#define FAULTS_END_S     12.0
+#define FAULTS_EVER      1e3
+#define FAULTS_HOVER_S   1.5 // fault-free hover before any fault
+#define FAULTS_ERRORS    1100
+
+typedef struct row row_t;
+
+// What was seen of a flight. Times count from the onset; "after": since the fault is over by recover_s.
+typedef struct {
+  double gap_min_m, end_gap_m, up_max_mps; // up: within 5 cm of the ceiling
+  float error_m[FAULTS_ERRORS];            // of the gap, every 10 ms from the onset on
+  int n;                                   // of them
+  double seen_s, moved_s; // reason latched; 2 cm away from where it was at the onset (-1: not)
+  double hover_N, over_N; // before the fault; more than that, handed over
+  long handed_ms;
+  double onset_z_m, rise_m;           // rise within 300 ms
+  double tilt_max_deg, tilt_late_deg; // late: from 2 s on
+  double tilt_cut_deg;                // when the motors stopped; -1: not
+  double yaw_late_deg;                // likewise
+  double wanted_N, step_max_N;        // wanted thrust and its largest change in 10 ms, within 1 s
+  double pulse_N, smooth_N;           // most that the mean over 50 ms went above hover while it lasts
+  double zc_error_m;                  // largest error of the distance from 0.5 s on, while it is known
+  double shake2_early, shake2_late;   // mean square of the tilt rates in the first and in the fifth second
+  double kick_N, kick_usual_N;        // largest change of a motor's force in 1 ms: within 0.2 s, and before
+  double rise_max_m;                  // above the wanted height, after the onset
+  double full_s, full_max_s,
+      full_total_s;     // time at full thrust, near the ceiling without a break, and at all
+  double ratio_end;     // thrust ratio that the controller uses in the end
+  double weight_change; // largest relative change of a weight while it lasts
+  bool taught;          // a weight's bits changed while they must not
+  double touched_s;     // first contact with the ceiling after the onset; -1: none
+  bool bad, shadow_differs;
+  uint64_t bits;  // of all commands
+  unsigned early; // reasons latched before the onset
+} flown_fault_t;
+
+#define FAULTS_UNSEEN                                                                                        \
+  {                                                                                                          \
+    .gap_min_m = HUGE_VAL, .seen_s = -1.0, .moved_s = -1.0, .touched_s = -1.0, .over_N = -HUGE_VAL,          \
+    .tilt_cut_deg = -1.0                                                                                     \
+  }
+
+typedef struct {
+  const row_t *row;
+  random_t *r;
+  double onset_s, length_s, size;
+  unsigned pick;
+  pilot_flight_t pilot, shadow; // shadow: flies along where a row asks for it
+  pilot6_t inner, shadow_pilot;
+  plan6_t plan;
+  model_t model;
+  flight_param_t param;
+  double t_s, kept;
+  d3_t kept3;
+  double goal_m; // commanded gap; changed by rows that move
+  bool usual;    // without the fault
+  bool skip, twice, with_shadow;
+  bool frozen_weights, frozen_always; // they must not change now
+  bool memory_broken;                 // by the row, at the onset
+  double last_N[ROTORS];
+  uint32_t step_off;
+  rbf_weights_t weights;
+  flown_fault_t seen;
+} case_t;
+
+struct row {
+  const char *name;
+  char cls; // see the head of test_faults.c
+  double gap_m, length_lo, length_hi, size_lo, size_hi;
+  void (*edit)(case_t *c, pilot6_in_t *in, double since_s); // every millisecond while the fault lasts
+  unsigned reasons;                                         // one of them has to be latched; 0: none
+  double within_s;
+  double promise;           // per cent that are kept, of many; what is not 100 is in the README
+  void (*begin)(case_t *c); // before the flight
+  const char *(*also)(const case_t *c, const flown_fault_t *usual); // the row's own criterion; null: kept
+  double recover_s;                                                 // 0: 2 s
+  bool same_bits; // every command is that of the flight without the fault
+  bool touches;   // that the ceiling is never touched is not promised
+};
+
+// The table, in four parts: what the pilot is told of motion, of the ceiling; the vehicle; what is asked for,
+// and the pilot's own memory.
+typedef struct {
+  const row_t *row;
+  int n;
+} rows_t;
+
+rows_t faults_of_motion(void);
+rows_t faults_of_range(void);
+rows_t faults_of_vehicle(void);
+rows_t faults_of_state(void);
+rows_t faults_of_patience(void); // a long flight, apart
+
+// Flies the row's flight of that seed; without its fault if `usual`.
+void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual);
+
+// Looks at the flight, every millisecond, before the pilot does.
+void faults_watch(case_t *c, const body_t *truth);
+
+// The first criterion that the flight does not keep; a null pointer: it keeps all. usual: the same seed's
+// flight without the fault.
+const char *faults_judge(const case_t *c, const flown_fault_t *usual);
+
+// Prints it, for people.
+void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown_fault_t *usual);
+
+// Mean and root mean square of the gap's error, from the time on at which the flight has to have recovered.
+double faults_mean_m(const case_t *c, const flown_fault_t *f);
+double faults_rms_m(const case_t *c, const flown_fault_t *f);
+
+// Changes to the model and the vehicle, for the table.
+void faults_set_fx(case_t *c, const char *name, int p, double value);
+void faults_add_fx(case_t *c, const char *name);
+
+#endif

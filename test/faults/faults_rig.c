@@ -1,0 +1,129 @@
+// faults_rig.c - flies one case: hover under the ceiling with real sensors, the fault between them and the
+// pilot.
+#include "faults/faults.h"
+
+#include "rig/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void faults_set_fx(case_t *c, const char *name, int p, double value) {
+  for (int i = 0; i < c->model.n_fx; i++)
+    if (c->model.fx[i].fx == fx_find(name)) c->model.fx[i].p[p] = value;
+}
+
+void faults_add_fx(case_t *c, const char *name) {
+  why_t why;
+  const fx_use_t use = fx_use(fx_find(name));
+  if (model_add_fx(&c->model, &use, &why) != ST_OK) c->seen.bad = true;
+}
+
+static double flown_height_m(const case_t *c, double gap_m) {
+  return FAULTS_CEILING_M - gap_m - body_rotor_z_m(&c->model) - body_rest_z_m(&c->model);
+}
+
+static void fault(void *context, const body_t *truth, pilot6_in_t *in) {
+  case_t *const c = context;
+  faults_watch(c, truth);
+  const double since_s = c->t_s - c->onset_s;
+  const bool active = since_s > -5e-4 && since_s < c->length_s - 5e-4;
+  c->skip = c->twice = false;
+  c->frozen_weights = c->frozen_always;
+  // The commanded gap; rows that move change it.
+  if (c->plan.in_flight) in->set.pos_w_m.z = flown_height_m(c, c->goal_m);
+  if (active && c->row->edit && !c->usual) c->row->edit(c, in, since_s);
+  in->step += c->step_off;
+  c->t_s += PILOT6_PERIOD_S;
+}
+
+// FNV-1a over what the motors are told.
+static uint64_t mixed(uint64_t bits, const double motor_N[PILOT6_MOTORS]) {
+  unsigned char raw[PILOT6_MOTORS * sizeof *motor_N];
+  memcpy(raw, motor_N, sizeof raw);
+  for (size_t i = 0; i < sizeof raw; i++) bits = (bits ^ raw[i]) * 1099511628211u;
+  return bits;
+}
+
+static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+  case_t *const c = state;
+  const rbf_weights_t before = c->pilot.flight->outer.learn.rls.theta;
+  if (!c->skip) c->inner.step(c->inner.state, in, motor_N);
+  if (c->twice) c->inner.step(c->inner.state, in, motor_N);
+  if (c->with_shadow) {
+    double shadow_N[PILOT6_MOTORS];
+    c->shadow_pilot.step(c->shadow_pilot.state, in, shadow_N);
+    if (memcmp(shadow_N, motor_N, sizeof shadow_N) != 0) c->seen.shadow_differs = true;
+  }
+  if (c->frozen_weights && memcmp(&before, &c->pilot.flight->outer.learn.rls.theta, sizeof before) != 0)
+    c->seen.taught = true;
+  c->seen.bits = mixed(c->seen.bits, motor_N);
+}
+
+static void reset(void *state) {
+  case_t *const c = state;
+  c->inner.reset(c->inner.state);
+}
+
+static void draw(case_t *c, const row_t *row, uint64_t seed) {
+  c->row = row;
+  c->r = random_open(seed ^ 0x5bd1e995u);
+  c->onset_s = FAULTS_HOVER_S + 1e-3 * floor(1000.0 * random_uniform(c->r, 0.0, 0.2));
+  c->length_s = row->length_lo + (row->length_hi - row->length_lo) * random_uniform(c->r, 0.0, 1.0);
+  c->length_s = 1e-3 * ceil(1000.0 * c->length_s - 1e-6);
+  c->size = random_uniform(c->r, row->size_lo, row->size_hi);
+  c->pick = (unsigned)(random_uniform(c->r, 0.0, 1.0) * 4294967295.0);
+  c->goal_m = row->gap_m;
+}
+
+static void place(case_t *c) {
+  c->plan.start.pos_w_m.z = FAULTS_CEILING_M - c->row->gap_m - body_rotor_z_m(&c->model);
+  const fx_place_t place = {c->row->gap_m, HUGE_VAL, c->model.rotor_radius_m};
+  for (int i = 0; i < ROTORS; i++)
+    c->plan.start.thrust_N[i] = c->model.mass_kg * 9.81 / ROTORS / model_thrust_ratio(&c->model, &place);
+  c->seen.hover_N = ROTORS * c->plan.start.thrust_N[0];
+}
+
+// The parameters as they come, but for what is the vehicle's; learning goes on all the time.
+static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
+  why_t why;
+  setup6_t setup;
+  if (setup6_thesis(&setup, FLY_INDI, &why) != ST_OK) return false;
+  draw(c, row, seed);
+  c->model = setup.model;
+  params_default(&c->param);
+  c->param.pos.mass_kg = setup.flight.pos.mass_kg;
+  c->param.motor_tau_s = setup.flight.motor_tau_s;
+  c->param.curve.mode = CURVE_LIVE;
+  c->plan = setup.plan;
+  c->plan.plan.seed = seed;
+  c->plan.plan.integrate = INTEGRATE_RK4;
+  c->plan.plan.end_s = FAULTS_END_S;
+  c->plan.plan.n_way = 1;
+  c->plan.plan.way[0] = (waypoint_t){0.0, FAULTS_CEILING_M - row->gap_m};
+  c->plan.in_flight = true;
+  if (row->begin && (!c->usual || row->same_bits)) row->begin(c);
+  place(c);
+  c->plan.edit = fault;
+  c->plan.edit_context = c;
+  return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == ST_OK &&
+         pilot_flight_init(&c->shadow, &c->param, &c->model, &c->shadow_pilot) == ST_OK;
+}
+
+void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
+  *c = (case_t){.usual = usual, .seen = FAULTS_UNSEEN};
+  if (!prepare(c, row, seed)) {
+    c->seen.bad = true;
+    return;
+  }
+  const pilot6_t pilot = {.state = c, .step = step, .reset = reset};
+  why_t why;
+  record_t record = {0};
+  record6_t more = {0};
+  outcome_t outcome = {0};
+  const status_t status = loop6_fly(&c->plan, &c->model, &pilot, NULL, &record, &more, &outcome, &why);
+  c->seen.bad = c->seen.bad || status != ST_OK || !outcome.finite;
+  c->seen.ratio_end = (double)c->pilot.flight->out.outer.at.ratio;
+  record_free(&record);
+  record6_free(&more);
+  random_close(c->r);
+}

@@ -1,0 +1,206 @@
+// test_gap_program.c - the workflow's program on simulated flights: what it says, and what it writes.
+#include "exam/truth.h"
+#include "rig/gap_logs.h"
+#include "rig/programs.h"
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "rig/verdicts.h"
+#include "vehicle/model_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DRAG_KG 3e-6
+#define GAP     "gap --vehicle $S/room.toml --columns tools/columns/fly.toml "
+
+// --- something named ------------------------------------------------------------------------------------
+
+static void check_drag(const cJSON *v) {
+  const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 1 && cJSON_GetArraySize(effect) == 8);
+  CHECK_TEXT(verdict_string(effect, "name"), "rotor_drag");
+  CHECK(verdict_number(effect, "p") < 1e-4 && verdict_number(effect, "share") > 0.05);
+  CHECK(cJSON_IsArray(cJSON_GetObjectItem(effect, "rivals")) && verdict_string(effect, "fly")[0]);
+  const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
+  CHECK_NEAR(verdict_number(k, "value"), DRAG_KG, 0.1 * DRAG_KG);
+  CHECK(verdict_number(k, "stderr") > 0.0 && verdict_number(k, "stderr") < 0.1 * DRAG_KG);
+  CHECK_TEXT(verdict_string(k, "unit"), "kg");
+  const cJSON *const where = cJSON_GetObjectItem(effect, "where");
+  CHECK(strcmp(verdict_string(where, "coordinate"), "v_x") == 0 ||
+        strcmp(verdict_string(where, "coordinate"), "v_y") == 0);
+  CHECK_TEXT(verdict_string(where, "unit"), "m/s");
+  CHECK(verdict_number(where, "from") < -0.1 && verdict_number(where, "to") > 0.1);
+  const cJSON *const x = verdict_gap(v, "force_x"), *const again = cJSON_GetObjectItem(v, "resimulation");
+  CHECK(verdict_number(x, "after") < 0.8 * verdict_number(x, "before"));
+  CHECK(verdict_number(again, "after") < 0.9 * verdict_number(again, "before"));
+  CHECK_TEXT(verdict_string(again, "unit"), "m");
+}
+
+// Two flights of 20 s are 20 blocks: Student's 2.09 standard errors, where a normal distribution has 1.96.
+static void check_interval(const cJSON *v) {
+  const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+  const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
+  char *const page = scratch_text("named/report.html");
+  const char *const row = strstr(page, "<tr><td>k<td class=n>");
+  double value = 0.0, from = 0.0, to = 0.0;
+  CHECK(row && sscanf(row, "<tr><td>k<td class=n>%lf<td class=n>%lf to %lf", &value, &from, &to) == 3);
+  CHECK_NEAR(0.5 * (to - from) / verdict_number(k, "stderr"), 2.09, 0.05);
+  free(page);
+}
+
+static void check_page(void) {
+  static const char *const holds[] = {"<!doctype html>",
+                                      "<svg",
+                                      "Missing: rotor_drag",
+                                      "95 % interval",
+                                      "m/s</text>",
+                                      "two standard errors",
+                                      "On flights that were not used",
+                                      "Flown again in closed loop",
+                                      "What these flights cannot tell",
+                                      "<footer class=quiet><p>gap ",
+                                      "seed 1, ",
+                                      " rows of 3 flights</p>",
+                                      "<p><code>gap --vehicle ",
+                                      "</html>"};
+  static const char *const never[] = {"<script", "http", "src=", "href=", "url(",
+                                      "@import", ">nan", "Lnan", "Mnan"};
+  char *const page = scratch_text("named/report.html");
+  for (unsigned i = 0; i < sizeof holds / sizeof *holds; i++) {
+    ROW("%s", holds[i]);
+    CHECK(strstr(page, holds[i]));
+  }
+  for (unsigned i = 0; i < sizeof never / sizeof *never; i++) {
+    ROW("%s", never[i]);
+    CHECK(!strstr(page, never[i]));
+  }
+  free(page);
+}
+
+// The vehicle file, with its own words, and the effect with the verdict's numbers.
+static void check_model(const cJSON *v) {
+  model_t m, plain;
+  why_t why = {""};
+  char text[2000], *const file = scratch_text("named/model.toml");
+  CHECK(strstr(file, "utiasDSL/drone-models") &&
+        strstr(file, "# Found by the discrepancy workflow in 2 flights, "));
+  CHECK(strstr(file, "# Written by gap: ") == file && strstr(file, "\n# made by gap ") &&
+        strstr(file, "\n# gap --vehicle ") && strstr(file, " rows, seed 1\n"));
+  free(file);
+  CHECK_OK(model_read(scratch_path("room.toml"), &plain, &why));
+  CHECK_OK(model_read(scratch_path("named/model.toml"), &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK(m.mass_kg == plain.mass_kg && m.ceiling_m == plain.ceiling_m && plain.n_fx == 0 && m.n_fx == 1);
+  CHECK_TEXT(m.fx[0].fx->name, "rotor_drag");
+  const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+  const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
+  CHECK_NEAR(m.fx[0].p[0], verdict_number(k, "value"), 1e-8 * DRAG_KG);
+  CHECK(program_run("fly ceiling-gap --vehicle $S/named/model.toml", STREAM_ERROR, text, sizeof text) == 0);
+  CHECK_TEXT(text, "");
+}
+
+TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
+  fx_use_t hidden = fx_use(fx_find("rotor_drag"));
+  hidden.p[0] = DRAG_KG;
+  char text[4000];
+  CHECK(gap_logs_fly("c", 3, &hidden));
+  CHECK(program_run(GAP "--out $S/named --json $S/same.json $S/c?.csv", STREAM_OUTPUT, text, sizeof text) ==
+        0);
+  CHECK(strstr(text, "Missing in room.toml: rotor_drag.\n") != NULL);
+  CHECK(strstr(text, "held out: 1 of 3 flights\n") != NULL);
+  cJSON *const v = verdict_read("named/verdict.json"), *const same = verdict_read("same.json");
+  CHECK_TEXT(verdict_string(v, "verdict"), "named");
+  CHECK(cJSON_Compare(v, same, true));
+  verdict_check(v);
+  check_drag(v);
+  const cJSON *const held = cJSON_GetObjectItem(verdict_gap(v, "force_z"), "held_out");
+  CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "c2.csv"));
+  check_page();
+  check_interval(v);
+  check_model(v);
+  cJSON_Delete(v);
+  cJSON_Delete(same);
+}
+
+TEST(gap_reads_a_usd_log_as_the_same_flight_and_holds_out_what_it_is_told) {
+  fx_use_t hidden = fx_use(fx_find("rotor_drag"));
+  hidden.p[0] = DRAG_KG;
+  char text[4000];
+  double k[2];
+  CHECK(gap_logs_fly("b", 3, &hidden));
+  for (int i = 0; i < 2; i++) {
+    ROW("%s", i ? "uSD" : "CSV");
+    CHECK(program_run(i ? GAP "--json $S/k.json --hold-out $S/b1.bin $S/b?.bin"
+                        : GAP "--json $S/k.json --hold-out $S/b1.csv $S/b?.csv",
+                      STREAM_OUTPUT, text, sizeof text) == 0);
+    cJSON *const v = verdict_read("k.json");
+    const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+    CHECK_TEXT(verdict_string(effect, "name"), "rotor_drag");
+    const cJSON *const held = cJSON_GetObjectItem(verdict_gap(v, "force_x"), "held_out");
+    CHECK(cJSON_GetArraySize(held) == 1 && strstr(cJSON_GetArrayItem(held, 0)->valuestring, "b1."));
+    k[i] = verdict_number(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
+    cJSON_Delete(v);
+  }
+  CHECK_NEAR(k[1], k[0], 0.01 * k[0]); // floats: other last digits, a tenth of the standard error
+}
+
+// --- nothing, and what has no name ----------------------------------------------------------------------
+
+TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
+  char text[4000];
+  CHECK(gap_logs_fly("n", 1, NULL));
+  CHECK(program_run(GAP "--json $S/none.json $S/n0.csv", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "Nothing is missing in room.toml that these flights could show.\n") != NULL);
+  CHECK(strstr(text, "held out: the last third of the flight\n") != NULL);
+  cJSON *const v = verdict_read("none.json");
+  CHECK_TEXT(verdict_string(v, "verdict"), "none");
+  verdict_check(v);
+  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 0 &&
+        cJSON_IsNull(cJSON_GetObjectItem(v, "unknown")));
+  bool sizes = false;
+  const cJSON *one;
+  cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "warnings")) sizes |=
+      strstr(one->valuestring, "would have been seen from") != NULL;
+  CHECK(sizes);
+  cJSON_Delete(v);
+}
+
+TEST(gap_lists_what_missing_rates_leave_untested) {
+  char text[4000];
+  CHECK(gap_logs_fly("r", 1, NULL));
+  CHECK(program_run("grep -v '^gz' tools/columns/fly.toml >$S/blind.toml; gap --vehicle $S/room.toml "
+                    "--columns $S/blind.toml --json $S/blind.json $S/r0.csv",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  cJSON *const v = verdict_read("blind.json");
+  static const char *const turns[] = {"cg_offset", "flapping", "inertia", "gyroscopic"};
+  for (unsigned i = 0; i < sizeof turns / sizeof *turns; i++) {
+    ROW("%s", turns[i]);
+    bool listed = false;
+    const cJSON *one;
+    cJSON_ArrayForEach(one, cJSON_GetObjectItem(v, "not_testable")) listed |=
+        strcmp(verdict_string(one, "effect"), turns[i]) == 0 &&
+        strstr(verdict_string(one, "why"), "residuals");
+    CHECK(listed);
+  }
+  cJSON_Delete(v);
+}
+
+TEST(gap_says_where_something_without_a_name_is) {
+  char text[4000];
+  strange_t answer;
+  const fx_use_t push = truth_strange(1, 3.0, &answer);
+  CHECK(gap_logs_fly("u", 2, &push));
+  CHECK(program_run(GAP "--json $S/unknown.json $S/u?.csv", STREAM_OUTPUT, text, sizeof text) == 0);
+  cJSON *const v = verdict_read("unknown.json");
+  const cJSON *const u = cJSON_GetObjectItem(v, "unknown");
+  CHECK_TEXT(verdict_string(v, "verdict"), "unknown");
+  verdict_check(v);
+  CHECK(cJSON_GetArraySize(u) == 6);
+  CHECK_TEXT(verdict_string(u, "coordinate"), answer.coordinate);
+  CHECK(strcmp(verdict_string(u, "channel"), "force_x") == 0 ||
+        strcmp(verdict_string(u, "channel"), "force_y") == 0);
+  CHECK_TEXT(verdict_string(u, "unit"), "m/s2");
+  CHECK(verdict_number(u, "from") < verdict_number(u, "to") && verdict_number(u, "size") != 0.0);
+  cJSON_Delete(v);
+}

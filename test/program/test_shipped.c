@@ -1,0 +1,136 @@
+// test_shipped.c - what flies in a scenario is what ships, but for what its head prints.
+//
+// Held against params_default() and the app's own set after the flight: a parameter that a scenario changes
+// by any other way is in none of the lists below.
+#include "flight/params.h"
+#include "flight/scenario.h"
+#include "rig/programs.h"
+#include "rig/test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define VERTICAL                                                                                             \
+  " --set indiPos.tauMot=0.0625 --set indiPos.mass=0.032 --set indiPos.tMax=0.6 --set indiPos.biasPole=0"    \
+  " --set ceil.min=0 --set ceil.clip=0 --set rls.form=0 --set rls.lambda=0.5 --set rls.p0=1 --set rls.q=0"
+#define CLOSE  " --set ceil.blindMax=60"
+#define NOBODY NULL // the flight code does not fly
+
+// Every scenario that there is, and its exceptions.
+static const struct {
+  const char *scenario, *but;
+  bool learns;     // from nothing: the weights are the controller's
+  bool takes_long; // and has the same set-up as another row
+} SCENARIO[] = {
+    {"appendix-a", VERTICAL, false, false},   {"bias-hover", " --set indiPos.biasPole=0", false, true},
+    {"ceiling-gap", NOBODY, false, false},    {"close-flight", CLOSE, false, false},
+    {"closest-hover", VERTICAL, false, true}, {"hand-held", NOBODY, false, false},
+    {"inner-loop", "", false, false},         {"learning-1d", VERTICAL, true, false},
+    {"learning-flight", CLOSE, true, false},  {"ols-sweep", VERTICAL, true, true},
+    {"pid-tables", NOBODY, false, true},      {"rls-sweep", VERTICAL, true, true},
+    {"test-flight", CLOSE, false, false},     {"uneven-floor", "", false, false},
+};
+
+#define SCENARIOS (sizeof SCENARIO / sizeof *SCENARIO)
+
+static bool fly(const char *scenario, const fly_kind_t *kind, result_t *result) {
+  why_t why;
+  const request_t request = {.integrate =
+                                 strcmp(scenario, "hand-held") == 0 ? INTEGRATE_SUNDIALS : INTEGRATE_RK4,
+                             .kind = kind,
+                             .seed = 1};
+  return CHECK_OK(result_init(result, &why)) &&
+         CHECK_OK(scenario_find(scenario)->run(&request, result, &why));
+}
+
+// As the head prints them, from what flew and from nothing else. `brought`: what the controller's name stands
+// for.
+static void differences(const float *flew, const char *const *brought, char *text, size_t size) {
+  flight_param_t shipped;
+  params_default(&shipped);
+  size_t used = 0;
+  text[0] = '\0';
+  for (int i = 0; flew && i < params_count; i++) {
+    const param_row_t *const row = &params_table[i];
+    bool known = flew[i] == params_get(&shipped, row);
+    for (const char *const *b = brought; *b; b++) known = known || strncmp(row->name, *b, strlen(*b)) == 0;
+    if (known) continue;
+    used += (size_t)snprintf(text + used, size - used, " --set %s=%.7g", row->name, (double)flew[i]);
+    if (!CHECK(used < size)) return;
+  }
+}
+
+static void check(const char *scenario, const fly_kind_t *kind, const char *but, const char *const *brought) {
+  result_t result;
+  char flew[2000], printed[2000] = "";
+  if (!fly(scenario, kind, &result)) return;
+  differences(result.record.param, brought, flew, sizeof flew);
+  const cJSON *const set = cJSON_GetObjectItem(result.json, "set");
+  CHECK((set == NULL) == (but == NOBODY) && (result.record.param == NULL) == (but == NOBODY));
+  const cJSON *item;
+  cJSON_ArrayForEach(item, set) {
+    const size_t used = strlen(printed);
+    snprintf(printed + used, sizeof printed - used, " --set %s=%s", item->string, item->valuestring);
+  }
+  CHECK_TEXT(printed, but ? but : "");
+  CHECK_TEXT(flew, but ? but : "");
+  result_free(&result);
+}
+
+TEST(scenarios_fly_what_ships_but_for_what_their_head_prints) {
+  static const char *const mode[] = {"ceil.mode", NULL}, *const learning[] = {"ceil.mode", "ceil.w", NULL};
+  CHECK((int)SCENARIOS == scenario_count);
+  for (unsigned i = 0; i < SCENARIOS; i++) {
+    ROW("%s", SCENARIO[i].scenario);
+    if (SCENARIO[i].takes_long && !test_long()) continue;
+    check(SCENARIO[i].scenario, NULL, SCENARIO[i].but, SCENARIO[i].learns ? learning : mode);
+  }
+}
+
+TEST(controllers_bring_their_curve_and_no_other_parameter) {
+  static const struct {
+    fly_kind_t kind;
+    const char *brought[3];
+  } row[] = {
+      {FLY_INDI, {"ceil.mode"}},
+      {FLY_INDI_THEORY, {"ceil.mode"}},
+      {FLY_INDI_RBF, {NULL}},
+      {FLY_INDI_LEARNED, {"ceil.w"}},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", fly_name[row[i].kind]);
+    check("test-flight", &row[i].kind, CLOSE, row[i].brought);
+  }
+}
+
+TEST(fly_prints_what_it_flew_with_as_it_is_typed) {
+  static const struct {
+    const char *command, *says;
+  } row[] = {
+      {"fly test-flight --controller indi-rbf --integrator rk4",
+       "parameters as shipped, but for --set ceil.blindMax=60\n"},
+      {"fly test-flight --controller indi-rbf --integrator rk4 --set indiPos.kp=0.123456789 --seeds 2",
+       "parameters as shipped, but for --set indiPos.kp=0.12345679 --set ceil.blindMax=60\n"},
+      {"fly test-flight --controller indi-rbf --integrator rk4 --set ceil.blindMax=3",
+       "parameters as shipped\n"},
+      {"fly test-flight --controller stock-pid --integrator rk4", "segments\n"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].command);
+    char command[200], text[4000];
+    snprintf(command, sizeof command, "%s | head -n 1", row[i].command);
+    CHECK(program_run(command, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK_TEXT(text, row[i].says);
+  }
+}
+
+// Longer than ceil.blindMax below the range sensor's floor the app retreats: what the exception is for.
+TEST(close_flight_to_the_letter_of_the_shipped_set_retreats) {
+  char text[4000];
+  CHECK(program_run(
+            "fly close-flight --controller indi-rbf --integrator rk4 --set ceil.blindMax=3 --json $S/r.json "
+            ">$S/r.txt && sed -n '/mean_error_mm/s/[^0-9.-]//gp' $S/r.json | tail -n 1",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strtod(text, NULL) < -100.0); // at the 2 cm step it is down at guard.safeGap
+}

@@ -1,0 +1,34 @@
+// hover6.h - the flight code in the plant: a quiet flight in free air that starts in hover at 0.5 m, with
+// true measurements, and nothing from the upward range sensor.
+#ifndef TEST_RIG_HOVER6_H
+#define TEST_RIG_HOVER6_H
+
+#include "body/body.h"
+#include "pilots/pilot_flight.h"
+
+typedef struct {
+  body_t body;
+  model_t model;
+  pilot_flight_t flight;
+  pilot6_t pilot;
+  pilot6_in_t in;
+  d3_t acc_bias_b_mps2;
+  double height_off_m; // of the estimate
+} hover6_t;
+
+// *r is zeroed before. body_close(&r->body) when done.
+void hover6_start(hover6_t *r, double yaw_rad);
+
+// What is true, with the bias on the accelerometer and the height's error.
+void hover6_sense(hover6_t *r);
+
+// The same measurements for so long; motor_N is the last command.
+void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT6_MOTORS]);
+
+void hover6_fly(hover6_t *r, double span_s);
+
+double hover6_yaw_rad(const hover6_t *r);
+double hover6_tilt_rad(const hover6_t *r);
+d3_t hover6_pos_m(const hover6_t *r);
+
+#endif

@@ -1,0 +1,30 @@
+// random.h - numbers that look random and are the same in every run: splitmix64, for tests.
+#ifndef TEST_RIG_RANDOM_H
+#define TEST_RIG_RANDOM_H
+
+#include <math.h>
+#include <stdint.h>
+
+typedef struct {
+  uint64_t state; // any number is a seed
+} random_t;
+
+static inline uint64_t random_bits(random_t *r) {
+  uint64_t x = (r->state += 0x9e3779b97f4a7c15u);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Even in lo..hi.
+static inline double random_between(random_t *r, double lo, double hi) {
+  return lo + (hi - lo) * (double)(random_bits(r) >> 11) * 0x1p-53;
+}
+
+// Normal with mean 0 (Box and Muller, one of the two).
+static inline double random_normal(random_t *r, double sd) {
+  const double radius = sqrt(-2.0 * log(random_between(r, 0x1p-60, 1.0)));
+  return sd * radius * cos(random_between(r, 0.0, 6.283185307179586));
+}
+
+#endif

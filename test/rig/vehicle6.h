@@ -1,0 +1,30 @@
+// vehicle6.h - a vehicle with six degrees of freedom for tests: the numbers of the Crazyflie, nothing else.
+#ifndef TEST_RIG_VEHICLE6_H
+#define TEST_RIG_VEHICLE6_H
+
+#include "body/body.h"
+#include "rig/test.h"
+
+#define MASS_KG  0.0329
+#define WEIGHT_N (MASS_KG * 9.81)
+#define RADIUS_M 0.0225
+#define TICK_S   0.002
+
+// Without effects, battery, delay; the highest points are the blades'. ceiling_m: HUGE_VAL for none.
+model_t vehicle6(double ceiling_m);
+
+// The same with effects switched on, nominal numbers; returns where in m->fx the effect is.
+fx_use_t *vehicle6_add(model_t *m, const char *effect);
+
+// At rest, rotors' plane at rotor_z_m, each giving share of a quarter of the weight.
+body_start_t vehicle6_start(const model_t *m, double rotor_z_m, double share);
+
+// ticks of TICK_S with each rotor commanded share of a quarter of the weight.
+void vehicle6_fly(body_t *b, double share, int ticks);
+
+double vehicle6_tilt_rad(const body_t *b);
+
+// Both integrators that fly.
+extern const integrate_kind_t vehicle6_kinds[2];
+
+#endif

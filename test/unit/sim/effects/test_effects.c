@@ -1,0 +1,123 @@
+// test_effects.c - the published curves at points that are known, and what every curve must be.
+#include "effects/fx.h"
+#include "rig/test.h"
+#include "vehicle/model.h"
+
+#include <string.h>
+
+static double ratio_of(const char *form, double distance_over_radius) {
+  const curve_t *curve = curve_find(form);
+  if (!CHECK(curve != NULL)) return (double)NAN;
+  double p[FX_PARAM_MAX];
+  for (int i = 0; i < curve->n_param; i++) p[i] = curve->param[i].nominal;
+  const curve_points_t points = {.n = 3, .x = {0.1, 0.5, 1.0}, .ratio = {4.37, 1.21, 1.0}};
+  return curve->ratio(p, &points, 0.0225 * distance_over_radius, 0.0225);
+}
+
+TEST(curves_have_their_published_values) {
+  static const struct {
+    const char *form;
+    double distance_over_radius, ratio, tol;
+  } row[] = {
+      // thesis: "10 % at 2 cm", below 5 % at 7 and 10 cm; errata E2
+      {"exponential", 0.02 / 0.0225, 1.0888, 5e-5},
+      {"exponential", 0.07 / 0.0225, 1.00163, 5e-6},
+      {"exponential", 0.10 / 0.0225, 1.00015, 5e-6},
+      {"exponential", 0.0, 1.44, 1e-12},
+      // errata E2: eq. 1 at 2 and 3 cm
+      {"cheeseman-bennett", 0.02 / 0.0225, 1.0859, 5e-5},
+      {"cheeseman-bennett", 0.03 / 0.0225, 1.0364, 5e-5},
+      {"cheeseman-bennett", 0.5, 1.3333, 5e-5},
+      {"cheeseman-bennett", 0.25, 1.6, 1e-12}, // singular: the clip
+      {"cheeseman-bennett", 0.0, 1.6, 1e-12},
+      {"square-root", 0.1, 2.337, 5e-4},
+      {"square-root", 0.25, 1.366, 5e-4},
+      {"square-root", 0.5, 1.112, 5e-4},
+      {"square-root", 1.0, 1.030, 5e-4},
+      {"square-root", 2.0, 1.0078, 5e-5},
+      {"square-root", 0.0, 2.337, 5e-4}, // not measured nearer than 0.1 R
+      {"linear", 0.0, 1.1651, 1e-12},
+      {"linear", 2.0, 1.0905, 1e-12},
+      {"linear", 4.42, 1.0, 3e-4},
+      {"linear", 9.0, 1.0, 1e-12},
+      {"table", 0.05, 4.37, 1e-12},
+      {"table", 0.3, 2.79, 1e-12},
+      {"table", 0.75, 1.105, 1e-12},
+      {"table", 7.0, 1.0, 1e-12},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s at %g R", row[i].form, row[i].distance_over_radius);
+    CHECK_NEAR(ratio_of(row[i].form, row[i].distance_over_radius), row[i].ratio, row[i].tol);
+  }
+}
+
+TEST(four_rotors_feel_the_ground_more_than_one_and_from_farther) {
+  // thesis eq. 3.3 with all but the first image removed is eq. 3.1.
+  const curve_t *curve = curve_find("four-rotor");
+  if (!CHECK(curve != NULL)) return;
+  const double far_apart[] = {1e6, 1e6, 0.0, 1.6}, crazyflie[] = {0.065, 0.092, 2.0, 1.6};
+  for (int i = 1; i <= 8; i++) {
+    ROW("%d R", i);
+    const double d_m = 0.0225 * i;
+    CHECK_NEAR(curve->ratio(far_apart, NULL, d_m, 0.0225), ratio_of("cheeseman-bennett", i), 1e-12);
+    CHECK(curve->ratio(crazyflie, NULL, d_m, 0.0225) > ratio_of("cheeseman-bennett", i));
+  }
+  // By hand at z = R = 0.12 m, d = 0.35, b = 0.495, Kb = 2: 1/(1 - 1/16 - 0.0217 - 0.0048 - 0.0469).
+  const double big[] = {0.35, 0.495, 2.0, 5.0}, R = 0.12, z = 0.12;
+  const double want = 1.0 / (1.0 - 0.0625 - R * R * z / pow(0.35 * 0.35 + 4 * z * z, 1.5) -
+                             R * R / 2 * z / pow(2 * 0.35 * 0.35 + 4 * z * z, 1.5) -
+                             2 * R * R * z / pow(0.495 * 0.495 + 4 * z * z, 1.5) * 2.0);
+  CHECK_NEAR(curve->ratio(big, NULL, z, R), want, 1e-12);
+}
+
+TEST(every_curve_is_finite_falls_with_distance_and_ends_at_one) {
+  for (int c = 0; c < curve_count; c++) {
+    ROW("%s", curve_table[c]->name);
+    double before = (double)INFINITY;
+    for (double x = 0.0; x < 60.0; x = x * 1.05 + 1e-3) {
+      const double ratio = ratio_of(curve_table[c]->name, x);
+      CHECK(isfinite(ratio) && ratio >= 1.0 && ratio <= before + 1e-12);
+      before = ratio;
+    }
+    CHECK_NEAR(before, 1.0, 3e-4); // at 60 R; the four rotors are felt from farthest
+    CHECK_NEAR(ratio_of(curve_table[c]->name, (double)INFINITY), 1.0, 1e-9); // no such surface
+  }
+}
+
+TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
+  CHECK(fx_count >= 2);
+  for (int i = 0; i < fx_count + curve_count; i++) {
+    const fx_t *fx = i < fx_count ? fx_table[i] : NULL;
+    const curve_t *curve = fx ? NULL : curve_table[i - fx_count];
+    const char *name = fx ? fx->name : curve->name, *brief = fx ? fx->brief : curve->brief;
+    ROW("%s", name);
+    CHECK(strlen(brief) > 10);
+    const int n = fx ? fx->n_param : curve->n_param;
+    for (int k = 0; k < n; k++) {
+      const fx_param_t *p = fx ? &fx->param[k] : &curve->param[k];
+      CHECK(p->min < p->max && p->nominal >= p->min && p->nominal <= p->max);
+    }
+    if (fx && fx->surface)
+      CHECK(curve_find(fx->form_initial) && (curve_find(fx->form_initial)->surfaces & fx->surface));
+  }
+}
+
+TEST(model_replaces_an_effect_of_the_same_name) {
+  model_t m = {.n_fx = 0};
+  why_t why;
+  fx_use_t use = fx_use(fx_find("ceiling"));
+  CHECK_OK(model_add_fx(&m, &use, &why));
+  use.p[0] = 0.6;
+  CHECK_OK(model_add_fx(&m, &use, &why));
+  CHECK(m.n_fx == 1 && m.fx[0].p[0] == 0.6);
+  use = fx_use(fx_find("ground"));
+  CHECK_OK(model_add_fx(&m, &use, &why));
+  CHECK(m.n_fx == 2 && m.fx[1].fx == fx_find("ground"));
+}
+
+TEST(every_effect_does_something) {
+  for (int i = 0; i < fx_count; i++) {
+    ROW("%s", fx_table[i]->name);
+    CHECK(fx_table[i]->excess || fx_table[i]->load || fx_table[i]->tick || fx_table[i]->sense);
+  }
+}

@@ -1,0 +1,207 @@
+// test_flights6.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds (issue 3,
+// claims 26 to 28, appendix C.3).
+#include "flight/scenario.h"
+#include "pilots/pilot_flight.h"
+#include "rig/rig6.h"
+#include "rig/test.h"
+
+#include <string.h>
+
+#define SEEDS   10
+#define LADDER  6 // segments of the close flight: 20, 10, 8, 6, 4, 2 cm
+#define AT_4_CM 4
+#define AT_2_CM 5
+#define AT_3_CM 3 // of the test flight
+
+static const request_t FAST = {.integrate = INTEGRATE_RK4};
+
+// The flight of that scenario, controller and seed, as JSON; delete it after use.
+static cJSON *fly(const char *scenario, fly_kind_t kind, uint64_t seed) {
+  request_t request = FAST;
+  request.kind = &kind;
+  request.seed = seed;
+  result_t result;
+  why_t why;
+  if (!CHECK_OK(result_init(&result, &why))) return NULL;
+  CHECK_OK(scenario_find(scenario)->run(&request, &result, &why));
+  cJSON *json = cJSON_Duplicate(result.json, true);
+  result_free(&result);
+  return json;
+}
+
+static double of(const cJSON *json, const char *table, int row, const char *key) {
+  const cJSON *cell = cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(json, table), row), key);
+  return cJSON_IsNumber(cell) ? cell->valuedouble : (double)NAN;
+}
+
+// Of ten close flights: how many touched the ceiling in segments first..last.
+static int touching(fly_kind_t kind, int first, int last) {
+  int flights = 0;
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    cJSON *json = fly("close-flight", kind, seed);
+    CHECK(cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")));
+    double contacts = 0.0;
+    for (int i = first; i <= last; i++) contacts += of(json, "segments", i, "contacts");
+    flights += contacts > 0.0;
+    cJSON_Delete(json);
+  }
+  return flights;
+}
+
+TEST(flights6_standard_indi_holds_4_cm_and_touches_at_2_cm) {
+  CHECK(touching(FLY_INDI, 0, AT_4_CM) == 0);
+  CHECK(touching(FLY_INDI, AT_2_CM, LADDER - 1) >= 9);
+}
+
+static const struct {
+  const char *what;
+  fly_kind_t kind;
+} adapted[] = {{"theory", FLY_INDI_THEORY}, {"fitted", FLY_INDI_RBF}, {"learned", FLY_INDI_LEARNED}};
+
+#define ADAPTED (sizeof adapted / sizeof *adapted)
+
+TEST(flights6_adapted_indi_stays_off_the_ceiling_at_2_cm) {
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    CHECK(touching(adapted[i].kind, 0, LADDER - 1) == 0);
+  }
+}
+
+TEST(flights6_adapted_indi_hovers_level_and_where_it_was_told_at_2_cm) {
+  // Without the ceiling's term in roll and pitch 6 to 9 mm low, and tilts of 12 to 20 degrees. Of what is
+  // left 1.9 mm is there without any noise (1.2 to 1.5 mm still to be climbed after 10 s), and the rest goes
+  // with the wandering over the ground, which the bias observer's velocity makes wider (-2.4 mm without it).
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    double error_mm = 0.0, tilt_deg = 0.0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+      cJSON *json = fly("close-flight", adapted[i].kind, seed);
+      error_mm += of(json, "segments", AT_2_CM, "mean_error_mm") / SEEDS;
+      tilt_deg = fmax(tilt_deg, of(json, "segments", AT_2_CM, "tilt_max_deg"));
+      cJSON_Delete(json);
+    }
+    CHECK_NEAR(error_mm, -4.0, 0.8);
+    CHECK(tilt_deg < 7.0);
+  }
+}
+
+// Of the flights that touched nothing: how many, and the mean of their standard deviations. One that
+// touched bounces, and says nothing of how calm it was.
+static double free_sd_mm(fly_kind_t kind, int segment, int *flights) {
+  double sum = 0.0;
+  *flights = 0;
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    cJSON *json = fly("test-flight", kind, seed);
+    if (cJSON_GetObjectItem(json, "contacts")->valueint == 0) {
+      sum += of(json, "segments", segment, "sd_mm");
+      ++*flights;
+    }
+    cJSON_Delete(json);
+  }
+  return sum / *flights;
+}
+
+TEST(flights6_adapted_indi_is_calmer_at_3_cm) {
+  int flights;
+  const double standard_mm = free_sd_mm(FLY_INDI, AT_3_CM, &flights);
+  CHECK(flights >= 5);
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    CHECK(free_sd_mm(adapted[i].kind, AT_3_CM, &flights) <= 0.6 * standard_mm);
+    CHECK(flights >= 5);
+  }
+}
+
+TEST(flights6_are_the_same_bits_for_the_same_seed) {
+  for (int kind = 0; kind < FLY_COUNT; kind++) {
+    if (!fly_name[kind] || kind == FLY_PID || kind == FLY_PID_FF) continue;
+    ROW("%s", fly_name[kind]);
+    char *text[3];
+    for (int i = 0; i < 3; i++) {
+      cJSON *json = fly("test-flight", (fly_kind_t)kind, i == 2 ? 8 : 7);
+      cJSON_DeleteItemFromObject(json, "realtime_factor");
+      text[i] = cJSON_PrintUnformatted(json);
+      cJSON_Delete(json);
+    }
+    CHECK_TEXT(text[0], text[1]);
+    CHECK(strcmp(text[0], text[2]) != 0);
+    for (int i = 0; i < 3; i++) cJSON_free(text[i]);
+  }
+}
+
+typedef struct {
+  rig6_t rig;
+  pilot_flight_t state;
+  pilot6_t pilot;
+  pilot6_setpoint_t set;
+} vehicle_t;
+
+static void vehicle_init(vehicle_t *v, d3_t from_m, d3_t to_m) {
+  rig6_param_t body = rig6_crazyflie();
+  body.ceiling_m = 0.5;
+  v->rig = rig6_at(&body, from_m, 0.0, true);
+  flight_param_t param;
+  params_default(&param);
+  CHECK_OK(pilot_flight_init(&v->state, &param, NULL, &v->pilot));
+  v->set = rig6_hold(to_m, 0.3);
+}
+
+static void vehicle_ms(vehicle_t *v) {
+  const pilot6_in_t in = rig6_sense(&v->rig, &v->set);
+  double motor_N[PILOT6_MOTORS];
+  v->pilot.step(v->pilot.state, &in, motor_N);
+  rig6_step(&v->rig, motor_N);
+}
+
+TEST(flights6_two_vehicles_in_one_process_do_not_know_of_each_other) {
+  static vehicle_t alone, one, other;
+  const d3_t from_m = {0.0, 0.0, 0.3}, to_m = {0.1, -0.1, 0.44}, away_m = {2.0, 1.0, 0.2};
+  vehicle_init(&alone, from_m, to_m);
+  vehicle_init(&one, from_m, to_m);
+  vehicle_init(&other, away_m, from_m);
+  for (int ms = 0; ms < 3000; ms++) vehicle_ms(&alone);
+  for (int ms = 0; ms < 3000; ms++) {
+    vehicle_ms(&one);
+    vehicle_ms(&other);
+  }
+  CHECK(memcmp(&alone.rig.pos_w_m, &one.rig.pos_w_m, sizeof(d3_t)) == 0);
+  CHECK(memcmp(&alone.rig.rate_b_radps, &one.rig.rate_b_radps, sizeof(d3_t)) == 0);
+  CHECK(memcmp(alone.rig.force_N, one.rig.force_N, sizeof one.rig.force_N) == 0);
+  CHECK(d3_norm(d3_sub(other.rig.pos_w_m, one.rig.pos_w_m)) > 0.1);
+}
+
+TEST(flights6_height_is_wrong_by_what_the_accelerometer_costs) {
+  const uint64_t seeds[] = {1, 2, 3};
+  for (int s = 0; s < 3; s++) {
+    cJSON *json = fly("bias-hover", FLY_INDI, seeds[s]);
+    CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(json, "bias")) == 4);
+    for (int i = 0; i < 4; i++) {
+      ROW("seed %d, %g m/s2", (int)seeds[s], of(json, "bias", i, "bias_mps2"));
+      const double predicted_mm = of(json, "bias", i, "predicted_mm");
+      CHECK_NEAR(predicted_mm, -365.2 * of(json, "bias", i, "bias_mps2"), 0.01);
+      CHECK_NEAR(of(json, "bias", i, "error_mm"), predicted_mm, 0.1 * fabs(predicted_mm));
+      CHECK_NEAR(of(json, "bias", i, "shift_mm"), predicted_mm, 0.1 * fabs(predicted_mm));
+    }
+    cJSON_Delete(json);
+  }
+}
+
+TEST(flights6_gate_keeps_the_ceiling_where_it_is) {
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    ROW("seed %d", (int)seed);
+    const request_t request = {.seed = seed};
+    result_t result;
+    why_t why;
+    if (!CHECK_OK(result_init(&result, &why))) return;
+    CHECK_OK(scenario_find("hand-held")->run(&request, &result, &why));
+    for (int i = 0; i < 10; i++) {
+      const double gap_mm = of(result.json, "ceiling_height", i, "gap_mm");
+      CHECK_NEAR(of(result.json, "ceiling_height", i, "stays_40_gate_mm"), 500.0, 5.0);
+      CHECK_NEAR(of(result.json, "ceiling_height", i, "says_0_gate_mm"), 500.0, 5.0);
+      if (gap_mm > 50.0) CHECK_NEAR(of(result.json, "ceiling_height", i, "says_0_no_gate_mm"), 500.0, 5.0);
+    }
+    CHECK(of(result.json, "ceiling_height", 9, "says_0_no_gate_mm") < 485.0);
+    CHECK(of(result.json, "ceiling_height", 9, "stays_40_no_gate_mm") > 515.0);
+    result_free(&result);
+  }
+}

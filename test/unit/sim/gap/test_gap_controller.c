@@ -1,0 +1,104 @@
+// test_gap_controller.c - nominal flights by the controller that the vehicle file names: it does with
+// noise what it did in the log.
+#include "base/by_size.h"
+#include "exam/flights.h"
+#include "gap/diagnose.h"
+#include "rig/gap_logs.h"
+#include "rig/programs.h"
+#include "rig/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  model_t vehicle;
+  gap_flight_t flight;
+  set_t set;
+  manner_t manner;
+} rig_t;
+
+// A flight in which nothing is hidden.
+static status_t rig_make(rig_t *r, bool indi, why_t *why) {
+  grid_t *const grid = calloc(2, sizeof *grid);
+  double *residual[CHANNELS];
+  *r = (rig_t){.set = {.n_grid = 0}};
+  TRY(exam_vehicle(&r->vehicle, why));
+  const exam_flight_t job = {.truth = &r->vehicle, .indi = indi, .seed = 52003};
+  TRY(exam_fly(&job, &r->flight, why));
+  TRY(grid_make(&grid[0], &r->flight, 0, r->flight.n, &r->vehicle, why));
+  TRY(set_make(&r->set, grid, 1, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    residual[ch] = calloc((size_t)set_rows(&r->set, ch)->n + 1, sizeof(double));
+  TRY(residual_of(&r->set, &r->vehicle, residual, why));
+  r->manner = manner_of(&r->set, &r->vehicle, residual);
+  for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
+  return ST_OK;
+}
+
+// Median of what a motor's command changes from sample to sample: noise that the controller fed back.
+static double restless_N(const gap_flight_t *f) {
+  double *const step_N = malloc((size_t)f->n * sizeof *step_N);
+  if (!step_N) abort();
+  for (int i = 1; i < f->n; i++) step_N[i - 1] = fabs(f->v[SIG_M1][i] - f->v[SIG_M1][i - 1]);
+  qsort(step_N, (size_t)f->n - 1, sizeof *step_N, by_size);
+  const double median_N = step_N[f->n / 2];
+  free(step_N);
+  return median_N;
+}
+
+static double nominal_restless_N(const rig_t *r, flown_by_kind_t kind) {
+  gap_flight_t flown;
+  why_t why = {""};
+  model_t m = r->vehicle;
+  m.flown_by = (flown_by_t){.kind = kind, .pid = stock_pid_default()};
+  if (!CHECK_OK(nominal_fly(&r->set.grid[0], &m, &r->manner, 5, &flown, NULL, &why))) return 0.0;
+  const double median_N = restless_N(&flown);
+  gap_flight_free(&flown);
+  return median_N;
+}
+
+TEST(gap_nominal_flights_by_the_log_s_controller_feed_noise_back_as_it_does) {
+  static const struct {
+    const char *what;
+    bool indi;
+    flown_by_kind_t kind;
+  } row[] = {{"firmware's PID", false, FLOWN_BY_STOCK_PID}, {"flight code", true, FLOWN_BY_INDI}};
+  for (int i = 0; i < 2; i++) {
+    rig_t r;
+    why_t why = {""};
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(rig_make(&r, row[i].indi, &why))) return;
+    const double real_N = restless_N(&r.flight), known_N = nominal_restless_N(&r, row[i].kind),
+                 fitted_N = nominal_restless_N(&r, FLOWN_BY_UNKNOWN);
+    CHECK_NEAR(known_N / real_N, 1.0, 0.3); // its noise and its disturbance are estimates
+    CHECK(fabs(fitted_N - real_N) > fabs(known_N - real_N));
+    set_free(&r.set);
+    gap_flight_free(&r.flight);
+  }
+}
+
+TEST(gap_flies_nominal_flights_by_the_vehicle_file_s_controller_and_keeps_it) {
+  char text[6000];
+  CHECK(gap_logs_fly("own", 3, NULL));
+  CHECK(program_run("cp $S/room.toml $S/own.toml; printf '\\n[controller]\\nkind = \"stock-pid\"\\n"
+                    "pid_rate.roll_kp = 250\\n' >>$S/own.toml; gap --vehicle $S/own.toml --columns "
+                    "tools/columns/fly.toml --out $S/own $S/own?.csv",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "Nothing is missing in own.toml that these flights could show.\n") == text);
+  CHECK(program_run("grep -A2 controller $S/own/model.toml; fly hand-held --vehicle $S/own/model.toml",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "[controller]\nkind = \"stock-pid\"\npid_rate.roll_kp = 250\n") == text);
+}
+
+TEST(gap_cannot_tell_where_the_vehicle_file_s_controller_does_not_fly_it) {
+  char text[6000];
+  CHECK(gap_logs_fly("odd", 2, NULL));
+  CHECK(program_run("cp $S/room.toml $S/odd.toml; printf '\n[controller]\nkind = \"stock-pid\"\n"
+                    "posCtlPid.thrustBase = 0\nposCtlPid.thrustMin = 0\nvelCtlPid.vzKp = 0\n"
+                    "velCtlPid.vzKi = 0\n' >>$S/odd.toml; "
+                    "gap --vehicle $S/odd.toml --columns tools/columns/fly.toml $S/odd?.csv",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "These flights cannot tell what is missing in odd.toml.\n") == text);
+  CHECK(strstr(text, "note: the model could not be flown along these tracks") != NULL);
+}

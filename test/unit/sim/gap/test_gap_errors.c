@@ -1,0 +1,145 @@
+// test_gap_errors.c - what stands behind a number: the truth lies within it.
+#include "rig/gap_case.h"
+#include "rig/programs.h"
+#include "rig/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+TEST(gap_gives_errors_that_hold_what_was_hidden) {
+  static const struct {
+    const char *name;
+    double p[2];
+  } row[] = {
+      {"delay", {0.010}},       {"inertia", {0.3, -0.1}}, {"flapping", {1.3e-8}},
+      {"motor_lag", {0.025}},   {"tof_latency", {0.025}}, {"tof_latency", {0.06}},
+      {"climb_inflow", {3e-6}}, {"inertia", {0.1, 0.1}},  {"cg_offset", {0.0015, -0.001}},
+  };
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) {
+    ROW("%s %g", row[i].name, row[i].p[0]);
+    const gap_hidden_t hidden = {1, {gap_effect(row[i].name, row[i].p[0], row[i].p[1])}};
+    gap_case_t *const c = gap_case(&hidden, &hidden);
+    const named_t *const named = gap_case_named(c, row[i].name);
+    const fx_use_t *const truth = &hidden.use[0];
+    CHECK(named);
+    for (int k = 0; named && k < truth->fx->n_size; k++) {
+      const double value = truth->p[truth->fx->size[k].param];
+      CHECK_NEAR(named->value[k], value, 2.0 * named->stderr_[k]);
+      CHECK(named->stderr_[k] < 0.5 * fabs(value)); // it is no wild guess either
+    }
+    gap_case_free(c);
+  }
+}
+
+// The gyro's filter and the hold of a command are late, too; no log tells how much, and this columns file
+// does not either.
+TEST(gap_gives_errors_that_hold_the_lateness_of_instruments) {
+  static const struct {
+    const char *name, *effect;
+    double value;
+  } row[] = {{"delay", "delay:add=0.01", 0.01}, {"motor_lag", "motor_lag:add=0.025", 0.025}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    ROW("%s", row[i].effect);
+    char line[700], text[200];
+    double value = 0.0, stderr_ = 0.0;
+    snprintf(
+        line, sizeof line,
+        "(echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/vehicle.toml; for k in 1 2 "
+        "3; do "
+        "fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 --effect %s "
+        "--seed $k --log $S/late$k.csv --log-rate 500; done >$S/fly.txt; "
+        "sed 's/, late_ms = [0-9.]*//' tools/columns/fly.toml >$S/silent.toml; "
+        "gap --vehicle $S/vehicle.toml --columns $S/silent.toml --json $S/late.json $S/late?.csv "
+        ">$S/gap.txt; "
+        "grep -A6 '\"name\".*%s' $S/late.json | tr -dc 'a-z0-9.:,e\n-' | sed -n 's/^value:\\|^stderr://p'",
+        row[i].effect, row[i].name);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK(sscanf(text, "%lf,%lf", &value, &stderr_) == 2);
+    CHECK_NEAR(value, row[i].value, 2.0 * stderr_);
+  }
+}
+
+// A wind that blew in the fitted flights alone would else go into the accelerometer's bias.
+TEST(gap_keeps_the_values_of_the_others_when_it_withdraws_a_name) {
+  const fx_use_t bias = gap_effect("accel_bias", 0.3, 0.0), wind = gap_effect("wind", 0.006, 0.0);
+  const gap_hidden_t fit = {2, {bias, wind}}, held = {1, {bias}};
+  gap_case_t *const c = gap_case(&fit, &held);
+  const named_t *const named = gap_case_named(c, "accel_bias");
+  CHECK(c->d.n_withdrawn == 1 && c->d.withdrawn[0].fx == fx_find("wind"));
+  if (CHECK(named)) CHECK_NEAR(named->value[0], 0.3, 3.0 * named->stderr_[0]);
+  gap_case_free(c);
+}
+
+// Attitude control commands at 500 Hz: what a slow log misses of it looks like inertia, or like a lag.
+TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
+  static const struct {
+    const char *scenario, *controller;
+    int seed, every; // of 100 Hz
+  } row[] = {{"test-flight", "indi-theory", 2, 2},
+             {"close-flight", "indi-theory", 1, 1},
+             {"close-flight", "stock-pid", 2, 1}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    ROW("%s by %s at %d Hz", row[i].scenario, row[i].controller, 100 / row[i].every);
+    char line[600], text[4000];
+    snprintf(
+        line, sizeof line,
+        "(echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly %s "
+        "--controller "
+        "%s "
+        "--effect none --effect rotor_drag:k=1.7e-6 --seed %d --log $S/all.csv --log-rate 100 >$S/fly.txt; "
+        "awk 'NR == 1 || NR %% %d == 0' $S/all.csv >$S/slow.csv; "
+        "gap --vehicle $S/vehicle.toml --columns tools/columns/fly.toml $S/slow.csv",
+        row[i].scenario, row[i].controller, row[i].seed, row[i].every);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK(strstr(text, "Nothing is missing in vehicle.toml"));
+  }
+}
+
+TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
+  static const struct {
+    const char *effect;
+    int rate_Hz, every;
+    const char *named, *rival; // rival: a null pointer: none
+  } row[] = {
+      {"mass:add=0.0016", 100, 1, "thrust_scale", "mass"}, // the wrong name, and the right one beside it
+      {"mass:add=0.0016", 100, 2, "thrust_scale", "mass"},
+      {"thrust_scale:k=-0.05", 100, 1, "thrust_scale", "mass"},
+      {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", NULL},
+  };
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    ROW("%s, %d Hz", row[i].effect, row[i].rate_Hz / row[i].every);
+    char line[600], text[4000], name[80], rivals[80];
+    snprintf(line, sizeof line,
+             "(echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly "
+             "test-flight "
+             "--controller stock-pid --effect none --effect rotor_drag:k=1.7e-6 --effect %s --log $S/all.csv "
+             "--log-rate %d >$S/fly.txt; awk 'NR == 1 || NR %% %d == 0' $S/all.csv >$S/slow.csv; "
+             "gap --vehicle $S/vehicle.toml --columns tools/columns/fly.toml $S/slow.csv",
+             row[i].effect, row[i].rate_Hz, row[i].every);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    snprintf(rivals, sizeof rivals, "would do as well: %s", row[i].rival ? row[i].rival : "");
+    snprintf(name, sizeof name, "Missing in vehicle.toml: %s", row[i].named);
+    CHECK(strstr(text, name) == text);
+    CHECK((strstr(text, rivals) != NULL) == (row[i].rival != NULL));
+  }
+}
+
+TEST(gap_says_that_a_range_bias_may_be_in_the_height_too) {
+  // Both sensors read too much by 20 mm, and the estimator believes the one below.
+  char text[4000];
+  CHECK(program_run(
+            "(echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/vehicle.toml; fly "
+            "close-flight "
+            "--controller stock-pid --effect none --effect rotor_drag:k=1.7e-6 --effect tof_bias:add=0.02 "
+            "--log "
+            "$S/bias.csv --log-rate 100 >$S/fly.txt; gap --vehicle $S/vehicle.toml --columns "
+            "tools/columns/fly.toml $S/bias.csv",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+  const char *const told = strstr(text, "tof_bias: the range sensors read too much by a constant\n  add ");
+  if (CHECK(told)) CHECK_NEAR(strtod(strstr(told, "add ") + 4, NULL), 0.04, 0.005);
+  CHECK(
+      strstr(text, "note: tof_bias: where the log's height comes from a range sensor with the same error") !=
+      NULL);
+}

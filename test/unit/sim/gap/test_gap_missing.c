@@ -1,0 +1,124 @@
+// test_gap_missing.c - logs in which columns are missing: what is left is used, or it is said what is needed.
+#include "gap/diagnose.h"
+#include "rig/flight_csv.h"
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const signal_id_t MOTOR[] = {SIG_M1, SIG_M2, SIG_M3, SIG_M4, SIG_W1, SIG_W2, SIG_W3, SIG_W4};
+#define MOTORS_ALL 8
+
+static const signal_id_t ANY[] = {SIG_X,  SIG_Y,  SIG_Z,  SIG_VX, SIG_VY, SIG_VZ, SIG_AX,   SIG_AY,   SIG_AZ,
+                                  SIG_QW, SIG_QX, SIG_QY, SIG_QZ, SIG_GX, SIG_GY, SIG_GZ,   SIG_M1,   SIG_M2,
+                                  SIG_M3, SIG_M4, SIG_W1, SIG_W2, SIG_W3, SIG_W4, SIG_VBAT, SIG_RANGE};
+#define ANY_ALL ((int)(sizeof ANY / sizeof *ANY))
+
+typedef struct {
+  char path[400];
+  model_t vehicle;
+  columns_t columns;
+} log_t;
+
+static log_t log_of(int rows) {
+  log_t log = {.columns = flight_csv_columns()};
+  why_t why;
+  snprintf(log.path, sizeof log.path, "%s", flight_csv_file(&(flight_csv_t){.rows = rows}, "missing.csv"));
+  CHECK_OK(model_builtin("cf21_legacy", &log.vehicle, &why));
+  return log;
+}
+
+static void leave_out(log_t *log, signal_id_t signal) {
+  log->columns.of[signal].column[0] = '\0';
+}
+
+static bool whole(const log_t *log, signal_id_t first, int n) {
+  for (int i = 0; i < n; i++)
+    if (!log->columns.of[(int)first + i].column[0]) return false;
+  return true;
+}
+
+// To the rows that everything is fitted to.
+static status_t to_rows(const gap_flight_t *f, const model_t *vehicle, why_t *why) {
+  set_t set = {.grid = NULL};
+  grid_t *const grid = calloc(1, sizeof *grid);
+  if (!grid) abort();
+  status_t status = grid_make(grid, f, 0, f->n, vehicle, why);
+  if (status == ST_OK) {
+    status = set_make(&set, grid, 1, why);
+    set_free(&set);
+    return status;
+  }
+  grid_free(grid);
+  free(grid);
+  return status;
+}
+
+static status_t to_verdict(gap_flight_t *f, const model_t *vehicle, why_t *why) {
+  diagnosis_t *const d = calloc(1, sizeof *d);
+  const gap_flights_t flights = {f, 1};
+  const diagnose_job_t job = {.fit = &flights, .model = vehicle, .seed = 1};
+  if (!d) abort();
+  const status_t status = diagnose(&job, d, why);
+  diagnosis_free(d);
+  free(d);
+  return status;
+}
+
+// all_stages: through every stage of the workflow.
+static status_t take(const log_t *log, bool all_stages, why_t *why) {
+  gap_flight_t f;
+  status_t status = gap_read(&f, log->path, &log->columns, &log->vehicle, why);
+  if (status == ST_OK)
+    status = all_stages ? to_verdict(&f, &log->vehicle, why) : to_rows(&f, &log->vehicle, why);
+  gap_flight_free(&f);
+  return status;
+}
+
+// Motors count together, commands with the voltage that the thrust map takes.
+static bool is_enough(const log_t *log) {
+  return (whole(log, SIG_M1, 4) && whole(log, SIG_VBAT, 1)) || whole(log, SIG_W1, 4);
+}
+
+static void check(const log_t *log, const char *what, bool all_stages) {
+  why_t why = {""};
+  ROW("%s", what);
+  const status_t got = take(log, all_stages, &why);
+  if (is_enough(log)) {
+    CHECK(got == ST_OK || strstr(why.text, "no instant at which") != NULL);
+    return;
+  }
+  CHECK(got == ST_BAD_INPUT);
+  CHECK(strstr(why.text, "neither motor commands nor rotor speeds; one of them is needed") != NULL);
+}
+
+TEST(gap_takes_motors_whole_whichever_of_their_columns_are_missing) {
+  const log_t all = log_of(300);
+  for (int mask = 0; mask < 1 << MOTORS_ALL; mask++) {
+    log_t log = all;
+    char what[80] = "without";
+    for (int i = 0; i < MOTORS_ALL; i++) {
+      if (!(mask & 1 << i)) continue;
+      leave_out(&log, MOTOR[i]);
+      snprintf(what + strlen(what), sizeof what - strlen(what), " %s", columns_name(MOTOR[i]));
+    }
+    check(&log, what, test_long());
+  }
+}
+
+TEST(gap_takes_a_log_of_which_any_two_columns_are_missing) {
+  const log_t all = log_of(300);
+  for (int i = 0; i < ANY_ALL; i++) {
+    for (int k = i; k < ANY_ALL; k++) {
+      log_t log = all;
+      char what[80];
+      leave_out(&log, ANY[i]);
+      leave_out(&log, ANY[k]);
+      snprintf(what, sizeof what, "without %s, %s", columns_name(ANY[i]), columns_name(ANY[k]));
+      check(&log, what, i == k || test_long());
+    }
+  }
+}

@@ -1,0 +1,127 @@
+// test_gap_real.c - the workflow on recorded flights: what their publishers know is found.
+#include "body/body.h"
+#include "gap/2_predict/lines.h"
+#include "gap/diagnose.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define FLIGHTS 3
+
+typedef struct {
+  model_t vehicle;
+  gap_flight_t flight[FLIGHTS + 1]; // the last one is held out
+  diagnosis_t d;
+} case_t;
+
+static void read_all(case_t *c, const char *columns_path, const char *const file[FLIGHTS + 1]) {
+  columns_t columns;
+  why_t why;
+  CHECK_OK(columns_read(columns_path, &columns, &why));
+  for (int i = 0; i <= FLIGHTS; i++) {
+    char path[600];
+    if (!file[i]) continue;
+    snprintf(path, sizeof path, "%s/%s", test_data_dir(), file[i]);
+    CHECK_OK(gap_read(&c->flight[i], path, &columns, &c->vehicle, &why));
+  }
+}
+
+static void run(case_t *c, int n) {
+  const gap_flights_t fit = {c->flight, n}, held = {c->flight + FLIGHTS, 1};
+  const diagnose_job_t job = {.fit = &fit, .held = &held, .model = &c->vehicle, .seed = 1};
+  why_t why;
+  CHECK_OK(diagnose(&job, &c->d, &why));
+}
+
+static void close(case_t *c) {
+  diagnosis_free(&c->d);
+  for (int i = 0; i <= FLIGHTS; i++) gap_flight_free(&c->flight[i]);
+  free(c);
+}
+
+static const named_t *named(const case_t *c, const char *name) {
+  for (int i = 0; i < c->d.found.n; i++)
+    if (c->d.candidates.candidate[c->d.found.named[i].candidate].use.fx == fx_find(name))
+      return &c->d.found.named[i];
+  return NULL;
+}
+
+// rms of what a model leaves of the vertical force where less than 7 cm are below the vehicle, in newton.
+static double low_rms_N(case_t *c, const model_t *m) {
+  lines_t l;
+  why_t why;
+  double sum = 0.0;
+  int n = 0;
+  CHECK_OK(lines_make(&l, &c->d.held, &why));
+  CHECK_OK(residual_of(&c->d.held, m, l.r, &why));
+  const rows_t *rows = set_rows(&c->d.held, CH_FZ);
+  for (int i = 0; i < rows->n; i++) {
+    const grid_t *g = &c->d.held.grid[rows->flight[i]];
+    if (!(g->point[rows->point[i]].pos_w_m.z - body_rest_z_m(m) < 0.07)) continue;
+    sum += l.r[CH_FZ][i] * l.r[CH_FZ][i];
+    n++;
+  }
+  lines_free(&l);
+  CHECK(n > 100);
+  return m->mass_kg * sqrt(sum / fmax(n, 1.0));
+}
+
+TEST(gap_names_the_ground_first_in_the_recorded_walks_above_it) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = calloc(1, sizeof *c);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_neural_swarm", &c->vehicle, &why));
+  read_all(c, "tools/columns/neural_swarm.toml",
+           (const char *[]){"ground_effect/21_randomwalk_s_cf50_00.csv",
+                            "ground_effect/21_randomwalk_s_cf50_02.csv", NULL,
+                            "ground_effect/21_randomwalk_s_cf50_04.csv"});
+  run(c, 2);
+  CHECK(c->d.found.n > 0 && named(c, "ground") == &c->d.found.named[0]);
+  const gap_part_t *z = &c->d.held_out.channel[CH_FZ];
+  CHECK(z->after_sd < 0.5 * z->before_sd);
+  // A third of 21 mN was hoped for: without what touches the ground it is 9.7 mN before and 4.3 after.
+  CHECK(low_rms_N(c, &c->d.extended) < 0.5 * low_rms_N(c, &c->vehicle));
+  close(c);
+}
+
+// Flights with rotor speeds, diagnosed with a vehicle that has neither lag nor drag. third: may be null.
+static case_t *with_rotor_speeds(const char *third, const char *held) {
+  case_t *c = calloc(1, sizeof *c);
+  char file[2][40];
+  why_t why;
+  CHECK_OK(model_builtin("cf21_imrc", &c->vehicle, &why));
+  c->vehicle.motor_tau_s = 1e-3;
+  snprintf(file[0], sizeof file[0], "imu_rpm_500hz/%s.csv", third ? third : "");
+  snprintf(file[1], sizeof file[1], "imu_rpm_500hz/%s.csv", held);
+  read_all(c, "tools/columns/imrc.toml",
+           (const char *[]){"imu_rpm_500hz/jana00.csv", "imu_rpm_500hz/jana03.csv", third ? file[0] : NULL,
+                            file[1]});
+  run(c, third ? 3 : 2);
+  return c;
+}
+
+TEST(gap_names_lag_and_rotor_drag_in_the_recorded_flights_with_rotor_speeds) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = with_rotor_speeds("jana05", "jana10");
+  const named_t *lag = named(c, "motor_lag"), *drag = named(c, "rotor_drag");
+  if (CHECK(lag != NULL)) CHECK_NEAR(lag->value[0], 0.076, 0.019); // 57-95 ms
+  // k of a unit of mass, at the speed of four rotors in hover: 0.36-0.45 1/s
+  const double sum_radps = 4.0 * sqrt(0.25 * c->vehicle.mass_kg * 9.80665 / c->vehicle.frame.kf_Ns2);
+  if (CHECK(drag != NULL)) CHECK_NEAR(drag->value[0] * sum_radps / c->vehicle.mass_kg, 0.405, 0.045);
+  close(c);
+}
+
+TEST(gap_keeps_no_name_that_grows_a_channel_of_the_held_out_recorded_flight) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = with_rotor_speeds(NULL, "jana05");
+  CHECK(named(c, "motor_lag") && named(c, "rotor_drag"));
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &c->d.held_out.channel[ch];
+    ROW("%s", gap_channel[ch]);
+    if (p->used) CHECK(p->after <= 1.05 * p->before);
+  }
+  close(c);
+}

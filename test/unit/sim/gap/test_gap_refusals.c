@@ -1,0 +1,111 @@
+// test_gap_refusals.c - stage 1: units, signs and sensors by which a log contradicts physics or itself.
+#include "gap/1_read/flight.h"
+#include "rig/flight_csv.h"
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+#include <string.h>
+
+static status_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+  const columns_t columns = flight_csv_columns();
+  model_t vehicle;
+  TRY(model_builtin("cf21_legacy", &vehicle, why));
+  return gap_read(f, flight_csv_file(made, "f.csv"), &columns, &vehicle, why);
+}
+
+// Row 53 of the faults: wrong units; and signs and frames, which contradict.
+static const struct {
+  const char *what;
+  flight_csv_t made;
+  const char *want;
+} contradicting[] = {
+    {"acceleration in m/s2",
+     {.column = FC_AX, .more = 2, .scale = 9.81},
+     "column acc.z: mean |acceleration| 97.4 m/s2 over the whole flight; allowed: 4.905 to 14.71 m/s2; the "
+     "unit "
+     "m/s2 would fit (factor 0.1019)"},
+    {"gyro in rad/s",
+     {.column = FC_GX, .more = 2, .scale = 0.0174533},
+     "column gyro.x: the attitude turns 57.3 times as far along axis x as the gyro says over the whole "
+     "flight; "
+     "allowed: 0.33 to 3; the unit rad/s would fit (factor 57.3)"},
+    {"height in mm",
+     {.column = FC_Z, .scale = 1000.0},
+     "column stateEstimate.z: 738.041 m is not plausible; allowed: -30 to 100 m; the unit cm would fit "
+     "(factor 0.01), or mm would fit (factor 0.001)"},
+    {"height in cm",
+     {.column = FC_Z, .scale = 100.0},
+     "column stateEstimate.vz: the position moves 100 times as far along axis z as the velocity says over "
+     "the "
+     "whole flight; allowed: 0.33 to 3"},
+    {"climb in mm/s",
+     {.column = FC_VZ, .scale = 1000.0},
+     "column stateEstimate.vz: 452.525 m/s is not plausible"},
+    {"volts in mV",
+     {.column = FC_VBAT, .scale = 1000.0},
+     "column pm.vbat: 3900 V is not plausible; allowed: 1 to 60 V; the unit mV would fit (factor 0.001)"},
+    {"time in s",
+     {.column = FC_TIME, .scale = 0.001},
+     "column timestamp: rows are apart by 1e-05 s; allowed: 0.00045 to 0.025 s; the unit s would fit (factor "
+     "1000)"},
+    {"time in us",
+     {.column = FC_TIME, .scale = 1000.0},
+     "column timestamp: rows are apart by 10 s; allowed: 0.00045 to 0.025 s; the unit us would fit (factor "
+     "0.001)"},
+    {"motors in percent",
+     {.column = FC_M1, .more = 3, .scale = 100.0 / 65535.0},
+     "column motor.m1: the largest motor command is 72.8 pwm over the whole flight; allowed: 1000 to "
+     "6.554e+04 "
+     "pwm; "
+     "the unit percent would fit (factor 655.4)"},
+    {"range in m",
+     {.column = FC_RANGE, .scale = 0.001},
+     "column range.up: the largest range is 0.00109 m over the whole flight; allowed: 0.02 to 40 m; the unit "
+     "m "
+     "would fit (factor 1000)"},
+    {"rotor speeds in rad/s",
+     {.column = FC_W1, .more = 3, .scale = 0.1047198},
+     "the unit rad/s would fit (factor 9.549)"},
+    {"gyro of the other sign",
+     {.column = FC_GY, .scale = -1.0},
+     "column gyro.y: the attitude turns -1 times as far along axis y as the gyro says"},
+    {"attitude inverse", {.column = FC_QX, .more = 2, .scale = -1.0}, "column gyro.x: the attitude turns -"},
+    {"z down",
+     {.column = FC_Z, .scale = -1.0},
+     "column stateEstimate.vz: the position moves -1 times as far along axis z as the velocity says"},
+    {"gravity taken out", {.column = FC_AZ, .offset = -1.0}, "column acc.z: mean |acceleration|"},
+    {"acceleration down",
+     {.column = FC_AZ, .scale = -1.0},
+     "column acc.z: turned by the attitude, the mean specific force upwards is -9.48"},
+    {"not a length", {.column = FC_QX, .offset = 0.7}, "column stateEstimate.qw: the quaternion's length is"},
+    {"another vehicle's motors",
+     {.column = FC_M1, .more = 3, .scale = 0.25},
+     "column motor.m1: commands to vehicle Crazyflie 2.1, legacy propellers give 0"},
+    {"accelerometer stuck",
+     {.column = FC_AY, .from_s = 5.0, .hold_s = 0.8},
+     "f.csv:502: column acc.y: stands at"},
+    {"gyro stuck", {.column = FC_GZ, .from_s = 5.0, .hold_s = 0.8}, "f.csv:502: column gyro.z: stands at"},
+    {"gyro dead", {.column = FC_GX, .scale = 1e-30}, "column gyro.x: "},
+    {"attitude stuck",
+     {.column = FC_QW, .more = 3, .from_s = 5.0, .hold_s = 0.8},
+     "f.csv:502: column stateEstimate.qw: stands at"},
+    {"height stuck",
+     {.column = FC_X, .more = 2, .from_s = 5.0, .hold_s = 1.5},
+     "f.csv:502: column stateEstimate.x: stands at"},
+    {"motors stuck",
+     {.column = FC_M1, .more = 3, .from_s = 5.0, .hold_s = 0.8},
+     "f.csv:502: column motor.m1: stands at"},
+    {"gyro out of range", {.column = FC_GX, .offset = 5000.0, .from_s = 5.0}, "f.csv:502: column gyro.x: 8"},
+};
+
+TEST(gap_refuses_units_signs_and_signals_that_contradict_with_column_and_factor) {
+  for (unsigned i = 0; i < sizeof contradicting / sizeof *contradicting; i++) {
+    ROW("%s", contradicting[i].what);
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_STATUS(ST_BAD_INPUT, read_made(&f, &contradicting[i].made, &why));
+    CHECK(f.n == 0 && f.t_s == NULL);
+    if (!strstr(why.text, contradicting[i].want)) CHECK_TEXT(scratch_short(why.text), contradicting[i].want);
+  }
+}

@@ -1,0 +1,74 @@
+// test_gap_replay.c - a replay with one effect more, from the kept one, against the whole replay.
+#include "exam/flights.h"
+#include "gap/2_predict/predict.h"
+#include "rig/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  gap_flight_t flight;
+  model_t vehicle;
+  grid_t grid;
+  path_t path;
+  double *room, *base[CHANNELS], *with[CHANNELS], *whole[CHANNELS];
+} case_t;
+
+static case_t *flown(void) {
+  case_t *const c = calloc(1, sizeof *c);
+  why_t why;
+  if (!c) abort();
+  CHECK_OK(exam_vehicle(&c->vehicle, &why));
+  const exam_flight_t job = {.truth = &c->vehicle, .seed = 71};
+  CHECK_OK(exam_fly(&job, &c->flight, &why));
+  CHECK_OK(grid_make(&c->grid, &c->flight, 0, c->flight.n, &c->vehicle, &why));
+  const size_t n = (size_t)c->grid.n;
+  c->room = calloc(3 * CHANNELS * n, sizeof(double));
+  if (!c->room) abort();
+  for (size_t ch = 0; ch < CHANNELS; ch++) {
+    c->base[ch] = c->room + 3 * ch * n;
+    c->with[ch] = c->base[ch] + n;
+    c->whole[ch] = c->with[ch] + n;
+  }
+  return c;
+}
+
+static void drop(case_t *c) {
+  grid_free(&c->grid);
+  gap_flight_free(&c->flight);
+  free(c->room);
+  free(c);
+}
+
+// Every effect of the table beside the model's, and in the place of the model's own.
+static void compare_all(case_t *c, const model_t *m) {
+  why_t why;
+  const size_t bytes = (size_t)c->grid.n * sizeof(double);
+  CHECK_OK(replay_keep(&c->grid, m, &c->path, c->base, &why));
+  for (int i = 0; i < fx_count; i++) {
+    const fx_use_t more = fx_use(fx_table[i]);
+    model_t with = *m;
+    ROW("%d effects, %s", m->n_fx, more.fx->name);
+    CHECK_OK(model_add_fx(&with, &more, &why));
+    CHECK_OK(replay(&c->grid, &with, c->whole, &why));
+    CHECK_OK(replay_with(&c->grid, &c->path, &more, c->with, &why));
+    for (int ch = 0; ch < CHANNELS; ch++) CHECK(memcmp(c->with[ch], c->whole[ch], bytes) == 0);
+  }
+  path_free(&c->path);
+}
+
+TEST(gap_replay_with_one_effect_more_is_the_whole_replay_to_the_bit) {
+  static const char *const beside[] = {"delay",  "ceiling",     "battery_sag", "wind",
+                                       "ground", "rotor_drag",  "cg_offset",   "imu_misalignment",
+                                       "mass",   "tof_latency", "ceiling_rpm", "inertia"};
+  case_t *const c = flown();
+  model_t m = c->vehicle;
+  why_t why;
+  compare_all(c, &m);
+  for (unsigned i = 0; i < sizeof beside / sizeof *beside; i++) {
+    const fx_use_t use = fx_use(fx_find(beside[i]));
+    CHECK_OK(model_add_fx(&m, &use, &why));
+    if (i % 4 == 3) compare_all(c, &m);
+  }
+  drop(c);
+}

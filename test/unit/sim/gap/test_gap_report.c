@@ -1,0 +1,92 @@
+// test_gap_report.c - what the workflow's outputs say of a finished diagnosis.
+#define _POSIX_C_SOURCE 200809L // open_memstream
+#include "gap/5_infer/unknown.h"
+#include "gap/8_report/page.h"
+#include "rig/programs.h"
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define N 50
+
+TEST(gap_counts_time_from_the_beginning_of_the_log) {
+  double t_s[6] = {100.0, 110.0, 120.0, 130.0, 140.0, 150.0};
+  const gap_flight_t flight = {.n = 6, .t_s = t_s};
+  point_t last[2] = {{.t_s = 140.0, .q_wb = {1.0, 0.0, 0.0, 0.0}},
+                     {.t_s = 150.0, .q_wb = {1.0, 0.0, 0.0, 0.0}}};
+  const grid_t third = {.flight = &flight, .from = 4, .samples = 2, .n = 2, .point = last};
+  model_t m;
+  why_t why;
+  CHECK_OK(model_builtin("cf21_legacy", &m, &why));
+  int time = 0;
+  while (strcmp(coordinate_name(time), "time") != 0) time++;
+  CHECK_NEAR(coordinate_of(time, &third, &m, 0), 40.0, 0.0);
+  CHECK_NEAR(coordinate_of(time, &third, &m, 1), 50.0, 0.0);
+}
+
+TEST(gap_gives_a_probability_alike_in_words_and_in_numbers) {
+  static const struct {
+    double p, number;
+    const char *words;
+  } cases[] = {{0.0031, 0.0031, "p 0.003"},
+               {2e-13, 2e-13, "p 2e-13"},
+               {5e-114, 1e-16, "p < 1e-16"},
+               {0.0, 1e-16, "p < 1e-16"}};
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char words[P_TEXT];
+    ROW("%g", cases[i].p);
+    CHECK_NEAR(p_value(cases[i].p), cases[i].number, 0.0);
+    CHECK_TEXT(p_words(cases[i].p, words), cases[i].words);
+  }
+}
+
+// Off the measured track by so much along x, y and height, with the old model and with the new one.
+static const struct {
+  double before[3], after[3];
+  const char *label;
+} tracks[] = {
+    {{0.30, 0.10, 0.05}, {0.30, 0.02, 0.05}, ">y, m<"},
+    {{0.02, 0.30, 0.10}, {0.02, 0.29, 0.01}, ">height of the centre of mass, m<"},
+    {{0.10, 0.30, 0.02}, {0.01, 0.31, 0.02}, ">x, m<"},
+    {{0.02, 0.30, 0.10}, {0.02, 0.40, 0.10}, ">y, m<"}, // none is better: the one that was missed most
+};
+
+static char *track_of(const double before[3], const double after[3]) {
+  static double t_s[N], line[9][N];
+  resimulation_t a = {.flew = true, .n = N, .t_s = t_s};
+  for (int k = 0; k < 3; k++) {
+    a.measured_m[k] = line[k], a.before_at_m[k] = line[3 + k], a.after_at_m[k] = line[6 + k];
+    for (int j = 0; j < N; j++) {
+      t_s[j] = 0.1 * j;
+      line[k][j] = 0.01 * j;
+      line[3 + k][j] = line[k][j] + before[k];
+      line[6 + k][j] = line[k][j] + after[k];
+    }
+  }
+  char *text = NULL;
+  size_t size;
+  FILE *const file = open_memstream(&text, &size);
+  if (!file) abort();
+  picture_track(&a, file);
+  fclose(file);
+  return text;
+}
+
+TEST(gap_draws_the_track_along_the_axis_that_improved_most) {
+  for (unsigned i = 0; i < sizeof tracks / sizeof *tracks; i++) {
+    ROW("track %u", i);
+    char *const text = track_of(tracks[i].before, tracks[i].after);
+    CHECK(strstr(text, tracks[i].label) != NULL);
+    free(text);
+  }
+}
+
+TEST(gap_makes_the_folders_that_its_output_folder_lies_in) {
+  char text[2000];
+  scratch_file("none.csv", "timestamp\n", -1);
+  CHECK(program_run("gap --out $S/deep/er/est/ $S/none.csv; test -f $S/deep/er/est/verdict.json",
+                    STREAM_ERROR, text, sizeof text) == 0);
+}

@@ -1,0 +1,74 @@
+// test_gap_rows.c - series of a flight as rows, through the zero-phase low-pass.
+#include "gap/2_predict/residual.h"
+#include "rig/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define POINTS   6000 // two minutes at 50 Hz
+#define PERIOD_S 0.02
+#define SOME     100
+
+static set_t set_of(int flights) {
+  set_t s;
+  why_t why;
+  grid_t *const grid = calloc((size_t)flights, sizeof *grid);
+  if (!grid) abort();
+  for (int f = 0; f < flights; f++) {
+    grid[f] = (grid_t){.period_s = PERIOD_S, .n = POINTS, .point = calloc(POINTS, sizeof(point_t))};
+    if (!grid[f].point) abort();
+    for (int j = 0; j < POINTS; j++)
+      grid[f].point[j] = (point_t){.t_s = PERIOD_S * j, .ok = true, .range_m = 0.5};
+  }
+  CHECK_OK(set_make(&s, grid, flights, &why));
+  return s;
+}
+
+// Every wanted channel gets the same series.
+static void rows_of(const set_t *s, int flight, const double *series, double *const row[CHANNELS]) {
+  const double *every[CHANNELS];
+  double *const scratch = malloc(CH_SMOOTH * POINTS * sizeof(double));
+  if (!scratch) abort();
+  for (int ch = 0; ch < CHANNELS; ch++) every[ch] = series;
+  residual_rows(s, flight, SERIES_PREDICTED, every, scratch, row);
+  free(scratch);
+}
+
+// What dies away in a filter becomes numbers with which processors are tens of times as slow: the longer the
+// log, the more of them.
+TEST(gap_rows_hold_no_number_that_is_almost_nothing) {
+  set_t s = set_of(1);
+  double *const series = calloc(POINTS, sizeof(double)), *const row = calloc(POINTS, sizeof(double));
+  if (!series || !row) abort();
+  for (int j = 0; j < SOME; j++) series[j] = 1.0;
+  rows_of(&s, 0, series, (double *[CHANNELS]){[CH_FY] = row});
+  CHECK_NEAR(row[10], 1.0, 1e-9);
+  int tiny = 0, small = 0;
+  for (int i = 0; i < s.smooth.n; i++) {
+    tiny += row[i] != 0.0 && fabs(row[i]) < 1e-140;
+    small += row[i] != 0.0 && fabs(row[i]) < 1e-60;
+  }
+  CHECK(tiny == 0);
+  CHECK(small > 0); // the tail as such is there
+  CHECK_NEAR(row[s.smooth.n - 1], 0.0, 0.0);
+  free(series);
+  free(row);
+  set_free(&s);
+}
+
+TEST(gap_rows_of_a_flight_are_its_own_and_only_those_that_are_wanted) {
+  set_t s = set_of(3);
+  double *const series = calloc(POINTS, sizeof(double)), *const y = calloc(3 * POINTS, sizeof(double)),
+                *const range = calloc(3 * POINTS, sizeof(double));
+  if (!series || !y || !range) abort();
+  for (int j = 0; j < POINTS; j++) series[j] = 2.0;
+  CHECK(rows_from(&s.smooth, 0) == 0 && rows_from(&s.smooth, 3) == s.smooth.n);
+  CHECK(rows_from(&s.smooth, 1) == s.smooth.n / 3);
+  rows_of(&s, 1, series, (double *[CHANNELS]){[CH_WY] = y, [CH_RANGE] = range});
+  for (int i = 0; i < s.smooth.n; i++) CHECK_NEAR(y[i], s.smooth.flight[i] == 1 ? 2.0 : 0.0, 1e-9);
+  for (int i = 0; i < s.range.n; i++) CHECK_NEAR(range[i], s.range.flight[i] == 1 ? 2.0 : 0.0, 0.0);
+  free(series);
+  free(y);
+  free(range);
+  set_free(&s);
+}

@@ -1,0 +1,52 @@
+// test_gap_times.c - what comes and goes in flight has no name: every effect of the library acts all the
+// time.
+#include "rig/gap_logs.h"
+#include "rig/programs.h"
+#include "rig/test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+TEST(gap_gives_no_name_to_what_begins_in_flight) {
+  static const struct {
+    const char *effect, *seen_in;
+  } row[] = {
+      {"motor_damage:rotor=3,loss=0.12,start=30", " at time 2"}, // was named thrust_curve
+      {"mass:add=-0.0016,start=15,end=35", " at time 1"},        // ended in a mass below none
+      {"mass:add=0.003,start=25", " at time 2"},
+  };
+  char text[6000], line[600];
+  CHECK(program_run("{ echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >$S/own.toml",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    ROW("%s", row[i].effect);
+    snprintf(line, sizeof line,
+             "for s in 1 2 3; do fly test-flight --controller indi-theory --effect none --effect "
+             "rotor_drag:k=1.7e-6 --effect %s --seed $s --log $S/t$s.csv --log-rate 500 >/dev/null; done; "
+             "gap --vehicle $S/own.toml --columns tools/columns/fly.toml $S/t?.csv",
+             row[i].effect);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK(strstr(text, "Something is missing in own.toml that cannot be named.\n") == text);
+    const char *const unknown = strstr(text, "\nunknown: ");
+    CHECK(unknown && strstr(unknown, "force_z,") && strstr(unknown, row[i].seen_in));
+  }
+}
+
+// Flights so wild that the nominal ones are as wild: nothing stands out, and still far more is left than
+// usual.
+TEST(gap_does_not_say_that_nothing_is_missing_where_much_is_left) {
+  char text[6000], file[20];
+  fx_use_t broken = fx_use(fx_find("motor_damage"));
+  broken.p[0] = 1.0;
+  broken.p[1] = 0.2;
+  broken.p[2] = 8.0;
+  for (unsigned long i = 1; i <= 3; i++) {
+    snprintf(file, sizeof file, "wild%lu.csv", i);
+    CHECK(gap_logs_fly_one(file, i, true, &broken));
+  }
+  CHECK(program_run("gap --vehicle $S/room.toml --columns tools/columns/fly.toml $S/wild?.csv", STREAM_OUTPUT,
+                    text, sizeof text) == 0);
+  CHECK(strstr(text, "Nothing can be named that is missing in room.toml, and more is left than noise") ==
+        text);
+  CHECK(strstr(text, "note: force_z: ") != NULL);
+}

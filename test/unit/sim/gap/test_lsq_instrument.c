@@ -1,0 +1,90 @@
+// test_lsq_instrument.c - two-stage least squares where the truth is known: a regressor that a disturbance
+// feeds, and instruments that it does not.
+#include "base/lsq_instrument.h"
+#include "rig/random.h"
+#include "rig/test.h"
+
+#include <string.h>
+
+#define BLOCKS 40
+#define ROWS   50 // of a block
+#define LAGS   2
+#define SETS   2
+
+typedef struct {
+  double total[36], block[BLOCKS][36];
+} sums_t;
+
+static void add(sums_t *s, int block, const double *row, int size) {
+  for (int i = 0; i < size; i++)
+    for (int k = 0; k < size; k++) {
+      s->block[block][i * size + k] += row[i] * row[k];
+      s->total[i * size + k] += row[i] * row[k];
+    }
+}
+
+// y = 2 x + e, x = strength (z1 + z2) + feedback e + noise; a second set of instruments has nothing to do
+// with any of it.
+static void make(sums_t *s, double strength, double feedback, uint64_t seed) {
+  random_t r = {seed};
+  memset(s, 0, sizeof *s);
+  for (int i = 0; i < BLOCKS * ROWS; i++) {
+    const double z1 = random_normal(&r, 1.0), z2 = random_normal(&r, 1.0), e = random_normal(&r, 1.0);
+    const double x = strength * (z1 + z2) + feedback * e + random_normal(&r, 1.0);
+    const double row[] = {x, z1, z2, random_normal(&r, 1.0), random_normal(&r, 1.0), 2.0 * x + e};
+    add(s, i / ROWS, row, 6);
+  }
+}
+
+typedef struct {
+  double plain, b, F, blocks, V, apart;
+} got_t;
+
+static got_t solve(const sums_t *s) {
+  got_t g = {0};
+  const lsq_instrument_t job = {s->total, s->block[0], BLOCKS, 1, SETS, LAGS, 10.0};
+  CHECK(lsq_instrument(&job, &(lsq_instrumented_t){&g.plain, &g.b, &g.F, &g.blocks, &g.V, &g.apart}));
+  return g;
+}
+
+TEST(lsq_instrument_finds_what_feedback_hides_from_least_squares) {
+  static sums_t s;
+  make(&s, 0.5, 0.8, 3);
+  const got_t g = solve(&s);
+  CHECK(g.plain > 2.2); // cov(x, e)/var(x) = 0.8/2.14 too much
+  CHECK_NEAR(g.b, 2.0, 3.0 * sqrt(g.V));
+  CHECK_NEAR(sqrt(g.V), 1.0 / sqrt(0.5 * BLOCKS * ROWS), 0.01); // sd(e)/|xhat|
+  CHECK(g.F > 100.0);
+  CHECK(g.blocks > 0.8 * BLOCKS && g.blocks <= BLOCKS);
+  CHECK(fabs(g.b - g.plain) > 5.0 * sqrt(g.apart));
+}
+
+TEST(lsq_instrument_agrees_with_least_squares_where_nothing_feeds_back) {
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    static sums_t s;
+    ROW("seed %d", (int)seed);
+    make(&s, 0.5, 0.0, seed);
+    const got_t g = solve(&s);
+    CHECK_NEAR(g.b, 2.0, 3.5 * sqrt(g.V));
+    CHECK_NEAR(g.b, g.plain, 3.5 * sqrt(g.apart));
+  }
+}
+
+TEST(lsq_instrument_tells_when_it_is_too_weak) {
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    static sums_t s;
+    ROW("seed %d", (int)seed);
+    make(&s, 0.0, 0.8, seed);
+    const got_t g = solve(&s);
+    CHECK(g.F < 10.0);
+    CHECK_NEAR(g.b, g.plain, 1e-9); // it stands for itself
+  }
+}
+
+TEST(lsq_instrument_has_no_solution_without_a_regressor_that_moves) {
+  static sums_t s;
+  got_t g;
+  memset(&s, 0, sizeof s);
+  const lsq_instrument_t job = {s.total, s.block[0], BLOCKS, 1, SETS, LAGS, 10.0};
+  CHECK(!lsq_instrument(&job, &(lsq_instrumented_t){&g.plain, &g.b, &g.F, &g.blocks, &g.V, &g.apart}));
+}

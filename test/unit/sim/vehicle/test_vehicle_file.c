@@ -1,0 +1,232 @@
+// test_vehicle_file.c - vehicle files and effects: what is read, and what is refused with which line.
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "vehicle/effect_spec.h"
+#include "vehicle/model_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define ALL_EFFECTS                                                                                          \
+  "accel_bias, battery_sag, body_drag, ceiling, ceiling_rpm, cg_offset, climb_inflow, "                      \
+  "delay, flapping, ground, gyroscopic, imu_misalignment, inertia, mass, motor_damage, "                     \
+  "motor_lag, rotor_drag, sidewall, thrust_curve, thrust_scale, tof_bias, tof_floor, "                       \
+  "tof_latency, translational_lift, wind"
+
+#define VEHICLE                                                                                              \
+  "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
+  "= 0.6\n"
+
+TEST(vehicle_file_gives_the_model) {
+  const char *text =
+      VEHICLE "ceiling_m = 0.5\n[thrust_map]\nkind = \"volt_cubic\"\nc = [0, 1, 2, 3]\n"
+              "[[effect]]\nname = \"ceiling\"\nCa = 0.5\n[[effect]]\nname = \"ground\"\nform = \"table\"\n"
+              "distance_over_radius = [0, 1]\nratio = [1.2, 1]\n";
+  model_t m;
+  why_t why = {""};
+  CHECK_OK(model_read(scratch_file("v.toml", text, -1), &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_TEXT(m.name, "v");
+  CHECK_NEAR(m.ceiling_m, 0.5, 0.0);
+  CHECK(m.map.kind == THRUST_MAP_VOLT_CUBIC && m.n_fx == 2);
+  CHECK_NEAR(m.fx[0].p[0], 0.5, 0.0);
+  CHECK(m.fx[1].points.n == 2);
+  CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
+  CHECK(isinf(m.ceiling_m) && m.map.kind == THRUST_MAP_NONE && m.n_fx == 0);
+}
+
+static const struct {
+  const char *what, *text, *want;
+} bad_vehicle[] = {
+    {"not TOML", "name = \n", "v.toml:1:8: "},
+    {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
+    {"unknown key", VEHICLE "mass = 1\n",
+     "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
+     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, floor_rise_y, thrust_map, "
+     "body, rotors, battery, "
+     "controller, "
+     "effect"},
+    {"nan", "name = \"v\"\nmass_kg = nan\n", "v.toml:2: mass_kg: nan is out of range; allowed: 0.001 to 100"},
+    {"key twice", VEHICLE "mass_kg = 1\n", "v.toml:7:"},
+    {"limits",
+     "name = \"v\"\nmass_kg = 1\nrotor_radius_m = 1\nmotor_tau_s = 1\nthrust_min_N = 2\nthrust_max_N = 1\n",
+     "v.toml:6: thrust_max_N: 1; allowed: more than thrust_min_N, 2"},
+    {"map kind", VEHICLE "[thrust_map]\nkind = \"x\"\n",
+     "v.toml:8: kind: unknown kind `x`; allowed: stand, volt_cubic, pwm_cubic, speed"},
+    {"map numbers", VEHICLE "[thrust_map]\nkind = \"stand\"\nc = [1, 2]\n",
+     "v.toml:9: c: 2 numbers; allowed: 5"},
+    {"map of a speed", VEHICLE "[thrust_map]\nkind = \"speed\"\nc = [1]\n",
+     "v.toml:9: c: 1 numbers; allowed: 3"},
+    {"map without", VEHICLE "[thrust_map]\nkind = \"stand\"\n",
+     "v.toml:7: c: missing; allowed: a list of numbers"},
+    {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",
+     "v.toml:8: name: unknown effect `x`; allowed: " ALL_EFFECTS},
+    {"form", VEHICLE "[[effect]]\nname = \"ceiling\"\nform = \"x\"\n",
+     "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, table, "
+     "square-root"},
+    {"effect key", VEHICLE "[[effect]]\nname = \"ceiling\"\nCc = 1\n",
+     "v.toml:9: Cc: effect ceiling, form exponential: unknown key `Cc`; allowed: form, Ca 0 to 5, Cb 0.01 "
+     "to 50"},
+    {"effect range", VEHICLE "[[effect]]\nname = \"ceiling\"\nCa = 9\n",
+     "v.toml:9: Ca: effect ceiling: Ca = 9 is out of range; allowed: 0 to 5"},
+    {"points",
+     VEHICLE
+     "[[effect]]\nname = \"ceiling\"\nform = \"table\"\ndistance_over_radius = [1, 0]\nratio = [1, 1]\n",
+     "v.toml:11: ratio: effect ceiling: point 2: distance_over_radius 0; allowed: 0 to 1000, ascending"},
+    {"effect twice", VEHICLE "[[effect]]\nname = \"ceiling\"\n[[effect]]\nname = \"ceiling\"\n",
+     "v.toml:10: name: effect ceiling stands twice; allowed: once"},
+};
+
+#define LIFTS(mass, thrust)                                                                                  \
+  "name = \"v\"\nmass_kg = " mass "\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = -1\n"         \
+  "thrust_max_N = " thrust "\n"
+
+TEST(vehicle_file_is_refused_where_the_thrust_is_no_match_for_the_weight) {
+  static const struct {
+    const char *what, *text, *want;
+  } row[] = {
+      {"grams", LIFTS("32.9", "0.6"),
+       "v.toml:2: mass_kg: 32.9 kg weigh 323 N, and thrust_max_N is 0.6; allowed with that: 0.00122 to "
+       "0.0612 kg"},
+      {"millinewton", LIFTS("0.0329", "600"),
+       "v.toml:2: mass_kg: 0.0329 kg weigh 0.323 N, and thrust_max_N is 600; allowed with that: 1.22 to 61.2 "
+       "kg"},
+      {"its weight", LIFTS("0.1", "0.981"),
+       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 0.981; allowed with that: 0.002 to 0.1 "
+       "kg"},
+      {"a little more", LIFTS("0.1", "0.99"), ""},
+      {"50 times", LIFTS("0.1", "49"), ""},
+      {"more than that", LIFTS("0.1", "49.2"),
+       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 49.2; allowed with that: 0.1 to 5.02 "
+       "kg"},
+      {"none", LIFTS("0.1", "0"), "v.toml:6: thrust_max_N: 0; allowed: more than the weight, 0.981 N"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    const status_t status = model_read(scratch_file("v.toml", row[i].text, -1), &m, &why);
+    CHECK_STATUS(row[i].want[0] ? ST_BAD_INPUT : ST_OK, status);
+    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    if (status != ST_OK) CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+  }
+}
+
+TEST(vehicle_file_is_refused_with_line_and_key) {
+  for (unsigned i = 0; i < sizeof bad_vehicle / sizeof *bad_vehicle; i++) {
+    ROW("%s", bad_vehicle[i].what);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    CHECK_STATUS(ST_BAD_INPUT, model_read(scratch_file("v.toml", bad_vehicle[i].text, -1), &m, &why));
+    // The parser's own words are cut off: they are not ours to fix.
+    const bool parser = bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ' ' ||
+                        bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ':';
+    char got[sizeof why.text];
+    snprintf(got, sizeof got, "%.*s", parser ? (int)strlen(bad_vehicle[i].want) : (int)sizeof got - 1,
+             scratch_short(why.text));
+    CHECK_TEXT(got, bad_vehicle[i].want);
+    CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+  }
+}
+
+TEST(effect_of_a_command_line_is_read_or_refused) {
+  scratch_file("curve.csv", "ratio,distance_over_radius\n1.3,0.5\n1,3\n", -1);
+  char file_spec[500];
+  snprintf(file_spec, sizeof file_spec, "ceiling:file=%s,form=table", scratch_path("curve.csv"));
+  fx_use_t use;
+  why_t why = {""};
+  CHECK_OK(effect_parse(file_spec, &use, &why));
+  CHECK(use.points.n == 2);
+  CHECK_NEAR(use.points.ratio[0], 1.3, 0.0);
+  CHECK_OK(effect_parse("ceiling:Cb=2.2,form=exponential,Ca=0.6", &use, &why));
+  CHECK_NEAR(use.p[0], 0.6, 0.0);
+  CHECK_NEAR(use.p[1], 2.2, 0.0);
+  CHECK_TEXT(why.text, "");
+  static const struct {
+    const char *spec, *want;
+  } row[] = {
+      {"", "unknown effect ``; allowed: " ALL_EFFECTS},
+      {"wing:x=1", "unknown effect `wing` (did you mean wind?); allowed: " ALL_EFFECTS},
+      {"ceiling:", "effect ceiling: ``; allowed: key=value"},
+      {"ceiling:Ca", "effect ceiling: `Ca`; allowed: key=value"},
+      {"ceiling:Ca=", "effect ceiling: Ca: not a number: ``"},
+      {"ceiling:Ca=0,5", "effect ceiling: `5`; allowed: key=value"},
+      {"ceiling:Ca=x", "effect ceiling: Ca: not a number: `x`"},
+      {"ceiling:Ca=nan", "effect ceiling: Ca: not a number: `nan`"},
+      {"ceiling:Ca=-1", "effect ceiling: Ca = -1 is out of range; allowed: 0 to 5"},
+      {"ceiling:form=linear",
+       "effect ceiling: unknown form `linear`; allowed: cheeseman-bennett, exponential, table, square-root"},
+      {"ceiling:form=table", "effect ceiling, form table: no points; file=FILE.csv is needed (columns "
+                             "distance_over_radius, ratio)"},
+      {"ceiling:file=x.csv",
+       "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to 5, Cb 0.01 to 50"},
+      {"ceiling:form=table,file=/none/x.csv", "/none/x.csv: cannot be opened: No such file or directory"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].spec);
+    CHECK_STATUS(ST_BAD_INPUT, effect_parse(row[i].spec, &use, &why));
+    CHECK_TEXT(why.text, row[i].want);
+    CHECK_NEAR(use.p[0], 0.6, 0.0);
+  }
+}
+
+TEST(vehicle_file_gives_body_rotors_and_battery) {
+  const char *text =
+      VEHICLE "[body]\ninertia_kgm2 = [1e-5, 2e-5, 3e-5]\ntop_above_rotor_m = -0.004\n"
+              "[rotors]\nspin = [-1, 1, -1, 1]\ndelay_s = 0.004\n[battery]\n"
+              "capacity_Ah = 0.25\nresistance_ohm = 0.2\nidle_A = 0.1\na_ApN = 5\nb_ApN2 = 10\n"
+              "open_V = [3, 4.2]\n";
+  model_t m;
+  why_t why = {""};
+  CHECK_OK(model_read(scratch_file("v.toml", text, -1), &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_NEAR(m.frame.inertia_kgm2[1], 2e-5, 0.0);
+  CHECK_NEAR(m.frame.top_above_rotor_m, -0.004, 0.0);
+  CHECK_NEAR(m.frame.rotor_spin[0], -1.0, 0.0);
+  CHECK_NEAR(m.frame.motor_delay_s, 0.004, 0.0);
+  CHECK_NEAR(m.battery.capacity_As, 900.0, 1e-9);
+  CHECK(m.battery.n == 2);
+  // What is not said is a Crazyflie's, scaled: 20 mm against 23.55 mm, 30 g against 32.9 g.
+  CHECK_NEAR(m.frame.rotor_y_m[3], 0.03253 * 20.0 / 23.55, 1e-9);
+  CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
+  CHECK_NEAR(m.frame.inertia_kgm2[2], 29.8e-6 * 30.0 / 32.9 * 400.0 / (23.55 * 23.55), 1e-12);
+  CHECK(m.battery.capacity_As == 0.0);
+}
+
+TEST(vehicle_file_with_a_bad_body_is_refused) {
+  static const struct {
+    const char *text, *want;
+  } row[] = {
+      {"[body]\nlength = 1\n", "v.toml:8: length: unknown key; allowed: inertia_kgm2, cg_above_feet_m, "
+                               "rotor_above_feet_m, top_above_rotor_m, top_half_m, imu_m"},
+      {"[body]\ninertia_kgm2 = [1, 2]\n", "v.toml:8: inertia_kgm2: 2 numbers; allowed: 3"},
+      {"[body]\ninertia_kgm2 = [0, 1, 1]\n",
+       "v.toml:8: inertia_kgm2: 0 is out of range; allowed: 1e-09 to 1000"},
+      {"[rotors]\nspin = [1, 0, 1, 1]\n", "v.toml:8: spin: 0; allowed: 1 and -1"},
+      {"[rotors]\nkf_Ns2 = 0\n", "v.toml:8: kf_Ns2: 0 is out of range; allowed: 1e-12 to 1"},
+      {"[battery]\ncapacity_Ah = 1\nresistance_ohm = 1\nidle_A = 0\na_ApN = 0\nb_ApN2 = 0\nopen_V = [4, 3]\n",
+       "v.toml:13: open_V: 3; allowed: 0 to 100, not falling"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].text);
+    char text[600];
+    snprintf(text, sizeof text, "%s%s", VEHICLE, row[i].text);
+    model_t m = {.mass_kg = 7.0};
+    why_t why = {""};
+    const char *path = scratch_file("v.toml", text, -1);
+    CHECK_STATUS(ST_BAD_INPUT, model_read(path, &m, &why));
+    CHECK_TEXT(strstr(why.text, "v.toml"), row[i].want);
+    CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+  }
+}
+
+TEST(vehicle_files_of_the_tree_are_good) {
+  CHECK(vehicle_count >= 6);
+  for (int i = 0; i < vehicle_count; i++) {
+    ROW("%s", vehicle_table[i].name);
+    model_t m;
+    why_t why = {""};
+    CHECK_OK(model_builtin(vehicle_table[i].name, &m, &why));
+    CHECK_TEXT(why.text, "");
+  }
+}
