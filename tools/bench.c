@@ -23,7 +23,7 @@ typedef struct {
 } row_t;
 
 // A ten-minute flight to and fro between 10 cm and 4 cm under the ceiling, learning all the way.
-static status_t factor(const row_t *row, double *best, why_t *why) {
+static done_t factor(const row_t *row, double *best, why_t *why) {
   setup_t setup;
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
   const request_t request = {.integrate = row->integrate, .noise = &noise_levels[row->noise], .seed = 1};
@@ -39,11 +39,11 @@ static status_t factor(const row_t *row, double *best, why_t *why) {
     if (flown.outcome.realtime_factor > *best) *best = flown.outcome.realtime_factor;
     flown_free(&flown);
   }
-  return ST_OK;
+  return DONE;
 }
 
 // Six degrees of freedom under a ceiling at 2 cm, drag on; level, so that a law of one line holds it there.
-static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor, why_t *why) {
+static done_t six(integrate_kind_t kind, double *derivative_ns, double *factor, why_t *why) {
   static body_t b;
   model_t m;
   TRY(model_builtin("cf21_legacy", &m, why));
@@ -52,7 +52,7 @@ static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor
   m.ceiling_m = 1.0;
   const double z_m = 0.98 - body_rotor_z_m(&m), f = 0.25 * m.mass_kg * PLANT_GRAVITY_MPS2;
   const body_start_t start = {.pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {f, f, f, f}};
-  if (body_open(&b, &m, kind, TICK_S, &start) != ST_OK) return error_failed(why, "out of memory");
+  if (body_open(&b, &m, kind, TICK_S, &start) != DONE) return error_failed(why, "out of memory");
   double t_s = cpu_time_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
   memcpy(y, b.y, sizeof y);
   for (int i = 0; i < CALLS; i++) {
@@ -69,10 +69,10 @@ static status_t six(integrate_kind_t kind, double *derivative_ns, double *factor
   *factor = cpu_time_factor(CALLS * TICK_S, t_s);
   if (b.ceiling_contacts > 0) fprintf(stderr, "bench: the ceiling was touched\n");
   body_close(&b);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t bench_six(why_t *why) {
+static done_t bench_six(why_t *why) {
   static const char *const name[] = {"SUNDIALS ERKStep 2 ms", "Runge-Kutta by hand 2 ms"};
   double best_ns = 1e9;
   for (int k = INTEGRATE_SUNDIALS; k <= INTEGRATE_RK4; k++) {
@@ -87,11 +87,11 @@ static status_t bench_six(why_t *why) {
   }
   printf("%-60s %7.0f ns (best of %d)\n", "  its right-hand side: 4 rotors, ceiling, drag, gyroscopic",
          best_ns, 2 * RUNS);
-  return ST_OK;
+  return DONE;
 }
 
 // The complete loop: body, real sensors, estimator and the whole flight code, in the thesis's test flight.
-static status_t bench_loop6(why_t *why) {
+static done_t bench_loop6(why_t *why) {
   static const char *const name[] = {"SUNDIALS ERKStep 2 ms", "Runge-Kutta by hand 2 ms"};
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   for (int k = 0; k < 2; k++) {
@@ -111,7 +111,7 @@ static status_t bench_loop6(why_t *why) {
     printf("six degrees of freedom, complete loop, %-23s %5.0f x real time (best of %d)\n", name[k], best,
            RUNS);
   }
-  return ST_OK;
+  return DONE;
 }
 
 int main(int argc, char **argv) {
@@ -133,14 +133,14 @@ int main(int argc, char **argv) {
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     why_t why;
     double best;
-    const status_t status = factor(&rows[i], &best, &why);
-    if (status != ST_OK) return error_exit("bench", status, &why);
+    const done_t status = factor(&rows[i], &best, &why);
+    if (status != DONE) return error_exit("bench", status, &why);
     printf("%-60s %7.0f x real time (best of %d)\n", rows[i].what, best, RUNS);
     fflush(stdout);
   }
   why_t why;
-  status_t status = bench_six(&why);
-  if (status == ST_OK) status = bench_loop6(&why);
-  if (status == ST_OK) status = bench_gap(&why);
+  done_t status = bench_six(&why);
+  if (status == DONE) status = bench_loop6(&why);
+  if (status == DONE) status = bench_gap(&why);
   return error_exit("bench", status, &why);
 }

@@ -31,7 +31,7 @@ static double cpu_s(void) {
 }
 
 // As a log, read as any other.
-static status_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
+static done_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
   const char *const folder = getenv("O");
   char path[4096];
   snprintf(path, sizeof path, "%s/bench-XXXXXX", folder && folder[0] ? folder : "out");
@@ -42,7 +42,7 @@ static status_t write_log(const record_t *record, gap_flight_t *log, const model
   if (!file) return error_failed(why, "%s: cannot be written", path);
   record_write(record, file);
   fclose(file);
-  const status_t status = gap_read(log, path, &columns, vehicle, why);
+  const done_t status = gap_read(log, path, &columns, vehicle, why);
   unlink(path);
   return status;
 }
@@ -59,7 +59,7 @@ static void plan_rounds(const setup6_t *setup, plan_t *plan) {
   plan->end_s = START_S + LONG_S + 1.0;
 }
 
-static status_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
+static done_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
   static const double start_m[] = {0.20};
   setup6_t setup;
   flown6_t flown;
@@ -71,7 +71,7 @@ static status_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
   TRY(setup6_fly(&setup, &flown, why));
   record_t record = flown.flown.record;
   record.more = flown.more.sample;
-  const status_t status = write_log(&record, log, vehicle, why);
+  const done_t status = write_log(&record, log, vehicle, why);
   flown6_free(&flown);
   return status;
 }
@@ -95,14 +95,14 @@ static gap_flight_t part_of(const gap_flight_t *log, double span_s) {
   return part;
 }
 
-static status_t time_one(const gap_flight_t *log, double span_s, const model_t *m, double *best_s,
-                         count_t *count, why_t *why) {
+static done_t time_one(const gap_flight_t *log, double span_s, const model_t *m, double *best_s,
+                       count_t *count, why_t *why) {
   gap_flight_t part = part_of(log, span_s);
   const gap_flights_t fit = {&part, 1};
   const diagnose_job_t job = {.fit = &fit, .model = m, .seed = 1};
   *best_s = HUGE_VAL;
-  status_t status = ST_OK;
-  for (int run = 0; run < RUNS && status == ST_OK; run++) {
+  done_t status = DONE;
+  for (int run = 0; run < RUNS && status == DONE; run++) {
     diagnosis_t d;
     const double from_s = cpu_s();
     status = diagnose(&job, &d, why);
@@ -114,7 +114,7 @@ static status_t time_one(const gap_flight_t *log, double span_s, const model_t *
 }
 
 // The model has every effect of the table from the `keep`-th on, at no size: they are no candidates then.
-static status_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *why) {
+static done_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *why) {
   *m = *vehicle;
   for (int i = 0, kept = 0; i < fx_count; i++) {
     if (fx_table[i]->n_size == 0 || kept++ < keep || m->n_fx == FX_MAX - ROOM) continue;
@@ -122,10 +122,10 @@ static status_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *
     for (int k = 0; k < use.fx->n_size; k++) use.p[use.fx->size[k].param] = 0.0;
     TRY(model_add_fx(m, &use, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t by_length(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
+static done_t by_length(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
   double first_s = 0.0;
   for (double span_s = SHORT_S; span_s <= LONG_S; span_s *= 2.0) {
     double s;
@@ -136,10 +136,10 @@ static status_t by_length(const gap_flight_t *log, const model_t *vehicle, why_t
            "time; log x %2.0f, time x %4.1f\n",
            span_s, RATE, n.candidates, n.named, n.rounds, s, span_s / s, span_s / SHORT_S, s / first_s);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t by_candidates(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
+static done_t by_candidates(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
   static const int keep[] = {13, 17, FX_TABLE_MAX};
   double first_s = 0.0;
   int first_n = 1;
@@ -155,18 +155,18 @@ static status_t by_candidates(const gap_flight_t *log, const model_t *vehicle, w
         "time x %4.2f\n",
         RATE, n.candidates, n.named, n.rounds, s, (double)n.candidates / first_n, s / first_s);
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t bench_gap(why_t *why) {
+done_t bench_gap(why_t *why) {
   model_t vehicle;
   gap_flight_t log = {.n = 0};
   TRY(model_builtin("cf21_legacy", &vehicle, why));
   vehicle.n_fx = 0;
   vehicle.ceiling_m = 0.5;
   TRY(fly_log(&vehicle, &log, why));
-  status_t status = by_length(&log, &vehicle, why);
-  if (status == ST_OK) status = by_candidates(&log, &vehicle, why);
+  done_t status = by_length(&log, &vehicle, why);
+  if (status == DONE) status = by_candidates(&log, &vehicle, why);
   gap_flight_free(&log);
   return status;
 }

@@ -40,24 +40,24 @@ static const char USAGE[] =
     "them.\n"
     "Yaw is counted clockwise, as its command.\n";
 
-static status_t take_number(const char *option, const char *text, double min, double max, double *value,
-                            why_t *why) {
+static done_t take_number(const char *option, const char *text, double min, double max, double *value,
+                          why_t *why) {
   double x;
   if (!number_parse(text, &x) || !(x >= min && x <= max))
     return error_set(why, "%s %s: allowed is a number from %g to %g", option, text, min, max);
   *value = x;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_poles(int *poles, const char *text, why_t *why) {
+static done_t take_poles(int *poles, const char *text, why_t *why) {
   double n;
   if (!number_parse(text, &n) || (n != 2.0 && n != 4.0))
     return error_set(why, "--poles %s: allowed are 2, 4", text);
   *poles = (int)n;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   switch (option) {
   case 'l': return take_number("--lag", text, 0.001, 0.5, &o->job.lag_s, why);
   case 'd': return take_number("--delay", text, 0.0, EFFECTIVENESS_DELAY_S, &o->job.delay_s, why);
@@ -65,14 +65,14 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
   case 'p': return take_poles(&o->job.poles, text, why);
   case 't': return take_number("--thrust-min", text, 0.0, 65535.0, &o->job.thrust_min, why);
   case 'm': return take_number("--motor-max", text, 0.01, 10.0, &o->job.motor_max_N, why);
-  case 's': o->job = effectiveness_stock(); return ST_OK;
-  case 'j': o->json = text; return ST_OK;
-  case 'V': o->version = true; return ST_OK;
-  default: o->help = true; return ST_OK;
+  case 's': o->job = effectiveness_stock(); return DONE;
+  case 'j': o->json = text; return DONE;
+  case 'V': o->version = true; return DONE;
+  default: o->help = true; return DONE;
   }
 }
 
-static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
       {"lag", 1, 0, 'l'},
       {"delay", 1, 0, 'd'},
@@ -92,13 +92,13 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
   }
-  if (o->help || o->version) return ST_OK;
+  if (o->help || o->version) return DONE;
   if (argc - optind != 1) return error_set(why, "one log is needed; allowed: effectiveness LOG.csv");
   o->log = argv[optind];
-  return ST_OK;
+  return DONE;
 }
 
-static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *file, why_t *why) {
+static done_t write_json(const order_t *o, const effectiveness_t *r, FILE *file, why_t *why) {
   const double stock[3] = EFFECTIVENESS_STOCK_G1;
   cJSON *const json = cJSON_CreateObject();
   cJSON_AddStringToObject(json, "file", o->log);
@@ -115,7 +115,7 @@ static status_t write_json(const order_t *o, const effectiveness_t *r, FILE *fil
   cJSON_AddNumberToObject(json, "starts", (double)r->starts);
   cJSON_AddNumberToObject(json, "used", (double)r->used);
   made_add(json, &o->made, (double)NAN, (double)r->rows);
-  const status_t status = result_write(json, file, why);
+  const done_t status = result_write(json, file, why);
   cJSON_Delete(json);
   return status;
 }
@@ -142,19 +142,19 @@ static void print(const order_t *o, const effectiveness_t *r) {
                "little");
 }
 
-static status_t run(order_t *o, whole_files_t *files, int argc, char **argv, why_t *why) {
+static done_t run(order_t *o, whole_files_t *files, int argc, char **argv, why_t *why) {
   effectiveness_t result = {.rows = 0};
   FILE *json;
   TRY(take_order(o, argc, argv, why));
   if (o->help) fputs(USAGE, stdout);
   if (o->version) made_version("effectiveness");
-  if (!o->log) return ST_OK;
+  if (!o->log) return DONE;
   TRY(whole_files_open(files, o->json, &json, why));
   TRY(whole_files_spare(files, o->log, why));
   TRY(effectiveness_fit(o->log, &o->job, &result, why));
   if (json) TRY(write_json(o, &result, json, why));
   print(o, &result);
-  return ST_OK;
+  return DONE;
 }
 
 int main(int argc, char **argv) {
@@ -162,7 +162,7 @@ int main(int argc, char **argv) {
   static whole_files_t files;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  const status_t status = run(&order, &files, argc, argv, &why);
+  const done_t status = run(&order, &files, argc, argv, &why);
   made_free(&order.made);
   return whole_files_exit(&files, "effectiveness", status, &why);
 }

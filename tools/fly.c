@@ -40,30 +40,30 @@ typedef struct {
 
 // --- options ------------------------------------------------------------------------------------------
 
-static status_t take_count(const char *option, const char *text, double min, double max, double *value,
-                           why_t *why) {
+static done_t take_count(const char *option, const char *text, double min, double max, double *value,
+                         why_t *why) {
   if (number_parse(text, value) && *value >= min && *value <= max && *value == (double)(long)*value)
-    return ST_OK;
+    return DONE;
   return error_set(why, "%s %s: allowed is a whole number from %.0f to %.0f", option, text, min, max);
 }
 
-static status_t take_params(order_t *o, const char *form, why_t *why) {
+static done_t take_params(order_t *o, const char *form, why_t *why) {
   o->params = true;
   o->markdown = form != NULL;
-  if (!form || strcmp(form, "markdown") == 0) return ST_OK;
+  if (!form || strcmp(form, "markdown") == 0) return DONE;
   return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
-static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double count;
   switch (option) {
   case 'c': return request_take_controller(&o->request, &o->kind, text, why);
   case 's': return request_take_set(&o->request, text, why);
   case 'S': return request_take_sets(&o->request, text, why);
-  case 'R': o->replay = text; return ST_OK;
-  case 'T': o->params_to = text; return ST_OK;
-  case 'u': o->usd = text; return ST_OK;
-  case 'U': o->usd_config = text; return ST_OK;
+  case 'R': o->replay = text; return DONE;
+  case 'T': o->params_to = text; return DONE;
+  case 'u': o->usd = text; return DONE;
+  case 'U': o->usd_config = text; return DONE;
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
@@ -75,21 +75,21 @@ static status_t take_option(order_t *o, int option, const char *text, why_t *why
     o->seed_said = true;
     TRY(take_count("--seed", text, 0.0, 1e9, &count, why));
     o->request.seed = (uint64_t)count;
-    return ST_OK;
+    return DONE;
   case 'f': return take_count("--from", text, 0.0, 1e9, &o->from, why);
   case 't': return take_count("--to", text, 0.0, 1e9, &o->to, why);
   case 'm':
     TRY(take_count("--seeds", text, 1.0, SEEDS_MAX, &count, why));
     o->seeds = (int)count;
-    return ST_OK;
-  case 'l': o->log = text; return ST_OK;
+    return DONE;
+  case 'l': o->log = text; return DONE;
   case 'r': o->rate_said = true; return request_take_log_rate(&o->request, text, why);
-  case 'j': o->json = text; return ST_OK;
-  case 'L': o->list = true; return ST_OK;
-  case 'G': o->logs = true; return ST_OK;
+  case 'j': o->json = text; return DONE;
+  case 'L': o->list = true; return DONE;
+  case 'G': o->logs = true; return DONE;
   case 'P': return take_params(o, text, why);
-  case 'V': o->version = true; return ST_OK;
-  case 'h': o->help = true; return ST_OK;
+  case 'V': o->version = true; return DONE;
+  case 'h': o->help = true; return DONE;
   }
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
 }
@@ -98,17 +98,17 @@ static bool many(const order_t *o) {
   return !isnan(o->from) || !isnan(o->to);
 }
 
-static status_t check_many(const order_t *o, why_t *why) {
-  if (!many(o)) return ST_OK;
+static done_t check_many(const order_t *o, why_t *why) {
+  if (!many(o)) return DONE;
   if (!(o->from <= o->to)) return error_set(why, "--from, --to: both are needed, and --from <= --to");
   if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
   if (o->seed_said) return error_set(why, "--seed: allowed is either that or --from and --to");
   if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
   if (o->usd) return error_set(why, "--usd: one flight can be written; leave out --from and --to");
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   // clang-format off
   static const struct option options[] = {
       {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
@@ -128,8 +128,8 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     TRY(take_option(o, option, optarg, why));
     if (!strchr("ftjlT", option)) made_option(&o->each, options[at].name, optarg);
   }
-  if (o->list || o->logs || o->params || o->help || o->version) return ST_OK;
-  if (o->replay && optind == argc) return ST_OK;
+  if (o->list || o->logs || o->params || o->help || o->version) return DONE;
+  if (o->replay && optind == argc) return DONE;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
   TRY(scenario_take(argv[optind], &o->scenario, why));
@@ -150,7 +150,7 @@ typedef struct { // what is written beside what is printed
   FILE *log, *json, *params, *usd;
 } output_t;
 
-static status_t open_output(const order_t *o, output_t *out, why_t *why) {
+static done_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->log, &out->log, why));
   TRY(whole_files_open(&out->files, o->json, &out->json, why));
   TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
@@ -159,7 +159,7 @@ static status_t open_output(const order_t *o, output_t *out, why_t *why) {
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
-static status_t tell(const order_t *o, cJSON *json, const record_t *record, output_t *out, why_t *why) {
+static done_t tell(const order_t *o, cJSON *json, const record_t *record, output_t *out, why_t *why) {
   if (!json) return error_failed(why, "out of memory");
   made_add(json, &o->made, (double)o->request.seed, o->rows);
   if (out->log) record_write(record, out->log);
@@ -168,21 +168,21 @@ static status_t tell(const order_t *o, cJSON *json, const record_t *record, outp
     fprintf(out->params, "%s=%.9g\n", params_table[i].name, (double)record->param[i]);
   if (out->json) TRY(result_write(json, out->json, why));
   result_print(json, stdout);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t fly_once(const order_t *o, int i, result_t *result, why_t *why) {
+static done_t fly_once(const order_t *o, int i, result_t *result, why_t *why) {
   request_t request = o->request;
   request.seed += (uint64_t)i;
   TRY(result_init(result, why));
   return o->scenario->run(&request, result, why);
 }
 
-static status_t fly(order_t *o, output_t *out, why_t *why) {
+static done_t fly(order_t *o, output_t *out, why_t *why) {
   cJSON **json = calloc((size_t)o->seeds, sizeof(cJSON *));
   record_t record = {0};
-  status_t status = json ? ST_OK : error_failed(why, "out of memory");
-  for (int i = 0; i < o->seeds && status == ST_OK; i++) {
+  done_t status = json ? DONE : error_failed(why, "out of memory");
+  for (int i = 0; i < o->seeds && status == DONE; i++) {
     result_t result;
     status = fly_once(o, i, &result, why);
     json[i] = result.json;
@@ -193,7 +193,7 @@ static status_t fly(order_t *o, output_t *out, why_t *why) {
     if (o->seeds > 1 && isatty(STDERR_FILENO)) fprintf(stderr, "\r%d of %d flights", i + 1, o->seeds);
   }
   if (o->seeds > 1 && isatty(STDERR_FILENO)) fputc('\n', stderr);
-  if (status == ST_OK) {
+  if (status == DONE) {
     cJSON *all =
         o->seeds > 1 ? result_over_seeds(json, o->seeds, o->request.seed) : cJSON_Duplicate(json[0], true);
     status = tell(o, all, &record, out, why);
@@ -205,7 +205,7 @@ static status_t fly(order_t *o, output_t *out, why_t *why) {
   return status;
 }
 
-static status_t fly_with_deck(order_t *o, output_t *out, why_t *why) {
+static done_t fly_with_deck(order_t *o, output_t *out, why_t *why) {
   static usd_deck_t deck;
   TRY(usd_deck_init(&deck, o->usd_config, out->usd, why));
   o->request.usd = &deck;
@@ -213,10 +213,10 @@ static status_t fly_with_deck(order_t *o, output_t *out, why_t *why) {
   if (deck.flights != 1)
     return error_set(why, "--usd: %d flights of the app in 6-DoF; allowed is one", deck.flights);
   usd_deck_stop(&deck);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t fly_many(order_t *o, output_t *out, why_t *why) {
+static done_t fly_many(order_t *o, output_t *out, why_t *why) {
   const many_t m = {
       .scenario = o->scenario,
       .request = &o->request,
@@ -231,7 +231,7 @@ static status_t fly_many(order_t *o, output_t *out, why_t *why) {
   return many_fly(&m, why);
 }
 
-static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
+static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
   if (order->version) made_version("fly");
@@ -239,7 +239,7 @@ static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t 
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
   if (order->replay) return replay_told(order->replay, &order->request, why);
-  if (!order->scenario) return ST_OK;
+  if (!order->scenario) return DONE;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));
   if (out->usd) return fly_with_deck(order, out, why);
@@ -251,7 +251,7 @@ int main(int argc, char **argv) {
   static output_t out;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  const status_t status = run(&order, &out, argc, argv, &why);
+  const done_t status = run(&order, &out, argc, argv, &why);
   const int ended = whole_files_exit(&out.files, "fly", status, &why);
   made_free(&order.made);
   made_free(&order.each);

@@ -49,42 +49,42 @@ static const char USAGE[] =
 
 // --- options ------------------------------------------------------------------------------------------
 
-static status_t take_once(const char **to, const char *option, const char *text, why_t *why) {
+static done_t take_once(const char **to, const char *option, const char *text, why_t *why) {
   if (*to) return error_set(why, "--%s: given twice; allowed: once", option);
   *to = text;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double seed;
   switch (option) {
   case 'v': return take_once(&o->study.vehicle, "vehicle", text, why);
   case 'c': return take_once(&o->study.columns, "columns", text, why);
-  case 'x': o->hold_out[o->study.n_hold_out++] = text; return ST_OK;
+  case 'x': o->hold_out[o->study.n_hold_out++] = text; return DONE;
   case 'o': return take_once(&o->out, "out", text, why);
   case 'j': return take_once(&o->json, "json", text, why);
-  case 'h': o->help = true; return ST_OK;
-  case 'V': o->version = true; return ST_OK;
+  case 'h': o->help = true; return DONE;
+  case 'V': o->version = true; return DONE;
   case 's':
     if (!number_parse(text, &seed) || !(seed >= 0.0 && seed <= 1e9) || seed != (double)(unsigned long)seed)
       return error_set(why, "--seed %.40s: allowed is a whole number from 0 to 1000000000", text);
     o->study.seed = (unsigned long)seed;
-    return ST_OK;
+    return DONE;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_paths(order_t *o, why_t *why) {
+static done_t take_paths(order_t *o, why_t *why) {
   if (o->json && !o->json[0]) return error_set(why, "--json: an empty path; allowed: a file's");
-  if (!o->out) return ST_OK;
+  if (!o->out) return DONE;
   const int a = snprintf(o->verdict, PATH_BYTES, "%s/verdict.json", o->out);
   snprintf(o->page, PATH_BYTES, "%s/report.html", o->out);
   snprintf(o->curves, PATH_BYTES, "%s/curves.csv", o->out);
   snprintf(o->model, PATH_BYTES, "%s/model.toml", o->out);
-  return a < 4000 && o->out[0] ? ST_OK : error_set(why, "--out %.60s: not a folder's path", o->out);
+  return a < 4000 && o->out[0] ? DONE : error_set(why, "--out %.60s: not a folder's path", o->out);
 }
 
-static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
       {"vehicle", 1, 0, 'v'}, {"columns", 1, 0, 'c'}, {"hold-out", 1, 0, 'x'},
       {"out", 1, 0, 'o'},     {"json", 1, 0, 'j'},    {"seed", 1, 0, 's'},
@@ -102,7 +102,7 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   o->study.hold_out = o->hold_out;
   o->study.log = (const char *const *)argv + optind;
   o->study.n_log = argc - optind;
-  if (o->help || o->version) return ST_OK;
+  if (o->help || o->version) return DONE;
   if (o->study.n_log == 0) return error_set(why, "no log; allowed: gap [options] LOG...");
   return take_paths(o, why);
 }
@@ -121,7 +121,7 @@ static bool is_folder(const char *path) {
 }
 
 // With those that it lies in.
-static status_t make_folder(const char *path, why_t *why) {
+static done_t make_folder(const char *path, why_t *why) {
   char part[PATH_BYTES] = "";
   for (size_t n = 1; path && n <= strlen(path); n++) {
     if (path[n] != '/' && path[n] != '\0') continue;
@@ -132,11 +132,11 @@ static status_t make_folder(const char *path, why_t *why) {
     return error_set(why, "--out %.300s: %s", part,
                      cause == EEXIST || cause == ENOTDIR ? "not a folder" : strerror(cause));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // All of them before the work begins: what cannot be written is said at once.
-static status_t open_output(const order_t *o, bool refused, output_t *w, why_t *why) {
+static done_t open_output(const order_t *o, bool refused, output_t *w, why_t *why) {
   TRY(make_folder(o->out, why));
   TRY(whole_files_open(&w->files, o->out ? o->verdict : NULL, &w->verdict, why));
   TRY(whole_files_open(&w->files, o->out ? o->page : NULL, &w->page, why));
@@ -147,26 +147,26 @@ static status_t open_output(const order_t *o, bool refused, output_t *w, why_t *
   TRY(whole_files_spare(&w->files, o->study.columns, why));
   for (int i = 0; i < o->study.n_log; i++) TRY(whole_files_spare(&w->files, o->study.log[i], why));
   for (int i = 0; i < o->study.n_hold_out; i++) TRY(whole_files_spare(&w->files, o->study.hold_out[i], why));
-  return ST_OK;
+  return DONE;
 }
 
-static status_t write_json(cJSON *json, const output_t *w, why_t *why) {
-  status_t status = json ? ST_OK : error_failed(why, "out of memory");
-  if (status == ST_OK && w->verdict) status = report_write_json(json, w->verdict, why);
-  if (status == ST_OK && w->json) status = report_write_json(json, w->json, why);
+static done_t write_json(cJSON *json, const output_t *w, why_t *why) {
+  done_t status = json ? DONE : error_failed(why, "out of memory");
+  if (status == DONE && w->verdict) status = report_write_json(json, w->verdict, why);
+  if (status == DONE && w->json) status = report_write_json(json, w->json, why);
   cJSON_Delete(json);
   return status;
 }
 
-static status_t write_words(const report_t *r, output_t *w, why_t *why) {
+static done_t write_words(const report_t *r, output_t *w, why_t *why) {
   size_t size;
   FILE *const out = open_memstream(&w->words, &size);
   if (!out) return error_failed(why, "out of memory");
   report_words(r, out);
-  return fclose(out) == 0 ? ST_OK : error_failed(why, "out of memory");
+  return fclose(out) == 0 ? DONE : error_failed(why, "out of memory");
 }
 
-static status_t write_all(const report_t *r, output_t *w, why_t *why) {
+static done_t write_all(const report_t *r, output_t *w, why_t *why) {
   const study_t *const s = r->study;
   char logs[120];
   long rows = 0;
@@ -201,10 +201,10 @@ static void remove_found(const order_t *o) {
 static void refuse(const order_t *o, const why_t *line) {
   output_t w = {.verdict = NULL};
   why_t why;
-  status_t status = open_output(o, true, &w, &why);
-  if (status == ST_OK) status = write_json(report_refused(line->text, &o->study), &w, &why);
-  if (status == ST_OK && w.page) report_page_refused(line->text, &o->study, w.page);
-  if (status == ST_OK && whole_files_commit(&w.files, &why) == ST_OK) remove_found(o);
+  done_t status = open_output(o, true, &w, &why);
+  if (status == DONE) status = write_json(report_refused(line->text, &o->study), &w, &why);
+  if (status == DONE && w.page) report_page_refused(line->text, &o->study, w.page);
+  if (status == DONE && whole_files_commit(&w.files, &why) == DONE) remove_found(o);
   whole_files_drop(&w.files);
 }
 
@@ -214,15 +214,15 @@ static void progress(const char *what) {
   fprintf(stderr, "\r\033[K%s", what);
 }
 
-static status_t work(const order_t *o, output_t *w, bool *begun, why_t *why) {
+static done_t work(const order_t *o, output_t *w, bool *begun, why_t *why) {
   study_t *const study = calloc(1, sizeof *study);
   report_t *const report = calloc(1, sizeof *report);
-  status_t status = study && report ? open_output(o, false, w, why) : error_failed(why, "out of memory");
-  *begun = status == ST_OK;
-  if (status == ST_OK) status = study_make(study, &o->study, why);
-  if (status == ST_OK) status = report_make(report, study, why);
+  done_t status = study && report ? open_output(o, false, w, why) : error_failed(why, "out of memory");
+  *begun = status == DONE;
+  if (status == DONE) status = study_make(study, &o->study, why);
+  if (status == DONE) status = report_make(report, study, why);
   if (o->study.progress) fputs("\r\033[K", stderr);
-  if (status == ST_OK) status = write_all(report, w, why);
+  if (status == DONE) status = write_all(report, w, why);
   if (report) report_free(report);
   if (study) study_free(study);
   free(report);
@@ -236,11 +236,11 @@ int main(int argc, char **argv) {
   why_t why = {""};
   bool begun = false;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  status_t status = take_order(&order, argc, argv, &why);
+  done_t status = take_order(&order, argc, argv, &why);
   if (isatty(STDERR_FILENO)) order.study.progress = progress;
-  if (status == ST_OK && order.help) fputs(USAGE, stdout);
-  if (status == ST_OK && order.version) made_version("gap");
-  if (status == ST_OK && !order.help && !order.version) status = work(&order, &out, &begun, &why);
+  if (status == DONE && order.help) fputs(USAGE, stdout);
+  if (status == DONE && order.version) made_version("gap");
+  if (status == DONE && !order.help && !order.version) status = work(&order, &out, &begun, &why);
   const int ended = whole_files_exit(&out.files, "gap", status, &why);
   if (ended == 0 && out.words) fputs(out.words, stdout);
   if (begun && ended == 2) refuse(&order, &why);

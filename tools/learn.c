@@ -56,34 +56,34 @@ static const char USAGE[] =
 
 // --- options ------------------------------------------------------------------------------------------
 
-static status_t append(const char *list[FILES_MAX], int *n, const char *item, why_t *why) {
+static done_t append(const char *list[FILES_MAX], int *n, const char *item, why_t *why) {
   if (*n == FILES_MAX) return error_set(why, "%s: too many of these; allowed: %d", item, FILES_MAX);
   list[(*n)++] = item;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_surface(order_t *o, const char *name, why_t *why) {
+static done_t take_surface(order_t *o, const char *name, why_t *why) {
   if (strcmp(name, "ceiling") != 0 && strcmp(name, "ground") != 0)
     return error_set(why, "--surface %s: allowed are ceiling, ground", name);
   o->surface = name[0] == 'c' ? SURFACE_CEILING : SURFACE_GROUND;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_option(order_t *o, int option, const char *text, why_t *why) {
+static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   switch (option) {
-  case 'c': o->columns = text; return ST_OK;
-  case 'v': o->vehicle = text; return ST_OK;
+  case 'c': o->columns = text; return DONE;
+  case 'v': o->vehicle = text; return DONE;
   case 's': return take_surface(o, text, why);
   case 'o': return append(o->held_out, &o->n_held_out, text, why);
   case 'p': return append(o->set, &o->n_set, text, why);
-  case 'x': o->points = text; return ST_OK;
-  case 'j': o->json = text; return ST_OK;
-  case 'V': o->version = true; return ST_OK;
-  default: o->help = true; return ST_OK;
+  case 'x': o->points = text; return DONE;
+  case 'j': o->json = text; return DONE;
+  case 'V': o->version = true; return DONE;
+  default: o->help = true; return DONE;
   }
 }
 
-static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
+static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   static const struct option options[] = {
       {"columns", 1, 0, 'c'}, {"vehicle", 1, 0, 'v'},
       {"surface", 1, 0, 's'}, {"hold-out", 1, 0, 'o'},
@@ -100,19 +100,19 @@ static status_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   for (int i = optind; i < argc; i++) TRY(append(o->log, &o->n_log, argv[i], why));
   if (o->n_log == 0 && !o->help && !o->version)
     return error_set(why, "no flight to learn from; allowed: learn LOG.csv...");
-  return ST_OK;
+  return DONE;
 }
 
-static status_t set_param(flight_param_t *p, const char *text, why_t *why) {
+static done_t set_param(flight_param_t *p, const char *text, why_t *why) {
   param_set_t set;
   TRY(param_parse(text, &set, why));
   if (!set.row) return error_set(why, "--set %s: a parameter of the app, which does not fly here", text);
-  return params_set(p, set.row, set.value);
+  return params_set(p, set.row, set.value) == ST_OK ? DONE : BAD_INPUT;
 }
 
 // --- learning -----------------------------------------------------------------------------------------
 
-static status_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
+static done_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
   model_t vehicle;
   TRY(o->vehicle ? model_read(o->vehicle, &vehicle, why) : model_builtin("cf21_legacy", &vehicle, why));
   learn_job_init(job, &vehicle, o->surface);
@@ -123,18 +123,18 @@ static status_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
   if (o->surface == SURFACE_GROUND && isnan(job->rest_height_m))
     return error_set(
         why, "--surface ground: the height at rest is not known; rest_height_m in a --columns file says it");
-  return ST_OK;
+  return DONE;
 }
 
 // Two passes: the first one weighs the vehicle, and finds every error before anything is learned.
-static status_t weigh(const order_t *o, lesson_t *r, why_t *why) {
+static done_t weigh(const order_t *o, lesson_t *r, why_t *why) {
   for (int i = 0; i < o->n_log; i++) {
     struct stat s;
     if (stat(o->log[i], &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode))
       return error_set(why, "%s: not a file; allowed: a file, because it is read twice", o->log[i]);
     TRY(learn_log_mass(&r->job, o->log[i], &r->mass, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // A mass that was set by hand wins over the measured one, that over the vehicle file's.
@@ -150,7 +150,7 @@ static void choose_mass(const order_t *o, lesson_t *r) {
   r->mass_from = "thrust over specific force above 0.2 m";
 }
 
-static status_t learn(const order_t *o, lesson_t *r, FILE *points, why_t *why) {
+static done_t learn(const order_t *o, lesson_t *r, FILE *points, why_t *why) {
   TRY(prepare(o, &r->job, why));
   TRY(weigh(o, r, why));
   choose_mass(o, r);
@@ -166,7 +166,7 @@ static status_t learn(const order_t *o, lesson_t *r, FILE *points, why_t *why) {
                      o->log[o->n_log - 1], (double)p->learn.near_m, (double)p->learn.far_m);
   for (int i = 0; i < o->n_held_out; i++)
     TRY(learn_log_score(&r->job, o->held_out[i], &r->learn.rls.theta, &r->score[i], why));
-  return ST_OK;
+  return DONE;
 }
 
 // --- result -------------------------------------------------------------------------------------------
@@ -193,9 +193,9 @@ static cJSON *json_of(const order_t *o, const lesson_t *r) {
   return json;
 }
 
-static status_t write_json(const order_t *o, const lesson_t *r, FILE *file, why_t *why) {
+static done_t write_json(const order_t *o, const lesson_t *r, FILE *file, why_t *why) {
   cJSON *const json = json_of(o, r);
-  const status_t status = result_write(json, file, why);
+  const done_t status = result_write(json, file, why);
   cJSON_Delete(json);
   return status;
 }
@@ -222,7 +222,7 @@ static void print(const order_t *o, const lesson_t *r) {
   }
 }
 
-static status_t open_output(const order_t *o, output_t *out, why_t *why) {
+static done_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->points, &out->points, why));
   TRY(whole_files_open(&out->files, o->json, &out->json, why));
   for (int i = 0; i < o->n_log; i++) TRY(whole_files_spare(&out->files, o->log[i], why));
@@ -231,22 +231,22 @@ static status_t open_output(const order_t *o, output_t *out, why_t *why) {
   return whole_files_spare(&out->files, o->vehicle, why);
 }
 
-static status_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
+static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   static lesson_t lesson;
   TRY(take_order(order, argc, argv, why));
   if (order->help) {
     fputs(USAGE, stdout);
-    return ST_OK;
+    return DONE;
   }
   if (order->version) {
     made_version("learn");
-    return ST_OK;
+    return DONE;
   }
   TRY(open_output(order, out, why));
   TRY(learn(order, &lesson, out->points, why));
   if (out->json) TRY(write_json(order, &lesson, out->json, why));
   print(order, &lesson);
-  return ST_OK;
+  return DONE;
 }
 
 int main(int argc, char **argv) {
@@ -254,7 +254,7 @@ int main(int argc, char **argv) {
   static output_t out;
   why_t why;
   signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
-  const status_t status = run(&order, &out, argc, argv, &why);
+  const done_t status = run(&order, &out, argc, argv, &why);
   made_free(&order.made);
   return whole_files_exit(&out.files, "learn", status, &why);
 }

@@ -19,12 +19,12 @@ static void print(const char *what, const slot_many_t *m) {
   putchar('\n');
 }
 
-static status_t fly(const char *what, fly_kind_t kind, const char *effect, double mass_kg, why_t *why) {
+static done_t fly(const char *what, fly_kind_t kind, const char *effect, double mass_kg, why_t *why) {
   const slot_case_t c = {kind, effect, mass_kg, true, SLOT_RISE_M, SEEDS};
   slot_many_t m;
   TRY(slot_fly_many(&c, &m, why));
   print(what, &m);
-  return ST_OK;
+  return DONE;
 }
 
 // Ceiling effects that are published; weight over thrust is known only to some grams, so each gets several.
@@ -37,17 +37,17 @@ static const struct {
     {"Cheeseman and Bennett", "ceiling:form=cheeseman-bennett", 32, 36},
 };
 
-static status_t fly_forms(why_t *why) {
+static done_t fly_forms(why_t *why) {
   for (unsigned i = 0; i < sizeof form / sizeof *form; i++)
     for (int g = form[i].low_g; g <= form[i].high_g; g++) {
       char what[64];
       snprintf(what, sizeof what, "stock PID, %s, %d g", form[i].name, g);
       TRY(fly(what, FLY_STOCK_PID, form[i].effect, 1e-3 * g, why));
     }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t run(const char *folder, why_t *why) {
+static done_t run(const char *folder, why_t *why) {
   slot_many_t m;
   if (folder) TRY(slot_real_many(folder, &m, why));
   printf("%-46s %9s  %19s  %9s  %s\n", "", "captured", "their gap mm", "free mm", "captured, by real flight");
@@ -71,7 +71,7 @@ int main(int argc, char **argv) {
     return 0;
   }
   const bool bad = argc > 2 || (folder && folder[0] == '-');
-  const status_t status =
+  const done_t status =
       bad ? error_set(&why, "%s: allowed: slot [FOLDER of recorded flights]", argv[argc > 2 ? 2 : 1])
           : run(folder, &why);
   return error_exit("slot", status, &why);

@@ -27,8 +27,8 @@ typedef enum {
 // Hands a status that is not ST_OK to the caller.
 #define TRY(call)                                                                                            \
   do {                                                                                                       \
-    const status_t try_status = (call);                                                                      \
-    if (try_status != ST_OK) return try_status;                                                              \
+    const __typeof__(call) try_status = (call);                                                              \
+    if (try_status != 0) return try_status;                                                                  \
   } while (0)
 
 // The status in words, for logs and messages; "unknown status" for what is not in the enumeration.

@@ -33,7 +33,7 @@ struct csv_file {
   bool forgive, cut_off;
 };
 
-status_t csv_refuse(const csv_file_t *file, int column, why_t *why, const char *format, ...) {
+done_t csv_refuse(const csv_file_t *file, int column, why_t *why, const char *format, ...) {
   char what[400], where[80] = "", shown[NUMBER_SHOWN];
   va_list args;
   va_start(args, format);
@@ -92,7 +92,7 @@ static void on_row(int ending, void *user) {
 }
 
 // One line with its LF; *size 0 at the end of the file.
-static status_t read_line(csv_file_t *file, size_t *size, why_t *why) {
+static done_t read_line(csv_file_t *file, size_t *size, why_t *why) {
   *size = 0;
   file->line_number++;
   for (int c = 0; c != '\n' && (c = getc_unlocked(file->stream)) != EOF;) {
@@ -103,11 +103,11 @@ static status_t read_line(csv_file_t *file, size_t *size, why_t *why) {
   }
   if (ferror(file->stream)) return csv_refuse(file, -1, why, "cannot be read: %s", strerror(errno));
   if (*size == 0 && file->line_number > 1) file->line_number--; // the end is no line
-  return ST_OK;
+  return DONE;
 }
 
 // The next row that is not blank; none is left where into->count stays 0.
-static status_t read_row(csv_file_t *file, row_t *into, why_t *why) {
+static done_t read_row(csv_file_t *file, row_t *into, why_t *why) {
   into->count = 0;
   into->used = 0;
   file->into = into;
@@ -125,10 +125,10 @@ static status_t read_row(csv_file_t *file, row_t *into, why_t *why) {
       return csv_refuse(file, -1, why, "the row is too long; allowed: %d bytes", CSV_LINE_MAX);
     if (size == 0) break;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t check_names(const csv_file_t *file, why_t *why) {
+static done_t check_names(const csv_file_t *file, why_t *why) {
   const row_t *name = &file->name;
   char shown[NUMBER_SHOWN];
   double number;
@@ -148,10 +148,10 @@ static status_t check_names(const csv_file_t *file, why_t *why) {
         return csv_refuse(file, i, why, "the name stands twice, in cells %d and %d; allowed: once", j + 1,
                           i + 1);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t start(csv_file_t *file, why_t *why) {
+static done_t start(csv_file_t *file, why_t *why) {
   // Opening a folder succeeds; reading it does not.
   errno = 0;
   const int first = getc_unlocked(file->stream);
@@ -164,14 +164,14 @@ static status_t start(csv_file_t *file, why_t *why) {
   return check_names(file, why);
 }
 
-status_t csv_open(csv_file_t **file, const char *path, why_t *why) {
+done_t csv_open(csv_file_t **file, const char *path, why_t *why) {
   *file = NULL;
   FILE *const stream = fopen(path, "rb");
   if (!stream) return error_set(why, "%s: cannot be opened: %s", path, strerror(errno));
   return csv_open_stream(file, stream, path, why);
 }
 
-status_t csv_open_stream(csv_file_t **file, FILE *stream, const char *path, why_t *why) {
+done_t csv_open_stream(csv_file_t **file, FILE *stream, const char *path, why_t *why) {
   *file = NULL;
   csv_file_t *const fresh = calloc(1, sizeof *fresh);
   if (!fresh) {
@@ -180,10 +180,9 @@ status_t csv_open_stream(csv_file_t **file, FILE *stream, const char *path, why_
   }
   fresh->stream = stream;
   snprintf(fresh->path, sizeof fresh->path, "%s", path);
-  const status_t status = strlen(path) < sizeof fresh->path
-                              ? start(fresh, why)
-                              : error_set(why, "%s: the path is too long", path);
-  if (status == ST_OK)
+  const done_t status = strlen(path) < sizeof fresh->path ? start(fresh, why)
+                                                          : error_set(why, "%s: the path is too long", path);
+  if (status == DONE)
     *file = fresh;
   else
     csv_close(fresh);
@@ -203,14 +202,14 @@ int csv_find(const csv_file_t *file, const char *name) {
   return -1;
 }
 
-status_t csv_next(csv_file_t *file, bool *more, why_t *why) {
+done_t csv_next(csv_file_t *file, bool *more, why_t *why) {
   *more = false;
   TRY(read_row(file, &file->row, why));
   const int got = file->row.count, want = file->name.count;
   if (got == 0 && file->rows == 0)
     return error_set(why, "%s:1: no row under the names; allowed: one or more", file->path);
   file->cut_off = file->forgive && got > 0 && got < want && feof(file->stream);
-  if (got == 0 || file->cut_off) return ST_OK;
+  if (got == 0 || file->cut_off) return DONE;
   if (got < want)
     return csv_refuse(file, got, why, "missing: the row has %d cells, the first row names %d (cut off here?)",
                       got, want);
@@ -220,10 +219,10 @@ status_t csv_next(csv_file_t *file, bool *more, why_t *why) {
                       got, want);
   file->rows++;
   *more = true;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t no_number(const csv_file_t *file, int column, csv_gap_t gap, const char *cell, why_t *why) {
+static done_t no_number(const csv_file_t *file, int column, csv_gap_t gap, const char *cell, why_t *why) {
   char shown[NUMBER_SHOWN];
   if (strchr(cell, ','))
     return csv_refuse(file, column, why, "decimal comma in `%s`; allowed: `.`", number_shown(cell, shown));
@@ -231,7 +230,7 @@ static status_t no_number(const csv_file_t *file, int column, csv_gap_t gap, con
                     gap == CSV_GAP_NAN ? ", or nan or nothing for a gap" : "");
 }
 
-status_t csv_number(const csv_file_t *file, int column, csv_gap_t gap, double *value, why_t *why) {
+done_t csv_number(const csv_file_t *file, int column, csv_gap_t gap, double *value, why_t *why) {
   const char *const cell = file->row.cell[column];
   char shown[NUMBER_SHOWN];
   double number = (double)NAN;
@@ -244,5 +243,5 @@ status_t csv_number(const csv_file_t *file, int column, csv_gap_t gap, double *v
     return csv_refuse(file, column, why, "not finite: `%s`; allowed: a number", number_shown(cell, shown));
   }
   *value = number;
-  return ST_OK;
+  return DONE;
 }

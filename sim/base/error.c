@@ -4,24 +4,24 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-status_t error_set(why_t *why, const char *format, ...) {
+done_t error_set(why_t *why, const char *format, ...) {
   va_list args;
   va_start(args, format);
   vsnprintf(why->text, sizeof why->text, format, args);
   va_end(args);
-  return ST_BAD_INPUT;
+  return BAD_INPUT;
 }
 
-status_t error_failed(why_t *why, const char *format, ...) {
+done_t error_failed(why_t *why, const char *format, ...) {
   va_list args;
   va_start(args, format);
   vsnprintf(why->text, sizeof why->text, format, args);
   va_end(args);
-  return ST_FAILED;
+  return FAILED;
 }
 
-int error_exit(const char *program, status_t status, const why_t *why) {
-  if (status == ST_OK) return 0;
+int error_exit(const char *program, done_t status, const why_t *why) {
+  if (status == DONE) return 0;
   fprintf(stderr, "%s: %s\n", program, why->text);
-  return status == ST_FAILED ? 1 : 2;
+  return status == FAILED ? 1 : 2;
 }

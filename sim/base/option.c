@@ -21,7 +21,7 @@ static void list(const struct option *options, char text[LIST_MAX]) {
     used += (size_t)snprintf(text + used, LIST_MAX - used, "%s--%s", o == options ? "" : ", ", o->name);
 }
 
-status_t option_refuse(const struct option *options, const char *typed, why_t *why) {
+done_t option_refuse(const struct option *options, const char *typed, why_t *why) {
   char shown[NUMBER_SHOWN], text[LIST_MAX] = "", hint[NEAREST_HINT], word[NEAREST_LETTERS + 1] = "";
   const char *const name = typed + strspn(typed, "-");
   const size_t size = strcspn(name, "=");

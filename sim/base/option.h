@@ -6,7 +6,7 @@
 #include <getopt.h>
 
 // What getopt_long answered with `?`: not an option, or one without its value, or with a value that it does
-// not take. Says which, and what is allowed. Returns ST_BAD_INPUT.
-status_t option_refuse(const struct option *options, const char *typed, why_t *why);
+// not take. Says which, and what is allowed. Returns BAD_INPUT.
+done_t option_refuse(const struct option *options, const char *typed, why_t *why);
 
 #endif

@@ -38,7 +38,7 @@ const toml::node *find(toml_t t, const char *key, const char *type, why_t *why) 
   return node;
 }
 
-status_t wrong_type(toml_t t, const char *key, const char *type, why_t *why) {
+done_t wrong_type(toml_t t, const char *key, const char *type, why_t *why) {
   return toml_refuse(t, key, why, "wrong type; allowed: %s", type);
 }
 
@@ -50,7 +50,7 @@ std::string keys_of(const toml_kind_t *kind) {
   return list;
 }
 
-status_t parse(toml_file_t &file, std::istream &stream, const toml_kind_t *kind, why_t *why) {
+done_t parse(toml_file_t &file, std::istream &stream, const toml_kind_t *kind, why_t *why) {
   try {
     file.root = toml::parse(stream, file.path);
   } catch (const toml::parse_error &e) {
@@ -59,10 +59,10 @@ status_t parse(toml_file_t &file, std::istream &stream, const toml_kind_t *kind,
                      e.source().begin.line, e.source().begin.column, what.c_str(), kind->what, kind->example,
                      keys_of(kind).c_str());
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t read(toml_file_t &file, const char *text, const toml_kind_t *kind, why_t *why) {
+done_t read(toml_file_t &file, const char *text, const toml_kind_t *kind, why_t *why) {
   if (text) {
     std::istringstream stream(text);
     return parse(file, stream, kind, why);
@@ -76,12 +76,12 @@ status_t read(toml_file_t &file, const char *text, const toml_kind_t *kind, why_
   return parse(file, stream, kind, why);
 }
 
-status_t open(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind, why_t *why) {
+done_t open(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind, why_t *why) {
   *file = nullptr;
   try {
     toml_file_t *const fresh = new toml_file_t{path, {}};
-    const status_t status = read(*fresh, text, kind, why);
-    if (status == ST_OK)
+    const done_t status = read(*fresh, text, kind, why);
+    if (status == DONE)
       *file = fresh;
     else
       delete fresh;
@@ -93,12 +93,12 @@ status_t open(toml_file_t **file, const char *path, const char *text, const toml
 
 } // namespace
 
-status_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why) {
+done_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why) {
   return open(file, path, nullptr, kind, why);
 }
 
-status_t toml_open_text(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind,
-                        why_t *why) {
+done_t toml_open_text(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind,
+                      why_t *why) {
   return open(file, path, text, kind, why);
 }
 
@@ -114,7 +114,7 @@ bool toml_has(toml_t t, const char *key) {
   return table_of(t).contains(key);
 }
 
-status_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ...) {
+done_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ...) {
   char what[400];
   va_list args;
   va_start(args, format);
@@ -127,53 +127,53 @@ status_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, 
   return error_set(why, "%s:%u: %s%s%s", t.file->path.c_str(), line, key ? key : "", key ? ": " : "", what);
 }
 
-status_t toml_string(toml_t t, const char *key, char *text, size_t size, why_t *why) {
+done_t toml_string(toml_t t, const char *key, char *text, size_t size, why_t *why) {
   const toml::node *node = find(t, key, "a text in quotes", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   const toml::value<std::string> *value = node->as_string();
   if (!value) return wrong_type(t, key, "a text in quotes", why);
   const std::string &s = value->get();
   if (s.size() >= size || s.find('\0') != std::string::npos)
     return toml_refuse(t, key, why, "the text is too long; allowed: %zu bytes", size - 1);
   std::memcpy(text, s.c_str(), s.size() + 1);
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_double(toml_t t, const char *key, double min, double max, double *value, why_t *why) {
+done_t toml_double(toml_t t, const char *key, double min, double max, double *value, why_t *why) {
   const toml::node *node = find(t, key, "a number", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   if (!node->is_number()) return wrong_type(t, key, "a number", why);
   const double x = *node->value<double>();
   if (!(x >= min && x <= max) || std::isinf(x))
     return toml_refuse(t, key, why, "%g is out of range; allowed: %g to %g", x, min, max);
   *value = x;
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why) {
+done_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why) {
   const toml::node *node = find(t, key, "a whole number", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   const toml::value<int64_t> *whole = node->as_integer();
   if (!whole) return wrong_type(t, key, "a whole number", why);
   if (whole->get() < min || whole->get() > max)
     return toml_refuse(t, key, why, "%lld is out of range; allowed: %d to %d",
                        static_cast<long long>(whole->get()), min, max);
   *value = static_cast<int>(whole->get());
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_bool(toml_t t, const char *key, bool *value, why_t *why) {
+done_t toml_bool(toml_t t, const char *key, bool *value, why_t *why) {
   const toml::node *node = find(t, key, "true or false", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   const toml::value<bool> *truth = node->as_boolean();
   if (!truth) return wrong_type(t, key, "true or false", why);
   *value = truth->get();
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int *n, why_t *why) {
+done_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int *n, why_t *why) {
   const toml::node *node = find(t, key, "a list of numbers", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   const toml::array *list = node->as_array();
   if (!list) return wrong_type(t, key, "a list of numbers", why);
   if (list->size() > static_cast<size_t>(n_max))
@@ -183,30 +183,30 @@ status_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int 
       return wrong_type(t, key, "a list of numbers", why);
   *n = 0;
   for (const toml::node &item : *list) values[(*n)++] = *item.value<double>();
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_table(toml_t t, const char *key, toml_t *sub, why_t *why) {
+done_t toml_table(toml_t t, const char *key, toml_t *sub, why_t *why) {
   const toml::node *node = find(t, key, "a table", why);
-  if (!node) return ST_BAD_INPUT;
+  if (!node) return BAD_INPUT;
   const toml::table *table = node->as_table();
   if (!table) return wrong_type(t, key, "a table", why);
   *sub = handle(t.file, table);
-  return ST_OK;
+  return DONE;
 }
 
-status_t toml_table_at(toml_t t, const char *key, int i, toml_t *sub, bool *more, why_t *why) {
+done_t toml_table_at(toml_t t, const char *key, int i, toml_t *sub, bool *more, why_t *why) {
   *more = false;
   const toml::node *node = table_of(t).get(key);
-  if (!node) return ST_OK;
+  if (!node) return DONE;
   const toml::array *list = node->as_array();
   if (!list) return wrong_type(t, key, "tables, each under [[...]]", why);
-  if (static_cast<size_t>(i) >= list->size()) return ST_OK;
+  if (static_cast<size_t>(i) >= list->size()) return DONE;
   const toml::table *table = list->get(static_cast<size_t>(i))->as_table();
   if (!table) return wrong_type(t, key, "tables, each under [[...]]", why);
   *sub = handle(t.file, table);
   *more = true;
-  return ST_OK;
+  return DONE;
 }
 
 const char *toml_key(toml_t t, int i) {
@@ -215,7 +215,7 @@ const char *toml_key(toml_t t, int i) {
   return std::next(table.begin(), i)->first.data();
 }
 
-status_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
+done_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
   for (int i = 0; const char *key = toml_key(t, i); i++) {
     bool known = false;
     for (const char *const *a = allowed; *a; a++) known = known || std::strcmp(*a, key) == 0;
@@ -228,5 +228,5 @@ status_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
     char hint[NEAREST_HINT];
     return toml_refuse(t, key, why, "unknown key%s; allowed: %s", nearest_of(key, allowed, hint), list);
   }
-  return ST_OK;
+  return DONE;
 }

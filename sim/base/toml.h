@@ -27,12 +27,12 @@ typedef struct {
   const char *const *keys;    // of its root; ends with a null pointer
 } toml_kind_t;
 
-// ST_BAD_INPUT: no such file, a folder, not TOML (with line and column); *file is null then.
-MUST_CHECK status_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why);
+// BAD_INPUT: no such file, a folder, not TOML (with line and column); *file is null then.
+MUST_CHECK done_t toml_open(toml_file_t **file, const char *path, const toml_kind_t *kind, why_t *why);
 
 // The same from a text in memory; `path` is what errors call it.
-MUST_CHECK status_t toml_open_text(toml_file_t **file, const char *path, const char *text,
-                                   const toml_kind_t *kind, why_t *why);
+MUST_CHECK done_t toml_open_text(toml_file_t **file, const char *path, const char *text,
+                                 const toml_kind_t *kind, why_t *why);
 
 // A null pointer is allowed.
 void toml_close(toml_file_t *file);
@@ -41,27 +41,27 @@ toml_t toml_root(const toml_file_t *file);
 
 bool toml_has(toml_t t, const char *key);
 
-// ST_BAD_INPUT: the key is missing or of another type; for the numbers also out of min..max, and not finite.
+// BAD_INPUT: the key is missing or of another type; for the numbers also out of min..max, and not finite.
 // Nothing is written to the result then. A whole number is accepted as a double.
-MUST_CHECK status_t toml_string(toml_t t, const char *key, char *text, size_t size, why_t *why);
-MUST_CHECK status_t toml_double(toml_t t, const char *key, double min, double max, double *value, why_t *why);
-MUST_CHECK status_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why);
-MUST_CHECK status_t toml_bool(toml_t t, const char *key, bool *value, why_t *why);
-MUST_CHECK status_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int *n, why_t *why);
-MUST_CHECK status_t toml_table(toml_t t, const char *key, toml_t *sub, why_t *why);
+MUST_CHECK done_t toml_string(toml_t t, const char *key, char *text, size_t size, why_t *why);
+MUST_CHECK done_t toml_double(toml_t t, const char *key, double min, double max, double *value, why_t *why);
+MUST_CHECK done_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why);
+MUST_CHECK done_t toml_bool(toml_t t, const char *key, bool *value, why_t *why);
+MUST_CHECK done_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int *n, why_t *why);
+MUST_CHECK done_t toml_table(toml_t t, const char *key, toml_t *sub, why_t *why);
 
 // Number i of an array of tables `[[key]]`; *more is false where there is none of that number (also without
 // the key).
-MUST_CHECK status_t toml_table_at(toml_t t, const char *key, int i, toml_t *sub, bool *more, why_t *why);
+MUST_CHECK done_t toml_table_at(toml_t t, const char *key, int i, toml_t *sub, bool *more, why_t *why);
 
 // The key number i of a table, in no particular order; a null pointer beyond the last.
 const char *toml_key(toml_t t, int i);
 
-// ST_BAD_INPUT: the table has a key that is not in `allowed`, which ends with a null pointer.
-MUST_CHECK status_t toml_only(toml_t t, const char *const *allowed, why_t *why);
+// BAD_INPUT: the table has a key that is not in `allowed`, which ends with a null pointer.
+MUST_CHECK done_t toml_only(toml_t t, const char *const *allowed, why_t *why);
 
-// An error about a key (or, where it is missing or null, about its table). Returns ST_BAD_INPUT.
-status_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ...)
+// An error about a key (or, where it is missing or null, about its table). Returns BAD_INPUT.
+done_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 #ifdef __cplusplus

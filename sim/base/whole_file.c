@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static status_t cannot(const char *path, why_t *why) {
+static done_t cannot(const char *path, why_t *why) {
   return error_set(why, "%.300s: cannot be written: %s", path, strerror(errno));
 }
 
@@ -43,19 +43,19 @@ static bool is_output(const struct stat *s) {
 }
 
 // The text waits in a file without a name: what went into a pipe could not be taken back.
-static status_t open_direct(whole_file_t *f, const char *path, const struct stat *s, why_t *why) {
+static done_t open_direct(whole_file_t *f, const char *path, const struct stat *s, why_t *why) {
   // A second opening of the file that is the standard output would write over it.
   const int output = is_output(s) ? dup(STDOUT_FILENO) : -1;
   f->direct = output >= 0 ? fdopen(output, "w") : fopen(path, "w");
   if (!f->direct) return cannot(path, why);
   f->file = tmpfile();
-  if (f->file) return ST_OK;
+  if (f->file) return DONE;
   fclose(f->direct);
   return error_failed(why, "no temporary file: %s", strerror(errno));
 }
 
 // there: what is replaced, whose rights are kept; null: nothing.
-static status_t open_beside(whole_file_t *f, const char *path, const struct stat *there, why_t *why) {
+static done_t open_beside(whole_file_t *f, const char *path, const struct stat *there, why_t *why) {
   // Moving a file there would not ask.
   if (there && access(f->target, W_OK) != 0) return cannot(path, why);
   char folder[WHOLE_PATH_MAX];
@@ -68,13 +68,13 @@ static status_t open_beside(whole_file_t *f, const char *path, const struct stat
   (void)!fchmod(f->part.file, there ? there->st_mode & 07777 : 0666 & ~mask);
   const int writer = part_writer(&f->part);
   f->file = writer < 0 ? NULL : fdopen(writer, "w");
-  if (f->file) return ST_OK;
+  if (f->file) return DONE;
   if (writer >= 0) close(writer);
   part_close(&f->part);
   return error_failed(why, "%.300s: %s", path, strerror(errno));
 }
 
-static status_t open_one(whole_file_t *f, const char *path, why_t *why) {
+static done_t open_one(whole_file_t *f, const char *path, why_t *why) {
   struct stat s, link;
   const bool there = stat(path, &s) == 0;
   if (!there && errno != ENOENT) return cannot(path, why);
@@ -91,9 +91,9 @@ static status_t open_one(whole_file_t *f, const char *path, why_t *why) {
   return open_direct(f, path, &s, why);
 }
 
-status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why) {
+done_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why) {
   *file = NULL;
-  if (!path) return ST_OK;
+  if (!path) return DONE;
   if (w->n == WHOLE_FILES_MAX) return error_failed(why, "more than %d files to write", WHOLE_FILES_MAX);
   // Else a file would get its number, and what is printed.
   struct stat output;
@@ -106,16 +106,16 @@ status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t
     if (strcmp(w->of[i].target, f->target) == 0)
       return error_set(why, "%.300s: to be written twice; allowed: a file for each output", path);
   *file = f->file;
-  return ST_OK;
+  return DONE;
 }
 
-status_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why) {
+done_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why) {
   char *const real = path ? realpath(path, NULL) : NULL;
   bool written = false;
   for (int i = 0; real && i < w->n; i++)
     written = written || (!w->of[i].direct && strcmp(w->of[i].target, real) == 0);
   free(real);
-  return written ? error_set(why, "%.300s: to be read and to be written; allowed: one of them", path) : ST_OK;
+  return written ? error_set(why, "%.300s: to be read and to be written; allowed: one of them", path) : DONE;
 }
 
 static bool copy(FILE *from, FILE *to) {
@@ -134,51 +134,51 @@ static void close_file(FILE **file, bool *good) {
   *file = NULL;
 }
 
-static status_t not_written(const whole_file_t *f, why_t *why) {
+static done_t not_written(const whole_file_t *f, why_t *why) {
   return error_failed(why, "%.300s: cannot be written: %s", f->target, strerror(errno));
 }
 
-static status_t finish(whole_file_t *f, why_t *why) {
+static done_t finish(whole_file_t *f, why_t *why) {
   errno = EIO;
   bool good = fflush(f->file) == 0 && !ferror(f->file);
   if (good && f->direct) good = copy(f->file, f->direct);
   close_file(&f->file, &good);
   close_file(&f->direct, &good);
-  return good ? ST_OK : not_written(f, why);
+  return good ? DONE : not_written(f, why);
 }
 
 // After this nothing that is common can fail any more.
-static status_t name(whole_file_t *f, why_t *why) {
-  if (f->part.file < 0) return ST_OK;
+static done_t name(whole_file_t *f, why_t *why) {
+  if (f->part.file < 0) return DONE;
   static const char own[] = ".part-XXXXXX";
   const size_t folder = (size_t)folder_size(f->target);
   if (folder + sizeof own <= sizeof f->beside) {
     memcpy(f->beside, f->target, folder);
     memcpy(f->beside + folder, own, sizeof own);
-    if (part_name(&f->part, f->beside)) return ST_OK;
+    if (part_name(&f->part, f->beside)) return DONE;
   }
   f->beside[0] = '\0';
   return not_written(f, why);
 }
 
-static status_t move(whole_file_t *f, why_t *why) {
-  if (f->beside[0] == '\0') return ST_OK;
+static done_t move(whole_file_t *f, why_t *why) {
+  if (f->beside[0] == '\0') return DONE;
   if (rename(f->beside, f->target) != 0) return not_written(f, why);
   f->beside[0] = '\0';
-  return ST_OK;
+  return DONE;
 }
 
-status_t whole_files_commit(whole_files_t *w, why_t *why) {
-  status_t status = ST_OK;
+done_t whole_files_commit(whole_files_t *w, why_t *why) {
+  done_t status = DONE;
   if (fflush(stdout) != 0 || ferror(stdout)) status = error_failed(why, "standard output: cannot be written");
   // Files first: a text that went into a pipe could not be taken back.
-  for (int i = 0; i < w->n && status == ST_OK; i++)
+  for (int i = 0; i < w->n && status == DONE; i++)
     if (!w->of[i].direct) status = finish(&w->of[i], why);
-  for (int i = 0; i < w->n && status == ST_OK; i++)
+  for (int i = 0; i < w->n && status == DONE; i++)
     if (w->of[i].direct) status = finish(&w->of[i], why);
   part_hold(); // all in their places, or none
-  for (int i = 0; i < w->n && status == ST_OK; i++) status = name(&w->of[i], why);
-  for (int i = 0; i < w->n && status == ST_OK; i++) status = move(&w->of[i], why);
+  for (int i = 0; i < w->n && status == DONE; i++) status = name(&w->of[i], why);
+  for (int i = 0; i < w->n && status == DONE; i++) status = move(&w->of[i], why);
   whole_files_drop(w);
   part_release();
   return status;
@@ -195,8 +195,8 @@ void whole_files_drop(whole_files_t *w) {
   w->n = 0;
 }
 
-int whole_files_exit(whole_files_t *w, const char *program, status_t status, why_t *why) {
-  if (status == ST_OK) status = whole_files_commit(w, why);
+int whole_files_exit(whole_files_t *w, const char *program, done_t status, why_t *why) {
+  if (status == DONE) status = whole_files_commit(w, why);
   whole_files_drop(w);
   return error_exit(program, status, why);
 }

@@ -29,21 +29,21 @@ typedef struct {
   int n;
 } whole_files_t;
 
-// One more file to write, *file; path null: none, *file null. ST_BAD_INPUT: a folder, a symbolic link to a
+// One more file to write, *file; path null: none, *file null. BAD_INPUT: a folder, a symbolic link to a
 // file or to nowhere, a place that another one of the files has already, or that cannot be written.
-MUST_CHECK status_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why);
+MUST_CHECK done_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *why);
 
-// ST_BAD_INPUT: this file, which is read (null: none is), would be written too.
-MUST_CHECK status_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why);
+// BAD_INPUT: this file, which is read (null: none is), would be written too.
+MUST_CHECK done_t whole_files_spare(const whole_files_t *w, const char *path, why_t *why);
 
 // Puts all in their places, if all could be written and the standard output too: what cannot be told is not
-// done. ST_FAILED: not so (disk full); what was there before is kept, and nothing lies beside.
-MUST_CHECK status_t whole_files_commit(whole_files_t *w, why_t *why);
+// done. FAILED: not so (disk full); what was there before is kept, and nothing lies beside.
+MUST_CHECK done_t whole_files_commit(whole_files_t *w, why_t *why);
 
 // Gives all up: what was there before is kept, and nothing lies beside.
 void whole_files_drop(whole_files_t *w);
 
 // The end of a program: commits if all went well so far, else drops; says what was wrong. The exit status.
-int whole_files_exit(whole_files_t *w, const char *program, status_t status, why_t *why);
+int whole_files_exit(whole_files_t *w, const char *program, done_t status, why_t *why);
 
 #endif

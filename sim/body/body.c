@@ -77,10 +77,10 @@ static bool model_is_good(const model_t *m) {
          f->inertia_kgm2[1] > 0.0 && f->inertia_kgm2[2] > 0.0;
 }
 
-status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
-                   const body_start_t *start) {
+done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
+                 const body_start_t *start) {
   memset(b, 0, sizeof *b);
-  if (!model_is_good(model)) return ST_BAD_INPUT;
+  if (!model_is_good(model)) return BAD_INPUT;
   const frame_t *f = &model->frame;
   b->model = model;
   b->plant = body_untouched(model);
@@ -100,15 +100,15 @@ status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, doubl
   take_start(b, start);
   look_at_battery(b);
   b->random = random_open(start->seed);
-  if (!b->random) return ST_FAILED;
+  if (!b->random) return FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
   look_now(b);
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;
   b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
   const ode_t ode = {.n = RIGID_N, .derivative = derivative, .context = b, .step_s = step_s};
-  const status_t status = integrate_open(&b->integrate, kind, &ode);
-  if (status != ST_OK) body_close(b);
+  const done_t status = integrate_open(&b->integrate, kind, &ode);
+  if (status != DONE) body_close(b);
   return status;
 }
 

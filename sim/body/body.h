@@ -64,10 +64,10 @@ typedef struct {
 
 #define BODY_RELEASE_M 1e-3
 
-// step_s: of the integrator, > 0. ST_BAD_INPUT: step_s, inertia, mass, lag or kf out of range. ST_FAILED: no
+// step_s: of the integrator, > 0. BAD_INPUT: step_s, inertia, mass, lag or kf out of range. FAILED: no
 // memory. The body must not be moved in memory; close what was opened.
-MUST_CHECK status_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
-                              const body_start_t *start);
+MUST_CHECK done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
+                            const body_start_t *start);
 
 // Moves on by span_s with commands in newton per motor (what the thrust in free air will settle at; within a
 // quarter of the model's thrust limits), or in PWM 0..65535 through the thrust map at the battery's voltage.

@@ -25,8 +25,8 @@ static double margin(void *self, const double *y) {
   return vertical_margin(&w->vehicle, y, ratio);
 }
 
-status_t world_open(world_t *w, const model_t *model, integrate_kind_t kind, double step_s, double z_m,
-                    double thrust_N) {
+done_t world_open(world_t *w, const model_t *model, integrate_kind_t kind, double step_s, double z_m,
+                  double thrust_N) {
   *w = (world_t){
       .model = model,
       .vehicle = {.mass_kg = model->mass_kg,

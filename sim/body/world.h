@@ -16,10 +16,10 @@ typedef struct {
 } world_t;
 
 // At height z_m (0: at rest on the ground) and thrust_N, not moving. step_s: of the integrator, > 0.
-// ST_BAD_INPUT: step_s out of range. ST_FAILED: no memory. The world must not be moved in memory; close what
+// BAD_INPUT: step_s out of range. FAILED: no memory. The world must not be moved in memory; close what
 // was opened.
-MUST_CHECK status_t world_open(world_t *w, const model_t *model, integrate_kind_t kind, double step_s,
-                               double z_m, double thrust_N);
+MUST_CHECK done_t world_open(world_t *w, const model_t *model, integrate_kind_t kind, double step_s,
+                             double z_m, double thrust_N);
 
 // Holds command_N (within the model's limits; returned as applied) and force_N from outside for span_s.
 double world_tick(world_t *w, double command_N, double force_N, double span_s);

@@ -17,14 +17,14 @@ typedef struct {
   char text[USD_CONFIG_LINE]; // without white space and comment
 } reader_t;
 
-static status_t refuse(const reader_t *r, why_t *why, const char *what) {
+static done_t refuse(const reader_t *r, why_t *why, const char *what) {
   char shown[NUMBER_SHOWN];
   return error_set(why, "%s:%d: `%s`: %s", r->path, r->line, number_shown(r->text, shown), what);
 }
 
 // The next line; a line of a comment alone is none. *more: false at the end, where a line without its newline
 // is lost, as on the deck.
-static status_t next(reader_t *r, bool *more, why_t *why) {
+static done_t next(reader_t *r, bool *more, why_t *why) {
   bool comment = false, pure = false;
   size_t n = 0;
   *more = true;
@@ -35,7 +35,7 @@ static status_t next(reader_t *r, bool *more, why_t *why) {
       *more = false;
       return ferror(r->file) ? error_set(why, "%s: cannot be read", r->path)
              : n > 0         ? refuse(r, why, "the last line; allowed: one that ends with a newline")
-                             : ST_OK;
+                             : DONE;
     }
     if (c == '\n') comment = pure = false, r->line++;
     if (isspace(c)) continue;
@@ -46,10 +46,10 @@ static status_t next(reader_t *r, bool *more, why_t *why) {
     r->text[n++] = (char)c;
     r->text[n] = '\0';
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_whole(reader_t *r, int max, const char *allowed, int *value, why_t *why) {
+static done_t take_whole(reader_t *r, int max, const char *allowed, int *value, why_t *why) {
   bool more;
   double number;
   TRY(next(r, &more, why));
@@ -57,10 +57,10 @@ static status_t take_whole(reader_t *r, int max, const char *allowed, int *value
       number != (double)(int)number)
     return refuse(r, why, allowed);
   *value = (int)number;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_head(reader_t *r, usd_config_t *config, why_t *why) {
+static done_t take_head(reader_t *r, usd_config_t *config, why_t *why) {
   int version, at_start;
   bool more;
   TRY(take_whole(r, 1, "the version; allowed: 1", &version, why));
@@ -73,30 +73,30 @@ static status_t take_head(reader_t *r, usd_config_t *config, why_t *why) {
   memcpy(config->file, r->text, strlen(r->text) + 1);
   TRY(take_whole(r, 1, "start with the power; allowed: 0, 1", &at_start, why));
   config->at_start = at_start == 1;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_event(reader_t *r, usd_config_t *config, why_t *why) {
+static done_t take_event(reader_t *r, usd_config_t *config, why_t *why) {
   if (config->n == USD_CONFIG_EVENTS) return refuse(r, why, "one event too many; the deck takes 20");
   usd_config_event_t *const e = &config->event[config->n++];
   memcpy(e->name, r->text + 3, sizeof e->name - 3);
   e->line = r->line;
-  if (strcmp(e->name, FIXED) != 0) return ST_OK;
+  if (strcmp(e->name, FIXED) != 0) return DONE;
   TRY(take_whole(r, 1000, "the frequency; allowed: 0 to 1000 Hz", &config->frequency_Hz, why));
   return take_whole(r, 2, "the mode; allowed: 0, 1, 2", &config->mode, why);
 }
 
-static status_t take_variable(const reader_t *r, usd_config_t *config, why_t *why) {
+static done_t take_variable(const reader_t *r, usd_config_t *config, why_t *why) {
   if (config->n == 0) return refuse(r, why, "before any event; allowed: on:NAME");
   usd_config_event_t *const e = &config->event[config->n - 1];
   if (e->n == USD_CONFIG_VARIABLES)
     return refuse(r, why, "one variable too many; the deck takes 20 an event");
   memcpy(e->variable[e->n], r->text, sizeof r->text);
   e->at[e->n++] = r->line;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read(reader_t *r, usd_config_t *config, why_t *why) {
+static done_t read(reader_t *r, usd_config_t *config, why_t *why) {
   TRY(take_head(r, config, why));
   for (bool more;;) {
     TRY(next(r, &more, why));
@@ -106,19 +106,19 @@ static status_t read(reader_t *r, usd_config_t *config, why_t *why) {
     TRY(event ? take_event(r, config, why) : take_variable(r, config, why));
   }
   if (config->n == 0) return error_set(why, "%s: no event; allowed: one on:NAME or more", r->path);
-  return ST_OK;
+  return DONE;
 }
 
-status_t usd_config_read(const char *path, usd_config_t *config, why_t *why) {
+done_t usd_config_read(const char *path, usd_config_t *config, why_t *why) {
   reader_t r = {.path = path, .file = fopen(path, "rb")};
   *config = (usd_config_t){.n = 0};
   if (!r.file) return error_set(why, "%s: cannot be opened: %s", path, strerror(errno));
-  const status_t status = read(&r, config, why);
+  const done_t status = read(&r, config, why);
   fclose(r.file);
   return status;
 }
 
-status_t usd_config_check(const char *path, const usd_config_t *config, why_t *why) {
+done_t usd_config_check(const char *path, const usd_config_t *config, why_t *why) {
   char shown[NUMBER_SHOWN];
   for (int i = 0; i < config->n; i++) {
     const usd_config_event_t *const e = &config->event[i];
@@ -130,5 +130,5 @@ status_t usd_config_check(const char *path, const usd_config_t *config, why_t *w
         return error_set(why, "%s:%d: %s: the app has no such log", path, e->at[k],
                          number_shown(e->variable[k], shown));
   }
-  return ST_OK;
+  return DONE;
 }

@@ -33,10 +33,10 @@ typedef struct {
   usd_config_event_t event[USD_CONFIG_EVENTS];
 } usd_config_t;
 
-// ST_BAD_INPUT, with file and line: cannot be read, or is no such file, or more than the deck takes.
-MUST_CHECK status_t usd_config_read(const char *path, usd_config_t *config, why_t *why);
+// BAD_INPUT, with file and line: cannot be read, or is no such file, or more than the deck takes.
+MUST_CHECK done_t usd_config_read(const char *path, usd_config_t *config, why_t *why);
 
-// ST_BAD_INPUT, with file and line: the app triggers no such event, or has no such log.
-MUST_CHECK status_t usd_config_check(const char *path, const usd_config_t *config, why_t *why);
+// BAD_INPUT, with file and line: the app triggers no such event, or has no such log.
+MUST_CHECK done_t usd_config_check(const char *path, const usd_config_t *config, why_t *why);
 
 #endif

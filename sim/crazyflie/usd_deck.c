@@ -91,7 +91,7 @@ static void on_event(void *deck, const char *name) {
     if (strcmp(d->config.event[i].name, name) == 0) put_row(d, i);
 }
 
-status_t usd_deck_init(usd_deck_t *d, const char *config_path, FILE *to, why_t *why) {
+done_t usd_deck_init(usd_deck_t *d, const char *config_path, FILE *to, why_t *why) {
   *d = (usd_deck_t){.to = to, .crc = crc32(0, NULL, 0)};
   TRY(usd_config_read(config_path, &d->config, why));
   TRY(usd_config_check(config_path, &d->config, why));
@@ -99,7 +99,7 @@ status_t usd_deck_init(usd_deck_t *d, const char *config_path, FILE *to, why_t *
     for (int k = 0; k < d->config.event[i].n; k++)
       d->log[i][k] = sections_log(d->config.event[i].variable[k]);
   put_head(d);
-  return ST_OK;
+  return DONE;
 }
 
 void usd_deck_start(usd_deck_t *d, crazyflie_t *vehicle) {

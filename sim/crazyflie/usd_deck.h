@@ -30,9 +30,9 @@ typedef struct usd_deck {
   double waiting; // bytes in the buffer
 } usd_deck_t;
 
-// A deck with this config on its card and an empty file. ST_BAD_INPUT as usd_config_read and
+// A deck with this config on its card and an empty file. BAD_INPUT as usd_config_read and
 // usd_config_check.
-MUST_CHECK status_t usd_deck_init(usd_deck_t *deck, const char *config_path, FILE *to, why_t *why);
+MUST_CHECK done_t usd_deck_init(usd_deck_t *deck, const char *config_path, FILE *to, why_t *why);
 
 // Onto the vehicle, and usd.logging 1. The rows of one flight make one file: a second flight is counted, no
 // more.

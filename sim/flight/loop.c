@@ -50,7 +50,7 @@ static void measure(flight_loop_t *f, long tick) {
   f->sense.motor_N = f->world.y[VERTICAL_THRUST_N];
 }
 
-static status_t keep(flight_loop_t *f, record_t *record, double t_s, double command_N) {
+static done_t keep(flight_loop_t *f, record_t *record, double t_s, double command_N) {
   const world_t *w = &f->world;
   const double gap_m = world_ceiling_gap_m(w);
   const sample_t sample = {
@@ -73,7 +73,7 @@ static status_t keep(flight_loop_t *f, record_t *record, double t_s, double comm
   return record_add(record, &sample);
 }
 
-static status_t run(flight_loop_t *f, record_t *record, outcome_t *outcome) {
+static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome) {
   const plan_t *plan = f->plan;
   const double dt = f->controller->period_s;
   const long ticks = lround(plan->end_s / dt), record_every = ticks_of(RECORD_PERIOD_S, dt);
@@ -89,11 +89,11 @@ static status_t run(flight_loop_t *f, record_t *record, outcome_t *outcome) {
     f->sense.applied_N = world_tick(&f->world, command_N, f->world.model->mass_kg * f->gust_mps2, dt);
     f->gap_min_m = fmin(f->gap_min_m, world_ceiling_gap_m(&f->world));
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *controller, record_t *record,
-                  outcome_t *outcome, why_t *why) {
+done_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *controller, record_t *record,
+                outcome_t *outcome, why_t *why) {
   flight_loop_t f = {.plan = plan, .controller = controller, .gap_min_m = HUGE_VAL};
   f.sense.applied_N = plan->start_thrust_N;
   f.thoughts = (thoughts_t){.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
@@ -102,15 +102,15 @@ status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *
   kalman_z_init(&f.kalman, KALMAN_ACC_MPS2, fmax(plan->noise.down_m, 1e-4), controller->period_s,
                 (int)ticks_of(DOWN_PERIOD_S, controller->period_s), plan->start_z_m);
   f.random = random_open(plan->seed);
-  status_t status = f.random ? ST_OK : ST_FAILED;
-  if (status == ST_OK)
+  done_t status = f.random ? DONE : FAILED;
+  if (status == DONE)
     status =
         world_open(&f.world, model, plan->integrate, plan->step_s > 0.0 ? plan->step_s : INTEGRATE_STEP_S,
                    plan->start_z_m, plan->start_thrust_N);
-  if (status == ST_OK) status = run(&f, record, outcome);
+  if (status == DONE) status = run(&f, record, outcome);
   outcome->contacts = f.world.contacts;
   outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);
   if (f.world.integrate) world_close(&f.world);
   random_close(f.random);
-  return status == ST_OK ? ST_OK : error_failed(why, "the flight could not be run: out of memory");
+  return status == DONE ? DONE : error_failed(why, "the flight could not be run: out of memory");
 }

@@ -36,8 +36,8 @@ typedef struct {
 } outcome_t;
 
 // Flies the plan. *record gets the samples (it must be empty; free it after use).
-// ST_FAILED: no memory, or a plan out of range.
-MUST_CHECK status_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *controller,
-                             record_t *record, outcome_t *outcome, why_t *why);
+// FAILED: no memory, or a plan out of range.
+MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const controller_t *controller,
+                           record_t *record, outcome_t *outcome, why_t *why);
 
 #endif

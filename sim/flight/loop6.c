@@ -126,8 +126,8 @@ static void pilot_ms(flight6_t *f, const truth_t *truth) {
   f->in.step++;
 }
 
-static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
-                     why_t *why) {
+static done_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
+                   why_t *why) {
   thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   if (f->ask) f->ask(f->pilot->state, &thoughts);
   f->ceiling_z_m = thoughts.ceiling_z_m;
@@ -151,7 +151,7 @@ static status_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s
   return record6_add(record, more, &tick, why);
 }
 
-static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+static done_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
   const int every = f->plan->record_every > 0 ? f->plan->record_every : RECORD_EVERY;
   TRY(record6_reserve(record, more, (int)(ticks / every) + 1, why));
@@ -171,24 +171,24 @@ static status_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *
     f->gap_min_m = fmin(f->gap_min_m, record6_gap_m(&f->body));
     outcome->finite = !f->body.broken;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t open(flight6_t *f, why_t *why) {
+static done_t open(flight6_t *f, why_t *why) {
   const plan_t *plan = &f->plan->plan;
   body_start_t start = f->plan->in_flight ? f->plan->start : body_standing(f->model);
   start.held = f->plan->held_s > 0.0;
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
-  const status_t opened = body_open(&f->body, f->model, plan->integrate,
-                                    plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);
-  if (opened == ST_BAD_INPUT)
+  const done_t opened = body_open(&f->body, f->model, plan->integrate,
+                                  plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);
+  if (opened == BAD_INPUT)
     return error_set(
         why,
         "vehicle %s with its effects: mass, inertia, motor lag or kf not above 0; such a vehicle "
         "cannot fly",
         f->model->name);
   f->random = random_open(plan->seed);
-  if (opened != ST_OK || !f->random) return error_failed(why, "out of memory");
+  if (opened != DONE || !f->random) return error_failed(why, "out of memory");
   imu_init(&f->imu);
   range_init(&f->range);
   f->mocap = (mocap_t){0};
@@ -201,11 +201,11 @@ static status_t open(flight6_t *f, why_t *why) {
   for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
   f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
-  return ST_OK;
+  return DONE;
 }
 
-status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
-                   record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+done_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
+                 record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
   flight6_t *f = calloc(1, sizeof *f);
   if (!f) return error_failed(why, "out of memory");
   *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
@@ -214,8 +214,8 @@ status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pi
   f->range_m = f->ceiling_z_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = cpu_time_s();
-  status_t status = open(f, why);
-  if (status == ST_OK) status = run(f, record, more, outcome, why);
+  done_t status = open(f, why);
+  if (status == DONE) status = run(f, record, more, outcome, why);
   outcome->contacts = f->body.ceiling_contacts;
   outcome->realtime_factor = cpu_time_factor(plan->plan.end_s, start_s);
   if (f->body.integrate) body_close(&f->body);

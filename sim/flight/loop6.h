@@ -41,10 +41,9 @@ typedef struct {
 typedef void (*loop6_ask_t)(const void *state, thoughts_t *thoughts);
 
 // Flies the plan. *record and *more get the samples (they must be empty; free them after use). The record's z
-// is the height of the rotors' plane, its gap that of the nearest rotor. ST_BAD_INPUT: a model that cannot
-// fly. ST_FAILED: no memory.
-MUST_CHECK status_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot,
-                              loop6_ask_t ask, record_t *record, record6_t *more, outcome_t *outcome,
-                              why_t *why);
+// is the height of the rotors' plane, its gap that of the nearest rotor. BAD_INPUT: a model that cannot
+// fly. FAILED: no memory.
+MUST_CHECK done_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
+                            record_t *record, record6_t *more, outcome_t *outcome, why_t *why);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 typedef struct {
-  status_t status;
+  done_t status;
   why_t why;
   char text[160];
   char *json; // null: not asked for
@@ -52,15 +52,15 @@ static void add_made(const many_t *m, const result_t *result, uint64_t seed) {
 }
 
 static line_t fly(const many_t *m, uint64_t seed) {
-  line_t line = {.status = ST_OK};
+  line_t line = {.status = DONE};
   request_t request = *m->request;
   request.seed = seed;
   result_t result;
   line.status = result_init(&result, &line.why);
-  if (line.status != ST_OK) return line;
+  if (line.status != DONE) return line;
   line.status = m->scenario->run(&request, &result, &line.why);
-  if (line.status == ST_OK) sum_up(result.json, seed, &line);
-  if (line.status == ST_OK && m->json) {
+  if (line.status == DONE) sum_up(result.json, seed, &line);
+  if (line.status == DONE && m->json) {
     add_made(m, &result, seed);
     line.json = cJSON_PrintUnformatted(result.json);
     if (!line.json) line.status = error_failed(&line.why, "out of memory");
@@ -78,18 +78,18 @@ static void write_line(const many_t *m, const line_t *line, uint64_t done) {
 }
 
 // The first failure, in the order of the seeds, ends what is written.
-status_t many_fly(const many_t *m, why_t *why) {
+done_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
-  status_t status = ST_OK; // touched in the ordered part alone; so is the count
+  done_t status = DONE; // touched in the ordered part alone; so is the count
   *m->not_finite = 0;
 #pragma omp parallel for ordered schedule(dynamic, 1)
   for (long i = 0; i < n; i++) {
     line_t line = fly(m, m->from + (uint64_t)i);
 #pragma omp ordered
-    if (status == ST_OK && line.status == ST_OK) {
+    if (status == DONE && line.status == DONE) {
       write_line(m, &line, (uint64_t)i + 1);
       *m->not_finite += !line.finite;
-    } else if (status == ST_OK) {
+    } else if (status == DONE) {
       status = line.status;
       *why = line.why;
     }

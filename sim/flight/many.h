@@ -22,8 +22,8 @@ typedef struct {
   int *not_finite;    // gets how many flights did not stay finite
 } many_t;
 
-// Writes a line for each flight. ST_BAD_INPUT, ST_FAILED: as the scenario; the lines of the seeds before are
+// Writes a line for each flight. BAD_INPUT, FAILED: as the scenario; the lines of the seeds before are
 // written then.
-MUST_CHECK status_t many_fly(const many_t *m, why_t *why);
+MUST_CHECK done_t many_fly(const many_t *m, why_t *why);
 
 #endif

@@ -11,19 +11,19 @@
 #define G_MPS2       9.81
 #define DEG_PER_RAD  (180.0 / 3.14159265358979323846)
 
-status_t record_reserve(record_t *r, int room) {
-  if (room <= r->room) return ST_OK;
+done_t record_reserve(record_t *r, int room) {
+  if (room <= r->room) return DONE;
   sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
-  if (!more) return ST_FAILED;
+  if (!more) return FAILED;
   r->sample = more;
   r->room = room;
-  return ST_OK;
+  return DONE;
 }
 
-status_t record_add(record_t *r, const sample_t *sample) {
+done_t record_add(record_t *r, const sample_t *sample) {
   if (r->n == r->room) TRY(record_reserve(r, r->room ? 2 * r->room : 4096));
   r->sample[r->n++] = *sample;
-  return ST_OK;
+  return DONE;
 }
 
 void record_free(record_t *r) {

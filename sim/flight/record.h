@@ -44,11 +44,11 @@ typedef struct {
 } record_t;
 
 // Makes room for so many samples in all: what is known beforehand need not be moved while it grows.
-// ST_FAILED: no memory; nothing has changed.
-MUST_CHECK status_t record_reserve(record_t *r, int room);
+// FAILED: no memory; nothing has changed.
+MUST_CHECK done_t record_reserve(record_t *r, int room);
 
-// ST_FAILED: no memory; nothing was added.
-MUST_CHECK status_t record_add(record_t *r, const sample_t *sample);
+// FAILED: no memory; nothing was added.
+MUST_CHECK done_t record_add(record_t *r, const sample_t *sample);
 
 void record_free(record_t *r);
 

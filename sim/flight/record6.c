@@ -75,30 +75,30 @@ static sample6_t more_of(const tick6_t *t) {
   return s;
 }
 
-static status_t reserve6(record6_t *more, int room) {
-  if (room <= more->room) return ST_OK;
+static done_t reserve6(record6_t *more, int room) {
+  if (room <= more->room) return DONE;
   sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
-  if (!bigger) return ST_FAILED;
+  if (!bigger) return FAILED;
   more->sample = bigger;
   more->room = room;
-  return ST_OK;
+  return DONE;
 }
 
-status_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why) {
-  if (record_reserve(record, room) == ST_OK && reserve6(more, room) == ST_OK) return ST_OK;
+done_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why) {
+  if (record_reserve(record, room) == DONE && reserve6(more, room) == DONE) return DONE;
   return error_failed(why, "out of memory");
 }
 
-static status_t keep6(record6_t *more, int n, const sample6_t *sample) {
+static done_t keep6(record6_t *more, int n, const sample6_t *sample) {
   if (n > more->room) TRY(reserve6(more, more->room ? 2 * more->room : 4096));
   more->sample[n - 1] = *sample;
-  return ST_OK;
+  return DONE;
 }
 
-status_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why) {
+done_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why) {
   const sample_t s = sample_of(tick);
   const sample6_t s6 = more_of(tick);
-  if (record_add(record, &s) == ST_OK && keep6(more, record->n, &s6) == ST_OK) return ST_OK;
+  if (record_add(record, &s) == DONE && keep6(more, record->n, &s6) == DONE) return DONE;
   return error_failed(why, "out of memory");
 }
 

@@ -29,11 +29,11 @@ typedef struct {
 // Distance of the rotor that is nearest to the ceiling.
 double record6_gap_m(const body_t *b);
 
-// Makes room for so many samples in both. ST_FAILED: no memory.
-MUST_CHECK status_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why);
+// Makes room for so many samples in both. FAILED: no memory.
+MUST_CHECK done_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why);
 
-// Adds a sample to both. ST_FAILED: no memory.
-MUST_CHECK status_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why);
+// Adds a sample to both. FAILED: no memory.
+MUST_CHECK done_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why);
 
 void record6_free(record6_t *r);
 

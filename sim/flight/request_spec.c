@@ -14,7 +14,7 @@
 #define NAME_MAX 24
 #define ITEM_MAX 64
 
-status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *name, why_t *why) {
+done_t request_take_controller(request_t *r, fly_kind_t *kind, const char *name, why_t *why) {
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
   for (int i = 0; i < FLY_COUNT; i++) {
@@ -22,7 +22,7 @@ status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *nam
     if (!fly_name[i] || strcmp(fly_name[i], name) != 0) continue;
     *kind = (fly_kind_t)i;
     r->kind = kind;
-    return ST_OK;
+    return DONE;
   }
   return error_set(
       why,
@@ -31,10 +31,10 @@ status_t request_take_controller(request_t *r, fly_kind_t *kind, const char *nam
       name, nearest_hint(&nearest, hint));
 }
 
-status_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
+done_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
   r->log_500_Hz = strcmp(text, "500") == 0;
   r->log_calls = strcmp(text, "1000") == 0;
-  if (r->log_500_Hz || r->log_calls || strcmp(text, "100") == 0) return ST_OK;
+  if (r->log_500_Hz || r->log_calls || strcmp(text, "100") == 0) return DONE;
   return error_set(why, "--log-rate %s: allowed are 100, 500, 1000", text);
 }
 
@@ -45,14 +45,14 @@ static bool is_field(const char *name) {
 }
 
 // One of the level's numbers, as "acc.z=0.1".
-static status_t set_noise(noise6_t *noise, const char *item, why_t *why) {
+static done_t set_noise(noise6_t *noise, const char *item, why_t *why) {
   char name[NAME_MAX] = "";
   const size_t size = strcspn(item, "=");
   double value;
   if (item[size] == '=' && size < sizeof name) {
     memcpy(name, item, size);
     name[size] = '\0';
-    if (number_parse(item + size + 1, &value) && noise6_set(noise, name, value)) return ST_OK;
+    if (number_parse(item + size + 1, &value) && noise6_set(noise, name, value)) return DONE;
   }
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
@@ -61,7 +61,7 @@ static status_t set_noise(noise6_t *noise, const char *item, why_t *why) {
                    is_field(name) ? "" : nearest_hint(&nearest, hint));
 }
 
-static status_t take_numbers(request_t *r, const char *items, why_t *why) {
+static done_t take_numbers(request_t *r, const char *items, why_t *why) {
   char item[ITEM_MAX];
   for (size_t size; *items; items += size + (items[size] == ',')) {
     size = strcspn(items, ",");
@@ -71,30 +71,30 @@ static status_t take_numbers(request_t *r, const char *items, why_t *why) {
     TRY(set_noise(&r->noise6_changed, item, why));
   }
   r->noise6 = &r->noise6_changed;
-  return ST_OK;
+  return DONE;
 }
 
 // A level of six degrees of freedom, and what is changed of it.
-static status_t take_noise6(request_t *r, const char *spec, bool *there, why_t *why) {
+static done_t take_noise6(request_t *r, const char *spec, bool *there, why_t *why) {
   const size_t size = strcspn(spec, ":");
   char name[NAME_MAX] = "";
   if (size < sizeof name) memcpy(name, spec, size);
   r->noise6 = noise6_find(name);
   *there = r->noise6 != NULL;
-  if (!*there || !spec[size]) return ST_OK;
+  if (!*there || !spec[size]) return DONE;
   r->noise6_changed = *r->noise6;
   return take_numbers(r, spec + size + 1, why);
 }
 
-status_t request_take_noise(request_t *r, const char *name, why_t *why) {
+done_t request_take_noise(request_t *r, const char *name, why_t *why) {
   bool six;
   r->noise = NULL;
   TRY(take_noise6(r, name, &six, why));
-  if (six) return ST_OK;
+  if (six) return DONE;
   for (int i = 0; i < noise_count; i++) {
     if (strcmp(noise_levels[i].name, name) != 0) continue;
     r->noise = &noise_levels[i];
-    return ST_OK;
+    return DONE;
   }
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
@@ -107,51 +107,51 @@ status_t request_take_noise(request_t *r, const char *name, why_t *why) {
       name, nearest_hint(&nearest, hint));
 }
 
-status_t request_take_integrator(request_t *r, const char *name, why_t *why) {
+done_t request_take_integrator(request_t *r, const char *name, why_t *why) {
   static const char *const names[] = {"sundials", "rk4", "reference", NULL};
   char hint[NEAREST_HINT];
   for (int i = 0; i < 3; i++) {
     if (strcmp(names[i], name) != 0) continue;
     r->integrate = (integrate_kind_t)i;
-    return ST_OK;
+    return DONE;
   }
   return error_set(why, "--integrator %s%s: allowed are sundials, rk4, reference", name,
                    nearest_of(name, names, hint));
 }
 
-status_t request_take_set(request_t *r, const char *text, why_t *why) {
+done_t request_take_set(request_t *r, const char *text, why_t *why) {
   if (r->n_set == REQUEST_MAX) return error_set(why, "--set: at most %d of them", REQUEST_MAX);
   TRY(param_parse(text, &r->set[r->n_set], why));
   r->n_set++;
-  return ST_OK;
+  return DONE;
 }
 
-status_t request_take_sets(request_t *r, const char *path, why_t *why) {
+done_t request_take_sets(request_t *r, const char *path, why_t *why) {
   FILE *const file = fopen(path, "r");
   if (!file) return error_set(why, "%s: cannot be read", path);
   char *line = NULL; // a comment may be long: it holds a command line
   size_t room = 0;
-  status_t status = ST_OK;
-  for (int n = 1; status == ST_OK && getline(&line, &room, file) >= 0; n++) {
+  done_t status = DONE;
+  for (int n = 1; status == DONE && getline(&line, &room, file) >= 0; n++) {
     line[strcspn(line, "\r\n")] = '\0';
     if (line[0] == '\0' || line[0] == '#') continue;
     why_t cause;
     status = request_take_set(r, line, &cause);
-    if (status != ST_OK) status = error_set(why, "%s:%d: %s", path, n, cause.text);
+    if (status != DONE) status = error_set(why, "%s:%d: %s", path, n, cause.text);
   }
   free(line);
   fclose(file);
   return status;
 }
 
-status_t request_take_effect(request_t *r, const char *spec, why_t *why) {
+done_t request_take_effect(request_t *r, const char *spec, why_t *why) {
   if (strcmp(spec, "none") == 0) {
     r->no_effects = true;
     r->n_effect = 0;
-    return ST_OK;
+    return DONE;
   }
   if (r->n_effect == FX_MAX) return error_set(why, "--effect: at most %d of them", FX_MAX);
   TRY(effect_parse(spec, &r->effect[r->n_effect], why));
   r->n_effect++;
-  return ST_OK;
+  return DONE;
 }

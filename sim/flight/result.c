@@ -7,14 +7,14 @@
 
 #define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 
-status_t result_init(result_t *r, why_t *why) {
+done_t result_init(result_t *r, why_t *why) {
   *r = (result_t){.json = cJSON_CreateObject()};
   if (!r->json) return error_failed(why, "out of memory");
   cJSON_AddArrayToObject(r->json, "segments");
   cJSON_AddNumberToObject(r->json, "contacts", 0.0);
   cJSON_AddBoolToObject(r->json, "finite", true);
   cJSON_AddNumberToObject(r->json, "realtime_factor", 0.0);
-  return ST_OK;
+  return DONE;
 }
 
 void result_free(result_t *r) {
@@ -187,12 +187,12 @@ void result_print(const cJSON *json, FILE *out) {
           number(json, "realtime_factor"));
 }
 
-status_t result_write(const cJSON *json, FILE *file, why_t *why) {
+done_t result_write(const cJSON *json, FILE *file, why_t *why) {
   char *text = cJSON_Print(json);
   if (!text) return error_failed(why, "out of memory");
   fprintf(file, "%s\n", text);
   cJSON_free(text);
-  return ST_OK;
+  return DONE;
 }
 
 // --- over seeds ---------------------------------------------------------------------------------------

@@ -13,8 +13,8 @@ typedef struct {
   record_t record; // of the flight that --log writes
 } result_t;
 
-// An empty result. ST_FAILED: no memory.
-MUST_CHECK status_t result_init(result_t *r, why_t *why);
+// An empty result. FAILED: no memory.
+MUST_CHECK done_t result_init(result_t *r, why_t *why);
 void result_free(result_t *r);
 
 // Adds the flight's segments, contacts and finiteness. Keeps the record of the last flight added
@@ -37,8 +37,8 @@ cJSON *result_add_row(result_t *r, const char *table);
 // Every table, as aligned text, and the totals if somebody flew.
 void result_print(const cJSON *json, FILE *out);
 
-// ST_FAILED: no memory for the text. If the file took it, the stream knows.
-MUST_CHECK status_t result_write(const cJSON *json, FILE *file, why_t *why);
+// FAILED: no memory for the text. If the file took it, the stream knows.
+MUST_CHECK done_t result_write(const cJSON *json, FILE *file, why_t *why);
 
 // The same scenario with several seeds. "segments" becomes the mean over the flights (null where one is null;
 // contacts add up; the smallest gap is the smallest, the largest tilt the largest), "contacts" the sum,

@@ -15,24 +15,24 @@ const scenario_t *scenario_find(const char *name) {
   return NULL;
 }
 
-status_t scenario_take(const char *name, const scenario_t **scenario, why_t *why) {
+done_t scenario_take(const char *name, const scenario_t **scenario, why_t *why) {
   char shown[NUMBER_SHOWN], hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
   *scenario = scenario_find(name);
-  if (*scenario) return ST_OK;
+  if (*scenario) return DONE;
   for (int i = 0; i < scenario_count; i++) nearest_try(&nearest, scenario_table[i]->name);
   return error_set(why, "%s: no such scenario%s; fly --list shows them", number_shown(name, shown),
                    nearest_hint(&nearest, hint));
 }
 
-status_t scenario_check_ladder(const model_t *model, why_t *why) {
+done_t scenario_check_ladder(const model_t *model, why_t *why) {
   const double ceiling_m = model->ceiling_m;
-  if (ceiling_m >= LADDER_FROM_M && ceiling_m <= 100.0) return ST_OK;
+  if (ceiling_m >= LADDER_FROM_M && ceiling_m <= 100.0) return DONE;
   return error_set(why, "--vehicle: ceiling_m is %g m; this scenario needs %g to 100 m", ceiling_m,
                    LADDER_FROM_M);
 }
 
-status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
+done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
   *setup = (setup_t){
       .kind = kind,
       .period_s = 0.01,
@@ -51,26 +51,26 @@ status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) 
   setup->flight.gap_min_m = 0.0f;
   setup->flight.bias.pole_radps = 0.0f; // the thesis knows none
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
-  return ST_OK;
+  return DONE;
 }
 
-status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
+done_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
   TRY(scenario_appendix_a_setup(setup, FLY_INDI_LIVE, why));
   setup->plan.noise = noise_levels[1];
   TRY(setup_apply(setup, request, why));
   TRY(scenario_check_ladder(&setup->model, why));
   setup_learning_ladder(&setup->plan, setup->model.ceiling_m);
-  return ST_OK;
+  return DONE;
 }
 
-status_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
+done_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
   TRY(setup6_thesis(setup, kind, why));
   setup->flight.guard.blind_max_s = SETUP6_BLIND_S;
   TRY(setup6_apply(setup, request, why));
   return scenario_check_ladder(&setup->model, why);
 }
 
-status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
+done_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
   flown6_t flown;
   TRY(setup6_fly(setup, &flown, why));
   result_add_flight6(result, &flown);
@@ -78,5 +78,5 @@ status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
   if (isfinite(setup->model.ceiling_m))
     cJSON_AddNumberToObject(result->json, "ceiling_m", setup->model.ceiling_m);
   cJSON_AddNumberToObject(result->json, "rotor_radius_m", setup->model.rotor_radius_m);
-  return ST_OK;
+  return DONE;
 }

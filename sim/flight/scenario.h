@@ -8,8 +8,8 @@
 typedef struct {
   const char *name; // on the command line
   const char *brief;
-  // Flies and adds to *result, which is empty. ST_BAD_INPUT: what was asked for cannot be flown.
-  status_t (*run)(const request_t *request, result_t *result, why_t *why);
+  // Flies and adds to *result, which is empty. BAD_INPUT: what was asked for cannot be flown.
+  done_t (*run)(const request_t *request, result_t *result, why_t *why);
 } scenario_t;
 
 extern const scenario_t *const scenario_table[];
@@ -17,26 +17,26 @@ extern const int scenario_count;
 
 // A null pointer where there is none of that name.
 const scenario_t *scenario_find(const char *name);
-// The same for a person. ST_BAD_INPUT: there is none; names the one that may be meant.
-MUST_CHECK status_t scenario_take(const char *name, const scenario_t **scenario, why_t *why);
+// The same for a person. BAD_INPUT: there is none; names the one that may be meant.
+MUST_CHECK done_t scenario_take(const char *name, const scenario_t **scenario, why_t *why);
 
 // The thesis's appendix A: 32 g under a ceiling at 0.5 m, ceiling term not clipped, everything measured
-// exactly. ST_BAD_INPUT: a fault of the build, not of the user.
-MUST_CHECK status_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
+// exactly. BAD_INPUT: a fault of the build, not of the user.
+MUST_CHECK done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
 
-// Its learning flight with noise N1, and what is asked for over it. ST_BAD_INPUT: as setup_apply and
+// Its learning flight with noise N1, and what is asked for over it. BAD_INPUT: as setup_apply and
 // scenario_check_ladder.
-MUST_CHECK status_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why);
+MUST_CHECK done_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why);
 
 // The thesis's flights in six degrees of freedom, and what is asked for over them; the way up is the
-// caller's. ST_BAD_INPUT: as setup6_apply and scenario_check_ladder.
-MUST_CHECK status_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request,
-                                           why_t *why);
+// caller's. BAD_INPUT: as setup6_apply and scenario_check_ladder.
+MUST_CHECK done_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request,
+                                         why_t *why);
 
-// Flies and adds the flight. ST_BAD_INPUT, ST_FAILED: as setup6_fly.
-MUST_CHECK status_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why);
+// Flies and adds the flight. BAD_INPUT, FAILED: as setup6_fly.
+MUST_CHECK done_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why);
 
-// ST_BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
-MUST_CHECK status_t scenario_check_ladder(const model_t *model, why_t *why);
+// BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
+MUST_CHECK done_t scenario_check_ladder(const model_t *model, why_t *why);
 
 #endif

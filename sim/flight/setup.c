@@ -45,8 +45,8 @@ static void take_vehicle(model_t *model, const model_t *vehicle) {
     if (scenario.fx[i].fx->surface) model->fx[model->n_fx++] = scenario.fx[i];
 }
 
-status_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
-                       rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why) {
+done_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
+                     rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why) {
   if (request->kind) *kind = *request->kind;
   flight->curve.mode = (int32_t)mode_of[*kind];
   if (request->vehicle) take_vehicle(model, request->vehicle);
@@ -65,7 +65,7 @@ status_t request_apply(const request_t *request, model_t *model, flight_param_t 
 }
 
 // On the vertical axis only what multiplies the thrust can act, and only what flies there can fly.
-static status_t check_vertical(const setup_t *setup, int n_set, why_t *why) {
+static done_t check_vertical(const setup_t *setup, int n_set, why_t *why) {
   if (setup->kind > FLY_PID_FF)
     return error_set(why, "--controller %s: this scenario is flown on the vertical axis, by indi* or pid*",
                      fly_name[setup->kind]);
@@ -76,10 +76,10 @@ static status_t check_vertical(const setup_t *setup, int n_set, why_t *why) {
     if (!setup->model.fx[i].fx->excess)
       return error_set(why, "--effect %s: this scenario is flown on the vertical axis, where it does not act",
                        setup->model.fx[i].fx->name);
-  return ST_OK;
+  return DONE;
 }
 
-status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
+done_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   TRY(check_vertical(setup, request->n_set, why));
   for (int i = 0; i < request->n_set; i++)
@@ -96,7 +96,7 @@ status_t setup_apply(setup_t *setup, const request_t *request, why_t *why) {
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.seed = request->seed;
   setup->plan.integrate = request->integrate;
-  return ST_OK;
+  return DONE;
 }
 
 void setup_learning_ladder(plan_t *plan, double ceiling_m) {
@@ -107,7 +107,7 @@ void setup_learning_ladder(plan_t *plan, double ceiling_m) {
   plan->start_z_m = plan->start_thrust_N = 0.0;
 }
 
-status_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown, why_t *why) {
+done_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown, why_t *why) {
   flight_param_t *const shipped = &flown->shipped;
   params_default(shipped);
   shipped->curve.mode = (int32_t)mode_of[kind];
@@ -116,25 +116,25 @@ status_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t
   flown->record.param = malloc((size_t)params_count * sizeof(float));
   if (!flown->record.param) return error_failed(why, "out of memory");
   for (int i = 0; i < params_count; i++) flown->record.param[i] = params_get(flies, &params_table[i]);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
+static done_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
   pilot_t pilot;
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
-  if (pilot_init(&pilot, &param, setup->period_s) != ST_OK)
+  if (pilot_init(&pilot, &param, setup->period_s) != DONE)
     return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.1 to 45 Hz");
   const controller_t controller = pilot_controller(&pilot);
   TRY(loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why));
   TRY(setup_keep_params(setup->kind, &pilot.flight.param, flown, why));
   flown->weights = live ? pilot.flight.learn.rls.theta : param.curve.fixed;
-  return ST_OK;
+  return DONE;
 }
 
 // The thesis's third controller: a learning flight first, then its weights frozen.
-static status_t learn_first(setup_t *setup, why_t *why) {
+static done_t learn_first(setup_t *setup, why_t *why) {
   if (!isfinite(setup->model.ceiling_m))
     return error_set(why, "--controller indi-learned: the vehicle file has no ceiling_m to learn from");
   setup_t learning = *setup;
@@ -142,13 +142,13 @@ static status_t learn_first(setup_t *setup, why_t *why) {
   learning.plan.noise = noise_levels[1];
   setup_learning_ladder(&learning.plan, learning.model.ceiling_m);
   flown_t flight = {.n_segment = 0};
-  const status_t status = fly_indi(&learning, &flight, why);
+  const done_t status = fly_indi(&learning, &flight, why);
   setup->flight.curve.fixed = flight.weights;
   flown_free(&flight);
   return status;
 }
 
-static status_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
+static done_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
   pid_param_t param = setup->pid;
   param.feed_forward = setup->kind == FLY_PID_FF;
   param.hover_N = setup->model.mass_kg * PLANT_GRAVITY_MPS2;
@@ -159,18 +159,18 @@ static status_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
   return loop_fly(&setup->plan, &setup->model, &controller, &flown->record, &flown->outcome, why);
 }
 
-status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why) {
+done_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why) {
   setup_t ready = *setup;
   *flown = (flown_t){.plan = setup->plan};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
   const bool pid = setup->kind == FLY_PID || setup->kind == FLY_PID_FF;
-  const status_t status = pid ? fly_pid(&ready, flown, why) : fly_indi(&ready, flown, why);
-  if (status != ST_OK) {
+  const done_t status = pid ? fly_pid(&ready, flown, why) : fly_indi(&ready, flown, why);
+  if (status != DONE) {
     flown_free(flown);
     return status;
   }
   flown->n_segment = segments_of(&flown->record, &flown->plan, flown->segment);
-  return ST_OK;
+  return DONE;
 }
 
 void flown_free(flown_t *flown) {

@@ -62,12 +62,12 @@ typedef struct {
 } request_t;
 
 // What is asked for, over the scenario's model, parameters, start of learning and controller.
-// ST_BAD_INPUT: too many effects, or parameters that contradict each other.
-MUST_CHECK status_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
-                                  rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why);
+// BAD_INPUT: too many effects, or parameters that contradict each other.
+MUST_CHECK done_t request_apply(const request_t *request, model_t *model, flight_param_t *flight,
+                                rbf_weights_t *learn_from, fly_kind_t *kind, why_t *why);
 
-// ST_BAD_INPUT: too many effects, or parameters that contradict each other.
-MUST_CHECK status_t setup_apply(setup_t *setup, const request_t *request, why_t *why);
+// BAD_INPUT: too many effects, or parameters that contradict each other.
+MUST_CHECK done_t setup_apply(setup_t *setup, const request_t *request, why_t *why);
 
 // A flight that was flown.
 typedef struct {
@@ -80,17 +80,16 @@ typedef struct {
   flight_param_t shipped; // what ships with that controller: what record.param is held against
 } flown_t;
 
-// ST_FAILED: as loop_fly. ST_BAD_INPUT: a filter that the controller's rate does not allow, or
+// FAILED: as loop_fly. BAD_INPUT: a filter that the controller's rate does not allow, or
 // FLY_INDI_LEARNED where there is no ceiling to learn from. Free what was flown; on error nothing was.
-MUST_CHECK status_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
+MUST_CHECK done_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
 
 void flown_free(flown_t *flown);
 
 // The parameters of one that flies are kept with what it did, and what ships beside them: every default, but
 // for what the controller's name stands for, the curve's mode, where it learns from nothing 1 + 0, and where
-// it has learned, what it learned. ST_FAILED: no memory.
-MUST_CHECK status_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown,
-                                      why_t *why);
+// it has learned, what it learned. FAILED: no memory.
+MUST_CHECK done_t setup_keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown, why_t *why);
 
 // Hover 20 cm below the ceiling, then 10, 8, 6, 4, 2 cm, 10 s each (thesis section 5.3).
 void setup_learning_ladder(plan_t *plan, double ceiling_m);

@@ -13,7 +13,7 @@
 #define CEILING_M   0.5
 #define DECAY_PER_M 80.0 // of the thesis's ceiling effect
 
-status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
+done_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   *setup = (setup6_t){.kind = kind,
                       .learn_from = {{1.0f}},
                       .stock_pid = stock_pid_default(),
@@ -25,11 +25,11 @@ status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why) {
   ceiling.p[1] = DECAY_PER_M * setup->model.rotor_radius_m;
   TRY(model_add_fx(&setup->model, &ceiling, why));
   params_default(&setup->flight); // what ships is what flies
-  return ST_OK;
+  return DONE;
 }
 
 // The firmware is built for the propellers that it flies with, and knows two kinds.
-static status_t take_propellers(setup6_t *setup, why_t *why) {
+static done_t take_propellers(setup6_t *setup, why_t *why) {
   const stock_power_param_t known[] = {stock_power_legacy(), stock_power_plus()};
   const thrust_map_t *map = &setup->model.map;
   for (int k = 0; k < 2; k++) {
@@ -38,22 +38,22 @@ static status_t take_propellers(setup6_t *setup, why_t *why) {
     if (apart > 1e-7) continue; // the digits of the vehicle files
     memcpy(setup->stock_pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
     memcpy(setup->air_garage.pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
-    return ST_OK;
+    return DONE;
   }
   return error_set(
       why, "--controller %s: knows the thrust maps of cf21_legacy and cf21_plus alone, and not that of %s",
       fly_name[setup->kind], setup->model.name);
 }
 
-static status_t check_stock(setup6_t *setup, const request_t *request, why_t *why) {
-  if (setup->kind < FLY_STOCK_PID) return ST_OK;
+static done_t check_stock(setup6_t *setup, const request_t *request, why_t *why) {
+  if (setup->kind < FLY_STOCK_PID) return DONE;
   if (request->n_set > 0)
     return error_set(why, "--set: those are parameters of the flight code, and %s flies; allowed with indi*",
                      fly_name[setup->kind]);
   return take_propellers(setup, why);
 }
 
-status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
+done_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   TRY(request_apply(request, &setup->model, &setup->flight, &setup->learn_from, &setup->kind, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: flies on the vertical axis only", fly_name[setup->kind]);
@@ -71,7 +71,7 @@ status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why) {
   setup->plan.plan.seed = request->seed;
   setup->plan.plan.integrate = request->integrate;
   setup->request = request;
-  return ST_OK;
+  return DONE;
 }
 
 void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s) {
@@ -117,18 +117,18 @@ static void take_request(pilot_flight_t *p, const request_t *request) {
   p->log_every_ms = !request->log ? 0 : request->log_calls ? 1 : request->log_500_Hz ? 2 : 10;
 }
 
-static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
+static done_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   flight_param_t param = setup->flight;
   const bool live = param.curve.mode == CURVE_LIVE;
   if (live) param.curve.fixed = setup->learn_from;
   pilot_flight_t p;
   pilot6_t pilot;
-  const status_t opened = pilot_flight_init(&p, &param, &setup->model, &pilot);
-  if (opened != ST_OK)
+  const done_t opened = pilot_flight_init(&p, &param, &setup->model, &pilot);
+  if (opened != DONE)
     return error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
   take_request(&p, setup->request);
-  const status_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
-                                    &flown->more, &flown->flown.outcome, why);
+  const done_t status = loop6_fly(&setup->plan, &setup->model, &pilot, ask_flight, &flown->flown.record,
+                                  &flown->more, &flown->flown.outcome, why);
   flown->flown.record.app = p.log;
   if (p.log_every_ms == 1) flown->flown.record.n_calls = p.n_log;
   TRY(status);
@@ -136,7 +136,7 @@ static status_t fly_flight(const setup6_t *setup, flown6_t *flown, why_t *why) {
   if (setup->request && setup->request->log && p.n_log < flown->flown.record.n)
     return error_failed(why, "out of memory");
   flown->flown.weights = live ? p.flight->outer.learn.rls.theta : param.curve.fixed;
-  return ST_OK;
+  return DONE;
 }
 
 static pilot6_t air_garage_knowing(const setup6_t *setup, air_garage_t *s) {
@@ -149,7 +149,7 @@ static pilot6_t air_garage_knowing(const setup6_t *setup, air_garage_t *s) {
   return air_garage_pilot(s, &p);
 }
 
-static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
+static done_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
   stock_pid_t pid;
   stock_indi_t indi;
   air_garage_t garage;
@@ -163,7 +163,7 @@ static status_t fly_stock(const setup6_t *setup, flown6_t *flown, why_t *why) {
 }
 
 // The learning flight of thesis section 5.3, and its weights frozen.
-static status_t learn_first(setup6_t *setup, why_t *why) {
+static done_t learn_first(setup6_t *setup, why_t *why) {
   if (!isfinite(setup->model.ceiling_m))
     return error_set(why, "--controller indi-learned: there is no ceiling here to learn from");
   setup6_t learning = *setup;
@@ -173,7 +173,7 @@ static status_t learn_first(setup6_t *setup, why_t *why) {
   unseen.usd = NULL; // what is written is the flight that is asked for
   if (setup->request) learning.request = &unseen;
   flown6_t flight = {.more = {0}};
-  const status_t status = fly_flight(&learning, &flight, why);
+  const done_t status = fly_flight(&learning, &flight, why);
   setup->flight.curve.fixed = flight.flown.weights;
   flown6_free(&flight);
   return status;
@@ -188,19 +188,19 @@ static void measure_tilt(flown6_t *flown) {
   }
 }
 
-status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
+done_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why) {
   setup6_t ready = *setup;
   *flown = (flown6_t){.flown = {.plan = setup->plan.plan}};
   if (setup->kind == FLY_INDI_LEARNED) TRY(learn_first(&ready, why));
   const bool stock = setup->kind >= FLY_STOCK_PID;
-  const status_t status = stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why);
-  if (status != ST_OK) {
+  const done_t status = stock ? fly_stock(&ready, flown, why) : fly_flight(&ready, flown, why);
+  if (status != DONE) {
     flown6_free(flown);
     return status;
   }
   flown->flown.n_segment = segments_of(&flown->flown.record, &flown->flown.plan, flown->flown.segment);
   measure_tilt(flown);
-  return ST_OK;
+  return DONE;
 }
 
 void flown6_free(flown6_t *flown) {

@@ -19,13 +19,13 @@ typedef struct {
 
 // The thesis's experiments: a Crazyflie 2.1 with both decks under a ceiling at 0.5 m whose effect is
 // 1 + 0.44 exp(-80 zc) at every rotor; sensors as bad as the real ones; the flight code as it ships.
-// ST_BAD_INPUT: a fault of the build, not of the user.
-MUST_CHECK status_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
+// BAD_INPUT: a fault of the build, not of the user.
+MUST_CHECK done_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
 
-// The firmware's controllers get the propellers of the vehicle. ST_BAD_INPUT: as request_apply, or a
+// The firmware's controllers get the propellers of the vehicle. BAD_INPUT: as request_apply, or a
 // controller or a noise of the vertical axis, or for the firmware's controllers parameters or propellers that
 // they do not know.
-MUST_CHECK status_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
+MUST_CHECK done_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
 
 // The thesis's flights stay below the range sensor's floor for longer than the guard of the shipped set
 // allows: ceil.blindMax for them.
@@ -44,8 +44,8 @@ typedef struct {
   double tilt_max_rad[WAYPOINTS_MAX]; // of each segment
 } flown6_t;
 
-// ST_BAD_INPUT: as loop6_fly; then nothing is left to free. Else free what was flown.
-MUST_CHECK status_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why);
+// BAD_INPUT: as loop6_fly; then nothing is left to free. Else free what was flown.
+MUST_CHECK done_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why);
 
 void flown6_free(flown6_t *flown);
 

@@ -37,11 +37,11 @@ int slot_late(int k) {
   return real[k].take_off_s < 2.0;
 }
 
-status_t slot_vehicle(model_t *model, why_t *why) {
+done_t slot_vehicle(model_t *model, why_t *why) {
   return model_builtin("cf21_air_garage", model, why);
 }
 
-static status_t add_effect(model_t *model, const char *spec, why_t *why) {
+static done_t add_effect(model_t *model, const char *spec, why_t *why) {
   fx_use_t use;
   TRY(effect_parse(spec, &use, why));
   return model_add_fx(model, &use, why);
@@ -50,12 +50,12 @@ static status_t add_effect(model_t *model, const char *spec, why_t *why) {
 // Flights of one day and set point, over the open deck or 86 mm and more under a plate, lift off 9 % (5
 // flights), 14 % (6) and 8 % (4) apart; without this the simulated ones 2 to 3 %. What a gram does to the
 // lift-off makes that roughly 3 % of weight over thrust (battery, propellers).
-static status_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
+static done_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
   random_t *const random = random_open(seed);
   if (!random) return error_failed(why, "out of memory");
   model->mass_kg *= 1.0 + WEIGHT_SD * random_normal(random);
   random_close(random);
-  return ST_OK;
+  return DONE;
 }
 
 // To rise_m above rest as the high-level commander goes there, in steps, and a hover.
@@ -72,7 +72,7 @@ static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
   plan->end_s = SLOT_TAKEOFF_S + take_off_s + HOVER_S;
 }
 
-status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
+done_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
   TRY(setup6_thesis(setup, FLY_STOCK_PID, why));
   TRY(slot_vehicle(&setup->model, why));
   TRY(spread_weight(&setup->model, seed, why));
@@ -89,10 +89,10 @@ status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m,
   for (int i = 0; i < 2; i++) setup->plan.mocap.tilt_rad[i] = DEG * real[k].tilt_deg[i];
   setup->plan.plan.seed = seed;
   plan_way(setup, rise_m, real[k].take_off_s);
-  return ST_OK;
+  return DONE;
 }
 
-status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why) {
+done_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why) {
   double *const near_m = malloc(sizeof *near_m * (size_t)(n > 0 ? n : 1));
   if (!near_m || n < 2) {
     free(near_m);
@@ -113,7 +113,7 @@ status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_
   seen->captured = caught_s >= SLOT_CAUGHT_S;
   if (caught > 0) seen->median_m = near_m[caught / 2];
   free(near_m);
-  return ST_OK;
+  return DONE;
 }
 
 // --- recorded tracks --------------------------------------------------------------------------------------
@@ -126,7 +126,7 @@ typedef struct {
   double x_m, y_m, start_s; // where it rested; when it moved first
 } track_t;
 
-static status_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t *why) {
+static done_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t *why) {
   static const char *const name[] = {"t", "x", "y", "z"};
   int column[4];
   for (int i = 0; i < 4; i++) {
@@ -136,7 +136,7 @@ static status_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t 
   for (bool more = true;;) {
     double cell[4];
     TRY(csv_next(file, &more, why));
-    if (!more) return ST_OK;
+    if (!more) return DONE;
     if (t->n == POINTS_MAX) return csv_refuse(file, -1, why, "too long; allowed: %d rows", POINTS_MAX);
     for (int i = 0; i < 4; i++) TRY(csv_number(file, column[i], CSV_GAP_REFUSED, &cell[i], why));
     if (t->n == 0) {
@@ -149,29 +149,29 @@ static status_t read_rows(csv_file_t *file, double ceiling_m, track_t *t, why_t 
   }
 }
 
-status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why) {
+done_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why) {
   track_t *const t = calloc(1, sizeof *t);
   if (!t) return error_failed(why, "out of memory");
   t->start_s = (double)NAN;
   csv_file_t *file;
-  status_t status = csv_open(&file, path, why);
-  if (status == ST_OK) status = read_rows(file, ceiling_m, t, why);
+  done_t status = csv_open(&file, path, why);
+  if (status == DONE) status = read_rows(file, ceiling_m, t, why);
   csv_close(file);
-  if (status == ST_OK) status = slot_judge(t->point, t->n, t->start_s, seen, why);
+  if (status == DONE) status = slot_judge(t->point, t->n, t->start_s, seen, why);
   free(t);
   return status;
 }
 
 // --- flown tracks -----------------------------------------------------------------------------------------
 
-status_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
+done_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
   const record_t *record = &flown->flown.record;
   slot_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
   if (!point) return error_failed(why, "out of memory");
   const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also where there is none
   for (int i = 0; i < record->n; i++)
     point[i] = (slot_point_t){record->sample[i].t_s, ceiling_m - record->sample[i].z_m};
-  const status_t status = slot_judge(point, record->n, SLOT_TAKEOFF_S, seen, why);
+  const done_t status = slot_judge(point, record->n, SLOT_TAKEOFF_S, seen, why);
   free(point);
   return status;
 }

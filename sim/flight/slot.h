@@ -24,7 +24,7 @@
 #define SLOT_CEILING "ceiling:form=square-root"
 
 // The vehicle, before its weight is spread.
-MUST_CHECK status_t slot_vehicle(model_t *model, why_t *why);
+MUST_CHECK done_t slot_vehicle(model_t *model, why_t *why);
 
 // Of the k-th real flight: its file, and the height of its ceiling over the floor; 1: its take-off was the
 // quick one.
@@ -32,7 +32,7 @@ const char *slot_real(int k, double *ceiling_m);
 int slot_late(int k);
 
 // A flight of the scenario, complete but for what the user asks for. ceiling: else the open deck.
-MUST_CHECK status_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
+MUST_CHECK done_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
 
 typedef struct {
   double t_s, gap_m; // propellers' plane to ceiling
@@ -45,15 +45,14 @@ typedef struct {
   double lift_s;    // from motors on to SLOT_LIFT_M above rest; NaN: never
 } slot_seen_t;
 
-// start_s: motors on. ST_BAD_INPUT: no points. ST_FAILED: no memory.
-MUST_CHECK status_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen,
-                               why_t *why);
+// start_s: motors on. BAD_INPUT: no points. FAILED: no memory.
+MUST_CHECK done_t slot_judge(const slot_point_t *point, int n, double start_s, slot_seen_t *seen, why_t *why);
 
-// A motion-capture CSV (t, x, y, z of the marker): marker 3 mm below the propellers. ST_BAD_INPUT: as
+// A motion-capture CSV (t, x, y, z of the marker): marker 3 mm below the propellers. BAD_INPUT: as
 // csv_open.
-MUST_CHECK status_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why);
+MUST_CHECK done_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why);
 
-MUST_CHECK status_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen,
-                                      why_t *why);
+MUST_CHECK done_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen,
+                                    why_t *why);
 
 #endif

@@ -13,11 +13,11 @@ typedef struct {
   slot_many_t *sum;
 } tally_t;
 
-static status_t tally_open(tally_t *t, slot_many_t *m, int flights, why_t *why) {
+static done_t tally_open(tally_t *t, slot_many_t *m, int flights, why_t *why) {
   *m = (slot_many_t){
       .low_m = (double)NAN, .high_m = (double)NAN, .median_m = (double)NAN, .free_m = (double)NAN};
   *t = (tally_t){.median_m = malloc(sizeof(double) * (size_t)flights), .sum = m};
-  return t->median_m ? ST_OK : error_failed(why, "out of memory");
+  return t->median_m ? DONE : error_failed(why, "out of memory");
 }
 
 static void tally_add(tally_t *t, int like, const slot_seen_t *seen) {
@@ -47,29 +47,29 @@ static double peak_m(const record_t *r) {
   return high_m;
 }
 
-static status_t make(const slot_case_t *c, int seed, setup6_t *setup, why_t *why) {
+static done_t make(const slot_case_t *c, int seed, setup6_t *setup, why_t *why) {
   model_t file;
   TRY(slot_setup(setup, (uint64_t)seed, c->ceiling, c->rise_m, why));
   TRY(slot_vehicle(&file, why));
   if (c->mass_kg > 0.0) setup->model.mass_kg *= c->mass_kg / file.mass_kg; // the spread is kept
   setup->kind = c->kind;
   setup->plan.plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
-  if (!c->effect) return ST_OK;
+  if (!c->effect) return DONE;
   fx_use_t use;
   TRY(effect_parse(c->effect, &use, why));
   return model_add_fx(&setup->model, &use, why);
 }
 
-static status_t fly_one(const slot_case_t *c, int seed, tally_t *t, why_t *why) {
+static done_t fly_one(const slot_case_t *c, int seed, tally_t *t, why_t *why) {
   setup6_t setup;
   flown6_t flown;
   slot_seen_t seen;
   const int like = seed % SLOT_FLIGHTS;
   TRY(make(c, seed, &setup, why));
   TRY(setup6_fly(&setup, &flown, why));
-  status_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
+  done_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
   if (!flown.flown.outcome.finite) status = error_failed(why, "seed %d: not finite", seed);
-  if (status == ST_OK) {
+  if (status == DONE) {
     tally_add(t, like, &seen);
     t->sum->lift_s[slot_late(like)] += seen.lift_s;
     t->sum->peak_m += peak_m(&flown.flown.record) / c->seeds;
@@ -78,12 +78,12 @@ static status_t fly_one(const slot_case_t *c, int seed, tally_t *t, why_t *why) 
   return status;
 }
 
-status_t slot_fly_many(const slot_case_t *c, slot_many_t *m, why_t *why) {
+done_t slot_fly_many(const slot_case_t *c, slot_many_t *m, why_t *why) {
   tally_t tally;
   TRY(tally_open(&tally, m, c->seeds, why));
   int n[2] = {0, 0};
-  status_t status = ST_OK;
-  for (int seed = 1; seed <= c->seeds && status == ST_OK; seed++) {
+  done_t status = DONE;
+  for (int seed = 1; seed <= c->seeds && status == DONE; seed++) {
     status = fly_one(c, seed, &tally, why);
     n[slot_late(seed % SLOT_FLIGHTS)]++;
   }
@@ -92,17 +92,17 @@ status_t slot_fly_many(const slot_case_t *c, slot_many_t *m, why_t *why) {
   return status;
 }
 
-status_t slot_real_many(const char *folder, slot_many_t *m, why_t *why) {
+done_t slot_real_many(const char *folder, slot_many_t *m, why_t *why) {
   tally_t tally;
   TRY(tally_open(&tally, m, SLOT_FLIGHTS, why));
-  status_t status = ST_OK;
-  for (int k = 0; k < SLOT_FLIGHTS && status == ST_OK; k++) {
+  done_t status = DONE;
+  for (int k = 0; k < SLOT_FLIGHTS && status == DONE; k++) {
     char path[1024];
     slot_seen_t seen;
     double ceiling_m;
     snprintf(path, sizeof path, "%s/ceiling_gap/%s", folder, slot_real(k, &ceiling_m));
     status = slot_judge_file(path, ceiling_m, &seen, why);
-    if (status == ST_OK) tally_add(&tally, k, &seen);
+    if (status == DONE) tally_add(&tally, k, &seen);
   }
   tally_close(&tally);
   return status;

@@ -23,11 +23,11 @@ typedef struct {
   double peak_m;                 // mean, above rest
 } slot_many_t;
 
-// ST_BAD_INPUT: an effect that is none. ST_FAILED: no memory, or a flight that did not stay finite.
-MUST_CHECK status_t slot_fly_many(const slot_case_t *c, slot_many_t *m, why_t *why);
+// BAD_INPUT: an effect that is none. FAILED: no memory, or a flight that did not stay finite.
+MUST_CHECK done_t slot_fly_many(const slot_case_t *c, slot_many_t *m, why_t *why);
 
 // The real ones of this gap, from the folder of recorded flights; lift_s and peak_m are not set.
-// ST_BAD_INPUT: as slot_judge_file.
-MUST_CHECK status_t slot_real_many(const char *folder, slot_many_t *m, why_t *why);
+// BAD_INPUT: as slot_judge_file.
+MUST_CHECK done_t slot_real_many(const char *folder, slot_many_t *m, why_t *why);
 
 #endif

@@ -13,31 +13,31 @@
 #define CELL_LEAST  6.5 // standard errors
 #define CELL_MARGIN 1.4 // over the largest of the nominal flights
 
-static status_t cut(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
-                    why_t *why) {
+static done_t cut(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
+                  why_t *why) {
   grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
-  status_t status = ST_OK;
-  for (int i = 0; i < flights->n && status == ST_OK; i++) {
+  done_t status = DONE;
+  for (int i = 0; i < flights->n && status == DONE; i++) {
     const int n = flights->flight[i].n;
     status = grid_make(&grid[i], &flights->flight[i], (int)(from * n), (int)(to * n), m, why);
   }
-  if (status == ST_OK) return set_make(s, grid, flights->n, why);
+  if (status == DONE) return set_make(s, grid, flights->n, why);
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
   return status;
 }
 
-static status_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+static done_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   const bool apart = job->held && job->held->n > 0;
   TRY(cut(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
   TRY(muted_find(&d->fit, job->model, why));
   TRY(cut(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
   memcpy(d->held.muted, d->fit.muted, sizeof d->held.muted);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t find_residual(diagnosis_t *d, const model_t *m, why_t *why) {
+static done_t find_residual(diagnosis_t *d, const model_t *m, why_t *why) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     if (!d->residual[ch]) d->residual[ch] = calloc((size_t)set_rows(&d->fit, ch)->n + 1, sizeof(double));
     if (!d->residual[ch]) return error_failed(why, "out of memory");
@@ -54,7 +54,7 @@ static void forget(candidates_t *c) {
 
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
-static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   model_t m;
   TRY(select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why));
@@ -70,9 +70,9 @@ static status_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
   d->manner.turn_tau_s = raw.turn_tau_s;
   const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &d->manner, job->seed};
-  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == ST_OK;
+  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == DONE;
   forget(&d->candidates);
-  return ST_OK;
+  return DONE;
 }
 
 // Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
@@ -84,30 +84,30 @@ static void withdraw(diagnosis_t *d) {
   for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
 }
 
-static status_t look_for_more(diagnosis_t *d, why_t *why) {
+static done_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
   TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
   double most = 0.0;
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);
   d->unknown = d->nominal_flew && d->cell.statistic > d->cell_bound;
-  if (d->unknown || d->found.n_open == 0) return ST_OK;
+  if (d->unknown || d->found.n_open == 0) return DONE;
   // It is there, without a name: where it is largest, a constant included.
   TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, false, &d->cell, why));
   d->unknown = d->cell.statistic > 0.0;
-  return ST_OK;
+  return DONE;
 }
 
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
 // names.
-static status_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
+static done_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
   const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
   bool again;
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
   d->rounds += d->found.rounds;
   if (!nominal) withdraw(d);
   TRY(select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why));
-  if (!again) return ST_OK;
+  if (!again) return DONE;
   found_free(&d->found);
   forget(&d->candidates);
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
@@ -119,7 +119,7 @@ static void tell(const diagnose_job_t *job, const char *what) {
   if (job->progress) job->progress(what);
 }
 
-status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   *d = (diagnosis_t){.nominal = {.n = 0}};
   tell(job, "replaying the logs");
   TRY(take_flights(job, d, why));

@@ -50,8 +50,8 @@ typedef struct {
   double *residual[CHANNELS]; // of the fitted flights, extended model
 } diagnosis_t;
 
-// ST_BAD_INPUT: the flights cannot be used; ST_FAILED: no memory. Free after use, also on an error.
-MUST_CHECK status_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why);
+// BAD_INPUT: the flights cannot be used; FAILED: no memory. Free after use, also on an error.
+MUST_CHECK done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why);
 void diagnosis_free(diagnosis_t *d);
 
 #endif

@@ -21,17 +21,17 @@ const char *study_vehicle(const study_t *s) {
 
 // --- the vehicle ------------------------------------------------------------------------------------------
 
-static status_t read_text(const char *path, char **text, why_t *why) {
+static done_t read_text(const char *path, char **text, why_t *why) {
   *text = calloc(VEHICLE_BYTES, 1);
   if (!*text) return error_failed(why, "out of memory");
   FILE *const file = fopen(path, "rb");
   const size_t n = file ? fread(*text, 1, VEHICLE_BYTES - 1, file) : 0;
   const bool good = file && !ferror(file) && n < VEHICLE_BYTES - 1;
   if (file) fclose(file);
-  return good ? ST_OK : error_set(why, "%.300s: cannot be read; allowed: a vehicle file below 1 MB", path);
+  return good ? DONE : error_set(why, "%.300s: cannot be read; allowed: a vehicle file below 1 MB", path);
 }
 
-static status_t take_vehicle(study_t *s, why_t *why) {
+static done_t take_vehicle(study_t *s, why_t *why) {
   if (s->order.vehicle) {
     TRY(model_read(s->order.vehicle, &s->vehicle, why)); // a folder, a device, no file: said there
     TRY(read_text(s->order.vehicle, &s->vehicle_text, why));
@@ -40,7 +40,7 @@ static status_t take_vehicle(study_t *s, why_t *why) {
   TRY(model_builtin(STUDY_VEHICLE, &s->vehicle, why));
   for (int i = 0; i < vehicle_count; i++)
     if (strcmp(vehicle_table[i].name, STUDY_VEHICLE) == 0) s->vehicle_text = strdup(vehicle_table[i].text);
-  return s->vehicle_text ? ST_OK : error_failed(why, "out of memory");
+  return s->vehicle_text ? DONE : error_failed(why, "out of memory");
 }
 
 // --- the logs ---------------------------------------------------------------------------------------------
@@ -59,7 +59,7 @@ static bool among(const char *log, const char *const *list, int n) {
 
 // The logs in order: to fit to, then held out. A flight that is fitted to twice would hide what differs
 // between flights.
-static status_t order_logs(const study_order_t *o, const char **path, int *n_fit, int *n_held, why_t *why) {
+static done_t order_logs(const study_order_t *o, const char **path, int *n_fit, int *n_held, why_t *why) {
   *n_fit = *n_held = 0;
   for (int i = 0; i < o->n_log; i++) {
     if (among(o->log[i], o->log, i)) return error_set(why, "%.300s: given twice; allowed: once", o->log[i]);
@@ -71,24 +71,24 @@ static status_t order_logs(const study_order_t *o, const char **path, int *n_fit
       return error_set(why, "--hold-out %.300s: given twice; allowed: once", o->hold_out[i]);
     path[*n_fit + (*n_held)++] = o->hold_out[i];
   }
-  if (*n_held || *n_fit < 3) return ST_OK;
+  if (*n_held || *n_fit < 3) return DONE;
   *n_held = *n_fit / 3;
   *n_fit -= *n_held;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_logs(study_t *s, why_t *why) {
+static done_t read_logs(study_t *s, why_t *why) {
   const study_order_t *o = &s->order;
   const int n = o->n_log + o->n_hold_out;
   const char **path = calloc((size_t)n + 1, sizeof *path);
   s->flight = calloc((size_t)n + 1, sizeof *s->flight);
   int n_fit = 0, n_held = 0;
-  status_t status =
+  done_t status =
       path && s->flight ? order_logs(o, path, &n_fit, &n_held, why) : error_failed(why, "out of memory");
   s->fit = (gap_flights_t){s->flight, n_fit};
   s->held = (gap_flights_t){s->flight + n_fit, n_held};
   s->by_time = n_held == 0;
-  for (int i = 0; i < n_fit + n_held && status == ST_OK; i++) {
+  for (int i = 0; i < n_fit + n_held && status == DONE; i++) {
     char what[80];
     snprintf(what, sizeof what, "reading log %d of %d", i + 1, n_fit + n_held);
     tell(s, what);
@@ -100,7 +100,7 @@ static status_t read_logs(study_t *s, why_t *why) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-status_t study_make(study_t *s, const study_order_t *order, why_t *why) {
+done_t study_make(study_t *s, const study_order_t *order, why_t *why) {
   *s = (study_t){.order = *order, .columns = columns_crazyflie()};
   TRY(take_vehicle(s, why));
   if (order->columns) TRY(columns_read(order->columns, &s->columns, why));

@@ -37,9 +37,9 @@ typedef struct {
 // The vehicle's name in messages: its file, or that it is built in.
 const char *study_vehicle(const study_t *s);
 
-// ST_BAD_INPUT: as the readers; a log twice; no log left to fit to. ST_FAILED: no memory. Free it, also on an
+// BAD_INPUT: as the readers; a log twice; no log left to fit to. FAILED: no memory. Free it, also on an
 // error.
-MUST_CHECK status_t study_make(study_t *s, const study_order_t *order, why_t *why);
+MUST_CHECK done_t study_make(study_t *s, const study_order_t *order, why_t *why);
 void study_free(study_t *s);
 
 #endif

@@ -138,7 +138,7 @@ columns_t columns_crazyflie(void) {
   return c;
 }
 
-static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why) {
+static done_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why) {
   column_t *const to = &c->of[signal];
   TRY(toml_string(t, "unit", to->unit, sizeof to->unit, why));
   char list[120] = "";
@@ -147,7 +147,7 @@ static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why
     const unit_t *const unit = unit_find((kind_t)kind, to->unit);
     if (unit) {
       to->factor = unit->si;
-      return ST_OK;
+      return DONE;
     }
     unit_list((kind_t)kind, list, sizeof list);
   }
@@ -155,7 +155,7 @@ static status_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why
                      list);
 }
 
-static status_t read_column(toml_t columns, signal_id_t signal, columns_t *c, why_t *why) {
+static done_t read_column(toml_t columns, signal_id_t signal, columns_t *c, why_t *why) {
   static const char *const keys[] = {"column", "unit", "scale", "offset", "late_ms", "optional", NULL};
   column_t *const to = &c->of[signal];
   double scale = 1.0;
@@ -172,24 +172,24 @@ static status_t read_column(toml_t columns, signal_id_t signal, columns_t *c, wh
   to->late_s = 1e-3 * late_ms;
   if (toml_has(t, "optional")) TRY(toml_bool(t, "optional", &to->optional, why));
   to->factor *= scale;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_frame(toml_t root, acc_frame_t *frame, why_t *why) {
+static done_t read_frame(toml_t root, acc_frame_t *frame, why_t *why) {
   static const char *const names[] = {"body", "world", "world_with_gravity"};
   char name[32];
   TRY(toml_string(root, "acceleration", name, sizeof name, why));
   for (int i = 0; i < 3; i++) {
     if (strcmp(names[i], name) != 0) continue;
     *frame = (acc_frame_t)i;
-    return ST_OK;
+    return DONE;
   }
   return toml_refuse(root, "acceleration", why,
                      "unknown frame `%s`; allowed: body, world, world_with_gravity", name);
 }
 
 // The motors' commands are all of one kind.
-static status_t read_kinds(toml_t t, columns_t *c, why_t *why) {
+static done_t read_kinds(toml_t t, columns_t *c, why_t *why) {
   static const struct {
     signal_id_t signal[4];
     kind_t kind[4]; // of each, if the first is of its own kind
@@ -209,11 +209,11 @@ static status_t read_kinds(toml_t t, columns_t *c, why_t *why) {
     if (g == 0) c->motors = first == KIND_SPIN ? MOTORS_RADPS : first == KIND_FORCE ? MOTORS_N : MOTORS_PWM;
     if (g == 1) c->mixed_pwm = first == KIND_MOTOR;
   }
-  return ST_OK;
+  return DONE;
 }
 
 // Three of four motors say nothing of a vehicle.
-static status_t check_motors(toml_t t, const columns_t *c, why_t *why) {
+static done_t check_motors(toml_t t, const columns_t *c, why_t *why) {
   for (int first = SIG_M1; first <= SIG_W1; first += SIG_W1 - SIG_M1) {
     int lacks = -1, there = -1;
     for (int i = first + 3; i >= first; i--) *(c->of[i].column[0] ? &there : &lacks) = i;
@@ -221,10 +221,10 @@ static status_t check_motors(toml_t t, const columns_t *c, why_t *why) {
       return toml_refuse(t, ROWS[there].name, why, "without %s; allowed: %s to %s, or none of them",
                          ROWS[lacks].name, ROWS[first].name, ROWS[first + 3].name);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
+static done_t read_columns(toml_t t, columns_t *c, why_t *why) {
   const char *keys[SIG_COLUMNS + 1] = {NULL};
   for (int i = 0; i < SIG_COLUMNS; i++) keys[i] = ROWS[i].name;
   TRY(toml_only(t, keys, why));
@@ -237,7 +237,7 @@ static status_t read_columns(toml_t t, columns_t *c, why_t *why) {
 static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "columns", NULL};
 static const toml_kind_t COLUMNS_FILE = {"a columns file", "tools/columns/fly.toml", ROOT_KEYS};
 
-static status_t read_root(toml_t root, columns_t *c, why_t *why) {
+static done_t read_root(toml_t root, columns_t *c, why_t *why) {
   toml_t columns;
   TRY(toml_only(root, ROOT_KEYS, why));
   TRY(toml_table(root, "columns", &columns, why));
@@ -245,15 +245,15 @@ static status_t read_root(toml_t root, columns_t *c, why_t *why) {
   if (c->of[SIG_AX].column[0] || c->of[SIG_AZ].column[0]) TRY(read_frame(root, &c->acc, why));
   if (toml_has(root, "rest_height_m"))
     TRY(toml_double(root, "rest_height_m", -10.0, 10.0, &c->rest_height_m, why));
-  return ST_OK;
+  return DONE;
 }
 
-status_t columns_read(const char *path, columns_t *c, why_t *why) {
+done_t columns_read(const char *path, columns_t *c, why_t *why) {
   toml_file_t *file;
   TRY(toml_open(&file, path, &COLUMNS_FILE, why));
   columns_t fresh = {.acc = ACC_BODY, .rest_height_m = (double)NAN};
-  const status_t status = read_root(toml_root(file), &fresh, why);
+  const done_t status = read_root(toml_root(file), &fresh, why);
   toml_close(file);
-  if (status == ST_OK) *c = fresh;
+  if (status == DONE) *c = fresh;
   return status;
 }

@@ -108,8 +108,8 @@ typedef struct {
 // missing.
 columns_t columns_crazyflie(void);
 
-// ST_BAD_INPUT: not a columns file; names file, line, key and what is allowed. *c is kept.
-MUST_CHECK status_t columns_read(const char *path, columns_t *c, why_t *why);
+// BAD_INPUT: not a columns file; names file, line, key and what is allowed. *c is kept.
+MUST_CHECK done_t columns_read(const char *path, columns_t *c, why_t *why);
 
 // The signal's name in columns files, and the SI unit of what is read.
 const char *columns_name(signal_id_t signal);

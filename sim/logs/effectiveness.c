@@ -114,22 +114,22 @@ static void tick(pass_t *p, const double before[COLUMNS], const double row[COLUM
 // --- the log ------------------------------------------------------------------------------------------
 
 // Ticks since the row before: 1, or more in a gap.
-static status_t ticks_since(const pass_t *p, const double row[COLUMNS], long *n, why_t *why) {
+static done_t ticks_since(const pass_t *p, const double row[COLUMNS], long *n, why_t *why) {
   const double passed_ms = row[TIME] - p->last[TIME];
   *n = 1;
   if (!(passed_ms > 0.0))
     return table_refuse(&p->log.table, 0, p->log.column[TIME], why, "%g after %g; allowed: rising", row[TIME],
                         p->last[TIME]);
-  if (p->job->as_stock) return ST_OK;
+  if (p->job->as_stock) return DONE;
   if (passed_ms > 1e3 * EFFECTIVENESS_GAP_S) {
     *n = 0;
-    return ST_OK;
+    return DONE;
   }
   *n = lround(passed_ms / TICK_MS);
   if (fabs(passed_ms - TICK_MS * (double)*n) > 0.5)
     return table_refuse(&p->log.table, 0, p->log.column[TIME], why,
                         "%g ms after the row before; allowed: multiples of %g ms", passed_ms, TICK_MS);
-  return ST_OK;
+  return DONE;
 }
 
 static void bridge(pass_t *p, const double row[COLUMNS], long n) {
@@ -144,7 +144,7 @@ static void bridge(pass_t *p, const double row[COLUMNS], long n) {
   if (n > 1) p->result->bridged += n - 1;
 }
 
-static status_t take_rows(pass_t *p, why_t *why) {
+static done_t take_rows(pass_t *p, why_t *why) {
   double row[COLUMNS];
   long even = 0;
   for (bool more;;) {
@@ -153,7 +153,7 @@ static status_t take_rows(pass_t *p, why_t *why) {
       return table_refuse(
           &p->log.table, 0, p->log.column[TIME], why,
           "even in all rows; allowed: those of odd steps, in which the inner loop runs, or of every call");
-    if (!more) return ST_OK;
+    if (!more) return DONE;
     TRY(effectiveness_log_row(&p->log, row, why));
     // Every call was logged: the inner loop runs in the odd ones.
     const bool is_even = p->log.own && fmod(row[TIME], 2.0) < 1.0;
@@ -173,7 +173,7 @@ static status_t take_rows(pass_t *p, why_t *why) {
 
 // --- the fit ------------------------------------------------------------------------------------------
 
-static status_t solve(const pass_t *p, int axis, why_t *why) {
+static done_t solve(const pass_t *p, int axis, why_t *why) {
   const sums_t *s = &p->sums[axis];
   effectiveness_t *const r = p->result;
   const int n = axis == 2 ? 2 : 1;
@@ -196,28 +196,28 @@ static status_t solve(const pass_t *p, int axis, why_t *why) {
   r->g1[axis] = x[0] / ku;
   if (n == 2) r->g2 = x[1] / kv;
   r->explained[axis] = (x[0] * b[0] + x[1] * b[1] * (n == 2)) / s->yy;
-  if (isfinite(r->g1[axis]) && isfinite(r->g2) && isfinite(r->explained[axis])) return ST_OK;
+  if (isfinite(r->g1[axis]) && isfinite(r->g2) && isfinite(r->explained[axis])) return DONE;
   return error_set(why, "%s: columns %s, %s: too large to be fitted; allowed: rad/s and 16-bit units",
                    p->log.table.path, effectiveness_names[RATE + axis], effectiveness_names[COMMAND + axis]);
 }
 
-static status_t fit(pass_t *p, why_t *why) {
+static done_t fit(pass_t *p, why_t *why) {
   TRY(effectiveness_log_find(&p->log, why));
   TRY(take_rows(p, why));
   if (p->result->bridged > p->result->rows)
     return error_set(why, "%s: %ld rows and %ld ticks missing between them; allowed: a log at 500 Hz",
                      p->log.table.path, p->result->rows, p->result->bridged);
   for (int i = 0; i < 3; i++) TRY(solve(p, i, why));
-  return ST_OK;
+  return DONE;
 }
 
-status_t effectiveness_fit(const char *path, const effectiveness_job_t *job, effectiveness_t *result,
-                           why_t *why) {
+done_t effectiveness_fit(const char *path, const effectiveness_job_t *job, effectiveness_t *result,
+                         why_t *why) {
   effectiveness_t found = {.rows = 0};
   pass_t p = {.job = job, .log = {.motor_max_N = job->motor_max_N}, .since_start = -1, .result = &found};
   TRY(table_open(&p.log.table, path, why));
-  const status_t status = fit(&p, why);
+  const done_t status = fit(&p, why);
   table_close(&p.log.table);
-  if (status == ST_OK) *result = found;
+  if (status == DONE) *result = found;
   return status;
 }

@@ -57,10 +57,10 @@ typedef struct {
   { 0.0066146, 0.0052125, 0.001497 }
 #define EFFECTIVENESS_STOCK_G2 4.3475e-5
 
-// ST_BAD_INPUT: no such file, a column missing, not a number, ticks that do not rise or are not those of a
+// BAD_INPUT: no such file, a column missing, not a number, ticks that do not rise or are not those of a
 // 500 Hz log, more ticks missing than there, or an axis whose command never moves; names file, line and
 // column.
-MUST_CHECK status_t effectiveness_fit(const char *path, const effectiveness_job_t *job,
-                                      effectiveness_t *result, why_t *why);
+MUST_CHECK done_t effectiveness_fit(const char *path, const effectiveness_job_t *job, effectiveness_t *result,
+                                    why_t *why);
 
 #endif

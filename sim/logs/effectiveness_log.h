@@ -19,10 +19,10 @@ typedef struct {
   int column[COLUMNS];
 } effectiveness_log_t;
 
-// ST_BAD_INPUT: a column is missing.
-MUST_CHECK status_t effectiveness_log_find(effectiveness_log_t *p, why_t *why);
+// BAD_INPUT: a column is missing.
+MUST_CHECK done_t effectiveness_log_find(effectiveness_log_t *p, why_t *why);
 
-// The present row, in the units of the firmware's columns; yaw clockwise. ST_BAD_INPUT: as table_number.
-MUST_CHECK status_t effectiveness_log_row(const effectiveness_log_t *p, double row[COLUMNS], why_t *why);
+// The present row, in the units of the firmware's columns; yaw clockwise. BAD_INPUT: as table_number.
+MUST_CHECK done_t effectiveness_log_row(const effectiveness_log_t *p, double row[COLUMNS], why_t *why);
 
 #endif

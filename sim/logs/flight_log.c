@@ -25,15 +25,15 @@ struct flight_log {
   double command_N; // at the last tick
 };
 
-status_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
-                         const model_t *vehicle, signals_t need, why_t *why) {
+done_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns, const model_t *vehicle,
+                       signals_t need, why_t *why) {
   *log = NULL;
   flight_log_t *const fresh = calloc(1, sizeof *fresh);
   if (!fresh) return error_failed(why, "%s: out of memory", path);
   fresh->need = need;
   fresh->range_m = (double)NAN;
-  const status_t status = log_rows_open(&fresh->rows, path, columns, vehicle, LOG_STRICT, need, why);
-  if (status == ST_OK)
+  const done_t status = log_rows_open(&fresh->rows, path, columns, vehicle, LOG_STRICT, need, why);
+  if (status == DONE)
     *log = fresh;
   else
     free(fresh);
@@ -69,20 +69,20 @@ static void take_range(flight_log_t *log, const log_row_t *row) {
 }
 
 // The next row that is complete, into `after`.
-static status_t read_after(flight_log_t *log, why_t *why) {
+static done_t read_after(flight_log_t *log, why_t *why) {
   for (;;) {
     TRY(log_rows_next(&log->rows, &log->after, &log->any_after, why));
-    if (!log->any_after) return ST_OK;
+    if (!log->any_after) return DONE;
     log->count.rows++;
     log_sanity_add(&log->sanity, &log->after);
-    if (complete(log, &log->after)) return ST_OK;
+    if (complete(log, &log->after)) return DONE;
     log->count.gaps++;
     take_range(log, &log->after);
   }
 }
 
 // `after` belongs to the tick's period: it becomes `before`.
-static status_t take_row(flight_log_t *log, why_t *why) {
+static done_t take_row(flight_log_t *log, why_t *why) {
   log->before = log->after;
   log->any_before = true;
   for (int i = 0; i < SIG_COUNT; i++) log->sum[i] += log->before.v[i];
@@ -135,7 +135,7 @@ static bool grid_ends(const flight_log_t *log, double t_s) {
   return t_s > at_s + SAME_TIME_S;
 }
 
-status_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why) {
+done_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why) {
   *more = false;
   if (log->count.rows == 0) TRY(read_after(log, why));
   start_period(log);
@@ -154,5 +154,5 @@ status_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why
   log->k++;
   log->count.ticks++;
   *more = true;
-  return ST_OK;
+  return DONE;
 }

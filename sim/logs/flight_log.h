@@ -30,13 +30,13 @@ typedef struct {
 
 // need: SIGNAL_BITs of the signals without which a row is of no use. Errors: as log_rows_open; *log is null
 // then.
-MUST_CHECK status_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
-                                    const model_t *vehicle, signals_t need, why_t *why);
+MUST_CHECK done_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
+                                  const model_t *vehicle, signals_t need, why_t *why);
 
-// *more is false at the end. ST_BAD_INPUT: as log_rows_next; at the end also if the signals contradict
+// *more is false at the end. BAD_INPUT: as log_rows_next; at the end also if the signals contradict
 // physics or each other over the whole flight: rows too close or too far, mean |acceleration| not near 1 g, z
 // not moving as vz says, commands that never exceed 100.
-MUST_CHECK status_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why);
+MUST_CHECK done_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why);
 
 // The log holds this signal.
 bool flight_log_has(const flight_log_t *log, signal_id_t signal);

@@ -111,14 +111,14 @@ static view_t look(pass_t *p, const flight_tick_t *tick) {
   return view;
 }
 
-static status_t pass_open(pass_t *p, const learn_job_t *job, const char *path, why_t *why) {
+static done_t pass_open(pass_t *p, const learn_job_t *job, const char *path, why_t *why) {
   *p = (pass_t){.job = job};
   const flight_param_t *param = &job->param;
   if (sync_tune(&p->coef, param->cutoff_Hz, param->motor_tau_s, (float)FLIGHT_LOG_PERIOD_S) != ST_OK)
     return error_set(why, "indiPos.cutoff = %g: out of range", (double)job->param.cutoff_Hz);
   TRY(flight_log_open(&p->log, path, &job->columns, &job->vehicle, NEED, why));
   const bool blind = !flight_log_has(p->log, SIG_RANGE) && !isfinite(job->vehicle.ceiling_m);
-  if (job->surface != SURFACE_CEILING || !blind) return ST_OK;
+  if (job->surface != SURFACE_CEILING || !blind) return DONE;
   flight_log_close(p->log);
   const char *range = job->columns.of[SIG_RANGE].column;
   return error_set(why,
@@ -128,18 +128,18 @@ static status_t pass_open(pass_t *p, const learn_job_t *job, const char *path, w
 }
 
 // Goes over a flight and hands every tick to `take`.
-static status_t each(const learn_job_t *job, const char *path,
-                     void (*take)(const learn_job_t *, const view_t *, void *), void *into, why_t *why) {
+static done_t each(const learn_job_t *job, const char *path,
+                   void (*take)(const learn_job_t *, const view_t *, void *), void *into, why_t *why) {
   pass_t p;
   TRY(pass_open(&p, job, path, why));
-  status_t status;
+  done_t status;
   flight_tick_t tick;
   bool more;
-  while ((status = flight_log_next(p.log, &tick, &more, why)) == ST_OK && more) {
+  while ((status = flight_log_next(p.log, &tick, &more, why)) == DONE && more) {
     const view_t view = look(&p, &tick);
     take(job, &view, into);
   }
-  if (status == ST_OK && flight_log_count(p.log).ticks == 0)
+  if (status == DONE && flight_log_count(p.log).ticks == 0)
     status = error_set(why, "%s: no row has all the signals that are needed", path);
   flight_log_close(p.log);
   return status;
@@ -154,7 +154,7 @@ static void add_mass(const learn_job_t *job, const view_t *view, void *into) {
   sum->n++;
 }
 
-status_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why) {
+done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why) {
   return each(job, path, add_mass, sum, why);
 }
 
@@ -169,7 +169,7 @@ static void teach(const learn_job_t *job, const view_t *view, void *into) {
   fprintf(job->points, "%.5f,%.5f\n", (double)view->sample.zc_m, (double)learn->y);
 }
 
-status_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why) {
+done_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why) {
   return each(job, path, teach, learn, why);
 }
 
@@ -203,8 +203,8 @@ static void add_residual(const learn_job_t *job, const view_t *view, void *into)
   r->near_after += after_N * after_N;
 }
 
-status_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
-                         learn_score_t *score, why_t *why) {
+done_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
+                       learn_score_t *score, why_t *why) {
   // The curve as it flies (1 beyond ceil.zOn), but not clipped: the clip is for control.
   residual_t r = {.curve = job->param.curve};
   r.curve.mode = CURVE_FIXED;
@@ -223,5 +223,5 @@ status_t learn_log_score(const learn_job_t *job, const char *path, const rbf_wei
       .bias_N = r.mean_after,
       .nearest_m = r.nearest_m,
   };
-  return ST_OK;
+  return DONE;
 }

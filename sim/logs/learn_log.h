@@ -49,12 +49,12 @@ typedef struct {
   double nearest_m;
 } learn_score_t;
 
-// Each goes over one flight. ST_BAD_INPUT: as flight_log_open and flight_log_next, or no tick at all; what
+// Each goes over one flight. BAD_INPUT: as flight_log_open and flight_log_next, or no tick at all; what
 // was summed or learned so far is then of no use.
-MUST_CHECK status_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why);
-MUST_CHECK status_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why);
-MUST_CHECK status_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
-                                    learn_score_t *score, why_t *why);
+MUST_CHECK done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why);
+MUST_CHECK done_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why);
+MUST_CHECK done_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
+                                  learn_score_t *score, why_t *why);
 
 // The mass that the sums tell, or NaN if there were too few ticks.
 double learn_mass_kg(const learn_mass_t *sum);

@@ -16,7 +16,7 @@ static bool has(const log_rows_t *r, signals_t bits) {
   return (r->has & bits) == bits;
 }
 
-static status_t bind(log_rows_t *r, why_t *why) {
+static done_t bind(log_rows_t *r, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     const column_t *column = &r->columns.of[i];
     r->at[i] = column->column[0] ? table_find(&r->table, column->column) : -1;
@@ -26,20 +26,20 @@ static status_t bind(log_rows_t *r, why_t *why) {
                           "column %s: missing; it is the signal `%s` of this kind of log", column->column,
                           columns_name((signal_id_t)i));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // What rows deliver beyond what stands in the log.
-static status_t derive(log_rows_t *r, why_t *why) {
+static done_t derive(log_rows_t *r, why_t *why) {
   if (has(r, TILT)) r->has |= QUATERNION;
   if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~BITS(SIG_AX, SIG_AZ);
   log_motors_init(&r->motors, &r->columns, &r->vehicle, &r->has, r->lacks);
-  if (!r->lacks[0] || r->care == LOG_MEND) return ST_OK;
+  if (!r->lacks[0] || r->care == LOG_MEND) return DONE;
   return table_refuse(&r->table, 0, strncmp(r->lacks, "column", 6) == 0 ? -1 : r->at[SIG_M1], why, "%s",
                       r->lacks);
 }
 
-static status_t check_need(const log_rows_t *r, signals_t need, why_t *why) {
+static done_t check_need(const log_rows_t *r, signals_t need, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     if (!(need & SIGNAL_BIT(i)) || has(r, SIGNAL_BIT(i))) continue;
     const char *other = i == SIG_THRUST              ? " (or m1..m4)"
@@ -50,18 +50,18 @@ static status_t check_need(const log_rows_t *r, signals_t need, why_t *why) {
                         "column %s: missing; needed: the signal `%s`%s, named by --columns FILE",
                         name[0] ? name : "?", columns_name((signal_id_t)i), other);
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns, const model_t *vehicle,
-                       log_care_t care, signals_t need, why_t *why) {
+done_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns, const model_t *vehicle,
+                     log_care_t care, signals_t need, why_t *why) {
   *r = (log_rows_t){.columns = *columns, .vehicle = *vehicle, .care = care, .vbat_V = GAP};
   TRY(table_open(&r->table, path, why));
   if (care == LOG_MEND && r->table.csv) csv_forgive_cut(r->table.csv);
-  status_t status = bind(r, why);
-  if (status == ST_OK) status = derive(r, why);
-  if (status == ST_OK) status = check_need(r, need, why);
-  if (status != ST_OK) log_rows_close(r);
+  done_t status = bind(r, why);
+  if (status == DONE) status = derive(r, why);
+  if (status == DONE) status = check_need(r, need, why);
+  if (status != DONE) log_rows_close(r);
   return status;
 }
 
@@ -69,7 +69,7 @@ void log_rows_close(log_rows_t *r) {
   table_close(&r->table);
 }
 
-static status_t implausible(const log_rows_t *r, signal_id_t i, double value, why_t *why) {
+static done_t implausible(const log_rows_t *r, signal_id_t i, double value, why_t *why) {
   double min, max;
   char hint[COLUMNS_HINT];
   columns_bounds(&r->columns, i, &min, &max);
@@ -78,7 +78,7 @@ static status_t implausible(const log_rows_t *r, signal_id_t i, double value, wh
                       columns_hint(&r->columns, i, value, min, max, hint));
 }
 
-static status_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
+static done_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
   const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : r->care == LOG_MEND ? CSV_GAP_MARKED : CSV_GAP_NAN;
   double min, max;
   TRY(table_number(&r->table, r->at[i], gap, value, why));
@@ -88,23 +88,23 @@ static status_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *wh
       r->bad_column = r->at[i];
     }
     *value = GAP;
-    return ST_OK;
+    return DONE;
   }
   if (isnan(*value)) {
     r->missing++;
-    return ST_OK;
+    return DONE;
   }
   *value = r->columns.of[i].factor * *value + r->columns.of[i].offset;
   columns_bounds(&r->columns, i, &min, &max);
-  return *value < min || *value > max ? implausible(r, i, *value, why) : ST_OK;
+  return *value < min || *value > max ? implausible(r, i, *value, why) : DONE;
 }
 
-static status_t read_signals(log_rows_t *r, log_row_t *row, why_t *why) {
+static done_t read_signals(log_rows_t *r, log_row_t *row, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     row->v[i] = GAP;
     if (r->at[i] >= 0) TRY(read_cell(r, (signal_id_t)i, &row->v[i], why));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // Yaw, then pitch, then roll, each about the axis where the one before has put it.
@@ -119,8 +119,8 @@ static void quaternion_from_angles(double *v) {
   v[SIG_QZ] = cr * cp * sy - sr * sp * cy;
 }
 
-static status_t read_attitude(const log_rows_t *r, log_row_t *row, why_t *why) {
-  if (!has(r, QUATERNION)) return ST_OK;
+static done_t read_attitude(const log_rows_t *r, log_row_t *row, why_t *why) {
+  if (!has(r, QUATERNION)) return DONE;
   double *const q = &row->v[SIG_QW], same = 0.0;
   if (r->at[SIG_QW] < 0 || r->at[SIG_QX] < 0 || r->at[SIG_QY] < 0 || r->at[SIG_QZ] < 0)
     quaternion_from_angles(row->v);
@@ -130,7 +130,7 @@ static status_t read_attitude(const log_rows_t *r, log_row_t *row, why_t *why) {
                         "the quaternion's length is %.3g; allowed: 0.9 to 1.1", norm);
   for (int i = 0; i < 4; i++) same += q[i] * r->last.v[SIG_QW + i];
   for (int i = 0; i < 4; i++) q[i] *= (r->any && same < 0.0 ? -1.0 : 1.0) / norm;
-  return ST_OK;
+  return DONE;
 }
 
 // World to body: a' = a + 2 u x (u x a + w a) with u the negative vector part.
@@ -146,21 +146,21 @@ static void acceleration_to_body(const log_rows_t *r, double *v) {
   a[2] += 2.0 * (x * t[1] - y * t[0]);
 }
 
-static status_t check_time(const log_rows_t *r, double now_s, why_t *why) {
+static done_t check_time(const log_rows_t *r, double now_s, why_t *why) {
   const double before_s = r->last.v[SIG_TIME];
-  if (!r->any || now_s > before_s || (r->care == LOG_MEND && now_s >= before_s)) return ST_OK;
+  if (!r->any || now_s > before_s || (r->care == LOG_MEND && now_s >= before_s)) return DONE;
   return table_refuse(&r->table, 0, r->at[SIG_TIME], why,
                       "%.9g s after %.9g s; allowed: time that increases from row to row", now_s, before_s);
 }
 
-static status_t at_end(const log_rows_t *r, why_t *why) {
+static done_t at_end(const log_rows_t *r, why_t *why) {
   char damage[480];
   if (r->care == LOG_STRICT && table_damage(&r->table, damage, sizeof damage))
     return error_set(why, "%s", damage);
-  return ST_OK;
+  return DONE;
 }
 
-status_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
+done_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
   TRY(table_next(&r->table, more, why));
   if (!*more) return at_end(r, why);
   TRY(read_signals(r, row, why));
@@ -176,5 +176,5 @@ status_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
   else
     r->last = *row;
   r->any = true;
-  return ST_OK;
+  return DONE;
 }

@@ -38,13 +38,13 @@ typedef struct {
   int bad_column;
 } log_rows_t;
 
-// ST_BAD_INPUT: no table, a column of the columns file is missing, or a signal in `need` (SIGNAL_BITs).
-MUST_CHECK status_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns,
-                                  const model_t *vehicle, log_care_t care, signals_t need, why_t *why);
+// BAD_INPUT: no table, a column of the columns file is missing, or a signal in `need` (SIGNAL_BITs).
+MUST_CHECK done_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns,
+                                const model_t *vehicle, log_care_t care, signals_t need, why_t *why);
 
-// ST_BAD_INPUT: not a number, beyond what is plausible (names the unit that would fit), or time that does not
+// BAD_INPUT: not a number, beyond what is plausible (names the unit that would fit), or time that does not
 // increase. LOG_STRICT: also a uSD log that is damaged, behind its last row.
-MUST_CHECK status_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why);
+MUST_CHECK done_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why);
 
 void log_rows_close(log_rows_t *r);
 

@@ -28,8 +28,8 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row) {
 }
 
 // A mean over the flight that is out of its bounds, with the unit that would bring it there.
-static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
-                       double max, why_t *why) {
+static done_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
+                     double max, why_t *why) {
   char hint[COLUMNS_HINT];
   columns_hint(&rows->columns, i, value, min, max, hint);
   return table_refuse(&rows->table, 0, rows->at[i], why,
@@ -37,25 +37,25 @@ static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, 
                       columns_si(&rows->columns, i), min, max, columns_si(&rows->columns, i), hint);
 }
 
-static status_t check_acc(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
-  if (s->acc_rows < ENOUGH) return ST_OK;
+static done_t check_acc(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
+  if (s->acc_rows < ENOUGH) return DONE;
   const double acc_mps2 = s->acc_sum_mps2 / (double)s->acc_rows;
-  if (acc_mps2 >= 0.5 * G_MPS2 && acc_mps2 <= 1.5 * G_MPS2) return ST_OK;
+  if (acc_mps2 >= 0.5 * G_MPS2 && acc_mps2 <= 1.5 * G_MPS2) return DONE;
   return refuse(rows, SIG_AZ, "mean |acceleration|", acc_mps2, 0.5 * G_MPS2, 1.5 * G_MPS2, why);
 }
 
-static status_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
+static done_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   const double span_s = s->last_s - s->first_s;
-  if (s->rows < ENOUGH || !(s->climb2 > 0.02 * 0.02 * span_s)) return ST_OK;
+  if (s->rows < ENOUGH || !(s->climb2 > 0.02 * 0.02 * span_s)) return DONE;
   const double share = s->climb_by_z / s->climb2;
   // Noise and slow estimators change the share, but neither its sign nor by an order of magnitude.
-  if (share >= 0.05 && share <= 20.0) return ST_OK;
+  if (share >= 0.05 && share <= 20.0) return DONE;
   return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
                       "moves %.3g times as far as column %s says over the whole flight; allowed: 0.05 to 20",
                       share, rows->columns.of[SIG_VZ].column);
 }
 
-status_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
+done_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   const double apart_s = s->rows > 1 ? (s->last_s - s->first_s) / (double)(s->rows - 1) : 0.01;
   if (!(apart_s >= 1e-4 && apart_s <= FLIGHT_LOG_GAP_S))
     return refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, FLIGHT_LOG_GAP_S, why);
@@ -64,5 +64,5 @@ status_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *
   const bool commands = rows->at[SIG_M1] >= 0 && rows->columns.motors == MOTORS_PWM;
   if (commands && s->rows >= ENOUGH && s->command_max > 0.0 && s->command_max <= 100.0)
     return refuse(rows, SIG_M1, "the largest motor command is", s->command_max, 1000.0, 65536.0, why);
-  return ST_OK;
+  return DONE;
 }

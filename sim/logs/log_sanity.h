@@ -17,7 +17,7 @@ typedef struct {
 // A zeroed struct is the start.
 void log_sanity_add(log_sanity_t *s, const log_row_t *row);
 
-// ST_BAD_INPUT: names the column, what it reads, what is allowed and the unit that would fit.
-MUST_CHECK status_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why);
+// BAD_INPUT: names the column, what it reads, what is allowed and the unit that would fit.
+MUST_CHECK done_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why);
 
 #endif

@@ -39,9 +39,9 @@ typedef struct {
 
 // --- columns ----------------------------------------------------------------------------------------------
 
-static status_t find(const player_t *p, const char *name, int *column, why_t *why) {
+static done_t find(const player_t *p, const char *name, int *column, why_t *why) {
   *column = table_find(&p->table, name);
-  if (*column >= 0) return ST_OK;
+  if (*column >= 0) return DONE;
   return table_refuse(&p->table, 0, -1, why, "column %s: missing; %s", name,
                       p->table.csv ? "fly --log-rate 1000 writes it" : "tools/usd/config.txt has it logged");
 }
@@ -53,11 +53,11 @@ static int event_of(const player_t *p, int column) {
   return CALL;
 }
 
-static status_t find_stamps(player_t *p, why_t *why) {
+static done_t find_stamps(player_t *p, why_t *why) {
   p->calls = table_find(&p->table, "indiRec.calls");
   p->tunes = table_find(&p->table, "indiRec.tunes");
   p->step_end = p->state = p->state_end = p->set = p->set_end = -1;
-  if (p->table.csv) return ST_OK;
+  if (p->table.csv) return DONE;
   TRY(find(p, "indiRec.calls", &p->calls, why));
   TRY(find(p, "indiRec.stepEnd", &p->step_end, why));
   TRY(find(p, "indiRec.state", &p->state, why));
@@ -67,7 +67,7 @@ static status_t find_stamps(player_t *p, why_t *why) {
 }
 
 // The app's own logs say which column is which field.
-static status_t find_all(player_t *p, why_t *why) {
+static done_t find_all(player_t *p, why_t *why) {
   char name[32];
   const section_log_t *log;
   if (p->table.usd && !usd_only(p->table.usd, EVENT, EVENTS))
@@ -90,83 +90,83 @@ static status_t find_all(player_t *p, why_t *why) {
 // --- rows -------------------------------------------------------------------------------------------------
 
 // The card holds the bits, infinities too; who writes a CSV means numbers.
-static status_t number(const player_t *p, int column, double *value, why_t *why) {
+static done_t number(const player_t *p, int column, double *value, why_t *why) {
   return table_number(&p->table, column, p->table.usd ? CSV_GAP_MARKED : CSV_GAP_NAN, value, why);
 }
 
-static status_t take_fields(player_t *p, int event, why_t *why) {
+static done_t take_fields(player_t *p, int event, why_t *why) {
   for (int i = 0; i < p->n; i++) {
     double value;
     if (p->field[i].event != event) continue;
     TRY(number(p, p->field[i].column, &value, why));
     values_put_log(p->field[i].type, (char *)&p->in + p->field[i].offset, value);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_tunes(player_t *p, replay_t *r, why_t *why) {
+static done_t take_tunes(player_t *p, replay_t *r, why_t *why) {
   double tuned;
-  if (p->tunes < 0) return ST_OK;
+  if (p->tunes < 0) return DONE;
   TRY(number(p, p->tunes, &tuned, why));
   if (!isnan(p->tuned) && tuned != p->tuned && r->tuned_line == 0) r->tuned_line = table_line(&p->table);
   p->tuned = tuned;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t is_whole(const player_t *p, int head, int end, bool *whole, why_t *why) {
+static done_t is_whole(const player_t *p, int head, int end, bool *whole, why_t *why) {
   double a, b;
   *whole = true;
-  if (end < 0) return ST_OK;
+  if (end < 0) return DONE;
   TRY(number(p, head, &a, why));
   TRY(number(p, end, &b, why));
   *whole = a == b;
-  return ST_OK;
+  return DONE;
 }
 
 // The estimate or the set point, good for the calls from here on.
-static status_t take_part(player_t *p, int event, replay_t *r, why_t *why) {
+static done_t take_part(player_t *p, int event, replay_t *r, why_t *why) {
   double *const has = event == STATE ? &p->has_state : &p->has_set;
   const int head = event == STATE ? p->state : p->set, end = event == STATE ? p->state_end : p->set_end;
   bool whole;
   TRY(is_whole(p, head, end, &whole, why));
   *has = (double)NAN;
   r->torn += !whole;
-  if (!whole) return ST_OK;
+  if (!whole) return DONE;
   if (event == STATE) TRY(take_tunes(p, r, why));
   TRY(number(p, head, has, why));
   return take_fields(p, event, why);
 }
 
 // A call of which all is there.
-static status_t is_complete(const player_t *p, replay_t *r, bool *complete, why_t *why) {
+static done_t is_complete(const player_t *p, replay_t *r, bool *complete, why_t *why) {
   double state, set;
   int step = 0;
   *complete = true;
-  if (p->table.csv) return ST_OK;
+  if (p->table.csv) return DONE;
   TRY(find(p, "indiIn.step", &step, why));
   TRY(is_whole(p, step, p->step_end, complete, why));
   r->torn += !*complete;
-  if (!*complete) return ST_OK;
+  if (!*complete) return DONE;
   TRY(number(p, p->state, &state, why));
   TRY(number(p, p->set, &set, why));
   *complete = state == p->has_state && set == p->has_set;
   r->incomplete += !*complete;
-  return ST_OK;
+  return DONE;
 }
 
 // --- flying -----------------------------------------------------------------------------------------------
 
-static status_t start(player_t *p, why_t *why) {
+static done_t start(player_t *p, why_t *why) {
   if (flight_init(&p->flight, p->param) != ST_OK)
     return error_set(why, "--set: parameters that contradict each other");
   p->known = p->call <= 1;
   p->since = 0;
-  return ST_OK;
+  return DONE;
 }
 
 // Calls that are not in the log. Few are leapt over, as missed ones are in flight; the flight code takes more
 // for what they would be there, an emergency, so that it starts anew. What was learned is kept.
-static status_t leap(player_t *p, replay_t *r, long lost, why_t *why) {
+static done_t leap(player_t *p, replay_t *r, long lost, why_t *why) {
   const learn_t learned = p->flight.outer.learn;
   r->missing += lost;
   if (lost > LEAP_CALLS) {
@@ -175,11 +175,11 @@ static status_t leap(player_t *p, replay_t *r, long lost, why_t *why) {
   }
   p->known = false;
   p->since = 0;
-  return ST_OK;
+  return DONE;
 }
 
 // What lies between the last call and this one.
-static status_t follow(player_t *p, const flight_in_t *before, replay_t *r, bool first, why_t *why) {
+static done_t follow(player_t *p, const flight_in_t *before, replay_t *r, bool first, why_t *why) {
   const uint32_t last = p->call;
   double call = 0.0;
   if (p->calls >= 0) TRY(number(p, p->calls, &call, why));
@@ -191,10 +191,10 @@ static status_t follow(player_t *p, const flight_in_t *before, replay_t *r, bool
   if (p->calls >= 0 && p->call <= last) return start(p, why); // selected anew
   const uint32_t since = p->calls >= 0 ? p->call - last : p->in.step - before->step;
   if (since > 1 && since < 0x80000000u) return leap(p, r, (long)since - 1, why);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t compare(player_t *p, replay_t *r, why_t *why) {
+static done_t compare(player_t *p, replay_t *r, why_t *why) {
   replay_part_t *const part = p->known                         ? &r->known
                               : p->since < REPLAY_SETTLE_CALLS ? &r->settling
                                                                : &r->settled;
@@ -213,14 +213,14 @@ static status_t compare(player_t *p, replay_t *r, why_t *why) {
   part->calls++;
   part->differ += differs;
   if (differs && part->first_line == 0) part->first_line = table_line(&p->table);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_call(player_t *p, replay_t *r, why_t *why) {
+static done_t take_call(player_t *p, replay_t *r, why_t *why) {
   const flight_in_t before = p->in;
   bool complete;
   TRY(is_complete(p, r, &complete, why));
-  if (!complete) return ST_OK;
+  if (!complete) return DONE;
   if (p->table.csv) TRY(take_tunes(p, r, why));
   TRY(take_fields(p, CALL, why));
   TRY(follow(p, &before, r, replay_all(r).calls == 0, why));
@@ -234,7 +234,7 @@ static int event_now(const player_t *p) {
   return i;
 }
 
-static status_t play(player_t *p, replay_t *r, why_t *why) {
+static done_t play(player_t *p, replay_t *r, why_t *why) {
   TRY(find_all(p, why));
   TRY(start(p, why));
   for (bool more;;) {
@@ -246,14 +246,14 @@ static status_t play(player_t *p, replay_t *r, why_t *why) {
   if (replay_all(r).calls == 0)
     return table_refuse(&p->table, 0, -1, why, "no call that is whole; allowed: one or more");
   (void)table_damage(&p->table, r->damage, sizeof r->damage);
-  return ST_OK;
+  return DONE;
 }
 
-status_t replay_fly(const char *path, const flight_param_t *param, replay_t *result, why_t *why) {
+done_t replay_fly(const char *path, const flight_param_t *param, replay_t *result, why_t *why) {
   player_t p = {.param = param, .has_state = (double)NAN, .has_set = (double)NAN, .tuned = (double)NAN};
   *result = (replay_t){.missing = 0};
   TRY(table_open(&p.table, path, why));
-  const status_t status = play(&p, result, why);
+  const done_t status = play(&p, result, why);
   table_close(&p.table);
   return status;
 }

@@ -42,13 +42,13 @@ typedef struct {
   char damage[400]; // of the file, behind its last row; empty: none
 } replay_t;
 
-// ST_BAD_INPUT: no such log, a column is missing or not a number, no call. ST_BAD_PARAM as flight_init.
-MUST_CHECK status_t replay_fly(const char *path, const flight_param_t *param, replay_t *result, why_t *why);
+// BAD_INPUT: no such log, a column is missing or not a number, no call. BAD_INPUT too: as flight_init.
+MUST_CHECK done_t replay_fly(const char *path, const flight_param_t *param, replay_t *result, why_t *why);
 
 // All three.
 replay_part_t replay_all(const replay_t *r);
 
 // With the parameters that a request sets, and told on the standard output. Errors as above.
-MUST_CHECK status_t replay_told(const char *path, const request_t *request, why_t *why);
+MUST_CHECK done_t replay_told(const char *path, const request_t *request, why_t *why);
 
 #endif

@@ -45,14 +45,15 @@ static void tell(const replay_t *r) {
   tell_lost(r);
 }
 
-status_t replay_told(const char *path, const request_t *request, why_t *why) {
+done_t replay_told(const char *path, const request_t *request, why_t *why) {
   flight_param_t param;
   replay_t r;
   params_default(&param);
   for (int i = 0; i < request->n_set; i++)
-    if (request->set[i].row) TRY(params_set(&param, request->set[i].row, request->set[i].value));
+    if (request->set[i].row && params_set(&param, request->set[i].row, request->set[i].value) != ST_OK)
+      return BAD_INPUT;
   TRY(param_check_all(&param, why));
   TRY(replay_fly(path, &param, &r, why));
   tell(&r);
-  return ST_OK;
+  return DONE;
 }

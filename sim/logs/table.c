@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-status_t table_open(table_t *t, const char *path, why_t *why) {
+done_t table_open(table_t *t, const char *path, why_t *why) {
   *t = (table_t){0};
   if (strlen(path) >= sizeof t->path) return error_set(why, "%s: the path is too long", path);
   snprintf(t->path, sizeof t->path, "%s", path);
@@ -34,20 +34,20 @@ int table_find(const table_t *t, const char *name) {
   return t->csv ? csv_find(t->csv, name) : usd_find(t->usd, name);
 }
 
-status_t table_next(table_t *t, bool *more, why_t *why) {
+done_t table_next(table_t *t, bool *more, why_t *why) {
   if (t->csv) return csv_next(t->csv, more, why);
   *more = usd_next(t->usd);
-  return ST_OK;
+  return DONE;
 }
 
-status_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why) {
+done_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why) {
   if (t->csv) return csv_number(t->csv, column, gap, value, why);
   *value = usd_value(t->usd, column);
   if (isnan(*value) && gap == CSV_GAP_REFUSED)
     return table_refuse(t, 0, column, why, "a gap; allowed: a number");
   if (isinf(*value) && gap != CSV_GAP_MARKED)
     return table_refuse(t, 0, column, why, "not finite; allowed: a number");
-  return ST_OK;
+  return DONE;
 }
 
 long table_line(const table_t *t) {
@@ -62,7 +62,7 @@ bool table_damage(const table_t *t, char *text, size_t size) {
   return usd || (t->csv && csv_cut_off(t->csv));
 }
 
-status_t table_refuse(const table_t *t, long line, int column, why_t *why, const char *format, ...) {
+done_t table_refuse(const table_t *t, long line, int column, why_t *why, const char *format, ...) {
   char what[400], where[80] = "", shown[NUMBER_SHOWN];
   va_list args;
   va_start(args, format);

@@ -15,19 +15,19 @@ typedef struct {
   char path[256];
 } table_t;
 
-// ST_BAD_INPUT: as csv_open or usd_open.
-MUST_CHECK status_t table_open(table_t *t, const char *path, why_t *why);
+// BAD_INPUT: as csv_open or usd_open.
+MUST_CHECK done_t table_open(table_t *t, const char *path, why_t *why);
 
 void table_close(table_t *t);
 
 // The column called `name`, counted from 0; -1 if there is none.
 int table_find(const table_t *t, const char *name);
 
-// The next row; *more is false at the end, and where a uSD log is damaged. ST_BAD_INPUT: as csv_next.
-MUST_CHECK status_t table_next(table_t *t, bool *more, why_t *why);
+// The next row; *more is false at the end, and where a uSD log is damaged. BAD_INPUT: as csv_next.
+MUST_CHECK done_t table_next(table_t *t, bool *more, why_t *why);
 
 // As csv_number; a uSD log has NaN for a gap.
-MUST_CHECK status_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why);
+MUST_CHECK done_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why);
 
 // The number of the present row's line or record.
 long table_line(const table_t *t);
@@ -35,8 +35,8 @@ long table_line(const table_t *t);
 // After the last row: what is damaged and where (one sentence), or false.
 bool table_damage(const table_t *t, char *text, size_t size);
 
-// An error in a column (-1: none) at a line (0: the present one). Returns ST_BAD_INPUT.
-status_t table_refuse(const table_t *t, long line, int column, why_t *why, const char *format, ...)
+// An error in a column (-1: none) at a line (0: the present one). Returns BAD_INPUT.
+done_t table_refuse(const table_t *t, long line, int column, why_t *why, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 #endif

@@ -43,28 +43,28 @@ struct usd_file {
 
 // --- header --------------------------------------------------------------------------------------------
 
-static status_t refuse(const usd_file_t *f, why_t *why, const char *what) {
+static done_t refuse(const usd_file_t *f, why_t *why, const char *what) {
   return error_set(why, "%s: byte %llu: %s", f->path, (unsigned long long)f->in.taken, what);
 }
 
-static status_t take_number(usd_file_t *f, int bytes, unsigned *value, why_t *why) {
+static done_t take_number(usd_file_t *f, int bytes, unsigned *value, why_t *why) {
   *value = 0;
   if (!crc_stream_have(&f->in, (size_t)bytes)) return refuse(f, why, "the file is cut off in its header");
   *value = (unsigned)crc_stream_take(&f->in, bytes);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_name(usd_file_t *f, char name[USD_NAME_MAX + 3], why_t *why) {
+static done_t take_name(usd_file_t *f, char name[USD_NAME_MAX + 3], why_t *why) {
   for (int i = 0; i < USD_NAME_MAX + 3; i++) {
     unsigned c;
     TRY(take_number(f, 1, &c, why));
     name[i] = (char)c;
-    if (c == 0) return ST_OK;
+    if (c == 0) return DONE;
   }
   return refuse(f, why, "a name is too long; allowed: 63 bytes");
 }
 
-static status_t take_variable(usd_file_t *f, event_t *event, why_t *why) {
+static done_t take_variable(usd_file_t *f, event_t *event, why_t *why) {
   char name[USD_NAME_MAX + 3], shown[NUMBER_SHOWN], what[120];
   TRY(take_name(f, name, why));
   const size_t size = strlen(name);
@@ -85,10 +85,10 @@ static status_t take_variable(usd_file_t *f, event_t *event, why_t *why) {
   event->column[event->n] = column;
   event->type[event->n++] = type;
   event->bytes += crc_stream_bytes(type);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_event(usd_file_t *f, bool *fixed, why_t *why) {
+static done_t take_event(usd_file_t *f, bool *fixed, why_t *why) {
   event_t *const event = &f->event[f->n_event];
   char name[USD_NAME_MAX + 3];
   unsigned n;
@@ -100,10 +100,10 @@ static status_t take_event(usd_file_t *f, bool *fixed, why_t *why) {
   for (unsigned i = 0; i < n; i++) TRY(take_variable(f, event, why));
   event->last_ms = -HUGE_VAL;
   f->n_event++;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_header(usd_file_t *f, why_t *why) {
+static done_t take_header(usd_file_t *f, why_t *why) {
   unsigned magic, events;
   int main_event = -1;
   TRY(take_number(f, 1, &magic, why));
@@ -120,10 +120,10 @@ static status_t take_header(usd_file_t *f, why_t *why) {
     if (fixed) main_event = (int)i;
   }
   for (int i = 0; i < f->n_event; i++) f->event[i].read = main_event < 0 || i == main_event;
-  return ST_OK;
+  return DONE;
 }
 
-status_t usd_open(usd_file_t **file, FILE *stream, const char *path, why_t *why) {
+done_t usd_open(usd_file_t **file, FILE *stream, const char *path, why_t *why) {
   *file = calloc(1, sizeof **file);
   if (!*file) {
     fclose(stream);
@@ -131,8 +131,8 @@ status_t usd_open(usd_file_t **file, FILE *stream, const char *path, why_t *why)
   }
   crc_stream_init(&(*file)->in, stream);
   snprintf((*file)->path, sizeof(*file)->path, "%s", path);
-  const status_t status = take_header(*file, why);
-  if (status != ST_OK) {
+  const done_t status = take_header(*file, why);
+  if (status != DONE) {
     usd_close(*file);
     *file = NULL;
   }

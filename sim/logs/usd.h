@@ -21,9 +21,9 @@
 
 typedef struct usd_file usd_file_t;
 
-// Reads the header. The stream is closed with the file, also where this fails. ST_BAD_INPUT: another version,
+// Reads the header. The stream is closed with the file, also where this fails. BAD_INPUT: another version,
 // an unknown type, no events or too many, a header that is cut off (all with the byte); *file is null then.
-MUST_CHECK status_t usd_open(usd_file_t **file, FILE *stream, const char *path, why_t *why);
+MUST_CHECK done_t usd_open(usd_file_t **file, FILE *stream, const char *path, why_t *why);
 
 // A null pointer is allowed.
 void usd_close(usd_file_t *file);

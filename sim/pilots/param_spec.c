@@ -31,7 +31,7 @@ static bool fits(const param_set_t *set, double number) {
   return number >= 0.0 && number <= (double)set->app->max && number == (double)(int)number;
 }
 
-status_t param_parse(const char *text, param_set_t *set, why_t *why) {
+done_t param_parse(const char *text, param_set_t *set, why_t *why) {
   char name[32], hint[NEAREST_HINT];
   const size_t size = strcspn(text, "=");
   if (text[size] != '=' || size >= sizeof name)
@@ -49,11 +49,11 @@ status_t param_parse(const char *text, param_set_t *set, why_t *why) {
                      set->row ? (double)set->row->min : 0.0,
                      set->row ? (double)set->row->max : (double)set->app->max);
   set->value = (float)number;
-  return ST_OK;
+  return DONE;
 }
 
-status_t param_check_all(const flight_param_t *p, why_t *why) {
-  if (params_check(p) == ST_OK) return ST_OK;
+done_t param_check_all(const flight_param_t *p, why_t *why) {
+  if (params_check(p) == ST_OK) return DONE;
   const float f = p->cutoff_Hz;
   if (f > 0.0f && f < PARAMS_CUTOFF_MIN_HZ)
     return error_set(why, "--set indiPos.cutoff=%g: allowed is 0, or 0.1 to 45 Hz", (double)f);

@@ -21,14 +21,14 @@ typedef struct {
   float value;
 } param_set_t;
 
-// The app has to have it (crazyflie/sections.h). ST_BAD_INPUT: not of that form, no such parameter, or out of
+// The app has to have it (crazyflie/sections.h). BAD_INPUT: not of that form, no such parameter, or out of
 // its range.
-MUST_CHECK status_t param_parse(const char *text, param_set_t *set, why_t *why);
+MUST_CHECK done_t param_parse(const char *text, param_set_t *set, why_t *why);
 
 // Behind a name that is no parameter: the one that may be meant (base/nearest.h). Returns hint.
 const char *param_hint(const char *name, char hint[NEAREST_HINT]);
 
-// ST_BAD_INPUT: the set as a whole contradicts itself (params_check).
-MUST_CHECK status_t param_check_all(const flight_param_t *p, why_t *why);
+// BAD_INPUT: the set as a whole contradicts itself (params_check).
+MUST_CHECK done_t param_check_all(const flight_param_t *p, why_t *why);
 
 #endif

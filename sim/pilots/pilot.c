@@ -5,9 +5,9 @@
 
 _Static_assert(RBF_N == CURVE_WEIGHTS, "logs hold all the weights");
 
-status_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
+done_t pilot_init(pilot_t *p, const flight_param_t *param, double period_s) {
   p->param = *param;
-  return outer_init(&p->flight, param, (float)period_s);
+  return outer_init(&p->flight, param, (float)period_s) == ST_OK ? DONE : BAD_INPUT;
 }
 
 static void tell(const pilot_t *p, const outer_out_t *out, bool taught, thoughts_t *thoughts) {

@@ -53,9 +53,9 @@ static void reset(void *state) {
   crazyflie_start(&p->vehicle);
 }
 
-status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
-                           pilot6_t *pilot) {
-  TRY(params_check(param));
+done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
+                         pilot6_t *pilot) {
+  if (params_check(param) != ST_OK) return BAD_INPUT;
   crazyflie_init(&p->vehicle, model);
   p->flight = &p->vehicle.app.flight;
   p->param = *param;
@@ -64,8 +64,8 @@ status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const
   p->log_every_ms = 0;
   memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
   // As a pilot does who has seen enough of it in shadow.
-  if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return ST_FAILED;
+  if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;
   crazyflie_start(&p->vehicle);
   *pilot = (pilot6_t){.state = p, .step = step, .reset = reset};
-  return ST_OK;
+  return DONE;
 }

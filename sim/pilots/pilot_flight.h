@@ -16,9 +16,9 @@ typedef struct {
 } pilot_flight_t;
 
 // model: the vehicle whose motors are driven; null: legacy propellers. *p must stay where it is.
-// ST_BAD_PARAM: as flight_init. ST_FAILED: a parameter that the app does not have.
+// BAD_INPUT: as flight_init. FAILED: a parameter that the app does not have.
 // p->log_every_ms may be set afterwards.
-MUST_CHECK status_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
-                                      pilot6_t *pilot);
+MUST_CHECK done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
+                                    pilot6_t *pilot);
 
 #endif

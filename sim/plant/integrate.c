@@ -145,18 +145,18 @@ static double erk_to(integrate_t *s, double *y, double span_s, bool *event) {
 
 // --- both ---------------------------------------------------------------------------------------------
 
-status_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode) {
-  if (ode->n < 1 || ode->n > ODE_MAX || !(ode->step_s > 0.0)) return ST_BAD_INPUT;
+done_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode) {
+  if (ode->n < 1 || ode->n > ODE_MAX || !(ode->step_s > 0.0)) return BAD_INPUT;
   integrate_t *s = calloc(1, sizeof *s);
-  if (!s) return ST_FAILED;
+  if (!s) return FAILED;
   s->kind = kind;
   s->ode = *ode;
   if (kind != INTEGRATE_RK4 && !erk_open(s)) {
     integrate_close(s);
-    return ST_FAILED;
+    return FAILED;
   }
   *i = s;
-  return ST_OK;
+  return DONE;
 }
 
 double integrate_to(integrate_t *s, double *y, double span_s, bool *event) {

@@ -25,8 +25,8 @@ typedef struct {
 
 typedef struct integrate integrate_t;
 
-// ST_BAD_INPUT: n or step_s out of range. ST_FAILED: no memory. Close what was opened.
-MUST_CHECK status_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode);
+// BAD_INPUT: n or step_s out of range. FAILED: no memory. Close what was opened.
+MUST_CHECK done_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode);
 
 // Moves y by span_s, or less if the margin comes to 0: then *event is true. Returns the time that passed; NaN
 // if the solver gave up (y is then not to be used). Nothing is carried over from call to call, so that inputs

@@ -46,11 +46,11 @@ static const gain_t GAIN[] = {
 };
 #define GAINS ((int)(sizeof GAIN / sizeof *GAIN))
 
-static status_t read_gains(toml_t t, const char *group, stock_pid_param_t *p, why_t *why) {
+static done_t read_gains(toml_t t, const char *group, stock_pid_param_t *p, why_t *why) {
   const char *keys[GAINS + 1] = {NULL};
   toml_t sub;
   int n = 0;
-  if (!toml_has(t, group)) return ST_OK;
+  if (!toml_has(t, group)) return DONE;
   TRY(toml_table(t, group, &sub, why));
   for (int i = 0; i < GAINS; i++)
     if (strcmp(GAIN[i].group, group) == 0) keys[n++] = GAIN[i].key;
@@ -65,10 +65,10 @@ static status_t read_gains(toml_t t, const char *group, stock_pid_param_t *p, wh
       return toml_refuse(sub, GAIN[i].key, why, "0; allowed: more than 0, to %g", GAIN[i].max);
     memcpy((char *)p + GAIN[i].offset, &value, sizeof value);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_pid(toml_t t, model_t *m, why_t *why) {
+static done_t read_pid(toml_t t, model_t *m, why_t *why) {
   static const char *const keys[] = {"kind",         "full_scale_N", "posCtlPid", "velCtlPid",
                                      "pid_attitude", "pid_rate",     NULL};
   stock_pid_param_t pid = stock_pid_default();
@@ -78,12 +78,12 @@ static status_t read_pid(toml_t t, model_t *m, why_t *why) {
     TRY(toml_double(t, "full_scale_N", 1e-4, 1e3, &pid.power.thrust_max_N, why));
   for (int i = 2; keys[i]; i++) TRY(read_gains(t, keys[i], &pid, why));
   m->flown_by = (flown_by_t){.kind = FLOWN_BY_STOCK_PID, .pid = pid};
-  return ST_OK;
+  return DONE;
 }
 
 // --- our own flight code ----------------------------------------------------------------------------------
 
-static status_t no_param(toml_t group, const char *key, const char *name, why_t *why) {
+static done_t no_param(toml_t group, const char *key, const char *name, why_t *why) {
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
   for (int i = 0; i < params_count; i++) nearest_try(&nearest, params_table[i].name);
@@ -92,8 +92,8 @@ static status_t no_param(toml_t group, const char *key, const char *name, why_t 
 }
 
 // One parameter; `all` has those before it.
-static status_t read_param(toml_t group, const char *key, const char *name, flown_by_t *by,
-                           flight_param_t *all, why_t *why) {
+static done_t read_param(toml_t group, const char *key, const char *name, flown_by_t *by, flight_param_t *all,
+                         why_t *why) {
   const param_row_t *const row = params_find(name);
   double value;
   if (!row) return no_param(group, key, name, why);
@@ -105,10 +105,10 @@ static status_t read_param(toml_t group, const char *key, const char *name, flow
   flown_by_set_t *const to = &by->set[by->n_set++];
   snprintf(to->name, sizeof to->name, "%s", name);
   to->value = value;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_indi(toml_t t, model_t *m, why_t *why) {
+static done_t read_indi(toml_t t, model_t *m, why_t *why) {
   static const char *const keys[] = {"kind", "indiPos", "indiAtt", "ceil", "rls", "guard", NULL};
   flown_by_t by = {.kind = FLOWN_BY_INDI};
   flight_param_t all;
@@ -130,13 +130,13 @@ static status_t read_indi(toml_t t, model_t *m, why_t *why) {
     return toml_refuse(t, "kind", why,
                        "parameters that contradict each other; allowed: what fly --set takes together");
   m->flown_by = by;
-  return ST_OK;
+  return DONE;
 }
 
-status_t controller_read(toml_t root, model_t *m, why_t *why) {
+done_t controller_read(toml_t root, model_t *m, why_t *why) {
   char kind[32];
   toml_t t;
-  if (!toml_has(root, "controller")) return ST_OK;
+  if (!toml_has(root, "controller")) return DONE;
   TRY(toml_table(root, "controller", &t, why));
   TRY(toml_string(t, "kind", kind, sizeof kind, why));
   if (strcmp(kind, "stock-pid") == 0) return read_pid(t, m, why);

@@ -18,7 +18,7 @@
 #include "base/toml.h"
 #include "vehicle/model.h"
 
-// Needs m->thrust_max_N. ST_BAD_INPUT: a key is missing, unknown, of another type, or out of range.
-MUST_CHECK status_t controller_read(toml_t root, model_t *m, why_t *why);
+// Needs m->thrust_max_N. BAD_INPUT: a key is missing, unknown, of another type, or out of range.
+MUST_CHECK done_t controller_read(toml_t root, model_t *m, why_t *why);
 
 #endif

@@ -15,7 +15,7 @@ static void list_add(char list[LIST_MAX], const char *item) {
   snprintf(list + used, LIST_MAX - used, "%s%s", used ? ", " : "", item);
 }
 
-status_t effect_start(fx_use_t *use, const char *name, why_t *why) {
+done_t effect_start(fx_use_t *use, const char *name, why_t *why) {
   const fx_t *fx = fx_find(name);
   if (!fx) {
     char list[LIST_MAX] = "", shown[NUMBER_SHOWN], hint[NEAREST_HINT];
@@ -28,10 +28,10 @@ status_t effect_start(fx_use_t *use, const char *name, why_t *why) {
                      nearest_hint(&nearest, hint), list);
   }
   *use = fx_use(fx);
-  return ST_OK;
+  return DONE;
 }
 
-status_t effect_set_form(fx_use_t *use, const char *form, why_t *why) {
+done_t effect_set_form(fx_use_t *use, const char *form, why_t *why) {
   if (!use->fx->surface) return error_set(why, "effect %s has no forms", use->fx->name);
   const curve_t *curve = curve_find(form);
   if (!curve || !(curve->surfaces & use->fx->surface)) {
@@ -47,10 +47,10 @@ status_t effect_set_form(fx_use_t *use, const char *form, why_t *why) {
   }
   fx_use_form(use, curve);
   use->points.n = 0;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
+static done_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
   char list[LIST_MAX] = "", item[100], shown[NUMBER_SHOWN], hint[NEAREST_HINT];
   int n;
   const fx_param_t *param = fx_use_params(use, &n);
@@ -69,7 +69,7 @@ static status_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
                    nearest_hint(&nearest, hint), list);
 }
 
-status_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {
+done_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {
   int n;
   const fx_param_t *param = fx_use_params(use, &n);
   for (int i = 0; i < n; i++) {
@@ -81,12 +81,12 @@ status_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {
       return error_set(why, "effect %s: %s = %g; allowed: whole numbers from %g to %g", use->fx->name, key,
                        value, param[i].min, param[i].max);
     use->p[i] = value;
-    return ST_OK;
+    return DONE;
   }
   return unknown_key(use, key, why);
 }
 
-status_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *why) {
+done_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *why) {
   if (!use->form || !use->form->needs_points) return unknown_key(use, "file", why);
   if (points->n < 2)
     return error_set(why, "effect %s: %d points; allowed: 2 to %d", use->fx->name, points->n, FX_TABLE_MAX);
@@ -99,18 +99,18 @@ status_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *w
                        points->ratio[i]);
   }
   use->points = *points;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t check(const fx_use_t *use, why_t *why) {
+static done_t check(const fx_use_t *use, why_t *why) {
   if (use->form && use->form->needs_points && use->points.n == 0)
     return error_set(
         why, "effect %s, form %s: no points; file=FILE.csv is needed (columns distance_over_radius, ratio)",
         use->fx->name, use->form->name);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_points(csv_file_t *file, curve_points_t *points, why_t *why) {
+static done_t read_points(csv_file_t *file, curve_points_t *points, why_t *why) {
   const int x = csv_find(file, "distance_over_radius"), ratio = csv_find(file, "ratio");
   if (x < 0 || ratio < 0)
     return csv_refuse(file, -1, why, "no column %s; needed: distance_over_radius, ratio",
@@ -119,7 +119,7 @@ static status_t read_points(csv_file_t *file, curve_points_t *points, why_t *why
   for (;;) {
     bool more;
     TRY(csv_next(file, &more, why));
-    if (!more) return ST_OK;
+    if (!more) return DONE;
     if (points->n == FX_TABLE_MAX)
       return csv_refuse(file, -1, why, "too many points; allowed: %d", FX_TABLE_MAX);
     TRY(csv_number(file, x, CSV_GAP_REFUSED, &points->x[points->n], why));
@@ -128,15 +128,15 @@ static status_t read_points(csv_file_t *file, curve_points_t *points, why_t *why
   }
 }
 
-status_t effect_read_points(curve_points_t *points, const char *path, why_t *why) {
+done_t effect_read_points(curve_points_t *points, const char *path, why_t *why) {
   csv_file_t *file;
   TRY(csv_open(&file, path, why));
-  const status_t status = read_points(file, points, why);
+  const done_t status = read_points(file, points, why);
   csv_close(file);
   return status;
 }
 
-static status_t set_from_text(fx_use_t *use, const char *key, const char *value, why_t *why) {
+static done_t set_from_text(fx_use_t *use, const char *key, const char *value, why_t *why) {
   if (strcmp(key, "file") == 0) {
     curve_points_t points = {0};
     if (use->form && use->form->needs_points) TRY(effect_read_points(&points, value, why));
@@ -151,7 +151,7 @@ static status_t set_from_text(fx_use_t *use, const char *key, const char *value,
 }
 
 // Goes through `key=value,...` (changes it) and sets the form, or everything else.
-static status_t set_all(fx_use_t *use, char *pairs, bool form, why_t *why) {
+static done_t set_all(fx_use_t *use, char *pairs, bool form, why_t *why) {
   for (char *pair = pairs, *next; pair; pair = next) {
     next = strchr(pair, ',');
     if (next) *next++ = '\0';
@@ -162,10 +162,10 @@ static status_t set_all(fx_use_t *use, char *pairs, bool form, why_t *why) {
     if (is_form && form) TRY(effect_set_form(use, value + 1, why));
     if (!is_form && !form) TRY(set_from_text(use, pair, value + 1, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t effect_parse(const char *spec, fx_use_t *use, why_t *why) {
+done_t effect_parse(const char *spec, fx_use_t *use, why_t *why) {
   char name[SPEC_MAX], pairs[SPEC_MAX];
   if (strlen(spec) >= SPEC_MAX)
     return error_set(why, "effect `%.40s...`: too long; allowed: %d bytes", spec, SPEC_MAX - 1);
@@ -181,5 +181,5 @@ status_t effect_parse(const char *spec, fx_use_t *use, why_t *why) {
   }
   TRY(check(&fresh, why));
   *use = fresh;
-  return ST_OK;
+  return DONE;
 }

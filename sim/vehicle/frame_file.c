@@ -7,28 +7,27 @@ typedef struct {
 } number_t;
 
 // The numbers that are there; the others are kept.
-static status_t read_numbers(toml_t t, const number_t *row, int n, why_t *why) {
+static done_t read_numbers(toml_t t, const number_t *row, int n, why_t *why) {
   for (int i = 0; i < n; i++)
     if (toml_has(t, row[i].key)) TRY(toml_double(t, row[i].key, row[i].min, row[i].max, row[i].value, why));
-  return ST_OK;
+  return DONE;
 }
 
 // A list of exactly n numbers within min..max, if it is there.
-static status_t read_list(toml_t t, const char *key, int n, double min, double max, double *value,
-                          why_t *why) {
+static done_t read_list(toml_t t, const char *key, int n, double min, double max, double *value, why_t *why) {
   double list[ROTORS];
   int got;
-  if (!toml_has(t, key)) return ST_OK;
+  if (!toml_has(t, key)) return DONE;
   TRY(toml_doubles(t, key, n, list, &got, why));
   if (got != n) return toml_refuse(t, key, why, "%d numbers; allowed: %d", got, n);
   for (int i = 0; i < n; i++)
     if (!(list[i] >= min && list[i] <= max))
       return toml_refuse(t, key, why, "%g is out of range; allowed: %g to %g", list[i], min, max);
   for (int i = 0; i < n; i++) value[i] = list[i];
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_body(toml_t t, frame_t *f, why_t *why) {
+static done_t read_body(toml_t t, frame_t *f, why_t *why) {
   static const char *const keys[] = {"inertia_kgm2",
                                      "cg_above_feet_m",
                                      "rotor_above_feet_m",
@@ -48,7 +47,7 @@ static status_t read_body(toml_t t, frame_t *f, why_t *why) {
   return read_list(t, "imu_m", 3, -1.0, 1.0, f->imu_m, why);
 }
 
-static status_t read_rotors(toml_t t, frame_t *f, why_t *why) {
+static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   static const char *const keys[] = {"x_m",    "y_m",          "spin",    "torque_ratio_m",
                                      "kf_Ns2", "inertia_kgm2", "delay_s", NULL};
   const number_t row[] = {
@@ -65,10 +64,10 @@ static status_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   for (int i = 0; i < ROTORS; i++)
     if (f->rotor_spin[i] > -1.0 && f->rotor_spin[i] < 1.0)
       return toml_refuse(t, "spin", why, "%g; allowed: 1 and -1", f->rotor_spin[i]);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_battery(toml_t t, battery_param_t *b, why_t *why) {
+static done_t read_battery(toml_t t, battery_param_t *b, why_t *why) {
   static const char *const keys[] = {"capacity_Ah", "resistance_ohm", "idle_A", "a_ApN",
                                      "b_ApN2",      "open_V",         NULL};
   double capacity_Ah;
@@ -84,10 +83,10 @@ static status_t read_battery(toml_t t, battery_param_t *b, why_t *why) {
     if (!(b->open_V[i] >= (i ? b->open_V[i - 1] : 0.0) && b->open_V[i] <= 100.0))
       return toml_refuse(t, "open_V", why, "%g; allowed: 0 to 100, not falling", b->open_V[i]);
   b->capacity_As = 3600.0 * capacity_Ah;
-  return ST_OK;
+  return DONE;
 }
 
-status_t frame_read(toml_t root, model_t *m, why_t *why) {
+done_t frame_read(toml_t root, model_t *m, why_t *why) {
   toml_t t;
   frame_t frame = model_frame_like_crazyflie(m);
   battery_param_t battery = {0};
@@ -106,5 +105,5 @@ status_t frame_read(toml_t root, model_t *m, why_t *why) {
   m->frame = frame;
   m->frame_told = toml_has(root, "body") && toml_has(root, "rotors");
   m->battery = battery;
-  return ST_OK;
+  return DONE;
 }

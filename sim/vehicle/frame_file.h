@@ -13,7 +13,7 @@
 #include "base/toml.h"
 #include "vehicle/model.h"
 
-// Needs m->mass_kg and m->rotor_radius_m. ST_BAD_INPUT: a key is unknown, of another type, or out of range.
-MUST_CHECK status_t frame_read(toml_t root, model_t *m, why_t *why);
+// Needs m->mass_kg and m->rotor_radius_m. BAD_INPUT: a key is unknown, of another type, or out of range.
+MUST_CHECK done_t frame_read(toml_t root, model_t *m, why_t *why);
 
 #endif

@@ -32,24 +32,24 @@ double model_fx_least(const model_t *m, const fx_use_t *use, int param) {
   return use->fx == fx_find("mass") && param == 0 ? fmax(least, (LIGHTEST - 1.0) * m->mass_kg) : least;
 }
 
-static status_t check_mass(const model_t *m, const fx_use_t *use, why_t *why) {
+static done_t check_mass(const model_t *m, const fx_use_t *use, why_t *why) {
   const double least_kg = model_fx_least(m, use, 0);
-  if (use->fx != fx_find("mass") || use->p[0] >= least_kg) return ST_OK;
+  if (use->fx != fx_find("mass") || use->p[0] >= least_kg) return DONE;
   return error_set(why, "effect mass: add = %g kg to a vehicle of %g kg; allowed: %.3g or more", use->p[0],
                    m->mass_kg, least_kg);
 }
 
-status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
+done_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why) {
   TRY(check_mass(m, use, why));
   for (int i = 0; i < m->n_fx; i++) {
     if (m->fx[i].fx != use->fx) continue;
     m->fx[i] = *use;
-    return ST_OK;
+    return DONE;
   }
   if (m->n_fx == FX_MAX)
     return error_set(why, "effect %s: at most %d effects at once", use->fx->name, FX_MAX);
   m->fx[m->n_fx++] = *use;
-  return ST_OK;
+  return DONE;
 }
 
 d3_t model_floor_up_w(const model_t *m) {

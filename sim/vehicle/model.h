@@ -54,9 +54,9 @@ frame_t model_frame_like_crazyflie(const model_t *m);
 // The smallest that a parameter of an effect can be on this vehicle.
 double model_fx_least(const model_t *m, const fx_use_t *use, int param);
 
-// Switches an effect on, or replaces the one of that name. ST_BAD_INPUT: FX_MAX are on already, or the effect
+// Switches an effect on, or replaces the one of that name. BAD_INPUT: FX_MAX are on already, or the effect
 // `mass` leaves less than a tenth of the model's mass.
-MUST_CHECK status_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
+MUST_CHECK done_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
 
 // The floor's normal, world axes, of length 1.
 d3_t model_floor_up_w(const model_t *m);

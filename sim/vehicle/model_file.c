@@ -17,7 +17,7 @@
 #define LIFT_MIN 1.0
 #define LIFT_MAX 50.0
 
-static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
+static done_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
   static const char *const keys[] = {"kind", "c", NULL};
   static const struct {
     const char *name;
@@ -36,13 +36,13 @@ static status_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
     TRY(toml_doubles(t, "c", 5, map->c, &n, why));
     if (n != kinds[i].n) return toml_refuse(t, "c", why, "%d numbers; allowed: %d", n, kinds[i].n);
     map->kind = kinds[i].kind;
-    return ST_OK;
+    return DONE;
   }
   return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stand, volt_cubic, pwm_cubic, speed", name);
 }
 
 // `file` from the folder of the vehicle file.
-static status_t points_from_file(toml_t t, const char *model_path, curve_points_t *points, why_t *why) {
+static done_t points_from_file(toml_t t, const char *model_path, curve_points_t *points, why_t *why) {
   char file[256], path[600];
   TRY(toml_string(t, "file", file, sizeof file, why));
   const char *const slash = strrchr(model_path, '/');
@@ -51,27 +51,27 @@ static status_t points_from_file(toml_t t, const char *model_path, curve_points_
   return effect_read_points(points, path, why);
 }
 
-static status_t points_from_lists(toml_t t, curve_points_t *points, why_t *why) {
+static done_t points_from_lists(toml_t t, curve_points_t *points, why_t *why) {
   int n_ratio;
   TRY(toml_doubles(t, "distance_over_radius", FX_TABLE_MAX, points->x, &points->n, why));
   TRY(toml_doubles(t, "ratio", FX_TABLE_MAX, points->ratio, &n_ratio, why));
   if (n_ratio != points->n)
     return toml_refuse(t, "ratio", why, "%d numbers; allowed: as many as distance_over_radius, %d", n_ratio,
                        points->n);
-  return ST_OK;
+  return DONE;
 }
 
 // Hands on an error of effect_spec, with file and line.
-static status_t located(toml_t t, const char *key, status_t status, const why_t *cause, why_t *why) {
-  return status == ST_OK ? ST_OK : toml_refuse(t, key, why, "%s", cause->text);
+static done_t located(toml_t t, const char *key, done_t status, const why_t *cause, why_t *why) {
+  return status == DONE ? DONE : toml_refuse(t, key, why, "%s", cause->text);
 }
 
 static bool is_list_key(const char *key) {
   return strcmp(key, "distance_over_radius") == 0 || strcmp(key, "ratio") == 0;
 }
 
-static status_t read_points(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
-  if (!use->form || !use->form->needs_points) return ST_OK;
+static done_t read_points(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
+  if (!use->form || !use->form->needs_points) return DONE;
   curve_points_t points = {0};
   why_t cause;
   if (toml_has(t, "file"))
@@ -82,7 +82,7 @@ static status_t read_points(toml_t t, const char *model_path, fx_use_t *use, why
                  why);
 }
 
-static status_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
+static done_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why_t *why) {
   char text[64];
   why_t cause;
   TRY(toml_string(t, "name", text, sizeof text, why));
@@ -99,20 +99,20 @@ static status_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why
     if (points && (strcmp(key, "file") == 0 || is_list_key(key))) continue;
     // An unknown key first gets the list of what is allowed, whatever its type.
     double value = 0.0;
-    if (toml_double(t, key, -HUGE_VAL, HUGE_VAL, &value, &cause) != ST_OK) value = (double)NAN;
+    if (toml_double(t, key, -HUGE_VAL, HUGE_VAL, &value, &cause) != DONE) value = (double)NAN;
     TRY(located(t, key, effect_set(use, key, value, &cause), &cause, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t read_effects(toml_t root, const char *path, model_t *m, why_t *why) {
+static done_t read_effects(toml_t root, const char *path, model_t *m, why_t *why) {
   for (int i = 0;; i++) {
     toml_t t;
     bool more;
     fx_use_t use;
     why_t cause;
     TRY(toml_table_at(root, "effect", i, &t, &more, why));
-    if (!more) return ST_OK;
+    if (!more) return DONE;
     TRY(read_effect(t, path, &use, why));
     for (int k = 0; k < m->n_fx; k++)
       if (m->fx[k].fx == use.fx)
@@ -121,7 +121,7 @@ static status_t read_effects(toml_t root, const char *path, model_t *m, why_t *w
   }
 }
 
-static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
+static done_t read_numbers(toml_t root, model_t *m, why_t *why) {
   const struct {
     const char *key;
     double min, max, *value;
@@ -135,14 +135,14 @@ static status_t read_numbers(toml_t root, model_t *m, why_t *why) {
   if (!(m->thrust_max_N > m->thrust_min_N))
     return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than thrust_min_N, %g", m->thrust_max_N,
                        m->thrust_min_N);
-  return ST_OK;
+  return DONE;
 }
 
 // Grams for kilograms, or millinewton for newton, make a vehicle that cannot leave the ground or that no step
 // of the integrator follows.
-static status_t check_lift(toml_t root, const model_t *m, why_t *why) {
+static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
   const double weight_N = m->mass_kg * PLANT_GRAVITY_MPS2, lift = m->thrust_max_N / weight_N;
-  if (lift > LIFT_MIN && lift <= LIFT_MAX) return ST_OK;
+  if (lift > LIFT_MIN && lift <= LIFT_MAX) return DONE;
   const double most_kg = m->thrust_max_N / PLANT_GRAVITY_MPS2;
   if (!(most_kg > 0.0))
     return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than the weight, %.3g N",
@@ -160,7 +160,7 @@ static const char *const ROOT_KEYS[] = {
 static const toml_kind_t VEHICLE_FILE = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml",
                                          ROOT_KEYS};
 
-static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
+static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   TRY(toml_only(root, ROOT_KEYS, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
@@ -181,42 +181,42 @@ static status_t read_root(toml_t root, const char *path, model_t *m, why_t *why)
   return read_effects(root, path, m, why);
 }
 
-static status_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *why) {
+static done_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *why) {
   model_t fresh = {.ceiling_m = HUGE_VAL, .wall_y_m = HUGE_VAL, .map = {.kind = THRUST_MAP_NONE}};
-  const status_t status = read_root(toml_root(file), path, &fresh, why);
+  const done_t status = read_root(toml_root(file), path, &fresh, why);
   toml_close(file);
-  if (status == ST_OK) *m = fresh;
+  if (status == DONE) *m = fresh;
   return status;
 }
 
 // Where there is no such file: a vehicle of which the path is the name, or nearly.
-static status_t no_file(const char *path, why_t *why) {
+static done_t no_file(const char *path, why_t *why) {
   const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
   char word[NEAREST_LETTERS + 1] = "";
   const size_t size = strlen(name), end = size > 5 && strcmp(name + size - 5, ".toml") == 0 ? size - 5 : size;
   if (end < sizeof word) memcpy(word, name, end);
   nearest_t nearest = nearest_to(word);
   for (int i = 0; i < vehicle_count; i++) nearest_try(&nearest, vehicle_table[i].name);
-  if (!nearest.name) return ST_OK;
+  if (!nearest.name) return DONE;
   return error_set(
       why, "%.200s: cannot be opened: No such file or directory (did you mean sim/vehicle/vehicles/%s.toml?)",
       path, nearest.name);
 }
 
-status_t model_read(const char *path, model_t *m, why_t *why) {
+done_t model_read(const char *path, model_t *m, why_t *why) {
   if (access(path, F_OK) != 0) TRY(no_file(path, why));
   toml_file_t *file;
   TRY(toml_open(&file, path, &VEHICLE_FILE, why));
   return read_file(file, path, m, why);
 }
 
-status_t model_read_text(const char *path, const char *text, model_t *m, why_t *why) {
+done_t model_read_text(const char *path, const char *text, model_t *m, why_t *why) {
   toml_file_t *file;
   TRY(toml_open_text(&file, path, text, &VEHICLE_FILE, why));
   return read_file(file, path, m, why);
 }
 
-status_t model_builtin(const char *name, model_t *m, why_t *why) {
+done_t model_builtin(const char *name, model_t *m, why_t *why) {
   for (int i = 0; i < vehicle_count; i++) {
     if (strcmp(vehicle_table[i].name, name) != 0) continue;
     return model_read_text(name, vehicle_table[i].text, m, why);

@@ -21,15 +21,15 @@
 #include "base/error.h"
 #include "vehicle/model.h"
 
-// ST_BAD_INPUT: the file is missing or not TOML, a key is missing, unknown or out of range; *m is kept.
-MUST_CHECK status_t model_read(const char *path, model_t *m, why_t *why);
+// BAD_INPUT: the file is missing or not TOML, a key is missing, unknown or out of range; *m is kept.
+MUST_CHECK done_t model_read(const char *path, model_t *m, why_t *why);
 
 // The same from a text in memory; `path` is what errors call it, and where a `file` of points is looked for.
-MUST_CHECK status_t model_read_text(const char *path, const char *text, model_t *m, why_t *why);
+MUST_CHECK done_t model_read_text(const char *path, const char *text, model_t *m, why_t *why);
 
 // The file of sim/vehicle/vehicles that is called NAME.toml, as it was when the program was built.
-// ST_BAD_INPUT: there is none of that name, or it is not good.
-MUST_CHECK status_t model_builtin(const char *name, model_t *m, why_t *why);
+// BAD_INPUT: there is none of that name, or it is not good.
+MUST_CHECK done_t model_builtin(const char *name, model_t *m, why_t *why);
 
 // The files of sim/vehicle/vehicles, collected by the build.
 typedef struct {

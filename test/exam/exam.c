@@ -23,7 +23,7 @@ static bool same(const char *a, const char *b) {
   return x && y && (x == y || (x->class != FX_ALONE && x->class == y->class));
 }
 
-static status_t hide(exam_set_t *set, random_t *r, model_t *truth, why_t *why) {
+static done_t hide(exam_set_t *set, random_t *r, model_t *truth, why_t *why) {
   if (set->kind == EXAM_STRANGE) {
     set->n = 0;
     const int i = (int)random_uniform(r, 0.0, TRUTH_STRANGE - 0.001);
@@ -41,11 +41,11 @@ static status_t hide(exam_set_t *set, random_t *r, model_t *truth, why_t *why) {
     const fx_use_t use = truth_effect(i, set->times[k], which, set->own_form);
     TRY(model_add_fx(truth, &use, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flight_t flight[EXAM_FIT + 1],
-                    unsigned long seed, why_t *why) {
+static done_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flight_t flight[EXAM_FIT + 1],
+                  unsigned long seed, why_t *why) {
   exam_flight_t job = {
       .truth = truth, .hover_only = set->kind == EXAM_HOVER, .indi = random_uniform(r, 0.0, 1.0) > 0.5};
   // Late motors make an incremental controller that does not know it oscillate: nobody identifies such a
@@ -54,9 +54,9 @@ static status_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flig
   set->flew = true;
   for (int i = 0; i <= EXAM_FIT && set->flew; i++) {
     job.seed = seed * 16u + (unsigned long)i;
-    if (exam_fly(&job, &flight[i], why) != ST_OK) set->flew = false;
+    if (exam_fly(&job, &flight[i], why) != DONE) set->flew = false;
   }
-  return ST_OK;
+  return DONE;
 }
 
 // --- marking ----------------------------------------------------------------------------------------------
@@ -144,11 +144,11 @@ bool exam_shrink(double before, double *after, double *oracle) {
   return known;
 }
 
-static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, const model_t *truth,
-                            why_t *why) {
+static done_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, const model_t *truth,
+                          why_t *why) {
   double *r[CHANNELS], before = 1.0;
   color_t color[CHANNELS];
-  status_t status = ST_OK;
+  done_t status = DONE;
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = calloc((size_t)set_rows(&d->held, ch)->n + 1, sizeof(double));
   status = residual_of(&d->held, truth, r, why);
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -156,21 +156,21 @@ static status_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base
         residual_has(&d->held, ch) ? color_fit(set_rows(&d->held, ch), r[ch]) : (color_t){.used = false};
     free(r[ch]);
   }
-  if (status == ST_OK) status = verify_left(&d->held, base, color, &before, why);
-  if (status == ST_OK) status = verify_left(&d->held, &d->extended, color, &set->after, why);
-  if (status == ST_OK) status = verify_left(&d->held, truth, color, &set->oracle, why);
-  set->shrink_known = status == ST_OK && exam_shrink(before, &set->after, &set->oracle);
+  if (status == DONE) status = verify_left(&d->held, base, color, &before, why);
+  if (status == DONE) status = verify_left(&d->held, &d->extended, color, &set->after, why);
+  if (status == DONE) status = verify_left(&d->held, truth, color, &set->oracle, why);
+  set->shrink_known = status == DONE && exam_shrink(before, &set->after, &set->oracle);
   return status;
 }
 
-static status_t examine(exam_set_t *set, const model_t *base, const model_t *truth, gap_flight_t *flight,
-                        unsigned long seed, why_t *why) {
+static done_t examine(exam_set_t *set, const model_t *base, const model_t *truth, gap_flight_t *flight,
+                      unsigned long seed, why_t *why) {
   diagnosis_t *const d = malloc(sizeof *d);
   const gap_flights_t fit = {flight, EXAM_FIT}, held = {flight + EXAM_FIT, 1};
   const diagnose_job_t job = {.fit = &fit, .held = &held, .model = base, .seed = seed};
   if (!d) return error_failed(why, "out of memory");
-  status_t status = diagnose(&job, d, why);
-  if (status == ST_OK) {
+  done_t status = diagnose(&job, d, why);
+  if (status == DONE) {
     mark_names(set, d);
     mark_unknown(set, d);
     mark_not_testable(set, d);
@@ -182,21 +182,21 @@ static status_t examine(exam_set_t *set, const model_t *base, const model_t *tru
   return status;
 }
 
-status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why) {
+done_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why) {
   model_t base, truth;
   gap_flight_t flight[EXAM_FIT + 1] = {{.n = 0}};
   random_t *const r = random_open(seed * 7919u + 1u);
   if (!r) return error_failed(why, "out of memory");
   *set = (exam_set_t){.kind = kind, .own_form = seed % 2 == 1};
-  status_t status = exam_vehicle(&base, why);
-  for (int draw = 0; draw < DRAWS && status == ST_OK && !set->flew; draw++) {
+  done_t status = exam_vehicle(&base, why);
+  for (int draw = 0; draw < DRAWS && status == DONE && !set->flew; draw++) {
     set->drawn_again = draw;
     truth = base;
     status = hide(set, r, &truth, why);
     for (int i = 0; i <= EXAM_FIT; i++) gap_flight_free(&flight[i]);
-    if (status == ST_OK) status = fly(set, r, &truth, flight, seed + 1000003u * (unsigned long)draw, why);
+    if (status == DONE) status = fly(set, r, &truth, flight, seed + 1000003u * (unsigned long)draw, why);
   }
-  if (status == ST_OK && set->flew) status = examine(set, &base, &truth, flight, seed, why);
+  if (status == DONE && set->flew) status = examine(set, &base, &truth, flight, seed, why);
   for (int i = 0; i <= EXAM_FIT; i++) gap_flight_free(&flight[i]);
   random_close(r);
   return status;

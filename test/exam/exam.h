@@ -43,8 +43,8 @@ typedef struct {
   exam_value_t value[EXAM_VALUES];
 } exam_set_t;
 
-// Makes, diagnoses and marks set `seed` of a kind. ST_FAILED: no memory.
-MUST_CHECK status_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why);
+// Makes, diagnoses and marks set `seed` of a kind. FAILED: no memory.
+MUST_CHECK done_t exam_one(exam_kind_t kind, unsigned long seed, exam_set_t *set, why_t *why);
 
 // The truth lies within EXAM_WITHIN standard errors.
 bool exam_holds(const exam_value_t *v);

@@ -24,11 +24,11 @@
 #define LOST_M    1.5 // off its track
 #define DOWN_S    1.0 // on the floor, in all
 
-status_t exam_vehicle(model_t *m, why_t *why) {
+done_t exam_vehicle(model_t *m, why_t *why) {
   TRY(model_builtin("cf21_legacy", m, why));
   m->n_fx = 0;
   m->ceiling_m = EXAM_CEILING_M;
-  return ST_OK;
+  return DONE;
 }
 
 // --- sensors ----------------------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ static void order(pilot6_in_t *in, const wish_t *w) {
   in->set.yaw_rad = w->yaw;
 }
 
-static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_flight_t *f, why_t *why) {
+static done_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_flight_t *f, why_t *why) {
   pilot6_in_t in = {.q_wb = {.w = 1.0}};
   double motor_N[4], z_m = 0.4, down_s = 0.0;
   for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
@@ -155,25 +155,25 @@ static status_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_f
     if (e->body.broken || !(d3_norm(d3_sub(at, wish.pos)) < LOST_M) || down_s > DOWN_S)
       return error_failed(why, "the exam's vehicle crashed");
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t start(exam_t *e, const exam_flight_t *job, why_t *why) {
+static done_t start(exam_t *e, const exam_flight_t *job, why_t *why) {
   body_start_t at = {.pos_w_m = {0.0, 0.0, 0.4}, .seed = job->seed};
   for (int k = 0; k < 4; k++) at.thrust_N[k] = 0.25 * e->model.mass_kg * PLANT_GRAVITY_MPS2;
   e->random = random_open(job->seed * 31u + 7u);
   if (!e->random) return error_failed(why, "out of memory");
   at.discharged = random_uniform(e->random, 0.05, 0.85);
-  if (body_open(&e->body, &e->model, INTEGRATE_RK4, EXAM_TICK_S, &at) == ST_OK) return ST_OK;
+  if (body_open(&e->body, &e->model, INTEGRATE_RK4, EXAM_TICK_S, &at) == DONE) return DONE;
   return error_failed(why, "the exam's vehicle cannot fly");
 }
 
-static status_t turbulence(exam_t *e, why_t *why) {
+static done_t turbulence(exam_t *e, why_t *why) {
   for (int i = 0; i < e->model.n_fx; i++) {
     if (strcmp(e->model.fx[i].fx->name, "wind") != 0 || e->model.fx[i].fx->n_param < 8) continue;
     e->model.fx[i].p[3] = TURB_SD * e->model.mass_kg;
     e->model.fx[i].p[4] = TURB_TAU;
-    return ST_OK;
+    return DONE;
   }
   fx_use_t wind = fx_use(fx_find("wind"));
   wind.p[0] = 0.0;
@@ -182,14 +182,14 @@ static status_t turbulence(exam_t *e, why_t *why) {
   return model_add_fx(&e->model, &wind, why);
 }
 
-status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
+done_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
   exam_t *const e = calloc(1, sizeof *e);
   pilot_flight_t *const own = malloc(sizeof *own);
   stock_pid_t pid;
   const stock_pid_param_t pid_param = stock_pid_default();
   pilot6_t pilot = stock_pid_pilot(&pid, &pid_param);
-  status_t status = e && own ? ST_OK : error_failed(why, "out of memory");
-  if (status == ST_OK && job->indi) {
+  done_t status = e && own ? DONE : error_failed(why, "out of memory");
+  if (status == DONE && job->indi) {
     flight_param_t param;
     params_default(&param);
     param.pos.mass_kg = (float)job->truth->mass_kg;
@@ -198,14 +198,14 @@ status_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
     param.curve.mode = CURVE_OFF;
     status = pilot_flight_init(own, &param, job->truth, &pilot);
   }
-  if (status == ST_OK) {
+  if (status == DONE) {
     e->model = *job->truth;
     status = turbulence(e, why);
   }
-  if (status == ST_OK && !log_room(f, (size_t)(EXAM_SPAN_S / EXAM_TICK_S) + 8, job->set_points))
+  if (status == DONE && !log_room(f, (size_t)(EXAM_SPAN_S / EXAM_TICK_S) + 8, job->set_points))
     status = error_failed(why, "out of memory");
-  if (status == ST_OK) status = start(e, job, why);
-  if (status == ST_OK) {
+  if (status == DONE) status = start(e, job, why);
+  if (status == DONE) {
     const plan_t6 plan = plan_make(e->random, job->hover_only);
     status = run(e, &pilot, &plan, f, why);
   }

@@ -16,10 +16,10 @@ typedef struct {
   bool set_points; // the log has them, too
 } exam_flight_t;
 
-// ST_FAILED: no memory, or it crashed. Free it.
-MUST_CHECK status_t exam_fly(const exam_flight_t *job, gap_flight_t *flight, why_t *why);
+// FAILED: no memory, or it crashed. Free it.
+MUST_CHECK done_t exam_fly(const exam_flight_t *job, gap_flight_t *flight, why_t *why);
 
 // The vehicle that the workflow is given: a Crazyflie under a ceiling, without any effect.
-MUST_CHECK status_t exam_vehicle(model_t *m, why_t *why);
+MUST_CHECK done_t exam_vehicle(model_t *m, why_t *why);
 
 #endif

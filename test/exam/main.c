@@ -149,7 +149,7 @@ int main(int argc, char **argv) {
   for (int i = 0; i < n; i++) {
     why_t why;
     const exam_kind_t kind = only >= 0 ? (exam_kind_t)only : exam_kind(i);
-    if (exam_one(kind, first + (unsigned long)i, &sets[i], &why) != ST_OK) {
+    if (exam_one(kind, first + (unsigned long)i, &sets[i], &why) != DONE) {
       fprintf(stderr, "exam: set %lu: %s\n", first + (unsigned long)i, why.text);
       sets[i].flew = false;
     }

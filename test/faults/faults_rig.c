@@ -15,7 +15,7 @@ void faults_set_fx(case_t *c, const char *name, int p, double value) {
 void faults_add_fx(case_t *c, const char *name) {
   why_t why;
   const fx_use_t use = fx_use(fx_find(name));
-  if (model_add_fx(&c->model, &use, &why) != ST_OK) c->seen.bad = true;
+  if (model_add_fx(&c->model, &use, &why) != DONE) c->seen.bad = true;
 }
 
 static double flown_height_m(const case_t *c, double gap_m) {
@@ -87,7 +87,7 @@ static void place(case_t *c) {
 static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   why_t why;
   setup6_t setup;
-  if (setup6_thesis(&setup, FLY_INDI, &why) != ST_OK) return false;
+  if (setup6_thesis(&setup, FLY_INDI, &why) != DONE) return false;
   draw(c, row, seed);
   c->model = setup.model;
   params_default(&c->param);
@@ -105,8 +105,8 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   place(c);
   c->plan.edit = fault;
   c->plan.edit_context = c;
-  return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == ST_OK &&
-         pilot_flight_init(&c->shadow, &c->param, &c->model, &c->shadow_pilot) == ST_OK;
+  return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == DONE &&
+         pilot_flight_init(&c->shadow, &c->param, &c->model, &c->shadow_pilot) == DONE;
 }
 
 void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
@@ -120,8 +120,8 @@ void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
   record_t record = {0};
   record6_t more = {0};
   outcome_t outcome = {0};
-  const status_t status = loop6_fly(&c->plan, &c->model, &pilot, NULL, &record, &more, &outcome, &why);
-  c->seen.bad = c->seen.bad || status != ST_OK || !outcome.finite;
+  const done_t status = loop6_fly(&c->plan, &c->model, &pilot, NULL, &record, &more, &outcome, &why);
+  c->seen.bad = c->seen.bad || status != DONE || !outcome.finite;
   c->seen.ratio_end = (double)c->pilot.flight->out.outer.at.ratio;
   record_free(&record);
   record6_free(&more);

@@ -14,7 +14,7 @@
 static const model_t *vehicle(void) {
   static model_t m;
   why_t why;
-  if (m.mass_kg == 0.0 && model_builtin("cf21_legacy", &m, &why) != ST_OK) abort();
+  if (m.mass_kg == 0.0 && model_builtin("cf21_legacy", &m, &why) != DONE) abort();
   return &m;
 }
 
@@ -35,7 +35,7 @@ static void read_log(const uint8_t *log, size_t size) {
   const columns_t columns = columns_crazyflie();
   gap_flight_t f;
   why_t why = {""};
-  if (gap_read(&f, path, &columns, vehicle(), &why) == ST_OK)
+  if (gap_read(&f, path, &columns, vehicle(), &why) == DONE)
     judge(&f);
   else if (why.text[0] == '\0' || f.n != 0 || f.t_s || strchr(why.text, '\n'))
     abort();

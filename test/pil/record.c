@@ -151,22 +151,21 @@ static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, 
   r->first = true;
   r->calls = r->burst = 0;
   r->step_off = seed % 2 ? 0xffff0000u : 0u; // some counters wrap on the way
-  if (setup6_thesis(&setup, kind, &why) != ST_OK) return error_exit("record", ST_FAILED, &why);
+  if (setup6_thesis(&setup, kind, &why) != DONE) return error_exit("record", FAILED, &why);
   setup6_close_ladder(&setup);
   if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
   setup.plan.plan.seed = seed;
   setup.plan.plan.integrate = INTEGRATE_RK4;
   setup.plan.plan.end_s = end_s;
-  if (pilot_flight_init(&r->pilot, &setup.flight, &setup.model, &r->inner) != ST_OK) return 1;
+  if (pilot_flight_init(&r->pilot, &setup.flight, &setup.model, &r->inner) != DONE) return 1;
   r->pilot.vehicle.fly = fly;
   r->pilot.vehicle.fly_context = r;
-  const status_t status =
-      loop6_fly(&setup.plan, &setup.model, &r->inner, NULL, &record, &more, &outcome, &why);
-  if (status == ST_OK && r->from) printf("%ld calls, %d contacts, ", r->calls, outcome.contacts);
+  const done_t status = loop6_fly(&setup.plan, &setup.model, &r->inner, NULL, &record, &more, &outcome, &why);
+  if (status == DONE && r->from) printf("%ld calls, %d contacts, ", r->calls, outcome.contacts);
   record_free(&record);
   record6_free(&more);
-  return status == ST_OK ? 0 : error_exit("record", status, &why);
+  return status == DONE ? 0 : error_exit("record", status, &why);
 }
 
 static int fly_trace(recorder_t *r) {

@@ -96,7 +96,7 @@ static void force(double t_s, double f_g[3]) {
 static const model_t *vehicle(void) {
   static model_t m;
   why_t why;
-  if (m.mass_kg == 0.0 && model_builtin("cf21_legacy", &m, &why) != ST_OK) abort();
+  if (m.mass_kg == 0.0 && model_builtin("cf21_legacy", &m, &why) != DONE) abort();
   return &m;
 }
 

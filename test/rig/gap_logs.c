@@ -102,14 +102,14 @@ static void write_vehicle(void) {
 bool gap_logs_fly(const char *name, int n, const fx_use_t *hidden) {
   model_t truth;
   why_t why;
-  bool good = exam_vehicle(&truth, &why) == ST_OK && (!hidden || model_add_fx(&truth, hidden, &why) == ST_OK);
+  bool good = exam_vehicle(&truth, &why) == DONE && (!hidden || model_add_fx(&truth, hidden, &why) == DONE);
   write_vehicle();
   for (int i = 0; i < n && good; i++) {
     gap_flight_t f = {.n = 0};
     char file[60];
     const exam_flight_t job = {.truth = &truth, .seed = 77u + (unsigned long)i};
     snprintf(file, sizeof file, "%s%d.csv", name, i);
-    good = exam_fly(&job, &f, &why) == ST_OK;
+    good = exam_fly(&job, &f, &why) == DONE;
     if (good) gap_log_write(&f, scratch_path(file));
     snprintf(file, sizeof file, "%s%d.bin", name, i);
     if (good) gap_log_write_usd(&f, scratch_path(file));
@@ -124,9 +124,9 @@ bool gap_logs_fly_one(const char *file, unsigned long seed, bool indi, const fx_
   gap_flight_t f = {.n = 0};
   const exam_flight_t job = {.truth = &truth, .seed = seed, .indi = indi};
   write_vehicle();
-  const bool good = exam_vehicle(&truth, &why) == ST_OK &&
-                    (!hidden || model_add_fx(&truth, hidden, &why) == ST_OK) &&
-                    exam_fly(&job, &f, &why) == ST_OK;
+  const bool good = exam_vehicle(&truth, &why) == DONE &&
+                    (!hidden || model_add_fx(&truth, hidden, &why) == DONE) &&
+                    exam_fly(&job, &f, &why) == DONE;
   if (good) gap_log_write(&f, scratch_path(file));
   gap_flight_free(&f);
   return good;

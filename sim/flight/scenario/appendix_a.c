@@ -2,14 +2,14 @@
 // 50 cm.
 #include "flight/scenario.h"
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI, why));
   TRY(setup_apply(&setup, request, why));
   flown_t flown;
   TRY(setup_fly(&setup, &flown, why));
   result_add_flight(result, &flown);
-  return ST_OK;
+  return DONE;
 }
 
 const scenario_t scenario_appendix_a = {

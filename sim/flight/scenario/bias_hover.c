@@ -26,14 +26,14 @@ static double mean_height_m(const record_t *r) {
   return sum / n;
 }
 
-static status_t hover(setup6_t setup, double bias_mps2, result_t *result, double *height_m, why_t *why) {
+static done_t hover(setup6_t setup, double bias_mps2, result_t *result, double *height_m, why_t *why) {
   setup.plan.noise.imu.acc_bias_b_mps2.z = bias_mps2;
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));
   *height_m = mean_height_m(&flown.flown.record);
   snprintf(flown.flown.segment[0].label, sizeof flown.flown.segment[0].label, "bias %g m/s2", bias_mps2);
   result_add_flight6(result, &flown);
-  return ST_OK;
+  return DONE;
 }
 
 static void tell(const setup6_t *setup, double bias_mps2, double height_m, double level_m, result_t *result) {
@@ -49,7 +49,7 @@ static void tell(const setup6_t *setup, double bias_mps2, double height_m, doubl
   cJSON_AddNumberToObject(row, "predicted_mm", known ? 1e3 * predicted_m : (double)NAN);
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   static const double bias_mps2[] = {-0.1, -0.05, 0.05, 0.1};
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
@@ -67,7 +67,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
     TRY(hover(setup, bias_mps2[i], result, &height_m, why));
     tell(&setup, bias_mps2[i], height_m, level_m, result);
   }
-  return ST_OK;
+  return DONE;
 }
 
 const scenario_t scenario_bias_hover = {

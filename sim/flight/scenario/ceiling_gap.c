@@ -12,15 +12,15 @@ static void tell(result_t *result, const slot_seen_t *seen) {
   if (!isnan(seen->lift_s)) cJSON_AddNumberToObject(row, "lift_s", seen->lift_s);
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
   TRY(slot_setup(&setup, request->seed, true, SLOT_RISE_M, why));
   TRY(setup6_apply(&setup, request, why));
   flown6_t flown;
   TRY(setup6_fly(&setup, &flown, why));
   slot_seen_t seen;
-  const status_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
-  if (status == ST_OK) {
+  const done_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
+  if (status == DONE) {
     tell(result, &seen);
     result_add_segment(result, &flown.flown, flown.flown.n_segment - 1, "hover");
   }

@@ -6,7 +6,7 @@
 
 #define FROM_M 0.07
 
-static status_t fly_to(setup_t setup, int gap_mm, result_t *result, why_t *why) {
+static done_t fly_to(setup_t setup, int gap_mm, result_t *result, why_t *why) {
   const double ceiling_m = setup.model.ceiling_m;
   setup.plan.way[0] = (waypoint_t){0.0, ceiling_m - FROM_M};
   setup.plan.way[1] = (waypoint_t){5.0, ceiling_m - 1e-3 * gap_mm};
@@ -19,15 +19,15 @@ static status_t fly_to(setup_t setup, int gap_mm, result_t *result, why_t *why) 
   char label[24];
   snprintf(label, sizeof label, "gap %d mm", gap_mm);
   result_add_segment(result, &flown, 1, label);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI, why));
   TRY(setup_apply(&setup, request, why));
   for (int gap_mm = 30; gap_mm >= 8; gap_mm--) TRY(fly_to(setup, gap_mm, result, why));
-  return ST_OK;
+  return DONE;
 }
 
 const scenario_t scenario_closest_hover = {

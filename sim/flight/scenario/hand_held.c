@@ -143,7 +143,7 @@ static void carry(hand_t *s, result_t *result) {
   }
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   if (request->kind || request->n_set > 0 || request->n_effect > 0 || request->no_effects ||
       request->integrate != INTEGRATE_SUNDIALS || request->log_500_Hz || request->log_calls)
     return error_set(why,
@@ -162,8 +162,8 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
       .param = setup.flight.ceiling,
       .way = {{.says_0 = false}, {.gate = true}, {.says_0 = true}, {.gate = true, .says_0 = true}},
   };
-  const status_t status = s->random ? ST_OK : error_failed(why, "out of memory");
-  if (status == ST_OK) carry(s, result);
+  const done_t status = s->random ? DONE : error_failed(why, "out of memory");
+  if (status == DONE) carry(s, result);
   random_close(s->random);
   free(s);
   return status;

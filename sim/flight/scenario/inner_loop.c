@@ -22,7 +22,7 @@ static void shake(void *context, const body_t *truth, pilot6_in_t *in) {
   in->set.yaw_rad = (int)(t_s / YAW_S) % 2 ? YAW_RAD : -YAW_RAD;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
   setup.model.ceiling_m = HUGE_VAL;

@@ -3,14 +3,14 @@
 // appendix B), and its weights are printed.
 #include "flight/scenario.h"
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
   TRY(scenario_learning_setup(&setup, request, why));
   flown_t flown;
   TRY(setup_fly(&setup, &flown, why));
   if (setup.flight.curve.mode == CURVE_LIVE) result_add_weights(result, &flown.weights);
   result_add_flight(result, &flown);
-  return ST_OK;
+  return DONE;
 }
 
 const scenario_t scenario_learning_1d = {

@@ -4,7 +4,7 @@
 // the weights frozen.
 #include "flight/scenario.h"
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
   TRY(scenario_thesis6_setup(&setup, FLY_INDI_LIVE, request, why));
   if (setup.flight.curve.mode != CURVE_LIVE)
@@ -16,7 +16,7 @@ static status_t run(const request_t *request, result_t *result, why_t *why) {
   TRY(setup6_fly(&setup, &flown, why));
   result_add_weights(result, &flown.flown.weights);
   result_add_flight6(result, &flown);
-  return ST_OK;
+  return DONE;
 }
 
 const scenario_t scenario_learning_flight = {

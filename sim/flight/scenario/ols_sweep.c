@@ -57,7 +57,7 @@ static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   sweep_add_weights(row, &w);
 }
 
-static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
+static done_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
   static const double shares[] = {0.5, 0.25, 0.1, 0.01};
   (void)why;
   for (unsigned k = 0; k < sizeof shares / sizeof *shares; k++) {
@@ -66,7 +66,7 @@ static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result
     for (int i = 0; i < n; i++) take(&a, &x[i], setup->plan.end_s - BACK_S, i == 0);
     tell(&a, setup, result);
   }
-  return ST_OK;
+  return DONE;
 }
 
 // From 2 cm back to 20 cm at 0.3 m/s.
@@ -78,7 +78,7 @@ static void add_way_back(plan_t *plan, double ceiling_m) {
   plan->end_s += BACK_S;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
   TRY(sweep_setup(&setup, request, why));
   add_way_back(&setup.plan, setup.model.ceiling_m);

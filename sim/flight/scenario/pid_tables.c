@@ -26,7 +26,7 @@ static const row_t rows[] = {
     {"4.5", FLY_PID_FF, 0.2, 0.18, 1, 0, 2},    {"4.5", FLY_PID_FF, 0.2, 0.19, 1, 0, 2},
 };
 
-static status_t fly(const row_t *row, const request_t *request, double period_s, flown_t *flown, why_t *why) {
+static done_t fly(const row_t *row, const request_t *request, double period_s, flown_t *flown, why_t *why) {
   setup_t setup = {
       .kind = row->kind,
       .period_s = period_s,
@@ -48,7 +48,7 @@ static bool asked_for(const row_t *row, const request_t *request) {
   return !request->kind || *request->kind == row->kind;
 }
 
-static status_t add_continuous(const request_t *request, result_t *result, why_t *why) {
+static done_t add_continuous(const request_t *request, result_t *result, why_t *why) {
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     if (!asked_for(&rows[i], request)) continue;
     flown_t flown;
@@ -57,10 +57,10 @@ static status_t add_continuous(const request_t *request, result_t *result, why_t
     snprintf(label, sizeof label, "table %s, %.2f m", rows[i].table, rows[i].setpoint_m);
     result_add_segment(result, &flown, 0, label);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t add_discrete(const request_t *request, double period_s, result_t *result, why_t *why) {
+static done_t add_discrete(const request_t *request, double period_s, result_t *result, why_t *why) {
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     if (!asked_for(&rows[i], request)) continue;
     flown_t flown;
@@ -72,10 +72,10 @@ static status_t add_discrete(const request_t *request, double period_s, result_t
     cJSON_AddNumberToObject(row, "contacts", flown.outcome.contacts);
     flown_free(&flown);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   if (request->kind && *request->kind != FLY_PID && *request->kind != FLY_PID_FF)
     return error_set(why, "--controller: pid-tables flies pid and pid-ff");
   if (request->n_set > 0) return error_set(why, "--set: the flight code does not fly in pid-tables");

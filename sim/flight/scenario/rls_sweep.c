@@ -5,8 +5,8 @@
 #define VISITED_NEAR_M 0.02
 #define VISITED_FAR_M  0.10
 
-static status_t learn(const setup_t *setup, const rls_param_t *p, const taught_t *x, int n, rls_t *rls,
-                      why_t *why) {
+static done_t learn(const setup_t *setup, const rls_param_t *p, const taught_t *x, int n, rls_t *rls,
+                    why_t *why) {
   if (rls_init(rls, p, &setup->learn_from) != ST_OK)
     return error_set(why, "rls.lambda, rls.p0: out of range");
   for (int i = 0; i < n; i++) {
@@ -15,7 +15,7 @@ static status_t learn(const setup_t *setup, const rls_param_t *p, const taught_t
     if (rls_update(rls, p, basis, (float)x[i].y) != ST_OK)
       return error_set(why, "a sample could not be learned");
   }
-  return ST_OK;
+  return DONE;
 }
 
 static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, result_t *result) {
@@ -30,7 +30,7 @@ static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, r
   sweep_add_weights(row, &rls->theta);
 }
 
-static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
+static done_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
   static const struct {
     float lambda, p0;
   } pairs[] = {{0.01f, 1}, {0.1f, 1}, {0.5f, 1}, {1, 1}, {1, 0.1f}, {0.5f, 5}, {0.5f, 25}};
@@ -42,10 +42,10 @@ static status_t learn_all(const setup_t *setup, const taught_t *x, int n, result
     TRY(learn(setup, &p, x, n, &rls, why));
     tell(&p, &rls, &setup->model, result);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup_t setup;
   TRY(sweep_setup(&setup, request, why));
   return sweep_fly(&setup, VISITED_FAR_M, learn_all, result, why);

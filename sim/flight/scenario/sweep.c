@@ -3,27 +3,27 @@
 
 #include <stdlib.h>
 
-status_t sweep_setup(setup_t *setup, const request_t *request, why_t *why) {
+done_t sweep_setup(setup_t *setup, const request_t *request, why_t *why) {
   TRY(scenario_learning_setup(setup, request, why));
   if (setup->kind == FLY_PID || setup->kind == FLY_PID_FF)
     return error_set(why, "--controller %s: knows no ceiling distance to learn from", fly_name[setup->kind]);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t learn_from(const setup_t *setup, const record_t *record, double far_m, sweep_learn_fn *learn,
-                           result_t *result, why_t *why) {
+static done_t learn_from(const setup_t *setup, const record_t *record, double far_m, sweep_learn_fn *learn,
+                         result_t *result, why_t *why) {
   taught_t *taught = calloc((size_t)record->n, sizeof *taught);
   if (!taught) return error_failed(why, "out of memory");
   const int n = taught_of(record, setup, far_m, taught);
-  const status_t status = learn(setup, taught, n, result, why);
+  const done_t status = learn(setup, taught, n, result, why);
   free(taught);
   return status;
 }
 
-status_t sweep_fly(const setup_t *setup, double far_m, sweep_learn_fn *learn, result_t *result, why_t *why) {
+done_t sweep_fly(const setup_t *setup, double far_m, sweep_learn_fn *learn, result_t *result, why_t *why) {
   flown_t flown;
   TRY(setup_fly(setup, &flown, why));
-  const status_t status = learn_from(setup, &flown.record, far_m, learn, result, why);
+  const done_t status = learn_from(setup, &flown.record, far_m, learn, result, why);
   result_add_flight(result, &flown);
   flown_free(&flown);
   return status;

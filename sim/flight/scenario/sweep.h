@@ -5,17 +5,17 @@
 #include "flight/scenario.h"
 #include "flight/taught.h"
 
-// The learning flight that was asked for. ST_BAD_INPUT: as scenario_learning_setup, or a controller that
+// The learning flight that was asked for. BAD_INPUT: as scenario_learning_setup, or a controller that
 // knows no ceiling distance.
-MUST_CHECK status_t sweep_setup(setup_t *setup, const request_t *request, why_t *why);
+MUST_CHECK done_t sweep_setup(setup_t *setup, const request_t *request, why_t *why);
 
 // Learns from n samples, in all its ways, and adds what came of it.
-typedef status_t sweep_learn_fn(const setup_t *setup, const taught_t *taught, int n, result_t *result,
-                                why_t *why);
+typedef done_t sweep_learn_fn(const setup_t *setup, const taught_t *taught, int n, result_t *result,
+                              why_t *why);
 
 // Flies once, and lets learn from what may teach up to far_m.
-MUST_CHECK status_t sweep_fly(const setup_t *setup, double far_m, sweep_learn_fn *learn, result_t *result,
-                              why_t *why);
+MUST_CHECK done_t sweep_fly(const setup_t *setup, double far_m, sweep_learn_fn *learn, result_t *result,
+                            why_t *why);
 
 // w1..w7, each in a column of its own.
 void sweep_add_weights(cJSON *row, const rbf_weights_t *w);

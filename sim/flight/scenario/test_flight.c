@@ -2,7 +2,7 @@
 // cm 10 s each, in six degrees of freedom with real sensors.
 #include "flight/scenario.h"
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   setup6_t setup;
   TRY(scenario_thesis6_setup(&setup, FLY_INDI, request, why));

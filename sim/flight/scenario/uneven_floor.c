@@ -12,7 +12,7 @@ static void aside(void *context, const body_t *truth, pilot6_in_t *in) {
   if (truth->t_s >= 10.0) in->set.pos_w_m.x = ASIDE_M;
 }
 
-static status_t run(const request_t *request, result_t *result, why_t *why) {
+static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup6_t setup;
   TRY(setup6_thesis(&setup, FLY_INDI, why));
   setup.model.ceiling_m = HUGE_VAL;

@@ -22,8 +22,8 @@ static bool has(const gap_flight_t *f, signal_id_t first, int n) {
   return true;
 }
 
-static status_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
-                       double max, why_t *why) {
+static done_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
+                     double max, why_t *why) {
   char text[COLUMNS_HINT];
   const char *const si = columns_si(&rows->columns, i);
   return table_refuse(&rows->table, 0, rows->at[i], why,
@@ -35,10 +35,10 @@ static double size(double *const v[3], int i) {
   return sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
 }
 
-static status_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   double sum = 0.0, up = 0.0;
   int n = 0, n_up = 0;
-  if (!has(f, SIG_AX, 3)) return ST_OK;
+  if (!has(f, SIG_AX, 3)) return DONE;
   for (int i = 0; i < f->n; i++) {
     const double acc_mps2 = size(&f->v[SIG_AX], i);
     if (isnan(acc_mps2)) continue;
@@ -59,7 +59,7 @@ static status_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows
                         "turned by the attitude, the mean specific force upwards is %.3g m/s2 over the whole "
                         "flight; allowed: 5.886 to 13.73 (wrong frame, sign or order of the attitude?)",
                         up / n_up);
-  return ST_OK;
+  return DONE;
 }
 
 typedef struct {
@@ -86,7 +86,7 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
     }
 }
 
-static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
+static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
   slope_t slope[3] = {0};
   slopes(f, drive, slope);
   for (int k = 0; k < 3; k++) {
@@ -104,11 +104,11 @@ static status_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const
         "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",
         drive->moves, b, 'x' + k, drive->by, text);
   }
-  return ST_OK;
+  return DONE;
 }
 
 // Nearer throughout than any range sensor sees: the unit is another one. Too far is refused row by row.
-static status_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t i, why_t *why) {
+static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t i, why_t *why) {
   double most_m = 0.0;
   int n = 0;
   for (int j = 0; j < f->n && f->v[i]; j++) {
@@ -117,7 +117,7 @@ static status_t check_range(const gap_flight_t *f, const log_rows_t *rows, signa
     n++;
   }
   return n < ENOUGH || most_m >= RANGE_M
-             ? ST_OK
+             ? DONE
              : refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
 }
 
@@ -148,10 +148,10 @@ static double by_speed_N(const gap_flight_t *f, const model_t *vehicle, int i) {
   return vehicle->frame.kf_Ns2 * sum;
 }
 
-static status_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   char text[COLUMNS_HINT];
   const double ratio = lift_ratio(f, &rows->vehicle, by_speed_N);
-  if (!(ratio < 0.2 || ratio > 5.0)) return ST_OK;
+  if (!(ratio < 0.2 || ratio > 5.0)) return DONE;
   return table_refuse(
       &rows->table, 0, rows->at[SIG_W1], why,
       "rotors of vehicle %s at these speeds give %.3g times what its acceleration takes; allowed: 0.2 to 5%s",
@@ -159,16 +159,16 @@ static status_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_
       columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
 }
 
-static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   const bool each = rows->at[SIG_M1] >= 0, pwm = each && rows->columns.motors == MOTORS_PWM;
   double most = 0.0;
   for (int k = 0; k < 4 && pwm && has(f, SIG_M1, 4); k++)
     for (int i = 0; i < f->n; i++) most = fmax(most, f->v[SIG_M1 + k][i]);
   if (most > 0.0 && most <= 100.0)
     return refuse(rows, SIG_M1, "the largest motor command is", most, 1000.0, 65536.0, why);
-  if (!has(f, SIG_THRUST, 1)) return ST_OK;
+  if (!has(f, SIG_THRUST, 1)) return DONE;
   const double ratio = lift_ratio(f, &rows->vehicle, by_command_N);
-  if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return ST_OK;
+  if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return DONE;
   return table_refuse(
       &rows->table, 0, rows->at[each ? SIG_M1 : SIG_THRUST], why,
       "commands to vehicle %s give %.3g times what its acceleration takes; allowed: 0.33 to 3 "
@@ -177,7 +177,7 @@ static status_t check_commands(const gap_flight_t *f, const log_rows_t *rows, wh
 }
 
 // Heights of another room, or from another floor.
-static status_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   const model_t *m = &rows->vehicle;
   const double rotors_m = body_rest_z_m(m) + body_rotor_z_m(m);
   double most_m = 0.0;
@@ -189,13 +189,13 @@ static status_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why
     above += over_m > ABOVE_M;
     most_m = fmax(most_m, over_m);
   }
-  if (n < ENOUGH || above <= ABOVE_SHARE * n) return ST_OK;
+  if (n < ENOUGH || above <= ABOVE_SHARE * n) return DONE;
   return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
                       "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g); allowed: below it",
                       most_m, m->name, m->ceiling_m);
 }
 
-status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   TRY(check_acceleration(f, rows, why));
   if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
   if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
@@ -204,5 +204,5 @@ status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   TRY(check_range(f, rows, SIG_RANGE, why));
   TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
   TRY(check_commands(f, rows, why));
-  return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : ST_OK;
+  return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : DONE;
 }

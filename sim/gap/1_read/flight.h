@@ -49,10 +49,10 @@ typedef struct {
 } gap_flights_t;
 
 // Reads a CSV or a uSD log, brings its streams to one uniform time base, masks, aligns and checks it. Signals
-// that are not in the log are null. ST_BAD_INPUT: not such a file, or signals that are out of range, stuck,
+// that are not in the log are null. BAD_INPUT: not such a file, or signals that are out of range, stuck,
 // or contradict physics or each other; names file, line and column. *f is empty then. The caller frees.
-MUST_CHECK status_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns,
-                             const model_t *vehicle, why_t *why);
+MUST_CHECK done_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns,
+                           const model_t *vehicle, why_t *why);
 
 void gap_flight_free(gap_flight_t *f);
 

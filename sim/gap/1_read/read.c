@@ -71,7 +71,7 @@ static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
 
 // What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
 // and what has no value anywhere.
-static status_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
+static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
   bool any = false;
   for (int i = 0; i < SIG_COUNT; i++) {
     const bool angle = i >= SIG_ROLL && i <= SIG_YAW, torque = i >= SIG_TX && i <= SIG_TZ;
@@ -86,10 +86,10 @@ static status_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, w
   const double rest_m = rows->columns.rest_height_m;
   for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
   for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why) {
+static done_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why) {
   char damage[480];
   f->cells_bad = rows->bad;
   f->cells_missing = rows->missing;
@@ -116,7 +116,7 @@ static status_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t 
   if (raw->range_unusable)
     note(f, "%ld range samples of 0 or of no return are left out", raw->range_unusable);
   if (rows->lacks[0]) note(f, "no thrust: %.180s", rows->lacks);
-  return ST_OK;
+  return DONE;
 }
 
 // --- the streams' times
@@ -134,24 +134,23 @@ typedef struct {
 } stream_t;
 
 // How late the stream is, by rounds: each looks at what the one before has left.
-static status_t tell_late(raw_t *raw, const stream_t *s, double shift_s[SIG_COUNT], skew_t *told,
-                          why_t *why) {
+static done_t tell_late(raw_t *raw, const stream_t *s, double shift_s[SIG_COUNT], skew_t *told, why_t *why) {
   *told = (skew_t){0.0, HUGE_VAL};
   for (int round = 0; round < SKEW_ROUNDS; round++) {
     gap_flight_t part = {0};
     set_shift(shift_s, s->moved, told->late_s);
-    const status_t status = gap_grid(&part, raw, s->need, shift_s, SKEW_SPAN_S, false, why);
-    const skew_t rest = status == ST_OK ? s->skew(&part) : *told;
+    const done_t status = gap_grid(&part, raw, s->need, shift_s, SKEW_SPAN_S, false, why);
+    const skew_t rest = status == DONE ? s->skew(&part) : *told;
     gap_flight_free(&part);
     TRY(status);
     told->late_s += rest.late_s;
     told->stderr_s = rest.stderr_s;
     if (!(fabs(told->late_s) <= SKEW_MAX_S) || !isfinite(rest.stderr_s)) break;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_t *why) {
+static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_t *why) {
   const stream_t stream[] = {
       {"attitude", "gyro", ATTITUDE | GYRO, ATTITUDE, gap_skew_attitude},
       {"velocity", "accelerometer", ATTITUDE | FORCE | PLACE, PLACE, gap_skew_velocity},
@@ -175,7 +174,7 @@ static status_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], wh
     *late_s[k] = mend ? told.late_s : 0.0;
     set_shift(shift_s, s->moved, *late_s[k]);
   }
-  return ST_OK;
+  return DONE;
 }
 
 // --- the whole
@@ -190,7 +189,7 @@ static void note_samples(gap_flight_t *f) {
     note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
 }
 
-static status_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
+static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   double shift_s[SIG_COUNT] = {0.0};
   for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = rows->columns.of[i].late_s;
   TRY(raw_read(raw, rows, &f->cut, why));
@@ -219,17 +218,17 @@ static void name_ranges(gap_flight_t *f) {
   f->range_down_m = f->v[SIG_RANGE_DOWN];
 }
 
-status_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns, const model_t *vehicle,
-                  why_t *why) {
+done_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns, const model_t *vehicle,
+                why_t *why) {
   log_rows_t rows;
   raw_t raw = {0};
   *f = (gap_flight_t){0};
   TRY(log_rows_open(&rows, path, columns, vehicle, LOG_MEND, 0, why));
   snprintf(f->name, sizeof f->name, "%s", path);
-  const status_t status = make(f, &raw, &rows, why);
+  const done_t status = make(f, &raw, &rows, why);
   raw_free(&raw);
   log_rows_close(&rows);
-  if (status == ST_OK)
+  if (status == DONE)
     name_ranges(f);
   else
     gap_flight_free(f);

@@ -24,22 +24,22 @@ void raw_free(raw_t *raw);
 void raw_drop(raw_t *raw, signal_id_t signal);
 
 // Reads rows until the end or GAP_FLIGHT_S. Thins to about GAP_RATE_HZ by means; merges rows of almost one
-// time; keeps of the ranges what is new. ST_BAD_INPUT: as log_rows_next, or the rows' distance is not that of
+// time; keeps of the ranges what is new. BAD_INPUT: as log_rows_next, or the rows' distance is not that of
 // a flight log.
-MUST_CHECK status_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
+MUST_CHECK done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
 
-// ST_BAD_INPUT: a signal that stands still while the vehicle flies. ST_FAILED: no memory.
-MUST_CHECK status_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why);
+// BAD_INPUT: a signal that stands still while the vehicle flies. FAILED: no memory.
+MUST_CHECK done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why);
 
 // A slower stream repeats its last value until the next: makes the repeats gaps, so that what is between new
 // values is a line and not a stair, which would be late by half a step. Returns in how many streams.
-// ST_FAILED: no memory.
-MUST_CHECK status_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why);
+// FAILED: no memory.
+MUST_CHECK done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why);
 
 // The uniform time base: shift_s[i] is taken from the time stamps of signal i. Signals not in `want` are
-// left out; at most limit_s of flight. ST_FAILED: no memory.
-MUST_CHECK status_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
-                             double limit_s, bool drop, why_t *why);
+// left out; at most limit_s of flight. FAILED: no memory.
+MUST_CHECK done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
+                           double limit_s, bool drop, why_t *why);
 
 // How far two streams are apart in time.
 typedef struct {
@@ -49,8 +49,8 @@ typedef struct {
 skew_t gap_skew_attitude(const gap_flight_t *f); // against the gyro
 skew_t gap_skew_velocity(const gap_flight_t *f); // against the accelerometer
 
-// ST_BAD_INPUT: signals contradict physics or each other over the whole flight.
-MUST_CHECK status_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
+// BAD_INPUT: signals contradict physics or each other over the whole flight.
+MUST_CHECK done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
 
 // What a stream moved over a window of samples, and what the one that drives it says.
 typedef struct {

@@ -58,8 +58,8 @@ static bool raw_grow(raw_t *raw, signals_t has) {
   return good;
 }
 
-static status_t bin_close(bin_t *b, raw_t *raw, signals_t has, why_t *why) {
-  if (b->rows == 0) return ST_OK;
+static done_t bin_close(bin_t *b, raw_t *raw, signals_t has, why_t *why) {
+  if (b->rows == 0) return DONE;
   if (!raw_grow(raw, has)) return error_failed(why, "out of memory at %d rows", raw->n);
   raw->t_s[raw->n] = b->sum_s / b->rows;
   raw->at_limit[raw->n] = b->at_limit;
@@ -68,10 +68,10 @@ static status_t bin_close(bin_t *b, raw_t *raw, signals_t has, why_t *why) {
     if (raw->v[i]) raw->v[i][raw->n] = b->n[i] ? b->sum[i] / b->n[i] : (double)NAN;
   raw->n++;
   *b = (bin_t){0};
-  return ST_OK;
+  return DONE;
 }
 
-static status_t bin_add(bin_t *b, raw_t *raw, const early_t *e, signals_t has, why_t *why) {
+static done_t bin_add(bin_t *b, raw_t *raw, const early_t *e, signals_t has, why_t *why) {
   const double *const v = e->row.v, t_s = v[SIG_TIME];
   const bool bunched = b->rows > 0 && t_s - b->sum_s / b->rows < BUNCH * raw->period_s;
   if (!bunched && b->rows >= raw->thin) TRY(bin_close(b, raw, has, why));
@@ -89,10 +89,10 @@ static status_t bin_add(bin_t *b, raw_t *raw, const early_t *e, signals_t has, w
     b->sum[i] = newest ? v[i] : b->sum[i] + v[i];
     b->n[i] = newest ? 1 : b->n[i] + 1;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_t *rows, why_t *why) {
+static done_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_t *rows, why_t *why) {
   double dt_s[FIRST];
   for (int i = 1; i < n; i++) dt_s[i - 1] = early[i].row.v[SIG_TIME] - early[i - 1].row.v[SIG_TIME];
   if (n < 3) return table_refuse(&rows->table, 0, -1, why, "%d rows; allowed: a flight", n);
@@ -108,7 +108,7 @@ static status_t tell_rate(raw_t *raw, const early_t *early, int n, const log_row
   }
   raw->thin = (int)(1.0 / (raw->period_s * GAP_RATE_HZ) + 0.25);
   if (raw->thin < 1) raw->thin = 1;
-  return ST_OK;
+  return DONE;
 }
 
 // A sensor slower than the log stands in it as a value that stays, or with gaps between.
@@ -133,10 +133,10 @@ typedef struct {
   bin_t bin;
 } reader_t;
 
-static status_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
+static done_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
   if (r->n < FIRST) {
     r->n++;
-    return ST_OK;
+    return DONE;
   }
   if (raw->thin == 0) {
     TRY(tell_rate(raw, r->early, r->n, rows, why));
@@ -145,7 +145,7 @@ static status_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t 
   return bin_add(&r->bin, raw, &r->early[FIRST], rows->has, why);
 }
 
-static status_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
+static done_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
   double last_m[2] = {(double)NAN, (double)NAN};
   for (;;) {
     early_t *const e = &r->early[r->n];
@@ -166,11 +166,11 @@ static status_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, w
   return bin_close(&r->bin, raw, rows->has, why);
 }
 
-status_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
+done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
   *cut = false;
   reader_t *const reader = calloc(1, sizeof *reader);
   if (!reader) return error_failed(why, "out of memory");
-  const status_t status = read_all(reader, raw, rows, cut, why);
+  const done_t status = read_all(reader, raw, rows, cut, why);
   free(reader);
   return status;
 }

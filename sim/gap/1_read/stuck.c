@@ -50,7 +50,7 @@ static bool same(const raw_t *raw, signal_id_t first, int n, int i) {
 }
 
 // The median time from one new value to the next.
-static status_t usual_run(const raw_t *raw, signal_id_t first, int n, double *run_s, why_t *why) {
+static done_t usual_run(const raw_t *raw, signal_id_t first, int n, double *run_s, why_t *why) {
   double *const runs_s = malloc((size_t)raw->n * sizeof *runs_s);
   if (!runs_s) return error_failed(why, "out of memory");
   int runs = 0, from = 0;
@@ -62,7 +62,7 @@ static status_t usual_run(const raw_t *raw, signal_id_t first, int n, double *ru
   qsort(runs_s, (size_t)runs, sizeof *runs_s, by_size);
   *run_s = runs > RUN_ROWS ? runs_s[runs / 2] : 0.0;
   free(runs_s);
-  return ST_OK;
+  return DONE;
 }
 
 static void drop_repeats(raw_t *raw, signal_id_t first, int n, double longest_s) {
@@ -75,7 +75,7 @@ static void drop_repeats(raw_t *raw, signal_id_t first, int n, double longest_s)
   }
 }
 
-status_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
+done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
   *streams = 0;
   for (int s = 0; s < STREAMS; s++) {
     const signal_id_t first = STREAM[s].first;
@@ -90,7 +90,7 @@ status_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
     for (int k = 0; k < n; k++) raw->slow_s[(int)first + k] = run_s;
     (*streams)++;
   }
-  return ST_OK;
+  return DONE;
 }
 
 // -1: cannot be told.
@@ -118,7 +118,7 @@ static bool moved(const raw_t *raw, const model_t *vehicle, int from, int i) {
          (climb_mps && fabs(climb_mps[i] - climb_mps[from]) > MOVES);
 }
 
-static status_t check_group(const raw_t *raw, const log_rows_t *rows, const group_t *g, why_t *why) {
+static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_t *g, why_t *why) {
   int from = 0, whole = 0;
   double others_s = HUGE_VAL; // when they began to move
   double way_m = 0.0, run_s;
@@ -144,7 +144,7 @@ static status_t check_group(const raw_t *raw, const log_rows_t *rows, const grou
                         raw->v[g->first][i], columns_si(&rows->columns, g->first), span_s);
   }
   const bool sensor = g->first >= SIG_AX && g->first <= SIG_GZ;
-  if (!sensor || whole < raw->n - 1 || raw->n < RUN_ROWS) return ST_OK;
+  if (!sensor || whole < raw->n - 1 || raw->n < RUN_ROWS) return DONE;
   return table_refuse(&rows->table, raw->line[0], rows->at[g->first], why,
                       "stands at %.6g %s from the first row to the last; is the sensor stuck?",
                       raw->v[g->first][0], columns_si(&rows->columns, g->first));
@@ -165,12 +165,12 @@ static bool on_vertical_axis(const raw_t *raw) {
   return raw->v[SIG_AX] && raw->v[SIG_AY] && raw->v[SIG_AZ];
 }
 
-status_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why) {
+done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why) {
   const bool vertical = on_vertical_axis(raw);
   for (int i = 0; i < GROUPS; i++) {
     const bool beside = GROUP[i].first != SIG_AZ && GROUP[i].first != SIG_M1 && GROUP[i].first != SIG_W1;
     if (logged(raw, GROUP[i].first, GROUP[i].n) && !(vertical && beside))
       TRY(check_group(raw, rows, &GROUP[i], why));
   }
-  return ST_OK;
+  return DONE;
 }

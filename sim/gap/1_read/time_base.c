@@ -144,8 +144,8 @@ typedef struct {
   double period_s, margin_s, end_s;
 } grid_t;
 
-static status_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, int signal, double shift_s,
-                            why_t *why) {
+static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, int signal, double shift_s,
+                          why_t *why) {
   double *const out = f->v[signal] = malloc(((size_t)f->n + 1) * sizeof(double));
   if (!out) return error_failed(why, "out of memory");
   for (segment_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
@@ -154,11 +154,11 @@ static status_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, 
     else
       resample(raw, &s, g->period_s, shift_s, signal, out + s.at);
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
-                  double limit_s, bool drop, why_t *why) {
+done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT], double limit_s,
+                bool drop, why_t *why) {
   grid_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
   for (int i = 0; i < SIG_COUNT; i++) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
   int number = 0;
@@ -178,5 +178,5 @@ status_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shif
     if (drop) raw_drop(raw, (signal_id_t)i);
   }
   unit_quaternions(f);
-  return ST_OK;
+  return DONE;
 }

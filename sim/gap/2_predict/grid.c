@@ -46,7 +46,7 @@ static bool has_speeds(const gap_flight_t *f) {
   return true;
 }
 
-static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
+static done_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
   const gap_flight_t *f = g->flight;
   const bool commands = has_commands(f);
   g->has_moments = each_commanded(f) || !commands;
@@ -60,7 +60,7 @@ static status_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
       g->command_N[k][i] = last = isfinite(now) ? now : last;
     }
   }
-  return ST_OK;
+  return DONE;
 }
 
 // --- points -------------------------------------------------------------------------------------------
@@ -160,7 +160,7 @@ static void take_points(grid_t *g, const model_t *m, int to) {
   }
 }
 
-status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
+done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
   *g = (grid_t){.flight = f, .from = from, .samples = to - from};
   g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
   g->period_s = g->every / f->rate_Hz;
@@ -180,7 +180,7 @@ status_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const mod
   TRY(take_commands(g, m, to - from, why));
   take_points(g, m, to);
   set_points_judge(g);
-  return ST_OK;
+  return DONE;
 }
 
 void grid_free(grid_t *g) {

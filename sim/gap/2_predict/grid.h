@@ -53,10 +53,10 @@ typedef struct {
   int motors_used;
 } grid_t;
 
-// The samples from..to-1 of a flight. ST_BAD_INPUT: what the log lacks makes it useless; ST_FAILED: no
+// The samples from..to-1 of a flight. BAD_INPUT: what the log lacks makes it useless; FAILED: no
 // memory.
-MUST_CHECK status_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int to, const model_t *m,
-                              why_t *why);
+MUST_CHECK done_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int to, const model_t *m,
+                            why_t *why);
 void grid_free(grid_t *g);
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no

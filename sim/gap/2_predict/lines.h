@@ -14,14 +14,14 @@ static inline void lines_free(lines_t *l) {
   *l = (lines_t){.r = {NULL}};
 }
 
-// All zero. ST_FAILED: no memory. Free it, also on an error.
-MUST_CHECK static inline status_t lines_make(lines_t *l, const set_t *s, why_t *why) {
+// All zero. FAILED: no memory. Free it, also on an error.
+MUST_CHECK static inline done_t lines_make(lines_t *l, const set_t *s, why_t *why) {
   bool good = true;
   for (int ch = 0; ch < CHANNELS; ch++) {
     l->r[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
     good = good && l->r[ch];
   }
-  return good ? ST_OK : error_failed(why, "out of memory");
+  return good ? DONE : error_failed(why, "out of memory");
 }
 
 #endif

@@ -25,8 +25,8 @@ static likeness_t compare(const rows_t *r, const double *measured, const double 
 }
 
 // Where turning follows the commands best: over the first of the lags, by channel.
-static status_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
-                        why_t *why) {
+static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
+                      why_t *why) {
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
   for (size_t ch = 0; ch < CHANNELS; ch++) {
@@ -44,7 +44,7 @@ static status_t best_of(set_t *s, const model_t *m, unsigned lags, double *room,
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
-  return ST_OK;
+  return DONE;
 }
 
 // --- the order of the motors ------------------------------------------------------------------------------
@@ -78,15 +78,15 @@ static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[C
   return better >= 2;
 }
 
-static status_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
-                           why_t *why) {
+static done_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
+                         why_t *why) {
   for (int i = 1; i < ORDERS; i++) {
     likeness_t other[CHANNELS];
     int order[ROTORS], back[ROTORS];
     order_of(i, order);
     for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
     reorder(s, order);
-    const status_t status = best_of(s, m, 1, room, other, why);
+    const done_t status = best_of(s, m, 1, room, other, why);
     reorder(s, back);
     TRY(status);
     if (!is_better(given, other)) continue;
@@ -96,10 +96,10 @@ static status_t find_order(set_t *s, const model_t *m, const likeness_t given[CH
         "%d, %d and %d; allowed: motors in the vehicle file's order",
         s->grid[0].flight->name, order[0] + 1, order[1] + 1, order[2] + 1, order[3] + 1);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
+static done_t find(set_t *s, const model_t *m, double *room, why_t *why) {
   likeness_t best[CHANNELS];
   bool any = false;
   TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
@@ -114,15 +114,15 @@ static status_t find(set_t *s, const model_t *m, double *room, why_t *why) {
     s->muted[ch] = best[ch].slope < MUTED_SLOPE;
     any = any || s->muted[ch];
   }
-  return any ? find_order(s, m, best, room, why) : ST_OK;
+  return any ? find_order(s, m, best, room, why) : DONE;
 }
 
-status_t muted_find(set_t *s, const model_t *m, why_t *why) {
+done_t muted_find(set_t *s, const model_t *m, why_t *why) {
   memset(s->muted, 0, sizeof s->muted);
-  if (!residual_has(s, CH_WX)) return ST_OK;
+  if (!residual_has(s, CH_WX)) return DONE;
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
   double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
-  const status_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
+  const done_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
   free(room);
   return status;
 }

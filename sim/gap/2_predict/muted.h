@@ -16,8 +16,8 @@
 #define MUTED_SLOPE   0.25
 #define MUTED_AGAINST -0.5 // correlation
 
-// Sets s->muted. ST_BAD_INPUT: the vehicle turns against its commands, or as they say with the motors
-// in another order. ST_FAILED: no memory.
-MUST_CHECK status_t muted_find(set_t *s, const model_t *m, why_t *why);
+// Sets s->muted. BAD_INPUT: the vehicle turns against its commands, or as they say with the motors
+// in another order. FAILED: no memory.
+MUST_CHECK done_t muted_find(set_t *s, const model_t *m, why_t *why);
 
 #endif

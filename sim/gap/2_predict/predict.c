@@ -68,7 +68,7 @@ static void keep(path_t *path, const body_t *b, passed_t *at, int j) {
   path->at[j] = *at;
 }
 
-static status_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS], why_t *why) {
+static done_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS], why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
   const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
@@ -86,32 +86,32 @@ static status_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNE
     if (path) keep(path, b, &at, j);
     put(&at.sensed, at.turn_radps2, j, out);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t open_body(body_t *b, const grid_t *g, const model_t *m, why_t *why) {
+static done_t open_body(body_t *b, const grid_t *g, const model_t *m, why_t *why) {
   const body_start_t start = {.seed = 1};
-  if (body_open(b, m, INTEGRATE_RK4, g->period_s, &start) == ST_OK) return ST_OK;
+  if (body_open(b, m, INTEGRATE_RK4, g->period_s, &start) == DONE) return DONE;
   return error_failed(why, "%s: a model that cannot be replayed", m->name);
 }
 
-static status_t replay_into(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],
-                            why_t *why) {
+static done_t replay_into(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],
+                          why_t *why) {
   body_t b;
-  if (g->n == 0) return ST_OK;
+  if (g->n == 0) return DONE;
   TRY(open_body(&b, g, m, why));
-  const status_t status = run(g, &b, path, out, why);
+  const done_t status = run(g, &b, path, out, why);
   body_close(&b);
   return status;
 }
 
-status_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why) {
+done_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why) {
   return replay_into(g, m, NULL, out, why);
 }
 
 // --- one effect more --------------------------------------------------------------------------------------
 
-status_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS], why_t *why) {
+done_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS], why_t *why) {
   const size_t n = (size_t)g->n + 1;
   *path = (path_t){.model = m, .at = malloc(n * sizeof(passed_t)), .rigid = malloc(n * sizeof(rigid_t))};
   if (!path->at || !path->rigid) return error_failed(why, "out of memory");
@@ -125,8 +125,8 @@ void path_free(path_t *path) {
 }
 
 // What moves the vehicle.
-static status_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t *more,
-                          double *const out[CHANNELS], why_t *why) {
+static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t *more,
+                        double *const out[CHANNELS], why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s);
   const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
@@ -141,7 +141,7 @@ static status_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use
     predict(b, &at);
     put(&at.sensed, at.turn_radps2, j, out);
   }
-  return ST_OK;
+  return DONE;
 }
 
 // What only its sensors see.
@@ -155,8 +155,8 @@ static void run_sensed(const grid_t *g, const path_t *path, const fx_use_t *more
 }
 
 // The other ones: effects of both kinds, or that change the vehicle for a tick.
-static status_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
-                         why_t *why) {
+static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
+                       why_t *why) {
   model_t m = *path->model;
   TRY(model_add_fx(&m, more, why));
   return replay(g, &m, out, why);
@@ -168,20 +168,20 @@ static bool has(const model_t *m, const fx_t *fx) {
   return false;
 }
 
-status_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
-                     why_t *why) {
+done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
+                   why_t *why) {
   const fx_t *const fx = more->fx;
   const bool moves = fx->load || fx->excess, full = path->model->n_fx == FX_MAX;
   if (fx->tick || moves == (fx->sense != NULL) || full || has(path->model, fx))
     return run_anew(g, path, more, out, why);
   if (!moves) {
     run_sensed(g, path, more, out);
-    return ST_OK;
+    return DONE;
   }
   body_t b;
-  if (g->n == 0) return ST_OK;
+  if (g->n == 0) return DONE;
   TRY(open_body(&b, g, path->model, why));
-  const status_t status = run_moved(g, &b, path, more, out, why);
+  const done_t status = run_moved(g, &b, path, more, out, why);
   body_close(&b);
   return status;
 }

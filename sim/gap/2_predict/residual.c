@@ -73,7 +73,7 @@ static bool mark(grid_t *g) {
   return g->mark != NULL;
 }
 
-static status_t no_rows(const grid_t *g, why_t *why) {
+static done_t no_rows(const grid_t *g, why_t *why) {
   const char *const name = g->flight->name;
   const double span_s = g->n * g->period_s;
   int near = 0;
@@ -88,7 +88,7 @@ static status_t no_rows(const grid_t *g, why_t *why) {
       name);
 }
 
-status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
+done_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
   *s = (set_t){.grid = grid, .n_grid = n, .n_half = 2 * n};
   size_t points = 0, most = 1, blocks = 1;
   for (int i = 0; i < n; i++) {
@@ -110,7 +110,7 @@ status_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
     add_flight(s, i, good);
   }
   free(good);
-  if (s->smooth.n > 0) return ST_OK;
+  if (s->smooth.n > 0) return DONE;
   return n ? no_rows(&grid[0], why) : error_set(why, "no flight");
 }
 
@@ -139,7 +139,7 @@ static void measured(const point_t *p, double at[CHANNELS]) {
   at[CH_RANGE] = p->range_m;
 }
 
-status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why) {
+done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
     const size_t n = (size_t)g->n + 1;
@@ -154,7 +154,7 @@ status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *w
     residual_rows(s, f, SERIES_RATE, (const double *const *)series, room + CHANNELS * n, row);
     free(room);
   }
-  return ST_OK;
+  return DONE;
 }
 
 bool residual_has(const set_t *s, int channel) {

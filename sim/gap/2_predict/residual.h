@@ -33,8 +33,8 @@ static inline const rows_t *set_rows(const set_t *s, int channel) {
   return channel == CH_RANGE ? &s->range : &s->smooth;
 }
 
-// Takes the grids over. ST_BAD_INPUT: no row at all (says why); ST_FAILED: no memory. *s can be freed then.
-MUST_CHECK status_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
+// Takes the grids over. BAD_INPUT: no row at all (says why); FAILED: no memory. *s can be freed then.
+MUST_CHECK done_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
 void set_free(set_t *s);
 
 typedef enum { SERIES_PREDICTED, SERIES_RATE } series_t; // values, or a rate whose derivative is wanted
@@ -58,8 +58,8 @@ static inline int rows_from(const rows_t *r, int flight) {
 void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
                    double *scratch, double *const row[CHANNELS]);
 
-// What was measured, rows over all flights of the channels for which there is room. ST_FAILED: no memory.
-MUST_CHECK status_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why);
+// What was measured, rows over all flights of the channels for which there is room. FAILED: no memory.
+MUST_CHECK done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why);
 
 // The channel can be formed from these logs.
 bool residual_has(const set_t *s, int channel);

@@ -122,7 +122,7 @@ static void line_of_voltage(grid_t *to, const grid_t *g) {
   for (int j = 0; j < g->n; j++) to->point[j].vbat_V = (v - slope * t) / fmax(n, 1.0) + slope * j;
 }
 
-status_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
+done_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
   *track = *g;
   track->point = malloc(((size_t)g->n + 1) * sizeof(point_t));
   if (!track->point) return error_failed(why, "out of memory");
@@ -134,5 +134,5 @@ status_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
     track->point[j].rate_b_radps = d3(0.0, 0.0, 0.0);
     track->point[j].range_m = (double)NAN;
   }
-  return ST_OK;
+  return DONE;
 }

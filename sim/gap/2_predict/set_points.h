@@ -16,8 +16,8 @@ bool set_points_there(const grid_t *g);
 
 // The points with measured place, speed and attitude replaced by what follows from the set points alone: the
 // place, or the way that the speed leads; where nothing is said, the mean place and the first heading.
-// Without range samples; the voltage is a line in time. The caller frees points of the copy. ST_FAILED: no
+// Without range samples; the voltage is a line in time. The caller frees points of the copy. FAILED: no
 // memory.
-MUST_CHECK status_t set_points_track(const grid_t *g, grid_t *track, why_t *why);
+MUST_CHECK done_t set_points_track(const grid_t *g, grid_t *track, why_t *why);
 
 #endif

@@ -32,40 +32,40 @@ static void calm(manner_t *w) {
 }
 
 // truth: the same flights without errors; may be null.
-static status_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                        const manner_t *w, unsigned long seed, why_t *why) {
+static done_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
+                      const manner_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t part = beginning(&s->grid[f]);
     if (part.n < 50) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
     manner_t calmer = *w;
     gap_flight_t *const is = truth ? &truth->flight[to->n] : NULL;
-    status_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
-    for (int k = 0; k < CALMER && status != ST_OK; k++) {
+    done_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
+    for (int k = 0; k < CALMER && status != DONE; k++) {
       calm(&calmer);
       status = nominal_fly(&part, m, &calmer, own, &to->flight[to->n], is, why);
     }
-    if (status != ST_OK) return status;
+    if (status != DONE) return status;
     to->n++;
     if (truth) truth->n++;
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
+static done_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
   grid_t *const grid = calloc((size_t)flown->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
-  status_t status = ST_OK;
-  for (int f = 0; f < flown->n && status == ST_OK; f++)
+  done_t status = DONE;
+  for (int f = 0; f < flown->n && status == DONE; f++)
     status = grid_make(&grid[f], &flown->flight[f], 0, flown->flight[f].n, m, why);
-  if (status == ST_OK) return set_make(s, grid, flown->n, why);
+  if (status == DONE) return set_make(s, grid, flown->n, why);
   for (int f = 0; f < flown->n; f++) grid_free(&grid[f]);
   free(grid);
   return status;
 }
 
-status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
-                       unsigned long seed, why_t *why) {
+done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                     unsigned long seed, why_t *why) {
   const size_t n = (size_t)like->n_grid + 1;
   *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
                  .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
@@ -75,7 +75,7 @@ status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const ma
   TRY(set_of(&a->is, &a->is_flights, m, why));
   memcpy(a->seen.muted, like->muted, sizeof a->seen.muted);
   memcpy(a->is.muted, like->muted, sizeof a->is.muted);
-  return ST_OK;
+  return DONE;
 }
 
 void along_free(along_t *a) {
@@ -101,8 +101,8 @@ static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
 }
 
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
-static status_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
-                          const color_t color[CHANNELS], why_t *why) {
+static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
+                        const color_t color[CHANNELS], why_t *why) {
   const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
   double *const x = malloc(2 * rows * sizeof(double));
   if (!x) return error_failed(why, "out of memory");
@@ -120,28 +120,28 @@ static status_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, con
     if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
   }
   free(x);
-  return ST_OK;
+  return DONE;
 }
 
 // The same flights without errors have the same rows, but for a few that errors move out of sight: then
 // nothing is known.
-static status_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
-                        const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
+static done_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
+                      const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
   table_t is = {.columns = 0};
-  status_t status = set_of(&own, truth, job->base, why);
+  done_t status = set_of(&own, truth, job->base, why);
   memcpy(own.muted, seen->muted, sizeof own.muted);
-  if (status == ST_OK && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
+  if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
     status = table_make(&is, &own, job->base, job->c, why);
-    if (status == ST_OK) status = find_kept(n, seen, t, &is, color, why);
-    if (status == ST_OK) table_free(&is);
+    if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
+    if (status == DONE) table_free(&is);
   }
   set_free(&own);
   return status;
 }
 
-static status_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
-                      why_t *why) {
+static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+                    why_t *why) {
   table_t t;
   gram_t g;
   cell_t cell;
@@ -156,20 +156,20 @@ static status_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth,
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
     n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
   }
-  status_t status = gram_make(&g, s, &t, &nothing, NULL, why);
-  if (status == ST_OK) {
+  done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
+  if (status == DONE) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
     if (truth) status = compare(n, s, &t, g.color, truth, job, why);
     gram_free(&g);
   }
-  if (status == ST_OK) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
-  if (status == ST_OK) n->cell[i] = cell.statistic;
+  if (status == DONE) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
+  if (status == DONE) n->cell[i] = cell.statistic;
   table_free(&t);
   return status;
 }
 
-static status_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
+static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
   const set_t *s = job->set;
   const size_t flights = (size_t)s->n_grid;
   gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
@@ -177,25 +177,25 @@ static status_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
   truth.flight = flown.flight + flights;
-  status_t status = fly_all(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
-  if (status == ST_OK) status = set_of(&own, &flown, job->base, why);
+  done_t status = fly_all(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  if (status == DONE) status = set_of(&own, &flown, job->base, why);
   memcpy(own.muted, s->muted, sizeof own.muted);
-  if (status == ST_OK) status = judge(n, i, &own, is, job, why);
+  if (status == DONE) status = judge(n, i, &own, is, job, why);
   set_free(&own);
   for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
   return status;
 }
 
-status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
+done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   *n = (nominal_t){.size = job->c->columns + 1};
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
   n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
   n->kept = malloc((size_t)n->size * sizeof(double));
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
-  status_t status = n->total && n->cell && n->kept ? ST_OK : error_failed(why, "out of memory");
-  for (int i = 0; i < NOMINAL_FLIGHTS && status == ST_OK; i++, n->n++) status = one(n, i, job, why);
-  if (status != ST_OK) nominal_free(n);
+  done_t status = n->total && n->cell && n->kept ? DONE : error_failed(why, "out of memory");
+  for (int i = 0; i < NOMINAL_FLIGHTS && status == DONE; i++, n->n++) status = one(n, i, job, why);
+  if (status != DONE) nominal_free(n);
   return status;
 }
 

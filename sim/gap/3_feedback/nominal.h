@@ -30,19 +30,19 @@ typedef struct {
 manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]);
 
 // One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
-// estimates. ST_FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
-MUST_CHECK status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
-                                gap_flight_t *flight, gap_flight_t *truth, why_t *why);
+// estimates. FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
+MUST_CHECK done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
+                              gap_flight_t *flight, gap_flight_t *truth, why_t *why);
 
 // One flight along each flight of a set, by a model, as it is seen and as it is: a set of each, with the same
-// channels. ST_FAILED as above. Free it, also on an error.
+// channels. FAILED as above. Free it, also on an error.
 typedef struct {
   set_t seen, is;
   gap_flights_t seen_flights, is_flights;
 } along_t;
 
-MUST_CHECK status_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
-                                  unsigned long seed, why_t *why);
+MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+                                unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
 // What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
@@ -58,8 +58,8 @@ typedef struct {
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
 // candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
-// column x and without errors x', what least squares find of a size: x x' / x x. ST_FAILED as above.
-MUST_CHECK status_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
+// column x and without errors x', what least squares find of a size: x x' / x x. FAILED as above.
+MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 
 #endif

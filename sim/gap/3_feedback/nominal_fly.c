@@ -28,7 +28,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
 
 static const fx_t disturb = {.name = "disturbance", .n_param = FX_PARAM_MAX, .tick = tick};
 
-static status_t disturbed(const model_t *m, const manner_t *w, model_t *out, why_t *why) {
+static done_t disturbed(const model_t *m, const manner_t *w, model_t *out, why_t *why) {
   fx_use_t use = {.fx = &disturb};
   for (int i = 0; i < 3; i++) {
     use.p[i] = m->mass_kg * w->force_mps2[i];
@@ -111,22 +111,22 @@ static void steer(nominal_flight_t *f, double step_s, const point_t *seen, doubl
 }
 
 // On the track, hovering, with a fresh pilot.
-static status_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
+static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
   const point_t *p = &f->g->point[f->at];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
   // Motors faster than the step need a finer one.
-  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != ST_OK)
+  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != DONE)
     return error_failed(why, "%s: a model that cannot be flown", m->name);
   f->body.vbat_V = p->vbat_V;
   body_effects(&f->body, 0.0);
   pilot_tame(f);
   pilot_trim(f);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
-  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return ST_OK;
+static done_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
+  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return DONE;
   const point_t truth = is(f), seen = see(f, &truth);
   return known_open(&f->known, f, &seen, why);
 }
@@ -137,11 +137,11 @@ static bool is_down(nominal_flight_t *f, double span_s) {
   return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
 }
 
-static status_t cannot_fly(const nominal_flight_t *f, why_t *why) {
+static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
   return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
 }
 
-static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   const model_t *m = f->body.model;
   if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
   f->down_s = 0.0;
@@ -154,7 +154,7 @@ static status_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   return find_pilot(f, m, why);
 }
 
-static status_t fly(nominal_flight_t *f, why_t *why) {
+static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
   const double step_s = log_s / inner, start_s = f->g->point[f->from].t_s;
@@ -177,18 +177,18 @@ static status_t fly(nominal_flight_t *f, why_t *why) {
     }
   f->log->rate_Hz = 1.0 / log_s;
   if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
+static done_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
   f->at = f->from;
   TRY(start_at(f, m, f->seed, why));
   f->random = random_open(f->seed + 1);
   return f->random ? find_pilot(f, m, why) : error_failed(why, "out of memory");
 }
 
-status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
-                     gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
+done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
+                   gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
   nominal_flight_t f = {
       .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
   model_t with;
@@ -199,14 +199,14 @@ status_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsig
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
-  status_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
-                        ? take_off(&f, &with, why)
-                        : error_failed(why, "out of memory");
-  if (status == ST_OK) status = fly(&f, why);
+  done_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
+                      ? take_off(&f, &with, why)
+                      : error_failed(why, "out of memory");
+  if (status == DONE) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
   known_close(f.known);
-  if (status != ST_OK) gap_flight_free(flight);
-  if (status != ST_OK && truth) gap_flight_free(truth);
+  if (status != DONE) gap_flight_free(flight);
+  if (status != DONE && truth) gap_flight_free(truth);
   return status;
 }

@@ -109,7 +109,7 @@ static void settle(known_t *k, const double motor_N[ROTORS]) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-status_t known_open(known_t **known, const nominal_flight_t *f, const point_t *seen, why_t *why) {
+done_t known_open(known_t **known, const nominal_flight_t *f, const point_t *seen, why_t *why) {
   known_t *const k = *known = calloc(1, sizeof *k);
   if (!k) return error_failed(why, "out of memory");
   k->m = f->body.model;
@@ -121,7 +121,7 @@ status_t known_open(known_t **known, const nominal_flight_t *f, const point_t *s
   k->pid.param = k->m->flown_by.pid;
   stock_pid_reset(&k->pid);
   settle(k, f->body.command_N);
-  return ST_OK;
+  return DONE;
 }
 
 void known_steer(known_t *k, double step_s, const point_t *track, const point_t *seen,

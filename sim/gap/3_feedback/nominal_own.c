@@ -8,7 +8,7 @@ struct own {
   pilot_flight_t pilot;
 };
 
-status_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why) {
+done_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why) {
   flight_param_t param;
   const flown_by_t *by = &m->flown_by;
   *own = calloc(1, sizeof **own);
@@ -21,7 +21,7 @@ status_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why) {
     if (!row || params_set(&param, row, (float)by->set[i].value) != ST_OK)
       return error_failed(why, "%s: the flight code has no such parameter", by->set[i].name);
   }
-  if (pilot_flight_init(&(*own)->pilot, &param, m, pilot) == ST_OK) return ST_OK;
+  if (pilot_flight_init(&(*own)->pilot, &param, m, pilot) == DONE) return DONE;
   return error_failed(why, "%s: the flight code cannot fly it with its [controller]", m->name);
 }
 

@@ -9,9 +9,9 @@
 
 typedef struct own own_t;
 
-// With the parameters of m->flown_by (vehicle/controller_file.h). ST_FAILED: no memory, or parameters that it
+// With the parameters of m->flown_by (vehicle/controller_file.h). FAILED: no memory, or parameters that it
 // refuses. Close it, also on an error.
-MUST_CHECK status_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why);
+MUST_CHECK done_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why);
 
 // A null pointer is allowed.
 void own_close(own_t *own);

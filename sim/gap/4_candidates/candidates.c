@@ -65,14 +65,14 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
   c->columns += to->n;
 }
 
-status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
+done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
   *c = (candidates_t){.candidate = calloc((size_t)(fx_count * FX_SHAPE_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < fx_count; i++) {
     if (is_on(m, fx_table[i]) || candidates_obstacle(fx_table[i], m, s)) continue;
     for (int k = 0; k == 0 || k < fx_table[i]->n_shape; k++) add(c, fx_table[i], m, k);
   }
-  return ST_OK;
+  return DONE;
 }
 
 void candidates_free(candidates_t *c) {
@@ -93,9 +93,9 @@ double candidate_typical(const candidate_t *c, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
-status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why) {
+done_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why) {
   *m = *base;
   for (int i = 0; i < c->n; i++)
     if (c->candidate[i].named) TRY(model_add_fx(m, &c->candidate[i].use, why));
-  return ST_OK;
+  return DONE;
 }

@@ -23,8 +23,8 @@ typedef struct {
 // Why an effect cannot be looked for in these logs at all; a null pointer: it can.
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s);
 
-// ST_FAILED: no memory.
-MUST_CHECK status_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why);
+// FAILED: no memory.
+MUST_CHECK done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why);
 void candidates_free(candidates_t *c);
 
 // Commands are logged much more slowly than attitude control gives them: how strongly they turn the vehicle
@@ -40,14 +40,14 @@ double *candidate_value(const candidate_t *c, int k);
 // What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.
 double candidate_typical(const candidate_t *c, int k);
 
-// The model with what is named. ST_BAD_INPUT: too many effects.
-MUST_CHECK status_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
+// The model with what is named. BAD_INPUT: too many effects.
+MUST_CHECK done_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
 
 // The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
-// gets. now, base: the model's own replay, kept. ST_BAD_INPUT: too many effects.
-MUST_CHECK status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
-                                            double *const base[CHANNELS], double *const with[CHANNELS],
-                                            why_t *why);
+// gets. now, base: the model's own replay, kept. BAD_INPUT: too many effects.
+MUST_CHECK done_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
+                                          double *const base[CHANNELS], double *const with[CHANNELS],
+                                          why_t *why);
 
 // Columns and residual by row. x[channel][column]: a null pointer where the column is zero throughout. The
 // last column (number `columns`) is the residual with what is named taken out again, in the straight line's
@@ -58,11 +58,11 @@ typedef struct {
   double *room;
 } table_t;
 
-// ST_FAILED: no memory. wanted (a null pointer: all): by candidate.
-MUST_CHECK status_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why);
+// FAILED: no memory. wanted (a null pointer: all): by candidate.
+MUST_CHECK done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why);
 void table_free(table_t *t);
 
-// Residual of a model, by row: r[channel], rows of that channel. ST_FAILED: no memory.
-MUST_CHECK status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
+// Residual of a model, by row: r[channel], rows of that channel. FAILED: no memory.
+MUST_CHECK done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
 
 #endif

@@ -24,8 +24,8 @@ static bool flight_lines_make(flight_lines_t *l, const set_t *s) {
 }
 
 // As measured in r, less predicted.
-static status_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
-                              double *const r[CHANNELS], why_t *why) {
+static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
+                            double *const r[CHANNELS], why_t *why) {
   TRY(residual_measured(s, r, why));
   for (int f = 0; f < s->n_grid; f++) {
     TRY(replay(&s->grid[f], m, l->base, why));
@@ -33,22 +33,22 @@ static status_t residual_with(set_t *s, const model_t *m, const flight_lines_t *
   }
   for (int c = 0; c < CHANNELS; c++)
     for (int i = 0; i < set_rows(s, c)->n; i++) r[c][i] -= predicted->r[c][i];
-  return ST_OK;
+  return DONE;
 }
 
-status_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
+done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
   lines_t predicted;
   flight_lines_t l = {.room = NULL};
-  status_t status = lines_make(&predicted, s, why);
-  if (status == ST_OK && !flight_lines_make(&l, s)) status = error_failed(why, "out of memory");
-  if (status == ST_OK) status = residual_with(s, m, &l, &predicted, r, why);
+  done_t status = lines_make(&predicted, s, why);
+  if (status == DONE && !flight_lines_make(&l, s)) status = error_failed(why, "out of memory");
+  if (status == DONE) status = residual_with(s, m, &l, &predicted, r, why);
   free(l.room);
   lines_free(&predicted);
   return status;
 }
 
-status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
-                                 double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
+done_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
+                               double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
   const fx_size_t *size = &c->use.fx->size[k];
   fx_use_t more = c->use;
   more.p[size->param] += size->step;
@@ -58,7 +58,7 @@ status_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t
       const double d = (with[ch][j] - base[ch][j]) / size->step;
       with[ch][j] = isfinite(d) ? d : 0.0;
     }
-  return ST_OK;
+  return DONE;
 }
 
 static bool all_zero(const double *v, int n) {
@@ -67,16 +67,16 @@ static bool all_zero(const double *v, int n) {
   return true;
 }
 
-static status_t fill_column(table_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
+static done_t fill_column(table_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
   double *row[CHANNELS] = {NULL};
   for (int ch = 0; ch < CHANNELS; ch++) {
     if (!residual_has(s, ch) || all_zero(l->with[ch], s->grid[flight].n)) continue;
     if (!t->x[ch][column]) t->x[ch][column] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
-    if (!t->x[ch][column]) return ST_FAILED;
+    if (!t->x[ch][column]) return FAILED;
     row[ch] = t->x[ch][column];
   }
   residual_rows(s, flight, SERIES_PREDICTED, (const double *const *)l->with, l->scratch, row);
-  return ST_OK;
+  return DONE;
 }
 
 // The effect that a candidate is another shape of, if that one is named.
@@ -87,32 +87,32 @@ static const fx_t *named_otherwise(const candidates_t *c, int candidate) {
   return NULL;
 }
 
-static status_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
-                             const candidates_t *c, flight_lines_t *l, why_t *why) {
+static done_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
+                           const candidates_t *c, flight_lines_t *l, why_t *why) {
   for (int i = 0; i < c->n; i++) {
     if (named_otherwise(c, i) != dropped) continue;
     for (int k = 0; k < c->candidate[i].n; k++) {
       TRY(candidate_differentiate(&s->grid[flight], now, &c->candidate[i], k, l->base, l->with, why));
-      if (fill_column(t, s, flight, c->candidate[i].first + k, l) != ST_OK)
+      if (fill_column(t, s, flight, c->candidate[i].first + k, l) != DONE)
         return error_failed(why, "out of memory");
     }
   }
-  return ST_OK;
+  return DONE;
 }
 
 // The columns of the candidates that start from this model: of all but the other shapes of a named effect, or
 // of those of one that the model has no longer.
-static status_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
-                          const candidates_t *c, flight_lines_t *l, why_t *why) {
+static done_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
+                        const candidates_t *c, flight_lines_t *l, why_t *why) {
   path_t path;
-  status_t status = replay_keep(&s->grid[flight], m, &path, l->base, why);
-  if (status == ST_OK) status = fill_columns(t, s, flight, &path, dropped, c, l, why);
+  done_t status = replay_keep(&s->grid[flight], m, &path, l->base, why);
+  if (status == DONE) status = fill_columns(t, s, flight, &path, dropped, c, l, why);
   path_free(&path);
   return status;
 }
 
-static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
-                            flight_lines_t *l, why_t *why) {
+static done_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
+                          flight_lines_t *l, why_t *why) {
   TRY(fill_from(t, s, flight, now, NULL, c, l, why));
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
@@ -121,7 +121,7 @@ static status_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now
     model_drop_fx(&m, fx);
     TRY(fill_from(t, s, flight, &m, fx, c, l, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // The residual gets back what the straight line says that the named effects do.
@@ -145,7 +145,7 @@ static bool table_room(table_t *t, const set_t *s) {
   return true;
 }
 
-status_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why) {
+done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why) {
   flight_lines_t l;
   model_t now;
   double *r[CHANNELS];
@@ -156,11 +156,11 @@ status_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_
     return error_failed(why, "out of memory");
   }
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
-  status_t status = residual_of(s, &now, r, why);
-  for (int f = 0; f < s->n_grid && status == ST_OK; f++) status = fill_flight(t, s, f, &now, c, &l, why);
+  done_t status = residual_of(s, &now, r, why);
+  for (int f = 0; f < s->n_grid && status == DONE; f++) status = fill_flight(t, s, f, &now, c, &l, why);
   free(l.room);
-  if (status == ST_OK) add_named(t, s, c);
-  if (status != ST_OK) table_free(t);
+  if (status == DONE) add_named(t, s, c);
+  if (status != DONE) table_free(t);
   return status;
 }
 

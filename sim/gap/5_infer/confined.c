@@ -31,7 +31,7 @@ typedef struct {
 } parts_t;
 
 // Raw contributions first: y is what all names leave, and f.
-static status_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *why) {
+static done_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *why) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(t->c, &t->choice, column);
@@ -64,7 +64,7 @@ static status_t parts_make(parts_t *p, const select_t *t, int candidate, why_t *
       color_whiten(&p->color[ch], r, scratch, part[k]);
     }
   }
-  return ST_OK;
+  return DONE;
 }
 
 // in: the part in which the name is needed. Sums of f f and of f y.
@@ -150,16 +150,16 @@ static bool at_times(const times_t *s) {
   return false;
 }
 
-status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why) {
+done_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why) {
   parts_t p = {.room = NULL};
   const size_t rows = (size_t)(t->s->smooth.n > t->s->range.n ? t->s->smooth.n : t->s->range.n) + 1;
   double *const room = malloc(2 * rows * sizeof(double));
   int *const bin = malloc(rows * sizeof(int));
-  status_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
+  done_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
   *is = false;
   const fx_t *const fx = select_fx(t, candidate);
   const bool curve = fx->surface || fx->at_wall; // of a distance: its shape is another question
-  for (int i = curve ? coordinate_count : 0; status == ST_OK && i < coordinate_count && !*is; i++)
+  for (int i = curve ? coordinate_count : 0; status == DONE && i < coordinate_count && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       slopes_t s = {.ff = {0.0}};
       times_t at = {.fy = 0.0};

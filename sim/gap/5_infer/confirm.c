@@ -52,7 +52,7 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
   a->answer = a->p < SELECT_ALPHA && right_sign(c, a) ? CONFIRM_YES : CONFIRM_NO;
 }
 
-static status_t judge(const confirming_t *t, found_t *found, why_t *why) {
+static done_t judge(const confirming_t *t, found_t *found, why_t *why) {
   int column[COLUMN_MAX];
   double value[COLUMN_MAX];
   gram_t g;
@@ -74,7 +74,7 @@ static status_t judge(const confirming_t *t, found_t *found, why_t *why) {
       found->named[i].confirm = (confirm_t){.answer = CONFIRM_WEAK};
       if (good) answer(&t->names.candidate[k], f, n, &found->named[i]);
     }
-  const status_t status = f ? ST_OK : error_failed(why, "out of memory");
+  const done_t status = f ? DONE : error_failed(why, "out of memory");
   free(f);
   gram_free(&g);
   return status;
@@ -82,7 +82,7 @@ static status_t judge(const confirming_t *t, found_t *found, why_t *why) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-static status_t take_names(confirming_t *t, const candidates_t *c, why_t *why) {
+static done_t take_names(confirming_t *t, const candidates_t *c, why_t *why) {
   t->names = (candidates_t){.candidate = calloc((size_t)c->n + 1, sizeof(candidate_t))};
   if (!t->names.candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < c->n && t->names.n < 2 * NAMED_MAX; i++) {
@@ -102,17 +102,17 @@ static bool all_told(const set_t *s) {
   return s->n_grid > 0;
 }
 
-status_t select_confirm(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
-                        found_t *found, const char **why_not, why_t *why) {
+done_t select_confirm(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
+                      found_t *found, const char **why_not, why_t *why) {
   confirming_t t = {.s = s, .base = base, .manner = manner};
   bool flew = false;
   *why_not = NULL;
-  if (found->n == 0 || !all_told(s)) return ST_OK;
-  status_t status = take_names(&t, c, why);
-  if (status == ST_OK) status = confirm_table(&t, why);
-  if (status == ST_OK) status = confirm_instruments(&t, &flew, why);
-  if (status == ST_OK && flew) status = judge(&t, found, why);
-  if (status == ST_OK && !flew) *why_not = "the model cannot be flown along the logged set points";
+  if (found->n == 0 || !all_told(s)) return DONE;
+  done_t status = take_names(&t, c, why);
+  if (status == DONE) status = confirm_table(&t, why);
+  if (status == DONE) status = confirm_instruments(&t, &flew, why);
+  if (status == DONE && flew) status = judge(&t, found, why);
+  if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
   table_free(&t.table);
   free(t.names.candidate);
   return status;

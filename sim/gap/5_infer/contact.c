@@ -81,13 +81,13 @@ static int look(const set_t *s, const model_t *m, const table_t *t, const gram_t
   return found;
 }
 
-static status_t pass(set_t *s, const candidates_t *c, const model_t *m, const table_t *t, const room_t *room,
-                     int *found, why_t *why) {
+static done_t pass(set_t *s, const candidates_t *c, const model_t *m, const table_t *t, const room_t *room,
+                   int *found, why_t *why) {
   gram_t g = {0};
   judge_t j;
   TRY(judge_make(&j, c, &g, NULL, why));
-  const status_t status = gram_make(&g, s, t, NULL, j.color_ridge, why);
-  if (status == ST_OK) {
+  const done_t status = gram_make(&g, s, t, NULL, j.color_ridge, why);
+  if (status == DONE) {
     for (int i = 0; i < t->columns; i++) room->column[i] = i;
     lsq_solve_products(g.total, g.size, room->column, t->columns, j.color_ridge, room->b, NULL);
     *found = look(s, m, t, &g, room);
@@ -103,14 +103,14 @@ static bool comes_near(const set_t *s) {
   return false;
 }
 
-status_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *why) {
+done_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *why) {
   table_t t;
   room_t room;
-  if (!comes_near(s)) return ST_OK;
+  if (!comes_near(s)) return DONE;
   TRY(table_make(&t, s, m, c, why));
-  status_t status = room_make(&room, s, t.columns) ? ST_OK : error_failed(why, "out of memory");
+  done_t status = room_make(&room, s, t.columns) ? DONE : error_failed(why, "out of memory");
   int found = 1;
-  for (int i = 0; i < PASSES && found && status == ST_OK; i++) status = pass(s, c, m, &t, &room, &found, why);
+  for (int i = 0; i < PASSES && found && status == DONE; i++) status = pass(s, c, m, &t, &room, &found, why);
   room_free(&room);
   table_free(&t);
   return status;

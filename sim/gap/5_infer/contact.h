@@ -12,8 +12,8 @@
 #define CONTACT_NEAR_M 0.03 // clearance below which a touch is thought of
 #define CONTACT_SD     8.0  // so far a row sticks out, in robust standard deviations
 
-// Takes such rows, and those that the filter mixes with them, out of the set's sequences. ST_FAILED: no
+// Takes such rows, and those that the filter mixes with them, out of the set's sequences. FAILED: no
 // memory.
-MUST_CHECK status_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *why);
+MUST_CHECK done_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *why);
 
 #endif

@@ -65,8 +65,8 @@ static void find_timing(const select_t *t, found_t *found) {
   candidate_t *const c = &t->c->candidate[t->timing];
   why_t why;
   double without = 1.0, with = 1.0;
-  if (verify_left(t->s, t->given, t->gram.color, &without, &why) != ST_OK ||
-      verify_left(t->s, t->base, t->gram.color, &with, &why) != ST_OK)
+  if (verify_left(t->s, t->given, t->gram.color, &without, &why) != DONE ||
+      verify_left(t->s, t->base, t->gram.color, &with, &why) != DONE)
     without = with = 1.0;
   for (int i = 0; i < found->n; i++) found->named[i].share *= with / without;
   found->left_before *= without / with;

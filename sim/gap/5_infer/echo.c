@@ -10,7 +10,7 @@
 #define ALIKE  0.25 // of a name's contribution, that another one could give
 
 // What a choice leaves, row by row, in the straight line's sense.
-static status_t left_by(const select_t *t, const choice_t *choice, double *left[CHANNELS], why_t *why) {
+static done_t left_by(const select_t *t, const choice_t *choice, double *left[CHANNELS], why_t *why) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(t->c, choice, column);
@@ -25,7 +25,7 @@ static status_t left_by(const select_t *t, const choice_t *choice, double *left[
       for (size_t i = 0; x && i < rows; i++) left[ch][i] -= b[k] * x[i];
     }
   }
-  return ST_OK;
+  return DONE;
 }
 
 static double white_squares(const rows_t *r, const color_t *c, const double *with, const double *without) {
@@ -44,7 +44,7 @@ typedef struct {
   double *without[CHANNELS], *with[CHANNELS]; // what is left
 } left_t;
 
-static status_t compare(const select_t *t, int candidate, const left_t *l, bool *echo, why_t *why) {
+static done_t compare(const select_t *t, int candidate, const left_t *l, bool *echo, why_t *why) {
   const choice_t rest = choice_without(&t->choice, candidate);
   const double gain = judge_fitted(&t->judge, &rest) - judge_fitted(&t->judge, &t->choice);
   color_t color[CHANNELS], clean[CHANNELS]; // of the channels in which the name is seen
@@ -64,15 +64,15 @@ static status_t compare(const select_t *t, int candidate, const left_t *l, bool 
   TRY(unknown_largest(t->s, t->base, l->with, clean, true, &beside, why));
   const double first = before.statistic * before.statistic, left = beside.statistic * beside.statistic;
   *echo = first > ECHO * gain + 20.0 || (beside.statistic > CELL && left > BEYOND * own);
-  return ST_OK;
+  return DONE;
 }
 
-status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why) {
+done_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why) {
   const choice_t rest = choice_without(&t->choice, candidate);
   left_t l = {.with = {NULL}};
-  status_t status = left_by(t, &rest, l.without, why);
-  if (status == ST_OK) status = left_by(t, &t->choice, l.with, why);
-  if (status == ST_OK) status = compare(t, candidate, &l, echo, why);
+  done_t status = left_by(t, &rest, l.without, why);
+  if (status == DONE) status = left_by(t, &t->choice, l.with, why);
+  if (status == DONE) status = compare(t, candidate, &l, echo, why);
   for (int ch = 0; ch < CHANNELS; ch++) {
     free(l.without[ch]);
     free(l.with[ch]);
@@ -82,7 +82,7 @@ status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why
 
 // Nor is it what would look the same: white, or as a plain mean over rows. A bias has hardly a white row,
 // yet it is what a wind becomes where nobody turns.
-status_t select_forbid_alike(select_t *t, int candidate, why_t *why) {
+done_t select_forbid_alike(select_t *t, int candidate, why_t *why) {
   const double zero[COLUMN_MAX] = {0.0};
   int column[COLUMN_MAX];
   const explained_t known = {choice_columns(t->c, &t->choice, column), column, zero, true};
@@ -95,5 +95,5 @@ status_t select_forbid_alike(select_t *t, int candidate, why_t *why) {
         judge_likeness(&judge, &t->choice, candidate, k) > ALIKE)
       t->taken[k] = TAKES;
   gram_free(&plain);
-  return ST_OK;
+  return DONE;
 }

@@ -16,8 +16,8 @@ static manner_t quiet(const manner_t *w) {
 }
 
 // first: the point of the track at which it begins.
-static status_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
-                    why_t *why) {
+static done_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
+                  why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   const manner_t manner = quiet(t->manner);
   model_t room = t->now;
@@ -27,9 +27,9 @@ static status_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int 
   TRY(set_points_track(g, &track, why));
   for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
   why_t lost;
-  *flew = nominal_fly(&track, &room, &manner, 1, flown, NULL, &lost) == ST_OK;
+  *flew = nominal_fly(&track, &room, &manner, 1, flown, NULL, &lost) == DONE;
   free(track.point);
-  return ST_OK;
+  return DONE;
 }
 
 // --- columns ----------------------------------------------------------------------------------------------
@@ -63,8 +63,8 @@ static double **instrument(confirming_t *t, int channel, int column, int lag) {
   return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + CONFIRM_LAGS * group + lag];
 }
 
-static status_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, room_t *r, int column,
-                                why_t *why) {
+static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, room_t *r, int column,
+                              why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   const int step = (int)fmax(1.0, round(CONFIRM_LAG_S / g->period_s));
   for (int l = 0; l < CONFIRM_LAGS; l++) {
@@ -79,27 +79,27 @@ static status_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int 
     }
     residual_rows(t->s, flight, SERIES_PREDICTED, (const double *const *)r->series, r->scratch, row);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, why_t *why) {
+static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   room_t r;
   path_t path;
   if (!room_make(&r, (size_t)(g->n > quiet->n ? g->n : quiet->n))) return error_failed(why, "out of memory");
-  status_t status = replay_keep(quiet, &t->now, &path, r.base, why);
+  done_t status = replay_keep(quiet, &t->now, &path, r.base, why);
   for (int i = 0; i < t->names.n; i++)
-    for (int k = 0; k < t->names.candidate[i].n && status == ST_OK; k++) {
+    for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
       const candidate_t *c = &t->names.candidate[i];
       status = candidate_differentiate(quiet, &path, c, k, r.base, r.with, why);
-      if (status == ST_OK) status = put_instruments(t, flight, quiet, first, &r, c->first + k, why);
+      if (status == DONE) status = put_instruments(t, flight, quiet, first, &r, c->first + k, why);
     }
   path_free(&path);
   free(r.room);
   return status;
 }
 
-status_t confirm_instruments(confirming_t *t, bool *flew, why_t *why) {
+done_t confirm_instruments(confirming_t *t, bool *flew, why_t *why) {
   *flew = true;
   for (int f = 0; f < t->s->n_grid && *flew; f++) {
     gap_flight_t flown;
@@ -107,16 +107,16 @@ status_t confirm_instruments(confirming_t *t, bool *flew, why_t *why) {
     int first;
     TRY(fly(t, f, &flown, &first, flew, why));
     if (!*flew) break;
-    status_t status = grid_make(&quiet, &flown, 0, flown.n, t->base, why);
-    if (status == ST_OK) status = put_flight(t, f, &quiet, first, why);
+    done_t status = grid_make(&quiet, &flown, 0, flown.n, t->base, why);
+    if (status == DONE) status = put_flight(t, f, &quiet, first, why);
     grid_free(&quiet);
     gap_flight_free(&flown);
     TRY(status);
   }
-  return ST_OK;
+  return DONE;
 }
 
-status_t confirm_table(confirming_t *t, why_t *why) {
+done_t confirm_table(confirming_t *t, why_t *why) {
   table_t names;
   TRY(table_make(&names, t->s, t->base, &t->names, why));
   const int n = names.columns;
@@ -131,5 +131,5 @@ status_t confirm_table(confirming_t *t, why_t *why) {
     }
   }
   table_free(&names);
-  return good ? ST_OK : error_failed(why, "out of memory");
+  return good ? DONE : error_failed(why, "out of memory");
 }

@@ -17,10 +17,10 @@ typedef struct {
   table_t table; // columns of the names, of the instruments, and the residual
 } confirming_t;
 
-// The names' columns, with room for the instruments' behind them. ST_FAILED: no memory.
-MUST_CHECK status_t confirm_table(confirming_t *t, why_t *why);
+// The names' columns, with room for the instruments' behind them. FAILED: no memory.
+MUST_CHECK done_t confirm_table(confirming_t *t, why_t *why);
 
-// Fills these. flew: false: the model cannot be flown along the set points. ST_FAILED: no memory.
-MUST_CHECK status_t confirm_instruments(confirming_t *t, bool *flew, why_t *why);
+// Fills these. flew: false: the model cannot be flown along the set points. FAILED: no memory.
+MUST_CHECK done_t confirm_instruments(confirming_t *t, bool *flew, why_t *why);
 
 #endif

@@ -9,8 +9,7 @@
 #define HARM 0.01 // of the sum of squares of a group of channels
 #define FAR  10.0 // times the typical size: what the ridge takes to be possible
 
-status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
-                    why_t *why) {
+done_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
   *j = (judge_t){
       .c = c, .g = g, .nominal = nominal, .ridge = calloc(2 * (size_t)c->columns + 2, sizeof(double))};
   if (!j->ridge) return error_failed(why, "out of memory");
@@ -22,7 +21,7 @@ status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const no
       j->ridge[column] = 1.0 / (typical * typical);
       j->color_ridge[column] = c->candidate[i].use.fx->only_beside_nominal ? 1e30 : j->ridge[column];
     }
-  return ST_OK;
+  return DONE;
 }
 
 void judge_free(judge_t *j) {

@@ -17,8 +17,8 @@ typedef struct {
   double *color_ridge; // the same, and at 0 what disturbance cancelled by control looks like
 } judge_t;
 
-MUST_CHECK status_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
-                               why_t *why);
+MUST_CHECK done_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
+                             why_t *why);
 void judge_free(judge_t *j);
 
 // The columns of a choice; returns how many.

@@ -32,7 +32,7 @@ static void close_round(select_t *t) {
 }
 
 // Columns, colours and products about the present values.
-static status_t open_round(select_t *t, why_t *why) {
+static done_t open_round(select_t *t, why_t *why) {
   const candidates_t *c = t->c;
   int column[COLUMN_MAX], n = 0;
   double b[COLUMN_MAX];
@@ -42,10 +42,10 @@ static status_t open_round(select_t *t, why_t *why) {
   const explained_t known = {choice_columns(c, &t->choice, column), column, b, false};
   t->rounds++;
   TRY(table_make(&t->table, t->s, t->base, c, why));
-  status_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
-  if (status == ST_OK)
+  done_t status = judge_make(&t->judge, c, &t->gram, t->nominal, why);
+  if (status == DONE)
     status = gram_make(&t->gram, t->s, &t->table, &known, t->strict ? NULL : t->judge.color_ridge, why);
-  if (status != ST_OK) close_round(t);
+  if (status != DONE) close_round(t);
   return status;
 }
 
@@ -147,7 +147,7 @@ static bool prune_one(select_t *t) {
 }
 
 // Straight lines about the last values, until these stay; by half where they only go to and fro.
-static status_t settle(select_t *t, why_t *why) {
+static done_t settle(select_t *t, why_t *why) {
   double last = HUGE_VAL, share = 1.0;
   for (int i = 0; i < SETTLE; i++) {
     const double change = take_values(t, share);
@@ -157,10 +157,10 @@ static status_t settle(select_t *t, why_t *why) {
     close_round(t);
     TRY(open_round(t, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
+static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   *dropped = false;
   for (int i = 0; i < t->choice.n && !*dropped; i++) {
     const int candidate = t->choice.of[i];
@@ -171,23 +171,23 @@ static status_t drop_echo(select_t *t, bool *dropped, why_t *why) {
     TRY(select_forbid_alike(t, candidate, why));
     t->choice = choice_without(&t->choice, candidate);
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t look(select_t *t, why_t *why) {
+static done_t look(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
     bool changed = prune_one(t) || swap_one(t) || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
-    if (!changed) return ST_OK;
+    if (!changed) return DONE;
     TRY(settle(t, why));
   }
-  return ST_OK;
+  return DONE;
 }
 
 // First in the colours that would be left if everything that can be named were there: they show what is slow.
 // Then in those of what the named effects really leave: what a vehicle has of slow disturbance is noise
 // there.
-static status_t search(select_t *t, why_t *why) {
+static done_t search(select_t *t, why_t *why) {
   TRY(look(t, why));
   t->strict = true;
   memset(t->taken, 0, (size_t)t->c->n * sizeof(int));
@@ -197,13 +197,13 @@ static status_t search(select_t *t, why_t *why) {
 }
 
 // What is left in the choice can be named.
-static status_t set_open_apart(select_t *t, found_t *found, why_t *why) {
+static done_t set_open_apart(select_t *t, found_t *found, why_t *why) {
   while (select_drop_open(t, found)) TRY(settle(t, why));
-  return ST_OK;
+  return DONE;
 }
 
-static status_t take_timing(select_t *t, why_t *why) {
-  if (t->timing < 0) return ST_OK;
+static done_t take_timing(select_t *t, why_t *why) {
+  if (t->timing < 0) return DONE;
   fx_use_t use = t->c->candidate[t->timing].use;
   use.p[use.fx->size[0].param] = t->timing_s;
   t->own_base = *t->base;
@@ -211,21 +211,21 @@ static status_t take_timing(select_t *t, why_t *why) {
   return model_add_fx(&t->own_base, &use, why);
 }
 
-status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
-                        found_t *found, why_t *why) {
+done_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
+                      found_t *found, why_t *why) {
   select_t t = {.c = c, .s = s, .given = base, .base = base, .nominal = nominal, .timing = -1};
   *found = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
                      .echo = calloc((size_t)c->n + 1, sizeof(bool))};
   t.taken = calloc((size_t)c->n + 1, sizeof(int));
   t.never = calloc((size_t)c->n + 1, sizeof(bool));
-  status_t status =
-      found->least && found->echo && t.taken && t.never ? ST_OK : error_failed(why, "out of memory");
-  if (status == ST_OK) status = select_timing(&t, why);
-  if (status == ST_OK) status = take_timing(&t, why);
-  if (status == ST_OK) status = open_round(&t, why);
-  if (status == ST_OK) status = search(&t, why);
-  if (status == ST_OK) status = set_open_apart(&t, found, why);
-  if (status == ST_OK) {
+  done_t status =
+      found->least && found->echo && t.taken && t.never ? DONE : error_failed(why, "out of memory");
+  if (status == DONE) status = select_timing(&t, why);
+  if (status == DONE) status = take_timing(&t, why);
+  if (status == DONE) status = open_round(&t, why);
+  if (status == DONE) status = search(&t, why);
+  if (status == DONE) status = set_open_apart(&t, found, why);
+  if (status == DONE) {
     select_describe(&t, found);
     found->rounds = t.rounds;
     close_round(&t);

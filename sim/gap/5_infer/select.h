@@ -75,9 +75,9 @@ typedef struct {
   bool *echo; // by candidate: something like it is there, at one place, time or state only: it was not tried
 } found_t;
 
-// Marks what is named in *c and sets its numbers. ST_FAILED: no memory.
-MUST_CHECK status_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
-                                   found_t *found, why_t *why);
+// Marks what is named in *c and sets its numbers. FAILED: no memory.
+MUST_CHECK done_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
+                                 found_t *found, why_t *why);
 // The effect is an open name, or a rival of one.
 bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 // The smallest size of an effect that would have been seen, over what is typical: of its shapes the one

@@ -35,8 +35,8 @@ static double left_with(unsigned n, const double *x, double *gradient, void *dat
   (void)n;
   (void)gradient;
   for (int i = 0; i < p->n; i++) *number(p, i) = x[i] * p->unit[i];
-  if (candidates_model(p->c, p->base, &m, &p->why) != ST_OK ||
-      verify_left(p->s, &m, p->color, &left, &p->why) != ST_OK)
+  if (candidates_model(p->c, p->base, &m, &p->why) != DONE ||
+      verify_left(p->s, &m, p->color, &left, &p->why) != DONE)
     p->failed = true;
   return left;
 }
@@ -65,19 +65,19 @@ static void take_bounds(polish_t *p) {
   }
 }
 
-static status_t take_colors(polish_t *p, why_t *why) {
+static done_t take_colors(polish_t *p, why_t *why) {
   model_t m;
   lines_t l = {.r = {NULL}};
   TRY(candidates_model(p->c, p->base, &m, why));
-  status_t status = lines_make(&l, p->s, why);
-  if (status == ST_OK) status = residual_of(p->s, &m, l.r, why);
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
+  done_t status = lines_make(&l, p->s, why);
+  if (status == DONE) status = residual_of(p->s, &m, l.r, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     p->color[ch] = residual_has(p->s, ch) ? color_fit(set_rows(p->s, ch), l.r[ch]) : (color_t){.used = false};
   lines_free(&l);
   return status;
 }
 
-static status_t search(polish_t *p, double x[MOST], why_t *why) {
+static done_t search(polish_t *p, double x[MOST], why_t *why) {
   double least, start[MOST], step[MOST], enough[MOST];
   for (int i = 0; i < p->n; i++) start[i] = x[i], step[i] = 0.1, enough[i] = 1e-3;
   const double before = left_with((unsigned)p->n, start, NULL, p);
@@ -92,7 +92,7 @@ static status_t search(polish_t *p, double x[MOST], why_t *why) {
   const nlopt_result result = nlopt_optimize(opt, x, &least);
   nlopt_destroy(opt);
   if ((result < 0 && result != NLOPT_ROUNDOFF_LIMITED) || !(least < before)) memcpy(x, start, sizeof start);
-  return ST_OK;
+  return DONE;
 }
 
 // Half of the second derivative, by differences that are far within what white rows can tell apart.
@@ -136,7 +136,7 @@ static bool is_free(const fx_t *fx, const candidate_t *c) {
   return fx->n_shape > 1 && !fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
 }
 
-static status_t polish(polish_t *p, named_t *named, why_t *why) {
+static done_t polish(polish_t *p, named_t *named, why_t *why) {
   take_bounds(p);
   TRY(take_colors(p, why));
   double x[MOST] = {0.0};
@@ -145,11 +145,11 @@ static status_t polish(polish_t *p, named_t *named, why_t *why) {
   take_errors(p, x, named);
   (void)left_with((unsigned)p->n, x, NULL, p);
   for (int k = 0; k < p->n - SIZE; k++) named->value[k] = *number(p, SIZE + k);
-  return p->failed ? error_failed(why, "%s", p->why.text) : ST_OK;
+  return p->failed ? error_failed(why, "%s", p->why.text) : DONE;
 }
 
-status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
-                       why_t *why) {
+done_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
+                     why_t *why) {
   *changed = false;
   for (int i = 0; i < found->n; i++) {
     candidate_t *const own = &c->candidate[found->named[i].candidate];
@@ -158,5 +158,5 @@ status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *
     TRY(polish(&p, &found->named[i], why));
     *changed = true;
   }
-  return ST_OK;
+  return DONE;
 }

@@ -14,8 +14,8 @@
 // The standard errors of both follow from the curvature of that sum, H: the size's, which the selection gave
 // for a known shape, times sqrt(H_11 (H^-1)_11), without what stands beside the regression's own; the shape's
 // in the proportion that H gives. NaN: it ends at a bound, or there is no minimum. changed: there was one to
-// refine. ST_FAILED: no memory.
-MUST_CHECK status_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found,
-                                  bool *changed, why_t *why);
+// refine. FAILED: no memory.
+MUST_CHECK done_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
+                                why_t *why);
 
 #endif

@@ -17,7 +17,7 @@ typedef struct {
   int candidate;  // below 0: none
   double extra_s; // delay that a lag may have beside it: the way of a command through the vehicle
   why_t *why;
-  status_t status;
+  done_t status;
 } speeds_t;
 
 // n log(1 - c^2), c: correlation from point to point of a rotor's thrust, by its measured speed and as
@@ -86,10 +86,10 @@ static void take(speeds_t *s, double value, double none, double now) {
   t->timing_p = lsq_f_above((none - now) / (CLUSTER * CLUSTER), 1.0, fmax(t->s->n_block - 1, 2.0));
 }
 
-status_t select_speeds(select_t *t, bool *known, why_t *why) {
-  speeds_t s = {.t = t, .candidate = -1, .why = why, .status = ST_OK};
+done_t select_speeds(select_t *t, bool *known, why_t *why) {
+  speeds_t s = {.t = t, .candidate = -1, .why = why, .status = DONE};
   *known = all_measured(t->s);
-  if (!*known) return ST_OK;
+  if (!*known) return DONE;
   const double none = judge(&s, 0.0);
   double least = none - fmax(BETTER, PART * fabs(none));
   for (int i = 0; i < t->c->n; i++) {

@@ -35,21 +35,21 @@ const fx_t *select_fx(const select_t *t, int candidate);
 bool select_fits(const select_t *t, const choice_t *choice, int candidate);
 
 // Starts the choice with a lag or a delay, if there is a long one; which of the two it is stays so.
-MUST_CHECK status_t select_timing(select_t *t, why_t *why);
+MUST_CHECK done_t select_timing(select_t *t, why_t *why);
 
 // The same by measured rotor speeds. known: there are some; then nothing else has a say in it.
-MUST_CHECK status_t select_speeds(select_t *t, bool *known, why_t *why);
+MUST_CHECK done_t select_speeds(select_t *t, bool *known, why_t *why);
 
 // Something at one place, time or state explains more than this name does: the name is an echo of it.
-// ST_FAILED: no memory.
-MUST_CHECK status_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why);
+// FAILED: no memory.
+MUST_CHECK done_t select_is_echo(const select_t *t, int candidate, bool *echo, why_t *why);
 
-// The name is needed in one range of place, height or time only. ST_FAILED: no memory.
-MUST_CHECK status_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why);
+// The name is needed in one range of place, height or time only. FAILED: no memory.
+MUST_CHECK done_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why);
 
 // Takes what would stand for the candidate, white or as a plain mean, out of question until it is searched
-// anew. ST_FAILED: no memory.
-MUST_CHECK status_t select_forbid_alike(select_t *t, int candidate, why_t *why);
+// anew. FAILED: no memory.
+MUST_CHECK done_t select_forbid_alike(select_t *t, int candidate, why_t *why);
 
 // Moves a name, one at most, to found->open: another one does as well within two standard errors, and nearly
 // all that it does the other could do. False: none is so.

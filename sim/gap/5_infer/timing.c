@@ -14,7 +14,7 @@ typedef struct {
   double *r[CHANNELS], *measured[CHANNELS], *room;
 } lines_t;
 
-static status_t lines_make(lines_t *l, const set_t *s, why_t *why) {
+static done_t lines_make(lines_t *l, const set_t *s, why_t *why) {
   const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
   l->room = calloc(2 * CHANNELS * n, sizeof(double));
   if (!l->room) return error_failed(why, "out of memory");
@@ -32,15 +32,15 @@ static double unlike(const rows_t *r, const double *measured, const double *resi
   return s.yy > 0.0 && s.pp > 0.0 ? s.n * log(fmax(1.0 - s.yp * s.yp / s.yy / s.pp, 1e-9)) : 0.0;
 }
 
-static status_t judge(select_t *t, const model_t *m, lines_t *l, double *sum, why_t *why) {
+static done_t judge(select_t *t, const model_t *m, lines_t *l, double *sum, why_t *why) {
   *sum = 0.0;
   TRY(residual_of(t->s, m, l->r, why));
   for (int ch = CH_FORCES - 1; ch < CH_SMOOTH; ch++) // thrust and moments
     if (residual_has(t->s, ch)) *sum += unlike(&t->s->smooth, l->measured[ch], l->r[ch]);
-  return ST_OK;
+  return DONE;
 }
 
-static status_t scan(select_t *t, lines_t *l, int *which, double *value, why_t *why) {
+static done_t scan(select_t *t, lines_t *l, int *which, double *value, why_t *why) {
   double none, best;
   TRY(judge(t, t->base, l, &none, why));
   best = none - BETTER;
@@ -58,24 +58,24 @@ static status_t scan(select_t *t, lines_t *l, int *which, double *value, why_t *
       *which = i;
       *value = TRY_S[k];
     }
-  return ST_OK;
+  return DONE;
 }
 
-status_t select_timing(select_t *t, why_t *why) {
+done_t select_timing(select_t *t, why_t *why) {
   bool known;
   TRY(select_speeds(t, &known, why));
-  if (known) return ST_OK;
+  if (known) return DONE;
   lines_t l = {.room = NULL};
   int which = -1;
   double value = 0.0;
-  status_t status = lines_make(&l, t->s, why);
-  if (status == ST_OK) status = scan(t, &l, &which, &value, why);
+  done_t status = lines_make(&l, t->s, why);
+  if (status == DONE) status = scan(t, &l, &which, &value, why);
   free(l.room);
-  if (status != ST_OK || which < 0 || value <= LONG_S) return status;
+  if (status != DONE || which < 0 || value <= LONG_S) return status;
   t->choice = choice_with(&t->choice, which);
   t->c->candidate[which].named = true;
   *candidate_value(&t->c->candidate[which], 0) = value;
   for (int i = 0; i < t->c->n; i++)
     if (i != which && select_fx(t, i)->class == FX_TIMING) t->never[i] = true;
-  return ST_OK;
+  return DONE;
 }

@@ -209,7 +209,7 @@ static size_t most_rows(const set_t *s) {
   return (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
 }
 
-status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
+done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
   double *const room = malloc(2 * most_rows(s) * sizeof(double));
   int *const bin = malloc(most_rows(s) * sizeof(int));
   for (int sweep = 0; room && bin && sweep < 2; sweep++)
@@ -217,11 +217,11 @@ status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[
   const bool good = room && bin;
   free(room);
   free(bin);
-  return good ? ST_OK : error_failed(why, "out of memory");
+  return good ? DONE : error_failed(why, "out of memory");
 }
 
-status_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                        color_t color[CHANNELS], why_t *why) {
+done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                      color_t color[CHANNELS], why_t *why) {
   const size_t rows = most_rows(s);
   double *const copy = malloc(CHANNELS * rows * sizeof(double)), *part[CHANNELS];
   if (!copy) return error_failed(why, "out of memory");
@@ -229,15 +229,15 @@ status_t unknown_colors(const set_t *s, const model_t *m, double *const residual
     part[ch] = copy + ch * rows;
     memcpy(part[ch], residual[ch], (size_t)set_rows(s, (int)ch)->n * sizeof(double));
   }
-  const status_t status = unknown_clean(s, m, part, why);
+  const done_t status = unknown_clean(s, m, part, why);
   for (int ch = 0; ch < CHANNELS; ch++)
     color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), part[ch]) : (color_t){.used = false};
   free(copy);
   return status;
 }
 
-status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                         const color_t *color, bool centred, cell_t *cell, why_t *why) {
+done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                       const color_t *color, bool centred, cell_t *cell, why_t *why) {
   color_t own[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
   if (!color) TRY(unknown_colors(s, m, residual, own, why));
@@ -248,5 +248,5 @@ status_t unknown_largest(const set_t *s, const model_t *m, double *const residua
   const bool good = room && bin;
   free(room);
   free(bin);
-  return good ? ST_OK : error_failed(why, "out of memory");
+  return good ? DONE : error_failed(why, "out of memory");
 }

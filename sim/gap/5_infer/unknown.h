@@ -18,18 +18,18 @@ typedef struct {
 } cell_t;
 
 // Takes out of a residual what depends on any one coordinate, or on several of them added: what is left is
-// noise. ST_FAILED: no memory.
-MUST_CHECK status_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                  why_t *why);
+// noise. FAILED: no memory.
+MUST_CHECK done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                why_t *why);
 
-// Colours of the residual after such cleaning. ST_FAILED: no memory.
-MUST_CHECK status_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                   color_t color[CHANNELS], why_t *why);
+// Colours of the residual after such cleaning. FAILED: no memory.
+MUST_CHECK done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                 color_t color[CHANNELS], why_t *why);
 
-// The colours are those of the residual after such cleaning. ST_FAILED: no memory. residual: by channel and
+// The colours are those of the residual after such cleaning. FAILED: no memory. residual: by channel and
 // row.
-MUST_CHECK status_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                    const color_t *color, bool centred, cell_t *cell, why_t *why);
+MUST_CHECK done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                  const color_t *color, bool centred, cell_t *cell, why_t *why);
 
 #define UNKNOWN_BINS 12
 

@@ -166,8 +166,8 @@ static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ri
   return good;
 }
 
-status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known, const double *ridge,
-                   why_t *why) {
+done_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known, const double *ridge,
+                 why_t *why) {
   *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
   const size_t room = (size_t)(g->size * g->size);
   g->block = calloc((size_t)g->n_block * room, sizeof(double));
@@ -179,7 +179,7 @@ status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_
     good = good && g->by_group[i];
   }
   if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, known);
-  if (good) return ST_OK;
+  if (good) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
 }

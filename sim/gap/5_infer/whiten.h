@@ -40,8 +40,8 @@ typedef struct {
 
 // The colours are those of what `known` leaves, or with a ridge (by column) of what all columns together
 // leave.
-MUST_CHECK status_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known,
-                              const double *ridge, why_t *why);
+MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known,
+                            const double *ridge, why_t *why);
 void gram_free(gram_t *g);
 
 #endif

@@ -70,15 +70,15 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
 }
 
 // The new text must be what `fly --vehicle` reads.
-static status_t check(const char *text, const extend_job_t *job, why_t *why) {
+static done_t check(const char *text, const extend_job_t *job, why_t *why) {
   model_t again;
   why_t cause;
-  const status_t status = model_read_text("model.toml", text, &again, &cause);
-  if (status == ST_OK) return ST_OK;
+  const done_t status = model_read_text("model.toml", text, &again, &cause);
+  if (status == DONE) return DONE;
   return error_set(why, "%.200s: the named effects cannot be added to it: %.200s", job->path, cause.text);
 }
 
-status_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
+done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   char *text = NULL;
   size_t size = 0;
   FILE *const made = open_memstream(&text, &size);
@@ -89,9 +89,9 @@ status_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   if (job->made) fprintf(made, "# %s\n", job->logs);
   write_text(job, made);
   for (int i = 0; i < job->diagnosis->found.n; i++) write_effect(job, &job->diagnosis->found.named[i], made);
-  status_t status = fclose(made) == 0 && text ? ST_OK : error_failed(why, "out of memory");
-  if (status == ST_OK) status = check(text, job, why);
-  if (status == ST_OK) fputs(text, out);
+  done_t status = fclose(made) == 0 && text ? DONE : error_failed(why, "out of memory");
+  if (status == DONE) status = check(text, job, why);
+  if (status == DONE) fputs(text, out);
   free(text);
   return status;
 }

@@ -18,8 +18,8 @@ typedef struct {
   const made_t *made; // how; null: not said
 } extend_job_t;
 
-// ST_BAD_INPUT: with the named effects the text is no vehicle file any more (an effect list that cannot be
-// added to); says so. ST_FAILED: no memory. If the file took it, the stream knows.
-MUST_CHECK status_t extend_write(const extend_job_t *job, FILE *out, why_t *why);
+// BAD_INPUT: with the named effects the text is no vehicle file any more (an effect list that cannot be
+// added to); says so. FAILED: no memory. If the file took it, the stream knows.
+MUST_CHECK done_t extend_write(const extend_job_t *job, FILE *out, why_t *why);
 
 #endif

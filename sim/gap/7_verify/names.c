@@ -11,13 +11,13 @@ static double rms_of(const double *v, int n) {
 }
 
 // What the model with the names that are marked leaves of every channel; 0 where the rows are too few.
-static status_t measure(diagnosis_t *d, const model_t *base, double rms[CHANNELS], why_t *why) {
+static done_t measure(diagnosis_t *d, const model_t *base, double rms[CHANNELS], why_t *why) {
   model_t m;
   lines_t l = {.r = {NULL}};
   TRY(candidates_model(&d->candidates, base, &m, why));
-  status_t status = lines_make(&l, &d->held, why);
-  if (status == ST_OK) status = residual_of(&d->held, &m, l.r, why);
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++) {
+  done_t status = lines_make(&l, &d->held, why);
+  if (status == DONE) status = residual_of(&d->held, &m, l.r, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     const rows_t *const rows = set_rows(&d->held, ch);
     const bool used = residual_has(&d->held, ch) && color_fit(rows, l.r[ch]).used;
     rms[ch] = used ? rms_of(l.r[ch], rows->n) : 0.0;
@@ -26,10 +26,10 @@ static status_t measure(diagnosis_t *d, const model_t *base, double rms[CHANNELS
   return status;
 }
 
-static status_t measure_without(diagnosis_t *d, const model_t *base, candidate_t *name, double rms[CHANNELS],
-                                why_t *why) {
+static done_t measure_without(diagnosis_t *d, const model_t *base, candidate_t *name, double rms[CHANNELS],
+                              why_t *why) {
   name->named = false;
-  const status_t status = measure(d, base, rms, why);
+  const done_t status = measure(d, base, rms, why);
   name->named = true;
   return status;
 }
@@ -43,24 +43,24 @@ static double balance(const double with[CHANNELS], const double without[CHANNELS
 }
 
 // l: what the name adds to each row of a set.
-static status_t contribution(set_t *s, const model_t *with, const model_t *without, lines_t *l, why_t *why) {
+static done_t contribution(set_t *s, const model_t *with, const model_t *without, lines_t *l, why_t *why) {
   lines_t left = {.r = {NULL}};
   TRY(lines_make(l, s, why));
-  status_t status = lines_make(&left, s, why);
-  if (status == ST_OK) status = residual_of(s, without, l->r, why);
-  if (status == ST_OK) status = residual_of(s, with, left.r, why);
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
+  done_t status = lines_make(&left, s, why);
+  if (status == DONE) status = residual_of(s, without, l->r, why);
+  if (status == DONE) status = residual_of(s, with, left.r, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) l->r[ch][i] -= left.r[ch][i];
   lines_free(&left);
   return status;
 }
 
-static status_t compare(along_t *a, const model_t *with, const model_t *without, double blur[CHANNELS],
-                        why_t *why) {
+static done_t compare(along_t *a, const model_t *with, const model_t *without, double blur[CHANNELS],
+                      why_t *why) {
   lines_t seen = {.r = {NULL}}, is = {.r = {NULL}};
-  status_t status = contribution(&a->seen, with, without, &seen, why);
-  if (status == ST_OK) status = contribution(&a->is, with, without, &is, why);
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++) {
+  done_t status = contribution(&a->seen, with, without, &seen, why);
+  if (status == DONE) status = contribution(&a->is, with, without, &is, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     const int n = set_rows(&a->seen, ch)->n;
     if (n != set_rows(&a->is, ch)->n) continue; // errors move some rows out of sight
     for (int i = 0; i < n; i++) seen.r[ch][i] -= is.r[ch][i];
@@ -73,17 +73,17 @@ static status_t compare(along_t *a, const model_t *with, const model_t *without,
 
 // The rms that a right name may bring, by errors of the log and by feedback: on flights of the model along
 // the held-out tracks. 0 where it cannot fly.
-static status_t blur_of(diagnosis_t *d, const model_t *base, candidate_t *name, double blur[CHANNELS],
-                        why_t *why) {
+static done_t blur_of(diagnosis_t *d, const model_t *base, candidate_t *name, double blur[CHANNELS],
+                      why_t *why) {
   model_t with, without;
   along_t a;
   for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = 0.0;
   TRY(candidates_model(&d->candidates, base, &with, why));
   name->named = false;
-  status_t status = candidates_model(&d->candidates, base, &without, why);
+  done_t status = candidates_model(&d->candidates, base, &without, why);
   name->named = true;
   TRY(status);
-  if (nominal_along(&a, &d->held, &with, &d->manner, 1, why) == ST_OK)
+  if (nominal_along(&a, &d->held, &with, &d->manner, 1, why) == DONE)
     status = compare(&a, &with, &without, blur, why);
   along_free(&a);
   return status;
@@ -106,7 +106,7 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
 }
 
 // The name that does so most; -1: none.
-static status_t find_worst(diagnosis_t *d, const model_t *base, int *worst, withdrawn_t *why_so, why_t *why) {
+static done_t find_worst(diagnosis_t *d, const model_t *base, int *worst, withdrawn_t *why_so, why_t *why) {
   static const double none[CHANNELS] = {0.0};
   double with[CHANNELS], without[CHANNELS], blur[CHANNELS], most = VERIFY_GROWS;
   *worst = -1;
@@ -122,7 +122,7 @@ static status_t find_worst(diagnosis_t *d, const model_t *base, int *worst, with
     *worst = i;
     *why_so = (withdrawn_t){name->use.fx, ch, without[ch], with[ch]};
   }
-  return ST_OK;
+  return DONE;
 }
 
 static void withdraw(diagnosis_t *d, int worst) {
@@ -133,13 +133,13 @@ static void withdraw(diagnosis_t *d, int worst) {
   d->found.n--;
 }
 
-status_t verify_names(diagnosis_t *d, const model_t *base, why_t *why) {
+done_t verify_names(diagnosis_t *d, const model_t *base, why_t *why) {
   int worst = 0;
   while (d->found.n > 0) {
     TRY(find_worst(d, base, &worst, &d->withdrawn[d->n_withdrawn], why));
-    if (worst < 0) return ST_OK;
+    if (worst < 0) return DONE;
     d->n_withdrawn++;
     withdraw(d, worst);
   }
-  return ST_OK;
+  return DONE;
 }

@@ -48,7 +48,7 @@ static void correct(const again_t *a, const point_t *track, double motor_N[ROTOR
 
 // --- the flight -----------------------------------------------------------------------------------------
 
-static status_t put(again_t *a, const model_t *m, int j, why_t *why) {
+static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
   const point_t *p = &a->g->point[j];
   body_start_t start = {.pos_w_m = p->pos_w_m,
                         .vel_w_mps = p->vel_w_mps,
@@ -58,8 +58,7 @@ static status_t put(again_t *a, const model_t *m, int j, why_t *why) {
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][j * a->g->every];
   if (a->body.integrate) body_close(&a->body);
   a->body.integrate = NULL;
-  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) == ST_OK)
-    return ST_OK;
+  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) == DONE) return DONE;
   return error_failed(why, "%s: a model that cannot be flown", m->name);
 }
 
@@ -91,7 +90,7 @@ static int sample_of(const grid_t *g, int j) {
   return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
 }
 
-static status_t fly(again_t *a, const model_t *m, tally_t *tally, double *const at_m[3], why_t *why) {
+static done_t fly(again_t *a, const model_t *m, tally_t *tally, double *const at_m[3], why_t *why) {
   const grid_t *g = a->g;
   bool flying = false;
   for (int j = 0; j < g->n; j++) {
@@ -115,14 +114,14 @@ static status_t fly(again_t *a, const model_t *m, tally_t *tally, double *const 
     for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = pos[k];
     fly_point(a, j, sample_of(g, j));
   }
-  return ST_OK;
+  return DONE;
 }
 
-static status_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const manner_t *manner,
-                        tally_t *tally, double *const at_m[3], why_t *why) {
+static done_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const manner_t *manner,
+                      tally_t *tally, double *const at_m[3], why_t *why) {
   *tally = (tally_t){.squares = 0.0};
-  status_t status = ST_OK;
-  for (int f = 0; f < held->n_grid && status == ST_OK; f++) {
+  done_t status = DONE;
+  for (int f = 0; f < held->n_grid && status == DONE; f++) {
     again_t *const a = calloc(1, sizeof *a);
     if (!a) return error_failed(why, "out of memory");
     a->g = &held->grid[f], a->pilots = pilots, a->manner = manner;
@@ -161,22 +160,22 @@ static bool take_room(resimulation_t *r, const grid_t *g) {
   return good;
 }
 
-status_t resimulate(const set_t *held, const model_t *before, const model_t *after, const manner_t *manner,
-                    resimulation_t *r, why_t *why) {
+done_t resimulate(const set_t *held, const model_t *before, const model_t *after, const manner_t *manner,
+                  resimulation_t *r, why_t *why) {
   tally_t b, a;
   *r = (resimulation_t){.why_not = obstacle(held, before)};
-  if (r->why_not) return ST_OK;
+  if (r->why_not) return DONE;
   if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
   TRY(fly_all(held, before, before, manner, &b, r->before_at_m, why));
   TRY(fly_all(held, after, before, manner, &a, r->after_at_m, why));
   r->why_not = "the vehicle does not fly";
-  if (b.points == 0 || a.points == 0) return ST_OK;
+  if (b.points == 0 || a.points == 0) return DONE;
   r->flew = true;
   r->before_m = sqrt(b.squares / (double)b.points), r->after_m = sqrt(a.squares / (double)a.points);
   r->before_height_m = sqrt(b.height_squares / (double)b.points);
   r->after_height_m = sqrt(a.height_squares / (double)a.points);
   r->lost_before = b.lost, r->lost_after = a.lost;
-  return ST_OK;
+  return DONE;
 }
 
 void resimulation_free(resimulation_t *r) {

@@ -23,9 +23,9 @@ typedef struct {
 
 #define RESIMULATE_LOST_M 2.0
 
-// ST_FAILED: no memory. Free it, also on an error.
-MUST_CHECK status_t resimulate(const set_t *held, const model_t *before, const model_t *after,
-                               const manner_t *manner, resimulation_t *r, why_t *why);
+// FAILED: no memory. Free it, also on an error.
+MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const model_t *after,
+                             const manner_t *manner, resimulation_t *r, why_t *why);
 void resimulation_free(resimulation_t *r);
 
 #endif

@@ -24,26 +24,26 @@ static double white_left(const rows_t *r, const color_t *c, const double *v) {
   return sum;
 }
 
-status_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
+done_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
   lines_t l;
-  status_t status = lines_make(&l, s, why);
-  if (status == ST_OK) status = residual_of(s, m, l.r, why);
+  done_t status = lines_make(&l, s, why);
+  if (status == DONE) status = residual_of(s, m, l.r, why);
   *left = 0.0;
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++)
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     if (color[ch].used) *left += white_left(set_rows(s, ch), &color[ch], l.r[ch]);
   lines_free(&l);
   return status;
 }
 
-status_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
-                     held_t *held, why_t *why) {
+done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
+                   held_t *held, why_t *why) {
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
-  status_t status = lines_make(&b, s, why);
-  if (status == ST_OK) status = lines_make(&a, s, why);
-  if (status == ST_OK) status = residual_of(s, before, b.r, why);
-  if (status == ST_OK) status = residual_of(s, after, a.r, why);
-  for (int ch = 0; ch < CHANNELS && status == ST_OK; ch++) {
+  done_t status = lines_make(&b, s, why);
+  if (status == DONE) status = lines_make(&a, s, why);
+  if (status == DONE) status = residual_of(s, before, b.r, why);
+  if (status == DONE) status = residual_of(s, after, a.r, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];
     const rows_t *rows = set_rows(s, ch);
     const color_t color = residual_has(s, ch) ? color_fit(rows, a.r[ch]) : (color_t){.used = false};

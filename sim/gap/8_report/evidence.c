@@ -8,13 +8,13 @@
 
 #define NEAR_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
 
-status_t report_take_evidence(report_t *r, study_t *study, why_t *why);
+done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
 
 // --- named effects ----------------------------------------------------------------------------------------
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
-static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
-                             double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
+static done_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
+                           double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
   model_t m = r->study->diagnosis.extended;
   model_drop_fx(&m, f->fx);
   TRY(residual_of(held, &m, effect, why));
@@ -32,7 +32,7 @@ static status_t effect_lines(const report_t *r, set_t *held, const finding_t *f,
         variance[ch][i] += step * step;
       }
   }
-  return ST_OK;
+  return DONE;
 }
 
 static int channel_of(const report_t *r, const char *wanted, double *const effect[CHANNELS]) {
@@ -89,7 +89,7 @@ static void find_flight(finding_t *f) {
     snprintf(f->fly, sizeof f->fly, "%s", manoeuvre_show(f->fx));
 }
 
-static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
+static done_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   finding_t *const f = &r->finding[i];
   f->named = &d->found.named[i];
@@ -97,11 +97,11 @@ static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   f->fx = f->candidate->use.fx;
   for (int k = 0; k < f->candidate->n; k++) f->value[k] = *candidate_value(f->candidate, k);
   lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
-  status_t status = lines_make(&effect, held, why);
-  if (status == ST_OK) status = lines_make(&variance, held, why);
-  if (status == ST_OK) status = lines_make(&room, held, why);
-  if (status == ST_OK) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
-  if (status == ST_OK) find_place(r, f, effect.r, variance.r);
+  done_t status = lines_make(&effect, held, why);
+  if (status == DONE) status = lines_make(&variance, held, why);
+  if (status == DONE) status = lines_make(&room, held, why);
+  if (status == DONE) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
+  if (status == DONE) find_place(r, f, effect.r, variance.r);
   lines_free(&effect);
   lines_free(&variance);
   lines_free(&room);
@@ -109,7 +109,7 @@ static status_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   return status;
 }
 
-status_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
+done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
   TRY(lines_make(&r->before, &d->held, why));
   TRY(lines_make(&r->after, &d->held, why));
@@ -120,5 +120,5 @@ status_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   const int coordinate = report_coordinate(d->cell.coordinate);
   r->left = (profile_t){.channel = d->cell.channel, .coordinate = coordinate};
   if (d->cell.statistic > 0.0 && coordinate >= 0) report_profile(r, NULL, NULL, NULL, &r->left);
-  return ST_OK;
+  return DONE;
 }

@@ -117,8 +117,8 @@ const char *report_headline(const report_t *r) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-status_t report_take_evidence(report_t *r, study_t *study, why_t *why); // evidence.c
-void report_warn(report_t *r);                                          // warnings.c
+done_t report_take_evidence(report_t *r, study_t *study, why_t *why); // evidence.c
+void report_warn(report_t *r);                                        // warnings.c
 
 // The degrees of freedom are those of the selection's Wald test.
 static double half_interval(const diagnosis_t *d) {
@@ -127,14 +127,14 @@ static double half_interval(const diagnosis_t *d) {
   return lsq_t_quantile(0.025, fmax(d->fit.n_block - columns, 2.0));
 }
 
-status_t report_make(report_t *r, study_t *study, why_t *why) {
+done_t report_make(report_t *r, study_t *study, why_t *why) {
   const diagnosis_t *const d = &study->diagnosis;
   *r = (report_t){.study = study, .wide = half_interval(d)};
   r->verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none";
   TRY(report_take_evidence(r, study, why));
   find_untested(r);
   report_warn(r);
-  return ST_OK;
+  return DONE;
 }
 
 void report_free(report_t *r) {

@@ -67,8 +67,8 @@ typedef struct {
   lines_t before, after; // held-out rows
 } report_t;
 
-// Works out what is to be said. ST_FAILED: no memory. Free it, also on an error.
-MUST_CHECK status_t report_make(report_t *r, study_t *study, why_t *why);
+// Works out what is to be said. FAILED: no memory. Free it, also on an error.
+MUST_CHECK done_t report_make(report_t *r, study_t *study, why_t *why);
 void report_free(report_t *r);
 
 // A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
@@ -111,8 +111,8 @@ const char *report_length(double m, char text[REPORT_LENGTH]);
 cJSON *report_verdict(const report_t *r);
 // The verdict `refused`, with the line that says why as its one warning.
 cJSON *report_refused(const char *line, const study_order_t *order);
-// ST_FAILED: no memory for the text.
-MUST_CHECK status_t report_write_json(const cJSON *json, FILE *out, why_t *why);
+// FAILED: no memory for the text.
+MUST_CHECK done_t report_write_json(const cJSON *json, FILE *out, why_t *why);
 
 // One screen.
 void report_words(const report_t *r, FILE *out);

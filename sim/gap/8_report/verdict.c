@@ -187,10 +187,10 @@ cJSON *report_refused(const char *line, const study_order_t *order) {
   return root;
 }
 
-status_t report_write_json(const cJSON *json, FILE *out, why_t *why) {
+done_t report_write_json(const cJSON *json, FILE *out, why_t *why) {
   char *const text = json ? cJSON_Print(json) : NULL;
   if (!text) return error_failed(why, "out of memory");
   fprintf(out, "%s\n", text);
   free(text);
-  return ST_OK;
+  return DONE;
 }

@@ -13,17 +13,17 @@ typedef struct {
   int rows, gaps;
 } sums_t;
 
-static status_t sum(const char *path, sums_t *s, why_t *why) {
+static done_t sum(const char *path, sums_t *s, why_t *why) {
   *s = (sums_t){0};
   csv_file_t *file;
   TRY(csv_open(&file, path, why));
   const int a = csv_find(file, "a"), b = csv_find(file, "b");
   bool more = true;
-  status_t status = a < 0 || b < 0 ? csv_refuse(file, -1, why, "no a or b") : ST_OK;
-  while (status == ST_OK && (status = csv_next(file, &more, why)) == ST_OK && more) {
+  done_t status = a < 0 || b < 0 ? csv_refuse(file, -1, why, "no a or b") : DONE;
+  while (status == DONE && (status = csv_next(file, &more, why)) == DONE && more) {
     double x = 0.0, y = 0.0;
     status = csv_number(file, a, CSV_GAP_REFUSED, &x, why);
-    if (status == ST_OK) status = csv_number(file, b, CSV_GAP_NAN, &y, why);
+    if (status == DONE) status = csv_number(file, b, CSV_GAP_NAN, &y, why);
     s->rows++;
     s->a += x;
     if (isnan(y))
@@ -103,7 +103,7 @@ TEST(csv_refuses_with_file_line_and_column) {
     ROW("%s", refused[i].what);
     sums_t s;
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, sum(scratch_file("t.csv", refused[i].text, -1), &s, &why));
+    CHECK_STATUS(BAD_INPUT, sum(scratch_file("t.csv", refused[i].text, -1), &s, &why));
     CHECK_TEXT(scratch_short(why.text), refused[i].want);
   }
 }
@@ -111,15 +111,15 @@ TEST(csv_refuses_with_file_line_and_column) {
 TEST(csv_refuses_what_is_no_file_or_no_text) {
   sums_t s;
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, sum(scratch_path("none.csv"), &s, &why));
+  CHECK_STATUS(BAD_INPUT, sum(scratch_path("none.csv"), &s, &why));
   CHECK_TEXT(scratch_short(why.text), "none.csv: cannot be opened: No such file or directory");
-  CHECK_STATUS(ST_BAD_INPUT, sum(scratch_path("."), &s, &why));
+  CHECK_STATUS(BAD_INPUT, sum(scratch_path("."), &s, &why));
   CHECK_TEXT(scratch_short(why.text), ".: cannot be read: Is a directory");
-  CHECK_STATUS(ST_BAD_INPUT, sum(scratch_file("t.bin", "a,b\n1,2\0\n", 9), &s, &why));
+  CHECK_STATUS(BAD_INPUT, sum(scratch_file("t.bin", "a,b\n1,2\0\n", 9), &s, &why));
   CHECK_TEXT(scratch_short(why.text), "t.bin:2: not a text file; allowed: CSV");
   static char line[CSV_LINE_MAX + 100];
   memset(line, 'a', sizeof line - 1);
-  CHECK_STATUS(ST_BAD_INPUT, sum(scratch_file("t.csv", line, -1), &s, &why));
+  CHECK_STATUS(BAD_INPUT, sum(scratch_file("t.csv", line, -1), &s, &why));
   CHECK_TEXT(scratch_short(why.text), "t.csv:1: the line is too long; allowed: 32768 bytes");
 }
 

@@ -50,19 +50,19 @@ TEST(toml_refuses_other_types_and_ranges) {
   int i, n;
   bool more;
   toml_t sub;
-  CHECK_STATUS(ST_BAD_INPUT, toml_double(root, "s", 0.0, 1.0, &x, &why));
+  CHECK_STATUS(BAD_INPUT, toml_double(root, "s", 0.0, 1.0, &x, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:1: s: wrong type; allowed: a number");
-  CHECK_STATUS(ST_BAD_INPUT, toml_double(root, "y", 1.0, 2.0, &x, &why));
+  CHECK_STATUS(BAD_INPUT, toml_double(root, "y", 1.0, 2.0, &x, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:3: y: 0.5 is out of range; allowed: 1 to 2");
-  CHECK_STATUS(ST_BAD_INPUT, toml_int(root, "y", 0, 1, &i, &why));
+  CHECK_STATUS(BAD_INPUT, toml_int(root, "y", 0, 1, &i, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:3: y: wrong type; allowed: a whole number");
-  CHECK_STATUS(ST_BAD_INPUT, toml_doubles(root, "l", 1, list, &n, &why));
+  CHECK_STATUS(BAD_INPUT, toml_doubles(root, "l", 1, list, &n, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:5: l: 2 numbers; allowed: at most 1");
-  CHECK_STATUS(ST_BAD_INPUT, toml_string(root, "none", s, sizeof s, &why));
+  CHECK_STATUS(BAD_INPUT, toml_string(root, "none", s, sizeof s, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:1: none: missing; allowed: a text in quotes");
-  CHECK_STATUS(ST_BAD_INPUT, toml_string(root, "s", s, 4, &why));
+  CHECK_STATUS(BAD_INPUT, toml_string(root, "s", s, 4, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:1: s: the text is too long; allowed: 3 bytes");
-  CHECK_STATUS(ST_BAD_INPUT, toml_table_at(root, "x", 0, &sub, &more, &why));
+  CHECK_STATUS(BAD_INPUT, toml_table_at(root, "x", 0, &sub, &more, &why));
   CHECK_TEXT(scratch_short(why.text), "t.toml:2: x: wrong type; allowed: tables, each under [[...]]");
   toml_close(file);
 }
@@ -70,8 +70,8 @@ TEST(toml_refuses_other_types_and_ranges) {
 TEST(toml_refuses_what_is_no_file) {
   toml_file_t *file;
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("none.toml"), &KIND, &why));
+  CHECK_STATUS(BAD_INPUT, toml_open(&file, scratch_path("none.toml"), &KIND, &why));
   CHECK_TEXT(scratch_short(why.text), "none.toml: cannot be opened: No such file or directory");
-  CHECK_STATUS(ST_BAD_INPUT, toml_open(&file, scratch_path("."), &KIND, &why));
+  CHECK_STATUS(BAD_INPUT, toml_open(&file, scratch_path("."), &KIND, &why));
   CHECK_TEXT(scratch_short(why.text), ".: cannot be read: Is a directory");
 }

@@ -25,7 +25,7 @@ static void link_to(const char *target, const char *name) {
   CHECK(symlink(target, scratch_path(name)) == 0);
 }
 
-static status_t write_one(const char *name, const char *text, why_t *why) {
+static done_t write_one(const char *name, const char *text, why_t *why) {
   whole_files_t w = {.n = 0};
   FILE *file;
   TRY(whole_files_open(&w, scratch_path(name), &file, why));
@@ -166,7 +166,7 @@ TEST(whole_files_refuse_what_is_no_place_for_a_file) {
     why_t why = {""};
     FILE *file;
     CHECK_OK(whole_files_open(&w, scratch_path(row[i].first), &file, &why));
-    CHECK_STATUS(ST_BAD_INPUT, whole_files_open(&w, scratch_path(row[i].second), &file, &why));
+    CHECK_STATUS(BAD_INPUT, whole_files_open(&w, scratch_path(row[i].second), &file, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].line);
     whole_files_drop(&w);
     program_listing(after, sizeof after);
@@ -182,7 +182,7 @@ TEST(whole_files_spare_what_is_read) {
   scratch_file("w_read", "old", -1);
   link_to("w_read", "w_alias");
   CHECK_OK(whole_files_open(&w, scratch_path("w_read"), &file, &why));
-  CHECK_STATUS(ST_BAD_INPUT, whole_files_spare(&w, scratch_path("w_alias"), &why));
+  CHECK_STATUS(BAD_INPUT, whole_files_spare(&w, scratch_path("w_alias"), &why));
   CHECK_TEXT(scratch_short(why.text), "w_alias: to be read and to be written; allowed: one of them");
   CHECK_OK(whole_files_spare(&w, scratch_path("w_other"), &why));
   CHECK_OK(whole_files_spare(&w, NULL, &why));
@@ -207,7 +207,7 @@ TEST(whole_files_are_all_there_or_none) {
       fputs("new", file[i]);
     }
     close(fileno(file[broken])); // as a disk that is full would, it fails when the text leaves the buffer
-    CHECK_STATUS(ST_FAILED, whole_files_commit(&w, &why));
+    CHECK_STATUS(FAILED, whole_files_commit(&w, &why));
     CHECK(strstr(why.text, names[broken]) && strstr(why.text, "cannot be written"));
     program_listing(after, sizeof after);
     CHECK_TEXT(after, before);

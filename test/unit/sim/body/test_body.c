@@ -172,7 +172,7 @@ TEST(body_refuses_a_model_that_cannot_fly) {
     if (i == 0) m.frame.inertia_kgm2[1] = 0.0;
     if (i == 1) m.mass_kg = (double)NAN;
     if (i == 2) m.frame.kf_Ns2 = 0.0;
-    CHECK_STATUS(ST_BAD_INPUT, body_open(&b, &m, INTEGRATE_RK4, i == 3 ? 0.0 : 0.002, &start));
+    CHECK_STATUS(BAD_INPUT, body_open(&b, &m, INTEGRATE_RK4, i == 3 ? 0.0 : 0.002, &start));
     CHECK(b.integrate == NULL && b.random == NULL);
   }
 }

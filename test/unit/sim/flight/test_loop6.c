@@ -55,8 +55,8 @@ typedef struct {
 } flown_t6;
 
 // From 0.1 m, climbing at climb_mps; two set points, 0.4 m and from half the time on 0.45 m.
-static status_t fly_with(loop6_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
-                         model_t *model, why_t *why) {
+static done_t fly_with(loop6_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
+                       model_t *model, why_t *why) {
   const double f = 0.25 * WEIGHT_N;
   *flown = (flown_t6){
       .plan = {
@@ -70,7 +70,7 @@ static status_t fly_with(loop6_edit_t edit, still_t *s, double climb_mps, double
   return loop6_fly(&flown->plan, model, &pilot, NULL, &flown->record, &flown->more, &flown->outcome, why);
 }
 
-static status_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
+static done_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
   return fly_with(watch, s, climb_mps, end_s, flown, model, why);
 }
 
@@ -158,7 +158,7 @@ TEST(loop6_says_whose_fault_it_is_that_it_does_not_fly) {
   still_t s = {0};
   flown_t6 flown;
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, fly(&s, 0.0, 0.1, &flown, &m, &why));
+  CHECK_STATUS(BAD_INPUT, fly(&s, 0.0, 0.1, &flown, &m, &why));
   CHECK_TEXT(why.text, "vehicle stone with its effects: mass, inertia, motor lag or kf not above 0; such a "
                        "vehicle cannot fly");
 }

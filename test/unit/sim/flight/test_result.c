@@ -98,6 +98,6 @@ TEST(result_over_seeds_is_the_mean_of_what_can_be_averaged) {
 
 TEST(result_without_a_text_is_an_error) {
   why_t why = {""};
-  CHECK_STATUS(ST_FAILED, result_write(NULL, stdout, &why)); // what cJSON returns without memory
+  CHECK_STATUS(FAILED, result_write(NULL, stdout, &why)); // what cJSON returns without memory
   CHECK_TEXT(why.text, "out of memory");
 }

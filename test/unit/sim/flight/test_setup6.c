@@ -51,7 +51,7 @@ TEST(setup6_leaves_nothing_to_free_of_a_flight_that_failed) {
     why_t why = {""};
     if (!CHECK_OK(setup6_thesis(&setup, kind[i], &why))) return;
     setup.model.frame.inertia_kgm2[1] = 0.0;
-    CHECK_STATUS(ST_BAD_INPUT, setup6_fly(&setup, &flown, &why));
+    CHECK_STATUS(BAD_INPUT, setup6_fly(&setup, &flown, &why));
     CHECK(strstr(why.text, "such a vehicle cannot fly") != NULL);
     const record_t *const r = &flown.flown.record;
     CHECK(!r->sample && !r->more && !r->app && !r->param && !flown.more.sample);

@@ -47,7 +47,7 @@ static named_t first_name(const flown_t *how, uint64_t seed, char name[32]) {
                          .seed = seed + (unsigned long)i,
                          .set_points = true};
     // A late vehicle at the edge of what flies may crash by a bit, and is drawn again.
-    for (int k = 0; k < 5 && exam_fly(&job, &flight[i], &why) != ST_OK; k++) job.seed += 100;
+    for (int k = 0; k < 5 && exam_fly(&job, &flight[i], &why) != DONE; k++) job.seed += 100;
     CHECK(flight[i].n > 0);
   }
   const gap_flights_t fit = {flight, FLIGHTS - 1}, held = {flight + FLIGHTS - 1, 1};

@@ -19,7 +19,7 @@ typedef struct {
 } rig_t;
 
 // A flight in which nothing is hidden.
-static status_t rig_make(rig_t *r, bool indi, why_t *why) {
+static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   grid_t *const grid = calloc(2, sizeof *grid);
   double *residual[CHANNELS];
   *r = (rig_t){.set = {.n_grid = 0}};
@@ -33,7 +33,7 @@ static status_t rig_make(rig_t *r, bool indi, why_t *why) {
   TRY(residual_of(&r->set, &r->vehicle, residual, why));
   r->manner = manner_of(&r->set, &r->vehicle, residual);
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
-  return ST_OK;
+  return DONE;
 }
 
 // Median of what a motor's command changes from sample to sample: noise that the controller fed back.

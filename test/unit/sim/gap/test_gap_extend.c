@@ -12,8 +12,8 @@ static const char VEHICLE[] = "name = \"test\" # a word of its own\nmass_kg = 0.
                               "motor_tau_s = 0.05\nthrust_min_N = 0.0\nthrust_max_N = 0.6\nceiling_m = 1.0\n";
 
 // What extend_write makes of a vehicle file's text where `candidate` was found.
-static status_t extend(const char *path, const char *text, const candidate_t *candidate, char *out,
-                       size_t size, model_t *base, why_t *why) {
+static done_t extend(const char *path, const char *text, const candidate_t *candidate, char *out, size_t size,
+                     model_t *base, why_t *why) {
   diagnosis_t d = {.candidates = {(candidate_t *)candidate, 1, candidate->n}, .found = {.n = 1}};
   d.found.named[0] = (named_t){.candidate = 0, .stderr_ = {0.01, 0.02, 0.03}, .p = 1e-5, .share = 0.25};
   char *made = NULL;
@@ -22,7 +22,7 @@ static status_t extend(const char *path, const char *text, const candidate_t *ca
   TRY(model_read_text(path, text, base, why));
   FILE *const file = open_memstream(&made, &used);
   const extend_job_t job = {path, text, base, &d, "3 flights, seed 1", NULL};
-  const status_t status = extend_write(&job, file, why);
+  const done_t status = extend_write(&job, file, why);
   fclose(file);
   snprintf(out, size, "%s", made);
   free(made);
@@ -82,7 +82,7 @@ TEST(gap_says_when_a_vehicle_file_cannot_be_added_to) {
   const candidate_t c = candidate_of("ground");
   model_t base;
   why_t why = {""};
-  CHECK_STATUS(ST_BAD_INPUT, extend("v.toml", vehicle, &c, text, sizeof text, &base, &why));
+  CHECK_STATUS(BAD_INPUT, extend("v.toml", vehicle, &c, text, sizeof text, &base, &why));
   CHECK(strncmp(why.text, "v.toml: the named effects cannot be added to it: model.toml:", 60) == 0);
   CHECK_TEXT(text, "");
 }

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static status_t read_log(gap_flight_t *f, const char *path, why_t *why) {
+static done_t read_log(gap_flight_t *f, const char *path, why_t *why) {
   const columns_t columns = flight_csv_columns();
   model_t vehicle;
   TRY(model_builtin("cf21_legacy", &vehicle, why));
@@ -68,7 +68,7 @@ TEST(gap_reads_what_programs_write_to_the_bit) {
     if (!all) abort();
     sprintf(all, "%s%s", written[i].before, rows);
     const char *const path = scratch_file("f.csv", all, (long)strlen(all) - written[i].cut);
-    CHECK_STATUS(written[i].want ? ST_BAD_INPUT : ST_OK, read_log(&f, path, &why));
+    CHECK_STATUS(written[i].want ? BAD_INPUT : DONE, read_log(&f, path, &why));
     free(rows);
     free(all);
     if (written[i].want) {
@@ -106,10 +106,10 @@ TEST(gap_refuses_what_is_no_log_at_once) {
     columns_t columns;
     model_t model;
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, read_log(&f, row[i].path, &why));
+    CHECK_STATUS(BAD_INPUT, read_log(&f, row[i].path, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].want);
-    CHECK_STATUS(ST_BAD_INPUT, columns_read(row[i].path, &columns, &why));
-    CHECK_STATUS(ST_BAD_INPUT, model_read(row[i].path, &model, &why));
+    CHECK_STATUS(BAD_INPUT, columns_read(row[i].path, &columns, &why));
+    CHECK_STATUS(BAD_INPUT, model_read(row[i].path, &model, &why));
   }
   alarm(0);
 }
@@ -178,7 +178,7 @@ TEST(stream_all) {
   double n = 0.0;
   CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
   CHECK_OK(log_rows_open(&log, "/dev/stdin", &columns, &vehicle, LOG_STRICT, 0, &why));
-  while (log_rows_next(&log, &row, &more, &why) == ST_OK && more) n += 1.0;
+  while (log_rows_next(&log, &row, &more, &why) == DONE && more) n += 1.0;
   log_rows_close(&log);
   CHECK_NEAR(n, atof(rows), 0.0);
 }

@@ -42,12 +42,12 @@ static bool whole(const log_t *log, signal_id_t first, int n) {
 }
 
 // To the rows that everything is fitted to.
-static status_t to_rows(const gap_flight_t *f, const model_t *vehicle, why_t *why) {
+static done_t to_rows(const gap_flight_t *f, const model_t *vehicle, why_t *why) {
   set_t set = {.grid = NULL};
   grid_t *const grid = calloc(1, sizeof *grid);
   if (!grid) abort();
-  status_t status = grid_make(grid, f, 0, f->n, vehicle, why);
-  if (status == ST_OK) {
+  done_t status = grid_make(grid, f, 0, f->n, vehicle, why);
+  if (status == DONE) {
     status = set_make(&set, grid, 1, why);
     set_free(&set);
     return status;
@@ -57,22 +57,22 @@ static status_t to_rows(const gap_flight_t *f, const model_t *vehicle, why_t *wh
   return status;
 }
 
-static status_t to_verdict(gap_flight_t *f, const model_t *vehicle, why_t *why) {
+static done_t to_verdict(gap_flight_t *f, const model_t *vehicle, why_t *why) {
   diagnosis_t *const d = calloc(1, sizeof *d);
   const gap_flights_t flights = {f, 1};
   const diagnose_job_t job = {.fit = &flights, .model = vehicle, .seed = 1};
   if (!d) abort();
-  const status_t status = diagnose(&job, d, why);
+  const done_t status = diagnose(&job, d, why);
   diagnosis_free(d);
   free(d);
   return status;
 }
 
 // all_stages: through every stage of the workflow.
-static status_t take(const log_t *log, bool all_stages, why_t *why) {
+static done_t take(const log_t *log, bool all_stages, why_t *why) {
   gap_flight_t f;
-  status_t status = gap_read(&f, log->path, &log->columns, &log->vehicle, why);
-  if (status == ST_OK)
+  done_t status = gap_read(&f, log->path, &log->columns, &log->vehicle, why);
+  if (status == DONE)
     status = all_stages ? to_verdict(&f, &log->vehicle, why) : to_rows(&f, &log->vehicle, why);
   gap_flight_free(&f);
   return status;
@@ -86,12 +86,12 @@ static bool is_enough(const log_t *log) {
 static void check(const log_t *log, const char *what, bool all_stages) {
   why_t why = {""};
   ROW("%s", what);
-  const status_t got = take(log, all_stages, &why);
+  const done_t got = take(log, all_stages, &why);
   if (is_enough(log)) {
-    CHECK(got == ST_OK || strstr(why.text, "no instant at which") != NULL);
+    CHECK(got == DONE || strstr(why.text, "no instant at which") != NULL);
     return;
   }
-  CHECK(got == ST_BAD_INPUT);
+  CHECK(got == BAD_INPUT);
   CHECK(strstr(why.text, "neither motor commands nor rotor speeds; one of them is needed") != NULL);
 }
 

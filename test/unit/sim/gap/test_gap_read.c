@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static status_t read_by(const columns_t *columns, gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+static done_t read_by(const columns_t *columns, gap_flight_t *f, const flight_csv_t *made, why_t *why) {
   model_t vehicle;
   TRY(model_builtin("cf21_legacy", &vehicle, why));
   return gap_read(f, flight_csv_file(made, "f.csv"), columns, &vehicle, why);
 }
 
-static status_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+static done_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
   const columns_t columns = flight_csv_columns();
   return read_by(&columns, f, made, why);
 }
@@ -214,7 +214,7 @@ TEST(gap_splits_counts_or_refuses_what_is_wrong_in_rows_and_cells) {
     ROW("%s", spoilt[i].what);
     gap_flight_t f;
     why_t why = {""};
-    CHECK_STATUS(spoilt[i].want ? ST_BAD_INPUT : ST_OK, read_made(&f, &spoilt[i].made, &why));
+    CHECK_STATUS(spoilt[i].want ? BAD_INPUT : DONE, read_made(&f, &spoilt[i].made, &why));
     CHECK_TEXT(scratch_short(why.text), spoilt[i].want ? spoilt[i].want : "");
     if (f.n == 0) continue;
     CHECK(f.cells_bad == spoilt[i].bad && f.cells_missing == spoilt[i].missing);

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static status_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+static done_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
   const columns_t columns = flight_csv_columns();
   model_t vehicle;
   TRY(model_builtin("cf21_legacy", &vehicle, why));
@@ -104,7 +104,7 @@ TEST(gap_refuses_units_signs_and_signals_that_contradict_with_column_and_factor)
     ROW("%s", contradicting[i].what);
     gap_flight_t f;
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, read_made(&f, &contradicting[i].made, &why));
+    CHECK_STATUS(BAD_INPUT, read_made(&f, &contradicting[i].made, &why));
     CHECK(f.n == 0 && f.t_s == NULL);
     if (!strstr(why.text, contradicting[i].want)) CHECK_TEXT(scratch_short(why.text), contradicting[i].want);
   }

@@ -14,12 +14,12 @@ static const model_t CUBIC = {
 static const model_t NEWTON = {.name = "newton", .thrust_max_N = 0.5};
 
 // The first row of a log.
-static status_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, signals_t need,
-                          log_row_t *row, why_t *why) {
+static done_t first_row(const char *csv, const columns_t *c, const model_t *vehicle, signals_t need,
+                        log_row_t *row, why_t *why) {
   log_rows_t rows;
   bool more;
   TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, LOG_STRICT, need, why));
-  const status_t status = log_rows_next(&rows, row, &more, why);
+  const done_t status = log_rows_next(&rows, row, &more, why);
   log_rows_close(&rows);
   return status;
 }
@@ -118,7 +118,7 @@ TEST(columns_files_are_refused_with_line_and_key) {
     ROW("%s", refused[i].what);
     columns_t c = {.rest_height_m = 7.0};
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, columns_read(scratch_file("c.toml", refused[i].text, -1), &c, &why));
+    CHECK_STATUS(BAD_INPUT, columns_read(scratch_file("c.toml", refused[i].text, -1), &c, &why));
     CHECK_TEXT(scratch_short(why.text), refused[i].want);
     CHECK_NEAR(c.rest_height_m, 7.0, 0.0);
   }
@@ -155,7 +155,7 @@ TEST(rows_are_refused_with_column_and_factor) {
     ROW("%s", row[i].what);
     log_row_t got;
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, first_row(row[i].csv, &c, &NEWTON, SIGNAL_BIT(SIG_Z), &got, &why));
+    CHECK_STATUS(BAD_INPUT, first_row(row[i].csv, &c, &NEWTON, SIGNAL_BIT(SIG_Z), &got, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].want);
   }
 }
@@ -165,7 +165,7 @@ TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
   const char *csv = "timestamp,motor.m1,motor.m2,motor.m3,motor.m4\n1,1,1,1,1\n";
   log_row_t row;
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
+  CHECK_STATUS(BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
   CHECK_TEXT(scratch_short(why.text),
              "log.csv:1: column pm.vbat: missing; the thrust map needs the battery's voltage");
 }
@@ -247,7 +247,7 @@ TEST(motor_commands_that_the_vehicle_cannot_tell_in_newton_are_refused) {
   log_row_t row;
   why_t why = {""};
   CHECK_OK(columns_read(scratch_file("c.toml", TIME MOTORS4("rpm"), -1), &c, &why));
-  CHECK_STATUS(ST_BAD_INPUT, first_row("t,a,b,c,d\n0,1,1,1,1\n", &c, &CUBIC, 0, &row, &why));
+  CHECK_STATUS(BAD_INPUT, first_row("t,a,b,c,d\n0,1,1,1,1\n", &c, &CUBIC, 0, &row, &why));
   CHECK_TEXT(scratch_short(why.text),
              "log.csv:1: column a: a command in rad/s, but the [thrust_map] of vehicle cubic takes pwm");
 }

@@ -156,7 +156,7 @@ TEST(effectiveness_refuses_bad_logs_with_one_line) {
     effectiveness_t found = {.rows = -1};
     why_t why;
     const char *path = scratch_file("bad.csv", row[i].text, -1);
-    CHECK_STATUS(ST_BAD_INPUT, effectiveness_fit(path, &job, &found, &why));
+    CHECK_STATUS(BAD_INPUT, effectiveness_fit(path, &job, &found, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].line);
     CHECK(found.rows == -1);
   }
@@ -210,10 +210,10 @@ TEST(effectiveness_is_a_number_or_refused) {
     const effectiveness_job_t job = effectiveness_default();
     effectiveness_t found = {.rows = -1};
     why_t why = {""};
-    const status_t status = effectiveness_fit(spoilt(row[i].column, row[i].times), &job, &found, &why);
-    CHECK_STATUS(row[i].line[0] ? ST_BAD_INPUT : ST_OK, status);
+    const done_t status = effectiveness_fit(spoilt(row[i].column, row[i].times), &job, &found, &why);
+    CHECK_STATUS(row[i].line[0] ? BAD_INPUT : DONE, status);
     CHECK_TEXT(scratch_short(why.text), row[i].line);
-    if (status != ST_OK) continue;
+    if (status != DONE) continue;
     for (int k = 0; k < 3; k++) CHECK(isfinite(found.g1[k]) && isfinite(found.explained[k]));
   }
 }

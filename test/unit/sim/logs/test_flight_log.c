@@ -23,16 +23,16 @@ static double z_at(double t_s) {
   return 0.5 + 0.1 * (t_s - 1.0);
 }
 
-static status_t see(const char *path, double late_s, seen_t *s, why_t *why) {
+static done_t see(const char *path, double late_s, seen_t *s, why_t *why) {
   const columns_t c = columns_crazyflie();
   const signals_t need = SIGNAL_BIT(SIG_Z) | SIGNAL_BIT(SIG_THRUST);
   *s = (seen_t){0};
   flight_log_t *log;
   flight_tick_t tick;
   bool more;
-  status_t status;
+  done_t status;
   TRY(flight_log_open(&log, path, &c, &NEWTON, need, why));
-  while ((status = flight_log_next(log, &tick, &more, why)) == ST_OK && more) {
+  while ((status = flight_log_next(log, &tick, &more, why)) == DONE && more) {
     s->ticks++;
     s->splits += tick.split;
     s->range_new += tick.range_new;
@@ -147,7 +147,7 @@ TEST(outer_log_refuses_what_contradicts_itself) {
     ROW("%s", contradicting[i].what);
     seen_t s;
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, see(write_flight(&contradicting[i].f), 0.0, &s, &why));
+    CHECK_STATUS(BAD_INPUT, see(write_flight(&contradicting[i].f), 0.0, &s, &why));
     CHECK_TEXT(scratch_short(why.text), contradicting[i].want);
   }
 }

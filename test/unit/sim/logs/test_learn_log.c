@@ -108,7 +108,7 @@ TEST(learn_log_refuses_what_does_not_say_where_the_surface_is) {
   job.vehicle.ceiling_m = HUGE_VAL;
   learn_mass_t mass = {0};
   why_t why;
-  CHECK_STATUS(ST_BAD_INPUT, learn_log_mass(&job, write_sweeps("a.csv", 1, 0.0), &mass, &why));
+  CHECK_STATUS(BAD_INPUT, learn_log_mass(&job, write_sweeps("a.csv", 1, 0.0), &mass, &why));
   CHECK_TEXT(scratch_short(why.text),
              "a.csv:1: column range.up: missing; --surface ceiling needs the upward range "
              "sensor, or a vehicle with ceiling_m");
@@ -206,7 +206,7 @@ TEST(vehicle_maps_agree_with_the_thrust_stand) {
     double sum = 0.0, max = 0.0, pwm = 0.0, volts = 0.0, grams = 0.0;
     int n = 0;
     bool more;
-    while (csv_next(file, &more, &why) == ST_OK && more) {
+    while (csv_next(file, &more, &why) == DONE && more) {
       CHECK_OK(csv_number(file, pwm_at, CSV_GAP_REFUSED, &pwm, &why));
       CHECK_OK(csv_number(file, volts_at, CSV_GAP_REFUSED, &volts, &why));
       CHECK_OK(csv_number(file, grams_at, CSV_GAP_REFUSED, &grams, &why));

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static status_t open_bytes(usd_file_t **file, const usd_bytes_t *b, why_t *why) {
+static done_t open_bytes(usd_file_t **file, const usd_bytes_t *b, why_t *why) {
   const char *const path = scratch_file("u.bin", (const char *)b->byte, (long)b->n);
   FILE *const stream = fopen(path, "rb");
   if (!stream) return error_failed(why, "no file");
@@ -110,7 +110,7 @@ TEST(usd_hands_out_what_is_before_a_damage_and_says_where_it_is) {
     if (damaged[i].at) b.byte[damaged[i].at] = damaged[i].to;
     usd_file_t *file;
     why_t why = {""};
-    CHECK_STATUS(damaged[i].rows < 0 ? ST_BAD_INPUT : ST_OK, open_bytes(&file, &b, &why));
+    CHECK_STATUS(damaged[i].rows < 0 ? BAD_INPUT : DONE, open_bytes(&file, &b, &why));
     usd_bytes_free(&b);
     if (damaged[i].rows < 0) {
       CHECK(file == NULL);

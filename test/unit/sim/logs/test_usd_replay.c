@@ -107,9 +107,9 @@ TEST(usd_config_refuses_what_the_deck_would_skip_in_silence) {
     usd_config_t c;
     why_t why = {""};
     const char *const path = scratch_file("c.txt", row[i].text, -1);
-    status_t status = usd_config_read(path, &c, &why);
-    if (status == ST_OK) status = usd_config_check(path, &c, &why);
-    CHECK_STATUS(row[i].want[0] ? ST_BAD_INPUT : ST_OK, status);
+    done_t status = usd_config_read(path, &c, &why);
+    if (status == DONE) status = usd_config_check(path, &c, &why);
+    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, status);
     CHECK_TEXT(scratch_short(why.text), row[i].want);
   }
 }

@@ -109,6 +109,6 @@ TEST(integrators_refuse_what_they_cannot_integrate) {
     ode.n = row[k].n;
     ode.step_s = row[k].step_s;
     integrate_t *i;
-    CHECK_STATUS(ST_BAD_INPUT, integrate_open(&i, INTEGRATE_SUNDIALS, &ode));
+    CHECK_STATUS(BAD_INPUT, integrate_open(&i, INTEGRATE_SUNDIALS, &ode));
   }
 }

@@ -62,7 +62,7 @@ static void compare(const model_t *model, window_t *w) {
   CHECK(seen.pwm >= w->pwm[low] && seen.pwm <= w->pwm[high]);
 }
 
-static status_t add_row(const csv_file_t *file, window_t *w, why_t *why) {
+static done_t add_row(const csv_file_t *file, window_t *w, why_t *why) {
   static const char *const name[] = {"rpm1", "rpm2", "rpm3", "rpm4",  "pwm1",
                                      "pwm2", "pwm3", "pwm4", "vbat_V"};
   double cell[9];
@@ -70,7 +70,7 @@ static status_t add_row(const csv_file_t *file, window_t *w, why_t *why) {
   w->rpm[w->n] = 0.25 * (cell[0] + cell[1] + cell[2] + cell[3]);
   w->pwm[w->n] = 0.25 * (cell[4] + cell[5] + cell[6] + cell[7]);
   w->volt[w->n++] = cell[8];
-  return ST_OK;
+  return DONE;
 }
 
 TEST(hover_pwm_is_within_the_quartiles_of_a_recorded_one_and_rpm_within_a_percent) {

@@ -81,7 +81,7 @@ TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
     model_t m = {.mass_kg = 7.0};
     why_t why = {""};
     snprintf(text, sizeof text, "%s%s", VEHICLE, row[i].text);
-    CHECK_STATUS(ST_BAD_INPUT, model_read(scratch_file("v.toml", text, -1), &m, &why));
+    CHECK_STATUS(BAD_INPUT, model_read(scratch_file("v.toml", text, -1), &m, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].want);
     CHECK_NEAR(m.mass_kg, 7.0, 0.0);
   }

@@ -105,10 +105,10 @@ TEST(vehicle_file_is_refused_where_the_thrust_is_no_match_for_the_weight) {
     ROW("%s", row[i].what);
     model_t m = {.mass_kg = 7.0};
     why_t why = {""};
-    const status_t status = model_read(scratch_file("v.toml", row[i].text, -1), &m, &why);
-    CHECK_STATUS(row[i].want[0] ? ST_BAD_INPUT : ST_OK, status);
+    const done_t status = model_read(scratch_file("v.toml", row[i].text, -1), &m, &why);
+    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, status);
     CHECK_TEXT(scratch_short(why.text), row[i].want);
-    if (status != ST_OK) CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+    if (status != DONE) CHECK_NEAR(m.mass_kg, 7.0, 0.0);
   }
 }
 
@@ -117,7 +117,7 @@ TEST(vehicle_file_is_refused_with_line_and_key) {
     ROW("%s", bad_vehicle[i].what);
     model_t m = {.mass_kg = 7.0};
     why_t why = {""};
-    CHECK_STATUS(ST_BAD_INPUT, model_read(scratch_file("v.toml", bad_vehicle[i].text, -1), &m, &why));
+    CHECK_STATUS(BAD_INPUT, model_read(scratch_file("v.toml", bad_vehicle[i].text, -1), &m, &why));
     // The parser's own words are cut off: they are not ours to fix.
     const bool parser = bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ' ' ||
                         bad_vehicle[i].want[strlen(bad_vehicle[i].want) - 1] == ':';
@@ -164,7 +164,7 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].spec);
-    CHECK_STATUS(ST_BAD_INPUT, effect_parse(row[i].spec, &use, &why));
+    CHECK_STATUS(BAD_INPUT, effect_parse(row[i].spec, &use, &why));
     CHECK_TEXT(why.text, row[i].want);
     CHECK_NEAR(use.p[0], 0.6, 0.0);
   }
@@ -214,7 +214,7 @@ TEST(vehicle_file_with_a_bad_body_is_refused) {
     model_t m = {.mass_kg = 7.0};
     why_t why = {""};
     const char *path = scratch_file("v.toml", text, -1);
-    CHECK_STATUS(ST_BAD_INPUT, model_read(path, &m, &why));
+    CHECK_STATUS(BAD_INPUT, model_read(path, &m, &why));
     CHECK_TEXT(strstr(why.text, "v.toml"), row[i].want);
     CHECK_NEAR(m.mass_kg, 7.0, 0.0);
   }
