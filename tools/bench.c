@@ -3,7 +3,7 @@
 #include "base/cpu_time.h"
 #include "base/made.h"
 #include "bench_gap.h"
-#include "body/body_forces.h"
+#include "body/body.h"
 #include "flight/scenario.h"
 #include "flight/setup6.h"
 #include "vehicle/model_file.h"

@@ -1,8 +1,7 @@
 // body.c - a vehicle with six degrees of freedom in its surroundings.
 #include "body/body.h"
 
-#include "body/body_forces.h"
-#include "plant/rigid_derivative.h"
+#include "plant/rigid.h"
 #include "plant/rotor.h"
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // body_forces.c - what acts on a vehicle.
-#include "body/body_forces.h"
+#include "body/body.h"
 
 #include "base/pair.h"
-#include "plant/rigid_derivative.h"
+#include "plant/rigid.h"
 #include <math.h>
 #include <string.h>
 

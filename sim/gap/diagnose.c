@@ -4,8 +4,8 @@
 #include "gap/2_predict/muted.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/contact.h"
+#include "gap/5_infer/select.h"
 #include "gap/5_infer/shape.h"
-#include "gap/7_verify/verify.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,7 +130,8 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
   TRY(find_names(d, job->model, why));
-  TRY(verify_names(d, job->model, why));
+  const verify_job_t names = {&d->held, &d->candidates, job->model, &d->manner, &d->found};
+  TRY(verify_names(&names, &d->withdrawn, why));
   TRY(select_confirm(&d->candidates, &d->fit, job->model, &d->manner, &d->found, &d->why_not_confirmed, why));
   TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
   tell(job, "looking at what is left");

@@ -2,7 +2,8 @@
 #ifndef SIM_GAP_DIAGNOSE_H
 #define SIM_GAP_DIAGNOSE_H
 
-#include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/unknown.h"
+#include "gap/7_verify/verify.h"
 
 typedef struct {
   const gap_flights_t *fit, *held; // held: none: the last third of each flight's time
@@ -12,25 +13,6 @@ typedef struct {
 } diagnose_job_t;
 
 typedef struct {
-  bool used;
-  double before, after, floor; // rms of rows
-  double before_sd, after_sd;
-} gap_part_t;
-
-// Held-out flights, all together.
-typedef struct {
-  gap_part_t channel[CHANNELS];
-  double left_before, left_after; // white sums of squares
-} held_t;
-
-// A name of the fitted flights that the held-out ones contradict (verify.h).
-typedef struct {
-  const fx_t *fx;
-  int channel;          // that it grows most
-  double without, with; // its held-out rms
-} withdrawn_t;
-
-typedef struct {
   set_t fit, held;
   candidates_t candidates;
   nominal_t nominal;
@@ -38,8 +20,7 @@ typedef struct {
   const char
       *why_not_confirmed; // why the reference could not be the instrument; null: it was, or is not there
   int rounds;             // times that all columns were formed, by the first look and the last
-  int n_withdrawn;
-  withdrawn_t withdrawn[NAMED_MAX];
+  withdrawn_list_t withdrawn;
   model_t extended;
   manner_t manner;
   bool nominal_flew; // false: it could not; then nothing is named and nothing is unknown

@@ -131,7 +131,7 @@ static void fill(flight_log_t *log, flight_tick_t *tick, double t_s) {
 static bool grid_ends(const flight_log_t *log, double t_s) {
   if (!log->any_before) return true;
   const double at_s = log->before.v[SIG_TIME];
-  if (log->any_after && log->after.v[SIG_TIME] - at_s <= FLIGHT_LOG_GAP_S) return false;
+  if (log->any_after && log->after.v[SIG_TIME] - at_s <= LOG_GAP_S) return false;
   return t_s > at_s + SAME_TIME_S;
 }
 
@@ -141,7 +141,7 @@ done_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t
   start_period(log);
   double t_s = log->start_s + FLIGHT_LOG_PERIOD_S * (double)log->k;
   while (log->any_before && log->any_after && log->after.v[SIG_TIME] <= t_s + SAME_TIME_S &&
-         log->after.v[SIG_TIME] - log->before.v[SIG_TIME] <= FLIGHT_LOG_GAP_S)
+         log->after.v[SIG_TIME] - log->before.v[SIG_TIME] <= LOG_GAP_S)
     TRY(take_row(log, why));
   if (grid_ends(log, t_s)) {
     if (!log->any_after) return log_sanity_check(&log->sanity, &log->rows, why);

@@ -1,7 +1,7 @@
 // flight_log.h - a recorded flight on the flight code's 100 Hz grid, in SI, tick by tick, in fixed memory.
 //
 // A log with three rows or more per tick: their mean; a slower one: straight lines between rows. Rows without
-// a signal that is needed are left out and counted. Where rows are more than FLIGHT_LOG_GAP_S apart the
+// a signal that is needed are left out and counted. Where rows are more than LOG_GAP_S apart the
 // flight is split: a new grid starts, the tick says so, and whoever filters starts again. Time that does not
 // increase is refused, never sorted.
 #ifndef SIM_LOGS_FLIGHT_LOG_H
@@ -12,7 +12,6 @@
 #include <stdbool.h>
 
 #define FLIGHT_LOG_PERIOD_S 0.01
-#define FLIGHT_LOG_GAP_S    0.15
 
 typedef struct {
   double v[SIG_COUNT]; // as in log_row_t; SIG_RANGE: the newest sample

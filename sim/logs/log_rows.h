@@ -7,6 +7,8 @@
 #include "logs/table.h"
 #include "vehicle/model.h"
 
+#define LOG_GAP_S 0.15 // rows that are farther apart have a gap between them
+
 // LOG_STRICT: a cell that is no number is refused, and so are commands that the vehicle's map cannot tell in
 // newton, and time that stands. LOG_MEND: such cells are taken as missing and counted, such commands have no
 // newton, a row cut off at the end is left out; for time that stands the rows are handed on.

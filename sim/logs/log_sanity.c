@@ -1,7 +1,6 @@
 // log_sanity.c - does a whole flight agree with physics and with itself?
 #include "logs/log_sanity.h"
 
-#include "logs/flight_log.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -13,7 +12,7 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row) {
   const double dt_s = t_s - s->last_s, dz_m = v[SIG_Z] - s->last_z_m;
   if (s->rows++ == 0) {
     s->first_s = t_s;
-  } else if (dt_s <= FLIGHT_LOG_GAP_S && isfinite(v[SIG_VZ]) && isfinite(dz_m)) {
+  } else if (dt_s <= LOG_GAP_S && isfinite(v[SIG_VZ]) && isfinite(dz_m)) {
     s->climb2 += v[SIG_VZ] * v[SIG_VZ] * dt_s;
     s->climb_by_z += v[SIG_VZ] * dz_m;
   }
@@ -57,8 +56,8 @@ static done_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *
 
 done_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   const double apart_s = s->rows > 1 ? (s->last_s - s->first_s) / (double)(s->rows - 1) : 0.01;
-  if (!(apart_s >= 1e-4 && apart_s <= FLIGHT_LOG_GAP_S))
-    return refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, FLIGHT_LOG_GAP_S, why);
+  if (!(apart_s >= 1e-4 && apart_s <= LOG_GAP_S))
+    return refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, LOG_GAP_S, why);
   TRY(check_acc(s, rows, why));
   TRY(check_climb(s, rows, why));
   const bool commands = rows->at[SIG_M1] >= 0 && rows->columns.motors == MOTORS_PWM;

@@ -1,8 +1,6 @@
 // rigid.c - a rigid body with four rotors.
 #include "plant/rigid.h"
 
-#include "plant/rigid_derivative.h"
-
 #include <string.h>
 
 void rigid_tune(rigid_t *r) {

@@ -14,6 +14,7 @@
 #define SIM_PLANT_RIGID_H
 
 #include "base/d3.h"
+#include "base/pair.h"
 #include "plant/vertical.h"
 #include <stdbool.h>
 
@@ -73,5 +74,83 @@ double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]);
 
 // Angular momentum about the centre of mass with the rotors' own, world axes.
 d3_t rigid_momentum_w(const rigid_t *r, const double y[RIGID_N]);
+
+// --- the equations: nearly all of a flight's time goes here, so they are inline --------------------------
+
+// Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.
+static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]) {
+  const pair_t zero = pair_both(0.0), slowest = pair_both(ROTOR_SLOWEST_RADPS);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(speed + i, pair_max(pair_sqrt(pair_max(pair_of(f + i), zero)) * r->per_root_kf, slowest));
+}
+
+// Thrust, its moment, and what the rotors' torque and inertia do.
+typedef struct {
+  double thrust_N;
+  d3_t moment_b_Nm;
+  double spin_Nms; // angular momentum of the rotors along z
+} rotors_t;
+
+static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const double *speed,
+                                    const double *ratio, double *df) {
+  pair_t lift = {0.0, 0.0}, roll = lift, pitch = lift, yaw = lift, spin = lift;
+  for (int i = 0; i < ROTORS; i += 2) {
+    const pair_t thrust = pair_of(f + i), scaled = pair_of(r->thrust_scale + i) * thrust,
+                 up = pair_of(ratio + i) * scaled, om = pair_of(speed + i), turns = pair_of(r->spin + i),
+                 change = (pair_of(r->command_N + i) - thrust) * r->per_tau;
+    pair_put(df + i, change);
+    lift += up;
+    roll += pair_of(r->rotor_y_m + i) * up;
+    pitch -= pair_of(r->rotor_x_m + i) * up;
+    yaw -=
+        turns * (r->torque_ratio_m * pair_of(r->torque_scale + i) * scaled + r->half_I_per_kf * change / om);
+    spin += turns * om;
+  }
+  return (rotors_t){pair_sum(lift),
+                    {pair_sum(roll), pair_sum(pitch), pair_sum(yaw)},
+                    r->rotor_inertia_kgm2 * pair_sum(spin)};
+}
+
+static inline void rigid_translate(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N,
+                                   double *dydt) {
+  const d3_t acc = d3_scale(r->per_mass, axes_to_world(axes, force_b_N));
+  dydt[RIGID_POS_M] = y[RIGID_VEL_MPS];
+  dydt[RIGID_POS_M + 1] = y[RIGID_VEL_MPS + 1];
+  dydt[RIGID_POS_M + 2] = y[RIGID_VEL_MPS + 2];
+  dydt[RIGID_VEL_MPS] = acc.x;
+  dydt[RIGID_VEL_MPS + 1] = acc.y;
+  dydt[RIGID_VEL_MPS + 2] = acc.z - PLANT_GRAVITY_MPS2;
+}
+
+static inline void rigid_rotate(const rigid_t *r, const double *y, d3_t moment_b_Nm, double spin_Nms,
+                                double *dydt) {
+  const d3_t w = d3_of(y + RIGID_RATE_RADPS), J = r->inertia_kgm2, per = r->per_inertia;
+  const d3_t h = d3(J.x * w.x, J.y * w.y, J.z * w.z + spin_Nms);
+  const d3_t left = d3_sub(moment_b_Nm, d3_cross(w, h));
+  const double a = y[RIGID_Q_WB], b = y[RIGID_Q_WB + 1], c = y[RIGID_Q_WB + 2], d = y[RIGID_Q_WB + 3];
+  dydt[RIGID_Q_WB] = -0.5 * (b * w.x + c * w.y + d * w.z);
+  dydt[RIGID_Q_WB + 1] = 0.5 * (a * w.x + c * w.z - d * w.y);
+  dydt[RIGID_Q_WB + 2] = 0.5 * (a * w.y + d * w.x - b * w.z);
+  dydt[RIGID_Q_WB + 3] = 0.5 * (a * w.z + b * w.y - c * w.x);
+  d3_put(dydt + RIGID_RATE_RADPS, d3(left.x * per.x, left.y * per.y, left.z * per.z));
+}
+
+// speed: of the rotors, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: per rotor. load:
+// everything that is not a rotor's thrust, torque or inertia; null: nothing.
+static inline void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
+                                    const double speed[ROTORS], const double ratio[ROTORS],
+                                    const load_t *load, double dydt[RIGID_N]) {
+  const rotors_t all = rigid_rotors(r, y + RIGID_THRUST_N, speed, ratio, dydt + RIGID_THRUST_N);
+  d3_t force_b_N = {0.0, 0.0, all.thrust_N}, moment_b_Nm = all.moment_b_Nm;
+  if (load) {
+    force_b_N = d3_add(load->force_b_N, force_b_N);
+    moment_b_Nm = d3_add(load->moment_b_Nm, moment_b_Nm);
+  }
+  rigid_translate(r, y, axes, force_b_N, dydt);
+  rigid_rotate(r, y, moment_b_Nm, all.spin_Nms, dydt);
+  if (!r->vertical_only && !r->held) return;
+  for (int i = 0; i < RIGID_THRUST_N; i++)
+    if (r->held || (i != RIGID_POS_M + 2 && i != RIGID_VEL_MPS + 2)) dydt[i] = 0.0;
+}
 
 #endif

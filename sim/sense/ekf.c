@@ -1,7 +1,6 @@
 // ekf.c - the estimator's rates: when what happens, and what comes out.
 #include "sense/ekf.h"
 
-#include "sense/ekf_core.h"
 #include <math.h>
 
 #define PREDICT_MS   10

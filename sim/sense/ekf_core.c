@@ -1,5 +1,5 @@
 // ekf_core.c - prediction and corrections of the extended Kalman filter.
-#include "sense/ekf_core.h"
+#include "sense/ekf.h"
 
 #include "base/pair.h"
 #include <math.h>

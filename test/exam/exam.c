@@ -104,7 +104,7 @@ static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
     const fx_t *const fx = fx_find(set->hidden[k]);
     const double told = found_least(&d->found, &d->candidates, fx, NULL);
     bool withdrawn = false;
-    for (int i = 0; i < d->n_withdrawn; i++) withdrawn = withdrawn || d->withdrawn[i].fx == fx;
+    for (int i = 0; i < d->withdrawn.n; i++) withdrawn = withdrawn || d->withdrawn.name[i].fx == fx;
     set->least[k] = told / truth_typical(set->hidden[k]);
     if (told >= 1.0 || withdrawn || set->least[k] > set->times[k]) set->says_not_testable = true;
   }
@@ -156,9 +156,9 @@ static done_t mark_shrink(exam_set_t *set, diagnosis_t *d, const model_t *base, 
         residual_has(&d->held, ch) ? color_fit(set_rows(&d->held, ch), r[ch]) : (color_t){.used = false};
     free(r[ch]);
   }
-  if (status == DONE) status = verify_left(&d->held, base, color, &before, why);
-  if (status == DONE) status = verify_left(&d->held, &d->extended, color, &set->after, why);
-  if (status == DONE) status = verify_left(&d->held, truth, color, &set->oracle, why);
+  if (status == DONE) status = whiten_left(&d->held, base, color, &before, why);
+  if (status == DONE) status = whiten_left(&d->held, &d->extended, color, &set->after, why);
+  if (status == DONE) status = whiten_left(&d->held, truth, color, &set->oracle, why);
   set->shrink_known = status == DONE && exam_shrink(before, &set->after, &set->oracle);
   return status;
 }

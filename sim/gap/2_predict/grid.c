@@ -1,8 +1,7 @@
 // grid.c - a part of a flight on a coarser grid.
 #include "gap/2_predict/grid.h"
 
-#include "body/body_forces.h"
-#include "gap/2_predict/set_points.h"
+#include "body/body.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

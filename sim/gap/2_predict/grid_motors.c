@@ -6,11 +6,11 @@
 #include <stdlib.h>
 
 // One number of every rotor.
-typedef double rotors_t[ROTORS];
+typedef double forces_t[ROTORS];
 
 // Command and thrust by sample; the thrust is wanted `shift` samples before.
 typedef struct {
-  rotors_t *command_N, *thrust_N;
+  forces_t *command_N, *thrust_N;
   double shift, per_tau;
 } history_t;
 
@@ -59,7 +59,7 @@ static void average(const grid_t *g, const history_t *h, lagged_t *m) {
   }
 }
 
-static void follow(const grid_t *g, rotors_t *room, lagged_t *m) {
+static void follow(const grid_t *g, forces_t *room, lagged_t *m) {
   const history_t h = {room, room + g->samples, m->delay_s * g->flight->rate_Hz, 1.0 / m->tau_s};
   for (int i = 0; i < g->samples; i++)
     for (int k = 0; k < ROTORS; k++) h.command_N[i][k] = g->command_N[k][i];
@@ -74,7 +74,7 @@ const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
   lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
   const size_t n = (size_t)g->n;
   if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
-  rotors_t *const room = malloc(2 * (size_t)g->samples * sizeof *room);
+  forces_t *const room = malloc(2 * (size_t)g->samples * sizeof *room);
   if (!m->thrust_N[0] || !room) {
     free(room);
     return NULL;

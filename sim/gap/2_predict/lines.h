@@ -1,8 +1,8 @@
-// lines.h - room for one number per row of every channel of a set.
+// lines.h - room for one number per row of every channel of a set, and for one flight point by point.
 #ifndef SIM_GAP_2_PREDICT_LINES_H
 #define SIM_GAP_2_PREDICT_LINES_H
 
-#include "gap/2_predict/residual.h"
+#include "gap/2_predict/set.h"
 #include <stdlib.h>
 
 typedef struct {
@@ -22,6 +22,23 @@ MUST_CHECK static inline done_t lines_make(lines_t *l, const set_t *s, why_t *wh
     good = good && l->r[ch];
   }
   return good ? DONE : error_failed(why, "out of memory");
+}
+
+// Room for one flight's replay: `n` of each channel, twice, and what residual_rows wants.
+typedef struct {
+  double *base[CHANNELS], *with[CHANNELS], *scratch, *room;
+} flight_lines_t;
+
+static inline bool flight_lines_make(flight_lines_t *l, const set_t *s) {
+  size_t most = 1;
+  for (int f = 0; f < s->n_grid; f++) most = s->grid[f].n > (int)most ? (size_t)s->grid[f].n : most;
+  l->room = calloc((2 * CHANNELS + CH_SMOOTH) * most, sizeof(double));
+  for (size_t c = 0; c < CHANNELS && l->room; c++) {
+    l->base[c] = l->room + c * most;
+    l->with[c] = l->room + (CHANNELS + c) * most;
+  }
+  l->scratch = l->room ? l->room + 2 * CHANNELS * most : NULL;
+  return l->room != NULL;
 }
 
 #endif

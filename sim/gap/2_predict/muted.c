@@ -2,7 +2,6 @@
 #include "gap/2_predict/muted.h"
 
 #include "gap/2_predict/increments.h"
-#include "gap/4_candidates/candidates.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // predict.c - measured state and logged commands through the model, one derivative at a time.
 #include "gap/2_predict/predict.h"
 
-#include "body/body_forces.h"
+#include "body/body.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,137 +1,9 @@
 // residual.c - measured less predicted, as rows for least squares.
 #include "gap/2_predict/residual.h"
 
+#include "gap/2_predict/lines.h"
 #include <math.h>
 #include <stdlib.h>
-
-#define SPREAD_S 0.08 // a masked point spoils the filter's output so far around it
-#define EDGE_S   0.3  // so does the end of a segment
-#define LEAST_S  1.0
-#define NEAR_M   0.003
-
-// --- which points become rows -----------------------------------------------------------------------------
-
-// good[j]: nothing masked is near.
-static void find_good(const grid_t *g, bool *good) {
-  const int spread = (int)ceil(SPREAD_S / g->period_s), edge = (int)ceil(EDGE_S / g->period_s);
-  for (int j = 0; j < g->n; j++) good[j] = true;
-  for (int j = 0; j < g->n; j++) {
-    const bool first = j == 0 || g->point[j].segment != g->point[j - 1].segment;
-    const bool last = j + 1 == g->n || g->point[j].segment != g->point[j + 1].segment;
-    const int reach = first || last ? edge : g->point[j].ok ? -1 : spread;
-    for (int k = j - reach; k <= j + reach; k++)
-      if (k >= 0 && k < g->n) good[k] = false;
-  }
-}
-
-static bool rows_room(rows_t *r, size_t n) {
-  r->point = malloc((n + 1) * sizeof(int));
-  r->flight = malloc((n + 1) * sizeof(int));
-  r->block = malloc((n + 1) * sizeof(int));
-  r->follows = malloc((n + 1) * sizeof(bool));
-  return r->point && r->flight && r->block && r->follows;
-}
-
-static void rows_add(rows_t *r, int flight, int point, int block, bool follows) {
-  r->point[r->n] = point;
-  r->flight[r->n] = flight;
-  r->block[r->n] = block;
-  r->follows[r->n++] = follows;
-}
-
-static void add_flight(set_t *s, int flight, const bool *good) {
-  const grid_t *g = &s->grid[flight];
-  const int step = (int)fmax(1.0, round(1.0 / (RESIDUAL_HZ * g->period_s)));
-  const double start_s = g->n ? g->point[0].t_s : 0.0, end_s = g->n ? g->point[g->n - 1].t_s : 0.0;
-  int last = -1000, last_range = -1;
-  for (int j = 0; j < g->n; j++) {
-    const int block = s->n_block + (int)((g->point[j].t_s - start_s) / BLOCK_S);
-    s->half[block] = 2 * flight + (g->point[j].t_s - start_s > 0.5 * (end_s - start_s));
-    if (good[j] && j >= last + step) {
-      rows_add(&s->smooth, flight, j, block, j == last + step);
-      last = j;
-    }
-    if (!good[j] || !isfinite(g->point[j].range_m)) continue;
-    rows_add(&s->range, flight, j, block,
-             last_range >= 0 && g->point[j].t_s - g->point[last_range].t_s < 0.25);
-    last_range = j;
-  }
-  if (g->n) s->n_block += (int)((end_s - start_s) / BLOCK_S) + 1;
-}
-
-// Measured and predicted alike; turning is a difference over two points.
-static bool mark(grid_t *g) {
-  g->mark = malloc((size_t)g->n + 1);
-  for (int j = 0; g->mark && j < g->n; j++) {
-    const bool first = j == 0 || g->point[j].segment != g->point[j - 1].segment;
-    const bool last = j + 1 == g->n || g->point[j].segment != g->point[j + 1].segment;
-    const bool beside = (j == 0 || g->point[j - 1].ok) && (j + 1 == g->n || g->point[j + 1].ok);
-    g->mark[j] =
-        (unsigned char)((g->point[j].ok ? MARK_FREE : 0) | (g->point[j].ok && beside ? MARK_TURN_FREE : 0) |
-                        (first ? MARK_FIRST : 0) | (last ? MARK_LAST : 0));
-  }
-  return g->mark != NULL;
-}
-
-static done_t no_rows(const grid_t *g, why_t *why) {
-  const char *const name = g->flight->name;
-  const double span_s = g->n * g->period_s;
-  int near = 0;
-  for (int j = 0; j < g->n; j++) near += g->point[j].clear_m < NEAR_M;
-  if (span_s < LEAST_S)
-    return error_set(why, "%s: %.2g s of flight; allowed: %g s or more", name, span_s, LEAST_S);
-  if (2 * near > g->n)
-    return error_set(
-        why, "%s: on the floor, or at the vehicle file's ceiling or above it; allowed: free flight", name);
-  return error_set(
-      why, "%s: no instant at which motors carry it, free of floor and ceiling, with every signal there",
-      name);
-}
-
-done_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
-  *s = (set_t){.grid = grid, .n_grid = n, .n_half = 2 * n};
-  size_t points = 0, most = 1, blocks = 1;
-  for (int i = 0; i < n; i++) {
-    const size_t here = (size_t)grid[i].n;
-    points += here;
-    most = here > most ? here : most;
-    if (here) blocks += (size_t)((grid[i].point[here - 1].t_s - grid[i].point[0].t_s) / BLOCK_S) + 2;
-  }
-  bool *const good = malloc(most * sizeof(bool));
-  s->half = calloc(blocks, sizeof(int));
-  bool room = rows_room(&s->smooth, points) && rows_room(&s->range, points);
-  for (int i = 0; i < n && room; i++) room = mark(&grid[i]);
-  if (!good || !s->half || !room) {
-    free(good);
-    return error_failed(why, "out of memory");
-  }
-  for (int i = 0; i < n; i++) {
-    find_good(&grid[i], good);
-    add_flight(s, i, good);
-  }
-  free(good);
-  if (s->smooth.n > 0) return DONE;
-  return n ? no_rows(&grid[0], why) : error_set(why, "no flight");
-}
-
-static void rows_free(rows_t *r) {
-  free(r->point);
-  free(r->flight);
-  free(r->block);
-  free(r->follows);
-}
-
-void set_free(set_t *s) {
-  for (int i = 0; i < s->n_grid; i++) grid_free(&s->grid[i]);
-  free(s->grid);
-  rows_free(&s->smooth);
-  rows_free(&s->range);
-  free(s->half);
-  *s = (set_t){.n_grid = 0};
-}
-
-// --- what was measured
-// --------------------------------------------------------------------------------------
 
 static void measured(const point_t *p, double at[CHANNELS]) {
   d3_put(at, p->acc_b_mps2);
@@ -165,4 +37,28 @@ bool residual_has(const set_t *s, int channel) {
     if (channel < CH_FORCES ? !g->has_force : !(g->has_rates && g->has_moments)) return false;
   }
   return true;
+}
+
+// As measured in r, less predicted.
+static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
+                            double *const r[CHANNELS], why_t *why) {
+  TRY(residual_measured(s, r, why));
+  for (int f = 0; f < s->n_grid; f++) {
+    TRY(replay(&s->grid[f], m, l->base, why));
+    residual_rows(s, f, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);
+  }
+  for (int c = 0; c < CHANNELS; c++)
+    for (int i = 0; i < set_rows(s, c)->n; i++) r[c][i] -= predicted->r[c][i];
+  return DONE;
+}
+
+done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
+  lines_t predicted;
+  flight_lines_t l = {.room = NULL};
+  done_t status = lines_make(&predicted, s, why);
+  if (status == DONE && !flight_lines_make(&l, s)) status = error_failed(why, "out of memory");
+  if (status == DONE) status = residual_with(s, m, &l, &predicted, r, why);
+  free(l.room);
+  lines_free(&predicted);
+  return status;
 }

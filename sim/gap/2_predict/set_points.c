@@ -1,5 +1,5 @@
 // set_points.c - what the controller was told.
-#include "gap/2_predict/set_points.h"
+#include "gap/2_predict/grid.h"
 
 #include <math.h>
 #include <stdlib.h>

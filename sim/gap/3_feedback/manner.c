@@ -3,6 +3,7 @@
 
 #include "base/lsq_blocks.h"
 #include "base/nth.h"
+#include "gap/2_predict/color.h"
 #include <math.h>
 #include <stdlib.h>
 

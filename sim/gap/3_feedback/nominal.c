@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CALMER     4    // times that a flight is tried again with less disturbance
-#define LONG_S     60.0 // of a flight, so much is flown
-#define KEPT_LEAST 0.02
+#define CALMER 4    // times that a flight is tried again with less disturbance
+#define LONG_S 60.0 // of a flight, so much is flown
 
 // A part of a grid that is short enough: its first points.
 static grid_t beginning(const grid_t *g) {
@@ -31,9 +30,8 @@ static void calm(manner_t *w) {
   w->tilt_gain = 50.0;
 }
 
-// truth: the same flights without errors; may be null.
-static done_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                      const manner_t *w, unsigned long seed, why_t *why) {
+done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
+                       const manner_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t part = beginning(&s->grid[f]);
     if (part.n < 50) continue;
@@ -52,7 +50,7 @@ static done_t fly_all(gap_flights_t *to, gap_flights_t *truth, const set_t *s, c
   return DONE;
 }
 
-static done_t set_of(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
+done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
   grid_t *const grid = calloc((size_t)flown->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
   done_t status = DONE;
@@ -70,9 +68,9 @@ done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const mann
   *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
                  .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
   if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
-  TRY(fly_all(&a->seen_flights, &a->is_flights, like, m, manner, seed, why));
-  TRY(set_of(&a->seen, &a->seen_flights, m, why));
-  TRY(set_of(&a->is, &a->is_flights, m, why));
+  TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, manner, seed, why));
+  TRY(nominal_set(&a->seen, &a->seen_flights, m, why));
+  TRY(nominal_set(&a->is, &a->is_flights, m, why));
   memcpy(a->seen.muted, like->muted, sizeof a->seen.muted);
   memcpy(a->is.muted, like->muted, sizeof a->is.muted);
   return DONE;
@@ -87,121 +85,4 @@ void along_free(along_t *a) {
   }
   free(a->seen_flights.flight);
   free(a->is_flights.flight);
-}
-
-// The residual of the flown model, without what table_make adds of the effects that it has.
-static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
-  for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
-      for (int ch = 0; ch < CHANNELS; ch++) {
-        const double *x = t->x[ch][c->candidate[i].first + k];
-        const double value = *candidate_value(&c->candidate[i], k);
-        for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] -= value * x[r];
-      }
-}
-
-// What least squares find of a size, whose column holds errors: x x' / x x, both white.
-static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
-                        const color_t color[CHANNELS], why_t *why) {
-  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
-  double *const x = malloc(2 * rows * sizeof(double));
-  if (!x) return error_failed(why, "out of memory");
-  double *const y = x + rows;
-  for (int k = 0; k < n->size - 1; k++) {
-    double xx = 0.0, xy = 0.0;
-    for (int ch = 0; ch < CHANNELS; ch++) {
-      if (!color[ch].used || !seen->x[ch][k]) continue;
-      const rows_t *r = set_rows(s, ch);
-      color_whiten(&color[ch], r, seen->x[ch][k], x);
-      if (is->x[ch][k]) color_whiten(&color[ch], r, is->x[ch][k], y);
-      for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
-      for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
-    }
-    if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
-  }
-  free(x);
-  return DONE;
-}
-
-// The same flights without errors have the same rows, but for a few that errors move out of sight: then
-// nothing is known.
-static done_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
-                      const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
-  set_t own = {.n_grid = 0};
-  table_t is = {.columns = 0};
-  done_t status = set_of(&own, truth, job->base, why);
-  memcpy(own.muted, seen->muted, sizeof own.muted);
-  if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
-    status = table_make(&is, &own, job->base, job->c, why);
-    if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
-    if (status == DONE) table_free(&is);
-  }
-  set_free(&own);
-  return status;
-}
-
-static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
-                    why_t *why) {
-  table_t t;
-  gram_t g;
-  cell_t cell;
-  double *residual[CHANNELS];
-  const explained_t nothing = {.n = 0};
-  TRY(table_make(&t, s, job->base, job->c, why));
-  take_named(&t, s, job->c);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    residual[ch] = t.x[ch][t.columns];
-    const int rows = set_rows(s, ch)->n;
-    double sum = 0.0;
-    for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
-    n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
-  }
-  done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
-  if (status == DONE) {
-    memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
-           (size_t)(n->size * n->size) * sizeof(double));
-    if (truth) status = compare(n, s, &t, g.color, truth, job, why);
-    gram_free(&g);
-  }
-  if (status == DONE) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
-  if (status == DONE) n->cell[i] = cell.statistic;
-  table_free(&t);
-  return status;
-}
-
-static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
-  const set_t *s = job->set;
-  const size_t flights = (size_t)s->n_grid;
-  gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
-  gap_flights_t *const is = i == 0 ? &truth : NULL;
-  set_t own = {.n_grid = 0};
-  if (!flown.flight) return error_failed(why, "out of memory");
-  truth.flight = flown.flight + flights;
-  done_t status = fly_all(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
-  if (status == DONE) status = set_of(&own, &flown, job->base, why);
-  memcpy(own.muted, s->muted, sizeof own.muted);
-  if (status == DONE) status = judge(n, i, &own, is, job, why);
-  set_free(&own);
-  for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
-  free(flown.flight);
-  return status;
-}
-
-done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
-  *n = (nominal_t){.size = job->c->columns + 1};
-  n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
-  n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
-  n->kept = malloc((size_t)n->size * sizeof(double));
-  for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
-  done_t status = n->total && n->cell && n->kept ? DONE : error_failed(why, "out of memory");
-  for (int i = 0; i < NOMINAL_FLIGHTS && status == DONE; i++, n->n++) status = one(n, i, job, why);
-  if (status != DONE) nominal_free(n);
-  return status;
-}
-
-void nominal_free(nominal_t *n) {
-  free(n->total);
-  free(n->cell);
-  free(n->kept);
-  *n = (nominal_t){.n = 0};
 }

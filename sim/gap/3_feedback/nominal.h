@@ -10,11 +10,8 @@
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
+#include "gap/2_predict/residual.h"
 #include "gap/3_feedback/manner_slow.h"
-#include "gap/5_infer/select.h"
-#include "gap/5_infer/unknown.h"
-
-#define NOMINAL_FLIGHTS 10
 
 // How a flight was flown and measured.
 typedef struct {
@@ -45,21 +42,11 @@ MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
-// What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
-// estimate is an error.
-typedef struct {
-  const set_t *set;
-  const model_t *base;   // without
-  model_t flown;         // with
-  const candidates_t *c; // marks and values
-  const manner_t *manner;
-  unsigned long seed;
-} nominal_job_t;
-
-// NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
-// candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
-// column x and without errors x', what least squares find of a size: x x' / x x. FAILED as above.
-MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
-void nominal_free(nominal_t *n);
+// One flight along each flight of a set, the first 60 s of each. truth: the same flights without errors; may
+// be null. Both lists have room. FAILED as above.
+MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
+                                  const manner_t *manner, unsigned long seed, why_t *why);
+// The flights as a set. FAILED: no memory.
+MUST_CHECK done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why);
 
 #endif

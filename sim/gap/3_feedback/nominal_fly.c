@@ -1,7 +1,7 @@
 // nominal_fly.c - the model in closed loop along a log's track.
 #include "gap/3_feedback/nominal_known.h"
 
-#include "body/body_forces.h"
+#include "body/body.h"
 #include <math.h>
 
 #define STEP_S 0.002

@@ -1,7 +1,7 @@
 // nominal_pilot.c - who flies the nominal flights.
 #include "gap/3_feedback/nominal_pilot.h"
 
-#include "body/body_forces.h"
+#include "body/body.h"
 #include <math.h>
 #include <string.h>
 

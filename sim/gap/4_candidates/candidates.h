@@ -62,7 +62,4 @@ typedef struct {
 MUST_CHECK done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why);
 void table_free(table_t *t);
 
-// Residual of a model, by row: r[channel], rows of that channel. FAILED: no memory.
-MUST_CHECK done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
-
 #endif

@@ -1,51 +1,10 @@
-// columns.c - residuals, and the columns of the candidates.
+// columns.c - the columns of the candidates.
 #include "gap/4_candidates/candidates.h"
 
 #include "gap/2_predict/lines.h"
 #include "gap/2_predict/predict.h"
 #include <math.h>
 #include <stdlib.h>
-
-// Room for one flight's replay: `n` of each channel, twice, and what residual_rows wants.
-typedef struct {
-  double *base[CHANNELS], *with[CHANNELS], *scratch, *room;
-} flight_lines_t;
-
-static bool flight_lines_make(flight_lines_t *l, const set_t *s) {
-  size_t most = 1;
-  for (int f = 0; f < s->n_grid; f++) most = s->grid[f].n > (int)most ? (size_t)s->grid[f].n : most;
-  l->room = calloc((2 * CHANNELS + CH_SMOOTH) * most, sizeof(double));
-  for (size_t c = 0; c < CHANNELS && l->room; c++) {
-    l->base[c] = l->room + c * most;
-    l->with[c] = l->room + (CHANNELS + c) * most;
-  }
-  l->scratch = l->room ? l->room + 2 * CHANNELS * most : NULL;
-  return l->room != NULL;
-}
-
-// As measured in r, less predicted.
-static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
-                            double *const r[CHANNELS], why_t *why) {
-  TRY(residual_measured(s, r, why));
-  for (int f = 0; f < s->n_grid; f++) {
-    TRY(replay(&s->grid[f], m, l->base, why));
-    residual_rows(s, f, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);
-  }
-  for (int c = 0; c < CHANNELS; c++)
-    for (int i = 0; i < set_rows(s, c)->n; i++) r[c][i] -= predicted->r[c][i];
-  return DONE;
-}
-
-done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why) {
-  lines_t predicted;
-  flight_lines_t l = {.room = NULL};
-  done_t status = lines_make(&predicted, s, why);
-  if (status == DONE && !flight_lines_make(&l, s)) status = error_failed(why, "out of memory");
-  if (status == DONE) status = residual_with(s, m, &l, &predicted, r, why);
-  free(l.room);
-  lines_free(&predicted);
-  return status;
-}
 
 done_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
                                double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {

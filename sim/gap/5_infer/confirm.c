@@ -3,7 +3,7 @@
 
 #include "base/lsq_blocks.h"
 #include "base/lsq_instrument.h"
-#include "gap/2_predict/set_points.h"
+#include "gap/2_predict/grid.h"
 #include "gap/5_infer/instrument.h"
 #include <math.h>
 #include <stdlib.h>

@@ -9,11 +9,7 @@
 #ifndef SIM_GAP_5_INFER_CONFIRM_H
 #define SIM_GAP_5_INFER_CONFIRM_H
 
-#include "gap/3_feedback/nominal.h"
-
-#define CONFIRM_F     10.0 // of the first stage, at least (Staiger and Stock 1997)
-#define CONFIRM_LAGS  3
-#define CONFIRM_LAG_S 0.08 // from one to the next
+#include "gap/5_infer/found.h"
 
 // Sets found->named[].confirm; nothing changes where no log has set points, or the model cannot be flown
 // along them (*why_not says so, else it is null). Names and their values stay. FAILED: no memory.

@@ -1,6 +1,5 @@
 // describe.c - what a finished selection says: names, rivals, and what could have been seen.
 #include "gap/5_infer/state.h"
-#include "gap/7_verify/verify.h"
 #include <math.h>
 
 // Mass and thrust scale differ in turning alone.
@@ -65,8 +64,8 @@ static void find_timing(const select_t *t, found_t *found) {
   candidate_t *const c = &t->c->candidate[t->timing];
   why_t why;
   double without = 1.0, with = 1.0;
-  if (verify_left(t->s, t->given, t->gram.color, &without, &why) != DONE ||
-      verify_left(t->s, t->base, t->gram.color, &with, &why) != DONE)
+  if (whiten_left(t->s, t->given, t->gram.color, &without, &why) != DONE ||
+      whiten_left(t->s, t->base, t->gram.color, &with, &why) != DONE)
     without = with = 1.0;
   for (int i = 0; i < found->n; i++) found->named[i].share *= with / without;
   found->left_before *= without / with;

@@ -2,7 +2,7 @@
 // reference.
 #include "gap/5_infer/instrument.h"
 
-#include "gap/2_predict/set_points.h"
+#include "gap/2_predict/grid.h"
 #include <math.h>
 #include <stdlib.h>
 

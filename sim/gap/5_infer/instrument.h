@@ -3,9 +3,11 @@
 #ifndef SIM_GAP_5_INFER_INSTRUMENT_H
 #define SIM_GAP_5_INFER_INSTRUMENT_H
 
-#include "gap/5_infer/confirm.h"
+#include "gap/5_infer/found.h"
 
-#define INSTRUMENTS (CONFIRM_LAGS * GROUPS) // of a column: forces, turning and range have their own
+#define CONFIRM_LAGS  3
+#define CONFIRM_LAG_S 0.08                    // from one to the next
+#define INSTRUMENTS   (CONFIRM_LAGS * GROUPS) // of a column: forces, turning and range have their own
 
 typedef struct {
   candidates_t names; // those that are in the model alone

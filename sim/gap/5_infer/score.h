@@ -2,7 +2,7 @@
 #ifndef SIM_GAP_5_INFER_SCORE_H
 #define SIM_GAP_5_INFER_SCORE_H
 
-#include "gap/5_infer/select.h"
+#include "gap/5_infer/found.h"
 
 // Candidates, by number.
 typedef struct {

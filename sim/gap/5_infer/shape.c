@@ -3,7 +3,6 @@
 
 #include "base/lsq_blocks.h"
 #include "gap/2_predict/lines.h"
-#include "gap/7_verify/verify.h"
 #include <math.h>
 #include <nlopt.h>
 #include <string.h>
@@ -36,7 +35,7 @@ static double left_with(unsigned n, const double *x, double *gradient, void *dat
   (void)gradient;
   for (int i = 0; i < p->n; i++) *number(p, i) = x[i] * p->unit[i];
   if (candidates_model(p->c, p->base, &m, &p->why) != DONE ||
-      verify_left(p->s, &m, p->color, &left, &p->why) != DONE)
+      whiten_left(p->s, &m, p->color, &left, &p->why) != DONE)
     p->failed = true;
   return left;
 }

@@ -2,7 +2,7 @@
 #ifndef SIM_GAP_5_INFER_SHAPE_H
 #define SIM_GAP_5_INFER_SHAPE_H
 
-#include "gap/5_infer/select.h"
+#include "gap/5_infer/found.h"
 
 #define SHAPE_TRIES 60 // replays at most, for one name
 

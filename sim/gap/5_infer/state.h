@@ -2,8 +2,8 @@
 #ifndef SIM_GAP_5_INFER_STATE_H
 #define SIM_GAP_5_INFER_STATE_H
 
+#include "gap/5_infer/found.h"
 #include "gap/5_infer/score.h"
-#include "gap/5_infer/select.h"
 #include <string.h>
 
 #define TAKES 2 // what was taken out as often as this does not come back

@@ -2,51 +2,10 @@
 #include "gap/5_infer/whiten.h"
 
 #include "base/lsq_blocks.h"
+#include "gap/2_predict/lines.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define ROWS_MIN 40
-
-bool color_reaches(const rows_t *r, int row) {
-  return row >= 2 && r->follows[row] && r->follows[row - 1];
-}
-
-// Normal equations of an autoregression of second order.
-color_t color_fit(const rows_t *r, const double *v) {
-  double s11 = 0.0, s12 = 0.0, s22 = 0.0, s01 = 0.0, s02 = 0.0, s00 = 0.0;
-  int n = 0;
-  for (int i = 2; i < r->n; i++) {
-    if (!color_reaches(r, i)) continue;
-    const double y = v[i], p = v[i - 1], q = v[i - 2];
-    s00 += y * y;
-    s01 += y * p;
-    s02 += y * q;
-    s11 += p * p;
-    s12 += p * q;
-    s22 += q * q;
-    n++;
-  }
-  const double det = s11 * s22 - s12 * s12;
-  if (n < ROWS_MIN || !(det > 1e-12 * s11 * s22)) return (color_t){.used = false};
-  color_t c = {.a1 = (s01 * s22 - s02 * s12) / det, .a2 = (s02 * s11 - s01 * s12) / det};
-  c.sd = sqrt(fmax(s00 - c.a1 * s01 - c.a2 * s02, 0.0) / n);
-  c.used = c.sd > 0.0;
-  return c;
-}
-
-static color_t color_plain(const rows_t *r, const double *v) {
-  double squares = 0.0;
-  for (int i = 0; i < r->n; i++) squares += v[i] * v[i];
-  const color_t c = color_fit(r, v);
-  return (color_t){.sd = r->n ? sqrt(squares / r->n) : 0.0, .used = c.used};
-}
-
-void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
-  const double per_sd = 1.0 / c->sd;
-  for (int i = 0; i < r->n; i++)
-    out[i] = color_reaches(r, i) ? per_sd * (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) : 0.0;
-}
 
 // The colour of what some columns leave, apart from its mean; plain: its spread alone.
 static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const explained_t *e) {
@@ -193,4 +152,15 @@ void gram_free(gram_t *g) {
     g->by_group[i] = NULL;
   }
   g->block = g->by_half = g->total = NULL;
+}
+
+done_t whiten_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
+  lines_t l;
+  done_t status = lines_make(&l, s, why);
+  if (status == DONE) status = residual_of(s, m, l.r, why);
+  *left = 0.0;
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
+    if (color[ch].used) *left += color_left(set_rows(s, ch), &color[ch], l.r[ch]);
+  lines_free(&l);
+  return status;
 }

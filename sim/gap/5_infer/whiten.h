@@ -1,16 +1,12 @@
 // whiten.h - residual and columns made white by an autoregression per channel, and their sums of products.
 //
-// e_t = (y_t - a1 y_{t-1} - a2 y_{t-2}) / sd, fitted to the residual that the named effects leave. The sums
-// of products are kept by block of BLOCK_S: everything that selection asks follows from them.
+// The colours (color.h) are fitted to the residual that the named effects leave. The sums of products are
+// kept by block of BLOCK_S: everything that selection asks follows from them.
 #ifndef SIM_GAP_5_INFER_WHITEN_H
 #define SIM_GAP_5_INFER_WHITEN_H
 
+#include "gap/2_predict/color.h"
 #include "gap/4_candidates/candidates.h"
-
-typedef struct {
-  double a1, a2, sd;
-  bool used; // the channel has rows enough
-} color_t;
 
 #define GROUPS 3
 
@@ -22,13 +18,6 @@ typedef struct {
   double *by_group[GROUPS]; // of all half-flights, one matrix each: forces, turning, range
   color_t color[CHANNELS];
 } gram_t;
-
-// Colour of rows that v leaves of a channel.
-color_t color_fit(const rows_t *r, const double *v);
-
-// The white rows of v, in place of out (as many as rows; 0 where a row has no two before it).
-void color_whiten(const color_t *color, const rows_t *r, const double *v, double *out);
-bool color_reaches(const rows_t *r, int row); // it has two before it
 
 // What is taken to be known of the residual: columns and their values.
 typedef struct {
@@ -43,5 +32,9 @@ typedef struct {
 MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known,
                             const double *ridge, why_t *why);
 void gram_free(gram_t *g);
+
+// White sum of squares that a model leaves, in the colours of another one's residual.
+MUST_CHECK done_t whiten_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left,
+                              why_t *why);
 
 #endif

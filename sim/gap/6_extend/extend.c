@@ -39,7 +39,7 @@ static const char *unit_in_words(const char *unit) {
 }
 
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
-  const candidate_t *c = &job->diagnosis->candidates.candidate[named->candidate];
+  const candidate_t *c = &job->candidates->candidate[named->candidate];
   int n;
   char p[P_TEXT];
   const fx_param_t *param = fx_use_params(&c->use, &n);
@@ -84,11 +84,11 @@ done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   FILE *const made = open_memstream(&text, &size);
   if (!made) return error_failed(why, "out of memory");
   fprintf(made, "# Written by gap: %s and what was missing in it (%d named). Rewritten by the next run.\n",
-          job->path, job->diagnosis->found.n);
+          job->path, job->found->n);
   if (job->made) made_comment(job->made, made);
   if (job->made) fprintf(made, "# %s\n", job->logs);
   write_text(job, made);
-  for (int i = 0; i < job->diagnosis->found.n; i++) write_effect(job, &job->diagnosis->found.named[i], made);
+  for (int i = 0; i < job->found->n; i++) write_effect(job, &job->found->named[i], made);
   done_t status = fclose(made) == 0 && text ? DONE : error_failed(why, "out of memory");
   if (status == DONE) status = check(text, job, why);
   if (status == DONE) fputs(text, out);

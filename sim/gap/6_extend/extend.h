@@ -7,13 +7,14 @@
 #define SIM_GAP_6_EXTEND_EXTEND_H
 
 #include "base/made.h"
-#include "gap/diagnose.h"
+#include "gap/5_infer/found.h"
 #include <stdio.h>
 
 typedef struct {
   const char *path, *text; // of the vehicle file
   const model_t *model;    // what it says
-  const diagnosis_t *diagnosis;
+  const candidates_t *candidates;
+  const found_t *found;
   const char *logs;   // what it was found in, in words
   const made_t *made; // how; null: not said
 } extend_job_t;

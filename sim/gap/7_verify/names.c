@@ -11,25 +11,24 @@ static double rms_of(const double *v, int n) {
 }
 
 // What the model with the names that are marked leaves of every channel; 0 where the rows are too few.
-static done_t measure(diagnosis_t *d, const model_t *base, double rms[CHANNELS], why_t *why) {
+static done_t measure(const verify_job_t *d, double rms[CHANNELS], why_t *why) {
   model_t m;
   lines_t l = {.r = {NULL}};
-  TRY(candidates_model(&d->candidates, base, &m, why));
-  done_t status = lines_make(&l, &d->held, why);
-  if (status == DONE) status = residual_of(&d->held, &m, l.r, why);
+  TRY(candidates_model(d->candidates, d->base, &m, why));
+  done_t status = lines_make(&l, d->held, why);
+  if (status == DONE) status = residual_of(d->held, &m, l.r, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
-    const rows_t *const rows = set_rows(&d->held, ch);
-    const bool used = residual_has(&d->held, ch) && color_fit(rows, l.r[ch]).used;
+    const rows_t *const rows = set_rows(d->held, ch);
+    const bool used = residual_has(d->held, ch) && color_fit(rows, l.r[ch]).used;
     rms[ch] = used ? rms_of(l.r[ch], rows->n) : 0.0;
   }
   lines_free(&l);
   return status;
 }
 
-static done_t measure_without(diagnosis_t *d, const model_t *base, candidate_t *name, double rms[CHANNELS],
-                              why_t *why) {
+static done_t measure_without(const verify_job_t *d, candidate_t *name, double rms[CHANNELS], why_t *why) {
   name->named = false;
-  const done_t status = measure(d, base, rms, why);
+  const done_t status = measure(d, rms, why);
   name->named = true;
   return status;
 }
@@ -73,17 +72,16 @@ static done_t compare(along_t *a, const model_t *with, const model_t *without, d
 
 // The rms that a right name may bring, by errors of the log and by feedback: on flights of the model along
 // the held-out tracks. 0 where it cannot fly.
-static done_t blur_of(diagnosis_t *d, const model_t *base, candidate_t *name, double blur[CHANNELS],
-                      why_t *why) {
+static done_t blur_of(const verify_job_t *d, candidate_t *name, double blur[CHANNELS], why_t *why) {
   model_t with, without;
   along_t a;
   for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = 0.0;
-  TRY(candidates_model(&d->candidates, base, &with, why));
+  TRY(candidates_model(d->candidates, d->base, &with, why));
   name->named = false;
-  done_t status = candidates_model(&d->candidates, base, &without, why);
+  done_t status = candidates_model(d->candidates, d->base, &without, why);
   name->named = true;
   TRY(status);
-  if (nominal_along(&a, &d->held, &with, &d->manner, 1, why) == DONE)
+  if (nominal_along(&a, d->held, &with, d->manner, 1, why) == DONE)
     status = compare(&a, &with, &without, blur, why);
   along_free(&a);
   return status;
@@ -106,17 +104,17 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
 }
 
 // The name that does so most; -1: none.
-static done_t find_worst(diagnosis_t *d, const model_t *base, int *worst, withdrawn_t *why_so, why_t *why) {
+static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
   static const double none[CHANNELS] = {0.0};
   double with[CHANNELS], without[CHANNELS], blur[CHANNELS], most = VERIFY_GROWS;
   *worst = -1;
-  TRY(measure(d, base, with, why));
-  for (int i = 0; i < d->found.n; i++) {
-    candidate_t *const name = &d->candidates.candidate[d->found.named[i].candidate];
+  TRY(measure(d, with, why));
+  for (int i = 0; i < d->found->n; i++) {
+    candidate_t *const name = &d->candidates->candidate[d->found->named[i].candidate];
     double first = most;
-    TRY(measure_without(d, base, name, without, why));
+    TRY(measure_without(d, name, without, why));
     if (grown(with, without, none, &first) < 0) continue;
-    TRY(blur_of(d, base, name, blur, why));
+    TRY(blur_of(d, name, blur, why));
     const int ch = grown(with, without, blur, &most);
     if (ch < 0) continue;
     *worst = i;
@@ -125,20 +123,21 @@ static done_t find_worst(diagnosis_t *d, const model_t *base, int *worst, withdr
   return DONE;
 }
 
-static void withdraw(diagnosis_t *d, int worst) {
-  candidate_t *const c = &d->candidates.candidate[d->found.named[worst].candidate];
+static void withdraw(const verify_job_t *d, int worst) {
+  candidate_t *const c = &d->candidates->candidate[d->found->named[worst].candidate];
   c->named = false;
   for (int k = 0; k < c->n; k++) *candidate_value(c, k) = 0.0;
-  for (int i = worst + 1; i < d->found.n; i++) d->found.named[i - 1] = d->found.named[i];
-  d->found.n--;
+  for (int i = worst + 1; i < d->found->n; i++) d->found->named[i - 1] = d->found->named[i];
+  d->found->n--;
 }
 
-done_t verify_names(diagnosis_t *d, const model_t *base, why_t *why) {
+done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why) {
   int worst = 0;
-  while (d->found.n > 0) {
-    TRY(find_worst(d, base, &worst, &d->withdrawn[d->n_withdrawn], why));
+  withdrawn->n = 0;
+  while (d->found->n > 0) {
+    TRY(find_worst(d, &worst, &withdrawn->name[withdrawn->n], why));
     if (worst < 0) return DONE;
-    d->n_withdrawn++;
+    withdrawn->n++;
     withdraw(d, worst);
   }
   return DONE;

@@ -14,27 +14,6 @@ static void spread(const double *v, int n, double *rms, double *sd) {
   *sd = n ? sqrt(fmax(squares / n - sum * sum / n / n, 0.0)) : 0.0;
 }
 
-static double white_left(const rows_t *r, const color_t *c, const double *v) {
-  double sum = 0.0;
-  for (int i = 2; i < r->n; i++) {
-    if (!color_reaches(r, i)) continue;
-    const double e = (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) / c->sd;
-    sum += e * e;
-  }
-  return sum;
-}
-
-done_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {
-  lines_t l;
-  done_t status = lines_make(&l, s, why);
-  if (status == DONE) status = residual_of(s, m, l.r, why);
-  *left = 0.0;
-  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
-    if (color[ch].used) *left += white_left(set_rows(s, ch), &color[ch], l.r[ch]);
-  lines_free(&l);
-  return status;
-}
-
 done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
                    held_t *held, why_t *why) {
   lines_t b, a = {.r = {NULL}};
@@ -52,8 +31,8 @@ done_t verify_held(set_t *s, const model_t *before, const model_t *after, const 
     if (!p->used) continue;
     spread(b.r[ch], rows->n, &p->before, &p->before_sd);
     spread(a.r[ch], rows->n, &p->after, &p->after_sd);
-    held->left_before += white_left(rows, &color, b.r[ch]);
-    held->left_after += white_left(rows, &color, a.r[ch]);
+    held->left_before += color_left(rows, &color, b.r[ch]);
+    held->left_after += color_left(rows, &color, a.r[ch]);
   }
   lines_free(&b);
   lines_free(&a);

@@ -2,7 +2,32 @@
 #ifndef SIM_GAP_7_VERIFY_VERIFY_H
 #define SIM_GAP_7_VERIFY_VERIFY_H
 
-#include "gap/diagnose.h"
+#include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/found.h"
+
+typedef struct {
+  bool used;
+  double before, after, floor; // rms of rows
+  double before_sd, after_sd;
+} gap_part_t;
+
+// Held-out flights, all together.
+typedef struct {
+  gap_part_t channel[CHANNELS];
+  double left_before, left_after; // white sums of squares
+} held_t;
+
+// A name of the fitted flights that the held-out ones contradict.
+typedef struct {
+  const fx_t *fx;
+  int channel;          // that it grows most
+  double without, with; // its held-out rms
+} withdrawn_t;
+
+typedef struct {
+  int n;
+  withdrawn_t name[NAMED_MAX];
+} withdrawn_list_t;
 
 // FAILED: no memory.
 MUST_CHECK done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
@@ -14,12 +39,17 @@ MUST_CHECK done_t verify_held(set_t *s, const model_t *before, const model_t *af
 // tracks tell it.
 #define VERIFY_GROWS 1.05
 
+// What was found, and the flights that it is held against.
+typedef struct {
+  set_t *held;
+  candidates_t *candidates;
+  const model_t *base; // without what was found
+  const manner_t *manner;
+  found_t *found;
+} verify_job_t;
+
 // Withdraws the names that grow one by more, the worst first: they are no longer marked, nor found. The
 // others keep their values: what these flights alone had would else go into them. FAILED: no memory.
-MUST_CHECK done_t verify_names(diagnosis_t *d, const model_t *base, why_t *why);
-
-// White sum of squares that a model leaves, in the colours of another one's residual.
-MUST_CHECK done_t verify_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left,
-                              why_t *why);
+MUST_CHECK done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why);
 
 #endif

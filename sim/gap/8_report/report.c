@@ -27,8 +27,9 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const char *const obstacle = candidates_obstacle(fx, &r->study->vehicle, &d->fit);
   if (obstacle) return obstacle;
-  for (int i = 0; i < d->n_withdrawn; i++)
-    if (d->withdrawn[i].fx == fx) return "the fitted flights show it, and the held-out ones contradict it";
+  for (int i = 0; i < d->withdrawn.n; i++)
+    if (d->withdrawn.name[i].fx == fx)
+      return "the fitted flights show it, and the held-out ones contradict it";
   if (!d->nominal_flew)
     return "the model could not be flown along these tracks: what feedback alone would show is not known";
   return NULL;

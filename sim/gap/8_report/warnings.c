@@ -78,8 +78,8 @@ static void warn_of_diagnosis(report_t *r) {
     warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
             "better "
             "than before");
-  for (int i = 0; i < d->n_withdrawn; i++) {
-    const withdrawn_t *const w = &d->withdrawn[i];
+  for (int i = 0; i < d->withdrawn.n; i++) {
+    const withdrawn_t *const w = &d->withdrawn.name[i];
     warn(r,
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
          w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);

@@ -67,7 +67,7 @@ TEST(gap_keeps_the_values_of_the_others_when_it_withdraws_a_name) {
   const gap_hidden_t fit = {2, {bias, wind}}, held = {1, {bias}};
   gap_case_t *const c = gap_case(&fit, &held);
   const named_t *const named = gap_case_named(c, "accel_bias");
-  CHECK(c->d.n_withdrawn == 1 && c->d.withdrawn[0].fx == fx_find("wind"));
+  CHECK(c->d.withdrawn.n == 1 && c->d.withdrawn.name[0].fx == fx_find("wind"));
   if (CHECK(named)) CHECK_NEAR(named->value[0], 0.3, 3.0 * named->stderr_[0]);
   gap_case_free(c);
 }

@@ -1,6 +1,7 @@
 // test_gap_extend.c - the vehicle file with what was named: it reads back as what was found.
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include "gap/6_extend/extend.h"
+#include "gap/diagnose.h"
 #include "rig/scratch.h"
 #include "rig/test.h"
 #include "vehicle/model_file.h"
@@ -21,7 +22,7 @@ static done_t extend(const char *path, const char *text, const candidate_t *cand
   size_t used = 0;
   TRY(model_read_text(path, text, base, why));
   FILE *const file = open_memstream(&made, &used);
-  const extend_job_t job = {path, text, base, &d, "3 flights, seed 1", NULL};
+  const extend_job_t job = {path, text, base, &d.candidates, &d.found, "3 flights, seed 1", NULL};
   const done_t status = extend_write(&job, file, why);
   fclose(file);
   snprintf(out, size, "%s", made);

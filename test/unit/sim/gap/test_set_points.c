@@ -1,6 +1,6 @@
 // test_set_points.c - what the controller was told: which of it the vehicle follows, and the track that it
 // makes.
-#include "gap/2_predict/set_points.h"
+#include "gap/2_predict/grid.h"
 #include "logs/log_rows.h"
 #include "rig/scratch.h"
 #include "rig/test.h"

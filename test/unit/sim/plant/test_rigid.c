@@ -1,5 +1,5 @@
 // test_rigid.c - the rigid body: what is conserved, and what each rotor does.
-#include "plant/rigid_derivative.h"
+#include "plant/rigid.h"
 #include "plant/rotor.h"
 #include "rig/vehicle6.h"
 #include <string.h>

@@ -1,7 +1,7 @@
 // test_ekf.c - the estimator on known motions: size of its errors, delays, take-off, repeatability.
 #include "rig/ekf_rig.h"
 #include "rig/test.h"
-#include "sense/ekf_core.h"
+#include "sense/ekf.h"
 #include <string.h>
 
 TEST(ekf_follows_known_motions_with_errors_of_realistic_size) {

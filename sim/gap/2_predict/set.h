@@ -1,0 +1,49 @@
+// set.h - the rows of several flights for least squares, at about 25 Hz, and by fresh sample of the range.
+#ifndef SIM_GAP_2_PREDICT_SET_H
+#define SIM_GAP_2_PREDICT_SET_H
+
+#include "gap/2_predict/grid.h"
+
+#define RESIDUAL_HZ 25.0
+#define BLOCK_S     2.0 // what is taken to be independent
+
+// Rows of all flights, in order. Two lists: of the smooth channels, and of the range.
+typedef struct {
+  int n;
+  int *point;    // of its flight's grid
+  int *flight;   // number of the grid
+  int *block;    // counts over all flights
+  bool *follows; // the row before is one step earlier: there is no gap between
+} rows_t;
+
+typedef struct {
+  grid_t *grid; // one per flight
+  int n_grid;
+  rows_t smooth, range;
+  int n_block, *half; // of each block: which half-flight it belongs to
+  int n_half;
+  bool muted[CHANNELS]; // muted.h
+} set_t;
+
+static inline const rows_t *set_rows(const set_t *s, int channel) {
+  return channel == CH_RANGE ? &s->range : &s->smooth;
+}
+
+// Takes the grids over. BAD_INPUT: no row at all (says why); FAILED: no memory. *s can be freed then.
+MUST_CHECK done_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
+void set_free(set_t *s);
+
+// The first row of a flight or of the next ones; rows are in the flights' order.
+static inline int rows_from(const rows_t *r, int flight) {
+  int low = 0, high = r->n;
+  while (low < high) {
+    const int middle = low + (high - low) / 2;
+    if (r->flight[middle] < flight)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+#endif

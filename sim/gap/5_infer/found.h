@@ -1,0 +1,69 @@
+// found.h - what the selection found: names with their numbers and rivals, what is open, what could have been
+// seen.
+#ifndef SIM_GAP_5_INFER_FOUND_H
+#define SIM_GAP_5_INFER_FOUND_H
+
+#include "gap/5_infer/nominal_sums.h"
+
+#define SELECT_ALPHA   0.01
+#define SELECT_GAIN    0.004
+#define SELECT_NOMINAL 3.0
+#define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
+#define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
+#define SELECT_ERRORS  2.0  // standard errors that hold what is sure
+#define NAMED_MAX      8
+#define COLUMN_MAX     (NAMED_MAX * FX_SIZE_MAX)
+#define RIVAL_MAX      8
+
+#define CONFIRM_F 10.0 // of the first stage, at least (Staiger and Stock 1997)
+
+// What the reference trajectory as an instrument says of a name (confirm.h).
+typedef enum { CONFIRM_NOT_TRIED, CONFIRM_WEAK, CONFIRM_NO, CONFIRM_YES } confirm_answer_t;
+
+typedef struct {
+  confirm_answer_t answer;
+  double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX]; // not where it is weak
+  double F;                                        // of the first stage, its weakest number
+  double blocks;                                   // that tell of it, as if all told as much
+  double p;                                        // of all its numbers together
+  double p_apart;                                  // of its distance from least squares (Hausman)
+  bool apart;                                      // they differ by more than the errors of both allow
+} confirm_t;
+
+typedef struct {
+  int candidate;
+  double value[FX_SIZE_MAX];
+  // The regression's own standard error (robust, blocks of 2 s), and beside it the number's rms error on
+  // nominal flights, bias and all, and half the least lag or delay that is named.
+  double stderr_[FX_SIZE_MAX];
+  double beside[FX_SIZE_MAX]; // of stderr_, what is not the regression's own
+  double shape_stderr;        // of its shape (shape.h); NaN or 0: not known
+  double p;                   // of the Wald test, all its numbers together
+  double share;               // of the sum of squares that the original model leaves and the effect explains
+  int n_rival;
+  const fx_t *rival[RIVAL_MAX];
+  double rival_share[RIVAL_MAX]; // what each would explain in its place
+  confirm_t confirm;
+} named_t;
+
+typedef struct {
+  int n;
+  named_t named[NAMED_MAX];
+  int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
+  named_t open[NAMED_MAX];  // candidate and rivals alone
+  int rounds;               // times that all columns were formed: the time of a selection goes with it
+  double aligned_s;         // lag or delay that is in the model without a name
+  double left, left_before; // white sums of squares, with and without what is named
+  double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
+  bool *echo; // by candidate: something like it is there, at one place, time or state only: it was not tried
+} found_t;
+
+// The effect is an open name, or a rival of one.
+bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
+// The smallest size of an effect that would have been seen, over what is typical: of its shapes the one
+// nearest to what is typical, of its rotors the one that shows worst. HUGE_VAL: none would. which (may be
+// null): the candidate; a null pointer where no residual depends on it.
+double found_least(const found_t *f, const candidates_t *c, const fx_t *fx, const candidate_t **which);
+void found_free(found_t *f);
+
+#endif

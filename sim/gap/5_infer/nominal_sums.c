@@ -1,0 +1,126 @@
+// nominal_sums.c - what the workflow sees in flights in which nothing is hidden.
+#include "gap/5_infer/nominal_sums.h"
+
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define KEPT_LEAST 0.02
+
+// The residual of the flown model, without what table_make adds of the effects that it has.
+static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
+  for (int i = 0; i < c->n; i++)
+    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
+      for (int ch = 0; ch < CHANNELS; ch++) {
+        const double *x = t->x[ch][c->candidate[i].first + k];
+        const double value = *candidate_value(&c->candidate[i], k);
+        for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] -= value * x[r];
+      }
+}
+
+// What least squares find of a size, whose column holds errors: x x' / x x, both white.
+static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
+                        const color_t color[CHANNELS], why_t *why) {
+  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  double *const x = malloc(2 * rows * sizeof(double));
+  if (!x) return error_failed(why, "out of memory");
+  double *const y = x + rows;
+  for (int k = 0; k < n->size - 1; k++) {
+    double xx = 0.0, xy = 0.0;
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      if (!color[ch].used || !seen->x[ch][k]) continue;
+      const rows_t *r = set_rows(s, ch);
+      color_whiten(&color[ch], r, seen->x[ch][k], x);
+      if (is->x[ch][k]) color_whiten(&color[ch], r, is->x[ch][k], y);
+      for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
+      for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
+    }
+    if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
+  }
+  free(x);
+  return DONE;
+}
+
+// The same flights without errors have the same rows, but for a few that errors move out of sight: then
+// nothing is known.
+static done_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
+                      const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
+  set_t own = {.n_grid = 0};
+  table_t is = {.columns = 0};
+  done_t status = nominal_set(&own, truth, job->base, why);
+  memcpy(own.muted, seen->muted, sizeof own.muted);
+  if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
+    status = table_make(&is, &own, job->base, job->c, why);
+    if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
+    if (status == DONE) table_free(&is);
+  }
+  set_free(&own);
+  return status;
+}
+
+static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+                    why_t *why) {
+  table_t t;
+  gram_t g;
+  cell_t cell;
+  double *residual[CHANNELS];
+  const explained_t nothing = {.n = 0};
+  TRY(table_make(&t, s, job->base, job->c, why));
+  take_named(&t, s, job->c);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    residual[ch] = t.x[ch][t.columns];
+    const int rows = set_rows(s, ch)->n;
+    double sum = 0.0;
+    for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
+    n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
+  }
+  done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
+  if (status == DONE) {
+    memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
+           (size_t)(n->size * n->size) * sizeof(double));
+    if (truth) status = compare(n, s, &t, g.color, truth, job, why);
+    gram_free(&g);
+  }
+  if (status == DONE) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
+  if (status == DONE) n->cell[i] = cell.statistic;
+  table_free(&t);
+  return status;
+}
+
+static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
+  const set_t *s = job->set;
+  const size_t flights = (size_t)s->n_grid;
+  gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
+  gap_flights_t *const is = i == 0 ? &truth : NULL;
+  set_t own = {.n_grid = 0};
+  if (!flown.flight) return error_failed(why, "out of memory");
+  truth.flight = flown.flight + flights;
+  done_t status = nominal_flights(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
+  memcpy(own.muted, s->muted, sizeof own.muted);
+  if (status == DONE) status = judge(n, i, &own, is, job, why);
+  set_free(&own);
+  for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
+  free(flown.flight);
+  return status;
+}
+
+done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
+  *n = (nominal_t){.size = job->c->columns + 1};
+  n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
+  n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
+  n->kept = malloc((size_t)n->size * sizeof(double));
+  for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
+  done_t status = n->total && n->cell && n->kept ? DONE : error_failed(why, "out of memory");
+  for (int i = 0; i < NOMINAL_FLIGHTS && status == DONE; i++, n->n++) status = one(n, i, job, why);
+  if (status != DONE) nominal_free(n);
+  return status;
+}
+
+void nominal_free(nominal_t *n) {
+  free(n->total);
+  free(n->cell);
+  free(n->kept);
+  *n = (nominal_t){.n = 0};
+}

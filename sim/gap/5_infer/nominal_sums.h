@@ -1,0 +1,37 @@
+// nominal_sums.h - what the inference takes of flights in which nothing is hidden: sums of products of the
+// candidates' columns, and the largest cell of what is left.
+#ifndef SIM_GAP_5_INFER_NOMINAL_SUMS_H
+#define SIM_GAP_5_INFER_NOMINAL_SUMS_H
+
+#include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/whiten.h"
+
+#define NOMINAL_FLIGHTS 10
+
+// Sums of products of nominal flights, one matrix each, with the columns of the candidates.
+typedef struct {
+  int n, size;
+  double *total;          // n matrices
+  double *cell;           // n numbers: the largest statistic of unknown.h
+  double *kept;           // by column: what is found of a size, because what it is multiplied by has errors
+  double floor[CHANNELS]; // rms of a residual row
+} nominal_t;
+
+// What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
+// estimate is an error.
+typedef struct {
+  const set_t *set;
+  const model_t *base;   // without
+  model_t flown;         // with
+  const candidates_t *c; // marks and values
+  const manner_t *manner;
+  unsigned long seed;
+} nominal_job_t;
+
+// NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
+// candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
+// column x and without errors x', what least squares find of a size: x x' / x x. FAILED as above.
+MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
+void nominal_free(nominal_t *n);
+
+#endif
