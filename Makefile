@@ -112,7 +112,7 @@ SEES_OF_SRC = $(FLIGHT_FLAGS) -Iinclude
 # The app, unchanged, between stand-ins of the firmware's headers.
 $(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
 SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
-$(foreach room,base plant effects body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
+$(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
 $(B)/sim/crazyflie/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest

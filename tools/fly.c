@@ -10,6 +10,7 @@
 #include "flight/scenario.h"
 #include "fly_usage.h"
 #include "logs/replay.h"
+#include "pilots/controller_file.h"
 #include "vehicle/model_file.h"
 
 #include <limits.h>
@@ -54,6 +55,14 @@ static done_t take_params(order_t *o, const char *form, why_t *why) {
   return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
+static done_t take_vehicle(order_t *o, const char *path, why_t *why) {
+  flown_by_t flown_by; // nobody flies it; a wrong one is told
+  o->vehicle_path = path;
+  o->request.vehicle = &o->vehicle;
+  TRY(model_read(path, &o->vehicle, why));
+  return controller_read(path, NULL, &o->vehicle, &flown_by, why);
+}
+
 static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double count;
   switch (option) {
@@ -67,10 +76,7 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
-  case 'v':
-    o->vehicle_path = text;
-    o->request.vehicle = &o->vehicle;
-    return model_read(text, &o->vehicle, why);
+  case 'v': return take_vehicle(o, text, why);
   case 'd':
     o->seed_said = true;
     TRY(take_count("--seed", text, 0.0, 1e9, &count, why));

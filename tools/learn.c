@@ -5,6 +5,7 @@
 #include "base/whole_file.h"
 #include "flight/result.h"
 #include "logs/learn_log.h"
+#include "pilots/controller_file.h"
 #include "pilots/param_spec.h"
 #include "vehicle/model_file.h"
 
@@ -114,7 +115,9 @@ static done_t set_param(flight_param_t *p, const char *text, why_t *why) {
 
 static done_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
   model_t vehicle;
+  flown_by_t flown_by;
   TRY(o->vehicle ? model_read(o->vehicle, &vehicle, why) : model_builtin("cf21_legacy", &vehicle, why));
+  if (o->vehicle) TRY(controller_read(o->vehicle, NULL, &vehicle, &flown_by, why)); // a wrong one is told
   learn_job_init(job, &vehicle, o->surface);
   if (o->columns) TRY(columns_read(o->columns, &job->columns, why));
   for (int i = 0; i < o->n_set; i++) TRY(set_param(&job->param, o->set[i], why));

@@ -62,9 +62,9 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   found_free(&first);
   TRY(candidates_model(&d->candidates, job->model, &m, why));
   TRY(find_residual(d, &m, why));
-  const manner_t raw = manner_of(&d->fit, &m, d->residual);
+  const manner_t raw = manner_of(&d->fit, &m, job->flown_by, d->residual);
   TRY(unknown_clean(&d->fit, &m, d->residual, why));
-  d->manner = manner_of(&d->fit, &m, d->residual);
+  d->manner = manner_of(&d->fit, &m, job->flown_by, d->residual);
   // Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
   // flights are to show.
   memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);

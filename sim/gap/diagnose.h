@@ -8,6 +8,7 @@
 typedef struct {
   const gap_flights_t *fit, *held; // held: none: the last third of each flight's time
   const model_t *model;
+  const flown_by_t *flown_by; // null: nobody knows
   unsigned long seed;
   void (*progress)(const char *what); // is told what begins; may be null
 } diagnose_job_t;

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L // strdup
 #include "gap/study.h"
 
+#include "pilots/controller_file.h"
 #include "vehicle/model_file.h"
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +36,8 @@ static done_t take_vehicle(study_t *s, why_t *why) {
   if (s->order.vehicle) {
     TRY(model_read(s->order.vehicle, &s->vehicle, why)); // a folder, a device, no file: said there
     TRY(read_text(s->order.vehicle, &s->vehicle_text, why));
-    return model_read_text(s->order.vehicle, s->vehicle_text, &s->vehicle, why);
+    TRY(model_read_text(s->order.vehicle, s->vehicle_text, &s->vehicle, why));
+    return controller_read(s->order.vehicle, s->vehicle_text, &s->vehicle, &s->flown_by, why);
   }
   TRY(model_builtin(STUDY_VEHICLE, &s->vehicle, why));
   for (int i = 0; i < vehicle_count; i++)
@@ -105,8 +107,12 @@ done_t study_make(study_t *s, const study_order_t *order, why_t *why) {
   TRY(take_vehicle(s, why));
   if (order->columns) TRY(columns_read(order->columns, &s->columns, why));
   TRY(read_logs(s, why));
-  const diagnose_job_t job = {&s->fit, s->by_time ? NULL : &s->held, &s->vehicle, order->seed,
-                              order->progress};
+  const diagnose_job_t job = {.fit = &s->fit,
+                              .held = s->by_time ? NULL : &s->held,
+                              .model = &s->vehicle,
+                              .flown_by = &s->flown_by,
+                              .seed = order->seed,
+                              .progress = order->progress};
   TRY(diagnose(&job, &s->diagnosis, why));
   tell(s, "flying the held-out flight again");
   const diagnosis_t *d = &s->diagnosis;

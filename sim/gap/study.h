@@ -25,6 +25,7 @@ typedef struct {
 typedef struct {
   study_order_t order;
   model_t vehicle;
+  flown_by_t flown_by;
   char *vehicle_text;
   columns_t columns;
   gap_flight_t *flight; // those to fit to, then the held-out ones

@@ -8,7 +8,6 @@
 #include "effects/fx.h"
 #include "plant/battery.h"
 #include "plant/thrust_map.h"
-#include "vehicle/flown_by.h"
 #include <stdbool.h>
 
 // What six degrees of freedom need besides. Body axes; places from the centre of mass.
@@ -43,7 +42,6 @@ typedef struct {
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
-  flown_by_t flown_by;     // of its logs
   int n_fx;
   fx_use_t fx[FX_MAX]; // what acts; at most one of a name
 } model_t;

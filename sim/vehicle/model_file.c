@@ -5,7 +5,6 @@
 #include "base/nearest.h"
 #include "base/toml.h"
 #include "plant/vertical.h"
-#include "vehicle/controller_file.h"
 #include "vehicle/effect_spec.h"
 #include "vehicle/frame_file.h"
 #include <math.h>
@@ -157,8 +156,7 @@ static const char *const ROOT_KEYS[] = {
     "thrust_max_N", "ceiling_m", "wall_y_m",       "floor_rise_x", "floor_rise_y",
     "thrust_map",   "body",      "rotors",         "battery",      "controller",
     "effect",       NULL};
-static const toml_kind_t VEHICLE_FILE = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml",
-                                         ROOT_KEYS};
+const toml_kind_t model_file_kind = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml", ROOT_KEYS};
 
 static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   TRY(toml_only(root, ROOT_KEYS, why));
@@ -177,7 +175,6 @@ static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
     TRY(read_map(map, &m->map, why));
   }
   TRY(frame_read(root, m, why));
-  TRY(controller_read(root, m, why));
   return read_effects(root, path, m, why);
 }
 
@@ -206,13 +203,13 @@ static done_t no_file(const char *path, why_t *why) {
 done_t model_read(const char *path, model_t *m, why_t *why) {
   if (access(path, F_OK) != 0) TRY(no_file(path, why));
   toml_file_t *file;
-  TRY(toml_open(&file, path, &VEHICLE_FILE, why));
+  TRY(toml_open(&file, path, &model_file_kind, why));
   return read_file(file, path, m, why);
 }
 
 done_t model_read_text(const char *path, const char *text, model_t *m, why_t *why) {
   toml_file_t *file;
-  TRY(toml_open_text(&file, path, text, &VEHICLE_FILE, why));
+  TRY(toml_open_text(&file, path, text, &model_file_kind, why));
   return read_file(file, path, m, why);
 }
 

@@ -10,7 +10,7 @@
 //                           is c = [0, 0, k]): see plant/thrust_map.h
 //   [body] [rotors] [battery]   see vehicle/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
 //   battery
-//   [controller]            who flew its logs, see vehicle/controller_file.h; left out: not known
+//   [controller]            who flew its logs: pilots/controller_file.h reads it; left out: not known
 //   [[effect]]              any number of them
 //   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
 //                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
@@ -19,7 +19,11 @@
 #define SIM_VEHICLE_MODEL_FILE_H
 
 #include "base/error.h"
+#include "base/toml.h"
 #include "vehicle/model.h"
+
+// For whoever reads a table of the file.
+extern const toml_kind_t model_file_kind;
 
 // BAD_INPUT: the file is missing or not TOML, a key is missing, unknown or out of range; *m is kept.
 MUST_CHECK done_t model_read(const char *path, model_t *m, why_t *why);

@@ -149,8 +149,8 @@ static void find_disturbance(const set_t *s, double *const r[CHANNELS], manner_t
   w->turn_tau_s = clamp(tau[1], 0.05, 3.0);
 }
 
-manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]) {
-  manner_t w = {0};
+manner_t manner_of(const set_t *s, const model_t *m, const flown_by_t *by, double *const residual[CHANNELS]) {
+  manner_t w = {.flown_by = by};
   const gap_flight_t *f = s->grid[0].flight;
   w.acc_mps2 = largest_noise(s, SIG_AX, SIG_AZ);
   w.gyro_radps = largest_noise(s, SIG_GX, SIG_GZ);

@@ -12,6 +12,7 @@
 
 #include "gap/2_predict/residual.h"
 #include "gap/3_feedback/manner_slow.h"
+#include "pilots/flown_by.h"
 
 // How a flight was flown and measured.
 typedef struct {
@@ -21,10 +22,11 @@ typedef struct {
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
   double turn_radps2[3], turn_tau_s;
+  const flown_by_t *flown_by; // who flew, as far as the vehicle file says; null: nobody knows
 } manner_t;
 
 // residual: of the best model so far, by channel and row of the set.
-manner_t manner_of(const set_t *s, const model_t *m, double *const residual[CHANNELS]);
+manner_t manner_of(const set_t *s, const model_t *m, const flown_by_t *by, double *const residual[CHANNELS]);
 
 // One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
 // estimates. FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.

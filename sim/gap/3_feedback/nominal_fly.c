@@ -125,8 +125,8 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
   return DONE;
 }
 
-static done_t find_pilot(nominal_flight_t *f, const model_t *m, why_t *why) {
-  if (m->flown_by.kind == FLOWN_BY_UNKNOWN) return DONE;
+static done_t find_pilot(nominal_flight_t *f, why_t *why) {
+  if (!f->w->flown_by || f->w->flown_by->kind == FLOWN_BY_UNKNOWN) return DONE;
   const point_t truth = is(f), seen = see(f, &truth);
   return known_open(&f->known, f, &seen, why);
 }
@@ -151,7 +151,7 @@ static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   known_close(f->known);
   f->known = NULL;
   TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
-  return find_pilot(f, m, why);
+  return find_pilot(f, why);
 }
 
 static done_t fly(nominal_flight_t *f, why_t *why) {
@@ -184,7 +184,7 @@ static done_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
   f->at = f->from;
   TRY(start_at(f, m, f->seed, why));
   f->random = random_open(f->seed + 1);
-  return f->random ? find_pilot(f, m, why) : error_failed(why, "out of memory");
+  return f->random ? find_pilot(f, why) : error_failed(why, "out of memory");
 }
 
 done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,

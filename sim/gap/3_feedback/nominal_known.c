@@ -10,6 +10,7 @@
 
 struct known {
   const model_t *m;
+  const flown_by_t *by;
   bool range_up;
   stock_pid_t pid;
   own_t *own;
@@ -20,7 +21,7 @@ struct known {
 };
 
 static bool by_pid(const known_t *k) {
-  return k->m->flown_by.kind == FLOWN_BY_STOCK_PID;
+  return k->by->kind == FLOWN_BY_STOCK_PID;
 }
 
 // --- what it is told --------------------------------------------------------------------------------------
@@ -50,7 +51,7 @@ static void take_logged(pilot6_setpoint_t *set, const point_t *track) {
 
 static void order(known_t *k, const point_t *track) {
   pilot6_setpoint_t *const set = &k->in.set;
-  const pid_gain_t *pos = k->m->flown_by.pid.position.pos;
+  const pid_gain_t *pos = k->by->pid.position.pos;
   const d3_t v = track->vel_w_mps;
   for (int i = 0; i < 3; i++) set->mode[i] = PILOT6_POSITION;
   set->pos_w_m = track->pos_w_m;
@@ -79,7 +80,7 @@ static void show(known_t *k, const point_t *seen, double step_s) {
 // Compensation for the battery is taken to be perfect: units are thrust. All are lowered by what the largest
 // has too much, as the firmware does.
 static void newton(const known_t *k, const double unit[ROTORS], double motor_N[ROTORS]) {
-  const double per_unit = k->m->flown_by.pid.power.thrust_max_N / STOCK_FULL;
+  const double per_unit = k->by->pid.power.thrust_max_N / STOCK_FULL;
   double most = STOCK_FULL;
   for (int i = 0; i < ROTORS; i++) most = fmax(most, unit[i]);
   for (int i = 0; i < ROTORS; i++) {
@@ -113,12 +114,13 @@ done_t known_open(known_t **known, const nominal_flight_t *f, const point_t *see
   known_t *const k = *known = calloc(1, sizeof *k);
   if (!k) return error_failed(why, "out of memory");
   k->m = f->body.model;
+  k->by = f->w->flown_by;
   k->range_up = f->g->range_up;
   for (int i = 0; i < ROTORS; i++) k->in.applied_N[i] = f->body.command_N[i];
   order(k, seen);
   show(k, seen, 0.0);
-  if (!by_pid(k)) return own_open(&k->own, k->m, &k->pilot, why);
-  k->pid.param = k->m->flown_by.pid;
+  if (!by_pid(k)) return own_open(&k->own, k->m, k->by, &k->pilot, why);
+  k->pid.param = k->by->pid;
   stock_pid_reset(&k->pid);
   settle(k, f->body.command_N);
   return DONE;

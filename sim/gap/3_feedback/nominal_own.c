@@ -8,9 +8,8 @@ struct own {
   pilot_flight_t pilot;
 };
 
-done_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why) {
+done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot6_t *pilot, why_t *why) {
   flight_param_t param;
-  const flown_by_t *by = &m->flown_by;
   *own = calloc(1, sizeof **own);
   if (!*own) return error_failed(why, "out of memory");
   params_default(&param);

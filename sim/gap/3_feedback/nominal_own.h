@@ -5,13 +5,14 @@
 
 #include "base/error.h"
 #include "crazyflie/pilot6.h"
+#include "pilots/flown_by.h"
 #include "vehicle/model.h"
 
 typedef struct own own_t;
 
-// With the parameters of m->flown_by (vehicle/controller_file.h). FAILED: no memory, or parameters that it
+// With the parameters of `by` (pilots/controller_file.h). FAILED: no memory, or parameters that it
 // refuses. Close it, also on an error.
-MUST_CHECK done_t own_open(own_t **own, const model_t *m, pilot6_t *pilot, why_t *why);
+MUST_CHECK done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot6_t *pilot, why_t *why);
 
 // A null pointer is allowed.
 void own_close(own_t *own);

@@ -9,7 +9,10 @@
 // --- the flight along the reference -----------------------------------------------------------------------
 
 static manner_t quiet(const manner_t *w) {
-  manner_t q = {.tilt_gain = w->tilt_gain, .climb_gain = w->climb_gain, .height_gain = w->height_gain};
+  manner_t q = {.tilt_gain = w->tilt_gain,
+                .climb_gain = w->climb_gain,
+                .height_gain = w->height_gain,
+                .flown_by = w->flown_by};
   for (int i = 0; i < 3; i++) q.rate_gain[i] = w->rate_gain[i];
   q.force_tau_s = q.turn_tau_s = 1.0;
   return q;

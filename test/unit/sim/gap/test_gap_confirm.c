@@ -35,11 +35,10 @@ static named_t first_name(const flown_t *how, uint64_t seed, char name[32]) {
   CHECK_OK(effect_parse(how->effect, &use, &why));
   truth = base;
   CHECK_OK(model_add_fx(&truth, &use, &why));
-  if (how->known)
-    base.flown_by = (flown_by_t){.kind = how->indi ? FLOWN_BY_INDI : FLOWN_BY_STOCK_PID,
-                                 .pid = stock_pid_default(),
-                                 .n_set = how->indi ? 2 : 0,
-                                 .set = {{"ceil.mode", 0.0}, {"ceil.min", 0.0}}};
+  const flown_by_t by = {.kind = how->indi ? FLOWN_BY_INDI : FLOWN_BY_STOCK_PID,
+                         .pid = stock_pid_default(),
+                         .n_set = how->indi ? 2 : 0,
+                         .set = {{"ceil.mode", 0.0}, {"ceil.min", 0.0}}};
   for (int i = 0; i < FLIGHTS; i++) {
     exam_flight_t job = {.truth = &truth,
                          .hover_only = how->hover,
@@ -51,7 +50,8 @@ static named_t first_name(const flown_t *how, uint64_t seed, char name[32]) {
     CHECK(flight[i].n > 0);
   }
   const gap_flights_t fit = {flight, FLIGHTS - 1}, held = {flight + FLIGHTS - 1, 1};
-  const diagnose_job_t job = {.fit = &fit, .held = &held, .model = &base, .seed = 1};
+  const diagnose_job_t job = {
+      .fit = &fit, .held = &held, .model = &base, .flown_by = how->known ? &by : NULL, .seed = 1};
   if (CHECK_OK(diagnose(&job, d, &why)) && CHECK(d->found.n > 0)) {
     named = d->found.named[0];
     snprintf(name, 32, "%s", d->candidates.candidate[named.candidate].use.fx->name);

@@ -11,14 +11,17 @@
 //   kind = "indi"           this project's flight code; parameters under their names (indiPos.cutoff = 8), at
 //                           their defaults where they are left out, but for indiPos.mass and indiPos.tauMot,
 //                           which are then those of the vehicle file
-#ifndef SIM_VEHICLE_CONTROLLER_FILE_H
-#define SIM_VEHICLE_CONTROLLER_FILE_H
+#ifndef SIM_PILOTS_CONTROLLER_FILE_H
+#define SIM_PILOTS_CONTROLLER_FILE_H
 
 #include "base/error.h"
-#include "base/toml.h"
+#include "pilots/flown_by.h"
 #include "vehicle/model.h"
 
-// Needs m->thrust_max_N. BAD_INPUT: a key is missing, unknown, of another type, or out of range.
-MUST_CHECK done_t controller_read(toml_t root, model_t *m, why_t *why);
+// The vehicle file at `path`, or its text under that name (text may be null). The rest of it is
+// model_file.h's to read and to judge. *by is FLOWN_BY_UNKNOWN without the table. m: of the file, for its
+// thrust_max_N. BAD_INPUT: a key of the table is missing, unknown, of another type, or out of range.
+MUST_CHECK done_t controller_read(const char *path, const char *text, const model_t *m, flown_by_t *by,
+                                  why_t *why);
 
 #endif

@@ -1,5 +1,6 @@
 // test_controller_file.c - the table [controller] of vehicle files: what is read, and what is refused with
 // which line.
+#include "pilots/controller_file.h"
 #include "rig/programs.h"
 #include "rig/scratch.h"
 #include "rig/test.h"
@@ -8,23 +9,30 @@
 #include <stdio.h>
 #include <string.h>
 
+// As the programs do: the vehicle, and who flew it.
+static done_t read_file(const char *path, flown_by_t *by, why_t *why) {
+  model_t m;
+  TRY(model_read(path, &m, why));
+  return controller_read(path, NULL, &m, by, why);
+}
+
 #define VEHICLE                                                                                              \
   "name = \"v\"\nmass_kg = 0.03\nrotor_radius_m = 0.02\nmotor_tau_s = 0.06\nthrust_min_N = 0\nthrust_max_N " \
   "= 0.6\n[controller]\n"
 
 TEST(controller_of_a_vehicle_file_has_the_firmware_s_gains_where_it_says_no_other) {
   const stock_pid_param_t shipped = stock_pid_default();
-  model_t m;
+  flown_by_t by;
   why_t why = {""};
-  CHECK_OK(model_read(scratch_file("v.toml",
-                                   VEHICLE "kind = \"stock-pid\"\nposCtlPid.zKp = 3\nposCtlPid.xVelMax = 2\n"
-                                           "velCtlPid.vyKi = 4\npid_attitude.yaw_kd = 0.5\n"
-                                           "pid_rate.pitch_kp = 111\nposCtlPid.thrustBase = 30000\n",
-                                   -1),
-                      &m, &why));
+  CHECK_OK(read_file(scratch_file("v.toml",
+                                  VEHICLE "kind = \"stock-pid\"\nposCtlPid.zKp = 3\nposCtlPid.xVelMax = 2\n"
+                                          "velCtlPid.vyKi = 4\npid_attitude.yaw_kd = 0.5\n"
+                                          "pid_rate.pitch_kp = 111\nposCtlPid.thrustBase = 30000\n",
+                                  -1),
+                     &by, &why));
   CHECK_TEXT(why.text, "");
-  const stock_pid_param_t *const p = &m.flown_by.pid;
-  CHECK(m.flown_by.kind == FLOWN_BY_STOCK_PID);
+  const stock_pid_param_t *const p = &by.pid;
+  CHECK(by.kind == FLOWN_BY_STOCK_PID);
   CHECK_NEAR(p->position.pos[2].kp, 3.0, 0.0);
   CHECK_NEAR(p->position.pos[0].output_max, 2.2, 1e-12);
   CHECK_NEAR(p->position.vel[1].ki, 4.0, 0.0);
@@ -37,13 +45,13 @@ TEST(controller_of_a_vehicle_file_has_the_firmware_s_gains_where_it_says_no_othe
 }
 
 TEST(controller_of_a_vehicle_file_may_be_the_flight_code) {
-  model_t m;
+  flown_by_t by;
   why_t why = {""};
-  CHECK_OK(model_read(
-      scratch_file("v.toml", VEHICLE "kind = \"indi\"\nindiPos.cutoff = 9\nceil.mode = 0\n", -1), &m, &why));
-  CHECK(m.flown_by.kind == FLOWN_BY_INDI && m.flown_by.n_set == 2);
-  CHECK_TEXT(m.flown_by.set[0].name, "indiPos.cutoff");
-  CHECK_NEAR(m.flown_by.set[0].value, 9.0, 0.0);
+  CHECK_OK(read_file(
+      scratch_file("v.toml", VEHICLE "kind = \"indi\"\nindiPos.cutoff = 9\nceil.mode = 0\n", -1), &by, &why));
+  CHECK(by.kind == FLOWN_BY_INDI && by.n_set == 2);
+  CHECK_TEXT(by.set[0].name, "indiPos.cutoff");
+  CHECK_NEAR(by.set[0].value, 9.0, 0.0);
 }
 
 TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
@@ -78,12 +86,12 @@ TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     char text[600];
-    model_t m = {.mass_kg = 7.0};
+    flown_by_t by;
     why_t why = {""};
     snprintf(text, sizeof text, "%s%s", VEHICLE, row[i].text);
-    CHECK_STATUS(BAD_INPUT, model_read(scratch_file("v.toml", text, -1), &m, &why));
+    CHECK_STATUS(BAD_INPUT, read_file(scratch_file("v.toml", text, -1), &by, &why));
     CHECK_TEXT(scratch_short(why.text), row[i].want);
-    CHECK_NEAR(m.mass_kg, 7.0, 0.0);
+    CHECK(by.kind == FLOWN_BY_UNKNOWN);
   }
 }
 

@@ -1,8 +1,10 @@
 // controller_file.c - the table [controller] of a vehicle file.
-#include "vehicle/controller_file.h"
+#include "pilots/controller_file.h"
 
 #include "base/nearest.h"
+#include "base/toml.h"
 #include "flight/params.h"
+#include "vehicle/model_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -68,7 +70,7 @@ static done_t read_gains(toml_t t, const char *group, stock_pid_param_t *p, why_
   return DONE;
 }
 
-static done_t read_pid(toml_t t, model_t *m, why_t *why) {
+static done_t read_pid(toml_t t, const model_t *m, flown_by_t *by, why_t *why) {
   static const char *const keys[] = {"kind",         "full_scale_N", "posCtlPid", "velCtlPid",
                                      "pid_attitude", "pid_rate",     NULL};
   stock_pid_param_t pid = stock_pid_default();
@@ -77,7 +79,7 @@ static done_t read_pid(toml_t t, model_t *m, why_t *why) {
   if (toml_has(t, "full_scale_N"))
     TRY(toml_double(t, "full_scale_N", 1e-4, 1e3, &pid.power.thrust_max_N, why));
   for (int i = 2; keys[i]; i++) TRY(read_gains(t, keys[i], &pid, why));
-  m->flown_by = (flown_by_t){.kind = FLOWN_BY_STOCK_PID, .pid = pid};
+  *by = (flown_by_t){.kind = FLOWN_BY_STOCK_PID, .pid = pid};
   return DONE;
 }
 
@@ -108,7 +110,7 @@ static done_t read_param(toml_t group, const char *key, const char *name, flown_
   return DONE;
 }
 
-static done_t read_indi(toml_t t, model_t *m, why_t *why) {
+static done_t read_indi(toml_t t, flown_by_t *to, why_t *why) {
   static const char *const keys[] = {"kind", "indiPos", "indiAtt", "ceil", "rls", "guard", NULL};
   flown_by_t by = {.kind = FLOWN_BY_INDI};
   flight_param_t all;
@@ -129,20 +131,30 @@ static done_t read_indi(toml_t t, model_t *m, why_t *why) {
   if (params_check(&all) != ST_OK)
     return toml_refuse(t, "kind", why,
                        "parameters that contradict each other; allowed: what fly --set takes together");
-  m->flown_by = by;
+  *to = by;
   return DONE;
 }
 
-done_t controller_read(toml_t root, model_t *m, why_t *why) {
+static done_t read_table(toml_t root, const model_t *m, flown_by_t *by, why_t *why) {
   char kind[32];
   toml_t t;
   if (!toml_has(root, "controller")) return DONE;
   TRY(toml_table(root, "controller", &t, why));
   TRY(toml_string(t, "kind", kind, sizeof kind, why));
-  if (strcmp(kind, "stock-pid") == 0) return read_pid(t, m, why);
-  if (strcmp(kind, "indi") == 0) return read_indi(t, m, why);
+  if (strcmp(kind, "stock-pid") == 0) return read_pid(t, m, by, why);
+  if (strcmp(kind, "indi") == 0) return read_indi(t, by, why);
   char hint[NEAREST_HINT];
   static const char *const kinds[] = {"stock-pid", "indi", NULL};
   return toml_refuse(t, "kind", why, "unknown kind `%s`%s; allowed: stock-pid, indi", kind,
                      nearest_of(kind, kinds, hint));
+}
+
+done_t controller_read(const char *path, const char *text, const model_t *m, flown_by_t *by, why_t *why) {
+  toml_file_t *file;
+  *by = (flown_by_t){.kind = FLOWN_BY_UNKNOWN};
+  TRY(text ? toml_open_text(&file, path, text, &model_file_kind, why)
+           : toml_open(&file, path, &model_file_kind, why));
+  const done_t done = read_table(toml_root(file), m, by, why);
+  toml_close(file);
+  return done;
 }

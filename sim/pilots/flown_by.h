@@ -1,7 +1,7 @@
 // flown_by.h - who flew the logs of a vehicle, as far as its file says (the table [controller],
-// vehicle/controller_file.h).
-#ifndef SIM_VEHICLE_FLOWN_BY_H
-#define SIM_VEHICLE_FLOWN_BY_H
+// controller_file.h).
+#ifndef SIM_PILOTS_FLOWN_BY_H
+#define SIM_PILOTS_FLOWN_BY_H
 
 #include "crazyflie/stock_pid.h"
 
