@@ -6,10 +6,10 @@
 #include "crazyflie/usd_deck.h"
 #include "flight/catalogue.h"
 #include "flight/many.h"
+#include "flight/replay_told.h"
 #include "flight/request_spec.h"
 #include "flight/scenario.h"
 #include "fly_usage.h"
-#include "logs/replay.h"
 #include "pilots/controller_file.h"
 #include "vehicle/model_file.h"
 

@@ -9,6 +9,20 @@
 #include <stddef.h>
 #include <string.h>
 
+replay_part_t replay_all(const replay_t *r) {
+  const replay_part_t *const part[] = {&r->known, &r->settling, &r->settled};
+  replay_part_t all = {0};
+  for (int i = 0; i < 3; i++) {
+    const bool first =
+        part[i]->first_line > 0 && (all.first_line == 0 || part[i]->first_line < all.first_line);
+    all.calls += part[i]->calls;
+    all.differ += part[i]->differ;
+    all.worst_N = fmax(all.worst_N, part[i]->worst_N);
+    if (first) all.first_line = part[i]->first_line;
+  }
+  return all;
+}
+
 #define FIELDS_MAX  64
 #define MOTOR_MAX_N 200.0 // as of any log (logs/columns.c)
 #define LEAP_CALLS  49    // the flight code follows a pause of up to 50 ms

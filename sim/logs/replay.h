@@ -18,7 +18,7 @@
 #define SIM_LOGS_REPLAY_H
 
 #include "base/error.h"
-#include "flight/setup.h"
+#include "flight/params.h"
 
 // 1 s: eight periods of the filter, 8 Hz. The bias observer, 1 rad/s, still remembers a third: up to 0.25 mN.
 #define REPLAY_SETTLE_CALLS 1000
@@ -47,8 +47,5 @@ MUST_CHECK done_t replay_fly(const char *path, const flight_param_t *param, repl
 
 // All three.
 replay_part_t replay_all(const replay_t *r);
-
-// With the parameters that a request sets, and told on the standard output. Errors as above.
-MUST_CHECK done_t replay_told(const char *path, const request_t *request, why_t *why);
 
 #endif

@@ -4,6 +4,7 @@
 #include "FreeRTOS.h"
 #include "glue.h"
 #include "param.h"
+#include "radio.h"
 #include "platform_defaults.h"
 #include "task.h"
 

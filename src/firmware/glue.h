@@ -7,11 +7,30 @@
 
 #include "flight/flight.h"
 #include "flight/flyable.h"
-#include "radio.h"
 #include "range_up.h"
-#include "recorder.h"
 
 #define PUT_BACK_WORDS 3 // of 32 rows each
+
+// Of radio.c.
+typedef struct {
+  bool descends;
+  uint32_t since_ms, fed_ms; // begin of the descent; when we fed last
+} radio_t;
+
+// Of recorder.c: what the uSD deck was given last.
+typedef struct {
+  uint32_t calls;     // since the controller was selected; stops at its largest
+  uint8_t state, set; // count the rows of each event; wrap
+  uint8_t tunes;      // sets of parameters taken since the selection; wraps
+  bool wrote;         // the deck took the last call
+  bool stale;         // estimate and set point are due to be written anew
+  // As they were last written.
+  uint8_t no_lesson, tunes_told;
+  float range_m, range_age_s;
+  v3_t pos_w_m, vel_w_mps;
+  quat_t q_wb;
+  flight_setpoint_t setpoint;
+} recording_t;
 
 typedef struct {
   flight_param_t tuned; // as the parameters are written, one by one and at any time

@@ -9,17 +9,9 @@
 #ifndef FIRMWARE_RADIO_H
 #define FIRMWARE_RADIO_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #define RADIO_LOST_MS  500  // half of the watchdog's time
 #define RADIO_DOWN_MS  8000 // from 3 m, twice the way
 #define RADIO_SINK_MPS 0.5f
-
-typedef struct {
-  bool descends;
-  uint32_t since_ms, fed_ms; // begin of the descent; when we fed last
-} radio_t;
 
 // Ten times a second at least.
 void radio_watch(void);

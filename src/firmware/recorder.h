@@ -15,23 +15,7 @@
 #ifndef FIRMWARE_RECORDER_H
 #define FIRMWARE_RECORDER_H
 
-#include "flight/flight.h"
-
 #define RECORDER_ANEW_MS 100
-
-typedef struct {
-  uint32_t calls;     // since the controller was selected; stops at its largest
-  uint8_t state, set; // count the rows of each event; wrap
-  uint8_t tunes;      // sets of parameters taken since the selection; wraps
-  bool wrote;         // the deck took the last call
-  bool stale;         // estimate and set point are due to be written anew
-  // As they were last written.
-  uint8_t no_lesson, tunes_told;
-  float range_m, range_age_s;
-  v3_t pos_w_m, vel_w_mps;
-  quat_t q_wb;
-  flight_setpoint_t setpoint;
-} recording_t;
 
 // At the end of a call of the app.
 void recorder_call(void);

@@ -1,6 +1,7 @@
 // test_app_radio.c - the radio falls silent: down, before the firmware's watchdog stops the motors.
 #include "crazyflie/stand_in.h"
 #include "firmware/glue.h"
+#include "firmware/radio.h"
 #include "rig/test.h"
 
 #define WATCHDOG_MS 1000 // the firmware's

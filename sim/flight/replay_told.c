@@ -1,22 +1,9 @@
-// replay_tell.c - what came of a replay, in words.
-#include "logs/replay.h"
+// replay_told.c - what came of a replay, in words.
+#include "flight/replay_told.h"
 
+#include "logs/replay.h"
 #include <math.h>
 #include <stdio.h>
-
-replay_part_t replay_all(const replay_t *r) {
-  const replay_part_t *const part[] = {&r->known, &r->settling, &r->settled};
-  replay_part_t all = {0};
-  for (int i = 0; i < 3; i++) {
-    const bool first =
-        part[i]->first_line > 0 && (all.first_line == 0 || part[i]->first_line < all.first_line);
-    all.calls += part[i]->calls;
-    all.differ += part[i]->differ;
-    all.worst_N = fmax(all.worst_N, part[i]->worst_N);
-    if (first) all.first_line = part[i]->first_line;
-  }
-  return all;
-}
 
 // What the log does not hold, and how far off that leaves the rest.
 static void tell_lost(const replay_t *r) {
