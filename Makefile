@@ -13,7 +13,7 @@ OPT = -O3
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox
 # What some goals need besides.
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck python3
-LINT_GOALS    = lint format clang fuzz check mutants coverage setup-lint
+LINT_GOALS    = lint arrows format clang fuzz check mutants coverage setup-lint
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 CF_PACKAGES   = python3-venv
 
@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -217,6 +217,10 @@ bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosi
 
 lint: setup-lint  ## format, static analysis, headers alone, house rules; minutes
 	+@tools/lint.sh
+
+arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; seconds
+	@mkdir -p $(O)
+	@python3 tools/arrows.py --svg $(O)/arrows.svg
 
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')

@@ -41,9 +41,7 @@ for call in $calls; do
   nm "$b"/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
 done
 
-# Nature does not know the controller, nor the flight code the simulator.
-grep -n '#include "flight/' sim/plant/* sim/effects/* && fail "nature includes flight code"
-grep -nE '#include "' src/*.c include/flight/*.h | grep -v '"flight/' && fail "flight code includes more than itself"
+PYTHONDONTWRITEBYTECODE=1 python3 tools/arrows.py || fail "an include that points up the stack, or in a circle"
 
 for file in $sources; do
   lines=$(wc -l <"$file")

@@ -1,8 +1,8 @@
 #!/bin/sh
 # seeded.sh [WORD] - steps into every trap of test/seeded, in a copy of the tree, and expects the tests to say so.
 #
-# A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., or `objects`:
-# tools/pil.sh). One line for each; fails if one is not caught, or no longer changes its file.
+# A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., `objects`:
+# tools/pil.sh, or `arrows`: tools/arrows.py). One line for each; fails if one is not caught, or no longer changes its file.
 set -eu
 o=${O:-out}
 tree=$o/seeded
@@ -16,6 +16,13 @@ unset MAKEFLAGS MAKELEVEL MFLAGS O
 make tests-built >"$log" 2>&1 || { tail -5 "$log" >&2; echo "seeded: the copy does not build" >&2; exit 1; }
 
 field() { sed -n "s/^# $2: //p" "$1"; }
+says() {
+  case $1 in
+  objects) tools/pil.sh objects ;;
+  arrows) python3 tools/arrows.py ;;
+  *) make test W="$1" ;;
+  esac
+}
 missed=0 caught=0
 for trap in test/seeded/*"${1:-}"*.sed; do
   file=$(field "$trap" file) word=$(field "$trap" test) name=$(basename "$trap" .sed)
@@ -25,11 +32,12 @@ for trap in test/seeded/*"${1:-}"*.sed; do
     said="MISSED: it no longer changes $file"
   elif [ "$word" = objects ] && ! command -v arm-none-eabi-gcc >/dev/null; then
     said="skipped: no arm-none-eabi-gcc"
-  elif if [ "$word" = objects ]; then tools/pil.sh objects; else make test W="$word"; fi >"$log" 2>&1; then
+  elif says "$word" >"$log" 2>&1; then
     said="MISSED: everything passes"
   else
     by=$(sed -n 's/^FAILED //p' "$log" | head -1)
     [ "$word" != objects ] || by=$(grep -m1 '^pil:' "$log" || tail -1 "$log")
+    [ "$word" != arrows ] || by=$(grep -m1 -E '^circle: |: includes ' "$log")
     said="caught by $by"
     [ -n "$by" ] || said="MISSED: it does not build"
   fi
