@@ -13,7 +13,7 @@ OPT = -O3
 PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox
 # What some goals need besides.
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck python3
-LINT_GOALS    = lint arrows format clang fuzz check mutants coverage setup-lint
+LINT_GOALS    = lint arrows pictures format clang fuzz check mutants coverage setup-lint
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 CF_PACKAGES   = python3-venv
 
@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -225,8 +225,11 @@ arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; secon
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
-docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of README.md; an hour
+docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md; an hour
 	+@tools/docs.sh "$(DATA)"
+
+pictures: demo  ## draw the READMEs' pictures into .doc; a minute
+	@tools/doc/pictures.sh
 
 tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
@@ -251,10 +254,10 @@ mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs); minutes
 	+@tools/pil.sh
 
-add-effect: $(O)/fly $(O)/gap  ## try the README's page on adding an effect, in a copy of the tree; a minute
+add-effect: $(O)/fly $(O)/gap  ## try the page on adding an effect (sim/effects), in a copy of the tree; a minute
 	+@tools/add_effect.sh
 
-report:  ## the image's size (after make firmware) and the target's figures into README.md; minutes
+report:  ## the image's size (after make firmware) and the target's figures into the READMEs; minutes
 	+@tools/report.sh
 
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source); minutes

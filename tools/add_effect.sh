@@ -1,5 +1,5 @@
 #!/bin/sh
-# add_effect.sh - tries the README's page on adding an effect: its file goes into a copy of the tree, is hidden
+# add_effect.sh - tries what sim/effects/README.md says of adding an effect: its file goes into a copy of the tree, is hidden
 # in four flights, and is looked for.
 set -eu
 o=${O:-out}
@@ -8,7 +8,7 @@ rm -rf $copy
 mkdir -p $copy/out
 cp -a Makefile src include sim tools $copy
 cp -a "$o/release" "$o/gen" $copy/out
-awk '/^### Add an effect/ { page = 1 } page && /^```c/ { code = 1; next } code && /^```/ { exit } code' README.md >$copy/fx.c
+awk '/^```c/ { code = 1; next } code && /^```/ { exit } code' sim/effects/README.md >$copy/fx.c
 name=$(sed -n '1s|^// fx_\([a-z_]*\)\.c - .*|\1|p' $copy/fx.c)
 mv $copy/fx.c "$copy/sim/effects/fx_$name.c"
 make -C $copy O=out out/fly out/gap >/dev/null

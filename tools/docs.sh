@@ -1,5 +1,5 @@
 #!/bin/sh
-# docs.sh [DATA] - writes the generated parts of README.md: what stands between `<!-- NAME -->` and `<!-- end -->`.
+# docs.sh [DATA] - writes the generated parts of every README.md: what stands between `<!-- NAME -->` and `<!-- end -->`.
 set -eu
 data=${1:-} o=${O:-out}
 

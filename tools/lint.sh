@@ -49,9 +49,9 @@ for file in $sources; do
 done
 tools/long_functions.awk $sources || fail "functions over 40 lines"
 PYTHONDONTWRITEBYTECODE=1 python3 tools/lint_python.py $(find tools test -name '*.py') || fail "Python"
-# The README's reading rules name the tests that pin them; and the table of tests takes lower-case names only.
-for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' README.md); do
-  grep -q "^TEST($test)" $tests || fail "README.md names the test $test, which does not exist"
+# The reading rules name the tests that pin them; and the table of tests takes lower-case names only.
+for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' src/README.md); do
+  grep -q "^TEST($test)" $tests || fail "src/README.md names the test $test, which does not exist"
 done
 grep -nE '^TEST\(' $tests | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
 [ $bad = 0 ] && echo "lint: clean"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# report.sh - writes the image's size (of the last `make firmware`) and the target's figures (make pil) into README.md.
+# report.sh - writes the image's size (of the last `make firmware`) and the target's figures (make pil) into the READMEs.
 set -eu
 o=${O:-out}
 . tools/part.sh

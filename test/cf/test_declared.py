@@ -70,7 +70,7 @@ class CfclientFiles(unittest.TestCase):
         self.assertEqual(len(BLOCKS), len({block.name for block in BLOCKS}))
 
     def test_they_are_in_the_readme(self) -> None:
-        self.assertTrue("tools/cfclient" in (ROOT / "README.md").read_text())
+        self.assertTrue("tools/cfclient" in (ROOT / "src/firmware/README.md").read_text())
 
 
 if __name__ == "__main__":
