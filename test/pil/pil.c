@@ -69,8 +69,7 @@ void pil_unpack(const pil_in_t *in, setpoint_t *sp, sensorData_t *sensors, state
   BACK3(sp->acceleration, in->sp_acc);
 }
 
-// --- the call
-// -----------------------------------------------------------------------------------------------
+// --- the call ---------------------------------------------------------------------------------------------
 
 static stand_in_t around = {.app = &glue_static,
                             .thrust_max_N = 0.12f,

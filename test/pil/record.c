@@ -26,8 +26,7 @@ typedef struct {
   pilot6_t inner;
 } recorder_t;
 
-// --- spoiling
-// -----------------------------------------------------------------------------------------------
+// --- spoiling ---------------------------------------------------------------------------------------------
 
 static uint32_t odd_bits(random_t *r) {
   static const uint32_t odd[] = {0x7fc00000, 0x7f800000, 0xff800000, 0x7e967699, 0x00000001,
@@ -89,8 +88,7 @@ static void write_param(recorder_t *r, const pil_in_t *in) {
   (void)crazyflie_set(&r->pilot.vehicle, name, (double)in->value);
 }
 
-// --- a call
-// -------------------------------------------------------------------------------------------------
+// --- a call -----------------------------------------------------------------------------------------------
 
 static void spoil(recorder_t *r, pil_in_t *in) {
   if (r->inputs) spoil_inputs(r, in);

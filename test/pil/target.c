@@ -24,8 +24,7 @@ static void fault(void);
 __attribute__((section(".vectors"), used)) static void *const vectors[16] = {
     stack_top, (void *)reset, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault};
 
-// --- semihosting
-// --------------------------------------------------------------------------------------------
+// --- semihosting ------------------------------------------------------------------------------------------
 
 enum { SYS_OPEN = 1, SYS_CLOSE = 2, SYS_WRITE = 5, SYS_READ = 6, SYS_GET_CMDLINE = 0x15, SYS_EXIT = 0x18 };
 
@@ -67,8 +66,7 @@ static void write(int file, const void *from, uint32_t size) {
   if (size > 0 && call(SYS_WRITE, argument) != 0) fault();
 }
 
-// --- measuring
-// ----------------------------------------------------------------------------------------------
+// --- measuring --------------------------------------------------------------------------------------------
 
 static uint32_t used_stack(const uint32_t *top) {
   const uint32_t *lowest = top - STACK_BYTES / 4;
@@ -93,8 +91,7 @@ __attribute__((noinline)) static void empty(void) {
   __asm__ volatile("");
 }
 
-// --- the run
-// ------------------------------------------------------------------------------------------------
+// --- the run ----------------------------------------------------------------------------------------------
 
 static pil_in_t in[BATCH_MAX];
 static pil_out_t out[BATCH_MAX];

@@ -119,8 +119,7 @@ static done_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *r
   return DONE;
 }
 
-// --- the streams' times
-// -------------------------------------------------------------------------------------
+// --- the streams' times -----------------------------------------------------------------------------------
 
 static void set_shift(double shift_s[SIG_COUNT], signals_t signals, double late_s) {
   for (int i = 0; i < SIG_COUNT; i++)
@@ -177,8 +176,7 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
   return DONE;
 }
 
-// --- the whole
-// ------------------------------------------------------------------------------------------------
+// --- the whole --------------------------------------------------------------------------------------------
 
 static void note_samples(gap_flight_t *f) {
   int masked = 0;

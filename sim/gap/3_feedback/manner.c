@@ -31,8 +31,7 @@ static double largest_noise(const set_t *s, int from, int to) {
   return most;
 }
 
-// --- gains: least squares of increments of a command on increments of what it is fed by
-// ----------------------------
+// --- gains: least squares of increments of a command on increments of what it is fed by -------------------
 
 typedef struct {
   double aa, ab, bb, ac, bc;
@@ -102,8 +101,7 @@ static void find_gains(const set_t *s, const model_t *m, manner_t *w) {
       clamp(w->height_gain, 0.1 * w->climb_gain * w->climb_gain, 0.3 * w->climb_gain * w->climb_gain);
 }
 
-// --- disturbance
-// --------------------------------------------------------------------------------------------------
+// --- disturbance ------------------------------------------------------------------------------------------
 
 // Variance and correlation over one row, about the mean; less what white noise of variance `noise` would make
 // of it.

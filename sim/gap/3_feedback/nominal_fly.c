@@ -40,8 +40,7 @@ static done_t disturbed(const model_t *m, const manner_t *w, model_t *out, why_t
   return model_add_fx(out, &use, why);
 }
 
-// --- sensors
-// ------------------------------------------------------------------------------------------------------
+// --- sensors ----------------------------------------------------------------------------------------------
 
 static double noisy(const nominal_flight_t *f, double v, double sd) {
   return v + sd * random_normal(f->random);
@@ -99,8 +98,7 @@ static point_t see(const nominal_flight_t *f, const point_t *truth) {
                    .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
 }
 
-// --- the flight
-// ---------------------------------------------------------------------------------------------------
+// --- the flight -------------------------------------------------------------------------------------------
 
 static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
   const point_t *track = &f->g->point[f->at];

@@ -7,8 +7,7 @@
 
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
 
-// --- the list
-// -----------------------------------------------------------------------------------------------
+// --- the list ---------------------------------------------------------------------------------------------
 
 static bool is_on(const model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++)

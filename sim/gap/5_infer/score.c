@@ -28,8 +28,7 @@ void judge_free(judge_t *j) {
   free(j->ridge);
 }
 
-// --- choices
-// ------------------------------------------------------------------------------------------------
+// --- choices ----------------------------------------------------------------------------------------------
 
 int choice_columns(const candidates_t *c, const choice_t *choice, int column[COLUMN_MAX]) {
   int n = 0;
@@ -58,8 +57,7 @@ bool choice_has(const choice_t *choice, int candidate) {
   return false;
 }
 
-// --- scores
-// -------------------------------------------------------------------------------------------------
+// --- scores -----------------------------------------------------------------------------------------------
 
 double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
   const gram_t *g = j->g;

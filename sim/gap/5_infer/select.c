@@ -22,8 +22,7 @@ bool select_fits(const select_t *t, const choice_t *choice, int candidate) {
   return choice->n < NAMED_MAX;
 }
 
-// --- estimates
-// ----------------------------------------------------------------------------------------------
+// --- estimates --------------------------------------------------------------------------------------------
 
 static void close_round(select_t *t) {
   judge_free(&t->judge);
@@ -78,8 +77,7 @@ static double take_values(select_t *t, double share) {
   return most;
 }
 
-// --- steps
-// --------------------------------------------------------------------------------------------------
+// --- steps ------------------------------------------------------------------------------------------------
 
 // The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {

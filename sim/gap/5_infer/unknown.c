@@ -85,8 +85,7 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
   return none;
 }
 
-// --- bins
-// ---------------------------------------------------------------------------------------------------
+// --- bins -------------------------------------------------------------------------------------------------
 
 // The bin of every row, and the edges (BINS + 1). False: the coordinate is not there or does not move.
 static bool cut(const double *value, int n, double *parted, int *bin, double edge[BINS + 1]) {
