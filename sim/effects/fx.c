@@ -10,6 +10,17 @@ const fx_t *fx_find(const char *name) {
   return NULL;
 }
 
+static const char *apart_from(const fx_t *fx, const fx_t *rival) {
+  for (int i = 0; i < FX_APART_MAX && fx->apart[i].rival; i++)
+    if (strcmp(fx->apart[i].rival, rival->name) == 0) return fx->apart[i].fly;
+  return NULL;
+}
+
+const char *fx_apart(const fx_t *a, const fx_t *b) {
+  const char *const fly = apart_from(a, b);
+  return fly ? fly : apart_from(b, a);
+}
+
 const curve_t *curve_find(const char *name) {
   for (int i = 0; i < curve_count; i++)
     if (strcmp(curve_table[i]->name, name) == 0) return curve_table[i];

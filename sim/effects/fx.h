@@ -17,6 +17,7 @@
 #define FX_MAX       16 // effects switched on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
 #define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
+#define FX_APART_MAX 10 // rivals of which an effect says how to tell it from them
 
 typedef struct {
   const char *name;
@@ -121,13 +122,37 @@ typedef struct {
 
 typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_class_t; // of one class, one at most is named
 
+// What the vehicle file and the log must say before the workflow looks for an effect.
+enum {
+  FX_NEEDS_CEILING = 1 << 0,  // the vehicle file: ceiling_m
+  FX_NEEDS_WALL = 1 << 1,     // the vehicle file: wall_y_m, which becomes parameter 0
+  FX_NEEDS_POSITION = 1 << 2, // the log, from here on
+  FX_NEEDS_RANGE = 1 << 3,    // samples of a range sensor; it shows in nothing else
+  FX_NEEDS_VOLTAGE = 1 << 4,  // of the battery
+  FX_NEEDS_VELOCITY = 1 << 5,
+  FX_NEEDS_ATTITUDE = 1 << 6,
+  FX_NEEDS_QUICK_LOG = 1 << 7, // commands as often as attitude control gives them
+};
+
+// What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
+typedef struct {
+  const char *rival, *fly;
+} fx_apart_t;
+
 struct fx_use;
 
 typedef struct {
   const char *name;
   const char *brief;
   const char *fly; // the manoeuvre that shows it
+  // Where it shows: the coordinates along which it changes (gap/5_infer/unknown.h), none: any but time; and
+  // the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does most.
+  const char *over[2], *in;
+  fx_apart_t apart[FX_APART_MAX]; // ends where there is no rival
+  int needs;                      // FX_NEEDS_*
   fx_class_t class;
+  bool lags;      // FX_TIMING: it slows the motors down; else it moves their commands in time
+  bool in_height; // a range sensor that has it gives it to an estimate of the height, too
   // Control that cancels a disturbance looks like this effect: the first look, which finds out how much
   // disturbance there is, leaves it out.
   bool only_beside_nominal;
@@ -137,7 +162,6 @@ typedef struct {
   double shape[FX_SHAPE_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
-  bool at_wall;             // parameter 0 is where a wall is: the workflow takes it from the vehicle file
   int n_param;
   fx_param_t param[FX_PARAM_MAX];
   // What the rotor's thrust is multiplied by, minus one. Several effects add (thesis 3.1.4).
@@ -160,6 +184,9 @@ typedef struct fx_use {
   double p[FX_PARAM_MAX];
   curve_points_t points;
 } fx_use_t;
+
+// What is to be flown to tell the two apart, in either order; a null pointer: neither says it.
+const char *fx_apart(const fx_t *a, const fx_t *b);
 
 // Null pointers where there is no such name.
 const fx_t *fx_find(const char *name);

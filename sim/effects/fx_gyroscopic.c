@@ -12,6 +12,7 @@ const fx_t fx_gyroscopic = {
     .name = "gyroscopic",
     .brief = "the rotors' angular momentum is larger than the vehicle file has it",
     .fly = "fast roll with yaw",
+    .over = {"roll rate"},
     .n_size = 1,
     .size = {{0, 1e-9, 0, 0.0}},
     .n_param = 1,

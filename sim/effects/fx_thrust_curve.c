@@ -15,6 +15,7 @@ const fx_t fx_thrust_curve = {
     .name = "thrust_curve",
     .brief = "a bend in the curve from command to thrust",
     .fly = "a wide range of throttle",
+    .over = {"thrust"},
     .n_size = 1,
     .size = {{0, 0.05, 0, 0.0}},
     .n_param = 1,

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
 
@@ -11,7 +10,7 @@
 
 static bool is_on(const model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++)
-    if (strcmp(m->fx[i].fx->name, fx->name) == 0) return true;
+    if (m->fx[i].fx == fx) return true;
   return false;
 }
 
@@ -31,22 +30,26 @@ double candidates_least(const fx_t *fx, const set_t *s) {
 
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s) {
   const grid_t *g = &s->grid[0];
-  const bool forces = residual_has(s, CH_FX),
-             moments = residual_has(s, CH_WX) || residual_has(s, CH_WY) || residual_has(s, CH_WZ);
-  const bool place = fx->surface || strncmp(fx->name, "ceiling", 7) == 0;
+  const bool turning = residual_has(s, CH_WX) || residual_has(s, CH_WY) || residual_has(s, CH_WZ);
+  const struct {
+    int need;
+    bool there;
+    const char *without;
+  } row[] = {
+      {FX_NEEDS_CEILING, isfinite(m->ceiling_m), "the vehicle file has no ceiling"},
+      {FX_NEEDS_WALL, isfinite(m->wall_y_m), "the vehicle file has no wall"},
+      {FX_NEEDS_POSITION, g->has_position, "the log has no position"},
+      {FX_NEEDS_RANGE, residual_has(s, CH_RANGE), "the log has no range sensor's samples"},
+      {FX_NEEDS_VOLTAGE, g->has_vbat, "the log has no battery voltage"},
+      {FX_NEEDS_VELOCITY, g->has_velocity, "the log has no velocity"},
+      {FX_NEEDS_ATTITUDE, g->has_attitude, "the log has no attitude"},
+      {FX_NEEDS_QUICK_LOG, !candidates_slow(s),
+       "the log is too slow: what commands did between two samples looks like it"},
+  };
   if (fx->n_size == 0) return "it has no numbers that could be estimated";
-  if (fx->surface == SURFACE_CEILING || strcmp(fx->name, "ceiling_rpm") == 0)
-    if (!isfinite(m->ceiling_m)) return "the vehicle file has no ceiling";
-  if (fx->at_wall && !isfinite(m->wall_y_m)) return "the vehicle file has no wall";
-  if ((place || fx->at_wall) && !g->has_position) return "the log has no position";
-  if (strncmp(fx->name, "tof_", 4) == 0 && !residual_has(s, CH_RANGE))
-    return "the log has no range sensor's samples";
-  if (strcmp(fx->name, "battery_sag") == 0 && !g->has_vbat) return "the log has no battery voltage";
-  if (fx->load && !g->has_velocity && strcmp(fx->name, "gyroscopic") != 0) return "the log has no velocity";
-  if (strcmp(fx->name, "wind") == 0 && !g->has_attitude) return "the log has no attitude";
-  if (strcmp(fx->name, "inertia") == 0 && candidates_slow(s))
-    return "the log is too slow: what commands did between two samples looks like it";
-  if (strncmp(fx->name, "tof_", 4) != 0 && !forces && !moments)
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    if ((fx->needs & row[i].need) && !row[i].there) return row[i].without;
+  if (!(fx->needs & FX_NEEDS_RANGE) && !residual_has(s, CH_FX) && !turning)
     return "the log has neither acceleration nor rates";
   return NULL;
 }
@@ -59,7 +62,7 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
     to->use.p[param] = 0.0;
     to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
   }
-  if (fx->at_wall) to->use.p[0] = m->wall_y_m;
+  if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
   if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[shape];
   c->columns += to->n;
 }

@@ -158,7 +158,8 @@ done_t select_is_confined(const select_t *t, int candidate, bool *is, why_t *why
   done_t status = room && bin ? parts_make(&p, t, candidate, why) : error_failed(why, "out of memory");
   *is = false;
   const fx_t *const fx = select_fx(t, candidate);
-  const bool curve = fx->surface || fx->at_wall; // of a distance: its shape is another question
+  const bool curve =
+      fx->surface || (fx->needs & FX_NEEDS_WALL); // of a distance: its shape is another question
   for (int i = curve ? coordinate_count : 0; status == DONE && i < coordinate_count && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       slopes_t s = {.ff = {0.0}};

@@ -39,7 +39,7 @@ static double unlike(const grid_t *g, int rotor, const lagged_t *motors) {
 
 static double judge(speeds_t *s, double value) {
   const model_t *m = s->t->base;
-  const bool lag = s->candidate >= 0 && strcmp(select_fx(s->t, s->candidate)->name, "motor_lag") == 0;
+  const bool lag = s->candidate >= 0 && select_fx(s->t, s->candidate)->lags;
   const double tau_s = m->motor_tau_s + (lag ? value : 0.0),
                delay_s = m->frame.motor_delay_s + (lag ? s->extra_s : value);
   double sum = 0.0;
@@ -97,7 +97,7 @@ done_t select_speeds(select_t *t, bool *known, why_t *why) {
     if (fx->class != FX_TIMING) continue;
     t->never[i] = true;
     s.candidate = i;
-    const bool lag = strcmp(fx->name, "motor_lag") == 0;
+    const bool lag = fx->lags;
     s.extra_s = 0.0;
     double value = best_in(&s, lag ? -0.9 * t->base->motor_tau_s : 0.0, lag ? 0.25 : 0.06);
     double now = judge(&s, value);

@@ -52,24 +52,23 @@ static int channel_of(const report_t *r, const char *wanted, double *const effec
   return best;
 }
 
-static bool is_wanted(const where_t *where, int coordinate) {
+static bool is_wanted(const fx_t *fx, int coordinate) {
   const char *const name = coordinate_name(coordinate);
-  if (!where->coordinate[0]) return strcmp(name, "time") != 0;
+  if (!fx->over[0]) return strcmp(name, "time") != 0;
   for (int k = 0; k < 2; k++)
-    if (where->coordinate[k] && strcmp(name, where->coordinate[k]) == 0) return true;
+    if (fx->over[k] && strcmp(name, fx->over[k]) == 0) return true;
   return false;
 }
 
 // Of the coordinates that an effect depends on the one that tells most of it; else time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
-  const where_t where = manoeuvre_where(f->fx);
-  const int channel = channel_of(r, where.channel, effect), time = report_coordinate("time");
+  const int channel = channel_of(r, f->fx->in, effect), time = report_coordinate("time");
   double most = -1.0;
   for (int k = 0; k <= coordinate_count; k++) {
     const bool last = k == coordinate_count;
     profile_t p = {.channel = channel, .coordinate = last ? time : k};
-    if (last ? most >= 0.0 : !is_wanted(&where, k)) continue;
+    if (last ? most >= 0.0 : !is_wanted(f->fx, k)) continue;
     const span_t span = report_where(r, &p, effect[channel]);
     const double told = report_told(r, &p, effect[channel]);
     if (!last && !(told > most)) continue;
@@ -82,11 +81,17 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
   f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
 }
 
+void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
+  const char *const both = fx_apart(fx, rival);
+  const bool same = both || strcmp(fx->fly, rival->fly) == 0;
+  snprintf(text, REPORT_TEXT, "%s%s%s", both ? both : fx->fly, same ? "" : "; then ", same ? "" : rival->fly);
+}
+
 static void find_flight(finding_t *f) {
   if (f->named->n_rival)
-    manoeuvre_apart(f->fx, f->named->rival[0], f->fly);
+    report_apart(f->fx, f->named->rival[0], f->fly);
   else
-    snprintf(f->fly, sizeof f->fly, "%s", manoeuvre_show(f->fx));
+    snprintf(f->fly, sizeof f->fly, "%s", f->fx->fly);
 }
 
 static done_t find_one(report_t *r, set_t *held, int i, why_t *why) {

@@ -51,8 +51,8 @@ static void rivals(const finding_t *f, FILE *out) {
   for (int i = 0; i < k->n_rival; i++) share_row(k->rival[i]->name, k->rival_share[i], most, "floor", out);
   fputs("</table></figure>\n", out);
   for (int i = 0; i < k->n_rival; i++) {
-    char fly[MANOEUVRE_BYTES];
-    manoeuvre_apart(f->fx, k->rival[i], fly);
+    char fly[REPORT_TEXT];
+    report_apart(f->fx, k->rival[i], fly);
     page_text(out, "<p>To tell it from ", k->rival[i]->name, ", fly: ");
     page_text(out, "", fly, ".</p>\n");
   }

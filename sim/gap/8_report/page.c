@@ -153,7 +153,7 @@ static void untested(const report_t *r, FILE *out) {
       page_text(out, "<tr><td>", u->fx->name, "");
       if (pass) snprintf(why, sizeof why, "%s %.2g %s", u->param->name, u->seen_from, u->param->unit);
       page_text(out, "<td>", why, "");
-      page_text(out, "<td>", pass ? "" : manoeuvre_show(u->fx), "</tr>\n");
+      page_text(out, "<td>", pass ? "" : u->fx->fly, "</tr>\n");
     }
   }
   fputs("</table></section>\n", out);

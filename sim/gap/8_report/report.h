@@ -3,7 +3,6 @@
 #define SIM_GAP_8_REPORT_REPORT_H
 
 #include "gap/2_predict/lines.h"
-#include "gap/4_candidates/manoeuvre.h"
 #include "gap/5_infer/p_value.h"
 #include "gap/study.h"
 #include <cjson/cJSON.h>
@@ -38,8 +37,8 @@ typedef struct {
   profile_t profile;
   // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
   span_t matters;
-  double before, after;      // rms of the held-out rows there
-  char fly[MANOEUVRE_BYTES]; // what would tell it from its rivals, or show it better
+  double before, after;  // rms of the held-out rows there
+  char fly[REPORT_TEXT]; // what would tell it from its rivals, or show it better
 } finding_t;
 
 // What an effect that was not named would have needed.
@@ -87,6 +86,9 @@ double report_rms(const report_t *r, const profile_t *p, const span_t *span, con
 
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
+
+// What to fly to tell the two apart; pairs of which neither says it: what shows each.
+void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
 
 // What the reference as the instrument says of a name, in words; false: it was not tried.
 bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);

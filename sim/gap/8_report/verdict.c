@@ -126,7 +126,7 @@ static void add_untested(cJSON *root, const report_t *r) {
     cJSON_AddItemToArray(list, o);
     cJSON_AddStringToObject(o, "effect", u->fx->name);
     cJSON_AddStringToObject(o, "why", why);
-    cJSON_AddStringToObject(o, "fly", manoeuvre_show(u->fx));
+    cJSON_AddStringToObject(o, "fly", u->fx->fly);
   }
 }
 

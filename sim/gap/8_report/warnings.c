@@ -146,12 +146,11 @@ static void warn_of_sizes(report_t *r) {
 static void warn_of_names(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < r->n_finding; i++)
-    if (strcmp(r->finding[i].fx->name, "tof_bias") == 0 && d->fit.grid[0].range_up)
+    if (r->finding[i].fx->in_height && d->fit.grid[0].range_up)
       warn(r,
-           "tof_bias: where the log's height comes from a range sensor with the same error (a flow deck's), "
-           "it "
-           "is half of the %.3g m, and the log cannot tell",
-           r->finding[i].value[0]);
+           "%s: where the log's height comes from a range sensor with the same error (a flow deck's), "
+           "it is half of the %.3g m, and the log cannot tell",
+           r->finding[i].fx->name, r->finding[i].value[0]);
 }
 
 void report_warn(report_t *r) {

@@ -92,6 +92,7 @@ TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
     const char *name = fx ? fx->name : curve->name, *brief = fx ? fx->brief : curve->brief;
     ROW("%s", name);
     CHECK(strlen(brief) > 10);
+    CHECK(!fx || strlen(fx->fly) > 5);
     const int n = fx ? fx->n_param : curve->n_param;
     for (int k = 0; k < n; k++) {
       const fx_param_t *p = fx ? &fx->param[k] : &curve->param[k];
@@ -119,5 +120,36 @@ TEST(every_effect_does_something) {
   for (int i = 0; i < fx_count; i++) {
     ROW("%s", fx_table[i]->name);
     CHECK(fx_table[i]->excess || fx_table[i]->load || fx_table[i]->tick || fx_table[i]->sense);
+  }
+}
+
+TEST(an_effect_on_timing_says_whether_it_lags) {
+  for (int i = 0; i < fx_count; i++) {
+    const fx_t *const fx = fx_table[i];
+    fx_plant_t plant = {.motor_tau_s = 0.05};
+    const fx_tick_t tick = {.t_s = 0.0};
+    ROW("%s", fx->name);
+    CHECK(!fx->lags || fx->class == FX_TIMING);
+    if (fx->class != FX_TIMING) continue;
+    const fx_use_t use = fx_use(fx);
+    fx->tick(&use, &tick, &plant);
+    CHECK((plant.motor_tau_s > 0.05) == fx->lags && (plant.delay_s > 0.0) == !fx->lags);
+  }
+}
+
+TEST(an_effect_that_a_height_shares_moves_every_range_alike) {
+  for (int i = 0; i < fx_count; i++) {
+    const fx_t *const fx = fx_table[i];
+    if (!fx->sense) {
+      CHECK(!fx->in_height);
+      continue;
+    }
+    ROW("%s", fx->name);
+    const fx_use_t use = fx_use(fx);
+    fx_sensed_t near = {.range_m = 0.03, .range_rate_mps = 1.0}, far = {.range_m = 2.0};
+    fx->sense(&use, &near);
+    fx->sense(&use, &far);
+    CHECK((fabs(far.range_m - 2.0) > 1e-3 && fabs(near.range_m - far.range_m + 1.97) < 1e-9) ==
+          fx->in_height);
   }
 }

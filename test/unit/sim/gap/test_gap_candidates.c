@@ -1,0 +1,131 @@
+// test_gap_candidates.c - what every effect tells the workflow of itself: what it needs to be looked for,
+// where it shows, and what tells it from its rivals.
+#include "gap/4_candidates/candidates.h"
+#include "gap/5_infer/unknown.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+#include <string.h>
+
+// A log that has everything, in a room with a ceiling and a wall.
+typedef struct {
+  gap_flight_t flight;
+  grid_t grid;
+  set_t set;
+  model_t model;
+} log_t;
+
+static void log_make(log_t *l) {
+  why_t why;
+  *l = (log_t){.flight = {.rate_Hz = 500.0}};
+  CHECK_OK(model_builtin("cf21_legacy", &l->model, &why));
+  l->model.ceiling_m = l->model.wall_y_m = 0.5;
+  l->grid = (grid_t){.flight = &l->flight,
+                     .has_attitude = true,
+                     .has_rates = true,
+                     .has_force = true,
+                     .has_velocity = true,
+                     .has_position = true,
+                     .has_vbat = true,
+                     .has_moments = true};
+  l->set = (set_t){.grid = &l->grid, .n_grid = 1, .range = {.n = 1000}};
+}
+
+typedef void (*lose_t)(log_t *l);
+static void ceiling(log_t *l) {
+  l->model.ceiling_m = HUGE_VAL;
+}
+static void wall(log_t *l) {
+  l->model.wall_y_m = HUGE_VAL;
+}
+static void place(log_t *l) {
+  l->grid.has_position = false;
+}
+static void range(log_t *l) {
+  l->set.range.n = 0;
+}
+static void voltage(log_t *l) {
+  l->grid.has_vbat = false;
+}
+static void speed(log_t *l) {
+  l->grid.has_velocity = false;
+}
+static void attitude(log_t *l) {
+  l->grid.has_attitude = false;
+}
+static void quickness(log_t *l) {
+  l->flight.rate_Hz = 100.0;
+}
+static void force_and_turning(log_t *l) {
+  l->grid.has_force = l->grid.has_rates = false;
+}
+
+// The effects that can no longer be looked for when something is lost.
+TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
+  static const struct {
+    const char *what;
+    lose_t lose;
+    const char *effects;
+  } row[] = {
+      {"nothing", NULL, ""},
+      {"ceiling", ceiling, " ceiling ceiling_rpm"},
+      {"wall", wall, " sidewall"},
+      {"position", place, " ceiling ceiling_rpm ground sidewall tof_bias tof_floor tof_latency"},
+      {"range", range, " tof_bias tof_floor tof_latency"},
+      {"voltage", voltage, " battery_sag"},
+      {"velocity", speed, " body_drag climb_inflow flapping rotor_drag sidewall translational_lift"},
+      {"attitude", attitude, " wind"},
+      {"a quick log", quickness, " inertia"},
+      {"force and turning", force_and_turning,
+       " accel_bias battery_sag body_drag ceiling ceiling_rpm cg_offset climb_inflow delay flapping ground "
+       "gyroscopic imu_misalignment inertia mass motor_damage motor_lag rotor_drag sidewall thrust_curve "
+       "thrust_scale translational_lift wind"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    log_t l;
+    char lost[1000] = "";
+    ROW("without %s", row[i].what);
+    log_make(&l);
+    if (row[i].lose) row[i].lose(&l);
+    for (int k = 0; k < fx_count; k++)
+      if (candidates_obstacle(fx_table[k], &l.model, &l.set)) {
+        strcat(lost, " ");
+        strcat(lost, fx_table[k]->name);
+      }
+    CHECK_TEXT(lost, row[i].effects);
+  }
+}
+
+static bool is_coordinate(const char *name) {
+  for (int i = 0; i < coordinate_count; i++)
+    if (strcmp(coordinate_name(i), name) == 0) return true;
+  return false;
+}
+
+static bool is_channel(const char *name) {
+  for (int i = 0; i < CHANNELS; i++)
+    if (strcmp(gap_channel[i], name) == 0) return true;
+  return false;
+}
+
+TEST(every_effect_shows_over_coordinates_and_in_a_channel_that_there_are) {
+  for (int i = 0; i < fx_count; i++) {
+    const fx_t *const fx = fx_table[i];
+    ROW("%s", fx->name);
+    for (int k = 0; k < 2; k++) CHECK(!fx->over[k] || is_coordinate(fx->over[k]));
+    CHECK(!fx->in || is_channel(fx->in));
+  }
+}
+
+TEST(every_pair_of_effects_says_once_how_to_tell_them_apart) {
+  int pairs = 0;
+  for (int i = 0; i < fx_count; i++)
+    for (int k = 0; k < FX_APART_MAX && fx_table[i]->apart[k].rival; k++, pairs++) {
+      const fx_t *const fx = fx_table[i], *const rival = fx_find(fx->apart[k].rival);
+      ROW("%s, %s", fx->name, fx->apart[k].rival);
+      if (!CHECK(rival && rival != fx)) continue;
+      CHECK(fx_apart(fx, rival) == fx->apart[k].fly && fx_apart(rival, fx) == fx->apart[k].fly);
+    }
+  CHECK(pairs > 40);
+  CHECK(fx_apart(fx_find("ceiling"), fx_find("wind")) == NULL);
+}
