@@ -59,12 +59,12 @@ help:  ## what can be made
 	@echo '  make out/fly          flies scenarios (out/fly --help)'
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
-	@grep -hE '^[a-z/-]+:.*##' Makefile | sed -E 's/^([a-z/-]+):[^#]*## /  make \1\t/' | expand -t 22
+	@grep -hE '^[a-z/_-]+:.*##' Makefile | sed -E 's/^([a-z/_-]+):[^#]*## /  make \1\t/' | expand -t 22
 	@echo
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -221,6 +221,12 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules; minute
 arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; seconds
 	@mkdir -p $(O)
 	@python3 tools/arrows.py --svg $(O)/arrows.svg
+
+# What make itself would type, for an editor's language server (.clangd) and for clang-tidy (.clang-tidy).
+compile_commands: setup  ## out/compile_commands.json, for an editor or clang-tidy; seconds
+	@env -u MAKEFLAGS $(MAKE) -nB COUNTING=1 $(B)/bin/pil-record $(TESTED:%=$(B)/bin/%) $(PROGRAMS:%=$(O)/%) $(O)/exam 2>/dev/null | \
+	 sed -nE 's|.* -c ([^ ]+) -o .*|{"directory": "$(CURDIR)", "command": "&", "file": "\1"},|p' | \
+	 sed '1s/^/[/; $$s/,$$/]/' >$(O)/compile_commands.json
 
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
