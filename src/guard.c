@@ -4,20 +4,17 @@
 #include "flight/bounds.h"
 #include "flight/judge.h"
 
-#define GYRO_CUT_MS    100
-#define NAN_CUT_MS     50.0f
-#define TILT_CUT_MS    100
-#define SETPOINT_MS    250
-#define OTHER_M        0.01f // another set point
-#define BIAS_SETTLED_S 2.0f
-#define QUIET_MS       1000
-#define RETREAT_MS     100.0f // until a retreat has its full speed
-#define VEL_CUT_MS     2000
-#define LANDED_MS      100 // a bump in flight is shorter
+#define BAD_MOST_MS  (3.0f * (float)GUARD_NOT_A_NUMBER_ENDS_MS)
+#define OTHER_M      0.01f  // another set point
+#define QUIET_MS     1000   //
+#define RETREAT_MS   100.0f // until a retreat has its full speed
+#define LANDED_MS    100    // a bump in flight is shorter
+#define HOVER_PER_MS 0.002f // mean over half a second
+#define HOVER_LEAST  0.5f   // of the weight
+#define HOVER_MOST   1.3f
 
-#define SENDS_DOWN                                                                                           \
-  (GUARD_ACC_FROZEN | GUARD_RANGE_LOST | GUARD_RANGE_FROZEN | GUARD_BLIND | GUARD_SATURATED |                \
-   GUARD_TOO_NEAR | GUARD_VELOCITY | GUARD_RATIO | GUARD_HEIGHT_LOST)
+#define GOES_DOWN(bit, reason, lasts, down, ...) ((down) == 0 ? 1u << (bit) : 0u) |
+static const unsigned SENDS_DOWN = GUARD_REASONS(GOES_DOWN) 0u;
 
 void guard_init(guard_t *g) {
   *g = (guard_t){.action = GUARD_FLY};
@@ -31,24 +28,37 @@ void guard_rest(guard_t *g) {
   g->range_last_m = range_m;
 }
 
-bool guard_plausible(const guard_in_t *in) {
-  return v3_within(in->rate_b_radps, BOUND_RATE_RADPS) && v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) &&
-         v3_within(in->pos_w_m, BOUND_POS_M) && v3_within(in->vel_w_mps, BOUND_VEL_MPS) &&
-         quat_plausible(in->q_wb);
+// --- reasons of the call as a whole
+// ---------------------------------------------------------------------------
+
+// A sensor or the estimate is not finite, or beyond all bounds.
+static bool not_a_number(guard_t *g, const guard_in_t *in) {
+  const bool good = v3_within(in->rate_b_radps, BOUND_RATE_RADPS) &&
+                    v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) && v3_within(in->pos_w_m, BOUND_POS_M) &&
+                    v3_within(in->vel_w_mps, BOUND_VEL_MPS) && quat_plausible(in->q_wb);
+  g->bad_ms = f_clamp(g->bad_ms + (good ? -0.25f : 1.0f) * (float)in->ms, 0.0f, BAD_MOST_MS);
+  return !good;
 }
+
+static bool setpoint(guard_t *g, const guard_in_t *in) {
+  g->setpoint_ms = judge_longer(g->setpoint_ms, !in->setpoint_good, in->ms);
+  return !in->setpoint_good;
+}
+
+// On the floor under a ceiling there is no room to find out how much thrust lifts off.
+static bool no_room(const guard_t *g, const guard_param_t *p, const guard_in_t *in) {
+  return in->wanted && !g->flown && in->thrust_N < CARRYING_SHARE * in->weight_N && g->range_last_m > 0.0f &&
+         g->range_last_m < p->take_off_m;
+}
+
+// --- what is done about them ------------------------------------------------------------------------------
 
 // Slow mean of the thrust that carries, for when nothing better is known.
 static void learn_hover(guard_t *g, const guard_in_t *in) {
   if (g->now != 0 || !in->carries) return;
-  const float least = 0.3f * in->weight_N;
+  const float least = CARRYING_SHARE * in->weight_N;
   if (!(g->hover_N > least)) g->hover_N = in->weight_N;
-  g->hover_N += 0.002f * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - g->hover_N);
-}
-
-// On the floor under a ceiling there is no room to find out how much thrust lifts off.
-static bool refused(const guard_t *g, const guard_param_t *p, const guard_in_t *in) {
-  return in->wanted && !g->flown && in->thrust_N < 0.3f * in->weight_N && g->range_last_m > 0.0f &&
-         g->range_last_m < p->take_off_m;
+  g->hover_N += HOVER_PER_MS * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - g->hover_N);
 }
 
 // What has flown is in the air until a floor carries it, however little thrust it gives: it may be falling.
@@ -59,15 +69,15 @@ static void find_airborne(guard_t *g, const guard_in_t *in) {
 }
 
 static void decide(guard_t *g, const guard_in_t *in) {
-  const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > NAN_CUT_MS) ||
-                    ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GYRO_CUT_MS) ||
-                    g->tilt_ms > TILT_CUT_MS || g->vel_odd_ms > VEL_CUT_MS;
+  const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > (float)GUARD_NOT_A_NUMBER_ENDS_MS) ||
+                    ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GUARD_GYRO_FROZEN_ENDS_MS) ||
+                    g->tilt_ms > GUARD_TILT_ENDS_MS || g->vel_odd_ms > GUARD_VELOCITY_ENDS_MS;
   if (ends && g->airborne) g->action = GUARD_HAND_OVER;
   if (g->action == GUARD_HAND_OVER) {
     g->handed_ms = judge_longer(g->handed_ms, true, in->ms);
     return;
   }
-  const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > SETPOINT_MS;
+  const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > GUARD_SETPOINT_DOWN_MS;
   g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
   if (g->action == GUARD_RETREAT) {
     g->retreat_ms = judge_longer(g->retreat_ms, true, in->ms);
@@ -88,22 +98,19 @@ static void decide(guard_t *g, const guard_in_t *in) {
   }
 }
 
-void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in) {
+void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   find_airborne(g, in);
-  const unsigned kept = g->now;
-  const bool good = guard_plausible(in);
-  g->bad_ms = f_clamp(g->bad_ms + (good ? -0.25f : 1.0f) * (float)in->ms, 0.0f, 3.0f * NAN_CUT_MS);
-  unsigned now = good ? 0u : kept | GUARD_NOT_A_NUMBER;
-  if (good) {
+  unsigned now = 0;
+  if (not_a_number(g, in)) {
+    now = (g->now & ~(unsigned)GUARD_SETPOINT) | GUARD_NOT_A_NUMBER;
+  } else {
     if (!g->started) judge_begin(g, in);
     g->started = true;
     now |= judge_motion(g, in);
     now |= judge_ceiling(g, p, in);
   }
-  now &= ~(unsigned)GUARD_SETPOINT;
-  g->setpoint_ms = judge_longer(g->setpoint_ms, !in->setpoint_good, in->ms);
-  if (!in->setpoint_good) now |= GUARD_SETPOINT;
-  if (refused(g, p, in)) {
+  if (setpoint(g, in)) now |= GUARD_SETPOINT;
+  if (no_room(g, p, in)) {
     now |= GUARD_NO_ROOM;
     g->action = GUARD_HAND_OVER;
     g->handed_ms = JUDGE_MS_MAX;
@@ -127,7 +134,7 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N) {
   if ((float)g->handed_ms > 1000.0f * p->cut_after_s) return 0.0f;
   if ((g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0) return 0.0f;
-  return p->share * f_clamp(g->hover_N, 0.5f * weight_N, 1.3f * weight_N);
+  return p->share * f_clamp(g->hover_N, HOVER_LEAST * weight_N, HOVER_MOST * weight_N);
 }
 
 float guard_settled_bias_mps2(const guard_t *g) {

@@ -3,53 +3,78 @@
 #include "flight/judge.h"
 
 #define ACC_CLIP_MPS2  196.2f // 20 g
+#define TILT_UP        0.5f   // cosine of 60 degrees
 #define CLIP_MEMORY_MS 200    // the 8 Hz filter has forgotten
-#define FROZEN_MS      25
-#define RATE_LIFE      5e-4f // rad/s a millisecond; a tenth of a real gyro's noise
-#define ACC_LIFE       2e-3f // m/s2 a millisecond
-#define BIAS_MPS2      0.5f  // from here on it is a fault
+#define RATE_LIFE      5e-4f  // rad/s a millisecond; a tenth of a real gyro's noise
+#define ACC_LIFE       2e-3f  // m/s2 a millisecond
+#define BIAS_MPS2      0.5f   // from here on it is a fault
 #define BIAS_MAX_MPS2  3.0f
 #define BIAS_STEP_MPS2 0.3f // five times the noise of the mean over BIAS_FAST_S
 #define BIAS_FAST_S    0.1f
-#define BIAS_SLOW_S    1.0f // what is left by then is the outer loop's
-#define BIAS_MS        10   // the estimator's period
-#define VEL_STEP_MPS   0.5f // in one period of the estimator: 5 g
-#define VEL_CALM_MS    50
+#define BIAS_SLOW_S    1.0f  // what is left by then is the outer loop's
+#define BIAS_MS        10    // the estimator's period
+#define VEL_STEP_MPS   0.5f  // in one period of the estimator: 5 g
 #define IMPACT_MPS2    25.0f // along an axis
 #define IMPACT_MS      300
-#define OFF_MS         250 // garbage that goes as it came is shorter
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);
 }
 
+// What jumps by 5 g in velocity is none: the last good one goes on with the accelerometer, until what comes
+// no longer jumps. Unless the accelerometer has felt an impact: then it is true.
+static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
+  const bool calm = v3_within(v3_sub(in->vel_w_mps, g->vel_raw), VEL_STEP_MPS);
+  const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS);
+  g->vel_raw = in->vel_w_mps;
+  g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
+  g->impact_ms = v3_within(in->acc_b_mps2, IMPACT_MPS2) ? g->impact_ms - in->ms : IMPACT_MS;
+  if (g->impact_ms < 0) g->impact_ms = 0;
+  g->vel_lost = (odd || g->vel_lost) && g->vel_calm_ms < GUARD_VELOCITY_GONE_MS && g->impact_ms == 0;
+  g->vel_odd_ms = judge_longer(g->vel_odd_ms, g->vel_lost, in->ms);
+  if (!g->vel_lost) {
+    g->vel_w_mps = in->vel_w_mps;
+    return false;
+  }
+  const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
+  const float bias_mps2 = g->acc_bias_mps2 + in->bias_known_mps2;
+  g->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - bias_mps2);
+  return true;
+}
+
 // A sensor that was alive and now gives the same bits is frozen. One that never was (a perfect one) is not.
-static bool frozen(int *same_ms, float *life, float changed, float least, int ms) {
+static bool frozen(int *same_ms, float *life, float changed, float least, int lasts_ms, int ms) {
   *same_ms = judge_longer(*same_ms, changed == 0.0f, ms);
-  if (*same_ms >= FROZEN_MS && *life > least) return true;
-  if (*same_ms < FROZEN_MS) *life += 0.01f * (changed - *life);
+  if (*same_ms >= lasts_ms && *life > least) return true;
+  if (*same_ms < lasts_ms) *life += 0.01f * (changed - *life);
   return false;
 }
 
-// Inertial sensors; in->ms is 1 but for missed calls.
-static unsigned judge_inertial(guard_t *g, const guard_in_t *in, quat_t q_wb) {
-  unsigned now = 0;
-  const float rate = change(in->rate_b_radps, g->rate_last), acc = change(in->acc_b_mps2, g->acc_last);
-  if (frozen(&g->rate_same_ms, &g->rate_life, rate, RATE_LIFE, in->ms)) now |= GUARD_GYRO_FROZEN;
-  if (frozen(&g->acc_same_ms, &g->acc_life, f_clamp(acc, 0.0f, 1.0f), ACC_LIFE, in->ms))
-    now |= GUARD_ACC_FROZEN;
+static bool gyro_frozen(guard_t *g, const guard_in_t *in) {
+  const float changed = change(in->rate_b_radps, g->rate_last);
   g->rate_last = in->rate_b_radps;
+  return frozen(&g->rate_same_ms, &g->rate_life, changed, RATE_LIFE, GUARD_GYRO_FROZEN_LASTS_MS, in->ms);
+}
+
+static bool acc_frozen(guard_t *g, const guard_in_t *in) {
+  const float changed = f_clamp(change(in->acc_b_mps2, g->acc_last), 0.0f, 1.0f); // a knock is no more life
   g->acc_last = in->acc_b_mps2;
+  return frozen(&g->acc_same_ms, &g->acc_life, changed, ACC_LIFE, GUARD_ACC_FROZEN_LASTS_MS, in->ms);
+}
+
+static bool acc_clipped(guard_t *g, const guard_in_t *in) {
   if (!v3_within(in->acc_b_mps2, ACC_CLIP_MPS2)) {
-    now |= GUARD_ACC_CLIPPED;
     g->acc_clip_ms = CLIP_MEMORY_MS;
-  } else if (g->acc_clip_ms > 0) {
-    g->acc_clip_ms -= in->ms < g->acc_clip_ms ? in->ms : g->acc_clip_ms;
+    return true;
   }
-  const float up = quat_up(q_wb).z;
-  g->tilt_ms = judge_longer(g->tilt_ms, up < 0.5f, in->ms);
-  if (up < 0.5f) now |= GUARD_TILT;
-  return now;
+  if (g->acc_clip_ms > 0) g->acc_clip_ms -= in->ms < g->acc_clip_ms ? in->ms : g->acc_clip_ms;
+  return false;
+}
+
+static bool tilt(guard_t *g, const guard_in_t *in, quat_t q_wb) {
+  const bool tilted = quat_up(q_wb).z < TILT_UP;
+  g->tilt_ms = judge_longer(g->tilt_ms, tilted, in->ms);
+  return tilted;
 }
 
 // What the vertical acceleration says against the change of the estimated climb is the accelerometer's error.
@@ -67,16 +92,16 @@ static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float 
   g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
 }
 
-static void begin_window(guard_t *g, const guard_in_t *in) {
+static void begin_window(guard_t *g) {
   g->window_ms = 0;
   g->window_mps = 0.0f;
-  g->window_vel_mps = in->vel_w_mps.z;
+  g->window_vel_mps = g->vel_w_mps.z;
 }
 
-static unsigned judge_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
-  const unsigned kept = g->now & GUARD_ACC_BIAS;
+static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
+  const bool kept = (g->now & GUARD_ACC_BIAS) != 0;
   if (g->acc_lost || g->acc_clip_ms > 0) {
-    begin_window(g, in);
+    begin_window(g);
     return kept;
   }
   const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
@@ -84,48 +109,34 @@ static unsigned judge_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   g->window_ms += in->ms;
   if (g->window_ms < BIAS_MS) return kept;
   const float dt = 1e-3f * (float)g->window_ms;
-  const float error = (g->window_mps - (in->vel_w_mps.z - g->window_vel_mps)) / dt;
+  const float error = (g->window_mps - (g->vel_w_mps.z - g->window_vel_mps)) / dt;
   find_bias(g, in, f_clamp(error, -BIAS_MAX_MPS2, BIAS_MAX_MPS2), dt);
-  begin_window(g, in);
-  const float all_mps2 = g->bias_mps2 + in->bias_known_mps2;
-  return fabsf(all_mps2) > (kept ? 0.5f : 1.0f) * BIAS_MPS2 ? GUARD_ACC_BIAS : 0u;
+  begin_window(g);
+  return fabsf(g->bias_mps2 + in->bias_known_mps2) > (kept ? 0.5f : 1.0f) * BIAS_MPS2;
 }
 
-// What jumps by 5 g in velocity is none: the last good one goes on with the accelerometer, until what comes
-// no longer jumps. Unless the accelerometer has felt an impact: then it is true.
-static unsigned judge_velocity(guard_t *g, guard_in_t *in) {
-  const bool calm = v3_within(v3_sub(in->vel_w_mps, g->vel_raw), VEL_STEP_MPS);
-  const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_last), VEL_STEP_MPS);
-  g->vel_raw = in->vel_w_mps;
-  g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
-  g->impact_ms = v3_within(in->acc_b_mps2, IMPACT_MPS2) ? g->impact_ms - in->ms : IMPACT_MS;
-  if (g->impact_ms < 0) g->impact_ms = 0;
-  g->vel_lost = (odd || g->vel_lost) && g->vel_calm_ms < VEL_CALM_MS && g->impact_ms == 0;
-  g->vel_odd_ms = judge_longer(g->vel_odd_ms, g->vel_lost, in->ms);
-  if (!g->vel_lost) return 0u;
-  const v3_t force = quat_to_world(quat_unit(in->q_wb), in->acc_b_mps2);
-  in->vel_w_mps = g->vel_last;
-  const float bias_mps2 = g->acc_bias_mps2 + in->bias_known_mps2;
-  in->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - bias_mps2);
-  return GUARD_VELOCITY;
+static bool height_lost(guard_t *g, const guard_in_t *in) {
+  g->off_ms = judge_longer(g->off_ms, fabsf(in->height_off_m) > BOUND_HEIGHT_OFF_M, in->ms);
+  return g->off_ms >= GUARD_HEIGHT_LOST_LASTS_MS;
 }
 
 void judge_begin(guard_t *g, const guard_in_t *in) {
-  g->vel_last = g->vel_raw = in->vel_w_mps;
-  begin_window(g, in);
+  g->vel_w_mps = g->vel_raw = in->vel_w_mps;
+  begin_window(g);
   g->bias_s = JUDGE_SETTLED_S;
   g->rate_last = in->rate_b_radps;
   g->acc_last = in->acc_b_mps2;
 }
 
-unsigned judge_motion(guard_t *g, guard_in_t *in) {
-  // In this order: each uses what the one before found.
-  unsigned now = judge_velocity(g, in);
+unsigned judge_motion(guard_t *g, const guard_in_t *in) {
   const quat_t q_wb = quat_unit(in->q_wb);
-  now |= judge_inertial(g, in, q_wb);
-  now |= judge_bias(g, in, q_wb);
-  g->off_ms = judge_longer(g->off_ms, fabsf(in->height_off_m) > BOUND_HEIGHT_OFF_M, in->ms);
-  if (g->off_ms >= OFF_MS) now |= GUARD_HEIGHT_LOST;
-  g->vel_last = in->vel_w_mps;
+  unsigned now = 0;
+  if (velocity(g, in, q_wb)) now |= GUARD_VELOCITY;
+  if (gyro_frozen(g, in)) now |= GUARD_GYRO_FROZEN;
+  if (acc_frozen(g, in)) now |= GUARD_ACC_FROZEN;
+  if (acc_clipped(g, in)) now |= GUARD_ACC_CLIPPED;
+  if (tilt(g, in, q_wb)) now |= GUARD_TILT;
+  if (acc_bias(g, in, q_wb)) now |= GUARD_ACC_BIAS;
+  if (height_lost(g, in)) now |= GUARD_HEIGHT_LOST;
   return now;
 }

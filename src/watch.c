@@ -198,7 +198,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   see(&guard_in, f, in, ms, good);
   guard_step(&f->guard, &f->outer.param.guard, &guard_in);
   hand_bias_over(f);
-  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_last;
+  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_w_mps;
   mend_acceleration(f, in);
   if (in->range_m < CEILING_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
   set_what_flies(f, in);

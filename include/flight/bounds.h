@@ -14,5 +14,6 @@
 #define BOUND_WANTED_RATE_RADPS 100.0f
 #define BOUND_HEIGHT_JUMP_M     0.01f // a height that moves by more than velocity x time was reset
 #define BOUND_HEIGHT_OFF_M      1.0f  // resets that sum up to more: the estimate knows no height any more
+#define CARRYING_SHARE          0.3f  // of the weight: with less thrust the rotors do not carry
 
 #endif

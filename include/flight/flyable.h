@@ -14,11 +14,16 @@
 #include "flight/v3.h"
 #include <stdint.h>
 
-typedef enum {
-  FLYABLE_UP = 1 << 0,     // at rest the specific force is not up, or not 1 g
-  FLYABLE_TURN_X = 1 << 1, // the change of the specific force along x contradicts the gyro
-  FLYABLE_TURN_Y = 1 << 2, // along y
-} flyable_reason_t;
+// X(bit, reason, in words). Each stands until what contradicts it has been seen.
+// clang-format off
+#define FLYABLE_REASONS(X)                                                                                   \
+  X(0, UP,     "at rest the accelerometer does not point up")                                                \
+  X(1, TURN_X, "gyro and accelerometer contradict each other along x")                                       \
+  X(2, TURN_Y, "gyro and accelerometer contradict each other along y")
+// clang-format on
+
+#define FLYABLE_BIT(bit, reason, words) FLYABLE_##reason = 1 << (bit),
+typedef enum { FLYABLE_REASONS(FLYABLE_BIT) } flyable_reason_t;
 
 // Of the change along one axis: sum(da c), sum(c^2).
 typedef struct {

@@ -8,7 +8,7 @@
 // Near a ceiling the upward sensor is too slow to be the only witness (full thrust closes 5 cm in 110 ms, a
 // sample comes every 100 ms), so that what flies the vehicle is judged every millisecond. A retreat lasts
 // until its reasons are gone for a second and the pilot asks for another height; a hand-over until the height
-// is no longer controlled. Reasons are kept as bits, now and latched, for a log group.
+// is no longer controlled. All reasons are latched for a log group, and the table says which are `now`, too.
 #ifndef FLIGHT_GUARD_H
 #define FLIGHT_GUARD_H
 
@@ -18,27 +18,61 @@
 
 typedef enum { GUARD_FLY, GUARD_HOLD, GUARD_RETREAT, GUARD_HAND_OVER } guard_action_t;
 
-typedef enum {
-  GUARD_NOT_A_NUMBER = 1 << 0, // a sensor or the estimate is not finite, or beyond what it can be
-  GUARD_GYRO_FROZEN = 1 << 1,  // the same bits for 25 ms after it was alive
-  GUARD_ACC_FROZEN = 1 << 2,   // likewise
-  GUARD_ACC_CLIPPED = 1 << 3,  // beyond 20 g
-  GUARD_ACC_BIAS = 1 << 4,     // contradicts the velocity for long
-  GUARD_TILT = 1 << 5,         // beyond 60 degrees
-  GUARD_RANGE_LOST = 1 << 6,   // no valid sample for 250 ms near a ceiling
-  GUARD_RANGE_FROZEN = 1 << 7, // the same value while the height moved by more than 2 cm
-  GUARD_RANGE_ODD = 1 << 8,    // a sample that is no distance, or that the vehicle's climb does not explain
-  GUARD_BLIND = 1 << 9,        // below the sensor's floor for longer than ceil.blindMax
-  GUARD_SATURATED = 1 << 10,   // full thrust for 200 ms near a ceiling
-  GUARD_SETPOINT = 1 << 11,    // a set point that is no number
-  GUARD_TOO_NEAR = 1 << 12,    // the ceiling is nearer than the set point allows
-  GUARD_HEIGHT_JUMP = 1 << 13, // the estimate of the height was reset
-  GUARD_TIME = 1 << 14,        // milliseconds were missed, came twice, or ran backwards
-  GUARD_NO_ROOM = 1 << 15,     // a take-off under a ceiling nearer than guard.takeOff
-  GUARD_VELOCITY = 1 << 16,    // the estimated velocity jumps
-  GUARD_RATIO = 1 << 17,       // the thrust carries more than it should so far from a ceiling
-  GUARD_HEIGHT_LOST = 1 << 18, // resets of the estimated height sum up to more than 1 m, for 250 ms
-} guard_reason_t;
+// The table: one row a reason, in the order in which they are judged, by the rule of its name (GYRO_FROZEN:
+// gyro_frozen) in the file that stands above. Times are in ms.
+//
+//   bit      in guard_t.now and .latched, and in every log that was ever written
+//   lasts    so long before it is a reason
+//   down     retreat where it lasts longer; -1: never. 0: with the reason
+//   ends     hand over where it lasts longer, in the air; likewise. Where neither: fly on
+//   gone     so long until it is none any more
+//
+// X(bit, reason, lasts, down, ends, gone, in words)
+// clang-format off
+
+// judge_motion.c: each uses what the one before found.
+#define GUARD_OF_MOTION(X)                                                                                            \
+  X(16, VELOCITY,       0,   0, 2000, 50, "the estimated velocity jumps")                                             \
+  X( 1, GYRO_FROZEN,   25,  -1,  100,  0, "the gyro is frozen")                                                       \
+  X( 2, ACC_FROZEN,    25,   0,   -1,  0, "the accelerometer is frozen")                                              \
+  X( 3, ACC_CLIPPED,    0,  -1,   -1,  0, "the accelerometer is clipped")                                             \
+  X( 5, TILT,           0,  -1,  100,  0, "tilted beyond 60 degrees")                                                 \
+  X( 4, ACC_BIAS,       0,  -1,   -1,  0, "the accelerometer contradicts the velocity")                               \
+  X(18, HEIGHT_LOST,  250,   0,   -1,  0, "resets of the estimated height sum up to more than a metre")
+
+// judge_ceiling.c: of what is judged by range samples, FROZEN, ODD and TOO_NEAR, what one says stands until the next.
+#define GUARD_OF_CEILING(X)                                                                                           \
+  X( 6, RANGE_LOST,   250,   0,   -1,  0, "the range sensor is lost")                                                 \
+  X( 9, BLIND,          0,   0,   -1,  0, "below the range sensor's floor for longer than ceil.blindMax")             \
+  X( 8, RANGE_ODD,      0,  -1,   -1,  0, "odd range samples")                                                        \
+  X( 7, RANGE_FROZEN, 200,   0,   -1,  0, "the range sensor is frozen")                                               \
+  X(10, SATURATED,    200,   0,   -1,  0, "full thrust near the ceiling")                                             \
+  X(12, TOO_NEAR,       0,   0,   -1,  0, "the ceiling is nearer than the set point allows")                          \
+  X(17, RATIO,         10,   0,   -1,  0, "the thrust carries more than it should so far from a ceiling")
+
+// guard.c: what the others need to be judged at all (while it is none, they stay), and what is asked for. A set point
+// that is none is held at once; without room the motors stay off.
+#define GUARD_OF_CALL(X)                                                                                              \
+  X( 0, NOT_A_NUMBER,   0,  -1,   50,  0, "a sensor or the estimate is no number")                                    \
+  X(11, SETPOINT,       0, 250,   -1,  0, "a set point that is no number")                                            \
+  X(15, NO_ROOM,        0,  -1,    0,  0, "no room to take off")
+
+// watch.c, watch_time and take_jump_out: of a single call, and mended there; latched only, never `now`.
+#define GUARD_OF_WATCH(X)                                                                                             \
+  X(14, TIME,           0,  -1,   -1,  0, "milliseconds were missed")                                                 \
+  X(13, HEIGHT_JUMP,    0,  -1,   -1,  0, "the height estimate jumped")
+// clang-format on
+
+#define GUARD_REASONS(X) GUARD_OF_MOTION(X) GUARD_OF_CEILING(X) GUARD_OF_CALL(X) GUARD_OF_WATCH(X)
+
+#define GUARD_BIT(bit, reason, ...) GUARD_##reason = 1 << (bit),
+typedef enum { GUARD_REASONS(GUARD_BIT) } guard_reason_t;
+
+// GUARD_TILT_ENDS_MS and the like. What is 0 or -1 is not compared with: it is how the rule is written.
+#define GUARD_TIMES(bit, reason, lasts, down, ends, gone, words)                                             \
+  GUARD_##reason##_LASTS_MS = lasts, GUARD_##reason##_DOWN_MS = down, GUARD_##reason##_ENDS_MS = ends,       \
+  GUARD_##reason##_GONE_MS = gone,
+enum { GUARD_REASONS(GUARD_TIMES) };
 
 typedef struct {
   float blind_max_s; // >= 0  longest time nearer than the sensor's floor
@@ -74,32 +108,54 @@ typedef struct {
 typedef struct {
   unsigned now, latched; // guard_reason_t
   guard_action_t action;
-  float hover_N;       // thrust that carries, while nothing is wrong
-  bool acc_lost;       // the accelerometer is not to be used
-  bool vel_lost;       // the estimated velocity is not to be used; vel_last is
+  v3_t vel_w_mps; // the one that is believed: as estimated, or while vel_lost the last good one, carried on
+  bool vel_lost;  // the estimated velocity is not to be used
+  bool acc_lost;  // the accelerometer is not to be used
   float acc_bias_mps2; // to be taken off the vertical acceleration
+  float hover_N;       // thrust that carries, while nothing is wrong
+  bool airborne;       // has flown and not landed since the height is controlled
   float hold_z_m;      // height at which the retreat began
   v3_t hold_w_m;       // place over which it goes down
   int retreat_ms;      // since the retreat began
   int handed_ms;       // since the hand-over
-  bool airborne;       // has flown and not landed since the height is controlled
-  // Not for callers.
-  bool started;
-  v3_t rate_last, acc_last, vel_last;
+  // Not for callers: what each rule remembers.
+  bool started; // judged once at least
+  // VELOCITY
+  v3_t vel_raw;                           // as estimated in the last call
+  int vel_calm_ms, vel_odd_ms, impact_ms; // without a jump; not believed; until an impact is forgotten
+  // GYRO_FROZEN, ACC_FROZEN
+  v3_t rate_last, acc_last;
   float rate_life, acc_life; // mean change per millisecond
-  v3_t vel_raw;
-  int vel_calm_ms, vel_odd_ms, impact_ms, range_same_ms, range_new_ms, ratio_ms, floor_ms, off_ms;
-  float ratio_usual, carried_s;
-  int rate_same_ms, acc_same_ms, acc_clip_ms, tilt_ms, setpoint_ms, full_ms, range_ms, quiet_ms;
-  float bad_ms;
-  bool near_seen;
-  float range_last_m, range_z_m;
-  int range_same;
-  float bias_mps2, bias_fast_mps2, bias_s; // found and not given away; what is new in it; time of its mean
+  int rate_same_ms, acc_same_ms;
+  // ACC_CLIPPED, TILT
+  int acc_clip_ms; // until it is forgotten
+  int tilt_ms;
+  // ACC_BIAS
   float window_mps, window_vel_mps; // of one period of the estimator: acceleration summed up, climb before
   int window_ms;
+  float bias_mps2, bias_fast_mps2, bias_s; // found and not given away; what is new in it; time of its mean
+  // HEIGHT_LOST
+  int off_ms;
+  // RANGE_LOST
+  bool near_seen; // a ceiling was near, and could be seen
+  int range_ms;   // since a sample that was a distance
+  // RANGE_FROZEN; the last sample for NO_ROOM, too
+  float range_last_m, range_z_m; // the last one that was another, and the height then
+  int range_same, range_same_ms; // samples like it, and over what time
+  int range_new_ms;              // since the last one of them
+  // SATURATED, TOO_NEAR
+  int full_ms;
   int nearer; // what range samples say of it, summed up
-  bool flown;
+  // RATIO
+  float ratio_usual, carried_s; // what the thrust usually carries; since it carries
+  int ratio_ms;
+  // NOT_A_NUMBER, SETPOINT
+  float bad_ms; // less a quarter of what was good since
+  int setpoint_ms;
+  // What is done about them
+  bool flown;       // carried once since the height is controlled
+  int floor_ms;     // that a floor carries
+  int quiet_ms;     // without a reason to go down
   float asked_at_m; // the pilot's height when the retreat began
 } guard_t;
 
@@ -109,12 +165,8 @@ void guard_init(guard_t *g);
 // The height is not controlled: forgets but for what is latched.
 void guard_rest(guard_t *g);
 
-// A number of a sensor or the estimate is out of all bounds (a part of what GUARD_NOT_A_NUMBER is raised by).
-bool guard_plausible(const guard_in_t *in);
-
-// One call of the controller. Afterwards g->action says what to do. A velocity that is none is replaced in
-// *in.
-void guard_step(guard_t *g, const guard_param_t *p, guard_in_t *in);
+// One call of the controller. Afterwards g->action says what to do, and g->vel_w_mps what to do it with.
+void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in);
 
 // The height that a retreat wants at this height.
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m);

@@ -1,5 +1,5 @@
 // judge.h - the parts of the guard's judgement, for guard.c alone: which reasons there are in this call.
-// State and inputs are the guard's.
+// State and inputs are the guard's; the table in guard.h says what comes of a reason.
 #ifndef FLIGHT_JUDGE_H
 #define FLIGHT_JUDGE_H
 
@@ -17,10 +17,10 @@ static inline int judge_longer(int total_ms, bool lasts, int ms) {
 // The first plausible call.
 void judge_begin(guard_t *g, const guard_in_t *in);
 
-// Frozen, clipped, biased, tilted; a velocity that jumps is replaced in *in.
-unsigned judge_motion(guard_t *g, guard_in_t *in);
+// The reasons GUARD_OF_MOTION; g->vel_w_mps is then the velocity that is believed.
+unsigned judge_motion(guard_t *g, const guard_in_t *in);
 
-// Range lost, frozen, odd; too near, blind, saturated; thrust that carries too much.
+// The reasons GUARD_OF_CEILING.
 unsigned judge_ceiling(guard_t *g, const guard_param_t *p, const guard_in_t *in);
 
 #endif

@@ -42,7 +42,6 @@ typedef struct {
 
 #define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
 #define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
-#define CARRYING_SHARE   0.3f   // of the weight: from here on the rotors carry
 #define FLOOR_SHARE      0.5f   // of the weight that something else than the rotors carries: a floor
 #define OUTER_MISSED_MAX 1000   // ticks; nobody flies on after so many
 

@@ -37,9 +37,9 @@ static void tell_decks(void) {
 }
 
 static void tell_flyable(unsigned not_flyable) {
-  if (not_flyable & FLYABLE_UP) DEBUG_PRINT("NOT FLYABLE: at rest the accelerometer does not point up\n");
-  if (not_flyable & (FLYABLE_TURN_X | FLYABLE_TURN_Y))
-    DEBUG_PRINT("NOT FLYABLE: gyro and accelerometer contradict each other\n");
+#define SAY(bit, reason, words)                                                                              \
+  if (not_flyable & FLYABLE_##reason) DEBUG_PRINT("NOT FLYABLE: " words "\n");
+  FLYABLE_REASONS(SAY)
   if (not_flyable == 0) DEBUG_PRINT("Flyable again\n");
 }
 

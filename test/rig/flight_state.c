@@ -57,7 +57,7 @@ static const struct {
     STATE(guard.acc_life),
     STATE(guard.rate_last),
     STATE(guard.acc_last),
-    STATE(guard.vel_last),
+    STATE(guard.vel_w_mps),
     STATE(guard.ratio_usual),
     STATE(guard.bad_ms),
     STATE(out.motors.force_N),

@@ -1,31 +1,19 @@
-"""reasons.py - the app's reason bits as words (include/flight/guard.h, include/flight/flyable.h)."""
+"""reasons.py - the app's reason bits as words, by the tables in include/flight/guard.h and flyable.h."""
 
-GUARD = (
-    "a sensor or the estimate is no number",
-    "the gyro is frozen",
-    "the accelerometer is frozen",
-    "the accelerometer is clipped",
-    "the accelerometer contradicts the velocity",
-    "tilted beyond 60 degrees",
-    "the range sensor is lost",
-    "the range sensor is frozen",
-    "odd range samples",
-    "below the range sensor's floor for longer than ceil.blindMax",
-    "full thrust near the ceiling",
-    "a set point that is no number",
-    "the ceiling is nearer than the set point allows",
-    "the height estimate jumped",
-    "milliseconds were missed",
-    "no room to take off",
-    "the estimated velocity jumps",
-    "the thrust carries more than it should so far from a ceiling",
-    "resets of the estimated height sum up to more than a metre",
-)
-FLYABLE = (
-    "at rest the accelerometer does not point up",
-    "gyro and accelerometer contradict each other along x",
-    "gyro and accelerometer contradict each other along y",
-)
+import re
+from pathlib import Path
+
+HEADERS = Path(__file__).parents[2] / "include" / "flight"
+
+
+def _table(header: str) -> tuple[str, ...]:
+    rows = re.findall(r'^ +X\( *(\d+), .*"(.+)"\)', (HEADERS / header).read_text(encoding="utf-8"), re.MULTILINE)
+    words_of = {int(bit): name for bit, name in rows}
+    return tuple(words_of[bit] for bit in range(len(rows)))  # a bit that is left out or taken twice is a KeyError
+
+
+GUARD = _table("guard.h")
+FLYABLE = _table("flyable.h")
 DECKS = ("flow deck v2", "multiranger deck")
 ACTIONS = ("fly", "hold", "retreat", "hand over")
 RETREAT = 2  # this action and those above are not the pilot's flight any more

@@ -15,10 +15,7 @@ static guard_in_t at_rest(void) {
 
 static void step(guard_t *g, guard_in_t in, int calls) {
   const guard_param_t p = hovering_param();
-  for (; calls > 0; calls--) {
-    guard_in_t now = in;
-    guard_step(g, &p, &now);
-  }
+  for (; calls > 0; calls--) guard_step(g, &p, &in);
 }
 
 static guard_t begun(void) {

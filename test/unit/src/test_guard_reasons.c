@@ -1,8 +1,10 @@
 // test_guard_reasons.c - each reason of the guard at its threshold, from both sides, in value and in
-// duration.
+// duration; and the table of them.
 #include "flight/flight.h"
 #include "rig/hovering.h"
 #include "rig/test.h"
+
+#include <string.h>
 
 static void rate_x(guard_in_t *in, float x, int ms) {
   (void)ms, in->rate_b_radps.x = x;
@@ -178,4 +180,41 @@ TEST(guard_acts_after_so_long) {
     hovering_fly(&w, acted[i].hover, acted[i].edit, acted[i].value, 1);
     CHECK(w.g.action == acted[i].want);
   }
+}
+
+// --- the table --------------------------------------------------------------------------------------------
+
+#define ROW_OF(bit_, reason, lasts, down_, ends, gone, words_) {bit_, down_, #reason, words_},
+static const struct {
+  int bit, down_ms;
+  const char *name, *words;
+} table[] = {GUARD_REASONS(ROW_OF)};
+enum { ROWS = sizeof table / sizeof *table };
+
+TEST(guard_has_a_bit_and_words_of_its_own_for_each_reason) {
+  unsigned bits = 0;
+  for (unsigned i = 0; i < ROWS; i++) {
+    ROW("%s", table[i].name);
+    CHECK(table[i].bit < ROWS && (bits & 1u << table[i].bit) == 0);
+    bits |= 1u << table[i].bit;
+    for (unsigned j = 0; j < i; j++) CHECK(strcmp(table[i].words, table[j].words) != 0);
+  }
+}
+
+// While an input is no number the reasons of before stand, whichever they are.
+TEST(guard_goes_down_at_once_for_the_reasons_whose_row_says_so) {
+  const guard_param_t p = hovering_param();
+  unsigned down = 0;
+  for (unsigned i = 0; i < ROWS; i++) {
+    ROW("%s", table[i].name);
+    watched_t w = hovering_started(&HOVERING_FREE);
+    w.g.now = 1u << table[i].bit;
+    guard_in_t in = hovering(&HOVERING_FREE, w.ms);
+    in.pos_w_m.x = NAN;
+    guard_step(&w.g, &p, &in);
+    CHECK((w.g.action == GUARD_RETREAT) == (table[i].down_ms == 0));
+    if (w.g.action == GUARD_RETREAT) down |= 1u << table[i].bit;
+  }
+  CHECK(down == (GUARD_ACC_FROZEN | GUARD_RANGE_LOST | GUARD_RANGE_FROZEN | GUARD_BLIND | GUARD_SATURATED |
+                 GUARD_TOO_NEAR | GUARD_VELOCITY | GUARD_RATIO | GUARD_HEIGHT_LOST));
 }
