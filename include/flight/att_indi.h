@@ -8,7 +8,8 @@
 // tau_a is the torque that was applied, after mixing (which gives yaw up first). tau_f is the torque that the
 // rotors give now: what was applied, after mixing, through motor lag and the filter that the differentiated
 // gyro passes, so that both are from the same instant. g2 is the time by which the rotors' inertia leads
-// their drag in yaw: J rate' = tau + g2 tau' (thesis eq. 12; errata E14 for the period).
+// their drag in yaw: J rate' = tau + g2 tau' (thesis eq. 12; in eqs 9 to 11 the period and a sign are
+// misprinted).
 //
 // quick 1 is the law as printed: rate' then answers nu with the motors' lag T, and with kp, kd the loop
 // T s^3 + s^2 + kd s + kd kp = 0 is hardly damped (0.16 for kp 5, kd 24, T 80 ms with 13 ms of delay and 8

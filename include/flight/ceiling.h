@@ -6,11 +6,11 @@
 // The sensor has a floor of 4 cm: samples below floor_m are dropped, and an estimate below near_m lives on
 // climb alone. The thesis gates on the estimate and nothing else, so that an estimate that is wrongly near is
 // never corrected again. Here three samples in a row that agree with each other set it right: beyond near_m
-// and 2 cm farther than the estimate, or at the floor while the estimate is beyond near_m (README, reading
-// rules). An estimate that is not gated believes at once what is CEILING_JUMP_M nearer, a beam, and three
-// times what is as much farther, a hole. floor_m lies well below near_m: to drop the near half of the noise
-// at the gate pushes the estimate up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s, white
-// noise of the sensor times 0.229.
+// and 2 cm farther than the estimate, or at the floor while the estimate is beyond near_m (src/README.md,
+// reading rules). An estimate that is not gated believes at once what is CEILING_JUMP_M nearer, a beam, and
+// three times what is as much farther, a hole. floor_m lies well below near_m: to drop the near half of the
+// noise at the gate pushes the estimate up (measured: 1 mm). With gain 0.1 at 10 Hz: time constant 0.95 s,
+// white noise of the sensor times 0.229.
 #ifndef FLIGHT_CEILING_H
 #define FLIGHT_CEILING_H
 

@@ -1,8 +1,8 @@
 // params.h - every tunable number once: name, unit, default, range.
 //
 // FLIGHT_PARAMS is the one table. From its rows come the firmware's parameters (group.name, at most 26
-// characters with the dot), the host's --set, the range checks and the README's table. A group's rows stand
-// together.
+// characters with the dot), the host's --set, the range checks and the table in src/README.md. A group's
+// rows stand together.
 // X(group, name, type, field of flight_param_t, unit, default, min, max, what it does)
 #ifndef FLIGHT_PARAMS_H
 #define FLIGHT_PARAMS_H

@@ -1,7 +1,7 @@
 // pos_indi.h - outer loop: position to thrust direction and thrust, by incremental dynamic inversion.
 //
 // From m a = T rho(zc) b - m g e_z, b the thrust's direction, to first order about the filtered state
-// (thesis eqs 13-17; eqs 16-17 are lost in print and were derived anew, README, reading rules):
+// (thesis eqs 13-17; eqs 16-17 are lost in print and were derived anew, src/README.md, reading rules):
 //
 //   m da = rho T db + rho b dT + T rho' b dzc
 //

@@ -3,7 +3,8 @@
 //   rho(z) = w1 + sum_{i=2..7} w_i exp(-a_i (z - c_i)^2),   z the distance propeller plane to ceiling in m
 //
 // rho is thrust near the surface over thrust in free air at the same motor command. Widths a_i (1/m^2)
-// and centres c_i (m) are those of thesis section 5.2 (those of B.1 are misprinted: README, reading rules).
+// and centres c_i (m) are those of thesis section 5.2 (those of B.1 are misprinted: src/README.md, reading
+// rules).
 #ifndef FLIGHT_RBF_H
 #define FLIGHT_RBF_H
 

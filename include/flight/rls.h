@@ -5,10 +5,10 @@
 //   P -= K a' P                       eq. 21
 //
 // Form 0 is the thesis's, as printed. There lambda is the variance of the measurement noise, not a forgetting
-// factor: nothing is ever forgotten, and only lambda/p0 matters (README, reading rules). Form 1 adds a random
-// walk of the weights, P_ii += q while P_ii < p0, so that the curve can follow a drift and P stays bounded.
-// Dividing P by lambda, as the name forgetting factor suggests, makes P grow without bound in every direction
-// that a hover does not excite; it is not offered.
+// factor: nothing is ever forgotten, and only lambda/p0 matters (src/README.md, reading rules). Form 1 adds a
+// random walk of the weights, P_ii += q while P_ii < p0, so that the curve can follow a drift and P stays
+// bounded. Dividing P by lambda, as the name forgetting factor suggests, makes P grow without bound in every
+// direction that a hover does not excite; it is not offered.
 //
 // p0 is the largest variance that a weight has, at the start and ever after, in both forms: the walk ends
 // there, also where q is as large as p0. A p0 that is lowered takes all of P down by the same factor; one

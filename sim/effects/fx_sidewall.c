@@ -3,7 +3,7 @@
 //
 //   F = force exp(-d/length) towards the wall,   M = moment exp(-d/length), top towards the wall
 //
-// The form is the one of spec/gap.md; the nominal numbers are assumptions.
+// Form and nominal numbers are assumptions: nothing is published.
 #include "effects/fx.h"
 #include <math.h>
 

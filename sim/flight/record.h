@@ -52,7 +52,8 @@ MUST_CHECK done_t record_add(record_t *r, const sample_t *sample);
 
 void record_free(record_t *r);
 
-// Writes the flight as a CSV with Crazyflie log names (README, logs). The stream knows if that failed.
+// Writes the flight as a CSV with Crazyflie log names (src/firmware/README.md, learn). The stream knows if
+// that failed.
 void record_write(const record_t *r, FILE *file);
 
 #endif

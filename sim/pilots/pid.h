@@ -6,7 +6,7 @@
 //
 // e is set point minus height, u + m g the thrust of the rotors, ratio by Cheeseman-Bennett with the clip of
 // section 4.2.2. With N fixed the discrete derivative is unstable from period 2/N on: the thesis's "untunable
-// at 0.02 s" is that (README, reading rules).
+// at 0.02 s" is that (src/README.md, reading rules).
 #ifndef SIM_PILOTS_PID_H
 #define SIM_PILOTS_PID_H
 

@@ -11,8 +11,9 @@ typedef struct {
   double z_m, climb_mps;
 } kalman_z_t;
 
-// At height z_m, not moving. acc_sd_mps2: what the filter expects of the accelerometer, > 0 (0.5 in
-// acceptance P3); range_sd_m: > 0; period_s: > 0 of the prediction; every `ticks`-th is followed by a sample.
+// At height z_m, not moving. acc_sd_mps2: what the filter expects of the accelerometer, > 0 (0.5 on
+// the vertical axis); range_sd_m: > 0; period_s: > 0 of the prediction; every `ticks`-th is followed by a
+// sample.
 void kalman_z_init(kalman_z_t *k, double acc_sd_mps2, double range_sd_m, double period_s, int ticks,
                    double z_m);
 void kalman_z_predict(kalman_z_t *k, double acc_mps2, double period_s);

@@ -5,9 +5,9 @@
 //   real   at rest: spread of an 11 s recording. Motors on, gyro: spread of logged hovers above about 20 Hz.
 //          Accelerometer: spectrum of a logged hover (jana05) from 8 to 20 Hz, where its true motion, as the
 //          rotors' speeds tell it, is a hundredth: 0.0075 g on z, 0.015 and 0.017 g on x and y. What motion
-//          capture does not explain from 0.3 to 1 Hz has the same density, hence white. The 0.009 to 0.014 g
-//          on z of firmware.md are of whole logs, motion included; a simulated hover logs 0.009 g, as jana05
-//          does. Ranges: the firmware's own model, 3 mm upward (acceptance P3). Flow: the 2 counts that the
+//          capture does not explain from 0.3 to 1 Hz has the same density, hence white. Over whole logs,
+//          motion included, z has 0.009 to 0.014 g; a simulated hover logs 0.009 g, as jana05 does.
+//          Ranges: the firmware's own model, 3 mm upward as on the vertical axis. Flow: the 2 counts that the
 //          firmware assumes.
 #ifndef SIM_SENSE_NOISE6_H
 #define SIM_SENSE_NOISE6_H

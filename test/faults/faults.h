@@ -80,7 +80,7 @@ struct row {
   void (*edit)(case_t *c, pilot6_in_t *in, double since_s); // every millisecond while the fault lasts
   unsigned reasons;                                         // one of them has to be latched; 0: none
   double within_s;
-  double promise;           // per cent that are kept, of many; what is not 100 is in the README
+  double promise;           // per cent that are kept, of many; what is not 100 is in src/README.md
   void (*begin)(case_t *c); // before the flight
   const char *(*also)(const case_t *c, const flown_fault_t *usual); // the row's own criterion; null: kept
   double recover_s;                                                 // 0: 2 s

@@ -4,7 +4,7 @@
 
 #include "flight/rbf.h"
 
-// Acceptance P2: ordinary least squares to 1 + 0.44 exp(-80 z) on 21 points.
+// Ordinary least squares to 1 + 0.44 exp(-80 z) on 21 points.
 extern const double bells_golden[RBF_N];
 rbf_weights_t bells_golden_weights(void);
 

@@ -88,7 +88,7 @@ def set_all(vehicle: Craft, texts: list[str]) -> None:
         vehicle.sleep(0.05)  # the app judges it within a few milliseconds
         now = vehicle.get(name)
         if abs(now - value) > 1e-6 * max(1.0, abs(value)):
-            raise Failed(f"{name}: {number(value)} was not taken, it is {number(now)}; allowed: see the README's table")
+            raise Failed(f"{name}: {number(value)} was not taken, it is {number(now)}; allowed: see src/README.md")
         say(f"{name} = {number(now)}")
 
 

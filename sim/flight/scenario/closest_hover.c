@@ -1,5 +1,5 @@
 // closest_hover.c - how near a controller can hover: from 7 cm one step to each gap from 30 to 8 mm, 20 s
-// there. The linear analysis of acceptance P1 (standard INDI, 8 Hz: 22.8 mm) shown by flights.
+// there. What a linear analysis says (standard INDI, 8 Hz: 22.8 mm), shown by flights.
 #include "flight/scenario.h"
 
 #include "plant/vertical.h"
@@ -32,6 +32,6 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
 
 const scenario_t scenario_closest_hover = {
     .name = "closest-hover",
-    .brief = "from 7 cm one step to each gap from 30 to 8 mm, 20 s there: which hold (acceptance P1)",
+    .brief = "from 7 cm one step to each gap from 30 to 8 mm, 20 s there: which hold",
     .run = run,
 };

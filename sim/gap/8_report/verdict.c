@@ -93,7 +93,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   add_number(o, "from", d->cell.from);
   add_number(o, "to", d->cell.to);
   add_number(o, "size", d->cell.size);
-  // Of the size; from and to are in the coordinate's (gap.md: m, m/s, V, N, rad/s or s).
+  // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s or s).
   cJSON_AddStringToObject(o, "unit", gap_unit[d->cell.channel]);
 }
 

@@ -120,7 +120,7 @@ TEST(ceiling_height_is_constant_while_the_sensor_is_gated) {
 }
 
 TEST(ceiling_lock_out_of_the_thesis_is_cured_in_half_a_second) {
-  // Errata E20, faults row 20: the estimate is wrongly at 4 cm, the sensor sees 30 cm.
+  // Fault 20: the estimate is wrongly at 4 cm, the sensor sees 30 cm.
   static const struct {
     const char *what;
     double climb_mps, sd_m, delay_s;

@@ -3,8 +3,9 @@
 #include "rig/flights.h"
 #include "rig/test.h"
 
-// Errata E6: the printed eq. A.6 has lost the thrust T0 in front of the slope's sum, which makes K_v act 1/T0
-// times as strongly. Written here and nowhere else; filters and motor model as in acceptance P0.
+// The printed eq. A.6 has lost the thrust T0 in front of the slope's sum, which makes K_v act 1/T0
+// times as strongly. Written here and nowhere else; filters and motor model as in the other flights of
+// appendix A.
 typedef struct {
   lpf2_coef_t filter;
   lpf2_t acc, command;
@@ -37,7 +38,7 @@ TEST(formula_a6_as_printed_is_as_slow_as_a_lead_of_one_second) {
     const controller_t printed = {.state = &state, .period_s = 0.01, .step = printed_step};
     const setup_t setup = flights_appendix_a(FLY_INDI_THEORY, row[i].cutoff_Hz, 0.3f, true);
     const segment_t last = flights_last_by(&setup, &printed, NULL);
-    CHECK_NEAR(last.overshoot_mm, 0.0, 0.05); // acceptance P0
+    CHECK_NEAR(last.overshoot_mm, 0.0, 0.05);
     CHECK_NEAR(last.t90_s, row[i].t90_s, 0.02);
     CHECK(isnan(last.settle_1mm_s));
   }

@@ -68,7 +68,7 @@ static const struct {
     {"ceil.gain", "", 0.1f},
     {"ceil.near", "m", 0.05f},
     {"ceil.clip", "", 1},
-    // Least squares to the theory (acceptance P2), as the author's branch has them.
+    // Least squares to the theory, as the author's branch has them.
     {"ceil.w1", "", 1.43142386f},
     {"ceil.w2", "", 0.15021046f},
     {"ceil.w3", "", -0.09754395f},

@@ -20,7 +20,7 @@ TEST(thrust_lag_share_is_that_of_a_first_order_lag) {
     CHECK_NEAR(thrust_lag_share(row[i].period_s, row[i].tau_s),
                -expm1(-(double)row[i].period_s / (double)row[i].tau_s), 1e-7);
   }
-  ROW("errata E13, 100 Hz");
+  ROW("100 Hz, not the 500 Hz of the author's constant");
   CHECK_NEAR(thrust_lag_share(0.01f, 0.0625f), 0.14786, 5e-6);
 }
 
@@ -36,7 +36,7 @@ static double time_to_s(double share, float tau_s, float cutoff_Hz) {
   return 0.001 * (k + 1);
 }
 
-TEST(thrust_reaches_90_percent_when_errata_e7_says) {
+TEST(thrust_reaches_90_percent_when_a_first_order_lag_does) {
   static const struct {
     const char *what;
     float rate_radps, cutoff_Hz;

@@ -35,7 +35,7 @@ static double growth_radps(double gap_m, bool tilt, double guess) {
 }
 
 TEST(height_and_tilt_under_a_ceiling_run_away_as_the_linear_poles_say) {
-  // spec/field.md: 1 + 0.44 exp(-80 z), I 16.8e-6 kg m2, rotors 32.5 mm beside the axis, 32.9 g
+  // 1 + 0.44 exp(-80 z), I 16.8e-6 kg m2, rotors 32.5 mm beside the axis, 32.9 g
   static const struct {
     double gap_m, height_radps, tilt_radps;
   } row[] = {{0.050, 2.5, 3.6}, {0.020, 8.0, 11.6}, {0.010, 11.4, 16.5}, {0.005, 13.4, 19.4}};
@@ -90,7 +90,7 @@ TEST(each_rotor_has_its_own_distance_along_the_vertical) {
 }
 
 TEST(blades_touch_at_the_tilt_that_geometry_says) {
-  // spec/field.md: 47 / 17 / 8.4 / 4.2 degrees, over the diagonal
+  // Worked out beforehand: 47 / 17 / 8.4 / 4.2 degrees, over the diagonal
   static const struct {
     double gap_m, tilt_deg;
   } row[] = {{0.050, 47.0}, {0.020, 17.0}, {0.010, 8.4}, {0.005, 4.2}};

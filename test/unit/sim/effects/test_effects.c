@@ -19,12 +19,12 @@ TEST(curves_have_their_published_values) {
     const char *form;
     double distance_over_radius, ratio, tol;
   } row[] = {
-      // thesis: "10 % at 2 cm", below 5 % at 7 and 10 cm; errata E2
+      // thesis: "10 % at 2 cm", below 5 % at 7 and 10 cm; of its readings of C_a and C_b only this one agrees
       {"exponential", 0.02 / 0.0225, 1.0888, 5e-5},
       {"exponential", 0.07 / 0.0225, 1.00163, 5e-6},
       {"exponential", 0.10 / 0.0225, 1.00015, 5e-6},
       {"exponential", 0.0, 1.44, 1e-12},
-      // errata E2: eq. 1 at 2 and 3 cm
+      // thesis eq. 1 at 2 and 3 cm
       {"cheeseman-bennett", 0.02 / 0.0225, 1.0859, 5e-5},
       {"cheeseman-bennett", 0.03 / 0.0225, 1.0364, 5e-5},
       {"cheeseman-bennett", 0.5, 1.3333, 5e-5},

@@ -1,8 +1,8 @@
-// test_appendix_a.c - the thesis's one-dimensional flights (acceptance P0), flown by the flight code.
+// test_appendix_a.c - the thesis's one-dimensional flights, flown by the flight code.
 #include "rig/flights.h"
 #include "rig/test.h"
 
-#define OVERSHOOT_TOL_MM 0.05 // acceptance P0
+#define OVERSHOOT_TOL_MM 0.05
 #define T90_TOL_S        0.02
 #define NEVER            ((double)NAN)
 
@@ -151,7 +151,7 @@ TEST(standard_controller_holds_24_mm_and_loses_22_mm_at_8_hz) {
 }
 
 TEST(filter_decides_how_near_the_standard_controller_can_hover) {
-  // Acceptance P1 is of the linear analysis, +-0.5 mm: one step further out holds, further in does not.
+  // The gap is one of a linear analysis, +-0.5 mm: one step further out holds, further in does not.
   static const struct {
     float cutoff_Hz, kp, kd;
     double limit_mm;

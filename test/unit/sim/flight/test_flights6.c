@@ -1,5 +1,5 @@
-// test_flights6.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds (issue 3,
-// claims 26 to 28, appendix C.3).
+// test_flights6.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds
+// (section 5.3, appendix C.3).
 #include "flight/scenario.h"
 #include "pilots/pilot_flight.h"
 #include "rig/rig6.h"

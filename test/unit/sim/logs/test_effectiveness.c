@@ -79,7 +79,7 @@ TEST(effectiveness_is_recovered_from_simulated_flights) {
     truth(&body, 0.12 / 65535.0, g1, &g2);
     const char *path = simulated(&body, row[i].noise_radps, row[i].gap_every);
     if (!CHECK_OK(effectiveness_fit(path, &job, &found, &why))) return;
-    for (int k = 0; k < 3; k++) CHECK_NEAR(found.g1[k] / g1[k], 1.0, 0.05); // acceptance
+    for (int k = 0; k < 3; k++) CHECK_NEAR(found.g1[k] / g1[k], 1.0, 0.05);
     CHECK_NEAR(found.g2 / g2, 1.0, 0.05);
     if (row[i].gap_every == 0) CHECK(found.bridged == 0 && found.starts == 1);
   }

@@ -1,4 +1,4 @@
-// test_pid.c - the sixteen PIDs of thesis tables 4.2 to 4.5 (acceptance P4).
+// test_pid.c - the sixteen PIDs of thesis tables 4.2 to 4.5.
 #include "flight/scenario.h"
 #include "rig/test.h"
 
@@ -44,8 +44,7 @@ TEST(pid_tables_touch_the_ceiling_where_the_thesis_says) {
     ROW("%s", rows[i].what);
     const cJSON *s = cJSON_GetArrayItem(segments, i);
     CHECK((number(s, "contacts") > 0) == rows[i].touches);
-    if (!rows[i].touches)
-      CHECK_NEAR(number(s, "overshoot_mm"), rows[i].overshoot_mm, 1.0); // acceptance P4 (L)
+    if (!rows[i].touches) CHECK_NEAR(number(s, "overshoot_mm"), rows[i].overshoot_mm, 1.0);
     // The mean over the last 5 s is a little more than the error at the end, which is what is given.
     if (!isnan(rows[i].final_error_mm))
       CHECK_NEAR(number(s, "mean_error_mm"), rows[i].final_error_mm, 0.1 + 0.6 * rows[i].final_error_mm);
@@ -54,7 +53,7 @@ TEST(pid_tables_touch_the_ceiling_where_the_thesis_says) {
 }
 
 TEST(discrete_pid_fails_when_its_derivative_filter_does) {
-  // Errata E16: forward Euler with N = 100 is unstable from 2/N = 20 ms on; the thesis's limit of 0.02 s is
+  // Forward Euler with N = 100 is unstable from 2/N = 20 ms on; the thesis's limit of 0.02 s is
   // that.
   result_t result;
   if (!fly(&result)) return;

@@ -6,7 +6,7 @@
 
 TEST(kalman_gains_are_those_of_the_prototype) {
   kalman_z_t k;
-  kalman_z_init(&k, 0.5, 0.0025, 0.01, 2, 0.3); // acceptance P3
+  kalman_z_init(&k, 0.5, 0.0025, 0.01, 2, 0.3);
   CHECK_NEAR(k.k_z, 0.28556, 5e-5);
   CHECK_NEAR(k.k_v, 2.3907, 5e-4);
   CHECK(k.z_m == 0.3 && k.climb_mps == 0.0);

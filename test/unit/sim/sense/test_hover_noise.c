@@ -116,7 +116,7 @@ TEST(hover_logs_the_vertical_acceleration_with_the_spread_of_a_recorded_one) {
     sum2 += s->sense.acc_mps2 * s->sense.acc_mps2;
     n++;
   }
-  // jana05 0.0089 g; firmware.md 0.009 to 0.014 g over several flights.
+  // jana05 0.0089 g; over several flights 0.009 to 0.014 g.
   CHECK_NEAR(sqrt(sum2 / n - sum / n * sum / n) / G_MPS2, 0.0092, 0.0007);
   result_free(&result);
 }

@@ -45,7 +45,7 @@ TEST(imu_filters_have_the_corner_and_the_delay_of_the_firmwares) {
     double gain, delay_s;
     respond(row[i].gyro, row[i].f_Hz, &gain, &delay_s);
     CHECK_NEAR(gain, row[i].gain, row[i].gain_tol);
-    CHECK_NEAR(delay_s, row[i].delay_s, 5e-5); // firmware.md gives a tenth of a millisecond
+    CHECK_NEAR(delay_s, row[i].delay_s, 5e-5); // they are known to a tenth of a millisecond
   }
 }
 
@@ -89,7 +89,7 @@ static spread_t spread_of(const noise6_t *noise, bool motors, uint64_t seed, spr
 TEST(imu_noise_has_the_measured_size_at_rest_and_with_motors) {
   const double g = 9.81, deg = PI / 180.0;
   spread_t mean;
-  ROW("at rest"); // firmware.md: 0.0011 to 0.0013 g, 0.12 to 0.17 deg/s
+  ROW("at rest"); // recorded: 0.0011 to 0.0013 g, 0.12 to 0.17 deg/s
   const spread_t rest = spread_of(noise6_find("real"), false, 5, &mean);
   for (int k = 0; k < 3; k++) {
     CHECK_NEAR(rest.acc[k], 0.0012 * g, 0.0001 * g);
