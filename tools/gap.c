@@ -173,9 +173,8 @@ static done_t write_all(const report_t *r, output_t *w, why_t *why) {
   for (int i = 0; i < s->fit.n; i++) rows += s->flight[i].rows;
   snprintf(logs, sizeof logs, "%d flight%s, %ld rows, seed %lu", s->fit.n, s->fit.n > 1 ? "s" : "", rows,
            s->order.seed);
-  const extend_job_t job = {
-      study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis.candidates, &s->diagnosis.found, logs,
-      s->order.made};
+  const extend_job_t job = {study_vehicle(s), s->vehicle_text, &s->vehicle, &s->diagnosis.found, logs,
+                            s->order.made};
   TRY(write_json(report_verdict(r), w, why));
   if (w->page) report_page(r, w->page);
   if (w->curves) report_curves(r, w->curves);

@@ -211,6 +211,14 @@ fx_use_t fx_use(const fx_t *fx);
 // Changes the form; its parameters become nominal. The form's `surfaces` must hold the effect's.
 void fx_use_form(fx_use_t *use, const curve_t *form);
 
+// Its size k.
+static inline double fx_use_size(const fx_use_t *use, int k) {
+  return use->p[use->fx->size[k].param];
+}
+static inline void fx_use_resize(fx_use_t *use, int k, double value) {
+  use->p[use->fx->size[k].param] = value;
+}
+
 // The parameters that use->p belongs to; *n gets their number.
 const fx_param_t *fx_use_params(const fx_use_t *use, int *n);
 

@@ -45,22 +45,17 @@ static done_t find_residual(diagnosis_t *d, const model_t *m, why_t *why) {
   return residual_of(&d->fit, m, d->residual, why);
 }
 
-static void forget(candidates_t *c) {
-  for (int i = 0; i < c->n; i++) {
-    c->candidate[i].named = false;
-    for (int k = 0; k < c->candidate[i].n; k++) *candidate_value(&c->candidate[i], k) = 0.0;
-  }
-}
-
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   model_t m;
-  TRY(select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why));
+  done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why);
+  const chosen_t chosen = first.chosen;
   d->rounds = first.rounds;
   found_free(&first);
-  TRY(candidates_model(&d->candidates, job->model, &m, why));
+  TRY(status);
+  TRY(chosen_model(&chosen, job->model, &m, why));
   TRY(find_residual(d, &m, why));
   const manner_t raw = manner_of(&d->fit, &m, job->flown_by, d->residual);
   TRY(unknown_clean(&d->fit, &m, d->residual, why));
@@ -69,17 +64,15 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   // flights are to show.
   memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
   d->manner.turn_tau_s = raw.turn_tau_s;
-  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &d->manner, job->seed};
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &chosen, &d->manner, job->seed};
   d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == DONE;
-  forget(&d->candidates);
   return DONE;
 }
 
 // Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
 // and nothing was testable.
 static void withdraw(diagnosis_t *d) {
-  forget(&d->candidates);
-  d->found.n = d->found.n_open = 0;
+  d->found.chosen.n = d->found.n = d->found.n_open = 0;
   d->found.left = d->found.left_before;
   for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
 }
@@ -98,21 +91,24 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   return DONE;
 }
 
-// Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
-// names.
-static done_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
+static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *why) {
   const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
-  bool again;
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
   d->rounds += d->found.rounds;
   if (!nominal) withdraw(d);
-  TRY(select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why));
-  if (!again) return DONE;
+  TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, refined, why));
+  candidates_reshape(&d->candidates, &d->found.chosen);
+  return DONE;
+}
+
+// Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
+// names.
+static done_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
+  bool refined;
+  TRY(look_once(d, m, &refined, why));
+  if (!refined) return DONE;
   found_free(&d->found);
-  forget(&d->candidates);
-  TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
-  d->rounds += d->found.rounds;
-  return select_shapes(&d->candidates, &d->fit, m, &d->found, &again, why);
+  return look_once(d, m, &refined, why);
 }
 
 static void tell(const diagnose_job_t *job, const char *what) {
@@ -130,10 +126,10 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
   TRY(find_names(d, job->model, why));
-  const verify_job_t names = {&d->held, &d->candidates, job->model, &d->manner, &d->found};
+  const verify_job_t names = {&d->held, job->model, &d->manner, &d->found};
   TRY(verify_names(&names, &d->withdrawn, why));
-  TRY(select_confirm(&d->candidates, &d->fit, job->model, &d->manner, &d->found, &d->why_not_confirmed, why));
-  TRY(candidates_model(&d->candidates, job->model, &d->extended, why));
+  TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->manner, &d->found, &d->why_not_confirmed, why));
+  TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));
   return verify_held(&d->held, job->model, &d->extended, &d->nominal, &d->held_out, why);

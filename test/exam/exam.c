@@ -71,7 +71,7 @@ static void mark_names(exam_set_t *set, const diagnosis_t *d) {
   size_t used = 0;
   for (int i = 0; i < d->found.n; i++) {
     const named_t *named = &d->found.named[i];
-    const char *name = d->candidates.candidate[named->candidate].use.fx->name;
+    const char *name = found_use(&d->found, named)->fx->name;
     if (is_hidden(set, name))
       set->found++;
     else
@@ -125,13 +125,13 @@ static double flown(const model_t *truth, const fx_use_t *hidden, int param) {
 static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *truth) {
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
-    const candidate_t *const c = &d->candidates.candidate[named->candidate];
+    const fx_use_t *const use = found_use(&d->found, named);
     for (int q = 0; q < truth->n_fx; q++)
-      for (int k = 0; truth->fx[q].fx == c->use.fx && k < c->n && set->n_value < EXAM_VALUES; k++) {
-        const int param = c->use.fx->size[k].param;
+      for (int k = 0; truth->fx[q].fx == use->fx && k < use->fx->n_size && set->n_value < EXAM_VALUES; k++) {
+        const int param = use->fx->size[k].param;
         int n;
         set->value[set->n_value++] =
-            (exam_value_t){c->use.fx->name, fx_use_params(&c->use, &n)[param].name,
+            (exam_value_t){use->fx->name, fx_use_params(use, &n)[param].name,
                            flown(truth, &truth->fx[q], param), named->value[k], named->stderr_[k]};
       }
   }

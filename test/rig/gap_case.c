@@ -43,7 +43,6 @@ void gap_case_free(gap_case_t *c) {
 
 const named_t *gap_case_named(const gap_case_t *c, const char *name) {
   for (int i = 0; i < c->d.found.n; i++)
-    if (c->d.candidates.candidate[c->d.found.named[i].candidate].use.fx == fx_find(name))
-      return &c->d.found.named[i];
+    if (found_use(&c->d.found, &c->d.found.named[i])->fx == fx_find(name)) return &c->d.found.named[i];
   return NULL;
 }

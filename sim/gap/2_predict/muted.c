@@ -27,7 +27,7 @@ static likeness_t compare(const rows_t *r, const double *measured, const double 
 static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
                       why_t *why) {
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
-  const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  const size_t n = set_most_rows(s);
   for (size_t ch = 0; ch < CHANNELS; ch++) {
     best[ch] = (likeness_t){1.0, -2.0};
     r[ch] = room + ch * n;
@@ -119,7 +119,7 @@ static done_t find(set_t *s, const model_t *m, double *room, why_t *why) {
 done_t muted_find(set_t *s, const model_t *m, why_t *why) {
   memset(s->muted, 0, sizeof s->muted);
   if (!residual_has(s, CH_WX)) return DONE;
-  const size_t n = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  const size_t n = set_most_rows(s);
   double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
   const done_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
   free(room);

@@ -29,6 +29,11 @@ static inline const rows_t *set_rows(const set_t *s, int channel) {
   return channel == CH_RANGE ? &s->range : &s->smooth;
 }
 
+// Room for the rows of any channel, and one more.
+static inline size_t set_most_rows(const set_t *s) {
+  return (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+}
+
 // Takes the grids over. BAD_INPUT: no row at all (says why); FAILED: no memory. *s can be freed then.
 MUST_CHECK done_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
 void set_free(set_t *s);

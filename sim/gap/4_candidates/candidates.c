@@ -82,10 +82,6 @@ void candidates_free(candidates_t *c) {
   *c = (candidates_t){.n = 0};
 }
 
-double *candidate_value(const candidate_t *c, int k) {
-  return (double *)&c->use.p[c->use.fx->size[k].param];
-}
-
 double candidate_typical(const candidate_t *c, int k) {
   int n;
   const fx_param_t *param = fx_use_params(&c->use, &n);
@@ -95,9 +91,50 @@ double candidate_typical(const candidate_t *c, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
-done_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why) {
+void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
+  for (int i = 0; i < chosen->n; i++) {
+    const fx_t *const fx = chosen->use[i].fx;
+    if (fx->n_shape) c->candidate[chosen->of[i]].use.p[fx->shape_param] = chosen->use[i].p[fx->shape_param];
+  }
+}
+
+// --- what is chosen ---------------------------------------------------------------------------------------
+
+// Its place, or the one that it would have.
+static int place_of(const chosen_t *chosen, int candidate) {
+  int i = 0;
+  while (i < chosen->n && chosen->of[i] < candidate) i++;
+  return i;
+}
+
+const fx_use_t *chosen_use(const chosen_t *chosen, int candidate) {
+  const int at = place_of(chosen, candidate);
+  return at < chosen->n && chosen->of[at] == candidate ? &chosen->use[at] : NULL;
+}
+
+fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate) {
+  const int at = place_of(chosen, candidate);
+  if (at < chosen->n && chosen->of[at] == candidate) return &chosen->use[at];
+  for (int i = chosen->n++; i > at; i--) {
+    chosen->of[i] = chosen->of[i - 1];
+    chosen->use[i] = chosen->use[i - 1];
+  }
+  chosen->of[at] = candidate;
+  chosen->use[at] = c->candidate[candidate].use;
+  return &chosen->use[at];
+}
+
+void chosen_drop(chosen_t *chosen, int candidate) {
+  if (!chosen_use(chosen, candidate)) return;
+  chosen->n--;
+  for (int i = place_of(chosen, candidate); i < chosen->n; i++) {
+    chosen->of[i] = chosen->of[i + 1];
+    chosen->use[i] = chosen->use[i + 1];
+  }
+}
+
+done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why) {
   *m = *base;
-  for (int i = 0; i < c->n; i++)
-    if (c->candidate[i].named) TRY(model_add_fx(m, &c->candidate[i].use, why));
+  for (int i = 0; i < chosen->n; i++) TRY(model_add_fx(m, &chosen->use[i], why));
   return DONE;
 }

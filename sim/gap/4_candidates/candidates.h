@@ -8,17 +8,29 @@
 #include "gap/2_predict/predict.h"
 #include "gap/2_predict/residual.h"
 
+//
+// What may be missing (candidates_t) is apart from what is presently taken to be (chosen_t): the one is made
+// once.
 typedef struct {
-  fx_use_t use;              // with its shape; its sizes are 0 while it is not named
+  fx_use_t use;              // with its shape; its sizes are 0
   int first, n;              // columns
   double least[FX_SIZE_MAX]; // that its numbers can be, by sign and for this vehicle
-  bool named;
 } candidate_t;
 
 typedef struct {
   candidate_t *candidate;
   int n, columns;
 } candidates_t;
+
+#define NAMED_MAX  8
+#define CHOSEN_MAX (NAMED_MAX + 1) // with a lag or delay that is too short for a name
+
+// Candidates that are taken to be there, each with its numbers. In the candidates' order: effects act in
+// order.
+typedef struct {
+  int n, of[CHOSEN_MAX];
+  fx_use_t use[CHOSEN_MAX];
+} chosen_t;
 
 // Why an effect cannot be looked for in these logs at all; a null pointer: it can.
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s);
@@ -35,22 +47,29 @@ bool candidates_slow(const set_t *s);
 // more. Of other effects 0.
 double candidates_least(const fx_t *fx, const set_t *s);
 
-// The number of candidate i's size k.
-double *candidate_value(const candidate_t *c, int k);
-// What is typical of it: its nominal value, or of the first of the sizes that have one; never 0.
+// What is typical of its size k: its nominal value, or of the first of the sizes that have one; never 0.
 double candidate_typical(const candidate_t *c, int k);
 
-// The model with what is named. BAD_INPUT: too many effects.
-MUST_CHECK done_t candidates_model(const candidates_t *c, const model_t *base, model_t *m, why_t *why);
+// A chosen candidate with its numbers; null pointer: it is not chosen.
+const fx_use_t *chosen_use(const chosen_t *chosen, int candidate);
+// The same, to change its numbers. Where it is not chosen yet, it is now, its sizes 0; there must be room.
+fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate);
+void chosen_drop(chosen_t *chosen, int candidate);
+
+// The candidates get the shapes of those that are chosen.
+void candidates_reshape(candidates_t *c, const chosen_t *chosen);
+
+// The model with what is chosen. BAD_INPUT: too many effects.
+MUST_CHECK done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why);
 
 // The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
 // gets. now, base: the model's own replay, kept. BAD_INPUT: too many effects.
-MUST_CHECK done_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
-                                          double *const base[CHANNELS], double *const with[CHANNELS],
-                                          why_t *why);
+MUST_CHECK done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k,
+                                       double *const base[CHANNELS], double *const with[CHANNELS],
+                                       why_t *why);
 
 // Columns and residual by row. x[channel][column]: a null pointer where the column is zero throughout. The
-// last column (number `columns`) is the residual with what is named taken out again, in the straight line's
+// last column (number `columns`) is the residual with what is chosen taken out again, in the straight line's
 // sense, so that coefficients are whole values.
 typedef struct {
   int columns;
@@ -58,8 +77,13 @@ typedef struct {
   double *room;
 } table_t;
 
-// FAILED: no memory. wanted (a null pointer: all): by candidate.
-MUST_CHECK done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why);
+// Of all candidates, about the numbers of those that are chosen. FAILED: no memory.
+MUST_CHECK done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c,
+                             const chosen_t *chosen, why_t *why);
 void table_free(table_t *t);
+
+// Adds to the residual so many times what the straight line says that the chosen candidates do.
+void table_add_chosen(table_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
+                      double times);
 
 #endif

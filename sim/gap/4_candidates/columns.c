@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-done_t candidate_differentiate(grid_t *g, const path_t *now, const candidate_t *c, int k,
-                               double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
-  const fx_size_t *size = &c->use.fx->size[k];
-  fx_use_t more = c->use;
+done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k,
+                            double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
+  const fx_size_t *size = &use->fx->size[k];
+  fx_use_t more = *use;
   more.p[size->param] += size->step;
   TRY(replay_with(g, now, &more, with, why));
   for (int ch = 0; ch < CHANNELS; ch++)
@@ -38,60 +38,69 @@ static done_t fill_column(table_t *t, set_t *s, int flight, int column, const fl
   return DONE;
 }
 
-// The effect that a candidate is another shape of, if that one is named.
-static const fx_t *named_otherwise(const candidates_t *c, int candidate) {
-  for (int i = 0; i < c->n; i++)
-    if (i != candidate && c->candidate[i].named && c->candidate[i].use.fx == c->candidate[candidate].use.fx)
-      return c->candidate[i].use.fx;
+// What the columns are of.
+typedef struct {
+  const candidates_t *c;
+  const chosen_t *chosen;
+} asked_t;
+
+// The effect that a candidate is another shape of, if that one is chosen.
+static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
+  for (int i = 0; i < a->chosen->n; i++)
+    if (a->chosen->of[i] != candidate && a->chosen->use[i].fx == a->c->candidate[candidate].use.fx)
+      return a->chosen->use[i].fx;
   return NULL;
 }
 
+// The columns of the candidates that start from this model: of all but the other shapes of a chosen effect,
+// or of those of one that the model has no longer.
 static done_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
-                           const candidates_t *c, flight_lines_t *l, why_t *why) {
-  for (int i = 0; i < c->n; i++) {
-    if (named_otherwise(c, i) != dropped) continue;
-    for (int k = 0; k < c->candidate[i].n; k++) {
-      TRY(candidate_differentiate(&s->grid[flight], now, &c->candidate[i], k, l->base, l->with, why));
-      if (fill_column(t, s, flight, c->candidate[i].first + k, l) != DONE)
-        return error_failed(why, "out of memory");
+                           const asked_t *a, flight_lines_t *l, why_t *why) {
+  for (int i = 0; i < a->c->n; i++) {
+    const candidate_t *const c = &a->c->candidate[i];
+    const fx_use_t *const own = chosen_use(a->chosen, i);
+    if (chosen_otherwise(a, i) != dropped) continue;
+    for (int k = 0; k < c->n; k++) {
+      TRY(column_differentiate(&s->grid[flight], now, own ? own : &c->use, k, l->base, l->with, why));
+      if (fill_column(t, s, flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");
     }
   }
   return DONE;
 }
 
-// The columns of the candidates that start from this model: of all but the other shapes of a named effect, or
-// of those of one that the model has no longer.
 static done_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
-                        const candidates_t *c, flight_lines_t *l, why_t *why) {
+                        const asked_t *a, flight_lines_t *l, why_t *why) {
   path_t path;
   done_t status = replay_keep(&s->grid[flight], m, &path, l->base, why);
-  if (status == DONE) status = fill_columns(t, s, flight, &path, dropped, c, l, why);
+  if (status == DONE) status = fill_columns(t, s, flight, &path, dropped, a, l, why);
   path_free(&path);
   return status;
 }
 
-static done_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const candidates_t *c,
+static done_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const asked_t *a,
                           flight_lines_t *l, why_t *why) {
-  TRY(fill_from(t, s, flight, now, NULL, c, l, why));
-  for (int i = 0; i < c->n; i++) {
-    const fx_t *const fx = c->candidate[i].use.fx;
-    if (!c->candidate[i].named || fx->n_shape < 2) continue;
+  TRY(fill_from(t, s, flight, now, NULL, a, l, why));
+  for (int i = 0; i < a->chosen->n; i++) {
+    const fx_t *const fx = a->chosen->use[i].fx;
+    if (fx->n_shape < 2) continue;
     model_t m = *now;
     model_drop_fx(&m, fx);
-    TRY(fill_from(t, s, flight, &m, fx, c, l, why));
+    TRY(fill_from(t, s, flight, &m, fx, a, l, why));
   }
   return DONE;
 }
 
-// The residual gets back what the straight line says that the named effects do.
-static void add_named(table_t *t, const set_t *s, const candidates_t *c) {
-  for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
+void table_add_chosen(table_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
+                      double times) {
+  for (int i = 0; i < chosen->n; i++) {
+    const candidate_t *const own = &c->candidate[chosen->of[i]];
+    for (int k = 0; k < own->n; k++)
       for (int ch = 0; ch < CHANNELS; ch++) {
-        const double *x = t->x[ch][c->candidate[i].first + k];
-        const double value = *candidate_value(&c->candidate[i], k);
+        const double *x = t->x[ch][own->first + k];
+        const double value = times * fx_use_size(&chosen->use[i], k);
         for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] += value * x[r];
       }
+  }
 }
 
 static bool table_room(table_t *t, const set_t *s) {
@@ -104,21 +113,23 @@ static bool table_room(table_t *t, const set_t *s) {
   return true;
 }
 
-done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, why_t *why) {
+done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                  why_t *why) {
+  const asked_t asked = {c, chosen};
   flight_lines_t l;
   model_t now;
   double *r[CHANNELS];
   *t = (table_t){.columns = c->columns};
-  TRY(candidates_model(c, base, &now, why));
+  TRY(chosen_model(chosen, base, &now, why));
   if (!table_room(t, s) || !flight_lines_make(&l, s)) {
     table_free(t);
     return error_failed(why, "out of memory");
   }
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
   done_t status = residual_of(s, &now, r, why);
-  for (int f = 0; f < s->n_grid && status == DONE; f++) status = fill_flight(t, s, f, &now, c, &l, why);
+  for (int f = 0; f < s->n_grid && status == DONE; f++) status = fill_flight(t, s, f, &now, &asked, &l, why);
   free(l.room);
-  if (status == DONE) add_named(t, s, c);
+  if (status == DONE) table_add_chosen(t, s, c, chosen, 1.0); // as the straight line has them
   if (status != DONE) table_free(t);
   return status;
 }

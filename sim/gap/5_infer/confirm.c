@@ -4,9 +4,154 @@
 #include "base/lsq_blocks.h"
 #include "base/lsq_instrument.h"
 #include "gap/2_predict/grid.h"
-#include "gap/5_infer/instrument.h"
 #include <math.h>
 #include <stdlib.h>
+
+#define LAGS        3
+#define LAG_S       0.08            // from one to the next
+#define INSTRUMENTS (LAGS * GROUPS) // of a column: forces, turning and range have their own
+
+typedef struct {
+  candidates_t names; // those that are in the model alone
+  chosen_t chosen;    // the same, by their numbers among these
+  const int *of;      // their numbers among all
+  set_t *s;
+  const model_t *base;
+  model_t now; // with them
+  const manner_t *manner;
+  table_t table; // columns of the names, of the instruments, and the residual
+} confirming_t;
+
+// --- the flight along the reference -----------------------------------------------------------------------
+
+static manner_t quiet(const manner_t *w) {
+  manner_t q = {.tilt_gain = w->tilt_gain,
+                .climb_gain = w->climb_gain,
+                .height_gain = w->height_gain,
+                .flown_by = w->flown_by};
+  for (int i = 0; i < 3; i++) q.rate_gain[i] = w->rate_gain[i];
+  q.force_tau_s = q.turn_tau_s = 1.0;
+  return q;
+}
+
+// first: the point of the track at which it begins.
+static done_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
+                  why_t *why) {
+  const grid_t *g = &t->s->grid[flight];
+  const manner_t manner = quiet(t->manner);
+  model_t room = t->now;
+  room.ceiling_m =
+      HUGE_VAL; // who follows it without a disturbance does not touch what the log's vehicle did not
+  grid_t track;
+  TRY(set_points_track(g, &track, why));
+  for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
+  why_t lost;
+  *flew = nominal_fly(&track, &room, &manner, 1, flown, NULL, &lost) == DONE;
+  free(track.point);
+  return DONE;
+}
+
+// --- columns ----------------------------------------------------------------------------------------------
+
+typedef struct {
+  double *base[CHANNELS], *with[CHANNELS], *series[CHANNELS], *scratch, *room;
+} room_t;
+
+static bool room_make(room_t *r, size_t n) {
+  r->room = calloc((3 * CHANNELS + CH_SMOOTH) * (n + 1), sizeof(double));
+  for (size_t ch = 0; r->room && ch < CHANNELS; ch++) {
+    r->base[ch] = r->room + ch * (n + 1);
+    r->with[ch] = r->room + (CHANNELS + ch) * (n + 1);
+    r->series[ch] = r->room + (2 * CHANNELS + ch) * (n + 1);
+  }
+  r->scratch = r->room ? r->room + 3 * CHANNELS * (n + 1) : NULL;
+  return r->room != NULL;
+}
+
+// What the quiet flight has at a point of the log's, so many points later; before and after it the nearest.
+static void shift(const grid_t *log, const grid_t *quiet, int first, int lag, const double *from,
+                  double *to) {
+  for (int j = 0; j < log->n; j++) {
+    const int k = j - first - lag;
+    to[j] = quiet->n ? from[k < 0 ? 0 : k < quiet->n ? k : quiet->n - 1] : 0.0;
+  }
+}
+
+static double **instrument(confirming_t *t, int channel, int column, int lag) {
+  const int group = channel < CH_FORCES ? 0 : channel < CH_SMOOTH ? 1 : 2;
+  return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + LAGS * group + lag];
+}
+
+static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, room_t *r, int column,
+                              why_t *why) {
+  const grid_t *g = &t->s->grid[flight];
+  const int step = (int)fmax(1.0, round(LAG_S / g->period_s));
+  for (int l = 0; l < LAGS; l++) {
+    double *row[CHANNELS] = {NULL};
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      if (!t->table.x[ch][column]) continue; // the name does not show there
+      double **const to = instrument(t, ch, column, l);
+      if (!*to) *to = calloc((size_t)set_rows(t->s, ch)->n + 1, sizeof(double));
+      if (!*to) return error_failed(why, "out of memory");
+      row[ch] = *to;
+      shift(g, quiet, first, (l - LAGS / 2) * step, r->with[ch], r->series[ch]);
+    }
+    residual_rows(t->s, flight, SERIES_PREDICTED, (const double *const *)r->series, r->scratch, row);
+  }
+  return DONE;
+}
+
+static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, why_t *why) {
+  const grid_t *g = &t->s->grid[flight];
+  room_t r;
+  path_t path;
+  if (!room_make(&r, (size_t)(g->n > quiet->n ? g->n : quiet->n))) return error_failed(why, "out of memory");
+  done_t status = replay_keep(quiet, &t->now, &path, r.base, why);
+  for (int i = 0; i < t->names.n; i++)
+    for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
+      const int column = t->names.candidate[i].first + k;
+      status = column_differentiate(quiet, &path, &t->chosen.use[i], k, r.base, r.with, why);
+      if (status == DONE) status = put_instruments(t, flight, quiet, first, &r, column, why);
+    }
+  path_free(&path);
+  free(r.room);
+  return status;
+}
+
+static done_t make_instruments(confirming_t *t, bool *flew, why_t *why) {
+  *flew = true;
+  for (int f = 0; f < t->s->n_grid && *flew; f++) {
+    gap_flight_t flown;
+    grid_t quiet = {.n = 0};
+    int first;
+    TRY(fly(t, f, &flown, &first, flew, why));
+    if (!*flew) break;
+    done_t status = grid_make(&quiet, &flown, 0, flown.n, t->base, why);
+    if (status == DONE) status = put_flight(t, f, &quiet, first, why);
+    grid_free(&quiet);
+    gap_flight_free(&flown);
+    TRY(status);
+  }
+  return DONE;
+}
+
+static done_t make_table(confirming_t *t, why_t *why) {
+  table_t names;
+  TRY(table_make(&names, t->s, t->base, &t->names, &t->chosen, why));
+  const int n = names.columns;
+  t->table = (table_t){.columns = n * (1 + INSTRUMENTS)};
+  bool good = true;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    double **const x = t->table.x[ch] = calloc((size_t)t->table.columns + 1, sizeof *x);
+    good = good && x;
+    for (int i = 0; x && i <= n; i++) {
+      x[i < n ? i : t->table.columns] = names.x[ch][i];
+      names.x[ch][i] = NULL;
+    }
+  }
+  table_free(&names);
+  return good ? DONE : error_failed(why, "out of memory");
+}
 
 // --- what they say ----------------------------------------------------------------------------------------
 
@@ -52,7 +197,7 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
   a->answer = a->p < SELECT_ALPHA && right_sign(c, a) ? CONFIRM_YES : CONFIRM_NO;
 }
 
-static done_t judge(const confirming_t *t, found_t *found, why_t *why) {
+static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why) {
   int column[COLUMN_MAX];
   double value[COLUMN_MAX];
   gram_t g;
@@ -60,12 +205,12 @@ static done_t judge(const confirming_t *t, found_t *found, why_t *why) {
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n; k++) {
       column[t->names.candidate[i].first + k] = t->names.candidate[i].first + k;
-      value[t->names.candidate[i].first + k] = *candidate_value(&t->names.candidate[i], k);
+      value[t->names.candidate[i].first + k] = fx_use_size(&t->chosen.use[i], k);
     }
   const explained_t known = {n, column, value, false};
   TRY(gram_make(&g, t->s, &t->table, &known, NULL, why));
   fit_t *const f = malloc(sizeof *f);
-  const lsq_instrument_t job = {g.total, g.block, g.n_block, n, GROUPS, CONFIRM_LAGS, CONFIRM_F};
+  const lsq_instrument_t job = {g.total, g.block, g.n_block, n, GROUPS, LAGS, CONFIRM_F};
   const bool good =
       f && lsq_instrument(&job, &(lsq_instrumented_t){f->plain, f->b, f->F, f->blocks, f->V, f->apart});
   for (int i = 0; i < found->n; i++)
@@ -82,18 +227,19 @@ static done_t judge(const confirming_t *t, found_t *found, why_t *why) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-static done_t take_names(confirming_t *t, const candidates_t *c, why_t *why) {
-  t->names = (candidates_t){.candidate = calloc((size_t)c->n + 1, sizeof(candidate_t))};
+static done_t take_names(confirming_t *t, const candidates_t *c, const chosen_t *chosen, why_t *why) {
+  t->of = chosen->of;
+  t->chosen = *chosen;
+  t->names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t))};
   if (!t->names.candidate) return error_failed(why, "out of memory");
-  for (int i = 0; i < c->n && t->names.n < 2 * NAMED_MAX; i++) {
-    if (!c->candidate[i].named || t->names.columns + c->candidate[i].n > COLUMN_MAX) continue;
+  for (int i = 0; i < chosen->n; i++) {
     candidate_t *const to = &t->names.candidate[t->names.n];
-    *to = c->candidate[i];
+    *to = c->candidate[chosen->of[i]];
     to->first = t->names.columns;
-    t->of[t->names.n++] = i;
+    t->chosen.of[i] = t->names.n++;
     t->names.columns += to->n;
   }
-  return candidates_model(&t->names, t->base, &t->now, why);
+  return chosen_model(chosen, t->base, &t->now, why);
 }
 
 static bool all_told(const set_t *s) {
@@ -102,16 +248,16 @@ static bool all_told(const set_t *s) {
   return s->n_grid > 0;
 }
 
-done_t select_confirm(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
-                      found_t *found, const char **why_not, why_t *why) {
+done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
+                     found_t *found, const char **why_not, why_t *why) {
   confirming_t t = {.s = s, .base = base, .manner = manner};
   bool flew = false;
   *why_not = NULL;
   if (found->n == 0 || !all_told(s)) return DONE;
-  done_t status = take_names(&t, c, why);
-  if (status == DONE) status = confirm_table(&t, why);
-  if (status == DONE) status = confirm_instruments(&t, &flew, why);
-  if (status == DONE && flew) status = judge(&t, found, why);
+  done_t status = take_names(&t, c, &found->chosen, why);
+  if (status == DONE) status = make_table(&t, why);
+  if (status == DONE) status = make_instruments(&t, &flew, why);
+  if (status == DONE && flew) status = ask_instruments(&t, found, why);
   if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
   table_free(&t.table);
   free(t.names.candidate);

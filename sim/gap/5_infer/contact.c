@@ -84,8 +84,8 @@ static int look(const set_t *s, const model_t *m, const table_t *t, const gram_t
 static done_t pass(set_t *s, const candidates_t *c, const model_t *m, const table_t *t, const room_t *room,
                    int *found, why_t *why) {
   gram_t g = {0};
-  judge_t j;
-  TRY(judge_make(&j, c, &g, NULL, why));
+  score_t j;
+  TRY(score_make(&j, c, &g, NULL, why));
   const done_t status = gram_make(&g, s, t, NULL, j.color_ridge, why);
   if (status == DONE) {
     for (int i = 0; i < t->columns; i++) room->column[i] = i;
@@ -93,7 +93,7 @@ static done_t pass(set_t *s, const candidates_t *c, const model_t *m, const tabl
     *found = look(s, m, t, &g, room);
     gram_free(&g);
   }
-  judge_free(&j);
+  score_free(&j);
   return status;
 }
 
@@ -107,7 +107,7 @@ done_t contact_drop(set_t *s, const candidates_t *c, const model_t *m, why_t *wh
   table_t t;
   room_t room;
   if (!comes_near(s)) return DONE;
-  TRY(table_make(&t, s, m, c, why));
+  TRY(table_make(&t, s, m, c, &(chosen_t){.n = 0}, why));
   done_t status = room_make(&room, s, t.columns) ? DONE : error_failed(why, "out of memory");
   int found = 1;
   for (int i = 0; i < PASSES && found && status == DONE; i++) status = pass(s, c, m, &t, &room, &found, why);

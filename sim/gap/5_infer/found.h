@@ -3,17 +3,10 @@
 #ifndef SIM_GAP_5_INFER_FOUND_H
 #define SIM_GAP_5_INFER_FOUND_H
 
-#include "gap/5_infer/nominal_sums.h"
+#include "gap/5_infer/round.h"
+#include "gap/5_infer/timing.h"
 
-#define SELECT_ALPHA   0.01
-#define SELECT_GAIN    0.004
-#define SELECT_NOMINAL 3.0
-#define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
-#define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
-#define SELECT_ERRORS  2.0  // standard errors that hold what is sure
-#define NAMED_MAX      8
-#define COLUMN_MAX     (NAMED_MAX * FX_SIZE_MAX)
-#define RIVAL_MAX      8
+#define RIVAL_MAX 8
 
 #define CONFIRM_F 10.0 // of the first stage, at least (Staiger and Stock 1997)
 
@@ -47,16 +40,36 @@ typedef struct {
 } named_t;
 
 typedef struct {
+  chosen_t chosen; // what the model gets: all that is named, and what is in it without a name
   int n;
   named_t named[NAMED_MAX];
   int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
-  named_t open[NAMED_MAX];  // candidate and rivals alone
-  int rounds;               // times that all columns were formed: the time of a selection goes with it
-  double aligned_s;         // lag or delay that is in the model without a name
+  named_t open[NAMED_MAX]; // candidate and rivals alone
+  int rounds;              // times that all columns were formed: the time of a selection goes with it
+  const fx_t *aligned;     // lag or delay that is in the model without a name; null: none
+  double aligned_s;
   double left, left_before; // white sums of squares, with and without what is named
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
   bool *echo; // by candidate: something like it is there, at one place, time or state only: it was not tried
 } found_t;
+
+// Nothing found yet. FAILED: no memory. Free it, also on an error.
+MUST_CHECK done_t found_make(found_t *f, const candidates_t *c, why_t *why);
+void found_free(found_t *f);
+
+// A name's effect with its numbers.
+const fx_use_t *found_use(const found_t *f, const named_t *named);
+
+// Takes the name number i back; the model no longer has it.
+void found_withdraw(found_t *f, int i);
+
+// Finds a name of the choice that another one could stand for, as well within two standard errors and doing
+// nearly all that it does, and sets it apart as open. Returns which candidate it is; -1: none is so.
+int found_open_one(found_t *f, const round_t *r);
+
+// What a finished selection says: names and rivals, and of each candidate the least that could have been
+// seen. f->echo and what is open is known already.
+void found_describe(found_t *f, const round_t *r, const timing_t *timing);
 
 // The effect is an open name, or a rival of one.
 bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
@@ -64,6 +77,5 @@ bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 // nearest to what is typical, of its rotors the one that shows worst. HUGE_VAL: none would. which (may be
 // null): the candidate; a null pointer where no residual depends on it.
 double found_least(const found_t *f, const candidates_t *c, const fx_t *fx, const candidate_t **which);
-void found_free(found_t *f);
 
 #endif

@@ -8,21 +8,10 @@
 
 #define KEPT_LEAST 0.02
 
-// The residual of the flown model, without what table_make adds of the effects that it has.
-static void take_named(table_t *t, const set_t *s, const candidates_t *c) {
-  for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].named && k < c->candidate[i].n; k++)
-      for (int ch = 0; ch < CHANNELS; ch++) {
-        const double *x = t->x[ch][c->candidate[i].first + k];
-        const double value = *candidate_value(&c->candidate[i], k);
-        for (int r = 0; x && r < set_rows(s, ch)->n; r++) t->x[ch][t->columns][r] -= value * x[r];
-      }
-}
-
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
 static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
                         const color_t color[CHANNELS], why_t *why) {
-  const size_t rows = (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
+  const size_t rows = set_most_rows(s);
   double *const x = malloc(2 * rows * sizeof(double));
   if (!x) return error_failed(why, "out of memory");
   double *const y = x + rows;
@@ -51,7 +40,7 @@ static done_t compare(nominal_t *n, const set_t *seen, const table_t *t, const c
   done_t status = nominal_set(&own, truth, job->base, why);
   memcpy(own.muted, seen->muted, sizeof own.muted);
   if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
-    status = table_make(&is, &own, job->base, job->c, why);
+    status = table_make(&is, &own, job->base, job->c, job->chosen, why);
     if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
     if (status == DONE) table_free(&is);
   }
@@ -66,8 +55,8 @@ static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, c
   cell_t cell;
   double *residual[CHANNELS];
   const explained_t nothing = {.n = 0};
-  TRY(table_make(&t, s, job->base, job->c, why));
-  take_named(&t, s, job->c);
+  TRY(table_make(&t, s, job->base, job->c, job->chosen, why));
+  table_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has them
   for (int ch = 0; ch < CHANNELS; ch++) {
     residual[ch] = t.x[ch][t.columns];
     const int rows = set_rows(s, ch)->n;

@@ -21,9 +21,10 @@ typedef struct {
 // estimate is an error.
 typedef struct {
   const set_t *set;
-  const model_t *base;   // without
-  model_t flown;         // with
-  const candidates_t *c; // marks and values
+  const model_t *base; // without
+  model_t flown;       // with
+  const candidates_t *c;
+  const chosen_t *chosen;
   const manner_t *manner;
   unsigned long seed;
 } nominal_job_t;

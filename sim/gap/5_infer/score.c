@@ -9,8 +9,8 @@
 #define HARM 0.01 // of the sum of squares of a group of channels
 #define FAR  10.0 // times the typical size: what the ridge takes to be possible
 
-done_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
-  *j = (judge_t){
+done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
+  *j = (score_t){
       .c = c, .g = g, .nominal = nominal, .ridge = calloc(2 * (size_t)c->columns + 2, sizeof(double))};
   if (!j->ridge) return error_failed(why, "out of memory");
   j->color_ridge = j->ridge + c->columns + 1;
@@ -24,8 +24,9 @@ done_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nomi
   return DONE;
 }
 
-void judge_free(judge_t *j) {
+void score_free(score_t *j) {
   free(j->ridge);
+  j->ridge = NULL;
 }
 
 // --- choices ----------------------------------------------------------------------------------------------
@@ -59,7 +60,7 @@ bool choice_has(const choice_t *choice, int candidate) {
 
 // --- scores -----------------------------------------------------------------------------------------------
 
-double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
+double score_left(const score_t *j, const choice_t *choice, double *halves) {
   const gram_t *g = j->g;
   const size_t n = (size_t)(g->size * g->size);
   int column[COLUMN_MAX];
@@ -80,7 +81,7 @@ double judge_left(const judge_t *j, const choice_t *choice, double *halves) {
 }
 
 // What a choice, fitted to the other half-flights, leaves of every group of channels.
-static bool left_by_group(const judge_t *j, const choice_t *choice, double left[GROUPS]) {
+static bool left_by_group(const score_t *j, const choice_t *choice, double left[GROUPS]) {
   const gram_t *g = j->g;
   const size_t n = (size_t)(g->size * g->size);
   int column[COLUMN_MAX];
@@ -99,7 +100,7 @@ static bool left_by_group(const judge_t *j, const choice_t *choice, double left[
   return others != NULL;
 }
 
-bool judge_harms(const judge_t *j, const choice_t *without, const choice_t *with) {
+bool score_harms(const score_t *j, const choice_t *without, const choice_t *with) {
   double before[GROUPS], after[GROUPS];
   if (!left_by_group(j, without, before) || !left_by_group(j, with, after)) return true;
   for (int i = 0; i < GROUPS; i++)
@@ -107,19 +108,19 @@ bool judge_harms(const judge_t *j, const choice_t *without, const choice_t *with
   return false;
 }
 
-double judge_fitted(const judge_t *j, const choice_t *choice) {
+double score_fitted(const score_t *j, const choice_t *choice) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column);
   return lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, NULL);
 }
 
-bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better) {
+bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *better) {
   const int n = j->g->n_half;
   double *const a = calloc(2 * (size_t)n + 1, sizeof(double)), sum = 0.0, squares = 0.0;
   if (!a) return false;
-  judge_left(j, worse, a);
-  judge_left(j, better, a + n);
+  score_left(j, worse, a);
+  score_left(j, better, a + n);
   for (int h = 0; h < n; h++) {
     const double less = a[h] - a[n + h];
     sum += less;
@@ -131,7 +132,7 @@ bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *bett
 
 // The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
 // d^2 with a standard error of 2 d.
-bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other) {
+bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other) {
   const gram_t *g = j->g;
   int column[2 * COLUMN_MAX];
   double b[2 * COLUMN_MAX], apart = 0.0;
@@ -141,11 +142,11 @@ bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other
   for (int i = n; i < n + m; i++) b[i] = -b[i];
   for (int i = 0; i < n + m; i++)
     for (int k = 0; k < n + m; k++) apart += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
-  return left_other - left < JUDGE_RIVAL_SPAN * sqrt(fmax(apart, 0.0));
+  return left_other - left < SCORE_RIVAL_SPAN * sqrt(fmax(apart, 0.0));
 }
 
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
-void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V) {
+void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V) {
   const gram_t *g = j->g;
   int column[COLUMN_MAX], used = 0;
   double inverse[COLUMN_MAX * COLUMN_MAX], part[COLUMN_MAX];
@@ -173,7 +174,7 @@ void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double 
   for (int i = 0; i < n * n; i++) V[i] *= few;
 }
 
-void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
@@ -186,7 +187,7 @@ void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_S
   for (int k = 0; k < own; k++) rms[k] = sqrt(rms[k]);
 }
 
-verdict_t judge_last(const judge_t *j, const choice_t *choice) {
+verdict_t score_last(const score_t *j, const choice_t *choice) {
   verdict_t v = {.p = 1.0};
   double b[COLUMN_MAX], V[COLUMN_MAX * COLUMN_MAX], own[FX_SIZE_MAX * FX_SIZE_MAX], rms[FX_SIZE_MAX];
   const int n_own = j->c->candidate[choice->of[choice->n - 1]].n;
@@ -194,7 +195,7 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice) {
   const int n = choice_columns(j->c, choice, column);
   for (int i = n - n_own; i < n; i++) // nothing in these flights depends on it
     if (!(j->g->total[column[i] * (j->g->size + 1)] > 0.0)) return v;
-  judge_estimate(j, choice, b, V);
+  score_estimate(j, choice, b, V);
   for (int i = 0; i < n_own; i++) {
     v.value[i] = b[n - n_own + i];
     v.stderr_[i] = sqrt(V[(n - n_own + i) * (n + 1)]);
@@ -202,7 +203,7 @@ verdict_t judge_last(const judge_t *j, const choice_t *choice) {
   }
   const double blocks = fmax(j->g->n_block - n, 2.0);
   v.p = lsq_f_above(lsq_wald(v.value, own, n_own) / n_own, n_own, blocks);
-  judge_nominal_rms(j, choice, rms);
+  score_nominal_rms(j, choice, rms);
   double sum = 0.0;
   for (int i = 0; i < n_own; i++) sum += rms[i] > 0.0 ? v.value[i] * v.value[i] / (rms[i] * rms[i]) : 1e12;
   v.over_nominal = sqrt(sum / n_own);
@@ -218,15 +219,15 @@ static bool can_be(const candidate_t *c, int k, double value, double margin) {
   return value - margin <= param->max && (size->sign > 0 ? value + margin > least : value + margin >= least);
 }
 
-bool judge_is_possible(const judge_t *j, const choice_t *choice) {
+bool score_is_possible(const score_t *j, const choice_t *choice) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
-  const verdict_t v = judge_last(j, choice);
+  const verdict_t v = score_last(j, choice);
   for (int k = 0; k < c->n; k++)
     if (!can_be(c, k, v.value[k], 2.0 * v.stderr_[k])) return false;
   return true;
 }
 
-bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v) {
+bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   double largest = 0.0; // in parts of what is typical
   if (!j->nominal && c->use.fx->only_beside_nominal) return false;
@@ -235,4 +236,56 @@ bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v) 
     largest = fmax(largest, fabs(v->value[k]) / candidate_typical(c, k));
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;
+}
+
+// --- could one effect stand for another, and how large must it be to be seen? -----------------------------
+
+double score_likeness(const score_t *j, const choice_t *choice, int own, int other) {
+  const gram_t *g = j->g;
+  const candidate_t *a = &j->c->candidate[own], *c = &j->c->candidate[other];
+  int column[COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column), size = c->n + 1;
+  double b[COLUMN_MAX], at[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
+  int order[FX_SIZE_MAX];
+  score_estimate(j, choice, b, NULL);
+  for (int i = 0; i < n; i++) {
+    const bool mine = column[i] >= a->first && column[i] < a->first + a->n;
+    for (int k = 0; mine && k < c->n; k++)
+      G[k * size + c->n] += b[i] * g->total[column[i] * g->size + c->first + k];
+    for (int k = 0; mine && k < n; k++)
+      if (column[k] >= a->first && column[k] < a->first + a->n)
+        G[size * size - 1] += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
+  }
+  for (int i = 0; i < c->n; i++) {
+    order[i] = i;
+    G[c->n * size + i] = G[i * size + c->n];
+    for (int k = 0; k < c->n; k++) G[i * size + k] = g->total[(c->first + i) * g->size + c->first + k];
+  }
+  const double all = G[size * size - 1];
+  return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, c->n, NULL, at, NULL) / all : 0.0;
+}
+
+double score_alike(const score_t *j, int column, int candidate) {
+  const candidate_t *const c = &j->c->candidate[candidate];
+  const int size = j->g->size, n = c->n + 1;
+  double b[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
+  int of[FX_SIZE_MAX + 1], order[FX_SIZE_MAX];
+  for (int i = 0; i < c->n; i++) of[order[i] = i] = c->first + i;
+  of[c->n] = column;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) G[i * n + k] = j->g->total[of[i] * size + of[k]];
+  const double all = G[n * n - 1];
+  return all > 0.0 ? 1.0 - lsq_solve_products(G, n, order, c->n, NULL, b, NULL) / all : 0.0;
+}
+
+// A number b takes b^2 / (A^-1)_kk from the sum of squares.
+void score_least_gain(const score_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX], inverse[COLUMN_MAX * COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
+  lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, inverse);
+  for (int k = 0; k < own; k++) {
+    const double v = inverse[(n - own + k) * (n + 1)];
+    size[k] = isfinite(v) && v > 0.0 ? sqrt(gain * v) : HUGE_VAL;
+  }
 }

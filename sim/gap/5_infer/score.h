@@ -2,7 +2,16 @@
 #ifndef SIM_GAP_5_INFER_SCORE_H
 #define SIM_GAP_5_INFER_SCORE_H
 
-#include "gap/5_infer/found.h"
+#include "gap/5_infer/nominal_sums.h"
+
+// What a candidate needs to enter (select.h).
+#define SELECT_ALPHA   0.01
+#define SELECT_GAIN    0.004
+#define SELECT_NOMINAL 3.0
+#define SELECT_SURE    0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
+#define SELECT_LEAST   0.12 // of what is typical: smaller ones are not named
+
+#define COLUMN_MAX (CHOSEN_MAX * FX_SIZE_MAX)
 
 // Candidates, by number.
 typedef struct {
@@ -15,11 +24,11 @@ typedef struct {
   const nominal_t *nominal;
   double *ridge;       // by column: keeps what a half-flight does not show near 0
   double *color_ridge; // the same, and at 0 what disturbance cancelled by control looks like
-} judge_t;
+} score_t;
 
-MUST_CHECK done_t judge_make(judge_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
+MUST_CHECK done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal,
                              why_t *why);
-void judge_free(judge_t *j);
+void score_free(score_t *j);
 
 // The columns of a choice; returns how many.
 int choice_columns(const candidates_t *c, const choice_t *choice, int column[COLUMN_MAX]);
@@ -28,33 +37,33 @@ choice_t choice_without(const choice_t *choice, int candidate);
 bool choice_has(const choice_t *choice, int candidate);
 
 // Sum of squares left on half-flights that were not fitted to. halves: by half-flight, or null.
-double judge_left(const judge_t *j, const choice_t *choice, double *halves);
+double score_left(const score_t *j, const choice_t *choice, double *halves);
 
 // What is right in one group of channels is not wrong in another: the choice `with` leaves more of one of
 // them.
-bool judge_harms(const judge_t *j, const choice_t *without, const choice_t *with);
+bool score_harms(const score_t *j, const choice_t *without, const choice_t *with);
 
 // Sum of squares left where it was fitted.
-double judge_fitted(const judge_t *j, const choice_t *choice);
+double score_fitted(const score_t *j, const choice_t *choice);
 
 // The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there.
-bool judge_is_sure(const judge_t *j, const choice_t *worse, const choice_t *better);
+bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *better);
 
-// The other choice does as well, within two standard errors: it leaves D more, and D <= JUDGE_RIVAL_SPAN d
+// The other choice does as well, within two standard errors: it leaves D more, and D <= SCORE_RIVAL_SPAN d
 // where the two fits are d apart, white, because D has a standard error of 2 d.
-#define JUDGE_CLUSTER    1.5 // standard errors grow by this: white rows are not quite independent
-#define JUDGE_RIVAL_SPAN (2.0 * 2.0 * JUDGE_CLUSTER)
-#define JUDGE_RIVAL_LEFT (JUDGE_RIVAL_SPAN * JUDGE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
-bool judge_is_rival(const judge_t *j, const choice_t *own, const choice_t *other);
+#define SCORE_CLUSTER    1.5 // standard errors grow by this: white rows are not quite independent
+#define SCORE_RIVAL_SPAN (2.0 * 2.0 * SCORE_CLUSTER)
+#define SCORE_RIVAL_LEFT (SCORE_RIVAL_SPAN * SCORE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
+bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other);
 
 // The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.
-double judge_likeness(const judge_t *j, const choice_t *choice, int own, int other);
+double score_likeness(const score_t *j, const choice_t *choice, int own, int other);
 
 // The part of a column that the candidate alone could give in its place, 0 to 1.
-double judge_alike(const judge_t *j, int column, int candidate);
+double score_alike(const score_t *j, int column, int candidate);
 
 // Estimates, and their cluster-robust covariance (column by column of the choice; V may be null).
-void judge_estimate(const judge_t *j, const choice_t *choice, double *b, double *V);
+void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V);
 
 typedef struct {
   double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX], p, over_nominal;
@@ -62,19 +71,19 @@ typedef struct {
 
 // What the last candidate of the choice is worth in it. over_nominal: its size over its rms on nominal
 // flights.
-verdict_t judge_last(const judge_t *j, const choice_t *choice);
+verdict_t score_last(const score_t *j, const choice_t *choice);
 
 // It may be in the choice: gates (a), (b), (c).
-bool judge_allows(const judge_t *j, const choice_t *choice, const verdict_t *v);
+bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
 
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
-bool judge_is_possible(const judge_t *j, const choice_t *choice);
+bool score_is_possible(const score_t *j, const choice_t *choice);
 
 // Rms of a candidate's numbers on nominal flights, given the others of the choice; 0 without such flights.
-void judge_nominal_rms(const judge_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
+void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
 // The size of each number of the last candidate that would take so much from the sum of squares; HUGE_VAL:
 // none would.
-void judge_least_gain(const judge_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]);
+void score_least_gain(const score_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]);
 
 #endif

@@ -15,7 +15,8 @@
 
 #include "gap/5_infer/found.h"
 
-// Marks what is named in *c and sets its numbers. FAILED: no memory.
-MUST_CHECK done_t select_effects(candidates_t *c, set_t *s, const model_t *base, const nominal_t *nominal,
-                                 found_t *found, why_t *why);
+// nominal: a null pointer for a first look. FAILED: no memory. Free what is found, also on an error.
+MUST_CHECK done_t select_effects(const candidates_t *c, set_t *s, const model_t *model,
+                                 const nominal_t *nominal, found_t *found, why_t *why);
+
 #endif

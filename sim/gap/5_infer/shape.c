@@ -10,8 +10,9 @@
 enum { SHAPE, SIZE, MOST = SIZE + FX_SIZE_MAX }; // the variables, over what is typical of each: shape, sizes
 
 typedef struct {
-  const candidates_t *c;
-  candidate_t *own;
+  chosen_t *chosen;
+  fx_use_t *use; // among the chosen
+  const candidate_t *own;
   set_t *s;
   const model_t *base;
   color_t color[CHANNELS];
@@ -22,8 +23,8 @@ typedef struct {
 } polish_t;
 
 static double *number(polish_t *p, int i) {
-  const fx_t *const fx = p->own->use.fx;
-  return &p->own->use.p[i == SHAPE ? fx->shape_param : fx->size[i - SIZE].param];
+  const fx_t *const fx = p->use->fx;
+  return &p->use->p[i == SHAPE ? fx->shape_param : fx->size[i - SIZE].param];
 }
 
 // The white sum of squares that shape and sizes leave.
@@ -34,7 +35,7 @@ static double left_with(unsigned n, const double *x, double *gradient, void *dat
   (void)n;
   (void)gradient;
   for (int i = 0; i < p->n; i++) *number(p, i) = x[i] * p->unit[i];
-  if (candidates_model(p->c, p->base, &m, &p->why) != DONE ||
+  if (chosen_model(p->chosen, p->base, &m, &p->why) != DONE ||
       whiten_left(p->s, &m, p->color, &left, &p->why) != DONE)
     p->failed = true;
   return left;
@@ -67,7 +68,7 @@ static void take_bounds(polish_t *p) {
 static done_t take_colors(polish_t *p, why_t *why) {
   model_t m;
   lines_t l = {.r = {NULL}};
-  TRY(candidates_model(p->c, p->base, &m, why));
+  TRY(chosen_model(p->chosen, p->base, &m, why));
   done_t status = lines_make(&l, p->s, why);
   if (status == DONE) status = residual_of(p->s, &m, l.r, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
@@ -147,13 +148,14 @@ static done_t polish(polish_t *p, named_t *named, why_t *why) {
   return p->failed ? error_failed(why, "%s", p->why.text) : DONE;
 }
 
-done_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
+done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
                      why_t *why) {
   *changed = false;
   for (int i = 0; i < found->n; i++) {
-    candidate_t *const own = &c->candidate[found->named[i].candidate];
-    polish_t p = {.c = c, .own = own, .s = s, .base = base, .n = SIZE + own->n};
+    const candidate_t *const own = &c->candidate[found->named[i].candidate];
+    polish_t p = {.chosen = &found->chosen, .own = own, .s = s, .base = base, .n = SIZE + own->n};
     if (!is_free(own->use.fx, own)) continue;
+    p.use = chosen_take(&found->chosen, c, found->named[i].candidate);
     TRY(polish(&p, &found->named[i], why));
     *changed = true;
   }

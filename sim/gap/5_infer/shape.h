@@ -15,7 +15,7 @@
 // for a known shape, times sqrt(H_11 (H^-1)_11), without what stands beside the regression's own; the shape's
 // in the proportion that H gives. NaN: it ends at a bound, or there is no minimum. changed: there was one to
 // refine. FAILED: no memory.
-MUST_CHECK done_t select_shapes(candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
-                                why_t *why);
+MUST_CHECK done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found,
+                                bool *changed, why_t *why);
 
 #endif

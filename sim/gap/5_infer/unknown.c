@@ -204,13 +204,9 @@ static void clean(const set_t *s, const model_t *m, int coordinate, double *cons
   }
 }
 
-static size_t most_rows(const set_t *s) {
-  return (size_t)(s->smooth.n > s->range.n ? s->smooth.n : s->range.n) + 1;
-}
-
 done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
-  double *const room = malloc(2 * most_rows(s) * sizeof(double));
-  int *const bin = malloc(most_rows(s) * sizeof(int));
+  double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
+  int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int sweep = 0; room && bin && sweep < 2; sweep++)
     for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
   const bool good = room && bin;
@@ -221,7 +217,7 @@ done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CH
 
 done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                       color_t color[CHANNELS], why_t *why) {
-  const size_t rows = most_rows(s);
+  const size_t rows = set_most_rows(s);
   double *const copy = malloc(CHANNELS * rows * sizeof(double)), *part[CHANNELS];
   if (!copy) return error_failed(why, "out of memory");
   for (size_t ch = 0; ch < CHANNELS; ch++) {
@@ -240,8 +236,8 @@ done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[
   color_t own[CHANNELS];
   *cell = (cell_t){.statistic = 0.0};
   if (!color) TRY(unknown_colors(s, m, residual, own, why));
-  double *const room = malloc(2 * most_rows(s) * sizeof(double));
-  int *const bin = malloc(most_rows(s) * sizeof(int));
+  double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
+  int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++)
     scan(s, m, i, residual, color ? color : own, centred, room, bin, cell);
   const bool good = room && bin;

@@ -39,20 +39,21 @@ static const char *unit_in_words(const char *unit) {
 }
 
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
-  const candidate_t *c = &job->candidates->candidate[named->candidate];
+  const fx_use_t *const use = found_use(job->found, named);
+  const fx_t *const fx = use->fx;
   int n;
   char p[P_TEXT];
-  const fx_param_t *param = fx_use_params(&c->use, &n);
+  const fx_param_t *param = fx_use_params(use, &n);
   fprintf(out,
           "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
-          job->logs, p_words(named->p, p), 100.0 * named->share, c->use.fx->name);
-  if (c->use.form) fprintf(out, "form = \"%s\"\n", c->use.form->name);
+          job->logs, p_words(named->p, p), 100.0 * named->share, fx->name);
+  if (use->form) fprintf(out, "form = \"%s\"\n", use->form->name);
   for (int i = 0; i < n; i++) {
-    fprintf(out, "%s = %.9g", param[i].name, c->use.p[i]);
-    const bool shape = c->use.fx->n_shape && c->use.fx->shape_param == i;
+    fprintf(out, "%s = %.9g", param[i].name, use->p[i]);
+    const bool shape = fx->n_shape && fx->shape_param == i;
     bool estimated = false;
-    for (int k = 0; k < c->n; k++) {
-      if (c->use.fx->size[k].param != i) continue;
+    for (int k = 0; k < fx->n_size; k++) {
+      if (fx->size[k].param != i) continue;
       fprintf(out, " # %s, estimated, +- %.2g (standard error)\n", unit_in_words(param[i].unit),
               named->stderr_[k]);
       estimated = true;

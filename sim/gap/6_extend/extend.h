@@ -13,7 +13,6 @@
 typedef struct {
   const char *path, *text; // of the vehicle file
   const model_t *model;    // what it says
-  const candidates_t *candidates;
   const found_t *found;
   const char *logs;   // what it was found in, in words
   const made_t *made; // how; null: not said

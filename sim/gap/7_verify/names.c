@@ -10,11 +10,18 @@ static double rms_of(const double *v, int n) {
   return n ? sqrt(squares / n) : 0.0;
 }
 
-// What the model with the names that are marked leaves of every channel; 0 where the rows are too few.
-static done_t measure(const verify_job_t *d, double rms[CHANNELS], why_t *why) {
+// The model with all names but one; below 0: with all.
+static done_t model_without(const verify_job_t *d, int candidate, model_t *m, why_t *why) {
+  chosen_t others = d->found->chosen;
+  chosen_drop(&others, candidate);
+  return chosen_model(&others, d->base, m, why);
+}
+
+// What that model leaves of every channel; 0 where the rows are too few.
+static done_t measure(const verify_job_t *d, int without, double rms[CHANNELS], why_t *why) {
   model_t m;
   lines_t l = {.r = {NULL}};
-  TRY(candidates_model(d->candidates, d->base, &m, why));
+  TRY(model_without(d, without, &m, why));
   done_t status = lines_make(&l, d->held, why);
   if (status == DONE) status = residual_of(d->held, &m, l.r, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
@@ -23,13 +30,6 @@ static done_t measure(const verify_job_t *d, double rms[CHANNELS], why_t *why) {
     rms[ch] = used ? rms_of(l.r[ch], rows->n) : 0.0;
   }
   lines_free(&l);
-  return status;
-}
-
-static done_t measure_without(const verify_job_t *d, candidate_t *name, double rms[CHANNELS], why_t *why) {
-  name->named = false;
-  const done_t status = measure(d, rms, why);
-  name->named = true;
   return status;
 }
 
@@ -72,15 +72,13 @@ static done_t compare(along_t *a, const model_t *with, const model_t *without, d
 
 // The rms that a right name may bring, by errors of the log and by feedback: on flights of the model along
 // the held-out tracks. 0 where it cannot fly.
-static done_t blur_of(const verify_job_t *d, candidate_t *name, double blur[CHANNELS], why_t *why) {
+static done_t blur_of(const verify_job_t *d, int candidate, double blur[CHANNELS], why_t *why) {
   model_t with, without;
   along_t a;
+  done_t status = DONE;
   for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = 0.0;
-  TRY(candidates_model(d->candidates, d->base, &with, why));
-  name->named = false;
-  done_t status = candidates_model(d->candidates, d->base, &without, why);
-  name->named = true;
-  TRY(status);
+  TRY(model_without(d, -1, &with, why));
+  TRY(model_without(d, candidate, &without, why));
   if (nominal_along(&a, d->held, &with, d->manner, 1, why) == DONE)
     status = compare(&a, &with, &without, blur, why);
   along_free(&a);
@@ -108,27 +106,19 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
   static const double none[CHANNELS] = {0.0};
   double with[CHANNELS], without[CHANNELS], blur[CHANNELS], most = VERIFY_GROWS;
   *worst = -1;
-  TRY(measure(d, with, why));
+  TRY(measure(d, -1, with, why));
   for (int i = 0; i < d->found->n; i++) {
-    candidate_t *const name = &d->candidates->candidate[d->found->named[i].candidate];
+    const named_t *const name = &d->found->named[i];
     double first = most;
-    TRY(measure_without(d, name, without, why));
+    TRY(measure(d, name->candidate, without, why));
     if (grown(with, without, none, &first) < 0) continue;
-    TRY(blur_of(d, name, blur, why));
+    TRY(blur_of(d, name->candidate, blur, why));
     const int ch = grown(with, without, blur, &most);
     if (ch < 0) continue;
     *worst = i;
-    *why_so = (withdrawn_t){name->use.fx, ch, without[ch], with[ch]};
+    *why_so = (withdrawn_t){found_use(d->found, name)->fx, ch, without[ch], with[ch]};
   }
   return DONE;
-}
-
-static void withdraw(const verify_job_t *d, int worst) {
-  candidate_t *const c = &d->candidates->candidate[d->found->named[worst].candidate];
-  c->named = false;
-  for (int k = 0; k < c->n; k++) *candidate_value(c, k) = 0.0;
-  for (int i = worst + 1; i < d->found->n; i++) d->found->named[i - 1] = d->found->named[i];
-  d->found->n--;
 }
 
 done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why) {
@@ -138,7 +128,7 @@ done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *w
     TRY(find_worst(d, &worst, &withdrawn->name[withdrawn->n], why));
     if (worst < 0) return DONE;
     withdrawn->n++;
-    withdraw(d, worst);
+    found_withdraw(d->found, worst);
   }
   return DONE;
 }

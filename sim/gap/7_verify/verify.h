@@ -42,13 +42,12 @@ MUST_CHECK done_t verify_held(set_t *s, const model_t *before, const model_t *af
 // What was found, and the flights that it is held against.
 typedef struct {
   set_t *held;
-  candidates_t *candidates;
   const model_t *base; // without what was found
   const manner_t *manner;
   found_t *found;
 } verify_job_t;
 
-// Withdraws the names that grow one by more, the worst first: they are no longer marked, nor found. The
+// Withdraws the names that grow one by more, the worst first: they are no longer found. The
 // others keep their values: what these flights alone had would else go into them. FAILED: no memory.
 MUST_CHECK done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why);
 

@@ -7,10 +7,10 @@
 
 static void add_values(const finding_t *f, char text[REPORT_TEXT]) {
   const confirm_t *const a = &f->named->confirm;
-  const double wide = lsq_t_quantile(0.025, a->blocks - f->candidate->n);
+  const double wide = lsq_t_quantile(0.025, a->blocks - f->fx->n_size);
   int n;
-  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
-  for (int k = 0; k < f->candidate->n; k++) {
+  const fx_param_t *const param = fx_use_params(f->use, &n);
+  for (int k = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     const size_t used = strlen(text);
     snprintf(text + used, REPORT_TEXT - used, "%s%s %.3g +- %.2g%s%s", k ? ", " : " ", p->name, a->value[k],

@@ -20,9 +20,9 @@ static done_t effect_lines(const report_t *r, set_t *held, const finding_t *f, d
   TRY(residual_of(held, &m, effect, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
-  for (int k = 0; k < f->candidate->n; k++) {
+  for (int k = 0; k < f->fx->n_size; k++) {
     m = r->study->diagnosis.extended;
-    fx_use_t more = f->candidate->use;
+    fx_use_t more = *f->use;
     more.p[f->fx->size[k].param] += f->named->stderr_[k];
     TRY(model_add_fx(&m, &more, why));
     TRY(residual_of(held, &m, room, why));
@@ -98,9 +98,8 @@ static done_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   finding_t *const f = &r->finding[i];
   f->named = &d->found.named[i];
-  f->candidate = &d->candidates.candidate[f->named->candidate];
-  f->fx = f->candidate->use.fx;
-  for (int k = 0; k < f->candidate->n; k++) f->value[k] = *candidate_value(f->candidate, k);
+  f->use = found_use(&d->found, f->named);
+  f->fx = f->use->fx;
   lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
   done_t status = lines_make(&effect, held, why);
   if (status == DONE) status = lines_make(&variance, held, why);

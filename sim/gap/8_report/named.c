@@ -6,17 +6,17 @@
 
 static void parameters(const finding_t *f, double errors, FILE *out) {
   int n;
-  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
+  const fx_param_t *const param = fx_use_params(f->use, &n);
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
-  for (int k = 0; k < f->candidate->n; k++) {
+  for (int k = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
-    const double v = f->value[k], wide = errors * f->named->stderr_[k];
+    const double v = fx_use_size(f->use, k), wide = errors * f->named->stderr_[k];
     page_text(out, "<tr><td>", p->name, "");
     fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
     page_text(out, "<td>", p->unit, "</tr>\n");
   }
   if (f->fx->n_shape) {
-    const double v = f->candidate->use.p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
+    const double v = f->use->p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
     page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
     if (wide > 0.0)
       fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);

@@ -124,7 +124,7 @@ void report_warn(report_t *r);                                        // warning
 // The degrees of freedom are those of the selection's Wald test.
 static double half_interval(const diagnosis_t *d) {
   int columns = 0;
-  for (int i = 0; i < d->found.n; i++) columns += d->candidates.candidate[d->found.named[i].candidate].n;
+  for (int i = 0; i < d->found.n; i++) columns += found_use(&d->found, &d->found.named[i])->fx->n_size;
   return lsq_t_quantile(0.025, fmax(d->fit.n_block - columns, 2.0));
 }
 

@@ -30,10 +30,9 @@ typedef struct {
 // One named effect.
 typedef struct {
   const named_t *named;
-  const candidate_t *candidate;
+  const fx_use_t *use; // as the new model has it
   const fx_t *fx;
-  double value[FX_SIZE_MAX]; // as the new model has them
-  span_t where;              // of the profile's coordinate: there lie the middle 90 % of its sum of squares
+  span_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
   // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
   span_t matters;

@@ -16,18 +16,18 @@ static void add_number(cJSON *o, const char *key, double v) {
 static void add_parameters(cJSON *effect, const finding_t *f) {
   cJSON *const all = cJSON_AddObjectToObject(effect, "parameters");
   int n;
-  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
-  for (int k = 0; k < f->candidate->n; k++) {
+  const fx_param_t *const param = fx_use_params(f->use, &n);
+  for (int k = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     cJSON *const one = cJSON_AddObjectToObject(all, p->name);
-    add_number(one, "value", f->value[k]);
+    add_number(one, "value", fx_use_size(f->use, k));
     add_number(one, "stderr", f->named->stderr_[k]);
     cJSON_AddStringToObject(one, "unit", p->unit);
   }
   if (!f->fx->n_shape) return;
   const fx_param_t *const p = &param[f->fx->shape_param];
   cJSON *const one = cJSON_AddObjectToObject(all, p->name);
-  add_number(one, "value", f->candidate->use.p[f->fx->shape_param]);
+  add_number(one, "value", f->use->p[f->fx->shape_param]);
   add_number(one, "stderr", f->named->shape_stderr > 0.0 ? f->named->shape_stderr : (double)NAN);
   cJSON_AddStringToObject(one, "unit", p->unit);
 }
@@ -37,14 +37,14 @@ static void add_instrument(cJSON *o, const finding_t *f) {
   static const char *const answer[] = {"", "instrument too weak", "not confirmed", "confirmed"};
   const confirm_t *const a = &f->named->confirm;
   int n;
-  const fx_param_t *const param = fx_use_params(&f->candidate->use, &n);
+  const fx_param_t *const param = fx_use_params(f->use, &n);
   if (a->answer == CONFIRM_NOT_TRIED) return;
   const bool weak = a->answer == CONFIRM_WEAK;
   cJSON *const i = cJSON_AddObjectToObject(o, "instrument");
   cJSON_AddStringToObject(i, "answer", answer[a->answer]);
   add_number(i, "F", a->F);
   cJSON *const all = cJSON_AddObjectToObject(i, "parameters");
-  for (int k = 0; k < f->candidate->n && !weak; k++) {
+  for (int k = 0; k < f->fx->n_size && !weak; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     cJSON *const one = cJSON_AddObjectToObject(all, p->name);
     add_number(one, "value", a->value[k]);

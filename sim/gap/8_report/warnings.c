@@ -54,7 +54,7 @@ static void warn_of_instrument(report_t *r) {
   if (d->why_not_confirmed) warn(r, "no name is confirmed: %s", d->why_not_confirmed);
   for (int i = 0; i < d->found.n; i++) {
     const confirm_t *const a = &d->found.named[i].confirm;
-    const char *const name = d->candidates.candidate[d->found.named[i].candidate].use.fx->name;
+    const char *const name = found_use(&d->found, &d->found.named[i])->fx->name;
     if (a->answer == CONFIRM_NO)
       warn(r,
            "%s is not confirmed by the set points as instrument: it may be feedback, or they show too little "
@@ -92,11 +92,11 @@ static void warn_of_diagnosis(report_t *r) {
            "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
            "motors in another order?)",
            gap_channel[ch]);
-  if (d->found.aligned_s != 0.0)
+  if (d->found.aligned)
     warn(r,
          "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
          "instruments that are late look like, and it is not named",
-         1e3 * d->found.aligned_s, 1e3 * candidates_least(fx_find("delay"), &d->fit));
+         1e3 * d->found.aligned_s, 1e3 * candidates_least(d->found.aligned, &d->fit));
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
   if (again->lost_before || again->lost_after)
@@ -150,7 +150,7 @@ static void warn_of_names(report_t *r) {
       warn(r,
            "%s: where the log's height comes from a range sensor with the same error (a flow deck's), "
            "it is half of the %.3g m, and the log cannot tell",
-           r->finding[i].fx->name, r->finding[i].value[0]);
+           r->finding[i].fx->name, fx_use_size(r->finding[i].use, 0));
 }
 
 void report_warn(report_t *r) {

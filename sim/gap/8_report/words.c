@@ -9,15 +9,15 @@
 
 static void print_value(const finding_t *f, int k, double wide, FILE *out) {
   int n;
-  const fx_param_t *const p = &fx_use_params(&f->candidate->use, &n)[f->fx->size[k].param];
-  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, f->value[k], wide * f->named->stderr_[k],
-          p->unit[0] ? " " : "", p->unit);
+  const fx_param_t *const p = &fx_use_params(f->use, &n)[f->fx->size[k].param];
+  fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, fx_use_size(f->use, k),
+          wide * f->named->stderr_[k], p->unit[0] ? " " : "", p->unit);
 }
 
 static void print_shape(const finding_t *f, double wide, FILE *out) {
   int n;
-  const fx_param_t *const p = &fx_use_params(&f->candidate->use, &n)[f->fx->shape_param];
-  fprintf(out, ", %s %.3g", p->name, f->candidate->use.p[f->fx->shape_param]);
+  const fx_param_t *const p = &fx_use_params(f->use, &n)[f->fx->shape_param];
+  fprintf(out, ", %s %.3g", p->name, f->use->p[f->fx->shape_param]);
   if (f->named->shape_stderr > 0.0) fprintf(out, " +- %.2g", wide * f->named->shape_stderr);
   if (p->unit[0] && !fx_is_number(p)) fprintf(out, " %s", p->unit);
 }
@@ -26,9 +26,9 @@ static void print_effect(const finding_t *f, double wide, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[P_TEXT], words[REPORT_TEXT];
   fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
-  for (int k = 0; k < f->candidate->n; k++) print_value(f, k, wide, out);
+  for (int k = 0; k < f->fx->n_size; k++) print_value(f, k, wide, out);
   if (f->fx->n_shape) print_shape(f, wide, out);
-  if (f->candidate->use.form) fprintf(out, ", form %s", f->candidate->use.form->name);
+  if (f->use->form) fprintf(out, ", form %s", f->use->form->name);
   fprintf(out, "; %.3g %% of the gap, %s\n", 100.0 * f->named->share, p_words(f->named->p, p));
   fprintf(out, "  seen in %s, %s %.3g to %.3g %s", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));

@@ -54,7 +54,7 @@ static named_t first_name(const flown_t *how, uint64_t seed, char name[32]) {
       .fit = &fit, .held = &held, .model = &base, .flown_by = how->known ? &by : NULL, .seed = 1};
   if (CHECK_OK(diagnose(&job, d, &why)) && CHECK(d->found.n > 0)) {
     named = d->found.named[0];
-    snprintf(name, 32, "%s", d->candidates.candidate[named.candidate].use.fx->name);
+    snprintf(name, 32, "%s", found_use(&d->found, &named)->fx->name);
   }
   diagnosis_free(d);
   free(d);

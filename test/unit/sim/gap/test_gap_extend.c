@@ -12,17 +12,17 @@
 static const char VEHICLE[] = "name = \"test\" # a word of its own\nmass_kg = 0.03\nrotor_radius_m = 0.02\n"
                               "motor_tau_s = 0.05\nthrust_min_N = 0.0\nthrust_max_N = 0.6\nceiling_m = 1.0\n";
 
-// What extend_write makes of a vehicle file's text where `candidate` was found.
-static done_t extend(const char *path, const char *text, const candidate_t *candidate, char *out, size_t size,
+// What extend_write makes of a vehicle file's text where this was found.
+static done_t extend(const char *path, const char *text, const fx_use_t *use, char *out, size_t size,
                      model_t *base, why_t *why) {
-  diagnosis_t d = {.candidates = {(candidate_t *)candidate, 1, candidate->n}, .found = {.n = 1}};
-  d.found.named[0] = (named_t){.candidate = 0, .stderr_ = {0.01, 0.02, 0.03}, .p = 1e-5, .share = 0.25};
+  found_t found = {.n = 1, .chosen = {.n = 1, .use = {*use}}};
+  found.named[0] = (named_t){.candidate = 0, .stderr_ = {0.01, 0.02, 0.03}, .p = 1e-5, .share = 0.25};
   char *made = NULL;
   out[0] = 0;
   size_t used = 0;
   TRY(model_read_text(path, text, base, why));
   FILE *const file = open_memstream(&made, &used);
-  const extend_job_t job = {path, text, base, &d.candidates, &d.found, "3 flights, seed 1", NULL};
+  const extend_job_t job = {path, text, base, &found, "3 flights, seed 1", NULL};
   const done_t status = extend_write(&job, file, why);
   fclose(file);
   snprintf(out, size, "%s", made);
@@ -30,30 +30,28 @@ static done_t extend(const char *path, const char *text, const candidate_t *cand
   return status;
 }
 
-static candidate_t candidate_of(const char *name) {
-  candidate_t c = {.use = fx_use(fx_find(name)), .named = true};
-  c.n = c.use.fx->n_size;
-  for (int k = 0; k < c.n; k++)
-    c.use.p[c.use.fx->size[k].param] = 3.0 / 7.0 / (k + 1) * candidate_typical(&c, k);
-  if (c.use.fx->n_shape) c.use.p[c.use.fx->shape_param] = c.use.fx->shape[1];
-  return c;
+static fx_use_t some_of(const char *name) {
+  const candidate_t c = {.use = fx_use(fx_find(name)), .n = fx_find(name)->n_size};
+  fx_use_t use = c.use;
+  for (int k = 0; k < c.n; k++) fx_use_resize(&use, k, 3.0 / 7.0 / (k + 1) * candidate_typical(&c, k));
+  if (use.fx->n_shape) use.p[use.fx->shape_param] = use.fx->shape[1];
+  return use;
 }
 
 TEST(gap_extends_a_vehicle_file_by_every_effect_that_can_be_named) {
   for (int i = 0; i < fx_count; i++) {
     if (fx_table[i]->n_size == 0) continue;
     ROW("%s", fx_table[i]->name);
-    const candidate_t c = candidate_of(fx_table[i]->name);
+    const fx_use_t use = some_of(fx_table[i]->name);
     model_t base, m;
     why_t why = {""};
     char text[8000];
-    CHECK_OK(extend("v.toml", VEHICLE, &c, text, sizeof text, &base, &why));
+    CHECK_OK(extend("v.toml", VEHICLE, &use, text, sizeof text, &base, &why));
     CHECK_OK(model_read_text("model.toml", text, &m, &why));
     CHECK_TEXT(why.text, "");
     CHECK(strstr(text, "a word of its own") && strstr(text, "p 1e-05, 25 % of the gap"));
-    CHECK(m.n_fx == 1 && m.fx[0].fx == fx_table[i] && m.fx[0].form == c.use.form &&
-          m.mass_kg == base.mass_kg);
-    for (int k = 0; k < FX_PARAM_MAX; k++) CHECK_NEAR(m.fx[0].p[k], c.use.p[k], 1e-8 * fabs(c.use.p[k]));
+    CHECK(m.n_fx == 1 && m.fx[0].fx == fx_table[i] && m.fx[0].form == use.form && m.mass_kg == base.mass_kg);
+    for (int k = 0; k < FX_PARAM_MAX; k++) CHECK_NEAR(m.fx[0].p[k], use.p[k], 1e-8 * fabs(use.p[k]));
   }
 }
 
@@ -62,12 +60,12 @@ TEST(gap_keeps_the_effects_that_a_vehicle_file_has_and_its_measured_curves) {
   snprintf(vehicle, sizeof vehicle, "%s[[effect]]\nname = \"ground\"\nform = \"table\"\nfile = \"curve.csv\"",
            VEHICLE);
   scratch_file("curve.csv", "distance_over_radius,ratio\n0.5,1.25\n2,1.0625\n4,1\n", -1);
-  const candidate_t c = candidate_of("wind");
+  const fx_use_t use = some_of("wind");
   char path[400];
   snprintf(path, sizeof path, "%s", scratch_path("v.toml"));
   model_t base, m;
   why_t why = {""};
-  CHECK_OK(extend(path, vehicle, &c, text, sizeof text, &base, &why));
+  CHECK_OK(extend(path, vehicle, &use, text, sizeof text, &base, &why));
   // Read from elsewhere: the curve's file is not there.
   CHECK_OK(model_read_text("/elsewhere/model.toml", text, &m, &why));
   CHECK_TEXT(why.text, "");
@@ -80,10 +78,10 @@ TEST(gap_keeps_the_effects_that_a_vehicle_file_has_and_its_measured_curves) {
 TEST(gap_says_when_a_vehicle_file_cannot_be_added_to) {
   char vehicle[600], text[8000];
   snprintf(vehicle, sizeof vehicle, "effect = [{name = \"wind\"}]\n%s", VEHICLE);
-  const candidate_t c = candidate_of("ground");
+  const fx_use_t use = some_of("ground");
   model_t base;
   why_t why = {""};
-  CHECK_STATUS(BAD_INPUT, extend("v.toml", vehicle, &c, text, sizeof text, &base, &why));
+  CHECK_STATUS(BAD_INPUT, extend("v.toml", vehicle, &use, text, sizeof text, &base, &why));
   CHECK(strncmp(why.text, "v.toml: the named effects cannot be added to it: model.toml:", 60) == 0);
   CHECK_TEXT(text, "");
 }

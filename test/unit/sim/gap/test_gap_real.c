@@ -44,8 +44,7 @@ static void close(case_t *c) {
 
 static const named_t *named(const case_t *c, const char *name) {
   for (int i = 0; i < c->d.found.n; i++)
-    if (c->d.candidates.candidate[c->d.found.named[i].candidate].use.fx == fx_find(name))
-      return &c->d.found.named[i];
+    if (found_use(&c->d.found, &c->d.found.named[i])->fx == fx_find(name)) return &c->d.found.named[i];
   return NULL;
 }
 

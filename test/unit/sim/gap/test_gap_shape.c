@@ -9,8 +9,9 @@ static gap_case_t *diagnosed(const fx_use_t *use) {
 }
 
 static const fx_use_t *only_one(const gap_case_t *c, const char *name) {
-  const fx_use_t *const use = &c->d.candidates.candidate[c->d.found.named[0].candidate].use;
-  return CHECK(c->d.found.n == 1) && CHECK(use->fx == fx_find(name)) ? use : NULL;
+  const found_t *const f = &c->d.found;
+  return CHECK(f->n == 1) && CHECK(found_use(f, f->named)->fx == fx_find(name)) ? found_use(f, f->named)
+                                                                                : NULL;
 }
 
 // Of several data sets: how many name it, and of these how many come near.
@@ -25,7 +26,7 @@ static void add(tally_t *t, double decay_per_radius, uint64_t seed) {
   t->sets++;
   t->nothing_else += c->d.found.n == (named ? 1 : 0);
   if (named) {
-    const fx_use_t *const found = &c->d.candidates.candidate[named->candidate].use;
+    const fx_use_t *const found = found_use(&c->d.found, named);
     t->named++;
     t->size_near += fabs(found->p[0] - 0.3) <= 3.0 * named->stderr_[0];
     t->shape_near +=

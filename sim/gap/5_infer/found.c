@@ -1,0 +1,247 @@
+// found.c - what a finished selection says: names, rivals, and what could have been seen.
+#include "gap/5_infer/found.h"
+
+#include "base/lsq_blocks.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SAME   0.997 // of a name's contribution, that a rival could give
+#define ERRORS 2.0   // standard errors that hold what is sure
+
+done_t found_make(found_t *f, const candidates_t *c, why_t *why) {
+  *f = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                 .echo = calloc((size_t)c->n + 1, sizeof(bool))};
+  return f->least && f->echo ? DONE : error_failed(why, "out of memory");
+}
+
+void found_free(found_t *f) {
+  free(f->least);
+  free(f->echo);
+  f->least = NULL;
+  f->echo = NULL;
+}
+
+const fx_use_t *found_use(const found_t *f, const named_t *named) {
+  return chosen_use(&f->chosen, named->candidate);
+}
+
+void found_withdraw(found_t *f, int i) {
+  chosen_drop(&f->chosen, f->named[i].candidate);
+  for (f->n--; i < f->n; i++) f->named[i] = f->named[i + 1];
+}
+
+// --- names that these flights cannot tell from others -----------------------------------------------------
+
+static named_t open_one(const round_t *r, int candidate) {
+  const choice_t rest = choice_without(&r->choice, candidate);
+  named_t open = {.candidate = candidate};
+  for (int i = 0; i < r->c->n && open.n_rival < RIVAL_MAX; i++) {
+    if (!round_may_stand_for(r, &rest, candidate, i)) continue;
+    if (open.n_rival && open.rival[open.n_rival - 1] == round_fx(r, i)) continue;
+    const choice_t with = choice_with(&rest, i);
+    if (!score_is_rival(&r->score, &r->choice, &with) || !score_is_possible(&r->score, &with)) continue;
+    if (score_likeness(&r->score, &r->choice, candidate, i) < SAME) continue;
+    open.rival[open.n_rival++] = round_fx(r, i);
+  }
+  return open;
+}
+
+int found_open_one(found_t *f, const round_t *r) {
+  for (int i = r->choice.n - 1; i >= 0 && f->n_open < NAMED_MAX; i--) {
+    const named_t open = open_one(r, r->choice.of[i]);
+    if (open.n_rival == 0) continue;
+    f->open[f->n_open++] = open;
+    return open.candidate;
+  }
+  return -1;
+}
+
+bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx) {
+  for (int i = 0; i < f->n_open; i++) {
+    if (c->candidate[f->open[i].candidate].use.fx == fx) return true;
+    for (int k = 0; k < f->open[i].n_rival; k++)
+      if (f->open[i].rival[k] == fx) return true;
+  }
+  return false;
+}
+
+// --- names and their rivals -------------------------------------------------------------------------------
+
+// Mass and thrust scale differ in turning alone.
+static bool only_turning_tells(const round_t *r, int a, int b) {
+  return round_fx(r, a)->class == FX_WEIGHT && round_fx(r, b)->class == FX_WEIGHT && candidates_slow(r->s);
+}
+
+// Another name in its place that is not worse by two standard errors of the difference, at a size that it can
+// have.
+static void find_rivals(const round_t *r, int candidate, double left_before, named_t *named) {
+  const choice_t rest = choice_without(&r->choice, candidate);
+  const double without = score_left(&r->score, &rest, NULL);
+  for (int i = 0; i < r->c->n && named->n_rival < RIVAL_MAX; i++) {
+    const fx_t *fx = round_fx(r, i);
+    if (fx == round_fx(r, candidate) || r->never[i] || !round_fits(r, &rest, i)) continue;
+    if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
+    const choice_t with = choice_with(&rest, i);
+    const bool rival = score_is_rival(&r->score, &r->choice, &with) && score_is_possible(&r->score, &with);
+    if (!rival && !only_turning_tells(r, candidate, i)) continue;
+    named->rival_share[named->n_rival] = (without - score_left(&r->score, &with, NULL)) / left_before;
+    named->rival[named->n_rival++] = fx;
+  }
+}
+
+// What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness
+// of the instruments themselves as is never named.
+static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
+  double rms[FX_SIZE_MAX];
+  const fx_t *const fx = round_fx(r, named->candidate);
+  score_nominal_rms(&r->score, last, rms);
+  for (int k = 0; k < fx->n_size; k++) {
+    named->beside[k] = hypot(rms[k], candidates_least(fx, r->s) / ERRORS);
+    named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
+  }
+}
+
+static void find_named(found_t *found, const round_t *r) {
+  const choice_t none = {.n = 0};
+  found->left_before = score_left(&r->score, &none, NULL);
+  found->left = score_left(&r->score, &r->choice, NULL);
+  for (int i = 0; i < r->choice.n; i++) {
+    const int candidate = r->choice.of[i];
+    const choice_t rest = choice_without(&r->choice, candidate), last = choice_with(&rest, candidate);
+    const verdict_t v = score_last(&r->score, &last);
+    const fx_t *fx = round_fx(r, candidate);
+    if (fx->class == FX_TIMING && fabs(v.value[0]) < candidates_least(fx, r->s)) {
+      found->aligned = fx;
+      found->aligned_s = v.value[0];
+      continue;
+    }
+    named_t *const named = &found->named[found->n++];
+    *named = (named_t){.candidate = candidate, .p = v.p};
+    memcpy(named->value, v.value, sizeof named->value);
+    memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
+    add_errors(r, &last, named);
+    named->share = (score_left(&r->score, &rest, NULL) - found->left) / found->left_before;
+    find_rivals(r, candidate, found->left_before, named);
+  }
+}
+
+// What measured rotor speeds say. The others' shares become shares of what was left without it.
+static void find_timing(found_t *found, const round_t *r, const timing_t *timing) {
+  why_t why;
+  double without = 1.0, with = 1.0;
+  if (whiten_left(r->s, r->given, r->gram.color, &without, &why) != DONE ||
+      whiten_left(r->s, r->base, r->gram.color, &with, &why) != DONE)
+    without = with = 1.0;
+  for (int i = 0; i < found->n; i++) found->named[i].share *= with / without;
+  found->left_before *= without / with;
+  named_t *const named = &found->named[found->n++];
+  *named = (named_t){.candidate = timing->candidate, .p = timing->p, .share = 1.0 - with / without};
+  named->value[0] = timing->value_s;
+  named->stderr_[0] = timing->stderr_s;
+  fx_use_resize(chosen_take(&found->chosen, r->c, timing->candidate), 0, timing->value_s);
+}
+
+// What acts on the vehicle before what its instruments add; the largest share first.
+static bool comes_before(const round_t *r, const named_t *a, const named_t *b) {
+  const bool sensed_a = round_fx(r, a->candidate)->sense, sensed_b = round_fx(r, b->candidate)->sense;
+  return sensed_a != sensed_b ? sensed_b : a->share > b->share;
+}
+
+static void sort_names(found_t *found, const round_t *r) {
+  for (int i = 1; i < found->n; i++)
+    for (int k = i; k > 0 && comes_before(r, &found->named[k], &found->named[k - 1]); k--) {
+      const named_t swap = found->named[k];
+      found->named[k] = found->named[k - 1];
+      found->named[k - 1] = swap;
+    }
+}
+
+// --- the smallest size of every effect that these flights would have shown --------------------------------
+//
+// Every condition of select.h asks for a size; it is met in all but a few flights in a hundred where the
+// true size is larger by two of the estimate's errors: its standard error, or its rms on nominal flights.
+// Where what an effect is multiplied by is mostly the log's own noise (velocities in a hover), only a part of
+// it is found.
+
+#define MISSED 2.0 // errors by which an estimate may be too small
+
+// Another name stands for it so well that it stays open until it is larger: the part of its sum of squares
+// that the other one cannot give must be SCORE_RIVAL_LEFT.
+static double gain_of_rivals(const round_t *r, int candidate, int k) {
+  double alike = 0.0;
+  for (int i = 0; i < r->c->n; i++)
+    if (round_may_stand_for(r, &r->choice, candidate, i))
+      alike = fmax(alike, score_alike(&r->score, r->c->candidate[candidate].first + k, i));
+  return alike < SAME ? 0.0 : alike < 1.0 ? SCORE_RIVAL_LEFT / (1.0 - alike) : HUGE_VAL;
+}
+
+// In parts of what is typical.
+static double least_of(const round_t *r, const choice_t *with, double left) {
+  const int candidate = with->of[with->n - 1];
+  const candidate_t *const c = &r->c->candidate[candidate];
+  const verdict_t v = score_last(&r->score, with);
+  int column[COLUMN_MAX];
+  const double blocks = fmax(r->gram.n_block - choice_columns(r->c, with, column), 2.0);
+  const double wald = sqrt(c->n * lsq_f_quantile(SELECT_ALPHA / r->c->n, c->n, blocks));
+  const double nominal = SELECT_NOMINAL * sqrt(c->n);
+  double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX], unit[FX_SIZE_MAX], least = 0.0;
+  if (!(v.stderr_[0] > 0.0)) return 0.0; // no residual depends on it
+  score_nominal_rms(&r->score, with, rms);
+  score_least_gain(&r->score, with, SELECT_GAIN * left, gain);
+  score_least_gain(&r->score, with, 1.0, unit);
+  for (int k = 0; k < c->n; k++) {
+    const double typical = candidate_typical(c, k), error = fmax(v.stderr_[k], rms[k]);
+    const double rival = unit[k] * sqrt(gain_of_rivals(r, candidate, k));
+    double need = fmax(fmax(wald * v.stderr_[k], nominal * rms[k]), fmax(gain[k], rival));
+    need = fmax(need, fmax(SELECT_LEAST * typical, c->use.fx->size[k].least));
+    const double kept = r->nominal ? r->nominal->kept[c->first + k] : 1.0;
+    least = fmax(least, (need + MISSED * error) / (kept * typical));
+  }
+  return least;
+}
+
+static void find_least(found_t *found, const round_t *r) {
+  for (int i = 0; i < r->c->n; i++) {
+    const choice_t rest = choice_without(&r->choice, i);
+    if (!round_fits(r, &rest, i)) continue;
+    const choice_t with = choice_with(&rest, i);
+    found->least[i] = least_of(r, &with, found->left);
+    if (!(found->least[i] > 0.0) || choice_has(&r->choice, i)) continue;
+    if (found->echo[i] || found_is_open(found, r->c, round_fx(r, i))) found->least[i] = HUGE_VAL;
+  }
+}
+
+// How far from what is asked for: a name's own shape, else what is typical. A rotor may be any.
+static double away(const found_t *f, const candidates_t *all, int candidate) {
+  const candidate_t *const c = &all->candidate[candidate];
+  int n;
+  const fx_param_t *const shape = &fx_use_params(&c->use, &n)[c->use.fx->shape_param];
+  if (chosen_use(&f->chosen, candidate)) return -1.0;
+  return !c->use.fx->n_shape || fx_is_number(shape)
+             ? 0.0
+             : fabs(log(c->use.p[c->use.fx->shape_param] / shape->nominal));
+}
+
+double found_least(const found_t *f, const candidates_t *c, const fx_t *fx, const candidate_t **which) {
+  int best = -1;
+  for (int i = 0; i < c->n; i++) {
+    if (c->candidate[i].use.fx != fx) continue;
+    const double farther = best < 0 ? -1.0 : away(f, c, i) - away(f, c, best);
+    if (farther < 0.0 || (farther <= 0.0 && f->least[i] >= f->least[best])) best = i;
+  }
+  const bool shows = best >= 0 && f->least[best] > 0.0;
+  if (which) *which = shows ? &c->candidate[best] : NULL;
+  return shows ? f->least[best] : HUGE_VAL;
+}
+
+// --- the whole --------------------------------------------------------------------------------------------
+
+void found_describe(found_t *f, const round_t *r, const timing_t *timing) {
+  f->chosen = r->chosen;
+  f->rounds = r->rounds;
+  find_named(f, r);
+  if (timing->measured && timing->candidate >= 0 && f->n < NAMED_MAX) find_timing(f, r, timing);
+  sort_names(f, r);
+  find_least(f, r);
+}

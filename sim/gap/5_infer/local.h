@@ -1,0 +1,17 @@
+// local.h - names that stand for something at one place, time or state only.
+#ifndef SIM_GAP_5_INFER_LOCAL_H
+#define SIM_GAP_5_INFER_LOCAL_H
+
+#include "gap/5_infer/round.h"
+
+// Something at one place, time or state explains more than this name does: the name is an echo of it.
+// FAILED: no memory.
+MUST_CHECK done_t local_is_echo(const round_t *r, int candidate, bool *is, why_t *why);
+
+// The name is needed in one range of place, height or time only. FAILED: no memory.
+MUST_CHECK done_t local_is_confined(const round_t *r, int candidate, bool *is, why_t *why);
+
+// Tells for each candidate whether it would stand for this name, white or as a plain mean. FAILED: no memory.
+MUST_CHECK done_t local_alike(const round_t *r, int candidate, bool *alike, why_t *why);
+
+#endif

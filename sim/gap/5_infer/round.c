@@ -1,0 +1,71 @@
+// round.c - a round of the selection.
+#include "gap/5_infer/round.h"
+
+#include <math.h>
+
+void round_close(round_t *r) {
+  score_free(&r->score);
+  gram_free(&r->gram);
+  table_free(&r->table);
+}
+
+done_t round_open(round_t *r, why_t *why) {
+  int column[COLUMN_MAX], n = 0;
+  double b[COLUMN_MAX];
+  for (int i = 0; i < r->choice.n; i++) {
+    const fx_use_t *const use = chosen_use(&r->chosen, r->choice.of[i]);
+    for (int k = 0; k < r->c->candidate[r->choice.of[i]].n; k++) b[n++] = use ? fx_use_size(use, k) : 0.0;
+  }
+  const explained_t known = {choice_columns(r->c, &r->choice, column), column, b, false};
+  r->rounds++;
+  TRY(table_make(&r->table, r->s, r->base, r->c, &r->chosen, why));
+  done_t status = score_make(&r->score, r->c, &r->gram, r->nominal, why);
+  if (status == DONE)
+    status = gram_make(&r->gram, r->s, &r->table, &known, r->strict ? NULL : r->score.color_ridge, why);
+  if (status != DONE) round_close(r);
+  return status;
+}
+
+static double possible(const candidate_t *c, int k, double value) {
+  int n;
+  const fx_param_t *param = &fx_use_params(&c->use, &n)[c->use.fx->size[k].param];
+  return fmin(fmax(value, c->least[k]), param->max);
+}
+
+double round_take(round_t *r, double share) {
+  double b[COLUMN_MAX], most = 0.0;
+  int n = 0;
+  score_estimate(&r->score, &r->choice, b, NULL);
+  for (int i = r->chosen.n - 1; i >= 0; i--)
+    if (!choice_has(&r->choice, r->chosen.of[i])) chosen_drop(&r->chosen, r->chosen.of[i]);
+  for (int i = 0; i < r->choice.n; i++) {
+    const candidate_t *const c = &r->c->candidate[r->choice.of[i]];
+    fx_use_t *const use = chosen_take(&r->chosen, r->c, r->choice.of[i]);
+    for (int k = 0; k < c->n; k++) {
+      const double value = fx_use_size(use, k), way = possible(c, k, b[n++]) - value;
+      most = fmax(most, fabs(way) / candidate_typical(c, k));
+      fx_use_resize(use, k, value + share * way);
+    }
+  }
+  return most;
+}
+
+const fx_t *round_fx(const round_t *r, int candidate) {
+  return r->c->candidate[candidate].use.fx;
+}
+
+bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
+  const fx_t *fx = round_fx(r, candidate);
+  for (int i = 0; i < choice->n; i++) {
+    const fx_t *other = round_fx(r, choice->of[i]);
+    if (other == fx || (fx->class != FX_ALONE && other->class == fx->class)) return false;
+  }
+  return choice->n < NAMED_MAX;
+}
+
+// Another class: of lag and delay, or of mass and thrust scale, either is right.
+bool round_may_stand_for(const round_t *r, const choice_t *rest, int own, int other) {
+  const fx_t *const a = round_fx(r, own), *const b = round_fx(r, other);
+  return a != b && (a->class == FX_ALONE || a->class != b->class) && !r->never[other] &&
+         round_fits(r, rest, other);
+}
