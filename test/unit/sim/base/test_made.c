@@ -25,7 +25,8 @@ TEST(made_quotes_a_command_as_a_shell_reads_it) {
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].word);
-    char *argv[] = {"out/fly", (char *)row[i].word}, want[80];
+    char word[40], *argv[] = {"out/fly", word}, want[80];
+    snprintf(word, sizeof word, "%s", row[i].word);
     made_t made = made_by("fly", 2, argv);
     snprintf(want, sizeof want, "fly %s", row[i].quoted);
     CHECK_TEXT(made.command, want);

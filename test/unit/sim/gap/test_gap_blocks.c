@@ -104,8 +104,8 @@ TEST(gap_whitening_recovers_the_coefficients_of_known_noise) {
 
 TEST(gap_whitening_wants_rows_enough) {
   static const double v[ROWS] = {1.0, -1.0, 0.5, 0.3, -0.2};
-  static const bool follows[ROWS] = {false, true, true, true, true};
-  const rows_t few = {.n = 5, .follows = (bool *)follows};
+  static bool follows[ROWS] = {false, true, true, true, true};
+  const rows_t few = {.n = 5, .follows = follows};
   CHECK(!color_fit(&few, v).used);
 }
 
