@@ -101,7 +101,7 @@ begin = $(eval BEGUN += x)mkdir -p $(@D); if [ -t 2 ]; then printf '\r  $(said) 
   else $(if $(filter %00 %20 %40 %60 %80,$(words $(BEGUN))),echo '  $(said)' >&2,:); fi
 force_tables = force
 endif
-link  = mkdir -p $(@D); [ ! -t 2 ] || printf '\r%40s\r' '' >&2; $(1) $(SANITIZE) $(filter-out $(B)/flags,$^)
+link  = mkdir -p $(@D); [ ! -t 2 ] || printf '\r%40s\r' '' >&2; $(LINKER) $(SANITIZE) $(filter-out $(B)/flags,$^)
 
 # The include path is the architecture: what each folder sees, the folder's own line where it has one. Flight code and
 # nature do not see each other.
@@ -119,35 +119,35 @@ $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 # They fly many vehicles at once.
 $(B)/sim/flight/many.o $(B)/test/exam/main.o $(B)/test/faults/test_faults.o: MANY = $(OMP)
 
+define compile
+@$(begin)
+@$(if $(filter %.cpp,$<),$(CPP),$(C)) $(SEES) $(MANY) -c $< -o $@
+endef
 $(B)/%.o: %.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(SEES) $(MANY) -c $< -o $@
+	$(compile)
 $(B)/%.o: %.cpp $(B)/flags | setup
-	@$(begin)
-	@$(CPP) $(SEES) -c $< -o $@
+	$(compile)
 $(B)/gen/%.o: $(O)/gen/%.c $(B)/flags | setup
-	@$(begin)
-	@$(C) $(SEES) -c $< -o $@
-$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o $(SIM_OBJ)
-	@$(call link,$(CC)) $(LIBS) -o $@
+	$(compile)
 
 $(O)/gen/%_table.c: $(force_tables) | setup
 	@tools/table.sh $* $@
 $(O)/gen/version.c: $(force_tables)
 	@tools/version.sh $@
 
-$(B)/bin/%: $(B)/tools/%.o $(SIM_OBJ)
-	@$(call link,$(CC)) $(LIBS) -o $@
-$(B)/bin/bench: $(B)/tools/bench_gap.o
+# A program: what is its own, and the simulator.
 TESTS_OBJ = $(call objects,$(TEST_SRC)) $(B)/gen/test_table.o $(SIM_OBJ)
+FUZZ_OBJ  = $(call objects,test/fuzz/fuzz.c test/rig/flight_csv.c test/rig/usd_bytes.c test/rig/scratch.c)
+$(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/tools/%.o
+$(B)/bin/bench: $(B)/tools/bench_gap.o
 $(B)/bin/tests: $(TESTS_OBJ)
-	@$(call link,$(CC)) $(LIBS) -o $@
-
-$(B)/bin/exam: $(call objects,$(EXAM_SRC)) $(SIM_OBJ)
-	@$(call link,$(CC)) $(LIBS) -o $@
-
-$(B)/bin/fuzz_%: $(B)/test/fuzz/fuzz_%.o $(call objects,test/fuzz/fuzz.c test/rig/flight_csv.c test/rig/usd_bytes.c test/rig/scratch.c) $(SIM_OBJ)
-	@$(call link,$(CXX)) -fsanitize=fuzzer $(LIBS) -o $@
+$(B)/bin/exam: $(call objects,$(EXAM_SRC))
+$(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o
+$(B)/bin/fuzz_csv $(B)/bin/fuzz_usd: $(B)/bin/%: $(B)/test/fuzz/%.o $(FUZZ_OBJ)
+$(B)/bin/fuzz_csv $(B)/bin/fuzz_usd: LINKER = $(CXX) -fsanitize=fuzzer
+LINKER = $(CC)
+$(B)/bin/%: $(SIM_OBJ)
+	@$(link) $(LIBS) -o $@
 
 $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
 	@ln -sfr $< $@
@@ -155,6 +155,12 @@ $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 
 # --- what people do -----------------------------------------------------------------------------------
+
+PYTHON = PYTHONDONTWRITEBYTECODE=1 python3
+TESTS  = DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+# What is built in another way, in a folder of its own: followed by the flags.
+built  = $(MAKE) B=$(B) $(TESTED:%=$(B)/bin/%)
+sanitize clang coverage: B = $(O)/$@
 
 demo: setup $(O)/fly $(O)/learn $(O)/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights); a minute
 	@tools/demo.sh "$(DATA)"
@@ -177,7 +183,7 @@ slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight
 	@$(O)/slot "$(DATA)"
 
 test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too); minutes
-	@DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+	@$(TESTS)
 
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
@@ -189,22 +195,22 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 	@$(O)/exam $(or $(SEED),80001) 200
 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
-	@DATA="$(DATA)" PROGRAMS=$(B)/bin TEST_LONG=1 $(B)/bin/tests "$(W)"
+	@TEST_LONG=1 $(TESTS)
 	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
 	+@tools/seeded.sh
 	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
 	@tools/add_effect.sh | grep -q '^cable: '
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers; 10 min
-	@$(MAKE) B=$(O)/sanitize OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all' $(TESTED:%=$(O)/sanitize/bin/%)
-	@DATA="$(DATA)" PROGRAMS=$(O)/sanitize/bin $(O)/sanitize/bin/tests "$(W)"
+	+@$(built) OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all'
+	@$(TESTS)
 
 debug:  ## the programs and the tests, not optimised, for a debugger: out/debug/bin; a minute
 	@$(MAKE) B=$(O)/debug OPT='-O0 -g3' $(patsubst %,$(O)/debug/bin/%,tests $(PROGRAMS))
 
 clang: setup-lint  ## everything again, and the tests, with clang; minutes
-	@$(MAKE) B=$(O)/clang CC=clang CXX=clang++ $(TESTED:%=$(O)/clang/bin/%)
-	@DATA="$(DATA)" PROGRAMS=$(O)/clang/bin $(O)/clang/bin/tests "$(W)"
+	+@$(built) CC=clang CXX=clang++
+	@$(TESTS)
 
 FUZZ_S = 60
 fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each; minutes
@@ -220,7 +226,7 @@ lint: setup-lint  ## format, static analysis, headers alone, house rules; minute
 
 arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; seconds
 	@mkdir -p $(O)
-	@python3 tools/arrows.py --svg $(O)/arrows.svg
+	@$(PYTHON) tools/arrows.py --svg $(O)/arrows.svg
 
 # What make itself would type, for an editor's language server (.clangd) and for clang-tidy (.clang-tidy).
 compile_commands: setup  ## out/compile_commands.json, for an editor or clang-tidy; seconds
@@ -244,18 +250,18 @@ seeded:  ## steps into every trap of test/seeded and expects the tests to say so
 
 # The flight code as written, without the optimiser's own branches; the rest need not be slow.
 coverage:  ## which lines and branches the tests run, by folder; of src and src/firmware every branch (DATA=DIR)
-	@$(MAKE) B=$(O)/coverage OPT=-O1 SANITIZE=--coverage WARN= FLIGHT_FLAGS='$(FLIGHT_FLAGS) -O0' $(TESTED:%=$(O)/coverage/bin/%)
-	@find $(O)/coverage -name '*.gcda' -delete
-	@DATA="$(DATA)" PROGRAMS=$(O)/coverage/bin OMP_NUM_THREADS=1 $(O)/coverage/bin/tests
-	@PYTHONDONTWRITEBYTECODE=1 python3 test/coverage/coverage.py $(O)/coverage
+	+@$(built) OPT=-O1 SANITIZE=--coverage WARN= FLIGHT_FLAGS='$(FLIGHT_FLAGS) -O0'
+	@find $(B) -name '*.gcda' -delete
+	@OMP_NUM_THREADS=1 $(TESTS)
+	@$(PYTHON) test/coverage/coverage.py $(B)
 
 # N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
 N = 300
 mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file); an hour
-	@PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/test_mutate.py
+	@$(PYTHON) test/mutants/test_mutate.py
 	@FLIGHT='$(C) $(SEES_OF_SRC)' APP='$(C) $(SEES_OF_APP)' \
 	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
-	 PYTHONDONTWRITEBYTECODE=1 python3 test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
+	 $(PYTHON) test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs); minutes
 	+@tools/pil.sh

@@ -56,9 +56,8 @@ progress() {
 echo "to be installed:$missing"
 $as_root apt-get update >"$log" 2>&1 || failed
 $as_root apt-get install --assume-no --no-install-recommends $missing 2>/dev/null |
-  awk '/ newly installed/ { n = $3 } / of archives/ { sub(/Need to get /, ""); sub(/ of archives.*/, ""); get = $0 }
-    / will be used/ { sub(/After this operation, /, ""); sub(/ of additional.*/, ""); use = $0 }
-    END { if (n) printf "with what they need %d packages: %s to fetch, %s on disk; some minutes\n", n, get, use }'
+  sed -nE 's/.* ([0-9]+) newly installed.*/with what they need \1 packages:/p; s/^Need to get (.*) of archives.*/\1 to fetch,/p
+    s/^After this operation, (.*) of additional.*/\1 on disk; some minutes/p' | xargs -r
 # apt closes the descriptor of its progress to the packages' own scripts, so that it must not be one that they print to;
 # and sudo closes all but the first three, so that it is opened behind it.
 {
