@@ -77,7 +77,7 @@ setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's pr
 .PHONY: setup-cf test-cf
 setup-cf:  ## cflib for tools/cf.py and cfloader for cload, into out/cf; a minute
 	@tools/setup.sh $(CF_PACKAGES)
-	@tools/cf_venv.sh
+	@tools/cf/venv.sh
 
 # --- objects and programs -----------------------------------------------------------------------------
 
@@ -189,7 +189,7 @@ faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how of
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
 test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it); a minute
-	@tools/test_cf.sh "$(CF_PACKAGES)" "$(W)"
+	@test/cf/run.sh "$(CF_PACKAGES)" "$(W)"
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
 	@$(O)/exam $(or $(SEED),80001) 200
@@ -197,7 +197,7 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@TEST_LONG=1 $(TESTS)
 	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
-	+@tools/seeded.sh
+	+@test/seeded/seeded.sh
 	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
 	@tools/add_effect.sh | grep -q '^cable: '
 
@@ -222,11 +222,11 @@ bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosi
 	@$(O)/bench
 
 lint: setup-lint  ## format, static analysis, headers alone, house rules; minutes
-	+@tools/lint.sh
+	+@tools/lint/lint.sh
 
 arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; seconds
 	@mkdir -p $(O)
-	@$(PYTHON) tools/arrows.py --svg $(O)/arrows.svg
+	@$(PYTHON) tools/lint/arrows.py --svg >$(O)/arrows.svg
 
 # What make itself would type, for an editor's language server (.clangd) and for clang-tidy (.clang-tidy).
 compile_commands: setup  ## out/compile_commands.json, for an editor or clang-tidy; seconds
@@ -246,7 +246,7 @@ pictures: demo  ## draw the READMEs' pictures into .doc; a minute
 tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
 seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word); half an hour
-	+@tools/seeded.sh "$(W)"
+	+@test/seeded/seeded.sh "$(W)"
 
 # The flight code as written, without the optimiser's own branches; the rest need not be slow.
 coverage:  ## which lines and branches the tests run, by folder; of src and src/firmware every branch (DATA=DIR)
@@ -264,7 +264,7 @@ mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test
 	 $(PYTHON) test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs); minutes
-	+@tools/pil.sh
+	+@test/pil/pil.sh
 
 add-effect: $(O)/fly $(O)/gap  ## try the page on adding an effect (sim/effects), in a copy of the tree; a minute
 	+@tools/add_effect.sh

@@ -8,5 +8,5 @@ if [ -f "$o/firmware/size" ]; then
 else
   echo "the image's size stays as it is: make firmware was not run" >&2
 fi
-tools/pil.sh >"$o/pil.txt"
+test/pil/pil.sh >"$o/pil.txt"
 if grep -q '^skipped' "$o/pil.txt"; then cat "$o/pil.txt" >&2; else text <"$o/pil.txt" | part pil; fi

@@ -9,4 +9,4 @@ for controller in indi indi-theory; do
 done
 gnuplot -e "to='.doc/flight.svg'; from='$dir'" tools/doc/picture_flight.gp
 gnuplot -e "to='.doc/diagnosis.svg'; from='$o/demo/gap/ceiling.csv'" tools/doc/picture_diagnosis.gp
-PYTHONDONTWRITEBYTECODE=1 python3 tools/arrows.py --svg .doc/rooms.svg
+PYTHONDONTWRITEBYTECODE=1 python3 tools/lint/arrows.py --svg >.doc/rooms.svg

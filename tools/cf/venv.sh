@@ -1,6 +1,6 @@
 #!/bin/sh
-# cf_venv.sh - makes out/cf (in $O), a Python environment with the stock cflib and cfloader. Fails where it cannot be had.
-cd "$(dirname "$0")/.." || exit 1
+# venv.sh - makes out/cf (in $O), a Python environment with the stock cflib and cfloader. Fails where it cannot be had.
+cd "$(dirname "$0")/../.." || exit 1
 o=${O:-out}
 # cfloader lies in the client's package, and needs none of the windows that the rest of it needs.
 wanted() { cat tools/cf/requirements.txt tools/cf/loader.txt; }

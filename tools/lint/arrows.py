@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""arrows.py [--svg FILE] - who includes whom, folder by folder, read from the #include lines.
+"""arrows.py [--svg] - who includes whom, folder by folder, read from the #include lines.
 
 Fails with one line for each include that points up the stack or to its own floor, for each that is found nowhere or twice,
-and for each circle among the modules of a folder (a .c and its .h are one). --svg draws the stack.
+and for each circle among the modules of a folder (a .c and its .h are one). --svg prints a picture
+of the stack.
 """
 
 import re
@@ -84,7 +85,7 @@ def arrows() -> list[Arrow]:
 def wrong_with(arrow: Arrow) -> str | None:
     room = arrow.room
     if room not in FLOOR:
-        return f"{room} has no floor in tools/arrows.py"
+        return f"{room} has no floor in tools/lint/arrows.py"
     if not arrow.targets:
         return None if "/" not in arrow.header and room in FIRMWARE else "no such header; a header is named with its folder"
     if len(arrow.targets) > 1:
@@ -170,10 +171,10 @@ def main(words: list[str]) -> int:
     print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
     if wrong:
         return 1
-    if words[:1] == ["--svg"] and len(words) == 2:
-        Path(words[1]).write_text(svg(found), encoding="utf-8")
+    if words == ["--svg"]:
+        print(svg(found), end="")
     elif words:
-        raise SystemExit("arrows.py: allowed: nothing, or --svg FILE")
+        raise SystemExit("arrows.py: allowed: nothing, or --svg")
     return 0
 
 

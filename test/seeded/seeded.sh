@@ -2,7 +2,7 @@
 # seeded.sh [WORD] - steps into every trap of test/seeded, in a copy of the tree, and expects the tests to say so.
 #
 # A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., `objects`:
-# tools/pil.sh, or `arrows`: tools/arrows.py). One line for each; fails if one is not caught, or no longer changes its file.
+# test/pil/pil.sh, or `arrows`: tools/lint/arrows.py). One line for each; fails if one is not caught, or no longer changes its file.
 set -eu
 o=${O:-out}
 tree=$o/seeded
@@ -18,8 +18,8 @@ make tests-built >"$log" 2>&1 || { tail -5 "$log" >&2; echo "seeded: the copy do
 field() { sed -n "s/^# $2: //p" "$1"; }
 says() {
   case $1 in
-  objects) tools/pil.sh objects ;;
-  arrows) python3 tools/arrows.py ;;
+  objects) test/pil/pil.sh objects ;;
+  arrows) python3 tools/lint/arrows.py ;;
   *) make test W="$1" ;;
   esac
 }

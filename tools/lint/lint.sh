@@ -41,14 +41,14 @@ for call in $calls; do
   nm "$b"/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
 done
 
-PYTHONDONTWRITEBYTECODE=1 python3 tools/arrows.py || fail "an include that points up the stack, or in a circle"
+PYTHONDONTWRITEBYTECODE=1 python3 tools/lint/arrows.py || fail "an include that points up the stack, or in a circle"
 
 for file in $sources; do
   lines=$(wc -l <"$file")
   [ "$lines" -le 400 ] || fail "$file has $lines lines: it holds two things"
 done
-tools/long_functions.awk $sources || fail "functions over 40 lines"
-PYTHONDONTWRITEBYTECODE=1 python3 tools/lint_python.py $(find tools test -name '*.py') || fail "Python"
+tools/lint/long_functions.awk $sources || fail "functions over 40 lines"
+PYTHONDONTWRITEBYTECODE=1 python3 tools/lint/lint_python.py $(find tools test -name '*.py') || fail "Python"
 # The reading rules name the tests that pin them; and the table of tests takes lower-case names only.
 for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' src/README.md); do
   grep -q "^TEST($test)" $tests || fail "src/README.md names the test $test, which does not exist"

@@ -1,10 +1,10 @@
 #!/bin/sh
-# test_cf.sh PACKAGES WORD - the tests of tools/cf.py whose name has WORD ("": all), over a fake link with the stock
+# run.sh PACKAGES WORD - the tests of tools/cf.py whose name has WORD ("": all), over a fake link with the stock
 # cflib. Where it cannot be had, those that need none.
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 export PYTHONDONTWRITEBYTECODE=1
 which='test_*.py'
-if tools/setup.sh $1 && tools/cf_venv.sh; then
+if tools/setup.sh $1 && tools/cf/venv.sh; then
   python=${O:-out}/cf/bin/python
   [ -d "${FIRMWARE_TREE:-.}/src/firmware" ] || echo "skipped: no src/firmware, so nothing is declared"
 else
