@@ -10,9 +10,9 @@ B   = $(O)/release
 OPT = -O3
 
 # What demo and test need, so that there is one list to install, once.
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox python3
 # What some goals need besides.
-LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck python3
+LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 LINT_GOALS    = lint arrows pictures format clang fuzz check mutants coverage setup-lint
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 CF_PACKAGES   = python3-venv
@@ -157,27 +157,26 @@ $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
 # --- what people do -----------------------------------------------------------------------------------
 
 PYTHON = PYTHONDONTWRITEBYTECODE=1 python3
+DOC    = DATA="$(DATA)" $(PYTHON) tools/doc/doc.py
 TESTS  = DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
 # What is built in another way, in a folder of its own: followed by the flags.
 built  = $(MAKE) B=$(B) $(TESTED:%=$(B)/bin/%)
 sanitize clang coverage: B = $(O)/$@
 
 demo: setup $(O)/fly $(O)/learn $(O)/gap  ## fly, learn, compare, find what is hidden, draw (DATA=DIR adds real flights); a minute
-	@tools/demo.sh "$(DATA)"
-	@echo
-	@tools/gap_demo.sh "$(DATA)"
+	@$(DOC) show demo gap
 
 flights: setup $(O)/fly  ## the thesis's flights: seven controllers, ten seeds, tables and pictures; a minute
-	@tools/flights.sh
+	@$(DOC) show flights
 
 touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each; minutes
-	@tools/touches.sh
+	@$(DOC) show touches
 
 example-seeds: $(O)/fly $(O)/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden; minutes
-	@tools/gap_seeds.sh
+	@$(DOC) show seeds
 
 recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR); minutes
-	@tools/recorded.sh "$(DATA)"
+	@$(DOC) show recorded
 
 slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights); a minute
 	@$(O)/slot "$(DATA)"
@@ -199,7 +198,7 @@ check: test test-cf sanitize clang  ## the long tests, also with sanitizers and 
 	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
 	+@test/seeded/seeded.sh
 	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
-	@tools/add_effect.sh | grep -q '^cable: '
+	+@$(MAKE) add-effect | grep -q '^cable: '
 
 sanitize:  ## the tests with address and undefined-behaviour sanitizers; 10 min
 	+@$(built) OPT='-O1 -g' SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all'
@@ -237,11 +236,11 @@ compile_commands: setup  ## out/compile_commands.json, for an editor or clang-ti
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
-docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md; an hour
-	+@tools/docs.sh "$(DATA)"
+docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md (W=word: those whose name has it); an hour
+	+@$(DOC) write $(W)
 
 pictures: demo  ## draw the READMEs' pictures into .doc; a minute
-	@tools/doc/pictures.sh
+	@$(DOC) write picture
 
 tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
 
@@ -267,10 +266,10 @@ pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (set
 	+@test/pil/pil.sh
 
 add-effect: $(O)/fly $(O)/gap  ## try the page on adding an effect (sim/effects), in a copy of the tree; a minute
-	+@tools/add_effect.sh
+	+@$(DOC) show cable
 
 report:  ## the image's size (after make firmware) and the target's figures into the READMEs; minutes
-	+@tools/report.sh
+	+@$(DOC) write image pil
 
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source); minutes
 	+@tools/firmware.sh build "$(CRAZYFLIE_BASE)" legacy

@@ -54,5 +54,8 @@ for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' src/README.md); do
   grep -q "^TEST($test)" $tests || fail "src/README.md names the test $test, which does not exist"
 done
 grep -nE '^TEST\(' $tests | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
+export PYTHONDONTWRITEBYTECODE=1
+said=$(python3 -m unittest discover -q -s test/doc 2>&1) || fail "the tests of tools/doc: $said"
+python3 tools/doc/doc.py check || fail "documents and recipes"
 [ $bad = 0 ] && echo "lint: clean"
 exit $bad

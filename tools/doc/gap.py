@@ -1,0 +1,144 @@
+"""gap.py - the workflow on examples: a hidden ceiling, other seeds, an effect that is added, recorded flights."""
+
+import os
+import re
+import subprocess
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import run
+
+HIDDEN = "--controller indi-theory --effect none --effect rotor_drag:k=1.7e-6"
+
+
+def example() -> None:
+    """Flies with a hidden effect, lets the workflow find it, flies the model that it wrote; then real flights."""
+    out = run.folder("demo/gap")
+    run.vehicle_under_ceiling(out / "vehicle.toml")
+    # What flies has a ceiling effect of another form than the ones that are tried.
+    run.typed(f"""for seed in 1 2 3 4; do
+    {run.OUT}/fly test-flight {HIDDEN} --effect ceiling:form=square-root \\
+      --seed $seed --log {out}/flight$seed.csv --log-rate 500 >/dev/null
+  done""")
+    run.typed(f"{run.OUT}/gap --vehicle {out}/vehicle.toml {run.FLY_COLUMNS} --out {out}/report {out}/flight?.csv")
+    rows = (out / "report/curves.csv").read_text().splitlines(keepends=True)
+    (out / "ceiling.csv").write_text("".join([rows[0], *(row for row in rows if row.startswith("ceiling,"))]))
+    print(f"\n{run.letters(run.gnuplot('ceiling_curve', out))}\n")
+    run.typed(f"{run.OUT}/fly test-flight {HIDDEN} \\\n    --vehicle {out}/report/model.toml | tail -n 1")
+    if run.DATA and Path(run.DATA, "ground_effect").is_dir():
+        print("\nReal flights over the ground:")
+        vehicle = "--vehicle sim/vehicle/vehicles/cf21_neural_swarm.toml --columns tools/columns/neural_swarm.toml"
+        held, logs = '"$DATA/ground_effect/21_randomwalk_s_cf50_02.csv"', '"$DATA"/ground_effect/21_randomwalk_s_cf50_*.csv'
+        run.typed(f"{run.OUT}/gap {vehicle} --out {out}/ground \\\n    --hold-out {held} {logs}")
+
+
+def answer(said: str) -> str:
+    """The workflow's answer in a few words."""
+    if missing := re.search(r"^Missing.*: (.*)\.$", said, re.M):
+        return missing[1].replace(", and something that has no name", " + unknown")
+    return "no name, something unknown" if re.search(r"^Something", said, re.M) else "nothing"
+
+
+def other_seeds(sets: int = 8) -> None:
+    """The example on other seeds: what is said where a ceiling alone is hidden, and where nothing is."""
+    out = run.folder("seeds")
+    run.vehicle_under_ceiling(out / "vehicle.toml")
+    logs = [out / f"flight{k}.csv" for k in (1, 2, 3, 4)]
+    answers: Counter[tuple[str, str]] = Counter()
+    for hidden in ("nothing", "exponential", "square-root"):
+        effect = [] if hidden == "nothing" else ["--effect", f"ceiling:form={hidden}"]
+        for n in range(1, sets + 1):
+            run.progress(f"{hidden}, set {n} of {sets}")
+            for k, log in enumerate(logs, 1):
+                seed = ["--seed", 1000 * n + k]
+                run.program("fly", "test-flight", *HIDDEN.split(), *effect, *seed, "--log", log, "--log-rate", 500)
+            for cut in ("whole", "airborne"):
+                for log in logs if cut == "airborne" else []:
+                    head, *rows = log.read_text().splitlines(keepends=True)
+                    log.write_text("".join([head, *(row for row in rows if float(row.split(",", 1)[0]) > 7000)]))
+                said = run.program("gap", "--vehicle", out / "vehicle.toml", *run.FLY_COLUMNS.split(), *logs)
+                answers[f"{hidden}, {cut}", answer(said)] += 1
+    run.progress()
+    for (flown, names), n in sorted(answers.items()):
+        print(f"{flown:24} {names:44} {n} of {sets}")
+
+
+def added_effect() -> None:
+    """Tries what the page says of adding an effect: its file goes into a copy of the tree, is hidden, and is looked for."""
+    page = Path("sim/effects/README.md").read_text()
+    text, name = re.findall(r"^```c\n(// fx_([a-z_]+)\.c - .*?)^```$", page, re.M | re.S)[0]
+    copy = run.folder("add-effect")
+    for part in ("Makefile", "src", "include", "sim", "tools"):
+        run.program("cp", "-a", part, copy)
+    (copy / "out").mkdir()
+    run.program("cp", "-a", run.OUT / "release", run.OUT / "gen", copy / "out")
+    (copy / f"sim/effects/fx_{name}.c").write_text(text)
+    env = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "O")}
+    run.program("make", "O=out", "out/fly", "out/gap", cwd=copy, env=env)
+    run.vehicle_under_ceiling(copy / "out/vehicle.toml")
+    logs = [f"out/flight{seed}.csv" for seed in (1, 2, 3, 4)]
+    for seed, log in enumerate(logs, 1):
+        run.progress(f"flying {seed} of 4")
+        run.program("out/fly", "test-flight", *HIDDEN.split(), "--effect", f"{name}:k=0.03", "--seed", seed, "--log", log,
+                    "--log-rate", 500, cwd=copy)  # fmt: skip
+    run.progress()
+    said = run.program("out/gap", "--vehicle", "out/vehicle.toml", *run.FLY_COLUMNS.split(), *logs, cwd=copy)
+    # What is named, and what the held-out flight flown again gained.
+    print("\n".join(re.findall(rf"^(?:(?:Missing|None|flown again).*|{name}:.*\n.*)", said, re.M)))
+
+
+GROUND = [f"ground_effect/21_randomwalk_s_cf50_{n}.csv" for n in ("00", "02", "04")]
+JANA = [f"imu_rpm_500hz/jana{n}.csv" for n in ("00", "03", "05", "10")]
+RECORDED = [  # vehicle, columns, logs
+    ("cf21_neural_swarm", "neural_swarm", GROUND),
+    ("cf21_imrc_without_lag", "imrc", JANA),
+    ("cf21_imrc", "imrc", JANA),
+    ("cf21_brushless_37g", "imrc", [f"brushless/flight{n}.csv" for n in ("00", "12", "22")]),
+    ("cf21_nanobench", "nanobench", ["nanobench/B2_circle_slow_rep1.csv", "nanobench/B5_helix_fast_rep1.csv"]),
+    ("quad15", "quad15", ["quad15/hovering.csv"]),
+    ("cf_inner_loop_id", "inner_loop_id", ["inner_loop_id/data_1901.csv"]),
+    ("cf21_static_imu", "static_imu", ["static_imu/estAcceleration.csv"]),
+    ("cf21_air_garage", "air_garage", ["ceiling_gap/20240822_21_32_29.csv", "ceiling_gap/20240822_21_35_34.csv"]),
+]
+# The brushless vehicle that flew, 37 g; and one that has neither lag nor drag: whose file, what is changed in it, into what.
+CHANGED = {
+    "cf21_brushless_37g": ("cf21_brushless", r"^(mass_kg *= *)[0-9.]*", "0.037"),
+    "cf21_imrc_without_lag": ("cf21_imrc", r"^(motor_tau_s *= *)[0-9.]*", "0.001"),
+}
+# Of the verdict's notes.
+NOTES = re.compile(r'"([a-z_]+ (?:is withdrawn|or [a-z_]+ is missing)[^"]*|[a-z_]+: [0-9.e-]+ [a-z0-9/]+ is left[^"]*)"')
+
+
+def in_short(said: str) -> Iterator[str]:
+    lines = iter(said.splitlines())
+    for line in lines:
+        if re.match("gap:|Nothing|These|Something|unknown:", line):
+            yield line
+        elif named := re.match("(?!note)([a-z_]+): ", line):
+            yield f"{named[1]} {next(lines)}"
+        elif line.startswith("  force_z "):
+            yield "force_z m/s2, held out: {2} -> {3}".format(*line.split())
+        elif line.startswith("  would do as well"):
+            yield line.partition("; to tell")[0]
+        elif "nearer than" in line:
+            yield "held out, " + line.rpartition("held out, ")[2]
+
+
+def recorded() -> None:
+    """The workflow on flights that others recorded, in short: what is named, with which numbers."""
+    if not run.DATA:
+        print("skipped: no measured data")
+        return
+    out = run.folder("recorded")
+    for changed, (vehicle, what, value) in CHANGED.items():
+        text = Path(f"sim/vehicle/vehicles/{vehicle}.toml").read_text()
+        (out / f"{changed}.toml").write_text(re.sub(what, rf"\g<1>{value}", text, flags=re.M))
+    for vehicle, columns, logs in RECORDED:
+        print(f"{vehicle}.toml, {' '.join(logs)}")
+        file = out / f"{vehicle}.toml" if vehicle in CHANGED else f"sim/vehicle/vehicles/{vehicle}.toml"
+        line = ["gap", "--vehicle", file, "--columns", f"tools/columns/{columns}.toml", "--json", out / "verdict.json"]
+        said = run.program(*line, *(f"{run.DATA}/{log}" for log in logs), may_end_with=(0, 2), stderr=subprocess.STDOUT)
+        for text in in_short(said.replace(f"{run.DATA}/", "")):
+            print(" ", " ".join(text.split()))
+        print(*(f"  {note}\n" for note in NOTES.findall((out / "verdict.json").read_text())), sep="")

@@ -1,0 +1,106 @@
+"""recipes.py - what stands generated in the tree's documents, and how it is made.
+
+To add a block: a row here, and `<!-- NAME -->` and `<!-- end -->` in a README.md, each on a line of its own. A picture's
+row names the .svg that it draws. What a recipe prints is the block, or the picture.
+"""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import demo
+import flights
+import gap
+import run
+from run import OUT, program, typed
+
+
+class Recipe(NamedTuple):
+    make: Callable[[], None]
+    picture: str = ""  # the .svg that takes what is printed; else it is the block of that name
+    markdown: bool = False  # it is not shown as typed
+    data: bool = False  # it needs recorded flights
+    leaves_out: str = ""  # what differs from run to run, or from machine to machine
+
+
+def says(*words: object, **options) -> Callable[[], None]:
+    return lambda: print(program(*words, **options), end="")
+
+
+def closest() -> None:
+    for kp, kd in ((1, 5), (2, 8)):
+        nearest = """awk '$1 == "gap" && $NF == 0 { mm = $2 } END { print mm " mm" }'"""
+        typed(f"{OUT}/fly closest-hover --set indiPos.kp={kp} --set indiPos.kd={kd} | {nearest}")
+
+
+def height() -> None:
+    for scenario, table in (("bias-hover", "bias"), ("hand-held", "ceiling_height")):
+        typed(f"{OUT}/fly {scenario} | sed -n '/^{table}/,/^contacts/{{/^contacts/!p}}'")
+
+
+def identify() -> None:
+    typed(f"{OUT}/fly inner-loop --log {OUT}/shaken.csv --log-rate 500 >{OUT}/shaken.txt")
+    for options in ("--lag 0.08 --delay 0.006", "--lag 0.08"):
+        typed(f"{OUT}/effectiveness {OUT}/shaken.csv {options}")
+        print()
+    typed(f'{OUT}/effectiveness "$DATA/inner_loop_id/data_1901.csv" --as-stock')
+
+
+def image() -> None:
+    size = OUT / "firmware/size"
+    if not size.is_file():
+        raise run.Left("make firmware was not run")
+    print(size.read_text(), end="")
+
+
+def target() -> None:
+    said = program("test/pil/pil.sh")
+    if said.startswith("skipped"):
+        raise run.Left(said.strip())
+    print(said, end="")
+
+
+def faults() -> None:
+    """Those that are not promised."""
+    said = program("env", "FAULTS_TABLE=1", "TEST_LONG=1", OUT / "release/bin/tests", "faults_of_the_list")
+    print(*(line for line in said.splitlines() if not re.search(" 100\\.0 |passed", line)), sep="\n")
+
+
+def picture_of_flight() -> None:
+    out = run.folder("pictures")
+    for who in ("indi", "indi-theory"):
+        program("fly", "close-flight", "--controller", who, *"--integrator rk4 --seed 1 --log".split(), out / f"{who}.csv")
+    print(run.gnuplot("picture_flight", out), end="")
+
+
+def picture_of_diagnosis() -> None:
+    if not (OUT / "demo/gap/ceiling.csv").is_file():
+        raise run.Left("make demo was not run")
+    print(run.gnuplot("picture_diagnosis", OUT / "demo/gap"), end="")
+
+
+RECIPES = {
+    "params": Recipe(says("fly", "--params=markdown"), markdown=True),
+    "logs": Recipe(says("fly", "--logs"), markdown=True),
+    "image": Recipe(image),
+    "pil": Recipe(target),
+    "cf": Recipe(lambda: typed("tools/cf.py test-flight --dry-run")),
+    "demo": Recipe(demo.demo, data=True, leaves_out=rf"{re.escape(run.DATA)}/\S*/|{run.NO_PICTURES}"),
+    "gap": Recipe(gap.example, data=True, leaves_out=r", \d+ x real time"),
+    "recorded": Recipe(gap.recorded, data=True),
+    "seeds": Recipe(gap.other_seeds),
+    "cable": Recipe(gap.added_effect),
+    "bench": Recipe(says("bench")),
+    "closest": Recipe(closest),
+    "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
+    "identify": Recipe(identify, data=True),
+    "touches": Recipe(flights.touches),
+    "exam": Recipe(says("exam", 80001, 200)),
+    "slot": Recipe(says("slot", run.DATA), data=True),
+    "c3": Recipe(height),
+    "faults": Recipe(faults),
+    "picture-flight": Recipe(picture_of_flight, picture=".doc/flight.svg"),
+    "picture-diagnosis": Recipe(picture_of_diagnosis, picture=".doc/diagnosis.svg"),
+    "picture-rooms": Recipe(says("python3", "tools/lint/arrows.py", "--svg"), picture=".doc/rooms.svg"),
+}
