@@ -7,7 +7,6 @@ fail() {
   bad=1
 }
 sources=$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
-tests=$(find test -name 'test_*.c')
 
 clang-format --dry-run -Werror $sources || fail "clang-format: make format mends it"
 
@@ -41,20 +40,9 @@ for call in $calls; do
   nm "$b"/src/*.o | grep -qE " [TRD] $call\$" || fail "flight code calls $call"
 done
 
-PYTHONDONTWRITEBYTECODE=1 python3 tools/lint/arrows.py || fail "an include that points up the stack, or in a circle"
-
-for file in $sources; do
-  lines=$(wc -l <"$file")
-  [ "$lines" -le 400 ] || fail "$file has $lines lines: it holds two things"
-done
-tools/lint/long_functions.awk $sources || fail "functions over 40 lines"
-PYTHONDONTWRITEBYTECODE=1 python3 tools/lint/lint_python.py $(find tools test -name '*.py') || fail "Python"
-# The reading rules name the tests that pin them; and the table of tests takes lower-case names only.
-for test in $(sed -nE 's/^\|.*\| `([a-z0-9_]+)` \|$/\1/p' src/README.md); do
-  grep -q "^TEST($test)" $tests || fail "src/README.md names the test $test, which does not exist"
-done
-grep -nE '^TEST\(' $tests | grep -vE 'TEST\([a-z0-9_]+\)' && fail "test names are lower_snake"
 export PYTHONDONTWRITEBYTECODE=1
+python3 tools/lint/arrows.py || fail "an include that points up the stack, or in a circle"
+python3 tools/lint/rules.py || fail "the rules of the house"
 said=$(python3 -m unittest discover -q -s test/doc 2>&1) || fail "the tests of tools/doc: $said"
 python3 tools/doc/doc.py check || fail "documents and recipes"
 [ $bad = 0 ] && echo "lint: clean"
