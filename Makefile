@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil mutants coverage
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -74,7 +74,6 @@ setup:  ## install the Debian packages that demo and test need; minutes
 setup-lint: setup
 setup-pil:  ## install the cross compiler and the emulator of the Crazyflie's processor; minutes
 	@tools/setup.sh $(PIL_PACKAGES)
-.PHONY: setup-cf test-cf
 setup-cf:  ## cflib for tools/cf.py and cfloader for cload, into out/cf; a minute
 	@tools/setup.sh $(CF_PACKAGES)
 	@tools/cf/venv.sh
@@ -268,7 +267,7 @@ pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (set
 add-effect: $(O)/fly $(O)/gap  ## try the page on adding an effect (sim/effects), in a copy of the tree; a minute
 	+@$(DOC) show cable
 
-report:  ## the image's size (after make firmware) and the target's figures into the READMEs; minutes
+report: setup  ## the image's size (after make firmware) and the target's figures into the READMEs; minutes
 	+@$(DOC) write image pil
 
 firmware:  ## the Crazyflie's image, for legacy and for 2.1+ propellers (CRAZYFLIE_BASE=DIR: the firmware's source); minutes

@@ -37,7 +37,9 @@ def answer(said: str) -> str:
     """The workflow's answer in a few words."""
     if missing := re.search(r"^Missing.*: (.*)\.$", said, re.M):
         return missing[1].replace(", and something that has no name", " + unknown")
-    return "no name, something unknown" if re.search(r"^Something", said, re.M) else "nothing"
+    if re.search("^Something", said, re.M):
+        return "no name, something unknown"
+    return "nothing" if re.search("^Nothing", said, re.M) else "not told"
 
 
 def other_seeds(sets: int = 8) -> None:
