@@ -4,7 +4,6 @@
 #ifndef TEST_RIG_TEST_H
 #define TEST_RIG_TEST_H
 
-#include <stdbool.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
