@@ -59,7 +59,7 @@ help:  ## what can be made
 	@echo '  make out/fly          flies scenarios (out/fly --help)'
 	@echo '  make out/learn        learns from recorded flights (out/learn --help)'
 	@echo '  make out/gap          says what a vehicle file lacks (out/gap --help)'
-	@grep -hE '^[a-z/_-]+:.*##' Makefile | sed -E 's/^([a-z/_-]+):[^#]*## /  make \1\t/' | expand -t 22
+	@grep -hE '^[a-z/_-]+:.*##' Makefile | sed -E 's/^([a-z/_-]+):[^#]*## /  make \1\t/' | expand -t 24
 	@echo
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
