@@ -26,7 +26,8 @@ typedef struct {
 static done_t factor(const row_t *row, double *best, why_t *why) {
   setup_t setup;
   TRY(scenario_appendix_a_setup(&setup, FLY_INDI_LIVE, why));
-  const request_t request = {.integrate = row->integrate, .noise = &noise_levels[row->noise], .seed = 1};
+  const request_t request = {
+      .integrate = row->integrate, .vertical_noise = &vertical_noise_levels[row->noise], .seed = 1};
   TRY(setup_apply(&setup, &request, why));
   setup.plan.n_way = WAYPOINTS_MAX;
   setup.plan.end_s = FLIGHT_S;
@@ -50,7 +51,7 @@ static done_t six(integrate_kind_t kind, double *derivative_ns, double *factor, 
   const fx_use_t ceiling = fx_use(fx_find("ceiling"));
   TRY(model_add_fx(&m, &ceiling, why));
   m.ceiling_m = 1.0;
-  const double z_m = 0.98 - body_rotor_z_m(&m), f = 0.25 * m.mass_kg * PLANT_GRAVITY_MPS2;
+  const double z_m = 0.98 - body_rotor_z_m(&m), f = 0.25 * m.mass_kg * G_MPS2;
   const body_start_t start = {.pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {f, f, f, f}};
   if (body_open(&b, &m, kind, TICK_S, &start) != DONE) return error_failed(why, "out of memory");
   double t_s = cpu_time_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
@@ -95,18 +96,18 @@ static done_t bench_loop6(why_t *why) {
   static const char *const name[] = {"SUNDIALS ERKStep 2 ms", "Runge-Kutta by hand 2 ms"};
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   for (int k = 0; k < 2; k++) {
-    setup6_t setup;
-    TRY(setup6_thesis(&setup, FLY_INDI_RBF, why));
+    setup_t setup;
+    TRY(setup_thesis(&setup, FLY_INDI_RBF, why));
     const request_t request = {.integrate = k ? INTEGRATE_RK4 : INTEGRATE_SUNDIALS, .seed = 1};
-    TRY(setup6_apply(&setup, &request, why));
-    setup.flight.guard.blind_max_s = SETUP6_BLIND_S;
-    setup6_ladder(&setup, gap_m, 4, 10.0);
+    TRY(setup_apply(&setup, &request, why));
+    setup.flight.guard.blind_max_s = SETUP_BLIND_S;
+    setup_ladder(&setup, gap_m, 4, 10.0);
     double best = 0.0;
     for (int run = 0; run < RUNS; run++) {
-      flown6_t flown;
-      TRY(setup6_fly(&setup, &flown, why));
-      best = fmax(best, flown.flown.outcome.realtime_factor);
-      flown6_free(&flown);
+      flown_t flown;
+      TRY(setup_fly(&setup, &flown, why));
+      best = fmax(best, flown.outcome.realtime_factor);
+      flown_free(&flown);
     }
     printf("six degrees of freedom, complete loop, %-23s %5.0f x real time (best of %d)\n", name[k], best,
            RUNS);

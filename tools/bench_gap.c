@@ -49,7 +49,7 @@ static done_t write_log(const record_t *record, gap_flight_t *log, const model_t
 
 // The same again and again, down to 4 cm below the ceiling: a longer log is more of it, and not another
 // flight. What is fitted of every log, two thirds, holds whole rounds.
-static void plan_rounds(const setup6_t *setup, plan_t *plan) {
+static void plan_rounds(const setup_t *setup, plan_t *plan) {
   static const double gap_m[] = {0.20, 0.04};
   enum { STEPS = sizeof gap_m / sizeof *gap_m };
   _Static_assert(ROUNDS * STEPS <= WAYPOINTS_MAX, "every round has room");
@@ -61,18 +61,16 @@ static void plan_rounds(const setup6_t *setup, plan_t *plan) {
 
 static done_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
   static const double start_m[] = {0.20};
-  setup6_t setup;
-  flown6_t flown;
-  TRY(setup6_thesis(&setup, FLY_INDI_THEORY, why));
+  setup_t setup;
+  flown_t flown;
+  TRY(setup_thesis(&setup, FLY_INDI_THEORY, why));
   const request_t request = {.integrate = INTEGRATE_RK4, .seed = 1, .log = true, .log_500_Hz = true};
-  TRY(setup6_apply(&setup, &request, why));
-  setup6_ladder(&setup, start_m, 1, 0.0);
-  plan_rounds(&setup, &setup.plan.plan);
-  TRY(setup6_fly(&setup, &flown, why));
-  record_t record = flown.flown.record;
-  record.more = flown.more.sample;
-  const done_t status = write_log(&record, log, vehicle, why);
-  flown6_free(&flown);
+  TRY(setup_apply(&setup, &request, why));
+  setup_ladder(&setup, start_m, 1, 0.0);
+  plan_rounds(&setup, &setup.plan);
+  TRY(setup_fly(&setup, &flown, why));
+  const done_t status = write_log(&flown.record, log, vehicle, why);
+  flown_free(&flown);
   return status;
 }
 

@@ -1,6 +1,7 @@
 // body.c - a vehicle with six degrees of freedom in its surroundings.
 #include "body/body.h"
 
+#include "base/constants.h"
 #include "plant/rigid.h"
 #include "plant/rotor.h"
 #include <math.h>
@@ -118,6 +119,12 @@ void body_hold(body_t *b, bool held) {
   look_now(b);
 }
 
+void body_push(body_t *b, d3_t force_w_N) {
+  b->pushed = true;
+  b->push_w_N = force_w_N;
+  b->look_is_y = false;
+}
+
 void body_close(body_t *b) {
   integrate_close(b->integrate);
   random_close(b->random);
@@ -217,7 +224,7 @@ d3_t body_specific_force_b_mps2(const body_t *b) {
   derivative_now(b, dydt);
   const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
   const d3_t imu = d3_sub(d3_of(b->model->frame.imu_m), b->plant.cg_b_m);
-  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
+  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, G_MPS2));
   return d3_add(axes_to_body(&b->look.axes, acc_w),
                 d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
 }

@@ -1,6 +1,5 @@
 // body.h - a vehicle with six degrees of freedom in its surroundings: rigid body, rotors, battery, effects,
-// contact and integrator together, one tick at a time. The sibling of world.h, which has the vertical axis
-// alone.
+// contact and integrator together, one tick at a time.
 //
 // Each rotor has its own distance from ceiling and ground, along the world's vertical from its centre;
 // ceiling and ground effect add their excess (thesis 3.1.4). The floor goes through the origin and may slope;
@@ -49,6 +48,8 @@ typedef struct {
   bool on_ceiling, on_floor;            // touching since the last contact, until the gap is BODY_RELEASE_M
   bool broken;                          // the solver gave up, or the state is not finite; it stands still
   // Not for callers.
+  bool pushed; // by push_w_N
+  d3_t push_w_N;
   integrate_t *integrate;
   random_t *random;
   fx_plant_t plant; // what the effects made of the model for this tick
@@ -86,6 +87,9 @@ touch_gap_t body_clearance(const body_t *b);           // of the point that is n
 
 // Something holds the vehicle where it is, whatever the rotors do; or lets go of it.
 void body_hold(body_t *b, bool held);
+
+// From now on this acts on the centre of mass besides.
+void body_push(body_t *b, d3_t force_w_N);
 
 // At rest on the floor over the origin, motors off, x forward as far as the floor is level.
 body_start_t body_standing(const model_t *model);

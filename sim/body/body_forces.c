@@ -57,11 +57,12 @@ static inline void look_at(const body_t *b, int surfaces, const double *y, body_
   look->axes = axes_of(dq_of(y + RIGID_Q_WB));
   look_at_surfaces(b, y, &look->axes, look->ratio);
   rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
-  look->loaded = b->n_tick > 0 || b->n_load > 0 || surfaces;
+  look->loaded = b->n_tick > 0 || b->n_load > 0 || b->pushed || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (b->n_tick > 0)
     look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
+  if (b->pushed) load_add(&look->load, axes_to_body(&look->axes, b->push_w_N), (d3_t){0.0, 0.0, 0.0});
   if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
   if (!surfaces) return;
   const int near = surfaces & touch_near(&b->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);

@@ -1,6 +1,7 @@
 // crazyflie.c - a Crazyflie on the host.
 #include "crazyflie.h"
 
+#include "base/constants.h"
 #include "controller.h"
 #include "plant/rotor.h"
 #include "range.h"
@@ -10,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DEG_PER_RAD  (180.0 / 3.14159265358979323846)
-#define G_MPS2       9.81
 #define RANGE_NONE_M 32.767f
 #define FLYING_STEPS 2000 // the supervisor's memory of a motor that turns
 #define UNIT_MAX     65535.0

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #define PILOT6_MOTORS   4
+#define CURVE_WEIGHTS   7
 #define PILOT6_PERIOD_S 1e-3
 
 typedef enum {
@@ -39,17 +40,31 @@ typedef struct {
   d3_t pos_w_m, vel_w_mps;         // as estimated
   dq_t q_wb;                       // as estimated; of length 1
   double applied_N[PILOT6_MOTORS]; // command that was applied since the last call, after its limits
-  double vbat_V;                   // as measured
-  bool range_new;                  // range_m was not there at the last call
-  double range_m, range_age_s;     // upward range sensor, along body z; NaN: no valid distance
+  double rotors_N;             // what all rotors would give in free air; no Crazyflie measures it: for peers
+  double vbat_V;               // as measured
+  bool range_new;              // range_m was not there at the last call
+  double range_m, range_age_s; // upward range sensor, along body z; NaN: no valid distance
   pilot6_setpoint_t set;
 } pilot6_in_t;
 
+// What a pilot thinks, for logs. NaN or 0 where it has no such thought.
+typedef struct {
+  double zc_m;               // ceiling distance; NaN: none known
+  double ceiling_z_m;        // height of the ceiling, latched (flight/hold.h); NaN: none known
+  double ratio, slope_per_m; // of the believed curve
+  double y;                  // the ratio that taught the curve at this tick; NaN: none did
+  double weights[CURVE_WEIGHTS];
+  double variance[CURVE_WEIGHTS];    // of the weights
+  unsigned guard_now, guard_latched; // reasons of the guard (flight/guard.h)
+} thoughts_t;
+
 typedef struct {
   void *state;
-  // Fills motor_N, m1..m4, each finite and >= 0.
+  // Fills motor_N, m1..m4, each finite.
   void (*step)(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]);
   void (*reset)(void *state); // as after power-on; parameters stay
+  // What it thinks, over what is there already; null: it cannot be asked.
+  void (*tell)(const void *state, thoughts_t *thoughts);
 } pilot6_t;
 
 #endif

@@ -2,8 +2,7 @@
 #include "crazyflie/stock_indi_outer.h"
 
 #include "base/clip.h"
-
-#define G_MPS2 9.81
+#include "base/constants.h"
 
 stock_indi_outer_param_t stock_indi_outer_default(void) {
   return (stock_indi_outer_param_t){

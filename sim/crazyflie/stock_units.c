@@ -1,11 +1,11 @@
 // stock_units.c - the border between SI and the units of the Crazyflie's firmware.
 #include "crazyflie/stock_units.h"
 
+#include "base/constants.h"
 #define SUPPLY_START_V 4.2
 #define SUPPLY_GAIN    0.01
 #define SUPPLY_MIN_V   2.0
 #define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
-#define G_MPS2         9.81
 
 stock_view_t stock_view(const pilot6_in_t *in) {
   const dq_t q = in->q_wb;

@@ -2,7 +2,7 @@
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
-  const double hover_N = plant->mass_kg * PLANT_GRAVITY_MPS2 / ROTORS;
+  const double hover_N = plant->mass_kg * G_MPS2 / ROTORS;
   for (int i = 0; i < ROTORS; i++) {
     const double f = tick->thrust_N[i], off = f - hover_N;
     if (!(f > 0.05 * hover_N)) continue; // no thrust, nothing to scale

@@ -6,7 +6,7 @@
 #include "flight/scenario.h"
 #include "pilots/param_spec.h"
 #include "sense/noise6.h"
-#include "sense/sensors.h"
+#include "sense/vertical.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +81,7 @@ void catalogue_all(void) {
   printf("\neffects\n");
   for (int i = 0; i < fx_count; i++) list_effect(fx_table[i]);
   printf("noise\n ");
-  for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
+  for (int i = 0; i < vertical_noise_count; i++) printf(" %s", vertical_noise_levels[i].name);
   printf("\n  in six degrees of freedom:");
   for (int i = 0; i < noise6_count; i++) printf(" %s", noise6_levels[i].name);
   printf("; and of these, as real:acc.z=0.1,up=0.005\n");

@@ -1,23 +1,26 @@
-// loop6.c - one flight in six degrees of freedom.
+// loop6.c - one flight.
 #include "flight/loop6.h"
 
+#include "base/constants.h"
 #include "base/cpu_time.h"
+#include "sense/ekf.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define RECORD_EVERY 5     // ticks of 2 ms
-#define IDLE_N       0.002 // of one motor: below, it stands
+#define RECORD_S 0.01
+#define IDLE_N   0.002 // of one motor: below, it stands
 
 typedef struct {
-  const plan6_t *plan;
+  const plan_t *plan;
   const model_t *model;
+  model_t point; // what it is on the vertical axis
   const pilot6_t *pilot;
-  loop6_ask_t ask;
   body_t body;
   random_t *random;
   imu_t imu;
   range_t range;
   mocap_t mocap;
+  vertical_t vertical;
   ekf_in_t seen; // the pose is only there with motion capture
   ekf_t ekf;
   pilot6_in_t in;
@@ -96,44 +99,51 @@ static void sense(flight6_t *f, const truth_t *truth) {
   f->in.acc_b_mps2 = imu.acc_b_mps2;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
-  f->in.range_age_s = LOOP6_UP_AGE_S;
+  f->in.range_age_s = LOOP_UP_AGE_S;
   if (range.up_new) f->range_m = f->in.range_m;
   f->range_new = f->range_new || range.up_new;
 }
 
+// The same on the vertical axis.
+static void sense_vertical(flight6_t *f, const truth_t *truth) {
+  const vertical_sample_t seen = vertical_step(&f->vertical, &f->plan->vertical_noise, f->random, truth);
+  f->in.pos_w_m.z = seen.z_m;
+  f->in.vel_w_mps.z = seen.climb_mps;
+  f->in.acc_b_mps2.z = seen.acc_mps2 + G_MPS2;
+  f->in.range_new = seen.range_new;
+  if (seen.range_new) f->range_m = f->in.range_m = seen.range_m;
+  f->range_new = f->range_new || seen.range_new;
+  f->estimate = (ekf_out_t){.pos_w_m = f->in.pos_w_m, .vel_w_mps = f->in.vel_w_mps, .q_wb = f->in.q_wb};
+}
+
 // The estimator's zero is the height at rest; the plan's heights are of the rotors' plane.
 static void order(flight6_t *f, double t_s) {
-  const plan_t *plan = &f->plan->plan;
+  const plan_t *plan = f->plan;
   while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
   const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
-  const bool on = t_s >= f->plan->take_off_s;
+  const bool on = t_s >= plan->take_off_s;
   for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT6_POSITION : PILOT6_OFF;
-  const bool thought = f->plan->below_estimate && isfinite(f->ceiling_z_m);
+  const bool thought = plan->below_estimate && isfinite(f->ceiling_z_m);
   const double down_m = thought ? f->model->ceiling_m - f->ceiling_z_m : rest_m;
   f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - down_m};
   f->in.set.thrust_N = 0.0;
 }
 
-static void pilot_ms(flight6_t *f, const truth_t *truth) {
-  sense(f, truth);
-  if (f->plan->edit) {
-    pilot6_in_t in = f->in;
-    f->plan->edit(f->plan->edit_context, &f->body, &in);
-    f->pilot->step(f->pilot->state, &in, f->motor_N);
-  } else {
-    f->pilot->step(f->pilot->state, &f->in, f->motor_N);
-  }
+static void call_pilot(flight6_t *f, const truth_t *truth) {
+  f->plan->vertical_only ? sense_vertical(f, truth) : sense(f, truth);
+  pilot6_in_t in = f->in;
+  if (f->plan->edit) f->plan->edit(f->plan->edit_context, &f->body, &in);
+  f->pilot->step(f->pilot->state, &in, f->motor_N);
   f->in.step++;
 }
 
-static done_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, const truth_t *truth,
-                   why_t *why) {
+static done_t keep(flight6_t *f, record_t *record, double t_s, const truth_t *truth, why_t *why) {
   thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
-  if (f->ask) f->ask(f->pilot->state, &thoughts);
+  if (f->pilot->tell) f->pilot->tell(f->pilot->state, &thoughts);
   f->ceiling_z_m = thoughts.ceiling_z_m;
-  const tick6_t tick = {
+  const tick_t tick = {
       .t_s = t_s,
-      .setpoint_m = f->plan->plan.way[f->way].setpoint_m,
+      .setpoint_m = f->plan->way[f->way].setpoint_m,
       .body = &f->body,
       .truth = truth,
       .in = &f->in,
@@ -148,39 +158,71 @@ static done_t keep(flight6_t *f, record_t *record, record6_t *more, double t_s, 
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_new = false;
-  return record6_add(record, more, &tick, why);
+  return record_add(record, &tick, why);
 }
 
-static done_t run(flight6_t *f, record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
-  const long ticks = lround(f->plan->plan.end_s / LOOP6_TICK_S);
-  const int every = f->plan->record_every > 0 ? f->plan->record_every : RECORD_EVERY;
-  TRY(record6_reserve(record, more, (int)(ticks / every) + 1, why));
+static void look_at_rotors(flight6_t *f) {
+  f->in.rotors_N = 0.0;
+  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.rotors_N += f->body.y[RIGID_THRUST_N + i];
+}
+
+static void move(flight6_t *f, double tick_s, outcome_t *outcome) {
+  const plan_t *plan = f->plan;
+  for (int i = 0; i < PILOT6_MOTORS; i++) outcome->finite = outcome->finite && isfinite(f->motor_N[i]);
+  if (plan->vertical_noise.gust_mps2 > 0.0) {
+    const double gust_mps2 = vertical_gust_mps2(&f->vertical, &plan->vertical_noise, f->random);
+    body_push(&f->body, d3(0.0, 0.0, f->model->mass_kg * gust_mps2));
+  }
+  body_tick(&f->body, f->motor_N, tick_s);
+  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
+  look_at_rotors(f);
+  f->in.vbat_V = f->body.vbat_V;
+  f->gap_min_m = fmin(f->gap_min_m, record_gap_m(&f->body));
+  outcome->finite = outcome->finite && !f->body.broken;
+}
+
+static done_t run(flight6_t *f, record_t *record, outcome_t *outcome, why_t *why) {
+  const plan_t *plan = f->plan;
+  const double tick_s = plan->vertical_only ? plan->period_s : LOOP_TICK_S;
+  const int calls = plan->vertical_only ? 1 : 2;
+  const long ticks = lround(plan->end_s / tick_s);
+  const int every = plan->record_every > 0 ? plan->record_every : (int)lround(fmax(1.0, RECORD_S / tick_s));
+  TRY(record_reserve(record, (int)(ticks / every) + 1, why));
   for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
-    const double t_s = (double)tick * LOOP6_TICK_S;
+    const double t_s = (double)tick * tick_s;
     order(f, t_s);
-    if (f->body.rigid.held && t_s >= f->plan->held_s) body_hold(&f->body, false);
+    if (f->body.rigid.held && t_s >= plan->held_s) body_hold(&f->body, false);
     const truth_t truth = truth_of(f);
-    pilot_ms(f, &truth);
-    pilot_ms(f, &truth);
+    for (int i = 0; i < calls; i++) call_pilot(f, &truth);
     const axes_t axes = axes_of(truth.q_wb);
     f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
-    if (tick % every == 0) TRY(keep(f, record, more, t_s, &truth, why));
-    body_tick(&f->body, f->motor_N, LOOP6_TICK_S);
-    for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
-    f->in.vbat_V = f->body.vbat_V;
-    f->gap_min_m = fmin(f->gap_min_m, record6_gap_m(&f->body));
-    outcome->finite = !f->body.broken;
+    if (tick % every == 0) TRY(keep(f, record, t_s, &truth, why));
+    move(f, tick_s, outcome);
   }
   return DONE;
 }
 
+static body_start_t start_of(const flight6_t *f) {
+  const plan_t *plan = f->plan;
+  if (!plan->vertical_only) {
+    body_start_t start = plan->in_flight ? plan->start : body_standing(f->model);
+    start.held = plan->held_s > 0.0;
+    return start;
+  }
+  // On the ground it lies as deep as its springs need to carry what the rotors do not.
+  const double each_N = plan->start_thrust_N / ROTORS;
+  const double left_mps2 = fmax(0.0, G_MPS2 - plan->start_thrust_N / f->model->mass_kg);
+  const double z_m = plan->start_z_m > 0.0 ? plan->start_z_m : -left_mps2 / (TOUCH_POINTS * TOUCH_SPRING);
+  return (body_start_t){
+      .pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {each_N, each_N, each_N, each_N}, .vertical_only = true};
+}
+
 static done_t open(flight6_t *f, why_t *why) {
-  const plan_t *plan = &f->plan->plan;
-  body_start_t start = f->plan->in_flight ? f->plan->start : body_standing(f->model);
-  start.held = f->plan->held_s > 0.0;
+  const plan_t *plan = f->plan;
+  body_start_t start = start_of(f);
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
-  const done_t opened = body_open(&f->body, f->model, plan->integrate,
-                                  plan->step_s > 0.0 ? plan->step_s : LOOP6_TICK_S, &start);
+  const done_t opened =
+      body_open(&f->body, f->model, plan->integrate, plan->step_s > 0.0 ? plan->step_s : LOOP_TICK_S, &start);
   if (opened == BAD_INPUT)
     return error_set(
         why,
@@ -193,31 +235,39 @@ static done_t open(flight6_t *f, why_t *why) {
   range_init(&f->range);
   f->mocap = (mocap_t){0};
   ekf_init(&f->ekf, &ekf_firmware, 0.0);
+  if (plan->vertical_only)
+    vertical_init(&f->vertical, &plan->vertical_noise, plan->period_s, start.pos_w_m.z);
   f->in.q_wb = (dq_t){1.0, 0.0, 0.0, 0.0};
-  if (f->plan->in_flight) {
+  if (plan->in_flight) {
     const d3_t rest = {0.0, 0.0, -body_rest_z_m(f->model)};
     ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
   }
   for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  look_at_rotors(f);
   f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
   return DONE;
 }
 
-done_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
-                 record_t *record, record6_t *more, outcome_t *outcome, why_t *why) {
+done_t loop_fly(const plan_t *plan, const model_t *model, const pilot6_t *pilot, record_t *record,
+                outcome_t *outcome, why_t *why) {
   flight6_t *f = calloc(1, sizeof *f);
   if (!f) return error_failed(why, "out of memory");
-  *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot, .ask = ask};
+  *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot};
+  if (plan->vertical_only) {
+    f->point = model_point(model);
+    f->model = &f->point;
+  }
+  record->vertical_only = plan->vertical_only;
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_m = f->ceiling_z_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = cpu_time_s();
   done_t status = open(f, why);
-  if (status == DONE) status = run(f, record, more, outcome, why);
+  if (status == DONE) status = run(f, record, outcome, why);
   outcome->contacts = f->body.ceiling_contacts;
-  outcome->realtime_factor = cpu_time_factor(plan->plan.end_s, start_s);
+  outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);
   if (f->body.integrate) body_close(&f->body);
   random_close(f->random);
   free(f);

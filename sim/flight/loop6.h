@@ -1,49 +1,69 @@
-// loop6.h - one flight in six degrees of freedom: body, sensors, estimator and pilot at 1000/500/100/40/10
-// Hz.
+// loop6.h - one flight: body, sensors, estimator and pilot.
 //
-// The vehicle moves in steps of 2 ms, the commands with it; sensors, estimator and pilot run every
-// millisecond. On both of its milliseconds the inertial sensors see the same instant.
+// In six degrees of freedom the vehicle moves in steps of 2 ms, the commands with it; sensors, estimator and
+// pilot run every millisecond at their 1000/500/100/40/10 Hz. On both of its milliseconds the inertial
+// sensors see the same instant. On the vertical axis alone all three have one period, and what is sensed is
+// true but for white noise (sense/vertical.h).
 #ifndef SIM_FLIGHT_LOOP6_H
 #define SIM_FLIGHT_LOOP6_H
 
 #include "body/body.h"
 #include "crazyflie/pilot6.h"
-#include "flight/loop.h"
 #include "flight/record6.h"
-#include "sense/ekf.h"
 #include "sense/mocap.h"
 #include "sense/noise6.h"
+#include "sense/vertical.h"
 
-#define LOOP6_TICK_S   0.002
-#define LOOP6_UP_AGE_S 0.07 // what the app takes an upward sample's age to be
+#define LOOP_TICK_S   0.002
+#define LOOP_UP_AGE_S 0.07 // what the app takes an upward sample's age to be
 
-// Stands between sensors and pilot, every millisecond: may edit what the pilot gets (nothing of it lasts
-// until the next call), and look at the truth.
-typedef void (*loop6_edit_t)(void *context, const body_t *truth, pilot6_in_t *in);
+#define WAYPOINTS_MAX 24
 
-// How the flight is flown. The waypoints of `plan` are heights of the rotors' plane; x, y and yaw are held at
-// 0.
+// From at_s on the set point is setpoint_m.
 typedef struct {
-  plan_t plan; // its noise is not used
+  double at_s, setpoint_m;
+} waypoint_t;
+
+// Stands between sensors and pilot, at every call: may edit what the pilot gets (nothing of it lasts
+// until the next call), and look at the truth.
+typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot6_in_t *in);
+
+// How the flight is flown. The waypoints are heights of the rotors' plane; x, y and yaw are held at 0.
+typedef struct {
+  waypoint_t way[WAYPOINTS_MAX]; // at_s ascending, the first 0
+  int n_way;
+  double end_s;
+  uint64_t seed;
+  integrate_kind_t integrate;
+  double step_s;       // of the integrator, at most; 0: 2 ms
+  double held_s;       // something holds the vehicle where it starts until then
+  bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
+  int record_every;    // ticks for a sample; 0: as many as fill 10 ms
+  double take_off_s;   // the height is controlled from here on; before, the motors are off
+  loop_edit_t edit;    // null: none
+  void *edit_context;
+  // In six degrees of freedom.
   noise6_t noise;
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
-  double held_s;       // something holds the vehicle where it starts until then
-  bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
-  int record_every;    // ticks for a sample; 0: 5, that is 10 ms
-  double take_off_s;   // the height is controlled from here on; before, the motors are off
-  loop6_edit_t edit;   // null: none
-  void *edit_context;
-} plan6_t;
+  // On the vertical axis; the vehicle is then a point, its rotors' plane.
+  bool vertical_only;
+  double period_s; // of motion, sensors and pilot
+  vertical_noise_t vertical_noise;
+  double start_z_m; // 0: on the ground
+  double start_thrust_N;
+} plan_t;
 
-// What the pilot thinks, where it can be asked; may be null.
-typedef void (*loop6_ask_t)(const void *state, thoughts_t *thoughts);
+typedef struct {
+  int contacts;           // with the ceiling
+  bool finite;            // the state and every command stayed finite
+  double realtime_factor; // flight time over computing time; differs from run to run
+} outcome_t;
 
-// Flies the plan. *record and *more get the samples (they must be empty; free them after use). The record's z
-// is the height of the rotors' plane, its gap that of the nearest rotor. BAD_INPUT: a model that cannot
-// fly. FAILED: no memory.
-MUST_CHECK done_t loop6_fly(const plan6_t *plan, const model_t *model, const pilot6_t *pilot, loop6_ask_t ask,
-                            record_t *record, record6_t *more, outcome_t *outcome, why_t *why);
+// Flies the plan. *record gets the samples (it must be empty; free it after use). Its z is the height of the
+// rotors' plane, its gap that of the nearest rotor. BAD_INPUT: a model that cannot fly. FAILED: no memory.
+MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const pilot6_t *pilot, record_t *record,
+                           outcome_t *outcome, why_t *why);
 
 #endif

@@ -1,13 +1,17 @@
-// record6.c - a flight in six degrees of freedom in memory.
+// record6.c - a flight in memory, and as a log.
 #include "flight/record6.h"
 
+#include "base/constants.h"
+#include "crazyflie/sections.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#define FAR_M 0.3 // of the centre of mass
+#define FAR_M        0.3 // of the centre of mass
+#define APP_LOGS_MAX 256
 
 // Far from the ceiling that of the first is near enough.
-double record6_gap_m(const body_t *b) {
+double record_gap_m(const body_t *b) {
   if (b->model->ceiling_m - b->y[RIGID_POS_M + 2] > FAR_M) return body_ceiling_gap_m(b, 0);
   double gap_m = body_ceiling_gap_m(b, 0);
   for (int i = 1; i < ROTORS; i++) {
@@ -17,42 +21,9 @@ double record6_gap_m(const body_t *b) {
   return gap_m;
 }
 
-static sample_t sample_of(const tick6_t *t) {
-  const body_t *b = t->body;
-  const axes_t axes = axes_of(t->truth->q_wb);
-  const double gap_m = record6_gap_m(b);
-  double thrust_N = 0.0, command_N = 0.0, applied_N = 0.0;
-  for (int i = 0; i < ROTORS; i++) {
-    thrust_N += b->y[RIGID_THRUST_N + i];
-    command_N += t->motor_N[i];
-    applied_N += t->in->applied_N[i];
-  }
-  return (sample_t){
-      .t_s = t->t_s,
-      .setpoint_m = t->setpoint_m,
-      .z_m = t->truth->pos_w_m.z + body_rotor_z_m(b->model),
-      .climb_mps = t->truth->vel_w_mps.z,
-      .acc_mps2 = d3_dot(axes_up_b(&axes), t->truth->force_b_mps2) - 9.81,
-      .gap_m = gap_m,
-      .gap_min_m = fmin(t->gap_min_m, gap_m),
-      .thrust_N = thrust_N,
-      .command_N = command_N,
-      .ratio = body_thrust_ratio(b, 0),
-      .contacts = b->ceiling_contacts,
-      .touching = b->on_ceiling,
-      .sense = {.z_m = t->in->pos_w_m.z,
-                .climb_mps = t->in->vel_w_mps.z,
-                .acc_mps2 = t->in->acc_b_mps2.z - 9.81,
-                .applied_N = applied_N,
-                .range_new = t->range_new,
-                .range_m = t->range_m},
-      .thoughts = *t->thoughts,
-  };
-}
-
 // What the mixer of the firmware must have been given: the inverse of its plus and minus, roll and pitch
 // halved.
-static void take_command(sample6_t *s, double full_N) {
+static void take_command(sample_t *s, double full_N) {
   const double k = 65535.0 / full_N, *f = s->motor_N;
   s->command_roll = 0.5 * k * (-f[0] - f[1] + f[2] + f[3]);
   s->command_pitch = 0.5 * k * (f[0] - f[1] - f[2] + f[3]);
@@ -60,49 +31,162 @@ static void take_command(sample6_t *s, double full_N) {
   s->command_thrust = 0.25 * k * (f[0] + f[1] + f[2] + f[3]);
 }
 
-static sample6_t more_of(const tick6_t *t) {
-  sample6_t s = {
+static sample_t sample_of(const tick_t *t) {
+  const body_t *b = t->body;
+  const axes_t axes = axes_of(t->truth->q_wb);
+  const double gap_m = record_gap_m(b);
+  sample_t s = {
+      .t_s = t->t_s,
+      .setpoint_m = t->setpoint_m,
+      .z_m = t->truth->pos_w_m.z + body_rotor_z_m(b->model),
+      .climb_mps = t->truth->vel_w_mps.z,
+      .acc_mps2 = d3_dot(axes_up_b(&axes), t->truth->force_b_mps2) - G_MPS2,
+      .gap_m = gap_m,
+      .gap_min_m = fmin(t->gap_min_m, gap_m),
+      .ratio = body_thrust_ratio(b, 0),
+      .contacts = b->ceiling_contacts,
+      .touching = b->on_ceiling,
+      .sense = {.z_m = t->in->pos_w_m.z,
+                .climb_mps = t->in->vel_w_mps.z,
+                .acc_mps2 = t->in->acc_b_mps2.z - G_MPS2,
+                .range_new = t->range_new,
+                .range_m = t->range_m},
+      .thoughts = *t->thoughts,
       .tilt_rad = acos(fmax(-1.0, fmin(1.0, t->up_min))),
       .pos_w_m = t->truth->pos_w_m,
-      .vbat_V = t->body->vbat_V,
+      .vbat_V = b->vbat_V,
       .estimate = *t->estimate,
       .gyro_b_radps = t->in->gyro_b_radps,
       .acc_b_mps2 = t->in->acc_b_mps2,
       .setpoint_z_m = t->in->set.pos_w_m.z,
   };
-  for (int i = 0; i < PILOT6_MOTORS; i++) s.motor_N[i] = t->motor_N[i];
-  take_command(&s, t->body->model->thrust_max_N / PILOT6_MOTORS);
+  for (int i = 0; i < ROTORS; i++) {
+    s.thrust_N += b->y[RIGID_THRUST_N + i];
+    s.command_N += t->motor_N[i];
+    s.sense.applied_N += t->in->applied_N[i];
+    s.motor_N[i] = t->motor_N[i];
+  }
+  take_command(&s, b->model->thrust_max_N / PILOT6_MOTORS);
   return s;
 }
 
-static done_t reserve6(record6_t *more, int room) {
-  if (room <= more->room) return DONE;
-  sample6_t *bigger = realloc(more->sample, (size_t)room * sizeof *bigger);
-  if (!bigger) return FAILED;
-  more->sample = bigger;
-  more->room = room;
+done_t record_reserve(record_t *r, int room, why_t *why) {
+  if (room <= r->room) return DONE;
+  sample_t *more = realloc(r->sample, (size_t)room * sizeof *more);
+  if (!more) return error_failed(why, "out of memory");
+  r->sample = more;
+  r->room = room;
   return DONE;
 }
 
-done_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why) {
-  if (record_reserve(record, room) == DONE && reserve6(more, room) == DONE) return DONE;
-  return error_failed(why, "out of memory");
-}
-
-static done_t keep6(record6_t *more, int n, const sample6_t *sample) {
-  if (n > more->room) TRY(reserve6(more, more->room ? 2 * more->room : 4096));
-  more->sample[n - 1] = *sample;
+done_t record_add(record_t *r, const tick_t *tick, why_t *why) {
+  if (r->n == r->room) TRY(record_reserve(r, r->room ? 2 * r->room : 4096, why));
+  r->sample[r->n++] = sample_of(tick);
   return DONE;
 }
 
-done_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why) {
-  const sample_t s = sample_of(tick);
-  const sample6_t s6 = more_of(tick);
-  if (record_add(record, &s) == DONE && keep6(more, record->n, &s6) == DONE) return DONE;
-  return error_failed(why, "out of memory");
-}
-
-void record6_free(record6_t *r) {
+void record_free(record_t *r) {
   free(r->sample);
-  *r = (record6_t){0};
+  free(r->app);
+  free(r->param);
+  *r = (record_t){0};
+}
+
+// --- as a log -----------------------------------------------------------------------------------------
+
+static const char NAMES[] =
+    "timestamp,ctrltarget.z,stateEstimate.z,stateEstimate.vz,stateEstimate.qw,stateEstimate.qx,"
+    "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,range.up,indi.thrust,indi.applied,ceil.zc,"
+    "ceil.height,guard.now,guard.latched,ceil.ratio,ceil.slope,rls.y,rls.w1,rls.w2,rls.w3,rls.w4,rls.w5,rls."
+    "w6,rls.w7,rls.p1,rls.p2,rls.p3,"
+    "rls.p4,rls.p5,rls.p6,rls.p7,sim.z,sim.vz,sim.gap,sim.thrust,sim.ratio,sim.contacts";
+static const char MORE_NAMES[] =
+    ",stateEstimate.x,stateEstimate.y,stateEstimate.vx,stateEstimate.vy,gyro.x,gyro.y,gyro.z,indi.m1,"
+    "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt,controller.r_roll,controller.r_pitch,"
+    "controller.r_yaw,controller.cmd_roll,controller.cmd_pitch,controller.cmd_yaw,controller.cmd_thrust";
+
+// The app's logs that are no columns already.
+static bool is_new(const char *name) {
+  const char *const lists[] = {NAMES, MORE_NAMES};
+  const size_t size = strlen(name);
+  for (int i = 0; i < 2; i++) {
+    for (const char *at = lists[i]; (at = strstr(at, name)) != NULL; at += size)
+      if ((at == lists[i] || at[-1] == ',') && (at[size] == ',' || at[size] == '\0')) return false;
+  }
+  return true;
+}
+
+// Which of the app's logs are columns; returns how many logs there are.
+static int choose(bool column[APP_LOGS_MAX]) {
+  char name[32];
+  int n = 0;
+  for (; n < APP_LOGS_MAX && sections_log_at(n, name); n++) column[n] = is_new(name);
+  return n;
+}
+
+static void write_names(FILE *file, const record_t *r, const bool *column, int n) {
+  char name[32];
+  fputs(NAMES, file);
+  if (!r->vertical_only) fputs(MORE_NAMES, file);
+  for (int i = 0; i < n; i++)
+    if (r->app && column[i] && sections_log_at(i, name)) fprintf(file, ",%s", name);
+  fputc('\n', file);
+}
+
+static void write_attitude(FILE *file, const sample_t *s) {
+  const dq_t q = s->estimate.q_wb;
+  const d3_t a = d3_scale(1.0 / G_MPS2, s->acc_b_mps2);
+  fprintf(file, "%.7f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f,", q.w, q.x, q.y, q.z, a.x, a.y, a.z);
+}
+
+static void write_more(FILE *file, const sample_t *s) {
+  const d3_t p = s->estimate.pos_w_m, v = s->estimate.vel_w_mps, w = d3_scale(DEG_PER_RAD, s->gyro_b_radps);
+  fprintf(file, ",%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f", p.x, p.y, v.x, v.y, w.x, w.y, w.z);
+  for (int i = 0; i < 4; i++) fprintf(file, ",%.6f", s->motor_N[i]);
+  fprintf(file, ",%.4f,%.6f,%.6f,%.4f", s->vbat_V, s->pos_w_m.x, s->pos_w_m.y, DEG_PER_RAD * s->tilt_rad);
+  const d3_t r = s->gyro_b_radps; // roll right, nose up, counter-clockwise
+  fprintf(file, ",%.7f,%.7f,%.7f,%.2f,%.2f,%.2f,%.2f", r.x, -r.y, r.z, s->command_roll, s->command_pitch,
+          s->command_yaw, s->command_thrust);
+}
+
+static void write_sample(FILE *file, const sample_t *s, bool vertical_only) {
+  fprintf(file, "%.3f,%.4f,%.6f,%.6f,", 1e3 * s->t_s, s->setpoint_z_m, s->sense.z_m, s->sense.climb_mps);
+  write_attitude(file, s);
+  const thoughts_t *th = &s->thoughts;
+  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%u,%u,", 1e3 * s->sense.range_m, s->command_N, s->sense.applied_N,
+          th->zc_m, th->ceiling_z_m, th->guard_now, th->guard_latched);
+  fprintf(file, "%.6f,%.5f,%.5f,", s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
+  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
+  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);
+  fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,
+          s->contacts);
+  if (!vertical_only) write_more(file, s);
+}
+
+static void write_calls(const record_t *r, FILE *file) {
+  char name[32];
+  const int n = sections_logs();
+  for (int k = 0; k < n && sections_log_at(k, name); k++) fprintf(file, k ? ",%s" : "%s", name);
+  fputc('\n', file);
+  for (int i = 0; i < r->n_calls; i++) {
+    for (int k = 0; k < n; k++)
+      fprintf(file, k ? ",%.9g" : "%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
+    fputc('\n', file);
+  }
+}
+
+void record_write(const record_t *r, FILE *file) {
+  if (r->n_calls > 0) {
+    write_calls(r, file);
+    return;
+  }
+  bool column[APP_LOGS_MAX];
+  const int n = choose(column);
+  write_names(file, r, column, n);
+  for (int i = 0; i < r->n; i++) {
+    write_sample(file, &r->sample[i], r->vertical_only);
+    for (int k = 0; k < n; k++)
+      if (r->app && column[k]) fprintf(file, ",%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
+    fputc('\n', file);
+  }
 }

@@ -1,18 +1,52 @@
-// record6.h - a flight in six degrees of freedom in memory: what the loop saw at a tick becomes a sample.
+// record6.h - a flight in memory: what the loop saw at a tick becomes a sample, every 10 ms (on request 2 ms)
+// or every tick of a slower loop; and the flight as a log.
 #ifndef SIM_FLIGHT_RECORD6_H
 #define SIM_FLIGHT_RECORD6_H
 
+#include "base/error.h"
 #include "body/body.h"
 #include "crazyflie/pilot6.h"
-#include "flight/record.h"
+#include "sense/ekf.h"
 #include "sense/truth.h"
+#include <stdbool.h>
+#include <stdio.h>
 
 typedef struct {
-  sample6_t *sample; // as many as record->n
-  int room;
-} record6_t;
+  double t_s, setpoint_m;
+  double z_m, climb_mps, acc_mps2; // as it is
+  double gap_m, gap_min_m;         // to the ceiling: now, and smallest since the last sample
+  double thrust_N, command_N;      // of the rotors in free air; what was commanded at t_s
+  double ratio;                    // what the effects multiply the thrust by
+  int contacts;                    // with the ceiling, since the start
+  bool touching;                   // the ceiling, at t_s
+  struct {
+    double z_m, climb_mps, acc_mps2; // without gravity
+    double applied_N;                // thrust command that was applied before
+    bool range_new;                  // since the last sample
+    double range_m;                  // the newest, of the upward sensor
+  } sense;                           // as measured
+  thoughts_t thoughts;               // as believed
+  double tilt_rad;                   // largest since the last sample
+  double motor_N[PILOT6_MOTORS];
+  d3_t pos_w_m;
+  double vbat_V;
+  ekf_out_t estimate;
+  d3_t gyro_b_radps, acc_b_mps2; // as measured
+  double setpoint_z_m;           // in the estimator's frame
+  // As the firmware's control_t: units of 16 bit, 65535 for all that a motor can; yaw clockwise.
+  double command_roll, command_pitch, command_yaw, command_thrust;
+} sample_t;
 
-// One tick. Nothing of it is kept but what goes into the samples.
+typedef struct {
+  sample_t *sample;
+  int n, room;
+  bool vertical_only; // what does not move then is no column of the log
+  float *app;         // as many rows of the app's logs (sections_logs()), or a null pointer
+  int n_calls;        // not 0: `app` has a row for each call, so many, and only it is written
+  float *param;       // what the app flew with, as params_table; or a null pointer
+} record_t;
+
+// One tick. Nothing of it is kept but what goes into the sample.
 typedef struct {
   double t_s, setpoint_m; // of the rotors' plane
   const body_t *body;
@@ -24,17 +58,22 @@ typedef struct {
   double up_min, gap_min_m;   // smallest since the last sample: cosine of the tilt, nearest rotor's gap
   bool range_new;             // since the last sample
   double range_m;             // the newest
-} tick6_t;
+} tick_t;
 
 // Distance of the rotor that is nearest to the ceiling.
-double record6_gap_m(const body_t *b);
+double record_gap_m(const body_t *b);
 
-// Makes room for so many samples in both. FAILED: no memory.
-MUST_CHECK done_t record6_reserve(record_t *record, record6_t *more, int room, why_t *why);
+// Makes room for so many samples in all: what is known beforehand need not be moved while it grows. FAILED:
+// no memory; nothing has changed.
+MUST_CHECK done_t record_reserve(record_t *r, int room, why_t *why);
 
-// Adds a sample to both. FAILED: no memory.
-MUST_CHECK done_t record6_add(record_t *record, record6_t *more, const tick6_t *tick, why_t *why);
+// FAILED: no memory; nothing was added.
+MUST_CHECK done_t record_add(record_t *r, const tick_t *tick, why_t *why);
 
-void record6_free(record6_t *r);
+void record_free(record_t *r);
+
+// Writes the flight as a CSV with Crazyflie log names (src/firmware/README.md, learn). The stream knows if
+// that failed.
+void record_write(const record_t *r, FILE *file);
 
 #endif

@@ -68,9 +68,9 @@ static done_t take_numbers(request_t *r, const char *items, why_t *why) {
     if (size >= sizeof item) return error_set(why, "--noise %s: too long; allowed is KEY=VALUE,...", items);
     memcpy(item, items, size);
     item[size] = '\0';
-    TRY(set_noise(&r->noise6_changed, item, why));
+    TRY(set_noise(&r->noise_changed, item, why));
   }
-  r->noise6 = &r->noise6_changed;
+  r->noise = &r->noise_changed;
   return DONE;
 }
 
@@ -79,26 +79,26 @@ static done_t take_noise6(request_t *r, const char *spec, bool *there, why_t *wh
   const size_t size = strcspn(spec, ":");
   char name[NAME_MAX] = "";
   if (size < sizeof name) memcpy(name, spec, size);
-  r->noise6 = noise6_find(name);
-  *there = r->noise6 != NULL;
+  r->noise = noise6_find(name);
+  *there = r->noise != NULL;
   if (!*there || !spec[size]) return DONE;
-  r->noise6_changed = *r->noise6;
+  r->noise_changed = *r->noise;
   return take_numbers(r, spec + size + 1, why);
 }
 
 done_t request_take_noise(request_t *r, const char *name, why_t *why) {
   bool six;
-  r->noise = NULL;
+  r->vertical_noise = NULL;
   TRY(take_noise6(r, name, &six, why));
   if (six) return DONE;
-  for (int i = 0; i < noise_count; i++) {
-    if (strcmp(noise_levels[i].name, name) != 0) continue;
-    r->noise = &noise_levels[i];
+  for (int i = 0; i < vertical_noise_count; i++) {
+    if (strcmp(vertical_noise_levels[i].name, name) != 0) continue;
+    r->vertical_noise = &vertical_noise_levels[i];
     return DONE;
   }
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
-  for (int i = 0; i < noise_count; i++) nearest_try(&nearest, noise_levels[i].name);
+  for (int i = 0; i < vertical_noise_count; i++) nearest_try(&nearest, vertical_noise_levels[i].name);
   for (int i = 0; i < noise6_count; i++) nearest_try(&nearest, noise6_levels[i].name);
   return error_set(
       why,

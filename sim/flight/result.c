@@ -1,11 +1,10 @@
 // result.c - what a scenario found.
 #include "flight/result.h"
 
+#include "base/constants.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define DEG_PER_RAD (180.0 / 3.14159265358979323846)
 
 done_t result_init(result_t *r, why_t *why) {
   *r = (result_t){.json = cJSON_CreateObject()};
@@ -23,7 +22,7 @@ void result_free(result_t *r) {
 }
 
 // NaN becomes null.
-static cJSON *segment_of(const segment_t *s) {
+static cJSON *segment_of(const segment_t *s, bool tilts) {
   cJSON *o = cJSON_CreateObject();
   if (s->label[0]) cJSON_AddStringToObject(o, "label", s->label);
   cJSON_AddNumberToObject(o, "setpoint_m", s->setpoint_m);
@@ -36,6 +35,7 @@ static cJSON *segment_of(const segment_t *s) {
   cJSON_AddNumberToObject(o, "rms_mm", s->rms_mm);
   cJSON_AddNumberToObject(o, "min_gap_mm", s->min_gap_mm);
   cJSON_AddNumberToObject(o, "contacts", s->contacts);
+  if (tilts) cJSON_AddNumberToObject(o, "tilt_max_deg", DEG_PER_RAD * s->tilt_max_rad);
   return o;
 }
 
@@ -79,20 +79,9 @@ static void add_totals(result_t *r, flown_t *flown, int contacts) {
 
 void result_add_flight(result_t *r, flown_t *flown) {
   cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
-  for (int i = 0; i < flown->n_segment; i++) cJSON_AddItemToArray(segments, segment_of(&flown->segment[i]));
+  for (int i = 0; i < flown->n_segment; i++)
+    cJSON_AddItemToArray(segments, segment_of(&flown->segment[i], !flown->plan.vertical_only));
   add_totals(r, flown, flown->outcome.contacts);
-}
-
-void result_add_flight6(result_t *r, flown6_t *flown) {
-  cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
-  for (int i = 0; i < flown->flown.n_segment; i++) {
-    cJSON *o = segment_of(&flown->flown.segment[i]);
-    cJSON_AddNumberToObject(o, "tilt_max_deg", DEG_PER_RAD * flown->tilt_max_rad[i]);
-    cJSON_AddItemToArray(segments, o);
-  }
-  add_totals(r, &flown->flown, flown->flown.outcome.contacts);
-  r->record.more = flown->more.sample;
-  flown->more = (record6_t){0};
 }
 
 void result_add_weights(result_t *r, const rbf_weights_t *weights) {
@@ -111,7 +100,7 @@ void result_add_weights(result_t *r, const rbf_weights_t *weights) {
 void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label) {
   segment_t *s = &flown->segment[segment];
   snprintf(s->label, sizeof s->label, "%s", label);
-  cJSON_AddItemToArray(cJSON_GetObjectItem(r->json, "segments"), segment_of(s));
+  cJSON_AddItemToArray(cJSON_GetObjectItem(r->json, "segments"), segment_of(s, false));
   add_totals(r, flown, s->contacts);
 }
 

@@ -17,12 +17,9 @@ typedef struct {
 MUST_CHECK done_t result_init(result_t *r, why_t *why);
 void result_free(result_t *r);
 
-// Adds the flight's segments, contacts and finiteness. Keeps the record of the last flight added
-// (the flown's record is taken over).
+// Adds the flight's segments, contacts and finiteness; in six degrees of freedom each segment also has
+// "tilt_max_deg". Keeps the record of the last flight added (the flown's record is taken over).
 void result_add_flight(result_t *r, flown_t *flown);
-
-// The same in six degrees of freedom: each segment also has "tilt_max_deg". *flown is then empty.
-void result_add_flight6(result_t *r, flown6_t *flown);
 
 // Adds a table "learned" with the weights, as parameters to type in, and the array "weights".
 void result_add_weights(result_t *r, const rbf_weights_t *weights);

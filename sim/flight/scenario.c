@@ -35,9 +35,12 @@ done_t scenario_check_ladder(const model_t *model, why_t *why) {
 done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
   *setup = (setup_t){
       .kind = kind,
-      .period_s = 0.01,
       .learn_from = {{1.0f}},
-      .plan = {.way = {{0.0, 0.40}, {10.0, 0.43}, {20.0, 0.48}}, .n_way = 3, .end_s = 40.0},
+      .plan = {.vertical_only = true,
+               .period_s = 0.01,
+               .way = {{0.0, 0.40}, {10.0, 0.43}, {20.0, 0.48}},
+               .n_way = 3,
+               .end_s = 40.0},
       // Table 4.2's gains for 0.40 m, scaled to the mass.
       .pid = {.p = 2.24, .i = 0.32, .d = 0.512, .n_per_s = 100.0, .limit_N = 0.64, .ratio_max = 1.6},
   };
@@ -56,24 +59,24 @@ done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
 
 done_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why) {
   TRY(scenario_appendix_a_setup(setup, FLY_INDI_LIVE, why));
-  setup->plan.noise = noise_levels[1];
+  setup->plan.vertical_noise = vertical_noise_levels[1];
   TRY(setup_apply(setup, request, why));
   TRY(scenario_check_ladder(&setup->model, why));
-  setup_learning_ladder(&setup->plan, setup->model.ceiling_m);
+  setup_close_ladder(setup);
   return DONE;
 }
 
-done_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
-  TRY(setup6_thesis(setup, kind, why));
-  setup->flight.guard.blind_max_s = SETUP6_BLIND_S;
-  TRY(setup6_apply(setup, request, why));
+done_t scenario_thesis_setup(setup_t *setup, fly_kind_t kind, const request_t *request, why_t *why) {
+  TRY(setup_thesis(setup, kind, why));
+  setup->flight.guard.blind_max_s = SETUP_BLIND_S;
+  TRY(setup_apply(setup, request, why));
   return scenario_check_ladder(&setup->model, why);
 }
 
-done_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why) {
-  flown6_t flown;
-  TRY(setup6_fly(setup, &flown, why));
-  result_add_flight6(result, &flown);
+done_t scenario_fly(const setup_t *setup, result_t *result, why_t *why) {
+  flown_t flown;
+  TRY(setup_fly(setup, &flown, why));
+  result_add_flight(result, &flown);
   // So that who reads the distances need not be told.
   if (isfinite(setup->model.ceiling_m))
     cJSON_AddNumberToObject(result->json, "ceiling_m", setup->model.ceiling_m);

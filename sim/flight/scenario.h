@@ -3,7 +3,7 @@
 #define SIM_FLIGHT_SCENARIO_H
 
 #include "flight/result.h"
-#include "flight/setup.h"
+#include "flight/setup6.h"
 
 typedef struct {
   const char *name; // on the command line
@@ -29,12 +29,12 @@ MUST_CHECK done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why
 MUST_CHECK done_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why);
 
 // The thesis's flights in six degrees of freedom, and what is asked for over them; the way up is the
-// caller's. BAD_INPUT: as setup6_apply and scenario_check_ladder.
-MUST_CHECK done_t scenario_thesis6_setup(setup6_t *setup, fly_kind_t kind, const request_t *request,
-                                         why_t *why);
+// caller's. BAD_INPUT: as setup_apply and scenario_check_ladder.
+MUST_CHECK done_t scenario_thesis_setup(setup_t *setup, fly_kind_t kind, const request_t *request,
+                                        why_t *why);
 
-// Flies and adds the flight. BAD_INPUT, FAILED: as setup6_fly.
-MUST_CHECK done_t scenario_fly6(const setup6_t *setup, result_t *result, why_t *why);
+// Flies and adds the flight. BAD_INPUT, FAILED: as setup_fly.
+MUST_CHECK done_t scenario_fly(const setup_t *setup, result_t *result, why_t *why);
 
 // BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
 MUST_CHECK done_t scenario_check_ladder(const model_t *model, why_t *why);

@@ -66,7 +66,11 @@ static segment_t measure(const span_t *x) {
   measure_hover(x, &out);
   out.peaks = count_peaks(x);
   double gap_m = x->s[x->first].gap_m;
-  for (int i = x->first + 1; i <= x->last; i++) gap_m = fmin(gap_m, x->s[i].gap_min_m);
+  if (x->first == 0) out.tilt_max_rad = x->s[0].tilt_rad;
+  for (int i = x->first + 1; i <= x->last; i++) {
+    gap_m = fmin(gap_m, x->s[i].gap_min_m);
+    out.tilt_max_rad = fmax(out.tilt_max_rad, x->s[i].tilt_rad);
+  }
   out.min_gap_mm = isfinite(gap_m) ? 1e3 * gap_m : (double)NAN;
   // A contact that lasts from the segment before is this one's too.
   out.contacts = x->s[x->last].contacts - x->s[x->first].contacts + x->s[x->first].touching;

@@ -2,7 +2,7 @@
 #ifndef SIM_FLIGHT_SEGMENTS_H
 #define SIM_FLIGHT_SEGMENTS_H
 
-#include "flight/loop.h"
+#include "flight/loop6.h"
 
 // NaN: not reached, or nothing to measure.
 typedef struct {
@@ -17,6 +17,7 @@ typedef struct {
   double rms_mm;        // about the set point
   double min_gap_mm;    // smallest distance to the ceiling
   int contacts;         // with the ceiling, also one that lasts from before
+  double tilt_max_rad;
 } segment_t;
 
 // One segment for each waypoint of the plan. segment has room for WAYPOINTS_MAX; returns how many.

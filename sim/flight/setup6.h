@@ -1,52 +1,106 @@
-// setup6.h - everything that one flight in six degrees of freedom needs, and what it was like.
+// setup6.h - everything that one flight needs: model, controller, plan; what a person changes of it; and what
+// it was like.
 #ifndef SIM_FLIGHT_SETUP6_H
 #define SIM_FLIGHT_SETUP6_H
 
 #include "flight/loop6.h"
-#include "flight/setup.h"
+#include "flight/params.h"
+#include "flight/segments.h"
 #include "pilots/air_garage.h"
+#include "pilots/param_spec.h"
+#include "pilots/pid.h"
+
+typedef enum {
+  FLY_INDI,         // standard INDI: no ceiling term
+  FLY_INDI_THEORY,  // ceiling term from 1 + ca exp(-cb zc)
+  FLY_INDI_RBF,     // from the fixed weights ceil.w1..w7
+  FLY_INDI_LEARNED, // from weights learned in a learning flight before, then frozen
+  FLY_INDI_LIVE,    // from the weights while they are being learned: the learning flight itself
+  FLY_PID,          // thesis section 4.2; on the vertical axis
+  FLY_PID_FF,
+  FLY_STOCK_PID, // the firmware's, in six degrees of freedom; so the next two
+  FLY_STOCK_INDI,
+  FLY_AIR_GARAGE, // the stock PID, its thrust divided by a ground and ceiling ratio
+  FLY_COUNT
+} fly_kind_t;
+
+// The name on the command line; a null pointer for what cannot be asked for.
+extern const char *const fly_name[FLY_COUNT];
+
+#define REQUEST_MAX 128
+
+struct usd_deck;
+
+// What the command line asks for, over what the scenario brings.
+typedef struct {
+  const fly_kind_t *kind; // null: the scenario's
+  const model_t *vehicle; // null: the scenario's
+  const noise6_t *noise;  // null: the scenario's; so the next
+  const vertical_noise_t *vertical_noise;
+  noise6_t noise_changed; // where `noise` points to if the command line changes a level
+  fx_use_t effect[FX_MAX];
+  int n_effect;
+  bool no_effects; // first switches off what the scenario has
+  param_set_t set[REQUEST_MAX];
+  int n_set;
+  bool log;             // keeps the app's logs, in six degrees of freedom
+  bool log_calls;       // with log: the app's logs of every call, and nothing else; six degrees of freedom
+  bool log_500_Hz;      // six degrees of freedom: a sample every 2 ms instead of 10
+  struct usd_deck *usd; // on board, six degrees of freedom; null: none
+  uint64_t seed;
+  integrate_kind_t integrate;
+} request_t;
 
 typedef struct {
   model_t model;
   flight_param_t flight;
   rbf_weights_t learn_from; // what a learning flight starts with
   fly_kind_t kind;
+  pid_param_t pid;
   stock_pid_param_t stock_pid;
   air_garage_param_t air_garage; // infinitely far ceiling: it gets the model's, counted from the propellers
-  plan6_t plan;
+  plan_t plan;
   const request_t *request; // parameters of the app, and whether its logs are kept; null: neither
-} setup6_t;
+} setup_t;
 
 // The thesis's experiments: a Crazyflie 2.1 with both decks under a ceiling at 0.5 m whose effect is
 // 1 + 0.44 exp(-80 zc) at every rotor; sensors as bad as the real ones; the flight code as it ships.
 // BAD_INPUT: a fault of the build, not of the user.
-MUST_CHECK done_t setup6_thesis(setup6_t *setup, fly_kind_t kind, why_t *why);
+MUST_CHECK done_t setup_thesis(setup_t *setup, fly_kind_t kind, why_t *why);
 
-// The firmware's controllers get the propellers of the vehicle. BAD_INPUT: as request_apply, or a
-// controller or a noise of the vertical axis, or for the firmware's controllers parameters or propellers that
-// they do not know.
-MUST_CHECK done_t setup6_apply(setup6_t *setup, const request_t *request, why_t *why);
+// What is asked for, over the scenario's. The firmware's controllers get the propellers of the vehicle.
+// BAD_INPUT: too many effects, parameters that contradict each other, or what cannot fly, act or be logged
+// there; for the firmware's controllers parameters or propellers that they do not know.
+MUST_CHECK done_t setup_apply(setup_t *setup, const request_t *request, why_t *why);
 
 // The thesis's flights stay below the range sensor's floor for longer than the guard of the shipped set
 // allows: ceil.blindMax for them.
-#define SETUP6_BLIND_S 60.0f
+#define SETUP_BLIND_S 60.0f
 
-// Waypoints at these gaps below the ceiling, hold_s each, after a take-off and a hover at the first: below
-// the ceiling as the controller thinks it; who thinks of none is told where it is.
-void setup6_ladder(setup6_t *setup, const double *gap_m, int n, double hold_s);
+// Waypoints at these gaps below the ceiling, hold_s each. In six degrees of freedom after a take-off and a
+// hover at the first, and below the ceiling as the controller thinks it; who thinks of none is told where it
+// is.
+void setup_ladder(setup_t *setup, const double *gap_m, int n, double hold_s);
 
-// That of the close flight and of the learning flight: 20 cm, then 10 to 2 cm in steps of 2 cm, 10 s each.
-void setup6_close_ladder(setup6_t *setup);
+// That of the close flight and of the learning flight (thesis section 5.3): 20 cm, then 10 to 2 cm in steps
+// of 2 cm, 10 s each.
+void setup_close_ladder(setup_t *setup);
 
+// A flight that was flown.
 typedef struct {
-  flown_t flown; // outcome, record, segments, weights
-  record6_t more;
-  double tilt_max_rad[WAYPOINTS_MAX]; // of each segment
-} flown6_t;
+  plan_t plan;
+  record_t record;
+  outcome_t outcome;
+  segment_t segment[WAYPOINTS_MAX];
+  int n_segment;
+  rbf_weights_t weights;  // at the end of the flight, where the flight code flew
+  flight_param_t shipped; // what ships with that controller: what record.param is held against
+} flown_t;
 
-// BAD_INPUT: as loop6_fly; then nothing is left to free. Else free what was flown.
-MUST_CHECK done_t setup6_fly(const setup6_t *setup, flown6_t *flown, why_t *why);
+// BAD_INPUT, FAILED: as loop_fly; a filter that the controller's rate does not allow; or FLY_INDI_LEARNED
+// where there is no ceiling to learn from. Then nothing is left to free. Else free what was flown.
+MUST_CHECK done_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
 
-void flown6_free(flown6_t *flown);
+void flown_free(flown_t *flown);
 
 #endif

@@ -2,13 +2,13 @@
 #include "flight/slot.h"
 
 #include "base/by_size.h"
+#include "base/constants.h"
 #include "base/csv.h"
 #include "vehicle/effect_spec.h"
 #include "vehicle/model_file.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define DEG           (3.14159265358979323846 / 180.0)
 #define WEIGHT_SD     0.03
 #define HOVER_S       15.0
 #define STEPS         20
@@ -59,8 +59,8 @@ static done_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
 }
 
 // To rise_m above rest as the high-level commander goes there, in steps, and a hover.
-static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
-  plan_t *const plan = &setup->plan.plan;
+static void plan_way(setup_t *setup, double rise_m, double take_off_s) {
+  plan_t *const plan = &setup->plan;
   setup->plan.take_off_s = SLOT_TAKEOFF_S;
   plan->n_way = STEPS + 1;
   for (int i = 0; i <= STEPS; i++) {
@@ -72,8 +72,8 @@ static void plan_way(setup6_t *setup, double rise_m, double take_off_s) {
   plan->end_s = SLOT_TAKEOFF_S + take_off_s + HOVER_S;
 }
 
-done_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
-  TRY(setup6_thesis(setup, FLY_STOCK_PID, why));
+done_t slot_setup(setup_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why) {
+  TRY(setup_thesis(setup, FLY_STOCK_PID, why));
   TRY(slot_vehicle(&setup->model, why));
   TRY(spread_weight(&setup->model, seed, why));
   const double rest_m = setup->model.frame.rotor_above_feet_m;
@@ -86,8 +86,8 @@ done_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, w
   setup->air_garage.ground_m = MARKER_DOWN_M - rest_m;
   const unsigned k = (unsigned)(seed % SLOT_FLIGHTS);
   setup->plan.mocap = (mocap_param_t){.period_s = 0.018, .late_s = 0.010, .sd_m = 5e-5, .sd_rad = 1e-3};
-  for (int i = 0; i < 2; i++) setup->plan.mocap.tilt_rad[i] = DEG * real[k].tilt_deg[i];
-  setup->plan.plan.seed = seed;
+  for (int i = 0; i < 2; i++) setup->plan.mocap.tilt_rad[i] = RAD_PER_DEG * real[k].tilt_deg[i];
+  setup->plan.seed = seed;
   plan_way(setup, rise_m, real[k].take_off_s);
   return DONE;
 }
@@ -164,8 +164,8 @@ done_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, wh
 
 // --- flown tracks -----------------------------------------------------------------------------------------
 
-done_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
-  const record_t *record = &flown->flown.record;
+done_t slot_judge_flight(const flown_t *flown, const model_t *model, slot_seen_t *seen, why_t *why) {
+  const record_t *record = &flown->record;
   slot_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
   if (!point) return error_failed(why, "out of memory");
   const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also where there is none

@@ -32,7 +32,7 @@ const char *slot_real(int k, double *ceiling_m);
 int slot_late(int k);
 
 // A flight of the scenario, complete but for what the user asks for. ceiling: else the open deck.
-MUST_CHECK done_t slot_setup(setup6_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
+MUST_CHECK done_t slot_setup(setup_t *setup, uint64_t seed, bool ceiling, double rise_m, why_t *why);
 
 typedef struct {
   double t_s, gap_m; // propellers' plane to ceiling
@@ -52,7 +52,7 @@ MUST_CHECK done_t slot_judge(const slot_point_t *point, int n, double start_s, s
 // csv_open.
 MUST_CHECK done_t slot_judge_file(const char *path, double ceiling_m, slot_seen_t *seen, why_t *why);
 
-MUST_CHECK done_t slot_judge_flight(const flown6_t *flown, const model_t *model, slot_seen_t *seen,
+MUST_CHECK done_t slot_judge_flight(const flown_t *flown, const model_t *model, slot_seen_t *seen,
                                     why_t *why);
 
 #endif

@@ -47,13 +47,13 @@ static double peak_m(const record_t *r) {
   return high_m;
 }
 
-static done_t make(const slot_case_t *c, int seed, setup6_t *setup, why_t *why) {
+static done_t make(const slot_case_t *c, int seed, setup_t *setup, why_t *why) {
   model_t file;
   TRY(slot_setup(setup, (uint64_t)seed, c->ceiling, c->rise_m, why));
   TRY(slot_vehicle(&file, why));
   if (c->mass_kg > 0.0) setup->model.mass_kg *= c->mass_kg / file.mass_kg; // the spread is kept
   setup->kind = c->kind;
-  setup->plan.plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
+  setup->plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
   if (!c->effect) return DONE;
   fx_use_t use;
   TRY(effect_parse(c->effect, &use, why));
@@ -61,20 +61,20 @@ static done_t make(const slot_case_t *c, int seed, setup6_t *setup, why_t *why) 
 }
 
 static done_t fly_one(const slot_case_t *c, int seed, tally_t *t, why_t *why) {
-  setup6_t setup;
-  flown6_t flown;
+  setup_t setup;
+  flown_t flown;
   slot_seen_t seen;
   const int like = seed % SLOT_FLIGHTS;
   TRY(make(c, seed, &setup, why));
-  TRY(setup6_fly(&setup, &flown, why));
+  TRY(setup_fly(&setup, &flown, why));
   done_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
-  if (!flown.flown.outcome.finite) status = error_failed(why, "seed %d: not finite", seed);
+  if (!flown.outcome.finite) status = error_failed(why, "seed %d: not finite", seed);
   if (status == DONE) {
     tally_add(t, like, &seen);
     t->sum->lift_s[slot_late(like)] += seen.lift_s;
-    t->sum->peak_m += peak_m(&flown.flown.record) / c->seeds;
+    t->sum->peak_m += peak_m(&flown.record) / c->seeds;
   }
-  flown6_free(&flown);
+  flown_free(&flown);
   return status;
 }
 

@@ -11,7 +11,7 @@ int taught_of(const record_t *record, const setup_t *setup, double far_m, taught
   rules.far_m = (float)far_m;
   sync_coef_t coef;
   learn_t learn;
-  if (sync_tune(&coef, p->cutoff_Hz, p->motor_tau_s, (float)setup->period_s) != ST_OK) return 0;
+  if (sync_tune(&coef, p->cutoff_Hz, p->motor_tau_s, (float)setup->plan.period_s) != ST_OK) return 0;
   if (learn_init(&learn, &rules, &setup->learn_from) != ST_OK) return 0;
   sync_t sync;
   int n = 0;

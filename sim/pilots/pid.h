@@ -10,7 +10,7 @@
 #ifndef SIM_PILOTS_PID_H
 #define SIM_PILOTS_PID_H
 
-#include "pilots/controller.h"
+#include "crazyflie/pilot6.h"
 
 typedef struct {
   double p, i, d; // N/m, N/(m s), N s/m
@@ -27,8 +27,10 @@ typedef struct {
   pid_param_t param;
   double period_s;
   double integral, slow_error; // of the error; the derivative filter's state
+  double ratio;                // as believed
 } pid_peer_t;
 
-controller_t pid_controller(pid_peer_t *pid, const pid_param_t *param, double period_s);
+// To be stepped every period_s; *pid must stay where it is.
+pilot6_t pid_pilot(pid_peer_t *pid, const pid_param_t *param, double period_s);
 
 #endif

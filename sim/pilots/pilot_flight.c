@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "crazyflie/sections.h"
 #include "firmware/settings.h"
+#include "pilots/pilot_outer.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +54,13 @@ static void reset(void *state) {
   crazyflie_start(&p->vehicle);
 }
 
+static void tell(const void *state, thoughts_t *thoughts) {
+  const pilot_flight_t *const p = state;
+  pilot_outer_tell(&p->flight->outer, thoughts);
+  thoughts->guard_now = p->flight->guard.now;
+  thoughts->guard_latched = p->flight->guard.latched;
+}
+
 done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
                          pilot6_t *pilot) {
   if (params_check(param) != ST_OK) return BAD_INPUT;
@@ -66,6 +74,6 @@ done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const m
   // As a pilot does who has seen enough of it in shadow.
   if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;
   crazyflie_start(&p->vehicle);
-  *pilot = (pilot6_t){.state = p, .step = step, .reset = reset};
+  *pilot = (pilot6_t){.state = p, .step = step, .reset = reset, .tell = tell};
   return DONE;
 }

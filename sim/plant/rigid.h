@@ -13,9 +13,9 @@
 #ifndef SIM_PLANT_RIGID_H
 #define SIM_PLANT_RIGID_H
 
+#include "base/constants.h"
 #include "base/d3.h"
 #include "base/pair.h"
-#include "plant/vertical.h"
 #include <stdbool.h>
 
 #define ROTORS 4
@@ -119,7 +119,7 @@ static inline void rigid_translate(const rigid_t *r, const double *y, const axes
   dydt[RIGID_POS_M + 2] = y[RIGID_VEL_MPS + 2];
   dydt[RIGID_VEL_MPS] = acc.x;
   dydt[RIGID_VEL_MPS + 1] = acc.y;
-  dydt[RIGID_VEL_MPS + 2] = acc.z - PLANT_GRAVITY_MPS2;
+  dydt[RIGID_VEL_MPS + 2] = acc.z - G_MPS2;
 }
 
 static inline void rigid_rotate(const rigid_t *r, const double *y, d3_t moment_b_Nm, double spin_Nms,

@@ -15,6 +15,7 @@
 #define TOUCH_SOFT_M  1e-5 // the damper comes in over this depth
 #define TOUCH_LEVEL   0.02 // below about this tilt (rad) a disc touches with its inside, above with its edge
 #define TOUCH_CORNERS 4
+#define TOUCH_POINTS  12 // feet, corners, discs
 #define TOUCH_FLOOR   1
 #define TOUCH_CEILING 2
 #define TOUCH_WALL    4

@@ -33,14 +33,14 @@ static void expect(ekf_t *e, double xy_m, double z_m) {
 static void hand_out(ekf_t *e) {
   e->out.pos_w_m = d3_of(e->s);
   e->out.vel_w_mps = dq_to_world(e->q, d3_of(e->s + 3));
-  e->out.acc_w_mps2 = d3_sub(dq_to_world(e->q, e->imu.acc_b_mps2), (d3_t){0.0, 0.0, EKF_G_MPS2});
+  e->out.acc_w_mps2 = d3_sub(dq_to_world(e->q, e->imu.acc_b_mps2), (d3_t){0.0, 0.0, G_MPS2});
   e->out.q_wb = e->q;
 }
 
 void ekf_init(ekf_t *e, const ekf_param_t *p, double yaw_rad) {
   *e = (ekf_t){.param = *p, .q_start = {cos(0.5 * yaw_rad), 0.0, 0.0, sin(0.5 * yaw_rad)}};
   e->q = e->q_start;
-  e->imu.acc_b_mps2.z = EKF_G_MPS2;
+  e->imu.acc_b_mps2.z = G_MPS2;
   ekf_core_rotation(e);
   expect(e, FIRST_POS_XY, FIRST_POS_Z);
   hand_out(e);
@@ -51,7 +51,7 @@ void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb) {
   const double s[EKF_N] = {pos_w_m.x, pos_w_m.y, pos_w_m.z, v.x, v.y, v.z, 0.0, 0.0, 0.0};
   for (int i = 0; i < EKF_N; i++) e->s[i] = s[i];
   e->q = q_wb;
-  e->imu.acc_b_mps2 = dq_to_body(q_wb, (d3_t){0.0, 0.0, EKF_G_MPS2});
+  e->imu.acc_b_mps2 = dq_to_body(q_wb, (d3_t){0.0, 0.0, G_MPS2});
   e->flying_ms = FLIGHT_MS;
   ekf_core_rotation(e);
   expect(e, 1e-3, 1e-3);

@@ -104,8 +104,6 @@ ekf_out_t ekf_step(ekf_t *e, const ekf_in_t *in);
 
 // --- the inside: the steps of the filter (ekf_core.c) ----------------------------------------------------
 
-#define EKF_G_MPS2 9.81
-
 // Brings e->R up to date with e->q.
 void ekf_core_rotation(ekf_t *e);
 

@@ -107,7 +107,7 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
       slope(s, POS + i, VEL + j, dt * e->R[i][j]);
       slope(s, POS + i, ATT + j, -dt * (e->R[i][0] * v[0][j] + e->R[i][1] * v[1][j] + e->R[i][2] * v[2][j]));
       slope(s, VEL + i, VEL + j, (i == j ? 1.0 : 0.0) - dt * w[i][j]);
-      slope(s, VEL + i, ATT + j, -dt * EKF_G_MPS2 * u[i][j]);
+      slope(s, VEL + i, ATT + j, -dt * G_MPS2 * u[i][j]);
       slope(s, ATT + i, ATT + j, turn[i][j]);
     }
 }
@@ -156,8 +156,8 @@ void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   if (flying) acc.x = acc.y = 0.0;
   const d3_t v = part(e, VEL), u = {e->R[2][0], e->R[2][1], e->R[2][2]};
   const d3_t way_b = d3_add(d3_scale(dt, v), d3_scale(0.5 * dt * dt, acc));
-  add(e, POS, d3_sub(to_world(e, way_b), (d3_t){0.0, 0.0, 0.5 * dt * dt * EKF_G_MPS2}));
-  add(e, VEL, d3_scale(dt, d3_sub(d3_sub(acc, d3_cross(gyro, v)), d3_scale(EKF_G_MPS2, u))));
+  add(e, POS, d3_sub(to_world(e, way_b), (d3_t){0.0, 0.0, 0.5 * dt * dt * G_MPS2}));
+  add(e, VEL, d3_scale(dt, d3_sub(d3_sub(acc, d3_cross(gyro, v)), d3_scale(G_MPS2, u))));
   dq_t q = dq_mul(e->q, dq_turn(d3_scale(dt, gyro)));
   if (!flying) q = dq_towards(q, e->q_start, e->param.reversion);
   e->q = dq_unit(q);

@@ -8,13 +8,14 @@
 #ifndef SIM_SENSE_IMU_H
 #define SIM_SENSE_IMU_H
 
+#include "base/constants.h"
 #include "base/random.h"
 #include "sense/truth.h"
 
 #define IMU_ACC_CUTOFF_HZ  30.0
 #define IMU_GYRO_CUTOFF_HZ 80.0
-#define IMU_ACC_MAX_MPS2   (24.0 * 9.81)
-#define IMU_GYRO_MAX_RADPS (2000.0 * 3.14159265358979323846 / 180.0)
+#define IMU_ACC_MAX_MPS2   (24.0 * G_MPS2)
+#define IMU_GYRO_MAX_RADPS (2000.0 * PI / 180.0)
 
 // All zero: perfect. A standard deviation is that of a FILTERED sample, each axis; the noise is white before
 // the filter.

@@ -1,11 +1,11 @@
 // noise6.c - levels of noise.
 #include "sense/noise6.h"
 
+#include "base/constants.h"
 #include <stddef.h>
 #include <string.h>
 
-#define G_MPS2 9.81
-#define DEG    (3.14159265358979323846 / 180.0)
+#define DEG RAD_PER_DEG
 
 const noise6_t noise6_levels[] = {
     {.name = "quiet", .range = {.down_cone_rad = 7.5 * DEG}},

@@ -26,6 +26,17 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
   };
 }
 
+model_t model_point(const model_t *m) {
+  model_t point = *m;
+  point.frame = model_frame_like_crazyflie(m);
+  point.frame.cg_above_feet_m = point.frame.rotor_above_feet_m = point.frame.top_above_rotor_m = 0.0;
+  point.wall_y_m = HUGE_VAL;
+  point.wall_solid = false;
+  point.floor_rise_x = point.floor_rise_y = 0.0;
+  point.battery = (battery_param_t){0};
+  return point;
+}
+
 double model_fx_least(const model_t *m, const fx_use_t *use, int param) {
   int n;
   const double least = fx_use_params(use, &n)[param].min;

@@ -49,6 +49,9 @@ typedef struct {
 // A Crazyflie 2.1 scaled to the model's mass and rotor radius: what a file says nothing of.
 frame_t model_frame_like_crazyflie(const model_t *m);
 
+// The same vehicle as a point with mass and thrust, its rotors' plane, above level ground and without walls.
+model_t model_point(const model_t *m);
+
 // The smallest that a parameter of an effect can be on this vehicle.
 double model_fx_least(const model_t *m, const fx_use_t *use, int param);
 

@@ -2,9 +2,9 @@
 #define _POSIX_C_SOURCE 200809L // access
 #include "vehicle/model_file.h"
 
+#include "base/constants.h"
 #include "base/nearest.h"
 #include "base/toml.h"
-#include "plant/vertical.h"
 #include "vehicle/effect_spec.h"
 #include "vehicle/frame_file.h"
 #include <math.h>
@@ -140,9 +140,9 @@ static done_t read_numbers(toml_t root, model_t *m, why_t *why) {
 // Grams for kilograms, or millinewton for newton, make a vehicle that cannot leave the ground or that no step
 // of the integrator follows.
 static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
-  const double weight_N = m->mass_kg * PLANT_GRAVITY_MPS2, lift = m->thrust_max_N / weight_N;
+  const double weight_N = m->mass_kg * G_MPS2, lift = m->thrust_max_N / weight_N;
   if (lift > LIFT_MIN && lift <= LIFT_MAX) return DONE;
-  const double most_kg = m->thrust_max_N / PLANT_GRAVITY_MPS2;
+  const double most_kg = m->thrust_max_N / G_MPS2;
   if (!(most_kg > 0.0))
     return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than the weight, %.3g N",
                        m->thrust_max_N, weight_N);

@@ -160,7 +160,7 @@ static done_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_fli
 
 static done_t start(exam_t *e, const exam_flight_t *job, why_t *why) {
   body_start_t at = {.pos_w_m = {0.0, 0.0, 0.4}, .seed = job->seed};
-  for (int k = 0; k < 4; k++) at.thrust_N[k] = 0.25 * e->model.mass_kg * PLANT_GRAVITY_MPS2;
+  for (int k = 0; k < 4; k++) at.thrust_N[k] = 0.25 * e->model.mass_kg * G_MPS2;
   e->random = random_open(job->seed * 31u + 7u);
   if (!e->random) return error_failed(why, "out of memory");
   at.discharged = random_uniform(e->random, 0.05, 0.85);

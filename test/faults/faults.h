@@ -57,7 +57,7 @@ typedef struct {
   unsigned pick;
   pilot_flight_t pilot, shadow; // shadow: flies along where a row asks for it
   pilot6_t inner, shadow_pilot;
-  plan6_t plan;
+  plan_t plan;
   model_t model;
   flight_param_t param;
   double t_s, kept;

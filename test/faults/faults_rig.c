@@ -86,8 +86,8 @@ static void place(case_t *c) {
 // The parameters as they come, but for what is the vehicle's; learning goes on all the time.
 static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   why_t why;
-  setup6_t setup;
-  if (setup6_thesis(&setup, FLY_INDI, &why) != DONE) return false;
+  setup_t setup;
+  if (setup_thesis(&setup, FLY_INDI, &why) != DONE) return false;
   draw(c, row, seed);
   c->model = setup.model;
   params_default(&c->param);
@@ -95,11 +95,11 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   c->param.motor_tau_s = setup.flight.motor_tau_s;
   c->param.curve.mode = CURVE_LIVE;
   c->plan = setup.plan;
-  c->plan.plan.seed = seed;
-  c->plan.plan.integrate = INTEGRATE_RK4;
-  c->plan.plan.end_s = FAULTS_END_S;
-  c->plan.plan.n_way = 1;
-  c->plan.plan.way[0] = (waypoint_t){0.0, FAULTS_CEILING_M - row->gap_m};
+  c->plan.seed = seed;
+  c->plan.integrate = INTEGRATE_RK4;
+  c->plan.end_s = FAULTS_END_S;
+  c->plan.n_way = 1;
+  c->plan.way[0] = (waypoint_t){0.0, FAULTS_CEILING_M - row->gap_m};
   c->plan.in_flight = true;
   if (row->begin && (!c->usual || row->same_bits)) row->begin(c);
   place(c);
@@ -118,12 +118,10 @@ void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
   const pilot6_t pilot = {.state = c, .step = step, .reset = reset};
   why_t why;
   record_t record = {0};
-  record6_t more = {0};
   outcome_t outcome = {0};
-  const done_t status = loop6_fly(&c->plan, &c->model, &pilot, NULL, &record, &more, &outcome, &why);
+  const done_t status = loop_fly(&c->plan, &c->model, &pilot, &record, &outcome, &why);
   c->seen.bad = c->seen.bad || status != DONE || !outcome.finite;
   c->seen.ratio_end = (double)c->pilot.flight->out.outer.at.ratio;
   record_free(&record);
-  record6_free(&more);
   random_close(c->r);
 }

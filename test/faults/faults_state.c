@@ -90,7 +90,7 @@ static void any_bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
 
 // Ten minutes, the last nine of them judged; the learner trusts each sample twice as much as usual.
 static void for_ten_minutes(case_t *c) {
-  c->plan.plan.end_s = 600.0;
+  c->plan.end_s = 600.0;
   c->onset_s = 60.0;
   c->param.learn.rls.lambda = 0.5f;
 }

@@ -139,30 +139,29 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
 }
 
 static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, uint64_t seed) {
-  setup6_t setup;
+  setup_t setup;
   why_t why;
   record_t record = {0};
-  record6_t more = {0};
   outcome_t outcome;
   random_close(r->random);
   r->random = random_open(seed);
   r->first = true;
   r->calls = r->burst = 0;
   r->step_off = seed % 2 ? 0xffff0000u : 0u; // some counters wrap on the way
-  if (setup6_thesis(&setup, kind, &why) != DONE) return error_exit("record", FAILED, &why);
-  setup6_close_ladder(&setup);
+  if (setup_thesis(&setup, kind, &why) != DONE) return error_exit("record", FAILED, &why);
+  setup_close_ladder(&setup);
+  setup.plan.below_estimate = false; // who watches is not asked
   if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
-  setup.plan.plan.seed = seed;
-  setup.plan.plan.integrate = INTEGRATE_RK4;
-  setup.plan.plan.end_s = end_s;
+  setup.plan.seed = seed;
+  setup.plan.integrate = INTEGRATE_RK4;
+  setup.plan.end_s = end_s;
   if (pilot_flight_init(&r->pilot, &setup.flight, &setup.model, &r->inner) != DONE) return 1;
   r->pilot.vehicle.fly = fly;
   r->pilot.vehicle.fly_context = r;
-  const done_t status = loop6_fly(&setup.plan, &setup.model, &r->inner, NULL, &record, &more, &outcome, &why);
+  const done_t status = loop_fly(&setup.plan, &setup.model, &r->inner, &record, &outcome, &why);
   if (status == DONE && r->from) printf("%ld calls, %d contacts, ", r->calls, outcome.contacts);
   record_free(&record);
-  record6_free(&more);
   return status == DONE ? 0 : error_exit("record", status, &why);
 }
 
@@ -172,13 +171,13 @@ static int fly_trace(recorder_t *r) {
     float blind_s; // 0: as shipped
     double end_s;
     bool inputs, params, time;
-  } row[] = {{FLY_INDI_LIVE, SETUP6_BLIND_S, 62.0, false, false, false},
-             {FLY_INDI_RBF, SETUP6_BLIND_S, 62.0, false, false, false},
+  } row[] = {{FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, false, false, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false},
              {FLY_INDI_RBF, 0.0f, 50.0, false, false, false},
-             {FLY_INDI_RBF, SETUP6_BLIND_S, 25.0, false, true, false},
-             {FLY_INDI_LIVE, SETUP6_BLIND_S, 25.0, true, false, false},
-             {FLY_INDI_RBF, SETUP6_BLIND_S, 25.0, true, true, true},
-             {FLY_INDI_LIVE, SETUP6_BLIND_S, 25.0, true, true, true}};
+             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, false, true, false},
+             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, false, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, true, true, true},
+             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, true, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     r->inputs = row[i].inputs;
     r->params = row[i].params;
@@ -200,7 +199,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "record: %s: cannot be opened\n", argv[argc - 1]);
     return 2;
   }
-  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, SETUP6_BLIND_S, 62.0, 1) : fly_trace(&r);
+  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, 1) : fly_trace(&r);
   if (r.from) printf("%ld differ\n", r.differ);
   if (r.from) fclose(r.from);
   return fclose(r.to) == 0 && r.differ == 0 ? failed : 1;

@@ -18,10 +18,10 @@ static void make_logs(void) {
                     "head -n 1500 $S/l_flight.csv >$S/l_high.csv; "
                     "{ head -n 999 $S/l_flight.csv; printf 9980.000,0.4; } >$S/l_cut.csv; "
                     "head -n 1 $S/l_flight.csv >$S/l_names.csv; : >$S/l_empty.csv; mkdir -p $S/l_dir; "
-                    "sed '9s/,1,0,0,0,/,1,x,0,0,/' $S/l_flight.csv >$S/l_word.csv; "
+                    "sed '9s/,1.0000000,0.0000000,/,1.0000000,x,/' $S/l_flight.csv >$S/l_word.csv; "
                     "sed '9s/^[0-9.]*/10.000/' $S/l_flight.csv >$S/l_back.csv; "
-                    "sed '9s/,1,0,0,0,/,\"1,0\",0,0,0,/' $S/l_flight.csv >$S/l_comma.csv; "
-                    "sed '9s/,1,0,0,0,/,1,0,0,0,0,/' $S/l_flight.csv >$S/l_more.csv",
+                    "sed '9s/,1.0000000,/,\"1,0\",/' $S/l_flight.csv >$S/l_comma.csv; "
+                    "sed '9s/,1.0000000,/,1,0000000,/' $S/l_flight.csv >$S/l_more.csv",
                     STREAM_ERROR, text, sizeof text) == 0);
   CHECK_TEXT(text, "");
   scratch_file("l_other.toml",

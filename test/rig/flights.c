@@ -26,12 +26,12 @@ segment_t flights_last(const setup_t *setup, int *contacts) {
   return last;
 }
 
-segment_t flights_last_by(const setup_t *setup, const controller_t *controller, int *contacts) {
+segment_t flights_last_by(const setup_t *setup, const pilot6_t *pilot, int *contacts) {
   record_t record = {0};
   outcome_t outcome;
   why_t why;
   segment_t segment[WAYPOINTS_MAX];
-  if (!CHECK_OK(loop_fly(&setup->plan, &setup->model, controller, &record, &outcome, &why)))
+  if (!CHECK_OK(loop_fly(&setup->plan, &setup->model, pilot, &record, &outcome, &why)))
     return (segment_t){.contacts = -1};
   if (contacts) *contacts = outcome.contacts;
   const int n = segments_of(&record, &setup->plan, segment);

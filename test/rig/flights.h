@@ -12,7 +12,7 @@ setup_t flights_appendix_a(fly_kind_t kind, float cutoff_Hz, float lead_s, bool 
 // The last segment of the flight; contacts counts the whole flight.
 segment_t flights_last(const setup_t *setup, int *contacts);
 
-// The same with a controller that is not one of the set-up's.
-segment_t flights_last_by(const setup_t *setup, const controller_t *controller, int *contacts);
+// The same with a pilot that is not one of the set-up's.
+segment_t flights_last_by(const setup_t *setup, const pilot6_t *pilot, int *contacts);
 
 #endif

@@ -5,9 +5,9 @@
 #include "rig/test.h"
 
 void hover6_start(hover6_t *r, double yaw_rad) {
-  setup6_t setup;
+  setup_t setup;
   why_t why;
-  CHECK_OK(setup6_thesis(&setup, FLY_INDI, &why));
+  CHECK_OK(setup_thesis(&setup, FLY_INDI, &why));
   r->model = setup.model;
   r->model.ceiling_m = HUGE_VAL;
   setup.flight.curve.mode = CURVE_OFF;

@@ -26,17 +26,17 @@ static double mean_height_m(const record_t *r) {
   return sum / n;
 }
 
-static done_t hover(setup6_t setup, double bias_mps2, result_t *result, double *height_m, why_t *why) {
+static done_t hover(setup_t setup, double bias_mps2, result_t *result, double *height_m, why_t *why) {
   setup.plan.noise.imu.acc_bias_b_mps2.z = bias_mps2;
-  flown6_t flown;
-  TRY(setup6_fly(&setup, &flown, why));
-  *height_m = mean_height_m(&flown.flown.record);
-  snprintf(flown.flown.segment[0].label, sizeof flown.flown.segment[0].label, "bias %g m/s2", bias_mps2);
-  result_add_flight6(result, &flown);
+  flown_t flown;
+  TRY(setup_fly(&setup, &flown, why));
+  *height_m = mean_height_m(&flown.record);
+  snprintf(flown.segment[0].label, sizeof flown.segment[0].label, "bias %g m/s2", bias_mps2);
+  result_add_flight(result, &flown);
   return DONE;
 }
 
-static void tell(const setup6_t *setup, double bias_mps2, double height_m, double level_m, result_t *result) {
+static void tell(const setup_t *setup, double bias_mps2, double height_m, double level_m, result_t *result) {
   const double kp = (double)setup->flight.pos.kp_per_s, kd = (double)setup->flight.pos.kd_per_s;
   const double climb_mps = bias_mps2 / kd + EKF_CLIMB_S * bias_mps2;
   const double predicted_m = -climb_mps / kp - EKF_HEIGHT_S * bias_mps2;
@@ -51,16 +51,16 @@ static void tell(const setup6_t *setup, double bias_mps2, double height_m, doubl
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
   static const double bias_mps2[] = {-0.1, -0.05, 0.05, 0.1};
-  setup6_t setup;
-  TRY(setup6_thesis(&setup, FLY_INDI, why));
+  setup_t setup;
+  TRY(setup_thesis(&setup, FLY_INDI, why));
   setup.flight.bias.pole_radps = 0.0f; // what it costs where nothing finds it
   setup.model.ceiling_m = HUGE_VAL;
   setup.model.n_fx = 0;
-  TRY(setup6_apply(&setup, request, why));
+  TRY(setup_apply(&setup, request, why));
   setup.plan.take_off_s = 1.0;
-  setup.plan.plan.way[0] = (waypoint_t){0.0, HOVER_M};
-  setup.plan.plan.n_way = 1;
-  setup.plan.plan.end_s = END_S;
+  setup.plan.way[0] = (waypoint_t){0.0, HOVER_M};
+  setup.plan.n_way = 1;
+  setup.plan.end_s = END_S;
   double level_m, height_m;
   TRY(hover(setup, 0.0, result, &level_m, why));
   for (unsigned i = 0; i < sizeof bias_mps2 / sizeof *bias_mps2; i++) {

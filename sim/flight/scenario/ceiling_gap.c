@@ -13,18 +13,18 @@ static void tell(result_t *result, const slot_seen_t *seen) {
 }
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
-  setup6_t setup;
+  setup_t setup;
   TRY(slot_setup(&setup, request->seed, true, SLOT_RISE_M, why));
-  TRY(setup6_apply(&setup, request, why));
-  flown6_t flown;
-  TRY(setup6_fly(&setup, &flown, why));
+  TRY(setup_apply(&setup, request, why));
+  flown_t flown;
+  TRY(setup_fly(&setup, &flown, why));
   slot_seen_t seen;
   const done_t status = slot_judge_flight(&flown, &setup.model, &seen, why);
   if (status == DONE) {
     tell(result, &seen);
-    result_add_segment(result, &flown.flown, flown.flown.n_segment - 1, "hover");
+    result_add_segment(result, &flown, flown.n_segment - 1, "hover");
   }
-  flown6_free(&flown);
+  flown_free(&flown);
   return status;
 }
 

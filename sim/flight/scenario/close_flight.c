@@ -3,10 +3,10 @@
 #include "flight/scenario.h"
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
-  setup6_t setup;
-  TRY(scenario_thesis6_setup(&setup, FLY_INDI, request, why));
-  setup6_close_ladder(&setup);
-  return scenario_fly6(&setup, result, why);
+  setup_t setup;
+  TRY(scenario_thesis_setup(&setup, FLY_INDI, request, why));
+  setup_close_ladder(&setup);
+  return scenario_fly(&setup, result, why);
 }
 
 const scenario_t scenario_close_flight = {

@@ -2,7 +2,7 @@
 // there. What a linear analysis says (standard INDI, 8 Hz: 22.8 mm), shown by flights.
 #include "flight/scenario.h"
 
-#include "plant/vertical.h"
+#include "base/constants.h"
 
 #define FROM_M 0.07
 
@@ -13,7 +13,7 @@ static done_t fly_to(setup_t setup, int gap_mm, result_t *result, why_t *why) {
   setup.plan.n_way = 2;
   setup.plan.end_s = 25.0;
   setup.plan.start_z_m = setup.plan.way[0].setpoint_m;
-  setup.plan.start_thrust_N = setup.model.mass_kg * PLANT_GRAVITY_MPS2;
+  setup.plan.start_thrust_N = setup.model.mass_kg * G_MPS2;
   flown_t flown;
   TRY(setup_fly(&setup, &flown, why));
   char label[24];

@@ -11,7 +11,9 @@
 // lets it fall. Both are flown, with and without gate.
 #include "flight/scenario.h"
 
+#include "base/constants.h"
 #include "flight/ceiling.h"
+#include "sense/ekf.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +27,6 @@
 #define MOVE_S      1.0
 #define GAIN        0.1
 #define TICK_MS     10
-#define G_MPS2      9.81
 
 typedef struct {
   bool gate, says_0;
@@ -42,7 +43,7 @@ static void predict(algorithm1_t *a, const ceiling_param_t *p, double climb_m) {
 static void correct(algorithm1_t *a, const ceiling_param_t *p, double range_m, bool at_floor) {
   const double measured_m = a->says_0 && at_floor ? 0.0 : range_m;
   // A sample that the flight code refuses changes nothing.
-  if (a->gate) (void)!ceiling_correct(&a->ceiling, p, (float)measured_m, (float)LOOP6_UP_AGE_S);
+  if (a->gate) (void)!ceiling_correct(&a->ceiling, p, (float)measured_m, (float)LOOP_UP_AGE_S);
   if (!a->known) a->zc_m = measured_m;
   a->known = true;
   a->zc_m += GAIN * (measured_m - a->zc_m);
@@ -149,9 +150,9 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
     return error_set(why,
                      "--controller, --set, --effect, --integrator, --log-rate: in hand-held nobody flies; "
                      "allowed are --vehicle, --noise, --seed");
-  setup6_t setup;
-  TRY(setup6_thesis(&setup, FLY_INDI, why));
-  TRY(setup6_apply(&setup, request, why));
+  setup_t setup;
+  TRY(setup_thesis(&setup, FLY_INDI, why));
+  TRY(setup_apply(&setup, request, why));
   TRY(scenario_check_ladder(&setup.model, why));
   hand_t *s = calloc(1, sizeof *s);
   if (!s) return error_failed(why, "out of memory");

@@ -5,17 +5,17 @@
 #include "flight/scenario.h"
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
-  setup6_t setup;
-  TRY(scenario_thesis6_setup(&setup, FLY_INDI_LIVE, request, why));
+  setup_t setup;
+  TRY(scenario_thesis_setup(&setup, FLY_INDI_LIVE, request, why));
   if (setup.flight.curve.mode != CURVE_LIVE)
     return error_set(why,
                      "--controller, --set ceil.mode: nothing learns then; allowed in learning-flight are "
                      "neither, and ceil.mode=2");
-  setup6_close_ladder(&setup);
-  flown6_t flown;
-  TRY(setup6_fly(&setup, &flown, why));
-  result_add_weights(result, &flown.flown.weights);
-  result_add_flight6(result, &flown);
+  setup_close_ladder(&setup);
+  flown_t flown;
+  TRY(setup_fly(&setup, &flown, why));
+  result_add_weights(result, &flown.weights);
+  result_add_flight(result, &flown);
   return DONE;
 }
 

@@ -49,7 +49,7 @@ static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   const misfit_t m = taught_misfit(&w, &setup->model, 0.02, 0.10);
   cJSON *row = result_add_row(result, "fits");
   cJSON_AddNumberToObject(row, "share", a->share);
-  cJSON_AddNumberToObject(row, "time_constant_s", -setup->period_s / log(1.0 - a->share));
+  cJSON_AddNumberToObject(row, "time_constant_s", -setup->plan.period_s / log(1.0 - a->share));
   cJSON_AddNumberToObject(row, "rms", m.rms);
   cJSON_AddNumberToObject(row, "max", m.max);
   cJSON_AddNumberToObject(row, "up_4_8cm", a->up_sum / a->up_n);

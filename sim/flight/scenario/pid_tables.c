@@ -3,8 +3,7 @@
 // side of the derivative filter's limit of stability.
 #include "flight/scenario.h"
 
-#include "plant/vertical.h"
-
+#include "base/constants.h"
 #include "vehicle/model_file.h"
 
 #define CONTINUOUS_S 2e-4
@@ -29,9 +28,12 @@ static const row_t rows[] = {
 static done_t fly(const row_t *row, const request_t *request, double period_s, flown_t *flown, why_t *why) {
   setup_t setup = {
       .kind = row->kind,
-      .period_s = period_s,
       .learn_from = {{1.0f}},
-      .plan = {.way = {{0.0, row->setpoint_m}}, .n_way = 1, .end_s = row->kind == FLY_PID ? 20.0 : 40.0},
+      .plan = {.vertical_only = true,
+               .period_s = period_s,
+               .way = {{0.0, row->setpoint_m}},
+               .n_way = 1,
+               .end_s = row->kind == FLY_PID ? 20.0 : 40.0},
       .pid = {.p = row->p, .i = row->i, .d = row->d, .n_per_s = 100.0, .limit_N = 10.0, .ratio_max = 1.6},
   };
   params_default(&setup.flight);
@@ -40,7 +42,7 @@ static done_t fly(const row_t *row, const request_t *request, double period_s, f
   own.kind = NULL; // the table says which
   TRY(setup_apply(&setup, &own, why));
   setup.model.ceiling_m = row->ceiling_m; // whatever vehicle flies
-  setup.plan.start_thrust_N = setup.model.mass_kg * PLANT_GRAVITY_MPS2;
+  setup.plan.start_thrust_N = setup.model.mass_kg * G_MPS2;
   return setup_fly(&setup, flown, why);
 }
 

@@ -4,10 +4,10 @@
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
-  setup6_t setup;
-  TRY(scenario_thesis6_setup(&setup, FLY_INDI, request, why));
-  setup6_ladder(&setup, gap_m, 4, 10.0);
-  return scenario_fly6(&setup, result, why);
+  setup_t setup;
+  TRY(scenario_thesis_setup(&setup, FLY_INDI, request, why));
+  setup_ladder(&setup, gap_m, 4, 10.0);
+  return scenario_fly(&setup, result, why);
 }
 
 const scenario_t scenario_test_flight = {

@@ -13,18 +13,18 @@ static void aside(void *context, const body_t *truth, pilot6_in_t *in) {
 }
 
 static done_t run(const request_t *request, result_t *result, why_t *why) {
-  setup6_t setup;
-  TRY(setup6_thesis(&setup, FLY_INDI, why));
+  setup_t setup;
+  TRY(setup_thesis(&setup, FLY_INDI, why));
   setup.model.ceiling_m = HUGE_VAL;
   setup.model.n_fx = 0;
   setup.model.floor_rise_x = RISE;
-  TRY(setup6_apply(&setup, request, why));
+  TRY(setup_apply(&setup, request, why));
   setup.plan.take_off_s = 3.0;
   setup.plan.edit = aside;
-  setup.plan.plan.way[0] = (waypoint_t){0.0, HOVER_M};
-  setup.plan.plan.n_way = 1;
-  setup.plan.plan.end_s = 20.0;
-  return scenario_fly6(&setup, result, why);
+  setup.plan.way[0] = (waypoint_t){0.0, HOVER_M};
+  setup.plan.n_way = 1;
+  setup.plan.end_s = 20.0;
+  return scenario_fly(&setup, result, why);
 }
 
 const scenario_t scenario_uneven_floor = {

@@ -94,7 +94,7 @@ static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const t
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
   if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
-  return thrust_N > FLIES * m->mass_kg * PLANT_GRAVITY_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
+  return thrust_N > FLIES * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
 

@@ -40,8 +40,7 @@ static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const point_t *p,
 static void predict(const body_t *b, passed_t *at) {
   double dydt[RIGID_N];
   body_derivative_seen(b, b->y, &at->look, dydt);
-  const d3_t pull =
-      d3(dydt[RIGID_VEL_MPS], dydt[RIGID_VEL_MPS + 1], dydt[RIGID_VEL_MPS + 2] + PLANT_GRAVITY_MPS2);
+  const d3_t pull = d3(dydt[RIGID_VEL_MPS], dydt[RIGID_VEL_MPS + 1], dydt[RIGID_VEL_MPS + 2] + G_MPS2);
   at->sensed = at->sight;
   at->sensed.acc_b_mps2 = axes_to_body(&at->look.axes, pull);
   model_sense(b->model, &at->sensed);

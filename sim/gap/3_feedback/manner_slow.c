@@ -37,7 +37,7 @@ static slow_t solve(const spans_t *s, double period_s, double most) {
 
 static d3_t acc_w(const point_t *p) {
   const axes_t a = axes_of(p->q_wb);
-  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, PLANT_GRAVITY_MPS2));
+  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, G_MPS2));
 }
 
 static d3_t up_b(const point_t *p) {

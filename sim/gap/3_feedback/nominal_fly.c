@@ -112,7 +112,7 @@ static void steer(nominal_flight_t *f, double step_s, const point_t *seen, doubl
 static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
   const point_t *p = &f->g->point[f->at];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
-  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * PLANT_GRAVITY_MPS2;
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
   if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != DONE)
     return error_failed(why, "%s: a model that cannot be flown", m->name);

@@ -57,7 +57,7 @@ static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_
 
 // load: of the weight.
 static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
-  const double lift_N = f->lift_trim * load * f->m->mass_kg * PLANT_GRAVITY_MPS2;
+  const double lift_N = f->lift_trim * load * f->m->mass_kg * G_MPS2;
   mix(f->m, lift_N, d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2)), motor_N);
   for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
@@ -66,7 +66,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const
                  double motor_N[ROTORS]) {
   const manner_t *w = f->w;
   const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
-  const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, PLANT_GRAVITY_MPS2)));
+  const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
   const double roll = fmax(-TILT_MAX, fmin(TILT_MAX, -pull_b.y)),
                pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));
@@ -76,7 +76,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const
   const d3_t turn =
       d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x, w->tilt_gain * pitch - w->rate_gain[1] * rate.y,
          w->rate_gain[2] * (YAW * yaw - rate.z));
-  const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / PLANT_GRAVITY_MPS2;
+  const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double tau_s = f->body.rigid.motor_tau_s, lead = fmax(tau_s / QUICK_S - 1.0, 0.0);
   const double share = 1.0 - exp(-step_s / QUICK_S);
   f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
@@ -112,7 +112,6 @@ void pilot_trim(nominal_flight_t *f) {
     memcpy(b->rigid.command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
     body_derivative(b, 0.0, at, rates);
     f->turn_trim_radps2 = d3_sub(f->turn_trim_radps2, d3_of(rates + RIGID_RATE_RADPS));
-    f->lift_trim *=
-        PLANT_GRAVITY_MPS2 / fmax(PLANT_GRAVITY_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * PLANT_GRAVITY_MPS2);
+    f->lift_trim *= G_MPS2 / fmax(G_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * G_MPS2);
   }
 }

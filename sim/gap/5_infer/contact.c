@@ -29,8 +29,8 @@ static void leave_out(const rows_t *r, int from, int to) {
 // What a touch makes at least, in the unit of a channel.
 static double least(const model_t *m, int ch) {
   const double arm_m = fabs(m->frame.rotor_y_m[0]);
-  if (ch < CH_FORCES) return FORCE * PLANT_GRAVITY_MPS2;
-  return TURN * PLANT_GRAVITY_MPS2 * m->mass_kg * arm_m / m->frame.inertia_kgm2[ch - CH_WX];
+  if (ch < CH_FORCES) return FORCE * G_MPS2;
+  return TURN * G_MPS2 * m->mass_kg * arm_m / m->frame.inertia_kgm2[ch - CH_WX];
 }
 
 static int mark(const set_t *s, const double *e, double limit) {

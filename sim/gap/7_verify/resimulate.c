@@ -31,7 +31,7 @@ static void correct(const again_t *a, const point_t *track, double motor_N[ROTOR
   const d3_t turn = d3_sub(track->rate_b_radps, d3_of(y + RIGID_RATE_RADPS));
   const d3_t push = d3(PUSH * (LEVEL * off.x + slip.x), PUSH * (LEVEL * off.y + slip.y), 0.0);
   // Where the thrust should point: as it was measured, and towards the track.
-  const d3_t up_w = d3_add_scaled(wanted.z, 1.0 / PLANT_GRAVITY_MPS2, push);
+  const d3_t up_w = d3_add_scaled(wanted.z, 1.0 / G_MPS2, push);
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(up_w), up_w));
   const d3_t nose_b = axes_to_body(&axes, wanted.x);
   const double roll = f->inertia_kgm2[0] * (w->tilt_gain * -pull_b.y + w->rate_gain[0] * turn.x);

@@ -222,21 +222,21 @@ TEST(bias_behind_the_estimator_leaves_a_millimetre_of_two_centimetres) {
   // what the estimator's height itself is wrong by stays.
   for (int on = 0; on < 2; on++) {
     ROW("bias %s", on ? "found" : "not looked for");
-    setup6_t setup;
+    setup_t setup;
     why_t why;
-    CHECK_OK(setup6_thesis(&setup, FLY_INDI, &why));
+    CHECK_OK(setup_thesis(&setup, FLY_INDI, &why));
     const request_t nothing = {.integrate = INTEGRATE_RK4, .no_effects = true};
-    CHECK_OK(setup6_apply(&setup, &nothing, &why));
+    CHECK_OK(setup_apply(&setup, &nothing, &why));
     const double gap_m[] = {0.15};
-    setup6_ladder(&setup, gap_m, 1, 0.0);
+    setup_ladder(&setup, gap_m, 1, 0.0);
     setup.plan.below_estimate = false; // the height itself is judged
-    setup.plan.plan.end_s = 25.0;
+    setup.plan.end_s = 25.0;
     setup.plan.noise = *noise6_find("quiet");
     setup.plan.noise.imu.acc_bias_b_mps2.z = 0.0981;
     setup.flight.bias.pole_radps = on ? 1.0f : 0.0f;
-    flown6_t flown;
-    if (!CHECK_OK(setup6_fly(&setup, &flown, &why))) continue;
-    CHECK_NEAR(flown.flown.segment[0].mean_error_mm, on ? -1.2 : -35.8, on ? 1.5 : 3.6);
-    flown6_free(&flown);
+    flown_t flown;
+    if (!CHECK_OK(setup_fly(&setup, &flown, &why))) continue;
+    CHECK_NEAR(flown.segment[0].mean_error_mm, on ? -1.2 : -35.8, on ? 1.5 : 3.6);
+    flown_free(&flown);
   }
 }

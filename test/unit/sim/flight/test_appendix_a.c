@@ -137,7 +137,7 @@ TEST(standard_controller_holds_24_mm_and_loses_22_mm_at_8_hz) {
     const unsigned k = i / 2;
     ROW("gap %d mm at %d ms", row[k].gap_mm, i % 2 ? 2 : 10);
     setup_t setup = flights_appendix_a(FLY_INDI, 8.0f, 0.0f, true);
-    setup.period_s = i % 2 ? 0.002 : 0.01;
+    setup.plan.period_s = i % 2 ? 0.002 : 0.01;
     setup.plan.way[0] = (waypoint_t){0.0, 0.43};
     setup.plan.way[1] = (waypoint_t){5.0, 0.5 - 1e-3 * row[k].gap_mm};
     setup.plan.n_way = 2;

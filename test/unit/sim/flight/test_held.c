@@ -26,9 +26,9 @@ static double rad(double deg) {
 
 // A Crazyflie in free air, parameters as they ship but for what is the vehicle's.
 static void fresh(held_t *r) {
-  setup6_t setup;
+  setup_t setup;
   why_t why;
-  CHECK_OK(setup6_thesis(&setup, FLY_INDI, &why));
+  CHECK_OK(setup_thesis(&setup, FLY_INDI, &why));
   memset(r, 0, sizeof *r);
   r->model = setup.model;
   r->model.ceiling_m = HUGE_VAL;
@@ -224,9 +224,9 @@ TEST(vehicle_that_a_ceiling_holds_flies_when_it_is_told_to_go_down) {
     ROW("%s", row[i].what);
     held_t r;
     fresh(&r);
-    setup6_t setup;
+    setup_t setup;
     why_t why;
-    CHECK_OK(setup6_thesis(&setup, FLY_INDI, &why));
+    CHECK_OK(setup_thesis(&setup, FLY_INDI, &why));
     r.model = setup.model;
     r.model.frame.top_above_rotor_m = 0.005;
     open_hovering(&r, d3(0, 0, 0.3), (dq_t){1, 0, 0, 0}, false);

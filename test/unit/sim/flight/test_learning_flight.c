@@ -17,9 +17,9 @@ static setup_t learning_setup(const rbf_weights_t *from, double ca, double cb, u
   setup.learn_from = *from;
   setup.model.fx[0].p[0] = ca;
   setup.model.fx[0].p[1] = cb;
-  setup.plan.noise = noise_levels[1];
+  setup.plan.vertical_noise = vertical_noise_levels[1];
   setup.plan.seed = seed;
-  setup_learning_ladder(&setup.plan, setup.model.ceiling_m);
+  setup_close_ladder(&setup);
   return setup;
 }
 

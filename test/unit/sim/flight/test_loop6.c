@@ -49,25 +49,26 @@ static void watch(void *context, const body_t *truth, pilot6_in_t *in) {
 
 typedef struct {
   record_t record;
-  record6_t more;
   outcome_t outcome;
-  plan6_t plan;
+  plan_t plan;
 } flown_t6;
 
 // From 0.1 m, climbing at climb_mps; two set points, 0.4 m and from half the time on 0.45 m.
-static done_t fly_with(loop6_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
+static done_t fly_with(loop_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
                        model_t *model, why_t *why) {
   const double f = 0.25 * WEIGHT_N;
   *flown = (flown_t6){
       .plan = {
-          .plan = {.way = {{0.0, 0.4}, {0.5 * end_s, 0.45}}, .n_way = 2, .end_s = end_s},
+          .way = {{0.0, 0.4}, {0.5 * end_s, 0.45}},
+          .n_way = 2,
+          .end_s = end_s,
           .start = {.pos_w_m = {0.0, 0.0, 0.1}, .vel_w_mps = {0.0, 0.0, climb_mps}, .thrust_N = {f, f, f, f}},
           .in_flight = true,
           .edit = edit,
           .edit_context = s}};
-  flown->plan.plan.integrate = INTEGRATE_RK4;
+  flown->plan.integrate = INTEGRATE_RK4;
   const pilot6_t pilot = {.state = s, .step = still_step, .reset = still_reset};
-  return loop6_fly(&flown->plan, model, &pilot, NULL, &flown->record, &flown->more, &flown->outcome, why);
+  return loop_fly(&flown->plan, model, &pilot, &flown->record, &flown->outcome, why);
 }
 
 static done_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
@@ -76,7 +77,6 @@ static done_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, m
 
 static void drop(flown_t6 *flown) {
   record_free(&flown->record);
-  record6_free(&flown->more);
 }
 
 TEST(loop6_counts_a_contact_that_lasts_in_each_segment) {
@@ -88,7 +88,7 @@ TEST(loop6_counts_a_contact_that_lasts_in_each_segment) {
   why_t why;
   segment_t segment[WAYPOINTS_MAX];
   if (!CHECK_OK(fly(&s, 0.0, 6.0, &flown, &m, &why))) return;
-  CHECK(segments_of(&flown.record, &flown.plan.plan, segment) == 2);
+  CHECK(segments_of(&flown.record, &flown.plan, segment) == 2);
   CHECK(segment[0].contacts >= 1); // it may bounce
   CHECK(segment[1].contacts == 1);
   CHECK_NEAR(flown.record.sample[flown.record.n - 1].gap_m, 0.008, 1e-4);
@@ -170,11 +170,11 @@ TEST(loop6_records_every_tick_where_it_is_asked_to) {
   why_t why;
   if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
   CHECK(flown.record.n == 11);
-  plan6_t every = flown.plan;
+  plan_t every = flown.plan;
   drop(&flown);
   every.record_every = 1;
   const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset};
-  CHECK_OK(loop6_fly(&every, &m, &pilot, NULL, &flown.record, &flown.more, &flown.outcome, &why));
+  CHECK_OK(loop_fly(&every, &m, &pilot, &flown.record, &flown.outcome, &why));
   CHECK(flown.record.n == 51);
   CHECK_NEAR(flown.record.sample[50].t_s, 0.1, 1e-12);
   drop(&flown);
@@ -200,13 +200,13 @@ TEST(loop6_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
     why_t why;
     if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
     drop(&flown);
-    plan6_t plan = flown.plan;
-    plan.plan.n_way = 1;
+    plan_t plan = flown.plan;
+    plan.n_way = 1;
     plan.below_estimate = row[i].below_estimate;
-    const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset};
-    CHECK_OK(loop6_fly(&plan, &m, &pilot, think, &flown.record, &flown.more, &flown.outcome, &why));
+    const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset, .tell = think};
+    CHECK_OK(loop_fly(&plan, &m, &pilot, &flown.record, &flown.outcome, &why));
     const double want_m = isnan(row[i].want_m) ? 0.4 - m.frame.rotor_above_feet_m : row[i].want_m;
-    CHECK_NEAR(flown.more.sample[5].setpoint_z_m, want_m, 1e-12);
+    CHECK_NEAR(flown.record.sample[5].setpoint_z_m, want_m, 1e-12);
     drop(&flown);
   }
 }

@@ -5,24 +5,24 @@
 #include <math.h>
 #include <string.h>
 
-static bool fly(int hold, flown6_t *flown) {
-  setup6_t setup;
+static bool fly(int hold, flown_t *flown) {
+  setup_t setup;
   why_t why;
   const request_t request = {.seed = 1, .integrate = INTEGRATE_RK4};
-  if (!CHECK_OK(setup6_thesis(&setup, FLY_INDI_THEORY, &why))) return false;
-  if (!CHECK_OK(setup6_apply(&setup, &request, &why))) return false;
+  if (!CHECK_OK(setup_thesis(&setup, FLY_INDI_THEORY, &why))) return false;
+  if (!CHECK_OK(setup_apply(&setup, &request, &why))) return false;
   const double gap_m[] = {0.25, 0.10};
-  setup6_ladder(&setup, gap_m, 2, 10.0);
+  setup_ladder(&setup, gap_m, 2, 10.0);
   setup.flight.hold = hold;
-  return CHECK_OK(setup6_fly(&setup, flown, &why));
+  return CHECK_OK(setup_fly(&setup, flown, &why));
 }
 
 TEST(setup6_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_latched_one) {
   for (int hold = 0; hold < 2; hold++) {
     ROW("ceil.hold %d", hold);
-    flown6_t flown;
+    flown_t flown;
     if (!fly(hold, &flown)) return;
-    const record_t *r = &flown.flown.record;
+    const record_t *r = &flown.record;
     double low_m = HUGE_VAL, high_m = -HUGE_VAL, off_m = 0.0, gap_off_m = 0.0;
     for (int i = 0; i < r->n; i++) {
       const sample_t *s = &r->sample[i];
@@ -30,14 +30,14 @@ TEST(setup6_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_
       low_m = fmin(low_m, s->thoughts.ceiling_z_m);
       high_m = fmax(high_m, s->thoughts.ceiling_z_m);
       off_m = fmax(off_m, fabs(s->thoughts.ceiling_z_m - s->sense.z_m - s->thoughts.zc_m));
-      const double gap_m = s->thoughts.ceiling_z_m - flown.more.sample[i].setpoint_z_m;
+      const double gap_m = s->thoughts.ceiling_z_m - s->setpoint_z_m;
       gap_off_m = fmax(gap_off_m, fabs(gap_m - 0.10));
     }
     CHECK_NEAR(0.5 * (low_m + high_m), 0.47, 0.01); // of the rotors, from their height at rest
     CHECK(hold ? high_m == low_m : high_m > low_m + 1e-4);
     if (!hold) CHECK_NEAR(off_m, 0.0, 3e-3); // the estimate is some milliseconds older than the log
     CHECK_NEAR(gap_off_m, 0.0, hold ? 1e-9 : 2e-3);
-    flown6_free(&flown);
+    flown_free(&flown);
   }
 }
 
@@ -46,14 +46,14 @@ TEST(setup6_leaves_nothing_to_free_of_a_flight_that_failed) {
   static const fly_kind_t kind[] = {FLY_INDI_THEORY, FLY_INDI_LEARNED, FLY_STOCK_PID};
   for (unsigned i = 0; i < sizeof kind / sizeof *kind; i++) {
     ROW("%s", fly_name[kind[i]]);
-    setup6_t setup;
-    flown6_t flown;
+    setup_t setup;
+    flown_t flown;
     why_t why = {""};
-    if (!CHECK_OK(setup6_thesis(&setup, kind[i], &why))) return;
+    if (!CHECK_OK(setup_thesis(&setup, kind[i], &why))) return;
     setup.model.frame.inertia_kgm2[1] = 0.0;
-    CHECK_STATUS(BAD_INPUT, setup6_fly(&setup, &flown, &why));
+    CHECK_STATUS(BAD_INPUT, setup_fly(&setup, &flown, &why));
     CHECK(strstr(why.text, "such a vehicle cannot fly") != NULL);
-    const record_t *const r = &flown.flown.record;
-    CHECK(!r->sample && !r->more && !r->app && !r->param && !flown.more.sample);
+    const record_t *const r = &flown.record;
+    CHECK(!r->sample && !r->app && !r->param);
   }
 }

@@ -100,7 +100,7 @@ TEST(slot_captures_every_flight_where_the_ceiling_pulls_from_afar) {
 TEST(slot_top_is_as_high_as_on_flights_that_were_not_fitted) {
   if (!test_data_dir()) SKIP("no measured data");
   why_t why;
-  setup6_t setup;
+  setup_t setup;
   if (!CHECK_OK(slot_setup(&setup, 1, true, SLOT_RISE_M, &why))) return;
   for (unsigned i = 0; i < FLIGHTS; i++) {
     slot_seen_t seen;

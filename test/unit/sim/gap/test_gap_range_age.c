@@ -13,8 +13,8 @@
 
 // Up and down below the ceiling, as nothing of the thesis flies: at up to 0.25 m/s.
 static void fly_steps(int i, unsigned long seed) {
-  setup6_t setup;
-  flown6_t flown;
+  setup_t setup;
+  flown_t flown;
   why_t why;
   double gap_m[STEPS];
   char name[24];
@@ -22,21 +22,19 @@ static void fly_steps(int i, unsigned long seed) {
   request.effect[0] = fx_use(fx_find("rotor_drag")); // as the vehicle file has it, and no ceiling effect
   request.effect[0].p[0] = 1.7e-6;
   for (int k = 0; k < STEPS; k++) gap_m[k] = k % 2 ? 0.06 : 0.30;
-  if (!CHECK_OK(setup6_thesis(&setup, FLY_INDI_THEORY, &why))) return;
-  if (!CHECK_OK(setup6_apply(&setup, &request, &why))) return;
+  if (!CHECK_OK(setup_thesis(&setup, FLY_INDI_THEORY, &why))) return;
+  if (!CHECK_OK(setup_apply(&setup, &request, &why))) return;
   setup.flight.bias.pole_radps = 0.0f; // with it the flights show too little of the latency
-  setup.flight.guard.blind_max_s = SETUP6_BLIND_S;
-  setup6_ladder(&setup, gap_m, STEPS, 2.0);
-  if (!CHECK_OK(setup6_fly(&setup, &flown, &why))) return;
+  setup.flight.guard.blind_max_s = SETUP_BLIND_S;
+  setup_ladder(&setup, gap_m, STEPS, 2.0);
+  if (!CHECK_OK(setup_fly(&setup, &flown, &why))) return;
   snprintf(name, sizeof name, "age%d.csv", i);
   FILE *const file = fopen(scratch_path(name), "w");
   if (CHECK(file != NULL)) {
-    record_t record = flown.flown.record;
-    record.more = flown.more.sample;
-    record_write(&record, file);
+    record_write(&flown.record, file);
     CHECK(fclose(file) == 0);
   }
-  flown6_free(&flown);
+  flown_free(&flown);
 }
 
 TEST(gap_takes_the_age_of_a_range_sample_for_no_effect) {

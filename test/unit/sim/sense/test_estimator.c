@@ -2,7 +2,7 @@
 #include "rig/oracle.h"
 #include "rig/test.h"
 #include "sense/kalman_z.h"
-#include "sense/sensors.h"
+#include "sense/vertical.h"
 
 TEST(kalman_gains_are_those_of_the_prototype) {
   kalman_z_t k;
@@ -42,7 +42,7 @@ TEST(upward_sensor_has_a_floor_and_says_nothing_beyond_its_reach) {
   } row[] = {{1.0, 1.0}, {0.04, 0.04}, {0.02, 0.04}, {0.0, 0.04}, {4.5, 32.767}, {(double)INFINITY, 32.767}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g m", row[i].gap_m);
-    CHECK(sensors_up_m(&noise_levels[0], NULL, row[i].gap_m) == row[i].range_m);
+    CHECK(vertical_up_m(&vertical_noise_levels[0], NULL, row[i].gap_m) == row[i].range_m);
   }
 }
 
@@ -61,15 +61,17 @@ TEST(noise_comes_from_the_generator_of_the_library_number_for_number) {
 }
 
 TEST(noise_has_the_stated_size_and_the_same_seed_the_same_numbers) {
-  const noise_t n2 = noise_levels[2];
+  const vertical_noise_t n2 = vertical_noise_levels[2];
   random_t *a = random_open(7), *b = random_open(7), *c = random_open(8);
-  double sum2 = 0.0, product = 0.0, gust = 0.0, other = 0.0;
+  vertical_t one, two;
+  vertical_init(&one, &n2, 0.01, 0.0);
+  vertical_init(&two, &n2, 0.01, 0.0);
+  double sum2 = 0.0, product = 0.0, gust = 0.0;
   bool same = true;
   for (int i = 0; i < 200000; i++) {
     const double before = gust;
-    gust = sensors_gust(&n2, a, gust, 0.01);
-    other = sensors_gust(&n2, b, other, 0.01);
-    same = same && gust == other;
+    gust = vertical_gust_mps2(&one, &n2, a);
+    same = same && gust == vertical_gust_mps2(&two, &n2, b);
     sum2 += gust * gust;
     product += gust * before;
   }
