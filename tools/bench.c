@@ -5,7 +5,7 @@
 #include "bench_gap.h"
 #include "body/body.h"
 #include "flight/scenario.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "vehicle/model_file.h"
 
 #include <stdio.h>
@@ -92,7 +92,7 @@ static done_t bench_six(why_t *why) {
 }
 
 // The complete loop: body, real sensors, estimator and the whole flight code, in the thesis's test flight.
-static done_t bench_loop6(why_t *why) {
+static done_t bench_loop(why_t *why) {
   static const char *const name[] = {"SUNDIALS ERKStep 2 ms", "Runge-Kutta by hand 2 ms"};
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
   for (int k = 0; k < 2; k++) {
@@ -141,7 +141,7 @@ int main(int argc, char **argv) {
   }
   why_t why;
   done_t status = bench_six(&why);
-  if (status == DONE) status = bench_loop6(&why);
+  if (status == DONE) status = bench_loop(&why);
   if (status == DONE) status = bench_gap(&why);
   return error_exit("bench", status, &why);
 }

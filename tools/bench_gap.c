@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench_gap.h"
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "gap/diagnose.h"
 #include "vehicle/model_file.h"
 

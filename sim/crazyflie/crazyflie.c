@@ -23,10 +23,10 @@ static void stock(void *context, control_t *control, const setpoint_t *setpoint,
                   const state_t *state, uint32_t step) {
   (void)sensors, (void)state;
   crazyflie_t *const c = context;
-  pilot6_in_t in = *c->now;
+  pilot_in_t in = *c->now;
   in.step = step;
   if (setpoint->mode.z == modeDisable && setpoint->thrust == 0.0f)
-    in.set = (pilot6_setpoint_t){.mode = {PILOT6_OFF, PILOT6_OFF, PILOT6_OFF}};
+    in.set = (pilot_setpoint_t){.mode = {PILOT_OFF, PILOT_OFF, PILOT_OFF}};
   const stock_command_t *const command = stock_pid_command(&c->stock, &in);
   control->controlMode = controlModeLegacy;
   control->thrust = (float)command->thrust;
@@ -46,7 +46,7 @@ static void take_model(crazyflie_t *c, const model_t *model) {
     c->map = model->map;
     if (model->map.kind == THRUST_MAP_VOLT_CUBIC)
       memcpy(c->firmware.volt_cubic, model->map.c, sizeof c->firmware.volt_cubic);
-    if (model->map.kind != THRUST_MAP_STAND) c->firmware.thrust_max_N = model->thrust_max_N / PILOT6_MOTORS;
+    if (model->map.kind != THRUST_MAP_STAND) c->firmware.thrust_max_N = model->thrust_max_N / PILOT_MOTORS;
     if (!c->compensates) c->firmware.thrust_min_N = 0.0;
   }
   c->around.thrust_max_N = (float)c->firmware.thrust_max_N;
@@ -91,7 +91,7 @@ void crazyflie_start(crazyflie_t *c) {
     (to).z = (float)((scale) * (from).z);                                                                    \
   } while (0)
 
-static void measure(const pilot6_in_t *in, sensorData_t *sensors, state_t *state) {
+static void measure(const pilot_in_t *in, sensorData_t *sensors, state_t *state) {
   TO_FIRMWARE(sensors->acc, 1.0 / G_MPS2, in->acc_b_mps2);
   TO_FIRMWARE(sensors->gyro, DEG_PER_RAD, in->gyro_b_radps);
   TO_FIRMWARE(state->position, 1.0, in->pos_w_m);
@@ -104,12 +104,12 @@ static void measure(const pilot6_in_t *in, sensorData_t *sensors, state_t *state
   state->attitude.yaw = (float)view.yaw_deg;
 }
 
-static stab_mode_t mode_of(pilot6_mode_t mode) {
-  return mode == PILOT6_POSITION ? modeAbs : mode == PILOT6_VELOCITY ? modeVelocity : modeDisable;
+static stab_mode_t mode_of(pilot_mode_t mode) {
+  return mode == PILOT_POSITION ? modeAbs : mode == PILOT_VELOCITY ? modeVelocity : modeDisable;
 }
 
-static setpoint_t order(const crazyflie_t *c, const pilot6_setpoint_t *set) {
-  const bool level = set->mode[0] == PILOT6_OFF || set->mode[1] == PILOT6_OFF;
+static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
+  const bool level = set->mode[0] == PILOT_OFF || set->mode[1] == PILOT_OFF;
   setpoint_t sp = {
       .mode = {.x = mode_of(set->mode[0]),
                .y = mode_of(set->mode[1]),
@@ -118,7 +118,7 @@ static setpoint_t order(const crazyflie_t *c, const pilot6_setpoint_t *set) {
                .pitch = level ? modeAbs : modeDisable,
                .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
       .velocity_body = set->vel_in_body,
-      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT6_MOTORS * c->firmware.thrust_max_N)),
+      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
       .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
       .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
   };
@@ -129,14 +129,14 @@ static setpoint_t order(const crazyflie_t *c, const pilot6_setpoint_t *set) {
 }
 
 // The firmware cuts metres, a float, to whole millimetres in 16 bits.
-static void range(crazyflie_t *c, const pilot6_in_t *in) {
+static void range(crazyflie_t *c, const pilot_in_t *in) {
   if (!in->range_new) return;
   const float m = isnan(in->range_m) ? RANGE_NONE_M : (float)in->range_m;
   c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
 }
 
 // The firmware's power distribution, in the two modes that the app and the stock controller command.
-static void distribute(const control_t *control, double unit[PILOT6_MOTORS]) {
+static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
   if (control->controlMode == controlModeLegacy) {
     const stock_command_t command = {.roll = control->roll,
                                      .pitch = control->pitch,
@@ -145,19 +145,19 @@ static void distribute(const control_t *control, double unit[PILOT6_MOTORS]) {
     stock_mix(&command, unit);
     return;
   }
-  for (int i = 0; i < PILOT6_MOTORS; i++)
+  for (int i = 0; i < PILOT_MOTORS; i++)
     unit[i] = trunc(UNIT_MAX * fmin(fmax((double)control->normalizedForces[i], 0.0), 1.0));
 }
 
-static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
-  double unit[PILOT6_MOTORS] = {0.0}, duty[PILOT6_MOTORS];
+static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+  double unit[PILOT_MOTORS] = {0.0}, duty[PILOT_MOTORS];
   if (c->around.motors_allowed) distribute(&c->control, unit);
   if (c->compensates)
     stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
   else
     memcpy(duty, unit, sizeof duty);
   c->around.battery_V = (float)in->vbat_V;
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
     c->around.duty[i] = (uint16_t)duty[i];
     if (duty[i] > 0.0) c->turned_step = in->step;
@@ -167,9 +167,9 @@ static void drive(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_M
 }
 
 // Whoever flew before has commanded this.
-static void take_over(crazyflie_t *c, const pilot6_in_t *in) {
+static void take_over(crazyflie_t *c, const pilot_in_t *in) {
   c->control.controlMode = controlModeForce;
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     c->control.normalizedForces[i] = (float)(in->applied_N[i] / c->firmware.thrust_max_N);
     c->around.flying = c->around.flying || in->applied_N[i] > 0.0;
   }
@@ -179,7 +179,7 @@ static void take_over(crazyflie_t *c, const pilot6_in_t *in) {
   c->called = true;
 }
 
-void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stand_in = &c->around;
   if (!c->called) take_over(c, in);
   sensorData_t sensors = {.acc = {0}};

@@ -25,7 +25,7 @@ typedef struct {
   stock_power_t power;
   control_t control;
   stock_pid_t stock;
-  const pilot6_in_t *now; // during a call
+  const pilot_in_t *now; // during a call
   uint32_t turned_step;
   bool called;
 } crazyflie_t;
@@ -40,7 +40,7 @@ void crazyflie_start(crazyflie_t *c);
 // One millisecond: sensors, estimate and set point through the firmware's units, the app, power distribution
 // and battery compensation. Newton of each motor in free air, by the model's map at in->vbat_V. in->applied_N
 // is what another controller did before, and counts in the first call alone.
-void crazyflie_ms(crazyflie_t *c, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]);
+void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
 
 // A parameter or log of the app, "group.name"; the whole number for those that are no floats.
 // false: there is none of that name.

@@ -32,7 +32,7 @@ void stock_indi_select(stock_indi_t *s) {
 
 // Fault 1: what was wanted is in radians already when the next tick adds to it and converts it again. A
 // heading is turned into north-east-down, a rate is not.
-static void turn(stock_indi_t *s, const pilot6_setpoint_t *set) {
+static void turn(stock_indi_t *s, const pilot_setpoint_t *set) {
   const double rate_dps = STOCK_DEG * set->yaw_rate_radps;
   s->angle_rad[YAW] = set->yaw_by_rate
                           ? stock_cap_deg(s->angle_rad[YAW] + rate_dps / STOCK_ATTITUDE_HZ) / STOCK_DEG
@@ -40,15 +40,15 @@ static void turn(stock_indi_t *s, const pilot6_setpoint_t *set) {
 }
 
 // Fault 4: degrees into what is used as radians.
-static void run_cascade(stock_indi_t *s, const pilot6_in_t *in, const stock_view_t *view) {
+static void run_cascade(stock_indi_t *s, const pilot_in_t *in, const stock_view_t *view) {
   const stock_position_out_t wanted = stock_position_step(&s->cascade, &s->param.cascade, in, view->yaw_deg);
   s->angle_rad[ROLL] = wanted.roll_deg;
   s->angle_rad[PITCH] = wanted.pitch_deg;
   s->thrust = wanted.thrust;
 }
 
-static void run_position(stock_indi_t *s, const pilot6_in_t *in, const stock_view_t *view) {
-  const pilot6_mode_t *const mode = in->set.mode;
+static void run_position(stock_indi_t *s, const pilot_in_t *in, const stock_view_t *view) {
+  const pilot_mode_t *const mode = in->set.mode;
   // It runs also when none of its outputs is used (fault 5).
   if (s->param.outer) {
     stock_indi_outer_step(&s->position, &s->param.position, in, view);
@@ -56,11 +56,11 @@ static void run_position(stock_indi_t *s, const pilot6_in_t *in, const stock_vie
     s->angle_rad[ROLL] = s->position.roll_rad;
     s->angle_rad[PITCH] = s->position.pitch_rad;
   }
-  if (mode[2] == PILOT6_OFF)
-    s->thrust = STOCK_FULL * in->set.thrust_N / (PILOT6_MOTORS * s->param.power.thrust_max_N);
+  if (mode[2] == PILOT_OFF)
+    s->thrust = STOCK_FULL * in->set.thrust_N / (PILOT_MOTORS * s->param.power.thrust_max_N);
   // Wanted roll hangs on the mode of x, pitch on that of y.
-  if (mode[0] == PILOT6_OFF) s->angle_rad[ROLL] = 0.0;
-  if (mode[1] == PILOT6_OFF) s->angle_rad[PITCH] = 0.0;
+  if (mode[0] == PILOT_OFF) s->angle_rad[ROLL] = 0.0;
+  if (mode[1] == PILOT_OFF) s->angle_rad[PITCH] = 0.0;
 }
 
 static void increment(stock_indi_t *s, int axis, double angle_rad, double rate_radps) {
@@ -84,7 +84,7 @@ static void run_attitude(stock_indi_t *s, const stock_view_t *view) {
   increment(s, YAW, -k * view->yaw_deg, -k * view->gyro_dps.z);
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stock_indi_t *const s = state;
   const stock_view_t view = stock_view(in);
   const bool attitude_turn = in->step % STOCK_ATTITUDE_STEP == 0;
@@ -100,7 +100,7 @@ static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTOR
     if (s->thrust == 0.0) s->angle_rad[YAW] = -view.yaw_deg;
   }
   s->command = (stock_command_t){s->thrust, s->u_in[ROLL], s->u_in[PITCH], s->u_in[YAW]};
-  double unit[PILOT6_MOTORS];
+  double unit[PILOT_MOTORS];
   stock_mix(&s->command, unit);
   stock_power_step(&s->power, &s->param.power, unit, in->vbat_V, motor_N);
 }
@@ -112,8 +112,8 @@ static void reset(void *state) {
   stock_power_start(&s->power);
 }
 
-pilot6_t stock_indi_pilot(stock_indi_t *s, const stock_indi_param_t *param) {
+pilot_t stock_indi_pilot(stock_indi_t *s, const stock_indi_param_t *param) {
   s->param = *param;
   reset(s);
-  return (pilot6_t){.state = s, .step = step, .reset = reset};
+  return (pilot_t){.state = s, .step = step, .reset = reset};
 }

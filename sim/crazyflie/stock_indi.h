@@ -48,9 +48,9 @@ typedef struct {
 } stock_indi_t;
 
 // What the firmware does when the controller is selected, also in flight: filters and increments start at 0,
-// the thrust of the position loop stays (fault 5). pilot6's reset is power-on: everything starts at 0.
+// the thrust of the position loop stays (fault 5). pilot's reset is power-on: everything starts at 0.
 void stock_indi_select(stock_indi_t *s);
 
-pilot6_t stock_indi_pilot(stock_indi_t *s, const stock_indi_param_t *param);
+pilot_t stock_indi_pilot(stock_indi_t *s, const stock_indi_param_t *param);
 
 #endif

@@ -31,12 +31,12 @@ static d3_t down(d3_t v) {
 
 // The velocity set point is taken for one along the world's axes, whatever it is (fault 3); of a trajectory's
 // velocity and acceleration nothing is left (fault 7).
-static d3_t wanted_acceleration(const stock_indi_outer_param_t *p, const pilot6_in_t *in) {
+static d3_t wanted_acceleration(const stock_indi_outer_param_t *p, const pilot_in_t *in) {
   const d3_t off = d3_sub(in->set.pos_w_m, in->pos_w_m);
   d3_t v = in->set.vel_mps;
-  if (in->set.mode[0] == PILOT6_POSITION) v.x = p->kp_per_s * off.x;
-  if (in->set.mode[1] == PILOT6_POSITION) v.y = p->kp_per_s * off.y;
-  if (in->set.mode[2] == PILOT6_POSITION) v.z = p->kp_per_s * off.z;
+  if (in->set.mode[0] == PILOT_POSITION) v.x = p->kp_per_s * off.x;
+  if (in->set.mode[1] == PILOT_POSITION) v.y = p->kp_per_s * off.y;
+  if (in->set.mode[2] == PILOT_POSITION) v.z = p->kp_per_s * off.z;
   return down(d3_scale(p->kd_per_s, d3_sub(v, in->vel_w_mps)));
 }
 
@@ -52,7 +52,7 @@ static dq_t turned(d3_t angle_rad) {
   return dq_mul(yaw, dq_mul(pitch, roll));
 }
 
-void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t *p, const pilot6_in_t *in,
+void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t *p, const pilot_in_t *in,
                            const stock_view_t *view) {
   const d3_t wanted = wanted_acceleration(p, in);
   const d3_t acc_b = filtered(s->acc, d3_scale(G_MPS2, down(view->acc_g)));

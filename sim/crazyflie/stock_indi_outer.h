@@ -36,7 +36,7 @@ typedef struct {
 void stock_indi_outer_select(stock_indi_outer_t *s, const stock_indi_outer_param_t *p);
 
 // One period of 2 ms.
-void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t *p, const pilot6_in_t *in,
+void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t *p, const pilot_in_t *in,
                            const stock_view_t *view);
 
 #endif

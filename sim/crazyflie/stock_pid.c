@@ -27,7 +27,7 @@ void stock_pid_reset(stock_pid_t *s) {
   stock_power_start(&s->power);
 }
 
-static void start_anew(stock_pid_t *s, const pilot6_in_t *in, const stock_view_t *view) {
+static void start_anew(stock_pid_t *s, const pilot_in_t *in, const stock_view_t *view) {
   const double angle_deg[3] = {view->roll_deg, view->pitch_deg, view->yaw_deg};
   stock_position_start(&s->position, &s->param.position, in->pos_w_m);
   for (int i = 0; i < 3; i++) {
@@ -38,14 +38,14 @@ static void start_anew(stock_pid_t *s, const pilot6_in_t *in, const stock_view_t
   s->wanted.pitch_deg = view->pitch_deg;
 }
 
-static bool mode_changed(stock_pid_t *s, const pilot6_setpoint_t *set) {
+static bool mode_changed(stock_pid_t *s, const pilot_setpoint_t *set) {
   bool changed = set->yaw_by_rate != s->last.yaw_by_rate;
   for (int i = 0; i < 3; i++) changed |= set->mode[i] != s->last.mode[i];
   s->last = *set;
   return changed;
 }
 
-static void turn(stock_pid_t *s, const pilot6_setpoint_t *set) {
+static void turn(stock_pid_t *s, const pilot_setpoint_t *set) {
   const double to_deg = set->yaw_by_rate ? s->yaw_deg + STOCK_DEG * set->yaw_rate_radps / STOCK_ATTITUDE_HZ
                                          : STOCK_DEG * set->yaw_rad;
   s->yaw_deg = stock_cap_deg(to_deg);
@@ -55,8 +55,8 @@ static double saturated(double command) {
   return fmin(fmax(command, -COMMAND_MAX), COMMAND_MAX);
 }
 
-static void hold_attitude(stock_pid_t *s, const pilot6_setpoint_t *set, const stock_view_t *view) {
-  const bool level = set->mode[0] == PILOT6_OFF || set->mode[1] == PILOT6_OFF;
+static void hold_attitude(stock_pid_t *s, const pilot_setpoint_t *set, const stock_view_t *view) {
+  const bool level = set->mode[0] == PILOT_OFF || set->mode[1] == PILOT_OFF;
   const double wanted_deg[3] = {level ? 0.0 : s->wanted.roll_deg, level ? 0.0 : s->wanted.pitch_deg,
                                 s->yaw_deg};
   const double angle_deg[3] = {view->roll_deg, view->pitch_deg, view->yaw_deg};
@@ -73,7 +73,7 @@ static void hold_attitude(stock_pid_t *s, const pilot6_setpoint_t *set, const st
   s->command.yaw = -command[2];
 }
 
-const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot6_in_t *in) {
+const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot_in_t *in) {
   const stock_view_t view = stock_view(in);
   if (mode_changed(s, &in->set)) start_anew(s, in, &view);
   const bool attitude_turn = in->step % STOCK_ATTITUDE_STEP == 0;
@@ -81,8 +81,8 @@ const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot6_in_t *in) 
   if (in->step % STOCK_POSITION_STEP == 0)
     s->wanted = stock_position_step(&s->position, &s->param.position, in, view.yaw_deg);
   if (attitude_turn) {
-    if (in->set.mode[2] == PILOT6_OFF)
-      s->wanted.thrust = STOCK_FULL * in->set.thrust_N / (PILOT6_MOTORS * s->param.power.thrust_max_N);
+    if (in->set.mode[2] == PILOT_OFF)
+      s->wanted.thrust = STOCK_FULL * in->set.thrust_N / (PILOT_MOTORS * s->param.power.thrust_max_N);
     hold_attitude(s, &in->set, &view);
   }
   s->command.thrust = s->wanted.thrust;
@@ -94,9 +94,9 @@ const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot6_in_t *in) 
   return &s->command;
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stock_pid_t *const s = state;
-  double unit[PILOT6_MOTORS];
+  double unit[PILOT_MOTORS];
   stock_mix(stock_pid_command(s, in), unit);
   stock_power_step(&s->power, &s->param.power, unit, in->vbat_V, motor_N);
 }
@@ -105,8 +105,8 @@ static void reset(void *state) {
   stock_pid_reset(state);
 }
 
-pilot6_t stock_pid_pilot(stock_pid_t *s, const stock_pid_param_t *param) {
+pilot_t stock_pid_pilot(stock_pid_t *s, const stock_pid_param_t *param) {
   s->param = *param;
   stock_pid_reset(s);
-  return (pilot6_t){.state = s, .step = step, .reset = reset};
+  return (pilot_t){.state = s, .step = step, .reset = reset};
 }

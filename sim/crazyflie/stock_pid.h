@@ -28,15 +28,15 @@ typedef struct {
   pid_block_t attitude[3], rate[3];
   stock_position_out_t wanted; // roll, pitch, thrust
   double yaw_deg;              // wanted
-  pilot6_setpoint_t last;      // its modes
+  pilot_setpoint_t last;       // its modes
   stock_command_t command;
   stock_power_t power;
 } stock_pid_t;
 
 // stock_pid_command is all but the mixer, for peers that put something between; call it every millisecond.
 void stock_pid_reset(stock_pid_t *s);
-const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot6_in_t *in);
+const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot_in_t *in);
 
-pilot6_t stock_pid_pilot(stock_pid_t *s, const stock_pid_param_t *param);
+pilot_t stock_pid_pilot(stock_pid_t *s, const stock_pid_param_t *param);
 
 #endif

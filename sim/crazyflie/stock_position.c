@@ -39,7 +39,7 @@ static d3_t to_heading(d3_t v, double yaw_deg) {
 }
 
 stock_position_out_t stock_position_step(stock_position_t *s, const stock_position_param_t *p,
-                                         const pilot6_in_t *in, double yaw_deg) {
+                                         const pilot_in_t *in, double yaw_deg) {
   const d3_t to = to_heading(in->set.pos_w_m, yaw_deg), at = to_heading(in->pos_w_m, yaw_deg);
   const d3_t go = in->set.vel_in_body ? in->set.vel_mps : to_heading(in->set.vel_mps, yaw_deg);
   const d3_t goes = to_heading(in->vel_w_mps, yaw_deg);
@@ -47,7 +47,7 @@ stock_position_out_t stock_position_step(stock_position_t *s, const stock_positi
   const double wanted_mps[3] = {go.x, go.y, go.z}, mps[3] = {goes.x, goes.y, goes.z};
   double out[3];
   for (int i = 0; i < 3; i++) {
-    const bool hold = in->set.mode[i] == PILOT6_POSITION;
+    const bool hold = in->set.mode[i] == PILOT_POSITION;
     const double v = hold
                          ? pid_block_step(&s->pos[i], &p->pos[i], STOCK_POSITION_HZ, wanted_m[i], m[i], false)
                          : wanted_mps[i];

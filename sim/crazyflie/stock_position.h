@@ -34,6 +34,6 @@ void stock_position_start(stock_position_t *s, const stock_position_param_t *p, 
 
 // One period of 10 ms.
 stock_position_out_t stock_position_step(stock_position_t *s, const stock_position_param_t *p,
-                                         const pilot6_in_t *in, double yaw_deg);
+                                         const pilot_in_t *in, double yaw_deg);
 
 #endif

@@ -7,7 +7,7 @@
 #define SUPPLY_MIN_V   2.0
 #define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
 
-stock_view_t stock_view(const pilot6_in_t *in) {
+stock_view_t stock_view(const pilot_in_t *in) {
   const dq_t q = in->q_wb;
   const double lean = 2.0 * (q.w * q.y - q.x * q.z); // sine of the nose-down angle
   return (stock_view_t){
@@ -41,7 +41,7 @@ stock_power_param_t stock_power_plus(void) {
 
 stock_power_param_t stock_power_60g(void) {
   stock_power_param_t p = stock_power_legacy();
-  p.thrust_max_N = 0.060 * G_MPS2 / PILOT6_MOTORS;
+  p.thrust_max_N = 0.060 * G_MPS2 / PILOT_MOTORS;
   return p;
 }
 
@@ -56,7 +56,7 @@ void stock_power_start(stock_power_t *s) {
   *s = (stock_power_t){.supply_V = SUPPLY_START_V};
 }
 
-void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]) {
+void stock_mix(const stock_command_t *command, double unit[PILOT_MOTORS]) {
   const double t = command->thrust, yaw = trunc(command->yaw);
   const double r = trunc(trunc(command->roll) / 2.0), p = trunc(trunc(command->pitch) / 2.0);
   unit[0] = trunc(t - r + p + yaw);
@@ -89,7 +89,7 @@ static double near_V(const double c[4], double thrust_N, double v) {
 }
 
 static double wanted_V(const stock_power_param_t *p, double thrust_N, double last_V) {
-  const double *q = p->volt_quadratic, grams = PILOT6_MOTORS * 1e3 / G_MPS2 * thrust_N;
+  const double *q = p->volt_quadratic, grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N;
   if (q[0] > 0.0) return grams * (q[0] + q[1] * grams);
   return last_V > 0.0 ? near_V(p->volt_cubic, thrust_N, last_V) : cubic_V(p->volt_cubic, thrust_N);
 }
@@ -105,22 +105,22 @@ static double duty_of(stock_power_t *s, const stock_power_param_t *p, int motor,
   return trunc(STOCK_FULL * s->wanted_V[motor] / s->supply_V);
 }
 
-void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
-                      double vbat_V, double duty[PILOT6_MOTORS]) {
+void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
+                      double vbat_V, double duty[PILOT_MOTORS]) {
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
   double most = STOCK_FULL;
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     duty[i] = duty_of(s, p, i, unit[i]);
     most = fmax(most, duty[i]);
   }
-  for (int i = 0; i < PILOT6_MOTORS; i++) duty[i] = fmax(duty[i] - (most - STOCK_FULL), 0.0);
+  for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = fmax(duty[i] - (most - STOCK_FULL), 0.0);
 }
 
-void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
-                      double vbat_V, double motor_N[PILOT6_MOTORS]) {
-  double duty[PILOT6_MOTORS];
+void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
+                      double vbat_V, double motor_N[PILOT_MOTORS]) {
+  double duty[PILOT_MOTORS];
   stock_power_duty(s, p, unit, vbat_V, duty);
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     const double share = duty[i] / STOCK_FULL;
     motor_N[i] = share > 0.0 ? fmax(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
   }

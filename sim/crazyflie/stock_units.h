@@ -8,7 +8,7 @@
 #ifndef SIM_CRAZYFLIE_STOCK_UNITS_H
 #define SIM_CRAZYFLIE_STOCK_UNITS_H
 
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 
 #define STOCK_FULL          65535.0 // a 16-bit command
 #define STOCK_ATTITUDE_HZ   500.0
@@ -24,7 +24,7 @@ typedef struct {
   double roll_deg, pitch_deg, yaw_deg; // -180..180, -90..90, -180..180
 } stock_view_t;
 
-stock_view_t stock_view(const pilot6_in_t *in);
+stock_view_t stock_view(const pilot_in_t *in);
 
 // Into -180..180.
 double stock_cap_deg(double angle_deg);
@@ -53,25 +53,25 @@ stock_power_param_t stock_power_2022(void);
 
 typedef struct {
   double supply_V; // battery voltage, low-passed at 1 kHz with a gain of 0.01
-  double wanted_N[PILOT6_MOTORS],
-      wanted_V[PILOT6_MOTORS]; // the last ones, so that the cubic is solved when it changes
+  double wanted_N[PILOT_MOTORS],
+      wanted_V[PILOT_MOTORS]; // the last ones, so that the cubic is solved when it changes
 } stock_power_t;
 
 void stock_power_start(stock_power_t *s);
 
 // Units of each motor for the command: roll and pitch are halved, everything is whole numbers, nothing is
 // limited.
-void stock_mix(const stock_command_t *command, double unit[PILOT6_MOTORS]);
+void stock_mix(const stock_command_t *command, double unit[PILOT_MOTORS]);
 
 // PWM 0..65535 of each motor for units (rounded to whole ones). Volts from the cubic, duty from the filtered
 // battery; if a duty is above 65535, all four are lowered by the same amount and those below 0 stay at 0:
 // thrust goes before attitude. A motor below thrust_min_N is off, and so are all below 2 V of battery. To be
 // called every millisecond.
-void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
-                      double vbat_V, double duty[PILOT6_MOTORS]);
+void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
+                      double vbat_V, double duty[PILOT_MOTORS]);
 
 // The same, and the newton that the cubic's propellers make of it.
-void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT6_MOTORS],
-                      double vbat_V, double motor_N[PILOT6_MOTORS]);
+void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
+                      double vbat_V, double motor_N[PILOT_MOTORS]);
 
 #endif

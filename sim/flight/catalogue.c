@@ -5,7 +5,7 @@
 #include "flight/params.h"
 #include "flight/scenario.h"
 #include "pilots/param_spec.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 #include "sense/vertical.h"
 #include <math.h>
 #include <stdio.h>
@@ -83,10 +83,10 @@ void catalogue_all(void) {
   printf("noise\n ");
   for (int i = 0; i < vertical_noise_count; i++) printf(" %s", vertical_noise_levels[i].name);
   printf("\n  in six degrees of freedom:");
-  for (int i = 0; i < noise6_count; i++) printf(" %s", noise6_levels[i].name);
+  for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
   printf("; and of these, as real:acc.z=0.1,up=0.005\n");
-  for (int i = 0; i < noise6_field_count; i++) {
-    const noise6_field_t *f = &noise6_fields[i];
+  for (int i = 0; i < noise_field_count; i++) {
+    const noise_field_t *f = &noise_fields[i];
     printf("    %-12s %-6s %g to %g: %s\n", f->name, f->unit[0] ? f->unit : "-", f->min, f->max, f->brief);
   }
 }

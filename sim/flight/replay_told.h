@@ -2,7 +2,7 @@
 #ifndef SIM_FLIGHT_REPLAY_TOLD_H
 #define SIM_FLIGHT_REPLAY_TOLD_H
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 // Flies the log again with the parameters that the request sets, and says on the standard output what came of
 // it. Errors as replay_fly.

@@ -39,24 +39,24 @@ done_t request_take_log_rate(request_t *r, const char *text, why_t *why) {
 }
 
 static bool is_field(const char *name) {
-  for (int i = 0; i < noise6_field_count; i++)
-    if (strcmp(noise6_fields[i].name, name) == 0) return true;
+  for (int i = 0; i < noise_field_count; i++)
+    if (strcmp(noise_fields[i].name, name) == 0) return true;
   return false;
 }
 
 // One of the level's numbers, as "acc.z=0.1".
-static done_t set_noise(noise6_t *noise, const char *item, why_t *why) {
+static done_t set_noise(noise_t *noise, const char *item, why_t *why) {
   char name[NAME_MAX] = "";
   const size_t size = strcspn(item, "=");
   double value;
   if (item[size] == '=' && size < sizeof name) {
     memcpy(name, item, size);
     name[size] = '\0';
-    if (number_parse(item + size + 1, &value) && noise6_set(noise, name, value)) return DONE;
+    if (number_parse(item + size + 1, &value) && noise_set(noise, name, value)) return DONE;
   }
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
-  for (int i = 0; i < noise6_field_count; i++) nearest_try(&nearest, noise6_fields[i].name);
+  for (int i = 0; i < noise_field_count; i++) nearest_try(&nearest, noise_fields[i].name);
   return error_set(why, "--noise %s%s: allowed is KEY=VALUE, keys and ranges as fly --list shows them", item,
                    is_field(name) ? "" : nearest_hint(&nearest, hint));
 }
@@ -75,11 +75,11 @@ static done_t take_numbers(request_t *r, const char *items, why_t *why) {
 }
 
 // A level of six degrees of freedom, and what is changed of it.
-static done_t take_noise6(request_t *r, const char *spec, bool *there, why_t *why) {
+static done_t take_noise(request_t *r, const char *spec, bool *there, why_t *why) {
   const size_t size = strcspn(spec, ":");
   char name[NAME_MAX] = "";
   if (size < sizeof name) memcpy(name, spec, size);
-  r->noise = noise6_find(name);
+  r->noise = noise_find(name);
   *there = r->noise != NULL;
   if (!*there || !spec[size]) return DONE;
   r->noise_changed = *r->noise;
@@ -89,7 +89,7 @@ static done_t take_noise6(request_t *r, const char *spec, bool *there, why_t *wh
 done_t request_take_noise(request_t *r, const char *name, why_t *why) {
   bool six;
   r->vertical_noise = NULL;
-  TRY(take_noise6(r, name, &six, why));
+  TRY(take_noise(r, name, &six, why));
   if (six) return DONE;
   for (int i = 0; i < vertical_noise_count; i++) {
     if (strcmp(vertical_noise_levels[i].name, name) != 0) continue;
@@ -99,7 +99,7 @@ done_t request_take_noise(request_t *r, const char *name, why_t *why) {
   char hint[NEAREST_HINT];
   nearest_t nearest = nearest_to(name);
   for (int i = 0; i < vertical_noise_count; i++) nearest_try(&nearest, vertical_noise_levels[i].name);
-  for (int i = 0; i < noise6_count; i++) nearest_try(&nearest, noise6_levels[i].name);
+  for (int i = 0; i < noise_count; i++) nearest_try(&nearest, noise_levels[i].name);
   return error_set(
       why,
       "--noise %s%s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "

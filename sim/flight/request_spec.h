@@ -2,7 +2,7 @@
 #ifndef SIM_FLIGHT_REQUEST_SPEC_H
 #define SIM_FLIGHT_REQUEST_SPEC_H
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 // Each takes the value of one option. BAD_INPUT: not such a value; says what is allowed.
 MUST_CHECK done_t request_take_noise(request_t *r, const char *name, why_t *why);

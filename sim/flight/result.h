@@ -2,7 +2,7 @@
 #ifndef SIM_FLIGHT_RESULT_H
 #define SIM_FLIGHT_RESULT_H
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 #define SIM_FLIGHT_SCENARIO_H
 
 #include "flight/result.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 typedef struct {
   const char *name; // on the command line

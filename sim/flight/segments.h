@@ -2,7 +2,7 @@
 #ifndef SIM_FLIGHT_SEGMENTS_H
 #define SIM_FLIGHT_SEGMENTS_H
 
-#include "flight/loop6.h"
+#include "flight/loop.h"
 
 // NaN: not reached, or nothing to measure.
 typedef struct {

@@ -8,7 +8,7 @@
 #ifndef SIM_FLIGHT_SLOT_H
 #define SIM_FLIGHT_SLOT_H
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 #define SLOT_REST_M    0.0404 // propellers to ceiling at rest: 0.8349 - 0.7915 - 0.003 m
 #define SLOT_RISE_M    0.010  // commanded above rest

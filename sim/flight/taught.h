@@ -4,7 +4,7 @@
 #define SIM_FLIGHT_TAUGHT_H
 
 #include "base/error.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 typedef struct {
   double t_s, zc_m, y;

@@ -46,19 +46,19 @@ static double ratio_at(const air_garage_param_t *p, double z_m) {
 }
 
 // The root of the ratio at rotor i; NaN below the ground form's pole.
-static double rotor_root(const air_garage_param_t *p, const pilot6_in_t *in, int i) {
+static double rotor_root(const air_garage_param_t *p, const pilot_in_t *in, int i) {
   const d3_t at = dq_to_world(in->q_wb, (d3_t){p->ahead_m[i], p->left_m[i], 0.0});
   return sqrt(ratio_at(p, in->pos_w_m.z + at.z));
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   air_garage_t *const s = state;
   const air_garage_param_t *p = &s->param;
   stock_command_t command = *stock_pid_command(&s->pid, in);
   if (p->how == AIR_GARAGE_TOTAL) command.thrust /= ratio_at(p, in->pos_w_m.z);
-  double unit[PILOT6_MOTORS];
+  double unit[PILOT_MOTORS];
   stock_mix(&command, unit);
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     if (p->how == AIR_GARAGE_PER_ROTOR) unit[i] /= rotor_root(p, in, i);
     unit[i] = fmin(fmax(unit[i], 0.0), STOCK_FULL); // not a number becomes 0
   }
@@ -70,9 +70,9 @@ static void reset(void *state) {
   stock_pid_reset(&s->pid);
 }
 
-pilot6_t air_garage_pilot(air_garage_t *s, const air_garage_param_t *param) {
+pilot_t air_garage_pilot(air_garage_t *s, const air_garage_param_t *param) {
   s->param = *param;
   s->pid.param = param->pid;
   reset(s);
-  return (pilot6_t){.state = s, .step = step, .reset = reset};
+  return (pilot_t){.state = s, .step = step, .reset = reset};
 }

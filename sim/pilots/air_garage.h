@@ -47,6 +47,6 @@ typedef struct {
   stock_pid_t pid;
 } air_garage_t;
 
-pilot6_t air_garage_pilot(air_garage_t *s, const air_garage_param_t *param);
+pilot_t air_garage_pilot(air_garage_t *s, const air_garage_param_t *param);
 
 #endif

@@ -74,7 +74,7 @@ static done_t read_pid(toml_t t, const model_t *m, flown_by_t *by, why_t *why) {
   static const char *const keys[] = {"kind",         "full_scale_N", "posCtlPid", "velCtlPid",
                                      "pid_attitude", "pid_rate",     NULL};
   stock_pid_param_t pid = stock_pid_default();
-  pid.power.thrust_max_N = m->thrust_max_N / PILOT6_MOTORS;
+  pid.power.thrust_max_N = m->thrust_max_N / PILOT_MOTORS;
   TRY(toml_only(t, keys, why));
   if (toml_has(t, "full_scale_N"))
     TRY(toml_double(t, "full_scale_N", 1e-4, 1e3, &pid.power.thrust_max_N, why));

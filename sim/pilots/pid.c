@@ -9,7 +9,7 @@ static double believed_ratio(const pid_param_t *p, double z_m) {
   return denominator > 1.0 / p->ratio_max ? 1.0 / denominator : p->ratio_max;
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   pid_peer_t *s = state;
   const pid_param_t *p = &s->param;
   const double z_m = in->pos_w_m.z, error = in->set.pos_w_m.z - z_m;
@@ -20,7 +20,7 @@ static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTOR
 
   s->ratio = p->feed_forward ? believed_ratio(p, z_m) : 1.0;
   const double thrust_N = wanted_N + p->hover_N - (s->ratio - 1.0) * in->rotors_N;
-  for (int i = 0; i < PILOT6_MOTORS; i++) motor_N[i] = thrust_N / PILOT6_MOTORS;
+  for (int i = 0; i < PILOT_MOTORS; i++) motor_N[i] = thrust_N / PILOT_MOTORS;
 }
 
 static void reset(void *state) {
@@ -32,7 +32,7 @@ static void tell(const void *state, thoughts_t *thoughts) {
   thoughts->ratio = ((const pid_peer_t *)state)->ratio;
 }
 
-pilot6_t pid_pilot(pid_peer_t *pid, const pid_param_t *param, double period_s) {
+pilot_t pid_pilot(pid_peer_t *pid, const pid_param_t *param, double period_s) {
   *pid = (pid_peer_t){.param = *param, .period_s = period_s, .ratio = 1.0};
-  return (pilot6_t){.state = pid, .step = step, .reset = reset, .tell = tell};
+  return (pilot_t){.state = pid, .step = step, .reset = reset, .tell = tell};
 }

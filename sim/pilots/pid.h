@@ -10,7 +10,7 @@
 #ifndef SIM_PILOTS_PID_H
 #define SIM_PILOTS_PID_H
 
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 
 typedef struct {
   double p, i, d; // N/m, N/(m s), N s/m
@@ -31,6 +31,6 @@ typedef struct {
 } pid_peer_t;
 
 // To be stepped every period_s; *pid must stay where it is.
-pilot6_t pid_pilot(pid_peer_t *pid, const pid_param_t *param, double period_s);
+pilot_t pid_pilot(pid_peer_t *pid, const pid_param_t *param, double period_s);
 
 #endif

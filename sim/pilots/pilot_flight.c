@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-_Static_assert(MOTORS == PILOT6_MOTORS, "the same vehicle on both sides");
+_Static_assert(MOTORS == PILOT_MOTORS, "the same vehicle on both sides");
 
 // Writes what differs from what the app was told.
 static bool send(pilot_flight_t *p) {
@@ -26,7 +26,7 @@ static bool send(pilot_flight_t *p) {
   return known;
 }
 
-// At every call, or the second of so many as loop6 keeps its samples. Without memory the rows end.
+// At every call, or the second of so many as loop keeps its samples. Without memory the rows end.
 static void keep_log(pilot_flight_t *p, uint32_t step) {
   if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
   const int width = sections_logs();
@@ -41,7 +41,7 @@ static void keep_log(pilot_flight_t *p, uint32_t step) {
   crazyflie_logs(&p->vehicle, p->log + (size_t)p->n_log++ * (size_t)width);
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   pilot_flight_t *const p = state;
   if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
   crazyflie_ms(&p->vehicle, in, motor_N);
@@ -62,7 +62,7 @@ static void tell(const void *state, thoughts_t *thoughts) {
 }
 
 done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
-                         pilot6_t *pilot) {
+                         pilot_t *pilot) {
   if (params_check(param) != ST_OK) return BAD_INPUT;
   crazyflie_init(&p->vehicle, model);
   p->flight = &p->vehicle.app.flight;
@@ -74,6 +74,6 @@ done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const m
   // As a pilot does who has seen enough of it in shadow.
   if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;
   crazyflie_start(&p->vehicle);
-  *pilot = (pilot6_t){.state = p, .step = step, .reset = reset, .tell = tell};
+  *pilot = (pilot_t){.state = p, .step = step, .reset = reset, .tell = tell};
   return DONE;
 }

@@ -19,6 +19,6 @@ typedef struct {
 // BAD_INPUT: as flight_init. FAILED: a parameter that the app does not have.
 // p->log_every_ms may be set afterwards.
 MUST_CHECK done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const model_t *model,
-                                    pilot6_t *pilot);
+                                    pilot_t *pilot);
 
 #endif

@@ -23,10 +23,10 @@ static void tell(const void *state, thoughts_t *thoughts) {
   if (p->learned) thoughts->y = (double)p->flight.learn.y;
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   pilot_outer_t *p = state;
   double applied_N = 0.0;
-  for (int i = 0; i < PILOT6_MOTORS; i++) applied_N += in->applied_N[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) applied_N += in->applied_N[i];
   const outer_in_t flight_in = {
       .pos_w_m = {.z = (float)in->pos_w_m.z},
       .vel_w_mps = {.z = (float)in->vel_w_mps.z},
@@ -42,7 +42,7 @@ static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTOR
   const double thrust_N = (double)outer_step(&p->flight, &flight_in)->thrust_N;
   outer_learn(&p->flight);
   p->learned = p->flight.learn.rls.count != before;
-  for (int i = 0; i < PILOT6_MOTORS; i++) motor_N[i] = thrust_N / PILOT6_MOTORS;
+  for (int i = 0; i < PILOT_MOTORS; i++) motor_N[i] = thrust_N / PILOT_MOTORS;
 }
 
 static void reset(void *state) {
@@ -51,7 +51,7 @@ static void reset(void *state) {
   (void)!outer_init(&p->flight, &param, (float)p->flight.coef.period_s);
 }
 
-done_t pilot_outer_init(pilot_outer_t *p, const flight_param_t *param, double period_s, pilot6_t *pilot) {
-  *pilot = (pilot6_t){.state = p, .step = step, .reset = reset, .tell = tell};
+done_t pilot_outer_init(pilot_outer_t *p, const flight_param_t *param, double period_s, pilot_t *pilot) {
+  *pilot = (pilot_t){.state = p, .step = step, .reset = reset, .tell = tell};
   return outer_init(&p->flight, param, (float)period_s) == ST_OK ? DONE : BAD_INPUT;
 }

@@ -4,7 +4,7 @@
 #define SIM_PILOTS_PILOT_OUTER_H
 
 #include "base/error.h"
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 #include "flight/outer.h"
 
 typedef struct {
@@ -14,7 +14,7 @@ typedef struct {
 
 // To be stepped every period_s; *p must stay where it is. BAD_INPUT: as outer_init.
 MUST_CHECK done_t pilot_outer_init(pilot_outer_t *p, const flight_param_t *param, double period_s,
-                                   pilot6_t *pilot);
+                                   pilot_t *pilot);
 
 // What the outer loop thinks; `y` is left.
 void pilot_outer_tell(const outer_t *flight, thoughts_t *thoughts);

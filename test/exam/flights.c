@@ -55,8 +55,8 @@ static void drift(exam_t *e) {
     e->slow[i] = keep * e->slow[i] + normal(e, fresh * (i < 3 ? POS_SD : i < 6 ? VEL_SD : ANGLE_SD));
 }
 
-static pilot6_in_t measure(exam_t *e, const pilot6_in_t *before) {
-  pilot6_in_t in = *before;
+static pilot_in_t measure(exam_t *e, const pilot_in_t *before) {
+  pilot_in_t in = *before;
   const double *y = e->body.y;
   fx_sensed_t sensed = {.acc_b_mps2 = body_specific_force_b_mps2(&e->body)};
   model_sense(&e->model, &sensed);
@@ -100,8 +100,8 @@ static bool log_room(gap_flight_t *f, size_t n, bool told) {
   return good;
 }
 
-static void write(gap_flight_t *f, const exam_t *e, const pilot6_in_t *in, const double motor_N[4],
-                  double t_s, double range_m) {
+static void write(gap_flight_t *f, const exam_t *e, const pilot_in_t *in, const double motor_N[4], double t_s,
+                  double range_m) {
   const int i = f->n++;
   const double values[] = {in->pos_w_m.x,      in->pos_w_m.y,      in->pos_w_m.z - body_rest_z_m(&e->model),
                            in->vel_w_mps.x,    in->vel_w_mps.y,    in->vel_w_mps.z,
@@ -111,7 +111,7 @@ static void write(gap_flight_t *f, const exam_t *e, const pilot6_in_t *in, const
                            in->gyro_b_radps.z, motor_N[0],         motor_N[1],
                            motor_N[2],         motor_N[3],         in->vbat_V};
   for (unsigned k = 0; k < sizeof LOGGED / sizeof *LOGGED; k++) f->v[LOGGED[k]][i] = values[k];
-  const pilot6_setpoint_t *set = &in->set;
+  const pilot_setpoint_t *set = &in->set;
   const double told[] = {set->pos_w_m.x, set->pos_w_m.y, set->pos_w_m.z - body_rest_z_m(&e->model),
                          set->vel_mps.x, set->vel_mps.y, set->vel_mps.z,
                          set->yaw_rad};
@@ -122,15 +122,15 @@ static void write(gap_flight_t *f, const exam_t *e, const pilot6_in_t *in, const
 
 // --- the flight -------------------------------------------------------------------------------------------
 
-static void order(pilot6_in_t *in, const wish_t *w) {
-  for (int i = 0; i < 3; i++) in->set.mode[i] = PILOT6_POSITION;
+static void order(pilot_in_t *in, const wish_t *w) {
+  for (int i = 0; i < 3; i++) in->set.mode[i] = PILOT_POSITION;
   in->set.pos_w_m = w->pos;
   in->set.vel_mps = w->vel;
   in->set.yaw_rad = w->yaw;
 }
 
-static done_t run(exam_t *e, const pilot6_t *pilot, const plan_t6 *plan, gap_flight_t *f, why_t *why) {
-  pilot6_in_t in = {.q_wb = {.w = 1.0}};
+static done_t run(exam_t *e, const pilot_t *pilot, const plan_t6 *plan, gap_flight_t *f, why_t *why) {
+  pilot_in_t in = {.q_wb = {.w = 1.0}};
   double motor_N[4], z_m = 0.4, down_s = 0.0;
   for (int i = 0; i < 4; i++) in.applied_N[i] = e->body.command_N[i];
   pilot->reset(pilot->state);
@@ -187,7 +187,7 @@ done_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
   pilot_flight_t *const own = malloc(sizeof *own);
   stock_pid_t pid;
   const stock_pid_param_t pid_param = stock_pid_default();
-  pilot6_t pilot = stock_pid_pilot(&pid, &pid_param);
+  pilot_t pilot = stock_pid_pilot(&pid, &pid_param);
   done_t status = e && own ? DONE : error_failed(why, "out of memory");
   if (status == DONE && job->indi) {
     flight_param_t param;

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "body/body.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "pilots/pilot_flight.h"
 
 #define FAULTS_CEILING_M 0.5
@@ -56,7 +56,7 @@ typedef struct {
   double onset_s, length_s, size;
   unsigned pick;
   pilot_flight_t pilot, shadow; // shadow: flies along where a row asks for it
-  pilot6_t inner, shadow_pilot;
+  pilot_t inner, shadow_pilot;
   plan_t plan;
   model_t model;
   flight_param_t param;
@@ -77,8 +77,8 @@ struct row {
   const char *name;
   char cls; // see the head of test_faults.c
   double gap_m, length_lo, length_hi, size_lo, size_hi;
-  void (*edit)(case_t *c, pilot6_in_t *in, double since_s); // every millisecond while the fault lasts
-  unsigned reasons;                                         // one of them has to be latched; 0: none
+  void (*edit)(case_t *c, pilot_in_t *in, double since_s); // every millisecond while the fault lasts
+  unsigned reasons;                                        // one of them has to be latched; 0: none
   double within_s;
   double promise;           // per cent that are kept, of many; what is not 100 is in src/README.md
   void (*begin)(case_t *c); // before the flight

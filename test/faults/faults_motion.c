@@ -1,40 +1,40 @@
 // faults_motion.c - faults of the inertial sensors and of the estimate.
 #include "faults/faults.h"
 
-static double *field_of(pilot6_in_t *in, unsigned pick) {
+static double *field_of(pilot_in_t *in, unsigned pick) {
   double *const field[] = {&in->gyro_b_radps.x, &in->gyro_b_radps.z, &in->acc_b_mps2.x, &in->acc_b_mps2.z,
                            &in->pos_w_m.x,      &in->pos_w_m.z,      &in->vel_w_mps.y,  &in->vel_w_mps.z,
                            &in->q_wb.w,         &in->q_wb.z,         &in->range_m};
   return field[pick % (sizeof field / sizeof *field)];
 }
-static void nan_field(case_t *c, pilot6_in_t *in, double since_s) {
+static void nan_field(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   c->frozen_weights = true;
   *field_of(in, c->pick) = (double)NAN;
 }
-static void nan_inertial(case_t *c, pilot6_in_t *in, double since_s) {
+static void nan_inertial(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   c->frozen_weights = true;
   *field_of(in, c->pick % 10) = (double)NAN;
 }
-static void odd_field(case_t *c, pilot6_in_t *in, double since_s) {
+static void odd_field(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   static const double odd[] = {HUGE_VAL, -HUGE_VAL, 1e38, -1e38, 1e-42};
   *field_of(in, c->pick) = odd[(c->pick >> 8) % 5];
 }
-static void acc_bias(case_t *c, pilot6_in_t *in, double since_s) {
+static void acc_bias(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->acc_b_mps2.z += c->pick % 2 ? c->size : -c->size;
 }
-static void sensor_bias(case_t *c, pilot6_in_t *in, double since_s) {
+static void sensor_bias(case_t *c, pilot_in_t *in, double since_s) {
   (void)in, (void)since_s;
   c->plan.noise.imu.acc_bias_b_mps2.z = c->pick % 2 ? c->size : -c->size;
 }
-static void acc_stuck(case_t *c, pilot6_in_t *in, double since_s) {
+static void acc_stuck(case_t *c, pilot_in_t *in, double since_s) {
   if (since_s < 5e-4) c->kept3 = in->acc_b_mps2;
   in->acc_b_mps2 = c->kept3;
 }
-static void acc_clipped(case_t *c, pilot6_in_t *in, double since_s) {
+static void acc_clipped(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->acc_b_mps2.z = c->pick % 2 ? 235.4 : -235.4;
 }
@@ -42,31 +42,31 @@ static void worn_propeller(case_t *c) {
   c->plan.noise.imu.acc_xy_mps2 *= 5.0;
   c->plan.noise.imu.acc_z_mps2 *= 5.0;
 }
-static void gyro_zero(case_t *c, pilot6_in_t *in, double since_s) {
+static void gyro_zero(case_t *c, pilot_in_t *in, double since_s) {
   (void)c, (void)since_s;
   in->gyro_b_radps = (d3_t){0.0, 0.0, 0.0};
 }
-static void gyro_full(case_t *c, pilot6_in_t *in, double since_s) {
+static void gyro_full(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   *field_of(in, c->pick % 2) = c->pick & 4 ? 34.9 : -34.9;
 }
-static void attitude_wild(case_t *c, pilot6_in_t *in, double since_s) {
+static void attitude_wild(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   const double half = 0.5 * (c->pick % 2 ? 1.4 : 1.75);
   in->q_wb = (dq_t){cos(half), c->pick & 4 ? sin(half) : 0.0, c->pick & 4 ? 0.0 : sin(half), 0.0};
 }
-static void height_jump(case_t *c, pilot6_in_t *in, double since_s) {
+static void height_jump(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->pos_w_m.z += c->pick % 2 ? c->size : -c->size;
 }
-static void height_drift(case_t *c, pilot6_in_t *in, double since_s) {
+static void height_drift(case_t *c, pilot_in_t *in, double since_s) {
   in->pos_w_m.z -= c->size * since_s;
 }
-static void attitude_scale(case_t *c, pilot6_in_t *in, double since_s) {
+static void attitude_scale(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->q_wb = (dq_t){c->size * in->q_wb.w, c->size * in->q_wb.x, c->size * in->q_wb.y, c->size * in->q_wb.z};
 }
-static void velocity_noise(case_t *c, pilot6_in_t *in, double since_s) {
+static void velocity_noise(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->vel_w_mps.x += 5.0 * random_normal(c->r);
   in->vel_w_mps.y += 5.0 * random_normal(c->r);

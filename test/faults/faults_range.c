@@ -3,41 +3,41 @@
 
 #include <math.h>
 
-static void range_is(case_t *c, pilot6_in_t *in, double since_s) {
+static void range_is(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->range_m = c->size;
 }
-static void range_frozen(case_t *c, pilot6_in_t *in, double since_s) {
+static void range_frozen(case_t *c, pilot_in_t *in, double since_s) {
   if (since_s < 5e-4) c->kept = in->range_m;
   in->range_m = c->kept;
   c->goal_m = since_s < 1.0 ? 0.12 : c->row->gap_m;
 }
-static void range_shift(case_t *c, pilot6_in_t *in, double since_s) {
+static void range_shift(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->range_m = fmax(in->range_m + c->size, 0.04);
 }
 // From 30 cm, 0.1 m/s upwards, to 6 cm by a range that says too much.
-static void climb_by_range(case_t *c, pilot6_in_t *in, double since_s) {
+static void climb_by_range(case_t *c, pilot_in_t *in, double since_s) {
   range_shift(c, in, since_s);
   c->goal_m = fmax(0.3 - 0.1 * fmax(since_s - 1.5, 0.0), 0.06 - c->size);
 }
 static void biased(case_t *c) {
   c->onset_s = 0.0;
 }
-static void range_scale(case_t *c, pilot6_in_t *in, double since_s) {
+static void range_scale(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->range_m *= c->pick % 2 ? 1000.0 : 0.001;
 }
-static void below_floor(case_t *c, pilot6_in_t *in, double since_s) {
+static void below_floor(case_t *c, pilot_in_t *in, double since_s) {
   (void)in, (void)since_s;
   c->goal_m = 0.03;
 }
-static void locked_out(case_t *c, pilot6_in_t *in, double since_s) {
+static void locked_out(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4) c->pilot.flight->outer.ceiling.zc_m = 0.04f;
 }
 // Up and down at 0.3 m/s, 10 to 40 cm below the ceiling, while samples come late, twice or not at all.
-static void late_samples(case_t *c, pilot6_in_t *in, double since_s) {
+static void late_samples(case_t *c, pilot_in_t *in, double since_s) {
   const double x = random_uniform(c->r, 0.0, 1.0);
   const double phase = fmod(since_s + 0.25, 1.0), down = phase < 0.5 ? phase : 1.0 - phase;
   c->goal_m = 0.125 + 0.3 * down;
@@ -51,7 +51,7 @@ static void late_samples(case_t *c, pilot6_in_t *in, double since_s) {
   in->range_age_s = 0.07 + (c->t_s - c->kept);
 }
 // To and fro with up to 20 degrees of tilt.
-static void swaying(case_t *c, pilot6_in_t *in, double since_s) {
+static void swaying(case_t *c, pilot_in_t *in, double since_s) {
   (void)c;
   const double w = 3.14159265358979, top_m = 9.81 * tan(20.0 * 3.14159265358979 / 180.0) / (w * w);
   const double s = fmin(since_s, 2.0) / 2.0, size_m = top_m * s * s;

@@ -22,7 +22,7 @@ static double flown_height_m(const case_t *c, double gap_m) {
   return FAULTS_CEILING_M - gap_m - body_rotor_z_m(&c->model) - body_rest_z_m(&c->model);
 }
 
-static void fault(void *context, const body_t *truth, pilot6_in_t *in) {
+static void fault(void *context, const body_t *truth, pilot_in_t *in) {
   case_t *const c = context;
   faults_watch(c, truth);
   const double since_s = c->t_s - c->onset_s;
@@ -33,24 +33,24 @@ static void fault(void *context, const body_t *truth, pilot6_in_t *in) {
   if (c->plan.in_flight) in->set.pos_w_m.z = flown_height_m(c, c->goal_m);
   if (active && c->row->edit && !c->usual) c->row->edit(c, in, since_s);
   in->step += c->step_off;
-  c->t_s += PILOT6_PERIOD_S;
+  c->t_s += PILOT_PERIOD_S;
 }
 
 // FNV-1a over what the motors are told.
-static uint64_t mixed(uint64_t bits, const double motor_N[PILOT6_MOTORS]) {
-  unsigned char raw[PILOT6_MOTORS * sizeof *motor_N];
+static uint64_t mixed(uint64_t bits, const double motor_N[PILOT_MOTORS]) {
+  unsigned char raw[PILOT_MOTORS * sizeof *motor_N];
   memcpy(raw, motor_N, sizeof raw);
   for (size_t i = 0; i < sizeof raw; i++) bits = (bits ^ raw[i]) * 1099511628211u;
   return bits;
 }
 
-static void step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   case_t *const c = state;
   const rbf_weights_t before = c->pilot.flight->outer.learn.rls.theta;
   if (!c->skip) c->inner.step(c->inner.state, in, motor_N);
   if (c->twice) c->inner.step(c->inner.state, in, motor_N);
   if (c->with_shadow) {
-    double shadow_N[PILOT6_MOTORS];
+    double shadow_N[PILOT_MOTORS];
     c->shadow_pilot.step(c->shadow_pilot.state, in, shadow_N);
     if (memcmp(shadow_N, motor_N, sizeof shadow_N) != 0) c->seen.shadow_differs = true;
   }
@@ -115,7 +115,7 @@ void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
     c->seen.bad = true;
     return;
   }
-  const pilot6_t pilot = {.state = c, .step = step, .reset = reset};
+  const pilot_t pilot = {.state = c, .step = step, .reset = reset};
   why_t why;
   record_t record = {0};
   outcome_t outcome = {0};

@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-static void nan_setpoint(case_t *c, pilot6_in_t *in, double since_s) {
+static void nan_setpoint(case_t *c, pilot_in_t *in, double since_s) {
   (void)c, (void)since_s;
   in->set.pos_w_m.z = (double)NAN;
 }
-static void far_setpoint(case_t *c, pilot6_in_t *in, double since_s) {
+static void far_setpoint(case_t *c, pilot_in_t *in, double since_s) {
   (void)c, (void)since_s;
   in->set.pos_w_m.z = 5.0;
 }
@@ -17,26 +17,26 @@ static void clip_at_5_cm(case_t *c) {
 static void fixed_curve(case_t *c) {
   c->param.curve.mode = CURVE_FIXED;
 }
-static void absurd_param(case_t *c, pilot6_in_t *in, double since_s) {
+static void absurd_param(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   static const float bad[] = {NAN, INFINITY, 1e9f, -1e9f};
   if (since_s > 5e-4) return;
   const param_row_t *row = &params_table[c->pick % (unsigned)params_count];
   memcpy((char *)&c->pilot.param + row->offset, &bad[(c->pick >> 8) % 4], sizeof(float));
 }
-static void bad_weights(case_t *c, pilot6_in_t *in, double since_s) {
+static void bad_weights(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4) c->pilot.param.curve.fixed.w[c->pick % 7] = c->pick & 16 ? NAN : 1e9f;
 }
 // Written one by one, and the commit never comes.
-static void torn_weights(case_t *c, pilot6_in_t *in, double since_s) {
+static void torn_weights(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   static const double other[] = {1.35, 0.4, -0.3, 0.1, -0.1, -0.4, -0.3};
   const int i = (int)(since_s * 1000.0 + 0.5);
   const char name[] = {'c', 'e', 'i', 'l', '.', 'w', (char)('1' + i), '\0'};
   if (i < 7) (void)crazyflie_set(&c->pilot.vehicle, name, other[i]);
 }
-static void broken_covariance(case_t *c, pilot6_in_t *in, double since_s) {
+static void broken_covariance(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
@@ -47,12 +47,12 @@ static void broken_covariance(case_t *c, pilot6_in_t *in, double since_s) {
   else
     P[i][i] = c->pick & 64 ? -1.0f : NAN;
 }
-static void zero_curve(case_t *c, pilot6_in_t *in, double since_s) {
+static void zero_curve(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4)
     for (int i = 0; i < 7; i++) c->pilot.param.curve.fixed.w[i] = -5.0f;
 }
-static void missed_calls(case_t *c, pilot6_in_t *in, double since_s) {
+static void missed_calls(case_t *c, pilot_in_t *in, double since_s) {
   (void)in, (void)since_s;
   c->skip = c->pick % 2 != 0;
   c->twice = !c->skip;
@@ -60,27 +60,27 @@ static void missed_calls(case_t *c, pilot6_in_t *in, double since_s) {
 static void wrapped(case_t *c) {
   if (!c->usual) c->step_off = 0xFFFFFFF0u - (uint32_t)(10.0 * floor(c->onset_s * 100.0));
 }
-static void again(case_t *c, pilot6_in_t *in, double since_s) {
+static void again(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->inner.reset(c->inner.state);
   c->shadow_pilot.reset(c->shadow_pilot.state);
   c->with_shadow = true;
 }
-static void never_reset(case_t *c, pilot6_in_t *in, double since_s) {
+static void never_reset(case_t *c, pilot_in_t *in, double since_s) {
   (void)c;
   if (since_s < 1.0)
-    for (int i = 0; i < 3; i++) in->set.mode[i] = PILOT6_OFF;
+    for (int i = 0; i < 3; i++) in->set.mode[i] = PILOT_OFF;
   in->set.thrust_N = 0.32;
 }
-static void bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
+static void bit_flip(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
   unsigned char *const at = (unsigned char *)&c->pilot.flight->outer.learn.rls;
   at[c->pick % sizeof(rls_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
-static void any_bit_flip(case_t *c, pilot6_in_t *in, double since_s) {
+static void any_bit_flip(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;

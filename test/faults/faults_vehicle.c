@@ -16,7 +16,7 @@ static void sag(case_t *c) {
   faults_add_fx(c, "battery_sag");
   faults_set_fx(c, "battery_sag", 0, 0.0);
 }
-static void sagging(case_t *c, pilot6_in_t *in, double since_s) {
+static void sagging(case_t *c, pilot_in_t *in, double since_s) {
   const double to = c->size + (1.0 - c->size) * fmax(0.0, 1.0 - since_s / 2.0);
   faults_set_fx(c, "battery_sag", 0, fmin(4.0, (1.0 - to) / fmax(1.0 - in->vbat_V / 4.2, 1e-3)));
 }
@@ -36,7 +36,7 @@ static void other_ceiling(case_t *c) {
   if (c->pick % 4 == 3) faults_set_fx(c, "ceiling", 1, 160.0 * c->model.rotor_radius_m);
 }
 // Down to the floor as fast as it can: the thrust goes to nothing.
-static void falling(case_t *c, pilot6_in_t *in, double since_s) {
+static void falling(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   const outer_t *o = &c->pilot.flight->outer;
   in->set.pos_w_m.z = -3.0;
@@ -60,7 +60,7 @@ static void weak(case_t *c) {
   c->model.ceiling_m = 100.0;
   c->param.pos.thrust_max_N = (float)(1.05 * 9.81 * c->model.mass_kg);
 }
-static void climbing(case_t *c, pilot6_in_t *in, double since_s) {
+static void climbing(case_t *c, pilot_in_t *in, double since_s) {
   (void)in, (void)since_s;
   c->goal_m = c->row->gap_m - 2.2;
 }

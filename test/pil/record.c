@@ -9,7 +9,7 @@
 #include "pil/pil.h"
 #include "pilots/pilot_flight.h"
 #include "base/random.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ typedef struct {
   uint32_t odd, step_off;
   long calls, differ;
   pilot_flight_t pilot;
-  pilot6_t inner;
+  pilot_t inner;
 } recorder_t;
 
 // --- spoiling ---------------------------------------------------------------------------------------------

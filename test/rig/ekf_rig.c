@@ -4,7 +4,7 @@
 #include <math.h>
 
 ekf_rig_t ekf_rig(const char *level, uint64_t seed) {
-  ekf_rig_t r = {.noise = *noise6_find(level), .random = random_open(seed)};
+  ekf_rig_t r = {.noise = *noise_find(level), .random = random_open(seed)};
   imu_init(&r.imu);
   range_init(&r.range);
   ekf_init(&r.ekf, &ekf_firmware, 0.0);

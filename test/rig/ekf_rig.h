@@ -4,7 +4,7 @@
 
 #include "rig/kinematic.h"
 #include "sense/ekf.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 
 #define DEG (3.14159265358979323846 / 180.0)
 
@@ -13,7 +13,7 @@ typedef struct {
   range_t range;
   ekf_t ekf;
   random_t *random;
-  noise6_t noise;
+  noise_t noise;
 } ekf_rig_t;
 
 // With the noise of that name; the caller closes `random`.

@@ -26,7 +26,7 @@ segment_t flights_last(const setup_t *setup, int *contacts) {
   return last;
 }
 
-segment_t flights_last_by(const setup_t *setup, const pilot6_t *pilot, int *contacts) {
+segment_t flights_last_by(const setup_t *setup, const pilot_t *pilot, int *contacts) {
   record_t record = {0};
   outcome_t outcome;
   why_t why;

@@ -13,6 +13,6 @@ setup_t flights_appendix_a(fly_kind_t kind, float cutoff_Hz, float lead_s, bool 
 segment_t flights_last(const setup_t *setup, int *contacts);
 
 // The same with a pilot that is not one of the set-up's.
-segment_t flights_last_by(const setup_t *setup, const pilot6_t *pilot, int *contacts);
+segment_t flights_last_by(const setup_t *setup, const pilot_t *pilot, int *contacts);
 
 #endif

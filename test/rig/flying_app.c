@@ -16,8 +16,8 @@ void app_start(flying_t *f) {
 
 void app_fly(flying_t *f, int ms) {
   for (int i = 0; i < ms; i++) {
-    double motor_N[PILOT6_MOTORS];
-    const pilot6_in_t in = rig6_sense(&f->rig, &f->set);
+    double motor_N[PILOT_MOTORS];
+    const pilot_in_t in = rig6_sense(&f->rig, &f->set);
     crazyflie_ms(&f->vehicle, &in, motor_N);
     rig6_step(&f->rig, motor_N);
   }

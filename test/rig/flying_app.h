@@ -8,7 +8,7 @@
 typedef struct {
   crazyflie_t vehicle;
   rig6_t rig;
-  pilot6_setpoint_t set;
+  pilot_setpoint_t set;
 } flying_t;
 
 // Hovers at 0.3 m, taken over in flight from whoever flew.

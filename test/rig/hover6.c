@@ -1,7 +1,7 @@
 // hover6.c - the flight code in the plant.
 #include "rig/hover6.h"
 
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "rig/test.h"
 
 void hover6_start(hover6_t *r, double yaw_rad) {
@@ -15,7 +15,7 @@ void hover6_start(hover6_t *r, double yaw_rad) {
   for (int i = 0; i < ROTORS; i++) at.thrust_N[i] = r->in.applied_N[i] = r->model.mass_kg * 9.81 / 4.0;
   CHECK_OK(body_open(&r->body, &r->model, INTEGRATE_RK4, 0.002, &at));
   CHECK_OK(pilot_flight_init(&r->flight, &setup.flight, &r->model, &r->pilot));
-  for (int i = 0; i < 3; i++) r->in.set.mode[i] = PILOT6_POSITION;
+  for (int i = 0; i < 3; i++) r->in.set.mode[i] = PILOT_POSITION;
   r->in.set.pos_w_m = at.pos_w_m;
   r->in.vbat_V = r->body.vbat_V;
   r->in.set.yaw_rad = yaw_rad;
@@ -31,7 +31,7 @@ void hover6_sense(hover6_t *r) {
   r->in.q_wb = dq_of(y + RIGID_Q_WB);
 }
 
-void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT6_MOTORS]) {
+void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT_MOTORS]) {
   for (int ms = 0; ms < span_ms; ms++) {
     r->pilot.step(r->pilot.state, &r->in, motor_N);
     r->in.step++;
@@ -40,7 +40,7 @@ void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT6_MOTORS]) {
 
 void hover6_fly(hover6_t *r, double span_s) {
   for (long tick = 0; tick < lround(span_s / 0.002); tick++) {
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     hover6_sense(r);
     hover6_think(r, 2, motor_N);
     body_tick(&r->body, motor_N, 0.002);

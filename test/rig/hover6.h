@@ -10,8 +10,8 @@ typedef struct {
   body_t body;
   model_t model;
   pilot_flight_t flight;
-  pilot6_t pilot;
-  pilot6_in_t in;
+  pilot_t pilot;
+  pilot_in_t in;
   d3_t acc_bias_b_mps2;
   double height_off_m; // of the estimate
 } hover6_t;
@@ -23,7 +23,7 @@ void hover6_start(hover6_t *r, double yaw_rad);
 void hover6_sense(hover6_t *r);
 
 // The same measurements for so long; motor_N is the last command.
-void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT6_MOTORS]);
+void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT_MOTORS]);
 
 void hover6_fly(hover6_t *r, double span_s);
 

@@ -6,13 +6,13 @@
 #define G_MPS2 9.81
 
 // Where the motors are, in arms, and which way the air turns the body.
-static const double ahead[PILOT6_MOTORS] = {1, -1, -1, 1}, left[PILOT6_MOTORS] = {-1, -1, 1, 1};
-static const double twist[PILOT6_MOTORS] = {-1, 1, -1, 1};
+static const double ahead[PILOT_MOTORS] = {1, -1, -1, 1}, left[PILOT_MOTORS] = {-1, -1, 1, 1};
+static const double twist[PILOT_MOTORS] = {-1, 1, -1, 1};
 
 typedef struct {
   d3_t pos, vel, rate;
   dq_t q;
-  double force[PILOT6_MOTORS];
+  double force[PILOT_MOTORS];
 } state_t;
 
 rig6_param_t rig6_crazyflie(void) {
@@ -36,8 +36,8 @@ rig6_t rig6_at(const rig6_param_t *param, d3_t pos_w_m, double yaw_rad, bool hov
       .vbat_V = 3.9,
   };
   if (hovering)
-    for (int i = 0; i < PILOT6_MOTORS; i++)
-      r.force_N[i] = r.command_N[i] = param->mass_kg * G_MPS2 / PILOT6_MOTORS;
+    for (int i = 0; i < PILOT_MOTORS; i++)
+      r.force_N[i] = r.command_N[i] = param->mass_kg * G_MPS2 / PILOT_MOTORS;
   return r;
 }
 
@@ -51,13 +51,13 @@ static double ratio(const rig6_param_t *p, const state_t *s, int i) {
 
 static d3_t specific_force(const rig6_param_t *p, const state_t *s) {
   double sum = 0.0;
-  for (int i = 0; i < PILOT6_MOTORS; i++) sum += ratio(p, s, i) * s->force[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) sum += ratio(p, s, i) * s->force[i];
   return (d3_t){0.0, 0.0, sum / p->mass_kg};
 }
 
-static d3_t moments(const rig6_param_t *p, const state_t *s, const double slope[PILOT6_MOTORS]) {
+static d3_t moments(const rig6_param_t *p, const state_t *s, const double slope[PILOT_MOTORS]) {
   d3_t m = {0.0, 0.0, 0.0};
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     const double f = ratio(p, s, i) * s->force[i];
     const double speed = sqrt(fmax(s->force[i], 1e-4) / p->speed_N);
     m.x += p->arm_m * left[i] * f;
@@ -71,7 +71,7 @@ static state_t slope_of(const rig6_t *r, const state_t *s) {
   const rig6_param_t *p = &r->param;
   const d3_t J = p->inertia_kgm2, w = s->rate;
   state_t d = {.pos = s->vel};
-  for (int i = 0; i < PILOT6_MOTORS; i++) d.force[i] = (r->command_N[i] - s->force[i]) / p->tau_s;
+  for (int i = 0; i < PILOT_MOTORS; i++) d.force[i] = (r->command_N[i] - s->force[i]) / p->tau_s;
   d.vel = d3_add(dq_to_world(s->q, specific_force(p, s)), (d3_t){0.0, 0.0, -G_MPS2});
   const d3_t m = moments(p, s, d.force);
   d.rate = (d3_t){(m.x - (J.z - J.y) * w.y * w.z) / J.x, (m.y - (J.x - J.z) * w.z * w.x) / J.y,
@@ -88,7 +88,7 @@ static state_t moved(const state_t *s, double h, const state_t *d) {
       .rate = d3_add(s->rate, d3_scale(h, d->rate)),
       .q = {s->q.w + h * d->q.w, s->q.x + h * d->q.x, s->q.y + h * d->q.y, s->q.z + h * d->q.z},
   };
-  for (int i = 0; i < PILOT6_MOTORS; i++) to.force[i] = s->force[i] + h * d->force[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) to.force[i] = s->force[i] + h * d->force[i];
   return to;
 }
 
@@ -113,10 +113,10 @@ static bool stands(const rig6_t *r) {
   return r->param.floor && r->pos_w_m.z <= 0.0 && r->vel_w_mps.z <= 0.0;
 }
 
-pilot6_in_t rig6_sense(const rig6_t *r, const pilot6_setpoint_t *set) {
+pilot_in_t rig6_sense(const rig6_t *r, const pilot_setpoint_t *set) {
   const state_t s = state_of(r);
   const d3_t rest = dq_to_body(r->q_wb, (d3_t){0.0, 0.0, G_MPS2});
-  pilot6_in_t in = {
+  pilot_in_t in = {
       .step = r->step,
       .gyro_b_radps = r->rate_b_radps,
       .acc_b_mps2 = d3_add(stands(r) ? rest : specific_force(&r->param, &s), r->param.acc_bias_b_mps2),
@@ -131,9 +131,9 @@ pilot6_in_t rig6_sense(const rig6_t *r, const pilot6_setpoint_t *set) {
   return in;
 }
 
-void rig6_step(rig6_t *r, const double motor_N[PILOT6_MOTORS]) {
+void rig6_step(rig6_t *r, const double motor_N[PILOT_MOTORS]) {
   memcpy(r->command_N, motor_N, sizeof r->command_N);
-  const state_t from = state_of(r), to = runge_kutta(r, &from, PILOT6_PERIOD_S);
+  const state_t from = state_of(r), to = runge_kutta(r, &from, PILOT_PERIOD_S);
   r->pos_w_m = to.pos;
   r->vel_w_mps = to.vel;
   r->rate_b_radps = to.rate;
@@ -151,12 +151,12 @@ void rig6_step(rig6_t *r, const double motor_N[PILOT6_MOTORS]) {
   r->q_wb = from.q;
 }
 
-void rig6_fly(rig6_t *r, const pilot6_t *pilot, const pilot6_setpoint_t *set, double seconds,
+void rig6_fly(rig6_t *r, const pilot_t *pilot, const pilot_setpoint_t *set, double seconds,
               void (*watch)(const rig6_t *, void *), void *user) {
-  const long n = lround(seconds / PILOT6_PERIOD_S);
+  const long n = lround(seconds / PILOT_PERIOD_S);
   for (long i = 0; i < n; i++) {
-    double motor_N[PILOT6_MOTORS];
-    const pilot6_in_t in = rig6_sense(r, set);
+    double motor_N[PILOT_MOTORS];
+    const pilot_in_t in = rig6_sense(r, set);
     pilot->step(pilot->state, &in, motor_N);
     rig6_step(r, motor_N);
     if (watch) watch(r, user);
@@ -172,14 +172,14 @@ double rig6_tilt_rad(const rig6_t *r) {
   return acos(fmin(dq_to_world(r->q_wb, (d3_t){0.0, 0.0, 1.0}).z, 1.0));
 }
 
-pilot6_setpoint_t rig6_hold(d3_t pos_w_m, double yaw_rad) {
-  return (pilot6_setpoint_t){
-      .mode = {PILOT6_POSITION, PILOT6_POSITION, PILOT6_POSITION}, .pos_w_m = pos_w_m, .yaw_rad = yaw_rad};
+pilot_setpoint_t rig6_hold(d3_t pos_w_m, double yaw_rad) {
+  return (pilot_setpoint_t){
+      .mode = {PILOT_POSITION, PILOT_POSITION, PILOT_POSITION}, .pos_w_m = pos_w_m, .yaw_rad = yaw_rad};
 }
 
-pilot6_setpoint_t rig6_go(d3_t vel_w_mps, double z_m, double yaw_rad) {
-  return (pilot6_setpoint_t){.mode = {PILOT6_VELOCITY, PILOT6_VELOCITY, PILOT6_POSITION},
-                             .pos_w_m = {0.0, 0.0, z_m},
-                             .vel_mps = vel_w_mps,
-                             .yaw_rad = yaw_rad};
+pilot_setpoint_t rig6_go(d3_t vel_w_mps, double z_m, double yaw_rad) {
+  return (pilot_setpoint_t){.mode = {PILOT_VELOCITY, PILOT_VELOCITY, PILOT_POSITION},
+                            .pos_w_m = {0.0, 0.0, z_m},
+                            .vel_mps = vel_w_mps,
+                            .yaw_rad = yaw_rad};
 }

@@ -6,7 +6,7 @@
 #ifndef TEST_RIG_RIG6_H
 #define TEST_RIG_RIG6_H
 
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 
 #define RIG6_TOUCH_M 0.005 // so near to the ceiling nothing goes up
 
@@ -31,8 +31,8 @@ typedef struct {
   rig6_param_t param;
   d3_t pos_w_m, vel_w_mps, rate_b_radps;
   dq_t q_wb;
-  double force_N[PILOT6_MOTORS];   // of the motors in free air
-  double command_N[PILOT6_MOTORS]; // as last given
+  double force_N[PILOT_MOTORS];   // of the motors in free air
+  double command_N[PILOT_MOTORS]; // as last given
   double vbat_V;
   uint32_t step;
 } rig6_t;
@@ -41,20 +41,20 @@ typedef struct {
 rig6_t rig6_at(const rig6_param_t *param, d3_t pos_w_m, double yaw_rad, bool hovering);
 
 // The measurements, with the set point.
-pilot6_in_t rig6_sense(const rig6_t *r, const pilot6_setpoint_t *set);
+pilot_in_t rig6_sense(const rig6_t *r, const pilot_setpoint_t *set);
 
 // One millisecond under the command.
-void rig6_step(rig6_t *r, const double motor_N[PILOT6_MOTORS]);
+void rig6_step(rig6_t *r, const double motor_N[PILOT_MOTORS]);
 
 // Flies for so long; after every step `watch` is called, unless it is null.
-void rig6_fly(rig6_t *r, const pilot6_t *pilot, const pilot6_setpoint_t *set, double seconds,
+void rig6_fly(rig6_t *r, const pilot_t *pilot, const pilot_setpoint_t *set, double seconds,
               void (*watch)(const rig6_t *, void *), void *user);
 
 double rig6_yaw_rad(const rig6_t *r);
 double rig6_tilt_rad(const rig6_t *r);
 
 // Set points: hold this place and heading; hold this velocity (world) and this height.
-pilot6_setpoint_t rig6_hold(d3_t pos_w_m, double yaw_rad);
-pilot6_setpoint_t rig6_go(d3_t vel_w_mps, double z_m, double yaw_rad);
+pilot_setpoint_t rig6_hold(d3_t pos_w_m, double yaw_rad);
+pilot_setpoint_t rig6_go(d3_t vel_w_mps, double z_m, double yaw_rad);
 
 #endif

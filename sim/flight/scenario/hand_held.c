@@ -57,7 +57,7 @@ static double height_of(const algorithm1_t *a, double height_m) {
 
 typedef struct {
   const model_t *model;
-  const noise6_t *noise;
+  const noise_t *noise;
   random_t *random;
   imu_t imu;
   range_t range;

@@ -11,7 +11,7 @@
 #define YAW_RAD  0.1
 #define YAW_S    0.45 // no whole part of the other period: both signals stay apart
 
-static void shake(void *context, const body_t *truth, pilot6_in_t *in) {
+static void shake(void *context, const body_t *truth, pilot_in_t *in) {
   (void)context;
   static const double x[4] = {0.0, 1.0, 1.0, 0.0}, y[4] = {0.0, 0.0, 1.0, 1.0};
   const double t_s = truth->t_s - START_S;

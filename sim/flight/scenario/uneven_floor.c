@@ -7,7 +7,7 @@
 #define HOVER_M 0.4
 #define ASIDE_M 0.5
 
-static void aside(void *context, const body_t *truth, pilot6_in_t *in) {
+static void aside(void *context, const body_t *truth, pilot_in_t *in) {
   (void)context;
   if (truth->t_s >= 10.0) in->set.pos_w_m.x = ASIDE_M;
 }

@@ -14,8 +14,8 @@ struct known {
   bool range_up;
   stock_pid_t pid;
   own_t *own;
-  pilot6_t pilot; // FLOWN_BY_INDI
-  pilot6_in_t in;
+  pilot_t pilot; // FLOWN_BY_INDI
+  pilot_in_t in;
   double due_s, range_due_s; // since the last call, and the last sample of the range sensor
   double motor_N[ROTORS];
 };
@@ -35,7 +35,7 @@ static double ahead(const pid_gain_t *p, double mps) {
 }
 
 // The log's own set points, axis by axis: a place; a speed alone; both.
-static void take_logged(pilot6_setpoint_t *set, const point_t *track) {
+static void take_logged(pilot_setpoint_t *set, const point_t *track) {
   const double place_m[3] = {track->set_w_m.x, track->set_w_m.y, track->set_w_m.z};
   const double speed_mps[3] = {track->set_w_mps.x, track->set_w_mps.y, track->set_w_mps.z};
   double *const to_m[3] = {&set->pos_w_m.x, &set->pos_w_m.y, &set->pos_w_m.z};
@@ -44,16 +44,16 @@ static void take_logged(pilot6_setpoint_t *set, const point_t *track) {
     const bool place = isfinite(place_m[i]), speed = isfinite(speed_mps[i]);
     if (place) *to_m[i] = place_m[i];
     if (place || speed) *to_mps[i] = speed ? speed_mps[i] : 0.0;
-    if (speed && !place) set->mode[i] = PILOT6_VELOCITY;
+    if (speed && !place) set->mode[i] = PILOT_VELOCITY;
   }
   if (isfinite(track->set_yaw_rad)) set->yaw_rad = track->set_yaw_rad;
 }
 
 static void order(known_t *k, const point_t *track) {
-  pilot6_setpoint_t *const set = &k->in.set;
+  pilot_setpoint_t *const set = &k->in.set;
   const pid_gain_t *pos = k->by->pid.position.pos;
   const d3_t v = track->vel_w_mps;
-  for (int i = 0; i < 3; i++) set->mode[i] = PILOT6_POSITION;
+  for (int i = 0; i < 3; i++) set->mode[i] = PILOT_POSITION;
   set->pos_w_m = track->pos_w_m;
   set->vel_mps = v;
   if (by_pid(k))
@@ -131,7 +131,7 @@ void known_steer(known_t *k, double step_s, const point_t *track, const point_t 
   double unit[ROTORS];
   order(k, track);
   show(k, seen, step_s);
-  for (k->due_s += step_s; k->due_s > 0.5 * PILOT6_PERIOD_S; k->due_s -= PILOT6_PERIOD_S) {
+  for (k->due_s += step_s; k->due_s > 0.5 * PILOT_PERIOD_S; k->due_s -= PILOT_PERIOD_S) {
     if (by_pid(k)) {
       stock_mix(stock_pid_command(&k->pid, &k->in), unit);
       newton(k, unit, k->motor_N);

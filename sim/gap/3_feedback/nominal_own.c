@@ -8,7 +8,7 @@ struct own {
   pilot_flight_t pilot;
 };
 
-done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot6_t *pilot, why_t *why) {
+done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot_t *pilot, why_t *why) {
   flight_param_t param;
   *own = calloc(1, sizeof **own);
   if (!*own) return error_failed(why, "out of memory");

@@ -4,7 +4,7 @@
 #define SIM_GAP_3_FEEDBACK_NOMINAL_OWN_H
 
 #include "base/error.h"
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 #include "pilots/flown_by.h"
 #include "vehicle/model.h"
 
@@ -12,7 +12,7 @@ typedef struct own own_t;
 
 // With the parameters of `by` (pilots/controller_file.h). FAILED: no memory, or parameters that it
 // refuses. Close it, also on an error.
-MUST_CHECK done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot6_t *pilot, why_t *why);
+MUST_CHECK done_t own_open(own_t **own, const model_t *m, const flown_by_t *by, pilot_t *pilot, why_t *why);
 
 // A null pointer is allowed.
 void own_close(own_t *own);

@@ -1,6 +1,6 @@
 // test_bias.c - the bias of the accelerometer, alone and behind the estimator.
 #include "flight/bias.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "rig/test.h"
 
 #include "base/random.h"
@@ -231,7 +231,7 @@ TEST(bias_behind_the_estimator_leaves_a_millimetre_of_two_centimetres) {
     setup_ladder(&setup, gap_m, 1, 0.0);
     setup.plan.below_estimate = false; // the height itself is judged
     setup.plan.end_s = 25.0;
-    setup.plan.noise = *noise6_find("quiet");
+    setup.plan.noise = *noise_find("quiet");
     setup.plan.noise.imu.acc_bias_b_mps2.z = 0.0981;
     setup.flight.bias.pole_radps = on ? 1.0f : 0.0f;
     flown_t flown;

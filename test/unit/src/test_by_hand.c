@@ -117,12 +117,12 @@ static void fly(flown_t *w, int duration_ms) {
   flying_t *const f = &w->f;
   for (int ms = 0; ms < duration_ms; ms++) {
     f->set.thrust_N = w->thrust * 9.81 * f->rig.param.mass_kg;
-    pilot6_in_t in = rig6_sense(&f->rig, &f->set);
+    pilot_in_t in = rig6_sense(&f->rig, &f->set);
     const double gap_m = CEILING_M - f->rig.pos_w_m.z;
     seen_m[ms % 100] = gap_m;
     in.range_new = ms % 100 == 99 && !w->blind;
     in.range_m = seen_m[19] > 4.0 ? (double)NAN : fmax(seen_m[19], 0.04);
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     crazyflie_ms(&f->vehicle, &in, motor_N);
     rig6_step(&f->rig, motor_N);
     w->nearest_m = fmin(w->nearest_m, gap_m);
@@ -137,7 +137,7 @@ static void start(flown_t *w, double gap_m, double thrust) {
   body.radius_m = 0.0231;
   w->f.rig = rig6_at(&body, d3(0.0, 0.0, CEILING_M - gap_m), 0.0, true);
   w->f.set = rig6_hold(d3(0.0, 0.0, 0.0), 0.0);
-  for (int i = 0; i < 3; i++) w->f.set.mode[i] = PILOT6_OFF;
+  for (int i = 0; i < 3; i++) w->f.set.mode[i] = PILOT_OFF;
   w->thrust = thrust;
   w->blind = false;
   w->nearest_m = HUGE_VAL;

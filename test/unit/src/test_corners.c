@@ -31,8 +31,8 @@ static d3_t shaken(random_t *r, d3_t a, double sd) {
 }
 
 static flight_in_t seen(corner_t *c, int ms) {
-  const pilot6_setpoint_t none = {.yaw_rad = 0.0};
-  const pilot6_in_t in = rig6_sense(&c->rig, &none);
+  const pilot_setpoint_t none = {.yaw_rad = 0.0};
+  const pilot_in_t in = rig6_sense(&c->rig, &none);
   const double up = dq_to_world(in.q_wb, d3(0.0, 0.0, 1.0)).z;
   flight_in_t to = {
       .step = (uint32_t)ms,

@@ -66,7 +66,7 @@ TEST(flight_takes_a_velocity_of_the_body_along_its_heading) {
     ROW("%s", row[i].what);
     hover6_t r = {.in = {.step = 0}};
     hover6_start(&r, row[i].yaw_rad);
-    r.in.set.mode[0] = r.in.set.mode[1] = PILOT6_VELOCITY;
+    r.in.set.mode[0] = r.in.set.mode[1] = PILOT_VELOCITY;
     r.in.set.vel_in_body = true;
     r.in.set.vel_mps = (d3_t){row[i].ahead_mps, row[i].left_mps, 0.0};
     hover6_fly(&r, 4.0);
@@ -97,16 +97,16 @@ TEST(flight_learns_nothing_wrong_on_the_ground) {
   // step.
   hover6_t r = {.in = {.step = 0}};
   hover6_start(&r, 0.0);
-  r.in.set.mode[0] = r.in.set.mode[1] = r.in.set.mode[2] = PILOT6_OFF;
-  double motor_N[PILOT6_MOTORS], sum = 0.0;
-  for (int i = 0; i < PILOT6_MOTORS; i++) r.in.applied_N[i] = 0.0;
+  r.in.set.mode[0] = r.in.set.mode[1] = r.in.set.mode[2] = PILOT_OFF;
+  double motor_N[PILOT_MOTORS], sum = 0.0;
+  for (int i = 0; i < PILOT_MOTORS; i++) r.in.applied_N[i] = 0.0;
   hover6_sense(&r);
   r.in.acc_b_mps2 = (d3_t){0.0, 0.0, 9.81 - 0.0981};
   hover6_think(&r, 30000, motor_N);
   CHECK(motor_N[0] == 0.0 && motor_N[1] == 0.0 && motor_N[2] == 0.0 && motor_N[3] == 0.0);
-  for (int i = 0; i < 3; i++) r.in.set.mode[i] = PILOT6_POSITION;
+  for (int i = 0; i < 3; i++) r.in.set.mode[i] = PILOT_POSITION;
   hover6_think(&r, 11, motor_N);
-  for (int i = 0; i < PILOT6_MOTORS; i++) sum += motor_N[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) sum += motor_N[i];
   CHECK(sum <= (double)r.flight.param.step_max_N + 1e-6);
   body_close(&r.body);
 }

@@ -23,15 +23,15 @@ TEST(flight_forgets_its_heading_while_the_motors_are_off) {
     for (int k = 0; k < ROTORS; k++) at.thrust_N[k] = r.model.mass_kg * 9.81 / 4.0;
     body_close(&r.body);
     if (!CHECK_OK(body_open(&r.body, &r.model, INTEGRATE_RK4, 0.002, &at))) return;
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     hover6_sense(&r);
-    r.in.set.mode[2] = rests[i] ? PILOT6_OFF : PILOT6_POSITION;
+    r.in.set.mode[2] = rests[i] ? PILOT_OFF : PILOT_POSITION;
     r.in.set.pos_w_m.z = rests[i] ? 0.5 : -5.0; // below the floor: no thrust is wanted
     for (int k = 0; k < ROTORS; k++) r.in.applied_N[k] = 0.0;
     hover6_think(&r, 1000, motor_N);
     CHECK(motor_N[0] == 0.0 && motor_N[1] == 0.0 && motor_N[2] == 0.0 && motor_N[3] == 0.0);
     for (int k = 0; k < ROTORS; k++) r.in.applied_N[k] = at.thrust_N[k];
-    r.in.set.mode[2] = PILOT6_POSITION;
+    r.in.set.mode[2] = PILOT_POSITION;
     r.in.set.pos_w_m.z = 0.5;
     double worst_rad = 0.0;
     for (int k = 0; k < 200; k++) {

@@ -20,10 +20,10 @@ static const struct {
 
 // Let go and taken up again, the height is a new one.
 static void take_up_again(hover6_t *r) {
-  r->in.set.mode[0] = r->in.set.mode[1] = r->in.set.mode[2] = PILOT6_OFF;
+  r->in.set.mode[0] = r->in.set.mode[1] = r->in.set.mode[2] = PILOT_OFF;
   r->in.set.thrust_N = 0.32;
   hover6_fly(r, 0.02);
-  for (int k = 0; k < 3; k++) r->in.set.mode[k] = PILOT6_POSITION;
+  for (int k = 0; k < 3; k++) r->in.set.mode[k] = PILOT_POSITION;
   r->in.set.pos_w_m = hover6_pos_m(r);
   r->in.set.pos_w_m.z += r->height_off_m;
   hover6_fly(r, 0.5);

@@ -9,7 +9,7 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
   hover6_start(&r, 0.0);
   hover6_fly(&r, 1.0);
   hover6_sense(&r);
-  double before[PILOT6_MOTORS], after[PILOT6_MOTORS];
+  double before[PILOT_MOTORS], after[PILOT_MOTORS];
   r.pilot.step(r.pilot.state, &r.in, before);
   const flight_t state = *r.flight.flight;
   static const double odd[] = {(double)NAN, 1e38};
@@ -17,12 +17,12 @@ TEST(flight_gives_its_last_command_on_an_input_that_is_not_a_number) {
     for (int field = 0; field < 3; field++) {
       ROW("field %d, %g", field, odd[k]);
       *r.flight.flight = state;
-      pilot6_in_t bad = r.in;
+      pilot_in_t bad = r.in;
       bad.step++;
       double *const place[] = {&bad.gyro_b_radps.y, &bad.q_wb.x, &bad.q_wb.w};
       *place[field] = odd[k];
       r.pilot.step(r.pilot.state, &bad, after);
-      for (int i = 0; i < PILOT6_MOTORS; i++) CHECK_NEAR(after[i], before[i], 0.0);
+      for (int i = 0; i < PILOT_MOTORS; i++) CHECK_NEAR(after[i], before[i], 0.0);
       CHECK(r.flight.flight->faults[ST_BAD_INPUT] > state.faults[ST_BAD_INPUT]);
       CHECK(memcmp(&state.att, &r.flight.flight->att, sizeof state.att) == 0);
     }
@@ -48,15 +48,15 @@ TEST(flight_counts_an_applied_force_that_is_not_a_number) {
 TEST(flight_does_not_take_up_a_range_sample_from_before_it_flew) {
   hover6_t r = {.in = {.step = 0}};
   hover6_start(&r, 0.0);
-  double motor_N[PILOT6_MOTORS];
-  r.in.set.mode[2] = PILOT6_OFF;
+  double motor_N[PILOT_MOTORS];
+  r.in.set.mode[2] = PILOT_OFF;
   for (int ms = 0; ms < 40; ms++) {
     hover6_sense(&r);
     r.in.range_new = ms == 25;
     r.in.range_m = 0.3;
     hover6_think(&r, 1, motor_N);
   }
-  r.in.set.mode[2] = PILOT6_POSITION;
+  r.in.set.mode[2] = PILOT_POSITION;
   hover6_think(&r, 20, motor_N);
   CHECK(!r.flight.flight->outer.ceiling.known);
   body_close(&r.body);

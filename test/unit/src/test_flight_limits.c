@@ -5,7 +5,7 @@
 
 #define HOVER_N 0.32f
 
-static double sum(const double motor_N[PILOT6_MOTORS]) {
+static double sum(const double motor_N[PILOT_MOTORS]) {
   return motor_N[0] + motor_N[1] + motor_N[2] + motor_N[3];
 }
 
@@ -13,9 +13,9 @@ TEST(flight_stays_upright_where_it_wants_no_thrust) {
   // The motors give nothing for a while but what keeps the vehicle level.
   static const struct {
     const char *what;
-    pilot6_mode_t mode;
+    pilot_mode_t mode;
     double z_m, climb_mps;
-  } row[] = {{"5 m down", PILOT6_POSITION, 1.0, 0.0}, {"down at 4 m/s", PILOT6_VELOCITY, 0.0, -4.0}};
+  } row[] = {{"5 m down", PILOT_POSITION, 1.0, 0.0}, {"down at 4 m/s", PILOT_VELOCITY, 0.0, -4.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     hover6_t r = {.in = {.step = 0}};
@@ -48,12 +48,12 @@ TEST(flight_does_not_start_its_motors_on_a_floor_that_is_not_level) {
   r.in.q_wb = (dq_t){cos(0.03), sin(0.03), 0.0, 0.0};
   r.in.acc_b_mps2 = (d3_t){0.0, 9.81 * sin(0.06), 9.81 * cos(0.06)};
   r.in.set.pos_w_m.z = 0.2;
-  for (int i = 0; i < PILOT6_MOTORS; i++) r.in.applied_N[i] = 0.0;
+  for (int i = 0; i < PILOT_MOTORS; i++) r.in.applied_N[i] = 0.0;
   double most_N = 0.0;
   for (int ms = 0; ms < 3000; ms++) {
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     hover6_think(&r, 1, motor_N);
-    for (int i = 0; i < PILOT6_MOTORS; i++) r.in.applied_N[i] = motor_N[i];
+    for (int i = 0; i < PILOT_MOTORS; i++) r.in.applied_N[i] = motor_N[i];
     most_N = fmax(most_N, sum(motor_N));
   }
   CHECK(most_N == 0.0);
@@ -65,12 +65,12 @@ TEST(flight_takes_the_height_over_in_the_air_without_a_gap_in_the_thrust) {
     ROW("taken over in millisecond %d of ten", phase);
     hover6_t r = {.in = {.step = 0}};
     hover6_start(&r, 0.0);
-    r.in.set.mode[2] = PILOT6_OFF;
+    r.in.set.mode[2] = PILOT_OFF;
     r.in.set.thrust_N = r.model.mass_kg * 9.81;
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     hover6_sense(&r);
     hover6_think(&r, 50 + phase, motor_N);
-    r.in.set.mode[2] = PILOT6_POSITION;
+    r.in.set.mode[2] = PILOT_POSITION;
     for (int ms = 0; ms < 12; ms++) {
       hover6_think(&r, 1, motor_N);
       CHECK_NEAR(sum(motor_N), r.model.mass_kg * 9.81, 0.01);

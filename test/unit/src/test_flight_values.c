@@ -9,7 +9,7 @@ TEST(flight_follows_a_velocity_on_any_axis) {
     ROW("axis %d", axis);
     hover6_t r = {.in = {.step = 0}};
     hover6_start(&r, 0.0);
-    r.in.set.mode[axis] = PILOT6_VELOCITY;
+    r.in.set.mode[axis] = PILOT_VELOCITY;
     r.in.set.pos_w_m = (d3_t){axis == 0 ? -1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? 0.2 : 0.5};
     double *const wanted[] = {&r.in.set.vel_mps.x, &r.in.set.vel_mps.y, &r.in.set.vel_mps.z};
     *wanted[axis] = 0.2;
@@ -88,11 +88,11 @@ TEST(flight_that_sees_nothing_any_more_gives_all_motors_a_quarter_of_nine_tenths
   hover6_t r = {.in = {.step = 0}};
   hover6_start(&r, 0.0);
   hover6_fly(&r, 1.0);
-  double motor_N[PILOT6_MOTORS];
+  double motor_N[PILOT_MOTORS];
   hover6_sense(&r);
   r.in.gyro_b_radps.x = (double)NAN;
   hover6_think(&r, 100, motor_N);
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     ROW("motor %d", i);
     CHECK_NEAR(motor_N[i], 0.25 * 0.9 * 9.81 * r.model.mass_kg, 1e-3);
   }

@@ -13,18 +13,18 @@ typedef struct {
   float lead_s;
 } printed_t;
 
-static void printed_step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void printed_step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   printed_t *s = state;
   const double m = 0.032, z_m = in->pos_w_m.z, climb_mps = in->vel_w_mps.z, zc = 0.5 - z_m;
   double applied_N = 0.0;
-  for (int i = 0; i < PILOT6_MOTORS; i++) applied_N += in->applied_N[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) applied_N += in->applied_N[i];
   const double acc = (double)lpf2_step(&s->acc, &s->filter, (float)(in->acc_b_mps2.z - 9.81));
   const double command = (double)lpf2_step(&s->command, &s->filter, (float)applied_N);
   s->thrust_N += (1.0 - exp(-0.16)) * (command - s->thrust_N);
   const double excess = zc < 0.1 ? 0.44 * exp(-80.0 * zc) : 0.0;
   const double wanted = 5.0 * (in->set.pos_w_m.z - z_m - climb_mps);
   const double slope_term = 1.0 / m * -80.0 * excess * (double)s->lead_s * climb_mps; // T0 is missing
-  for (int i = 0; i < PILOT6_MOTORS; i++)
+  for (int i = 0; i < PILOT_MOTORS; i++)
     motor_N[i] = 0.25 * (s->thrust_N + m / (1.0 + excess) * (wanted - acc + slope_term));
 }
 
@@ -41,7 +41,7 @@ TEST(formula_a6_as_printed_is_as_slow_as_a_lead_of_one_second) {
     ROW("%g Hz", (double)row[i].cutoff_Hz);
     printed_t state = {.lead_s = 0.3f};
     CHECK_OK(lpf2_tune(&state.filter, row[i].cutoff_Hz, 100.0f));
-    const pilot6_t printed = {.state = &state, .step = printed_step, .reset = printed_reset};
+    const pilot_t printed = {.state = &state, .step = printed_step, .reset = printed_reset};
     const setup_t setup = flights_appendix_a(FLY_INDI_THEORY, row[i].cutoff_Hz, 0.3f, true);
     const segment_t last = flights_last_by(&setup, &printed, NULL);
     CHECK_NEAR(last.overshoot_mm, 0.0, 0.05);

@@ -2,7 +2,7 @@
 // are not level, a hand, a ceiling, a wall. What the rotors cannot move must not wind up, and when it is gone
 // the vehicle flies.
 #include "body/body.h"
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "pilots/pilot_flight.h"
 #include "rig/test.h"
 
@@ -14,8 +14,8 @@ typedef struct {
   body_t body;
   model_t model;
   pilot_flight_t flight;
-  pilot6_t pilot;
-  pilot6_in_t in;
+  pilot_t pilot;
+  pilot_in_t in;
   double thrust_N, tilt_rad, aside_m; // most since most_again(): thrust as the app wants it
   double wall_m;                      // nearest
 } held_t;
@@ -62,7 +62,7 @@ static void most_again(held_t *r) {
 static void fly(held_t *r, double span_s) {
   const double *y = r->body.y;
   for (long tick = 0; tick < lround(span_s / 0.002); tick++) {
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     r->in.gyro_b_radps = d3_of(y + RIGID_RATE_RADPS);
     r->in.acc_b_mps2 = body_specific_force_b_mps2(&r->body);
     r->in.pos_w_m = d3_of(y + RIGID_POS_M);
@@ -81,7 +81,7 @@ static void fly(held_t *r, double span_s) {
   }
 }
 
-static void ask(held_t *r, pilot6_mode_t aside, pilot6_mode_t up) {
+static void ask(held_t *r, pilot_mode_t aside, pilot_mode_t up) {
   r->in.set.mode[0] = r->in.set.mode[1] = aside;
   r->in.set.mode[2] = up;
 }
@@ -122,7 +122,7 @@ TEST(height_hold_on_a_floor_that_slopes_does_not_rise) {
     r.model.floor_rise_x = r.model.floor_rise_y = tan(rad(deg)) / sqrt(2.0);
     const body_start_t start = body_standing(&r.model);
     open(&r, &start);
-    ask(&r, PILOT6_OFF, PILOT6_VELOCITY);
+    ask(&r, PILOT_OFF, PILOT_VELOCITY);
     fly(&r, 30.0);
     CHECK(r.thrust_N < 0.05 * HOVER_N);
     CHECK_NEAR(r.tilt_rad, rad(deg), 1e-3);
@@ -149,7 +149,7 @@ TEST(take_off_from_a_floor_of_five_degrees_stays_upright) {
       const body_start_t start = body_standing(&r.model);
       open(&r, &start);
       fly(&r, 0.5);
-      ask(&r, hand ? PILOT6_OFF : PILOT6_POSITION, PILOT6_POSITION);
+      ask(&r, hand ? PILOT_OFF : PILOT_POSITION, PILOT_POSITION);
       r.in.set.pos_w_m = d3(0, 0, 0.5);
       fly(&r, 1.5);
       CHECK(r.body.y[RIGID_POS_M + 2] > 0.15);
@@ -195,7 +195,7 @@ TEST(vehicle_that_a_hand_lets_go_of_levels_itself) {
       held_t r;
       fresh(&r);
       open_hovering(&r, d3(0, 0, 1.0), dq_about(d3(0.6, 0.8, 0.0), rad(tilts_deg[i])), true);
-      ask(&r, mode ? PILOT6_POSITION : PILOT6_OFF, PILOT6_POSITION);
+      ask(&r, mode ? PILOT_POSITION : PILOT_OFF, PILOT_POSITION);
       r.in.set.yaw_rad = 0.5;
       fly(&r, 5.0);
       CHECK(r.thrust_N < 1.1 * HOVER_N);
@@ -216,10 +216,10 @@ TEST(vehicle_that_a_ceiling_holds_flies_when_it_is_told_to_go_down) {
   static const struct {
     const char *what;
     double x_m, yaw_rad;
-    pilot6_mode_t aside;
-  } row[] = {{"straight up", 0.0, 0.0, PILOT6_POSITION},
-             {"level by hand", 0.0, 0.0, PILOT6_OFF},
-             {"sideways and turned", 1.0, 1.0, PILOT6_POSITION}};
+    pilot_mode_t aside;
+  } row[] = {{"straight up", 0.0, 0.0, PILOT_POSITION},
+             {"level by hand", 0.0, 0.0, PILOT_OFF},
+             {"sideways and turned", 1.0, 1.0, PILOT_POSITION}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     held_t r;
@@ -230,7 +230,7 @@ TEST(vehicle_that_a_ceiling_holds_flies_when_it_is_told_to_go_down) {
     r.model = setup.model;
     r.model.frame.top_above_rotor_m = 0.005;
     open_hovering(&r, d3(0, 0, 0.3), (dq_t){1, 0, 0, 0}, false);
-    ask(&r, row[i].aside, PILOT6_POSITION);
+    ask(&r, row[i].aside, PILOT_POSITION);
     fly(&r, 1.0);
     r.in.set.pos_w_m = d3(row[i].x_m, 0.0, 0.6); // nothing tells it of the ceiling
     r.in.set.yaw_rad = row[i].yaw_rad;
@@ -260,7 +260,7 @@ TEST(vehicle_that_leans_on_a_wall_comes_away) {
     r.model.wall_y_m = 0.3;
     r.model.wall_solid = true;
     open_hovering(&r, d3(0, 0, 0.5), (dq_t){1, 0, 0, 0}, false);
-    ask(&r, PILOT6_POSITION, PILOT6_POSITION);
+    ask(&r, PILOT_POSITION, PILOT_POSITION);
     const double touch_m = 0.3 - r.body.touch.beside_m;
     r.in.set.pos_w_m.y = touch_m + row[i].into_m;
     fly(&r, 15.0);

@@ -1,5 +1,5 @@
 // test_gap_range_age.c - a range sensor's sample is old when it comes: known of the sensor, and no effect.
-#include "flight/setup6.h"
+#include "flight/setup.h"
 #include "logs/columns.h"
 #include "rig/programs.h"
 #include "rig/scratch.h"

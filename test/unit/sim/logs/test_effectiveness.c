@@ -32,12 +32,12 @@ static const char *simulated(const rig6_param_t *body, double noise_radps, int g
   fputs(HEAD, file);
   const stock_pid_param_t param = stock_pid_default();
   stock_pid_t pid;
-  const pilot6_t pilot = stock_pid_pilot(&pid, &param);
+  const pilot_t pilot = stock_pid_pilot(&pid, &param);
   rig6_t r = rig6_at(body, corner[3], 0.0, true);
   random_t random = {.state = 7};
   for (int i = 0; i < 60000; i++) {
-    const pilot6_setpoint_t set = rig6_hold(corner[i / 600 % 4], i / 450 % 2 ? 0.1 : -0.1);
-    pilot6_in_t in = rig6_sense(&r, &set);
+    const pilot_setpoint_t set = rig6_hold(corner[i / 600 % 4], i / 450 % 2 ? 0.1 : -0.1);
+    pilot_in_t in = rig6_sense(&r, &set);
     in.gyro_b_radps.x += random_normal(&random, noise_radps);
     in.gyro_b_radps.y += random_normal(&random, noise_radps);
     in.gyro_b_radps.z += random_normal(&random, noise_radps);

@@ -28,8 +28,8 @@ TEST(air_garage_ratios_are_those_of_its_tables) {
 // The pilot's motors for the very first tick, at this height, leaning by this much to the right.
 static void first(const air_garage_param_t *p, double z_m, double lean_rad, double motor_N[4]) {
   air_garage_t s;
-  const pilot6_t pilot = air_garage_pilot(&s, p);
-  const pilot6_in_t in = {
+  const pilot_t pilot = air_garage_pilot(&s, p);
+  const pilot_in_t in = {
       .pos_w_m = {0, 0, z_m},
       .q_wb = {cos(0.5 * lean_rad), sin(0.5 * lean_rad), 0, 0},
       .vbat_V = 4.2,
@@ -58,11 +58,11 @@ TEST(air_garage_without_surfaces_is_the_stock_pid) {
   const air_garage_param_t param = air_garage_2024();
   air_garage_t s;
   stock_pid_t pid;
-  const pilot6_t pilots[2] = {air_garage_pilot(&s, &param), stock_pid_pilot(&pid, &param.pid)};
+  const pilot_t pilots[2] = {air_garage_pilot(&s, &param), stock_pid_pilot(&pid, &param.pid)};
   rig6_t r[2];
   for (int i = 0; i < 2; i++) {
     r[i] = rig6_at(&body, (d3_t){0, 0, 1}, 0.0, true);
-    const pilot6_setpoint_t set = rig6_hold((d3_t){0.02, 0.01, 1.03}, 0.03); // no motor at a limit
+    const pilot_setpoint_t set = rig6_hold((d3_t){0.02, 0.01, 1.03}, 0.03); // no motor at a limit
     rig6_fly(&r[i], &pilots[i], &set, 3.0, NULL, NULL);
   }
   CHECK(memcmp(&r[0].pos_w_m, &r[1].pos_w_m, sizeof r[0].pos_w_m) == 0);
@@ -103,12 +103,12 @@ TEST(air_garage_is_not_caught_by_the_ceiling_where_the_stock_pid_is) {
   param.ceiling_m = 1.0;
   air_garage_t s;
   stock_pid_t pid;
-  const pilot6_t pilots[2] = {stock_pid_pilot(&pid, &param.pid), air_garage_pilot(&s, &param)};
+  const pilot_t pilots[2] = {stock_pid_pilot(&pid, &param.pid), air_garage_pilot(&s, &param)};
   double highest_m[2] = {0.0, 0.0}, end_m[2];
   for (int i = 0; i < 2; i++) {
     rig6_t r = rig6_at(&body, (d3_t){0, 0, 0.9}, 0.0, true);
-    const pilot6_setpoint_t far = rig6_hold((d3_t){0, 0, 0.94}, 0.0),
-                            near = rig6_hold((d3_t){0, 0, 0.98}, 0.0);
+    const pilot_setpoint_t far = rig6_hold((d3_t){0, 0, 0.94}, 0.0),
+                           near = rig6_hold((d3_t){0, 0, 0.98}, 0.0);
     rig6_fly(&r, &pilots[i], &far, 10.0, NULL, NULL);
     rig6_fly(&r, &pilots[i], &near, 10.0, keep_highest, &highest_m[i]);
     end_m[i] = r.pos_w_m.z;

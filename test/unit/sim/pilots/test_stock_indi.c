@@ -13,7 +13,7 @@
 typedef struct {
   stock_indi_t indi;
   stock_pid_t pid;
-  pilot6_t pilot;
+  pilot_t pilot;
   rig6_t rig;
 } flight_t6;
 
@@ -25,14 +25,14 @@ static void start(flight_t6 *f, bool indi, d3_t pos_w_m, double yaw_rad) {
   f->rig = rig6_at(&body, pos_w_m, yaw_rad, true);
 }
 
-static void fly(flight_t6 *f, const pilot6_setpoint_t *set, double seconds) {
+static void fly(flight_t6 *f, const pilot_setpoint_t *set, double seconds) {
   rig6_fly(&f->rig, &f->pilot, set, seconds, NULL, NULL);
 }
 
 // Started, and settled above a place at 1 m.
 static void hover(flight_t6 *f, bool indi, double yaw_rad) {
   start(f, indi, (d3_t){0, 0, 1}, yaw_rad);
-  const pilot6_setpoint_t here = rig6_hold((d3_t){0, 0, 1}, yaw_rad);
+  const pilot_setpoint_t here = rig6_hold((d3_t){0, 0, 1}, yaw_rad);
   fly(f, &here, 12.0);
 }
 
@@ -51,7 +51,7 @@ TEST(stock_indi_hovers_and_takes_steps) {
     ROW("%s", row[i].what);
     flight_t6 f;
     hover(&f, true, 0.0);
-    const pilot6_setpoint_t set = rig6_hold(row[i].to, row[i].yaw_rad);
+    const pilot_setpoint_t set = rig6_hold(row[i].to, row[i].yaw_rad);
     fly(&f, &set, 20.0);
     CHECK_NEAR(f.rig.pos_w_m.x, row[i].to.x, 0.002);
     CHECK_NEAR(f.rig.pos_w_m.y, row[i].to.y, 0.002);
@@ -65,7 +65,7 @@ TEST(stock_indi_first_increments_are_those_by_hand) {
   // b = tan^2(...)/n of the specific force through, so that the rest of it looks like an error.
   flight_t6 f;
   start(&f, true, (d3_t){0, 0, 1}, 0.0);
-  const pilot6_setpoint_t set = rig6_hold((d3_t){0, -0.1, 1.1}, 0.0);
+  const pilot_setpoint_t set = rig6_hold((d3_t){0, -0.1, 1.1}, 0.0);
   fly(&f, &set, 0.001);
   const double k = tan(TURN / 2 * 8.0 / 500.0), b = k * k / (1 + sqrt(2.0) * k + k * k);
   const double up_mps2 = 5.0 * 0.1 + G - b * G;
@@ -79,7 +79,7 @@ TEST(stock_indi_fault_1_yaw_rate_drives_the_nose_to_heading_0) {
     ROW("%s", indi ? "INDI" : "PID");
     flight_t6 f;
     hover(&f, indi, 1.0);
-    pilot6_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 1.0);
+    pilot_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 1.0);
     set.yaw_by_rate = true;
     fly(&f, &set, 5.0);
     CHECK_NEAR(rig6_yaw_rad(&f.rig), indi ? 0.0 : 1.0, 0.02); // nobody asked for a turn
@@ -91,7 +91,7 @@ TEST(stock_indi_fault_2_yaw_error_is_not_wrapped) {
     ROW("%s", indi ? "INDI" : "PID");
     flight_t6 f;
     hover(&f, indi, 175.0 / STOCK_DEG);
-    const pilot6_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 185.0 / STOCK_DEG); // 10 degrees to the left
+    const pilot_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 185.0 / STOCK_DEG); // 10 degrees to the left
     fly(&f, &set, 0.3);
     CHECK(indi ? f.rig.rate_b_radps.z < -2.0 : f.rig.rate_b_radps.z > 0.1);
   }
@@ -102,7 +102,7 @@ TEST(stock_indi_fault_3_body_velocity_is_taken_for_world_velocity) {
     ROW("%s", indi ? "INDI" : "PID");
     flight_t6 f;
     hover(&f, indi, TURN / 4); // nose along y
-    pilot6_setpoint_t set = rig6_go((d3_t){0.3, 0, 0}, 1.0, TURN / 4);
+    pilot_setpoint_t set = rig6_go((d3_t){0.3, 0, 0}, 1.0, TURN / 4);
     set.vel_in_body = true;
     fly(&f, &set, 4.0);
     CHECK_NEAR(f.rig.vel_w_mps.x, indi ? 0.3 : 0.0, 0.03);
@@ -114,7 +114,7 @@ TEST(stock_indi_fault_4_degrees_are_radians_without_the_position_loop) {
   flight_t6 f;
   start(&f, true, (d3_t){0, 0, 1}, 0.0);
   f.indi.param.outer = false;
-  const pilot6_setpoint_t set = rig6_hold((d3_t){0.02, 0, 1}, 0.0);
+  const pilot_setpoint_t set = rig6_hold((d3_t){0.02, 0, 1}, 0.0);
   fly(&f, &set, 0.001);
   // The cascade wants 25.01 x 0.04 degrees, nose down; the inner loop understands a radian.
   CHECK_NEAR(f.indi.angle_rad[1], -25.01 * 0.04, 1e-6);
@@ -130,7 +130,7 @@ TEST(stock_indi_fault_5_integrates_on_the_ground_and_is_never_reset) {
   body.floor = true;
   body.acc_bias_b_mps2.z = -0.01 * G;
   f.rig = rig6_at(&body, (d3_t){0, 0, 0}, 0.0, false);
-  const pilot6_setpoint_t off = {.thrust_N = 0.0}, here = rig6_hold((d3_t){0, 0, 0}, 0.0);
+  const pilot_setpoint_t off = {.thrust_N = 0.0}, here = rig6_hold((d3_t){0, 0, 0}, 0.0);
   fly(&f, &off, 30.0);
   for (int i = 0; i < 4; i++) CHECK(f.rig.command_N[i] == 0.0);
   // Stay where you are, it is told.
@@ -147,7 +147,7 @@ TEST(stock_indi_fault_6_accelerometer_bias_is_a_height_error) {
     flight_t6 f;
     start(&f, true, (d3_t){0, 0, 1}, 0.0);
     f.rig.param.acc_bias_b_mps2.z = bias_g[i] * G;
-    const pilot6_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 0.0);
+    const pilot_setpoint_t set = rig6_hold((d3_t){0, 0, 1}, 0.0);
     fly(&f, &set, 25.0);
     CHECK_NEAR(f.rig.pos_w_m.z - 1.0, -bias_g[i] * G / 5.0, 2e-4); // b/(kp kd): 2 cm for 0.01 g
   }
@@ -157,8 +157,8 @@ TEST(stock_indi_fault_7_feed_forward_is_dropped) {
   flight_t6 with, without;
   hover(&with, true, 0.0);
   hover(&without, true, 0.0);
-  const pilot6_setpoint_t still = rig6_hold((d3_t){0, 0, 1}, 0.0);
-  pilot6_setpoint_t moving = still;
+  const pilot_setpoint_t still = rig6_hold((d3_t){0, 0, 1}, 0.0);
+  pilot_setpoint_t moving = still;
   moving.vel_mps = (d3_t){1.0, -1.0, 0.5};
   moving.acc_w_mps2 = (d3_t){2.0, 2.0, 2.0};
   fly(&with, &moving, 2.0);
@@ -172,7 +172,7 @@ TEST(stock_indi_fault_8_cut_offs_act_only_after_selection) {
   hover(&stock, true, 0.0);
   hover(&tuned, true, 0.0);
   tuned.indi.param.cutoff_Hz = tuned.indi.param.position.cutoff_Hz = 20.0;
-  const pilot6_setpoint_t set = rig6_hold((d3_t){0.3, 0, 1.2}, 0.5);
+  const pilot_setpoint_t set = rig6_hold((d3_t){0.3, 0, 1.2}, 0.5);
   fly(&stock, &set, 1.0);
   fly(&tuned, &set, 1.0);
   CHECK(memcmp(&stock.rig.pos_w_m, &tuned.rig.pos_w_m, sizeof(d3_t)) == 0);

@@ -89,7 +89,7 @@ TEST(stock_view_has_the_signs_of_the_firmware) {
   const dq_t q[3] = {{cos(h), sin(h), 0, 0}, {cos(h), 0, -sin(h), 0}, {cos(h), 0, 0, sin(h)}};
   for (int i = 0; i < 3; i++) {
     ROW("%s", what[i]);
-    const stock_view_t v = stock_view(&(pilot6_in_t){.q_wb = q[i], .acc_b_mps2 = {0, 0, 9.81}});
+    const stock_view_t v = stock_view(&(pilot_in_t){.q_wb = q[i], .acc_b_mps2 = {0, 0, 9.81}});
     CHECK_NEAR(v.roll_deg, i == 0 ? 5.729578 : 0.0, 1e-6);
     CHECK_NEAR(v.pitch_deg, i == 1 ? 5.729578 : 0.0, 1e-6);
     CHECK_NEAR(v.yaw_deg, i == 2 ? 5.729578 : 0.0, 1e-6);
@@ -103,9 +103,9 @@ TEST(stock_pid_first_commands_are_those_by_hand) {
   stock_pid_t s;
   const stock_pid_param_t param = stock_pid_default();
   stock_pid_pilot(&s, &param);
-  const pilot6_setpoint_t set = rig6_hold((d3_t){0.1, 0, 1.1}, 0.0);
+  const pilot_setpoint_t set = rig6_hold((d3_t){0.1, 0, 1.1}, 0.0);
   const stock_command_t *c = stock_pid_command(
-      &s, &(pilot6_in_t){.pos_w_m = {0, 0, 1.0}, .q_wb = {.w = 1}, .vbat_V = 4.2, .set = set});
+      &s, &(pilot_in_t){.pos_w_m = {0, 0, 1.0}, .q_wb = {.w = 1}, .vbat_V = 4.2, .set = set});
   CHECK_NEAR(s.wanted.pitch_deg, -(25.0 + 0.01) * 0.2, 1e-9);
   CHECK_NEAR(s.wanted.roll_deg, 0.0, 1e-12);
   CHECK_NEAR(c->thrust, 36000.0 + 1000.0 * (25.0 + 0.15) * 0.2005, 1e-6);
@@ -130,9 +130,9 @@ TEST(stock_pid_hovers_and_takes_steps) {
     ROW("%s", row[i].what);
     stock_pid_t s;
     const stock_pid_param_t param = stock_pid_default();
-    const pilot6_t pilot = stock_pid_pilot(&s, &param);
+    const pilot_t pilot = stock_pid_pilot(&s, &param);
     rig6_t r = rig6_at(&body, (d3_t){0, 0, 1}, 0.45 * TURN, true);
-    const pilot6_setpoint_t set = rig6_hold(row[i].to, row[i].yaw_rad);
+    const pilot_setpoint_t set = rig6_hold(row[i].to, row[i].yaw_rad);
     rig6_fly(&r, &pilot, &set, 20.0, NULL, NULL);
     // The integral terms pull the last millimetres in slowly.
     CHECK_NEAR(r.pos_w_m.x, row[i].to.x, 0.005);
@@ -146,10 +146,10 @@ TEST(stock_pid_hovers_and_takes_steps) {
 TEST(stock_pid_keeps_its_limits_on_a_large_step) {
   stock_pid_t s;
   const stock_pid_param_t param = stock_pid_default();
-  const pilot6_t pilot = stock_pid_pilot(&s, &param);
+  const pilot_t pilot = stock_pid_pilot(&s, &param);
   const rig6_param_t body = rig6_crazyflie();
   rig6_t r = rig6_at(&body, (d3_t){0, 0, 1}, 0.0, true);
-  const pilot6_setpoint_t set = rig6_hold((d3_t){5, 0, 4}, 0.0);
+  const pilot_setpoint_t set = rig6_hold((d3_t){5, 0, 4}, 0.0);
   double fastest_mps = 0.0, steepest_rad = 0.0;
   for (int i = 0; i < 300; i++) {
     rig6_fly(&r, &pilot, &set, 0.01, NULL, NULL);
@@ -164,10 +164,10 @@ TEST(stock_pid_keeps_its_limits_on_a_large_step) {
 TEST(stock_pid_honours_body_velocity_and_yaw_rate) {
   stock_pid_t s;
   const stock_pid_param_t param = stock_pid_default();
-  const pilot6_t pilot = stock_pid_pilot(&s, &param);
+  const pilot_t pilot = stock_pid_pilot(&s, &param);
   const rig6_param_t body = rig6_crazyflie();
   rig6_t r = rig6_at(&body, (d3_t){0, 0, 1}, TURN / 4, true);
-  pilot6_setpoint_t set = rig6_go((d3_t){0.5, 0, 0}, 1.0, TURN / 4);
+  pilot_setpoint_t set = rig6_go((d3_t){0.5, 0, 0}, 1.0, TURN / 4);
   set.vel_in_body = true;
   rig6_fly(&r, &pilot, &set, 4.0, NULL, NULL);
   CHECK_NEAR(r.vel_w_mps.y, 0.5, 0.03);
@@ -181,11 +181,11 @@ TEST(stock_pid_honours_body_velocity_and_yaw_rate) {
 TEST(stock_pid_without_thrust_stops_and_forgets) {
   stock_pid_t s;
   const stock_pid_param_t param = stock_pid_default();
-  const pilot6_t pilot = stock_pid_pilot(&s, &param);
+  const pilot_t pilot = stock_pid_pilot(&s, &param);
   rig6_param_t body = rig6_crazyflie();
   body.floor = true;
   rig6_t r = rig6_at(&body, (d3_t){0, 0, 0}, 1.0, false);
-  const pilot6_setpoint_t off = {.thrust_N = 0.0}, up = rig6_hold((d3_t){0, 0, 0.5}, 1.0);
+  const pilot_setpoint_t off = {.thrust_N = 0.0}, up = rig6_hold((d3_t){0, 0, 0.5}, 1.0);
   rig6_fly(&r, &pilot, &off, 30.0, NULL, NULL);
   for (int i = 0; i < 4; i++) CHECK(r.command_N[i] == 0.0);
   CHECK_NEAR(s.yaw_deg, STOCK_DEG, 1e-6);

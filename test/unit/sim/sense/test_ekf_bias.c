@@ -37,7 +37,7 @@ TEST(ekf_answers_an_accelerometer_bias_as_two_states_do) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("bias %g at %g m", row[i].bias, row[i].height_m);
     ekf_rig_t r = ekf_rig("quiet", 1);
-    CHECK(noise6_set(&r.noise, "acc.bias.z", row[i].bias));
+    CHECK(noise_set(&r.noise, "acc.bias.z", row[i].bias));
     kinematic_t path = ekf_rig_hover;
     path.from_m.z = path.to_m.z = row[i].height_m;
     const ekf_errors_t e = ekf_rig_follow(&r, &path, 10.0, 20.0);
@@ -69,7 +69,7 @@ TEST(ekf_in_flight_ignores_the_horizontal_accelerometer_and_on_the_ground_does_n
     truth_t truth = ekf_rig_level(0.3, (d3_t){0.0, 0.0, 0.0}, (d3_t){0.0, 0.0, 0.0});
     ekf_rig_place(&a, &truth);
     ekf_rig_place(&b, &truth);
-    CHECK(noise6_set(&b.noise, "acc.bias.x", 1.0));
+    CHECK(noise_set(&b.noise, "acc.bias.x", 1.0));
     truth.motors = row[i].motors;
     const ekf_out_t x = ekf_rig_stay(&a, &truth, row[i].after_ms),
                     y = ekf_rig_stay(&b, &truth, row[i].after_ms);
@@ -109,7 +109,7 @@ TEST(ekf_in_flight_finds_level_again_through_the_flow_but_for_the_dead_zone) {
   ekf_out_t out = ekf_rig_stay(&r, &truth, 3000);
   CHECK_NEAR(2.0 * out.q_wb.x, 0.24 * DEG, 0.02 * DEG);
   CHECK_NEAR(out.vel_w_mps.y, -0.0187, 0.001);
-  r.noise = *noise6_find("real");
+  r.noise = *noise_find("real");
   double mean = 0.0;
   for (int ms = 0; ms < 20000; ms++) {
     out = ekf_rig_tick(&r, &truth);

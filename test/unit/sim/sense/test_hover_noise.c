@@ -3,7 +3,7 @@
 #include "base/lowpass.h"
 #include "flight/scenario.h"
 #include "rig/test.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 
 #include <stdio.h>
 
@@ -81,7 +81,7 @@ static void simulated(double sd_g[3]) {
   band_t band[3];
   for (int i = 0; i < 3; i++) band_init(&band[i], i == 2 ? 1.0 : 0.0);
   for (int ms = 0; ms < 400000; ms++) {
-    const imu_sample_t s = imu_step(&imu, &noise6_find("real")->imu, random, &truth);
+    const imu_sample_t s = imu_step(&imu, &noise_find("real")->imu, random, &truth);
     const double acc[3] = {s.acc_b_mps2.x, s.acc_b_mps2.y, s.acc_b_mps2.z};
     for (int i = 0; ms % 2 == 0 && i < 3; i++) band_add(&band[i], acc[i] / G_MPS2, ms > 1000);
   }

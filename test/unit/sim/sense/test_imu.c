@@ -1,7 +1,7 @@
 // test_imu.c - accelerometer and gyro: filters, delays, noise, errors, range.
 #include "rig/test.h"
 #include "sense/imu.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 
 #define PI 3.14159265358979323846
 
@@ -60,7 +60,7 @@ typedef struct {
   double acc[3], gyro[3];
 } spread_t;
 
-static spread_t spread_of(const noise6_t *noise, bool motors, uint64_t seed, spread_t *mean) {
+static spread_t spread_of(const noise_t *noise, bool motors, uint64_t seed, spread_t *mean) {
   imu_t imu;
   imu_init(&imu);
   random_t *random = random_open(seed);
@@ -90,14 +90,14 @@ TEST(imu_noise_has_the_measured_size_at_rest_and_with_motors) {
   const double g = 9.81, deg = PI / 180.0;
   spread_t mean;
   ROW("at rest"); // recorded: 0.0011 to 0.0013 g, 0.12 to 0.17 deg/s
-  const spread_t rest = spread_of(noise6_find("real"), false, 5, &mean);
+  const spread_t rest = spread_of(noise_find("real"), false, 5, &mean);
   for (int k = 0; k < 3; k++) {
     CHECK_NEAR(rest.acc[k], 0.0012 * g, 0.0001 * g);
     CHECK_NEAR(rest.gyro[k], 0.14 * deg, 0.02 * deg);
     CHECK_NEAR(mean.acc[k], 0.0, 0.0001 * g);
   }
   ROW("motors"); // of a recorded hover, see test_hover_noise.c
-  const spread_t on = spread_of(noise6_find("real"), true, 6, &mean);
+  const spread_t on = spread_of(noise_find("real"), true, 6, &mean);
   CHECK_NEAR(on.acc[0], 0.016 * g, 0.0003 * g);
   CHECK_NEAR(on.acc[2], 0.008 * g, 0.0003 * g);
   CHECK_NEAR(on.gyro[1], 1.0 * deg, 0.02 * deg);
@@ -119,8 +119,8 @@ TEST(imu_errors_are_constant_and_add_up) {
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].field);
-    noise6_t noise = *noise6_find("quiet");
-    CHECK(noise6_set(&noise, row[i].field, row[i].value));
+    noise_t noise = *noise_find("quiet");
+    CHECK(noise_set(&noise, row[i].field, row[i].value));
     truth_t truth = still(true);
     truth.force_b_mps2 = (d3_t){1.0, 2.0, 9.81};
     truth.rate_b_radps = (d3_t){0.1, 0.2, 0.3};
@@ -146,16 +146,16 @@ TEST(imu_clips_at_the_range_of_the_chip) {
 }
 
 TEST(noise_levels_can_be_set_one_by_one) {
-  noise6_t noise = *noise6_find("real");
-  CHECK(noise6_find("loud") == NULL);
-  CHECK(!noise6_set(&noise, "acc.w", 0.1));
-  CHECK(!noise6_set(&noise, "acc.z", -0.1));
-  CHECK(!noise6_set(&noise, "acc.z", (double)NAN));
+  noise_t noise = *noise_find("real");
+  CHECK(noise_find("loud") == NULL);
+  CHECK(!noise_set(&noise, "acc.w", 0.1));
+  CHECK(!noise_set(&noise, "acc.z", -0.1));
+  CHECK(!noise_set(&noise, "acc.z", (double)NAN));
   CHECK(noise.imu.acc_z_mps2 == 0.008 * 9.81);
-  for (int i = 0; i < noise6_field_count; i++) {
-    const noise6_field_t *f = &noise6_fields[i];
+  for (int i = 0; i < noise_field_count; i++) {
+    const noise_field_t *f = &noise_fields[i];
     ROW("%s", f->name);
-    CHECK(noise6_set(&noise, f->name, 0.125));
+    CHECK(noise_set(&noise, f->name, 0.125));
     CHECK(*(const double *)(const void *)((const char *)&noise + f->offset) == 0.125);
   }
 }

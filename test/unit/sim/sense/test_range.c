@@ -1,7 +1,7 @@
 // test_range.c - upward and downward range and flow: rates, ages, floor, reach, slant, noise.
 #include "rig/kinematic.h"
 #include "rig/test.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 #include "sense/range.h"
 
 static const range_param_t perfect = {0};
@@ -128,7 +128,7 @@ TEST(range_noise_has_the_stated_size) {
     stat_t up = {0}, down = {0}, flow = {0};
     const truth_t truth = at(0.5, row[i].height_m);
     for (int ms = 0; ms < 1000000; ms++) {
-      const range_sample_t out = range_step(&s, &noise6_find("real")->range, random, &truth);
+      const range_sample_t out = range_step(&s, &noise_find("real")->range, random, &truth);
       if (out.up_new) include(&up, 1e-3 * out.up_mm);
       if (out.down_new) include(&down, out.down_m);
       if (out.flow_new) include(&flow, out.flow_x);

@@ -200,7 +200,7 @@ TEST(app_refuses_a_commit_of_what_cannot_be_flown_and_takes_one_where_the_height
   }
   f.vehicle.app.flight.outer.learn.rls.theta.w[2] = 0.5f;
   CHECK(crazyflie_set(&f.vehicle, "ceil.mode", CURVE_LIVE));
-  f.set.mode[2] = PILOT6_OFF;
+  f.set.mode[2] = PILOT_OFF;
   f.set.thrust_N = 9.81 * f.rig.param.mass_kg;
   app_fly(&f, 4);
   CHECK(app_log(&f, "ceil.learning") == 0.0);

@@ -57,15 +57,15 @@ TEST(app_in_shadow_commands_what_the_stock_controller_does_and_computes_its_own)
   crazyflie_start(&f.vehicle);
   stock_pid_t pid;
   const stock_pid_param_t param = f.vehicle.stock.param;
-  const pilot6_t stock = stock_pid_pilot(&pid, &param);
+  const pilot_t stock = stock_pid_pilot(&pid, &param);
   double worst_N = 0.0;
   for (int ms = 0; ms < 2000; ms++) {
-    const pilot6_in_t in = rig6_sense(&f.rig, &f.set);
-    double motor_N[PILOT6_MOTORS], stock_N[PILOT6_MOTORS];
+    const pilot_in_t in = rig6_sense(&f.rig, &f.set);
+    double motor_N[PILOT_MOTORS], stock_N[PILOT_MOTORS];
     crazyflie_ms(&f.vehicle, &in, motor_N);
     stock.step(stock.state, &in, stock_N);
     if (ms > 500) // its filtered battery voltage starts elsewhere
-      for (int i = 0; i < PILOT6_MOTORS; i++) worst_N = fmax(worst_N, fabs(motor_N[i] - stock_N[i]));
+      for (int i = 0; i < PILOT_MOTORS; i++) worst_N = fmax(worst_N, fabs(motor_N[i] - stock_N[i]));
     rig6_step(&f.rig, motor_N);
   }
   CHECK(worst_N < 1e-4);
@@ -78,14 +78,14 @@ TEST(app_that_contradicts_itself_does_not_take_off) {
   rig6_param_t body = rig6_crazyflie();
   body.floor = true;
   f.rig = rig6_at(&body, d3(0.0, 0.0, 0.0), 0.0, false);
-  f.set.mode[2] = PILOT6_OFF;
+  f.set.mode[2] = PILOT_OFF;
   for (int ms = 0; ms < 4000; ms++) {
-    if (ms == 1000) f.set.mode[2] = PILOT6_POSITION;
-    pilot6_in_t in = rig6_sense(&f.rig, &f.set);
+    if (ms == 1000) f.set.mode[2] = PILOT_POSITION;
+    pilot_in_t in = rig6_sense(&f.rig, &f.set);
     in.acc_b_mps2.z = -in.acc_b_mps2.z;
-    double motor_N[PILOT6_MOTORS];
+    double motor_N[PILOT_MOTORS];
     crazyflie_ms(&f.vehicle, &in, motor_N);
-    for (int i = 0; i < PILOT6_MOTORS; i++) CHECK(motor_N[i] == 0.0);
+    for (int i = 0; i < PILOT_MOTORS; i++) CHECK(motor_N[i] == 0.0);
     rig6_step(&f.rig, motor_N);
   }
   CHECK(app_log(&f, "guard.notFlyable") == FLYABLE_UP);
@@ -107,25 +107,25 @@ TEST(app_takes_the_cap_of_a_low_battery_for_what_the_motors_did) {
   app_start(&f);
   app_fly(&f, 1000);
   f.rig.vbat_V = 2.55;
-  f.set.mode[2] = PILOT6_VELOCITY;
+  f.set.mode[2] = PILOT_VELOCITY;
   int full = 0, lowered = 0;
   double worst_N = 0.0;
   for (int ms = 0; ms < 6000; ms++) {
     // Up and down, tilting: the cap takes as much from those that are not full.
     f.set.vel_mps = d3(0.0, 0.0, ms / 500 % 2 == 0 ? 0.8 : -0.4);
     f.set.pos_w_m = d3(ms / 700 % 2 == 0 ? 0.2 : -0.2, 0.0, 0.3);
-    double motor_N[PILOT6_MOTORS];
-    const pilot6_in_t in = rig6_sense(&f.rig, &f.set);
+    double motor_N[PILOT_MOTORS];
+    const pilot_in_t in = rig6_sense(&f.rig, &f.set);
     bool is_full = false;
-    for (int i = 0; i < PILOT6_MOTORS; i++) is_full = is_full || f.vehicle.around.duty[i] == UINT16_MAX;
+    for (int i = 0; i < PILOT_MOTORS; i++) is_full = is_full || f.vehicle.around.duty[i] == UINT16_MAX;
     float asked_N[MOTORS];
     units_applied(asked_N, &f.vehicle.control);
-    double got_N[PILOT6_MOTORS];
+    double got_N[PILOT_MOTORS];
     memcpy(got_N, f.rig.command_N, sizeof got_N);
     crazyflie_ms(&f.vehicle, &in, motor_N);
     if (is_full && ms > 600) { // the firmware's filtered voltage has come down
       full++;
-      for (int i = 0; i < PILOT6_MOTORS; i++) {
+      for (int i = 0; i < PILOT_MOTORS; i++) {
         worst_N = fmax(worst_N, fabs((double)f.vehicle.app.in.force_N[i] - got_N[i]));
         lowered += (double)asked_N[i] > got_N[i] + 0.003;
       }

@@ -1,4 +1,4 @@
-// test_flights6.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds
+// test_flights.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds
 // (section 5.3, appendix C.3).
 #include "flight/scenario.h"
 #include "pilots/pilot_flight.h"
@@ -132,8 +132,8 @@ TEST(flights6_are_the_same_bits_for_the_same_seed) {
 typedef struct {
   rig6_t rig;
   pilot_flight_t state;
-  pilot6_t pilot;
-  pilot6_setpoint_t set;
+  pilot_t pilot;
+  pilot_setpoint_t set;
 } vehicle_t;
 
 static void vehicle_init(vehicle_t *v, d3_t from_m, d3_t to_m) {
@@ -147,8 +147,8 @@ static void vehicle_init(vehicle_t *v, d3_t from_m, d3_t to_m) {
 }
 
 static void vehicle_ms(vehicle_t *v) {
-  const pilot6_in_t in = rig6_sense(&v->rig, &v->set);
-  double motor_N[PILOT6_MOTORS];
+  const pilot_in_t in = rig6_sense(&v->rig, &v->set);
+  double motor_N[PILOT_MOTORS];
   v->pilot.step(v->pilot.state, &in, motor_N);
   rig6_step(&v->rig, motor_N);
 }

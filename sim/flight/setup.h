@@ -1,9 +1,9 @@
-// setup6.h - everything that one flight needs: model, controller, plan; what a person changes of it; and what
+// setup.h - everything that one flight needs: model, controller, plan; what a person changes of it; and what
 // it was like.
-#ifndef SIM_FLIGHT_SETUP6_H
-#define SIM_FLIGHT_SETUP6_H
+#ifndef SIM_FLIGHT_SETUP_H
+#define SIM_FLIGHT_SETUP_H
 
-#include "flight/loop6.h"
+#include "flight/loop.h"
 #include "flight/params.h"
 #include "flight/segments.h"
 #include "pilots/air_garage.h"
@@ -35,9 +35,9 @@ struct usd_deck;
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
   const model_t *vehicle; // null: the scenario's
-  const noise6_t *noise;  // null: the scenario's; so the next
+  const noise_t *noise;   // null: the scenario's; so the next
   const vertical_noise_t *vertical_noise;
-  noise6_t noise_changed; // where `noise` points to if the command line changes a level
+  noise_t noise_changed; // where `noise` points to if the command line changes a level
   fx_use_t effect[FX_MAX];
   int n_effect;
   bool no_effects; // first switches off what the scenario has

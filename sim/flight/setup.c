@@ -1,5 +1,5 @@
-// setup6.c - everything that one flight needs.
-#include "flight/setup6.h"
+// setup.c - everything that one flight needs.
+#include "flight/setup.h"
 
 #include "base/constants.h"
 #include "crazyflie/stock_indi.h"
@@ -38,7 +38,7 @@ done_t setup_thesis(setup_t *setup, fly_kind_t kind, why_t *why) {
                      .learn_from = {{1.0f}},
                      .stock_pid = stock_pid_default(),
                      .air_garage = air_garage_2024(),
-                     .plan = {.noise = *noise6_find("real")}};
+                     .plan = {.noise = *noise_find("real")}};
   TRY(model_builtin("cf21_legacy", &setup->model, why));
   setup->model.ceiling_m = CEILING_M;
   fx_use_t ceiling = fx_use(fx_find("ceiling"));
@@ -217,7 +217,7 @@ static void prepare_app(pilot_flight_t *p, const request_t *request) {
 
 static done_t fly_outer(const setup_t *setup, const flight_param_t *param, flown_t *flown, why_t *why) {
   pilot_outer_t p;
-  pilot6_t pilot;
+  pilot_t pilot;
   plan_t plan = setup->plan;
   plan.period_s = (double)(float)plan.period_s; // the flight code's own
   if (pilot_outer_init(&p, param, plan.period_s, &pilot) != DONE)
@@ -229,7 +229,7 @@ static done_t fly_outer(const setup_t *setup, const flight_param_t *param, flown
 
 static done_t fly_app(const setup_t *setup, const flight_param_t *param, flown_t *flown, why_t *why) {
   pilot_flight_t p;
-  pilot6_t pilot;
+  pilot_t pilot;
   if (pilot_flight_init(&p, param, &setup->model, &pilot) != DONE)
     return error_set(why, "--set: indiPos.cutoff is 0 or 0.1 to 45 Hz, indiAtt.cutoff 0 or 0.5 to 200 Hz");
   prepare_app(&p, setup->request);
@@ -252,7 +252,7 @@ static done_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
   return DONE;
 }
 
-static pilot6_t air_garage_knowing(const setup_t *setup, air_garage_t *s) {
+static pilot_t air_garage_knowing(const setup_t *setup, air_garage_t *s) {
   air_garage_param_t p = setup->air_garage;
   const double rotor_m = setup->model.frame.rotor_above_feet_m;
   if (!isfinite(p.ceiling_m)) {
@@ -268,9 +268,9 @@ static done_t fly_stock(const setup_t *setup, flown_t *flown, why_t *why) {
   air_garage_t garage;
   stock_indi_param_t indi_param = stock_indi_default();
   memcpy(indi_param.power.volt_cubic, setup->stock_pid.power.volt_cubic, sizeof indi_param.power.volt_cubic);
-  const pilot6_t pilot = setup->kind == FLY_STOCK_PID    ? stock_pid_pilot(&pid, &setup->stock_pid)
-                         : setup->kind == FLY_STOCK_INDI ? stock_indi_pilot(&indi, &indi_param)
-                                                         : air_garage_knowing(setup, &garage);
+  const pilot_t pilot = setup->kind == FLY_STOCK_PID    ? stock_pid_pilot(&pid, &setup->stock_pid)
+                        : setup->kind == FLY_STOCK_INDI ? stock_indi_pilot(&indi, &indi_param)
+                                                        : air_garage_knowing(setup, &garage);
   return loop_fly(&setup->plan, &setup->model, &pilot, &flown->record, &flown->outcome, why);
 }
 
@@ -281,7 +281,7 @@ static done_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
   param.ceiling_m = setup->model.ceiling_m;
   param.radius_m = setup->model.rotor_radius_m;
   pid_peer_t pid;
-  const pilot6_t pilot = pid_pilot(&pid, &param, setup->plan.period_s);
+  const pilot_t pilot = pid_pilot(&pid, &param, setup->plan.period_s);
   return loop_fly(&setup->plan, &setup->model, &pilot, &flown->record, &flown->outcome, why);
 }
 

@@ -1,5 +1,5 @@
-// test_setup6.c - the ladder below a ceiling, and what is logged of the ceiling's height.
-#include "flight/setup6.h"
+// test_ladder.c - the ladder below a ceiling, and what is logged of the ceiling's height.
+#include "flight/setup.h"
 #include "rig/test.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static bool fly(int hold, flown_t *flown) {
   return CHECK_OK(setup_fly(&setup, flown, &why));
 }
 
-TEST(setup6_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_latched_one) {
+TEST(setup_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_latched_one) {
   for (int hold = 0; hold < 2; hold++) {
     ROW("ceil.hold %d", hold);
     flown_t flown;
@@ -42,7 +42,7 @@ TEST(setup6_ladder_counts_from_the_estimated_ceiling_and_from_20_cm_on_from_the_
 }
 
 // A mass that an effect makes nothing of: the body cannot be opened, after the app was.
-TEST(setup6_leaves_nothing_to_free_of_a_flight_that_failed) {
+TEST(setup_leaves_nothing_to_free_of_a_flight_that_failed) {
   static const fly_kind_t kind[] = {FLY_INDI_THEORY, FLY_INDI_LEARNED, FLY_STOCK_PID};
   for (unsigned i = 0; i < sizeof kind / sizeof *kind; i++) {
     ROW("%s", fly_name[kind[i]]);

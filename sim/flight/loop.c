@@ -1,5 +1,5 @@
-// loop6.c - one flight.
-#include "flight/loop6.h"
+// loop.c - one flight.
+#include "flight/loop.h"
 
 #include "base/constants.h"
 #include "base/cpu_time.h"
@@ -14,7 +14,7 @@ typedef struct {
   const plan_t *plan;
   const model_t *model;
   model_t point; // what it is on the vertical axis
-  const pilot6_t *pilot;
+  const pilot_t *pilot;
   body_t body;
   random_t *random;
   imu_t imu;
@@ -23,16 +23,16 @@ typedef struct {
   vertical_t vertical;
   ekf_in_t seen; // the pose is only there with motion capture
   ekf_t ekf;
-  pilot6_in_t in;
+  pilot_in_t in;
   ekf_out_t estimate;
-  double motor_N[PILOT6_MOTORS];
+  double motor_N[PILOT_MOTORS];
   double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
   bool range_new;
   int way;
   double ceiling_z_m; // as the pilot thinks it, at the last sample
-} flight6_t;
+} flight_loop_t;
 
-static truth_t truth_of(const flight6_t *f) {
+static truth_t truth_of(const flight_loop_t *f) {
   const body_t *b = &f->body;
   const double *y = b->y;
   const dq_t q = dq_of(y + RIGID_Q_WB);
@@ -65,7 +65,7 @@ static truth_t truth_of(const flight6_t *f) {
 }
 
 // Motion capture in place of the downward sensors; its zero is the height at rest.
-static void see_by_mocap(flight6_t *f, const truth_t *truth) {
+static void see_by_mocap(flight_loop_t *f, const truth_t *truth) {
   truth_t seen = *truth;
   seen.pos_w_m.z -= body_rest_z_m(f->model);
   const mocap_sample_t pose = mocap_step(&f->mocap, &f->plan->mocap, f->random, &seen);
@@ -76,7 +76,7 @@ static void see_by_mocap(flight6_t *f, const truth_t *truth) {
 }
 
 // One millisecond of sensors and estimator, from what is true at the start of the tick.
-static void sense(flight6_t *f, const truth_t *truth) {
+static void sense(flight_loop_t *f, const truth_t *truth) {
   const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
   const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
   ekf_in_t *const seen = &f->seen;
@@ -105,7 +105,7 @@ static void sense(flight6_t *f, const truth_t *truth) {
 }
 
 // The same on the vertical axis.
-static void sense_vertical(flight6_t *f, const truth_t *truth) {
+static void sense_vertical(flight_loop_t *f, const truth_t *truth) {
   const vertical_sample_t seen = vertical_step(&f->vertical, &f->plan->vertical_noise, f->random, truth);
   f->in.pos_w_m.z = seen.z_m;
   f->in.vel_w_mps.z = seen.climb_mps;
@@ -117,27 +117,27 @@ static void sense_vertical(flight6_t *f, const truth_t *truth) {
 }
 
 // The estimator's zero is the height at rest; the plan's heights are of the rotors' plane.
-static void order(flight6_t *f, double t_s) {
+static void order(flight_loop_t *f, double t_s) {
   const plan_t *plan = f->plan;
   while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
   const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
   const bool on = t_s >= plan->take_off_s;
-  for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT6_POSITION : PILOT6_OFF;
+  for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT_POSITION : PILOT_OFF;
   const bool thought = plan->below_estimate && isfinite(f->ceiling_z_m);
   const double down_m = thought ? f->model->ceiling_m - f->ceiling_z_m : rest_m;
   f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - down_m};
   f->in.set.thrust_N = 0.0;
 }
 
-static void call_pilot(flight6_t *f, const truth_t *truth) {
+static void call_pilot(flight_loop_t *f, const truth_t *truth) {
   f->plan->vertical_only ? sense_vertical(f, truth) : sense(f, truth);
-  pilot6_in_t in = f->in;
+  pilot_in_t in = f->in;
   if (f->plan->edit) f->plan->edit(f->plan->edit_context, &f->body, &in);
   f->pilot->step(f->pilot->state, &in, f->motor_N);
   f->in.step++;
 }
 
-static done_t keep(flight6_t *f, record_t *record, double t_s, const truth_t *truth, why_t *why) {
+static done_t keep(flight_loop_t *f, record_t *record, double t_s, const truth_t *truth, why_t *why) {
   thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   if (f->pilot->tell) f->pilot->tell(f->pilot->state, &thoughts);
   f->ceiling_z_m = thoughts.ceiling_z_m;
@@ -161,27 +161,27 @@ static done_t keep(flight6_t *f, record_t *record, double t_s, const truth_t *tr
   return record_add(record, &tick, why);
 }
 
-static void look_at_rotors(flight6_t *f) {
+static void look_at_rotors(flight_loop_t *f) {
   f->in.rotors_N = 0.0;
-  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.rotors_N += f->body.y[RIGID_THRUST_N + i];
+  for (int i = 0; i < PILOT_MOTORS; i++) f->in.rotors_N += f->body.y[RIGID_THRUST_N + i];
 }
 
-static void move(flight6_t *f, double tick_s, outcome_t *outcome) {
+static void move(flight_loop_t *f, double tick_s, outcome_t *outcome) {
   const plan_t *plan = f->plan;
-  for (int i = 0; i < PILOT6_MOTORS; i++) outcome->finite = outcome->finite && isfinite(f->motor_N[i]);
+  for (int i = 0; i < PILOT_MOTORS; i++) outcome->finite = outcome->finite && isfinite(f->motor_N[i]);
   if (plan->vertical_noise.gust_mps2 > 0.0) {
     const double gust_mps2 = vertical_gust_mps2(&f->vertical, &plan->vertical_noise, f->random);
     body_push(&f->body, d3(0.0, 0.0, f->model->mass_kg * gust_mps2));
   }
   body_tick(&f->body, f->motor_N, tick_s);
-  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
   look_at_rotors(f);
   f->in.vbat_V = f->body.vbat_V;
   f->gap_min_m = fmin(f->gap_min_m, record_gap_m(&f->body));
   outcome->finite = outcome->finite && !f->body.broken;
 }
 
-static done_t run(flight6_t *f, record_t *record, outcome_t *outcome, why_t *why) {
+static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t *why) {
   const plan_t *plan = f->plan;
   const double tick_s = plan->vertical_only ? plan->period_s : LOOP_TICK_S;
   const int calls = plan->vertical_only ? 1 : 2;
@@ -202,7 +202,7 @@ static done_t run(flight6_t *f, record_t *record, outcome_t *outcome, why_t *why
   return DONE;
 }
 
-static body_start_t start_of(const flight6_t *f) {
+static body_start_t start_of(const flight_loop_t *f) {
   const plan_t *plan = f->plan;
   if (!plan->vertical_only) {
     body_start_t start = plan->in_flight ? plan->start : body_standing(f->model);
@@ -217,7 +217,7 @@ static body_start_t start_of(const flight6_t *f) {
       .pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {each_N, each_N, each_N, each_N}, .vertical_only = true};
 }
 
-static done_t open(flight6_t *f, why_t *why) {
+static done_t open(flight_loop_t *f, why_t *why) {
   const plan_t *plan = f->plan;
   body_start_t start = start_of(f);
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
@@ -242,18 +242,18 @@ static done_t open(flight6_t *f, why_t *why) {
     const d3_t rest = {0.0, 0.0, -body_rest_z_m(f->model)};
     ekf_place(&f->ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
   }
-  for (int i = 0; i < PILOT6_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
+  for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
   look_at_rotors(f);
   f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
   return DONE;
 }
 
-done_t loop_fly(const plan_t *plan, const model_t *model, const pilot6_t *pilot, record_t *record,
+done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
                 outcome_t *outcome, why_t *why) {
-  flight6_t *f = calloc(1, sizeof *f);
+  flight_loop_t *f = calloc(1, sizeof *f);
   if (!f) return error_failed(why, "out of memory");
-  *f = (flight6_t){.plan = plan, .model = model, .pilot = pilot};
+  *f = (flight_loop_t){.plan = plan, .model = model, .pilot = pilot};
   if (plan->vertical_only) {
     f->point = model_point(model);
     f->model = &f->point;

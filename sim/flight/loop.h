@@ -1,17 +1,17 @@
-// loop6.h - one flight: body, sensors, estimator and pilot.
+// loop.h - one flight: body, sensors, estimator and pilot.
 //
 // In six degrees of freedom the vehicle moves in steps of 2 ms, the commands with it; sensors, estimator and
 // pilot run every millisecond at their 1000/500/100/40/10 Hz. On both of its milliseconds the inertial
 // sensors see the same instant. On the vertical axis alone all three have one period, and what is sensed is
 // true but for white noise (sense/vertical.h).
-#ifndef SIM_FLIGHT_LOOP6_H
-#define SIM_FLIGHT_LOOP6_H
+#ifndef SIM_FLIGHT_LOOP_H
+#define SIM_FLIGHT_LOOP_H
 
 #include "body/body.h"
-#include "crazyflie/pilot6.h"
-#include "flight/record6.h"
+#include "crazyflie/pilot.h"
+#include "flight/record.h"
 #include "sense/mocap.h"
-#include "sense/noise6.h"
+#include "sense/noise.h"
 #include "sense/vertical.h"
 
 #define LOOP_TICK_S   0.002
@@ -26,7 +26,7 @@ typedef struct {
 
 // Stands between sensors and pilot, at every call: may edit what the pilot gets (nothing of it lasts
 // until the next call), and look at the truth.
-typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot6_in_t *in);
+typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot_in_t *in);
 
 // How the flight is flown. The waypoints are heights of the rotors' plane; x, y and yaw are held at 0.
 typedef struct {
@@ -43,7 +43,7 @@ typedef struct {
   loop_edit_t edit;    // null: none
   void *edit_context;
   // In six degrees of freedom.
-  noise6_t noise;
+  noise_t noise;
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
@@ -63,7 +63,7 @@ typedef struct {
 
 // Flies the plan. *record gets the samples (it must be empty; free it after use). Its z is the height of the
 // rotors' plane, its gap that of the nearest rotor. BAD_INPUT: a model that cannot fly. FAILED: no memory.
-MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const pilot6_t *pilot, record_t *record,
+MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
                            outcome_t *outcome, why_t *why);
 
 #endif

@@ -1,6 +1,6 @@
-// test_loop6.c - the loop in six degrees of freedom: what the pilot is told, and what is recorded.
+// test_loop.c - the loop in six degrees of freedom: what the pilot is told, and what is recorded.
 #define _POSIX_C_SOURCE 200809L // nanosleep
-#include "flight/loop6.h"
+#include "flight/loop.h"
 #include "flight/segments.h"
 #include "rig/vehicle6.h"
 
@@ -22,9 +22,9 @@ typedef struct {
   double late_m, now_m; // sum of |range - true distance|: when it was measured, and when it came
 } still_t;
 
-static void still_step(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]) {
+static void still_step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   still_t *const s = state;
-  for (int i = 0; i < PILOT6_MOTORS; i++) {
+  for (int i = 0; i < PILOT_MOTORS; i++) {
     motor_N[i] = s->motor_N;
     s->applied_N = fmax(s->applied_N, in->applied_N[i]);
   }
@@ -35,7 +35,7 @@ static void still_reset(void *state) {
 }
 
 // Compares the sample with what was true range_age_s before.
-static void watch(void *context, const body_t *truth, pilot6_in_t *in) {
+static void watch(void *context, const body_t *truth, pilot_in_t *in) {
   still_t *const s = context;
   s->at_m[s->ms % 256] = body_ceiling_gap_m(truth, 0);
   const int age = (int)lround(1e3 * in->range_age_s);
@@ -51,13 +51,13 @@ typedef struct {
   record_t record;
   outcome_t outcome;
   plan_t plan;
-} flown_t6;
+} watched_t;
 
 // From 0.1 m, climbing at climb_mps; two set points, 0.4 m and from half the time on 0.45 m.
-static done_t fly_with(loop_edit_t edit, still_t *s, double climb_mps, double end_s, flown_t6 *flown,
+static done_t fly_with(loop_edit_t edit, still_t *s, double climb_mps, double end_s, watched_t *flown,
                        model_t *model, why_t *why) {
   const double f = 0.25 * WEIGHT_N;
-  *flown = (flown_t6){
+  *flown = (watched_t){
       .plan = {
           .way = {{0.0, 0.4}, {0.5 * end_s, 0.45}},
           .n_way = 2,
@@ -67,24 +67,24 @@ static done_t fly_with(loop_edit_t edit, still_t *s, double climb_mps, double en
           .edit = edit,
           .edit_context = s}};
   flown->plan.integrate = INTEGRATE_RK4;
-  const pilot6_t pilot = {.state = s, .step = still_step, .reset = still_reset};
+  const pilot_t pilot = {.state = s, .step = still_step, .reset = still_reset};
   return loop_fly(&flown->plan, model, &pilot, &flown->record, &flown->outcome, why);
 }
 
-static done_t fly(still_t *s, double climb_mps, double end_s, flown_t6 *flown, model_t *model, why_t *why) {
+static done_t fly(still_t *s, double climb_mps, double end_s, watched_t *flown, model_t *model, why_t *why) {
   return fly_with(watch, s, climb_mps, end_s, flown, model, why);
 }
 
-static void drop(flown_t6 *flown) {
+static void drop(watched_t *flown) {
   record_free(&flown->record);
 }
 
-TEST(loop6_counts_a_contact_that_lasts_in_each_segment) {
+TEST(loop_counts_a_contact_that_lasts_in_each_segment) {
   // The top is 8 mm above the rotors: the record's gap never comes to 0.
   model_t m = vehicle6(CEILING_M);
   m.frame.top_above_rotor_m = 0.008;
   still_t s = {.motor_N = 1.3 * 0.25 * WEIGHT_N};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   segment_t segment[WAYPOINTS_MAX];
   if (!CHECK_OK(fly(&s, 0.0, 6.0, &flown, &m, &why))) return;
@@ -96,16 +96,16 @@ TEST(loop6_counts_a_contact_that_lasts_in_each_segment) {
 }
 
 // As if another program had the processor for half a second.
-static void sleep_once(void *context, const body_t *truth, pilot6_in_t *in) {
+static void sleep_once(void *context, const body_t *truth, pilot_in_t *in) {
   still_t *const s = context;
   (void)truth, (void)in;
   if (s->ms++ == 0) nanosleep(&(struct timespec){.tv_nsec = 500000000}, NULL);
 }
 
-TEST(loop6_counts_its_own_time_on_the_processor_and_no_other) {
+TEST(loop_counts_its_own_time_on_the_processor_and_no_other) {
   model_t m = vehicle6(HUGE_VAL);
   still_t s = {.motor_N = 0.25 * WEIGHT_N};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   if (!CHECK_OK(fly_with(sleep_once, &s, 0.0, 0.5, &flown, &m, &why))) return;
   // By the wall clock it would be below 1; even under sanitizers the loop itself is ten times as fast.
@@ -113,36 +113,36 @@ TEST(loop6_counts_its_own_time_on_the_processor_and_no_other) {
   drop(&flown);
 }
 
-TEST(loop6_tells_the_pilot_what_was_applied_and_not_what_it_asked_for) {
+TEST(loop_tells_the_pilot_what_was_applied_and_not_what_it_asked_for) {
   model_t m = vehicle6(HUGE_VAL);
   still_t s = {.motor_N = 1.0};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
   CHECK_NEAR(s.applied_N, LIMIT_N, 1e-12);
   drop(&flown);
 }
 
-TEST(loop6_records_what_was_applied_since_the_last_call_beside_the_new_command) {
+TEST(loop_records_what_was_applied_since_the_last_call_beside_the_new_command) {
   model_t m = vehicle6(HUGE_VAL);
   still_t s = {.motor_N = 1.0};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
   for (int i = 0; i < 2; i++) {
     ROW("sample %d", i);
-    CHECK_NEAR(flown.record.sample[i].command_N, PILOT6_MOTORS * 1.0, 1e-12);
-    CHECK_NEAR(flown.record.sample[i].sense.applied_N, i == 0 ? WEIGHT_N : PILOT6_MOTORS * LIMIT_N, 1e-12);
+    CHECK_NEAR(flown.record.sample[i].command_N, PILOT_MOTORS * 1.0, 1e-12);
+    CHECK_NEAR(flown.record.sample[i].sense.applied_N, i == 0 ? WEIGHT_N : PILOT_MOTORS * LIMIT_N, 1e-12);
   }
   drop(&flown);
 }
 
-TEST(loop6_tells_how_old_a_range_sample_is) {
+TEST(loop_tells_how_old_a_range_sample_is) {
   // In a climb at 0.2 m/s a sample of 60 to 80 ms is 14 mm off when it comes, at most 2 mm when it was
   // measured.
   model_t m = vehicle6(CEILING_M);
   still_t s = {.motor_N = 0.25 * WEIGHT_N};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   if (!CHECK_OK(fly(&s, 0.2, 1.5, &flown, &m, &why))) return;
   if (!CHECK(s.ranges >= 10)) return;
@@ -151,29 +151,29 @@ TEST(loop6_tells_how_old_a_range_sample_is) {
   drop(&flown);
 }
 
-TEST(loop6_says_whose_fault_it_is_that_it_does_not_fly) {
+TEST(loop_says_whose_fault_it_is_that_it_does_not_fly) {
   model_t m = vehicle6(HUGE_VAL);
   snprintf(m.name, sizeof m.name, "stone");
   m.frame.kf_Ns2 = 0.0;
   still_t s = {0};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   CHECK_STATUS(BAD_INPUT, fly(&s, 0.0, 0.1, &flown, &m, &why));
   CHECK_TEXT(why.text, "vehicle stone with its effects: mass, inertia, motor lag or kf not above 0; such a "
                        "vehicle cannot fly");
 }
 
-TEST(loop6_records_every_tick_where_it_is_asked_to) {
+TEST(loop_records_every_tick_where_it_is_asked_to) {
   model_t m = vehicle6(CEILING_M);
   still_t s = {.motor_N = 0.25 * WEIGHT_N};
-  flown_t6 flown;
+  watched_t flown;
   why_t why;
   if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
   CHECK(flown.record.n == 11);
   plan_t every = flown.plan;
   drop(&flown);
   every.record_every = 1;
-  const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset};
+  const pilot_t pilot = {.state = &s, .step = still_step, .reset = still_reset};
   CHECK_OK(loop_fly(&every, &m, &pilot, &flown.record, &flown.outcome, &why));
   CHECK(flown.record.n == 51);
   CHECK_NEAR(flown.record.sample[50].t_s, 0.1, 1e-12);
@@ -184,7 +184,7 @@ static void think(const void *state, thoughts_t *thoughts) {
   thoughts->ceiling_z_m = ((const still_t *)state)->ceiling_z_m;
 }
 
-TEST(loop6_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
+TEST(loop_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
   static const struct {
     const char *what;
     bool below_estimate;
@@ -196,14 +196,14 @@ TEST(loop6_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
     ROW("%s", row[i].what);
     model_t m = vehicle6(CEILING_M);
     still_t s = {.motor_N = 0.25 * WEIGHT_N, .ceiling_z_m = row[i].ceiling_z_m};
-    flown_t6 flown;
+    watched_t flown;
     why_t why;
     if (!CHECK_OK(fly(&s, 0.0, 0.1, &flown, &m, &why))) return;
     drop(&flown);
     plan_t plan = flown.plan;
     plan.n_way = 1;
     plan.below_estimate = row[i].below_estimate;
-    const pilot6_t pilot = {.state = &s, .step = still_step, .reset = still_reset, .tell = think};
+    const pilot_t pilot = {.state = &s, .step = still_step, .reset = still_reset, .tell = think};
     CHECK_OK(loop_fly(&plan, &m, &pilot, &flown.record, &flown.outcome, &why));
     const double want_m = isnan(row[i].want_m) ? 0.4 - m.frame.rotor_above_feet_m : row[i].want_m;
     CHECK_NEAR(flown.record.sample[5].setpoint_z_m, want_m, 1e-12);
@@ -211,7 +211,7 @@ TEST(loop6_counts_set_points_from_the_ceiling_that_the_pilot_thinks) {
   }
 }
 
-TEST(loop6_logs_the_latched_height_of_the_ceiling_and_what_the_guard_says) {
+TEST(loop_logs_the_latched_height_of_the_ceiling_and_what_the_guard_says) {
   const thoughts_t thoughts = {.zc_m = 0.125, .ceiling_z_m = 0.3125, .guard_now = 64, .guard_latched = 68};
   sample_t sample = {.sense = {.z_m = 0.25}, .thoughts = thoughts};
   const record_t record = {.sample = &sample, .n = 1};

@@ -1,11 +1,11 @@
-// record6.h - a flight in memory: what the loop saw at a tick becomes a sample, every 10 ms (on request 2 ms)
+// record.h - a flight in memory: what the loop saw at a tick becomes a sample, every 10 ms (on request 2 ms)
 // or every tick of a slower loop; and the flight as a log.
-#ifndef SIM_FLIGHT_RECORD6_H
-#define SIM_FLIGHT_RECORD6_H
+#ifndef SIM_FLIGHT_RECORD_H
+#define SIM_FLIGHT_RECORD_H
 
 #include "base/error.h"
 #include "body/body.h"
-#include "crazyflie/pilot6.h"
+#include "crazyflie/pilot.h"
 #include "sense/ekf.h"
 #include "sense/truth.h"
 #include <stdbool.h>
@@ -27,7 +27,7 @@ typedef struct {
   } sense;                           // as measured
   thoughts_t thoughts;               // as believed
   double tilt_rad;                   // largest since the last sample
-  double motor_N[PILOT6_MOTORS];
+  double motor_N[PILOT_MOTORS];
   d3_t pos_w_m;
   double vbat_V;
   ekf_out_t estimate;
@@ -51,9 +51,9 @@ typedef struct {
   double t_s, setpoint_m; // of the rotors' plane
   const body_t *body;
   const truth_t *truth;
-  const pilot6_in_t *in;
+  const pilot_in_t *in;
   const ekf_out_t *estimate;
-  const double *motor_N;      // PILOT6_MOTORS commands, before their limits
+  const double *motor_N;      // PILOT_MOTORS commands, before their limits
   const thoughts_t *thoughts; // of the pilot
   double up_min, gap_min_m;   // smallest since the last sample: cosine of the tilt, nearest rotor's gap
   bool range_new;             // since the last sample

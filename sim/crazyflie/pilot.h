@@ -1,28 +1,28 @@
-// pilot6.h - what flies in six degrees of freedom: measurements and a set point in, four motor forces out,
+// pilot.h - what flies in six degrees of freedom: measurements and a set point in, four motor forces out,
 // every millisecond. The flight code and its peers alike.
 //
 // World x, y level, z up; body x forward, y left, z up. Motors as on the Crazyflie, seen from above: m1 front
 // right, m2 back right, m3 back left, m4 front left; the air turns the body clockwise for m1 and m3 and
 // counter-clockwise for m2 and m4. Who does not run at every call keeps its last output.
-#ifndef SIM_CRAZYFLIE_PILOT6_H
-#define SIM_CRAZYFLIE_PILOT6_H
+#ifndef SIM_CRAZYFLIE_PILOT_H
+#define SIM_CRAZYFLIE_PILOT_H
 
 #include "base/d3.h"
 #include <stdbool.h>
 #include <stdint.h>
 
-#define PILOT6_MOTORS   4
-#define CURVE_WEIGHTS   7
-#define PILOT6_PERIOD_S 1e-3
+#define PILOT_MOTORS   4
+#define CURVE_WEIGHTS  7
+#define PILOT_PERIOD_S 1e-3
 
 typedef enum {
-  PILOT6_OFF,      // x or y: fly level; z: thrust_N is what the motors give
-  PILOT6_POSITION, // hold the position; velocity and acceleration are feed-forward
-  PILOT6_VELOCITY, // hold the velocity; acceleration is feed-forward
-} pilot6_mode_t;
+  PILOT_OFF,      // x or y: fly level; z: thrust_N is what the motors give
+  PILOT_POSITION, // hold the position; velocity and acceleration are feed-forward
+  PILOT_VELOCITY, // hold the velocity; acceleration is feed-forward
+} pilot_mode_t;
 
 typedef struct {
-  pilot6_mode_t mode[3]; // x, y, z; of the world, or of the heading while vel_in_body
+  pilot_mode_t mode[3]; // x, y, z; of the world, or of the heading while vel_in_body
   d3_t pos_w_m;
   bool vel_in_body; // vel_mps is along the heading: x forward, y left, z up; else along the world's axes
   d3_t vel_mps;
@@ -31,21 +31,21 @@ typedef struct {
   double yaw_rad;        // counter-clockwise from above, any number of turns; unless yaw_by_rate
   double yaw_rate_radps; // if yaw_by_rate
   double thrust_N;       // of all motors together, mode[2] off; 0: the motors stop
-} pilot6_setpoint_t;
+} pilot_setpoint_t;
 
 typedef struct {
-  uint32_t step;                   // counts calls; 1 kHz
-  d3_t gyro_b_radps;               // as measured
-  d3_t acc_b_mps2;                 // as measured: specific force, +9.81 on z at rest
-  d3_t pos_w_m, vel_w_mps;         // as estimated
-  dq_t q_wb;                       // as estimated; of length 1
-  double applied_N[PILOT6_MOTORS]; // command that was applied since the last call, after its limits
+  uint32_t step;                  // counts calls; 1 kHz
+  d3_t gyro_b_radps;              // as measured
+  d3_t acc_b_mps2;                // as measured: specific force, +9.81 on z at rest
+  d3_t pos_w_m, vel_w_mps;        // as estimated
+  dq_t q_wb;                      // as estimated; of length 1
+  double applied_N[PILOT_MOTORS]; // command that was applied since the last call, after its limits
   double rotors_N;             // what all rotors would give in free air; no Crazyflie measures it: for peers
   double vbat_V;               // as measured
   bool range_new;              // range_m was not there at the last call
   double range_m, range_age_s; // upward range sensor, along body z; NaN: no valid distance
-  pilot6_setpoint_t set;
-} pilot6_in_t;
+  pilot_setpoint_t set;
+} pilot_in_t;
 
 // What a pilot thinks, for logs. NaN or 0 where it has no such thought.
 typedef struct {
@@ -61,10 +61,10 @@ typedef struct {
 typedef struct {
   void *state;
   // Fills motor_N, m1..m4, each finite.
-  void (*step)(void *state, const pilot6_in_t *in, double motor_N[PILOT6_MOTORS]);
+  void (*step)(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
   void (*reset)(void *state); // as after power-on; parameters stay
   // What it thinks, over what is there already; null: it cannot be asked.
   void (*tell)(const void *state, thoughts_t *thoughts);
-} pilot6_t;
+} pilot_t;
 
 #endif

@@ -1,5 +1,5 @@
-// record6.c - a flight in memory, and as a log.
-#include "flight/record6.h"
+// record.c - a flight in memory, and as a log.
+#include "flight/record.h"
 
 #include "base/constants.h"
 #include "crazyflie/sections.h"
@@ -66,7 +66,7 @@ static sample_t sample_of(const tick_t *t) {
     s.sense.applied_N += t->in->applied_N[i];
     s.motor_N[i] = t->motor_N[i];
   }
-  take_command(&s, b->model->thrust_max_N / PILOT6_MOTORS);
+  take_command(&s, b->model->thrust_max_N / PILOT_MOTORS);
   return s;
 }
 
