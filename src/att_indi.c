@@ -5,17 +5,6 @@ void att_indi_reset(att_indi_t *s) {
   *s = (att_indi_t){.started = false};
 }
 
-static ALWAYS_INLINE v3_t error_of(const quat_t *q_wb, const quat_t *q_ref) {
-  const quat_t e = quat_mul(quat_conj(*q_wb), *q_ref);
-  // q and -q are the same attitude: the shorter way round.
-  const float k = e.w < 0.0f ? -2.0f : 2.0f;
-  return (v3_t){k * e.x, k * e.y, k * e.z};
-}
-
-v3_t att_indi_error(quat_t q_wb, quat_t q_ref) {
-  return error_of(&q_wb, &q_ref);
-}
-
 // A rotation about z by half the heading's angle, from the half-angle formulas; of the two, the one that does
 // not cancel.
 static quat_t turned(sincos_t heading) {
@@ -81,7 +70,7 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
                    float period_s, const att_indi_in_t *in) {
   if (!s->started) start(s, in);
   const v3_t *const rate = &in->rate_b_radps;
-  const v3_t error = error_of(&in->q_wb, &in->q_ref);
+  const v3_t error = att_indi_error(&in->q_wb, &in->q_ref);
   const v3_t acc = filtered_acc(s, c, rate, period_s);
   const v3_t now = torque_now(s, c, lag_share, in->torque_b_Nm);
   const v3_t nu = {

@@ -79,7 +79,12 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
 
 // The shortest rotation from q to q_ref as 2 vec of its quaternion, body axes: 2 sin(angle/2) long, at most
 // 2; for small angles the rotation vector in rad.
-v3_t att_indi_error(quat_t q_wb, quat_t q_ref);
+static ALWAYS_INLINE v3_t att_indi_error(const quat_t *q_wb, const quat_t *q_ref) {
+  const quat_t e = quat_mul(quat_conj(*q_wb), *q_ref);
+  // q and -q are the same attitude: the shorter way round.
+  const float k = e.w < 0.0f ? -2.0f : 2.0f;
+  return (v3_t){k * e.x, k * e.y, k * e.z};
+}
 
 // The attitude whose thrust points along up_w (length 1, up_w.z > 0) with that heading (sine and cosine of
 // the yaw).

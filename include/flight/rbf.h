@@ -27,9 +27,4 @@ void rbf_basis(float zc_m, float basis[RBF_N]);
 // Value and slope at distance zc_m.
 rbf_point_t rbf_at(const rbf_weights_t *w, float zc_m);
 
-// Weights that fit 1 + ca exp(-cb z) by least squares on 21 points, 0 to 0.10 m (thesis section B.2.1).
-// ca: 0..5; cb_per_m: > 0..1000. In float, through the normal equations: within 1e-3 of the exact weights.
-// ST_BAD_PARAM: an argument out of range.
-MUST_CHECK status_t rbf_fit_theory(rbf_weights_t *w, float ca, float cb_per_m);
-
 #endif

@@ -31,7 +31,4 @@ typedef enum {
     if (try_status != 0) return try_status;                                                                  \
   } while (0)
 
-// The status in words, for logs and messages; "unknown status" for what is not in the enumeration.
-const char *status_name(status_t status);
-
 #endif

@@ -106,14 +106,15 @@ TEST(inner_loop_reaches_the_wanted_attitude_without_much_overshoot) {
     body_t b = {.q = {1, 0, 0, 0}};
     const quat_t ref = att_indi_reference(row[i].up_w, row[i].heading);
     double past = 0.0;
-    const v3_t first = att_indi_error((quat_t){1, 0, 0, 0}, ref);
+    const v3_t first = att_indi_error(&(quat_t){1, 0, 0, 0}, &ref);
     for (int k = 0; k < 1500; k++) {
       step(&l, &b, ref, 0.0f);
       const v3_t e =
-          att_indi_error((quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, ref);
+          att_indi_error(&(quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, &ref);
       past = fmin(past, (double)(v3_dot(e, first) / v3_dot(first, first)));
     }
-    const v3_t e = att_indi_error((quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, ref);
+    const v3_t e =
+        att_indi_error(&(quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, &ref);
     CHECK_NEAR(sqrtf(v3_dot(e, e)), 0.0, 2e-3);
     CHECK(past > -0.15); // overshoot, as a share of the step
   }
@@ -128,7 +129,8 @@ static double left_deg(const flight_param_t *p, double slow, double lead_s) {
   double left_rad = 0.0;
   for (int k = 0; k < 3000; k++) {
     step(&l, &b, ref, 0.0f);
-    const v3_t e = att_indi_error((quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, ref);
+    const v3_t e =
+        att_indi_error(&(quat_t){(float)b.q[0], (float)b.q[1], (float)b.q[2], (float)b.q[3]}, &ref);
     if (k >= 2500) left_rad = fmax(left_rad, (double)sqrtf(v3_dot(e, e)));
   }
   return left_rad * 180.0 / 3.14159265358979;

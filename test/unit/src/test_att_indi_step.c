@@ -138,7 +138,7 @@ TEST(inner_loop_takes_the_shorter_way_whatever_the_sign_of_the_quaternions) {
   for (int signs = 0; signs < 4; signs++) {
     ROW("signs %d", signs);
     const float a = signs & 1 ? -1.0f : 1.0f, b = signs & 2 ? -1.0f : 1.0f;
-    const v3_t e = att_indi_error((quat_t){.w = a}, (quat_t){.w = b * 0.995f, .z = b * 0.0998f});
+    const v3_t e = att_indi_error(&(quat_t){.w = a}, &(quat_t){.w = b * 0.995f, .z = b * 0.0998f});
     CHECK_NEAR(e.z, 0.1996, 1e-4);
     CHECK(e.x == 0.0f && e.y == 0.0f);
   }
