@@ -24,13 +24,13 @@ static float climb_since_m(const ceiling_t *s, float age_s) {
 }
 
 void ceiling_tilt(ceiling_t *s, float up) {
-  for (int i = 0; i < CEILING_HISTORY && !s->tilt_told; i++) s->ups[i] = up;
-  s->tilt_told = true;
+  for (int i = 0; i < CEILING_HISTORY && !s->tilt_known; i++) s->ups[i] = up;
+  s->tilt_known = true;
   s->ups[s->newest] = up;
 }
 
 float ceiling_up(const ceiling_t *s, float age_s) {
-  return s->tilt_told ? s->ups[at(s, ticks_ago(s, age_s))] : 1.0f;
+  return s->tilt_known ? s->ups[at(s, ticks_ago(s, age_s))] : 1.0f;
 }
 
 static void set(ceiling_t *s, const ceiling_param_t *p, float zc_m) {

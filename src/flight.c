@@ -185,9 +185,9 @@ static void run(flight_t *f, const flight_in_t *in) {
     f->range_age_s = in->range_age_s;
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
-  // What is wrong teaches nothing; least of all an acceleration that was made up.
-  const bool teaches = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
-  if ((f->due & FLIGHT_LEARN) && teaches) outer_learn(&f->outer);
+  // From what is wrong nothing is learned; least of all from an acceleration that was made up.
+  const bool learns = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
+  if ((f->due & FLIGHT_LEARN) && learns) outer_learn(&f->outer);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 

@@ -1,4 +1,4 @@
-// learn.c - which samples may teach the curve.
+// learn.c - which samples the curve may learn from.
 #include "flight/learn.h"
 
 #include "flight/v3.h"
@@ -22,7 +22,7 @@ learn_sample_t learn_sample(const sync_t *s, const sync_out_t *x, float mass_kg)
 }
 
 // Each comparison is false for NaN.
-static bool may_teach(const learn_param_t *p, const learn_sample_t *x) {
+static bool usable(const learn_param_t *p, const learn_sample_t *x) {
   return x->known && x->blind_s <= p->blind_max_s && x->zc_m >= p->near_m && x->zc_m <= p->far_m &&
          x->up >= p->up_min && x->weight_N > 0.0f && x->thrust_N >= p->thrust_min * x->weight_N &&
          x->since_limit_s >= p->settle_s && x->force_N * p->y_max >= x->thrust_N &&
@@ -30,9 +30,9 @@ static bool may_teach(const learn_param_t *p, const learn_sample_t *x) {
 }
 
 status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample) {
-  if (!may_teach(p, sample)) {
+  if (!usable(p, sample)) {
     s->refused++;
-    return ST_NOT_TAUGHT;
+    return ST_SAMPLE_REFUSED;
   }
   float basis[RBF_N];
   rbf_basis(sample->zc_m, basis);

@@ -118,7 +118,7 @@ float outer_take_bias(outer_t *f, float more_mps2) {
   return taken_mps2;
 }
 
-// What this tick can teach; the learner decides whether it may.
+// What can be learned from this tick; the learner decides whether it is.
 static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
   const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;

@@ -39,8 +39,8 @@ typedef struct {
   float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
-  float ups[CEILING_HISTORY];      // ring: cosine of the tilt at those ticks, where ceiling_tilt told it
-  bool tilt_told;
+  float ups[CEILING_HISTORY];      // ring: cosine of the tilt at those ticks, as ceiling_tilt gave it
+  bool tilt_known;
   int newest;    // index into both
   float rival_m; // mean of the samples that contradict the estimate, moved along with it
   int rivals;    // how many of them in a row
@@ -60,7 +60,7 @@ void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m,
 void ceiling_tilt(ceiling_t *s, float up);
 
 // The cosine of the tilt age_s ago, by which a slant range that was measured then is longer than the vertical
-// one. 1 if none was told. An age that is none counts as 0, one beyond the history as its end.
+// one. 1 if none was given. An age that is none counts as 0, one beyond the history as its end.
 float ceiling_up(const ceiling_t *s, float age_s);
 
 // A new range sample, vertical (tilt taken out), measured age_s ago (0..(CEILING_HISTORY - 1) periods; older

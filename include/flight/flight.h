@@ -46,7 +46,7 @@ typedef struct {
   float force_N[MOTORS]; // applied since the last call: the command after mixing and limits
   bool range_new;        // as outer_in_t
   float range_m, range_age_s;
-  bool no_lesson; // it does not fly: nothing is taught
+  bool no_lesson; // it does not fly: nothing is learned
   flight_setpoint_t setpoint;
 } flight_in_t;
 

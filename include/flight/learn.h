@@ -1,4 +1,4 @@
-// learn.h - which samples may teach the thrust-ratio curve; feeds rls.
+// learn.h - which samples the thrust-ratio curve may learn from; feeds rls.
 //
 //   y = (m x specific force along the thrust) / (thrust that the motors give in free air)    (thesis 5.2)
 //
@@ -34,8 +34,8 @@ typedef struct {
 
 typedef struct {
   rls_t rls;
-  float y;          // the last ratio that taught, for logs; 0: none yet
-  unsigned refused; // samples that were not allowed to teach
+  float y;          // the last ratio that was learned from, for logs; 0: none yet
+  unsigned refused; // samples that were not learned from
 } learn_t;
 
 // The sample that synchronous signals make for a vehicle of mass_kg. The distance is filled in by the caller.
@@ -44,7 +44,7 @@ learn_sample_t learn_sample(const sync_t *s, const sync_out_t *x, float mass_kg)
 // ST_BAD_PARAM, ST_BAD_INPUT: as rls_init.
 MUST_CHECK status_t learn_init(learn_t *s, const learn_param_t *p, const rbf_weights_t *start);
 
-// ST_OK: the sample has taught. ST_NOT_TAUGHT: it may not (see learn_param_t), or is not finite; weights and
+// ST_OK: learned from. ST_SAMPLE_REFUSED: it may not be (see learn_param_t), or is not finite; weights and
 // covariance are the same to the bit. ST_BAD_PARAM, ST_BAD_INPUT, ST_SINGULAR: as rls_update.
 MUST_CHECK status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample);
 

@@ -59,8 +59,8 @@ typedef struct {
   float range_last_m, range_height_m; // the last range that was another one, and the height it came at
   float carrying_s;                   // time since the rotors began to carry
   bool started, at_limit;
-  learn_sample_t sample; // what the last step would teach
-  bool sample_new;       // it has not been taught yet
+  learn_sample_t sample; // what the last step has for the learner
+  bool sample_new;       // it has not been learned from yet
   outer_out_t out;
   unsigned faults[ST_COUNT]; // how often each status came up
   unsigned missed;           // ticks since the last good input

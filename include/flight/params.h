@@ -45,8 +45,8 @@ typedef struct {
 #endif
 
 // Shipped for the vehicle of the tables. Mass: hover with flow and multiranger decks. tauMot: legacy
-// propellers answer in 70 to 90 ms, those of the 2.1+ in 58; told too long it costs nothing (58 told 80: no
-// touch at 2 cm), told too short it swings (96 told 62.5: 5 of 40 flights touch).
+// propellers answer in 70 to 90 ms, those of the 2.1+ in 58; set too long it costs nothing (58 set to 80: no
+// touch at 2 cm), set too short it swings (96 set to 62.5: 5 of 40 flights touch).
 #define PARAMS_INDIPOS(X)                                                                                    \
   X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 1.0f, 0.05f, 20.0f, "wanted velocity per position error") \
   X(indiPos, kd, PARAM_FLOAT, pos.kd_per_s, "1/s", 5.0f, 0.1f, 50.0f,                                        \

@@ -5,14 +5,14 @@
 
 typedef enum {
   ST_OK = 0,
-  ST_BAD_INPUT,    // an argument or a sensor value is not finite or out of its physical range
-  ST_BAD_SETPOINT, // a set point is not finite
-  ST_BAD_PARAM,    // a parameter is out of its range
-  ST_BAD_RANGE,    // a range sample is not a distance: not finite, zero, negative or "invalid"
-  ST_JUMP,         // the height jumped by more than the velocity explains; the velocity was used
-  ST_NOT_TAUGHT,   // a sample may not teach the curve (too far, too tilted, too little thrust, ...)
-  ST_SINGULAR,     // a matrix that has to be positive definite is not
-  ST_BAD_STATE,    // what was remembered is no state (a flipped bit); it started afresh
+  ST_BAD_INPUT,      // an argument or a sensor value is not finite or out of its physical range
+  ST_BAD_SETPOINT,   // a set point is not finite
+  ST_BAD_PARAM,      // a parameter is out of its range
+  ST_BAD_RANGE,      // a range sample is not a distance: not finite, zero, negative or "invalid"
+  ST_JUMP,           // the height jumped by more than the velocity explains; the velocity was used
+  ST_SAMPLE_REFUSED, // the curve does not learn from this sample (too far, tilted, too little thrust)
+  ST_SINGULAR,       // a matrix that has to be positive definite is not
+  ST_BAD_STATE,      // what was remembered is no state (a flipped bit); it started afresh
   ST_COUNT
 } status_t;
 

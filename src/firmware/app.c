@@ -28,7 +28,7 @@ static bool is_there(const char *deck) {
   return PARAM_VARID_IS_VALID(id) && paramGetUint(id) != 0;
 }
 
-static void tell_decks(void) {
+static void report_decks(void) {
   GLUE.decks = (is_there("bcFlow2") ? DECK_FLOW : 0) | (is_there("bcMultiranger") ? DECK_MULTIRANGER : 0);
   if (!(GLUE.decks & DECK_FLOW)) DEBUG_PRINT("MISSING: flow deck v2. There is no position to hold\n");
   if (!(GLUE.decks & DECK_MULTIRANGER)) DEBUG_PRINT("MISSING: multiranger deck. No ceiling will be seen\n");
@@ -36,21 +36,21 @@ static void tell_decks(void) {
   if (is_there("bcUSD")) DEBUG_PRINT("uSD deck is there\n");
 }
 
-static void tell_flyable(unsigned not_flyable) {
+static void report_flyable(unsigned not_flyable) {
 #define SAY(bit, reason, words)                                                                              \
   if (not_flyable & FLYABLE_##reason) DEBUG_PRINT("NOT FLYABLE: " words "\n");
   FLYABLE_REASONS(SAY)
   if (not_flyable == 0) DEBUG_PRINT("Flyable again\n");
 }
 
-static void tell_who_flies(bool shadow) {
+static void report_who_flies(bool shadow) {
   if (shadow)
     DEBUG_PRINT("SHADOW: the stock controller flies, this one computes (ceil.shadow 0: it flies)\n");
   else
     DEBUG_PRINT("This controller flies (ceil.shadow 1: the stock one)\n");
 }
 
-static void tell_not_flown(unsigned kinds) {
+static void report_not_flown(unsigned kinds) {
   if (kinds & NOT_FLOWN_RATES) DEBUG_PRINT("REFUSED: set points of rates. Level, at that thrust\n");
   if (kinds & NOT_FLOWN_QUAT)
     DEBUG_PRINT("REFUSED: attitude as quaternion without position. Level, at that thrust\n");
@@ -58,40 +58,40 @@ static void tell_not_flown(unsigned kinds) {
     DEBUG_PRINT("REFUSED: rates of roll and pitch of a full state. The rest is flown\n");
 }
 
-// What was told last.
+// What was reported last.
 typedef struct {
   unsigned not_flyable, latched, refused, not_flown;
   bool shadow, mixed;
-} told_t;
+} reported_t;
 
-static told_t now(void) {
-  return (told_t){.not_flyable = GLUE.flyable.not_flyable,
-                  .latched = GLUE.flight.guard.latched,
-                  .refused = GLUE.sets_refused,
-                  .not_flown = GLUE.not_flown,
-                  .shadow = GLUE.shadow != 0,
-                  .mixed = GLUE.weights_mixed != 0};
+static reported_t now(void) {
+  return (reported_t){.not_flyable = GLUE.flyable.not_flyable,
+                      .latched = GLUE.flight.guard.latched,
+                      .refused = GLUE.sets_refused,
+                      .not_flown = GLUE.not_flown,
+                      .shadow = GLUE.shadow != 0,
+                      .mixed = GLUE.weights_mixed != 0};
 }
 
-static told_t tell_changes(told_t was) {
-  const told_t is = now();
-  if (is.shadow != was.shadow) tell_who_flies(is.shadow);
+static reported_t report_changes(reported_t was) {
+  const reported_t is = now();
+  if (is.shadow != was.shadow) report_who_flies(is.shadow);
   if (is.mixed && !was.mixed)
     DEBUG_PRINT("WEIGHTS REFUSED: ceil.w1..w7 are not one set (ceil.wSum). The last good ones fly\n");
-  if (is.not_flyable != was.not_flyable) tell_flyable(is.not_flyable);
+  if (is.not_flyable != was.not_flyable) report_flyable(is.not_flyable);
   if (is.latched != was.latched) DEBUG_PRINT("Guard: reasons 0x%x\n", is.latched);
   if (is.refused != was.refused)
     DEBUG_PRINT("Parameters refused (out of range, or against each other): the last good set flies\n");
-  tell_not_flown(is.not_flown & ~was.not_flown);
+  report_not_flown(is.not_flown & ~was.not_flown);
   return is;
 }
 
 void appMain(void) {
-  told_t told = {.shadow = GLUE.shadow == 0};
+  reported_t reported = {.shadow = GLUE.shadow == 0};
   DEBUG_PRINT("Ceiling controller " APP_VERSION ", for " PROPELLERS "\n");
-  tell_decks();
+  report_decks();
   for (;;) {
-    told = tell_changes(told);
+    reported = report_changes(reported);
     for (int i = 0; i < 5; i++) {
       vTaskDelay(M2T(100));
       radio_watch();

@@ -1,7 +1,7 @@
-// client.c - what the client on the ground is told.
+// client.c - what the client on the ground is notified of.
 //
-// All of it in the firmware's parameter task, so that nothing is written meanwhile. To tell is to write the
-// value that stands there anyway, which calls back: those calls end at `telling`.
+// All of it in the firmware's parameter task, so that nothing is written meanwhile. To notify is to write
+// the value that stands there anyway, which calls back: those calls end at `notifying`.
 #include "client.h"
 
 #include "FreeRTOS.h"
@@ -12,23 +12,23 @@
 
 #define COMMIT_WAIT_MS 20 // a tick takes a commit within 4 ms, unless another controller flies
 
-static void tell_whole(const char *name, uint32_t value) {
+static void notify_whole(const char *name, uint32_t value) {
   paramSetInt(paramGetVarIdFromComplete(name), (int)value);
 }
 
-static void tell_row(const param_row_t *row) {
+static void notify_row(const param_row_t *row) {
   const float value = params_get(&GLUE.tuned, row);
   // Of the table's two types this one's name means nothing else to the firmware.
   if (row->type == PARAM_INT)
-    tell_whole(row->name, (uint32_t)(int32_t)value);
+    notify_whole(row->name, (uint32_t)(int32_t)value);
   else
     paramSetFloat(paramGetVarIdFromComplete(row->name), value);
 }
 
-static void tell_rows(bool weights) {
+static void notify_rows(bool weights) {
   for (int i = 0; i < params_count; i++) {
     const bool is_put_back = GLUE.put_back[i / 32] & (1u << (i % 32));
-    if (is_put_back || (weights && settings_is_weight(&params_table[i]))) tell_row(&params_table[i]);
+    if (is_put_back || (weights && settings_is_weight(&params_table[i]))) notify_row(&params_table[i]);
   }
   for (int i = 0; i < PUT_BACK_WORDS; i++) GLUE.put_back[i] = 0;
 }
@@ -42,16 +42,16 @@ static bool is_taken(void) {
 }
 
 void client_wrote(void) {
-  if (GLUE.telling) return;
+  if (GLUE.notifying) return;
   const unsigned asked = GLUE.commit;
   const uint32_t sum = GLUE.weights_sum;
   const uint8_t shadow = GLUE.shadow;
   settings_touched();
   const bool done = asked != 0 && is_taken();
-  GLUE.telling = 1;
-  tell_rows(done && asked == COMMIT_LEARNED);
-  if (done) tell_whole("ceil.commit", 0);
-  if (GLUE.shadow != shadow) tell_whole("ceil.shadow", GLUE.shadow);
-  if (GLUE.weights_sum != sum) tell_whole("ceil.wSum", GLUE.weights_sum);
-  GLUE.telling = 0;
+  GLUE.notifying = 1;
+  notify_rows(done && asked == COMMIT_LEARNED);
+  if (done) notify_whole("ceil.commit", 0);
+  if (GLUE.shadow != shadow) notify_whole("ceil.shadow", GLUE.shadow);
+  if (GLUE.weights_sum != sum) notify_whole("ceil.wSum", GLUE.weights_sum);
+  GLUE.notifying = 0;
 }

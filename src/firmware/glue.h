@@ -25,7 +25,7 @@ typedef struct {
   bool wrote;         // the deck took the last call
   bool stale;         // estimate and set point are due to be written anew
   // As they were last written.
-  uint8_t no_lesson, tunes_told;
+  uint8_t no_lesson, tunes_written;
   float range_m, range_age_s;
   v3_t pos_w_m, vel_w_mps;
   quat_t q_wb;
@@ -40,7 +40,7 @@ typedef struct {
   uint8_t commit;           // ceil.commit: COMMIT_*, 0 when done
   uint8_t commit_asked;     // what of it belongs to the candidate
   volatile uint8_t ready;
-  uint8_t telling;       // the client is being told: what is written now is no write of its
+  uint8_t notifying;     // the client is being notified: what is written now is no write of its
   uint8_t weights_mixed; // at the start the stored weights did not belong together
   uint32_t weights_sum;  // ceil.wSum: stored with the weights, says that they are one set
   uint32_t sum_flown;    // what it is for the weights that fly
@@ -70,7 +70,7 @@ enum { DECK_FLOW = 1, DECK_MULTIRANGER = 2 };
 enum { NOT_FLOWN_RATES = 1, NOT_FLOWN_QUAT = 2, NOT_FLOWN_TURN = 4 };
 
 // Parameters that are the app's own: X(name in group ceil, type, field of glue_t, default, largest, what it
-// does). A vehicle that was never told otherwise flies the stock controller.
+// does). A vehicle on which nothing else was set flies the stock controller.
 #define APP_PARAMS(X)                                                                                        \
   X(commit, PARAM_UINT8, commit, 0, 2,                                                                       \
     "1 takes ceil.w1..w7 at once, 2 the learned rls.w1..w7; refused while learning; 0 when done")            \

@@ -28,7 +28,7 @@ void settings_take(void);
 // One of ceil.w1..w7.
 bool settings_is_weight(const param_row_t *row);
 
-// A lesson may be taught now.
+// The curve may be learning now.
 bool settings_learning(void);
 
 // After every write, in the parameter task; what it puts back is noted in GLUE.put_back.

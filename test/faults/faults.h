@@ -37,7 +37,7 @@ typedef struct {
       full_total_s;     // time at full thrust, near the ceiling without a break, and at all
   double ratio_end;     // thrust ratio that the controller uses in the end
   double weight_change; // largest relative change of a weight while it lasts
-  bool taught;          // a weight's bits changed while they must not
+  bool weights_moved;   // a weight's bits changed while they must not
   double touched_s;     // first contact with the ceiling after the onset; -1: none
   bool bad, shadow_differs;
   uint64_t bits;  // of all commands

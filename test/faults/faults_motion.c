@@ -75,10 +75,10 @@ static void velocity_noise(case_t *c, pilot_in_t *in, double since_s) {
 
 // --- criteria of their own --------------------------------------------------------------------------------
 
-static const char *untaught(const case_t *c, const flown_fault_t *usual) {
+static const char *weights_kept(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
   const bool range = c->row->edit == nan_field && c->pick % 11 == 10; // it may go on
-  return c->seen.taught && !range ? "weights" : NULL;
+  return c->seen.weights_moved && !range ? "weights" : NULL;
 }
 static const char *steady_offset(const case_t *c, const flown_fault_t *usual) {
   const double offset_m = faults_mean_m(c, &c->seen) - faults_mean_m(c, usual);
@@ -103,10 +103,10 @@ static const char *distance_2_cm(const case_t *c, const flown_fault_t *usual) {
 #define EVER FAULTS_EVER
 static const row_t rows[] = {
     {"0 nothing", 'A', 0.06, 0.1, 0.2, 0, 0, NULL, 0, 0, 100, NULL, NULL, 0, false, false},
-    {"1 NaN, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, nan_field, 0, 0, 100, NULL, untaught, 0, false,
+    {"1 NaN, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, nan_field, 0, 0, 100, NULL, weights_kept, 0, false,
      false},
     {"2 NaN beyond 60 ms", 'C', 0.06, 0.06, 0.5, 0, 0, nan_inertial, GUARD_NOT_A_NUMBER, 0.03, 100, NULL,
-     untaught, 0, false, false},
+     weights_kept, 0, false, false},
     {"3 Inf, 1e38, denormal, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, odd_field, 0, 0, 99.5, NULL, NULL, 0,
      false, false},
     {"6 accelerometer +- 0.6 to 1 m/s2", 'A', 0.06, EVER, EVER, 0.6, 1.0, acc_bias, GUARD_ACC_BIAS, 0.5, 100,

@@ -55,7 +55,7 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
     if (memcmp(shadow_N, motor_N, sizeof shadow_N) != 0) c->seen.shadow_differs = true;
   }
   if (c->frozen_weights && memcmp(&before, &c->pilot.flight->outer.learn.rls.theta, sizeof before) != 0)
-    c->seen.taught = true;
+    c->seen.weights_moved = true;
   c->seen.bits = mixed(c->seen.bits, motor_N);
 }
 

@@ -93,12 +93,12 @@ static const char *no_growth(const case_t *c, const flown_fault_t *usual) {
   if (c->seen.shake2_late > 2.25 * fmax(c->seen.shake2_early, usual->shake2_late)) return "growth";
   return c->seen.tilt_max_deg > 10.0 ? "tilt" : NULL;
 }
-static const char *untaught(const case_t *c, const flown_fault_t *usual) {
+static const char *weights_kept(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  return c->seen.taught ? "weights" : NULL;
+  return c->seen.weights_moved ? "weights" : NULL;
 }
 static const char *fell(const case_t *c, const flown_fault_t *usual) {
-  return c->seen.end_gap_m < 0.3 ? "fall" : untaught(c, usual);
+  return c->seen.end_gap_m < 0.3 ? "fall" : weights_kept(c, usual);
 }
 static const char *overshoot_2_cm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
@@ -131,8 +131,8 @@ static const row_t rows[] = {
     {"40 take-off under a ceiling", 'N', 0.06, EVER, EVER, 0.03, 0.1, NULL, 0, 0, 100, take_off, NULL, 0,
      false, false},
     {"41 no ceiling ever seen", 'N', 0.06, EVER, EVER, 0, 0, NULL, 0, 0, 100, outdoors, NULL, 0, true, false},
-    {"42 thrown upside down", 'N', 0.06, EVER, EVER, -5, 5, NULL, GUARD_TILT, 0.03, 100, tumble, untaught, 0,
-     false, false},
+    {"42 thrown upside down", 'N', 0.06, EVER, EVER, -5, 5, NULL, GUARD_TILT, 0.03, 100, tumble, weights_kept,
+     0, false, false},
 };
 
 rows_t faults_of_vehicle(void) {

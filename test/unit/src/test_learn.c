@@ -1,4 +1,4 @@
-// test_learn.c - which samples may teach the curve.
+// test_learn.c - which samples the curve may learn from.
 #include "flight/learn.h"
 #include "rig/test.h"
 
@@ -36,8 +36,8 @@ TEST(learner_begins_without_a_sample_whatever_was_there) {
   CHECK(s.y == 0.0f && s.refused == 0u);
 }
 
-// Whether the sample teaches; if not, nothing but the counter of refusals may have changed.
-static bool teaches(const learn_sample_t *x) {
+// Whether the sample is learned from; if not, nothing but the counter of refusals may have changed.
+static bool is_learned_from(const learn_sample_t *x) {
   learn_t s = fresh();
   const learn_t before = s;
   const status_t status = learn_update(&s, &P, x);
@@ -46,7 +46,7 @@ static bool teaches(const learn_sample_t *x) {
     CHECK(memcmp(&s.rls.theta, &before.rls.theta, sizeof s.rls.theta) != 0);
     return true;
   }
-  CHECK_STATUS(ST_NOT_TAUGHT, status);
+  CHECK_STATUS(ST_SAMPLE_REFUSED, status);
   CHECK(memcmp(&s.rls, &before.rls, sizeof s.rls) == 0);
   CHECK(s.refused == 1);
   return false;
@@ -61,7 +61,7 @@ static const struct {
   const char *what;
   size_t field;
   float value;
-  bool taught;
+  bool learned;
 } GATES[] = {
     {"good", ZC, 0.03f, true},
     {"at the nearest", ZC, 0.005f, true},
@@ -94,12 +94,12 @@ TEST(learn_takes_a_sample_only_within_every_gate) {
     ROW("%s", GATES[i].what);
     learn_sample_t x = GOOD;
     memcpy((char *)&x + GATES[i].field, &GATES[i].value, sizeof(float));
-    CHECK(teaches(&x) == GATES[i].taught);
+    CHECK(is_learned_from(&x) == GATES[i].learned);
   }
   ROW("no ceiling known");
   learn_sample_t x = GOOD;
   x.known = false;
-  CHECK(!teaches(&x));
+  CHECK(!is_learned_from(&x));
 }
 
 TEST(learn_takes_no_thrust_below_the_smallest_even_if_the_ratio_is_good) {
@@ -110,7 +110,7 @@ TEST(learn_takes_no_thrust_below_the_smallest_even_if_the_ratio_is_good) {
     learn_sample_t x = GOOD;
     x.thrust_N = share[i] * x.weight_N;
     x.force_N = 1.05f * x.thrust_N;
-    CHECK(teaches(&x) == (i == 0));
+    CHECK(is_learned_from(&x) == (i == 0));
   }
 }
 
@@ -121,7 +121,7 @@ TEST(learn_takes_no_sample_with_a_field_that_is_not_a_number) {
     learn_sample_t x = GOOD;
     const float nan = NAN;
     memcpy((char *)&x + field, &nan, sizeof nan);
-    CHECK(!teaches(&x));
+    CHECK(!is_learned_from(&x));
   }
 }
 
@@ -138,7 +138,7 @@ TEST(learn_takes_no_infinite_ratio) {
     learn_sample_t x = GOOD;
     x.force_N = row[i].force_N;
     x.thrust_N = row[i].thrust_N;
-    CHECK(!teaches(&x));
+    CHECK(!is_learned_from(&x));
   }
 }
 

@@ -166,13 +166,13 @@ TEST(rls_recovers_from_any_flipped_bit_of_p) {
   // not excited, and a second at 2 cm, where they are.
   const rls_param_t *form[] = {&lesson_thesis, &lesson_walk};
   for (int f = 0; f < 2; f++) {
-    rls_t taught;
-    CHECK_OK(rls_init(&taught, form[f], &lesson_flat));
-    lesson_hover(&taught, form[f], 0.03, 1.0, 1000, 14);
+    rls_t trained;
+    CHECK_OK(rls_init(&trained, form[f], &lesson_flat));
+    lesson_hover(&trained, form[f], 0.03, 1.0, 1000, 14);
     for (int place = 0; place < N * N; place++)
       for (int bit = 0; bit < 32; bit++) {
         ROW("form %d, P[%d][%d], bit %d", f, place / N, place % N, bit);
-        rls_t s = taught;
+        rls_t s = trained;
         uint32_t word;
         memcpy(&word, &s.P[place / N][place % N], sizeof word);
         word ^= (uint32_t)1 << bit;

@@ -1,4 +1,5 @@
-// test_app_client.c - what the client on the ground is told: it shows what it wrote, until it hears better.
+// test_app_client.c - what the client on the ground is notified of: it shows what it wrote, until it hears
+// better.
 #include "crazyflie/sections.h"
 #include "rig/flying_app.h"
 #include "rig/test.h"
@@ -10,12 +11,12 @@ typedef struct {
   flying_t flying;
   const section_param_t *param; // that it looks at
   double shown;
-  int told; // of all parameters
+  int notified; // of all parameters
 } watched_t;
 
 static void hear(void *context, const section_param_t *param, double value) {
   watched_t *const w = context;
-  w->told++;
+  w->notified++;
   if (param == w->param) w->shown = value;
 }
 
@@ -25,7 +26,7 @@ static void ticks(void *context, uint32_t ms) {
 
 static void start(watched_t *w) {
   app_start(&w->flying);
-  w->told = 0;
+  w->notified = 0;
   stand_in_t *const around = &w->flying.vehicle.around;
   around->told = hear;
   around->delay = ticks; // while the parameter task rests, the others run
@@ -55,12 +56,12 @@ TEST(app_tells_the_client_of_every_parameter_that_it_puts_back) {
     for (unsigned k = 0; k < sizeof odd / sizeof *odd; k++) {
       ROW("%s = %g", row->name, odd[k]);
       const double before = param(&w, row->name);
-      w.told = 0;
+      w.notified = 0;
       type(&w, row->name, odd[k]);
       const bool weight = strncmp(row->name, "ceil.w", 6) == 0; // judged when it is to be flown
       if (weight) CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_TYPED));
       CHECK(w.shown == before && param(&w, row->name) == before);
-      CHECK(w.told == (weight ? 2 : 1)); // of that one alone, once, and that the commit is over
+      CHECK(w.notified == (weight ? 2 : 1)); // of that one alone, once, and that the commit is over
     }
   }
 }
@@ -76,7 +77,7 @@ TEST(app_puts_nothing_back_that_is_at_a_bound_of_its_range) {
       CHECK_OK(params_set(tuned, row, high ? row->max : row->min));
     }
     type(&w, "indiPos.kp", -1.0);
-    CHECK(w.told == 1 && w.shown == 1.0);
+    CHECK(w.notified == 1 && w.shown == 1.0);
     for (int i = 0; i < params_count; i++) {
       const param_row_t *const row = &params_table[i];
       ROW("%s", row->name);
@@ -92,9 +93,9 @@ TEST(app_tells_the_client_with_its_next_write_which_weights_it_put_back_at_the_s
   stored->w[1] += 0.25f; // without the sum of such a set
   stored->w[6] += 0.25f;
   crazyflie_start(&w.flying.vehicle);
-  CHECK(w.told == 0);
+  CHECK(w.notified == 0);
   type(&w, "ceil.shadow", 0.0);
-  CHECK(w.told == 2);
+  CHECK(w.notified == 2);
 }
 
 TEST(app_takes_more_than_the_largest_shadow_for_the_largest_and_says_so) {
@@ -102,7 +103,7 @@ TEST(app_takes_more_than_the_largest_shadow_for_the_largest_and_says_so) {
   start(&w);
   app_fly(&w.flying, 10);
   type(&w, "ceil.shadow", 7.0);
-  CHECK(w.told == 1 && param(&w, "ceil.shadow") == 1.0);
+  CHECK(w.notified == 1 && param(&w, "ceil.shadow") == 1.0);
 }
 
 TEST(app_tells_nothing_of_what_it_takes_or_lets_wait) {
@@ -114,7 +115,7 @@ TEST(app_tells_nothing_of_what_it_takes_or_lets_wait) {
   CHECK(param(&w, "rls.zMin") == (double)0.1f);
   type(&w, "ceil.w2", 0.25);
   type(&w, "ceil.shadow", 1.0);
-  CHECK(w.told == 0);
+  CHECK(w.notified == 0);
 }
 
 TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
@@ -123,18 +124,18 @@ TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
   app_fly(&w.flying, 10);
   type(&w, "ceil.w2", 0.25);
   type(&w, "ceil.commit", COMMIT_TYPED);
-  CHECK(w.shown == 0.0 && w.told == 2); // ceil.commit and ceil.wSum
+  CHECK(w.shown == 0.0 && w.notified == 2); // ceil.commit and ceil.wSum
   CHECK(app_log(&w.flying, "ceil.commits") == 1.0);
   // The learned ones stand in the parameters now.
   w.flying.vehicle.app.flight.outer.learn.rls.theta.w[3] = 0.125f;
   w.param = sections_param("ceil.w4");
-  w.told = 0;
+  w.notified = 0;
   CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_LEARNED));
-  CHECK(w.shown == 0.125 && w.told == RBF_N + 2);
+  CHECK(w.shown == 0.125 && w.notified == RBF_N + 2);
   // Refused in the tick: it learns.
   type(&w, "ceil.mode", CURVE_LIVE);
   app_fly(&w.flying, 10);
-  w.told = 0;
+  w.notified = 0;
   type(&w, "ceil.commit", COMMIT_LEARNED);
   CHECK(w.shown == 0.0 && app_log(&w.flying, "ceil.noCommit") == 1.0);
   CHECK(param(&w, "ceil.w4") == 0.125);
@@ -157,7 +158,7 @@ static void rest(void *context, uint32_t ms) {
 TEST(app_waits_for_a_tick_no_longer_than_the_link_bears) {
   static const struct {
     int taken_in, rests;
-    bool told;
+    bool notified;
   } row[] = {{1, 1, true}, {9, 9, true}, {10, 10, true}, {11, 10, false}, {0, 10, false}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("taken in rest %d", row[i].taken_in);
@@ -170,8 +171,8 @@ TEST(app_waits_for_a_tick_no_longer_than_the_link_bears) {
     type(&w, "ceil.commit", COMMIT_TYPED);
     CHECK_NEAR(waiting.rests, row[i].rests, 0);
     CHECK_NEAR(waiting.waited_ms, 2 * row[i].rests, 0); // a tick takes it every second millisecond
-    CHECK(w.shown == (row[i].told ? 0.0 : COMMIT_TYPED));
-    CHECK((w.told > 0) == row[i].told);
+    CHECK(w.shown == (row[i].notified ? 0.0 : COMMIT_TYPED));
+    CHECK((w.notified > 0) == row[i].notified);
   }
 }
 
@@ -183,7 +184,7 @@ TEST(app_tells_of_each_parameter_once_and_of_none_beyond_the_last) {
   CHECK(params_count < 32 * PUT_BACK_WORDS);
   memset(put_back, 0xff, sizeof w.flying.vehicle.app.put_back); // also what is of no parameter
   type(&w, "ceil.shadow", 1.0);
-  CHECK_NEAR(w.told, params_count, 0);
+  CHECK_NEAR(w.notified, params_count, 0);
   for (int i = 0; i < PUT_BACK_WORDS; i++) CHECK(put_back[i] == 0);
 }
 
