@@ -3,6 +3,7 @@
 
 #include "flight/expneg.h"
 
+// test: bias_takes_a_state_for_one_up_to_2000
 #define STATE_MAX 2000.0f // m/s2 and m/s: more than all of a state together can be
 
 void bias_start(bias_t *s, v3_t pos_m, v3_t vel_mps) {

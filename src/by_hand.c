@@ -4,6 +4,7 @@
 #include "flight/bounds.h"
 #include "flight/ceiling.h"
 
+// test: by_hand_leaves_the_ceiling_farther_away_than_it_met_it_and_minds_tilt_and_offset
 #define UPRIGHT 0.7f // cosine of the tilt: beyond 45 degrees the sensor looks at a wall
 
 void by_hand_init(by_hand_t *s) {

@@ -7,10 +7,17 @@
 #include <limits.h>
 #include <string.h>
 
-#define INNER_S      0.002f
-#define OUTER_S      0.01f
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
+
+// test: flight_feeds_the_yaw_rate_forward_in_both_modes
+#define INNER_S 0.002f // watch_time runs the inner loop in every second millisecond
+// test: flight_follows_a_velocity_on_any_axis
+#define OUTER_S 0.01f // and the outer loop in one of ten
+// test: flight_takes_the_ceilings_torque_of_four_arms_out_and_divides_by_its_ratio
 #define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
-#define LEAD_COS     0.88f   // the heading that is held runs no more than 0.5 rad ahead of the vehicle
+// test: flight_heading_runs_no_further_ahead_than_half_a_radian
+#define LEAD_COS 0.88f // of 0.5 rad: the heading that is held ahead of the vehicle's
 
 status_t flight_init(flight_t *f, const flight_param_t *p) {
   TRY(params_check(p)); // a set that passes is one that can be flown

@@ -1,52 +1,66 @@
 // flyable.c - do accelerometer and gyro tell of one and the same vehicle?
 #include "flight/flyable.h"
 
-#define STEP_S      0.001f
-#define STRETCH_MS  100
-#define STILL_RADPS 0.1f
-#define STILL_S     0.2f
-#define WRONG_S     0.3f
-#define UP_MPS2     4.0f  // 24 degrees, or 0.4 g
-#define ENOUGH      2.0f  // (m/s2)^2, half that of a turn by 12 degrees in one stretch
-#define TURNED_MPS2 0.5f  // less of a turn says less than a hand's jolts do
-#define JOLT_MPS2   3.0f  // of the specific force's size
-#define EXPLAINED   0.4f  // k below this is a contradiction
-#define FORGET      0.98f // a stretch; a hand's own jolts are no evidence for ever
+#include "flight/bounds.h"
+
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
+
+// test: a_wrong_up_is_told_after_so_long_and_taken_back_at_once
+#define STEP_S      0.001f // of a call
+#define STILL_RADPS 0.1f   // a hand that rests
+#define STILL_S     0.2f   // what was felt in the hand is over
+#define WRONG_S     0.3f   // a jolt is shorter
+#define UP_MPS2     4.0f   // 24 degrees, or 0.4 g
+// test: a_vehicle_on_its_side_is_not_flyable_though_its_estimate_agrees
+#define UPRIGHT_MPS2 (0.5f * GRAVITY_MPS2) // along z; with less it cannot take off
+// test: a_turn_tells_of_a_wrong_axis_from_so_much_on
+#define STRETCH_MS 100   // long against the sensors' noise, short against the estimate's drift
+#define ENOUGH     2.0f  // (m/s2)^2, half that of a turn by 12 degrees in one stretch
+#define JOLT_MPS2  3.0f  // of the specific force's size
+#define EXPLAINED  0.4f  // k below this is a contradiction
+#define FORGET     0.98f // a stretch; a hand's own jolts are no evidence for ever
+// test: a_stretch_that_hardly_turned_adds_nothing
+#define TURNED_MPS2 0.5f // less of a turn says less than a hand's jolts do
+// test: what_is_no_number_says_nothing_about_being_flyable
+#define RATE_MOST_RADPS 100.0f // three times what the gyro can say
 
 void flyable_init(flyable_t *s) {
   *s = (flyable_t){.not_flyable = 0};
 }
 
-static void judge_up(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
+static bool up(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
+  const bool kept = (s->not_flyable & FLYABLE_UP) != 0;
   s->steady_s = v3_within(rate, STILL_RADPS) ? f_clamp(s->steady_s + STEP_S, 0.0f, 1.0f) : 0.0f;
-  if (s->steady_s < STILL_S) return;
+  if (s->steady_s < STILL_S) return kept;
   const v3_t wanted = quat_to_body(quat_unit(q), (v3_t){0.0f, 0.0f, GRAVITY_MPS2});
   const v3_t error = v3_sub(acc, wanted);
   // On its back on a table the estimate may agree: it cannot take off from there either.
-  const bool wrong = v3_dot(error, error) > UP_MPS2 * UP_MPS2 || acc.z < 0.5f * GRAVITY_MPS2;
+  const bool wrong = v3_dot(error, error) > UP_MPS2 * UP_MPS2 || acc.z < UPRIGHT_MPS2;
   s->wrong_s = wrong ? f_clamp(s->wrong_s + STEP_S, 0.0f, WRONG_S) : 0.0f;
-  if (s->wrong_s >= WRONG_S)
-    s->not_flyable |= FLYABLE_UP;
-  else if (!wrong)
-    s->not_flyable &= ~(unsigned)FLYABLE_UP;
+  return wrong && (kept || s->wrong_s >= WRONG_S);
 }
 
-// What of `reason` the turn so far says; `now` where it says nothing.
-static unsigned judge_turn(flyable_turn_t *s, unsigned now, float change, float explained, unsigned reason) {
-  if (fabsf(explained) < TURNED_MPS2) return now;
+// About one axis: what the turn so far says; `kept` where it says nothing.
+static bool turn(flyable_turn_t *s, bool kept, float change, float explained) {
+  if (fabsf(explained) < TURNED_MPS2) return kept;
   s->cross = FORGET * s->cross + change * explained;
   s->square = FORGET * s->square + explained * explained;
-  if (s->square < ENOUGH) return now;
-  return s->cross < EXPLAINED * s->square ? now | reason : now & ~reason;
+  if (s->square < ENOUGH) return kept;
+  return s->cross < EXPLAINED * s->square;
 }
 
 static bool jolted(v3_t acc) {
   return !(fabsf(sqrtf(v3_dot(acc, acc)) - GRAVITY_MPS2) <= JOLT_MPS2);
 }
 
+static void stands(flyable_t *s, unsigned reason, bool does) {
+  s->not_flyable = does ? s->not_flyable | reason : s->not_flyable & ~reason;
+}
+
 void flyable_step(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
-  if (!v3_within(acc, 1000.0f) || !v3_within(rate, 100.0f) || !quat_plausible(q)) return;
-  judge_up(s, acc, rate, q);
+  if (!v3_within(acc, BOUND_ACC_MPS2) || !v3_within(rate, RATE_MOST_RADPS) || !quat_plausible(q)) return;
+  stands(s, FLYABLE_UP, up(s, acc, rate, q));
   if (s->stretch_ms == 0) {
     s->acc_from = acc;
     s->explained = (v3_t){0.0f, 0.0f, 0.0f};
@@ -56,6 +70,7 @@ void flyable_step(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
   s->stretch_ms = 0;
   if (jolted(acc) || jolted(s->acc_from)) return;
   const v3_t change = v3_sub(acc, s->acc_from);
-  s->not_flyable = judge_turn(&s->turn_x, s->not_flyable, change.x, s->explained.x, FLYABLE_TURN_X);
-  s->not_flyable = judge_turn(&s->turn_y, s->not_flyable, change.y, s->explained.y, FLYABLE_TURN_Y);
+  const bool was_x = (s->not_flyable & FLYABLE_TURN_X) != 0, was_y = (s->not_flyable & FLYABLE_TURN_Y) != 0;
+  stands(s, FLYABLE_TURN_X, turn(&s->turn_x, was_x, change.x, s->explained.x));
+  stands(s, FLYABLE_TURN_Y, turn(&s->turn_y, was_y, change.y, s->explained.y));
 }

@@ -4,15 +4,27 @@
 #include "flight/bounds.h"
 #include "flight/judge.h"
 
-#define BAD_MOST_MS  (3.0f * (float)GUARD_NOT_A_NUMBER_ENDS_MS)
-#define OTHER_M      0.01f  // another set point
-#define QUIET_MS     1000   //
-#define RETREAT_MS   100.0f // until a retreat has its full speed
-#define LANDED_MS    100    // a bump in flight is shorter
-#define HOVER_PER_MS 0.002f // mean over half a second
-#define HOVER_LEAST  0.5f   // of the weight
-#define HOVER_MOST   1.3f
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
 
+// test: guard_counts_a_bad_sample_four_times_a_good_one_and_150_at_most
+#define BAD_LESS    0.25f // of a good sample's time is taken off the bad ones'
+#define BAD_MOST_MS (3.0f * (float)GUARD_NOT_A_NUMBER_ENDS_MS)
+// test: guard_takes_more_than_a_centimetre_for_another_height
+#define OTHER_M 0.01f // more than a stick's noise
+// test: guard_flies_on_after_a_retreat_when_all_is_well_and_another_height_is_asked_for
+#define QUIET_MS 1000 // ten range samples
+// test: guard_goes_down_to_its_safe_gap_at_its_speed
+#define RETREAT_MS 100.0f // until a retreat has its full speed: the motors' lag
+// test: guard_has_landed_when_a_floor_carries_for_a_tenth_of_a_second
+#define LANDED_MS 100 // a bump in flight is shorter
+// test: guard_learns_hover_thrust_as_a_mean_over_half_a_second
+#define HOVER_PER_MS 0.002f // longer than a climb begins or ends
+// test: guard_gives_less_than_hover_thrust_in_a_hand_over_and_then_none
+#define HOVER_LEAST 0.5f // of the weight: whatever was learned
+#define HOVER_MOST  1.3f // likewise
+
+// The reasons that send it down at once.
 #define GOES_DOWN(bit, reason, lasts, down, ...) ((down) == 0 ? 1u << (bit) : 0u) |
 static const unsigned SENDS_DOWN = GUARD_REASONS(GOES_DOWN) 0u;
 
@@ -36,7 +48,7 @@ static bool not_a_number(guard_t *g, const guard_in_t *in) {
   const bool good = v3_within(in->rate_b_radps, BOUND_RATE_RADPS) &&
                     v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) && v3_within(in->pos_w_m, BOUND_POS_M) &&
                     v3_within(in->vel_w_mps, BOUND_VEL_MPS) && quat_plausible(in->q_wb);
-  g->bad_ms = f_clamp(g->bad_ms + (good ? -0.25f : 1.0f) * (float)in->ms, 0.0f, BAD_MOST_MS);
+  g->bad_ms = f_clamp(g->bad_ms + (good ? -BAD_LESS : 1.0f) * (float)in->ms, 0.0f, BAD_MOST_MS);
   return !good;
 }
 

@@ -3,20 +3,33 @@
 #include "flight/ceiling.h"
 #include "flight/judge.h"
 
-#define RANGE_SAME    3
-#define NEAR_M        0.2f
-#define MOVED_M       0.02f
-#define FULL_SHARE    0.98f
-#define ODD_M         0.05f
-#define RATIO_NEAR    1.15f
-#define RATIO_FAR_M   0.11f
-#define RATIO_AFTER_S 1.0f
-#define RATIO_SLOW_S  5.0f
-#define RATIO_FAST_S  2.0f
-#define TOO_NEAR_M    0.015f
-#define VERY_NEAR_M   0.055f
-#define TOO_NEAR_SUM  14
-#define TOO_NEAR_MOST 20
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
+
+// test: guard_raises_each_reason_at_its_threshold
+#define NEAR_M      0.2f  // full thrust closes it in 0.22 s
+#define ODD_M       0.05f // as far as the estimate itself believes a sample (CEILING_JUMP_M)
+#define MOVED_M     0.02f // more than the noise of range and height
+#define FULL_SHARE  0.98f // of the largest thrust: mixing gives some of it up
+#define RATIO_NEAR  1.15f // a tenth of the weight dropped makes 1.11
+#define RATIO_FAR_M 0.11f // the curve ends at 0.1 m
+// test: guard_takes_a_range_for_frozen_that_is_the_same_for_long_enough_and_often_enough
+#define RANGE_SAME 3 // samples in whole millimetres: two are alike by chance
+// test: guard_knows_what_is_usual_after_a_second_in_the_air
+#define RATIO_AFTER_S 1.0f // until then it lifts off
+// test: guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed
+#define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near is not to become usual
+#define RATIO_FAST_S 2.0f // downwards
+// test: guard_has_no_usual_ratio_in_the_first_second_in_the_air
+#define CARRIED_MOST_S 10.0f // long enough to know
+// test: guard_sums_up_what_range_samples_say_of_a_ceiling_that_is_too_near
+#define TOO_NEAR_M     0.015f // more than range and flight are off by
+#define VERY_NEAR_M    0.055f // where the estimate lives on climb alone (ceil.near), and a little more
+#define TOO_NEAR_SUM   14 // 1.4 s of samples that the height explains, 0.7 s of others, 0.4 s at the floor
+#define TOO_NEAR_MOST  20 // 0.4 s after the last one it is over
+#define TOO_NEAR_LESS  2  // a sample that is none takes off
+#define TOO_NEAR_OTHER 2  // one that the height does not explain adds
+#define TOO_NEAR_FLOOR 4  // one at the sensor's floor that it does not explain adds
 
 // No sample that is a distance for too long, after a ceiling was near enough to need one.
 static bool range_lost(guard_t *g, const guard_in_t *in, bool distance) {
@@ -61,8 +74,8 @@ static bool saturated(guard_t *g, const guard_in_t *in) {
 }
 
 // How much a range sample says that the ceiling is nearer than the set point allows. If the estimated height
-// does not know it, then that has drifted, and it counts twice, or four times at the sensor's floor. A step
-// of the accelerometer's bias is an excursion that ends by itself.
+// does not know it, then that has drifted, and it counts for more. A step of the accelerometer's bias is an
+// excursion that ends by itself.
 static int nearer(const guard_t *g, const guard_in_t *in) {
   const float least_m = in->range_m + TOO_NEAR_M;
   const bool at_floor = in->range_m < in->range_floor_m;
@@ -70,14 +83,14 @@ static int nearer(const guard_t *g, const guard_in_t *in) {
     return 0; // NaN: no ceiling or no height
   if (g->bias_s < JUDGE_SETTLED_S && !at_floor) return 0;
   if (!(least_m < in->ceiling_z_m - in->pos_w_m.z)) return 1;
-  return at_floor ? 4 : 2;
+  return at_floor ? TOO_NEAR_FLOOR : TOO_NEAR_OTHER;
 }
 
 static bool too_near(guard_t *g, const guard_in_t *in) {
   if (g->nearer < 0 || g->nearer > TOO_NEAR_MOST) g->nearer = 0; // a flipped bit
   if (in->range_new) {
     const int by = nearer(g, in);
-    g->nearer = by > 0 ? g->nearer + by : g->nearer > 2 ? g->nearer - 2 : 0;
+    g->nearer = by > 0 ? g->nearer + by : g->nearer > TOO_NEAR_LESS ? g->nearer - TOO_NEAR_LESS : 0;
     if (g->nearer > TOO_NEAR_MOST) g->nearer = TOO_NEAR_MOST;
   }
   return g->nearer >= TOO_NEAR_SUM;
@@ -88,7 +101,7 @@ static bool too_near(guard_t *g, const guard_in_t *in) {
 static bool ratio(guard_t *g, const guard_in_t *in) {
   const float dt = 1e-3f * (float)in->ms;
   const float now = in->force_N / f_max(in->thrust_now_N, CARRYING_SHARE * in->weight_N);
-  g->carried_s = in->carries ? f_clamp(g->carried_s + dt, 0.0f, 10.0f) : 0.0f;
+  g->carried_s = in->carries ? f_clamp(g->carried_s + dt, 0.0f, CARRIED_MOST_S) : 0.0f;
   if (g->carried_s < RATIO_AFTER_S) {
     g->ratio_usual = now;
     return false;

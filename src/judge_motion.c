@@ -2,20 +2,34 @@
 #include "flight/bounds.h"
 #include "flight/judge.h"
 
-#define ACC_CLIP_MPS2  196.2f // 20 g
-#define TILT_UP        0.5f   // cosine of 60 degrees
-#define CLIP_MEMORY_MS 200    // the 8 Hz filter has forgotten
-#define RATE_LIFE      5e-4f  // rad/s a millisecond; a tenth of a real gyro's noise
-#define ACC_LIFE       2e-3f  // m/s2 a millisecond
-#define BIAS_MPS2      0.5f   // from here on it is a fault
-#define BIAS_MAX_MPS2  3.0f
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
+
+// test: guard_raises_each_reason_at_its_threshold
+#define VEL_STEP_MPS  0.5f   // in one period of the estimator: 5 g
+#define ACC_CLIP_MPS2 196.2f // 20 g; the sensor ends at 24
+// test: guard_believes_a_velocity_that_jumps_within_300_ms_of_an_impact
+#define IMPACT_MPS2 25.0f // along an axis; the rotors give 15
+#define IMPACT_MS   300   // the estimate still jumps
+// test: guard_takes_a_sensor_for_frozen_that_was_alive
+#define RATE_LIFE  5e-4f // rad/s a millisecond; a tenth of a real gyro's noise
+#define ACC_LIFE   2e-3f // m/s2 a millisecond
+#define LIFE_SHARE 0.01f // of a call in the mean: 0.1 s
+// test: guard_measures_a_sensors_life_by_its_change_in_a_millisecond
+#define KNOCK_MPS2 1.0f // of one call no more is life
+// test: guard_remembers_a_clipped_acceleration_for_200_ms
+#define CLIP_MEMORY_MS 200 // the 8 Hz filter has forgotten
+// test: guard_allows_a_lean_of_60_degrees_to_the_bit
+#define TILT_UP 0.5f // cosine of the tilt
+// test: guard_holds_a_settled_bias_against_its_bounds
+#define BIAS_MPS2 0.5f // from here on it is a fault
+#define BIAS_KEPT 0.5f // of it: it is one until then
+// test: guard_finds_a_step_of_the_accelerometers_bias_as_the_mean_since_then
+#define BIAS_MAX_MPS2  3.0f // a third of g: more is no bias
 #define BIAS_STEP_MPS2 0.3f // five times the noise of the mean over BIAS_FAST_S
-#define BIAS_FAST_S    0.1f
-#define BIAS_SLOW_S    1.0f  // what is left by then is the outer loop's
-#define BIAS_MS        10    // the estimator's period
-#define VEL_STEP_MPS   0.5f  // in one period of the estimator: 5 g
-#define IMPACT_MPS2    25.0f // along an axis
-#define IMPACT_MS      300
+#define BIAS_FAST_S    0.1f // a mean that follows
+#define BIAS_SLOW_S    1.0f // what is left by then is the outer loop's
+#define BIAS_MS        10   // the estimator's period
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);
@@ -46,7 +60,7 @@ static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
 static bool frozen(int *same_ms, float *life, float changed, float least, int lasts_ms, int ms) {
   *same_ms = judge_longer(*same_ms, changed == 0.0f, ms);
   if (*same_ms >= lasts_ms && *life > least) return true;
-  if (*same_ms < lasts_ms) *life += 0.01f * (changed - *life);
+  if (*same_ms < lasts_ms) *life += LIFE_SHARE * (changed - *life);
   return false;
 }
 
@@ -57,7 +71,7 @@ static bool gyro_frozen(guard_t *g, const guard_in_t *in) {
 }
 
 static bool acc_frozen(guard_t *g, const guard_in_t *in) {
-  const float changed = f_clamp(change(in->acc_b_mps2, g->acc_last), 0.0f, 1.0f); // a knock is no more life
+  const float changed = f_clamp(change(in->acc_b_mps2, g->acc_last), 0.0f, KNOCK_MPS2);
   g->acc_last = in->acc_b_mps2;
   return frozen(&g->acc_same_ms, &g->acc_life, changed, ACC_LIFE, GUARD_ACC_FROZEN_LASTS_MS, in->ms);
 }
@@ -112,7 +126,7 @@ static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const float error = (g->window_mps - (g->vel_w_mps.z - g->window_vel_mps)) / dt;
   find_bias(g, in, f_clamp(error, -BIAS_MAX_MPS2, BIAS_MAX_MPS2), dt);
   begin_window(g);
-  return fabsf(g->bias_mps2 + in->bias_known_mps2) > (kept ? 0.5f : 1.0f) * BIAS_MPS2;
+  return fabsf(g->bias_mps2 + in->bias_known_mps2) > (kept ? BIAS_KEPT : 1.0f) * BIAS_MPS2;
 }
 
 static bool height_lost(guard_t *g, const guard_in_t *in) {

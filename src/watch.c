@@ -3,9 +3,15 @@
 
 #include "flight/bounds.h"
 
-#define MS_MAX       50 // a longer pause is taken for this long
-#define WAIT_MAX     3  // calls
-#define INNER_MS_MAX 1000
+// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
+// the test that moves with it.
+
+// test: watch_takes_a_long_pause_for_a_short_one_and_time_that_runs_backwards_for_a_millisecond
+#define MS_MAX 50 // a longer pause is taken for this long: what is known of before is old
+// test: watch_lets_no_loop_wait_for_more_than_three_calls
+#define WAIT_MAX 3 // calls: of two, one has no loop
+// test: watch_counts_the_time_of_the_inner_loop_up_to_a_second
+#define INNER_MS_MAX 1000 // nobody flies on after so long
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
   const unsigned to = from + ms; // from < 10, so that at + 10 is beyond it
@@ -164,7 +170,7 @@ static APART void keep_out(flight_t *f, flight_in_t *in, int ms) {
                                  .up_offset_m = p->up_offset_m,
                                  .floor_m = p->ceiling.floor_m,
                                  .weight_N = p->pos.mass_kg * GRAVITY_MPS2};
-  const by_hand_in_t x = {.period_s = 0.001f * f_clamp((float)ms, 1.0f, 50.0f),
+  const by_hand_in_t x = {.period_s = 0.001f * f_clamp((float)ms, 1.0f, (float)MS_MAX),
                           .thrust_N = in->setpoint.thrust_N,
                           .climb_mps = in->vel_w_mps.z,
                           .q_wb = in->q_wb,

@@ -5,8 +5,10 @@
 
 #include "flight/guard.h"
 
-#define JUDGE_MS_MAX    1000000
-#define JUDGE_SETTLED_S 2.0f // after a step of the accelerometer's bias
+// test: guard_counts_to_the_end_and_stops
+#define JUDGE_MS_MAX 1000000 // nobody flies for so long, and it is far from where an int ends
+// test: guard_gives_a_bias_when_it_has_settled_for_two_seconds
+#define JUDGE_SETTLED_S 2.0f // after a step of the accelerometer's bias: its mean has stood for a second
 
 // The time for which something lasts, ms more now.
 static inline int judge_longer(int total_ms, bool lasts, int ms) {

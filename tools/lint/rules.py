@@ -10,6 +10,7 @@ from pathlib import Path
 C_LINES, PYTHON_LINES, FUNCTION_LINES, COLUMNS = 400, 250, 40, 125
 TOPS = ("include", "src", "sim", "test", "tools")
 READING_RULE = re.compile(r"^\|.*\| `([a-z0-9_]+)` \|$", re.M)
+OF_CONSTANTS = re.compile(r"^// test: (.*)$", re.M)
 
 
 def files(*suffixes: str) -> list[Path]:
@@ -46,9 +47,12 @@ def of_python(file: Path, lines: list[str]) -> Iterator[str]:
 
 def of_tests() -> Iterator[str]:
     tests = [line for file in files(".c") if file.name.startswith("test_") for line in file.read_text().splitlines()]
-    for test in READING_RULE.findall(Path("src/README.md").read_text()):
-        if not any(line.startswith(f"TEST({test})") for line in tests):
-            yield f"src/README.md names the test {test}, which does not exist"
+    named = [(Path("src/README.md"), READING_RULE)]
+    named += [(file, OF_CONSTANTS) for file in files(".c", ".h") if file.parts[0] in ("src", "include")]
+    for file, rule in named:
+        for test in rule.findall(file.read_text(encoding="utf-8")):
+            if not any(line.startswith(f"TEST({test})") for line in tests):
+                yield f"{file} names the test {test}, which does not exist"
 
 
 def complaints() -> Iterator[str]:

@@ -202,6 +202,16 @@ TEST(bias_starts_afresh_where_its_state_is_none) {
     }
 }
 
+TEST(bias_takes_a_state_for_one_up_to_2000) {
+  static const bias_param_t p = {.pole_radps = 1.0f, .max_mps2 = 0.5f};
+  bias_t s = started();
+  s.first_mps2.x = 1999.0f;
+  CHECK_OK(step_of(&s, &p, NONE, NONE, NONE, 0.01f));
+  s = started();
+  s.first_mps2.x = 2001.0f;
+  CHECK_STATUS(ST_BAD_STATE, step_of(&s, &p, NONE, NONE, NONE, 0.01f));
+}
+
 TEST(bias_is_bounded_and_off_when_its_pole_is_zero) {
   bias_t s = started();
   const bias_param_t bounded = {.pole_radps = 1.0f, .max_mps2 = 0.3f},

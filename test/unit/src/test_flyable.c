@@ -106,6 +106,24 @@ TEST(a_vehicle_that_only_stood_still_is_judged_by_its_accelerometer_alone) {
   }
 }
 
+TEST(a_vehicle_on_its_side_is_not_flyable_though_its_estimate_agrees) {
+  static const struct {
+    float deg;
+    unsigned want;
+  } row[] = {{59.0f, 0}, {61.0f, FLYABLE_UP}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g degrees", (double)row[i].deg);
+    const float half = 0.5f * row[i].deg / 57.29578f;
+    const quat_t q = {.w = cosf(half), .x = sinf(half)};
+    const v3_t acc = quat_to_body(q, (v3_t){0.0f, 0.0f, 9.81f});
+    flyable_t s;
+    flyable_init(&s);
+    for (int ms = 0; ms < 1000; ms++) flyable_step(&s, acc, (v3_t){0.0f, 0.0f, 0.0f}, q);
+    CHECK(s.not_flyable == row[i].want);
+  }
+}
+
+// What cannot be is left out: 100 rad/s can, beyond it a gyro is broken.
 TEST(what_is_no_number_says_nothing_about_being_flyable) {
   flyable_t s, before;
   flyable_init(&s);
@@ -113,7 +131,10 @@ TEST(what_is_no_number_says_nothing_about_being_flyable) {
   flyable_step(&s, (v3_t){NAN, 0.0f, 9.81f}, (v3_t){0.0f, 0.0f, 0.0f}, (quat_t){.w = 1.0f});
   flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){INFINITY, 0.0f, 0.0f}, (quat_t){.w = 1.0f});
   flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){0.0f, 0.0f, 0.0f}, (quat_t){.w = NAN});
+  flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){100.1f, 0.0f, 0.0f}, (quat_t){.w = 1.0f});
   CHECK(s.steady_s == before.steady_s && s.stretch_ms == before.stretch_ms && s.not_flyable == 0);
+  flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){99.9f, 0.0f, 0.0f}, (quat_t){.w = 1.0f});
+  CHECK(s.stretch_ms == 1);
 }
 
 // Stands still with this force along z until the wrong of it shows; -1: it never does.
@@ -175,6 +196,8 @@ TEST(a_turn_tells_of_a_wrong_axis_from_so_much_on) {
       {"the other way round", 1.5f, 3, -1.0f, 9.81f, FLYABLE_TURN_X},
       {"a third", 1.5f, 3, 0.35f, 9.81f, FLYABLE_TURN_X},
       {"a half", 1.5f, 3, 0.47f, 9.81f, 0},
+      {"0.39, of which the turn shows 0.38", 1.5f, 3, 0.39f, 9.81f, FLYABLE_TURN_X},
+      {"0.43, of which the turn shows 0.42", 1.5f, 3, 0.43f, 9.81f, 0},
       {"one stretch, (1.39 m/s2)^2", 1.42f, 1, -1.0f, 9.81f, 0},
       {"one stretch, (1.45 m/s2)^2", 1.49f, 1, -1.0f, 9.81f, FLYABLE_TURN_X},
       {"two of (1 m/s2)^2, one forgotten by 2 %", 1.02f, 2, -1.0f, 9.81f, 0},
@@ -189,5 +212,22 @@ TEST(a_turn_tells_of_a_wrong_axis_from_so_much_on) {
     ROW("%s", row[i].what);
     CHECK((turned(row[i].rate_radps, row[i].stretches, row[i].k, row[i].size_mps2) & ~(unsigned)FLYABLE_UP) ==
           row[i].want);
+  }
+}
+
+// One stretch more where almost enough was seen.
+TEST(a_stretch_that_hardly_turned_adds_nothing) {
+  static const struct {
+    float rate_radps;
+    bool adds;
+  } row[] = {{0.49f, false}, {0.53f, true}}; // 0.48 and 0.52 m/s2
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g rad/s", (double)row[i].rate_radps);
+    flyable_t s;
+    flyable_init(&s);
+    s.turn_x.square = 1.9f;
+    for (int ms = 0; ms < 100; ms++)
+      flyable_step(&s, (v3_t){0.0f, 0.0f, 9.81f}, (v3_t){0.0f, row[i].rate_radps, 0.0f}, (quat_t){.w = 1.0f});
+    CHECK((s.turn_x.square != 1.9f) == row[i].adds);
   }
 }
