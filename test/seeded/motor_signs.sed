@@ -1,4 +1,4 @@
-# Two motors' roll exchanged.
+# Roll turns the other way.
 # file: src/mixer.c
 # test: mixer
-s/{lift - same, lift - other, lift + same, lift + other}/{lift + other, lift + same, lift - other, lift - same}/
+s/const float roll = f_bound(torque/const float roll = f_bound(-torque/

@@ -1,4 +1,4 @@
-# Yaw is given up first.
+# Yaw is not given up first.
 # file: src/mixer.c
 # test: mixer
-s/const float yaw_share = yaw_share_of(base, yaw_N, max)/const float yaw_share = yaw_share_of(base, yaw_N, max) > 2.0f ? 0.0f : 1.0f/
+s/const float turn = f_clamp(yaw_N, -right, left);/const float turn = yaw_N;/
