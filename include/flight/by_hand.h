@@ -11,15 +11,16 @@
 #include "flight/v3.h"
 #include <stdbool.h>
 
-#define BY_HAND_ROOM_M                                                                                       \
-  0.08f // added to ceil.min: the sensor, which is blind below 4 cm, is to see the ceiling
-#define BY_HAND_NEAR_M  0.3f // of room: at rest the stick is a climb from here on
+// test: by_hand_takes_the_stick_for_a_climb_where_the_room_is_less_than_it_takes_to_stop
+#define BY_HAND_ROOM_M     0.08f // added to ceil.min: the sensor, blind below 4 cm, is to see the ceiling
+#define BY_HAND_NEAR_M     0.3f  // of room: at rest the stick is a climb from here on
+#define BY_HAND_REACT_S    0.4f  // a sample's age (0.1) and interval (0.1), lag of motors and loop (0.2)
+#define BY_HAND_BRAKE_MPS2 5.0f  // half of gravity, which is all that brakes a climb
+#define BY_HAND_STICK_MPS  2.0f  // climb for twice the weight
+// test: by_hand_leaves_the_ceiling_farther_away_than_it_met_it_and_minds_tilt_and_offset
 #define BY_HAND_LEAVE_M 0.1f // farther than that it is thrust again
-#define BY_HAND_REACT_S                                                                                      \
-  0.4f // a sample's age (0.1) and interval (0.1), lag of the motors and of the loop (0.2)
-#define BY_HAND_BRAKE_MPS2 5.0f // half of gravity, which is all that brakes a climb
-#define BY_HAND_STICK_MPS  2.0f // climb for twice the weight
-#define BY_HAND_BELIEVE_S  0.5f // so long without a sample the ceiling is believed to be there still
+// test: by_hand_knows_where_the_ceiling_is_between_samples_and_for_half_a_second
+#define BY_HAND_BELIEVE_S 0.5f // so long without a sample the ceiling is believed to be there still
 
 typedef struct {
   float gap_m;   // propellers to ceiling, moved on by the climb between samples

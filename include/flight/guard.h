@@ -18,8 +18,8 @@
 
 typedef enum { GUARD_FLY, GUARD_HOLD, GUARD_RETREAT, GUARD_HAND_OVER } guard_action_t;
 
-// The table: one row a reason, in the order in which they are judged, by the rule of its name (GYRO_FROZEN:
-// gyro_frozen) in the file that stands above. Times are in ms.
+// The table: one row a reason, file by file, in the order in which each judges them by the rule of that name
+// (GYRO_FROZEN: gyro_frozen). Times are in ms.
 //
 //   bit      in guard_t.now and .latched, and in every log that was ever written
 //   lasts    so long before it is a reason
@@ -100,8 +100,8 @@ typedef struct {
   float asked_z_m;    // the same without limits
   float height_off_m; // sum of the height's resets
   bool find_bias;     // the accelerometer's bias is looked for; else it is taken off as a fault only
-  float force_N,
-      thrust_now_N;      // along the thrust: what accelerates the mass, what the motors give in free air
+  // Along the thrust: what accelerates the mass, what the motors give in free air.
+  float force_N, thrust_now_N;
   float bias_known_mps2; // what the outer loop takes off the vertical acceleration itself
 } guard_in_t;
 
