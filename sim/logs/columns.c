@@ -1,13 +1,12 @@
 // columns.c - which column of a log is which of our signals.
 #include "logs/columns.h"
 
+#include "base/constants.h"
 #include "base/toml.h"
 #include "logs/units.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 // What no flight and no bench shows is refused.
 static const struct {

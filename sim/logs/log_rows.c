@@ -1,11 +1,11 @@
 // log_rows.c - the rows of a flight log in SI and our frames.
 #include "logs/log_rows.h"
 
+#include "base/constants.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define G_MPS2         9.81
 #define GAP            ((double)NAN)
 #define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 

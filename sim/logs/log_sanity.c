@@ -1,10 +1,10 @@
 // log_sanity.c - does a whole flight agree with physics and with itself?
 #include "logs/log_sanity.h"
 
+#include "base/constants.h"
 #include <math.h>
 #include <stdio.h>
 
-#define G_MPS2 9.81
 #define ENOUGH 50 // rows from which a mean says something
 
 void log_sanity_add(log_sanity_t *s, const log_row_t *row) {

@@ -1,10 +1,10 @@
 // units.c - the units that logs come in.
 #include "logs/units.h"
 
+#include "base/constants.h"
 #include <stdio.h>
 #include <string.h>
 
-#define PI        3.14159265358979323846
 #define UNITS_MAX 6
 
 // The first unit of a kind is ours.
@@ -12,7 +12,7 @@ static const unit_t UNITS[KIND_COUNT][UNITS_MAX] = {
     [KIND_TIME] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}},
     [KIND_LENGTH] = {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}},
     [KIND_SPEED] = {{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}},
-    [KIND_ACCELERATION] = {{"m/s2", 1.0}, {"g", 9.81}, {"mg", 9.81e-3}},
+    [KIND_ACCELERATION] = {{"m/s2", 1.0}, {"g", G_MPS2}, {"mg", 9.81e-3}},
     [KIND_NUMBER] = {{"1", 1.0}},
     [KIND_ANGLE] = {{"rad", 1.0}, {"deg", PI / 180.0}},
     [KIND_RATE] = {{"rad/s", 1.0}, {"deg/s", PI / 180.0}},

@@ -1,6 +1,7 @@
 // ekf_core.c - prediction and corrections of the extended Kalman filter.
 #include "sense/ekf.h"
 
+#include "base/constants.h"
 #include "base/pair.h"
 #include <math.h>
 #include <string.h>
@@ -12,9 +13,9 @@ enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
 #define PIXELS_PER_RAD   (35.0 / 0.71674) // of the flow camera: pixels across, aperture
 #define PIXELS_PER_COUNT 0.1
 #define FLOW_NEAREST_M   0.1
-#define RANGE_HALF_CONE  (7.5 * 3.14159265358979323846 / 180.0) // rad, of the sensor's view
-#define UP_LEAST         0.1  // cosine of the largest tilt at which a range is believed
-#define TURN_LEAST_RAD   1e-4 // smaller corrections of the attitude are lost
+#define RANGE_HALF_CONE  (7.5 * PI / 180.0) // rad, of the sensor's view
+#define UP_LEAST         0.1                // cosine of the largest tilt at which a range is believed
+#define TURN_LEAST_RAD   1e-4               // smaller corrections of the attitude are lost
 
 static double at_most(double p) {
   return p < VARIANCE_MAX ? p : VARIANCE_MAX; // NaN too

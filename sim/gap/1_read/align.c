@@ -6,10 +6,10 @@
 // is the standard error.
 #include "gap/1_read/read.h"
 
+#include "base/constants.h"
 #include <math.h>
 
 #define PARTS       8
-#define G_MPS2      9.81
 #define IMPACT_MPS2 8.0  // it touches something: too short for the log's rate
 #define SMOOTH_S    0.02 // the force's ends are means over this: propellers shake the accelerometer
 

@@ -1,13 +1,13 @@
 // check.c - stage 1: do a flight's signals agree with physics and with each other?
 #include "gap/1_read/read.h"
 
+#include "base/constants.h"
 #include "body/body.h"
 
 #include <math.h>
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
-#define G_MPS2      9.81
 #define ENOUGH      50 // samples from which a mean says something
 #define WINDOWS_MIN 20 // windows from which a slope does
 #define SLOPE_MIN   0.3333

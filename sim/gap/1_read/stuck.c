@@ -1,11 +1,11 @@
 // stuck.c - stage 1: values that stand still, because a stream is slow or because a sensor hangs.
 #include "gap/1_read/read.h"
 
+#include "base/constants.h"
 #include "base/by_size.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define G_MPS2      9.81
 #define FLIES       0.3 // of its weight
 #define REPEATS_MIN 0.2 // share of rows that repeat the one before: the stream is slower than the log
 #define REPEATS_S   0.1 // a longer run is no repeat: the value stands
