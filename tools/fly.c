@@ -6,7 +6,7 @@
 #include "crazyflie/usd_deck.h"
 #include "flight/catalogue.h"
 #include "flight/many.h"
-#include "flight/replay_told.h"
+#include "flight/replay_report.h"
 #include "flight/request_spec.h"
 #include "flight/scenario.h"
 #include "fly_usage.h"
@@ -244,7 +244,7 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->list) catalogue_all();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
-  if (order->replay) return replay_told(order->replay, &order->request, why);
+  if (order->replay) return replay_report(order->replay, &order->request, why);
   if (!order->scenario) return DONE;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));

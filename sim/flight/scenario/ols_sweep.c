@@ -18,7 +18,7 @@ typedef struct {
   double y;
 } average_t;
 
-static void take(average_t *a, const taught_t *x, double turn_s, bool first) {
+static void take(average_t *a, const training_t *x, double turn_s, bool first) {
   a->y = first ? x->y : (1.0 - a->share) * a->y + a->share * x->y;
   const int bin = (int)lround(x->zc_m / BIN_M);
   if (bin >= 0 && bin < BINS) a->newest[bin] = a->y;
@@ -46,7 +46,7 @@ static rbf_weights_t fit(const average_t *a) {
 
 static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   const rbf_weights_t w = fit(a);
-  const misfit_t m = taught_misfit(&w, &setup->model, 0.02, 0.10);
+  const misfit_t m = training_misfit(&w, &setup->model, 0.02, 0.10);
   cJSON *row = result_add_row(result, "fits");
   cJSON_AddNumberToObject(row, "share", a->share);
   cJSON_AddNumberToObject(row, "time_constant_s", -setup->plan.period_s / log(1.0 - a->share));
@@ -57,7 +57,7 @@ static void tell(const average_t *a, const setup_t *setup, result_t *result) {
   sweep_add_weights(row, &w);
 }
 
-static done_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
+static done_t learn_all(const setup_t *setup, const training_t *x, int n, result_t *result, why_t *why) {
   static const double shares[] = {0.5, 0.25, 0.1, 0.01};
   (void)why;
   for (unsigned k = 0; k < sizeof shares / sizeof *shares; k++) {

@@ -5,7 +5,7 @@
 #define VISITED_NEAR_M 0.02
 #define VISITED_FAR_M  0.10
 
-static done_t learn(const setup_t *setup, const rls_param_t *p, const taught_t *x, int n, rls_t *rls,
+static done_t learn(const setup_t *setup, const rls_param_t *p, const training_t *x, int n, rls_t *rls,
                     why_t *why) {
   if (rls_init(rls, p, &setup->learn_from) != ST_OK)
     return error_set(why, "rls.lambda, rls.p0: out of range");
@@ -19,7 +19,7 @@ static done_t learn(const setup_t *setup, const rls_param_t *p, const taught_t *
 }
 
 static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, result_t *result) {
-  const misfit_t m = taught_misfit(&rls->theta, model, VISITED_NEAR_M, VISITED_FAR_M);
+  const misfit_t m = training_misfit(&rls->theta, model, VISITED_NEAR_M, VISITED_FAR_M);
   cJSON *row = result_add_row(result, "fits");
   cJSON_AddNumberToObject(row, "lambda", (double)p->lambda);
   cJSON_AddNumberToObject(row, "p0", (double)p->p0);
@@ -30,7 +30,7 @@ static void tell(const rls_param_t *p, const rls_t *rls, const model_t *model, r
   sweep_add_weights(row, &rls->theta);
 }
 
-static done_t learn_all(const setup_t *setup, const taught_t *x, int n, result_t *result, why_t *why) {
+static done_t learn_all(const setup_t *setup, const training_t *x, int n, result_t *result, why_t *why) {
   static const struct {
     float lambda, p0;
   } pairs[] = {{0.01f, 1}, {0.1f, 1}, {0.5f, 1}, {1, 1}, {1, 0.1f}, {0.5f, 5}, {0.5f, 25}};

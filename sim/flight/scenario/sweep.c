@@ -12,11 +12,11 @@ done_t sweep_setup(setup_t *setup, const request_t *request, why_t *why) {
 
 static done_t learn_from(const setup_t *setup, const record_t *record, double far_m, sweep_learn_fn *learn,
                          result_t *result, why_t *why) {
-  taught_t *taught = calloc((size_t)record->n, sizeof *taught);
-  if (!taught) return error_failed(why, "out of memory");
-  const int n = taught_of(record, setup, far_m, taught);
-  const done_t status = learn(setup, taught, n, result, why);
-  free(taught);
+  training_t *training = calloc((size_t)record->n, sizeof *training);
+  if (!training) return error_failed(why, "out of memory");
+  const int n = training_of(record, setup, far_m, training);
+  const done_t status = learn(setup, training, n, result, why);
+  free(training);
   return status;
 }
 

@@ -3,14 +3,14 @@
 #define SIM_FLIGHT_SCENARIO_SWEEP_H
 
 #include "flight/scenario.h"
-#include "flight/taught.h"
+#include "flight/training.h"
 
 // The learning flight that was asked for. BAD_INPUT: as scenario_learning_setup, or a controller that
 // knows no ceiling distance.
 MUST_CHECK done_t sweep_setup(setup_t *setup, const request_t *request, why_t *why);
 
 // Learns from n samples, in all its ways, and adds what came of it.
-typedef done_t sweep_learn_fn(const setup_t *setup, const taught_t *taught, int n, result_t *result,
+typedef done_t sweep_learn_fn(const setup_t *setup, const training_t *training, int n, result_t *result,
                               why_t *why);
 
 // Flies once, and lets learn from what may teach up to far_m.

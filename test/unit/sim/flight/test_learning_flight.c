@@ -1,6 +1,6 @@
 // test_learning_flight.c - the curve learned in simulated learning flights at noise N1, and flying with it,
 // and the sweeps of the thesis's appendix B.
-#include "flight/taught.h"
+#include "flight/training.h"
 #include "rig/flights.h"
 #include "rig/share.h"
 #include "rig/bells.h"
@@ -62,7 +62,7 @@ TEST(learning_flight_finds_the_curve_where_it_has_been) {
     ROW("seed %d", (int)seed);
     const setup_t setup = learning_setup(&ONES, 0.44, 1.8, seed);
     const rbf_weights_t w = learn(&setup);
-    const misfit_t m = taught_misfit(&w, &setup.model, 0.02, 0.10);
+    const misfit_t m = training_misfit(&w, &setup.model, 0.02, 0.10);
     close += m.rms < 0.003 && m.max < 0.012;    // what was promised
     low += m.at_1cm < 0.0 && m.peak_m <= 0.016; // nearer than it has been the curve is too low
     sum += m.rms;

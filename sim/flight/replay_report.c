@@ -1,5 +1,5 @@
-// replay_told.c - what came of a replay, in words.
-#include "flight/replay_told.h"
+// replay_report.c - what came of a replay, in words.
+#include "flight/replay_report.h"
 
 #include "logs/replay.h"
 #include <math.h>
@@ -32,7 +32,7 @@ static void tell(const replay_t *r) {
   tell_lost(r);
 }
 
-done_t replay_told(const char *path, const request_t *request, why_t *why) {
+done_t replay_report(const char *path, const request_t *request, why_t *why) {
   flight_param_t param;
   replay_t r;
   params_default(&param);

@@ -1,11 +1,11 @@
-// taught.c - what a flight could teach.
-#include "flight/taught.h"
+// training.c - what a flight could teach.
+#include "flight/training.h"
 
 #include "flight/learn.h"
 #include "flight/sync.h"
 #include <math.h>
 
-int taught_of(const record_t *record, const setup_t *setup, double far_m, taught_t *taught) {
+int training_of(const record_t *record, const setup_t *setup, double far_m, training_t *training) {
   const flight_param_t *p = &setup->flight;
   learn_param_t rules = p->learn;
   rules.far_m = (float)far_m;
@@ -27,12 +27,12 @@ int taught_of(const record_t *record, const setup_t *setup, double far_m, taught
     sample.known = !isnan(s->thoughts.zc_m);
     sample.zc_m = sync_distance_m(&sync, &coef, sample.known, sample.known ? (float)s->thoughts.zc_m : 0.0f);
     if (learn_update(&learn, &rules, &sample) != ST_OK) continue;
-    taught[n++] = (taught_t){.t_s = s->t_s, .zc_m = (double)sample.zc_m, .y = (double)learn.y};
+    training[n++] = (training_t){.t_s = s->t_s, .zc_m = (double)sample.zc_m, .y = (double)learn.y};
   }
   return n;
 }
 
-misfit_t taught_misfit(const rbf_weights_t *w, const model_t *model, double near_m, double far_m) {
+misfit_t training_misfit(const rbf_weights_t *w, const model_t *model, double near_m, double far_m) {
   misfit_t m = {0};
   double sum2 = 0.0, peak = -HUGE_VAL;
   int n = 0;
