@@ -95,7 +95,7 @@ TEST(curve_learned_from_theory_can_be_flown_nearer_than_it_was_learned) {
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
       ROW("%s plant, seed %d", plant[i].what, (int)seed);
       setup_t setup = learning_setup(&theory, plant[i].ca, plant[i].cb, seed);
-      setup.flight.curve.clip = 1; // as shipped: the rising tail at 10 cm takes damping away (errata E19)
+      setup.flight.curve.clip = 1; // as shipped: the rising tail at 10 cm takes damping away
       const rbf_weights_t w = learn(&setup);
       CHECK(contacts_at(&w, &setup, 0.012) == 0);
       CHECK(contacts_at(&w, &setup, 0.008) == 0);
