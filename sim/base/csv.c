@@ -44,10 +44,6 @@ done_t csv_refuse(const csv_file_t *file, int column, why_t *why, const char *fo
   return error_set(why, "%s:%ld:%s %s", file->path, file->line_number, where, what);
 }
 
-const char *csv_path(const csv_file_t *file) {
-  return file->path;
-}
-
 long csv_line(const csv_file_t *file) {
   return file->line_number;
 }

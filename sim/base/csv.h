@@ -31,8 +31,6 @@ MUST_CHECK done_t csv_open_stream(csv_file_t **file, FILE *stream, const char *p
 // A null pointer is allowed.
 void csv_close(csv_file_t *file);
 
-const char *csv_path(const csv_file_t *file);
-
 // The number of the line that the present row ends with, from 1.
 long csv_line(const csv_file_t *file);
 

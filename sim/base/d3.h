@@ -57,12 +57,6 @@ static inline dq_t dq_of(const double *p) {
   return (dq_t){p[0], p[1], p[2], p[3]};
 }
 
-// The turn by angle_rad about a unit vector.
-static inline dq_t dq_about(d3_t unit, double angle_rad) {
-  const double s = sin(0.5 * angle_rad);
-  return (dq_t){cos(0.5 * angle_rad), s * unit.x, s * unit.y, s * unit.z};
-}
-
 // First b, then a.
 static inline dq_t dq_mul(dq_t a, dq_t b) {
   return (dq_t){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, //

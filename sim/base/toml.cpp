@@ -150,18 +150,6 @@ done_t toml_double(toml_t t, const char *key, double min, double max, double *va
   return DONE;
 }
 
-done_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why) {
-  const toml::node *node = find(t, key, "a whole number", why);
-  if (!node) return BAD_INPUT;
-  const toml::value<int64_t> *whole = node->as_integer();
-  if (!whole) return wrong_type(t, key, "a whole number", why);
-  if (whole->get() < min || whole->get() > max)
-    return toml_refuse(t, key, why, "%lld is out of range; allowed: %d to %d",
-                       static_cast<long long>(whole->get()), min, max);
-  *value = static_cast<int>(whole->get());
-  return DONE;
-}
-
 done_t toml_bool(toml_t t, const char *key, bool *value, why_t *why) {
   const toml::node *node = find(t, key, "true or false", why);
   if (!node) return BAD_INPUT;

@@ -45,7 +45,6 @@ bool toml_has(toml_t t, const char *key);
 // Nothing is written to the result then. A whole number is accepted as a double.
 MUST_CHECK done_t toml_string(toml_t t, const char *key, char *text, size_t size, why_t *why);
 MUST_CHECK done_t toml_double(toml_t t, const char *key, double min, double max, double *value, why_t *why);
-MUST_CHECK done_t toml_int(toml_t t, const char *key, int min, int max, int *value, why_t *why);
 MUST_CHECK done_t toml_bool(toml_t t, const char *key, bool *value, why_t *why);
 MUST_CHECK done_t toml_doubles(toml_t t, const char *key, int n_max, double *values, int *n, why_t *why);
 MUST_CHECK done_t toml_table(toml_t t, const char *key, toml_t *sub, why_t *why);

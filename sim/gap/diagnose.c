@@ -1,7 +1,7 @@
 // diagnose.c - the workflow on flights in memory: stages 2 to 7.
 #include "gap/diagnose.h"
 
-#include "gap/2_predict/muted.h"
+#include "gap/2_predict/excluded.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/contact.h"
 #include "gap/5_infer/select.h"
@@ -13,8 +13,8 @@
 #define CELL_LEAST  6.5 // standard errors
 #define CELL_MARGIN 1.4 // over the largest of the nominal flights
 
-static done_t cut(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
-                  why_t *why) {
+static done_t cut_flights(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
+                          why_t *why) {
   grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
   done_t status = DONE;
@@ -30,10 +30,10 @@ static done_t cut(set_t *s, const gap_flights_t *flights, double from, double to
 
 static done_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   const bool apart = job->held && job->held->n > 0;
-  TRY(cut(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
-  TRY(muted_find(&d->fit, job->model, why));
-  TRY(cut(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
-  memcpy(d->held.muted, d->fit.muted, sizeof d->held.muted);
+  TRY(cut_flights(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
+  TRY(excluded_find(&d->fit, job->model, why));
+  TRY(cut_flights(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
+  memcpy(d->held.excluded, d->fit.excluded, sizeof d->held.excluded);
   return DONE;
 }
 
@@ -57,21 +57,21 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   TRY(status);
   TRY(chosen_model(&chosen, job->model, &m, why));
   TRY(find_residual(d, &m, why));
-  const manner_t raw = manner_of(&d->fit, &m, job->flown_by, d->residual);
+  const closed_loop_t raw = closed_loop_of(&d->fit, &m, job->flown_by, d->residual);
   TRY(unknown_clean(&d->fit, &m, d->residual, why));
-  d->manner = manner_of(&d->fit, &m, job->flown_by, d->residual);
+  d->loop = closed_loop_of(&d->fit, &m, job->flown_by, d->residual);
   // Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
   // flights are to show.
-  memcpy(d->manner.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
-  d->manner.turn_tau_s = raw.turn_tau_s;
-  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &chosen, &d->manner, job->seed};
+  memcpy(d->loop.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
+  d->loop.turn_tau_s = raw.turn_tau_s;
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &chosen, &d->loop, job->seed};
   d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == DONE;
   return DONE;
 }
 
 // Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
 // and nothing was testable.
-static void withdraw(diagnosis_t *d) {
+static void withdraw_all(diagnosis_t *d) {
   d->found.chosen.n = d->found.n = d->found.n_open = 0;
   d->found.left = d->found.left_before;
   for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
@@ -95,7 +95,7 @@ static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *
   const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
   TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
   d->rounds += d->found.rounds;
-  if (!nominal) withdraw(d);
+  if (!nominal) withdraw_all(d);
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, refined, why));
   candidates_reshape(&d->candidates, &d->found.chosen);
   return DONE;
@@ -126,9 +126,9 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
   TRY(find_names(d, job->model, why));
-  const verify_job_t names = {&d->held, job->model, &d->manner, &d->found};
+  const verify_job_t names = {&d->held, job->model, &d->loop, &d->found};
   TRY(verify_names(&names, &d->withdrawn, why));
-  TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->manner, &d->found, &d->why_not_confirmed, why));
+  TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));

@@ -23,7 +23,7 @@ typedef struct {
   int rounds;             // times that all columns were formed, by the first look and the last
   withdrawn_list_t withdrawn;
   model_t extended;
-  manner_t manner;
+  closed_loop_t loop;
   bool nominal_flew; // false: it could not; then nothing is named and nothing is unknown
   double cell_bound; // of the statistic
   cell_t cell;       // the largest

@@ -3,6 +3,7 @@
 
 #include "gap/2_predict/grid.h"
 #include "plant/battery.h"
+#include "rig/turned.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -51,7 +52,7 @@ static void sag(const fx_use_t *u, const fx_tick_t *t, fx_plant_t *plant) {
   for (int i = 0; i < ROTORS; i++) plant->thrust_scale[i] *= scale;
 }
 static void turned(const fx_use_t *u, fx_sensed_t *sensed) {
-  const axes_t a = axes_of(dq_about(d3(sin(u->p[1]), cos(u->p[1]), 0.0), u->p[0]));
+  const axes_t a = axes_of(turned_about(d3(sin(u->p[1]), cos(u->p[1]), 0.0), u->p[0]));
   sensed->acc_b_mps2 = axes_to_body(&a, sensed->acc_b_mps2);
 }
 static void range_scale(const fx_use_t *u, fx_sensed_t *sensed) {

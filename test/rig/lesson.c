@@ -2,7 +2,7 @@
 #include "rig/lesson.h"
 
 #include "rig/oracle.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 #include <float.h>
 #include <string.h>
@@ -52,11 +52,11 @@ void lesson_watch(lesson_run_t *run, const rls_t *s) {
 
 lesson_run_t lesson_hover_by(rls_t *s, lesson_update_fn *update, const rls_param_t *p, double z, double gain,
                              int samples, uint64_t seed) {
-  random_t r = {seed};
+  splitmix_t r = {seed};
   lesson_run_t run = {.first_bad = -1, .symmetric = true, .eigen_min = DBL_MAX};
   for (int k = 0; k < samples && run.first_bad < 0; k++) {
-    const double there = z + random_normal(&r, 0.002);
-    const lesson_t x = lesson_at(there, gain * lesson_theory(there) + random_normal(&r, 0.02));
+    const double there = z + splitmix_normal(&r, 0.002);
+    const lesson_t x = lesson_at(there, gain * lesson_theory(there) + splitmix_normal(&r, 0.02));
     CHECK_OK(update(s, p, x.a, x.y));
     if (!lesson_all_finite(s))
       run.first_bad = k;

@@ -15,7 +15,7 @@
 
 typedef struct {
   double n, e, g, d, ed, eg, gg, gd, dd;
-} sums_t;
+} products_of_turns_t;
 
 static bool turn(const gap_flight_t *f, int i, int m, window_t *w) {
   const int j = i + m;
@@ -100,7 +100,7 @@ int gap_drive_samples(const gap_flight_t *f, const drive_t *drive) {
 }
 
 // tau of one part, and how much it knows (the sum of squares that tells it).
-static double late_of(const sums_t s[3], int from, double *weight) {
+static double late_of(const products_of_turns_t s[3], int from, double *weight) {
   double ed = 0.0, eg = 0.0, gg = 0.0, gd = 0.0, dd = 0.0;
   *weight = 0.0;
   for (int k = from; k < 3; k++) {
@@ -119,12 +119,12 @@ static double late_of(const sums_t s[3], int from, double *weight) {
 
 static skew_t skew_of(const gap_flight_t *f, const drive_t *drive, int from) {
   const int m = gap_drive_samples(f, drive), step = m / 4 > 0 ? m / 4 : 1;
-  sums_t sums[PARTS][3] = {0};
+  products_of_turns_t sums[PARTS][3] = {0};
   for (int i = 0; i + m < f->n; i += step) {
     window_t w;
     if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
     for (int k = 0; k < 3; k++) {
-      sums_t *const s = &sums[(long)PARTS * i / f->n][k];
+      products_of_turns_t *const s = &sums[(long)PARTS * i / f->n][k];
       const double e = w.moved[k] - w.driven[k], g = w.driven[k], d = w.ends[k];
       s->n += 1.0;
       s->e += e, s->g += g, s->d += d;

@@ -8,12 +8,12 @@
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
-#define ENOUGH      50 // samples from which a mean says something
+#define MEAN_OF     50 // samples from which a mean says something
 #define WINDOWS_MIN 20 // windows from which a slope does
 #define SLOPE_MIN   0.3333
 #define SLOPE_MAX   3.0
-#define SURE        4.0  // standard errors
-#define FLIES       0.3  // of the largest thrust: it flies
+#define CLEARLY     4.0  // standard errors
+#define FLIES_AT    0.3  // of the largest thrust: it flies
 #define RANGE_M     0.02 // no range sensor sees nearer only
 
 static bool has(const gap_flight_t *f, signal_id_t first, int n) {
@@ -52,9 +52,9 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
     up += up_mps2;
     n_up++;
   }
-  if (n >= ENOUGH && !(sum / n >= 0.5 * G_MPS2 && sum / n <= 1.5 * G_MPS2))
+  if (n >= MEAN_OF && !(sum / n >= 0.5 * G_MPS2 && sum / n <= 1.5 * G_MPS2))
     return refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, 0.5 * G_MPS2, 1.5 * G_MPS2, why);
-  if (n_up >= ENOUGH && f->n > 2.0 * f->rate_Hz && !(up / n_up >= 0.6 * G_MPS2 && up / n_up <= 1.4 * G_MPS2))
+  if (n_up >= MEAN_OF && f->n > 2.0 * f->rate_Hz && !(up / n_up >= 0.6 * G_MPS2 && up / n_up <= 1.4 * G_MPS2))
     return table_refuse(&rows->table, 0, rows->at[SIG_AZ], why,
                         "turned by the attitude, the mean specific force upwards is %.3g m/s2 over the whole "
                         "flight; allowed: 5.886 to 13.73 (wrong frame, sign or order of the attitude?)",
@@ -95,7 +95,7 @@ static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const d
     if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
-    if (b + SURE * stderr_b >= SLOPE_MIN && b - SURE * stderr_b <= SLOPE_MAX) continue;
+    if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;
     char text[COLUMNS_HINT] = "";
     if (b > 0.0 && b * b * s->gg > 0.5 * s->mm)
       columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
@@ -116,7 +116,7 @@ static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_
     most_m = fmax(most_m, f->v[i][j]);
     n++;
   }
-  return n < ENOUGH || most_m >= RANGE_M
+  return n < MEAN_OF || most_m >= RANGE_M
              ? DONE
              : refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
 }
@@ -130,11 +130,11 @@ static double lift_ratio(const gap_flight_t *f, const model_t *vehicle,
   for (int i = 0; i < f->n; i++) {
     const double thrust_N = lift_N(f, vehicle, i);
     const double acc_mps2 = has(f, SIG_AX, 3) ? size(&f->v[SIG_AX], i) : G_MPS2;
-    if (!(thrust_N > FLIES * most_N) || !(acc_mps2 > 0.2 * G_MPS2)) continue;
+    if (!(thrust_N > FLIES_AT * most_N) || !(acc_mps2 > 0.2 * G_MPS2)) continue;
     sum += thrust_N / (vehicle->mass_kg * acc_mps2);
     n++;
   }
-  return n >= ENOUGH ? sum / n : (double)NAN;
+  return n >= MEAN_OF ? sum / n : (double)NAN;
 }
 
 static double by_command_N(const gap_flight_t *f, const model_t *vehicle, int i) {
@@ -189,7 +189,7 @@ static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t
     above += over_m > ABOVE_M;
     most_m = fmax(most_m, over_m);
   }
-  if (n < ENOUGH || above <= ABOVE_SHARE * n) return DONE;
+  if (n < MEAN_OF || above <= ABOVE_SHARE * n) return DONE;
   return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
                       "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g); allowed: below it",
                       most_m, m->name, m->ceiling_m);

@@ -13,14 +13,14 @@
 #define SKEW_SURE   3.0  // standard errors
 #define SKEW_ROUNDS 3
 
-#define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
+#define SIGNALS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 
-#define ATTITUDE_BITS BITS(SIG_QW, SIG_QZ)
-static const signals_t ATTITUDE = ATTITUDE_BITS, PLACE = BITS(SIG_X, SIG_VZ);
-static const signals_t GYRO = BITS(SIG_GX, SIG_GZ), FORCE = BITS(SIG_AX, SIG_AZ);
+#define ATTITUDE_BITS SIGNALS(SIG_QW, SIG_QZ)
+static const signals_t ATTITUDE = ATTITUDE_BITS, PLACE = SIGNALS(SIG_X, SIG_VZ);
+static const signals_t GYRO = SIGNALS(SIG_GX, SIG_GZ), FORCE = SIGNALS(SIG_AX, SIG_AZ);
 // Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
-static const signals_t WHOLE[] = {ATTITUDE_BITS, BITS(SIG_M1, SIG_M4), BITS(SIG_F1, SIG_F4),
-                                  BITS(SIG_W1, SIG_W4)};
+static const signals_t WHOLE[] = {ATTITUDE_BITS, SIGNALS(SIG_M1, SIG_M4), SIGNALS(SIG_F1, SIG_F4),
+                                  SIGNALS(SIG_W1, SIG_W4)};
 
 void gap_flight_free(gap_flight_t *f) {
   for (int i = 0; i < SIG_COUNT; i++) free(f->v[i]);
@@ -158,7 +158,7 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
   for (int k = 0; k < 2; k++) {
     const stream_t *const s = &stream[k];
     skew_t told;
-    const signals_t need = k == 0 ? s->need : s->need & ~BITS(SIG_X, SIG_Z);
+    const signals_t need = k == 0 ? s->need : s->need & ~SIGNALS(SIG_X, SIG_Z);
     if (!logged(raw, need)) continue;
     TRY(tell_late(raw, s, shift_s, &told, why));
     const bool sure = isfinite(told.stderr_s) && fabs(told.late_s) > SKEW_SURE * told.stderr_s;

@@ -131,9 +131,9 @@ typedef struct {
   early_t early[FIRST + 1];
   int n; // of early; beyond FIRST the rate is told
   bin_t bin;
-} reader_t;
+} row_reader_t;
 
-static done_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
+static done_t take_row(row_reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
   if (r->n < FIRST) {
     r->n++;
     return DONE;
@@ -145,7 +145,7 @@ static done_t take_row(reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *w
   return bin_add(&r->bin, raw, &r->early[FIRST], rows->has, why);
 }
 
-static done_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
+static done_t read_all(row_reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
   double last_m[2] = {(double)NAN, (double)NAN};
   for (;;) {
     early_t *const e = &r->early[r->n];
@@ -168,7 +168,7 @@ static done_t read_all(reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why
 
 done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
   *cut = false;
-  reader_t *const reader = calloc(1, sizeof *reader);
+  row_reader_t *const reader = calloc(1, sizeof *reader);
   if (!reader) return error_failed(why, "out of memory");
   const done_t status = read_all(reader, raw, rows, cut, why);
   free(reader);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define FLIES       0.3 // of its weight
+#define LIFTS       0.3 // of its weight
 #define REPEATS_MIN 0.2 // share of rows that repeat the one before: the stream is slower than the log
 #define REPEATS_S   0.1 // a longer run is no repeat: the value stands
 #define REPEATS_RUN 3.0 // ... unless the stream is that slow: so many usual runs
@@ -28,7 +28,7 @@ static const group_t GROUP[] = {
     {SIG_GY, 1, 0.5, 0.0}, {SIG_GZ, 1, 0.5, 0.0}, {SIG_QW, 4, 0.5, 0.0}, {SIG_M1, 4, 0.5, 0.0},
     {SIG_VX, 3, 1.0, 0.1}, {SIG_X, 3, 1.0, 0.1},  {SIG_W1, 4, 0.5, 0.0},
 };
-#define GROUPS ((int)(sizeof GROUP / sizeof *GROUP))
+#define N_GROUP ((int)(sizeof GROUP / sizeof *GROUP))
 
 // Streams that come at a rate of their own.
 static const struct {
@@ -96,11 +96,11 @@ done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
 // -1: cannot be told.
 static int flies(const raw_t *raw, const model_t *vehicle, int i) {
   const double weight_N = vehicle->mass_kg * G_MPS2;
-  if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > FLIES * weight_N;
+  if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > LIFTS * weight_N;
   if (!logged(raw, SIG_W1, 4)) return -1;
   double sum = 0.0;
   for (int k = 0; k < 4; k++) sum += raw->v[SIG_W1 + k][i] * raw->v[SIG_W1 + k][i];
-  return vehicle->frame.kf_Ns2 * sum > FLIES * weight_N;
+  return vehicle->frame.kf_Ns2 * sum > LIFTS * weight_N;
 }
 
 static double speed_mps(const raw_t *raw, int i) {
@@ -167,7 +167,7 @@ static bool on_vertical_axis(const raw_t *raw) {
 
 done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why) {
   const bool vertical = on_vertical_axis(raw);
-  for (int i = 0; i < GROUPS; i++) {
+  for (int i = 0; i < N_GROUP; i++) {
     const bool beside = GROUP[i].first != SIG_AZ && GROUP[i].first != SIG_M1 && GROUP[i].first != SIG_W1;
     if (logged(raw, GROUP[i].first, GROUP[i].n) && !(vertical && beside))
       TRY(check_group(raw, rows, &GROUP[i], why));

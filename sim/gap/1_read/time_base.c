@@ -15,7 +15,7 @@ typedef struct {
   int first, last; // rows
   int at, n;       // samples
   double start_s;
-} segment_t;
+} stretch_t;
 
 static const signals_t LINEAR =
     SIGNAL_BIT(SIG_M1) | SIGNAL_BIT(SIG_M2) | SIGNAL_BIT(SIG_M3) | SIGNAL_BIT(SIG_M4) | SIGNAL_BIT(SIG_F1) |
@@ -38,7 +38,7 @@ static double grid_period(const raw_t *raw) {
 }
 
 // The next run of rows without a gap that splits; false: none is left.
-static bool next_segment(const raw_t *raw, double period_s, double margin_s, double end_s, segment_t *s) {
+static bool next_segment(const raw_t *raw, double period_s, double margin_s, double end_s, stretch_t *s) {
   const double split_s = fmax(SPLIT_PERIODS * raw->period_s * raw->thin, SPLIT_S);
   s->at += s->n;
   s->first = s->last + 1;
@@ -85,7 +85,7 @@ static double between(const raw_t *raw, const int row[4], int last, int signal, 
   return y[1] + (at_s - t[1]) / (t[2] - t[1]) * (y[2] - y[1]);
 }
 
-static void resample(const raw_t *raw, const segment_t *s, double period_s, double shift_s, int signal,
+static void resample(const raw_t *raw, const stretch_t *s, double period_s, double shift_s, int signal,
                      double *out) {
   const double *const v = raw->v[signal], near_s = 0.6 * period_s;
   int row[4];
@@ -110,7 +110,7 @@ static void resample(const raw_t *raw, const segment_t *s, double period_s, doub
 }
 
 // New samples go to the nearest instant.
-static void place(const raw_t *raw, const double *v, const segment_t *s, double period_s, double shift_s,
+static void place(const raw_t *raw, const double *v, const stretch_t *s, double period_s, double shift_s,
                   double *out) {
   for (int k = 0; k < s->n; k++) out[k] = (double)NAN;
   for (int i = s->first; i <= s->last; i++) {
@@ -119,7 +119,7 @@ static void place(const raw_t *raw, const double *v, const segment_t *s, double 
   }
 }
 
-static void mark(gap_flight_t *f, const raw_t *raw, const segment_t *s, int number, double period_s) {
+static void mark(gap_flight_t *f, const raw_t *raw, const stretch_t *s, int number, double period_s) {
   for (int k = 0; k < s->n; k++) {
     f->t_s[s->at + k] = s->start_s + period_s * k;
     f->segment[s->at + k] = number;
@@ -142,13 +142,13 @@ static void unit_quaternions(gap_flight_t *f) {
 
 typedef struct {
   double period_s, margin_s, end_s;
-} grid_t;
+} steps_t;
 
-static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, int signal, double shift_s,
+static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const steps_t *g, int signal, double shift_s,
                           why_t *why) {
   double *const out = f->v[signal] = malloc(((size_t)f->n + 1) * sizeof(double));
   if (!out) return error_failed(why, "out of memory");
-  for (segment_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
+  for (stretch_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
     if (signal == SIG_RANGE || signal == SIG_RANGE_DOWN)
       place(raw, raw->v[signal], &s, g->period_s, shift_s, out + s.at);
     else
@@ -159,18 +159,18 @@ static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const grid_t *g, in
 
 done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT], double limit_s,
                 bool drop, why_t *why) {
-  grid_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
+  steps_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
   for (int i = 0; i < SIG_COUNT; i++) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
   int number = 0;
   f->n = 0;
-  for (segment_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);) f->n = s.at + s.n;
+  for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);) f->n = s.at + s.n;
   f->rate_Hz = 1.0 / g.period_s;
   const size_t n = (size_t)f->n + 1;
   f->t_s = malloc(n * sizeof(double));
   f->segment = malloc(n * sizeof(int));
   f->saturated = calloc(n, sizeof(bool));
   if (!f->t_s || !f->segment || !f->saturated) return error_failed(why, "out of memory");
-  for (segment_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);)
+  for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);)
     if (s.n > 0) mark(f, raw, &s, number++, g.period_s);
   for (int i = SIG_X; i < SIG_COUNT; i++) {
     if (!raw->v[i] || !(want & SIGNAL_BIT(i))) continue;

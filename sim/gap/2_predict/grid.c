@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define POINT_HZ  50.0
-#define FLIES     0.3   // of the weight: with less thrust it stands or falls
+#define CARRIED   0.3   // of the weight: with less thrust it stands or falls
 #define CLEAR_M   5e-3  // of the feet from the floor
 #define TOP_M     2e-3  // of anything from the ceiling
 #define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
@@ -74,7 +74,7 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
   return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
 }
 
-static void take_range(const grid_t *g, int from, point_t *p) {
+static void take_range(const grid_t *g, int from, grid_point_t *p) {
   const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
   p->range_m = (double)NAN;
   for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
@@ -88,20 +88,21 @@ static bool finite3(d3_t a) {
   return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-static bool is_good(const grid_t *g, const point_t *p, const model_t *m, const touch_gap_t *gap, int from) {
+static bool is_good(const grid_t *g, const grid_point_t *p, const model_t *m, const touch_gap_t *gap,
+                    int from) {
   double thrust_N = 0.0;
   for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
   if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
-  return thrust_N > FLIES * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
+  return thrust_N > CARRIED * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
 
-static point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch, int from) {
+static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch, int from) {
   const gap_flight_t *f = g->flight;
   const int n = g->every, middle = from + n / 2;
-  point_t p = {
+  grid_point_t p = {
       .t_s = mean(f->t_s, from, n), .segment = f->segment ? f->segment[from] : 0, .q_wb = {.w = 1.0}};
   if (g->has_position)
     p.pos_w_m = mean3(f, SIG_X, from, n);
@@ -173,7 +174,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   if (!has_commands(f) && !has_speeds(f))
     return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed%s%s", f->name,
                      f->motor_lacks ? "; missing: " : "", f->motor_lacks ? f->motor_lacks : "");
-  g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(point_t));
+  g->point = malloc((size_t)((to - from) / g->every + 1) * sizeof(grid_point_t));
   if (!g->point || !speeds_room(g, (size_t)((to - from) / g->every)))
     return error_failed(why, "out of memory");
   TRY(take_commands(g, m, to - from, why));

@@ -26,7 +26,7 @@ typedef struct {
   double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
   d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
   double set_yaw_rad;
-} point_t;
+} grid_point_t;
 
 // Of a point. Free: it can be compared, by its own value or (turning) by its neighbours' too.
 enum { MARK_FREE = 1, MARK_TURN_FREE = 2, MARK_FIRST = 4, MARK_LAST = 8 }; // first, last: of a segment
@@ -44,7 +44,7 @@ typedef struct {
   int from, samples, every; // the first sample, how many, how many a point
   double period_s;          // of points
   int n;
-  point_t *point;
+  grid_point_t *point;
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   double *command_N[ROTORS];  // by sample, from `from`
@@ -66,7 +66,7 @@ const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s);
 // --- what the controller was told (set_points.c) ---------------------------------------------------------
 
 // Place, speed and heading of the samples from `from` on; NaN where the log has them not.
-void set_point_read(const grid_t *g, const model_t *m, int from, point_t *p);
+void set_point_read(const grid_t *g, const model_t *m, int from, grid_point_t *p);
 
 // Axis by axis over the whole grid: a place that stands still while the speed moves, or from which the
 // vehicle stays away, is left over from before, and is not what it follows: NaN.

@@ -8,7 +8,7 @@
 
 // --- one point --------------------------------------------------------------------------------------------
 
-static void place_body(body_t *b, const point_t *p) {
+static void place_body(body_t *b, const grid_point_t *p) {
   d3_put(b->y + RIGID_POS_M, p->pos_w_m);
   d3_put(b->y + RIGID_VEL_MPS, p->vel_w_mps);
   b->y[RIGID_Q_WB] = p->q_wb.w;
@@ -26,7 +26,7 @@ static void place_motors(body_t *b, const lagged_t *motors, int j) {
 
 // The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
 // is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
-static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const point_t *p, const axes_t *axes) {
+static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, const axes_t *axes) {
   const double up = fmax(axes_up_b(axes).z, 0.1);
   const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
   const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void measured(const point_t *p, double at[CHANNELS]) {
+static void measured(const grid_point_t *p, double at[CHANNELS]) {
   d3_put(at, p->acc_b_mps2);
   d3_put(at + CH_FORCES, p->rate_b_radps);
   at[CH_RANGE] = p->range_m;
@@ -30,7 +30,7 @@ done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why
 }
 
 bool residual_has(const set_t *s, int channel) {
-  if (s->muted[channel]) return false;
+  if (s->excluded[channel]) return false;
   if (channel == CH_RANGE) return s->range.n > 20 && s->grid[0].has_position;
   for (int i = 0; i < s->n_grid; i++) {
     const grid_t *g = &s->grid[i];

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SPREAD_S 0.08 // a masked point spoils the filter's output so far around it
-#define EDGE_S   0.3  // so does the end of a segment
-#define LEAST_S  1.0
-#define NEAR_M   0.003
+#define SPREAD_S     0.08 // a masked point spoils the filter's output so far around it
+#define EDGE_S       0.3  // so does the end of a segment
+#define FLIGHT_MIN_S 1.0
+#define TOUCHES_M    0.003
 
 // good[j]: nothing masked is near.
 static void find_good(const grid_t *g, bool *good) {
@@ -75,9 +75,9 @@ static done_t no_rows(const grid_t *g, why_t *why) {
   const char *const name = g->flight->name;
   const double span_s = g->n * g->period_s;
   int near = 0;
-  for (int j = 0; j < g->n; j++) near += g->point[j].clear_m < NEAR_M;
-  if (span_s < LEAST_S)
-    return error_set(why, "%s: %.2g s of flight; allowed: %g s or more", name, span_s, LEAST_S);
+  for (int j = 0; j < g->n; j++) near += g->point[j].clear_m < TOUCHES_M;
+  if (span_s < FLIGHT_MIN_S)
+    return error_set(why, "%s: %.2g s of flight; allowed: %g s or more", name, span_s, FLIGHT_MIN_S);
   if (2 * near > g->n)
     return error_set(
         why, "%s: on the floor, or at the vehicle file's ceiling or above it; allowed: free flight", name);

@@ -22,7 +22,7 @@ typedef struct {
   rows_t smooth, range;
   int n_block, *half; // of each block: which half-flight it belongs to
   int n_half;
-  bool muted[CHANNELS]; // muted.h
+  bool excluded[CHANNELS]; // excluded.h
 } set_t;
 
 static inline const rows_t *set_rows(const set_t *s, int channel) {

@@ -15,7 +15,7 @@ static double mean_or_nan(const gap_flight_t *f, int signal, int from, int n) {
   return sum / n;
 }
 
-void set_point_read(const grid_t *g, const model_t *m, int from, point_t *p) {
+void set_point_read(const grid_t *g, const model_t *m, int from, grid_point_t *p) {
   const gap_flight_t *f = g->flight;
   const int n = g->every;
   p->set_w_m = d3(mean_or_nan(f, SIG_SET_X, from, n), mean_or_nan(f, SIG_SET_Y, from, n),
@@ -50,7 +50,7 @@ void set_points_judge(grid_t *g) {
   for (int k = 0; k < 3; k++) {
     moments_t place = {0}, speed = {0}, off = {0};
     for (int j = 0; j < g->n; j++) {
-      point_t *p = &g->point[j];
+      grid_point_t *p = &g->point[j];
       if (!p->ok) continue;
       count(&place, *axis(&p->set_w_m, k));
       count(&speed, *axis(&p->set_w_mps, k));
@@ -64,7 +64,7 @@ void set_points_judge(grid_t *g) {
 
 bool set_points_there(const grid_t *g) {
   for (int j = 0; j < g->n; j++) {
-    const point_t *p = &g->point[j];
+    const grid_point_t *p = &g->point[j];
     const d3_t place = p->set_w_m, speed = p->set_w_mps;
     if (!p->ok) continue;
     if (isfinite(place.x) || isfinite(place.y) || isfinite(place.z)) return true;
@@ -124,9 +124,9 @@ static void line_of_voltage(grid_t *to, const grid_t *g) {
 
 done_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
   *track = *g;
-  track->point = malloc(((size_t)g->n + 1) * sizeof(point_t));
+  track->point = malloc(((size_t)g->n + 1) * sizeof(grid_point_t));
   if (!track->point) return error_failed(why, "out of memory");
-  memcpy(track->point, g->point, (size_t)g->n * sizeof(point_t));
+  memcpy(track->point, g->point, (size_t)g->n * sizeof(grid_point_t));
   for (int k = 0; k < 3; k++) lead(track, g, k);
   head(track, g);
   line_of_voltage(track, g);

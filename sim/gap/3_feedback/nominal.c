@@ -5,13 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CALMER 4    // times that a flight is tried again with less disturbance
-#define LONG_S 60.0 // of a flight, so much is flown
+#define CALMER  4    // times that a flight is tried again with less disturbance
+#define FLOWN_S 60.0 // of a flight, so much is flown
 
 // A part of a grid that is short enough: its first points.
 static grid_t beginning(const grid_t *g) {
   grid_t part = *g;
-  const int most = (int)(LONG_S / g->period_s);
+  const int most = (int)(FLOWN_S / g->period_s);
   int from = 0;
   while (from < g->n && !g->point[from].ok) from++;
   if (part.n > from + most) part.n = from + most;
@@ -19,7 +19,7 @@ static grid_t beginning(const grid_t *g) {
 }
 
 // A vehicle that is lost in the log's disturbance gets less of it.
-static void calm(manner_t *w) {
+static void calm(closed_loop_t *w) {
   for (int i = 0; i < 3; i++) {
     w->force_mps2[i] *= 0.5;
     w->turn_radps2[i] *= 0.5;
@@ -31,12 +31,12 @@ static void calm(manner_t *w) {
 }
 
 done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                       const manner_t *w, unsigned long seed, why_t *why) {
+                       const closed_loop_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t part = beginning(&s->grid[f]);
     if (part.n < 50) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
-    manner_t calmer = *w;
+    closed_loop_t calmer = *w;
     gap_flight_t *const is = truth ? &truth->flight[to->n] : NULL;
     done_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
     for (int k = 0; k < CALMER && status != DONE; k++) {
@@ -62,17 +62,17 @@ done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t
   return status;
 }
 
-done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const closed_loop_t *loop,
                      unsigned long seed, why_t *why) {
   const size_t n = (size_t)like->n_grid + 1;
   *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
                  .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
   if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
-  TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, manner, seed, why));
+  TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, loop, seed, why));
   TRY(nominal_set(&a->seen, &a->seen_flights, m, why));
   TRY(nominal_set(&a->is, &a->is_flights, m, why));
-  memcpy(a->seen.muted, like->muted, sizeof a->seen.muted);
-  memcpy(a->is.muted, like->muted, sizeof a->is.muted);
+  memcpy(a->seen.excluded, like->excluded, sizeof a->seen.excluded);
+  memcpy(a->is.excluded, like->excluded, sizeof a->is.excluded);
   return DONE;
 }
 

@@ -11,7 +11,7 @@
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
 #include "gap/2_predict/residual.h"
-#include "gap/3_feedback/manner_slow.h"
+#include "gap/3_feedback/slow_errors.h"
 #include "pilots/flown_by.h"
 
 // How a flight was flown and measured.
@@ -23,15 +23,16 @@ typedef struct {
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
   double turn_radps2[3], turn_tau_s;
   const flown_by_t *flown_by; // who flew, as far as the vehicle file says; null: nobody knows
-} manner_t;
+} closed_loop_t;
 
 // residual: of the best model so far, by channel and row of the set.
-manner_t manner_of(const set_t *s, const model_t *m, const flown_by_t *by, double *const residual[CHANNELS]);
+closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
+                             double *const residual[CHANNELS]);
 
 // One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
 // estimates. FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
-MUST_CHECK done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *manner, unsigned long seed,
-                              gap_flight_t *flight, gap_flight_t *truth, why_t *why);
+MUST_CHECK done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *loop,
+                              unsigned long seed, gap_flight_t *flight, gap_flight_t *truth, why_t *why);
 
 // One flight along each flight of a set, by a model, as it is seen and as it is: a set of each, with the same
 // channels. FAILED as above. Free it, also on an error.
@@ -40,14 +41,14 @@ typedef struct {
   gap_flights_t seen_flights, is_flights;
 } along_t;
 
-MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const manner_t *manner,
+MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const closed_loop_t *loop,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
 // One flight along each flight of a set, the first 60 s of each. truth: the same flights without errors; may
 // be null. Both lists have room. FAILED as above.
 MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                                  const manner_t *manner, unsigned long seed, why_t *why);
+                                  const closed_loop_t *loop, unsigned long seed, why_t *why);
 // The flights as a set. FAILED: no memory.
 MUST_CHECK done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why);
 

@@ -3,15 +3,16 @@
 
 #include "body/body.h"
 #include <math.h>
+#include <stdlib.h>
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
 // What is lost is put back on the track. A known pilot is not a tamed one, and may end on the floor, where
 // the log's vehicle flew on.
-#define DOWN_S   0.2 // of contact
-#define UP_LEAST 0.5 // cosine of the tilt
-#define MASK_S   0.4 // until what it does is its own again
-#define PUT_S    3.0 // more often it cannot fly there
+#define DOWN_S  0.2 // of contact
+#define UPRIGHT 0.5 // cosine of the tilt
+#define MASK_S  0.4 // until what it does is its own again
+#define PUT_S   3.0 // more often it cannot fly there
 
 // Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
@@ -28,7 +29,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
 
 static const fx_t disturb = {.name = "disturbance", .n_param = FX_PARAM_MAX, .tick = tick};
 
-static done_t disturbed(const model_t *m, const manner_t *w, model_t *out, why_t *why) {
+static done_t disturbed(const model_t *m, const closed_loop_t *w, model_t *out, why_t *why) {
   fx_use_t use = {.fx = &disturb};
   for (int i = 0; i < 3; i++) {
     use.p[i] = m->mass_kg * w->force_mps2[i];
@@ -73,35 +74,35 @@ static void drift(nominal_flight_t *f, double step_s) {
   f->angle_off_rad = drifted(f, f->angle_off_rad, &f->w->slow_angle_rad, step_s);
 }
 
-static point_t is(const nominal_flight_t *f) {
+static grid_point_t is(const nominal_flight_t *f) {
   const body_t *b = &f->body;
   const fx_sensed_t s = sensed(f);
-  return (point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
-                   .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
-                   .q_wb = dq_of(b->y + RIGID_Q_WB),
-                   .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
-                   .acc_b_mps2 = s.acc_b_mps2,
-                   .range_m = s.range_m,
-                   .vbat_V = b->vbat_V};
+  return (grid_point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
+                        .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
+                        .q_wb = dq_of(b->y + RIGID_Q_WB),
+                        .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
+                        .acc_b_mps2 = s.acc_b_mps2,
+                        .range_m = s.range_m,
+                        .vbat_V = b->vbat_V};
 }
 
-static point_t see(const nominal_flight_t *f, const point_t *truth) {
-  const manner_t *w = f->w;
+static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth) {
+  const closed_loop_t *w = f->w;
   const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, w->angle_rad));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  return (point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
-                   .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
-                   .q_wb = dq_mul(truth->q_wb, wrong),
-                   .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
-                   .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
-                   .range_m = noisy(f, truth->range_m, w->range_m),
-                   .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
+  return (grid_point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
+                        .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
+                        .q_wb = dq_mul(truth->q_wb, wrong),
+                        .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
+                        .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
+                        .range_m = noisy(f, truth->range_m, w->range_m),
+                        .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
 }
 
 // --- the flight -------------------------------------------------------------------------------------------
 
-static void steer(nominal_flight_t *f, double step_s, const point_t *seen, double motor_N[ROTORS]) {
-  const point_t *track = &f->g->point[f->at];
+static void steer(nominal_flight_t *f, double step_s, const grid_point_t *seen, double motor_N[ROTORS]) {
+  const grid_point_t *track = &f->g->point[f->at];
   if (f->known)
     known_steer(f->known, step_s, track, seen, motor_N);
   else
@@ -110,7 +111,7 @@ static void steer(nominal_flight_t *f, double step_s, const point_t *seen, doubl
 
 // On the track, hovering, with a fresh pilot.
 static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
-  const point_t *p = &f->g->point[f->at];
+  const grid_point_t *p = &f->g->point[f->at];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
@@ -125,14 +126,14 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
 
 static done_t find_pilot(nominal_flight_t *f, why_t *why) {
   if (!f->w->flown_by || f->w->flown_by->kind == FLOWN_BY_UNKNOWN) return DONE;
-  const point_t truth = is(f), seen = see(f, &truth);
+  const grid_point_t truth = is(f), seen = see(f, &truth);
   return known_open(&f->known, f, &seen, why);
 }
 
 static bool is_down(nominal_flight_t *f, double span_s) {
   const axes_t axes = axes_of(dq_of(f->body.y + RIGID_Q_WB));
   f->down_s += f->body.on_floor || f->body.on_ceiling ? span_s : 0.0;
-  return f->down_s > DOWN_S || axes_up_b(&axes).z < UP_LEAST;
+  return f->down_s > DOWN_S || axes_up_b(&axes).z < UPRIGHT;
 }
 
 static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
@@ -146,7 +147,7 @@ static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
   f->body.integrate = NULL;
-  known_close(f->known);
+  free(f->known);
   f->known = NULL;
   TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
   return find_pilot(f, why);
@@ -163,7 +164,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
       for (int k = 0; k < inner; k++) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        const point_t truth = is(f), seen = see(f, &truth);
+        const grid_point_t truth = is(f), seen = see(f, &truth);
         steer(f, step_s, &seen, motor_N);
         if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
         if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
@@ -185,7 +186,7 @@ static done_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
   return f->random ? find_pilot(f, why) : error_failed(why, "out of memory");
 }
 
-done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigned long seed,
+done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, unsigned long seed,
                    gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
   nominal_flight_t f = {
       .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
@@ -203,7 +204,7 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const manner_t *w, unsigne
   if (status == DONE) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
-  known_close(f.known);
+  free(f.known);
   if (status != DONE) gap_flight_free(flight);
   if (status != DONE && truth) gap_flight_free(truth);
   return status;

@@ -1,7 +1,7 @@
 // nominal_known.c - the nominal flights' pilot where the vehicle file says who flew.
 #include "gap/3_feedback/nominal_known.h"
 
-#include "gap/3_feedback/nominal_own.h"
+#include "pilots/pilot_flight.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,8 +13,8 @@ struct known {
   const flown_by_t *by;
   bool range_up;
   stock_pid_t pid;
-  own_t *own;
-  pilot_t pilot; // FLOWN_BY_INDI
+  pilot_flight_t flight; // FLOWN_BY_INDI
+  pilot_t pilot;
   pilot_in_t in;
   double due_s, range_due_s; // since the last call, and the last sample of the range sensor
   double motor_N[ROTORS];
@@ -35,7 +35,7 @@ static double ahead(const pid_gain_t *p, double mps) {
 }
 
 // The log's own set points, axis by axis: a place; a speed alone; both.
-static void take_logged(pilot_setpoint_t *set, const point_t *track) {
+static void take_logged(pilot_setpoint_t *set, const grid_point_t *track) {
   const double place_m[3] = {track->set_w_m.x, track->set_w_m.y, track->set_w_m.z};
   const double speed_mps[3] = {track->set_w_mps.x, track->set_w_mps.y, track->set_w_mps.z};
   double *const to_m[3] = {&set->pos_w_m.x, &set->pos_w_m.y, &set->pos_w_m.z};
@@ -49,7 +49,7 @@ static void take_logged(pilot_setpoint_t *set, const point_t *track) {
   if (isfinite(track->set_yaw_rad)) set->yaw_rad = track->set_yaw_rad;
 }
 
-static void order(known_t *k, const point_t *track) {
+static void order(known_t *k, const grid_point_t *track) {
   pilot_setpoint_t *const set = &k->in.set;
   const pid_gain_t *pos = k->by->pid.position.pos;
   const d3_t v = track->vel_w_mps;
@@ -62,7 +62,7 @@ static void order(known_t *k, const point_t *track) {
   take_logged(set, track);
 }
 
-static void show(known_t *k, const point_t *seen, double step_s) {
+static void show(known_t *k, const grid_point_t *seen, double step_s) {
   k->range_due_s += step_s;
   k->in.range_new = k->range_up && k->range_due_s >= RANGE_S;
   if (k->in.range_new) k->range_due_s = 0.0;
@@ -110,7 +110,23 @@ static void settle(known_t *k, const double motor_N[ROTORS]) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-done_t known_open(known_t **known, const nominal_flight_t *f, const point_t *seen, why_t *why) {
+// The flight code itself, with the parameters of the vehicle file.
+static done_t open_flight(known_t *k, why_t *why) {
+  const model_t *const m = k->m;
+  flight_param_t param;
+  params_default(&param);
+  param.pos.mass_kg = (float)m->mass_kg;
+  param.motor_tau_s = (float)m->motor_tau_s;
+  for (int i = 0; i < k->by->n_set; i++) {
+    const param_row_t *const row = params_find(k->by->set[i].name);
+    if (!row || params_set(&param, row, (float)k->by->set[i].value) != ST_OK)
+      return error_failed(why, "%s: the flight code has no such parameter", k->by->set[i].name);
+  }
+  if (pilot_flight_init(&k->flight, &param, m, &k->pilot) == DONE) return DONE;
+  return error_failed(why, "%s: the flight code cannot fly it with its [controller]", m->name);
+}
+
+done_t known_open(known_t **known, const nominal_flight_t *f, const grid_point_t *seen, why_t *why) {
   known_t *const k = *known = calloc(1, sizeof *k);
   if (!k) return error_failed(why, "out of memory");
   k->m = f->body.model;
@@ -119,14 +135,14 @@ done_t known_open(known_t **known, const nominal_flight_t *f, const point_t *see
   for (int i = 0; i < ROTORS; i++) k->in.applied_N[i] = f->body.command_N[i];
   order(k, seen);
   show(k, seen, 0.0);
-  if (!by_pid(k)) return own_open(&k->own, k->m, k->by, &k->pilot, why);
+  if (!by_pid(k)) return open_flight(k, why);
   k->pid.param = k->by->pid;
   stock_pid_reset(&k->pid);
   settle(k, f->body.command_N);
   return DONE;
 }
 
-void known_steer(known_t *k, double step_s, const point_t *track, const point_t *seen,
+void known_steer(known_t *k, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]) {
   double unit[ROTORS];
   order(k, track);
@@ -142,9 +158,4 @@ void known_steer(known_t *k, double step_s, const point_t *track, const point_t 
   }
   for (int i = 0; i < ROTORS; i++)
     k->in.applied_N[i] = motor_N[i] = fmax(0.0, fmin(k->motor_N[i], k->m->thrust_max_N / ROTORS));
-}
-
-void known_close(known_t *k) {
-  if (k) own_close(k->own);
-  free(k);
 }

@@ -11,14 +11,13 @@
 
 typedef struct known known_t;
 
-// After pilot_trim. FAILED: no memory, or parameters that the flight code refuses.
-MUST_CHECK done_t known_open(known_t **known, const nominal_flight_t *f, const point_t *seen, why_t *why);
+// After pilot_trim. FAILED: no memory, or parameters that the flight code refuses. free() it, also on an
+// error.
+MUST_CHECK done_t known_open(known_t **known, const nominal_flight_t *f, const grid_point_t *seen,
+                             why_t *why);
 
 // Newton of each motor after so many seconds more.
-void known_steer(known_t *known, double step_s, const point_t *track, const point_t *seen,
+void known_steer(known_t *known, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]);
-
-// A null pointer is allowed.
-void known_close(known_t *known);
 
 #endif

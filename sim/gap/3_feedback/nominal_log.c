@@ -30,7 +30,7 @@ static void put3(const gap_flight_t *log, int signal, int i, d3_t v) {
     if (log->v[signal + k]) log->v[signal + k][i] = x[k];
 }
 
-void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const grid_point_t *p,
                        const double motor_N[ROTORS], double t_s) {
   const int i = log->n++;
   log->t_s[i] = t_s;

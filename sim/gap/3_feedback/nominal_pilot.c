@@ -5,30 +5,30 @@
 #include <math.h>
 #include <string.h>
 
-#define QUICK_S  0.03 // slower motors get commands with a lead, so that they are as quick as this
-#define SWIFT    1.3  // rate gain times lag at most: the cascade rings beyond
-#define TILT_MAX 0.5
-#define AHEAD_S  0.1  // the track's acceleration is a difference over this on both sides
-#define SURE     2.0  // standard errors of it
-#define SPARE    0.95 // of the motors' thrust; the rest turns the vehicle
-#define YAW      2.0
+#define QUICK_S   0.03 // slower motors get commands with a lead, so that they are as quick as this
+#define SWIFT     1.3  // rate gain times lag at most: the cascade rings beyond
+#define TILT_MAX  0.5
+#define AHEAD_S   0.1  // the track's acceleration is a difference over this on both sides
+#define BEND_SURE 2.0  // standard errors of it
+#define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
+#define YAW       2.0
 
 // How the track is bent, where that is more than errors of its velocity: in a hover those would shake the
 // vehicle.
 static d3_t track_acc(const nominal_flight_t *f) {
   const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s)), from = f->at - side, to = f->at + side;
-  const point_t *p = f->g->point;
+  const grid_point_t *p = f->g->point;
   if (!f->g->has_velocity || from < f->from || to >= f->to) return d3(0.0, 0.0, 0.0);
   const double span_s = p[to].t_s - p[from].t_s;
   if (span_s > 4.0 * AHEAD_S) return d3(0.0, 0.0, 0.0);
   const d3_t acc = d3_scale(1.0 / span_s, d3_sub(p[to].vel_w_mps, p[from].vel_w_mps));
-  const double error = SURE * sqrt(2.0) * hypot(f->w->vel_mps, f->w->slow_vel_mps.sd) / span_s;
+  const double error = BEND_SURE * sqrt(2.0) * hypot(f->w->vel_mps, f->w->slow_vel_mps.sd) / span_s;
   return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
 }
 
-static d3_t wanted_acc(const nominal_flight_t *f, const point_t *track, const point_t *seen) {
+static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, const grid_point_t *seen) {
   const d3_t off = d3_sub(track->pos_w_m, seen->pos_w_m), slip = d3_sub(track->vel_w_mps, seen->vel_w_mps);
-  const manner_t *w = f->w;
+  const closed_loop_t *w = f->w;
   const bool place = f->g->has_position;
   const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
   const d3_t feed = track_acc(f);
@@ -62,9 +62,9 @@ static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, doubl
   for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 
-void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
+void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]) {
-  const manner_t *w = f->w;
+  const closed_loop_t *w = f->w;
   const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
   const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
@@ -87,7 +87,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const
 
 void pilot_tame(nominal_flight_t *f) {
   const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * f->body.plant.delay_s);
-  manner_t *const w = &f->own;
+  closed_loop_t *const w = &f->own;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = fmin(w->tilt_gain, 0.25 * least * least);

@@ -7,8 +7,8 @@
 typedef struct {
   const grid_t *g;
   const model_t *m;
-  manner_t own; // as the log was flown, as far as this pilot can
-  const manner_t *w;
+  closed_loop_t own; // as the log was flown, as far as this pilot can
+  const closed_loop_t *w;
   double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
   body_t body;
   random_t *random;
@@ -26,7 +26,7 @@ typedef struct {
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.
-void pilot_steer(nominal_flight_t *f, double step_s, const point_t *track, const point_t *seen,
+void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]);
 
 // Gains that do not ring with the body's lag.
@@ -39,7 +39,7 @@ void pilot_trim(nominal_flight_t *f);
 bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n);
 
 // One sample more, with what is seen (or is true) at it.
-void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const point_t *p,
+void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const grid_point_t *p,
                        const double motor_N[ROTORS], double t_s);
 
 #endif

@@ -75,15 +75,15 @@ typedef struct {
   int columns;
   double **x[CHANNELS];
   double *room;
-} table_t;
+} design_t;
 
 // Of all candidates, about the numbers of those that are chosen. FAILED: no memory.
-MUST_CHECK done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c,
-                             const chosen_t *chosen, why_t *why);
-void table_free(table_t *t);
+MUST_CHECK done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c,
+                              const chosen_t *chosen, why_t *why);
+void design_free(design_t *t);
 
 // Adds to the residual so many times what the straight line says that the chosen candidates do.
-void table_add_chosen(table_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
-                      double times);
+void design_add_chosen(design_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
+                       double times);
 
 #endif

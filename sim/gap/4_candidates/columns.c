@@ -26,7 +26,7 @@ static bool all_zero(const double *v, int n) {
   return true;
 }
 
-static done_t fill_column(table_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
+static done_t fill_column(design_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
   double *row[CHANNELS] = {NULL};
   for (int ch = 0; ch < CHANNELS; ch++) {
     if (!residual_has(s, ch) || all_zero(l->with[ch], s->grid[flight].n)) continue;
@@ -54,7 +54,7 @@ static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
 
 // The columns of the candidates that start from this model: of all but the other shapes of a chosen effect,
 // or of those of one that the model has no longer.
-static done_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
+static done_t fill_columns(design_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
                            const asked_t *a, flight_lines_t *l, why_t *why) {
   for (int i = 0; i < a->c->n; i++) {
     const candidate_t *const c = &a->c->candidate[i];
@@ -68,7 +68,7 @@ static done_t fill_columns(table_t *t, set_t *s, int flight, const path_t *now, 
   return DONE;
 }
 
-static done_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
+static done_t fill_from(design_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
                         const asked_t *a, flight_lines_t *l, why_t *why) {
   path_t path;
   done_t status = replay_keep(&s->grid[flight], m, &path, l->base, why);
@@ -77,7 +77,7 @@ static done_t fill_from(table_t *t, set_t *s, int flight, const model_t *m, cons
   return status;
 }
 
-static done_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, const asked_t *a,
+static done_t fill_flight(design_t *t, set_t *s, int flight, const model_t *now, const asked_t *a,
                           flight_lines_t *l, why_t *why) {
   TRY(fill_from(t, s, flight, now, NULL, a, l, why));
   for (int i = 0; i < a->chosen->n; i++) {
@@ -90,8 +90,8 @@ static done_t fill_flight(table_t *t, set_t *s, int flight, const model_t *now, 
   return DONE;
 }
 
-void table_add_chosen(table_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
-                      double times) {
+void design_add_chosen(design_t *t, const set_t *s, const candidates_t *c, const chosen_t *chosen,
+                       double times) {
   for (int i = 0; i < chosen->n; i++) {
     const candidate_t *const own = &c->candidate[chosen->of[i]];
     for (int k = 0; k < own->n; k++)
@@ -103,7 +103,7 @@ void table_add_chosen(table_t *t, const set_t *s, const candidates_t *c, const c
   }
 }
 
-static bool table_room(table_t *t, const set_t *s) {
+static bool design_room(design_t *t, const set_t *s) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     t->x[ch] = calloc((size_t)t->columns + 1, sizeof(double *));
     if (!t->x[ch]) return false;
@@ -113,28 +113,28 @@ static bool table_room(table_t *t, const set_t *s) {
   return true;
 }
 
-done_t table_make(table_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
-                  why_t *why) {
+done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                   why_t *why) {
   const asked_t asked = {c, chosen};
   flight_lines_t l;
   model_t now;
   double *r[CHANNELS];
-  *t = (table_t){.columns = c->columns};
+  *t = (design_t){.columns = c->columns};
   TRY(chosen_model(chosen, base, &now, why));
-  if (!table_room(t, s) || !flight_lines_make(&l, s)) {
-    table_free(t);
+  if (!design_room(t, s) || !flight_lines_make(&l, s)) {
+    design_free(t);
     return error_failed(why, "out of memory");
   }
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
   done_t status = residual_of(s, &now, r, why);
   for (int f = 0; f < s->n_grid && status == DONE; f++) status = fill_flight(t, s, f, &now, &asked, &l, why);
   free(l.room);
-  if (status == DONE) table_add_chosen(t, s, c, chosen, 1.0); // as the straight line has them
-  if (status != DONE) table_free(t);
+  if (status == DONE) design_add_chosen(t, s, c, chosen, 1.0); // as the straight line has them
+  if (status != DONE) design_free(t);
   return status;
 }
 
-void table_free(table_t *t) {
+void design_free(design_t *t) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     for (int i = 0; t->x[ch] && i <= t->columns; i++) free(t->x[ch][i]);
     free(t->x[ch]);

@@ -18,27 +18,27 @@ typedef struct {
   set_t *s;
   const model_t *base;
   model_t now; // with them
-  const manner_t *manner;
-  table_t table; // columns of the names, of the instruments, and the residual
+  const closed_loop_t *loop;
+  design_t table; // columns of the names, of the instruments, and the residual
 } confirming_t;
 
 // --- the flight along the reference -----------------------------------------------------------------------
 
-static manner_t quiet(const manner_t *w) {
-  manner_t q = {.tilt_gain = w->tilt_gain,
-                .climb_gain = w->climb_gain,
-                .height_gain = w->height_gain,
-                .flown_by = w->flown_by};
+static closed_loop_t quiet(const closed_loop_t *w) {
+  closed_loop_t q = {.tilt_gain = w->tilt_gain,
+                     .climb_gain = w->climb_gain,
+                     .height_gain = w->height_gain,
+                     .flown_by = w->flown_by};
   for (int i = 0; i < 3; i++) q.rate_gain[i] = w->rate_gain[i];
   q.force_tau_s = q.turn_tau_s = 1.0;
   return q;
 }
 
 // first: the point of the track at which it begins.
-static done_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
-                  why_t *why) {
+static done_t fly_quietly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
+                          why_t *why) {
   const grid_t *g = &t->s->grid[flight];
-  const manner_t manner = quiet(t->manner);
+  const closed_loop_t loop = quiet(t->loop);
   model_t room = t->now;
   room.ceiling_m =
       HUGE_VAL; // who follows it without a disturbance does not touch what the log's vehicle did not
@@ -46,7 +46,7 @@ static done_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *f
   TRY(set_points_track(g, &track, why));
   for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
   why_t lost;
-  *flew = nominal_fly(&track, &room, &manner, 1, flown, NULL, &lost) == DONE;
+  *flew = nominal_fly(&track, &room, &loop, 1, flown, NULL, &lost) == DONE;
   free(track.point);
   return DONE;
 }
@@ -55,9 +55,9 @@ static done_t fly(const confirming_t *t, int flight, gap_flight_t *flown, int *f
 
 typedef struct {
   double *base[CHANNELS], *with[CHANNELS], *series[CHANNELS], *scratch, *room;
-} room_t;
+} replay_room_t;
 
-static bool room_make(room_t *r, size_t n) {
+static bool replay_room(replay_room_t *r, size_t n) {
   r->room = calloc((3 * CHANNELS + CH_SMOOTH) * (n + 1), sizeof(double));
   for (size_t ch = 0; r->room && ch < CHANNELS; ch++) {
     r->base[ch] = r->room + ch * (n + 1);
@@ -82,8 +82,8 @@ static double **instrument(confirming_t *t, int channel, int column, int lag) {
   return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + LAGS * group + lag];
 }
 
-static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, room_t *r, int column,
-                              why_t *why) {
+static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, replay_room_t *r,
+                              int column, why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   const int step = (int)fmax(1.0, round(LAG_S / g->period_s));
   for (int l = 0; l < LAGS; l++) {
@@ -103,9 +103,10 @@ static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int fi
 
 static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, why_t *why) {
   const grid_t *g = &t->s->grid[flight];
-  room_t r;
+  replay_room_t r;
   path_t path;
-  if (!room_make(&r, (size_t)(g->n > quiet->n ? g->n : quiet->n))) return error_failed(why, "out of memory");
+  if (!replay_room(&r, (size_t)(g->n > quiet->n ? g->n : quiet->n)))
+    return error_failed(why, "out of memory");
   done_t status = replay_keep(quiet, &t->now, &path, r.base, why);
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
@@ -124,7 +125,7 @@ static done_t make_instruments(confirming_t *t, bool *flew, why_t *why) {
     gap_flight_t flown;
     grid_t quiet = {.n = 0};
     int first;
-    TRY(fly(t, f, &flown, &first, flew, why));
+    TRY(fly_quietly(t, f, &flown, &first, flew, why));
     if (!*flew) break;
     done_t status = grid_make(&quiet, &flown, 0, flown.n, t->base, why);
     if (status == DONE) status = put_flight(t, f, &quiet, first, why);
@@ -136,10 +137,10 @@ static done_t make_instruments(confirming_t *t, bool *flew, why_t *why) {
 }
 
 static done_t make_table(confirming_t *t, why_t *why) {
-  table_t names;
-  TRY(table_make(&names, t->s, t->base, &t->names, &t->chosen, why));
+  design_t names;
+  TRY(design_make(&names, t->s, t->base, &t->names, &t->chosen, why));
   const int n = names.columns;
-  t->table = (table_t){.columns = n * (1 + INSTRUMENTS)};
+  t->table = (design_t){.columns = n * (1 + INSTRUMENTS)};
   bool good = true;
   for (int ch = 0; ch < CHANNELS; ch++) {
     double **const x = t->table.x[ch] = calloc((size_t)t->table.columns + 1, sizeof *x);
@@ -149,7 +150,7 @@ static done_t make_table(confirming_t *t, why_t *why) {
       names.x[ch][i] = NULL;
     }
   }
-  table_free(&names);
+  design_free(&names);
   return good ? DONE : error_failed(why, "out of memory");
 }
 
@@ -242,24 +243,24 @@ static done_t take_names(confirming_t *t, const candidates_t *c, const chosen_t 
   return chosen_model(chosen, t->base, &t->now, why);
 }
 
-static bool all_told(const set_t *s) {
+static bool all_have_set_points(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     if (!set_points_there(&s->grid[f])) return false;
   return s->n_grid > 0;
 }
 
-done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
+done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const closed_loop_t *loop,
                      found_t *found, const char **why_not, why_t *why) {
-  confirming_t t = {.s = s, .base = base, .manner = manner};
+  confirming_t t = {.s = s, .base = base, .loop = loop};
   bool flew = false;
   *why_not = NULL;
-  if (found->n == 0 || !all_told(s)) return DONE;
+  if (found->n == 0 || !all_have_set_points(s)) return DONE;
   done_t status = take_names(&t, c, &found->chosen, why);
   if (status == DONE) status = make_table(&t, why);
   if (status == DONE) status = make_instruments(&t, &flew, why);
   if (status == DONE && flew) status = ask_instruments(&t, found, why);
   if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
-  table_free(&t.table);
+  design_free(&t.table);
   free(t.names.candidate);
   return status;
 }

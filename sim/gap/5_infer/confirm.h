@@ -13,7 +13,7 @@
 
 // Sets found->named[].confirm; nothing changes where no log has set points, or the model cannot be flown
 // along them (*why_not says so, else it is null). Names and their values stay. FAILED: no memory.
-MUST_CHECK done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const manner_t *manner,
-                                found_t *found, const char **why_not, why_t *why);
+MUST_CHECK done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base,
+                                const closed_loop_t *loop, found_t *found, const char **why_not, why_t *why);
 
 #endif

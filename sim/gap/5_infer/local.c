@@ -114,14 +114,14 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
 // Nor is a name known that is excited at some time only, where a constant in every channel from then to then
 // does as well: something may have begun there, or gone.
 
-#define ABSENT  0.55 // a slope that is below this, two standard errors included
-#define STRONG  0.95 // a slope inside that is above this
-#define TWICE   2.0  // or: a slope inside above this, where outside it is below 1
-#define OUTSIDE 0.05 // of the regressor's sum of squares must lie outside
-#define CLEAR   40.0 // less sum of squares by two slopes in place of one
-#define AS_WELL 0.9  // of what a name gives, that constants give
-#define BESIDE  3    // bins of time, at least, in which the name is not excited
-#define WIDER   1.5  // standard errors grow by this: white rows are not quite independent
+#define ABSENT       0.55 // a slope that is below this, two standard errors included
+#define STRONG       0.95 // a slope inside that is above this
+#define TWICE        2.0  // or: a slope inside above this, where outside it is below 1
+#define LEFT_OUTSIDE 0.05 // of the regressor's sum of squares must lie outside
+#define CLEAR        40.0 // less sum of squares by two slopes in place of one
+#define AS_WELL      0.9  // of what a name gives, that constants give
+#define BESIDE       3    // bins of time, at least, in which the name is not excited
+#define WIDER        1.5  // standard errors grow by this: white rows are not quite independent
 
 typedef struct {
   double ff[UNKNOWN_BINS], fy[UNKNOWN_BINS];
@@ -171,7 +171,7 @@ static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t 
 
 // in: the part in which the name is needed. Sums of f f and of f y.
 static bool absent(double ff_in, double fy_in, double ff_out, double fy_out) {
-  if (!(ff_out > OUTSIDE * (ff_in + ff_out)) || !(ff_in > 0.0)) return false;
+  if (!(ff_out > LEFT_OUTSIDE * (ff_in + ff_out)) || !(ff_in > 0.0)) return false;
   const double inside = fy_in / ff_in, outside = fy_out / ff_out, apart = inside - outside;
   const bool none = outside + 2.0 * WIDER / sqrt(ff_out) < ABSENT && inside > STRONG;
   return (none || (inside > TWICE && outside < 1.0)) &&
@@ -245,7 +245,7 @@ static bool at_times(const times_t *s) {
     double inside = 0.0;
     for (int to = from; to < UNKNOWN_BINS && to - from < UNKNOWN_BINS - BESIDE; to++) {
       inside += s->ff[to];
-      if (inside > (1.0 - OUTSIDE) * ff && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
+      if (inside > (1.0 - LEFT_OUTSIDE) * ff && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
         return true;
     }
   }

@@ -9,7 +9,7 @@
 #define KEPT_LEAST 0.02
 
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
-static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const table_t *is,
+static done_t find_kept(nominal_t *n, const set_t *s, const design_t *seen, const design_t *is,
                         const color_t color[CHANNELS], why_t *why) {
   const size_t rows = set_most_rows(s);
   double *const x = malloc(2 * rows * sizeof(double));
@@ -33,30 +33,30 @@ static done_t find_kept(nominal_t *n, const set_t *s, const table_t *seen, const
 
 // The same flights without errors have the same rows, but for a few that errors move out of sight: then
 // nothing is known.
-static done_t compare(nominal_t *n, const set_t *seen, const table_t *t, const color_t color[CHANNELS],
-                      const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
+static done_t find_errors(nominal_t *n, const set_t *seen, const design_t *t, const color_t color[CHANNELS],
+                          const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
-  table_t is = {.columns = 0};
+  design_t is = {.columns = 0};
   done_t status = nominal_set(&own, truth, job->base, why);
-  memcpy(own.muted, seen->muted, sizeof own.muted);
+  memcpy(own.excluded, seen->excluded, sizeof own.excluded);
   if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
-    status = table_make(&is, &own, job->base, job->c, job->chosen, why);
+    status = design_make(&is, &own, job->base, job->c, job->chosen, why);
     if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
-    if (status == DONE) table_free(&is);
+    if (status == DONE) design_free(&is);
   }
   set_free(&own);
   return status;
 }
 
-static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
-                    why_t *why) {
-  table_t t;
+static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+                        why_t *why) {
+  design_t t;
   gram_t g;
   cell_t cell;
   double *residual[CHANNELS];
   const explained_t nothing = {.n = 0};
-  TRY(table_make(&t, s, job->base, job->c, job->chosen, why));
-  table_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has them
+  TRY(design_make(&t, s, job->base, job->c, job->chosen, why));
+  design_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has them
   for (int ch = 0; ch < CHANNELS; ch++) {
     residual[ch] = t.x[ch][t.columns];
     const int rows = set_rows(s, ch)->n;
@@ -68,12 +68,12 @@ static done_t judge(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, c
   if (status == DONE) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
            (size_t)(n->size * n->size) * sizeof(double));
-    if (truth) status = compare(n, s, &t, g.color, truth, job, why);
+    if (truth) status = find_errors(n, s, &t, g.color, truth, job, why);
     gram_free(&g);
   }
   if (status == DONE) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
   if (status == DONE) n->cell[i] = cell.statistic;
-  table_free(&t);
+  design_free(&t);
   return status;
 }
 
@@ -85,10 +85,10 @@ static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
   truth.flight = flown.flight + flights;
-  done_t status = nominal_flights(&flown, is, s, &job->flown, job->manner, job->seed + (unsigned long)i, why);
+  done_t status = nominal_flights(&flown, is, s, &job->flown, job->loop, job->seed + (unsigned long)i, why);
   if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
-  memcpy(own.muted, s->muted, sizeof own.muted);
-  if (status == DONE) status = judge(n, i, &own, is, job, why);
+  memcpy(own.excluded, s->excluded, sizeof own.excluded);
+  if (status == DONE) status = take_sums(n, i, &own, is, job, why);
   set_free(&own);
   for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);

@@ -25,7 +25,7 @@ typedef struct {
   model_t flown;       // with
   const candidates_t *c;
   const chosen_t *chosen;
-  const manner_t *manner;
+  const closed_loop_t *loop;
   unsigned long seed;
 } nominal_job_t;
 

@@ -6,7 +6,7 @@
 void round_close(round_t *r) {
   score_free(&r->score);
   gram_free(&r->gram);
-  table_free(&r->table);
+  design_free(&r->table);
 }
 
 done_t round_open(round_t *r, why_t *why) {
@@ -18,7 +18,7 @@ done_t round_open(round_t *r, why_t *why) {
   }
   const explained_t known = {choice_columns(r->c, &r->choice, column), column, b, false};
   r->rounds++;
-  TRY(table_make(&r->table, r->s, r->base, r->c, &r->chosen, why));
+  TRY(design_make(&r->table, r->s, r->base, r->c, &r->chosen, why));
   done_t status = score_make(&r->score, r->c, &r->gram, r->nominal, why);
   if (status == DONE)
     status = gram_make(&r->gram, r->s, &r->table, &known, r->strict ? NULL : r->score.color_ridge, why);

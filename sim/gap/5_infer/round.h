@@ -17,7 +17,7 @@ typedef struct {
   chosen_t chosen;   // the same with their numbers, as of the last round_take
   bool strict;       // colours of what is chosen alone, not of all candidates
   int rounds;        // times that the columns were formed
-  table_t table;
+  design_t table;
   gram_t gram;
   score_t score;
 } round_t;

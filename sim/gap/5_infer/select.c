@@ -117,7 +117,7 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   return DONE;
 }
 
-static done_t look(select_t *t, why_t *why) {
+static done_t step_until_still(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
     bool changed = prune_one(t) || swap_one(t) || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
@@ -131,12 +131,12 @@ static done_t look(select_t *t, why_t *why) {
 // Then in those of what the named effects really leave: what a vehicle has of slow disturbance is noise
 // there.
 static done_t search(select_t *t, why_t *why) {
-  TRY(look(t, why));
+  TRY(step_until_still(t, why));
   t->round.strict = true;
   memset(t->taken, 0, (size_t)t->round.c->n * sizeof(int));
   round_close(&t->round);
   TRY(round_open(&t->round, why));
-  return look(t, why);
+  return step_until_still(t, why);
 }
 
 // What is left in the choice can be named.
@@ -169,7 +169,7 @@ static done_t take_timing(select_t *t, timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-static done_t find(select_t *t, found_t *found, why_t *why) {
+static done_t find_choice(select_t *t, found_t *found, why_t *why) {
   timing_t timing;
   TRY(take_timing(t, &timing, why));
   TRY(round_open(&t->round, why));
@@ -188,7 +188,7 @@ done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, con
   t.round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t.never};
   done_t status = found_make(found, c, why);
   if (status == DONE)
-    status = t.taken && t.never && t.alike ? find(&t, found, why) : error_failed(why, "out of memory");
+    status = t.taken && t.never && t.alike ? find_choice(&t, found, why) : error_failed(why, "out of memory");
   round_close(&t.round);
   free(t.taken);
   free(t.never);

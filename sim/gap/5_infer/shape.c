@@ -77,7 +77,7 @@ static done_t take_colors(polish_t *p, why_t *why) {
   return status;
 }
 
-static done_t search(polish_t *p, double x[MOST], why_t *why) {
+static done_t minimise(polish_t *p, double x[MOST], why_t *why) {
   double least, start[MOST], step[MOST], enough[MOST];
   for (int i = 0; i < p->n; i++) start[i] = x[i], step[i] = 0.1, enough[i] = 1e-3;
   const double before = left_with((unsigned)p->n, start, NULL, p);
@@ -141,7 +141,7 @@ static done_t polish(polish_t *p, named_t *named, why_t *why) {
   TRY(take_colors(p, why));
   double x[MOST] = {0.0};
   for (int i = 0; i < p->n; i++) x[i] = fmin(fmax(*number(p, i) / p->unit[i], p->low[i]), p->high[i]);
-  TRY(search(p, x, why));
+  TRY(minimise(p, x, why));
   take_errors(p, x, named);
   (void)left_with((unsigned)p->n, x, NULL, p);
   for (int k = 0; k < p->n - SIZE; k++) named->value[k] = *number(p, SIZE + k);

@@ -2,7 +2,6 @@
 #include "gap/5_infer/timing.h"
 
 #include "base/lsq_blocks.h"
-#include "gap/2_predict/increments.h"
 #include "gap/2_predict/lines.h"
 #include <math.h>
 
@@ -16,10 +15,10 @@ static double unlike(const increments_t *s) {
 
 // --- by trying them on force and turning ------------------------------------------------------------------
 
-#define LONG_S 0.045 // shorter ones the straight line finds
+#define STRAIGHT_S 0.045 // shorter ones the straight line finds
 
 static const double TRY_S[] = {0.005, 0.01, 0.015, 0.025, 0.035, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16};
-#define TRIES ((int)(sizeof TRY_S / sizeof *TRY_S))
+#define N_TRY ((int)(sizeof TRY_S / sizeof *TRY_S))
 
 static done_t unlike_rows(set_t *s, const model_t *m, const lines_t *measured, const lines_t *left,
                           double *sum, why_t *why) {
@@ -40,7 +39,7 @@ static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const mo
   TRY(unlike_rows(s, m, measured, left, &none, why));
   best = none - BETTER;
   for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].use.fx->class == FX_TIMING && k < TRIES; k++) {
+    for (int k = 0; c->candidate[i].use.fx->class == FX_TIMING && k < N_TRY; k++) {
       model_t with = *m;
       fx_use_t use = c->candidate[i].use;
       double now;
@@ -52,7 +51,7 @@ static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const mo
       found->candidate = i;
       found->value_s = TRY_S[k];
     }
-  if (found->value_s <= LONG_S) found->candidate = -1;
+  if (found->value_s <= STRAIGHT_S) found->candidate = -1;
   return DONE;
 }
 

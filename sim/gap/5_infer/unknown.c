@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BINS   UNKNOWN_BINS
 #define WIDEST 6 // bins of a window
 
 // --- coordinates ------------------------------------------------------------------------------------------
@@ -61,7 +60,7 @@ static double thrust_of(const grid_t *g, int j) {
 }
 
 double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
-  const point_t *p = &g->point[j];
+  const grid_point_t *p = &g->point[j];
   const double none = (double)NAN;
   const axes_t axes = axes_of(p->q_wb);
   const d3_t v = axes_to_body(&axes, p->vel_w_mps);
@@ -87,20 +86,21 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
 
 // --- bins -------------------------------------------------------------------------------------------------
 
-// The bin of every row, and the edges (BINS + 1). False: the coordinate is not there or does not move.
-static bool cut(const double *value, int n, double *parted, int *bin, double edge[BINS + 1]) {
+// The bin of every row, and the edges (UNKNOWN_BINS + 1). False: the coordinate is not there or does not
+// move.
+static bool cut_bins(const double *value, int n, double *parted, int *bin, double edge[UNKNOWN_BINS + 1]) {
   for (int i = 0; i < n; i++) {
     if (isnan(value[i])) return false;
     parted[i] = value[i];
   }
-  for (int k = 0, from = 0, at = 0; k <= BINS; k++, from = at) {
-    at = k * (n - 1) / BINS;
+  for (int k = 0, from = 0, at = 0; k <= UNKNOWN_BINS; k++, from = at) {
+    at = k * (n - 1) / UNKNOWN_BINS;
     edge[k] = nth_smallest(parted + from, n - from, at - from);
   }
-  if (!(edge[BINS] - edge[0] > 1e-9)) return false;
+  if (!(edge[UNKNOWN_BINS] - edge[0] > 1e-9)) return false;
   for (int i = 0; i < n; i++) {
     int k = 0;
-    while (k < BINS - 1 && value[i] >= edge[k + 1]) k++;
+    while (k < UNKNOWN_BINS - 1 && value[i] >= edge[k + 1]) k++;
     bin[i] = k;
   }
   return true;
@@ -112,24 +112,24 @@ static const rows_t *rows_of(const set_t *s, int list) {
 }
 
 static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin,
-                    double edge[BINS + 1]) {
+                    double edge[UNKNOWN_BINS + 1]) {
   const rows_t *r = rows_of(s, list);
-  if (r->n < 4 * BINS) return false;
+  if (r->n < 4 * UNKNOWN_BINS) return false;
   for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
-  return cut(room, r->n, room + r->n, bin, edge);
+  return cut_bins(room, r->n, room + r->n, bin, edge);
 }
 
 bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
-  double edge[BINS + 1];
+  double edge[UNKNOWN_BINS + 1];
   return bins_of(s, m, coordinate, list, room, bin, edge);
 }
 
 // Products of indicator columns with each other and with the residual, all white.
 typedef struct {
-  double D[BINS + 1][BINS + 1], y[BINS + 1]; // the last: a constant
+  double D[UNKNOWN_BINS + 1][UNKNOWN_BINS + 1], y[UNKNOWN_BINS + 1]; // the last: a constant
 } products_t;
 
-static void add_up(products_t *p, const rows_t *r, const color_t *c, const double *v, const int *bin) {
+static void add_products(products_t *p, const rows_t *r, const color_t *c, const double *v, const int *bin) {
   const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
   const double constant = weight[0] + weight[1] + weight[2];
   memset(p, 0, sizeof *p);
@@ -139,26 +139,26 @@ static void add_up(products_t *p, const rows_t *r, const color_t *c, const doubl
     for (int a = 0; a < 3; a++) {
       const int k = bin[i - a];
       p->y[k] += weight[a] * white;
-      p->D[k][BINS] += weight[a] * constant;
+      p->D[k][UNKNOWN_BINS] += weight[a] * constant;
       for (int b = 0; b < 3; b++) p->D[k][bin[i - b]] += weight[a] * weight[b];
     }
-    p->y[BINS] += constant * white;
-    p->D[BINS][BINS] += constant * constant;
+    p->y[UNKNOWN_BINS] += constant * white;
+    p->D[UNKNOWN_BINS][UNKNOWN_BINS] += constant * constant;
   }
 }
 
-static void look_at(const products_t *p, bool centred, int channel, int coordinate,
-                    const double edge[BINS + 1], cell_t *cell) {
-  const double all = p->D[BINS][BINS];
+static void try_windows(const products_t *p, bool centred, int channel, int coordinate,
+                        const double edge[UNKNOWN_BINS + 1], cell_t *cell) {
+  const double all = p->D[UNKNOWN_BINS][UNKNOWN_BINS];
   if (!(all > 0.0)) return;
-  for (int from = 0; from < BINS; from++) {
+  for (int from = 0; from < UNKNOWN_BINS; from++) {
     double y = 0.0, own = 0.0, cross = 0.0;
-    for (int to = from; to < BINS && to < from + WIDEST; to++) {
+    for (int to = from; to < UNKNOWN_BINS && to < from + WIDEST; to++) {
       y += p->y[to];
-      cross += p->D[to][BINS];
+      cross += p->D[to][UNKNOWN_BINS];
       for (int k = from; k <= to; k++) own += (k == to ? 1.0 : 2.0) * p->D[k][to];
       const double share = centred ? cross / all : 0.0;
-      const double free_y = y - share * p->y[BINS], free_own = own - share * cross;
+      const double free_y = y - share * p->y[UNKNOWN_BINS], free_own = own - share * cross;
       if (!(free_own > 1e-3 * own)) continue;
       const double statistic = fabs(free_y) / sqrt(free_own);
       if (statistic > cell->statistic)
@@ -169,24 +169,25 @@ static void look_at(const products_t *p, bool centred, int channel, int coordina
   }
 }
 
-static void scan(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
-                 const color_t *color, bool centred, double *room, int *bin, cell_t *cell) {
+static void scan_coordinate(const set_t *s, const model_t *m, int coordinate,
+                            double *const residual[CHANNELS], const color_t *color, bool centred,
+                            double *room, int *bin, cell_t *cell) {
   products_t p;
-  double edge[BINS + 1];
+  double edge[UNKNOWN_BINS + 1];
   for (int list = 0; list < 2; list++) {
     if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
       if (!color[ch].used) continue;
-      add_up(&p, rows_of(s, list), &color[ch], residual[ch], bin);
-      look_at(&p, centred, ch, coordinate, edge, cell);
+      add_products(&p, rows_of(s, list), &color[ch], residual[ch], bin);
+      try_windows(&p, centred, ch, coordinate, edge, cell);
     }
   }
 }
 
 // Subtracts the mean of every bin.
 static void flatten(const rows_t *r, const int *bin, double *v) {
-  double sum[BINS] = {0.0};
-  int n[BINS] = {0};
+  double sum[UNKNOWN_BINS] = {0.0};
+  int n[UNKNOWN_BINS] = {0};
   for (int i = 0; i < r->n; i++) {
     sum[bin[i]] += v[i];
     n[bin[i]]++;
@@ -196,7 +197,7 @@ static void flatten(const rows_t *r, const int *bin, double *v) {
 
 static void clean(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
                   double *room, int *bin) {
-  double edge[BINS + 1];
+  double edge[UNKNOWN_BINS + 1];
   for (int list = 0; list < 2; list++) {
     if (!bins_of(s, m, coordinate, list, room, bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++)
@@ -239,7 +240,7 @@ done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[
   double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
   int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++)
-    scan(s, m, i, residual, color ? color : own, centred, room, bin, cell);
+    scan_coordinate(s, m, i, residual, color ? color : own, centred, room, bin, cell);
   const bool good = room && bin;
   free(room);
   free(bin);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 // The colour of what some columns leave, apart from its mean; plain: its spread alone.
-static bool fit_color(gram_t *g, const set_t *s, const table_t *t, int ch, const explained_t *e) {
+static bool fit_color(gram_t *g, const set_t *s, const design_t *t, int ch, const explained_t *e) {
   const int n = e->n, *column = e->column;
   const double *b = e->b;
   const rows_t *r = set_rows(s, ch);
@@ -40,7 +40,7 @@ static void white_free(white_t *w) {
   free(w->x);
 }
 
-static bool white_make(white_t *w, const set_t *s, const table_t *t, int ch, const color_t *color) {
+static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, const color_t *color) {
   const rows_t *r = set_rows(s, ch);
   const size_t n = (size_t)t->columns + 1;
   *w = (white_t){.column = malloc(n * sizeof(int)), .x = malloc(n * sizeof(double *))};
@@ -55,7 +55,7 @@ static bool white_make(white_t *w, const set_t *s, const table_t *t, int ch, con
   return true;
 }
 
-static bool add_channel(gram_t *g, const set_t *s, const table_t *t, int ch) {
+static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
   const rows_t *r = set_rows(s, ch);
   white_t w;
   const bool made = white_make(&w, s, t, ch, &g->color[ch]);
@@ -76,7 +76,7 @@ static bool add_channel(gram_t *g, const set_t *s, const table_t *t, int ch) {
   return done;
 }
 
-static void add_up(gram_t *g) {
+static void add_blocks(gram_t *g) {
   const size_t n = (size_t)(g->size * g->size);
   for (int b = 0; b < g->n_block; b++)
     for (size_t i = 0; i < n; i++) {
@@ -95,20 +95,20 @@ static void empty(gram_t *g) {
   g->rows = 0;
 }
 
-static bool fill(gram_t *g, const set_t *s, const table_t *t, const explained_t *e) {
+static bool fill(gram_t *g, const set_t *s, const design_t *t, const explained_t *e) {
   bool good = true;
   empty(g);
   for (int ch = 0; ch < CHANNELS && good; ch++) {
     good = fit_color(g, s, t, ch, e);
     if (good && g->color[ch].used) good = add_channel(g, s, t, ch);
   }
-  if (good) add_up(g);
+  if (good) add_blocks(g);
   return good;
 }
 
 // In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
 // least squares come first; an autoregression of the raw residual would hide what is slow in it.
-static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ridge) {
+static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge) {
   const int n = t->columns;
   int *const column = malloc(((size_t)n + 1) * sizeof(int));
   double *const b = malloc(((size_t)n + 1) * sizeof(double));
@@ -125,7 +125,7 @@ static bool refine(gram_t *g, const set_t *s, const table_t *t, const double *ri
   return good;
 }
 
-done_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known, const double *ridge,
+done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, const double *ridge,
                  why_t *why) {
   *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
   const size_t room = (size_t)(g->size * g->size);

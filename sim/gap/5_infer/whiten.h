@@ -29,7 +29,7 @@ typedef struct {
 
 // The colours are those of what `known` leaves, or with a ridge (by column) of what all columns together
 // leave.
-MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const table_t *t, const explained_t *known,
+MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
                             const double *ridge, why_t *why);
 void gram_free(gram_t *g);
 

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STEP_S 0.002
-#define LEVEL  2.0 // 1/s: position errors to velocity, level (as the nominal flights' pilot)
-#define PUSH   3.0 // 1/s: velocity errors to acceleration, level
+#define PILOT_STEP_S 0.002
+#define LEVEL        2.0 // 1/s: position errors to velocity, level (as the nominal flights' pilot)
+#define PUSH         3.0 // 1/s: velocity errors to acceleration, level
 // At least so stiff in height: a ceiling pulls harder the nearer the vehicle is (thesis 3.1.4), and a pilot
 // who is softer than that loses the right model as he does the wrong one.
 #define HEIGHT 16.0 // 1/s2
@@ -15,15 +15,15 @@
 typedef struct {
   const grid_t *g;
   const model_t *pilots; // whose mass and rotors the pilot reckons with: the same for every model
-  const manner_t *manner;
+  const closed_loop_t *loop;
   body_t body;
 } again_t;
 
 // --- the pilot ------------------------------------------------------------------------------------------
 
-static void correct(const again_t *a, const point_t *track, double motor_N[ROTORS]) {
+static void correct(const again_t *a, const grid_point_t *track, double motor_N[ROTORS]) {
   const frame_t *f = &a->pilots->frame;
-  const manner_t *w = a->manner;
+  const closed_loop_t *w = a->loop;
   const double *y = a->body.y;
   const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB)), wanted = axes_of(track->q_wb);
   const d3_t off = d3_sub(track->pos_w_m, d3_of(y + RIGID_POS_M));
@@ -49,7 +49,7 @@ static void correct(const again_t *a, const point_t *track, double motor_N[ROTOR
 // --- the flight -----------------------------------------------------------------------------------------
 
 static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
-  const point_t *p = &a->g->point[j];
+  const grid_point_t *p = &a->g->point[j];
   body_start_t start = {.pos_w_m = p->pos_w_m,
                         .vel_w_mps = p->vel_w_mps,
                         .q_wb = p->q_wb,
@@ -58,7 +58,8 @@ static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][j * a->g->every];
   if (a->body.integrate) body_close(&a->body);
   a->body.integrate = NULL;
-  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) == DONE) return DONE;
+  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(PILOT_STEP_S, 0.5 * m->motor_tau_s), &start) == DONE)
+    return DONE;
   return error_failed(why, "%s: a model that cannot be flown", m->name);
 }
 
@@ -66,7 +67,7 @@ static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
 static void fly_point(again_t *a, int j, int first_sample) {
   const grid_t *g = a->g;
   const double log_s = g->period_s / g->every;
-  const int inner = (int)fmax(1.0, round(log_s / STEP_S));
+  const int inner = (int)fmax(1.0, round(log_s / PILOT_STEP_S));
   for (int i = first_sample; i < first_sample + g->every; i++)
     for (int k = 0; k < inner; k++) {
       double motor_N[ROTORS];
@@ -81,7 +82,7 @@ typedef struct {
   double squares, height_squares;
   long points;
   int lost;
-} tally_t;
+} miss_t;
 
 // The sample with which a point begins: points leave out what a segment's end cuts off.
 static int sample_of(const grid_t *g, int j) {
@@ -90,11 +91,11 @@ static int sample_of(const grid_t *g, int j) {
   return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
 }
 
-static done_t fly(again_t *a, const model_t *m, tally_t *tally, double *const at_m[3], why_t *why) {
+static done_t fly_again(again_t *a, const model_t *m, miss_t *tally, double *const at_m[3], why_t *why) {
   const grid_t *g = a->g;
   bool flying = false;
   for (int j = 0; j < g->n; j++) {
-    const point_t *p = &g->point[j];
+    const grid_point_t *p = &g->point[j];
     const bool go_on = flying && p->ok && p->segment == g->point[j - 1].segment;
     for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = (double)NAN;
     flying = p->ok;
@@ -117,15 +118,15 @@ static done_t fly(again_t *a, const model_t *m, tally_t *tally, double *const at
   return DONE;
 }
 
-static done_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const manner_t *manner,
-                      tally_t *tally, double *const at_m[3], why_t *why) {
-  *tally = (tally_t){.squares = 0.0};
+static done_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const closed_loop_t *loop,
+                      miss_t *tally, double *const at_m[3], why_t *why) {
+  *tally = (miss_t){.squares = 0.0};
   done_t status = DONE;
   for (int f = 0; f < held->n_grid && status == DONE; f++) {
     again_t *const a = calloc(1, sizeof *a);
     if (!a) return error_failed(why, "out of memory");
-    a->g = &held->grid[f], a->pilots = pilots, a->manner = manner;
-    status = fly(a, m, tally, f == 0 ? at_m : NULL, why);
+    a->g = &held->grid[f], a->pilots = pilots, a->loop = loop;
+    status = fly_again(a, m, tally, f == 0 ? at_m : NULL, why);
     if (a->body.integrate) body_close(&a->body);
     free(a);
   }
@@ -160,14 +161,14 @@ static bool take_room(resimulation_t *r, const grid_t *g) {
   return good;
 }
 
-done_t resimulate(const set_t *held, const model_t *before, const model_t *after, const manner_t *manner,
+done_t resimulate(const set_t *held, const model_t *before, const model_t *after, const closed_loop_t *loop,
                   resimulation_t *r, why_t *why) {
-  tally_t b, a;
+  miss_t b, a;
   *r = (resimulation_t){.why_not = obstacle(held, before)};
   if (r->why_not) return DONE;
   if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
-  TRY(fly_all(held, before, before, manner, &b, r->before_at_m, why));
-  TRY(fly_all(held, after, before, manner, &a, r->after_at_m, why));
+  TRY(fly_all(held, before, before, loop, &b, r->before_at_m, why));
+  TRY(fly_all(held, after, before, loop, &a, r->after_at_m, why));
   r->why_not = "the vehicle does not fly";
   if (b.points == 0 || a.points == 0) return DONE;
   r->flew = true;

@@ -25,7 +25,7 @@ typedef struct {
 
 // FAILED: no memory. Free it, also on an error.
 MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const model_t *after,
-                             const manner_t *manner, resimulation_t *r, why_t *why);
+                             const closed_loop_t *loop, resimulation_t *r, why_t *why);
 void resimulation_free(resimulation_t *r);
 
 #endif

@@ -43,7 +43,7 @@ MUST_CHECK done_t verify_held(set_t *s, const model_t *before, const model_t *af
 typedef struct {
   set_t *held;
   const model_t *base; // without what was found
-  const manner_t *manner;
+  const closed_loop_t *loop;
   found_t *found;
 } verify_job_t;
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define NEAR_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
+#define MATTERS_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
 
@@ -69,14 +69,14 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
     const bool last = k == coordinate_count;
     profile_t p = {.channel = channel, .coordinate = last ? time : k};
     if (last ? most >= 0.0 : !is_wanted(f->fx, k)) continue;
-    const span_t span = report_where(r, &p, effect[channel]);
-    const double told = report_told(r, &p, effect[channel]);
+    const interval_t span = report_where(r, &p, effect[channel]);
+    const double told = report_explained(r, &p, effect[channel]);
     if (!last && !(told > most)) continue;
     most = told;
     report_profile(r, effect[channel], variance[channel], &span, &p);
     f->profile = p, f->where = span;
   }
-  f->matters = f->fx->surface ? (span_t){0.0, NEAR_M} : f->where;
+  f->matters = f->fx->surface ? (interval_t){0.0, MATTERS_M} : f->where;
   f->before = report_rms(r, &f->profile, &f->matters, r->before.r[channel]);
   f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
 }

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS_MIN 6    // of a range
-#define OUTSIDE  0.01 // of the rows, on each side, that no range reaches to
-#define TAIL     0.05 // of the sum of squares on each side of `where`
+#define BIN_ROWS_MIN 6    // of a range
+#define OUTSIDE      0.01 // of the rows, on each side, that no range reaches to
+#define TAIL         0.05 // of the sum of squares on each side of `where`
 
 int report_coordinate(const char *name) {
   for (int i = 0; i < coordinate_count; i++)
@@ -58,7 +58,7 @@ static void close_bins(profile_t *p, double errors) {
   p->n = 0;
   for (int k = 0; k < REPORT_BINS; k++) {
     const double n = p->rows[k];
-    if (n < ROWS_MIN) continue;
+    if (n < BIN_ROWS_MIN) continue;
     const int to = p->n++;
     const double effect = p->effect[k] / n, wide = errors * p->low[k] / n;
     p->x[to] = p->x[k] / n, p->rows[to] = n;
@@ -68,21 +68,21 @@ static void close_bins(profile_t *p, double errors) {
 }
 
 // What a picture spans: all rows but the outermost, or what matters and about as much beside it.
-static span_t span_of(const report_t *r, const profile_t *p, const span_t *near) {
+static interval_t span_of(const report_t *r, const profile_t *p, const interval_t *near) {
   int n;
   mark_t *const mark = sorted(r, p->channel, p->coordinate, NULL, &n);
-  span_t s = {0.0, 0.0};
-  if (n) s = (span_t){mark[(int)(OUTSIDE * n)].x, mark[n - 1 - (int)(OUTSIDE * n)].x};
+  interval_t s = {0.0, 0.0};
+  if (n) s = (interval_t){mark[(int)(OUTSIDE * n)].x, mark[n - 1 - (int)(OUTSIDE * n)].x};
   free(mark);
   if (!near || 3.0 * (near->to - near->from) > s.to - s.from) return s;
   const double wide = fmax(near->to - near->from, 0.05 * (s.to - s.from));
-  return (span_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
+  return (interval_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
 }
 
-void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+void report_profile(const report_t *r, const double *effect, const double *variance, const interval_t *near,
                     profile_t *p) {
   *p = (profile_t){.channel = p->channel, .coordinate = p->coordinate};
-  const span_t s = span_of(r, p, near);
+  const interval_t s = span_of(r, p, near);
   const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
   for (int i = 0; i < rows->n && s.to > s.from; i++) {
     const double x = at(r, p->channel, p->coordinate, i);
@@ -96,12 +96,12 @@ void report_profile(const report_t *r, const double *effect, const double *varia
 // --- which coordinate -------------------------------------------------------------------------------------
 
 // Where the middle 90 % of what the effect does lie.
-span_t report_where(const report_t *r, const profile_t *p, const double *effect) {
+interval_t report_where(const report_t *r, const profile_t *p, const double *effect) {
   int n;
   double all = 0.0, sum = 0.0;
   mark_t *const mark = sorted(r, p->channel, p->coordinate, effect, &n);
   for (int i = 0; i < n; i++) all += mark[i].square;
-  span_t where = n ? (span_t){mark[0].x, mark[0].x} : (span_t){0.0, 0.0};
+  interval_t where = n ? (interval_t){mark[0].x, mark[0].x} : (interval_t){0.0, 0.0};
   bool begun = false;
   for (int i = 0; i < n; i++) {
     sum += mark[i].square;
@@ -119,7 +119,7 @@ static double square_correlation(const double *sum, double n) {
   return xx > 0.0 && yy > 1e-12 * sum[3] ? xy * xy / (xx * yy) : 0.0;
 }
 
-double report_told(const report_t *r, const profile_t *p, const double *effect) {
+double report_explained(const report_t *r, const profile_t *p, const double *effect) {
   const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
   double sum[2][5] = {{0.0}}, n = 0.0;
   for (int i = 0; i < rows->n; i++) {
@@ -134,7 +134,7 @@ double report_told(const report_t *r, const profile_t *p, const double *effect) 
   return n > 0.0 ? fmax(square_correlation(sum[0], n), square_correlation(sum[1], n)) : -1.0;
 }
 
-double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual) {
+double report_rms(const report_t *r, const profile_t *p, const interval_t *span, const double *residual) {
   double sum = 0.0, n = 0.0;
   for (int i = 0; i < set_rows(&r->study->diagnosis.held, p->channel)->n; i++) {
     const double x = at(r, p->channel, p->coordinate, i);
@@ -143,4 +143,21 @@ double report_rms(const report_t *r, const profile_t *p, const span_t *span, con
     n += 1.0;
   }
   return n > 0.0 ? sqrt(sum / n) : 0.0;
+}
+
+// --- curves.csv -------------------------------------------------------------------------------------------
+
+void report_curves(const report_t *r, FILE *out) {
+  fputs(
+      "effect,channel,channel_unit,coordinate,coordinate_unit,at,rows,adds,low,high,measured,before,after\n",
+      out);
+  for (int i = 0; i < r->n_finding; i++) {
+    const finding_t *const f = &r->finding[i];
+    const profile_t *const p = &f->profile;
+    for (int k = 0; k < p->n; k++)
+      fprintf(out, "%s,%s,%s,%s,%s,%.6g,%.0f,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", f->fx->name,
+              gap_channel[p->channel], gap_unit[p->channel], coordinate_name(p->coordinate),
+              coordinate_unit(p->coordinate), p->x[k], p->rows[k], p->effect[k], p->low[k], p->high[k],
+              p->effect[k] + p->after[k], p->before[k], p->after[k]);
+  }
 }

@@ -110,9 +110,7 @@ bool report_leaves_any(const report_t *r) {
 const char *report_headline(const report_t *r) {
   if (r->study->diagnosis.unknown) return "Something is missing that cannot be named";
   if (!report_can_tell(r)) return "These flights cannot tell what is missing";
-  for (int ch = 0; ch < CHANNELS; ch++)
-    if (report_leaves_much(r, ch))
-      return "Nothing can be named, and more is left than noise and feedback leave";
+  if (report_leaves_any(r)) return "Nothing can be named, and more is left than noise and feedback leave";
   return "Nothing is missing that these flights could show";
 }
 

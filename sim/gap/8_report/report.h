@@ -15,7 +15,7 @@
 // Where an effect does most of what it does; a picture shows that and what is beside it.
 typedef struct {
   double from, to;
-} span_t;
+} interval_t;
 
 // Means over ranges of a coordinate, held-out rows of one channel.
 typedef struct {
@@ -32,10 +32,10 @@ typedef struct {
   const named_t *named;
   const fx_use_t *use; // as the new model has it
   const fx_t *fx;
-  span_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
+  interval_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
   // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
-  span_t matters;
+  interval_t matters;
   double before, after;  // rms of the held-out rows there
   char fly[REPORT_TEXT]; // what would tell it from its rivals, or show it better
 } finding_t;
@@ -71,17 +71,17 @@ void report_free(report_t *r);
 
 // A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
 // near: null, or the part that matters.
-void report_profile(const report_t *r, const double *effect, const double *variance, const span_t *near,
+void report_profile(const report_t *r, const double *effect, const double *variance, const interval_t *near,
                     profile_t *p);
 
 // The coordinate of that name (unknown.h); -1: none, or a null pointer.
 int report_coordinate(const char *name);
 // Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
 // how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
-span_t report_where(const report_t *r, const profile_t *p, const double *effect);
-double report_told(const report_t *r, const profile_t *p, const double *effect);
+interval_t report_where(const report_t *r, const profile_t *p, const double *effect);
+double report_explained(const report_t *r, const profile_t *p, const double *effect);
 // Rms of a residual in a range of the profile's coordinate, in its channel; 0 without a row there.
-double report_rms(const report_t *r, const profile_t *p, const span_t *span, const double *residual);
+double report_rms(const report_t *r, const profile_t *p, const interval_t *span, const double *residual);
 
 // What to fly so that an effect could be tested, and why it could not, in words.
 void report_why(const untested_t *u, char text[REPORT_TEXT]);
@@ -106,9 +106,9 @@ const char *report_headline(const report_t *r);
 #define REPORT_LENGTH 24
 const char *report_length(double m, char text[REPORT_LENGTH]);
 
-// As spec: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}; an effect
-// has "matters" besides: {"channel", "unit", "from", "to", "before", "after"}, as finding_t. A null pointer:
-// no memory.
+// verdict.json: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}; an
+// effect has "matters" besides: {"channel", "unit", "from", "to", "before", "after"}, as finding_t. A null
+// pointer: no memory.
 cJSON *report_verdict(const report_t *r);
 // The verdict `refused`, with the line that says why as its one warning.
 cJSON *report_refused(const char *line, const study_order_t *order);

@@ -87,7 +87,7 @@ static void warn_of_diagnosis(report_t *r) {
   if (!d->nominal_flew)
     warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
   for (int ch = 0; ch < CHANNELS; ch++)
-    if (d->fit.muted[ch])
+    if (d->fit.excluded[ch])
       warn(r,
            "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
            "motors in another order?)",

@@ -2,7 +2,7 @@
 // reference.
 #include "flight/att_indi.h"
 #include "flight/params.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #define TICK_S 0.002f
@@ -68,10 +68,10 @@ TEST(inner_loop_does_about_y_what_it_does_about_x) {
   loop_t about_x = fresh(20.0f), about_y = fresh(20.0f);
   about_x.param.att.inertia_yy_kgm2 = about_x.param.att.inertia_xx_kgm2;
   about_y.param.att = about_x.param.att;
-  random_t r = {7};
+  splitmix_t r = {7};
   for (int i = 0; i < 2000; i++) {
-    const float rate = (float)random_normal(&r, 2.0), torque_Nm = (float)random_normal(&r, 2e-3);
-    const float half = (float)random_normal(&r, 0.2), ceiling_Nms = i % 3 ? -1e-5f * (float)(i % 50) : 0.0f;
+    const float rate = (float)splitmix_normal(&r, 2.0), torque_Nm = (float)splitmix_normal(&r, 2e-3);
+    const float half = (float)splitmix_normal(&r, 0.2), ceiling_Nms = i % 3 ? -1e-5f * (float)(i % 50) : 0.0f;
     att_indi_in_t in = {.q_wb = {1, 0, 0, 0}, .ceiling_Nms = ceiling_Nms, .ratio = 1.1f, .trim_Nm = 1e-3f};
     in.rate_b_radps.x = rate, in.torque_b_Nm.x = torque_Nm,
     in.q_ref = (quat_t){sqrtf(1.0f - half * half), half, 0, 0};

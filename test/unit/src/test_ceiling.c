@@ -1,6 +1,6 @@
 // test_ceiling.c - the ceiling distance from a slow sensor: dynamics, gate, lock-out, limits.
 #include "rig/below.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 
 TEST(ceiling_is_unknown_until_a_sample_shows_it) {
   ceiling_t s;
@@ -41,11 +41,11 @@ TEST(ceiling_error_falls_with_a_time_constant_of_0_95_s) {
 
 TEST(ceiling_passes_white_noise_of_the_sensor_with_0_229) {
   ceiling_t s = below_ceiling(0.3f);
-  random_t r = {1};
+  splitmix_t r = {1};
   double square = 0.0;
   enum { SAMPLES = 100000 };
   for (int i = 0; i < SAMPLES + 100; i++) {
-    CHECK_OK(ceiling_correct(&s, &below_param, (float)(0.3 + random_normal(&r, 0.01)), 0.0f));
+    CHECK_OK(ceiling_correct(&s, &below_param, (float)(0.3 + splitmix_normal(&r, 0.01)), 0.0f));
     if (i >= 100) square += pow((double)s.zc_m - 0.3, 2.0);
   }
   CHECK_NEAR(sqrt(square / SAMPLES) / 0.01, 0.229, 0.004); // 1 % is what 100000 correlated samples tell
@@ -130,7 +130,7 @@ TEST(ceiling_lock_out_of_the_thesis_is_cured_in_half_a_second) {
              {"climbing at 0.2 m/s, sample 100 ms old", 0.2, 0.003, 0.1}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
-    random_t rnd = {2};
+    splitmix_t rnd = {2};
     ceiling_t s = below_ceiling(0.10f);
     ceiling_predict(&s, &below_param, 0.06f);
     double gap_m = 0.30;
@@ -139,7 +139,7 @@ TEST(ceiling_lock_out_of_the_thesis_is_cured_in_half_a_second) {
       ceiling_predict(&s, &below_param, (float)(row[i].climb_mps * (double)BELOW_PERIOD_S));
       if (tick % BELOW_EVERY != 0) continue;
       const double then_m = gap_m + row[i].climb_mps * row[i].delay_s;
-      CHECK_OK(ceiling_correct(&s, &below_param, (float)(then_m + random_normal(&rnd, row[i].sd_m)),
+      CHECK_OK(ceiling_correct(&s, &below_param, (float)(then_m + splitmix_normal(&rnd, row[i].sd_m)),
                                (float)row[i].delay_s));
     }
     CHECK_NEAR(s.zc_m, gap_m, 0.01);

@@ -1,13 +1,13 @@
 // test_ceiling_samples.c - samples of the ceiling's distance: their age, those missed, those that are none.
 #include "rig/below.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include <string.h>
 
 // Flies up and down at speed_mps between gaps of 45 and 8 cm; the worst error of the estimate.
 static double worst_error_m(double speed_mps, int every, int delay, bool age_given, int seed) {
   ceiling_t s;
   ceiling_init(&s, BELOW_PERIOD_S);
-  random_t r = {(uint64_t)seed};
+  splitmix_t r = {(uint64_t)seed};
   double gap[1000], worst = 0.0;
   double direction = 1.0;
   gap[0] = 0.45;
@@ -17,11 +17,11 @@ static double worst_error_m(double speed_mps, int every, int delay, bool age_giv
     const double climb_m = direction * speed_mps * (double)BELOW_PERIOD_S;
     gap[k] = gap[k - 1] - climb_m;
     ceiling_predict(&s, &below_param, (float)climb_m);
-    if (k >= delay && k % every == 0 && random_bits(&r) % 8 != 0) { // one in eight is missed
+    if (k >= delay && k % every == 0 && splitmix_bits(&r) % 8 != 0) { // one in eight is missed
       const float range_m = (float)gap[k - delay], age_s = age_given ? (float)delay * BELOW_PERIOD_S : 0.0f;
       CHECK_OK(ceiling_correct(&s, &below_param, range_m, age_s));
       // One in eight is announced twice.
-      if (random_bits(&r) % 8 == 0) CHECK_OK(ceiling_correct(&s, &below_param, range_m, age_s));
+      if (splitmix_bits(&r) % 8 == 0) CHECK_OK(ceiling_correct(&s, &below_param, range_m, age_s));
     }
     if (s.known) worst = fmax(worst, fabs((double)s.zc_m - gap[k]));
   }

@@ -1,7 +1,7 @@
 // test_corners.c - hover in closed loop with parameters at the ends of their ranges, while calls are missed:
 // ten seconds 0.5 m below a ceiling. SEED=N takes other sets and noise.
 #include "rig/flight_state.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/rig6.h"
 #include "rig/share.h"
 #include "rig/test.h"
@@ -17,7 +17,7 @@
 typedef struct {
   flight_t f;
   rig6_t rig;
-  random_t random;
+  splitmix_t random;
   int missed_ms; // still to come
   double off_m;  // farthest from where it should hover, over the second half
 } corner_t;
@@ -26,8 +26,8 @@ static v3_t v3_of(d3_t a) {
   return (v3_t){(float)a.x, (float)a.y, (float)a.z};
 }
 
-static d3_t shaken(random_t *r, d3_t a, double sd) {
-  return (d3_t){a.x + random_normal(r, sd), a.y + random_normal(r, sd), a.z + random_normal(r, sd)};
+static d3_t shaken(splitmix_t *r, d3_t a, double sd) {
+  return (d3_t){a.x + splitmix_normal(r, sd), a.y + splitmix_normal(r, sd), a.z + splitmix_normal(r, sd)};
 }
 
 static flight_in_t seen(corner_t *c, int ms) {
@@ -59,7 +59,7 @@ static bool is_called(corner_t *c) {
     c->missed_ms--;
     return false;
   }
-  if (random_bits(&c->random) % 50 == 0) c->missed_ms = (int)(random_bits(&c->random) % 20);
+  if (splitmix_bits(&c->random) % 50 == 0) c->missed_ms = (int)(splitmix_bits(&c->random) % 20);
   return true;
 }
 
@@ -142,14 +142,14 @@ TEST(a_parameter_at_an_end_of_its_range_hovers_is_refused_or_is_known_not_to) {
 
 TEST(parameters_at_their_ends_together_stay_finite_and_within_limits_or_are_refused) {
   const int count = test_long() ? 4000 : 100;
-  random_t r = {share_seed(1)};
+  splitmix_t r = {share_seed(1)};
   int flown = 0;
   for (int k = 0; k < count; k++) {
     flight_param_t p;
     params_default(&p);
-    const uint64_t some = 1 + random_bits(&r) % 16;
+    const uint64_t some = 1 + splitmix_bits(&r) % 16;
     for (int i = 0; i < params_count; i++)
-      if (random_bits(&r) % 16 < some) at_end(&p, &params_table[i], random_bits(&r) % 2);
+      if (splitmix_bits(&r) % 16 < some) at_end(&p, &params_table[i], splitmix_bits(&r) % 2);
     ROW("set %d", k);
     if (params_check(&p) != ST_OK) {
       flight_t f;
@@ -157,7 +157,7 @@ TEST(parameters_at_their_ends_together_stay_finite_and_within_limits_or_are_refu
       continue;
     }
     corner_t c;
-    if (!hover(&c, &p, random_bits(&r))) return;
+    if (!hover(&c, &p, splitmix_bits(&r))) return;
     flown++;
   }
   CHECK(flown >= count / 8);

@@ -1,7 +1,7 @@
 // test_flyable.c - a vehicle whose sensors contradict each other is found before it flies.
 #include "base/d3.h"
 #include "flight/flyable.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 // What a wrong mount makes of a sensor's axes.
@@ -51,7 +51,7 @@ static const row_t rows[] = {
 // Carried for 4 s, turned about all axes with the jolts of a hand, then put down; the estimate is
 // right unless the accelerometer it rests on is not.
 static unsigned carried(const row_t *row, uint64_t seed, double jolt_mps2) {
-  random_t r = {seed};
+  splitmix_t r = {seed};
   flyable_t s;
   flyable_init(&s);
   dq_t q = {1.0, 0.0, 0.0, 0.0};
@@ -65,7 +65,7 @@ static unsigned carried(const row_t *row, uint64_t seed, double jolt_mps2) {
     q = dq_unit((dq_t){q.w + 5e-4 * turn.w, q.x + 5e-4 * turn.x, q.y + 5e-4 * turn.y, q.z + 5e-4 * turn.z});
     const double jolt = moves ? jolt_mps2 : 0.0, g = 9.81;
     d3_t a = dq_to_body(q, d3(jolt * sin(9.0 * t), jolt * sin(7.0 * t), g + jolt * sin(11.0 * t)));
-    a = d3_add(a, d3(random_normal(&r, 0.02), random_normal(&r, 0.02), random_normal(&r, 0.02)));
+    a = d3_add(a, d3(splitmix_normal(&r, 0.02), splitmix_normal(&r, 0.02), splitmix_normal(&r, 0.02)));
     v3_t acc = {(float)a.x, (float)a.y, (float)a.z}, rate = {(float)w.x, (float)w.y, (float)w.z};
     row->acc(&acc);
     row->gyro(&rate);

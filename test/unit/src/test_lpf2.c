@@ -1,6 +1,6 @@
 // test_lpf2.c - the low-pass against the analytic Butterworth.
 #include "flight/lpf2.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <complex.h>
@@ -90,9 +90,9 @@ TEST(lpf2_without_a_cut_off_gives_the_input_to_the_bit) {
   CHECK_OK(lpf2_tune(&c, 0.0f, 100.0f));
   lpf2_t s;
   lpf2_reset(&s, 3.0f);
-  random_t r = {1};
+  splitmix_t r = {1};
   for (int i = 0; i < 1000; i++) {
-    const float x = (float)random_normal(&r, pow(10.0, random_between(&r, -30.0, 30.0)));
+    const float x = (float)splitmix_normal(&r, pow(10.0, splitmix_between(&r, -30.0, 30.0)));
     const float y = lpf2_step(&s, &c, x);
     CHECK(memcmp(&x, &y, sizeof x) == 0);
   }

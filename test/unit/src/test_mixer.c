@@ -1,6 +1,6 @@
 // test_mixer.c - torques and thrust to four motor forces.
 #include "flight/mixer.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 static const mixer_param_t P = {.arm_m = 0.0325f, .yaw_m = 0.00735f, .force_max_N = 0.12f};
@@ -76,9 +76,9 @@ TEST(mixer_keeps_roll_and_pitch_before_thrust_before_yaw) {
 }
 
 // Numbers that formulas stumble over: zeros, limits, and what lies on both sides of them.
-static float drawn(random_t *r, double size, const float *special, int n_special) {
-  const int pick = (int)random_between(r, 0.0, 2.0 * n_special);
-  return pick < n_special ? special[pick] : (float)random_normal(r, size);
+static float drawn(splitmix_t *r, double size, const float *special, int n_special) {
+  const int pick = (int)splitmix_between(r, 0.0, 2.0 * n_special);
+  return pick < n_special ? special[pick] : (float)splitmix_normal(r, size);
 }
 
 // What the order yaw, thrust, tilt leaves of roll and pitch (as forces of a motor), lift and yaw; in double.
@@ -114,9 +114,9 @@ TEST(mixer_gives_the_most_that_can_be_had_whatever_is_asked_for) {
   const float tilts[] = {0.0f, -0.0f, edge_Nm, -edge_Nm, 0.5f * edge_Nm, -0.5f * edge_Nm, 1e-38f, 1e3f};
   const float yaws[] = {0.0f, 0.0f, -0.0f, -0.0f, yaw_edge_Nm, -yaw_edge_Nm, 1e-38f, -1e3f};
   const float thrusts[] = {0.0f, 4.0f * P.force_max_N, 0.5f * P.force_max_N, -1.0f, 0.47f, 0.32f};
-  random_t r = {.state = 11};
+  splitmix_t r = {.state = 11};
   for (int i = 0; i < 400000; i++) {
-    const double size = pow(10.0, random_between(&r, -4.0, 3.0));
+    const double size = pow(10.0, splitmix_between(&r, -4.0, 3.0));
     const v3_t torque = {drawn(&r, 1e-2 * size, tilts, 8), drawn(&r, 1e-2 * size, tilts, 8),
                          drawn(&r, 1e-3 * size, yaws, 8)};
     const float thrust_N = drawn(&r, 0.3 * size, thrusts, 6);

@@ -1,5 +1,5 @@
 // test_outer_bits.c - the outer loop gives the same bits where it has to.
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/rig3.h"
 #include "rig/test.h"
 
@@ -43,12 +43,12 @@ TEST(outer_does_the_same_for_q_and_minus_q) {
   outer_t f = rig3_outer(&p), twin = rig3_outer(&p);
   v = rig3_at(0.3, 0.2, 0.8, 1.0);
   v.yaw = 2.0;
-  random_t r = {2};
+  splitmix_t r = {2};
   int differ = 0, flipped = 0;
   for (int k = 0; k < 500; k++) {
     outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 0.94f});
     const outer_out_t want = rig3_step(&twin, &p, &in);
-    if (k == 0 || random_bits(&r) % 2 == 0) { // the very first one, too
+    if (k == 0 || splitmix_bits(&r) % 2 == 0) { // the very first one, too
       in.q_wb = (quat_t){-in.q_wb.w, -in.q_wb.x, -in.q_wb.y, -in.q_wb.z};
       flipped++;
     }

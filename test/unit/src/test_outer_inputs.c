@@ -1,5 +1,5 @@
 // test_outer_inputs.c - the outer loop with bad inputs: what it holds, and what it counts.
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/rig3.h"
 #include "rig/test.h"
 
@@ -145,19 +145,19 @@ TEST(outer_outputs_stay_in_their_limits_whatever_comes) {
   // G1 and G2 of the fault list: 20000 ticks of which most have something wrong.
   static const float odd[] = {NAN,   INFINITY, -INFINITY, 1e38f,   1e-45f, 0.0f,
                               -1.0f, 1.0f,     99.0f,     -999.0f, 9999.0f};
-  random_t r = {1};
+  splitmix_t r = {1};
   flight_param_t p = rig3_param();
   p.curve.mode = CURVE_LIVE;
   outer_t f = rig3_outer(&p);
   rig3_t v = rig3_at(0, 0, 0.9, 1.0);
   int bad = 0;
   for (int k = 0; k < 20000; k++) {
-    v.pos[2] = random_between(&r, 0.3, 1.0);
+    v.pos[2] = splitmix_between(&r, 0.3, 1.0);
     outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 0.94f});
-    for (int n = (int)(random_bits(&r) % 4); n > 0; n--) {
-      const size_t field = sizeof(float) * (random_bits(&r) % (sizeof(outer_in_t) / sizeof(float)));
+    for (int n = (int)(splitmix_bits(&r) % 4); n > 0; n--) {
+      const size_t field = sizeof(float) * (splitmix_bits(&r) % (sizeof(outer_in_t) / sizeof(float)));
       if (field != offsetof(outer_in_t, range_new))
-        memcpy((char *)&in + field, &odd[random_bits(&r) % (sizeof odd / sizeof *odd)], sizeof(float));
+        memcpy((char *)&in + field, &odd[splitmix_bits(&r) % (sizeof odd / sizeof *odd)], sizeof(float));
     }
     const outer_out_t out = rig3_step(&f, &p, &in);
     if (!rig3_is_command(&out, &p) || out.zc_m < 0.0f || out.zc_m > 4.0f) bad++;

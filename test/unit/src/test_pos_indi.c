@@ -1,7 +1,7 @@
 // test_pos_indi.c - the position law against the thesis's eqs 14-17 inverted numerically, and its properties.
 #include "flight/pos_indi.h"
 #include "rig/law.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <stddef.h>
@@ -62,18 +62,19 @@ static quat_t attitude(double phi, double theta, double psi) {
 }
 
 TEST(pos_indi_agrees_with_the_thesis_inverted_numerically) {
-  random_t r = {1};
+  splitmix_t r = {1};
   double worst_angle = 0.0, worst_thrust = 0.0;
   for (int k = 0; k < 2000; k++) {
-    thesis_t s = {.phi = random_between(&r, -LAW_PI / 3, LAW_PI / 3),
-                  .theta = random_between(&r, -LAW_PI / 3, LAW_PI / 3),
-                  .psi = random_between(&r, -LAW_PI, LAW_PI),
-                  .thrust = M * G * random_between(&r, 0.5, 2.0),
-                  .rho = random_between(&r, 0.8, 1.6),
-                  .rho_slope = random_between(&r, -40.0, 10.0)};
-    s.zc = s.zc0 = random_between(&r, 0.0, 0.1);
-    const d3_t e = {random_between(&r, -10, 10), random_between(&r, -10, 10), random_between(&r, -10, 10)};
-    const double sink_mps = random_between(&r, -0.5, 0.5);
+    thesis_t s = {.phi = splitmix_between(&r, -LAW_PI / 3, LAW_PI / 3),
+                  .theta = splitmix_between(&r, -LAW_PI / 3, LAW_PI / 3),
+                  .psi = splitmix_between(&r, -LAW_PI, LAW_PI),
+                  .thrust = M * G * splitmix_between(&r, 0.5, 2.0),
+                  .rho = splitmix_between(&r, 0.8, 1.6),
+                  .rho_slope = splitmix_between(&r, -40.0, 10.0)};
+    s.zc = s.zc0 = splitmix_between(&r, 0.0, 0.1);
+    const d3_t e = {splitmix_between(&r, -10, 10), splitmix_between(&r, -10, 10),
+                    splitmix_between(&r, -10, 10)};
+    const double sink_mps = splitmix_between(&r, -0.5, 0.5);
     const d3_t want = thesis_increments(&s, e, (double)law_param.lead_s * sink_mps); // zc grows when sinking
 
     const pos_step_t got =
@@ -96,26 +97,27 @@ TEST(pos_indi_agrees_with_the_thesis_inverted_numerically) {
 
 // --- properties -----------------------------------------------------------------------------------------
 
-static quat_t random_attitude(random_t *r, double tilt_max) {
-  const double tilt = random_between(r, 0, tilt_max), about = random_between(r, -LAW_PI, LAW_PI);
-  const double yaw = random_between(r, -LAW_PI, LAW_PI);
+static quat_t random_attitude(splitmix_t *r, double tilt_max) {
+  const double tilt = splitmix_between(r, 0, tilt_max), about = splitmix_between(r, -LAW_PI, LAW_PI);
+  const double yaw = splitmix_between(r, -LAW_PI, LAW_PI);
   // A tilt about a level axis after a yaw.
   const double c = cos(tilt / 2), x = sin(tilt / 2) * cos(about), y = sin(tilt / 2) * sin(about);
   const double cy = cos(yaw / 2), sy = sin(yaw / 2);
   return (quat_t){(float)(c * cy), (float)(x * cy + y * sy), (float)(y * cy - x * sy), (float)(c * sy)};
 }
 
-static v3_t random_vector(random_t *r, double bound) {
-  return (v3_t){(float)random_between(r, -bound, bound), (float)random_between(r, -bound, bound),
-                (float)random_between(r, -bound, bound)};
+static v3_t random_vector(splitmix_t *r, double bound) {
+  return (v3_t){(float)splitmix_between(r, -bound, bound), (float)splitmix_between(r, -bound, bound),
+                (float)splitmix_between(r, -bound, bound)};
 }
 
 TEST(pos_indi_ceiling_term_acts_on_the_thrust_alone) {
-  random_t r = {2};
+  splitmix_t r = {2};
   for (int k = 0; k < 200; k++) {
     const quat_t q = random_attitude(&r, LAW_PI / 3);
     const v3_t e = random_vector(&r, 10);
-    const float thrust_N = (float)random_between(&r, 0.2, 0.5), climb = (float)random_between(&r, -0.5, 0.5);
+    const float thrust_N = (float)splitmix_between(&r, 0.2, 0.5),
+                climb = (float)splitmix_between(&r, -0.5, 0.5);
     const rbf_point_t flat = {1.1f, 0.0f}, steep = {1.1f, -20.0f};
     const pos_step_t without = pos_indi_step(&law_param, q, thrust_N, e, climb, flat);
     const pos_step_t with = pos_indi_step(&law_param, q, thrust_N, e, climb, steep);
@@ -127,12 +129,12 @@ TEST(pos_indi_ceiling_term_acts_on_the_thrust_alone) {
 
 TEST(pos_indi_command_gives_the_acceleration_that_was_wanted) {
   // Rotation and thrust together, put into m a = rho T b - m g again; what is left is of second order.
-  random_t r = {3};
+  splitmix_t r = {3};
   pos_indi_param_t p = law_param;
   p.tilt_max_rad = 0.8f;
   for (int k = 0; k < 500; k++) {
     const quat_t q = random_attitude(&r, 0.6);
-    const float thrust_N = (float)random_between(&r, 0.2, 0.4), rho = (float)random_between(&r, 1.0, 1.4);
+    const float thrust_N = (float)splitmix_between(&r, 0.2, 0.4), rho = (float)splitmix_between(&r, 1.0, 1.4);
     const v3_t e = random_vector(&r, 0.3);
     const pos_step_t step = pos_indi_step(&p, q, thrust_N, e, 0.0f, (rbf_point_t){.ratio = rho});
     const pos_command_t c = pos_indi_command(&p, q, thrust_N, step);
@@ -191,7 +193,7 @@ TEST(pos_indi_asks_for_the_acceleration_of_its_gains) {
 }
 
 TEST(pos_indi_holds_what_is_already_right) {
-  random_t r = {4};
+  splitmix_t r = {4};
   for (int k = 0; k < 100; k++) {
     const quat_t q = random_attitude(&r, 0.3);
     const pos_step_t step = pos_indi_step(&law_param, q, 0.35f, (v3_t){0, 0, 0}, 0.0f, FREE_AIR);

@@ -3,7 +3,7 @@
 #include "flight/rbf.h"
 #include "rig/bells.h"
 #include "rig/oracle.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <float.h>
@@ -35,10 +35,10 @@ TEST(rbf_gives_the_golden_values_and_slopes) {
 }
 
 TEST(rbf_slope_is_the_finite_difference_of_the_value) {
-  random_t r = {2};
+  splitmix_t r = {2};
   for (int set = 0; set < 20; set++) {
     rbf_weights_t w;
-    for (int i = 0; i < RBF_N; i++) w.w[i] = (float)random_between(&r, -1.0, 1.0);
+    for (int i = 0; i < RBF_N; i++) w.w[i] = (float)splitmix_between(&r, -1.0, 1.0);
     for (int mm = -20; mm <= 250; mm++) {
       const float z = 1e-3f * (float)mm;
       ROW("set %d at %d mm", set, mm);

@@ -2,7 +2,7 @@
 #include "base/lsq.h"
 #include "flight/rls.h"
 #include "rig/lesson.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #define N RBF_N
@@ -173,10 +173,10 @@ TEST(rls_in_float_stays_with_the_one_in_double) {
     rls_t s;
     CHECK_OK(rls_init(&s, row[i].p, &lesson_flat));
     oracle_t oracle = oracle_start(row[i].p, &lesson_flat);
-    random_t r = {5};
+    splitmix_t r = {5};
     for (int k = 0; k < 10 * LESSON_MINUTE; k++) {
-      const double z = 0.05 + random_normal(&r, 0.002);
-      const lesson_t x = lesson_at(z, lesson_theory(z) + random_normal(&r, 0.02));
+      const double z = 0.05 + splitmix_normal(&r, 0.002);
+      const lesson_t x = lesson_at(z, lesson_theory(z) + splitmix_normal(&r, 0.02));
       CHECK_OK(rls_update(&s, row[i].p, x.a, x.y));
       oracle_update(&oracle, row[i].p, &x);
     }

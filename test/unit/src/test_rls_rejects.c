@@ -1,7 +1,7 @@
 // test_rls_rejects.c - what the learner cannot use, and a flipped bit in P (faults row 34).
 #include "flight/rls.h"
 #include "rig/lesson.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <float.h>
@@ -58,16 +58,16 @@ TEST(rls_weights_stay_finite_whatever_comes) {
   static const float odd[] = {0.0f,  -0.0f, 1e-45f, 1e-38f, 1.0f, -1.0f,
                               1e10f, 1e18f, 1e19f,  3e38f,  NAN,  INFINITY};
   const unsigned odds = sizeof odd / sizeof *odd;
-  random_t r = {10};
+  splitmix_t r = {10};
   for (int f = 0; f < 2; f++) {
     rls_t s;
     CHECK_OK(rls_init(&s, f ? &lesson_walk : &lesson_thesis, &lesson_flat));
     int bad = 0;
     for (int k = 0; k < 50000; k++) {
-      lesson_t x = lesson_at(random_between(&r, 0.0, 0.15), random_between(&r, 0.5, 2.0));
+      lesson_t x = lesson_at(splitmix_between(&r, 0.0, 0.15), splitmix_between(&r, 0.5, 2.0));
       for (int i = 0; i < N; i++)
-        if (random_bits(&r) % 8 == 0) x.a[i] = odd[random_bits(&r) % odds];
-      if (random_bits(&r) % 4 == 0) x.y = odd[random_bits(&r) % odds];
+        if (splitmix_bits(&r) % 8 == 0) x.a[i] = odd[splitmix_bits(&r) % odds];
+      if (splitmix_bits(&r) % 4 == 0) x.y = odd[splitmix_bits(&r) % odds];
       const status_t status = rls_update(&s, f ? &lesson_walk : &lesson_thesis, x.a, x.y);
       if (status == ST_BAD_PARAM) bad++;
       for (int i = 0; i < N; i++)
@@ -177,11 +177,11 @@ TEST(rls_recovers_from_any_flipped_bit_of_p) {
         memcpy(&word, &s.P[place / N][place % N], sizeof word);
         word ^= (uint32_t)1 << bit;
         memcpy(&s.P[place / N][place % N], &word, sizeof word);
-        random_t r = {15};
+        splitmix_t r = {15};
         int refused = 0;
         for (int k = 0; k < 200; k++) {
-          const double z = (k < 100 ? 0.1 : 0.02) + random_normal(&r, 0.002);
-          const lesson_t x = lesson_at(z, lesson_theory(z) + random_normal(&r, 0.02));
+          const double z = (k < 100 ? 0.1 : 0.02) + splitmix_normal(&r, 0.002);
+          const lesson_t x = lesson_at(z, lesson_theory(z) + splitmix_normal(&r, 0.02));
           if (rls_update(&s, form[f], x.a, x.y) != ST_OK) refused++;
           if (!lesson_all_finite(&s)) refused += 1000;
         }

@@ -3,7 +3,7 @@
 // no number, no motor may be asked for more than its most, and after 6 s of good input with the shipped
 // parameters nothing of it may be left. STORM_SEED takes other seeds, STORM_TICKS more or fewer ticks.
 #include "rig/flight_state.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <stdlib.h>
@@ -17,24 +17,24 @@
 
 // --- the storm ------------------------------------------------------------------------------------------
 
-static float between(random_t *r, double lo, double hi) {
-  return (float)random_between(r, lo, hi);
+static float between(splitmix_t *r, double lo, double hi) {
+  return (float)splitmix_between(r, lo, hi);
 }
 
-static bool one_in(random_t *r, unsigned n) {
-  return random_bits(r) % n == 0;
+static bool one_in(splitmix_t *r, unsigned n) {
+  return splitmix_bits(r) % n == 0;
 }
 
 // Most of them as they come, some at an end of their range or anywhere in it; often, sets contradict
 // themselves.
-static void draw_params(random_t *r, flight_param_t *p) {
+static void draw_params(splitmix_t *r, flight_param_t *p) {
   do {
     params_default(p);
-    const unsigned some = (unsigned)(random_bits(r) % 16);
+    const unsigned some = (unsigned)(splitmix_bits(r) % 16);
     for (int i = 0; i < params_count; i++) {
       const param_row_t *row = &params_table[i];
-      if (random_bits(r) % 16 > some) continue;
-      const double at = one_in(r, 2) ? (double)(random_bits(r) % 2) : random_between(r, 0.0, 1.0);
+      if (splitmix_bits(r) % 16 > some) continue;
+      const double at = one_in(r, 2) ? (double)(splitmix_bits(r) % 2) : splitmix_between(r, 0.0, 1.0);
       float value = (float)((double)row->min + at * ((double)row->max - (double)row->min));
       if (row->type == PARAM_INT) value = roundf(value);
       (void)!params_set(p, row, f_clamp(value, row->min, row->max));
@@ -42,18 +42,18 @@ static void draw_params(random_t *r, flight_param_t *p) {
   } while (params_check(p) != ST_OK);
 }
 
-static float garbage(random_t *r) {
+static float garbage(splitmix_t *r) {
   static const float odd[] = {NAN,   INFINITY, -INFINITY, 3.4e38f, -3.4e38f,
                               1e20f, 1e-40f,   0.0f,      -0.0f,   32.767f};
-  return one_in(r, 3) ? between(r, -50.0, 50.0) : odd[random_bits(r) % (sizeof odd / sizeof *odd)];
+  return one_in(r, 3) ? between(r, -50.0, 50.0) : odd[splitmix_bits(r) % (sizeof odd / sizeof *odd)];
 }
 
-static void draw_setpoint(random_t *r, flight_setpoint_t *sp) {
+static void draw_setpoint(splitmix_t *r, flight_setpoint_t *sp) {
   *sp = (flight_setpoint_t){
-      .x = (axis_mode_t)(random_bits(r) % 3),
-      .y = (axis_mode_t)(random_bits(r) % 3),
-      .z = (axis_mode_t)(random_bits(r) % 3),
-      .yaw = (yaw_mode_t)(random_bits(r) % 2),
+      .x = (axis_mode_t)(splitmix_bits(r) % 3),
+      .y = (axis_mode_t)(splitmix_bits(r) % 3),
+      .z = (axis_mode_t)(splitmix_bits(r) % 3),
+      .yaw = (yaw_mode_t)(splitmix_bits(r) % 2),
       .vel_in_body = one_in(r, 2),
       .pos_w_m = {between(r, -2, 2), between(r, -2, 2), between(r, 0, 2)},
       .vel_mps = {between(r, -1, 1), between(r, -1, 1), between(r, -1, 1)},
@@ -67,7 +67,7 @@ static void draw_setpoint(random_t *r, flight_setpoint_t *sp) {
 }
 
 // A vehicle that hovers, stands on a slope or is turned about; seen with a sensor's noise.
-static void good_input(random_t *r, flight_in_t *in, v3_t pos_w_m, quat_t q, const float force_N[MOTORS]) {
+static void good_input(splitmix_t *r, flight_in_t *in, v3_t pos_w_m, quat_t q, const float force_N[MOTORS]) {
   in->rate_b_radps = (v3_t){between(r, -0.01, 0.01), between(r, -0.01, 0.01), between(r, -0.01, 0.01)};
   in->q_wb = q;
   in->acc_b_mps2 = v3_add(quat_to_body(q, (v3_t){0.0f, 0.0f, GRAVITY_MPS2}),
@@ -78,7 +78,7 @@ static void good_input(random_t *r, flight_in_t *in, v3_t pos_w_m, quat_t q, con
   in->no_lesson = false;
 }
 
-static void spoil(random_t *r, flight_in_t *in) {
+static void spoil(splitmix_t *r, flight_in_t *in) {
   float *const at[] = {&in->rate_b_radps.x,
                        &in->rate_b_radps.z,
                        &in->acc_b_mps2.x,
@@ -100,14 +100,14 @@ static void spoil(random_t *r, flight_in_t *in) {
                        &in->setpoint.yaw_rad,
                        &in->setpoint.yaw_rate_radps,
                        &in->setpoint.acc_w_mps2.z};
-  *at[random_bits(r) % (sizeof at / sizeof *at)] = garbage(r);
+  *at[splitmix_bits(r) % (sizeof at / sizeof *at)] = garbage(r);
 }
 
 // Most calls come in time; or all of a storm are late alike.
-static uint32_t time_passes(random_t *r, uint32_t pace) {
+static uint32_t time_passes(splitmix_t *r, uint32_t pace) {
   static const uint32_t steps[] = {0,  2,  3,  5,   7,      10,          13,         30,
                                    49, 50, 51, 500, 100000, 0x7fffffffu, 0xffffff00u};
-  return one_in(r, 40) ? steps[random_bits(r) % (sizeof steps / sizeof *steps)] : pace;
+  return one_in(r, 40) ? steps[splitmix_bits(r) % (sizeof steps / sizeof *steps)] : pace;
 }
 
 typedef struct {
@@ -129,10 +129,10 @@ static bool step(storm_t *s, uint32_t ms) {
   return CHECK(bad == NULL);
 }
 
-static bool rage(storm_t *s, random_t *r) {
+static bool rage(storm_t *s, splitmix_t *r) {
   static const uint32_t paces[] = {1, 1, 1, 1, 2, 10, 30, 40, 50};
-  const uint32_t pace = paces[random_bits(r) % (sizeof paces / sizeof *paces)];
-  const unsigned bad = 2u + (unsigned)(random_bits(r) % 200);
+  const uint32_t pace = paces[splitmix_bits(r) % (sizeof paces / sizeof *paces)];
+  const unsigned bad = 2u + (unsigned)(splitmix_bits(r) % 200);
   v3_t pos = {0.0f, 0.0f, between(r, 0.0, 2.0)};
   quat_t q = quat_unit((quat_t){1.0f, between(r, -0.1, 0.1), between(r, -0.1, 0.1), between(r, -1, 1)});
   for (int k = 0; k < STORM_MS; k++) {
@@ -159,7 +159,7 @@ static bool rage(storm_t *s, random_t *r) {
   return true;
 }
 
-static bool calm(storm_t *s, random_t *r) {
+static bool calm(storm_t *s, splitmix_t *r) {
   flight_param_t p;
   params_default(&p);
   CHECK_OK(flight_tune(&s->f, &p));
@@ -201,8 +201,8 @@ static uint64_t number(const char *name, uint64_t otherwise) {
 
 // Storm number k of a seed, and 6 s of good input after it.
 static bool weather(uint64_t seed, long k) {
-  random_t r = {seed * 1000003u + (uint64_t)k};
-  storm_t s = {.in = {.step = (uint32_t)random_bits(&r), .q_wb = {.w = 1.0f}}};
+  splitmix_t r = {seed * 1000003u + (uint64_t)k};
+  storm_t s = {.in = {.step = (uint32_t)splitmix_bits(&r), .q_wb = {.w = 1.0f}}};
   flight_param_t p;
   draw_params(&r, &p);
   CHECK_OK(flight_init(&s.f, &p));

@@ -1,6 +1,6 @@
 // test_thrust.c - motor lag, and that the modelled thrust and the filtered acceleration are synchronous.
 #include "flight/thrust.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <string.h>
@@ -75,10 +75,10 @@ static double difference_N(float cutoff_Hz, double tau_s, int late) {
   const double start_N = mass_kg * 9.81;
   lpf2_reset(&acc, 9.81f);
   thrust_reset(&model, (float)start_N);
-  random_t r = {1};
+  splitmix_t r = {1};
   double command_N[1002] = {start_N, start_N}, motors_N = start_N, worst_N = 0.0;
   for (int k = 2; k < 1002; k++) {
-    command_N[k] = random_bits(&r) % 20 == 0 ? random_between(&r, 0.0, 0.6) : command_N[k - 1];
+    command_N[k] = splitmix_bits(&r) % 20 == 0 ? splitmix_between(&r, 0.0, 0.6) : command_N[k - 1];
     // The motors during the period: an exact first-order lag behind a command that is held.
     motors_N = command_N[k] + (motors_N - command_N[k]) * exp(-period_s / tau_s);
     const double felt_N = mass_kg * (double)lpf2_step(&acc, &c, (float)(motors_N / mass_kg));

@@ -1,5 +1,6 @@
 // test_body.c - six degrees of freedom in their surroundings: flight, integrators, repeatability.
 #include "body/body.h"
+#include "rig/turned.h"
 #include "rig/vehicle6.h"
 #include <string.h>
 
@@ -8,7 +9,7 @@ TEST(body_in_free_fall_falls_as_it_should_and_feels_nothing) {
   for (int k = 0; k < 2; k++) {
     ROW("kind %d", k);
     body_start_t start = {.pos_w_m = {1.0, 2.0, 50.0}, .vel_w_mps = {0.5, -0.5, 1.0}};
-    start.q_wb = dq_about(d3(1.0, 0.0, 0.0), 0.7);
+    start.q_wb = turned_about(d3(1.0, 0.0, 0.0), 0.7);
     body_t b;
     if (!CHECK_OK(body_open(&b, &m, vehicle6_kinds[k], 0.002, &start))) continue;
     vehicle6_fly(&b, 0.0, 500);

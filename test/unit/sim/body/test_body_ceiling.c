@@ -1,4 +1,5 @@
 // test_body_ceiling.c - six degrees of freedom near a ceiling or the ground: height and tilt.
+#include "rig/turned.h"
 #include "rig/vehicle6.h"
 #include <string.h>
 
@@ -16,7 +17,7 @@ static double growth_radps(double gap_m, bool tilt, double guess) {
   body_start_t start = vehicle6_start(&m, 1.0 - gap_m, share);
   const double z_m = start.pos_w_m.z, step_s = 0.0005;
   if (tilt)
-    start.q_wb = dq_about(x_axis, 1e-7);
+    start.q_wb = turned_about(x_axis, 1e-7);
   else
     start.pos_w_m.z += 1e-8;
   body_t b;
@@ -57,7 +58,7 @@ TEST(ground_turns_a_tilted_vehicle_back_and_a_ceiling_turns_it_over) {
     vehicle6_add(&m, name[i]);
     const double gap_m = 0.05, ratio = 1.0 + 0.44 * exp(-80.0 * gap_m), slope_pm = 80.0 * (ratio - 1.0);
     body_start_t start = vehicle6_start(&m, gap_m, 1.0 / ratio);
-    start.q_wb = dq_about(x_axis, 1e-4);
+    start.q_wb = turned_about(x_axis, 1e-4);
     body_t b;
     if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) continue;
     const double stiffness = 0.0325 * 0.0325 * WEIGHT_N / ratio * slope_pm / 16.8e-6; // 1/s2
@@ -75,7 +76,7 @@ TEST(each_rotor_has_its_own_distance_along_the_vertical) {
   vehicle6_add(&m, "ceiling");
   vehicle6_add(&m, "ground");
   body_start_t start = {.pos_w_m = {0.0, 0.0, 0.9}};
-  start.q_wb = dq_about(x_axis, 0.5);
+  start.q_wb = turned_about(x_axis, 0.5);
   body_t b;
   if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
   for (int i = 0; i < ROTORS; i++) {
@@ -102,7 +103,7 @@ TEST(blades_touch_at_the_tilt_that_geometry_says) {
     for (int k = 0; k < 30; k++) {
       const double mid = 0.5 * (lo + hi);
       body_start_t start = {.pos_w_m = {0.0, 0.0, 1.0 - row[i].gap_m}};
-      start.q_wb = dq_about(d3(sqrt(0.5), sqrt(0.5), 0.0), mid);
+      start.q_wb = turned_about(d3(sqrt(0.5), sqrt(0.5), 0.0), mid);
       body_t b;
       if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
       *(body_clearance(&b).ceiling_m > 0.0 ? &lo : &hi) = mid;

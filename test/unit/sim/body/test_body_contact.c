@@ -1,4 +1,5 @@
 // test_body_contact.c - six degrees of freedom that touch the ceiling, the ground, at any speed and tilt.
+#include "rig/turned.h"
 #include "rig/vehicle6.h"
 
 TEST(body_sticks_to_the_ceiling_as_long_as_the_suction_holds) {
@@ -40,7 +41,7 @@ TEST(body_never_tunnels_whatever_speed_and_tilt_it_hits_with) {
         vehicle6_add(&m, "ceiling");
         m.frame.top_above_rotor_m = 0.008;
         body_start_t start = {.pos_w_m = {0.0, 0.0, 0.25}, .vel_w_mps = {1.0, 0.0, speeds[s]}};
-        start.q_wb = dq_about(d3(0.6, 0.8, 0.0), tilts[a]);
+        start.q_wb = turned_about(d3(0.6, 0.8, 0.0), tilts[a]);
         start.rate_b_radps = d3(3.0, -2.0, 1.0);
         body_t b;
         if (!CHECK_OK(body_open(&b, &m, vehicle6_kinds[k], 0.002, &start))) continue;

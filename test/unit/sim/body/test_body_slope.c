@@ -1,4 +1,5 @@
 // test_body_slope.c - six degrees of freedom on a floor that slopes, at a wall, and held.
+#include "rig/turned.h"
 #include "rig/vehicle6.h"
 
 static model_t on_slope(double deg, double azimuth_rad) {
@@ -79,7 +80,7 @@ TEST(body_that_is_held_stands_still_while_its_rotors_turn) {
   for (int k = 0; k < 2; k++) {
     ROW("kind %d", k);
     const model_t m = vehicle6(HUGE_VAL);
-    const dq_t q = dq_about(d3(0.6, 0.8, 0.0), 0.3);
+    const dq_t q = turned_about(d3(0.6, 0.8, 0.0), 0.3);
     const body_start_t start = {.pos_w_m = {0.1, 0.2, 1.0}, .q_wb = q, .held = true};
     body_t b;
     if (!CHECK_OK(body_open(&b, &m, vehicle6_kinds[k], 0.002, &start))) continue;

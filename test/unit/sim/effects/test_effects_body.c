@@ -1,6 +1,7 @@
 // test_effects_body.c - effects in six degrees of freedom: sign and size against numbers by hand.
 #include "effects/fx.h"
 #include "rig/test.h"
+#include "rig/turned.h"
 #include "rig/vehicle6.h"
 #include "vehicle/model.h"
 
@@ -41,10 +42,10 @@ TEST(rotor_drag_and_body_drag_push_against_the_velocity_through_the_air) {
   check_d3(felt(&m, &start).acc_b_mps2, -1e-6 * sum_radps * 3.0 / MASS_KG, 1e-6 * sum_radps * 4.0 / MASS_KG,
            0.0, 1e-5);
   // Turned by 90 degrees to the left: body x looks along world y.
-  start.q_wb = dq_about(d3(0.0, 0.0, 1.0), 1.57079632679489662);
+  start.q_wb = turned_about(d3(0.0, 0.0, 1.0), 1.57079632679489662);
   check_d3(felt(&m, &start).acc_b_mps2, 1e-6 * sum_radps * 4.0 / MASS_KG, 1e-6 * sum_radps * 3.0 / MASS_KG,
            0.0, 1e-5);
-  start.q_wb = dq_about(d3(0.0, 0.0, 1.0), 0.0);
+  start.q_wb = turned_about(d3(0.0, 0.0, 1.0), 0.0);
   m.n_fx = 0;
   vehicle6_add(&m, "body_drag"); // 2e-3 x 13 m/s x (3, -4, 12) / 0.0329 kg
   check_d3(felt(&m, &start).acc_b_mps2, -2.370821, 3.161094, -9.483283, 1e-6);
@@ -59,7 +60,7 @@ TEST(wind_pushes_in_the_world_whatever_the_vehicle_looks_at) {
   fx_use_t *wind = vehicle6_add(&m, "wind");
   wind->p[0] = 0.0, wind->p[1] = 0.01;
   check_d3(felt(&m, &start).acc_b_mps2, 0.0, 0.303951, 0.0, 1e-6);
-  start.q_wb = dq_about(d3(0.0, 0.0, 1.0), 1.57079632679489662);
+  start.q_wb = turned_about(d3(0.0, 0.0, 1.0), 1.57079632679489662);
   check_d3(felt(&m, &start).acc_b_mps2, 0.303951, 0.0, 0.0, 1e-6);
 }
 

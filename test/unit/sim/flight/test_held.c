@@ -5,6 +5,7 @@
 #include "flight/setup.h"
 #include "pilots/pilot_flight.h"
 #include "rig/test.h"
+#include "rig/turned.h"
 
 #include <string.h>
 
@@ -100,8 +101,8 @@ TEST(torque_of_a_vehicle_that_is_held_does_not_raise_its_thrust) {
     ROW("%s", row[i].what);
     held_t r;
     fresh(&r);
-    const dq_t q =
-        dq_mul(dq_about(d3(1, 0, 0), rad(row[i].roll_deg)), dq_about(d3(0, 1, 0), rad(row[i].pitch_deg)));
+    const dq_t q = dq_mul(turned_about(d3(1, 0, 0), rad(row[i].roll_deg)),
+                          turned_about(d3(0, 1, 0), rad(row[i].pitch_deg)));
     open_hovering(&r, d3(0, 0, 1), q, true);
     r.in.set.thrust_N = row[i].asked_N;
     fly(&r, 1.0);
@@ -194,7 +195,7 @@ TEST(vehicle_that_a_hand_lets_go_of_levels_itself) {
       ROW("%g deg, %s", tilts_deg[i], mode ? "in place" : "level by hand");
       held_t r;
       fresh(&r);
-      open_hovering(&r, d3(0, 0, 1.0), dq_about(d3(0.6, 0.8, 0.0), rad(tilts_deg[i])), true);
+      open_hovering(&r, d3(0, 0, 1.0), turned_about(d3(0.6, 0.8, 0.0), rad(tilts_deg[i])), true);
       ask(&r, mode ? PILOT_POSITION : PILOT_OFF, PILOT_POSITION);
       r.in.set.yaw_rad = 0.5;
       fly(&r, 5.0);

@@ -15,7 +15,7 @@ typedef struct {
   model_t vehicle;
   gap_flight_t flight;
   set_t set;
-  manner_t manner;
+  closed_loop_t loop;
 } rig_t;
 
 // A flight in which nothing is hidden.
@@ -31,7 +31,7 @@ static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   for (int ch = 0; ch < CHANNELS; ch++)
     residual[ch] = calloc((size_t)set_rows(&r->set, ch)->n + 1, sizeof(double));
   TRY(residual_of(&r->set, &r->vehicle, residual, why));
-  r->manner = manner_of(&r->set, &r->vehicle, NULL, residual);
+  r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, residual);
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   return DONE;
 }
@@ -50,10 +50,10 @@ static double restless_N(const gap_flight_t *f) {
 static double nominal_restless_N(const rig_t *r, flown_by_kind_t kind) {
   gap_flight_t flown;
   why_t why = {""};
-  manner_t manner = r->manner;
+  closed_loop_t loop = r->loop;
   const flown_by_t by = {.kind = kind, .pid = stock_pid_default()};
-  manner.flown_by = &by;
-  if (!CHECK_OK(nominal_fly(&r->set.grid[0], &r->vehicle, &manner, 5, &flown, NULL, &why))) return 0.0;
+  loop.flown_by = &by;
+  if (!CHECK_OK(nominal_fly(&r->set.grid[0], &r->vehicle, &loop, 5, &flown, NULL, &why))) return 0.0;
   const double median_N = restless_N(&flown);
   gap_flight_free(&flown);
   return median_N;

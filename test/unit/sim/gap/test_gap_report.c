@@ -15,8 +15,8 @@
 TEST(gap_counts_time_from_the_beginning_of_the_log) {
   double t_s[6] = {100.0, 110.0, 120.0, 130.0, 140.0, 150.0};
   const gap_flight_t flight = {.n = 6, .t_s = t_s};
-  point_t last[2] = {{.t_s = 140.0, .q_wb = {1.0, 0.0, 0.0, 0.0}},
-                     {.t_s = 150.0, .q_wb = {1.0, 0.0, 0.0, 0.0}}};
+  grid_point_t last[2] = {{.t_s = 140.0, .q_wb = {1.0, 0.0, 0.0, 0.0}},
+                          {.t_s = 150.0, .q_wb = {1.0, 0.0, 0.0, 0.0}}};
   const grid_t third = {.flight = &flight, .from = 4, .samples = 2, .n = 2, .point = last};
   model_t m;
   why_t why;

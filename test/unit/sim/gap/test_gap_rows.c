@@ -15,10 +15,10 @@ static set_t set_of(int flights) {
   grid_t *const grid = calloc((size_t)flights, sizeof *grid);
   if (!grid) abort();
   for (int f = 0; f < flights; f++) {
-    grid[f] = (grid_t){.period_s = PERIOD_S, .n = POINTS, .point = calloc(POINTS, sizeof(point_t))};
+    grid[f] = (grid_t){.period_s = PERIOD_S, .n = POINTS, .point = calloc(POINTS, sizeof(grid_point_t))};
     if (!grid[f].point) abort();
     for (int j = 0; j < POINTS; j++)
-      grid[f].point[j] = (point_t){.t_s = PERIOD_S * j, .ok = true, .range_m = 0.5};
+      grid[f].point[j] = (grid_point_t){.t_s = PERIOD_S * j, .ok = true, .range_m = 0.5};
   }
   CHECK_OK(set_make(&s, grid, flights, &why));
   return s;

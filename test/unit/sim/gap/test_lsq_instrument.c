@@ -1,7 +1,7 @@
 // test_lsq_instrument.c - two-stage least squares where the truth is known: a regressor that a disturbance
 // feeds, and instruments that it does not.
 #include "base/lsq_instrument.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <string.h>
@@ -26,12 +26,12 @@ static void add(sums_t *s, int block, const double *row, int size) {
 // y = 2 x + e, x = strength (z1 + z2) + feedback e + noise; a second set of instruments has nothing to do
 // with any of it.
 static void make(sums_t *s, double strength, double feedback, uint64_t seed) {
-  random_t r = {seed};
+  splitmix_t r = {seed};
   memset(s, 0, sizeof *s);
   for (int i = 0; i < BLOCKS * ROWS; i++) {
-    const double z1 = random_normal(&r, 1.0), z2 = random_normal(&r, 1.0), e = random_normal(&r, 1.0);
-    const double x = strength * (z1 + z2) + feedback * e + random_normal(&r, 1.0);
-    const double row[] = {x, z1, z2, random_normal(&r, 1.0), random_normal(&r, 1.0), 2.0 * x + e};
+    const double z1 = splitmix_normal(&r, 1.0), z2 = splitmix_normal(&r, 1.0), e = splitmix_normal(&r, 1.0);
+    const double x = strength * (z1 + z2) + feedback * e + splitmix_normal(&r, 1.0);
+    const double row[] = {x, z1, z2, splitmix_normal(&r, 1.0), splitmix_normal(&r, 1.0), 2.0 * x + e};
     add(s, i / ROWS, row, 6);
   }
 }

@@ -15,15 +15,15 @@ static double wave(int j) {
 }
 
 // A flight along x to and fro, told by place, or by speed, on x alone.
-static grid_t flown(point_t point[POINTS], bool by_speed, double place_m) {
+static grid_t flown(grid_point_t point[POINTS], bool by_speed, double place_m) {
   for (int j = 0; j < POINTS; j++)
-    point[j] = (point_t){.ok = true,
-                         .q_wb = {.w = 1.0},
-                         .vbat_V = 4.0 - 0.001 * j + (j % 2 ? 0.05 : -0.05),
-                         .pos_w_m = {wave(j), 0.2, 0.5},
-                         .set_w_m = {by_speed ? place_m : place_m + wave(j), (double)NAN, (double)NAN},
-                         .set_w_mps = {by_speed ? 4.0 * cos(0.1 * j) : 0.0, (double)NAN, (double)NAN},
-                         .set_yaw_rad = (double)NAN};
+    point[j] = (grid_point_t){.ok = true,
+                              .q_wb = {.w = 1.0},
+                              .vbat_V = 4.0 - 0.001 * j + (j % 2 ? 0.05 : -0.05),
+                              .pos_w_m = {wave(j), 0.2, 0.5},
+                              .set_w_m = {by_speed ? place_m : place_m + wave(j), (double)NAN, (double)NAN},
+                              .set_w_mps = {by_speed ? 4.0 * cos(0.1 * j) : 0.0, (double)NAN, (double)NAN},
+                              .set_yaw_rad = (double)NAN};
   return (grid_t){.n = POINTS, .point = point, .period_s = 0.01, .has_position = true};
 }
 
@@ -37,7 +37,7 @@ TEST(set_points_that_the_vehicle_does_not_follow_are_left_out) {
              {"told by speed, with a place left over", true, 0.0, false},
              {"a place that is far away", false, 3.0, false}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    point_t point[POINTS];
+    grid_point_t point[POINTS];
     ROW("%s", row[i].what);
     grid_t g = flown(point, row[i].by_speed, row[i].place_m);
     CHECK(set_points_there(&g));
@@ -48,7 +48,7 @@ TEST(set_points_that_the_vehicle_does_not_follow_are_left_out) {
 }
 
 TEST(set_points_make_a_track_of_nothing_that_was_measured) {
-  point_t point[POINTS];
+  grid_point_t point[POINTS];
   why_t why;
   for (int by_speed = 0; by_speed < 2; by_speed++) {
     grid_t track, g = flown(point, by_speed, 0.0);
@@ -66,7 +66,7 @@ TEST(set_points_make_a_track_of_nothing_that_was_measured) {
 }
 
 TEST(set_points_are_none_where_the_log_has_none) {
-  point_t point[POINTS];
+  grid_point_t point[POINTS];
   const grid_t g = flown(point, false, 0.0);
   for (int j = 0; j < POINTS; j++) point[j].set_w_m.x = point[j].set_w_mps.x = (double)NAN;
   CHECK(!set_points_there(&g));

@@ -2,7 +2,7 @@
 // log.
 #include "crazyflie/stock_pid.h"
 #include "logs/effectiveness.h"
-#include "rig/random.h"
+#include "rig/splitmix.h"
 #include "rig/rig6.h"
 #include "rig/scratch.h"
 #include "rig/test.h"
@@ -34,13 +34,13 @@ static const char *simulated(const rig6_param_t *body, double noise_radps, int g
   stock_pid_t pid;
   const pilot_t pilot = stock_pid_pilot(&pid, &param);
   rig6_t r = rig6_at(body, corner[3], 0.0, true);
-  random_t random = {.state = 7};
+  splitmix_t random = {.state = 7};
   for (int i = 0; i < 60000; i++) {
     const pilot_setpoint_t set = rig6_hold(corner[i / 600 % 4], i / 450 % 2 ? 0.1 : -0.1);
     pilot_in_t in = rig6_sense(&r, &set);
-    in.gyro_b_radps.x += random_normal(&random, noise_radps);
-    in.gyro_b_radps.y += random_normal(&random, noise_radps);
-    in.gyro_b_radps.z += random_normal(&random, noise_radps);
+    in.gyro_b_radps.x += splitmix_normal(&random, noise_radps);
+    in.gyro_b_radps.y += splitmix_normal(&random, noise_radps);
+    in.gyro_b_radps.z += splitmix_normal(&random, noise_radps);
     double motor_N[4];
     pilot.step(pilot.state, &in, motor_N);
     const stock_command_t *c = &pid.command;

@@ -1,4 +1,4 @@
-// manner.c - how a flight was flown and measured.
+// closed_loop.c - how a flight was flown and measured.
 #include "gap/3_feedback/nominal.h"
 
 #include "base/lsq_blocks.h"
@@ -53,7 +53,7 @@ static void two_solve(const two_t *t, double *x, double *y) {
   *y = good ? -(t->bc * t->aa - t->ac * t->ab) / det : (double)NAN;
 }
 
-static d3_t tilt_of(const point_t *p) {
+static d3_t tilt_of(const grid_point_t *p) {
   const axes_t a = axes_of(p->q_wb);
   const d3_t up = axes_up_b(&a);
   return d3(up.y, -up.x, 0.0); // roll and pitch, small
@@ -75,11 +75,11 @@ static d3_t turn_of(const grid_t *g, const model_t *m, int j, double *lift_mps2)
   return d3(moment.x / f->inertia_kgm2[0], moment.y / f->inertia_kgm2[1], moment.z / f->inertia_kgm2[2]);
 }
 
-static void find_gains(const set_t *s, const model_t *m, manner_t *w) {
+static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_t roll = {0}, pitch = {0}, climb = {0};
   const grid_t *g = &s->grid[0];
   for (int j = 2; j < g->n; j++) {
-    const point_t *p = &g->point[j], *q = &g->point[j - 2];
+    const grid_point_t *p = &g->point[j], *q = &g->point[j - 2];
     if (!p->ok || !q->ok || p->segment != q->segment || p->segment != 0) continue;
     double lift, lift_before;
     const d3_t turn = d3_sub(turn_of(g, m, j, &lift), turn_of(g, m, j - 2, &lift_before));
@@ -129,7 +129,7 @@ static double filtered(const grid_t *g, int ch, double sd) {
   return ch < CH_FORCES ? mean : mean * 900.0; // a derivative: about (2 pi 5 Hz)^2
 }
 
-static void find_disturbance(const set_t *s, double *const r[CHANNELS], manner_t *w) {
+static void find_disturbance(const set_t *s, double *const r[CHANNELS], closed_loop_t *w) {
   const grid_t *g = &s->grid[0];
   double tau[2] = {0.0, 0.0};
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
@@ -147,8 +147,9 @@ static void find_disturbance(const set_t *s, double *const r[CHANNELS], manner_t
   w->turn_tau_s = clamp(tau[1], 0.05, 3.0);
 }
 
-manner_t manner_of(const set_t *s, const model_t *m, const flown_by_t *by, double *const residual[CHANNELS]) {
-  manner_t w = {.flown_by = by};
+closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
+                             double *const residual[CHANNELS]) {
+  closed_loop_t w = {.flown_by = by};
   const gap_flight_t *f = s->grid[0].flight;
   w.acc_mps2 = largest_noise(s, SIG_AX, SIG_AZ);
   w.gyro_radps = largest_noise(s, SIG_GX, SIG_GZ);

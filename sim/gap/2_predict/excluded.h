@@ -1,4 +1,4 @@
-// muted.h - channels in which these logs cannot be compared with any model.
+// excluded.h - channels in which these logs cannot be compared with any model.
 //
 // Turning follows from differences of commands. Where commands are logged more slowly than they were given,
 // what is logged is mostly noise, and every effect that makes predictions smaller (inertia, lag) seems to be
@@ -6,18 +6,18 @@
 // one, whatever the lag. Where it goes the other way, a sign or the order of the motors is wrong.
 //
 // Two motors that are exchanged cancel two of the moments: turning follows the commands about one axis alone.
-// Where a channel is muted every other order of the motors is tried; one that turns about all three axes as
-// measured is the right one.
-#ifndef SIM_GAP_2_PREDICT_MUTED_H
-#define SIM_GAP_2_PREDICT_MUTED_H
+// Where a channel is excluded every other order of the motors is tried; one that turns about all three axes
+// as measured is the right one.
+#ifndef SIM_GAP_2_PREDICT_EXCLUDED_H
+#define SIM_GAP_2_PREDICT_EXCLUDED_H
 
 #include "gap/2_predict/residual.h"
 
-#define MUTED_SLOPE   0.25
-#define MUTED_AGAINST -0.5 // correlation
+#define EXCLUDED_SLOPE   0.25
+#define EXCLUDED_AGAINST -0.5 // correlation
 
-// Sets s->muted. BAD_INPUT: the vehicle turns against its commands, or as they say with the motors
+// Sets s->excluded. BAD_INPUT: the vehicle turns against its commands, or as they say with the motors
 // in another order. FAILED: no memory.
-MUST_CHECK done_t muted_find(set_t *s, const model_t *m, why_t *why);
+MUST_CHECK done_t excluded_find(set_t *s, const model_t *m, why_t *why);
 
 #endif

@@ -1,6 +1,6 @@
-// manner_slow.h - errors of the estimates that last for a while: sd and correlation time.
-#ifndef SIM_GAP_3_FEEDBACK_MANNER_SLOW_H
-#define SIM_GAP_3_FEEDBACK_MANNER_SLOW_H
+// slow_errors.h - errors of the estimates that last for a while: sd and correlation time.
+#ifndef SIM_GAP_3_FEEDBACK_SLOW_ERRORS_H
+#define SIM_GAP_3_FEEDBACK_SLOW_ERRORS_H
 
 #include "gap/2_predict/grid.h"
 

@@ -1,23 +1,22 @@
-// muted.c - channels in which these logs cannot be compared with any model.
-#include "gap/2_predict/muted.h"
+// excluded.c - channels in which these logs cannot be compared with any model.
+#include "gap/2_predict/excluded.h"
 
-#include "gap/2_predict/increments.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
 
-#define ORDERS  24   // of four motors
-#define FOLLOWS 0.35 // correlation
-#define BETTER  0.3  // of correlation
+#define ORDERS     24   // of four motors
+#define FOLLOWS    0.35 // correlation
+#define MORE_ALIKE 0.3  // of correlation
 
 typedef struct {
   double slope, correlation;
 } likeness_t;
 
 // Of the increments of what was measured and what was predicted.
-static likeness_t compare(const rows_t *r, const double *measured, const double *residual) {
+static likeness_t likeness(const rows_t *r, const double *measured, const double *residual) {
   const increments_t s = increments_of(r, measured, residual);
   return s.pp > 0.0 && s.yy > 0.0 ? (likeness_t){s.yp / s.pp, s.yp / sqrt(s.yy * s.pp)}
                                   : (likeness_t){1.0, 1.0};
@@ -39,7 +38,7 @@ static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, l
     slower.motor_tau_s += MORE_TAU_S[i];
     TRY(residual_of(s, &slower, r, why));
     for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-      const likeness_t now = compare(&s->smooth, measured[ch], r[ch]);
+      const likeness_t now = likeness(&s->smooth, measured[ch], r[ch]);
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
@@ -72,7 +71,7 @@ static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[C
   int better = 0;
   for (int ch = CH_WX; ch <= CH_WZ; ch++) {
     if (!(other[ch].correlation > FOLLOWS)) return false;
-    better += other[ch].correlation > given[ch].correlation + BETTER;
+    better += other[ch].correlation > given[ch].correlation + MORE_ALIKE;
   }
   return better >= 2;
 }
@@ -98,30 +97,30 @@ static done_t find_order(set_t *s, const model_t *m, const likeness_t given[CHAN
   return DONE;
 }
 
-static done_t find(set_t *s, const model_t *m, double *room, why_t *why) {
+static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
   likeness_t best[CHANNELS];
   bool any = false;
   TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
   for (int ch = CH_WX; ch <= CH_WZ; ch++)
-    if (best[ch].correlation > -2.0 && best[ch].correlation < MUTED_AGAINST)
+    if (best[ch].correlation > -2.0 && best[ch].correlation < EXCLUDED_AGAINST)
       return error_set(
           why,
           "%s: %s goes against what the motor commands say (correlation %.2f); allowed: rates and "
           "commands of one sign, motors in the vehicle file's order",
           s->grid[0].flight->name, gap_channel[ch], best[ch].correlation);
   for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-    s->muted[ch] = best[ch].slope < MUTED_SLOPE;
-    any = any || s->muted[ch];
+    s->excluded[ch] = best[ch].slope < EXCLUDED_SLOPE;
+    any = any || s->excluded[ch];
   }
   return any ? find_order(s, m, best, room, why) : DONE;
 }
 
-done_t muted_find(set_t *s, const model_t *m, why_t *why) {
-  memset(s->muted, 0, sizeof s->muted);
+done_t excluded_find(set_t *s, const model_t *m, why_t *why) {
+  memset(s->excluded, 0, sizeof s->excluded);
   if (!residual_has(s, CH_WX)) return DONE;
   const size_t n = set_most_rows(s);
   double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
-  const done_t status = room ? find(s, m, room, why) : error_failed(why, "out of memory");
+  const done_t status = room ? exclude(s, m, room, why) : error_failed(why, "out of memory");
   free(room);
   return status;
 }
