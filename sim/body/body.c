@@ -3,7 +3,6 @@
 
 #include "base/constants.h"
 #include "plant/rigid.h"
-#include "plant/rotor.h"
 #include <math.h>
 #include <string.h>
 
@@ -201,22 +200,10 @@ void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
   tick(b, span_s);
 }
 
-void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s) {
-  for (int i = 0; i < ROTORS; i++)
-    b->command_N[i] = rotor_command_N(&b->model->map, pwm[i], b->vbat_V, b->model->thrust_max_N / ROTORS);
-  tick(b, span_s);
-}
-
 // --- looking ----------------------------------------------------------------------------------------------
 
 static void derivative_now(const body_t *b, double dydt[RIGID_N]) {
   body_derivative_seen(b, b->y, &b->look, dydt);
-}
-
-d3_t body_angular_acc_b_radps2(const body_t *b) {
-  double dydt[RIGID_N];
-  derivative_now(b, dydt);
-  return d3_of(dydt + RIGID_RATE_RADPS);
 }
 
 d3_t body_specific_force_b_mps2(const body_t *b) {

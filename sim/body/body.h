@@ -73,13 +73,9 @@ MUST_CHECK done_t body_open(body_t *b, const model_t *model, integrate_kind_t ki
 // Moves on by span_s with commands in newton per motor (what the thrust in free air will settle at; within a
 // quarter of the model's thrust limits), or in PWM 0..65535 through the thrust map at the battery's voltage.
 void body_tick(body_t *b, const double command_N[ROTORS], double span_s);
-void body_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s);
 
 // Specific force at the accelerometer, body axes: what a perfect one reads, +g along z at rest.
 d3_t body_specific_force_b_mps2(const body_t *b);
-
-// Angular acceleration, body axes.
-d3_t body_angular_acc_b_radps2(const body_t *b);
 
 double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
 double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by

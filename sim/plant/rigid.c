@@ -21,12 +21,3 @@ double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]) {
   const d3_t v = d3_of(y + RIGID_VEL_MPS), w = d3_of(y + RIGID_RATE_RADPS), J = r->inertia_kgm2;
   return 0.5 * (r->mass_kg * d3_dot(v, v) + J.x * w.x * w.x + J.y * w.y * w.y + J.z * w.z * w.z);
 }
-
-d3_t rigid_momentum_w(const rigid_t *r, const double y[RIGID_N]) {
-  const d3_t w = d3_of(y + RIGID_RATE_RADPS), J = r->inertia_kgm2;
-  double spin_Nms = 0.0, speed[ROTORS];
-  rigid_rotor_radps(r, y + RIGID_THRUST_N, speed);
-  for (int i = 0; i < ROTORS; i++) spin_Nms += r->spin[i] * r->rotor_inertia_kgm2 * speed[i];
-  const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
-  return axes_to_world(&axes, d3(J.x * w.x, J.y * w.y, J.z * w.z + spin_Nms));
-}

@@ -72,9 +72,6 @@ void rigid_normalise(double y[RIGID_N]);
 // Kinetic energy of translation and rotation (J), without the rotors' own.
 double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]);
 
-// Angular momentum about the centre of mass with the rotors' own, world axes.
-d3_t rigid_momentum_w(const rigid_t *r, const double y[RIGID_N]);
-
 // --- the equations: nearly all of a flight's time goes here, so they are inline --------------------------
 
 // Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.

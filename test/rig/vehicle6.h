@@ -24,6 +24,15 @@ void vehicle6_fly(body_t *b, double share, int ticks);
 
 double vehicle6_tilt_rad(const body_t *b);
 
+// A tick with commands in PWM 0..65535, through the thrust map at the battery's voltage.
+void vehicle6_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s);
+
+// Angular acceleration, body axes.
+d3_t vehicle6_angular_acc_b_radps2(const body_t *b);
+
+// Angular momentum about the centre of mass with the rotors' own, world axes.
+d3_t vehicle6_momentum_w(const rigid_t *r, const double y[RIGID_N]);
+
 // Both integrators that fly.
 extern const integrate_kind_t vehicle6_kinds[2];
 

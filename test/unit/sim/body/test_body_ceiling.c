@@ -63,7 +63,7 @@ TEST(ground_turns_a_tilted_vehicle_back_and_a_ceiling_turns_it_over) {
     if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) continue;
     const double stiffness = 0.0325 * 0.0325 * WEIGHT_N / ratio * slope_pm / 16.8e-6; // 1/s2
     const double want = (i == 0 ? -stiffness : stiffness) * 1e-4;
-    CHECK_NEAR(body_angular_acc_b_radps2(&b).x, want, 1e-3 * fabs(want));
+    CHECK_NEAR(vehicle6_angular_acc_b_radps2(&b).x, want, 1e-3 * fabs(want));
     vehicle6_fly(&b, 1.0 / ratio, 150);
     // at 3.59 rad/s for 0.3 s: cos or cosh of 1.08
     CHECK_NEAR(angle_of(&b), 1e-4 * (i == 0 ? cos(1.0774) : cosh(1.0774)), 2e-6);
@@ -128,7 +128,7 @@ TEST(body_yaws_by_the_thrust_in_free_air_however_near_the_ceiling_is) {
     CHECK((body_thrust_ratio(&b, 0) > 1.15) == (i == 2));
     memcpy(b.rigid.command_N, command_N, sizeof b.rigid.command_N); // the rotors keep their speed
     const double want = 4.0 * 0.1 * f * m.frame.torque_ratio_m / m.frame.inertia_kgm2[2];
-    CHECK_NEAR(body_angular_acc_b_radps2(&b).z, want, 1e-9 * want);
+    CHECK_NEAR(vehicle6_angular_acc_b_radps2(&b).z, want, 1e-9 * want);
     body_close(&b);
   }
 }

@@ -14,7 +14,7 @@ static felt_t felt_with(const model_t *m, const body_start_t *start) {
   felt_t felt = {{(double)NAN, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   body_t b;
   if (!CHECK_OK(body_open(&b, m, INTEGRATE_RK4, 0.002, start))) return felt;
-  felt = (felt_t){body_specific_force_b_mps2(&b), body_angular_acc_b_radps2(&b)};
+  felt = (felt_t){body_specific_force_b_mps2(&b), vehicle6_angular_acc_b_radps2(&b)};
   body_close(&b);
   return felt;
 }

@@ -67,10 +67,10 @@ TEST(battery_sags_in_flight_and_the_same_pwm_gives_less) {
   if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start))) return;
   // As many as keep it on the ground: 0.9 of what hovers at full voltage.
   const double pwm[ROTORS] = {34000, 34000, 34000, 34000};
-  for (int i = 0; i < 500; i++) body_tick_pwm(&b, pwm, TICK_S);
+  for (int i = 0; i < 500; i++) vehicle6_tick_pwm(&b, pwm, TICK_S);
   const double early_N = b.y[RIGID_THRUST_N], early_V = b.vbat_V;
   CHECK(early_V < 4.0 && early_V > 3.7);
-  for (int i = 0; i < 60000; i++) body_tick_pwm(&b, pwm, TICK_S);
+  for (int i = 0; i < 60000; i++) vehicle6_tick_pwm(&b, pwm, TICK_S);
   // 121 s at about 1.9 A of 900 As
   CHECK_NEAR(b.charge, 1.0 - 121.0 * b.current_A / 900.0, 0.02);
   CHECK(b.vbat_V < early_V - 0.1);

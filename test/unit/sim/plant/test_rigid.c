@@ -27,7 +27,7 @@ TEST(free_rotation_keeps_energy_and_angular_momentum) {
       body_t b;
       if (!CHECK_OK(body_open(&b, &m, (integrate_kind_t)kind, 0.002, &start))) continue;
       double still[RIGID_N];
-      const d3_t before = rigid_momentum_w(&b.rigid, b.y);
+      const d3_t before = vehicle6_momentum_w(&b.rigid, b.y);
       const double energy_J = rigid_energy_J(&b.rigid, b.y);
       double turned = 0.0;
       for (int t = 0; t < 5000; t++) {
@@ -36,7 +36,7 @@ TEST(free_rotation_keeps_energy_and_angular_momentum) {
       }
       memcpy(still, b.y, sizeof still);
       d3_put(still + RIGID_VEL_MPS, d3(0.0, 0.0, 0.0));
-      const d3_t change = d3_sub(rigid_momentum_w(&b.rigid, still), before);
+      const d3_t change = d3_sub(vehicle6_momentum_w(&b.rigid, still), before);
       CHECK_NEAR(d3_norm(change) / d3_norm(before), 0.0, 1e-9);
       CHECK_NEAR(rigid_energy_J(&b.rigid, still) / energy_J, 1.0, 1e-9);
       if (i == 4) CHECK(turned < -4.9); // it does turn over
@@ -53,10 +53,10 @@ TEST(rotors_and_body_exchange_angular_momentum) {
   for (int i = 0; i < ROTORS; i++) start.thrust_N[i] = 0.04;
   body_t b;
   if (!CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.0005, &start))) return;
-  const d3_t before = rigid_momentum_w(&b.rigid, b.y);
+  const d3_t before = vehicle6_momentum_w(&b.rigid, b.y);
   const double yaw_radps = b.y[RIGID_RATE_RADPS + 2];
   vehicle6_fly(&b, 1.2, 500);
-  const d3_t change = d3_sub(rigid_momentum_w(&b.rigid, b.y), before);
+  const d3_t change = d3_sub(vehicle6_momentum_w(&b.rigid, b.y), before);
   CHECK_NEAR(d3_norm(change) / d3_norm(before), 0.0, 1e-9);
   CHECK(b.y[RIGID_RATE_RADPS + 2] < yaw_radps - 0.5); // the body goes the other way
   body_close(&b);

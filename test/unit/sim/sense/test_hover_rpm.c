@@ -3,7 +3,7 @@
 #include "base/by_size.h"
 #include "base/csv.h"
 #include "body/body.h"
-#include "rig/test.h"
+#include "rig/vehicle6.h"
 #include "vehicle/model_file.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ static hovered_t hover(const model_t *model, double volt) {
     const double pwm = 30000.0 + 60000.0 * (low_m + 2.0 * sum_ms - 0.5 * b.y[RIGID_VEL_MPS + 2]);
     const double each[ROTORS] = {pwm, pwm, pwm, pwm};
     b.vbat_V = volt;
-    body_tick_pwm(&b, each, dt);
+    vehicle6_tick_pwm(&b, each, dt);
     if (tick < 4500) continue;
     seen.pwm += pwm / 500.0;
     seen.rpm += RPM * sqrt(b.y[RIGID_THRUST_N] / model->frame.kf_Ns2) / 500.0;
