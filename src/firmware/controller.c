@@ -5,6 +5,7 @@
 // whoever flew then, so that taking over is no bump.
 #include "controller.h"
 
+#include "battery_cap.h"
 #include "controller_pid.h"
 #include "glue.h"
 #include "range.h"
@@ -44,12 +45,12 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   in->step = step;
   units_sensors(in, sensors, state);
   units_applied(in->force_N, control);
-  units_cap(in->force_N);
+  battery_cap(in->force_N);
   if (!supervisorAreMotorsAllowedToRun())
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
   units_setpoint(&in->setpoint, setpoint);
-  // For a person to read: in the call of ten in which no loop runs.
+  // For a person to read: in a call of ten in which no loop runs.
   if (GLUE.flight.phase == 1) GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
   in->no_lesson = !supervisorIsFlying();
 }

@@ -26,10 +26,6 @@ unsigned units_not_flown(const setpoint_t *setpoint);
 // The force that the firmware's power distribution asks of each motor, in any of its three modes.
 void units_applied(float force_N[MOTORS], const control_t *control);
 
-// What of it the motors got in the last millisecond. A battery below some 3.0 V under load cannot give full
-// thrust; the firmware then lowers the duty of all motors alike, until the highest is full.
-void units_cap(float force_N[MOTORS]);
-
 // The firmware's own force mode: ForceTorque would mix again and undo what the mixer gave up first.
 void units_command(control_t *control, const float force_N[MOTORS]);
 

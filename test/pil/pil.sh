@@ -14,7 +14,7 @@ done
 o=${O:-out}
 out=$o/pil
 mkdir -p $out/objects
-app="src/*.c src/firmware/controller.c src/firmware/range_up.c src/firmware/recorder.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
+app="src/*.c src/firmware/battery_cap.c src/firmware/controller.c src/firmware/range_up.c src/firmware/recorder.c src/firmware/settings.c src/firmware/telemetry.c src/firmware/units.c"
 around="test/pil/around.c test/pil/pil.c sim/crazyflie/stand_in_vehicle.c sim/crazyflie/sections.c"
 paths="-D_Thread_local= -Iinclude -Isrc -Isim/crazyflie -Isim -Itest"
 # As the firmware compiles an app (its tools/make), and with what the app adds to that: no fused multiply-add.

@@ -1,0 +1,13 @@
+// battery_cap.h - a low battery caps the thrust: what of it the motors got.
+//
+// A battery below some 3.0 V under load cannot give full thrust; the firmware's power distribution then
+// lowers the duty of all motors alike, until the highest is full.
+#ifndef BATTERY_CAP_H
+#define BATTERY_CAP_H
+
+#include "flight/mixer.h"
+
+// Of what power distribution asks of each motor, what the motors got in the last millisecond.
+void battery_cap(float force_N[MOTORS]);
+
+#endif
