@@ -8,8 +8,6 @@
 
 #define MATTERS_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
 
-done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
-
 // --- named effects ----------------------------------------------------------------------------------------
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.

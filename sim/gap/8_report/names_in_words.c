@@ -1,4 +1,4 @@
-// named.c - the page's part on what is missing: each name, and what has none.
+// names_in_words.c - the page's part on what is missing: each name in words, and what has none.
 #include "gap/8_report/page.h"
 
 #include "gap/5_infer/unknown.h"

@@ -116,9 +116,6 @@ const char *report_headline(const report_t *r) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-done_t report_take_evidence(report_t *r, study_t *study, why_t *why); // evidence.c
-void report_warn(report_t *r);                                        // warnings.c
-
 // The degrees of freedom are those of the selection's Wald test.
 static double half_interval(const diagnosis_t *d) {
   int columns = 0;

@@ -102,6 +102,11 @@ bool report_leaves_any(const report_t *r); // of one channel or more
 // What the page says at its top where nothing is named.
 const char *report_headline(const report_t *r);
 
+// Parts of it: where each name shows in the held-out flights; what is to be known beside the verdict. FAILED:
+// no memory.
+MUST_CHECK done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
+void report_warn(report_t *r);
+
 // "12.3 mm", or in metres from 1 m on.
 #define REPORT_LENGTH 24
 const char *report_length(double m, char text[REPORT_LENGTH]);

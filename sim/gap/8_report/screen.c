@@ -1,4 +1,4 @@
-// words.c - the verdict in words: one screen.
+// screen.c - the verdict in words: one screen of a terminal.
 #include "gap/8_report/report.h"
 
 #include "gap/5_infer/unknown.h"
