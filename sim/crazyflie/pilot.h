@@ -1,5 +1,5 @@
-// pilot.h - what flies in six degrees of freedom: measurements and a set point in, four motor forces out,
-// every millisecond. The flight code and its peers alike.
+// pilot.h - what flies: measurements and a set point in, four motor forces out, every millisecond (on the
+// vertical axis alone: every period of the plan). The flight code and its peers alike.
 //
 // World x, y level, z up; body x forward, y left, z up. Motors as on the Crazyflie, seen from above: m1 front
 // right, m2 back right, m3 back left, m4 front left; the air turns the body clockwise for m1 and m3 and
@@ -34,16 +34,16 @@ typedef struct {
 } pilot_setpoint_t;
 
 typedef struct {
-  uint32_t step;                  // counts calls; 1 kHz
+  uint32_t step;                  // counts calls
   d3_t gyro_b_radps;              // as measured
   d3_t acc_b_mps2;                // as measured: specific force, +9.81 on z at rest
   d3_t pos_w_m, vel_w_mps;        // as estimated
   dq_t q_wb;                      // as estimated; of length 1
   double applied_N[PILOT_MOTORS]; // command that was applied since the last call, after its limits
-  double rotors_N;             // what all rotors would give in free air; no Crazyflie measures it: for peers
-  double vbat_V;               // as measured
-  bool range_new;              // range_m was not there at the last call
-  double range_m, range_age_s; // upward range sensor, along body z; NaN: no valid distance
+  double rotors_N; // what all rotors would give in free air; no Crazyflie measures it: for peers
+  double vbat_V;   // as measured
+  bool range_new;  // range_m was not there at the last call
+  double range_m;  // upward range sensor, along body z; NaN: no valid distance
   pilot_setpoint_t set;
 } pilot_in_t;
 

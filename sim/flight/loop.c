@@ -99,7 +99,6 @@ static void sense(flight_loop_t *f, const truth_t *truth) {
   f->in.acc_b_mps2 = imu.acc_b_mps2;
   f->in.range_new = range.up_new;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
-  f->in.range_age_s = LOOP_UP_AGE_S;
   if (range.up_new) f->range_m = f->in.range_m;
   f->range_new = f->range_new || range.up_new;
 }

@@ -7,53 +7,10 @@
 #ifndef SIM_FLIGHT_LOOP_H
 #define SIM_FLIGHT_LOOP_H
 
-#include "body/body.h"
-#include "crazyflie/pilot.h"
+#include "flight/plan.h"
 #include "flight/record.h"
-#include "sense/mocap.h"
-#include "sense/noise.h"
-#include "sense/vertical.h"
 
-#define LOOP_TICK_S   0.002
-#define LOOP_UP_AGE_S 0.07 // what the app takes an upward sample's age to be
-
-#define WAYPOINTS_MAX 24
-
-// From at_s on the set point is setpoint_m.
-typedef struct {
-  double at_s, setpoint_m;
-} waypoint_t;
-
-// Stands between sensors and pilot, at every call: may edit what the pilot gets (nothing of it lasts
-// until the next call), and look at the truth.
-typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot_in_t *in);
-
-// How the flight is flown. The waypoints are heights of the rotors' plane; x, y and yaw are held at 0.
-typedef struct {
-  waypoint_t way[WAYPOINTS_MAX]; // at_s ascending, the first 0
-  int n_way;
-  double end_s;
-  uint64_t seed;
-  integrate_kind_t integrate;
-  double step_s;       // of the integrator, at most; 0: 2 ms
-  double held_s;       // something holds the vehicle where it starts until then
-  bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
-  int record_every;    // ticks for a sample; 0: as many as fill 10 ms
-  double take_off_s;   // the height is controlled from here on; before, the motors are off
-  loop_edit_t edit;    // null: none
-  void *edit_context;
-  // In six degrees of freedom.
-  noise_t noise;
-  mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
-  body_start_t start;  // used if in_flight; else at rest on the floor, motors off
-  bool in_flight;
-  // On the vertical axis; the vehicle is then a point, its rotors' plane.
-  bool vertical_only;
-  double period_s; // of motion, sensors and pilot
-  vertical_noise_t vertical_noise;
-  double start_z_m; // 0: on the ground
-  double start_thrust_N;
-} plan_t;
+#define LOOP_TICK_S 0.002
 
 typedef struct {
   int contacts;           // with the ceiling

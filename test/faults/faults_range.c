@@ -48,7 +48,6 @@ static void late_samples(case_t *c, pilot_in_t *in, double since_s) {
   } else {
     in->range_new = x < 0.02 && isfinite(in->range_m); // again
   }
-  in->range_age_s = 0.07 + (c->t_s - c->kept);
 }
 // To and fro with up to 20 degrees of tilt.
 static void swaying(case_t *c, pilot_in_t *in, double since_s) {

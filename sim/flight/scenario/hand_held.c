@@ -26,6 +26,7 @@
 #define HOLD_S      4.0
 #define MOVE_S      1.0
 #define GAIN        0.1
+#define UP_AGE_S    0.07 // what the app takes an upward sample's age to be
 #define TICK_MS     10
 
 typedef struct {
@@ -43,7 +44,7 @@ static void predict(algorithm1_t *a, const ceiling_param_t *p, double climb_m) {
 static void correct(algorithm1_t *a, const ceiling_param_t *p, double range_m, bool at_floor) {
   const double measured_m = a->says_0 && at_floor ? 0.0 : range_m;
   // A sample that the flight code refuses changes nothing.
-  if (a->gate) (void)!ceiling_correct(&a->ceiling, p, (float)measured_m, (float)LOOP_UP_AGE_S);
+  if (a->gate) (void)!ceiling_correct(&a->ceiling, p, (float)measured_m, (float)UP_AGE_S);
   if (!a->known) a->zc_m = measured_m;
   a->known = true;
   a->zc_m += GAIN * (measured_m - a->zc_m);

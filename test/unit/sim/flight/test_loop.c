@@ -10,6 +10,7 @@
 
 #define CEILING_M 0.5
 #define LIMIT_N   0.15 // of a motor of vehicle6()
+#define UP_AGE_MS 70   // of an upward sample, between the least and the greatest
 
 // A pilot that always wants the same, and looks.
 typedef struct {
@@ -34,13 +35,12 @@ static void still_reset(void *state) {
   (void)state;
 }
 
-// Compares the sample with what was true range_age_s before.
+// Compares the sample with what was true UP_AGE_MS before.
 static void watch(void *context, const body_t *truth, pilot_in_t *in) {
   still_t *const s = context;
   s->at_m[s->ms % 256] = body_ceiling_gap_m(truth, 0);
-  const int age = (int)lround(1e3 * in->range_age_s);
   if (in->range_new && s->ms >= 256) {
-    s->late_m += fabs(in->range_m - s->at_m[(s->ms - age) % 256]);
+    s->late_m += fabs(in->range_m - s->at_m[(s->ms - UP_AGE_MS) % 256]);
     s->now_m += fabs(in->range_m - s->at_m[s->ms % 256]);
     s->ranges++;
   }
