@@ -1,4 +1,4 @@
-// lpf2.h - second-order Butterworth low-pass: the one filter that all synchronous signals share.
+// lpf2.h - second-order Butterworth low-pass: the one filter that all signals of the outer loop share.
 //
 // Bilinear transform, prewarped at the cut-off: with k = tan(pi f / fs), n = 1 + sqrt(2) k + k^2,
 //   y = b0 (x + 2 x1 + x2) - a1 y1 - a2 y2,  b0 = k^2/n,  a1 = 2 (k^2 - 1)/n,  a2 = (1 - sqrt(2) k + k^2)/n.

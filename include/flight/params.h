@@ -22,7 +22,7 @@
 // What a person tunes. Only four-byte fields, so that two sets can be compared as bytes.
 typedef struct {
   pos_indi_param_t pos;
-  float cutoff_Hz;   // of the one filter that all signals share
+  float cutoff_Hz;   // of the one filter that all signals of the outer loop share
   float motor_tau_s; // first-order lag of the motors
   ceiling_param_t ceiling;
   curve_param_t curve;

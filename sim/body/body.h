@@ -70,8 +70,8 @@ typedef struct {
 MUST_CHECK done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double step_s,
                             const body_start_t *start);
 
-// Moves on by span_s with commands in newton per motor (what the thrust in free air will settle at; within a
-// quarter of the model's thrust limits), or in PWM 0..65535 through the thrust map at the battery's voltage.
+// Moves on by span_s with commands in newton per motor: what the thrust in free air will settle at, within a
+// quarter of the model's thrust limits.
 void body_tick(body_t *b, const double command_N[ROTORS], double span_s);
 
 // Specific force at the accelerometer, body axes: what a perfect one reads, +g along z at rest.

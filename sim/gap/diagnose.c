@@ -1,4 +1,4 @@
-// diagnose.c - the workflow on flights in memory: stages 2 to 7.
+// diagnose.c - the workflow on flights in memory: stages 2 to 5, and 7.
 #include "gap/diagnose.h"
 
 #include "gap/2_predict/excluded.h"

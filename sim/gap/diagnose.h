@@ -1,4 +1,4 @@
-// diagnose.h - the workflow on flights in memory: stages 2 to 7.
+// diagnose.h - the workflow on flights in memory: stages 2 to 5, and 7.
 #ifndef SIM_GAP_DIAGNOSE_H
 #define SIM_GAP_DIAGNOSE_H
 

@@ -33,7 +33,7 @@ FLOORS = [
     ["sim/gap/5_infer"],
     ["sim/gap/6_extend"],
     ["sim/gap/7_verify"],
-    ["sim/gap"],  # runs stages 1 to 7; the report words what they found
+    ["sim/gap"],  # runs the stages; the report words what they found
     ["sim/gap/8_report"],
     ["tools"],
 ]

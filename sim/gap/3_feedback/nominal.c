@@ -1,4 +1,4 @@
-// nominal.c - what the workflow sees in flights in which nothing is hidden.
+// nominal.c - flies the model itself along a track, nothing hidden.
 #include "gap/3_feedback/nominal.h"
 
 #include <math.h>

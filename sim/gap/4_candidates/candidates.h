@@ -2,15 +2,15 @@
 //
 // An effect with a shape (the decay of a ceiling effect, the rotor that is damaged) is a candidate once for
 // each shape. A column is the derivative of the replay with respect to one number of a candidate.
+//
+// What may be missing (candidates_t) is apart from what is presently taken to be (chosen_t): the one is made
+// once.
 #ifndef SIM_GAP_4_CANDIDATES_CANDIDATES_H
 #define SIM_GAP_4_CANDIDATES_CANDIDATES_H
 
 #include "gap/2_predict/predict.h"
 #include "gap/2_predict/residual.h"
 
-//
-// What may be missing (candidates_t) is apart from what is presently taken to be (chosen_t): the one is made
-// once.
 typedef struct {
   fx_use_t use;              // with its shape; its sizes are 0
   int first, n;              // columns

@@ -31,7 +31,8 @@ typedef struct {
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
 // candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
-// column x and without errors x', what least squares find of a size: x x' / x x. FAILED as above.
+// column x and without errors x', what least squares find of a size: x x' / x x. FAILED: no memory, or none
+// of them can be flown.
 MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 
