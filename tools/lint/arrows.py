@@ -130,10 +130,22 @@ def place(room: str) -> tuple[float, float]:
 
 
 def curve(room: str, to: str, n: int) -> str:
+    """Straight down to the next floor; farther down a bow beside the column, the wider the farther."""
     (x, y), (u, v) = place(room), place(to)
-    bend = (1 if to not in FLIGHT else -1) * (40 + 9 * (FLOOR[room] - FLOOR[to]))
-    way = f"M{x:g} {y} C{x + bend:g} {y + 30} {u + bend:g} {v - 30} {u:g} {v}"
-    return f'<path stroke-width="{min(1 + n / 12, 5):.1f}" d="{way}"><title>{room} takes from {to}: {n}</title></path>'
+    floors = FLOOR[room] - FLOOR[to]
+    top, half = v - BOX_H / 2, BOX_W / 2
+    if (room in FLIGHT) != (to in FLIGHT):
+        way = f"M{x - half:g} {y} C{u:g} {y} {u:g} {y + 60} {u:g} {top:g}"
+    elif floors == 1:
+        way = f"M{x:g} {y + BOX_H / 2:g} L{x if abs(x - u) < half else u:g} {top:g}"
+    else:
+        side = 1 if min(x, u) >= RIGHT or to in FLIGHT else -1
+        bow = max(x * side, u * side) * side + side * (half + 14 + 11 * floors)
+        way = f"M{x + side * half:g} {y} C{bow:g} {y} {bow:g} {v} {u + side * half:g} {v}"
+    return (
+        f'<path stroke-width="{min(1 + n / 12, 4):.1f}" marker-end="url(#head)" d="{way}">'
+        f"<title>{room} takes from {to}: {n}</title></path>"
+    )
 
 
 def direct(counts: dict[tuple[str, str], int]) -> dict[tuple[str, str], int]:
@@ -153,7 +165,9 @@ def svg(found: list[Arrow]) -> str:
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {len(FLOORS) * ROW}" '
         'font-family="sans-serif" font-size="13">',
-        "<style>rect{fill:#fff;stroke:#456}path{fill:none;stroke:#789;stroke-opacity:.6}</style>",
+        "<style>rect{fill:#fff;stroke:#456}path{fill:none;stroke:#8a97a5}</style>",
+        '<marker id="head" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto" '
+        'markerUnits="userSpaceOnUse"><path d="M0 0 L8 4 L0 8 z" style="fill:#678;stroke:none"/></marker>',
         '<rect width="100%" height="100%" style="stroke:none"/>',
     ]
     lines += [curve(room, to, n) for (room, to), n in sorted(direct(counts).items())]
