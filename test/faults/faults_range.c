@@ -118,7 +118,7 @@ static const row_t rows[] = {
      12.0, 0, biased, NULL, 0, false, true},
     {"18 range +10 to 50 cm, climbing by it", 'W', 0.3, EVER, EVER, 0.1, 0.5, climb_by_range, GUARD_RATIO,
      12.0, 0, biased, NULL, 0, false, true},
-    {"19 below the floor, 3 cm", 'B', 0.10, EVER, EVER, 0, 0, below_floor, GUARD_BLIND, 6.0, 100, NULL, NULL,
+    {"19 below the floor, 3 cm", 'B', 0.10, EVER, EVER, 0, 0, below_floor, GUARD_BLIND, 6.0, 99.9, NULL, NULL,
      0, false, false},
     {"20 locked out at 4 cm", 'A', 0.3, 0.1, 0.1, 0, 0, locked_out, 0, 0, 99.9, NULL, distance_1_cm, 0, false,
      false},
