@@ -75,8 +75,8 @@ static done_t take_request(setup_t *setup, const request_t *request, why_t *why)
   flight_param_t *const flight = &setup->flight;
   if (request->kind) setup->kind = *request->kind;
   flight->curve.mode = (int32_t)mode_of[setup->kind];
-  if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
   if (request->no_effects) setup->model.n_fx = 0;
+  if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
   for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(&setup->model, &request->effect[i], why));
   for (int i = 0; i < request->n_set; i++) {
     const param_row_t *row = request->set[i].row;

@@ -40,7 +40,7 @@ typedef struct {
   noise_t noise_changed; // where `noise` points to if the command line changes a level
   fx_use_t effect[FX_MAX];
   int n_effect;
-  bool no_effects; // first switches off what the scenario has
+  bool no_effects; // switches off what the scenario has; what the vehicle has stays
   param_set_t set[REQUEST_MAX];
   int n_set;
   bool log;             // keeps the app's logs, in six degrees of freedom

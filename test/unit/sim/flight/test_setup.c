@@ -15,10 +15,14 @@ TEST(setup_takes_a_vehicles_own_effects_or_leaves_the_scenarios) {
   static const struct {
     const char *what, *own; // effect of the vehicle
     double ceiling_m, want_ca, want_ceiling_m;
+    bool no_effects; // of the scenario
   } row[] = {
-      {"none", NULL, HUGE_VAL, 0.44, 0.5},
-      {"a ceiling effect", "ceiling:Ca=0.2", HUGE_VAL, 0.2, 0.5},
-      {"a ceiling effect and a ceiling", "ceiling:Ca=0.2", 0.8, 0.2, 0.8},
+      {"none", NULL, HUGE_VAL, 0.44, 0.5, false},
+      {"a ceiling effect", "ceiling:Ca=0.2", HUGE_VAL, 0.2, 0.5, false},
+      {"a ceiling effect and a ceiling", "ceiling:Ca=0.2", 0.8, 0.2, 0.8, false},
+      {"none, nor has the scenario", NULL, HUGE_VAL, 0.0, 0.5, true},
+      {"a ceiling effect, the scenario none", "ceiling:Ca=0.2", HUGE_VAL, 0.2, 0.5,
+       true}, // was taken away, too
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
@@ -31,12 +35,12 @@ TEST(setup_takes_a_vehicles_own_effects_or_leaves_the_scenarios) {
       CHECK_OK(effect_parse(row[i].own, &use, &why));
       CHECK_OK(model_add_fx(&vehicle, &use, &why));
     }
-    const request_t request = {.vehicle = &vehicle};
+    const request_t request = {.vehicle = &vehicle, .no_effects = row[i].no_effects};
     CHECK_OK(setup_apply(&setup, &request, &why));
     CHECK_TEXT(why.text, "");
     CHECK_NEAR(setup.model.mass_kg, 0.04, 0.0);
     CHECK_NEAR(setup.model.ceiling_m, row[i].want_ceiling_m, 0.0);
-    if (!CHECK(setup.model.n_fx == 1)) continue;
+    if (!CHECK(setup.model.n_fx == (row[i].want_ca > 0.0)) || setup.model.n_fx == 0) continue;
     CHECK_NEAR(setup.model.fx[0].p[0], row[i].want_ca, 1e-12);
   }
 }
