@@ -71,6 +71,33 @@ TEST(by_hand_knows_where_the_ceiling_is_between_samples_and_for_half_a_second) {
   CHECK(s.gap_m == gap_m && !s.held);
 }
 
+TEST(by_hand_believes_no_gap_of_an_age_that_is_none) {
+  static const struct {
+    const char *what;
+    float climb_mps, age_s;
+    bool kept;
+  } row[] = {
+      {"infinite age, at rest", 0.0f, INFINITY, true}, // left a gap that was no number
+      {"infinite age", 0.2f, INFINITY, true},
+      {"an age that is no number", 0.2f, NAN, true},
+      {"an age of minus an hour", 0.2f, -3600.0f, true},
+      {"a gap of 7.9 m", 1.0f, -6.9f, false},
+      {"a gap of 8.1 m", 1.0f, -7.1f, true},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    by_hand_t s;
+    by_hand_init(&s);
+    float climb_mps;
+    by_hand_in_t in = in_of(0.5f, 0.3f, 0.0f);
+    (void)by_hand_step(&s, &PARAM, &in, &climb_mps);
+    in = in_of(1.0f, 0.3f, row[i].climb_mps);
+    in.range_age_s = row[i].age_s;
+    (void)by_hand_step(&s, &PARAM, &in, &climb_mps);
+    CHECK((s.gap_m < 0.6f) == row[i].kept);
+  }
+}
+
 TEST(by_hand_leaves_the_ceiling_farther_away_than_it_met_it_and_minds_tilt_and_offset) {
   by_hand_t s;
   by_hand_init(&s);
