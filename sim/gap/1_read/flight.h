@@ -9,6 +9,7 @@
 
 #define GAP_FLIGHT_S   1800.0 // at most so much of a log is used
 #define GAP_RATE_HZ    500.0  // a faster log is thinned to this
+#define GAP_CARRIED    0.3    // of the weight: with less thrust it stands or falls
 #define GAP_NOTES      16
 #define GAP_NOTE_BYTES 200
 

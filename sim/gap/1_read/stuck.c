@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LIFTS       0.3 // of its weight
 #define REPEATS_MIN 0.2 // share of rows that repeat the one before: the stream is slower than the log
 #define REPEATS_S   0.1 // a longer run is no repeat: the value stands
 #define REPEATS_RUN 3.0 // ... unless the stream is that slow: so many usual runs
@@ -96,11 +95,11 @@ done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
 // -1: cannot be told.
 static int flies(const raw_t *raw, const model_t *vehicle, int i) {
   const double weight_N = vehicle->mass_kg * G_MPS2;
-  if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > LIFTS * weight_N;
+  if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > GAP_CARRIED * weight_N;
   if (!logged(raw, SIG_W1, 4)) return -1;
   double sum = 0.0;
   for (int k = 0; k < 4; k++) sum += raw->v[SIG_W1 + k][i] * raw->v[SIG_W1 + k][i];
-  return vehicle->frame.kf_Ns2 * sum > LIFTS * weight_N;
+  return vehicle->frame.kf_Ns2 * sum > GAP_CARRIED * weight_N;
 }
 
 static double speed_mps(const raw_t *raw, int i) {

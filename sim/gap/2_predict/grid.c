@@ -7,7 +7,6 @@
 #include <string.h>
 
 #define POINT_HZ  50.0
-#define CARRIED   0.3   // of the weight: with less thrust it stands or falls
 #define CLEAR_M   5e-3  // of the feet from the floor
 #define TOP_M     2e-3  // of anything from the ceiling
 #define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
@@ -95,7 +94,7 @@ static bool is_good(const grid_t *g, const grid_point_t *p, const model_t *m, co
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
   if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
-  return thrust_N > CARRIED * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
+  return thrust_N > GAP_CARRIED * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
 
