@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "base/cpu_time.h"
+#include "flight/over.h"
 #include "sense/ekf.h"
 #include <math.h>
 #include <stdlib.h>
@@ -165,9 +166,8 @@ static void look_at_rotors(flight_loop_t *f) {
   for (int i = 0; i < PILOT_MOTORS; i++) f->in.rotors_N += f->body.y[RIGID_THRUST_N + i];
 }
 
-static void move(flight_loop_t *f, double tick_s, outcome_t *outcome) {
+static void move(flight_loop_t *f, double tick_s) {
   const plan_t *plan = f->plan;
-  for (int i = 0; i < PILOT_MOTORS; i++) outcome->finite = outcome->finite && isfinite(f->motor_N[i]);
   if (plan->vertical_noise.gust_mps2 > 0.0) {
     const double gust_mps2 = vertical_gust_mps2(&f->vertical, &plan->vertical_noise, f->random);
     body_push(&f->body, d3(0.0, 0.0, f->model->mass_kg * gust_mps2));
@@ -177,7 +177,6 @@ static void move(flight_loop_t *f, double tick_s, outcome_t *outcome) {
   look_at_rotors(f);
   f->in.vbat_V = f->body.vbat_V;
   f->gap_min_m = fmin(f->gap_min_m, record_gap_m(&f->body));
-  outcome->finite = outcome->finite && !f->body.broken;
 }
 
 static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t *why) {
@@ -187,7 +186,9 @@ static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t 
   const long ticks = lround(plan->end_s / tick_s);
   const int every = plan->record_every > 0 ? plan->record_every : (int)lround(fmax(1.0, RECORD_S / tick_s));
   TRY(record_reserve(record, (int)(ticks / every) + 1, why));
-  for (long tick = 0; tick <= ticks && outcome->finite; tick++) {
+  flight_over_t over;
+  for (long tick = 0; (over = flight_over(plan, tick_s, tick, &f->body, f->motor_N)) == FLIGHT_FLIES;
+       tick++) {
     const double t_s = (double)tick * tick_s;
     order(f, t_s);
     if (f->body.rigid.held && t_s >= plan->held_s) body_hold(&f->body, false);
@@ -196,8 +197,9 @@ static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t 
     const axes_t axes = axes_of(truth.q_wb);
     f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
     if (tick % every == 0) TRY(keep(f, record, t_s, &truth, why));
-    move(f, tick_s, outcome);
+    move(f, tick_s);
   }
+  outcome->finite = over != FLIGHT_NOT_FINITE;
   return DONE;
 }
 

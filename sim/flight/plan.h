@@ -23,7 +23,7 @@ typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot_in_t *in);
 typedef struct {
   waypoint_t way[WAYPOINTS_MAX]; // at_s ascending, the first 0
   int n_way;
-  double end_s; // the flight is over: the loop ends here, or where a state is not finite
+  double end_s; // when the flight is over (flight/over.h)
   uint64_t seed;
   integrate_kind_t integrate;
   double step_s;       // of the integrator, at most; 0: 2 ms

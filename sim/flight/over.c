@@ -1,0 +1,12 @@
+// over.c - when a flight is over.
+#include "flight/over.h"
+
+#include <math.h>
+
+flight_over_t flight_over(const plan_t *plan, double tick_s, long tick, const body_t *body,
+                          const double motor_N[PILOT_MOTORS]) {
+  bool finite = !body->broken;
+  for (int i = 0; i < PILOT_MOTORS; i++) finite = finite && isfinite(motor_N[i]);
+  if (!finite) return FLIGHT_NOT_FINITE;
+  return tick > lround(plan->end_s / tick_s) ? FLIGHT_TIME_UP : FLIGHT_FLIES;
+}
