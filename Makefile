@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage
+.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -191,6 +191,9 @@ test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
 	@$(O)/exam $(or $(SEED),80001) 200
+
+outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
+	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"
 
 check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@TEST_LONG=1 $(TESTS)
