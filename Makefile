@@ -34,7 +34,7 @@ LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplu
 # Every source of some folders.
 sources    = $(sort $(shell find $(1) -name '*.c' -o -name '*.cpp' 2>/dev/null))
 EXAM_SRC  := $(filter-out test/exam/test_%,$(call sources,test/exam))
-TEST_SRC  := $(filter-out test/exam/main.c,$(call sources,test/rig test/unit test/program test/faults test/exam))
+TEST_SRC  := $(filter-out test/exam/main.c test/exam/users_main.c,$(call sources,test/rig test/unit test/program test/faults test/exam))
 SIM_SRC   := $(call sources,src sim)
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle) $(B)/gen/version.o
@@ -115,8 +115,10 @@ $(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES
 $(B)/sim/crazyflie/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
+# The exam's second plant sees nothing of the first.
+$(B)/test/exam/other/%.o: SEES = -Itest
 # They fly many vehicles at once.
-$(B)/sim/flight/many.o $(B)/test/exam/main.o $(B)/test/faults/test_faults.o: MANY = $(OMP)
+$(B)/sim/flight/many.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o: MANY = $(OMP)
 
 define compile
 @$(begin)
@@ -191,6 +193,7 @@ test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
 	@$(O)/exam $(or $(SEED),80001) 200
+	@$(O)/exam users $(or $(SEED),80001) 80
 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"

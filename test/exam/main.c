@@ -1,6 +1,8 @@
-// main.c - sits an exam of many sets and prints the marks: main FIRST_SEED SETS [lines].
+// main.c - sits an exam of many sets and prints the marks: main FIRST_SEED SETS [lines], or with users' logs:
+// main users FIRST_SEED SETS [lines [KIND]].
 #include "base/made.h"
 #include "exam/exam.h"
+#include "exam/users.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -142,6 +144,7 @@ int main(int argc, char **argv) {
     made_version("exam");
     return 0;
   }
+  if (argc > 1 && strcmp(argv[1], "users") == 0) return users_main(argc - 1, argv + 1);
   const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1;
   const int n = argc > 2 ? atoi(argv[2]) : 20, only = argc > 4 ? atoi(argv[4]) : -1;
   if (n < 1 || n > SETS_MAX) return 2;

@@ -114,7 +114,7 @@ class Nature(Multirotor):
         """Ceiling: falls to half over two or three rotor radii; ground: the first order of Cheeseman and Bennett."""
         gain, radius, v = 1.0, self.vehicle.radius_m, self.vehicle
         if (h := self.truth.get("ceiling")) is not None:
-            gain += h.size / (1 + (max(v.ceiling_m - height_m, 0.0) / ((1.5 + 2 * h.angle) * radius)) ** 2)
+            gain += h.size / (1 + (max(v.ceiling_m - height_m, 0.0) / ((2 + 2 * h.angle) * radius)) ** 2) ** 2
         if (h := self.truth.get("ground")) is not None:
             gain += h.size * (radius / (4 * max(height_m, 0.5 * radius))) ** 2
         return gain

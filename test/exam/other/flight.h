@@ -1,0 +1,39 @@
+// flight.h - a flight of the second plant, as the log and the files that its user writes.
+#ifndef TEST_EXAM_OTHER_FLIGHT_H
+#define TEST_EXAM_OTHER_FLIGHT_H
+
+#include "exam/other/senses.h"
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef enum { COMMAND_SPEED, COMMAND_SHARE, COMMAND_N } command_unit_t;
+
+// How its user logs. All of it is known to them, and stands in the columns file as far as that has words for
+// it.
+typedef struct {
+  int every;           // ticks of 2 ms to a row
+  bool means;          // a row is a mean over its period, else what is at its time
+  double late_s;       // the logged command is that old
+  command_unit_t unit; // speed, share of the greatest speed, newton
+} habits_t;
+
+typedef struct {
+  nature_t truth, known; // the user knows the second, but for what it does not say
+  senses_t senses;
+  habits_t habits;
+  double briskness; // of the pilot
+  double span_s;
+  uint64_t seed;
+} other_job_t;
+
+// Nothing hidden yet; everything but the flights' seed is drawn.
+other_job_t other_job(dice_t *d);
+
+// Flies pieces that excite it, near the floor and under the ceiling where there is one. False: it was lost,
+// or could not be written.
+bool other_fly(const other_job_t *job, FILE *out);
+
+void other_write_columns(const other_job_t *job, FILE *out);
+void other_write_vehicle(const other_job_t *job, FILE *out);
+
+#endif

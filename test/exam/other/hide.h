@@ -1,0 +1,36 @@
+// hide.h - vehicles of all sizes for the second plant, and what can be hidden in them.
+#ifndef TEST_EXAM_OTHER_HIDE_H
+#define TEST_EXAM_OTHER_HIDE_H
+
+#include "exam/other/nature.h"
+
+// What is hidden in the sensors and in the numbers of a plant.
+typedef struct {
+  vec_t acc_mps2, acc_turn_rad; // bias and turn of the accelerometer
+  double range_m, range_late_s;
+} dishonest_t;
+
+// A vehicle between 0.03 and 1.5 kg, in a room without a ceiling, with drags (known) or without.
+nature_t hide_vehicle(dice_t *d);
+
+#define HIDE_EFFECTS 20
+const char *hide_name(int i);
+// Effect i at `times` its typical size, with signs, rotors and directions left to `which` of 0..1. Sizes are
+// those of a Crazyflie, made to the vehicle: shares of weight, of the arm, of the inertia, rates and lengths.
+void hide_effect(int i, double times, double which, nature_t *n, dishonest_t *senses);
+// The vehicle can show it, and its user does not know it already: before the vehicle file is written.
+void hide_prepare(int i, dice_t *d, nature_t *n);
+
+// Something that no library has; `far_m` says how far flights go. Returns where and in what it is to be
+// found.
+typedef struct {
+  const char *what, *coordinate; // "": any
+  unsigned channels;             // bits: force_x, force_y, force_z, turn_x, turn_y, turn_z
+} hide_strange_t;
+#define HIDE_STRANGE 5
+hide_strange_t hide_strange(int i, double times, dice_t *d, double far_m, nature_t *n);
+
+// How far a vehicle goes, over a Crazyflie.
+double hide_stretch(const nature_t *n);
+
+#endif

@@ -1,0 +1,71 @@
+// nature.h - the exam's second plant, written for the exam alone: it shares no line with sim/.
+//
+// Explicit midpoint at 0.5 ms. The lag is first order in the rotors' speeds. Thrust k w^2 and the drags act
+// at each hub, with that hub's own velocity through the air and that rotor's own speed, so they damp turning.
+#ifndef TEST_EXAM_OTHER_NATURE_H
+#define TEST_EXAM_OTHER_NATURE_H
+
+#include "exam/other/vec.h"
+
+#define NATURE_STEP_S    0.0005
+#define NATURE_G_MPS2    9.81
+#define NATURE_DELAY_MAX 256 // steps
+
+// What no library of effects has.
+typedef enum {
+  STRANGE_NONE,
+  STRANGE_PLACE,
+  STRANGE_LAYER,
+  STRANGE_CORNER,
+  STRANGE_PULSES,
+  STRANGE_SHAKE
+} strange_kind_t;
+
+// A vehicle and what is around it. Body axes x forward, y left, z up; world z up. Places from the centre of
+// mass.
+typedef struct {
+  double mass_kg, inertia_kgm2[3];
+  double x_m[4], y_m[4], spin[4]; // spin +1: counter-clockwise from above
+  double radius_m;
+  double k_Ns2, torque_m;  // thrust over speed squared; torque over thrust
+  double lag_s, delay_s;   // lag 0: none
+  double most_radps;       // of a rotor
+  double gain[4];          // of each rotor's thrust
+  double hub_kg, climb_kg; // force over rotor speed and hub velocity: in the disc, along the axis
+  double flap_kgm;         // moment over the same, about the axis that the velocity turns the disc
+  double body_kgpm[3];     // drag of the body along each axis, over |v| v
+  double lift_kgpm;        // thrust of all, over the square of the speed in the disc
+  double sag, sag_V;       // thrust times 1 - sag (1 - V / sag_V)
+  double bend_pN;          // thrust of a rotor T + bend (T - hover)^2
+  double ceiling_m, ceiling_share,
+      ceiling_m0;        // INFINITY: none; gain at it, and where it has fallen to a quarter
+  double ground_share;   // times (R / 4 z)^2
+  double rest_m;         // height of the centre of mass on the floor; the rotors are as high
+  vec_t air_mps, push_N; // world
+  strange_kind_t strange;
+  double strange_N, strange_at[3];
+} nature_t;
+
+typedef struct {
+  vec_t pos_m, vel_mps, rate_radps; // world, world, body
+  turn_t q;
+  double rotor_radps[4];
+} nature_state_t;
+
+typedef struct {
+  const nature_t *nature;
+  nature_state_t s;
+  vec_t force_b_N; // specific force times mass, of the last step
+  double volt, t_s;
+  double late_radps[NATURE_DELAY_MAX][4];
+  int steps;
+} nature_flight_t;
+
+// Speed of each rotor in a hover.
+double nature_hover_radps(const nature_t *n);
+
+void nature_start(nature_flight_t *f, const nature_t *n, vec_t pos_m);
+// One step with these commands.
+void nature_step(nature_flight_t *f, const double command_radps[4]);
+
+#endif

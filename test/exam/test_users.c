@@ -1,0 +1,72 @@
+// test_users.c - how the exam with users' logs marks a verdict, and a few of its sets.
+#include "exam/users.h"
+#include "rig/test.h"
+
+#include <string.h>
+
+#define EFFECT(name, rivals) "{\"name\": \"" name "\", \"rivals\": [" rivals "], \"probability\": 0.97}"
+#define NAMED(effects)                                                                                       \
+  "{\"verdict\": \"named\", \"effects\": [" effects "], \"unknown\": null, \"warnings\": []}"
+#define UNKNOWN(channel, at)                                                                                 \
+  "{\"verdict\": \"unknown\", \"effects\": [], \"unknown\": {\"channel\": \"" channel                        \
+  "\", \"coordinate\": \"" at "\"}, \"warnings\": []}"
+
+TEST(an_answer_to_users_logs_is_marked_by_names_families_and_rivals) {
+  static const struct {
+    const char *hidden[USERS_HIDDEN], *answer;
+    int right, beside, wrong;
+    bool exact;
+  } row[] = {
+      {{NULL}, NAMED(""), 0, 0, 0, true},
+      {{NULL}, NAMED(EFFECT("mass", "")), 0, 0, 1, false},
+      {{"mass"}, NAMED(""), 0, 0, 0, false},
+      {{"mass"}, NAMED(EFFECT("mass", "")), 1, 0, 0, true},
+      {{"mass"}, NAMED(EFFECT("thrust_scale", "")), 0, 0, 1, false},
+      {{"mass"}, NAMED(EFFECT("thrust_scale", "\"mass\"")), 1, 0, 0, true},
+      {{"mass"}, NAMED(EFFECT("rotor_drag", "\"mass\"")), 0, 0, 1, false}, // of no family with it
+      {{"mass"}, NAMED(EFFECT("mass", "") "," EFFECT("thrust_scale", "\"mass\"")), 1, 0, 1, false},
+      {{"mass", "delay"}, NAMED(EFFECT("motor_lag", "\"delay\"") "," EFFECT("mass", "")), 2, 0, 0, true},
+      {{"mass", "delay"}, NAMED(EFFECT("mass", "")), 1, 0, 0, false},
+      {{"battery_sag"}, NAMED(EFFECT("battery_sag", "") "," EFFECT("mass", "")), 1, 1, 0, false},
+      {{NULL},
+       "{\"verdict\": \"refused\", \"effects\": [], \"unknown\": null, \"warnings\": [\"why\"]}",
+       0,
+       0,
+       0,
+       false},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].answer);
+    users_set_t set = {.n = !!row[i].hidden[0] + !!row[i].hidden[1],
+                       .hidden = {row[i].hidden[0], row[i].hidden[1]}};
+    cJSON *const verdict = cJSON_Parse(row[i].answer);
+    CHECK(verdict);
+    users_mark(&set, verdict);
+    CHECK(set.right == row[i].right && set.beside == row[i].beside && set.wrong == row[i].wrong);
+    CHECK(users_exact(&set) == row[i].exact);
+    CHECK(set.sure == set.names && set.sure_right == set.right + set.beside);
+    cJSON_Delete(verdict);
+  }
+}
+
+TEST(an_unknown_is_right_where_it_is_and_in_what) {
+  static const struct {
+    const char *answer;
+    hide_strange_t strange;
+    bool located;
+  } row[] = {
+      {UNKNOWN("force_z", "x"), {"a place", "xy", 4u}, true},
+      {UNKNOWN("force_z", "time"), {"a place", "xy", 4u}, false},
+      {UNKNOWN("force_x", "y"), {"a place", "xy", 4u}, false},
+      {UNKNOWN("force_x", "ceiling distance"), {"a layer", "height", 3u}, true},
+      {UNKNOWN("force_y", "thrust"), {"a shake", "", 3u}, true},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].answer);
+    users_set_t set = {.strange = row[i].strange};
+    cJSON *const verdict = cJSON_Parse(row[i].answer);
+    users_mark(&set, verdict);
+    CHECK(set.unknown && set.located == row[i].located);
+    cJSON_Delete(verdict);
+  }
+}

@@ -1,0 +1,40 @@
+// users.h - the exam with logs as users have them: files of the second plant (test/exam/other) with a vehicle
+// file, read and answered as `gap` does, and marked from its verdict alone.
+#ifndef TEST_EXAM_USERS_H
+#define TEST_EXAM_USERS_H
+
+#include "base/error.h"
+#include "exam/other/flight.h"
+#include <cjson/cJSON.h>
+
+// HABITS: another simulator's. OUTSIDE: its flights with what no library has.
+typedef enum { USERS_HABITS, USERS_OUTSIDE, USERS_KINDS } users_kind_t;
+
+#define USERS_HIDDEN 2
+#define USERS_TEXT   200
+
+typedef struct {
+  users_kind_t kind;
+  int drawn_again; // so often: the vehicle could not fly with what was hidden
+  int n;           // hidden effects
+  const char *hidden[USERS_HIDDEN];
+  double times[USERS_HIDDEN];
+  hide_strange_t strange; // what null: none
+  // marks (users_mark.c)
+  bool refused, unknown, located;
+  int names, right, beside, wrong; // right: hidden effects that a name, or a told rival of its family, holds
+  int sure, sure_right;            // names stated at 0.95 or more
+  char answer[USERS_TEXT];
+} users_set_t;
+
+// Makes, reads, diagnoses and marks set `seed` of a kind. FAILED: no memory, no disk.
+MUST_CHECK done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t *why);
+
+// Marks a verdict (verdict.json); a name counts as in tools/outside/marks.py.
+void users_mark(users_set_t *set, const cJSON *verdict);
+bool users_exact(const users_set_t *set);
+
+// The kind of exam: users FIRST SETS [lines]; prints the marks.
+int users_main(int argc, char **argv);
+
+#endif

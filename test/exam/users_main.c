@@ -1,0 +1,88 @@
+// users_main.c - sits the exam with users' logs and prints the marks by kind.
+#include "exam/users.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SETS_MAX 4000
+
+static const char *const KIND[USERS_KINDS] = {"another simulator", "outside the library"};
+
+static void print_set(unsigned long seed, const users_set_t *s) {
+  printf("%lu %s:", seed, KIND[s->kind]);
+  for (int k = 0; k < s->n; k++) printf(" %s x%.2f", s->hidden[k], s->times[k]);
+  if (s->strange.what) printf(" %s", s->strange.what);
+  printf("%s -> %s%s\n", s->n || s->strange.what ? "" : " nothing", s->answer,
+         s->wrong                              ? " WRONG"
+         : !s->strange.what && !users_exact(s) ? " MISSED"
+                                               : "");
+}
+
+typedef struct {
+  const char *what;
+  int yes, of;
+} rate_t;
+
+static void print_rate(const rate_t *r) {
+  if (r->of) printf("  %-58s %4d/%-4d %5.1f %%\n", r->what, r->yes, r->of, 100.0 * r->yes / r->of);
+}
+
+static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
+  rate_t alarm = {"nothing hidden: a name", 0, 0}, guess = {"nothing hidden: unknown", 0, 0};
+  rate_t one = {"one effect, once to four times typical: exact", 0, 0}, two = {"two effects: exact", 0, 0};
+  rate_t held = {"a name, or its rivals, hold what was hidden", 0, 0},
+         names = {"names that were hidden", 0, 0};
+  rate_t strange = {"outside the library: no name", 0, 0},
+         located = {"outside the library: unknown, and where", 0, 0};
+  rate_t refused = {"refused", 0, 0}, sure = {"stated at 0.95 or more: right", 0, 0};
+  int again = 0;
+  for (int i = 0; i < n; i++) {
+    const users_set_t *const s = &set[i];
+    if (s->kind != kind) continue;
+    again += s->drawn_again;
+    refused.of++, refused.yes += s->refused;
+    names.of += s->names, names.yes += s->right + s->beside;
+    sure.of += s->sure, sure.yes += s->sure_right;
+    held.of += s->n, held.yes += s->right;
+    if (s->strange.what) {
+      strange.of++, strange.yes += s->names == 0 && !s->refused;
+      located.of++, located.yes += s->located;
+    } else if (s->n == 0) {
+      alarm.of++, alarm.yes += s->names > 0;
+      guess.of++, guess.yes += s->unknown;
+    } else {
+      rate_t *const r = s->n == 1 ? &one : &two;
+      r->of++, r->yes += users_exact(s);
+    }
+  }
+  if (!refused.of) return;
+  printf("%s, %d sets (%d vehicles that could not fly were drawn again)\n", KIND[kind], refused.of, again);
+  const rate_t *const all[] = {&alarm, &guess,   &one,     &two,     &held,
+                               &names, &strange, &located, &refused, &sure};
+  for (unsigned i = 0; i < sizeof all / sizeof *all; i++) print_rate(all[i]);
+}
+
+int users_main(int argc, char **argv) {
+  static users_set_t sets[SETS_MAX];
+  const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1;
+  const int n = argc > 2 ? atoi(argv[2]) : 20, only = argc > 4 ? atoi(argv[4]) : -1;
+  if (n < 1 || n > SETS_MAX || only >= USERS_KINDS) return 2;
+  bool failed = false;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < n; i++) {
+    why_t why;
+    const users_kind_t kind = (users_kind_t)(only >= 0 ? only : i % USERS_KINDS);
+    if (users_one(kind, first + (unsigned long)i, &sets[i], &why) != DONE) {
+      fprintf(stderr, "exam: set %lu: %s\n", first + (unsigned long)i, why.text);
+      failed = true;
+    }
+    if (argc > 3) {
+#pragma omp critical
+      print_set(first + (unsigned long)i, &sets[i]);
+      fflush(stdout);
+    }
+  }
+  for (int k = 0; k < USERS_KINDS; k++) print_kind((users_kind_t)k, sets, n);
+  return failed;
+}
