@@ -12,7 +12,7 @@ install() {
       >>"$log" 2>&1 && cp tools/outside/requirements.txt "$o/outside/has"
 }
 if ! tools/setup.sh "$3" || ! install; then
-  echo "skipped: no $(cat tools/outside/requirements.txt) ($(tail -n 1 "$log"))"
+  echo "skipped: no $(head -n 1 tools/outside/requirements.txt) ($(tail -n 1 "$log"))"
   exit 0
 fi
 rm -rf "$o/flown_outside"

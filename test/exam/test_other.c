@@ -99,8 +99,7 @@ static nature_flight_t after_hiding(const char *name, double times) {
   dishonest_t senses = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0.0};
   n = plain();
   const double hover = nature_hover_radps(&n);
-  for (int i = 0; i < HIDE_EFFECTS; i++)
-    if (strcmp(hide_name(i), name) == 0) hide_effect(i, times, 0.1, &n, &senses);
+  hide_effect(hide_number(name), times, 0.1, &n, &senses);
   nature_flight_t f;
   nature_start(&f, &n, vec(0.0, 0.0, 1.0));
   f.volt = 3.6;
@@ -155,4 +154,34 @@ TEST(the_second_plant_flies_vehicles_of_all_sizes_and_a_seed_gives_one_log) {
     CHECK(strcmp(text[0], text[1]) == 0 && strcmp(text[0], text[2]) != 0);
     for (int i = 0; i < 3; i++) free(text[i]);
   }
+}
+
+// Cell `column` of the log's row, the last one: -1.
+static double cell(const char *log, int row, int column) {
+  const char *at = log;
+  for (int i = 0; row >= 0 && i <= row; i++) at = strchr(at, '\n') + 1;
+  if (row < 0)
+    for (const char *next = at; (next = strchr(next, '\n')) && next[1];) at = ++next;
+  for (int k = 0; k < column; k++) at = strchr(at, ',') + 1;
+  return strtod(at, NULL);
+}
+
+TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
+  dice_t d = {3};
+  other_job_t job = other_job(&d);
+  job.truth = job.known;
+  job.ladder = true, job.span_s = 26.0, job.seed = 1;
+  job.habits.every = 5, job.habits.means = false;
+  FILE *const file = tmpfile();
+  CHECK(file && other_fly(&job, file));
+  static char log[2000000];
+  rewind(file);
+  log[fread(log, 1, sizeof log - 1, file)] = '\0';
+  fclose(file);
+  enum { Z = 3, AZ = 13, M1 = 17 };
+  CHECK_NEAR(cell(log, 100, Z), job.known.rest_m, 0.02);
+  CHECK_NEAR(cell(log, 100, AZ), NATURE_G_MPS2, 1.0); // the floor carries it
+  CHECK(cell(log, 100, M1) == 0.0 && cell(log, -1, M1) == 0.0);
+  CHECK_NEAR(cell(log, 1300, Z), 0.9 * hide_stretch(&job.known), 0.1); // its top, in the middle of the flight
+  CHECK_NEAR(cell(log, -1, Z), job.known.rest_m, 0.02);
 }

@@ -17,8 +17,27 @@ typedef struct {
 
 // --- what is hidden ----------------------------------------------------------------------------------------
 
-static bool excludes(const users_set_t *set, const char *name) {
-  return set->n > 0 && strcmp(set->hidden[0], name) == 0;
+// A flight straight up and down shows these.
+static bool in_ladder(int i) {
+  static const char *const shown[] = {"mass",         "thrust_scale", "motor_damage", "cg_offset",
+                                      "climb_inflow", "battery_sag",  "ceiling",      "ground",
+                                      "accel_bias",   "tof_bias"};
+  for (unsigned k = 0; k < sizeof shown / sizeof *shown; k++)
+    if (strcmp(shown[k], hide_name(i)) == 0) return true;
+  return false;
+}
+
+// Whether this log can show it beside what is hidden already. Of time nothing shows below a row and a half.
+static bool can_hide(const users_set_t *set, const other_job_t *job, int i, double times) {
+  const double late_s = i == hide_number("delay")       ? HIDE_DELAY_S * times
+                        : i == hide_number("motor_lag") ? HIDE_LAG_S * times
+                                                        : 1.0;
+  const bool by_acc = i == hide_number("accel_bias") || i == hide_number("imu_misalignment");
+  if (set->n > 0 && strcmp(set->hidden[0], hide_name(i)) == 0) return false;
+  if ((by_acc && (job->habits.lacks & LACKS_ACC)) ||
+      (i == hide_number("battery_sag") && (job->habits.lacks & LACKS_VOLT)))
+    return false;
+  return late_s >= 1.5 * PILOT_S * job->habits.every && (!job->ladder || in_ladder(i));
 }
 
 // A fifth hide nothing, a sixth two effects, the others one; each once to four times its typical size.
@@ -26,12 +45,14 @@ static void hide(users_set_t *set, other_job_t *job, dice_t *d) {
   const double chance = dice_share(d);
   int effect[USERS_HIDDEN];
   set->n = 0;
-  for (int wanted = chance < 0.2 ? 0 : chance > 0.84 ? 2 : 1; set->n < wanted; set->n++) {
-    do effect[set->n] = (int)dice_between(d, 0.0, HIDE_EFFECTS - 0.001);
-    while (excludes(set, hide_name(effect[set->n])));
-    set->hidden[set->n] = hide_name(effect[set->n]);
-    set->times[set->n] = pow(2.0, dice_between(d, 0.0, 2.0));
-    hide_prepare(effect[set->n], d, &job->known);
+  for (int wanted = chance < 0.2 ? 0 : chance > 0.84 ? 2 : 1; set->n < wanted;) {
+    const int i = (int)dice_between(d, 0.0, HIDE_EFFECTS - 0.001);
+    const double times = pow(2.0, dice_between(d, 0.0, 2.0));
+    if (!can_hide(set, job, i, times)) continue;
+    effect[set->n] = i;
+    set->times[set->n] = times;
+    set->hidden[set->n++] = hide_name(i);
+    hide_prepare(i, d, &job->known);
   }
   job->truth = job->known;
   for (int k = 0; k < set->n; k++)
@@ -42,6 +63,54 @@ static void hide_outside(users_set_t *set, other_job_t *job, dice_t *d) {
   job->truth = job->known;
   const int i = (int)dice_between(d, 0.0, HIDE_STRANGE - 0.001);
   set->strange = hide_strange(i, dice_between(d, 1.0, 3.0), d, hide_stretch(&job->known), &job->truth);
+}
+
+static void hide_in_ladder(users_set_t *set, other_job_t *job, dice_t *d) {
+  job->ladder = true;
+  hide(set, job, d);
+}
+
+static void hide_alone(users_set_t *set, other_job_t *job, dice_t *d) {
+  static const unsigned lacks[] = {
+      LACKS_WISH, LACKS_WISH | LACKS_VOLT, LACKS_WISH | LACKS_ACC, LACKS_SPEED, LACKS_VOLT, 0u};
+  job->habits.every = dice_share(d) < 0.5 ? 5 : 10;
+  job->habits.lacks = lacks[(int)dice_between(d, 0.0, 5.999)];
+  hide(set, job, d);
+}
+
+// A drag that is half or twice what the file says, a ceiling that is 30 % off, a ceiling that the file lacks.
+static void hide_from_file(users_set_t *set, other_job_t *job, dice_t *d) {
+  const double chance = dice_share(d);
+  const bool ceiling = chance > 0.4;
+  const int i = hide_number(ceiling ? "ceiling" : "rotor_drag");
+  hide_prepare(i, d, &job->known);
+  job->truth = job->known;
+  set->times[0] = dice_between(d, 1.5, 3.0);
+  hide_effect(i, set->times[0], dice_share(d), &job->truth, &job->senses.wrong);
+  const double ceiling_m = job->known.ceiling_m;
+  job->known = job->truth;
+  if (chance > 0.7) {
+    set->strange = (hide_strange_t){"a ceiling that the file lacks", "height", 4u};
+    job->known.ceiling_m = HUGE_VAL;
+    job->known.ceiling_share = 0.0;
+    return;
+  }
+  set->n = 1;
+  set->hidden[0] = hide_name(i);
+  if (ceiling)
+    job->known.ceiling_m = ceiling_m, job->known.ceiling_share *= dice_share(d) < 0.5 ? 0.7 : 1.0 / 0.7;
+  else
+    job->known.hub_kg *= dice_share(d) < 0.5 ? 0.5 : 2.0;
+}
+
+static void soil(users_set_t *set, other_job_t *job, dice_t *d) {
+  static const char *const cause[DIRTS] = {
+      [DIRT_EXCHANGED] = "cmd", [DIRT_HALF] = "cmd2",     [DIRT_GYRO] = "column q",      [DIRT_VOLT] = "volt",
+      [DIRT_HOLES] = "az",      [DIRT_UNIT] = "column a", [DIRT_BACKWARDS] = "column t",
+  };
+  job->truth = job->known;
+  job->habits.dirt = (dirt_t)dice_between(d, DIRT_EXCHANGED, DIRTS - 0.001);
+  set->cause = cause[job->habits.dirt];
 }
 
 // --- files -------------------------------------------------------------------------------------------------
@@ -70,14 +139,14 @@ static done_t write_file(const char *path, const other_job_t *job, void (*write)
   return fclose(out) == 0 ? DONE : error_failed(why, "%s: cannot be written", path);
 }
 
-static done_t fly(const paper_t *p, other_job_t *job, dice_t *d, bool *flew, why_t *why) {
+static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, bool *flew, why_t *why) {
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
   *flew = true;
-  for (int i = 0; i < FLIGHTS && *flew; i++) {
+  for (int i = 0; i < flights && *flew; i++) {
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
-    job->span_s = dice_between(d, 15.0, 19.0);
+    job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
     job->seed = (uint64_t)(1e15 * dice_share(d));
     *flew = other_fly(job, out);
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
@@ -88,10 +157,10 @@ static done_t fly(const paper_t *p, other_job_t *job, dice_t *d, bool *flew, why
 // --- a set -------------------------------------------------------------------------------------------------
 
 // As the program answers.
-static done_t answer(const paper_t *p, unsigned long seed, users_set_t *set, why_t *why) {
+static done_t answer(const paper_t *p, int flights, unsigned long seed, users_set_t *set, why_t *why) {
   const char *const logs[FLIGHTS] = {p->log[0], p->log[1], p->log[2]};
   const study_order_t order = {
-      .vehicle = p->vehicle, .columns = p->columns, .log = logs, .n_log = FLIGHTS, .seed = seed};
+      .vehicle = p->vehicle, .columns = p->columns, .log = logs, .n_log = flights, .seed = seed};
   study_t *const study = calloc(1, sizeof *study);
   report_t *const report = calloc(1, sizeof *report);
   cJSON *verdict = NULL;
@@ -112,20 +181,26 @@ static done_t answer(const paper_t *p, unsigned long seed, users_set_t *set, why
   return status;
 }
 
+static void (*const how[USERS_KINDS])(users_set_t *, other_job_t *, dice_t *) = {
+    [USERS_HABITS] = hide,         [USERS_LADDER] = hide_in_ladder, [USERS_ALONE] = hide_alone,
+    [USERS_FILE] = hide_from_file, [USERS_OUTSIDE] = hide_outside,  [USERS_DIRTY] = soil,
+};
+
 done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t *why) {
   dice_t d = {(uint64_t)seed * 7919u + (uint64_t)kind};
   paper_t paper;
+  const int flights = kind == USERS_ALONE ? 1 : FLIGHTS;
   bool flew = false;
   TRY(open_paper(&paper, why));
   done_t status = DONE;
   for (int draw = 0; draw < DRAWS && status == DONE && !flew; draw++) {
     *set = (users_set_t){.kind = kind, .drawn_again = draw};
     other_job_t job = other_job(&d);
-    (kind == USERS_OUTSIDE ? hide_outside : hide)(set, &job, &d);
-    status = fly(&paper, &job, &d, &flew, why);
+    how[kind](set, &job, &d);
+    status = fly(&paper, flights, &job, &d, &flew, why);
   }
   if (status == DONE && !flew) status = error_failed(why, "no vehicle of %d flies", DRAWS);
-  if (status == DONE) status = answer(&paper, seed, set, why);
+  if (status == DONE) status = answer(&paper, flights, seed, set, why);
   close_paper(&paper);
   return status;
 }

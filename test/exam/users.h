@@ -7,8 +7,15 @@
 #include "exam/other/flight.h"
 #include <cjson/cJSON.h>
 
-// HABITS: another simulator's. OUTSIDE: its flights with what no library has.
-typedef enum { USERS_HABITS, USERS_OUTSIDE, USERS_KINDS } users_kind_t;
+typedef enum {
+  USERS_HABITS,  // another simulator's
+  USERS_LADDER,  // take-off, steps of height with holds, landing
+  USERS_ALONE,   // one flight, 50 or 100 Hz, streams missing
+  USERS_FILE,    // the vehicle file is wrong in what it has, or has no ceiling
+  USERS_OUTSIDE, // what no library has
+  USERS_DIRTY,   // logs and columns files with a fault
+  USERS_KINDS
+} users_kind_t;
 
 #define USERS_HIDDEN 2
 #define USERS_TEXT   200
@@ -20,6 +27,7 @@ typedef struct {
   const char *hidden[USERS_HIDDEN];
   double times[USERS_HIDDEN];
   hide_strange_t strange; // what null: none
+  const char *cause;      // a word that a refusal is to have; null: nothing is wrong with the log
   // marks (users_mark.c)
   bool refused, unknown, located;
   int names, right, beside, wrong; // right: hidden effects that a name, or a told rival of its family, holds
@@ -32,7 +40,7 @@ MUST_CHECK done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *
 
 // Marks a verdict (verdict.json); a name counts as in tools/outside/marks.py.
 void users_mark(users_set_t *set, const cJSON *verdict);
-bool users_exact(const users_set_t *set);
+bool users_exact(const users_set_t *set); // a dirty log: refused with the cause
 
 // The kind of exam: users FIRST SETS [lines]; prints the marks.
 int users_main(int argc, char **argv);

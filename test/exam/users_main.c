@@ -7,13 +7,15 @@
 
 #define SETS_MAX 4000
 
-static const char *const KIND[USERS_KINDS] = {"another simulator", "outside the library"};
+static const char *const KIND[USERS_KINDS] = {"another simulator",   "ladder", "one flight", "wrong file",
+                                              "outside the library", "dirty"};
 
 static void print_set(unsigned long seed, const users_set_t *s) {
   printf("%lu %s:", seed, KIND[s->kind]);
   for (int k = 0; k < s->n; k++) printf(" %s x%.2f", s->hidden[k], s->times[k]);
   if (s->strange.what) printf(" %s", s->strange.what);
-  printf("%s -> %s%s\n", s->n || s->strange.what ? "" : " nothing", s->answer,
+  if (s->cause) printf(" `%s`", s->cause);
+  printf("%s -> %s%s\n", s->n || s->strange.what || s->cause ? "" : " nothing", s->answer,
          s->wrong                              ? " WRONG"
          : !s->strange.what && !users_exact(s) ? " MISSED"
                                                : "");
@@ -35,6 +37,7 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
          names = {"names that were hidden", 0, 0};
   rate_t strange = {"outside the library: no name", 0, 0},
          located = {"outside the library: unknown, and where", 0, 0};
+  rate_t dirty = {"refused for the cause", 0, 0}, repaired = {"not refused, and no name", 0, 0};
   rate_t refused = {"refused", 0, 0}, sure = {"stated at 0.95 or more: right", 0, 0};
   int again = 0;
   for (int i = 0; i < n; i++) {
@@ -45,7 +48,10 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
     names.of += s->names, names.yes += s->right + s->beside;
     sure.of += s->sure, sure.yes += s->sure_right;
     held.of += s->n, held.yes += s->right;
-    if (s->strange.what) {
+    if (s->cause) {
+      dirty.of++, dirty.yes += users_exact(s);
+      repaired.of++, repaired.yes += !s->refused && s->names == 0;
+    } else if (s->strange.what) {
       strange.of++, strange.yes += s->names == 0 && !s->refused;
       located.of++, located.yes += s->located;
     } else if (s->n == 0) {
@@ -58,8 +64,8 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   }
   if (!refused.of) return;
   printf("%s, %d sets (%d vehicles that could not fly were drawn again)\n", KIND[kind], refused.of, again);
-  const rate_t *const all[] = {&alarm, &guess,   &one,     &two,     &held,
-                               &names, &strange, &located, &refused, &sure};
+  const rate_t *const all[] = {&alarm,   &guess,   &one,   &two,      &held,    &names,
+                               &strange, &located, &dirty, &repaired, &refused, &sure};
   for (unsigned i = 0; i < sizeof all / sizeof *all; i++) print_rate(all[i]);
 }
 

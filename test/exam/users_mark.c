@@ -108,5 +108,7 @@ void users_mark(users_set_t *set, const cJSON *verdict) {
 }
 
 bool users_exact(const users_set_t *set) {
+  if (set->cause) return set->refused && strstr(set->answer, set->cause);
+  if (set->strange.what) return set->located && set->names == 0;
   return !set->refused && set->right == set->n && set->wrong == 0 && set->beside == 0;
 }

@@ -104,7 +104,7 @@ EFFECTS = {
     "mass": (0.05, 0.15), "thrust_scale": (0.05, 0.15), "motor_damage": (0.06, 0.2), "cg_offset": (0.03, 0.1),
     "inertia": (0.4, 1.0), "rotor_drag": (0.25, 0.9), "climb_inflow": (0.38, 1.2), "body_drag": (0.06, 0.24),
     "translational_lift": (0.09, 0.35), "flapping": (6.0, 18.0), "wind": (0.12, 0.4), "motor_lag": (0.02, 0.045),
-    "delay": (0.01, 0.02), "battery_sag": (0.5, 1.2), "accel_bias": (0.12, 0.4), "imu_misalignment": (1.2, 4.0),
+    "delay": (0.015, 0.025), "battery_sag": (0.5, 1.2), "accel_bias": (0.12, 0.4), "imu_misalignment": (1.2, 4.0),
     "ceiling": (0.2, 0.4), "ground": (0.8, 2.0), "tof_bias": (0.02, 0.06),
 }
 NOTHING, NOISE = "nothing", "noise"  # of the motion capture: nothing to name

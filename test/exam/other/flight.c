@@ -3,16 +3,19 @@
 
 #include <string.h>
 
-#define STEPS  4 // of the plant to a tick
-#define PIECES 7
-#define LOST_M 1.5
-#define LATE   16 // ticks of commands that are kept
+#define STEPS   4 // of the plant to a tick
+#define PIECES  7
+#define LOST_M  1.5
+#define STAND_S 2.5  // before and after a ladder
+#define UNDER_M 0.06 // the floor: where one is told to be that lands
+#define LATE    16   // ticks of commands that are kept
 
 // --- where it is to be
 // --------------------------------------------------------------------------------------
 
 typedef struct {
   const nature_t *room;
+  bool ladder;
   double far, span_s, quick;
   int order[PIECES];
   double number[PIECES][4];
@@ -61,13 +64,28 @@ static vec_t told(const plan_t *p, int piece, double t, double span, double *yaw
   return vec(far_m * cos(angle), far_m * sin(angle), at.z);
 }
 
+// Stands, climbs in steps to its top, steps down, lands.
+static vec_t told_ladder(const plan_t *p, double t_s) {
+  const nature_t *const room = p->room;
+  const bool under = room->ceiling_m < 1e3;
+  const double top_m =
+      under ? room->ceiling_m - room->radius_m * (1.4 + 1.5 * p->number[0][0]) : 0.9 * p->far;
+  const double share = (t_s - STAND_S) / (p->span_s - 2.0 * STAND_S);
+  const int steps = 3 + (int)(2.999 * p->number[0][1]), i = (int)floor(share * (2 * steps - 1));
+  const int level = i < steps ? i + 1 : 2 * steps - 1 - i;
+  if (share < 0.0 || share >= 1.0) return vec(0.0, 0.0, room->rest_m - UNDER_M);
+  return vec(0.0, 0.0, room->rest_m + (top_m - room->rest_m) * level / steps);
+}
+
 static pilot_wish_t wish_at(plan_t *p, double t_s) {
   const double span = p->span_s / PIECES;
   const int i = (int)fmin(t_s / span, PIECES - 1.0);
   double yaw = 0.0;
   for (int k = 0; k < i; k++)
     if (p->order[k] == 4) yaw = p->number[4][0] < 0.5 ? 2.0 * OTHER_PI : -2.0 * OTHER_PI;
-  vec_t in = told(p, p->order[i], t_s - i * span, span, &yaw), before = p->lag[2];
+  vec_t in = told(p, p->order[i], t_s - i * span, span, &yaw);
+  if (p->ladder) in = told_ladder(p, t_s), yaw = 0.0;
+  const vec_t before = p->lag[2];
   const double k = 1.0 - exp(-p->quick * PILOT_S);
   for (int n = 0; n < 3; n++) {
     p->lag[n] = in = vec_more(p->lag[n], k, vec_more(in, -1.0, p->lag[n]));
@@ -77,11 +95,12 @@ static pilot_wish_t wish_at(plan_t *p, double t_s) {
 }
 
 static plan_t plan_of(const other_job_t *job, dice_t *d) {
-  plan_t p = {.room = &job->known, .far = hide_stretch(&job->known), .span_s = job->span_s};
+  plan_t p = {
+      .room = &job->truth, .ladder = job->ladder, .far = hide_stretch(&job->known), .span_s = job->span_s};
   p.quick = dice_between(d, 3.6, 4.6) / sqrt(p.far);
   shuffle(&p, d);
   double yaw = 0.0;
-  const vec_t at = told(&p, p.order[0], 0.0, 1.0, &yaw);
+  const vec_t at = p.ladder ? told_ladder(&p, 0.0) : told(&p, p.order[0], 0.0, 1.0, &yaw);
   for (int n = 0; n < 3; n++) p.lag[n] = vec(0.0, 0.0, at.z);
   return p;
 }
@@ -131,6 +150,20 @@ static void row_of(const other_job_t *job, const senses_state_t *s, const pilot_
   for (int i = 0; i < 4; i++) row[17 + i] = as_logged(job, command[i]);
 }
 
+// What is wrong with the log becomes so here; what is wrong with the columns file, in user.c.
+static void soil(const other_job_t *job, double row[COLUMNS], double kept[2]) {
+  const dirt_t dirt = job->habits.dirt;
+  const double t_s = row[0];
+  if (dirt == DIRT_HALF) row[18] *= 0.5;
+  if (t_s <= 5.0) kept[0] = row[15];
+  if (t_s <= PILOT_S * job->habits.every) kept[1] = row[21];
+  if (dirt == DIRT_GYRO) row[15] = kept[0];
+  if (dirt == DIRT_VOLT) row[21] = kept[1];
+  if (dirt == DIRT_HOLES && lround(t_s / PILOT_S / job->habits.every) % 10 == 0) row[13] = (double)NAN;
+  if (dirt == DIRT_BACKWARDS && t_s > 8.0) row[0] -= 1.0;
+  for (int k = 11; dirt == DIRT_UNIT && k < 14; k++) row[k] /= NATURE_G_MPS2;
+}
+
 static void write_row(const double row[COLUMNS], bool ranges, FILE *out) {
   for (int k = 0; k < COLUMNS; k++) {
     if (k) putc(',', out);
@@ -150,6 +183,7 @@ typedef struct {
   dice_t dice;
   double command[LATE][4]; // of the last ticks
   double sum[COLUMNS];     // of a row that is a mean
+  double kept[2];          // of what stands still
   double full_V, fall_Vps;
 } other_t;
 
@@ -159,13 +193,16 @@ static void log_tick(other_t *o, const other_job_t *job, const pilot_wish_t *wis
   double row[COLUMNS];
   row_of(job, &o->senses, wish, o->command[from % LATE], tick * PILOT_S, row);
   if (!h->means) {
-    if (tick % h->every == 0) write_row(row, tick % 50 == 0, out);
+    if (tick % h->every) return;
+    soil(job, row, o->kept);
+    write_row(row, tick % 50 == 0, out);
     return;
   }
   for (int k = 0; k < COLUMNS; k++) o->sum[k] = (tick % h->every ? o->sum[k] : 0.0) + row[k] / h->every;
   if (tick % h->every != h->every - 1) return;
   o->sum[0] = (tick + 1) * PILOT_S;
   o->sum[22] = row[22];
+  soil(job, o->sum, o->kept);
   write_row(o->sum, tick / h->every % (50 / h->every) == 0, out);
 }
 
@@ -175,8 +212,15 @@ static void battery(other_t *o, const nature_t *known, const double command[4], 
   o->body.volt = o->full_V - o->fall_Vps * t_s - 0.12 * (load - 1.0);
 }
 
+// Before take-off and after landing the motors are off.
+static bool stands(const other_t *o, const pilot_wish_t *wish) {
+  const double rest_m = o->body.nature->rest_m;
+  return o->body.s.pos_m.z <= rest_m && wish->pos_m.z < rest_m;
+}
+
 static bool lost(const other_t *o, const pilot_wish_t *wish) {
   const vec_t off = vec_more(o->body.s.pos_m, -1.0, wish->pos_m);
+  if (o->plan.ladder) return !(vec_length(off) < LOST_M) || o->body.s.pos_m.z >= o->body.nature->ceiling_m;
   return !(vec_length(off) < LOST_M) || o->body.s.pos_m.z <= o->body.nature->rest_m ||
          o->body.s.pos_m.z >= o->body.nature->ceiling_m;
 }
@@ -189,6 +233,10 @@ bool other_fly(const other_job_t *job, FILE *out) {
   o.full_V = dice_between(&o.dice, 3.75, 4.15);
   o.fall_Vps = dice_between(&o.dice, 0.1, 0.3) / job->span_s;
   nature_start(&o.body, &job->truth, o.plan.lag[2]);
+  if (job->ladder) {
+    memset(o.body.s.rotor_radps, 0, sizeof o.body.s.rotor_radps);
+    memset(o.body.late_radps, 0, sizeof o.body.late_radps);
+  }
   o.body.volt = o.full_V;
   pilot_start(&o.pilot, &job->known, job->briskness);
   senses_start(&o.senses, &job->senses, &o.body);
@@ -197,7 +245,11 @@ bool other_fly(const other_job_t *job, FILE *out) {
     double *const command = o.command[tick % LATE];
     const pilot_wish_t wish = wish_at(&o.plan, tick * PILOT_S);
     senses_see(&o.senses, &o.body, &o.dice);
-    pilot_fly(&o.pilot, &o.senses.view, &wish, command);
+    if (stands(&o, &wish)) {
+      pilot_start(&o.pilot, &job->known, job->briskness);
+      memset(command, 0, sizeof o.command[0]);
+    } else
+      pilot_fly(&o.pilot, &o.senses.view, &wish, command);
     log_tick(&o, job, &wish, tick, out);
     battery(&o, &job->known, command, tick * PILOT_S);
     for (int k = 0; k < STEPS; k++) nature_step(&o.body, command);

@@ -8,6 +8,21 @@
 
 typedef enum { COMMAND_SPEED, COMMAND_SHARE, COMMAND_N } command_unit_t;
 
+// What is wrong with a log, or with what its user says of the columns.
+typedef enum {
+  DIRT_NONE,
+  DIRT_EXCHANGED, // the columns of two motors
+  DIRT_HALF,      // one motor's commands are half of what they were
+  DIRT_GYRO,      // a rate stands still from 5 s on
+  DIRT_VOLT,      // the voltage stands still
+  DIRT_HOLES,     // every tenth cell of a column is no number
+  DIRT_BACKWARDS, // the clock goes back a second
+  DIRT_UNIT,      // acceleration in g, said to be m/s2
+  DIRTS
+} dirt_t;
+
+enum { LACKS_ACC = 1, LACKS_SPEED = 2, LACKS_VOLT = 4, LACKS_WISH = 8 };
+
 // How its user logs. All of it is known to them, and stands in the columns file as far as that has words for
 // it.
 typedef struct {
@@ -15,6 +30,8 @@ typedef struct {
   bool means;          // a row is a mean over its period, else what is at its time
   double late_s;       // the logged command is that old
   command_unit_t unit; // speed, share of the greatest speed, newton
+  unsigned lacks;      // streams
+  dirt_t dirt;
 } habits_t;
 
 typedef struct {
@@ -22,6 +39,7 @@ typedef struct {
   senses_t senses;
   habits_t habits;
   double briskness; // of the pilot
+  bool ladder;      // take-off, steps of height and holds, landing; else pieces that excite it
   double span_s;
   uint64_t seed;
 } other_job_t;

@@ -1,6 +1,8 @@
 // hide.c - see hide.h.
 #include "exam/other/hide.h"
 
+#include <string.h>
+
 #define CF_ARM_M  0.046
 #define CF_KG     0.0329
 #define TIP_MPS   47.0 // of rotors in a hover, of 0.03 kg as of 1 kg
@@ -81,10 +83,10 @@ static void inertia(const hide_t *h) {
   for (int k = 0; k < 3; k++) h->n->inertia_kgm2[k] *= 1.0 + 0.3 * h->times;
 }
 static void motor_lag(const hide_t *h) {
-  h->n->lag_s += 0.02 * h->times;
+  h->n->lag_s += HIDE_LAG_S * h->times;
 }
 static void delay(const hide_t *h) {
-  h->n->delay_s = fmin(h->n->delay_s + 0.010 * h->times, DELAY_MAX);
+  h->n->delay_s = fmin(h->n->delay_s + HIDE_DELAY_S * h->times, DELAY_MAX);
 }
 static void rotor_drag(const hide_t *h) {
   h->n->hub_kg += by_rate(h->n, 0.25 * h->times);
@@ -163,6 +165,12 @@ static const struct {
 
 const char *hide_name(int i) {
   return row[i].name;
+}
+
+int hide_number(const char *name) {
+  int i = 0;
+  while (i < HIDE_EFFECTS && strcmp(row[i].name, name) != 0) i++;
+  return i;
 }
 
 void hide_effect(int i, double times, double which, nature_t *n, dishonest_t *senses) {

@@ -14,7 +14,10 @@ typedef struct {
 nature_t hide_vehicle(dice_t *d);
 
 #define HIDE_EFFECTS 20
+#define HIDE_DELAY_S 0.010 // typical
+#define HIDE_LAG_S   0.020
 const char *hide_name(int i);
+int hide_number(const char *name); // HIDE_EFFECTS: none
 // Effect i at `times` its typical size, with signs, rotors and directions left to `which` of 0..1. Sizes are
 // those of a Crazyflie, made to the vehicle: shares of weight, of the arm, of the inertia, rates and lengths.
 void hide_effect(int i, double times, double which, nature_t *n, dishonest_t *senses);

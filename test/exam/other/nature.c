@@ -104,12 +104,15 @@ static nature_state_t advanced(const nature_flight_t *f, const nature_state_t *f
   return to;
 }
 
-// It stands on the floor, and the top does not go through a ceiling.
-static void stop(const nature_t *n, nature_state_t *s) {
+// It stands on the floor, which carries it, and does not go through a ceiling.
+static void stop(nature_flight_t *f) {
+  const nature_t *const n = f->nature;
+  nature_state_t *const s = &f->s;
   if (s->pos_m.z <= n->rest_m && s->vel_mps.z <= 0.0) {
     s->pos_m.z = n->rest_m;
     s->vel_mps = s->rate_radps = vec(0.0, 0.0, 0.0);
     s->q = turn_unit((turn_t){s->q.w, 0.0, 0.0, s->q.z});
+    f->force_b_N = vec(0.0, 0.0, n->mass_kg * NATURE_G_MPS2);
   }
   if (s->pos_m.z >= n->ceiling_m && s->vel_mps.z > 0.0) s->vel_mps.z = 0.0;
 }
@@ -133,7 +136,7 @@ void nature_step(nature_flight_t *f, const double command_radps[4]) {
   const double *const acts = f->late_radps[(f->steps + NATURE_DELAY_MAX - late) % NATURE_DELAY_MAX];
   const nature_state_t half = advanced(f, &f->s, &f->s, acts, 0.5 * NATURE_STEP_S, &f->force_b_N);
   f->s = advanced(f, &f->s, &half, acts, NATURE_STEP_S, &f->force_b_N);
-  stop(n, &f->s);
+  stop(f);
   f->steps++;
   f->t_s = f->steps * NATURE_STEP_S;
 }

@@ -15,37 +15,68 @@ other_job_t other_job(dice_t *d) {
                           .acc_pole_Hz = dice_between(d, 30.0, 60.0),
                           .gyro_pole_Hz = dice_between(d, 60.0, 100.0)};
   static const int every[] = {5, 5, 5, 2, 10, 1}; // 100 Hz most often
-  job.habits = (habits_t){every[(int)dice_between(d, 0.0, 5.999)], dice_share(d) < 0.4,
-                          dice_share(d) < 0.3 ? 0.004 : 0.0, (command_unit_t)dice_between(d, 0.0, 2.999)};
+  job.habits = (habits_t){.every = every[(int)dice_between(d, 0.0, 5.999)], .means = dice_share(d) < 0.4};
+  job.habits.late_s = dice_share(d) < 0.3 ? 0.004 : 0.0;
+  job.habits.unit = (command_unit_t)dice_between(d, 0.0, 2.999);
   return job;
 }
 
-void other_write_columns(const other_job_t *job, FILE *out) {
+// What its columns are: signal, name, unit, the stream that may be lacking, the sensor that is late.
+typedef enum { LATE_NOT, LATE_ACC, LATE_GYRO } late_t;
+static const struct {
+  const char *signal, *name, *unit;
+  unsigned lacks;
+  late_t late;
+} COLUMN[] = {
+    {"time", "t", "s", 0u, LATE_NOT},
+    {"x", "px", "m", 0u, LATE_NOT},
+    {"y", "py", "m", 0u, LATE_NOT},
+    {"z", "pz", "m", 0u, LATE_NOT},
+    {"vx", "vx", "m/s", LACKS_SPEED, LATE_NOT},
+    {"vy", "vy", "m/s", LACKS_SPEED, LATE_NOT},
+    {"vz", "vz", "m/s", LACKS_SPEED, LATE_NOT},
+    {"qw", "qw", "1", 0u, LATE_NOT},
+    {"qx", "qx", "1", 0u, LATE_NOT},
+    {"qy", "qy", "1", 0u, LATE_NOT},
+    {"qz", "qz", "1", 0u, LATE_NOT},
+    {"ax", "ax", "m/s2", LACKS_ACC, LATE_ACC},
+    {"ay", "ay", "m/s2", LACKS_ACC, LATE_ACC},
+    {"az", "az", "m/s2", LACKS_ACC, LATE_ACC},
+    {"gx", "p", "rad/s", 0u, LATE_GYRO},
+    {"gy", "q", "rad/s", 0u, LATE_GYRO},
+    {"gz", "r", "rad/s", 0u, LATE_GYRO},
+    {"vbat", "volt", "V", LACKS_VOLT, LATE_NOT},
+    {"set_x", "sx", "m", LACKS_WISH, LATE_NOT},
+    {"set_y", "sy", "m", LACKS_WISH, LATE_NOT},
+    {"set_z", "sz", "m", LACKS_WISH, LATE_NOT},
+    {"set_yaw", "syaw", "rad", LACKS_WISH, LATE_NOT},
+};
+
+static void motor_columns(const habits_t *h, FILE *out) {
   static const char *const unit[] = {"rad/s", "share", "N"};
-  const double acc_ms = 1e3 * senses_late_s(job->senses.acc_pole_Hz);
-  const double gyro_ms = 1e3 * senses_late_s(job->senses.gyro_pole_Hz);
-  static const char *const plain[][3] = {
-      {"time", "t", "s"},   {"x", "px", "m"},     {"y", "py", "m"},     {"z", "pz", "m"},
-      {"vx", "vx", "m/s"},  {"vy", "vy", "m/s"},  {"vz", "vz", "m/s"},  {"qw", "qw", "1"},
-      {"qx", "qx", "1"},    {"qy", "qy", "1"},    {"qz", "qz", "1"},    {"vbat", "volt", "V"},
-      {"set_x", "sx", "m"}, {"set_y", "sy", "m"}, {"set_z", "sz", "m"}, {"set_yaw", "syaw", "rad"}};
-  fprintf(out, "# Rows at %g Hz, %s.\n", 1.0 / (PILOT_S * job->habits.every),
-          job->habits.means ? "means over their period" : "instants");
-  fprintf(out, "rest_height_m = %.7g\nacceleration = \"body\"\n\n[columns]\n", job->known.rest_m);
-  for (unsigned i = 0; i < sizeof plain / sizeof *plain; i++)
-    fprintf(out, "%s = {column = \"%s\", unit = \"%s\"}\n", plain[i][0], plain[i][1], plain[i][2]);
-  for (int k = 0; k < 3; k++)
-    fprintf(out,
-            "a%c = {column = \"a%c\", unit = \"m/s2\", late_ms = %.4g}\ng%c = {column = \"%c\", unit = "
-            "\"rad/s\", late_ms = %.4g}\n",
-            'x' + k, 'x' + k, acc_ms, 'x' + k, 'p' + k, gyro_ms);
-  for (int i = 1; i <= 4; i++)
-    fprintf(out, "m%d = {column = \"cmd%d\", unit = \"%s\", late_ms = %.4g}\n", i, i, unit[job->habits.unit],
-            1e3 * job->habits.late_s);
+  for (int i = 1; i <= 4; i++) {
+    const int of = h->dirt == DIRT_EXCHANGED && i <= 2 ? 3 - i : i;
+    fprintf(out, "m%d = {column = \"cmd%d\", unit = \"%s\", late_ms = %.4g}\n", i, of, unit[h->unit],
+            1e3 * h->late_s);
+  }
+}
+
+void other_write_columns(const other_job_t *job, FILE *out) {
+  const habits_t *const h = &job->habits;
+  const double late_ms[] = {0.0, 1e3 * senses_late_s(job->senses.acc_pole_Hz),
+                            1e3 * senses_late_s(job->senses.gyro_pole_Hz)};
+  const double row_ms = 1e3 * PILOT_S * h->every;
+  fprintf(out, "# Rows at %g Hz, %s.\n", 1e3 / row_ms, h->means ? "means over their period" : "instants");
+  fprintf(out, "rest_height_m = %.7g\n%s\n[columns]\n", job->known.rest_m,
+          h->lacks & LACKS_ACC ? "" : "acceleration = \"body\"\n");
+  for (unsigned i = 0; i < sizeof COLUMN / sizeof *COLUMN; i++)
+    if (!(h->lacks & COLUMN[i].lacks))
+      fprintf(out, "%s = {column = \"%s\", unit = \"%s\", late_ms = %.4g}\n", COLUMN[i].signal,
+              COLUMN[i].name, COLUMN[i].unit, late_ms[COLUMN[i].late]);
+  motor_columns(h, out);
   // A sample is at the beginning of its row's period, the rest of a mean row at its middle.
-  const double age_ms = job->habits.means ? 0.5e3 * PILOT_S * job->habits.every : 0.0;
-  if (job->known.ceiling_m < 1e3)
-    fprintf(out, "range = {column = \"up\", unit = \"m\", late_ms = %.4g}\n", age_ms);
+  if (job->truth.ceiling_m < 1e3)
+    fprintf(out, "range = {column = \"up\", unit = \"m\", late_ms = %.4g}\n", h->means ? 0.5 * row_ms : 0.0);
 }
 
 static void list(FILE *out, const char *key, const double *v, int n) {
@@ -61,6 +92,19 @@ static void write_map(const other_job_t *job, FILE *out) {
     fprintf(out, "\n[thrust_map]\nkind = \"speed\"\nc = [0.0, 0.0, %.7g]\n", n->k_Ns2);
   if (job->habits.unit == COMMAND_SHARE)
     fprintf(out, "\n[thrust_map]\nkind = \"pwm_cubic\"\nc = [0.0, 0.0, %.7g, 0.0]\n", most_N);
+}
+
+// The ceiling's effect as points, as a user has them of a stand.
+static void write_ceiling(const nature_t *n, FILE *out) {
+  double far[16], ratio[16];
+  for (int i = 0; i < 16; i++) {
+    far[i] = 0.1 + 0.9 * i;
+    const double share = far[i] * n->radius_m / n->ceiling_m0;
+    ratio[i] = 1.0 + n->ceiling_share / ((1.0 + share * share) * (1.0 + share * share));
+  }
+  fprintf(out, "\n[[effect]]\nname = \"ceiling\"\nform = \"table\"\n");
+  list(out, "distance_over_radius", far, 16);
+  list(out, "ratio", ratio, 16);
 }
 
 void other_write_vehicle(const other_job_t *job, FILE *out) {
@@ -81,5 +125,6 @@ void other_write_vehicle(const other_job_t *job, FILE *out) {
   fprintf(out, "torque_ratio_m = %.7g\nkf_Ns2 = %.7g\ninertia_kgm2 = 0.0\ndelay_s = %.7g\n", n->torque_m,
           n->k_Ns2, n->delay_s);
   if (n->hub_kg > 0.0) fprintf(out, "\n[[effect]]\nname = \"rotor_drag\"\nk = %.7g\n", n->hub_kg);
+  if (n->ceiling_share > 0.0) write_ceiling(n, out);
   if (n->climb_kg > 0.0) fprintf(out, "\n[[effect]]\nname = \"climb_inflow\"\nk = %.7g\n", n->climb_kg);
 }
