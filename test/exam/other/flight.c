@@ -232,7 +232,7 @@ bool other_fly(const other_job_t *job, FILE *out) {
   o.plan = plan_of(job, &o.dice);
   o.full_V = dice_between(&o.dice, 3.75, 4.15);
   o.fall_Vps = dice_between(&o.dice, 0.1, 0.3) / job->span_s;
-  nature_start(&o.body, &job->truth, o.plan.lag[2]);
+  nature_start(&o.body, &job->truth, vec(0.0, 0.0, fmax(o.plan.lag[2].z, job->truth.rest_m)));
   if (job->ladder) {
     memset(o.body.s.rotor_radps, 0, sizeof o.body.s.rotor_radps);
     memset(o.body.late_radps, 0, sizeof o.body.late_radps);

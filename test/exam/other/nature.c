@@ -123,6 +123,7 @@ void nature_start(nature_flight_t *f, const nature_t *n, vec_t pos_m) {
   f->s.pos_m = pos_m;
   f->s.q.w = 1.0;
   f->volt = n->sag_V;
+  f->force_b_N = vec(0.0, 0.0, n->mass_kg * NATURE_G_MPS2);
   for (int i = 0; i < 4; i++) f->s.rotor_radps[i] = nature_hover_radps(n);
   for (int k = 0; k < NATURE_DELAY_MAX; k++)
     memcpy(f->late_radps[k], f->s.rotor_radps, sizeof f->late_radps[k]);
