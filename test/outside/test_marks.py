@@ -59,13 +59,15 @@ class Marks(unittest.TestCase):
 
     def test_the_table_counts(self):
         all_marks = [marks.mark(verdict(("mass",)), ["mass"]), marks.mark(verdict(("wind",)), []),
-                     marks.mark(verdict(unknown=True), ["wind", "delay"])]
+                     marks.mark(verdict(unknown=True), ["wind", "delay"]),
+                     marks.mark({"verdict": "refused", "effects": [], "warnings": ["x"]}, [])]
         lines = marks.table(all_marks).splitlines()
-        self.assertEqual(lines[1].split(), ["nothing", "1", "0", "0", "0", "1", "0", "0"])
+        self.assertEqual(lines[1].split(), ["nothing", "2", "0", "0", "0", "1", "0", "1"])
         whole = next(line for line in lines if line.startswith("all"))
-        self.assertEqual(whole.split()[1:], ["3", "3", "1", "1", "1", "1", "0"])
+        self.assertEqual(whole.split()[1:], ["4", "3", "1", "1", "1", "1", "1"])
         self.assertIn("named: 1/3 33 % of what was hidden", lines)
         self.assertIn("exact: 1/2 50 % of the sets that hide something", lines)
+        self.assertIn("nothing hidden, and read: a name in 1/1 100 %, unknown in 0/1 0 %", lines)
         self.assertIn("no name has a probability", lines)
 
 

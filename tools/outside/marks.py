@@ -95,11 +95,11 @@ def table(marks: list[Mark]) -> str:
     lines = [head, row("nothing", [m for m in marks if not m.hidden])]
     lines += [row(kind, [m for m in marks if m.hidden == [kind]]) for kind in kinds]
     lines += [row("two", [m for m in marks if len(m.hidden) == 2]), row("all", marks), ""]
-    some, none = [m for m in marks if m.hidden], [m for m in marks if not m.hidden]
+    some, none = [m for m in marks if m.hidden], [m for m in marks if not m.hidden and m.verdict != "refused"]
     lines.append("named: " + share(sum(m.right for m in some), sum(len(m.hidden) for m in some)) + " of what was hidden")
     lines.append("exact: " + share(sum(m.exact for m in some), len(some)) + " of the sets that hide something")
     lines.append("false names: " + share(sum(m.false for m in marks), sum(len(m.names) for m in marks)) + " of all names")
-    lines.append("nothing hidden: a name in " + share(sum(bool(m.names) for m in none), len(none)) +
+    lines.append("nothing hidden, and read: a name in " + share(sum(bool(m.names) for m in none), len(none)) +
                  ", unknown in " + share(sum(bool(m.unknown) for m in none), len(none)))
     sure = sum(m.sure for m in marks)
     lines.append(f"stated at {SURE} or more: right in " + share(sum(m.sure_right for m in marks), sure) if sure else
