@@ -167,7 +167,7 @@ static done_t read_column(toml_t columns, signal_id_t signal, columns_t *c, why_
   if (scale == 0.0) return toml_refuse(t, "scale", why, "0; allowed: any other number");
   if (toml_has(t, "offset")) TRY(toml_double(t, "offset", -1e12, 1e12, &to->offset, why));
   double late_ms = 0.0;
-  if (toml_has(t, "late_ms")) TRY(toml_double(t, "late_ms", 0.0, 100.0, &late_ms, why));
+  if (toml_has(t, "late_ms")) TRY(toml_double(t, "late_ms", -100.0, 100.0, &late_ms, why));
   to->late_s = 1e-3 * late_ms;
   if (toml_has(t, "optional")) TRY(toml_bool(t, "optional", &to->optional, why));
   to->factor *= scale;
@@ -185,6 +185,14 @@ static done_t read_frame(toml_t root, acc_frame_t *frame, why_t *why) {
   }
   return toml_refuse(root, "acceleration", why,
                      "unknown frame `%s`; allowed: body, world, world_with_gravity", name);
+}
+
+static done_t read_rows(toml_t root, bool *means, why_t *why) {
+  char word[32];
+  TRY(toml_string(root, "rows", word, sizeof word, why));
+  *means = strcmp(word, "means") == 0;
+  if (*means || strcmp(word, "instants") == 0) return DONE;
+  return toml_refuse(root, "rows", why, "unknown word `%s`; allowed: instants, means", word);
 }
 
 // The motors' commands are all of one kind.
@@ -233,7 +241,7 @@ static done_t read_columns(toml_t t, columns_t *c, why_t *why) {
   return check_motors(t, c, why);
 }
 
-static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "columns", NULL};
+static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "rows", "columns", NULL};
 static const toml_kind_t COLUMNS_FILE = {"a columns file", "tools/columns/fly.toml", ROOT_KEYS};
 
 static done_t read_root(toml_t root, columns_t *c, why_t *why) {
@@ -242,6 +250,7 @@ static done_t read_root(toml_t root, columns_t *c, why_t *why) {
   TRY(toml_table(root, "columns", &columns, why));
   TRY(read_columns(columns, c, why));
   if (c->of[SIG_AX].column[0] || c->of[SIG_AZ].column[0]) TRY(read_frame(root, &c->acc, why));
+  if (toml_has(root, "rows")) TRY(read_rows(root, &c->rows_are_means, why));
   if (toml_has(root, "rest_height_m"))
     TRY(toml_double(root, "rest_height_m", -10.0, 10.0, &c->rest_height_m, why));
   return DONE;

@@ -6,13 +6,17 @@
 //   rest_height_m = 0.05                         optional: what z says when the vehicle stands on the ground
 //   acceleration = "body"                        specific force in body axes (+1 g on z at rest), or
 //                                                "world" (gravity taken out), or "world_with_gravity"
+//   rows = "instants"                            optional: a row is what is at its time, and its commands
+//   hold
+//                                                from then on; or "means" of all columns over one period
 //   [columns]                                    SIGNAL = {column, unit, and where wanted
 //   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
 //
-// What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (0 to 100) before the row's
-// time: the delay of a filter, 7.5 ms of the Crazyflie's accelerometer and 2.8 ms of its gyro, or the age of
-// a sample, 70 ms of its upward range and 13 ms of the downward one. Signals and units: columns.c. Attitude
+// What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (-100 to 100; negative: the
+// row is early) before the row's time, motor commands too: the delay of a filter, 7.5 ms of the Crazyflie's
+// accelerometer and 2.8 ms of its gyro, or the age of a sample, 70 ms of its upward range and 13 ms of the
+// downward one. A row of means stands at the middle of its period. Signals and units: columns.c. Attitude
 // is a quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll,
 // pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
 //
@@ -92,7 +96,7 @@ typedef struct {
   char unit[12];
   double factor; // SI per unit of the cell, with sign and scale
   double offset; // SI
-  double late_s; // 0..0.1  between what was and its row
+  double late_s; // -0.1..0.1  between what was and its row
   bool optional; // may be missing in the CSV
 } column_t;
 
@@ -100,6 +104,7 @@ typedef struct {
   acc_frame_t acc;
   motors_t motors;      // what m1..m4 are
   bool mixed_pwm;       // thrust, tx, ty and tz are pwm
+  bool rows_are_means;  // over the period of each row; else what is at its time
   double rest_height_m; // NaN: not said
   column_t of[SIG_COUNT];
 } columns_t;

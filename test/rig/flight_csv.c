@@ -157,6 +157,12 @@ static bool in_its_place(const flight_csv_t *f, int c, int row) {
   return f->cell && c == f->column && (f->every == 0 || row % f->every == 0);
 }
 
+static void late_commands(double t_s, double v[FC_COLUMNS]) {
+  double then[FC_COLUMNS];
+  flight_csv_values(t_s, then);
+  memcpy(&v[FC_M1], &then[FC_M1], 4 * sizeof *v);
+}
+
 size_t flight_csv_write(const flight_csv_t *f, char *text, size_t room) {
   const double dt_s = 1e-3 * (f->dt_ms > 0.0 ? f->dt_ms : 10.0);
   const int from = (int)(f->from_s / dt_s + 0.5), rows = f->rows ? f->rows : 2000;
@@ -167,6 +173,7 @@ size_t flight_csv_write(const flight_csv_t *f, char *text, size_t room) {
     const double t_s = dt_s * (same ? from : i);
     double v[FC_COLUMNS];
     values(t_s, t_s - f->late_att_s, t_s - f->late_vel_s, v);
+    if (f->late_cmd_s != 0.0) late_commands(t_s - f->late_cmd_s, v);
     spoil(f, t_s, v);
     bool first = true;
     for (int c = 0; c < FC_COLUMNS; c++) {

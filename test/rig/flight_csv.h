@@ -45,6 +45,7 @@ typedef struct {
   int rows;           // 0: 2000
   double late_att_s;  // attitude and
   double late_vel_s;  // velocity and position are late
+  double late_cmd_s;  // motor commands too
   int column;         // which columns: this one and
   int more;           // so many behind it
   double scale;       // 0: 1; times this ..

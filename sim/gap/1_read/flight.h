@@ -24,6 +24,9 @@ typedef struct {
   // as commanded, by the map, whatever the log's unit; null if the map or the voltage it needs is missing.
   // SIG_THRUST: of all together. SIG_VBAT: the last one known.
   double *v[SIG_COUNT];
+  // A row is the mean of everything over its period; else what is at its time, and its commands hold from
+  // then on.
+  bool rows_are_means;
   bool motors_N;                // SIG_M*: newton
   const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
   double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged

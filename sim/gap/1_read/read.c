@@ -121,9 +121,9 @@ static done_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *r
 
 // --- the streams' times -----------------------------------------------------------------------------------
 
-static void set_shift(double shift_s[SIG_COUNT], signals_t signals, double late_s) {
+static void add_shift(double shift_s[SIG_COUNT], signals_t signals, double late_s) {
   for (int i = 0; i < SIG_COUNT; i++)
-    if (signals & SIGNAL_BIT(i)) shift_s[i] = late_s;
+    if (signals & SIGNAL_BIT(i)) shift_s[i] += late_s;
 }
 
 typedef struct {
@@ -132,13 +132,16 @@ typedef struct {
   skew_t (*skew)(const gap_flight_t *f);
 } stream_t;
 
-// How late the stream is, by rounds: each looks at what the one before has left.
-static done_t tell_late(raw_t *raw, const stream_t *s, double shift_s[SIG_COUNT], skew_t *told, why_t *why) {
+// How late the stream is beyond shift_s, by rounds: each looks at what the one before has left.
+static done_t tell_late(raw_t *raw, const stream_t *s, const double shift_s[SIG_COUNT], skew_t *told,
+                        why_t *why) {
   *told = (skew_t){0.0, HUGE_VAL};
   for (int round = 0; round < SKEW_ROUNDS; round++) {
     gap_flight_t part = {0};
-    set_shift(shift_s, s->moved, told->late_s);
-    const done_t status = gap_grid(&part, raw, s->need, shift_s, SKEW_SPAN_S, false, why);
+    double moved_s[SIG_COUNT];
+    memcpy(moved_s, shift_s, sizeof moved_s);
+    add_shift(moved_s, s->moved, told->late_s);
+    const done_t status = gap_grid(&part, raw, s->need, moved_s, SKEW_SPAN_S, false, why);
     const skew_t rest = status == DONE ? s->skew(&part) : *told;
     gap_flight_free(&part);
     TRY(status);
@@ -171,7 +174,7 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
       note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", s->what,
            1e3 * told.late_s, 1e3 * told.stderr_s, s->driver);
     *late_s[k] = mend ? told.late_s : 0.0;
-    set_shift(shift_s, s->moved, *late_s[k]);
+    add_shift(shift_s, s->moved, *late_s[k]);
   }
   return DONE;
 }
@@ -187,10 +190,27 @@ static void note_samples(gap_flight_t *f) {
     note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
 }
 
+// What the columns file says of each; what is made of commands or angles is as late as they are.
+static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
+  const column_t *const of = rows->columns.of;
+  const bool each = rows->motors.kind == LOG_MOTORS_EACH || rows->motors.kind == LOG_MOTORS_MAP;
+  double late_s = 0.0;
+  for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = of[i].late_s;
+  for (int i = SIG_QW; i <= SIG_QZ && rows->at[SIG_QW] < 0; i++) shift_s[i] = of[SIG_ROLL].late_s;
+  for (int i = 0; i < ROTORS; i++) {
+    const signal_id_t m = each ? (signal_id_t)(SIG_M1 + i) : SIG_THRUST;
+    shift_s[SIG_F1 + i] = of[m].late_s;
+    late_s += of[m].late_s / ROTORS;
+    if (!each) shift_s[SIG_M1 + i] = of[m].late_s; // made of a mix
+  }
+  if (!rows->motors.total_logged) shift_s[SIG_THRUST] = late_s;
+}
+
 static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
-  double shift_s[SIG_COUNT] = {0.0};
-  for (int i = 0; i < SIG_COLUMNS; i++) shift_s[i] = rows->columns.of[i].late_s;
+  double shift_s[SIG_COUNT];
+  late_as_logged(rows, shift_s);
   TRY(raw_read(raw, rows, &f->cut, why));
+  f->rows_are_means = rows->columns.rows_are_means || raw->thin > 1;
   TRY(check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));
   TRY(drop_rest(f, raw, rows, why));

@@ -119,14 +119,16 @@ static void place(const raw_t *raw, const double *v, const stretch_t *s, double 
   }
 }
 
-static void mark(gap_flight_t *f, const raw_t *raw, const stretch_t *s, int number, double period_s) {
+// A command at its limit masks what it drives: commands_s is taken from its time stamp.
+static void mark(gap_flight_t *f, const raw_t *raw, const stretch_t *s, int number, double period_s,
+                 double commands_s) {
   for (int k = 0; k < s->n; k++) {
     f->t_s[s->at + k] = s->start_s + period_s * k;
     f->segment[s->at + k] = number;
   }
   for (int i = s->first; i <= s->last; i++) {
     if (!raw->at_limit[i]) continue;
-    const double k = floor((raw->t_s[i] - s->start_s) / period_s);
+    const double k = floor((raw->t_s[i] - commands_s - s->start_s) / period_s);
     for (int j = 0; j < 2; j++)
       if (k + j >= 0.0 && k + j < s->n) f->saturated[s->at + (int)k + j] = true;
   }
@@ -171,7 +173,7 @@ done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_
   f->saturated = calloc(n, sizeof(bool));
   if (!f->t_s || !f->segment || !f->saturated) return error_failed(why, "out of memory");
   for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);)
-    if (s.n > 0) mark(f, raw, &s, number++, g.period_s);
+    if (s.n > 0) mark(f, raw, &s, number++, g.period_s, shift_s[SIG_THRUST]);
   for (int i = SIG_X; i < SIG_COUNT; i++) {
     if (!raw->v[i] || !(want & SIGNAL_BIT(i))) continue;
     TRY(fill_signal(f, raw, &g, i, shift_s[i], why));

@@ -66,7 +66,7 @@ void other_write_columns(const other_job_t *job, FILE *out) {
   const double late_ms[] = {0.0, 1e3 * senses_late_s(job->senses.acc_pole_Hz),
                             1e3 * senses_late_s(job->senses.gyro_pole_Hz)};
   const double row_ms = 1e3 * PILOT_S * h->every;
-  fprintf(out, "# Rows at %g Hz, %s.\n", 1e3 / row_ms, h->means ? "means over their period" : "instants");
+  fprintf(out, "# Rows at %g Hz.\nrows = \"%s\"\n", 1e3 / row_ms, h->means ? "means" : "instants");
   fprintf(out, "rest_height_m = %.7g\n%s\n[columns]\n", job->known.rest_m,
           h->lacks & LACKS_ACC ? "" : "acceleration = \"body\"\n");
   for (unsigned i = 0; i < sizeof COLUMN / sizeof *COLUMN; i++)

@@ -203,6 +203,77 @@ TEST(gap_takes_out_the_delays_that_the_columns_name) {
   gap_flight_free(&f);
 }
 
+// Commands that were logged late, or early, are those of the same log of commands in time.
+TEST(gap_takes_out_the_lateness_of_commands) {
+  static const struct {
+    const char *what;
+    double dt_ms, late_s;
+  } row[] = {{"in time", 10.0, 0.0},
+             {"a row late", 10.0, 0.01},
+             {"a row early", 10.0, -0.01},
+             {"five rows late", 2.0, 0.01},
+             {"a row and a half late", 10.0, 0.015}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    const flight_csv_t made = {.dt_ms = row[i].dt_ms, .late_cmd_s = row[i].late_s};
+    for (int s = SIG_M1; s <= SIG_M4; s++) columns.of[s].late_s = row[i].late_s;
+    gap_flight_t late, now;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &late, &made, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK_OK(read_made(&now, &(flight_csv_t){.dt_ms = row[i].dt_ms}, &why));
+    for (int k = 0; k < late.n; k++) {
+      double v[FC_COLUMNS];
+      flight_csv_values(late.t_s[k], v);
+      const int same = (int)((late.t_s[k] - now.t_s[0]) * now.rate_Hz + 0.5);
+      // Between rows a command is drawn as a line: 5 ms from either 1 % of a wave of 1 Hz is the bow.
+      // The voltage is of its own row: 20 uV.
+      const double tol = row[i].late_s * 1e3 / row[i].dt_ms == 1.5 ? 0.01 : 3e-5;
+      CHECK_NEAR(late.v[SIG_M2][k], v[FC_M2], tol * v[FC_M2]);
+      CHECK_NEAR(late.v[SIG_THRUST][k], now.v[SIG_THRUST][same], tol * now.v[SIG_THRUST][same]);
+      if (!CHECK_NEAR(late.v[SIG_F3][k], now.v[SIG_F3][same], tol * now.v[SIG_F3][same])) break;
+    }
+    gap_flight_free(&late);
+    gap_flight_free(&now);
+  }
+}
+
+// Attitude and place that the columns file says are late are not late beyond that.
+TEST(gap_takes_out_the_lateness_of_the_estimate) {
+  static const double late_s = 0.06; // more than could be mended
+  columns_t columns = flight_csv_columns();
+  for (int s = SIG_X; s <= SIG_VZ; s++) columns.of[s].late_s = late_s;
+  for (int s = SIG_QW; s <= SIG_QZ; s++) columns.of[s].late_s = late_s;
+  gap_flight_t f;
+  why_t why = {""};
+  CHECK_OK(
+      read_by(&columns, &f, &(flight_csv_t){.dt_ms = 2.0, .late_att_s = late_s, .late_vel_s = late_s}, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_NEAR(f.attitude_late_s, 0.0, 3e-4);
+  CHECK_NEAR(f.velocity_late_s, 0.0, 5e-4);
+  for (int k = 0; k < 5 && f.n > 0; k++) CHECK_NEAR(worst(&f, k, 0.0), 0.0, 0.012);
+  gap_flight_free(&f);
+}
+
+TEST(gap_reads_whether_rows_are_means) {
+  static const struct {
+    const char *what;
+    double dt_ms;
+    bool said, want;
+  } row[] = {{"instants", 10.0, false, false}, {"means", 10.0, true, true}, {"thinned", 1.0, false, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    columns.rows_are_means = row[i].said;
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &f, &(flight_csv_t){.dt_ms = row[i].dt_ms}, &why));
+    CHECK(f.rows_are_means == row[i].want);
+    gap_flight_free(&f);
+  }
+}
+
 static bool noted(const gap_flight_t *f, const char *text) {
   for (int i = 0; i < f->n_note; i++)
     if (strstr(f->note[i], text)) return true;

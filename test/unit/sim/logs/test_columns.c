@@ -81,7 +81,7 @@ static const struct {
 } refused[] = {
     {"empty", "", "c.toml:1: columns: missing; allowed: a table"},
     {"no time", "[columns]\n", "c.toml:1: time: missing; allowed: a table"},
-    {"key", "x = 1\n" TIME, "c.toml:1: x: unknown key; allowed: rest_height_m, acceleration, columns"},
+    {"key", "x = 1\n" TIME, "c.toml:1: x: unknown key; allowed: rest_height_m, acceleration, rows, columns"},
     {"signal", TIME "height = {column = \"z\", unit = \"m\"}\n",
      "c.toml:3: height: unknown key; allowed: time, x, y, z, vx, vy, vz, ax, ay, az, qw, qx, qy, qz, roll, "
      "pitch, yaw, "
@@ -96,7 +96,10 @@ static const struct {
     {"scale", TIME "z = {column = \"z\", unit = \"m\", scale = 0}\n",
      "c.toml:3: scale: 0; allowed: any other number"},
     {"late", TIME "z = {column = \"z\", unit = \"m\", late_ms = 101}\n",
-     "c.toml:3: late_ms: 101 is out of range; allowed: 0 to 100"},
+     "c.toml:3: late_ms: 101 is out of range; allowed: -100 to 100"},
+    {"early", TIME "z = {column = \"z\", unit = \"m\", late_ms = -100.5}\n",
+     "c.toml:3: late_ms: -100.5 is out of range; allowed: -100 to 100"},
+    {"rows", "rows = \"mean\"\n" TIME, "c.toml:1: rows: unknown word `mean`; allowed: instants, means"},
     {"no frame", TIME "az = {column = \"z\", unit = \"g\"}\n",
      "c.toml:1: acceleration: missing; allowed: a text in quotes"},
     {"frame", "acceleration = \"x\"\n" TIME "az = {column = \"z\", unit = \"g\"}\n",
@@ -168,6 +171,19 @@ TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
   CHECK_STATUS(BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
   CHECK_TEXT(scratch_short(why.text),
              "log.csv:1: column pm.vbat: missing; the thrust map needs the battery's voltage");
+}
+
+TEST(columns_say_what_a_row_is) {
+  static const struct {
+    const char *text;
+    bool means;
+  } row[] = {{TIME, false}, {"rows = \"instants\"\n" TIME, false}, {"rows = \"means\"\n" TIME, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    columns_t c;
+    why_t why = {""};
+    CHECK_OK(columns_read(scratch_file("c.toml", row[i].text, -1), &c, &why));
+    CHECK(c.rows_are_means == row[i].means);
+  }
 }
 
 #define MOTORS4(unit)                                                                                        \
