@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
+.PHONY: help debug fresh demo flights touches recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -175,6 +175,9 @@ touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 fl
 
 example-seeds: $(O)/fly $(O)/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden; minutes
 	@$(DOC) show seeds
+
+mass-flights: $(O)/fly $(O)/gap  ## the workflow on test flights with 1, 3 and 5 g more mass (SEEDS="1 201": sets from these seeds, a line each); minutes
+	@SEEDS="$(SEEDS)" $(DOC) show mass-flights
 
 recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR); minutes
 	@$(DOC) show recorded

@@ -72,7 +72,7 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
 // Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
 // and nothing was testable.
 static void withdraw_all(diagnosis_t *d) {
-  d->found.chosen.n = d->found.n = d->found.n_open = 0;
+  d->found.chosen.n = d->found.n = 0;
   d->found.left = d->found.left_before;
   for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
 }
@@ -84,10 +84,6 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
   d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);
   d->unknown = d->nominal_flew && d->cell.statistic > d->cell_bound;
-  if (d->unknown || d->found.n_open == 0) return DONE;
-  // It is there, without a name: where it is largest, a constant included.
-  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, false, &d->cell, why));
-  d->unknown = d->cell.statistic > 0.0;
   return DONE;
 }
 

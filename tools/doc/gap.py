@@ -1,5 +1,7 @@
 """gap.py - the workflow on examples: a hidden ceiling, other seeds, an effect that is added, recorded flights."""
 
+import itertools
+import json
 import os
 import re
 import subprocess
@@ -64,6 +66,47 @@ def other_seeds(sets: int = 8) -> None:
     run.progress()
     for (flown, names), n in sorted(answers.items()):
         print(f"{flown:24} {names:44} {n} of {sets}")
+
+
+MASSES_G = (1, 3, 5)
+MASS_MARKS = ("named", "in its family", "no name", "WRONG")
+
+
+def mass_mark(verdict: dict) -> tuple[str, str]:
+    """Where the mass stands in a verdict on flights with more mass under a ceiling, and the names that were said."""
+    told = {e["name"]: {e["name"], *e["rivals"], *(e.get("family") or [])} for e in verdict["effects"]}
+    words = "; ".join(" | ".join([name, *sorted(others - {name})]) for name, others in told.items())
+    if any("mass" not in others and name != "ceiling" for name, others in told.items()):
+        return "WRONG", words
+    if "mass" in told:
+        return "named", words
+    return "in its family" if any("mass" in others for others in told.values()) else "no name", words
+
+
+def mass_flights() -> None:
+    """A user's own flights with more mass: three of each set, both integrators, with and without the ceiling's height."""
+    out = run.folder("mass-flights")
+    run.vehicle_under_ceiling(out / "with.toml")
+    files = {"with": ["--vehicle", out / "with.toml"], "without": []}
+    counts: Counter[tuple[int, str, str]] = Counter()
+    firsts = [int(first) for first in os.environ.get("SEEDS", "1 201 301").split()]
+    for grams, first, integrator in itertools.product(MASSES_G, firsts, ("sundials", "rk4")):
+        logs = [out / f"flight{k}.csv" for k in range(3)]
+        for k, log in enumerate(logs):
+            flown = ["--effect", f"mass:add={grams / 1000}", "--seed", first + k, "--integrator", integrator, "--log", log]
+            run.program("fly", "test-flight", *flown)
+        for ceiling, vehicle in files.items():
+            run.program("gap", *vehicle, "--json", out / "verdict.json", *logs)
+            mark, words = mass_mark(json.loads((out / "verdict.json").read_text()))
+            run.progress(f"{grams} g, seeds from {first}, {integrator}, {ceiling} ceiling_m: {mark}")
+            if os.environ.get("SEEDS"):
+                print(f"{grams} g, {first}, {integrator:8}, {ceiling:7}: {mark}: {words}")
+            counts[grams, ceiling, mark] += 1
+    run.progress()
+    print(f"{'more mass':12}{'ceiling_m':12}{'sets':>6}" + "".join(f"{mark:>15}" for mark in MASS_MARKS))
+    for grams, ceiling in itertools.product(MASSES_G, files):
+        of = [counts[grams, ceiling, mark] for mark in MASS_MARKS]
+        print(f"{grams:<2} g{'':8}{ceiling:12}{sum(of):6}" + "".join(f"{n:15}" for n in of))
 
 
 def added_effect() -> None:

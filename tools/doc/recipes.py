@@ -90,6 +90,7 @@ RECIPES = {
     "gap": Recipe(gap.example, data=True, leaves_out=r", \d+ x real time"),
     "recorded": Recipe(gap.recorded, data=True),
     "seeds": Recipe(gap.other_seeds),
+    "mass-flights": Recipe(gap.mass_flights),
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
     "closest": Recipe(closest),

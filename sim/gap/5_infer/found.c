@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAME   0.997 // of a name's contribution, that a rival could give
+#define SAME   0.997 // of what a number is multiplied by, that a rival could give
 #define ERRORS 2.0   // standard errors that hold what is sure
 
 done_t found_make(found_t *f, const candidates_t *c, why_t *why) {
@@ -31,64 +31,7 @@ void found_withdraw(found_t *f, int i) {
   for (f->n--; i < f->n; i++) f->named[i] = f->named[i + 1];
 }
 
-// --- names that these flights cannot tell from others -----------------------------------------------------
-
-static named_t open_one(const round_t *r, int candidate) {
-  const choice_t rest = choice_without(&r->choice, candidate);
-  named_t open = {.candidate = candidate};
-  for (int i = 0; i < r->c->n && open.n_rival < RIVAL_MAX; i++) {
-    if (!round_may_stand_for(r, &rest, candidate, i)) continue;
-    if (open.n_rival && open.rival[open.n_rival - 1] == round_fx(r, i)) continue;
-    const choice_t with = choice_with(&rest, i);
-    if (!score_is_rival(&r->score, &r->choice, &with) || !score_is_possible(&r->score, &with)) continue;
-    if (score_likeness(&r->score, &r->choice, candidate, i) < SAME) continue;
-    open.rival[open.n_rival++] = round_fx(r, i);
-  }
-  return open;
-}
-
-int found_open_one(found_t *f, const round_t *r) {
-  for (int i = r->choice.n - 1; i >= 0 && f->n_open < NAMED_MAX; i--) {
-    const named_t open = open_one(r, r->choice.of[i]);
-    if (open.n_rival == 0) continue;
-    f->open[f->n_open++] = open;
-    return open.candidate;
-  }
-  return -1;
-}
-
-bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx) {
-  for (int i = 0; i < f->n_open; i++) {
-    if (c->candidate[f->open[i].candidate].use.fx == fx) return true;
-    for (int k = 0; k < f->open[i].n_rival; k++)
-      if (f->open[i].rival[k] == fx) return true;
-  }
-  return false;
-}
-
-// --- names and their rivals -------------------------------------------------------------------------------
-
-// Mass and thrust scale differ in turning alone.
-static bool only_turning_tells(const round_t *r, int a, int b) {
-  return round_fx(r, a)->class == FX_WEIGHT && round_fx(r, b)->class == FX_WEIGHT && candidates_slow(r->s);
-}
-
-// Another name in its place that is not worse by two standard errors of the difference, at a size that it can
-// have.
-static void find_rivals(const round_t *r, int candidate, double left_before, named_t *named) {
-  const choice_t rest = choice_without(&r->choice, candidate);
-  const double without = score_left(&r->score, &rest, NULL);
-  for (int i = 0; i < r->c->n && named->n_rival < RIVAL_MAX; i++) {
-    const fx_t *fx = round_fx(r, i);
-    if (fx == round_fx(r, candidate) || r->never[i] || !round_fits(r, &rest, i)) continue;
-    if (named->n_rival && named->rival[named->n_rival - 1] == fx) continue;
-    const choice_t with = choice_with(&rest, i);
-    const bool rival = score_is_rival(&r->score, &r->choice, &with) && score_is_possible(&r->score, &with);
-    if (!rival && !only_turning_tells(r, candidate, i)) continue;
-    named->rival_share[named->n_rival] = (without - score_left(&r->score, &with, NULL)) / left_before;
-    named->rival[named->n_rival++] = fx;
-  }
-}
+// --- names ------------------------------------------------------------------------------------------------
 
 // What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness
 // of the instruments themselves as is never named.
@@ -122,7 +65,6 @@ static void find_named(found_t *found, const round_t *r) {
     memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
     add_errors(r, &last, named);
     named->share = (score_left(&r->score, &rest, NULL) - found->left) / found->left_before;
-    find_rivals(r, candidate, found->left_before, named);
   }
 }
 
@@ -166,8 +108,8 @@ static void sort_names(found_t *found, const round_t *r) {
 
 #define MISSED 2.0 // errors by which an estimate may be too small
 
-// Another name stands for it so well that it stays open until it is larger: the part of its sum of squares
-// that the other one cannot give must be SCORE_RIVAL_LEFT.
+// Another name stands for it so well that the two cannot be told apart until it is larger: the part of its
+// sum of squares that the other one cannot give must be SCORE_RIVAL_LEFT.
 static double gain_of_rivals(const round_t *r, int candidate, int k) {
   double alike = 0.0;
   for (int i = 0; i < r->c->n; i++)
@@ -208,7 +150,7 @@ static void find_least(found_t *found, const round_t *r) {
     const choice_t with = choice_with(&rest, i);
     found->least[i] = least_of(r, &with, found->left);
     if (!(found->least[i] > 0.0) || choice_has(&r->choice, i)) continue;
-    if (found->echo[i] || found_is_open(found, r->c, round_fx(r, i))) found->least[i] = HUGE_VAL;
+    if (found->echo[i]) found->least[i] = HUGE_VAL;
   }
 }
 

@@ -1,12 +1,11 @@
-// found.h - what the selection found: names with their numbers and rivals, what is open, what could have been
-// seen.
+// found.h - what the selection found: names with their numbers and rivals, what could have been seen.
 #ifndef SIM_GAP_5_INFER_FOUND_H
 #define SIM_GAP_5_INFER_FOUND_H
 
 #include "gap/5_infer/round.h"
 #include "gap/5_infer/timing.h"
 
-#define RIVAL_MAX 8
+#define RIVAL_MAX 12
 
 #define CONFIRM_F 10.0 // of the first stage, at least (Staiger and Stock 1997)
 
@@ -33,7 +32,7 @@ typedef struct {
   double shape_stderr;        // of its shape (shape.h); NaN or 0: not known
   double p;                   // of the Wald test, all its numbers together
   double share;               // of the sum of squares that the original model leaves and the effect explains
-  int n_rival;
+  int n_rival;                // family.h
   const fx_t *rival[RIVAL_MAX];
   double rival_share[RIVAL_MAX]; // what each would explain in its place
   confirm_t confirm;
@@ -43,10 +42,8 @@ typedef struct {
   chosen_t chosen; // what the model gets: all that is named, and what is in it without a name
   int n;
   named_t named[NAMED_MAX];
-  int n_open; // something is missing that is one of these or of their rivals: these flights cannot tell which
-  named_t open[NAMED_MAX]; // candidate and rivals alone
-  int rounds;              // times that all columns were formed: the time of a selection goes with it
-  const fx_t *aligned;     // lag or delay that is in the model without a name; null: none
+  int rounds;          // times that all columns were formed: the time of a selection goes with it
+  const fx_t *aligned; // lag or delay that is in the model without a name; null: none
   double aligned_s;
   double left, left_before; // white sums of squares, with and without what is named
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
@@ -63,16 +60,10 @@ const fx_use_t *found_use(const found_t *f, const named_t *named);
 // Takes the name number i back; the model no longer has it.
 void found_withdraw(found_t *f, int i);
 
-// Finds a name of the choice that another one could stand for, as well within two standard errors and doing
-// nearly all that it does, and sets it apart as open. Returns which candidate it is; -1: none is so.
-int found_open_one(found_t *f, const round_t *r);
-
-// What a finished selection says: names and rivals, and of each candidate the least that could have been
-// seen. f->echo and what is open is known already.
+// What a finished selection says: names (their rivals are family.h's), and of each candidate the least that
+// could have been seen. f->echo is known already.
 void found_describe(found_t *f, const round_t *r, const timing_t *timing);
 
-// The effect is an open name, or a rival of one.
-bool found_is_open(const found_t *f, const candidates_t *c, const fx_t *fx);
 // The smallest size of an effect that would have been seen, over what is typical: of its shapes the one
 // nearest to what is typical, of its rotors the one that shows worst. HUGE_VAL: none would. which (may be
 // null): the candidate; a null pointer where no residual depends on it.

@@ -12,8 +12,7 @@
 #define BEYOND 0.7 // or so much of it, though the name is there
 #define CELL   8.0 // standard errors
 
-// What a choice leaves, row by row, in the straight line's sense.
-static done_t left_by(const round_t *round, const choice_t *choice, double *left[CHANNELS], why_t *why) {
+done_t local_left(const round_t *round, const choice_t *choice, double *left[CHANNELS], why_t *why) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(round->c, choice, column);
@@ -74,8 +73,8 @@ static done_t compare_cells(const round_t *round, int candidate, const left_t *l
 done_t local_is_echo(const round_t *round, int candidate, bool *echo, why_t *why) {
   const choice_t rest = choice_without(&round->choice, candidate);
   left_t l = {.with = {NULL}};
-  done_t status = left_by(round, &rest, l.without, why);
-  if (status == DONE) status = left_by(round, &round->choice, l.with, why);
+  done_t status = local_left(round, &rest, l.without, why);
+  if (status == DONE) status = local_left(round, &round->choice, l.with, why);
   if (status == DONE) status = compare_cells(round, candidate, &l, echo, why);
   for (int ch = 0; ch < CHANNELS; ch++) {
     free(l.without[ch]);

@@ -4,6 +4,9 @@
 
 #include "gap/5_infer/round.h"
 
+// What a choice leaves, row by row, in the straight line's sense; the caller frees. FAILED: no memory.
+MUST_CHECK done_t local_left(const round_t *r, const choice_t *choice, double *left[CHANNELS], why_t *why);
+
 // Something at one place, time or state explains more than this name does: the name is an echo of it.
 // FAILED: no memory.
 MUST_CHECK done_t local_is_echo(const round_t *r, int candidate, bool *is, why_t *why);

@@ -50,6 +50,24 @@ double round_take(round_t *r, double share) {
   return most;
 }
 
+choice_t round_reshaped(const round_t *r, const choice_t *choice) {
+  choice_t best = *choice;
+  double least = score_left(&r->score, choice, NULL);
+  for (int k = 0; k < choice->n; k++) {
+    const fx_t *const fx = round_fx(r, choice->of[k]);
+    for (int i = 0; i < r->c->n && fx->n_shape > 1; i++) {
+      if (round_fx(r, i) != fx || i == choice->of[k]) continue;
+      choice_t other = best;
+      other.of[k] = i;
+      const double left = score_left(&r->score, &other, NULL);
+      if (!(left < least)) continue;
+      least = left;
+      best = other;
+    }
+  }
+  return best;
+}
+
 const fx_t *round_fx(const round_t *r, int candidate) {
   return r->c->candidate[candidate].use.fx;
 }

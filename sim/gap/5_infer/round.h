@@ -32,6 +32,10 @@ double round_take(round_t *r, double share);
 
 const fx_t *round_fx(const round_t *r, int candidate);
 
+// The choice with the shapes that leave least (score_left): what one name is worth beside others must not
+// hang on shapes that were found for another choice.
+choice_t round_reshaped(const round_t *r, const choice_t *choice);
+
 // Whether the candidate may stand beside a choice: not another shape of the same effect, nor another one of
 // its class.
 bool round_fits(const round_t *r, const choice_t *choice, int candidate);

@@ -131,8 +131,8 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
 }
 
 // The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
-// d^2 with a standard error of 2 d.
-bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other) {
+// d^2 with a standard error of 2 d. Something else of norm u that is in the rows moves D by 2 u d at most.
+bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other, double unexplained) {
   const gram_t *g = j->g;
   int column[2 * COLUMN_MAX];
   double b[2 * COLUMN_MAX], apart = 0.0;
@@ -142,7 +142,7 @@ bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other
   for (int i = n; i < n + m; i++) b[i] = -b[i];
   for (int i = 0; i < n + m; i++)
     for (int k = 0; k < n + m; k++) apart += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
-  return left_other - left < SCORE_RIVAL_SPAN * sqrt(fmax(apart, 0.0));
+  return left_other - left < (SCORE_RIVAL_SPAN + 2.0 * unexplained) * sqrt(fmax(apart, 0.0));
 }
 
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.

@@ -54,7 +54,8 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
 #define SCORE_CLUSTER    1.5 // standard errors grow by this: white rows are not quite independent
 #define SCORE_RIVAL_SPAN (2.0 * 2.0 * SCORE_CLUSTER)
 #define SCORE_RIVAL_LEFT (SCORE_RIVAL_SPAN * SCORE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
-bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other);
+// unexplained: what neither explains, in white standard errors; it may prefer the wrong one by 2 d so much.
+bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other, double unexplained);
 
 // The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.
 double score_likeness(const score_t *j, const choice_t *choice, int own, int other);

@@ -1,6 +1,7 @@
 // select.c - forward selection of effects.
 #include "gap/5_infer/select.h"
 
+#include "gap/5_infer/family.h"
 #include "gap/5_infer/local.h"
 #include <math.h>
 #include <stdlib.h>
@@ -139,15 +140,6 @@ static done_t search(select_t *t, why_t *why) {
   return step_until_still(t, why);
 }
 
-// What is left in the choice can be named.
-static done_t set_open_apart(select_t *t, found_t *found, why_t *why) {
-  for (int open; (open = found_open_one(found, &t->round)) >= 0;) {
-    t->round.choice = choice_without(&t->round.choice, open);
-    TRY(settle(t, why));
-  }
-  return DONE;
-}
-
 // A lag or a delay that is there for sure: which of the two it is stays so.
 static done_t take_timing(select_t *t, timing_t *timing, why_t *why) {
   round_t *const r = &t->round;
@@ -174,10 +166,9 @@ static done_t find_choice(select_t *t, found_t *found, why_t *why) {
   TRY(take_timing(t, &timing, why));
   TRY(round_open(&t->round, why));
   TRY(search(t, why));
-  TRY(set_open_apart(t, found, why));
   for (int i = 0; i < t->round.c->n; i++) found->echo[i] = t->taken[i] >= TAKES;
   found_describe(found, &t->round, &timing);
-  return DONE;
+  return family_find(&t->round, timing.measured, found, why);
 }
 
 done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,

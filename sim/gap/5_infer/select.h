@@ -6,8 +6,8 @@
 //   one), (c) a coefficient above 3 times its rms on nominal flights (nominal_sums.h), (d) a cross-validated
 //   gain of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
 // A lag or delay below 5 ms, or below one period of the log, is what feedback alone looks like, or streams
-// that are not aligned: it is taken into the model, and not named. Nor is a name that has a rival which does
-// as well within two standard errors and could do nearly all that it does: it is left open. The best one
+// that are not aligned: it is taken into the model, and not named. A name that others could stand for is
+// told with them (family.h). The best one
 // enters, what is named is estimated anew about its present values, and swaps and prunings are tried; until
 // nothing changes.
 #ifndef SIM_GAP_5_INFER_SELECT_H

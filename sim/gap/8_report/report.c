@@ -54,7 +54,6 @@ static void find_untested(report_t *r) {
       u.seen_from = fmax(least * u.typical, candidates_least(u.fx, &d->fit));
       u.testable = u.seen_from < u.typical;
       u.echo = d->found.echo[c - d->candidates.candidate];
-      u.open = found_is_open(&d->found, &d->candidates, u.fx);
     }
     r->untested[r->n_untested++] = u;
   }
@@ -63,8 +62,6 @@ static void find_untested(report_t *r) {
 void report_why(const untested_t *u, char text[REPORT_TEXT]) {
   if (u->obstacle)
     snprintf(text, REPORT_TEXT, "%s", u->obstacle);
-  else if (u->open)
-    snprintf(text, REPORT_TEXT, "something like it is there, and other names explain it as well");
   else if (u->echo)
     snprintf(text, REPORT_TEXT, "something like it is there, at one place, time or state only");
   else if (!(u->seen_from <= u->param->max))

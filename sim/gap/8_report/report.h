@@ -47,7 +47,6 @@ typedef struct {
   double seen_from, typical; // of param: the smallest size that would have been seen, and what is typical
   const char *obstacle;      // null: none
   bool echo;                 // something like it is there, at one place, time or state only
-  bool open;                 // it, or one that these flights cannot tell from it, is missing
   bool testable;             // its typical size would have been seen
 } untested_t;
 

@@ -107,21 +107,6 @@ static void warn_of_diagnosis(report_t *r) {
          RESIMULATE_LOST_M, again->lost_before, again->lost_after);
 }
 
-static void warn_of_open(report_t *r) {
-  const diagnosis_t *const d = &r->study->diagnosis;
-  for (int i = 0; i < d->found.n_open; i++) {
-    const named_t *const open = &d->found.open[i];
-    char text[REPORT_TEXT] = "";
-    for (int k = 0; k < open->n_rival; k++) {
-      const size_t used = strlen(text);
-      snprintf(text + used, sizeof text - used, " or %s", open->rival[k]->name);
-    }
-    warn(r,
-         "%s%.200s is missing: these flights cannot tell which, nothing in them moves one and not the other",
-         d->candidates.candidate[open->candidate].use.fx->name, text);
-  }
-}
-
 // With nothing to say, what could have been said.
 static void warn_of_sizes(report_t *r) {
   char text[REPORT_TEXT] = "";
@@ -158,7 +143,6 @@ void report_warn(report_t *r) {
   warn_of_diagnosis(r);
   warn_of_instrument(r);
   warn_of_gap(r);
-  warn_of_open(r);
   if (r->study->diagnosis.found.n == 0) warn_of_sizes(r);
   warn_of_logs(r);
 }

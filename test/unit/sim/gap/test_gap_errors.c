@@ -2,6 +2,7 @@
 #include "rig/gap_case.h"
 #include "rig/programs.h"
 #include "rig/test.h"
+#include "rig/verdicts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -123,6 +124,42 @@ TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
     snprintf(name, sizeof name, "Missing in vehicle.toml: %s", row[i].named);
     CHECK(strstr(text, name) == text);
     CHECK((strstr(text, rivals) != NULL) == (row[i].rival != NULL));
+  }
+}
+
+// More mass under a ceiling: what else is said holds the mass among its rivals, also where the vehicle file
+// has no ceiling, so that what the ceiling does stays unexplained.
+static bool tells_mass(const cJSON *effect) {
+  const cJSON *rival;
+  bool told = strcmp(verdict_string(effect, "name"), "mass") == 0;
+  cJSON_ArrayForEach(rival, cJSON_GetObjectItem(effect, "rivals")) told =
+      told || strcmp(rival->valuestring, "mass") == 0;
+  return told;
+}
+
+TEST(gap_tells_more_mass_as_mass_or_as_what_looks_like_it) {
+  static const struct {
+    const char *ceiling;
+    int grams;
+  } row[] = {{"", 3}, {"ceiling_m = 0.5", 5}, {"ceiling_m = 0.5", 1}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+    ROW("%d g more, %s", row[i].grams, row[i].ceiling);
+    char line[500], text[4000];
+    int told = 0;
+    snprintf(line, sizeof line,
+             "(echo '%s'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/vehicle.toml; for k in 1 2 3; do "
+             "fly test-flight --effect mass:add=%g --seed $k --log $S/mass$k.csv; done >$S/fly.txt; "
+             "gap --vehicle $S/vehicle.toml --json $S/mass.json $S/mass?.csv",
+             row[i].ceiling, 1e-3 * row[i].grams);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    cJSON *const v = verdict_read("mass.json");
+    const cJSON *effect;
+    cJSON_ArrayForEach(effect, cJSON_GetObjectItem(v, "effects")) {
+      told += tells_mass(effect);
+      CHECK(tells_mass(effect) || strcmp(verdict_string(effect, "name"), "ceiling") == 0);
+    }
+    CHECK(told > 0);
+    cJSON_Delete(v);
   }
 }
 

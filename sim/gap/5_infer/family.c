@@ -1,0 +1,125 @@
+// family.c - which other effects could stand in a name's place.
+#include "gap/5_infer/family.h"
+
+#include "gap/5_infer/local.h"
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define MOST 0.5 // of what a name gives: who gives less in its place is something else
+
+// --- what is left unexplained -----------------------------------------------------------------------------
+
+// By channel, the largest cell that no name explains, in standard errors beyond those of nominal flights: 0
+// where it is chance.
+typedef struct {
+  double errors[CHANNELS];
+} unexplained_t;
+
+static double beyond_nominal(const round_t *r, double statistic) {
+  double chance = 0.0;
+  for (int i = 0; r->nominal && i < r->nominal->n; i++) chance = fmax(chance, r->nominal->cell[i]);
+  return sqrt(fmax(statistic * statistic - chance * chance, 0.0));
+}
+
+static done_t measure_cells(const round_t *r, double *const left[CHANNELS], unexplained_t *u, why_t *why) {
+  color_t color[CHANNELS];
+  TRY(unknown_colors(r->s, r->base, left, color, why));
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    color_t one[CHANNELS] = {{.used = false}};
+    cell_t cell;
+    if (!color[ch].used) continue;
+    one[ch] = color[ch];
+    TRY(unknown_largest(r->s, r->base, left, one, true, &cell, why));
+    u->errors[ch] = beyond_nominal(r, cell.statistic);
+  }
+  return DONE;
+}
+
+static done_t find_unexplained(const round_t *r, unexplained_t *u, why_t *why) {
+  double *left[CHANNELS] = {NULL};
+  *u = (unexplained_t){{0.0}};
+  done_t status = local_left(r, &r->choice, left, why);
+  if (status == DONE) status = measure_cells(r, left, u, why);
+  for (int ch = 0; ch < CHANNELS; ch++) free(left[ch]);
+  return status;
+}
+
+// In all channels in which one of the two shows.
+static double unexplained_of(const round_t *r, const unexplained_t *u, int own, int other) {
+  double sum = 0.0;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    bool shows = false;
+    for (int i = 0; i < 2; i++) {
+      const candidate_t *const c = &r->c->candidate[i ? other : own];
+      for (int k = 0; k < c->n; k++) shows = shows || r->table.x[ch][c->first + k];
+    }
+    if (shows && r->gram.color[ch].used) sum += u->errors[ch] * u->errors[ch];
+  }
+  return sqrt(sum);
+}
+
+// --- rivals -----------------------------------------------------------------------------------------------
+
+typedef struct {
+  const fx_t *fx;
+  double share, left; // of the gap that it would explain; white sum of squares that would be left
+} rival_t;
+
+// Mass and thrust scale differ in turning alone.
+static bool only_turning_tells(const round_t *r, int a, int b) {
+  return round_fx(r, a)->class == FX_WEIGHT && round_fx(r, b)->class == FX_WEIGHT && candidates_slow(r->s);
+}
+
+// Selection settles on a lag or on a delay and asks no more; what the two do is nevertheless alike.
+static bool is_out(const round_t *r, bool measured, int i) {
+  return r->never[i] && (measured || round_fx(r, i)->class != FX_TIMING);
+}
+
+// with: the choice with the other one as its last.
+static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
+  const int other = with->of[with->n - 1];
+  if (only_turning_tells(r, own, other)) return true;
+  return score_likeness(&r->score, &r->choice, own, other) > MOST && score_is_possible(&r->score, with) &&
+         score_is_rival(&r->score, &r->choice, with, unexplained_of(r, u, own, other));
+}
+
+// One per effect, that of its shapes that leaves least.
+static void keep(rival_t *list, int *n, const rival_t *one) {
+  int at = 0;
+  while (at < *n && list[at].fx != one->fx) at++;
+  if (at < *n && list[at].left <= one->left) return;
+  if (at == *n) ++*n;
+  for (; at > 0 && list[at - 1].left > one->left; at--) list[at] = list[at - 1];
+  list[at] = *one;
+}
+
+static void find_rivals(const round_t *r, const unexplained_t *u, bool measured, double left_before,
+                        named_t *named) {
+  rival_t list[FX_TABLE_MAX];
+  int n = 0;
+  const choice_t rest = choice_without(&r->choice, named->candidate);
+  const double without = score_left(&r->score, &rest, NULL);
+  for (int i = 0; i < r->c->n; i++) {
+    if (round_fx(r, i) == round_fx(r, named->candidate) || is_out(r, measured, i)) continue;
+    if (!round_fits(r, &rest, i)) continue;
+    const choice_t in_place = choice_with(&rest, i), with = round_reshaped(r, &in_place);
+    if (!could_stand(r, u, named->candidate, &with)) continue;
+    const double left = score_left(&r->score, &with, NULL);
+    keep(list, &n, &(rival_t){round_fx(r, i), (without - left) / left_before, left});
+  }
+  for (named->n_rival = 0; named->n_rival < n && named->n_rival < RIVAL_MAX; named->n_rival++) {
+    named->rival[named->n_rival] = list[named->n_rival].fx;
+    named->rival_share[named->n_rival] = list[named->n_rival].share;
+  }
+}
+
+done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why) {
+  unexplained_t u;
+  if (found->n == 0) return DONE;
+  TRY(find_unexplained(r, &u, why));
+  for (int i = 0; i < found->n; i++)
+    if (choice_has(&r->choice, found->named[i].candidate))
+      find_rivals(r, &u, measured, found->left_before, &found->named[i]);
+  return DONE;
+}

@@ -1,0 +1,15 @@
+// family.h - which other effects could stand in a name's place: what these flights cannot separate.
+//
+// Another effect is of a name's family if it gives most of what the name gives in these flights, at a size
+// that it can have, and the name is not better by more than chance and what is left unexplained could make
+// it.
+#ifndef SIM_GAP_5_INFER_FAMILY_H
+#define SIM_GAP_5_INFER_FAMILY_H
+
+#include "gap/5_infer/found.h"
+
+// Sets the rivals of every name of `found`, which is described already (found.h), the most likely first.
+// measured: rotor speeds were logged, they tell lag from delay. FAILED: no memory.
+MUST_CHECK done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why);
+
+#endif
