@@ -49,7 +49,9 @@ static void map_lacks(const columns_t *c, const model_t *vehicle, bool speed, si
   }
   if (!thrust_map_needs_voltage(map) || (has & SIGNAL_BIT(SIG_VBAT))) return;
   const char *const vbat = c->of[SIG_VBAT].column;
-  snprintf(text, LOG_MOTORS_LACKS, "column %s: missing; the thrust map needs the battery's voltage",
+  snprintf(text, LOG_MOTORS_LACKS,
+           "column %s: missing; the motor commands are there, and the thrust map needs the battery's voltage "
+           "beside them",
            vbat[0] ? vbat : "for vbat");
 }
 
@@ -108,6 +110,7 @@ static void fill_newton(const log_motors_t *m, const model_t *vehicle, double *v
     if (m->kind != LOG_MOTORS_MIX) continue;
     *f = 0.0;
     for (int k = 0; k < 4; k++) *f += m->unmix[i][k] * asked[k];
+    *f = isnan(*f) ? *f : fmax(*f, fmin(vehicle->thrust_min_N / ROTORS, 0.0)); // as the plant
   }
 }
 

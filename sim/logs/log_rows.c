@@ -69,34 +69,55 @@ void log_rows_close(log_rows_t *r) {
   table_close(&r->table);
 }
 
-static done_t implausible(const log_rows_t *r, signal_id_t i, double value, why_t *why) {
+done_t log_rows_refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why) {
+  const bad_cells_t *const bad = &r->bad[signal];
+  const char *const si = columns_si(&r->columns, signal);
   double min, max;
   char hint[COLUMNS_HINT];
-  columns_bounds(&r->columns, i, &min, &max);
-  return table_refuse(&r->table, 0, r->at[i], why, "%g %s is not plausible; allowed: %g to %g %s%s", value,
-                      columns_si(&r->columns, i), min, max, columns_si(&r->columns, i),
-                      columns_hint(&r->columns, i, value, min, max, hint));
+  if (bad->length)
+    return table_refuse(&r->table, bad->line, r->at[signal], why,
+                        "the quaternion's length is %.3g; allowed: 0.9 to 1.1%s", bad->value, more);
+  if (isinf(bad->value))
+    return table_refuse(&r->table, bad->line, r->at[signal], why, "not a number%s", more);
+  columns_bounds(&r->columns, signal, &min, &max);
+  return table_refuse(&r->table, bad->line, r->at[signal], why,
+                      "%g %s is not plausible; allowed: %g to %g %s%s%s", bad->value, si, min, max, si,
+                      columns_hint(&r->columns, signal, bad->value, min, max, hint), more);
+}
+
+static done_t take_bad(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
+  bad_cells_t *const bad = &r->bad[i];
+  if (bad->n++ == 0) *bad = (bad_cells_t){1, table_line(&r->table), *value, false};
+  *value = GAP;
+  return r->care == LOG_STRICT || i == SIG_TIME ? log_rows_refuse_bad(r, i, "", why) : DONE;
+}
+
+// A controller asks for less than nothing and for more than there is, and the motor gives what it can; what
+// is far from both is no command.
+static bool clip_command(log_rows_t *r, signal_id_t i, double min, double max, double *value) {
+  const bool newton = r->columns.motors == MOTORS_N;
+  if (i < SIG_M1 || i > SIG_M4) return false;
+  if (newton && r->vehicle.thrust_min_N >= 0.0 && *value >= min) min = 0.0;
+  if (!(*value > min - (max - min) && *value < max + (max - min))) return false;
+  const double given = fmin(fmax(*value, min), max);
+  r->clipped += given != *value;
+  *value = given;
+  return true;
 }
 
 static done_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
   const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : r->care == LOG_MEND ? CSV_GAP_MARKED : CSV_GAP_NAN;
   double min, max;
   TRY(table_number(&r->table, r->at[i], gap, value, why));
-  if (isinf(*value)) {
-    if (r->bad++ == 0) {
-      r->bad_line = table_line(&r->table);
-      r->bad_column = r->at[i];
-    }
-    *value = GAP;
-    return DONE;
-  }
+  if (isinf(*value)) return take_bad(r, i, value, why);
   if (isnan(*value)) {
     r->missing++;
     return DONE;
   }
   *value = r->columns.of[i].factor * *value + r->columns.of[i].offset;
   columns_bounds(&r->columns, i, &min, &max);
-  return *value < min || *value > max ? implausible(r, i, *value, why) : DONE;
+  if (clip_command(r, i, min, max, value) || (*value >= min && *value <= max)) return DONE;
+  return take_bad(r, i, value, why);
 }
 
 static done_t read_signals(log_rows_t *r, log_row_t *row, why_t *why) {
@@ -119,15 +140,18 @@ static void quaternion_from_angles(double *v) {
   v[SIG_QZ] = cr * cp * sy - sr * sp * cy;
 }
 
-static done_t read_attitude(const log_rows_t *r, log_row_t *row, why_t *why) {
+static done_t read_attitude(log_rows_t *r, log_row_t *row, why_t *why) {
   if (!has(r, QUATERNION)) return DONE;
   double *const q = &row->v[SIG_QW], same = 0.0;
   if (r->at[SIG_QW] < 0 || r->at[SIG_QX] < 0 || r->at[SIG_QY] < 0 || r->at[SIG_QZ] < 0)
     quaternion_from_angles(row->v);
   const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (norm < 0.9 || norm > 1.1)
-    return table_refuse(&r->table, 0, r->at[SIG_QW], why,
-                        "the quaternion's length is %.3g; allowed: 0.9 to 1.1", norm);
+  if (norm < 0.9 || norm > 1.1) {
+    bad_cells_t *const bad = &r->bad[SIG_QW];
+    if (bad->n++ == 0) *bad = (bad_cells_t){1, table_line(&r->table), norm, true};
+    for (int i = 0; i < 4; i++) q[i] = GAP;
+    return r->care == LOG_STRICT ? log_rows_refuse_bad(r, SIG_QW, "", why) : DONE;
+  }
   for (int i = 0; i < 4; i++) same += q[i] * r->last.v[SIG_QW + i];
   for (int i = 0; i < 4; i++) q[i] *= (r->any && same < 0.0 ? -1.0 : 1.0) / norm;
   return DONE;

@@ -9,9 +9,10 @@
 
 #define LOG_GAP_S 0.15 // rows that are farther apart have a gap between them
 
-// LOG_STRICT: a cell that is no number is refused, and so are commands that the vehicle's map cannot tell in
-// newton, and time that stands. LOG_MEND: such cells are taken as missing and counted, such commands have no
-// newton, a row cut off at the end is left out; for time that stands the rows are handed on.
+// LOG_STRICT: a cell that is no number or beyond what is plausible is refused, and so are commands that the
+// vehicle's map cannot tell in newton, and time that stands. LOG_MEND: such cells are taken as missing and
+// counted, such commands have no newton, a row cut off at the end is left out; for time that stands the rows
+// are handed on.
 typedef enum { LOG_STRICT, LOG_MEND } log_care_t;
 
 typedef struct {
@@ -21,6 +22,13 @@ typedef struct {
   double v[SIG_COUNT];
   bool at_limit; // a motor is at full command
 } log_row_t;
+
+// Cells of a column that are no use.
+typedef struct {
+  long n, line; // line: of the first
+  double value; // of the first, SI; infinite: no number
+  bool length;  // value: of a quaternion
+} bad_cells_t;
 
 typedef struct {
   table_t table;
@@ -34,15 +42,18 @@ typedef struct {
                                 // none
   bool any;                     // `last` is one
   log_row_t last;
-  double vbat_V;     // the last one known
-  long missing, bad; // cells
-  long bad_line;     // of the first bad one
-  int bad_column;
+  double vbat_V; // the last one known
+  long missing;  // cells
+  bad_cells_t bad[SIG_COUNT];
+  long clipped; // motor commands below 0 or above full
 } log_rows_t;
 
 // BAD_INPUT: no table, a column of the columns file is missing, or a signal in `need` (SIGNAL_BITs).
 MUST_CHECK done_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns,
                                 const model_t *vehicle, log_care_t care, signals_t need, why_t *why);
+
+// The first bad cell of a column as an error (names the unit that would fit); `more` is said behind it.
+done_t log_rows_refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why);
 
 // BAD_INPUT: not a number, beyond what is plausible (names the unit that would fit), or time that does not
 // increase. LOG_STRICT: also a uSD log that is damaged, behind its last row.

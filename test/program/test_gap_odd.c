@@ -13,7 +13,7 @@ static const struct {
     {"3 rows", "NR<=4", "$S/made.csv", "0 samples without a gap; allowed: a second of flight or more"},
     {"motors off", "NR>1{for(i=18;i<=21;i++)$i=0}1", "$S/made.csv", "no instant at which motors carry it"},
     {"motors stand still", "NR>1{for(i=18;i<=21;i++)$i=0.08}1", "$S/made.csv", "is the sensor stuck?"},
-    {"all zero", "NR>1{for(i=2;i<=NF;i++)$i=0}1", "$S/made.csv", "0 V is not plausible"},
+    {"all zero", "NR>1{for(i=2;i<=NF;i++)$i=0}1", "$S/made.csv", "the quaternion's length is 0; allowed"},
     {"yaw alone", "{print $1,$17;next}", "$S/made.csv", "column stateEstimate.x: missing"},
     {"names alone", "NR==1", "$S/made.csv", "no row under the names"},
     {"time runs back", "NR==900{$1=1}1", "$S/made.csv", "allowed: time that increases from row to row"},

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BAD_SHARE   0.05  // of the rows: more cells that are no numbers are refused
 #define SKEW_SPAN_S 300.0 // the skew is told from so much of a flight
 #define SKEW_MIN_S  0.0005
 #define SKEW_MAX_S  0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
@@ -30,9 +29,7 @@ void gap_flight_free(gap_flight_t *f) {
   *f = (gap_flight_t){0};
 }
 
-static void note(gap_flight_t *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void note(gap_flight_t *f, const char *format, ...) {
+void gap_note(gap_flight_t *f, const char *format, ...) {
   if (f->n_note == GAP_NOTES) return;
   va_list args;
   va_start(args, format);
@@ -65,7 +62,7 @@ static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
     if (!logged(raw, group)) raw_drop(raw, (signal_id_t)i);
   }
   if (!there || !lacks) return;
-  note(f, "no %s: %s and the others beside it are not used", lacks, there);
+  gap_note(f, "no %s: %s and the others beside it are not used", lacks, there);
   if (!(group & ATTITUDE)) f->motor_lacks = lacks;
 }
 
@@ -86,36 +83,6 @@ static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why
   const double rest_m = rows->columns.rest_height_m;
   for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
   for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
-  return DONE;
-}
-
-static done_t check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why) {
-  char damage[480];
-  f->cells_bad = rows->bad;
-  f->cells_missing = rows->missing;
-  f->rows = raw->rows;
-  f->motors_N = rows->columns.motors == MOTORS_N;
-  if ((double)rows->bad > BAD_SHARE * (double)raw->rows)
-    return table_refuse(&rows->table, rows->bad_line, rows->bad_column, why,
-                        "not a number, the first of %ld such cells in %ld rows; allowed: 5 %%", rows->bad,
-                        raw->rows);
-  if (rows->bad) {
-    why_t where;
-    (void)table_refuse(&rows->table, rows->bad_line, rows->bad_column, &where,
-                       "the first of %ld cells that are no numbers; they are left out", rows->bad);
-    note(f, "%.190s", where.text);
-  }
-  if (rows->missing) note(f, "%ld cells are empty or nan", rows->missing);
-  if (table_damage(&rows->table, damage, sizeof damage)) note(f, "%.170s; what is before it is used", damage);
-  if (f->cut)
-    note(f, "longer than %.0f min: the rest, from line %ld on, is not used", GAP_FLIGHT_S / 60.0,
-         table_line(&rows->table));
-  if (raw->merged)
-    note(f, "%ld rows of the same or almost the same time as the one before are merged", raw->merged);
-  if (raw->thin > 1) note(f, "thinned to means of %d rows", raw->thin);
-  if (raw->range_unusable)
-    note(f, "%ld range samples of 0 or of no return are left out", raw->range_unusable);
-  if (rows->lacks[0]) note(f, "no thrust: %.180s", rows->lacks);
   return DONE;
 }
 
@@ -168,11 +135,11 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
     const bool small = fabs(told.late_s) <= SKEW_MAX_S;
     const bool mend = sure && small && fabs(told.late_s) >= SKEW_MIN_S;
     if (sure && !small)
-      note(f, "the %s seems %.0f ms late against the %s: more than can be mended", s->what, 1e3 * told.late_s,
-           s->driver);
+      gap_note(f, "the %s seems %.0f ms late against the %s: more than can be mended", s->what,
+               1e3 * told.late_s, s->driver);
     if (mend)
-      note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", s->what,
-           1e3 * told.late_s, 1e3 * told.stderr_s, s->driver);
+      gap_note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", s->what,
+               1e3 * told.late_s, 1e3 * told.stderr_s, s->driver);
     *late_s[k] = mend ? told.late_s : 0.0;
     add_shift(shift_s, s->moved, *late_s[k]);
   }
@@ -185,9 +152,9 @@ static void note_samples(gap_flight_t *f) {
   int masked = 0;
   for (int i = 0; i < f->n; i++) masked += f->saturated[i];
   if (masked)
-    note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
+    gap_note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
   if (f->n > 0 && f->segment[f->n - 1] > 0)
-    note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
+    gap_note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
 }
 
 // What the columns file says of each; what is made of commands or angles is as late as they are.
@@ -211,16 +178,17 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   late_as_logged(rows, shift_s);
   TRY(raw_read(raw, rows, &f->cut, why));
   f->rows_are_means = rows->columns.rows_are_means || raw->thin > 1;
-  TRY(check_cells(f, raw, rows, why));
+  TRY(gap_check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));
   TRY(drop_rest(f, raw, rows, why));
   int slow;
   TRY(raw_free_of_repeats(raw, &slow, why));
   if (slow)
-    note(f,
-         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
-         "values",
-         slow);
+    gap_note(
+        f,
+        "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
+        "values",
+        slow);
   TRY(align(f, raw, shift_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)

@@ -28,6 +28,12 @@ void raw_drop(raw_t *raw, signal_id_t signal);
 // a flight log.
 MUST_CHECK done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
 
+// One sentence more for the report, while there is room.
+void gap_note(gap_flight_t *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Counts what is no use, and says it. BAD_INPUT: too much of a column, or only some of the motors' columns.
+MUST_CHECK done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why);
+
 // BAD_INPUT: a signal that stands still while the vehicle flies. FAILED: no memory.
 MUST_CHECK done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why);
 

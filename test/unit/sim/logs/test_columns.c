@@ -170,7 +170,8 @@ TEST(rows_without_voltage_are_refused_where_the_map_needs_it) {
   why_t why;
   CHECK_STATUS(BAD_INPUT, first_row(csv, &c, &CUBIC, 0, &row, &why));
   CHECK_TEXT(scratch_short(why.text),
-             "log.csv:1: column pm.vbat: missing; the thrust map needs the battery's voltage");
+             "log.csv:1: column pm.vbat: missing; the motor commands are there, and the thrust map needs the "
+             "battery's voltage beside them");
 }
 
 TEST(columns_say_what_a_row_is) {

@@ -1,0 +1,134 @@
+// cells.c - stage 1: cells that are empty, no numbers or out of range: counted and left out, or too many.
+#include "gap/1_read/read.h"
+
+#include "base/by_size.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CELLS_LOST 0.05 // of a column, at most: more of it would be made up between what is there
+#define USUAL      0.6  // of the distances of a stream's values are no longer than its usual one
+
+// Signals of which every row, or every so many rows, has a value: what is seen now and then (ranges), held
+// (voltage) or not always wanted (set points) may be empty.
+static bool is_steady(signal_id_t i) {
+  return (i >= SIG_X && i <= SIG_THRUST) || (i >= SIG_TX && i <= SIG_W4);
+}
+
+static done_t refuse_bad(const raw_t *raw, const log_rows_t *rows, why_t *why) {
+  for (int i = 0; i < SIG_COLUMNS; i++) {
+    const bad_cells_t *const bad = &rows->bad[i];
+    if ((double)bad->n <= CELLS_LOST * (double)raw->rows) continue;
+    char more[100];
+    snprintf(more, sizeof more, ", the first of %ld such cells in %ld rows; allowed: 5 %%", bad->n,
+             raw->rows);
+    return log_rows_refuse_bad(rows, (signal_id_t)i, more, why);
+  }
+  return DONE;
+}
+
+// The distance within which most values follow on the one before: a stream slower than the log has its own.
+static double usual_distance_s(const raw_t *raw, const double *v, double *room) {
+  int n = 0, last = -1;
+  for (int i = 0; i < raw->n; i++) {
+    if (isnan(v[i])) continue;
+    if (last >= 0) room[n++] = raw->t_s[i] - raw->t_s[last];
+    last = i;
+  }
+  if (n == 0) return HUGE_VAL;
+  qsort(room, (size_t)n, sizeof *room, by_size);
+  return room[(int)(USUAL * (n - 1))];
+}
+
+// Between its first and its last value, cells where a value was due and none is. Where the rows themselves
+// are missing none was.
+static done_t refuse_holes(const raw_t *raw, const log_rows_t *rows, signal_id_t signal, double *room,
+                           why_t *why) {
+  const double *const v = raw->v[signal], usual_s = usual_distance_s(raw, v, room);
+  int last = -1, lost = 0, due = 0;
+  long line = 0;
+  for (int i = 0; i < raw->n; i++) {
+    if (isnan(v[i])) continue;
+    const double more = last < 0 ? 0.0 : (raw->t_s[i] - raw->t_s[last]) / usual_s - 1.0;
+    const int holes = (int)fmin(fmax(floor(more + 0.4), 0.0), i - last - 1);
+    if (last >= 0 && holes > 0 && line == 0) line = raw->line[last + 1];
+    if (last >= 0) lost += holes;
+    due += 1 + (last >= 0 ? holes : 0);
+    last = i;
+  }
+  if (lost <= CELLS_LOST * due) return DONE;
+  return table_refuse(&rows->table, line, rows->at[signal], why,
+                      "%.3g %% of its cells are empty, from here on; allowed: 5 %%", 100.0 * lost / due);
+}
+
+// Three motors carry no vehicle, and a fourth that is made up would be named as an effect.
+static done_t refuse_some_motors(const log_rows_t *rows, why_t *why) {
+  for (int first = SIG_M1; first <= SIG_W1; first += SIG_W1 - SIG_M1) {
+    int lacks = -1, there = -1;
+    for (int i = first + 3; i >= first; i--) *(rows->at[i] >= 0 ? &there : &lacks) = i;
+    if (there < 0 || lacks < 0) continue;
+    return table_refuse(&rows->table, 1, rows->at[there], why,
+                        "without a column for %s; allowed: all four motors",
+                        columns_name((signal_id_t)lacks));
+  }
+  return DONE;
+}
+
+// Commands that are there and cannot be told in newton, where nothing else says what the motors did.
+static done_t refuse_no_newton(const log_rows_t *rows, why_t *why) {
+  const signals_t speeds = SIGNAL_BIT(SIG_W1) | SIGNAL_BIT(SIG_W2) | SIGNAL_BIT(SIG_W3) | SIGNAL_BIT(SIG_W4);
+  if (!rows->lacks[0] || (rows->has & speeds) == speeds) return DONE;
+  const bool other = strncmp(rows->lacks, "column", 6) == 0; // than the commands' own
+  return table_refuse(&rows->table, 1, other ? -1 : rows->at[SIG_M1], why, "%s", rows->lacks);
+}
+
+static void note_bad(gap_flight_t *f, const log_rows_t *rows) {
+  int first = -1;
+  for (int i = 0; i < SIG_COLUMNS; i++) {
+    f->cells_bad += rows->bad[i].n;
+    if (rows->bad[i].n && (first < 0 || rows->bad[i].line < rows->bad[first].line)) first = i;
+  }
+  if (first < 0) return;
+  why_t where;
+  (void)table_refuse(&rows->table, rows->bad[first].line, rows->at[first], &where,
+                     "the first of %ld cells that are no numbers or out of range; they are left out",
+                     f->cells_bad);
+  gap_note(f, "%.190s", where.text);
+}
+
+static void note_rows(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows) {
+  char damage[480];
+  note_bad(f, rows);
+  if (rows->missing) gap_note(f, "%ld cells are empty or nan", rows->missing);
+  if (rows->clipped)
+    gap_note(f, "%ld motor commands below 0 or above full are taken as 0 or full", rows->clipped);
+  if (table_damage(&rows->table, damage, sizeof damage))
+    gap_note(f, "%.170s; what is before it is used", damage);
+  if (f->cut)
+    gap_note(f, "longer than %.0f min: the rest, from line %ld on, is not used", GAP_FLIGHT_S / 60.0,
+             table_line(&rows->table));
+  if (raw->merged)
+    gap_note(f, "%ld rows of the same or almost the same time as the one before are merged", raw->merged);
+  if (raw->thin > 1) gap_note(f, "thinned to means of %d rows", raw->thin);
+  if (raw->range_unusable)
+    gap_note(f, "%ld range samples of 0 or of no return are left out", raw->range_unusable);
+  if (rows->lacks[0]) gap_note(f, "no thrust: %.180s", rows->lacks);
+}
+
+done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why) {
+  f->cells_missing = rows->missing;
+  f->rows = raw->rows;
+  f->motors_N = rows->columns.motors == MOTORS_N;
+  TRY(refuse_some_motors(rows, why));
+  TRY(refuse_no_newton(rows, why));
+  TRY(refuse_bad(raw, rows, why));
+  double *const room = malloc(((size_t)raw->n + 1) * sizeof *room);
+  if (!room) return error_failed(why, "out of memory");
+  done_t status = DONE;
+  for (int i = 0; i < SIG_COLUMNS && status == DONE; i++)
+    if (rows->at[i] >= 0 && raw->v[i] && is_steady((signal_id_t)i))
+      status = refuse_holes(raw, rows, (signal_id_t)i, room, why);
+  free(room);
+  if (status == DONE) note_rows(f, raw, rows);
+  return status;
+}
