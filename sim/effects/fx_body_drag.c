@@ -17,6 +17,6 @@ const fx_t fx_body_drag = {
     .n_size = 1,
     .size = {{0, 1e-4, 1, 0.0}},
     .n_param = 1,
-    .param = {{"c", "kg/m", 0.0, 2e-3, 1.0}},
+    .param = {{"c", "kg/m", 0.0, 2e-3, 10.0}},
     .load = load,
 };

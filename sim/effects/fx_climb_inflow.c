@@ -18,6 +18,6 @@ const fx_t fx_climb_inflow = {
     .n_size = 1,
     .size = {{0, 1e-7, 1, 0.0}},
     .n_param = 1,
-    .param = {{"k", "kg", 0.0, 1.5e-6, 1e-4}},
+    .param = {{"k", "kg", 0.0, 1.5e-6, 1e-2}},
     .load = load,
 };

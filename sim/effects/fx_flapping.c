@@ -18,6 +18,6 @@ const fx_t fx_flapping = {
     .n_size = 1,
     .size = {{0, 1e-9, 0, 0.0}},
     .n_param = 1,
-    .param = {{"k", "kg m", -1e-5, 1.2e-8, 1e-5}},
+    .param = {{"k", "kg m", -1e-3, 1.2e-8, 1e-3}},
     .load = load,
 };

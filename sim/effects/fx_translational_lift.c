@@ -18,6 +18,6 @@ const fx_t fx_translational_lift = {
     .n_size = 1,
     .size = {{0, 1e-4, 1, 0.0}},
     .n_param = 1,
-    .param = {{"k", "kg/m", 0.0, 3e-3, 1.0}},
+    .param = {{"k", "kg/m", 0.0, 3e-3, 10.0}},
     .load = load,
 };

@@ -12,6 +12,7 @@
 //   [columns]                                    SIGNAL = {column, unit, and where wanted
 //   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
+//   vbat = {value = 3.9, unit = "V"}             a battery that is always full, as simulators have
 //
 // What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (-100 to 100; negative: the
 // row is early) before the row's time, motor commands too: the delay of a filter, 7.5 ms of the Crazyflie's
@@ -98,6 +99,7 @@ typedef struct {
   double offset; // SI
   double late_s; // -0.1..0.1  between what was and its row
   bool optional; // may be missing in the CSV
+  bool constant; // no column: always `offset`
 } column_t;
 
 typedef struct {

@@ -20,7 +20,7 @@ static done_t bind(log_rows_t *r, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     const column_t *column = &r->columns.of[i];
     r->at[i] = column->column[0] ? table_find(&r->table, column->column) : -1;
-    if (r->at[i] >= 0) r->has |= SIGNAL_BIT(i);
+    if (r->at[i] >= 0 || column->constant) r->has |= SIGNAL_BIT(i);
     if (column->column[0] && r->at[i] < 0 && !column->optional)
       return table_refuse(&r->table, 0, -1, why,
                           "column %s: missing; it is the signal `%s` of this kind of log", column->column,
@@ -122,7 +122,7 @@ static done_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why)
 
 static done_t read_signals(log_rows_t *r, log_row_t *row, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
-    row->v[i] = GAP;
+    row->v[i] = r->columns.of[i].constant ? r->columns.of[i].offset : GAP;
     if (r->at[i] >= 0) TRY(read_cell(r, (signal_id_t)i, &row->v[i], why));
   }
   return DONE;

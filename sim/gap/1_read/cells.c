@@ -119,6 +119,9 @@ done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows
   f->cells_missing = rows->missing;
   f->rows = raw->rows;
   f->motors_N = rows->columns.motors == MOTORS_N;
+  for (int i = 0; i < ROTORS; i++)
+    if (rows->at[SIG_M1 + i] >= 0)
+      memcpy(f->motor_column[i], rows->columns.of[SIG_M1 + i].column, COLUMN_NAME_MAX);
   TRY(refuse_some_motors(rows, why));
   TRY(refuse_no_newton(rows, why));
   TRY(refuse_bad(raw, rows, why));

@@ -15,6 +15,8 @@
 #define CLEARLY     4.0  // standard errors
 #define FLIES_AT    0.3  // of the largest thrust: it flies
 #define RANGE_M     0.02 // no range sensor sees nearer only
+#define SHARE_MIN   0.65 // of the other motors' mean: the commands of another unit, or half of them
+#define SHARE_MAX   1.5
 
 static bool has(const gap_flight_t *f, signal_id_t first, int n) {
   for (int k = 0; k < n; k++)
@@ -159,6 +161,31 @@ static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t 
       columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
 }
 
+// One motor's share of what the four do while it flies; no trim of a vehicle that flies is so lopsided.
+static done_t check_shares(const gap_flight_t *f, const log_rows_t *rows, signal_id_t first, why_t *why) {
+  double most = 0.0, sum[ROTORS] = {0.0}, all = 0.0;
+  int n = 0;
+  for (int i = 0; i < f->n; i++) {
+    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+    most = fmax(most, now);
+  }
+  for (int i = 0; i < f->n; i++) {
+    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+    if (!(now > FLIES_AT * most)) continue;
+    for (int k = 0; k < ROTORS; k++) sum[k] += f->v[(int)first + k][i];
+    all += now;
+    n++;
+  }
+  for (int k = 0; k < ROTORS && n >= MEAN_OF; k++) {
+    const double share = (ROTORS - 1) * sum[k] / (all - sum[k]);
+    if (share >= SHARE_MIN && share <= SHARE_MAX) continue;
+    return table_refuse(&rows->table, 0, rows->at[(int)first + k], why,
+                        "the mean is %.3g of the other motors' in flight; allowed: %g to %g", share,
+                        SHARE_MIN, SHARE_MAX);
+  }
+  return DONE;
+}
+
 static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   const bool each = rows->at[SIG_M1] >= 0, pwm = each && rows->columns.motors == MOTORS_PWM;
   double most = 0.0;
@@ -166,6 +193,7 @@ static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_
     for (int i = 0; i < f->n; i++) most = fmax(most, f->v[SIG_M1 + k][i]);
   if (most > 0.0 && most <= 100.0)
     return refuse(rows, SIG_M1, "the largest motor command is", most, 1000.0, 65536.0, why);
+  if (each && has(f, SIG_M1, ROTORS)) TRY(check_shares(f, rows, SIG_M1, why));
   if (!has(f, SIG_THRUST, 1)) return DONE;
   const double ratio = lift_ratio(f, &rows->vehicle, by_command_N);
   if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return DONE;
@@ -204,5 +232,7 @@ done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   TRY(check_range(f, rows, SIG_RANGE, why));
   TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
   TRY(check_commands(f, rows, why));
-  return has(f, SIG_W1, 4) ? check_speeds(f, rows, why) : DONE;
+  if (!has(f, SIG_W1, ROTORS)) return DONE;
+  TRY(check_shares(f, rows, SIG_W1, why));
+  return check_speeds(f, rows, why);
 }

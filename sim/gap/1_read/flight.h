@@ -27,7 +27,8 @@ typedef struct {
   // A row is the mean of everything over its period; else what is at its time, and its commands hold from
   // then on.
   bool rows_are_means;
-  bool motors_N;                // SIG_M*: newton
+  bool motors_N;                         // SIG_M*: newton
+  char motor_column[4][COLUMN_NAME_MAX]; // the log's names of m1..m4; "": not logged
   const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
   double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
   double *range_up_m,

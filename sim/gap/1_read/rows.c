@@ -112,7 +112,8 @@ static done_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_
 }
 
 // A sensor slower than the log stands in it as a value that stays, or with gaps between.
-static void keep_new_ranges(raw_t *raw, double *v, double last_m[2]) {
+// A cell of 0 is no distance; a mounting offset (columns file) may make one that is slightly negative.
+static void keep_new_ranges(raw_t *raw, const columns_t *columns, double *v, double last_m[2]) {
   static const signal_id_t range[2] = {SIG_RANGE, SIG_RANGE_DOWN};
   for (int k = 0; k < 2; k++) {
     double *const now_m = &v[range[k]];
@@ -120,7 +121,7 @@ static void keep_new_ranges(raw_t *raw, double *v, double last_m[2]) {
     last_m[k] = *now_m;
     if (repeat || isnan(*now_m)) {
       *now_m = (double)NAN;
-    } else if (!(*now_m > 0.0 && *now_m < NO_RETURN_M)) {
+    } else if (*now_m == columns->of[range[k]].offset || !(*now_m < NO_RETURN_M)) {
       raw->range_unusable++;
       *now_m = (double)NAN;
     }
@@ -153,7 +154,7 @@ static done_t read_all(row_reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut,
     TRY(log_rows_next(rows, &e->row, &more, why));
     if (!more) break;
     e->line = table_line(&rows->table);
-    keep_new_ranges(raw, e->row.v, last_m);
+    keep_new_ranges(raw, &rows->columns, e->row.v, last_m);
     *cut = e != r->early && e->row.v[SIG_TIME] - r->early[0].row.v[SIG_TIME] > GAP_FLIGHT_S;
     if (*cut) break;
     raw->rows++;

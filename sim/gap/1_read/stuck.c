@@ -25,8 +25,11 @@ typedef struct {
 static const group_t GROUP[] = {
     {SIG_AX, 1, 0.5, 0.0}, {SIG_AY, 1, 0.5, 0.0}, {SIG_AZ, 1, 0.5, 0.0}, {SIG_GX, 1, 0.5, 0.0},
     {SIG_GY, 1, 0.5, 0.0}, {SIG_GZ, 1, 0.5, 0.0}, {SIG_QW, 4, 0.5, 0.0}, {SIG_M1, 4, 0.5, 0.0},
-    {SIG_VX, 3, 1.0, 0.1}, {SIG_X, 3, 1.0, 0.1},  {SIG_W1, 4, 0.5, 0.0},
+    {SIG_VX, 3, 1.0, 0.1}, {SIG_X, 3, 1.0, 0.1},  {SIG_W1, 4, 0.5, 0.0}, {SIG_VBAT, 1, 10.0, 0.0},
 };
+// A simulator without a battery logs the same voltage for ever: its user knows, and says it.
+#define NO_BATTERY " (without a battery: vbat = {value = ..., unit = \"V\"} in a columns file)"
+
 #define N_GROUP ((int)(sizeof GROUP / sizeof *GROUP))
 
 // Streams that come at a rate of their own.
@@ -139,8 +142,9 @@ static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_
     const bool moves = raw->t_s[i] - others_s >= OTHERS_MOVE * g->stuck_s && (flying == 1 || g->way_m > 0.0);
     if (!moves || span_s < stuck_s || i - from < RUN_ROWS || way_m < g->way_m) continue;
     return table_refuse(&rows->table, raw->line[from], rows->at[g->first], why,
-                        "stands at %.6g %s for %.2f s and longer in flight; is the sensor stuck?",
-                        raw->v[g->first][i], columns_si(&rows->columns, g->first), span_s);
+                        "stands at %.6g %s for %.2f s and longer in flight; is the sensor stuck?%s",
+                        raw->v[g->first][i], columns_si(&rows->columns, g->first), span_s,
+                        g->first == SIG_VBAT ? NO_BATTERY : "");
   }
   const bool sensor = g->first >= SIG_AX && g->first <= SIG_GZ;
   if (!sensor || whole < raw->n - 1 || raw->n < RUN_ROWS) return DONE;
@@ -167,6 +171,7 @@ static bool on_vertical_axis(const raw_t *raw) {
 done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why) {
   const bool vertical = on_vertical_axis(raw);
   for (int i = 0; i < N_GROUP; i++) {
+    if (rows->columns.of[GROUP[i].first].constant) continue;
     const bool beside = GROUP[i].first != SIG_AZ && GROUP[i].first != SIG_M1 && GROUP[i].first != SIG_W1;
     if (logged(raw, GROUP[i].first, GROUP[i].n) && !(vertical && beside))
       TRY(check_group(raw, rows, &GROUP[i], why));

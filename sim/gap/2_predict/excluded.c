@@ -2,6 +2,7 @@
 #include "gap/2_predict/excluded.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,11 +77,21 @@ static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[C
   return better >= 2;
 }
 
+// The column of the first motor that is another one, as errors name columns; "": the log has none.
+static const char *first_exchanged(const gap_flight_t *f, const int order[ROTORS],
+                                   char text[COLUMN_NAME_MAX + 10]) {
+  int k = 0;
+  while (k < ROTORS - 1 && order[k] == k) k++;
+  snprintf(text, COLUMN_NAME_MAX + 10, f->motor_column[k][0] ? "column %s: " : "%s", f->motor_column[k]);
+  return text;
+}
+
 static done_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
                          why_t *why) {
   for (int i = 1; i < ORDERS; i++) {
     likeness_t other[CHANNELS];
     int order[ROTORS], back[ROTORS];
+    char column[COLUMN_NAME_MAX + 10];
     order_of(i, order);
     for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
     reorder(s, order);
@@ -90,9 +101,10 @@ static done_t find_order(set_t *s, const model_t *m, const likeness_t given[CHAN
     if (!is_better(given, other)) continue;
     return error_set(
         why,
-        "%s: the rates contradict the motor commands, and follow them if m1 to m4 are motors %d, "
+        "%s: %sthe rates contradict the motor commands, and follow them if m1 to m4 are motors %d, "
         "%d, %d and %d; allowed: motors in the vehicle file's order",
-        s->grid[0].flight->name, order[0] + 1, order[1] + 1, order[2] + 1, order[3] + 1);
+        s->grid[0].flight->name, first_exchanged(s->grid[0].flight, order, column), order[0] + 1,
+        order[1] + 1, order[2] + 1, order[3] + 1);
   }
   return DONE;
 }

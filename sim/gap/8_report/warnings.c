@@ -1,9 +1,14 @@
 // warnings.c - what is to be known beside the verdict.
 #include "gap/8_report/report.h"
 
+#include "base/constants.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
+
+#define LIFT_MIN 1.1 // thrust over weight
+#define LIFT_MAX 12.0
 
 static void warn(report_t *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -138,7 +143,19 @@ static void warn_of_names(report_t *r) {
            r->finding[i].fx->name, fx_use_size(r->finding[i].use, 0));
 }
 
+// Grams for kilograms, or newton of one motor for newton of all, beside numbers that still fly.
+static void warn_of_vehicle(report_t *r) {
+  const model_t *const m = &r->study->vehicle;
+  const double lift = m->thrust_max_N / (m->mass_kg * G_MPS2);
+  if (lift < LIFT_MIN || lift > LIFT_MAX)
+    warn(r,
+         "%s: thrust_max_N lifts %.3g times the weight of mass_kg; quadrotors lift %g to %g times theirs (is "
+         "mass_kg in kg, and thrust_max_N that of all motors in N?)",
+         base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
+}
+
 void report_warn(report_t *r) {
+  warn_of_vehicle(r);
   warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_instrument(r);

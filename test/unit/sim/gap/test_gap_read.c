@@ -351,6 +351,48 @@ TEST(gap_splits_counts_or_refuses_what_is_wrong_in_rows_and_cells) {
   }
 }
 
+// Without a battery the user says what the voltage is.
+TEST(gap_takes_a_voltage_that_stands_in_the_columns_file) {
+  static const struct {
+    const char *what;
+    double scale; // of a motor's commands: what a trim may be
+    bool constant;
+  } row[] = {{"measured", 1.0, false}, {"said", 1.0, true}, {"trim", 0.7, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    const flight_csv_t made = {.column = FC_M2, .scale = row[i].scale};
+    if (row[i].constant)
+      columns.of[SIG_VBAT] = (column_t){.unit = "V", .factor = 1.0, .offset = 3.9, .constant = true};
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &f, &made, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(f.n > 1900 && f.v[SIG_F1] != NULL);
+    for (int k = 0; k < f.n; k++)
+      if (row[i].constant && !CHECK_NEAR(f.v[SIG_VBAT][k], 3.9, 1e-12)) break;
+    gap_flight_free(&f);
+  }
+}
+
+TEST(gap_takes_a_range_that_an_offset_makes_negative) {
+  columns_t columns = flight_csv_columns();
+  columns.of[SIG_RANGE].offset = -0.45; // of a sensor high above what it is counted from
+  columns.of[SIG_RANGE].factor = 0.5e-3;
+  gap_flight_t f;
+  why_t why = {""};
+  CHECK_OK(read_by(&columns, &f, &(flight_csv_t){.dt_ms = 10.0}, &why));
+  CHECK_TEXT(why.text, "");
+  int n = 0, below = 0;
+  for (int k = 0; k < f.n; k++) {
+    n += isfinite(f.range_up_m[k]);
+    below += f.range_up_m[k] < 0.0;
+  }
+  CHECK(n > 170 && below > 5);
+  CHECK(f.cells_bad == 0);
+  gap_flight_free(&f);
+}
+
 TEST(gap_takes_new_range_samples_alone) {
   gap_flight_t f;
   why_t why = {""};

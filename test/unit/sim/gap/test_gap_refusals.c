@@ -96,6 +96,17 @@ static const struct {
     {"motors stuck",
      {.column = FC_M1, .more = 3, .from_s = 5.0, .hold_s = 0.8},
      "f.csv:502: column motor.m1: stands at"},
+    {"voltage stuck",
+     {.column = FC_VBAT, .from_s = 5.0, .hold_s = 12.0},
+     "f.csv:502: column pm.vbat: stands at 3.89 V for 10.00 s and longer in flight; is the sensor stuck? "
+     "(without a battery: vbat = {value = ..., unit = \"V\"} in a columns file)"},
+    {"half of a motor's commands",
+     {.column = FC_M2, .scale = 0.5},
+     "column motor.m2: the mean is 0.5 of the other motors' in flight; allowed: 0.65 to 1.5"},
+    {"a motor's commands and a half", {.column = FC_M4, .scale = 1.55}, "column motor.m4: the mean is 1.5"},
+    {"a rotor at half its speed",
+     {.column = FC_W1, .scale = 0.5},
+     "column rpm.m1: the mean is 0.5 of the other motors' in flight; allowed: 0.65 to 1.5"},
     {"gyro out of range", {.column = FC_GX, .offset = 5000.0, .from_s = 5.0}, "f.csv:502: column gyro.x: 8"},
 };
 

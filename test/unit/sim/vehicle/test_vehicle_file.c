@@ -220,6 +220,33 @@ TEST(vehicle_file_with_a_bad_body_is_refused) {
   }
 }
 
+// What a drag of 1/s per mass, a wind of m/s2 and an offset of a tenth of the arm are in newton and metres
+// grows with the vehicle.
+TEST(vehicle_file_takes_effects_of_vehicles_of_every_size) {
+  static const struct {
+    const char *what;
+    double mass_kg, radius_m, hover_radps;
+  } row[] = {{"20 g", 0.02, 0.02, 2500.0}, {"700 g", 0.7, 0.12, 550.0}, {"5 kg", 5.0, 0.2, 300.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const double kg = row[i].mass_kg, sum_radps = 4.0 * row[i].hover_radps, R = row[i].radius_m;
+    char text[1200];
+    snprintf(text, sizeof text,
+             "name = \"v\"\nmass_kg = %g\nrotor_radius_m = %g\nmotor_tau_s = 0.05\nthrust_min_N = 0\n"
+             "thrust_max_N = %g\n[[effect]]\nname = \"rotor_drag\"\nk = %g\n[[effect]]\nname = "
+             "\"climb_inflow\"\nk = %g\n[[effect]]\nname = \"flapping\"\nk = %g\n[[effect]]\nname = "
+             "\"body_drag\"\nc = %g\n[[effect]]\nname = \"translational_lift\"\nk = %g\n[[effect]]\nname = "
+             "\"cg_offset\"\ndx = %g\n[[effect]]\nname = \"wind\"\nfx = %g\n",
+             kg, R, 2.5 * kg * 9.81, 0.9 * kg / sum_radps, 1.2 * kg / sum_radps, 0.1 * kg * R / sum_radps,
+             0.24 * kg, 0.35 * kg, 0.3 * R, 0.4 * kg);
+    model_t m;
+    why_t why = {""};
+    CHECK_OK(model_read_text("v.toml", text, &m, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(m.n_fx == 7);
+  }
+}
+
 TEST(vehicle_files_of_the_tree_are_good) {
   CHECK(vehicle_count >= 6);
   for (int i = 0; i < vehicle_count; i++) {
