@@ -39,8 +39,9 @@ static done_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, do
 static done_t check_acc(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   if (s->acc_rows < ENOUGH) return DONE;
   const double acc_mps2 = s->acc_sum_mps2 / (double)s->acc_rows;
-  if (acc_mps2 >= 0.5 * G_MPS2 && acc_mps2 <= 1.5 * G_MPS2) return DONE;
-  return refuse(rows, SIG_AZ, "mean |acceleration|", acc_mps2, 0.5 * G_MPS2, 1.5 * G_MPS2, why);
+  if (acc_mps2 >= LOG_ACC_MIN * G_MPS2 && acc_mps2 <= LOG_ACC_MAX * G_MPS2) return DONE;
+  return refuse(rows, SIG_AZ, "mean |acceleration|", acc_mps2, LOG_ACC_MIN * G_MPS2, LOG_ACC_MAX * G_MPS2,
+                why);
 }
 
 static done_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {

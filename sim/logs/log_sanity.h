@@ -5,6 +5,11 @@
 #include "base/error.h"
 #include "logs/log_rows.h"
 
+// Mean |acceleration| of a flight, over g: a vehicle that stays up has 1, an aggressive flight 2; g taken for
+// m/s2, and the other way round, is a factor of 9.81.
+#define LOG_ACC_MIN 0.5
+#define LOG_ACC_MAX 3.1
+
 typedef struct {
   long rows;
   double first_s, last_s, last_z_m; // of the rows

@@ -70,7 +70,7 @@ static const struct {
     {"broken TOML", "$S/l_flight.csv --columns $S/l_broken.toml",
      "learn: l_broken.toml:2:9: Error while parsing table header: expected ']', saw '\\n'; allowed: a "
      "columns file in TOML (as "
-     "tools/columns/fly.toml) with rest_height_m, acceleration, columns\n"},
+     "tools/columns/fly.toml) with rest_height_m, acceleration, rows, columns\n"},
     {"unknown vehicle key", "$S/l_flight.csv --vehicle $S/l_unknown.toml",
      "learn: l_unknown.toml:3: mass_g: unknown key (did you mean mass_kg?); allowed: name, mass_kg, "
      "rotor_radius_m, motor_tau_s, "

@@ -3,13 +3,14 @@
 
 #include "base/constants.h"
 #include "body/body.h"
+#include "logs/log_sanity.h"
 
 #include <math.h>
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
 #define MEAN_OF     50 // samples from which a mean says something
-#define WINDOWS_MIN 20 // windows from which a slope does
+#define WINDOWS_MIN 6  // windows from which a slope has an error of its own
 #define SLOPE_MIN   0.3333
 #define SLOPE_MAX   3.0
 #define CLEARLY     4.0  // standard errors
@@ -54,8 +55,9 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
     up += up_mps2;
     n_up++;
   }
-  if (n >= MEAN_OF && !(sum / n >= 0.5 * G_MPS2 && sum / n <= 1.5 * G_MPS2))
-    return refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, 0.5 * G_MPS2, 1.5 * G_MPS2, why);
+  if (n >= MEAN_OF && !(sum / n >= LOG_ACC_MIN * G_MPS2 && sum / n <= LOG_ACC_MAX * G_MPS2))
+    return refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, LOG_ACC_MIN * G_MPS2, LOG_ACC_MAX * G_MPS2,
+                  why);
   if (n_up >= MEAN_OF && f->n > 2.0 * f->rate_Hz && !(up / n_up >= 0.6 * G_MPS2 && up / n_up <= 1.4 * G_MPS2))
     return table_refuse(&rows->table, 0, rows->at[SIG_AZ], why,
                         "turned by the attitude, the mean specific force upwards is %.3g m/s2 over the whole "

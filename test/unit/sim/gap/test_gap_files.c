@@ -142,17 +142,17 @@ TEST(gap_takes_half_an_hour_of_a_longer_log_and_says_so) {
 static void stream(double gigabytes, const char *test) {
   char line[1200], text[600], want[80];
   const double rows = floor(gigabytes * 1e9 / 494.0);
-  snprintf(
-      line, sizeof line,
-      "awk -v rows=%.0f 'BEGIN { printf "
-      "\"timestamp,stateEstimate.x,stateEstimate.y,stateEstimate.z,stateEstimate.qw,"
-      "stateEstimate.qx,stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,motor.m1,motor.m2,motor.m3,"
-      "motor.m4,pm.vbat,"
-      "text\\n\"; for (i = 0; i < 400; i++) pad = pad \"0\"; for (i = 0; i < rows; i++) "
-      "printf \"%%d,0,0,0.%%d,1,0.00%%d,0,0,0.1%%d,0.2%%d,1.0%%d,4%%d000,41%%d00,42000,43000,3.7,%%s\\n\", "
-      "10 * i, 4 + i %% 2, i %% 5, i %% 3, i %% 5, i %% 3, i %% 3, i %% 7, pad }' | "
-      "(" LIMIT " STREAM_ROWS=%.0f tests %s)",
-      rows, rows, test);
+  snprintf(line, sizeof line,
+           "awk -v rows=%.0f 'BEGIN { printf "
+           "\"timestamp,stateEstimate.x,stateEstimate.y,stateEstimate.z,stateEstimate.qw,"
+           "stateEstimate.qx,stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,motor.m1,motor.m2,motor.m3,"
+           "motor.m4,pm.vbat,"
+           "text\\n\"; for (i = 0; i < 400; i++) pad = pad \"0\"; for (i = 0; i < rows; i++) "
+           "printf "
+           "\"%%d,0,0,0.%%d,1,0.00%%d,0,0,0.1%%d,0.2%%d,1.0%%d,4%%d000,41%%d00,42000,43000,3.7%%d,%%s\\n\", "
+           "10 * i, 4 + i %% 2, i %% 5, i %% 3, i %% 5, i %% 3, i %% 3, i %% 7, i %% 4, pad }' | "
+           "(" LIMIT " STREAM_ROWS=%.0f tests %s)",
+           rows, rows, test);
   CHECK_NEAR(program_run(line, STREAM_OUTPUT, text, sizeof text), 0.0, 0.0);
   snprintf(want, sizeof want, "test_gap_files.c                1 passed    0 failed\n1 passed, 0 failed\n");
   CHECK_TEXT(text, want);

@@ -22,7 +22,7 @@ static const struct {
 } contradicting[] = {
     {"acceleration in m/s2",
      {.column = FC_AX, .more = 2, .scale = 9.81},
-     "column acc.z: mean |acceleration| 97.4 m/s2 over the whole flight; allowed: 4.905 to 14.71 m/s2; the "
+     "column acc.z: mean |acceleration| 97.4 m/s2 over the whole flight; allowed: 4.905 to 30.41 m/s2; the "
      "unit "
      "m/s2 would fit (factor 0.1019)"},
     {"gyro in rad/s",
@@ -73,6 +73,12 @@ static const struct {
     {"attitude inverse", {.column = FC_QX, .more = 2, .scale = -1.0}, "column gyro.x: the attitude turns -"},
     {"z down",
      {.column = FC_Z, .scale = -1.0},
+     "column stateEstimate.vz: the position moves -1 times as far along axis z as the velocity says"},
+    {"climb of the other sign",
+     {.column = FC_VZ, .scale = -1.0},
+     "column stateEstimate.vz: the position moves -1 times as far along axis z as the velocity says"},
+    {"climb of the other sign in a short log",
+     {.column = FC_VZ, .scale = -1.0, .rows = 300},
      "column stateEstimate.vz: the position moves -1 times as far along axis z as the velocity says"},
     {"gravity taken out", {.column = FC_AZ, .offset = -1.0}, "column acc.z: mean |acceleration|"},
     {"acceleration down",

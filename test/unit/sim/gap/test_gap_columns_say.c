@@ -1,0 +1,163 @@
+// test_gap_columns_say.c - stage 1: what a columns file says of time, rows, offsets and the battery is taken
+// in.
+#include "gap/1_read/flight.h"
+#include "rig/flight_csv.h"
+#include "rig/scratch.h"
+#include "rig/test.h"
+#include "vehicle/model_file.h"
+
+static done_t read_by(const columns_t *columns, gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+  model_t vehicle;
+  TRY(model_builtin("cf21_legacy", &vehicle, why));
+  return gap_read(f, flight_csv_file(made, "f.csv"), columns, &vehicle, why);
+}
+
+static done_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
+  const columns_t columns = flight_csv_columns();
+  return read_by(&columns, f, made, why);
+}
+
+// A log whose force, rates and range tell what was: everything else is early by as much.
+TEST(gap_takes_out_the_delays_that_the_columns_name) {
+  static const double late_s = 0.02;
+  columns_t columns = flight_csv_columns();
+  const flight_csv_t made = {.dt_ms = 10.0, .late_att_s = -late_s, .late_vel_s = -late_s};
+  for (int s = SIG_AX; s <= SIG_AZ; s++) columns.of[s].late_s = late_s;
+  for (int s = SIG_GX; s <= SIG_GZ; s++) columns.of[s].late_s = late_s;
+  columns.of[SIG_RANGE].late_s = late_s;
+  gap_flight_t f;
+  why_t why = {""};
+  CHECK_OK(read_by(&columns, &f, &made, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK(f.n > 1900 && f.attitude_late_s == 0.0 && f.velocity_late_s == 0.0);
+  for (int k = 100; k < 1900; k++) {
+    double v[FC_COLUMNS], then[FC_COLUMNS];
+    flight_csv_values(f.t_s[k] + late_s, v);
+    CHECK_NEAR(f.v[SIG_GY][k], v[FC_GY] * 3.14159265358979323846 / 180.0, 1e-6);
+    CHECK_NEAR(f.v[SIG_AZ][k], v[FC_AZ] * 9.81, 1e-6);
+    flight_csv_values(f.t_s[k], then);
+    if (!CHECK_NEAR(f.v[SIG_QX][k], v[FC_QX], 1e-6) ||
+        !CHECK_NEAR(f.v[SIG_W3][k], then[FC_W3] * 0.1047198, 0.01))
+      break;
+    if (isfinite(f.range_up_m[k])) CHECK_NEAR(f.range_up_m[k], 1e-3 * v[FC_RANGE], 1e-9);
+  }
+  gap_flight_free(&f);
+}
+
+// Commands that were logged late, or early, are those of the same log of commands in time.
+TEST(gap_takes_out_the_lateness_of_commands) {
+  static const struct {
+    const char *what;
+    double dt_ms, late_s;
+  } row[] = {{"in time", 10.0, 0.0},
+             {"a row late", 10.0, 0.01},
+             {"a row early", 10.0, -0.01},
+             {"five rows late", 2.0, 0.01},
+             {"a row and a half late", 10.0, 0.015}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    const flight_csv_t made = {.dt_ms = row[i].dt_ms, .late_cmd_s = row[i].late_s};
+    for (int s = SIG_M1; s <= SIG_M4; s++) columns.of[s].late_s = row[i].late_s;
+    gap_flight_t late, now;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &late, &made, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK_OK(read_made(&now, &(flight_csv_t){.dt_ms = row[i].dt_ms}, &why));
+    for (int k = 0; k < late.n; k++) {
+      double v[FC_COLUMNS];
+      flight_csv_values(late.t_s[k], v);
+      const int same = (int)((late.t_s[k] - now.t_s[0]) * now.rate_Hz + 0.5);
+      // Between rows a command is drawn as a line: 5 ms from either 1 % of a wave of 1 Hz is the bow.
+      // The voltage is of its own row: 20 uV.
+      const double tol = row[i].late_s * 1e3 / row[i].dt_ms == 1.5 ? 0.01 : 3e-5;
+      CHECK_NEAR(late.v[SIG_M2][k], v[FC_M2], tol * v[FC_M2]);
+      CHECK_NEAR(late.v[SIG_THRUST][k], now.v[SIG_THRUST][same], tol * now.v[SIG_THRUST][same]);
+      if (!CHECK_NEAR(late.v[SIG_F3][k], now.v[SIG_F3][same], tol * now.v[SIG_F3][same])) break;
+    }
+    gap_flight_free(&late);
+    gap_flight_free(&now);
+  }
+}
+
+// Attitude and place that the columns file says are late are not late beyond that.
+TEST(gap_takes_out_the_lateness_of_the_estimate) {
+  static const double late_s = 0.06; // more than could be mended
+  columns_t columns = flight_csv_columns();
+  for (int s = SIG_X; s <= SIG_VZ; s++) columns.of[s].late_s = late_s;
+  for (int s = SIG_QW; s <= SIG_QZ; s++) columns.of[s].late_s = late_s;
+  gap_flight_t f;
+  why_t why = {""};
+  CHECK_OK(
+      read_by(&columns, &f, &(flight_csv_t){.dt_ms = 2.0, .late_att_s = late_s, .late_vel_s = late_s}, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK_NEAR(f.attitude_late_s, 0.0, 3e-4);
+  CHECK_NEAR(f.velocity_late_s, 0.0, 5e-4);
+  for (int k = 0; k < f.n; k++) {
+    double v[FC_COLUMNS];
+    flight_csv_values(f.t_s[k], v);
+    CHECK_NEAR(f.v[SIG_X][k], v[FC_X], 2e-3);
+    if (!CHECK_NEAR(f.v[SIG_QX][k], v[FC_QX], 1e-3)) break;
+  }
+  gap_flight_free(&f);
+}
+
+TEST(gap_reads_whether_rows_are_means) {
+  static const struct {
+    const char *what;
+    double dt_ms;
+    bool said, want;
+  } row[] = {{"instants", 10.0, false, false}, {"means", 10.0, true, true}, {"thinned", 1.0, false, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    columns.rows_are_means = row[i].said;
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &f, &(flight_csv_t){.dt_ms = row[i].dt_ms}, &why));
+    CHECK(f.rows_are_means == row[i].want);
+    gap_flight_free(&f);
+  }
+}
+
+// Without a battery the user says what the voltage is.
+TEST(gap_takes_a_voltage_that_stands_in_the_columns_file) {
+  static const struct {
+    const char *what;
+    double scale; // of a motor's commands: what a trim may be
+    bool constant;
+  } row[] = {{"measured", 1.0, false}, {"said", 1.0, true}, {"trim", 0.7, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    const flight_csv_t made = {.column = FC_M2, .scale = row[i].scale};
+    if (row[i].constant)
+      columns.of[SIG_VBAT] = (column_t){.unit = "V", .factor = 1.0, .offset = 3.9, .constant = true};
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &f, &made, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(f.n > 1900 && f.v[SIG_F1] != NULL);
+    for (int k = 0; k < f.n; k++)
+      if (row[i].constant && !CHECK_NEAR(f.v[SIG_VBAT][k], 3.9, 1e-12)) break;
+    gap_flight_free(&f);
+  }
+}
+
+TEST(gap_takes_a_range_that_an_offset_makes_negative) {
+  columns_t columns = flight_csv_columns();
+  columns.of[SIG_RANGE].offset = -0.45; // of a sensor high above what it is counted from
+  columns.of[SIG_RANGE].factor = 0.5e-3;
+  gap_flight_t f;
+  why_t why = {""};
+  CHECK_OK(read_by(&columns, &f, &(flight_csv_t){.dt_ms = 10.0}, &why));
+  CHECK_TEXT(why.text, "");
+  int n = 0, below = 0;
+  for (int k = 0; k < f.n; k++) {
+    n += isfinite(f.range_up_m[k]);
+    below += f.range_up_m[k] < 0.0;
+  }
+  CHECK(n > 170 && below > 5);
+  CHECK(f.cells_bad == 0);
+  gap_flight_free(&f);
+}
