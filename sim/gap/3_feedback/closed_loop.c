@@ -25,10 +25,13 @@ static double noise_of(const grid_t *g, const double *v) {
   return sd;
 }
 
-static double largest_noise(const set_t *s, int from, int to) {
-  double most = 0.0;
-  for (int i = from; i <= to; i++) most = fmax(most, noise_of(&s->grid[0], s->grid[0].flight->v[i]));
-  return most;
+static void noise3(const set_t *s, int signal, double sd[3]) {
+  for (int i = 0; i < 3; i++) sd[i] = noise_of(&s->grid[0], s->grid[0].flight->v[signal + i]);
+}
+
+static double larger_noise(const set_t *s, int a, int b) {
+  double *const *const v = s->grid[0].flight->v;
+  return fmax(noise_of(&s->grid[0], v[a]), noise_of(&s->grid[0], v[b]));
 }
 
 // --- gains: least squares of increments of a command on increments of what it is fed by -------------------
@@ -135,7 +138,7 @@ static void find_disturbance(const set_t *s, double *const r[CHANNELS], closed_l
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     double correlation = 0.0;
     const bool force = ch < CH_FORCES;
-    const double noise = filtered(g, ch, force ? w->acc_mps2 : w->gyro_radps);
+    const double noise = filtered(g, ch, force ? w->acc_mps2[ch] : w->gyro_radps[ch - CH_WX]);
     const double sd = residual_has(s, ch) ? sqrt(disturbance(s, ch, r[ch], noise, &correlation)) : 0.0;
     if (force)
       w->force_mps2[ch] = sd;
@@ -147,19 +150,30 @@ static void find_disturbance(const set_t *s, double *const r[CHANNELS], closed_l
   w->turn_tau_s = clamp(tau[1], 0.05, 3.0);
 }
 
+// Place and speed of a point are means over samples, its attitude is one of them.
+static void find_slow(const grid_t *g, closed_loop_t *w) {
+  white_error_t white;
+  for (int i = 0; i < 3; i++) {
+    white.pos_m[i] = w->pos_m[i] / sqrt(g->every);
+    white.vel_mps[i] = w->vel_mps[i] / sqrt(g->every);
+    white.angle_rad[i] = w->angle_rad;
+  }
+  slow_errors(g, &white, &w->slow_pos_m, &w->slow_vel_mps, &w->slow_angle_rad);
+}
+
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]) {
   closed_loop_t w = {.flown_by = by};
   const gap_flight_t *f = s->grid[0].flight;
-  w.acc_mps2 = largest_noise(s, SIG_AX, SIG_AZ);
-  w.gyro_radps = largest_noise(s, SIG_GX, SIG_GZ);
-  w.vel_mps = largest_noise(s, SIG_VX, SIG_VZ);
-  w.pos_m = largest_noise(s, SIG_Z, SIG_Z);
-  w.angle_rad = 2.0 * largest_noise(s, SIG_QX, SIG_QY);
-  w.vbat_V = f->v[SIG_VBAT] ? largest_noise(s, SIG_VBAT, SIG_VBAT) : 0.0;
+  noise3(s, SIG_AX, w.acc_mps2);
+  noise3(s, SIG_GX, w.gyro_radps);
+  noise3(s, SIG_VX, w.vel_mps);
+  noise3(s, SIG_X, w.pos_m);
+  w.angle_rad = 2.0 * larger_noise(s, SIG_QX, SIG_QY);
+  w.vbat_V = noise_of(&s->grid[0], f->v[SIG_VBAT]);
   const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
   w.range_m = range.used ? range.sd : 0.005;
-  slow_errors(&s->grid[0], &w.slow_pos_m, &w.slow_vel_mps, &w.slow_angle_rad);
+  find_slow(&s->grid[0], &w);
   find_gains(s, m, &w);
   find_disturbance(s, residual, &w);
   return w;

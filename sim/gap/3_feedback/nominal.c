@@ -23,9 +23,9 @@ static void calm(closed_loop_t *w) {
   for (int i = 0; i < 3; i++) {
     w->force_mps2[i] *= 0.5;
     w->turn_radps2[i] *= 0.5;
+    w->acc_mps2[i] *= 0.7;
+    w->gyro_radps[i] *= 0.7;
   }
-  w->acc_mps2 *= 0.7;
-  w->gyro_radps *= 0.7;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = 15.0;
   w->tilt_gain = 50.0;
 }

@@ -18,7 +18,7 @@
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double climb_gain, height_gain; // 1/s, 1/s2
-  double acc_mps2, gyro_radps, vel_mps, pos_m, angle_rad, vbat_V, range_m; // sd of a sample
+  double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
   double turn_radps2[3], turn_tau_s;

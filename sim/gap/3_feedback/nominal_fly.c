@@ -46,8 +46,8 @@ static done_t disturbed(const model_t *m, const closed_loop_t *w, model_t *out, 
 static double noisy(const nominal_flight_t *f, double v, double sd) {
   return v + sd * random_normal(f->random);
 }
-static d3_t noisy3(const nominal_flight_t *f, d3_t v, double sd) {
-  return d3(noisy(f, v.x, sd), noisy(f, v.y, sd), noisy(f, v.z, sd));
+static d3_t noisy3(const nominal_flight_t *f, d3_t v, const double sd[3]) {
+  return d3(noisy(f, v.x, sd[0]), noisy(f, v.y, sd[1]), noisy(f, v.z, sd[2]));
 }
 
 static fx_sensed_t sensed(const nominal_flight_t *f) {
@@ -64,8 +64,13 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
 }
 
 static d3_t drifted(const nominal_flight_t *f, d3_t off, const slow_t *slow, double step_s) {
-  const double keep = slow->tau_s > 0.0 ? exp(-step_s / slow->tau_s) : 0.0;
-  return noisy3(f, d3_scale(keep, off), slow->sd * sqrt(1.0 - keep * keep));
+  const double was[3] = {off.x, off.y, off.z};
+  double now[3];
+  for (int i = 0; i < 3; i++) {
+    const double keep = slow->tau_s[i] > 0.0 ? exp(-step_s / slow->tau_s[i]) : 0.0;
+    now[i] = noisy(f, keep * was[i], slow->sd[i] * sqrt(1.0 - keep * keep));
+  }
+  return d3_of(now);
 }
 
 static void drift(nominal_flight_t *f, double step_s) {
@@ -88,7 +93,8 @@ static grid_point_t is(const nominal_flight_t *f) {
 
 static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth) {
   const closed_loop_t *w = f->w;
-  const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, w->angle_rad));
+  const double any[3] = {w->angle_rad, w->angle_rad, w->angle_rad};
+  const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, any));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
   return (grid_point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
                         .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),

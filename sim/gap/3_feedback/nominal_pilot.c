@@ -22,7 +22,9 @@ static d3_t track_acc(const nominal_flight_t *f) {
   const double span_s = p[to].t_s - p[from].t_s;
   if (span_s > 4.0 * AHEAD_S) return d3(0.0, 0.0, 0.0);
   const d3_t acc = d3_scale(1.0 / span_s, d3_sub(p[to].vel_w_mps, p[from].vel_w_mps));
-  const double error = BEND_SURE * sqrt(2.0) * hypot(f->w->vel_mps, f->w->slow_vel_mps.sd) / span_s;
+  double error = 0.0;
+  for (int i = 0; i < 3; i++)
+    error = fmax(error, BEND_SURE * sqrt(2.0) * hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]) / span_s);
   return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
 }
 

@@ -7,23 +7,27 @@
 
 #include <math.h>
 
-#define LONG 5 // points of the longer span
+#define LONG      5  // points of the longer span
+#define SPANS_MIN 50 // of each, for a word on their spread
+#define POS_MOST_M     0.02 // more is no error of an estimate but a motion that its rate does not have
+#define VEL_MOST_MPS   0.1
+#define ANGLE_MOST_RAD 0.02
 
 typedef struct {
-  double sum[2]; // of squares over 1 and over LONG points
+  double sum[2][3]; // of squares over 1 and over LONG points, by axis
   int n;
 } spans_t;
 
-// A miss over each span, three axes.
 static void spans_add(spans_t *s, d3_t one, d3_t more) {
-  const double miss[2] = {d3_dot(one, one), d3_dot(more, more)};
-  for (int i = 0; i < 2; i++) s->sum[i] += miss[i] / 3.0;
+  const double miss[2][3] = {{one.x, one.y, one.z}, {more.x, more.y, more.z}};
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++) s->sum[i][k] += miss[i][k] * miss[i][k];
   s->n++;
 }
 
-static slow_t solve(const spans_t *s, double period_s, double most) {
-  if (s->n < 50) return (slow_t){0.0, 0.0};
-  const double one = s->sum[0] / s->n, more = s->sum[1] / s->n, ratio = more > 0.0 ? one / more : 1.0;
+// one, more: mean squares over the two spans.
+static void solve(double one, double more, double period_s, double most, double *sd, double *tau_s) {
+  const double ratio = more > 0.0 ? one / more : 1.0;
   double low = 0.0, high = 0.98;
   for (int i = 0; i < 30; i++) {
     const double rho = 0.5 * (low + high);
@@ -32,7 +36,18 @@ static slow_t solve(const spans_t *s, double period_s, double most) {
     else
       high = rho;
   }
-  return (slow_t){fmin(sqrt(0.5 * more / (1.0 - pow(low, LONG))), most), -period_s / log(fmax(low, 1e-3))};
+  *sd = fmin(sqrt(0.5 * more / (1.0 - pow(low, LONG))), most);
+  *tau_s = -period_s / log(fmax(low, 1e-3));
+}
+
+static slow_t solve_axes(const spans_t *s, const grid_t *g, const double white[3], double most) {
+  slow_t slow = {{0.0}, {0.0}};
+  for (int k = 0; s->n >= SPANS_MIN && k < 3; k++) {
+    const double own = 2.0 * white[k] * white[k];
+    const double one = s->sum[0][k] / s->n - own, more = s->sum[1][k] / s->n - own;
+    if (one > 0.0 && more > 0.0) solve(one, more, g->period_s, most, &slow.sd[k], &slow.tau_s[k]);
+  }
+  return slow;
 }
 
 static d3_t acc_w(const grid_point_t *p) {
@@ -71,20 +86,33 @@ static bool together(const grid_point_t *p) {
   return true;
 }
 
-static slow_t error_of(const grid_t *g, look_t value, look_t rate, double most) {
+static spans_t misses(const grid_t *g, look_t value, look_t rate) {
   spans_t s = {.n = 0};
   for (int j = 0; j + LONG < g->n; j++)
     if (together(g->point + j))
       spans_add(&s, miss(g->point + j, 1, g->period_s, value, rate),
                 miss(g->point + j, LONG, g->period_s, value, rate));
-  return solve(&s, g->period_s, most);
+  return s;
 }
 
-void slow_errors(const grid_t *g, slow_t *pos_m, slow_t *vel_mps, slow_t *angle_rad) {
-  const slow_t none = {0.0, 0.0};
-  const bool turns = g->has_attitude && g->has_rates;
-  *pos_m = g->has_position && g->has_velocity ? error_of(g, position, velocity, 0.02) : none;
-  *vel_mps = g->has_velocity && g->has_force && g->has_attitude ? error_of(g, velocity, acc_w, 0.1) : none;
-  *angle_rad = turns ? error_of(g, up_b, up_rate, 0.02) : none;
-  angle_rad->sd *= sqrt(1.5); // the length of `up` cannot be wrong: two axes of three
+// The length of `up` cannot be wrong: two axes of three tell what each of them may be.
+static spans_t of_two_axes(spans_t s) {
+  for (int i = 0; i < 2; i++) {
+    const double mean = 0.5 * (s.sum[i][0] + s.sum[i][1] + s.sum[i][2]);
+    for (int k = 0; k < 3; k++) s.sum[i][k] = mean;
+  }
+  return s;
+}
+
+void slow_errors(const grid_t *g, const white_error_t *white, slow_t *pos_m, slow_t *vel_mps,
+                 slow_t *angle_rad) {
+  spans_t s = {.n = 0};
+  if (g->has_position && g->has_velocity) s = misses(g, position, velocity);
+  *pos_m = solve_axes(&s, g, white->pos_m, POS_MOST_M);
+  s.n = 0;
+  if (g->has_velocity && g->has_force && g->has_attitude) s = misses(g, velocity, acc_w);
+  *vel_mps = solve_axes(&s, g, white->vel_mps, VEL_MOST_MPS);
+  s.n = 0;
+  if (g->has_attitude && g->has_rates) s = of_two_axes(misses(g, up_b, up_rate));
+  *angle_rad = solve_axes(&s, g, white->angle_rad, ANGLE_MOST_RAD);
 }

@@ -1,14 +1,22 @@
-// slow_errors.h - errors of the estimates that last for a while: sd and correlation time.
+// slow_errors.h - errors of the estimates that last for a while: sd and correlation time, by axis.
 #ifndef SIM_GAP_3_FEEDBACK_SLOW_ERRORS_H
 #define SIM_GAP_3_FEEDBACK_SLOW_ERRORS_H
 
 #include "gap/2_predict/grid.h"
 
+// By axis of the world; a height is often known several times better than a place.
 typedef struct {
-  double sd, tau_s; // 0: none seen
+  double sd[3], tau_s[3]; // 0: none seen
 } slow_t;
 
-// Of position (per axis), velocity and attitude, by comparing each with the rate that it should have.
-void slow_errors(const grid_t *g, slow_t *pos_m, slow_t *vel_mps, slow_t *angle_rad);
+// Of position, velocity and attitude (there about any axis alike), by comparing each with the rate that it
+// should have. white: the sd of what every
+// point has of its own, which is not counted once more.
+typedef struct {
+  double pos_m[3], vel_mps[3], angle_rad[3];
+} white_error_t;
+
+void slow_errors(const grid_t *g, const white_error_t *white, slow_t *pos_m, slow_t *vel_mps,
+                 slow_t *angle_rad);
 
 #endif
