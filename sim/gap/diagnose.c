@@ -4,14 +4,17 @@
 #include "gap/2_predict/excluded.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/contact.h"
+#include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/select.h"
 #include "gap/5_infer/shape.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define CELL_LEAST  6.5 // standard errors
-#define CELL_MARGIN 1.4 // over the largest of the nominal flights
+#define MOVED       0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
+#define TRIAL_SEED  1000 // other draws than the flights that count
+#define CELL_LEAST  6.5  // standard errors
+#define CELL_MARGIN 1.4  // over the largest of the nominal flights
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
                           why_t *why) {
@@ -45,6 +48,17 @@ static done_t find_residual(diagnosis_t *d, const model_t *m, why_t *why) {
   return residual_of(&d->fit, m, d->residual, why);
 }
 
+static done_t fly_with(const diagnose_job_t *job, diagnosis_t *d, const chosen_t *chosen, why_t *why) {
+  model_t m;
+  nominal_free(&d->nominal);
+  TRY(chosen_model(chosen, job->model, &m, why));
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, chosen, &d->loop, job->seed};
+  TRY(nominal_make(&d->nominal, &nominal, why));
+  d->nominal_flew = d->nominal.n > 0;
+  d->flown = *chosen;
+  return DONE;
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
@@ -56,25 +70,8 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   found_free(&first);
   TRY(status);
   TRY(chosen_model(&chosen, job->model, &m, why));
-  TRY(find_residual(d, &m, why));
-  const closed_loop_t raw = closed_loop_of(&d->fit, &m, job->flown_by, d->residual);
-  TRY(unknown_clean(&d->fit, &m, d->residual, why));
-  d->loop = closed_loop_of(&d->fit, &m, job->flown_by, d->residual);
-  // Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
-  // flights are to show.
-  memcpy(d->loop.turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
-  d->loop.turn_tau_s = raw.turn_tau_s;
-  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, &chosen, &d->loop, job->seed};
-  d->nominal_flew = nominal_make(&d->nominal, &nominal, why) == DONE;
-  return DONE;
-}
-
-// Without nominal flights nobody knows what feedback alone looks like: nothing is named, nothing is unknown,
-// and nothing was testable.
-static void withdraw_all(diagnosis_t *d) {
-  d->found.chosen.n = d->found.n = 0;
-  d->found.left = d->found.left_before;
-  for (int i = 0; i < d->candidates.n; i++) d->found.least[i] = HUGE_VAL;
+  TRY(loop_fit(&d->loop, &d->fit, &m, job->flown_by, job->seed + TRIAL_SEED, why));
+  return fly_with(job, d, &chosen, why);
 }
 
 static done_t look_for_more(diagnosis_t *d, why_t *why) {
@@ -88,23 +85,37 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
 }
 
 static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *why) {
-  const nominal_t *const nominal = d->nominal_flew ? &d->nominal : NULL;
-  TRY(select_effects(&d->candidates, &d->fit, m, nominal, &d->found, why));
+  TRY(select_effects(&d->candidates, &d->fit, m, &d->nominal, &d->found, why));
   d->rounds += d->found.rounds;
-  if (!nominal) withdraw_all(d);
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, refined, why));
   candidates_reshape(&d->candidates, &d->found.chosen);
   return DONE;
 }
 
+// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none.
+static double bent_by(const fx_use_t *use) {
+  if (use && use->fx->class == FX_TIMING) return fx_use_size(use, 0);
+  return use && use->fx->n_shape ? use->p[use->fx->shape_param] : (double)NAN;
+}
+
+static bool moved(const chosen_t *a, const chosen_t *b) {
+  for (int i = 0; i < a->n; i++) {
+    const double here = bent_by(&a->use[i]), there = bent_by(chosen_use(b, a->of[i]));
+    if (isfinite(here) && !(fabs(here - there) < MOVED * fabs(here))) return true;
+  }
+  return false;
+}
+
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
-// names.
-static done_t find_names(diagnosis_t *d, const model_t *m, why_t *why) {
+// names. What feedback makes is flown anew where the flown model was another one.
+static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   bool refined;
-  TRY(look_once(d, m, &refined, why));
-  if (!refined) return DONE;
+  TRY(look_once(d, job->model, &refined, why));
+  const bool other = moved(&d->found.chosen, &d->flown) || moved(&d->flown, &d->found.chosen);
+  if (!refined && !other) return DONE;
+  if (other) TRY(fly_with(job, d, &d->found.chosen, why));
   found_free(&d->found);
-  return look_once(d, m, &refined, why);
+  return look_once(d, job->model, &refined, why);
 }
 
 static void tell(const diagnose_job_t *job, const char *what) {
@@ -121,7 +132,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
-  TRY(find_names(d, job->model, why));
+  TRY(find_names(job, d, why));
   const verify_job_t names = {&d->held, job->model, &d->loop, &d->found};
   TRY(verify_names(&names, &d->withdrawn, why));
   TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));

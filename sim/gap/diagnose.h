@@ -24,7 +24,8 @@ typedef struct {
   withdrawn_list_t withdrawn;
   model_t extended;
   closed_loop_t loop;
-  bool nominal_flew; // false: it could not; then nothing is named and nothing is unknown
+  chosen_t flown;    // what nominal flights had beside the model
+  bool nominal_flew; // false: none could; then names need more evidence and nothing is unknown
   double cell_bound; // of the statistic
   cell_t cell;       // the largest
   bool unknown;      // it is beyond the bound

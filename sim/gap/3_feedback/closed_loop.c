@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define VARIED 0.3 // of a gain: a fit from a log in closed loop knows it no better
+
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
 }
@@ -159,6 +161,18 @@ static void find_slow(const grid_t *g, closed_loop_t *w) {
     white.angle_rad[i] = w->angle_rad;
   }
   slow_errors(g, &white, &w->slow_pos_m, &w->slow_vel_mps, &w->slow_angle_rad);
+}
+
+closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
+  closed_loop_t v = *w;
+  // Steps of the golden section fill both ranges evenly, and not together.
+  const double turn = 1.0 + VARIED * (i ? 2.0 * fmod(0.618 * i, 1.0) - 1.0 : 0.0);
+  const double place = 1.0 + VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
+  for (int k = 0; k < 3; k++) v.rate_gain[k] *= turn;
+  v.tilt_gain *= turn * turn;
+  v.climb_gain *= place;
+  v.height_gain *= place * place;
+  return v;
 }
 
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,

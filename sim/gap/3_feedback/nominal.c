@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CALMER  4    // times that a flight is tried again with less disturbance
-#define FLOWN_S 60.0 // of a flight, so much is flown
+#define CALMER     4    // times that a flight is tried again with less disturbance
+#define FLOWN_S    60.0 // of a flight, so much is flown
+#define POINTS_MIN 50   // a shorter flight tells nothing
 
 // A part of a grid that is short enough: its first points.
 static grid_t beginning(const grid_t *g) {
@@ -34,20 +35,21 @@ done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, 
                        const closed_loop_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t part = beginning(&s->grid[f]);
-    if (part.n < 50) continue;
+    if (part.n < POINTS_MIN) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
     closed_loop_t calmer = *w;
     gap_flight_t *const is = truth ? &truth->flight[to->n] : NULL;
     done_t status = nominal_fly(&part, m, w, own, &to->flight[to->n], is, why);
-    for (int k = 0; k < CALMER && status != DONE; k++) {
+    for (int k = 0; k < CALMER && status == BAD_INPUT; k++) {
       calm(&calmer);
       status = nominal_fly(&part, m, &calmer, own, &to->flight[to->n], is, why);
     }
-    if (status != DONE) return status;
+    if (status == FAILED) return status;
+    if (status != DONE) continue;
     to->n++;
     if (truth) truth->n++;
   }
-  return DONE;
+  return to->n ? DONE : error_set(why, "none of these tracks can be flown");
 }
 
 done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {

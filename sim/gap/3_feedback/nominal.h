@@ -29,13 +29,19 @@ typedef struct {
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]);
 
+// The same as another pilot could have flown it whose gains fit the log as well; number 0 is the fit itself.
+// Of a pilot that is known there is but one.
+closed_loop_t closed_loop_varied(const closed_loop_t *w, int i);
+
 // One flight along the track of grid g. truth (may be null): the same without the errors of sensors and
-// estimates. FAILED: no memory, or the vehicle was lost; then both are empty. Free the flights.
+// estimates. What the log lacks of its track for a while is bridged; after a gap in time the vehicle is put
+// where the log goes on. BAD_INPUT: it cannot be flown, or was lost; FAILED: no memory; then both are empty.
+// Free the flights.
 MUST_CHECK done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *loop,
                               unsigned long seed, gap_flight_t *flight, gap_flight_t *truth, why_t *why);
 
 // One flight along each flight of a set, by a model, as it is seen and as it is: a set of each, with the same
-// channels. FAILED as above. Free it, also on an error.
+// channels. BAD_INPUT, FAILED: as nominal_flights. Free it, also on an error.
 typedef struct {
   set_t seen, is;
   gap_flights_t seen_flights, is_flights;
@@ -45,8 +51,8 @@ MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
-// One flight along each flight of a set, the first 60 s of each. truth: the same flights without errors; may
-// be null. Both lists have room. FAILED as above.
+// One flight along each flight of a set that can be flown, the first 60 s of each. truth: the same flights
+// without errors; may be null. Both lists have room. BAD_INPUT: none could be flown; FAILED: no memory.
 MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
                                   const closed_loop_t *loop, unsigned long seed, why_t *why);
 // The flights as a set. FAILED: no memory.

@@ -4,6 +4,7 @@
 #include "body/body.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
@@ -121,8 +122,9 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
-  if (body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start) != DONE)
-    return error_failed(why, "%s: a model that cannot be flown", m->name);
+  const done_t status = body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start);
+  if (status == BAD_INPUT) return error_set(why, "%s: a model that cannot be flown", m->name);
+  if (status != DONE) return error_failed(why, "out of memory");
   f->body.vbat_V = p->vbat_V;
   body_effects(&f->body, 0.0);
   pilot_tame(f);
@@ -143,30 +145,44 @@ static bool is_down(nominal_flight_t *f, double span_s) {
 }
 
 static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
-  return error_failed(why, "%s: the model cannot fly along this track", f->g->flight->name);
+  return error_set(why, "%s: the model cannot fly along this track", f->g->flight->name);
 }
 
-static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+// On the track as it is now; what it does is its own again a while later.
+static done_t put(nominal_flight_t *f, double t_s, why_t *why) {
   const model_t *m = f->body.model;
-  if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
   f->down_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
   f->body.integrate = NULL;
   free(f->known);
   f->known = NULL;
-  TRY(start_at(f, m, f->seed + (unsigned long)f->puts, why));
+  TRY(start_at(f, m, f->seed + (unsigned long)f->at, why));
   return find_pilot(f, why);
+}
+
+static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
+  if (++f->puts > 2.0 + (t_s - f->g->point[f->from].t_s) / PUT_S) return cannot_fly(f, why);
+  return put(f, t_s, why);
+}
+
+// The log goes on elsewhere after a gap in time.
+static bool goes_on(const nominal_flight_t *f) {
+  return f->at > f->from && f->g->point[f->at].segment != f->g->point[f->at - 1].segment;
 }
 
 static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
-  const double step_s = log_s / inner, start_s = f->g->point[f->from].t_s;
+  const double step_s = log_s / inner;
   double motor_N[ROTORS];
-  for (f->at = f->from; f->at < f->to; f->at++)
+  for (int first = f->at = f->from; f->at < f->to; f->at++) {
+    if (goes_on(f)) {
+      first = f->at;
+      TRY(put(f, f->g->point[first].t_s, why));
+    }
     for (int i = 0; i < per_point; i++) {
-      const double t_s = start_s + ((f->at - f->from) * per_point + i) * log_s;
+      const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {
         drift(f, step_s);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
@@ -180,6 +196,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
       const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);
       if (lost || (f->known && is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
+  }
   f->log->rate_Hz = 1.0 / log_s;
   if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
   return DONE;
@@ -192,25 +209,71 @@ static done_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
   return f->random ? find_pilot(f, why) : error_failed(why, "out of memory");
 }
 
+// --- the track --------------------------------------------------------------------------------------------
+
+#define STATES 17 // numbers of a point that a pilot needs
+
+static double *state(grid_point_t *p, int i) {
+  double *const all[STATES] = {&p->pos_w_m.x,      &p->pos_w_m.y,    &p->pos_w_m.z,      &p->vel_w_mps.x,
+                               &p->vel_w_mps.y,    &p->vel_w_mps.z,  &p->q_wb.w,         &p->q_wb.x,
+                               &p->q_wb.y,         &p->q_wb.z,       &p->rate_b_radps.x, &p->rate_b_radps.y,
+                               &p->rate_b_radps.z, &p->acc_b_mps2.x, &p->acc_b_mps2.y,   &p->acc_b_mps2.z,
+                               &p->vbat_V};
+  return all[i];
+}
+
+// Number `at` of a state is missing, between two that are there (before < 0: none): a line; at the end of a
+// segment the number on this side of the gap.
+static double bridged(grid_point_t *point, int k, int before, int at, int after) {
+  const double b = *state(&point[after], k), a = before < 0 ? b : *state(&point[before], k);
+  if (before >= 0 && point[before].segment == point[after].segment)
+    return a + (b - a) * (at - before) / (after - before);
+  return before >= 0 && point[before].segment == point[at].segment ? a : b;
+}
+
+// One sample that is not there must not reach the pilot. Both ends are good points.
+static void bridge(grid_point_t *point, int from, int to) {
+  for (int k = 0; k < STATES; k++)
+    for (int j = from, last = -1; j < to; j++) {
+      if (!isfinite(*state(&point[j], k))) continue;
+      for (int i = last < 0 ? from : last + 1; i < j; i++)
+        *state(&point[i], k) = bridged(point, k, last, i, j);
+      last = j;
+    }
+  for (int j = from; j < to; j++) point[j].q_wb = dq_unit(point[j].q_wb);
+}
+
+static grid_point_t *whole_track(const grid_t *g, int from, int to) {
+  grid_point_t *const point = malloc(((size_t)g->n + 1) * sizeof *point);
+  if (!point) return NULL;
+  memcpy(point, g->point, (size_t)g->n * sizeof *point);
+  bridge(point, from, to);
+  return point;
+}
+
 done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, unsigned long seed,
                    gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
   nominal_flight_t f = {
-      .g = g, .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
+      .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
   model_t with;
+  grid_t track = *g;
   *flight = (gap_flight_t){.n = 0};
   if (truth) *truth = (gap_flight_t){.n = 0};
   TRY(disturbed(m, w, &with, why));
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
-  if (f.to <= f.from) return error_failed(why, "%s: it does not fly", g->flight->name);
+  if (f.to <= f.from) return error_set(why, "%s: it does not fly", g->flight->name);
+  track.point = whole_track(g, f.from, f.to);
+  f.g = &track;
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
-  done_t status = nominal_log_room(flight, g, room) && (!truth || nominal_log_room(truth, g, room))
-                      ? take_off(&f, &with, why)
-                      : error_failed(why, "out of memory");
+  const bool good = track.point && nominal_log_room(flight, &track, room) &&
+                    (!truth || nominal_log_room(truth, &track, room));
+  done_t status = good ? take_off(&f, &with, why) : error_failed(why, "out of memory");
   if (status == DONE) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
   free(f.known);
+  free(track.point);
   if (status != DONE) gap_flight_free(flight);
   if (status != DONE && truth) gap_flight_free(truth);
   return status;

@@ -120,10 +120,10 @@ static done_t open_flight(known_t *k, why_t *why) {
   for (int i = 0; i < k->by->n_set; i++) {
     const param_row_t *const row = params_find(k->by->set[i].name);
     if (!row || params_set(&param, row, (float)k->by->set[i].value) != ST_OK)
-      return error_failed(why, "%s: the flight code has no such parameter", k->by->set[i].name);
+      return error_set(why, "%s: the flight code has no such parameter", k->by->set[i].name);
   }
   if (pilot_flight_init(&k->flight, &param, m, &k->pilot) == DONE) return DONE;
-  return error_failed(why, "%s: the flight code cannot fly it with its [controller]", m->name);
+  return error_set(why, "%s: the flight code cannot fly it with its [controller]", m->name);
 }
 
 done_t known_open(known_t **known, const nominal_flight_t *f, const grid_point_t *seen, why_t *why) {

@@ -11,8 +11,8 @@
 
 typedef struct known known_t;
 
-// After pilot_trim. FAILED: no memory, or parameters that the flight code refuses. free() it, also on an
-// error.
+// After pilot_trim. BAD_INPUT: parameters that the flight code refuses; FAILED: no memory. free() it, also on
+// an error.
 MUST_CHECK done_t known_open(known_t **known, const nominal_flight_t *f, const grid_point_t *seen,
                              why_t *why);
 

@@ -14,6 +14,7 @@ bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   *log = (gap_flight_t){.motors_N = true};
   bool good = (log->t_s = column(n)) != NULL;
   good = (log->saturated = calloc(n, sizeof(bool))) && good; // where it touches, too
+  good = (log->segment = calloc(n, sizeof(int))) && good;
   for (int i = SIG_X; i <= SIG_VBAT; i++)
     if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
   if (g->range_up)
@@ -34,6 +35,7 @@ void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const grid_
                        const double motor_N[ROTORS], double t_s) {
   const int i = log->n++;
   log->t_s[i] = t_s;
+  log->segment[i] = f->g->point[f->at].segment;
   log->saturated[i] = f->body.on_floor || f->body.on_ceiling || t_s < f->masked_to_s;
   put3(log, SIG_X, i, d3_add(p->pos_w_m, d3(0.0, 0.0, -body_rest_z_m(f->m))));
   put3(log, SIG_VX, i, p->vel_w_mps);

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#define LONG      5  // points of the longer span
-#define SPANS_MIN 50 // of each, for a word on their spread
+#define LONG           5    // points of the longer span
+#define SPANS_MIN      50   // of each, for a word on their spread
 #define POS_MOST_M     0.02 // more is no error of an estimate but a motion that its rate does not have
 #define VEL_MOST_MPS   0.1
 #define ANGLE_MOST_RAD 0.02

@@ -46,9 +46,10 @@ static done_t fly_quietly(const confirming_t *t, int flight, gap_flight_t *flown
   TRY(set_points_track(g, &track, why));
   for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
   why_t lost;
-  *flew = nominal_fly(&track, &room, &loop, 1, flown, NULL, &lost) == DONE;
+  const done_t status = nominal_fly(&track, &room, &loop, 1, flown, NULL, &lost);
+  *flew = status == DONE;
   free(track.point);
-  return DONE;
+  return status == FAILED ? error_failed(why, "%s", lost.text) : DONE;
 }
 
 // --- columns ----------------------------------------------------------------------------------------------

@@ -62,7 +62,7 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
     const int rows = set_rows(s, ch)->n;
     double sum = 0.0;
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
-    n->floor[ch] += rows ? sqrt(sum / rows) / NOMINAL_FLIGHTS : 0.0;
+    n->floor[ch] += rows ? sqrt(sum / rows) : 0.0;
   }
   done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
   if (status == DONE) {
@@ -77,18 +77,23 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
   return status;
 }
 
+// Flight number i of NOMINAL_FLIGHTS along each of the set's tracks.
 static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
   const set_t *s = job->set;
+  const closed_loop_t loop = closed_loop_varied(job->loop, i);
   const size_t flights = (size_t)s->n_grid;
   gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
-  gap_flights_t *const is = i == 0 ? &truth : NULL;
+  gap_flights_t *const is = n->n == 0 ? &truth : NULL;
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
   truth.flight = flown.flight + flights;
-  done_t status = nominal_flights(&flown, is, s, &job->flown, job->loop, job->seed + (unsigned long)i, why);
+  done_t status = nominal_flights(&flown, is, s, &job->flown, &loop, job->seed + (unsigned long)i, why);
+  n->flown += flown.n;
+  n->lost += s->n_grid - flown.n;
   if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
   memcpy(own.excluded, s->excluded, sizeof own.excluded);
-  if (status == DONE) status = take_sums(n, i, &own, is, job, why);
+  if (status == DONE) status = take_sums(n, n->n, &own, is, job, why);
+  n->n += status == DONE;
   set_free(&own);
   for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
@@ -102,9 +107,10 @@ done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   n->kept = malloc((size_t)n->size * sizeof(double));
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
   done_t status = n->total && n->cell && n->kept ? DONE : error_failed(why, "out of memory");
-  for (int i = 0; i < NOMINAL_FLIGHTS && status == DONE; i++, n->n++) status = one(n, i, job, why);
-  if (status != DONE) nominal_free(n);
-  return status;
+  for (int i = 0; i < NOMINAL_FLIGHTS && status != FAILED; i++) status = one(n, i, job, why);
+  for (int ch = 0; ch < CHANNELS && n->n; ch++) n->floor[ch] /= n->n;
+  if (status == FAILED) nominal_free(n);
+  return status == FAILED ? FAILED : DONE;
 }
 
 void nominal_free(nominal_t *n) {

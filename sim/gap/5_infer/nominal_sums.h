@@ -11,6 +11,7 @@
 // Sums of products of nominal flights, one matrix each, with the columns of the candidates.
 typedef struct {
   int n, size;
+  int flown, lost;        // flights that could be flown, and that could not
   double *total;          // n matrices
   double *cell;           // n numbers: the largest statistic of unknown.h
   double *kept;           // by column: what is found of a size, because what it is multiplied by has errors
@@ -31,8 +32,8 @@ typedef struct {
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
 // candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
-// column x and without errors x', what least squares find of a size: x x' / x x. FAILED: no memory, or none
-// of them can be flown.
+// column x and without errors x', what least squares find of a size: x x' / x x. A flight that cannot be
+// flown is left out alone; n is 0 where none can. FAILED: no memory.
 MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 void nominal_free(nominal_t *n);
 

@@ -178,13 +178,16 @@ void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_S
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
-  for (int k = 0; k < own; k++) rms[k] = 0.0;
+  for (int k = 0; k < own; k++)
+    rms[k] = j->nominal && !j->nominal->n
+                 ? SELECT_LEAST * candidate_typical(&j->c->candidate[choice->of[choice->n - 1]], k)
+                 : 0.0;
   for (int i = 0; j->nominal && i < j->nominal->n; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
     lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, NULL);
     for (int k = 0; k < own; k++) rms[k] += b[n - own + k] * b[n - own + k] / j->nominal->n;
   }
-  for (int k = 0; k < own; k++) rms[k] = sqrt(rms[k]);
+  for (int k = 0; k < own && j->nominal && j->nominal->n; k++) rms[k] = sqrt(rms[k]);
 }
 
 verdict_t score_last(const score_t *j, const choice_t *choice) {
@@ -230,7 +233,7 @@ bool score_is_possible(const score_t *j, const choice_t *choice) {
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   double largest = 0.0; // in parts of what is typical
-  if (!j->nominal && c->use.fx->only_beside_nominal) return false;
+  if ((!j->nominal || !j->nominal->n) && c->use.fx->only_beside_nominal) return false;
   for (int k = 0; k < c->n; k++) {
     if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / candidate_typical(c, k));

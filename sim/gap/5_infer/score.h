@@ -80,7 +80,8 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
 bool score_is_possible(const score_t *j, const choice_t *choice);
 
-// Rms of a candidate's numbers on nominal flights, given the others of the choice; 0 without such flights.
+// Rms of a candidate's numbers on nominal flights, given the others of the choice. Where none could be flown,
+// feedback is taken to make as much as is never named; 0 for a first look.
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
 // The size of each number of the last candidate that would take so much from the sum of squares; HUGE_VAL:

@@ -112,14 +112,14 @@ static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
 static done_t blur_of(const verify_job_t *d, int candidate, double blur[CHANNELS], why_t *why) {
   model_t with, without;
   along_t a;
-  done_t status = DONE;
+  done_t status;
   for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = 0.0;
   TRY(model_without(d, -1, &with, why));
   TRY(model_without(d, candidate, &without, why));
-  if (nominal_along(&a, d->held, &with, d->loop, 1, why) == DONE)
-    status = errors_of(&a, &with, &without, blur, why);
+  status = nominal_along(&a, d->held, &with, d->loop, 1, why);
+  if (status == DONE) status = errors_of(&a, &with, &without, blur, why);
   along_free(&a);
-  return status;
+  return status == FAILED ? FAILED : DONE;
 }
 
 // The channel that a name grows most, if it is by more than it may and the others do not gain as much; -1:

@@ -87,7 +87,8 @@ bool report_has_residual(const report_t *r) {
 }
 
 bool report_can_tell(const report_t *r) {
-  return r->study->diagnosis.nominal_flew && report_has_residual(r);
+  const diagnosis_t *const d = &r->study->diagnosis;
+  return (d->nominal_flew || d->found.n > 0) && report_has_residual(r);
 }
 
 #define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named

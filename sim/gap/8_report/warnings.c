@@ -74,6 +74,17 @@ static void warn_of_instrument(report_t *r) {
   }
 }
 
+static void warn_of_nominal(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (!d->nominal_flew)
+    warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
+  else if (d->nominal.lost)
+    warn(r,
+         "%d of %d flights of the model along these tracks could not be flown: what feedback alone would "
+         "show is known from the others",
+         d->nominal.lost, d->nominal.lost + d->nominal.flown);
+}
+
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   if (!report_has_residual(r))
@@ -89,8 +100,7 @@ static void warn_of_diagnosis(report_t *r) {
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
          w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
   }
-  if (!d->nominal_flew)
-    warn(r, "the model could not be flown along these tracks: what feedback alone would show is not known");
+  warn_of_nominal(r);
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.excluded[ch])
       warn(r,

@@ -93,7 +93,7 @@ TEST(gap_confirms_what_is_hidden_with_the_set_points_as_instrument) {
 
 // Noise of the measured speed weakens the drag that depends on it; the set points know no such noise.
 TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
-  static const flown_t how = {"rotor_drag:k=3e-6", true, false, false};
+  static const flown_t how = {"rotor_drag:k=3e-6", true, false, true};
   char name[32] = "";
   const named_t n = first_name(&how, FIRST_SEED, name);
   CHECK_TEXT(name, "rotor_drag");

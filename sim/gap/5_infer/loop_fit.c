@@ -1,0 +1,89 @@
+// loop_fit.c - noise and disturbance with which nominal flights shake as the log does.
+#include "gap/5_infer/loop_fit.h"
+
+#include "gap/2_predict/lines.h"
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <string.h>
+
+#define MORE 4.0 // times the disturbance that was read off, at most
+
+typedef struct {
+  double of[CH_SMOOTH]; // mean squares of rows
+} squares_t;
+
+static double mean_squares(const double *v, int n, bool about_mean) {
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < n; i++) {
+    sum += v[i];
+    squares += v[i] * v[i];
+  }
+  return n ? (squares - (about_mean ? sum * sum / n : 0.0)) / n : 0.0;
+}
+
+// Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
+// flights are to show: they are read before the cleaning, with their mean.
+static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
+                       why_t *why) {
+  lines_t l = {.r = {NULL}};
+  done_t status = lines_make(&l, s, why);
+  if (status == DONE) status = residual_of(s, m, l.r, why);
+  if (status == DONE) {
+    const closed_loop_t raw = closed_loop_of(s, m, by, l.r);
+    for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l.r[ch], s->smooth.n, false);
+    status = unknown_clean(s, m, l.r, why);
+    for (int ch = 0; ch < CH_FORCES; ch++) left->of[ch] = mean_squares(l.r[ch], s->smooth.n, true);
+    *loop = closed_loop_of(s, m, by, l.r);
+    memcpy(loop->turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
+    loop->turn_tau_s = raw.turn_tau_s;
+  }
+  lines_free(&l);
+  return status;
+}
+
+// What is left of flights that are flown so.
+static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
+                    unsigned long seed, why_t *why) {
+  along_t a;
+  closed_loop_t any;
+  done_t status = nominal_along(&a, s, m, loop, seed, why);
+  if (status == DONE) status = read_off(&any, left, &a.seen, m, loop->flown_by, why);
+  along_free(&a);
+  return status;
+}
+
+static double *disturbance(closed_loop_t *loop, int ch) {
+  return ch < CH_FORCES ? &loop->force_mps2[ch] : &loop->turn_radps2[ch - CH_WX];
+}
+
+// Squares of independent causes add: without a disturbance (none) and with one (some) they tell by how much
+// it is to be multiplied, so that what the log leaves is left.
+static double times(double none, double some, double log) {
+  if (log <= none) return 0.0;
+  return some > none ? sqrt((log - none) / (some - none)) : HUGE_VAL;
+}
+
+static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, const model_t *m,
+                    unsigned long seed, why_t *why) {
+  closed_loop_t calm = *loop;
+  squares_t none, some;
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    *disturbance(&calm, ch) = 0.0;
+    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch]) / MORE);
+  }
+  TRY(trial(&calm, &none, s, m, seed, why));
+  TRY(trial(loop, &some, s, m, seed, why));
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    const double most = ch < CH_FORCES ? MORE : 1.0; // what turns it was read before control cancelled any
+    const double by = times(none.of[ch], some.of[ch], log->of[ch]);
+    *disturbance(loop, ch) *= residual_has(s, ch) ? fmin(by, most) : 0.0;
+  }
+  return DONE;
+}
+
+done_t loop_fit(closed_loop_t *loop, set_t *s, const model_t *m, const flown_by_t *by, unsigned long seed,
+                why_t *why) {
+  squares_t log;
+  TRY(read_off(loop, &log, s, m, by, why));
+  return scale(loop, &log, s, m, seed, why) == FAILED ? FAILED : DONE;
+}

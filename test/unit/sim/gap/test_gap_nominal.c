@@ -1,0 +1,281 @@
+// test_gap_nominal.c - nominal flights: errors axis by axis, tracks with holes, flights that cannot be flown,
+// and the disturbance of the log.
+#include "base/random.h"
+#include "exam/flights.h"
+#include "gap/2_predict/lines.h"
+#include "gap/5_infer/loop_fit.h"
+#include "gap/5_infer/nominal_sums.h"
+#include "rig/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// --- errors of the estimates ------------------------------------------------------------------------------
+
+#define POINTS   6000
+#define PERIOD_S 0.02
+
+// A vehicle that stands still, whose place errs by axis for a while (first order) and from point to point.
+static grid_t still_but_for_errors(grid_point_t *point, const double sd[3], double tau_s, double white) {
+  random_t *const random = random_open(7);
+  const double keep = exp(-PERIOD_S / tau_s);
+  double slow[3] = {0.0};
+  for (int j = 0; j < POINTS; j++) {
+    point[j] = (grid_point_t){.t_s = j * PERIOD_S, .ok = true, .q_wb = {.w = 1.0}};
+    double at[3];
+    for (int i = 0; i < 3; i++) {
+      slow[i] = keep * slow[i] + sd[i] * sqrt(1.0 - keep * keep) * random_normal(random);
+      at[i] = slow[i] + white * random_normal(random);
+    }
+    point[j].pos_w_m = d3_of(at);
+  }
+  random_close(random);
+  return (grid_t){
+      .point = point, .n = POINTS, .period_s = PERIOD_S, .has_position = true, .has_velocity = true};
+}
+
+TEST(gap_tells_the_errors_of_a_height_from_those_of_a_place) {
+  static const struct {
+    const char *what;
+    double sd[3], white;
+  } row[] = {
+      {"height three times better", {0.009, 0.009, 0.003}, 0.0},
+      {"and white noise, which is not counted twice", {0.009, 0.006, 0.003}, 0.002},
+      {"nothing lasts", {0.0, 0.0, 0.0}, 0.002},
+  };
+  grid_point_t *const point = malloc(POINTS * sizeof *point);
+  if (!point) abort();
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const double w = row[i].white;
+    const grid_t g = still_but_for_errors(point, row[i].sd, 0.08, w);
+    const white_error_t white = {.pos_m = {w, w, w}};
+    slow_t pos, vel, angle;
+    slow_errors(&g, &white, &pos, &vel, &angle);
+    for (int k = 0; k < 3; k++) {
+      CHECK_NEAR(pos.sd[k], row[i].sd[k], 0.1 * row[i].sd[k] + 3e-4);
+      if (row[i].sd[k] > 0.0) CHECK_NEAR(pos.tau_s[k], 0.08, 0.02);
+      CHECK(vel.sd[k] == 0.0 && angle.sd[k] == 0.0); // the log has neither
+    }
+  }
+  free(point);
+}
+
+// --- flights ----------------------------------------------------------------------------------------------
+
+typedef struct {
+  model_t vehicle;
+  gap_flight_t flight[2];
+  set_t set;
+  closed_loop_t loop;
+} rig_t;
+
+// Two flights in which nothing is hidden, spoilt by the caller before they become points.
+static void spoil_nothing(rig_t *r) {
+  (void)r;
+}
+
+static done_t rig_make(rig_t *r, void (*spoil)(rig_t *r), why_t *why) {
+  grid_t *const grid = calloc(2, sizeof *grid);
+  lines_t left = {.r = {NULL}};
+  if (!grid) abort();
+  memset(r, 0, sizeof *r);
+  TRY(exam_vehicle(&r->vehicle, why));
+  for (int i = 0; i < 2; i++) {
+    const exam_flight_t job = {.truth = &r->vehicle, .seed = 22100 + (unsigned long)i};
+    TRY(exam_fly(&job, &r->flight[i], why));
+  }
+  spoil(r);
+  for (int i = 0; i < 2; i++) TRY(grid_make(&grid[i], &r->flight[i], 0, r->flight[i].n, &r->vehicle, why));
+  TRY(set_make(&r->set, grid, 2, why));
+  TRY(lines_make(&left, &r->set, why));
+  TRY(residual_of(&r->set, &r->vehicle, left.r, why));
+  r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, left.r);
+  lines_free(&left);
+  return DONE;
+}
+
+static void rig_free(rig_t *r) {
+  set_free(&r->set);
+  for (int i = 0; i < 2; i++) gap_flight_free(&r->flight[i]);
+}
+
+static void spoil_a_sample(rig_t *r) {
+  gap_flight_t *const f = &r->flight[0];
+  for (int i = f->n / 2; i < f->n / 2 + 40; i++)
+    f->v[SIG_X][i] = f->v[SIG_VZ][i] = f->v[SIG_QX][i] = (double)NAN;
+  f->v[SIG_VBAT][f->n / 3] = (double)NAN;
+}
+
+TEST(gap_nominal_flight_is_not_poisoned_by_a_sample_that_is_not_there) {
+  rig_t r;
+  why_t why = {""};
+  gap_flight_t flown;
+  if (!CHECK_OK(rig_make(&r, spoil_a_sample, &why))) return;
+  if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
+  const grid_t *const g = &r.set.grid[0];
+  int bad = 0, far = 0;
+  for (int i = 0; i < flown.n; i++) {
+    const int j = i / g->every;
+    bad += !isfinite(flown.v[SIG_Z][i]) || !isfinite(flown.v[SIG_M1][i]);
+    far += fabs(flown.v[SIG_Y][i] - g->point[j].pos_w_m.y) > 0.5;
+  }
+  CHECK(bad == 0);
+  CHECK(far < flown.n / 50);
+  gap_flight_free(&flown);
+  rig_free(&r);
+}
+
+// Five seconds are not there, and the log goes on two metres farther.
+static void spoil_by_a_gap(rig_t *r) {
+  gap_flight_t *const f = &r->flight[0];
+  f->segment = f->segment ? f->segment : calloc((size_t)f->n, sizeof(int));
+  if (!f->segment) abort();
+  for (int i = f->n / 2; i < f->n; i++) {
+    f->t_s[i] += 5.0;
+    f->v[SIG_X][i] += 2.0;
+    f->segment[i] = 1;
+  }
+}
+
+TEST(gap_nominal_flight_goes_on_where_the_log_does_after_a_gap) {
+  rig_t r;
+  why_t why = {""};
+  gap_flight_t flown;
+  if (!CHECK_OK(rig_make(&r, spoil_by_a_gap, &why))) return;
+  if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
+  const grid_t *const g = &r.set.grid[0];
+  int at = 0, first = 0, far = 0;
+  while (at + 1 < flown.n && flown.segment[at + 1] == 0) at++;
+  while (first < g->n && g->point[first].segment == 0) first++;
+  CHECK_NEAR(flown.t_s[at + 1] - flown.t_s[at], 5.0, 0.1);
+  CHECK_NEAR(flown.v[SIG_X][at + 1], g->point[first].pos_w_m.x, 0.1); // put there, it does not fly there
+  for (int i = 0; i < flown.n; i++) {
+    const int since = i - at - 1;
+    const int j = since < 0 ? i / g->every : first + since / g->every;
+    far += j < g->n && fabs(flown.v[SIG_X][i] - g->point[j].pos_w_m.x) > 0.5;
+  }
+  CHECK(far < flown.n / 50);
+  CHECK(flown.saturated[at + 1] && !flown.saturated[at]); // not compared until what it does is its own
+  gap_flight_free(&flown);
+  rig_free(&r);
+}
+
+// Nothing flies that is 5 m away every other second.
+static void jump(gap_flight_t *f) {
+  for (int i = 0; i < f->n; i++) f->v[SIG_X][i] += fmod(f->t_s[i], 2.0) < 1.0 ? 0.0 : 5.0;
+}
+static void spoil_one_track(rig_t *r) {
+  jump(&r->flight[1]);
+}
+static void spoil_both_tracks(rig_t *r) {
+  jump(&r->flight[0]);
+  jump(&r->flight[1]);
+}
+
+TEST(gap_nominal_flight_that_cannot_be_flown_costs_itself_alone) {
+  static const struct {
+    const char *what;
+    void (*spoil)(rig_t *r);
+    done_t status;
+    int flown;
+  } row[] = {{"both can", spoil_nothing, DONE, 2},
+             {"one cannot", spoil_one_track, DONE, 1},
+             {"none can", spoil_both_tracks, BAD_INPUT, 0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    rig_t r;
+    why_t why = {""};
+    gap_flight_t room[2];
+    gap_flights_t flown = {.flight = room};
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(rig_make(&r, row[i].spoil, &why))) return;
+    CHECK_STATUS(row[i].status, nominal_flights(&flown, NULL, &r.set, &r.vehicle, &r.loop, 1, &why));
+    CHECK(flown.n == row[i].flown);
+    for (int k = 0; k < flown.n; k++) gap_flight_free(&room[k]);
+    rig_free(&r);
+  }
+}
+
+TEST(gap_counts_the_flights_that_cannot_be_flown) {
+  rig_t r;
+  why_t why = {""};
+  candidates_t c;
+  nominal_t n;
+  if (!CHECK_OK(rig_make(&r, spoil_one_track, &why))) return;
+  if (!CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why))) return;
+  const chosen_t none = {.n = 0};
+  const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1};
+  if (!CHECK_OK(nominal_make(&n, &job, &why))) return;
+  CHECK(n.n == NOMINAL_FLIGHTS && n.flown == NOMINAL_FLIGHTS && n.lost == NOMINAL_FLIGHTS);
+  for (int k = 0; k < c.columns; k++) CHECK(n.kept[k] > 0.0 && n.kept[k] <= 1.0);
+  nominal_free(&n);
+  candidates_free(&c);
+  rig_free(&r);
+}
+
+// --- the disturbance --------------------------------------------------------------------------------------
+
+static void rms_of(set_t *s, const model_t *m, double rms[CHANNELS]) {
+  lines_t l = {.r = {NULL}};
+  why_t why = {""};
+  CHECK_OK(lines_make(&l, s, &why));
+  CHECK_OK(residual_of(s, m, l.r, &why));
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    double sum = 0.0;
+    for (int i = 0; i < set_rows(s, ch)->n; i++) sum += l.r[ch][i] * l.r[ch][i];
+    rms[ch] = sqrt(sum / fmax(set_rows(s, ch)->n, 1));
+  }
+  lines_free(&l);
+}
+
+static void spoil_by_shaking(rig_t *r) {
+  random_t *const random = random_open(3);
+  for (int f = 0; f < 2; f++) {
+    double off[3] = {0.0};
+    for (int i = 0; i < 3 * r->flight[f].n; i++) {
+      off[i % 3] = 0.95 * off[i % 3] + 0.2 * random_normal(random);
+      r->flight[f].v[SIG_AX + i % 3][i / 3] += off[i % 3];
+    }
+  }
+  random_close(random);
+}
+
+TEST(gap_nominal_flights_shake_as_the_log_does) {
+  static const struct {
+    const char *what;
+    void (*spoil)(rig_t *r);
+    int channels; // an accelerometer that shakes shows in forces; a force of that size shakes what turns, too
+  } row[] = {{"as flown", spoil_nothing, CH_SMOOTH}, {"shaken", spoil_by_shaking, CH_FORCES}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    rig_t r;
+    why_t why = {""};
+    closed_loop_t loop;
+    along_t a;
+    double log[CHANNELS], came[CHANNELS];
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(rig_make(&r, row[i].spoil, &why))) return;
+    if (!CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 9, &why))) return;
+    if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, &loop, 77, &why))) return;
+    rms_of(&r.set, &r.vehicle, log);
+    rms_of(&a.seen, &r.vehicle, came);
+    for (int ch = 0; ch < row[i].channels; ch++) CHECK_NEAR(came[ch] / log[ch], 1.0, 0.25);
+    along_free(&a);
+    rig_free(&r);
+  }
+}
+
+TEST(gap_nominal_pilots_are_varied_about_the_one_that_fits) {
+  const closed_loop_t fit = {
+      .rate_gain = {10.0, 12.0, 5.0}, .tilt_gain = 30.0, .climb_gain = 3.0, .height_gain = 2.0};
+  double low = HUGE_VAL, high = 0.0, together = 0.0;
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
+    const closed_loop_t v = closed_loop_varied(&fit, i);
+    const double turn = v.rate_gain[0] / fit.rate_gain[0], climb = v.climb_gain / fit.climb_gain;
+    if (i == 0) CHECK(turn == 1.0 && climb == 1.0);
+    CHECK_NEAR(v.tilt_gain, turn * turn * fit.tilt_gain, 1e-9); // the damping stays
+    low = fmin(low, turn), high = fmax(high, turn);
+    together += (turn - 1.0) * (climb - 1.0) / NOMINAL_FLIGHTS / 0.03;
+  }
+  CHECK(low >= 0.7 && low < 0.8 && high > 1.2 && high <= 1.3);
+  CHECK(fabs(together) < 0.5);
+}
