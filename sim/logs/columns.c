@@ -183,6 +183,7 @@ static done_t read_column(toml_t columns, signal_id_t signal, columns_t *c, why_
   double late_ms = 0.0;
   if (toml_has(t, "late_ms")) TRY(toml_double(t, "late_ms", -100.0, 100.0, &late_ms, why));
   to->late_s = 1e-3 * late_ms;
+  to->late_said = toml_has(t, "late_ms");
   if (toml_has(t, "optional")) TRY(toml_bool(t, "optional", &to->optional, why));
   to->factor *= scale;
   return DONE;

@@ -17,9 +17,10 @@
 // What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (-100 to 100; negative: the
 // row is early) before the row's time, motor commands too: the delay of a filter, 7.5 ms of the Crazyflie's
 // accelerometer and 2.8 ms of its gyro, or the age of a sample, 70 ms of its upward range and 13 ms of the
-// downward one. A row of means stands at the middle of its period. Signals and units: columns.c. Attitude
-// is a quaternion qw..qz that turns body into world (for the inverse: scale = -1 on qx, qy, qz), or roll,
-// pitch, yaw (turned in the order yaw, pitch, roll; pitch nose down positive, as right-handed with y left).
+// downward one (left out: what the vehicle file has as age_s). A row of means stands at the middle of its
+// period. Signals and units: columns.c. Attitude is a quaternion qw..qz that turns body into world (for the
+// inverse: scale = -1 on qx, qy, qz), or roll, pitch, yaw (turned in the order yaw, pitch, roll; pitch nose
+// down positive, as right-handed with y left).
 //
 // Motor commands are m1..m4: pwm, percent or share, rotor speeds (rad/s, rpm), or newton each; or `thrust` of
 // all together with the torques tx, ty, tz: newton and Nm, or all four in pwm as the firmware's mixer takes
@@ -95,11 +96,12 @@ typedef enum { MOTORS_PWM, MOTORS_RADPS, MOTORS_N } motors_t;
 typedef struct {
   char column[COLUMN_NAME_MAX]; // "": not in this log
   char unit[12];
-  double factor; // SI per unit of the cell, with sign and scale
-  double offset; // SI
-  double late_s; // -0.1..0.1  between what was and its row
-  bool optional; // may be missing in the CSV
-  bool constant; // no column: always `offset`
+  double factor;  // SI per unit of the cell, with sign and scale
+  double offset;  // SI
+  double late_s;  // -0.1..0.1  between what was and its row
+  bool late_said; // by the columns file
+  bool optional;  // may be missing in the CSV
+  bool constant;  // no column: always `offset`
 } column_t;
 
 typedef struct {

@@ -1,4 +1,4 @@
-// frame_file.c - what a vehicle file says of body, rotors and battery.
+// frame_file.c - what a vehicle file says of body, rotors, battery and range sensors.
 #include "vehicle/frame_file.h"
 
 typedef struct {
@@ -86,6 +86,21 @@ static done_t read_battery(toml_t t, battery_param_t *b, why_t *why) {
   return DONE;
 }
 
+static done_t read_range(toml_t root, const char *name, range_told_t *range, why_t *why) {
+  static const char *const keys[] = {"period_s", "age_s", "noise_m", "floor_m", NULL};
+  toml_t t;
+  *range = (range_told_t){0};
+  if (!toml_has(root, name)) return DONE;
+  TRY(toml_table(root, name, &t, why));
+  TRY(toml_only(t, keys, why));
+  range->told = true;
+  const number_t row[] = {{"period_s", 0.0, 1.0, &range->period_s},
+                          {"age_s", 0.0, 1.0, &range->age_s},
+                          {"noise_m", 0.0, 1.0, &range->noise_m},
+                          {"floor_m", 0.0, 1.0, &range->floor_m}};
+  return read_numbers(t, row, (int)(sizeof row / sizeof *row), why);
+}
+
 done_t frame_read(toml_t root, model_t *m, why_t *why) {
   toml_t t;
   frame_t frame = model_frame_like_crazyflie(m);
@@ -102,6 +117,8 @@ done_t frame_read(toml_t root, model_t *m, why_t *why) {
     TRY(toml_table(root, "battery", &t, why));
     TRY(read_battery(t, &battery, why));
   }
+  TRY(read_range(root, "range_up", &m->range_up, why));
+  TRY(read_range(root, "range_down", &m->range_down, why));
   m->frame = frame;
   m->frame_told = toml_has(root, "body") && toml_has(root, "rotors");
   m->battery = battery;

@@ -27,6 +27,15 @@ typedef struct {
   double imu_m[3];           // the accelerometer
 } frame_t;
 
+// What the vehicle's range sensors are known to be. `fly` simulates those of a Crazyflie (sense/range.h).
+typedef struct {
+  bool told;       // by the vehicle file
+  double period_s; // >= 0   from sample to sample; 0: as often as anybody looks
+  double age_s;    // >= 0   of a sample when it comes
+  double noise_m;  // >= 0   standard deviation
+  double floor_m;  // >= 0   nearer than this it says this
+} range_told_t;
+
 typedef struct {
   char name[64];
   double mass_kg;        // > 0, ready to fly
@@ -42,6 +51,7 @@ typedef struct {
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none
+  range_told_t range_up, range_down;
   int n_fx;
   fx_use_t fx[FX_MAX]; // what acts; at most one of a name
 } model_t;

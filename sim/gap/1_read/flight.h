@@ -32,10 +32,11 @@ typedef struct {
   const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
   double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
   double *range_up_m,
-      *range_down_m; // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged
-  bool *saturated;   // a motor was at a limit (the sample is masked)
-  int *segment;      // 0, 1, 2..: a new one after every gap; filters start again
-  double rate_Hz;    // median sample rate
+      *range_down_m;      // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged
+  double range_late_s[2]; // up, down: a sample was taken so long before its instant, less than a period
+  bool *saturated;        // a motor was at a limit (the sample is masked)
+  int *segment;           // 0, 1, 2..: a new one after every gap; filters start again
+  double rate_Hz;         // median sample rate
 
   // What the reader found and mended, for the report.
   double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SKEW_SPAN_S 300.0 // the skew is told from so much of a flight
-#define SKEW_MIN_S  0.0005
-#define SKEW_MAX_S  0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
-#define SKEW_SURE   3.0  // standard errors
-#define SKEW_ROUNDS 3
+#define SKEW_SPAN_S  300.0 // the skew is told from so much of a flight
+#define SKEW_MIN_S   0.0005
+#define SKEW_MAX_S   0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
+#define SKEW_SURE    3.0  // standard errors
+#define SKEW_ROUNDS  3
+#define RANGE_SELDOM 0.7 // of the rows have a new sample: the sensor has a period of its own
 
 #define SIGNALS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 
@@ -173,10 +174,24 @@ static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
   if (!rows->motors.total_logged) shift_s[SIG_THRUST] = late_s;
 }
 
+// How old a new sample of a range sensor is when its row is written: as the columns file says, else the
+// vehicle file, else as the Crazyflie's are; and it came half a period of the log before, where it comes more
+// seldom.
+static double range_age_s(const raw_t *raw, const log_rows_t *rows, signal_id_t range) {
+  const column_t *const column = &rows->columns.of[range];
+  const range_told_t *const told = range == SIG_RANGE ? &rows->vehicle.range_up : &rows->vehicle.range_down;
+  const double age_s = told->told && !column->late_said ? told->age_s : column->late_s;
+  int fresh = 0;
+  for (int i = 0; raw->v[range] && i < raw->n; i++) fresh += !isnan(raw->v[range][i]);
+  const bool seldom = fresh < RANGE_SELDOM * raw->n;
+  return age_s + (seldom && !rows->columns.rows_are_means ? 0.5 * raw->period_s : 0.0);
+}
+
 static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   double shift_s[SIG_COUNT];
   late_as_logged(rows, shift_s);
   TRY(raw_read(raw, rows, &f->cut, why));
+  for (int i = SIG_RANGE; i <= SIG_RANGE_DOWN; i++) shift_s[i] = range_age_s(raw, rows, (signal_id_t)i);
   f->rows_are_means = rows->columns.rows_are_means || raw->thin > 1;
   TRY(gap_check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));

@@ -109,12 +109,16 @@ static void resample(const raw_t *raw, const stretch_t *s, double period_s, doub
   }
 }
 
-// New samples go to the nearest instant.
-static void place(const raw_t *raw, const double *v, const stretch_t *s, double period_s, double shift_s,
+static bool is_range(int signal) {
+  return signal == SIG_RANGE || signal == SIG_RANGE_DOWN;
+}
+
+// New samples go to the instant of their row, or to one so many before it.
+static void place(const raw_t *raw, const double *v, const stretch_t *s, double period_s, double instants,
                   double *out) {
   for (int k = 0; k < s->n; k++) out[k] = (double)NAN;
   for (int i = s->first; i <= s->last; i++) {
-    const double k = floor((raw->t_s[i] - shift_s - s->start_s) / period_s + 0.5);
+    const double k = floor((raw->t_s[i] - s->start_s) / period_s + 0.5) - instants;
     if (!isnan(v[i]) && k >= 0.0 && k < s->n) out[(int)k] = v[i];
   }
 }
@@ -150,9 +154,11 @@ static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const steps_t *g, i
                           why_t *why) {
   double *const out = f->v[signal] = malloc(((size_t)f->n + 1) * sizeof(double));
   if (!out) return error_failed(why, "out of memory");
+  const double instants = floor(shift_s / g->period_s + 1e-6);
+  if (is_range(signal)) f->range_late_s[signal - SIG_RANGE] = fmax(shift_s - instants * g->period_s, 0.0);
   for (stretch_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
-    if (signal == SIG_RANGE || signal == SIG_RANGE_DOWN)
-      place(raw, raw->v[signal], &s, g->period_s, shift_s, out + s.at);
+    if (is_range(signal))
+      place(raw, raw->v[signal], &s, g->period_s, instants, out + s.at);
     else
       resample(raw, &s, g->period_s, shift_s, signal, out + s.at);
   }
@@ -162,7 +168,10 @@ static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const steps_t *g, i
 done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT], double limit_s,
                 bool drop, why_t *why) {
   steps_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
-  for (int i = 0; i < SIG_COUNT; i++) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
+  for (int i = 0; i < SIG_COUNT; i++)
+    if (raw->v[i] && !is_range(i)) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
+  // Whole periods: what is not moved stays on its rows, where commands are what was given.
+  g.margin_s = g.period_s * ceil(g.margin_s / g.period_s - 1e-6);
   int number = 0;
   f->n = 0;
   for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);) f->n = s.at + s.n;

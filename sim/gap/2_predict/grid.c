@@ -9,7 +9,9 @@
 #define POINT_HZ  50.0
 #define CLEAR_M   5e-3  // of the feet from the floor
 #define TOP_M     2e-3  // of anything from the ceiling
-#define BLIND_M   0.065 // nearer than this an upward range sensor is at its floor: 45 mm and its noise
+#define FLOOR_M   0.04  // of an upward range sensor of which the vehicle file says nothing
+#define NOISE_M   0.005 // of the same
+#define NOISES    5.0   // so far from its floor it is not on it by chance
 #define NOMINAL_V 3.7   // where no voltage is logged
 
 const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
@@ -79,8 +81,13 @@ static void take_range(const grid_t *g, int from, grid_point_t *p) {
   for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
     if (isfinite(range[i])) {
       p->range_m = range[i];
-      p->range_before_s = p->t_s - g->flight->t_s[i];
+      p->range_before_s = p->t_s - g->flight->t_s[i] + g->flight->range_late_s[g->range_up ? 0 : 1];
     }
+}
+
+// Nearer than this an upward range sensor is at its floor.
+static double blind_m(const range_told_t *told) {
+  return told->told ? told->floor_m + NOISES * told->noise_m : FLOOR_M + NOISES * NOISE_M;
 }
 
 static bool finite3(d3_t a) {
@@ -118,7 +125,7 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
   take_range(g, from, &p);
-  if (g->range_up && above_m < BLIND_M) p.range_m = (double)NAN;
+  if (g->range_up && above_m < blind_m(&m->range_up)) p.range_m = (double)NAN;
   set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define RANGE_S 0.1   // between samples of the upward range sensor
+#define RANGE_S 0.1   // between samples of an upward range sensor of which the vehicle file says nothing
 #define FLOOR_M 0.040 // it says no less
 
 struct known {
@@ -64,7 +64,8 @@ static void order(known_t *k, const grid_point_t *track) {
 
 static void show(known_t *k, const grid_point_t *seen, double step_s) {
   k->range_due_s += step_s;
-  k->in.range_new = k->range_up && k->range_due_s >= RANGE_S;
+  k->in.range_new =
+      k->range_up && k->range_due_s >= (k->m->range_up.told ? k->m->range_up.period_s : RANGE_S);
   if (k->in.range_new) k->range_due_s = 0.0;
   k->in.gyro_b_radps = seen->rate_b_radps;
   k->in.acc_b_mps2 = seen->acc_b_mps2;
@@ -72,7 +73,7 @@ static void show(known_t *k, const grid_point_t *seen, double step_s) {
   k->in.vel_w_mps = seen->vel_w_mps;
   k->in.q_wb = seen->q_wb;
   k->in.vbat_V = seen->vbat_V;
-  k->in.range_m = fmax(seen->range_m, FLOOR_M);
+  k->in.range_m = fmax(seen->range_m, k->m->range_up.told ? k->m->range_up.floor_m : FLOOR_M);
 }
 
 // --- the firmware's PID -----------------------------------------------------------------------------------

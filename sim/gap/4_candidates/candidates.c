@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
 
@@ -25,7 +26,9 @@ bool candidates_slow(const set_t *s) {
 }
 
 double candidates_least(const fx_t *fx, const set_t *s) {
-  return fx->class == FX_TIMING ? fmax(fx->size[0].least, 1.0 / slowest_Hz(s)) : 0.0;
+  const char *const unit = fx->param[fx->size[0].param].unit;
+  const bool is_time = unit && strcmp(unit, "s") == 0;
+  return is_time ? fmax(fx->size[0].least, 1.0 / slowest_Hz(s)) : 0.0;
 }
 
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s) {

@@ -161,3 +161,51 @@ TEST(gap_takes_a_range_that_an_offset_makes_negative) {
   CHECK(f.cells_bad == 0);
   gap_flight_free(&f);
 }
+
+// How many samples are those that the log has so long after their instants.
+static int samples_at(const gap_flight_t *f, double after_s) {
+  int n = 0;
+  for (int k = 0; k < f->n; k++) {
+    double v[FC_COLUMNS];
+    flight_csv_values(f->t_s[k] + after_s, v);
+    n += isfinite(f->range_up_m[k]) && fabs(f->range_up_m[k] - 1e-3 * v[FC_RANGE]) < 1e-9;
+  }
+  return n;
+}
+
+// A sample's age: of the column, else of the vehicle, and half a period of a log that is quicker than the
+// sensor.
+TEST(gap_knows_how_old_a_range_sample_is) {
+  static const struct {
+    const char *what;
+    double dt_ms, late_s, age_s, want_s;
+    bool late_said, told, means;
+  } row[] = {
+      {"nobody says it", 10.0, 0.0, 0.0, 0.005, false, false, false},
+      {"as a Crazyflie's", 10.0, 0.07, 0.0, 0.075, false, false, false},
+      {"the vehicle file", 10.0, 0.07, 0.033, 0.038, false, true, false},
+      {"the columns file", 10.0, 0.06, 0.033, 0.065, true, true, false},
+      {"a quicker log", 2.0, 0.06, 0.0, 0.061, true, false, false},
+      {"means", 10.0, 0.06, 0.0, 0.06, true, false, true},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    model_t vehicle;
+    gap_flight_t f;
+    why_t why = {""};
+    columns.of[SIG_RANGE].late_s = row[i].late_s;
+    columns.of[SIG_RANGE].late_said = row[i].late_said;
+    columns.rows_are_means = row[i].means;
+    CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+    vehicle.range_up = (range_told_t){.told = row[i].told, .age_s = row[i].age_s};
+    const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = row[i].dt_ms}, "f.csv");
+    CHECK_OK(gap_read(&f, path, &columns, &vehicle, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(f.range_late_s[0] >= 0.0 && f.range_late_s[0] < 1e-3 * row[i].dt_ms);
+    const double row_s = row[i].want_s - f.range_late_s[0]; // from the instant
+    // It stands in that row, and not in the one before.
+    CHECK(samples_at(&f, row_s) - samples_at(&f, row_s - 1e-3 * row[i].dt_ms) > 7.0 * f.t_s[f.n - 1]);
+    gap_flight_free(&f);
+  }
+}

@@ -118,7 +118,8 @@ TEST(gap_finds_the_late_attitude_of_the_recorded_estimators) {
   CHECK_OK(model_builtin("cf21_imrc", &vehicle, &why));
   CHECK_OK(gap_read(&f, path, &columns, &vehicle, &why));
   CHECK_NEAR(f.attitude_late_s, 0.0021, 0.0005);
-  CHECK_NEAR(f.velocity_late_s, 0.0, 1e-9);
+  // The file does not say how late the accelerometer's filter is: beside it the velocity may be early.
+  CHECK_NEAR(f.velocity_late_s, 0.0, 0.004);
   CHECK(f.motor_speed_radps[0] && f.v[SIG_F1] && f.range_up_m == NULL);
   gap_flight_free(&f);
 }

@@ -42,12 +42,14 @@ TEST(gap_takes_the_age_of_a_range_sample_for_no_effect) {
     const char *columns, *said, *not_said;
   } row[] = {
       {"tools/columns/fly.toml", "Nothing is missing in ", "Missing in"},
+      {"$S/unsaid.toml", "Nothing is missing in ", "Missing in"}, // the vehicle file says it
       {"$S/young.toml", "Missing in", "Nothing is"}, // where nobody says how old they are, it is an effect
   };
   char text[6000];
   for (int i = 0; i < 3; i++) fly_steps(i, 1 + (unsigned long)i);
   CHECK(program_run("{ echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >$S/age.toml && "
-                    "sed 's/, late_ms = 70//' tools/columns/fly.toml >$S/young.toml",
+                    "sed 's/, late_ms = 70//' tools/columns/fly.toml >$S/unsaid.toml && "
+                    "sed 's/, late_ms = 70/, late_ms = 0/' tools/columns/fly.toml >$S/young.toml",
                     STREAM_OUTPUT, text, sizeof text) == 0);
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     char line[300];
@@ -55,7 +57,7 @@ TEST(gap_takes_the_age_of_a_range_sample_for_no_effect) {
     snprintf(line, sizeof line, "gap --vehicle $S/age.toml --columns %s $S/age?.csv", row[i].columns);
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
     CHECK(strstr(text, row[i].said) == text && !strstr(text, row[i].not_said));
-    CHECK((strstr(text, "tof_latency: what the range sensors read") != NULL) == (i == 1));
+    CHECK((strstr(text, "tof_latency: what the range sensors read") != NULL) == (i == 2));
   }
 }
 

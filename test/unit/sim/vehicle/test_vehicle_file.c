@@ -44,7 +44,7 @@ static const struct {
      "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
      "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, floor_rise_y, thrust_map, "
      "body, rotors, battery, "
-     "controller, "
+     "controller, range_up, range_down, "
      "effect"},
     {"nan", "name = \"v\"\nmass_kg = nan\n", "v.toml:2: mass_kg: nan is out of range; allowed: 0.001 to 100"},
     {"key twice", VEHICLE "mass_kg = 1\n", "v.toml:7:"},
