@@ -243,6 +243,7 @@ int main(int argc, char **argv) {
   if (status == DONE && !order.help && !order.version) status = work(&order, &out, &begun, &why);
   const int ended = whole_files_exit(&out.files, "gap", status, &why);
   if (ended == 0 && out.words) fputs(out.words, stdout);
+  if (ended == 0 && out.words && order.out) printf("  read: %s\n", order.page);
   if (begun && ended == 2) refuse(&order, &why);
   free(out.words);
   free(order.hold_out);

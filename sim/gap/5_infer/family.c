@@ -114,8 +114,39 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
   }
 }
 
+// --- what could not be told apart -------------------------------------------------------------------------
+
+// Of what one number does at its typical size, white, the other one could give most, and what it could not
+// give would not be noticed.
+static bool looks_like(const round_t *r, const candidate_t *c, int k, int other) {
+  const int column = c->first + k, n = r->gram.size;
+  const double *const G = r->gram.total;
+  const double aa = G[column * (n + 1)], bb = G[other * (n + 1)], ab = G[column * n + other];
+  const double size = candidate_typical(c, k) * candidate_typical(c, k) * aa;
+  const double given = aa > 0.0 && bb > 0.0 ? ab * ab / (aa * bb) : 0.0; // correlation, squared
+  return size > SCORE_RIVAL_LEFT && given > MOST && size * (1.0 - given) < SCORE_RIVAL_LEFT;
+}
+
+static void join(int *alike, int n, int a, int b) {
+  const int first = alike[a] < alike[b] ? alike[a] : alike[b], last = alike[a] + alike[b] - first;
+  for (int i = 0; i < n; i++)
+    if (alike[i] == last) alike[i] = first;
+}
+
+static void find_alike(const round_t *r, found_t *found) {
+  for (int i = 0; i < r->c->columns; i++) found->alike[i] = i;
+  for (int i = 0; i < r->c->n; i++)
+    for (int k = 0; k < r->c->n; k++)
+      for (int q = 0; q < r->c->candidate[i].n * r->c->candidate[k].n; q++) {
+        const candidate_t *const a = &r->c->candidate[i], *const b = &r->c->candidate[k];
+        if (a->use.fx != b->use.fx && looks_like(r, a, q % a->n, b->first + q / a->n))
+          join(found->alike, r->c->columns, a->first + q % a->n, b->first + q / a->n);
+      }
+}
+
 done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why) {
   unexplained_t u;
+  find_alike(r, found);
   if (found->n == 0) return DONE;
   TRY(find_unexplained(r, &u, why));
   for (int i = 0; i < found->n; i++)

@@ -11,14 +11,17 @@
 
 done_t found_make(found_t *f, const candidates_t *c, why_t *why) {
   *f = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
+                 .alike = calloc((size_t)c->columns + 1, sizeof(int)),
                  .echo = calloc((size_t)c->n + 1, sizeof(bool))};
-  return f->least && f->echo ? DONE : error_failed(why, "out of memory");
+  return f->least && f->alike && f->echo ? DONE : error_failed(why, "out of memory");
 }
 
 void found_free(found_t *f) {
   free(f->least);
+  free(f->alike);
   free(f->echo);
   f->least = NULL;
+  f->alike = NULL;
   f->echo = NULL;
 }
 

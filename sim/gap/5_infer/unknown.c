@@ -162,9 +162,8 @@ static void try_windows(const products_t *p, bool centred, int channel, int coor
       if (!(free_own > 1e-3 * own)) continue;
       const double statistic = fabs(free_y) / sqrt(free_own);
       if (statistic > cell->statistic)
-        *cell = (cell_t){channel,    NAME[coordinate][0], NAME[coordinate][1],
-                         edge[from], edge[to + 1],        free_y / free_own,
-                         statistic};
+        *cell = (cell_t){channel,      NAME[coordinate][0], NAME[coordinate][1], edge[from],
+                         edge[to + 1], free_y / free_own,   statistic,           to + 1 == UNKNOWN_BINS};
     }
   }
 }
@@ -230,6 +229,18 @@ done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[C
     color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), part[ch]) : (color_t){.used = false};
   free(copy);
   return status;
+}
+
+done_t unknown_along(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
+                     const color_t *color, cell_t *cell, why_t *why) {
+  double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
+  int *const bin = malloc(set_most_rows(s) * sizeof(int));
+  *cell = (cell_t){.statistic = 0.0};
+  if (room && bin) scan_coordinate(s, m, coordinate, residual, color, true, room, bin, cell);
+  const bool good = room && bin;
+  free(room);
+  free(bin);
+  return good ? DONE : error_failed(why, "out of memory");
 }
 
 done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],

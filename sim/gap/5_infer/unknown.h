@@ -15,6 +15,7 @@ typedef struct {
   double from, to;               // of the coordinate
   double size;                   // mean of the residual inside, in the channel's unit
   double statistic;              // 0: nothing could be judged
+  bool last;                     // no row is beyond `to`
 } cell_t;
 
 // Takes out of a residual what depends on any one coordinate, or on several of them added: what is left is
@@ -30,6 +31,11 @@ MUST_CHECK done_t unknown_colors(const set_t *s, const model_t *m, double *const
 // row.
 MUST_CHECK done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                   const color_t *color, bool centred, cell_t *cell, why_t *why);
+
+// The same along one coordinate.
+MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int coordinate,
+                                double *const residual[CHANNELS], const color_t *color, cell_t *cell,
+                                why_t *why);
 
 #define UNKNOWN_BINS 12
 

@@ -92,10 +92,8 @@ static void find_flight(finding_t *f) {
     snprintf(f->fly, sizeof f->fly, "%s", f->fx->fly);
 }
 
-static done_t find_one(report_t *r, set_t *held, int i, why_t *why) {
+static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  finding_t *const f = &r->finding[i];
-  f->named = &d->found.named[i];
   f->use = found_use(&d->found, f->named);
   f->fx = f->use->fx;
   lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
@@ -104,11 +102,21 @@ static done_t find_one(report_t *r, set_t *held, int i, why_t *why) {
   if (status == DONE) status = lines_make(&room, held, why);
   if (status == DONE) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
   if (status == DONE) find_place(r, f, effect.r, variance.r);
+  if (status == DONE) report_say(f, effect.r[f->profile.channel], set_rows(held, f->profile.channel)->n);
   lines_free(&effect);
   lines_free(&variance);
   lines_free(&room);
   find_flight(f);
   return status;
+}
+
+static void order_by_share(report_t *r, const found_t *found) {
+  for (int i = 0; i < found->n; i++) {
+    int at = i;
+    for (; at > 0 && r->finding[at - 1].named->share < found->named[i].share; at--)
+      r->finding[at].named = r->finding[at - 1].named;
+    r->finding[at].named = &found->named[i];
+  }
 }
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
@@ -118,7 +126,8 @@ done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   TRY(residual_of(&d->held, &study->vehicle, r->before.r, why));
   TRY(residual_of(&d->held, &d->extended, r->after.r, why));
   r->n_finding = d->found.n;
-  for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, i, why));
+  order_by_share(r, &d->found);
+  for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));
   const int coordinate = report_coordinate(d->cell.coordinate);
   r->left = (profile_t){.channel = d->cell.channel, .coordinate = coordinate};
   if (d->cell.statistic > 0.0 && coordinate >= 0) report_profile(r, NULL, NULL, NULL, &r->left);

@@ -4,25 +4,24 @@
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 
-static void parameters(const finding_t *f, double errors, FILE *out) {
+static void parameters(const finding_t *f, FILE *out) {
   int n;
   const fx_param_t *const param = fx_use_params(f->use, &n);
-  fputs("<table><tr><th>parameter<th class=n>value<th class=n>95 % interval<th>unit</tr>\n", out);
+  fputs("<table><tr><th>parameter<th class=n>value<th class=n>standard error<th>unit</tr>\n", out);
   for (int k = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
-    const double v = fx_use_size(f->use, k), wide = errors * f->named->stderr_[k];
     page_text(out, "<tr><td>", p->name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    fprintf(out, "<td class=n>%.4g<td class=n>%.2g", fx_use_size(f->use, k), f->named->stderr_[k]);
     page_text(out, "<td>", p->unit, "</tr>\n");
   }
   if (f->fx->n_shape) {
-    const double v = f->use->p[f->fx->shape_param], wide = errors * f->named->shape_stderr;
+    const double v = f->use->p[f->fx->shape_param], error = f->named->shape_stderr;
     page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
-    if (wide > 0.0)
-      fprintf(out, "<td class=n>%.4g<td class=n>%.4g to %.4g", v, v - wide, v + wide);
+    if (error > 0.0)
+      fprintf(out, "<td class=n>%.4g<td class=n>%.2g", v, error);
     else
       fprintf(out, "<td class=n>%.4g<td class=n>%s", v,
-              isnan(wide) ? "not known" : "the best of those tried");
+              isnan(error) ? "not known" : "the best of those tried");
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
   fputs("</table>\n", out);
@@ -58,13 +57,17 @@ static void rivals(const finding_t *f, FILE *out) {
   }
 }
 
-void page_finding(const finding_t *f, double errors, FILE *out) {
+void page_finding(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[P_TEXT], words[REPORT_TEXT];
-  page_text(out, "<section><h2>", f->fx->name, "</h2>");
+  report_family(f, " or ", words);
+  page_text(out, "<section><h2>", words, "</h2>");
   page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
-  fprintf(out, "<p>It explains %.3g %% of the gap (", 100.0 * f->named->share);
-  page_text(out, "", p_words(f->named->p, p), "). ");
+  page_text(out, "<p><b>", standing_name[f->standing], "</b>: ");
+  page_text(out, "", f->says, ". ");
+  fprintf(out, "It explains %.3g %% of the gap", 100.0 * f->named->share);
+  if (f->standing != STANDS_AMBIGUOUS) page_text(out, " (", p_words(f->named->p, p), ")");
+  fputs(". ", out);
   page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
@@ -76,7 +79,7 @@ void page_finding(const finding_t *f, double errors, FILE *out) {
             gap_unit[f->profile.channel]);
   }
   fputs("</p>\n", out);
-  parameters(f, errors, out);
+  parameters(f, out);
   if (report_confirm(f, words)) page_text(out, "<p>", words, ".</p>\n");
   fputs("<figure>", out);
   picture_curve(f, out);
@@ -97,7 +100,7 @@ void page_unknown(const report_t *r, FILE *out) {
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
-  fprintf(out, "%+.3g %s in ", c->size, gap_unit[c->channel]);
+  fprintf(out, "%+.3g &plusmn; %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
   page_text(out, "", gap_channel[c->channel], ", at ");
   page_text(out, "", c->coordinate, "");
   fprintf(out, " %.3g to %.3g ", c->from, c->to);

@@ -187,7 +187,7 @@ void report_page(const report_t *r, FILE *out) {
   fputs(HEAD, out);
   headline(r, out);
   overview(r, out);
-  for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], r->wide, out);
+  for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
   page_unknown(r, out);
   if (report_has_residual(r)) held_out(r, out);
   again(&r->study->resimulation, out);

@@ -7,8 +7,8 @@
 // Writes `plain` escaped, between two pieces of HTML.
 void page_text(FILE *out, const char *before, const char *plain, const char *after);
 
-// A named effect: numbers, pictures, rivals. errors: half a 95 % interval, in standard errors.
-void page_finding(const finding_t *f, double errors, FILE *out);
+// A named effect: numbers, pictures, rivals.
+void page_finding(const finding_t *f, FILE *out);
 // What is left where it is largest; nothing if that is chance and something is named.
 void page_unknown(const report_t *r, FILE *out);
 

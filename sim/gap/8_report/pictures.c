@@ -31,7 +31,7 @@ void picture_curve(const finding_t *f, FILE *out) {
   svg_hold(&c, p->n ? 1 : 0, p->x, zero);
   snprintf(name, sizeof name, "What %s adds", f->fx->name);
   svg_open(&c, name, of_coordinate(p->coordinate, x), of_channel(p->channel, "", y));
-  svg_band(&c, p->n, p->x, p->low, p->high, "band", "95 % interval");
+  svg_band(&c, p->n, p->x, p->low, p->high, "band", "+- standard error");
   svg_line(&c, p->n, p->x, p->effect, "after", f->fx->name);
   svg_dots(&c, p->n, p->x, seen, "seen", "measured, rest taken out");
   svg_close(&c);

@@ -54,13 +54,13 @@ static void add_row(profile_t *p, int bin, const report_t *r, int i, double effe
 }
 
 // Sums become means; what has too few rows goes.
-static void close_bins(profile_t *p, double errors) {
+static void close_bins(profile_t *p) {
   p->n = 0;
   for (int k = 0; k < REPORT_BINS; k++) {
     const double n = p->rows[k];
     if (n < BIN_ROWS_MIN) continue;
     const int to = p->n++;
-    const double effect = p->effect[k] / n, wide = errors * p->low[k] / n;
+    const double effect = p->effect[k] / n, wide = p->low[k] / n;
     p->x[to] = p->x[k] / n, p->rows[to] = n;
     p->before[to] = p->before[k] / n, p->after[to] = p->after[k] / n;
     p->effect[to] = effect, p->low[to] = effect - wide, p->high[to] = effect + wide;
@@ -90,7 +90,7 @@ void report_profile(const report_t *r, const double *effect, const double *varia
     const int bin = (int)fmin(REPORT_BINS - 1, floor(REPORT_BINS * (x - s.from) / (s.to - s.from)));
     add_row(p, bin, r, i, effect ? effect[i] : 0.0, variance ? variance[i] : 0.0);
   }
-  close_bins(p, r->wide);
+  close_bins(p);
 }
 
 // --- which coordinate -------------------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 // report.c - what is to be said of a study.
 #include "gap/8_report/report.h"
 
-#include "base/lsq_blocks.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,43 +90,26 @@ bool report_can_tell(const report_t *r) {
   return (d->nominal_flew || d->found.n > 0) && report_has_residual(r);
 }
 
-#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
-
-bool report_leaves_much(const report_t *r, int channel) {
-  const diagnosis_t *const d = &r->study->diagnosis;
-  const gap_part_t *const p = &d->held_out.channel[channel];
-  return p->used && d->nominal_flew && p->after > LEFT_OVER * p->floor;
-}
-
-bool report_leaves_any(const report_t *r) {
-  for (int ch = 0; ch < CHANNELS; ch++)
-    if (report_leaves_much(r, ch)) return true;
-  return false;
-}
-
 const char *report_headline(const report_t *r) {
   if (r->study->diagnosis.unknown) return "Something is missing that cannot be named";
   if (!report_can_tell(r)) return "These flights cannot tell what is missing";
-  if (report_leaves_any(r)) return "Nothing can be named, and more is left than noise and feedback leave";
+  if (report_adequacy_of_all(r) == LEFT_MORE)
+    return "Nothing can be named, and more is left than noise and feedback leave";
   return "Nothing is missing that these flights could show";
 }
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-// The degrees of freedom are those of the selection's Wald test.
-static double half_interval(const diagnosis_t *d) {
-  int columns = 0;
-  for (int i = 0; i < d->found.n; i++) columns += found_use(&d->found, &d->found.named[i])->fx->n_size;
-  return lsq_t_quantile(0.025, fmax(d->fit.n_block - columns, 2.0));
-}
-
 done_t report_make(report_t *r, study_t *study, why_t *why) {
   const diagnosis_t *const d = &study->diagnosis;
-  *r = (report_t){.study = study, .wide = half_interval(d)};
+  *r = (report_t){.study = study};
   r->verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none";
   TRY(report_take_evidence(r, study, why));
   find_untested(r);
+  for (int i = 0; i < r->n_finding; i++) r->finding[i].standing = report_standing(r, &r->finding[i]);
+  TRY(report_take_fitness(r, why));
   report_warn(r);
+  report_advise(r);
   return DONE;
 }
 

@@ -2,6 +2,7 @@
 #ifndef SIM_GAP_8_REPORT_REPORT_H
 #define SIM_GAP_8_REPORT_REPORT_H
 
+#include "base/by_size.h"
 #include "gap/2_predict/lines.h"
 #include "gap/5_infer/p_value.h"
 #include "gap/study.h"
@@ -10,7 +11,10 @@
 
 #define REPORT_BINS     24
 #define REPORT_TEXT     320
+#define REPORT_LONG     1000
 #define REPORT_WARNINGS 64
+#define REPORT_ADVICE   3
+#define REPORT_FITNESS  5
 
 // Where an effect does most of what it does; a picture shows that and what is beside it.
 typedef struct {
@@ -24,8 +28,17 @@ typedef struct {
   double x[REPORT_BINS], rows[REPORT_BINS];
   double before[REPORT_BINS], after[REPORT_BINS]; // residual
   double effect[REPORT_BINS], low[REPORT_BINS],
-      high[REPORT_BINS]; // what the effect adds, and its 95 % interval
+      high[REPORT_BINS]; // what the effect adds, less and more by its standard error
 } profile_t;
+
+// How sure a name is. Ambiguous: others do as well, or the set points say that it may be feedback. Likely: no
+// other does, but more is left in its channel than noise, or nobody knows what noise leaves. Strong: neither.
+typedef enum { STANDS_AMBIGUOUS, STANDS_LIKELY, STANDS_STRONG } standing_t;
+extern const char *const standing_name[];
+
+// What the extended model leaves of a channel beside what noise and feedback alone leave.
+typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
+extern const char *const left_name[];
 
 // One named effect.
 typedef struct {
@@ -36,8 +49,10 @@ typedef struct {
   profile_t profile;
   // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
   interval_t matters;
-  double before, after;  // rms of the held-out rows there
-  char fly[REPORT_TEXT]; // what would tell it from its rivals, or show it better
+  double before, after;   // rms of the held-out rows there
+  char fly[REPORT_TEXT];  // what would tell it from its rivals, or show it better
+  char says[REPORT_TEXT]; // what it does: "lift is short by 0.79 +- 0.02 m/s2, 8 % of g"
+  standing_t standing;
 } finding_t;
 
 // What an effect that was not named would have needed.
@@ -59,9 +74,14 @@ typedef struct {
   untested_t untested[FX_TABLE_MAX];
   int n_warning;
   char warning[REPORT_WARNINGS][REPORT_TEXT];
-  double wide;           // half of a 95 % interval, in standard errors (Student, blocks less columns)
   profile_t left;        // over the coordinate of the largest cell of what is left
   lines_t before, after; // held-out rows
+  // Are these flights fit for the question: a line each.
+  int n_fitness;
+  char fitness[REPORT_FITNESS][REPORT_LONG];
+  bool ceiling_suspected; // lift grows towards the greatest heights, and the vehicle file has no ceiling
+  double ceiling_seen_m;  // by an upward range sensor; NaN: it was not
+  char advice[REPORT_ADVICE][REPORT_TEXT]; // what to do now: use, add, fly
 } report_t;
 
 // Works out what is to be said. FAILED: no memory. Free it, also on an error.
@@ -88,6 +108,15 @@ void report_why(const untested_t *u, char text[REPORT_TEXT]);
 // What to fly to tell the two apart; pairs of which neither says it: what shows each.
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
 
+// Writes f->says. effect: what it adds to the rows of the profile's channel.
+void report_say(finding_t *f, const double *effect, int rows);
+// The part of the original model's white sum of squares that the extended one leaves, of the fitted flights.
+double report_left(const report_t *r);
+// The name and its rivals, `last` before the last of them: "mass, thrust_scale or accel_bias".
+void report_family(const finding_t *f, const char *last, char text[REPORT_TEXT]);
+standing_t report_standing(const report_t *r, const finding_t *f);
+
+extern const char *const report_feedback[]; // by confirm_answer_t
 // What the reference as the instrument says of a name, in words; false: it was not tried.
 bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
 
@@ -95,16 +124,17 @@ bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
 bool report_has_residual(const report_t *r);
 // ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
-// Far more is left of a held-out channel than noise and feedback alone leave.
-bool report_leaves_much(const report_t *r, int channel);
-bool report_leaves_any(const report_t *r); // of one channel or more
+left_over_t report_adequacy(const report_t *r, int channel);
+left_over_t report_adequacy_of_all(const report_t *r); // the worst
 // What the page says at its top where nothing is named.
 const char *report_headline(const report_t *r);
 
 // Parts of it: where each name shows in the held-out flights; what is to be known beside the verdict. FAILED:
 // no memory.
 MUST_CHECK done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
+MUST_CHECK done_t report_take_fitness(report_t *r, why_t *why);
 void report_warn(report_t *r);
+void report_advise(report_t *r);
 
 // "12.3 mm", or in metres from 1 m on.
 #define REPORT_LENGTH 24

@@ -34,14 +34,13 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
 
 // Only where it was tried.
 static void add_instrument(cJSON *o, const finding_t *f) {
-  static const char *const answer[] = {"", "instrument too weak", "not confirmed", "confirmed"};
   const confirm_t *const a = &f->named->confirm;
   int n;
   const fx_param_t *const param = fx_use_params(f->use, &n);
   if (a->answer == CONFIRM_NOT_TRIED) return;
   const bool weak = a->answer == CONFIRM_WEAK;
   cJSON *const i = cJSON_AddObjectToObject(o, "instrument");
-  cJSON_AddStringToObject(i, "answer", answer[a->answer]);
+  cJSON_AddStringToObject(i, "answer", report_feedback[a->answer]);
   add_number(i, "F", a->F);
   cJSON *const all = cJSON_AddObjectToObject(i, "parameters");
   for (int k = 0; k < f->fx->n_size && !weak; k++) {
@@ -62,7 +61,14 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
   add_number(o, "p", p_value(f->named->p));
+  cJSON_AddNullToObject(o, "probability");
+  cJSON_AddStringToObject(o, "standing", standing_name[f->standing]);
+  cJSON_AddStringToObject(o, "says", f->says);
   add_number(o, "share", f->named->share);
+  cJSON *const family = cJSON_AddArrayToObject(o, "family");
+  cJSON_AddItemToArray(family, cJSON_CreateString(f->fx->name));
+  for (int i = 0; i < f->named->n_rival; i++)
+    cJSON_AddItemToArray(family, cJSON_CreateString(f->named->rival[i]->name));
   cJSON *const rivals = cJSON_AddArrayToObject(o, "rivals");
   for (int i = 0; i < f->named->n_rival; i++)
     cJSON_AddItemToArray(rivals, cJSON_CreateString(f->named->rival[i]->name));
@@ -93,11 +99,13 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   add_number(o, "from", d->cell.from);
   add_number(o, "to", d->cell.to);
   add_number(o, "size", d->cell.size);
+  add_number(o, "stderr", fabs(d->cell.size) / d->cell.statistic);
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s or s).
   cJSON_AddStringToObject(o, "unit", gap_unit[d->cell.channel]);
 }
 
-static void add_gap(cJSON *root, const study_t *s) {
+static void add_gap(cJSON *root, const report_t *r) {
+  const study_t *const s = r->study;
   cJSON *const list = cJSON_AddArrayToObject(root, "gap");
   const gap_flights_t *const held = s->by_time ? &s->fit : &s->held;
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -110,6 +118,7 @@ static void add_gap(cJSON *root, const study_t *s) {
     add_number(o, "before", p->before);
     add_number(o, "after", p->after);
     add_number(o, "floor", s->diagnosis.nominal_flew ? p->floor : (double)NAN);
+    cJSON_AddStringToObject(o, "adequacy", left_name[report_adequacy(r, ch)]);
     cJSON *const names = cJSON_AddArrayToObject(o, "held_out");
     for (int i = 0; i < held->n; i++) cJSON_AddItemToArray(names, cJSON_CreateString(held->flight[i].name));
   }
@@ -130,6 +139,21 @@ static void add_untested(cJSON *root, const report_t *r) {
   }
 }
 
+// What was looked for in vain: the smallest size that these flights would have shown.
+static void add_would_show(cJSON *root, const report_t *r) {
+  cJSON *const list = cJSON_AddArrayToObject(root, "would_show");
+  for (int i = 0; i < r->n_untested; i++) {
+    const untested_t *const u = &r->untested[i];
+    if (u->obstacle || !u->testable) continue;
+    cJSON *const o = cJSON_CreateObject();
+    cJSON_AddItemToArray(list, o);
+    cJSON_AddStringToObject(o, "effect", u->fx->name);
+    cJSON_AddStringToObject(o, "parameter", u->param->name);
+    add_number(o, "from", u->seen_from);
+    cJSON_AddStringToObject(o, "unit", u->param->unit);
+  }
+}
+
 // Which rows: of each log as they stand in it, and the samples that they became.
 static void add_made(cJSON *root, const study_t *s) {
   double rows = 0.0;
@@ -143,7 +167,22 @@ static void add_made(cJSON *root, const study_t *s) {
     cJSON_AddStringToObject(o, "file", s->flight[i].name);
     cJSON_AddNumberToObject(o, "rows", (double)s->flight[i].rows);
     cJSON_AddNumberToObject(o, "samples", s->flight[i].n);
+    add_number(o, "rate_Hz", s->flight[i].rate_Hz);
     cJSON_AddBoolToObject(o, "held_out", i >= s->fit.n);
+  }
+}
+
+// What the vehicle file has: these effects were not looked for, their numbers were believed.
+static void add_in_model(cJSON *root, const model_t *m) {
+  cJSON *const list = cJSON_AddArrayToObject(root, "already_in_model");
+  for (int i = 0; i < m->n_fx; i++) {
+    cJSON *const o = cJSON_CreateObject();
+    cJSON_AddItemToArray(list, o);
+    cJSON_AddStringToObject(o, "name", m->fx[i].fx->name);
+    cJSON *const all = cJSON_AddObjectToObject(o, "parameters");
+    int n;
+    const fx_param_t *const param = fx_use_params(&m->fx[i], &n);
+    for (int k = 0; k < n; k++) add_number(all, param[k].name, m->fx[i].p[k]);
   }
 }
 
@@ -155,7 +194,9 @@ cJSON *report_verdict(const report_t *r) {
   cJSON *const effects = cJSON_AddArrayToObject(root, "effects");
   for (int i = 0; i < r->n_finding; i++) add_effect(effects, &r->finding[i]);
   add_unknown(root, &s->diagnosis);
-  add_gap(root, s);
+  add_gap(root, r);
+  cJSON_AddStringToObject(root, "adequacy", left_name[report_adequacy_of_all(r)]);
+  add_in_model(root, &s->vehicle);
   if (s->resimulation.flew) {
     cJSON *const o = cJSON_AddObjectToObject(root, "resimulation");
     cJSON_AddStringToObject(o, "unit", "m");
@@ -166,10 +207,44 @@ cJSON *report_verdict(const report_t *r) {
   } else
     cJSON_AddNullToObject(root, "resimulation");
   add_untested(root, r);
+  add_would_show(root, r);
+  cJSON *const to_do = cJSON_AddArrayToObject(root, "to_do");
+  for (int i = 0; i < REPORT_ADVICE; i++) cJSON_AddItemToArray(to_do, cJSON_CreateString(r->advice[i]));
+  cJSON_AddNullToObject(root, "refused");
   cJSON *const warnings = cJSON_AddArrayToObject(root, "warnings");
   for (int i = 0; i < r->n_warning; i++) cJSON_AddItemToArray(warnings, cJSON_CreateString(r->warning[i]));
   add_made(root, s);
   return root;
+}
+
+// Which of the order's files a message begins with, maybe behind an option; null: none.
+static const char *file_of(const char *text, const study_order_t *o) {
+  const char *best = NULL;
+  for (int i = -2; i < o->n_log + o->n_hold_out; i++) {
+    const char *const path = i == -2        ? o->vehicle
+                             : i == -1      ? o->columns
+                             : i < o->n_log ? o->log[i]
+                                            : o->hold_out[i - o->n_log];
+    const char *const from = strncmp(text, "--hold-out ", 11) == 0 ? text + 11 : text;
+    if (path && strncmp(from, path, strlen(path)) == 0 && from[strlen(path)] == ':' &&
+        (!best || strlen(path) > strlen(best)))
+      best = path;
+  }
+  return best;
+}
+
+// "flight.csv:812: column acc.z: not a number": the file, the line and the column that the message has.
+static void add_refused(cJSON *root, const char *text, const study_order_t *order) {
+  cJSON *const o = cJSON_AddObjectToObject(root, "refused");
+  const char *const file = file_of(text, order), *const column = strstr(text, "column ");
+  const char *const behind = file ? strstr(text, file) + strlen(file) + 1 : text;
+  char name[80] = "", *end = NULL;
+  const double line = file ? strtod(behind, &end) : (double)NAN;
+  const bool has_line = end && end > behind && *end == ':';
+  if (column) snprintf(name, sizeof name, "%.*s", (int)strcspn(column + 7, " :,;"), column + 7);
+  cJSON_AddItemToObject(o, "file", file ? cJSON_CreateString(file) : cJSON_CreateNull());
+  add_number(o, "line", has_line ? line : (double)NAN);
+  cJSON_AddItemToObject(o, "column", column ? cJSON_CreateString(name) : cJSON_CreateNull());
 }
 
 cJSON *report_refused(const char *line, const study_order_t *order) {
@@ -180,7 +255,12 @@ cJSON *report_refused(const char *line, const study_order_t *order) {
   cJSON_AddNullToObject(root, "unknown");
   cJSON_AddArrayToObject(root, "gap");
   cJSON_AddNullToObject(root, "resimulation");
+  cJSON_AddStringToObject(root, "adequacy", left_name[LEFT_UNKNOWN]);
+  cJSON_AddArrayToObject(root, "already_in_model");
   cJSON_AddArrayToObject(root, "not_testable");
+  cJSON_AddArrayToObject(root, "would_show");
+  cJSON_AddArrayToObject(root, "to_do");
+  add_refused(root, line, order);
   cJSON *const warnings = cJSON_AddArrayToObject(root, "warnings");
   cJSON_AddItemToArray(warnings, cJSON_CreateString(line));
   if (order->made) made_add(root, order->made, (double)order->seed, (double)NAN);

@@ -46,7 +46,7 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (report_leaves_much(r, ch))
+    if (report_adequacy(r, ch) == LEFT_MORE)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
            "much flight",
@@ -56,14 +56,12 @@ static void warn_of_gap(report_t *r) {
 
 static void warn_of_instrument(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  if (d->why_not_confirmed) warn(r, "no name is confirmed: %s", d->why_not_confirmed);
+  if (d->why_not_confirmed) warn(r, "whether feedback makes a name is not known: %s", d->why_not_confirmed);
   for (int i = 0; i < d->found.n; i++) {
     const confirm_t *const a = &d->found.named[i].confirm;
     const char *const name = found_use(&d->found, &d->found.named[i])->fx->name;
     if (a->answer == CONFIRM_NO)
-      warn(r,
-           "%s is not confirmed by the set points as instrument: it may be feedback, or they show too little "
-           "of it",
+      warn(r, "%s may be made by feedback, by the set points as instrument, or they show too little of it",
            name);
     else if (a->apart)
       warn(r,
@@ -91,9 +89,8 @@ static void warn_of_diagnosis(report_t *r) {
     warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
             "explain them");
   if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
-    warn(r, "the held-out flights do not confirm what is named: all channels together they are explained no "
-            "better "
-            "than before");
+    warn(r, "the held-out flights speak against what is named: all channels together they are explained no "
+            "better than before");
   for (int i = 0; i < d->withdrawn.n; i++) {
     const withdrawn_t *const w = &d->withdrawn.name[i];
     warn(r,
@@ -120,25 +117,6 @@ static void warn_of_diagnosis(report_t *r) {
          "with the old "
          "model: %d, with the new one: %d",
          RESIMULATE_LOST_M, again->lost_before, again->lost_after);
-}
-
-// With nothing to say, what could have been said.
-static void warn_of_sizes(report_t *r) {
-  char text[REPORT_TEXT] = "";
-  for (int i = 0; i < r->n_untested; i++) {
-    const untested_t *const u = &r->untested[i];
-    if (u->obstacle || !u->testable) continue;
-    char one[120];
-    snprintf(one, sizeof one, "%s%s %s %.2g%s%s", text[0] ? ", " : "", u->fx->name, u->param->name,
-             u->seen_from, u->param->unit[0] ? " " : "", u->param->unit);
-    if (strlen(text) + strlen(one) + 40 > sizeof text) {
-      warn(r, "would have been seen from this size on: %s", text);
-      text[0] = '\0';
-      memmove(one, one + 2, strlen(one) - 1);
-    }
-    strcat(text, one);
-  }
-  if (text[0]) warn(r, "would have been seen from this size on: %s", text);
 }
 
 // The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias
@@ -170,6 +148,5 @@ void report_warn(report_t *r) {
   warn_of_diagnosis(r);
   warn_of_instrument(r);
   warn_of_gap(r);
-  if (r->study->diagnosis.found.n == 0) warn_of_sizes(r);
   warn_of_logs(r);
 }

@@ -138,13 +138,13 @@ TEST(gap_tells_what_the_instrument_says_where_the_columns_file_names_set_points)
   write_log("told1.csv", &truth, 78);
   CHECK(program_run(GAP "$S/told.toml --json $S/told.json $S/told?.csv", STREAM_OUTPUT, text, sizeof text) ==
         0);
-  CHECK(strstr(text, "\n  confirmed by the set points as instrument: k ") != NULL);
+  CHECK(strstr(text, "\n  not made by feedback, by the set points as instrument: k ") != NULL);
   CHECK(program_run("cat $S/told.json", STREAM_OUTPUT, text, sizeof text) == 0);
   cJSON *const json = cJSON_Parse(text);
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(json, "effects"), 0);
   const cJSON *const i = cJSON_GetObjectItem(effect, "instrument");
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(i, "parameters"), "k");
-  CHECK_TEXT(cJSON_GetStringValue(cJSON_GetObjectItem(i, "answer")), "confirmed");
+  CHECK_TEXT(cJSON_GetStringValue(cJSON_GetObjectItem(i, "answer")), "not made by feedback");
   CHECK(cJSON_GetNumberValue(cJSON_GetObjectItem(i, "F")) > CONFIRM_F);
   CHECK_NEAR(cJSON_GetNumberValue(cJSON_GetObjectItem(k, "value")), 3e-6, 3e-7);
   CHECK(cJSON_IsFalse(cJSON_GetObjectItem(i, "apart")));

@@ -86,10 +86,10 @@ TEST(gap_flies_nominal_flights_by_the_vehicle_file_s_controller_and_keeps_it) {
                     "pid_rate.roll_kp = 250\\n' >>$S/own.toml; gap --vehicle $S/own.toml --columns "
                     "tools/columns/fly.toml --out $S/own $S/own?.csv",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  CHECK(strstr(text, "Nothing is missing in own.toml that these flights could show.\n") == text);
+  CHECK(strstr(text, "Nothing is missing in own.toml that these flights could show.\n") != NULL);
   CHECK(program_run("grep -A2 controller $S/own/model.toml; fly hand-held --vehicle $S/own/model.toml",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  CHECK(strstr(text, "[controller]\nkind = \"stock-pid\"\npid_rate.roll_kp = 250\n") == text);
+  CHECK(strstr(text, "[controller]\nkind = \"stock-pid\"\npid_rate.roll_kp = 250\n") != NULL);
 }
 
 TEST(gap_cannot_tell_where_the_vehicle_file_s_controller_does_not_fly_it) {
@@ -100,6 +100,6 @@ TEST(gap_cannot_tell_where_the_vehicle_file_s_controller_does_not_fly_it) {
                     "velCtlPid.vzKi = 0\n' >>$S/odd.toml; "
                     "gap --vehicle $S/odd.toml --columns tools/columns/fly.toml $S/odd?.csv",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  CHECK(strstr(text, "These flights cannot tell what is missing in odd.toml.\n") == text);
+  CHECK(strstr(text, "These flights cannot tell what is missing in odd.toml.\n") != NULL);
   CHECK(strstr(text, "note: the model could not be flown along these tracks") != NULL);
 }

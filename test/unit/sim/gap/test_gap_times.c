@@ -26,7 +26,7 @@ TEST(gap_gives_no_name_to_what_begins_in_flight) {
              "gap --vehicle $S/own.toml --columns tools/columns/fly.toml $S/t?.csv",
              row[i].effect);
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
-    CHECK(strstr(text, "Something is missing in own.toml that cannot be named.\n") == text);
+    CHECK(strstr(text, "Something is missing in own.toml that cannot be named.\n") != NULL);
     const char *const unknown = strstr(text, "\nunknown: ");
     CHECK(unknown && strstr(unknown, "force_z,") && strstr(unknown, row[i].seen_in));
   }
@@ -46,7 +46,7 @@ TEST(gap_does_not_say_that_nothing_is_missing_where_much_is_left) {
   }
   CHECK(program_run("gap --vehicle $S/room.toml --columns tools/columns/fly.toml $S/wild?.csv", STREAM_OUTPUT,
                     text, sizeof text) == 0);
-  CHECK(strstr(text, "Nothing can be named that is missing in room.toml, and more is left than noise") ==
-        text);
+  CHECK(strstr(text, "Nothing can be named that is missing in room.toml, and more is left than noise") !=
+        NULL);
   CHECK(strstr(text, "note: force_z: ") != NULL);
 }

@@ -1,0 +1,60 @@
+// advice.c - what to do now: use this, add that, fly the other.
+#include "gap/8_report/report.h"
+
+#include <math.h>
+#include <string.h>
+
+static void advise_use(report_t *r) {
+  if (r->n_finding == 0)
+    snprintf(r->advice[0], REPORT_TEXT, "use: the vehicle file as it is; these flights add nothing to it");
+  else
+    snprintf(r->advice[0], REPORT_TEXT,
+             "use: model.toml, in the folder of --out (fly --vehicle model.toml): %s with "
+             "the %s named",
+             study_vehicle(r->study), r->n_finding > 1 ? "effects" : "effect");
+}
+
+static void advise_add(report_t *r) {
+  if (r->ceiling_suspected && isfinite(r->ceiling_seen_m))
+    snprintf(r->advice[1], REPORT_TEXT,
+             "add: ceiling_m = %.2f to the vehicle file if that is the ceiling, and run this again",
+             r->ceiling_seen_m);
+  else if (r->ceiling_suspected)
+    snprintf(r->advice[1], REPORT_TEXT,
+             "add: ceiling_m to the vehicle file, if there was a ceiling, and run this again");
+  else if (!r->study->order.vehicle)
+    snprintf(r->advice[1], REPORT_TEXT,
+             "add: a vehicle file of your own (--vehicle); the built-in one was taken");
+  else
+    snprintf(r->advice[1], REPORT_TEXT, "add: nothing more to the vehicle file");
+}
+
+// First what tells the members of a family apart, the largest first; then what shows best what has no name;
+// then what shows an effect that these flights could not.
+static void advise_fly(report_t *r) {
+  for (int i = 0; i < r->n_finding; i++)
+    if (r->finding[i].named->n_rival) {
+      snprintf(r->advice[2], REPORT_TEXT, "fly: %.280s", r->finding[i].fly);
+      return;
+    }
+  const cell_t *const c = &r->study->diagnosis.cell;
+  if (r->study->diagnosis.unknown) {
+    snprintf(r->advice[2], REPORT_TEXT,
+             "fly: the same again with more time at %s %.3g to %.3g %s, and as much beside it", c->coordinate,
+             c->from, c->to, c->unit);
+    return;
+  }
+  for (int i = 0; i < r->n_untested; i++)
+    if (!r->untested[i].obstacle && !r->untested[i].testable) {
+      snprintf(r->advice[2], REPORT_TEXT, "fly: %.200s, for %s", r->untested[i].fx->fly,
+               r->untested[i].fx->name);
+      return;
+    }
+  snprintf(r->advice[2], REPORT_TEXT, "fly: nothing more for the effects that are known");
+}
+
+void report_advise(report_t *r) {
+  advise_use(r);
+  advise_add(r);
+  advise_fly(r);
+}
