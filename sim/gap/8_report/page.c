@@ -27,7 +27,14 @@ static const char HEAD[] =
     "path.before{stroke:#ea7a3a}path.after{stroke:#0f8a7e}path.track{stroke:#1e293b;stroke-width:2.6}\n"
     ".before-dot{fill:#ea7a3a}.after-dot{fill:#0f8a7e}.seen{fill:#1e293b}"
     "path.band,rect.band{fill:#0f8a7e;fill-opacity:.18;stroke:none}rect.mark{fill:#fde68a;fill-opacity:.45}\n"
-    "code{font-size:14px}@media print{body{background:#fff}section{break-inside:avoid}}\n"
+    "code{font-size:14px;overflow-wrap:anywhere}li,td{overflow-wrap:break-word}td.n{white-space:nowrap}td.n."
+    "quiet{white-space:normal}ul{padding-left:20px;margin:6px 0}\n"
+    "@media(max-width:600px){main{padding:16px 10px 40px}section{padding:14px 12px;margin:12px "
+    "0}h1{font-size:23px}"
+    "figure{margin:12px 0 "
+    "4px;overflow-x:auto}svg{min-width:560px}td,th{padding-right:7px}table{font-size:14px}"
+    ".wide td:last-child,.wide th:last-child,.wide th:nth-child(2),.wide td:nth-child(2){display:none}}\n"
+    "@media print{body{background:#fff}section{break-inside:avoid}}\n"
     "</style></head><body><main>\n";
 static const char FOOT[] = "</main></body></html>\n";
 
@@ -42,7 +49,11 @@ void page_text(FILE *out, const char *before, const char *plain, const char *aft
 static void headline(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   fputs("<h1>", out);
-  for (int i = 0; i < r->n_finding; i++) page_text(out, i ? ", " : "Missing: ", r->finding[i].fx->name, "");
+  for (int i = 0; i < r->n_finding; i++) {
+    char family[REPORT_TEXT];
+    report_family(&r->finding[i], " or ", family);
+    page_text(out, i ? "; " : "Missing: ", family, "");
+  }
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
   if (!r->n_finding) fputs(report_headline(r), out);
   page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
@@ -52,11 +63,17 @@ static void headline(const report_t *r, FILE *out) {
   fputs("</p>\n", out);
 }
 
-// Several names at a glance.
+static void list(const char *title, const char *line, size_t bytes, int n, FILE *out) {
+  page_text(out, "<section><h2>", title, "</h2><ul>\n");
+  for (int i = 0; i < n; i++) page_text(out, "<li>", line + (size_t)i * bytes, "</li>\n");
+  fputs("</ul></section>\n", out);
+}
+
+// The names at a glance, and what they leave.
 static void overview(const report_t *r, FILE *out) {
-  double most = 1e-9;
+  double most = fmax(report_left(r), 1e-9);
   for (int i = 0; i < r->n_finding; i++) most = fmax(most, r->finding[i].named->share);
-  if (r->n_finding < 2) return;
+  if (r->n_finding == 0) return;
   fputs("<section><table><tr><th>missing<th class=n>of the gap<th><th>shows in</tr>\n", out);
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
@@ -67,7 +84,10 @@ static void overview(const report_t *r, FILE *out) {
             100.0 * f->named->share, 100.0 * fmax(f->named->share, 0.0) / most,
             gap_channel[f->profile.channel]);
   }
-  fputs("</table></section>\n", out);
+  fprintf(out,
+          "<tr><td>left<td class=n>%.3g %%<td style=\"width:45%%\"><span class=\"bar before\" "
+          "style=\"width:%.1f%%\"></span><td></tr>\n</table></section>\n",
+          100.0 * report_left(r), 100.0 * report_left(r) / most);
 }
 
 // --- held-out flights -------------------------------------------------------------------------------------
@@ -93,7 +113,7 @@ static int widest(const report_t *r) {
 
 static void held_out(const report_t *r, FILE *out) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  fputs("<section><h2>On flights that were not used</h2>\n"
+  fputs("<section class=wide><h2>On flights that were not used</h2>\n"
         "<table><tr><th>residual<th>rms in<th class=n>before<th class=n>after<th class=n>noise "
         "floor<th></tr>\n",
         out);
@@ -102,11 +122,13 @@ static void held_out(const report_t *r, FILE *out) {
     if (!p->used) continue;
     fprintf(out, "<tr><td>%s<td>%s<td class=n>%.3g<td class=n>%.3g", gap_channel[ch], gap_unit[ch], p->before,
             p->after);
-    if (d->nominal_flew)
+    const left_over_t left = report_adequacy(r, ch);
+    const bool floor = left == LEFT_NOISE || left == LEFT_MORE;
+    if (floor)
       fprintf(out, "<td class=n>%.3g", p->floor);
     else
-      fputs("<td class=n>not known", out);
-    bars(p, d->nominal_flew, out);
+      page_text(out, "<td class=\"n quiet\">", left_name[left], "");
+    bars(p, floor, out);
     fputs("</tr>\n", out);
   }
   fputs(
@@ -181,11 +203,20 @@ static void foot(const study_t *s, FILE *out) {
   snprintf(text, sizeof text, ", %ld rows of %d flight%s", rows, s->fit.n + s->held.n,
            s->fit.n + s->held.n > 1 ? "s" : "");
   made(&s->order, text, out);
+  fputs("<table class=quiet><tr><th>log<th class=n>rows<th class=n>Hz<th></tr>\n", out);
+  for (int i = 0; i < s->fit.n + s->held.n; i++) {
+    page_text(out, "<tr><td>", s->flight[i].name, "");
+    fprintf(out, "<td class=n>%ld<td class=n>%.4g<td>%s</tr>\n", s->flight[i].rows, s->flight[i].rate_Hz,
+            i < s->fit.n ? "" : "held out");
+  }
+  fputs("</table>\n", out);
 }
 
 void report_page(const report_t *r, FILE *out) {
   fputs(HEAD, out);
   headline(r, out);
+  list("What to do now", &r->advice[0][0], sizeof r->advice[0], REPORT_ADVICE, out);
+  list("Are these flights fit for the question?", &r->fitness[0][0], sizeof r->fitness[0], r->n_fitness, out);
   overview(r, out);
   for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
   page_unknown(r, out);

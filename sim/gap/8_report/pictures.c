@@ -117,16 +117,27 @@ static int axis_of(const resimulation_t *a) {
   return better < 0 ? worst : better;
 }
 
-void picture_track(const resimulation_t *a, FILE *out) {
-  static const char *const NAME[] = {"x, m", "y, m", "height of the centre of mass, m"};
-  const int axis = axis_of(a);
+// How far the two models are from the measured track.
+static void draw_errors(const resimulation_t *a, double *const off[2], const char *label, FILE *out) {
   chart_t c = svg_frame(out);
-  svg_hold(&c, a->n, a->t_s, a->measured_m[axis]);
-  svg_hold(&c, a->n, a->t_s, a->before_at_m[axis]);
-  svg_hold(&c, a->n, a->t_s, a->after_at_m[axis]);
-  svg_open(&c, "The held-out flight, flown again", "time, s", NAME[axis]);
-  svg_line(&c, a->n, a->t_s, a->measured_m[axis], "track", "measured");
-  svg_line(&c, a->n, a->t_s, a->before_at_m[axis], "before thin", "old model");
-  svg_line(&c, a->n, a->t_s, a->after_at_m[axis], "after thin", "new model");
+  svg_hold(&c, a->n, a->t_s, off[0]);
+  svg_hold(&c, a->n, a->t_s, off[1]);
+  svg_open(&c, "The held-out flight, flown again", "time, s", label);
+  svg_line(&c, a->n, a->t_s, off[0], "before thin", "old model");
+  svg_line(&c, a->n, a->t_s, off[1], "after thin", "new model");
   svg_close(&c);
+}
+
+void picture_track(const resimulation_t *a, FILE *out) {
+  static const char *const NAME[] = {"error in x, m", "error in y, m", "error in height, m"};
+  const int axis = axis_of(a);
+  double *const off[2] = {malloc(((size_t)a->n + 1) * sizeof(double)),
+                          malloc(((size_t)a->n + 1) * sizeof(double))};
+  for (int j = 0; off[0] && off[1] && j < a->n; j++) {
+    off[0][j] = a->before_at_m[axis][j] - a->measured_m[axis][j];
+    off[1][j] = a->after_at_m[axis][j] - a->measured_m[axis][j];
+  }
+  if (off[0] && off[1]) draw_errors(a, off, NAME[axis], out);
+  free(off[0]);
+  free(off[1]);
 }

@@ -48,10 +48,12 @@ static const struct {
   double before[3], after[3];
   const char *label;
 } tracks[] = {
-    {{0.30, 0.10, 0.05}, {0.30, 0.02, 0.05}, ">y, m<"},
-    {{0.02, 0.30, 0.10}, {0.02, 0.29, 0.01}, ">height of the centre of mass, m<"},
-    {{0.10, 0.30, 0.02}, {0.01, 0.31, 0.02}, ">x, m<"},
-    {{0.02, 0.30, 0.10}, {0.02, 0.40, 0.10}, ">y, m<"}, // none is better: the one that was missed most
+    {{0.30, 0.10, 0.05}, {0.30, 0.02, 0.05}, ">error in y, m<"},
+    {{0.02, 0.30, 0.10}, {0.02, 0.29, 0.01}, ">error in height, m<"},
+    {{0.10, 0.30, 0.02}, {0.01, 0.31, 0.02}, ">error in x, m<"},
+    {{0.02, 0.30, 0.10},
+     {0.02, 0.40, 0.10},
+     ">error in y, m<"}, // none is better: the one that was missed most
 };
 
 static char *track_of(const double before[3], const double after[3]) {
