@@ -21,6 +21,19 @@ class InShort(unittest.TestCase):
         for said, short in rows:
             self.assertEqual(gap.answer(f"{said}\n\nceiling: Something: x.\n"), short)
 
+    def test_a_name_without_the_mass_is_wrong_beside_one_that_has_it(self) -> None:
+        rows = [
+            ([("ceiling", []), ("mass", ["thrust_scale"])], "named"),
+            ([("ceiling", []), ("accel_bias", ["mass"])], "in its family"),
+            ([("ceiling", ["mass"])], "in its family"),
+            ([("ceiling", [])], "no name"),
+            ([], "no name"),
+            ([("mass", []), ("battery_sag", ["accel_bias"])], "WRONG"),
+        ]
+        for names, mark in rows:
+            verdict = {"effects": [{"name": name, "rivals": rivals, "family": [name, *rivals]} for name, rivals in names]}
+            self.assertEqual(gap.mass_mark(verdict)[0], mark, names)
+
     def test_a_name_its_numbers_and_what_is_left_are_kept(self) -> None:
         said = """\
 Missing in x.toml: ground.

@@ -152,7 +152,7 @@ CHANGED = {
     "cf21_imrc_without_lag": ("cf21_imrc", r"^(motor_tau_s *= *)[0-9.]*", "0.001"),
 }
 # Of the verdict's notes.
-NOTES = re.compile(r'"([a-z_]+ (?:is withdrawn|or [a-z_]+ is missing)[^"]*|[a-z_]+: [0-9.e-]+ [a-z0-9/]+ is left[^"]*)"')
+NOTES = re.compile(r'"([a-z_]+ is withdrawn[^"]*|[a-z_]+: [0-9.e-]+ [a-z0-9/]+ is left[^"]*)"')
 
 
 def in_short(said: str) -> Iterator[str]:
