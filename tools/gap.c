@@ -42,7 +42,9 @@ static const char USAGE[] =
     "  --seed N         of the flights that show what feedback alone does (1)\n"
     "  --version        version and commit\n"
     "  --help           this\n"
-    "LOG: a CSV or the .bin of a uSD deck. Exit status: 0, whatever is found; 2 if the input is bad (then\n"
+    "LOG: a CSV or the .bin of a uSD deck, packed by gzip or not, or the CSV files that cfclient wrote of "
+    "one\n"
+    "flight: FILE+FILE+.., or their folder. Exit status: 0, whatever is found; 2 if the input is bad (then\n"
     "verdict.json says `refused` and why, and model.toml and curves.csv of an earlier run are removed); 1 if "
     "something "
     "else fails.\n";

@@ -52,6 +52,10 @@ const char *csv_name(const csv_file_t *file, int column) {
   return file->name.cell[column];
 }
 
+int csv_columns(const csv_file_t *file) {
+  return file->name.count;
+}
+
 void csv_forgive_cut(csv_file_t *file) {
   file->forgive = true;
 }

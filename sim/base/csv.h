@@ -34,6 +34,8 @@ void csv_close(csv_file_t *file);
 // The number of the line that the present row ends with, from 1.
 long csv_line(const csv_file_t *file);
 
+int csv_columns(const csv_file_t *file);
+
 // The name of a column that there is.
 const char *csv_name(const csv_file_t *file, int column);
 

@@ -117,7 +117,7 @@ const char *columns_hint(const columns_t *c, signal_id_t signal, double value, d
 }
 
 columns_t columns_crazyflie(void) {
-  columns_t c = {.acc = ACC_BODY, .rest_height_m = (double)NAN};
+  columns_t c = {.acc = ACC_BODY, .crazyflie = true, .rest_height_m = (double)NAN};
   for (int i = 0; i < SIG_COLUMNS; i++) {
     column_t *const to = &c.of[i];
     snprintf(to->column, sizeof to->column, "%s", ROWS[i].crazyflie);
@@ -136,6 +136,44 @@ columns_t columns_crazyflie(void) {
   // The firmware's attitude.pitch is nose up positive; its quaternion is right-handed.
   c.of[SIG_PITCH].factor *= -1.0;
   return c;
+}
+
+// cfclient calls the time so; the rest is what people log instead, packed or of another group.
+static const struct {
+  signal_id_t signal;
+  const char *name, *unit;
+  double scale;
+} ALSO[] = {
+    {SIG_TIME, "Timestamp", "ms", 1.0},
+    {SIG_X, "stateEstimateZ.x", "mm", 1.0},
+    {SIG_Y, "stateEstimateZ.y", "mm", 1.0},
+    {SIG_Z, "stateEstimateZ.z", "mm", 1.0},
+    {SIG_X, "kalman.stateX", "m", 1.0},
+    {SIG_Y, "kalman.stateY", "m", 1.0},
+    {SIG_Z, "kalman.stateZ", "m", 1.0},
+    {SIG_VX, "stateEstimateZ.vx", "mm/s", 1.0},
+    {SIG_VY, "stateEstimateZ.vy", "mm/s", 1.0},
+    {SIG_VZ, "stateEstimateZ.vz", "mm/s", 1.0},
+    {SIG_QW, "kalman.q0", "1", 1.0},
+    {SIG_QX, "kalman.q1", "1", 1.0},
+    {SIG_QY, "kalman.q2", "1", 1.0},
+    {SIG_QZ, "kalman.q3", "1", 1.0},
+    {SIG_ROLL, "stabilizer.roll", "deg", 1.0},
+    {SIG_PITCH, "stabilizer.pitch", "deg", -1.0},
+    {SIG_YAW, "stabilizer.yaw", "deg", 1.0},
+    {SIG_VBAT, "pm.vbatMV", "mV", 1.0},
+};
+#define ALSO_ALL ((int)(sizeof ALSO / sizeof *ALSO))
+
+bool columns_also(signal_id_t signal, int i, column_t *column) {
+  for (int k = 0; k < ALSO_ALL; k++) {
+    if (ALSO[k].signal != signal || i-- > 0) continue;
+    snprintf(column->column, sizeof column->column, "%s", ALSO[k].name);
+    snprintf(column->unit, sizeof column->unit, "%s", ALSO[k].unit);
+    column->factor = ALSO[k].scale * unit_find(ROWS[signal].kind, ALSO[k].unit)->si;
+    return true;
+  }
+  return false;
 }
 
 static done_t read_unit(toml_t t, signal_id_t signal, columns_t *c, why_t *why) {

@@ -109,6 +109,7 @@ typedef struct {
   motors_t motors;      // what m1..m4 are
   bool mixed_pwm;       // thrust, tx, ty and tz are pwm
   bool rows_are_means;  // over the period of each row; else what is at its time
+  bool crazyflie;       // a column that is missing may have another of its names (columns_also)
   double rest_height_m; // NaN: not said
   column_t of[SIG_COUNT];
 } columns_t;
@@ -116,6 +117,9 @@ typedef struct {
 // What a Crazyflie logs, under its own names (also what the simulator writes). All but the time may be
 // missing.
 columns_t columns_crazyflie(void);
+
+// Another column in which a Crazyflie's log may have the signal, i from 0; false: there is none.
+bool columns_also(signal_id_t signal, int i, column_t *column);
 
 // BAD_INPUT: not a columns file; names file, line, key and what is allowed. *c is kept.
 MUST_CHECK done_t columns_read(const char *path, columns_t *c, why_t *why);

@@ -16,10 +16,23 @@ static bool has(const log_rows_t *r, signals_t bits) {
   return (r->has & bits) == bits;
 }
 
+// A Crazyflie's log may have it under another name.
+static int find_also(log_rows_t *r, signal_id_t signal) {
+  column_t also = r->columns.of[signal];
+  for (int i = 0; r->columns.crazyflie && also.column[0] && columns_also(signal, i, &also); i++) {
+    const int at = table_find(&r->table, also.column);
+    if (at < 0) continue;
+    r->columns.of[signal] = also;
+    return at;
+  }
+  return -1;
+}
+
 static done_t bind(log_rows_t *r, why_t *why) {
   for (int i = 0; i < SIG_COUNT; i++) {
     const column_t *column = &r->columns.of[i];
     r->at[i] = column->column[0] ? table_find(&r->table, column->column) : -1;
+    if (r->at[i] < 0) r->at[i] = find_also(r, (signal_id_t)i);
     if (r->at[i] >= 0 || column->constant) r->has |= SIGNAL_BIT(i);
     if (column->column[0] && r->at[i] < 0 && !column->optional)
       return table_refuse(&r->table, 0, -1, why,
@@ -56,8 +69,8 @@ static done_t check_need(const log_rows_t *r, signals_t need, why_t *why) {
 done_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns, const model_t *vehicle,
                      log_care_t care, signals_t need, why_t *why) {
   *r = (log_rows_t){.columns = *columns, .vehicle = *vehicle, .care = care, .vbat_V = GAP};
-  TRY(table_open(&r->table, path, why));
-  if (care == LOG_MEND && r->table.csv) csv_forgive_cut(r->table.csv);
+  TRY(table_open_flight(&r->table, path, why));
+  if (care == LOG_MEND) table_forgive_cut(&r->table);
   done_t status = bind(r, why);
   if (status == DONE) status = derive(r, why);
   if (status == DONE) status = check_need(r, need, why);

@@ -1,22 +1,31 @@
 // table.h - a log as a table of numbers under names, row by row: a CSV (base/csv.h), or a uSD log
-// (logs/usd.h), which its first byte tells.
+// (logs/usd.h), which its first byte tells; either packed by gzip, too.
 //
 // Errors are one line, `FILE:LINE: column NAME: what`; for a uSD log LINE is the number of the record.
 #ifndef SIM_LOGS_TABLE_H
 #define SIM_LOGS_TABLE_H
 
 #include "base/csv.h"
+#include "logs/blocks.h"
 #include "logs/usd.h"
 #include <stdarg.h>
 
 typedef struct {
-  csv_file_t *csv; // one of both is there
+  csv_file_t *csv; // one of the three is there
   usd_file_t *usd;
-  char path[256];
+  blocks_t *blocks;
+  void *list; // of the blocks' paths
+  char path[1024];
 } table_t;
 
 // BAD_INPUT: as csv_open or usd_open.
 MUST_CHECK done_t table_open(table_t *t, const char *path, why_t *why);
+
+// The same, and the CSV files of one flight (logs/blocks.h): FILE+FILE+.., or a folder of nothing else.
+MUST_CHECK done_t table_open_flight(table_t *t, const char *path, why_t *why);
+
+// A last row that is cut off is left out.
+void table_forgive_cut(table_t *t);
 
 void table_close(table_t *t);
 

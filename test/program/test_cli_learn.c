@@ -54,7 +54,9 @@ static const struct {
     {"decimal comma, not quoted", "$S/l_more.csv",
      "learn: l_more.csv:9: 42 cells where the first row names 41; allowed: `,` between cells and `.` in "
      "numbers\n"},
-    {"a folder", "$S/l_dir", "learn: l_dir: cannot be read: Is a directory\n"},
+    {"a folder", "$S/l_dir",
+     "learn: l_dir: cannot be read: Is a directory; allowed: a log, or a folder with the .csv files of one "
+     "flight\n"},
     {"bad after a good one", "$S/l_flight.csv $S/l_cut.csv",
      "learn: l_cut.csv:1000: column stateEstimate.z: missing: the row has 2 cells, the first row names 41 "
      "(cut off here?)\n"},

@@ -26,7 +26,7 @@ static const struct {
      "unknown key; allowed: rest_height_m"},
     {"a log for a vehicle", "1", "--vehicle $S/made.csv $S/made.csv",
      "allowed: a vehicle file in TOML (as sim/vehicle/vehicles/cf21_legacy.toml) with name, mass_kg, "},
-    {"a folder", "1", "$S", "Is a directory"},
+    {"a folder of flights", "1", "$S", "allowed: "},
     {"every log held out", "1", "--hold-out $S/made.csv $S/made.csv", "every log is held out"},
     {"the same log twice", "1", "$S/made.csv $S/made.csv", "given twice; allowed: once"},
     {"two vehicles", "1", "--vehicle $S/low.toml --vehicle $S/room.toml $S/made.csv",

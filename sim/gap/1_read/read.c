@@ -149,6 +149,28 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
 
 // --- the whole --------------------------------------------------------------------------------------------
 
+// What the log lacks, and what that costs.
+static void note_missing(gap_flight_t *f) {
+  static const struct {
+    signals_t need;
+    const char *what, *cost;
+  } row[] = {
+      {SIGNALS(SIG_AX, SIG_AZ), "acceleration", "no force is compared"},
+      {SIGNALS(SIG_GX, SIG_GZ), "rates", "no moment is compared"},
+      {ATTITUDE_BITS, "attitude", "neither wind nor anything else in the world's axes is looked for"},
+      {SIGNALS(SIG_VX, SIG_VZ), "velocity",
+       "no drag, flapping, inflow and translational lift are looked for"},
+      {SIGNALS(SIG_X, SIG_Z), "place", "no ceiling, ground and wall are looked for"},
+      {SIGNAL_BIT(SIG_VBAT), "voltage", "battery_sag is not looked for"},
+  };
+  for (unsigned k = 0; k < sizeof row / sizeof *row; k++) {
+    bool all = true;
+    for (int i = 0; i < SIG_COUNT; i++)
+      if (row[k].need & SIGNAL_BIT(i)) all = all && f->v[i];
+    if (!all) gap_note(f, "without %s %s", row[k].what, row[k].cost);
+  }
+}
+
 static void note_samples(gap_flight_t *f) {
   int masked = 0;
   for (int i = 0; i < f->n; i++) masked += f->saturated[i];
@@ -156,6 +178,7 @@ static void note_samples(gap_flight_t *f) {
     gap_note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
   if (f->n > 0 && f->segment[f->n - 1] > 0)
     gap_note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
+  note_missing(f);
 }
 
 // What the columns file says of each; what is made of commands or angles is as late as they are.

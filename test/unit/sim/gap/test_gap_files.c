@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static done_t read_log(gap_flight_t *f, const char *path, why_t *why) {
@@ -90,12 +91,13 @@ TEST(gap_reads_what_programs_write_to_the_bit) {
 TEST(gap_refuses_what_is_no_log_at_once) {
   char loop[400], folder[400];
   snprintf(loop, sizeof loop, "%s", scratch_path("loop.csv"));
-  snprintf(folder, sizeof folder, "%s", scratch_path("."));
+  snprintf(folder, sizeof folder, "%s", scratch_path("hollow"));
+  CHECK(mkdir(folder, 0700) == 0);
   CHECK(symlink("loop.csv", loop) == 0);
   const struct {
     const char *path, *want;
   } row[] = {{loop, "loop.csv: cannot be opened: Too many levels of symbolic links"},
-             {folder, ".: cannot be read: Is a directory"},
+             {folder, "hollow: cannot be read: Is a directory"},
              {"/dev/zero", "/dev/zero:1: not a text file; allowed: CSV"},
              {"/dev/null", "/dev/null:1: the file is empty; allowed: a row of names and rows of numbers"},
              {"/none/of/this", "/none/of/this: cannot be opened: No such file or directory"}};
@@ -107,7 +109,8 @@ TEST(gap_refuses_what_is_no_log_at_once) {
     model_t model;
     why_t why = {""};
     CHECK_STATUS(BAD_INPUT, read_log(&f, row[i].path, &why));
-    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    CHECK(strstr(scratch_short(why.text), row[i].want) ==
+          scratch_short(why.text)); // a folder: and what may be in it
     CHECK_STATUS(BAD_INPUT, columns_read(row[i].path, &columns, &why));
     CHECK_STATUS(BAD_INPUT, model_read(row[i].path, &model, &why));
   }

@@ -1,0 +1,38 @@
+// blocks.h - the files of one flight that cfclient writes, one for each log block, as one table.
+//
+// Every file has a column `Timestamp` (or `timestamp`) in milliseconds of one clock. Rows are those of the
+// file with the motors' commands, else of the first; what the others hold is drawn to their times, between
+// rows that are no more than BLOCKS_APART_MS apart, and is a gap elsewhere. Ranges are not drawn: the newest
+// counts.
+#ifndef SIM_LOGS_BLOCKS_H
+#define SIM_LOGS_BLOCKS_H
+
+#include "base/csv.h"
+
+#define BLOCKS_MAX      16
+#define BLOCKS_APART_MS 150.0
+
+typedef struct blocks blocks_t;
+
+// BAD_INPUT: as csv_open, more files than BLOCKS_MAX, one without a time, a column that two of them have;
+// *blocks is null then.
+MUST_CHECK done_t blocks_open(blocks_t **blocks, const char *const *path, int n, why_t *why);
+
+// A null pointer is allowed.
+void blocks_close(blocks_t *blocks);
+
+// As csv_find, csv_name, csv_line, csv_forgive_cut, csv_cut_off. The time is called as its file calls it.
+int blocks_find(const blocks_t *blocks, const char *name);
+const char *blocks_name(const blocks_t *blocks, int column);
+long blocks_line(const blocks_t *blocks);
+void blocks_forgive_cut(blocks_t *blocks);
+bool blocks_cut_off(const blocks_t *blocks);
+
+// The file that a column (-1: the rows) is from.
+const char *blocks_path(const blocks_t *blocks, int column);
+
+// As csv_next and csv_number. BAD_INPUT: also time that runs backwards in one of the files.
+MUST_CHECK done_t blocks_next(blocks_t *blocks, bool *more, why_t *why);
+MUST_CHECK done_t blocks_number(const blocks_t *blocks, int column, csv_gap_t gap, double *value, why_t *why);
+
+#endif
