@@ -72,7 +72,7 @@ static void look_at_battery(body_t *b) {
 
 static bool model_is_good(const model_t *m) {
   const frame_t *f = &m->frame;
-  return m->mass_kg > 0.0 && m->motor_tau_s > 0.0 && f->kf_Ns2 > 0.0 && f->inertia_kgm2[0] > 0.0 &&
+  return m->mass_kg > 0.0 && m->motor_tau_s >= 0.0 && f->kf_Ns2 > 0.0 && f->inertia_kgm2[0] > 0.0 &&
          f->inertia_kgm2[1] > 0.0 && f->inertia_kgm2[2] > 0.0;
 }
 
@@ -89,6 +89,8 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
                        .kf_Ns2 = f->kf_Ns2,
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
+                       .motor_down_over_up = model->motor_down_over_up,
+                       .lag_in_speed = model->lag_in_speed,
                        .thrust_scale = {1.0, 1.0, 1.0, 1.0},
                        .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
@@ -175,12 +177,19 @@ static void delay_commands(body_t *b, double span_s) {
   b->queued++;
 }
 
+// Rotors without a lag.
+static void take_commands(body_t *b) {
+  memcpy(b->y + RIGID_THRUST_N, b->rigid.command_N, sizeof b->rigid.command_N);
+  b->look_is_y = false;
+}
+
 static void tick(body_t *b, double span_s) {
   if (b->n_tick > 0) {
     body_effects(b, span_s);
     b->look_is_y = false;
   }
   delay_commands(b, span_s);
+  if (b->rigid.motor_tau_s < LAG_LEAST_S) take_commands(b);
   const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
   for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
   rigid_normalise(b->y);

@@ -42,8 +42,11 @@ static fx_motion_t motion_of(const body_t *b, const double *y, const axes_t *axe
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
   motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
-  for (int i = 0; i < ROTORS; i++) motion.rotor_sum_radps += speed[i];
-  for (int i = 0; i < ROTORS; i++) motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
+  for (int i = 0; i < ROTORS; i++) {
+    motion.hub_b_m[i] = d3(b->rigid.rotor_x_m[i], b->rigid.rotor_y_m[i], b->rigid.rotor_z_m[i]);
+    motion.rotor_radps[i] = speed[i];
+    motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
+  }
   return motion;
 }
 

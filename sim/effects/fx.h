@@ -75,10 +75,20 @@ typedef struct {
   d3_t pos_w_m;   // centre of mass, world
   d3_t air_b_mps; // velocity through the air, body axes
   d3_t rate_b_radps;
-  const axes_t *axes;      // of the body
-  double rotor_sum_radps;  // speeds of the four rotors, added
-  double rotor_spin_radps; // the same, each with its sense of turning (plant/rigid.h, s_i)
+  const axes_t *axes;         // of the body
+  d3_t hub_b_m[ROTORS];       // the rotors' centres, from the centre of mass
+  double rotor_radps[ROTORS]; // their speeds
+  double rotor_spin_radps;    // the same added, each with its sense of turning (plant/rigid.h, s_i)
 } fx_motion_t;
+
+// A rotor's hub, `arm` of the way from the centre of mass to it: 1 the hub, 0 the centre of mass.
+typedef struct {
+  d3_t at_b_m, air_b_mps; // place, and velocity through the air
+} fx_hub_t;
+static inline fx_hub_t fx_hub(const fx_motion_t *m, int rotor, double arm) {
+  const d3_t at = d3_scale(arm, m->hub_b_m[rotor]);
+  return (fx_hub_t){at, d3_add(m->air_b_mps, d3_cross(m->rate_b_radps, at))};
+}
 
 // What an effect may change, for the time of one tick. At each tick it starts from the vehicle file's
 // numbers, and the effects change it one after the other.
@@ -173,6 +183,11 @@ typedef struct {
   // Six degrees of freedom only: changes what accelerometer and range sensors read.
   void (*sense)(const struct fx_use *use, fx_sensed_t *sensed);
 } fx_t; // a hook that is null does nothing
+
+// Adds a force that acts there.
+static inline void fx_push_hub(const fx_hub_t *hub, d3_t force_b_N, load_t *load) {
+  load_add(load, force_b_N, d3_cross(hub->at_b_m, force_b_N));
+}
 
 extern const fx_t *const fx_table[];
 extern const int fx_count;

@@ -1,8 +1,13 @@
-// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent: F_z = -k sum(Om) v_z.
+// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent:
+// F_z = -k Om_i v_z at `arm` of the way from the centre of mass to each hub, v: of that place through the
+// air. At the hubs (1) it damps roll and pitch.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
-  load->force_b_N.z -= use->p[0] * motion->rotor_sum_radps * motion->air_b_mps.z;
+  for (int i = 0; i < ROTORS; i++) {
+    const fx_hub_t hub = fx_hub(motion, i, use->p[1]);
+    fx_push_hub(&hub, d3(0.0, 0.0, -use->p[0] * motion->rotor_radps[i] * hub.air_b_mps.z), load);
+  }
 }
 
 const fx_t fx_climb_inflow = {
@@ -17,7 +22,10 @@ const fx_t fx_climb_inflow = {
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
     .size = {{0, 1e-7, 1, 0.0}},
-    .n_param = 1,
-    .param = {{"k", "kg", 0.0, 1.5e-6, 1e-2}},
+    .shape_param = 1,
+    .n_shape = 2,
+    .shape = {1.0, 0.0},
+    .n_param = 2,
+    .param = {{"k", "kg", 0.0, 1.5e-6, 1e-2}, {"arm", "number", 0.0, 1.0, 1.0}},
     .load = load,
 };

@@ -1,10 +1,14 @@
-// fx_flapping.c - the discs tilt back in forward flight: M = k sum(Om) (v x e_z).
+// fx_flapping.c - the discs tilt back in forward flight: M = k Om_i (v x e_z) of each
+// rotor, v: of its hub through the air.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
-  const double k = use->p[0] * motion->rotor_sum_radps;
-  load->moment_b_Nm.x += k * motion->air_b_mps.y;
-  load->moment_b_Nm.y -= k * motion->air_b_mps.x;
+  for (int i = 0; i < ROTORS; i++) {
+    const double k = use->p[0] * motion->rotor_radps[i];
+    const d3_t v = fx_hub(motion, i, 1.0).air_b_mps;
+    load->moment_b_Nm.x += k * v.y;
+    load->moment_b_Nm.y -= k * v.x;
+  }
 }
 
 const fx_t fx_flapping = {

@@ -4,7 +4,7 @@
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   (void)tick;
   const double tau_s = plant->motor_tau_s + use->p[0];
-  plant->motor_tau_s = tau_s > 1e-3 ? tau_s : 1e-3;
+  plant->motor_tau_s = tau_s > 0.0 ? tau_s : 0.0;
 }
 
 const fx_t fx_motor_lag = {

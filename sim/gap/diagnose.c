@@ -118,6 +118,34 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   return look_once(d, job->model, &refined, why);
 }
 
+// Of a name that is withdrawn another kind may be right: a drag at the hubs that the held-out flights
+// contradict may act at the centre of mass.
+static bool bar_kinds(diagnosis_t *d) {
+  candidate_t *const all = d->candidates.candidate;
+  bool barred = false;
+  for (int i = 0; i < d->withdrawn.n; i++) {
+    const int which = d->withdrawn.name[i].candidate;
+    int others = 0;
+    for (int k = 0; k < d->candidates.n; k++)
+      others += k != which && all[k].use.fx == all[which].use.fx && !all[k].barred;
+    if (!candidate_is_of_a_kind(&all[which]) || others == 0) continue;
+    barred = all[which].barred = true;
+  }
+  return barred;
+}
+
+static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  TRY(find_names(job, d, why));
+  const verify_job_t names = {&d->held, job->model, &d->loop, &d->found};
+  TRY(verify_names(&names, &d->withdrawn, why));
+  while (bar_kinds(d)) {
+    found_free(&d->found);
+    TRY(find_names(job, d, why));
+    TRY(verify_names(&names, &d->withdrawn, why));
+  }
+  return DONE;
+}
+
 static void tell(const diagnose_job_t *job, const char *what) {
   if (job->progress) job->progress(what);
 }
@@ -132,9 +160,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
-  TRY(find_names(job, d, why));
-  const verify_job_t names = {&d->held, job->model, &d->loop, &d->found};
-  TRY(verify_names(&names, &d->withdrawn, why));
+  TRY(find_and_verify(job, d, why));
   TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");

@@ -1,7 +1,9 @@
 // rigid.h - a rigid body with four rotors: 17 states.
 //
 //   p' = v                                 m v' = R (F + e3 sum rho_i f_i) - m g e3
-//   q' = q (0, w) / 2                      f_i' = (command_i - f_i) / tau
+//   q' = q (0, w) / 2                      f_i' = (command_i - f_i) / tau   lag in thrust
+//                                          Om_i' = (Om(command_i) - Om_i) / tau   lag in speed: f_i' = 2 kf
+//                                          Om_i Om_i'
 //   J w' = M + sum(r_i x e3 rho_i f_i) - e3 sum s_i (c f_i + I_r Om_i') - w x (J w + e3 sum s_i I_r Om_i)
 //   Om_i = sqrt(f_i / kf)
 //
@@ -16,6 +18,7 @@
 #include "base/constants.h"
 #include "base/d3.h"
 #include "base/pair.h"
+#include "plant/lag.h"
 #include <stdbool.h>
 
 #define ROTORS 4
@@ -43,14 +46,17 @@ typedef struct {
   double torque_ratio_m;       // >= 0   torque over thrust of a rotor
   double kf_Ns2;               // > 0    thrust over speed squared, N/(rad/s)^2
   double rotor_inertia_kgm2;   // >= 0   of propeller and motor about the axis
-  double motor_tau_s;          // > 0
+  double motor_tau_s;          // >= 0   below LAG_LEAST_S: none, the thrust is set with the command
+  double motor_down_over_up;   // >= 0   what the lag is multiplied by while the thrust falls; 0: 1
+  bool lag_in_speed;           // else in thrust
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
   double torque_scale[ROTORS]; // what the torque is multiplied by besides
   double command_N[ROTORS];    // held
-  double per_mass, per_tau, per_root_kf, half_I_per_kf; // set by rigid_tune
-  d3_t per_inertia;                                     // set by rigid_tune
-  bool vertical_only;                                   // all but height, climb and thrust stand still
-  bool held;                                            // all but the thrust stands still
+  double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf; // set by rigid_tune
+  bool plain_lag;     // set by rigid_tune: in thrust, and the same up and down
+  d3_t per_inertia;   // set by rigid_tune
+  bool vertical_only; // all but height, climb and thrust stand still
+  bool held;          // all but the thrust stands still
 } rigid_t;
 
 // Force and moment about the centre of mass, body axes.
@@ -65,6 +71,8 @@ static inline void load_add(load_t *load, d3_t force_b_N, d3_t moment_b_Nm) {
 
 // Computes what the derivative needs of mass, inertias, lag and kf; whenever one of them has changed.
 void rigid_tune(rigid_t *r);
+
+lag_t rigid_lag(const rigid_t *r);
 
 // Brings the quaternion back to unit length.
 void rigid_normalise(double y[RIGID_N]);
@@ -81,6 +89,19 @@ static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], d
     pair_put(speed + i, pair_max(pair_sqrt(pair_max(pair_of(f + i), zero)) * r->per_root_kf, slowest));
 }
 
+// How fast two rotors' thrusts change. A rotor that stands starts as if it turned at ROTOR_SLOWEST_RADPS.
+static inline pair_t rigid_change_Nps(const rigid_t *r, pair_t thrust, pair_t command, pair_t speed) {
+  if (r->plain_lag) return (command - thrust) * r->per_tau;
+  const pair_t zero = pair_both(0.0);
+  pair_t off = command - thrust;
+  if (r->lag_in_speed) {
+    const pair_t to = pair_sqrt(pair_max(command, zero)) * r->per_root_kf,
+                 from = pair_sqrt(pair_max(thrust, zero)) * r->per_root_kf;
+    off = 2.0 * r->kf_Ns2 * speed * (to - from);
+  }
+  return pair_max(off, zero) * r->per_tau + pair_min(off, zero) * r->per_tau_down;
+}
+
 // Thrust, its moment, and what the rotors' torque and inertia do.
 typedef struct {
   double thrust_N;
@@ -94,7 +115,7 @@ static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const dou
   for (int i = 0; i < ROTORS; i += 2) {
     const pair_t thrust = pair_of(f + i), scaled = pair_of(r->thrust_scale + i) * thrust,
                  up = pair_of(ratio + i) * scaled, om = pair_of(speed + i), turns = pair_of(r->spin + i),
-                 change = (pair_of(r->command_N + i) - thrust) * r->per_tau;
+                 change = rigid_change_Nps(r, thrust, pair_of(r->command_N + i), om);
     pair_put(df + i, change);
     lift += up;
     roll += pair_of(r->rotor_y_m + i) * up;

@@ -37,6 +37,16 @@ model_t model_point(const model_t *m) {
   return point;
 }
 
+lag_t model_lag(const model_t *m, double more_s) {
+  const double up_s = fmax(m->motor_tau_s + more_s, 0.0);
+  return (lag_t){up_s, up_s * (m->motor_down_over_up > 0.0 ? m->motor_down_over_up : 1.0), m->lag_in_speed};
+}
+
+double model_step_s(const model_t *m, double most_s) {
+  const lag_t lag = model_lag(m, 0.0);
+  return lag_is_none(&lag) ? most_s : fmin(most_s, 0.5 * fmin(lag.up_s, lag.down_s));
+}
+
 double model_fx_least(const model_t *m, const fx_use_t *use, int param) {
   int n;
   const double least = fx_use_params(use, &n)[param].min;

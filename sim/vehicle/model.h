@@ -38,15 +38,17 @@ typedef struct {
 
 typedef struct {
   char name[64];
-  double mass_kg;        // > 0, ready to fly
-  double rotor_radius_m; // > 0
-  double motor_tau_s;    // > 0   first-order lag
-  double thrust_min_N;   // of all motors together; below 0 only in the thesis's section 4.2
-  double thrust_max_N;   // > thrust_min_N
-  thrust_map_t map;      // PWM and volts to newton per motor
-  double ceiling_m;      // height of the ceiling, INFINITY: none; z = 0 is the ground
-  double wall_y_m;       // a wall in the plane of this y, INFINITY: none; what its air does is an effect
-  bool wall_solid;       // and it can be touched
+  double mass_kg;            // > 0, ready to fly
+  double rotor_radius_m;     // > 0
+  double motor_tau_s;        // >= 0  first-order lag; below LAG_LEAST_S: none
+  double motor_down_over_up; // >= 0 what it is multiplied by while the thrust falls; 0: 1
+  bool lag_in_speed;         // of the rotor, else in thrust
+  double thrust_min_N;       // of all motors together; below 0 only in the thesis's section 4.2
+  double thrust_max_N;       // > thrust_min_N
+  thrust_map_t map;          // PWM and volts to newton per motor
+  double ceiling_m;          // height of the ceiling, INFINITY: none; z = 0 is the ground
+  double wall_y_m;           // a wall in the plane of this y, INFINITY: none; what its air does is an effect
+  bool wall_solid;           // and it can be touched
   double floor_rise_x, floor_rise_y; // how steeply the floor rises along x and y: tangents; 0: level
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
@@ -61,6 +63,12 @@ frame_t model_frame_like_crazyflie(const model_t *m);
 
 // The same vehicle as a point with mass and thrust, its rotors' plane, above level ground and without walls.
 model_t model_point(const model_t *m);
+
+// How its rotors follow, with so much more lag (or less) than the file has.
+lag_t model_lag(const model_t *m, double more_s);
+
+// A step of an integrator, at most most_s, that follows its rotors.
+double model_step_s(const model_t *m, double most_s);
 
 // The smallest that a parameter of an effect can be on this vehicle.
 double model_fx_least(const model_t *m, const fx_use_t *use, int param);

@@ -126,7 +126,7 @@ static done_t read_numbers(toml_t root, model_t *m, why_t *why) {
     double min, max, *value;
   } row[] = {
       {"mass_kg", 1e-3, 100.0, &m->mass_kg},         {"rotor_radius_m", 1e-3, 2.0, &m->rotor_radius_m},
-      {"motor_tau_s", 1e-3, 2.0, &m->motor_tau_s},   {"thrust_min_N", -1e4, 1e4, &m->thrust_min_N},
+      {"motor_tau_s", 0.0, 2.0, &m->motor_tau_s},    {"thrust_min_N", -1e4, 1e4, &m->thrust_min_N},
       {"thrust_max_N", -1e4, 1e4, &m->thrust_max_N},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
@@ -134,6 +134,20 @@ static done_t read_numbers(toml_t root, model_t *m, why_t *why) {
   if (!(m->thrust_max_N > m->thrust_min_N))
     return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than thrust_min_N, %g", m->thrust_max_N,
                        m->thrust_min_N);
+  return DONE;
+}
+
+// How the rotors follow. A file that says nothing means the speed, which is what a motor turns.
+static done_t read_lag(toml_t root, model_t *m, why_t *why) {
+  char in[16] = "speed";
+  double down_s = m->motor_tau_s;
+  if (toml_has(root, "lag_in")) TRY(toml_string(root, "lag_in", in, sizeof in, why));
+  if (strcmp(in, "speed") != 0 && strcmp(in, "thrust") != 0)
+    return toml_refuse(root, "lag_in", why, "unknown word `%s`; allowed: speed, thrust", in);
+  if (toml_has(root, "motor_tau_down_s"))
+    TRY(toml_double(root, "motor_tau_down_s", LAG_LEAST_S, 2.0, &down_s, why));
+  m->lag_in_speed = strcmp(in, "speed") == 0;
+  m->motor_down_over_up = m->motor_tau_s >= LAG_LEAST_S ? down_s / m->motor_tau_s : 1.0;
   return DONE;
 }
 
@@ -152,9 +166,10 @@ static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
 }
 
 static const char *const ROOT_KEYS[] = {
-    "name",      "mass_kg",  "rotor_radius_m", "motor_tau_s",  "thrust_min_N", "thrust_max_N",
-    "ceiling_m", "wall_y_m", "floor_rise_x",   "floor_rise_y", "thrust_map",   "body",
-    "rotors",    "battery",  "controller",     "range_up",     "range_down",   "effect",
+    "name",         "mass_kg",      "rotor_radius_m", "motor_tau_s", "motor_tau_down_s",
+    "lag_in",       "thrust_min_N", "thrust_max_N",   "ceiling_m",   "wall_y_m",
+    "floor_rise_x", "floor_rise_y", "thrust_map",     "body",        "rotors",
+    "battery",      "controller",   "range_up",       "range_down",  "effect",
     NULL};
 const toml_kind_t model_file_kind = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml", ROOT_KEYS};
 
@@ -162,6 +177,7 @@ static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {
   TRY(toml_only(root, ROOT_KEYS, why));
   TRY(toml_string(root, "name", m->name, sizeof m->name, why));
   TRY(read_numbers(root, m, why));
+  TRY(read_lag(root, m, why));
   TRY(check_lift(root, m, why));
   if (toml_has(root, "ceiling_m")) TRY(toml_double(root, "ceiling_m", 0.05, 1e3, &m->ceiling_m, why));
   if (toml_has(root, "wall_y_m")) TRY(toml_double(root, "wall_y_m", -1e3, 1e3, &m->wall_y_m, why));

@@ -27,8 +27,11 @@ static double wide_bell(const fx_use_t *u, const fx_place_t *at) {
   return u->p[0] * 0.2 * exp(-at->ground_gap_m * at->ground_gap_m / 0.0032);
 }
 static void hub_drag(const fx_use_t *u, const fx_motion_t *m, load_t *load) {
-  const double k = u->p[0] * pow(m->rotor_sum_radps / 8000.0, 1.3) * 8000.0;
-  load_add(load, d3(-k * m->air_b_mps.x, -1.1 * k * m->air_b_mps.y, 0.0), d3(0.0, 0.0, 0.0));
+  for (int i = 0; i < ROTORS; i++) {
+    const double k = u->p[0] * pow(m->rotor_radps[i] / 2000.0, 1.3) * 2000.0;
+    const fx_hub_t hub = fx_hub(m, i, 1.0);
+    fx_push_hub(&hub, d3(-k * hub.air_b_mps.x, -1.1 * k * hub.air_b_mps.y, 0.0), load);
+  }
 }
 static void plate_drag(const fx_use_t *u, const fx_motion_t *m, load_t *load) {
   const d3_t v = m->air_b_mps;
@@ -37,8 +40,11 @@ static void plate_drag(const fx_use_t *u, const fx_motion_t *m, load_t *load) {
            d3(0.0, 0.0, 0.0));
 }
 static void inflow(const fx_use_t *u, const fx_motion_t *m, load_t *load) {
-  const double v = m->air_b_mps.z;
-  load->force_b_N.z -= u->p[0] * m->rotor_sum_radps * v / (1.0 + 0.3 * fabs(v));
+  for (int i = 0; i < ROTORS; i++) {
+    const fx_hub_t hub = fx_hub(m, i, 1.0);
+    const double v = hub.air_b_mps.z;
+    fx_push_hub(&hub, d3(0.0, 0.0, -u->p[0] * m->rotor_radps[i] * v / (1.0 + 0.3 * fabs(v))), load);
+  }
 }
 static void flap(const fx_use_t *u, const fx_motion_t *m, load_t *load) {
   const double k = u->p[0] * 8000.0 / (1.0 + 0.1 * d3_norm(m->air_b_mps));

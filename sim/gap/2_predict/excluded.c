@@ -54,7 +54,7 @@ static void reorder(set_t *s, const int order[ROTORS]) {
     double *was[ROTORS];
     memcpy(was, g->command_N, sizeof was);
     for (int k = 0; k < ROTORS; k++) g->command_N[order[k]] = was[k];
-    for (int i = 0; i < GRID_MOTORS; i++) g->motors[i].tau_s = (double)NAN; // of other commands
+    for (int i = 0; i < GRID_MOTORS; i++) g->motors[i].delay_s = (double)NAN; // of other commands
   }
 }
 

@@ -33,9 +33,11 @@ enum { MARK_FREE = 1, MARK_TURN_FREE = 2, MARK_FIRST = 4, MARK_LAST = 8 }; // fi
 
 #define GRID_MOTORS 4 // motor histories kept
 
-// Thrust of the rotors in free air for one lag and delay, at the points.
+// Thrust of the rotors in free air for one lag and delay, at the points. A delay below 0: commands that are
+// logged late.
 typedef struct {
-  double tau_s, delay_s;
+  lag_t lag;
+  double delay_s;
   double *thrust_N[ROTORS], *rise_Nps[ROTORS];
 } lagged_t;
 
@@ -61,7 +63,7 @@ void grid_free(grid_t *g);
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
 // memory.
-const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s);
+const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s);
 
 // --- what the controller was told (set_points.c) ---------------------------------------------------------
 

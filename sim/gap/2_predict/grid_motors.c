@@ -1,4 +1,7 @@
 // grid_motors.c - what the motors made of the commands.
+//
+// A command holds until the next row of the log. A row that is a sample has the thrust of its instant, before
+// its own command acts (without a lag: with it); a row that is a mean has the mean over its hold.
 #include "gap/2_predict/grid.h"
 
 #include "base/pair.h"
@@ -8,49 +11,79 @@
 // One number of every rotor.
 typedef double forces_t[ROTORS];
 
-// Command and thrust by sample; the thrust is wanted `shift` samples before.
+// By sample; they are wanted `shift` samples before.
 typedef struct {
-  forces_t *command_N, *thrust_N;
-  double shift, per_tau;
+  forces_t *thrust_N, *rise_Nps;
+  double shift;
 } history_t;
 
-// Adds what the thrusts were at sample i - shift, and how fast they rose.
-static void look_back(const history_t *h, int first, int i, pair_t thrust_N[2], pair_t rise_Nps[2]) {
-  const double at = fmax((double)i - h->shift, (double)first);
-  const int low = (int)at;
-  const double share = at - low;
-  for (int k = 0; k < 2; k++) {
-    const pair_t thrust = pair_of(h->thrust_N[low] + 2 * k);
-    rise_Nps[k] += (pair_of(h->command_N[low] + 2 * k) - thrust) * h->per_tau;
-    thrust_N[k] += share > 0.0 ? thrust + share * (pair_of(h->thrust_N[low + 1] + 2 * k) - thrust) : thrust;
-  }
+// A rotor and what it does in one row's hold.
+typedef struct {
+  double thrust_N, rise_Nps, end; // end: what follows, when the hold is over
+} hold_t;
+
+static hold_t hold(const lag_t *lag, double rate_Hz, bool mean, double start, double command_N) {
+  const double to = lag_follows(lag, command_N), tau_s = lag_s(lag, start, to);
+  if (lag_is_none(lag)) return (hold_t){command_N, 0.0, to};
+  const double keep = exp(-1.0 / (rate_Hz * tau_s)), off = start - to;
+  const double end = to + keep * off, rise = (to - start) / tau_s;
+  const double now_N = lag_thrust_N(lag, start), end_N = lag_thrust_N(lag, end);
+  if (!mean) return (hold_t){now_N, lag->in_speed ? 2.0 * start * rise : rise, end};
+  // Of to + off exp(-t / tau), and of its square.
+  const double once = tau_s * rate_Hz * (1.0 - keep), twice = 0.5 * tau_s * rate_Hz * (1.0 - keep * keep);
+  const double mean_N = lag->in_speed ? to * to + 2.0 * to * off * once + off * off * twice : to + off * once;
+  return (hold_t){mean_N, (end_N - now_N) * rate_Hz, end};
 }
 
-// A command holds until the next sample; it was there long enough at the start of a segment.
-static void lag(const grid_t *g, double tau_s, const history_t *h) {
+// A command was there long enough at the start of a segment.
+static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
-  const double share = 1.0 - exp(-1.0 / (g->flight->rate_Hz * tau_s));
-  pair_t f[2] = {{0.0, 0.0}, {0.0, 0.0}};
-  for (int i = 0; i < g->samples; i++) {
-    const bool starts = i == 0 || (segment && segment[i] != segment[i - 1]);
-    for (int k = 0; k < 2; k++) {
-      const pair_t command = pair_of(h->command_N[i] + 2 * k);
-      if (starts) f[k] = command;
-      pair_put(h->thrust_N[i] + 2 * k, f[k]);
-      f[k] += share * (command - f[k]);
+  for (int k = 0; k < ROTORS; k++) {
+    double now = 0.0;
+    for (int i = 0; i < g->samples; i++) {
+      const double command_N = g->command_N[k][i];
+      if (i == 0 || (segment && segment[i] != segment[i - 1])) now = lag_follows(lag, command_N);
+      const hold_t row = hold(lag, g->flight->rate_Hz, g->flight->rows_are_means, now, command_N);
+      h->thrust_N[i][k] = row.thrust_N;
+      h->rise_Nps[i][k] = row.rise_Nps;
+      now = row.end;
     }
   }
 }
 
+static pair_t between(forces_t *v, int low, double share, int k) {
+  const pair_t a = pair_of(v[low] + 2 * k);
+  return share > 0.0 ? a + share * (pair_of(v[low + 1] + 2 * k) - a) : a;
+}
+
+// Adds what the thrusts were at sample i - shift of the samples first..last, and how fast they rose.
+static void look_back(const history_t *h, int first, int last, int i, pair_t thrust_N[2],
+                      pair_t rise_Nps[2]) {
+  const double at = fmin(fmax((double)i - h->shift, (double)first), (double)last);
+  const int low = (int)at;
+  for (int k = 0; k < 2; k++) {
+    thrust_N[k] += between(h->thrust_N, low, at - low, k);
+    rise_Nps[k] += between(h->rise_Nps, low, at - low, k);
+  }
+}
+
+static int last_of_segment(const grid_t *g, int i) {
+  const int *segment = g->flight->segment;
+  if (!segment) return g->samples - 1;
+  while (i + 1 < g->samples && segment[g->from + i + 1] == segment[g->from + i]) i++;
+  return i;
+}
+
 static void average(const grid_t *g, const history_t *h, lagged_t *m) {
   const gap_flight_t *f = g->flight;
-  int i = 0, first = 0;
+  int i = 0, first = 0, last = last_of_segment(g, 0);
   for (int j = 0; j < g->n; j++) {
     // As take_points has walked.
     while (f->segment && f->segment[g->from + i] != f->segment[g->from + i + g->every - 1]) i++;
     if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
+    if (i > last) last = last_of_segment(g, i);
     pair_t thrust_N[2] = {{0.0, 0.0}, {0.0, 0.0}}, rise_Nps[2] = {{0.0, 0.0}, {0.0, 0.0}};
-    for (int k = i; k < i + g->every; k++) look_back(h, first, k, thrust_N, rise_Nps);
+    for (int k = i; k < i + g->every; k++) look_back(h, first, last, k, thrust_N, rise_Nps);
     for (int k = 0; k < ROTORS; k++) {
       m->thrust_N[k][j] = thrust_N[k / 2][k % 2] / g->every;
       m->rise_Nps[k][j] = rise_Nps[k / 2][k % 2] / g->every;
@@ -59,18 +92,14 @@ static void average(const grid_t *g, const history_t *h, lagged_t *m) {
   }
 }
 
-static void follow(const grid_t *g, forces_t *room, lagged_t *m) {
-  const history_t h = {room, room + g->samples, m->delay_s * g->flight->rate_Hz, 1.0 / m->tau_s};
-  for (int i = 0; i < g->samples; i++)
-    for (int k = 0; k < ROTORS; k++) h.command_N[i][k] = g->command_N[k][i];
-  lag(g, m->tau_s, &h);
-  average(g, &h, m);
+static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
+  return m->thrust_N[0] && m->lag.up_s == lag->up_s && m->lag.down_s == lag->down_s &&
+         m->lag.in_speed == lag->in_speed && m->delay_s == delay_s;
 }
 
-const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
+const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
   for (int i = 0; i < GRID_MOTORS; i++)
-    if (g->motors[i].thrust_N[0] && g->motors[i].tau_s == tau_s && g->motors[i].delay_s == delay_s)
-      return &g->motors[i];
+    if (is_of(&g->motors[i], lag, delay_s)) return &g->motors[i];
   lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
   const size_t n = (size_t)g->n;
   if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
@@ -79,13 +108,15 @@ const lagged_t *grid_motors(grid_t *g, double tau_s, double delay_s) {
     free(room);
     return NULL;
   }
-  m->tau_s = tau_s;
+  m->lag = *lag;
   m->delay_s = delay_s;
   for (int k = 0; k < ROTORS; k++) {
     m->thrust_N[k] = m->thrust_N[0] + (size_t)k * n;
     m->rise_Nps[k] = m->thrust_N[0] + (size_t)(ROTORS + k) * n;
   }
-  follow(g, room, m);
+  const history_t h = {room, room + g->samples, delay_s * g->flight->rate_Hz};
+  follow(g, lag, &h);
+  average(g, &h, m);
   free(room);
   return m;
 }

@@ -17,7 +17,9 @@ static void place_body(body_t *b, const grid_point_t *p) {
   b->vbat_V = p->vbat_V;
 }
 
+// The lag is done: the thrust is to change as fast as it did, whatever the lag follows.
 static void place_motors(body_t *b, const lagged_t *motors, int j) {
+  b->rigid.plain_lag = true;
   for (int k = 0; k < ROTORS; k++) {
     b->y[RIGID_THRUST_N + k] = motors->thrust_N[k][j];
     b->rigid.command_N[k] = motors->thrust_N[k][j] + motors->rise_Nps[k][j] * b->rigid.motor_tau_s;
@@ -70,7 +72,8 @@ static void keep(path_t *path, const body_t *b, passed_t *at, int j) {
 static done_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS], why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
-  const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
+  const lag_t lag = rigid_lag(&b->rigid);
+  const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
   if (!motors) return error_failed(why, "out of memory");
   const double start_s = g->point[0].t_s;
   for (int j = 0; j < g->n; j++) {
@@ -79,6 +82,7 @@ static done_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS
     b->t_s = g->point[j].t_s - start_s;
     place_motors(b, motors, j);
     if (b->n_tick > 0) body_effects(b, g->period_s);
+    b->rigid.plain_lag = true; // effects may have tuned it anew
     body_look(b, 0, b->y, &at.look);
     at.sight = in_sight(g, b->model, &g->point[j], &at.look.axes);
     predict(b, &at);
@@ -128,7 +132,8 @@ static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t
                         double *const out[CHANNELS], why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s);
-  const lagged_t *motors = grid_motors(g, b->rigid.motor_tau_s, b->plant.delay_s);
+  const lag_t lag = rigid_lag(&b->rigid);
+  const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
   if (!motors) return error_failed(why, "out of memory");
   for (int j = 0, rigid = -1; j < g->n; j++) {
     passed_t at = path->at[j];

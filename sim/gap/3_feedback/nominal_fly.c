@@ -122,7 +122,7 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
-  const done_t status = body_open(&f->body, m, INTEGRATE_RK4, fmin(STEP_S, 0.5 * m->motor_tau_s), &start);
+  const done_t status = body_open(&f->body, m, INTEGRATE_RK4, model_step_s(m, STEP_S), &start);
   if (status == BAD_INPUT) return error_set(why, "%s: a model that cannot be flown", m->name);
   if (status != DONE) return error_failed(why, "out of memory");
   f->body.vbat_V = p->vbat_V;

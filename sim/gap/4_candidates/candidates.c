@@ -94,6 +94,12 @@ double candidate_typical(const candidate_t *c, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
+bool candidate_is_of_a_kind(const candidate_t *c) {
+  int n;
+  const fx_t *const fx = c->use.fx;
+  return fx->n_shape > 1 && fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
+}
+
 void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
   for (int i = 0; i < chosen->n; i++) {
     const fx_t *const fx = chosen->use[i].fx;

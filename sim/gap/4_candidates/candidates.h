@@ -15,6 +15,7 @@ typedef struct {
   fx_use_t use;              // with its shape; its sizes are 0
   int first, n;              // columns
   double least[FX_SIZE_MAX]; // that its numbers can be, by sign and for this vehicle
+  bool barred;               // a shape that held-out flights contradict: it is out of question
 } candidate_t;
 
 typedef struct {
@@ -55,6 +56,9 @@ const fx_use_t *chosen_use(const chosen_t *chosen, int candidate);
 // The same, to change its numbers. Where it is not chosen yet, it is now, its sizes 0; there must be room.
 fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate);
 void chosen_drop(chosen_t *chosen, int candidate);
+
+// Its shape is one of a few kinds (which rotor, where it acts), and not a length between others.
+bool candidate_is_of_a_kind(const candidate_t *c);
 
 // The candidates get the shapes of those that are chosen.
 void candidates_reshape(candidates_t *c, const chosen_t *chosen);

@@ -147,7 +147,7 @@ static done_t take_timing(select_t *t, timing_t *timing, why_t *why) {
   const int candidate = timing->candidate;
   for (int i = 0; i < r->c->n; i++)
     if (round_fx(r, i)->class == FX_TIMING)
-      t->never[i] = timing->measured || (candidate >= 0 && i != candidate);
+      t->never[i] = t->never[i] || timing->measured || (candidate >= 0 && i != candidate);
   if (candidate < 0) return DONE;
   if (!timing->measured) {
     r->choice = choice_with(&r->choice, candidate);
@@ -177,6 +177,7 @@ done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, con
   select_t t = {
       .taken = calloc(n, sizeof(int)), .never = calloc(n, sizeof(bool)), .alike = calloc(n, sizeof(bool))};
   t.round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t.never};
+  for (int i = 0; t.never && i < c->n; i++) t.never[i] = c->candidate[i].barred;
   done_t status = found_make(found, c, why);
   if (status == DONE)
     status = t.taken && t.never && t.alike ? find_choice(&t, found, why) : error_failed(why, "out of memory");

@@ -131,11 +131,6 @@ static void take_errors(polish_t *p, const double x[MOST], named_t *named) {
   named->shape_stderr = robust * p->unit[SHAPE] * sqrt(inverse[0]);
 }
 
-static bool is_free(const fx_t *fx, const candidate_t *c) {
-  int n;
-  return fx->n_shape > 1 && !fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
-}
-
 static done_t polish(polish_t *p, named_t *named, why_t *why) {
   take_bounds(p);
   TRY(take_colors(p, why));
@@ -154,7 +149,7 @@ done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found
   for (int i = 0; i < found->n; i++) {
     const candidate_t *const own = &c->candidate[found->named[i].candidate];
     polish_t p = {.chosen = &found->chosen, .own = own, .s = s, .base = base, .n = SIZE + own->n};
-    if (!is_free(own->use.fx, own)) continue;
+    if (own->use.fx->n_shape < 2 || candidate_is_of_a_kind(own)) continue;
     p.use = chosen_take(&found->chosen, c, found->named[i].candidate);
     TRY(polish(&p, &found->named[i], why));
     *changed = true;

@@ -87,11 +87,11 @@ static double unlike_thrust(const grid_t *g, int rotor, const lagged_t *motors) 
 }
 
 static double unlike_speeds(speeds_t *s, double value) {
-  const double tau_s = s->m->motor_tau_s + (s->lag ? value : 0.0),
-               delay_s = s->m->frame.motor_delay_s + (s->lag ? s->extra_s : value);
+  const lag_t lag = model_lag(s->m, s->lag ? value : 0.0);
+  const double delay_s = s->m->frame.motor_delay_s + (s->lag ? s->extra_s : value);
   double sum = 0.0;
   for (int f = 0; f < s->s->n_grid; f++) {
-    const lagged_t *motors = grid_motors(&s->s->grid[f], tau_s, delay_s);
+    const lagged_t *motors = grid_motors(&s->s->grid[f], &lag, delay_s);
     if (!motors) s->failed = true;
     for (int k = 0; motors && k < ROTORS; k++) sum += unlike_thrust(&s->s->grid[f], k, motors);
   }

@@ -58,8 +58,7 @@ static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][j * a->g->every];
   if (a->body.integrate) body_close(&a->body);
   a->body.integrate = NULL;
-  if (body_open(&a->body, m, INTEGRATE_RK4, fmin(PILOT_STEP_S, 0.5 * m->motor_tau_s), &start) == DONE)
-    return DONE;
+  if (body_open(&a->body, m, INTEGRATE_RK4, model_step_s(m, PILOT_STEP_S), &start) == DONE) return DONE;
   return error_failed(why, "%s: a model that cannot be flown", m->name);
 }
 

@@ -153,7 +153,7 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
     const int ch = grown(with, without, blur, &most);
     if (ch < 0) continue;
     *worst = i;
-    *why_so = (withdrawn_t){found_use(d->found, name)->fx, ch, without[ch], with[ch]};
+    *why_so = (withdrawn_t){found_use(d->found, name)->fx, name->candidate, ch, without[ch], with[ch]};
   }
   return DONE;
 }

@@ -20,6 +20,7 @@ typedef struct {
 // A name of the fitted flights that the held-out ones contradict.
 typedef struct {
   const fx_t *fx;
+  int candidate;
   int channel;          // that it grows most
   double without, with; // its held-out rms
 } withdrawn_t;

@@ -117,7 +117,7 @@ static void command(int t, double command_N[ROTORS]) {
 static model_t windy(void) {
   model_t m = vehicle6(START_M + GAP_M);
   vehicle6_add(&m, "ceiling");
-  vehicle6_add(&m, "rotor_drag");
+  vehicle6_add(&m, "rotor_drag")->p[1] = 0.0; // above the centre of mass it makes an unstable vehicle of it
   vehicle6_add(&m, "body_drag");
   vehicle6_add(&m, "wind")->p[3] = 2e-3;
   return m;

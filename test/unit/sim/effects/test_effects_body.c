@@ -54,6 +54,38 @@ TEST(rotor_drag_and_body_drag_push_against_the_velocity_through_the_air) {
   check_d3(felt(&m, &start).acc_b_mps2, 3e-3 / MASS_KG, 0.0, 0.0, 1e-9);
 }
 
+TEST(drag_and_inflow_at_the_hubs_damp_turning_and_at_the_centre_of_mass_do_not) {
+  const double arm_m = 0.0325, speed_radps = sqrt(0.25 * WEIGHT_N / vehicle6(HUGE_VAL).frame.kf_Ns2);
+  // k Om v at each of four hubs, v = w r: the moment is 4 k Om w (x^2 + y^2) for yaw, 4 k Om w y^2 for roll.
+  static const struct {
+    const char *name;
+    double k;
+    d3_t rate_b_radps, per; // damped by so many arms squared
+  } row[] = {
+      {"rotor_drag", 1e-6, {0.0, 0.0, 2.0}, {0.0, 0.0, 2.0}},
+      {"climb_inflow", 1.5e-6, {2.0, 0.0, 0.0}, {1.0, 0.0, 0.0}},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    for (int arm = 0; arm <= 1; arm++) {
+      ROW("%s, arm %d", row[i].name, arm);
+      model_t m = vehicle6(HUGE_VAL);
+      body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+      start.rate_b_radps = row[i].rate_b_radps;
+      vehicle6_add(&m, row[i].name)->p[1] = arm;
+      const d3_t got = felt(&m, &start).turn_b_radps2, rate = row[i].rate_b_radps, per = row[i].per;
+      const double damped = -4.0 * arm * row[i].k * speed_radps * arm_m * arm_m;
+      check_d3(got, damped * per.x * rate.x / 16.8e-6, damped * per.y * rate.y / 16.8e-6,
+               damped * per.z * rate.z / 29.8e-6, 1e-9);
+    }
+  // A drag above the centre of mass tips the vehicle back.
+  model_t m = vehicle6(HUGE_VAL);
+  body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+  start.vel_w_mps = d3(1.0, 0.0, 0.0);
+  vehicle6_add(&m, "rotor_drag");
+  const double push_N = -4.0 * 1e-6 * speed_radps;
+  check_d3(felt(&m, &start).turn_b_radps2, 0.0, push_N * body_rotor_z_m(&m) / 16.8e-6, 0.0, 1e-9);
+}
+
 TEST(wind_pushes_in_the_world_whatever_the_vehicle_looks_at) {
   model_t m = vehicle6(HUGE_VAL);
   body_start_t start = vehicle6_start(&m, 5.0, 1.0);

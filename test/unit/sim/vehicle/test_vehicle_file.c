@@ -42,7 +42,8 @@ static const struct {
     {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
     {"unknown key", VEHICLE "mass = 1\n",
      "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
-     "motor_tau_s, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, floor_rise_y, thrust_map, "
+     "motor_tau_s, motor_tau_down_s, lag_in, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, "
+     "floor_rise_y, thrust_map, "
      "body, rotors, battery, "
      "controller, range_up, range_down, "
      "effect"},
@@ -191,6 +192,35 @@ TEST(vehicle_file_gives_body_rotors_and_battery) {
   CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
   CHECK_NEAR(m.frame.inertia_kgm2[2], 29.8e-6 * 30.0 / 32.9 * 400.0 / (23.55 * 23.55), 1e-12);
   CHECK(m.battery.capacity_As == 0.0);
+}
+
+TEST(vehicle_file_says_how_the_rotors_follow) {
+  static const struct {
+    const char *text;
+    bool in_speed;
+    double down_over_up;
+    const char *want;
+  } row[] = {
+      {"", true, 1.0, ""},
+      {"lag_in = \"thrust\"\n", false, 1.0, ""},
+      {"lag_in = \"speed\"\nmotor_tau_down_s = 0.09\n", true, 1.5, ""},
+      {"lag_in = \"torque\"\n", false, 0.0,
+       "v.toml:7: lag_in: unknown word `torque`; allowed: speed, thrust"},
+      {"motor_tau_down_s = 0\n", false, 0.0,
+       "v.toml:7: motor_tau_down_s: 0 is out of range; allowed: 0.001 to 2"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    char text[600];
+    model_t m = {.lag_in_speed = false};
+    why_t why = {""};
+    ROW("%s", row[i].text);
+    snprintf(text, sizeof text, VEHICLE "%s", row[i].text);
+    const done_t status = model_read(scratch_file("v.toml", text, -1), &m, &why);
+    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, status);
+    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    CHECK(m.lag_in_speed == row[i].in_speed);
+    CHECK_NEAR(m.motor_down_over_up, row[i].down_over_up, 1e-12);
+  }
 }
 
 TEST(vehicle_file_with_a_bad_body_is_refused) {

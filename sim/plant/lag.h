@@ -1,0 +1,32 @@
+// lag.h - how a rotor follows its command: first order in its speed, as motors do, or in its thrust, as
+// controllers of small vehicles take it. About a working point both are the same.
+#ifndef SIM_PLANT_LAG_H
+#define SIM_PLANT_LAG_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#define LAG_LEAST_S 1e-3 // a shorter one is none: the thrust is what is commanded
+
+typedef struct {
+  double up_s, down_s; // >= 0, while it rises and while it falls
+  bool in_speed;       // of the rotor; else in thrust
+} lag_t;
+
+static inline bool lag_is_none(const lag_t *lag) {
+  return lag->up_s < LAG_LEAST_S;
+}
+
+// What follows: the thrust, or the root of it, which is a speed.
+static inline double lag_follows(const lag_t *lag, double thrust_N) {
+  return lag->in_speed ? sqrt(fmax(thrust_N, 0.0)) : thrust_N;
+}
+static inline double lag_thrust_N(const lag_t *lag, double follows) {
+  return lag->in_speed ? follows * follows : follows;
+}
+// The time constant on the way from `now` to `command`.
+static inline double lag_s(const lag_t *lag, double now, double command) {
+  return command > now ? lag->up_s : lag->down_s;
+}
+
+#endif
