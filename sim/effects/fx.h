@@ -122,12 +122,25 @@ typedef struct {
   double range_rate_mps; // of the true distance
 } fx_sensed_t;
 
+// How what is typical of a number grows with the vehicle, so that the effect accelerates a large one as it
+// does a Crazyflie, of which the nominal number is.
+typedef enum {
+  FX_SAME,              // not at all: a sensor's error, a share, a time
+  FX_BY_MASS,           // a force, or one over a square of the velocity
+  FX_BY_MASS_PER_SPEED, // a force over velocity and rotor speed
+  FX_BY_INERTIA,        // a moment
+  FX_BY_INERTIA_PER_SPEED,
+  FX_BY_ARM,       // a length, as the rotors' distance from the centre
+  FX_BY_PER_WEIGHT // over a force
+} fx_grows_t;
+
 // A number that the workflow estimates: of use->p, in steps small enough for a straight line. 0 is `absent`.
 typedef struct {
   int param;
   double step;
-  int sign;     // +1: it cannot be negative; 0: it can be either
-  double least; // smaller than this it is never named (what feedback alone looks like)
+  int sign;         // +1: it cannot be negative; 0: it can be either
+  double least;     // smaller than this it is never named (what feedback alone looks like)
+  fx_grows_t grows; // its nominal number and its step
 } fx_size_t;
 
 typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_class_t; // of one class, one at most is named

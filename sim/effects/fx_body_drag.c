@@ -15,7 +15,7 @@ const fx_t fx_body_drag = {
               {"accel_bias", "a line there and back without a yaw turn: drag turns round, a bias does not"}},
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
-    .size = {{0, 1e-4, 1, 0.0}},
+    .size = {{0, 1e-4, 1, 0.0, FX_BY_MASS}},
     .n_param = 1,
     .param = {{"c", "kg/m", 0.0, 2e-3, 10.0}},
     .load = load,

@@ -21,7 +21,7 @@ const fx_t fx_climb_inflow = {
               {"body_drag", "climbs at 0.5 and 1 m/s: one doubles, the other grows fourfold"}},
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
-    .size = {{0, 1e-7, 1, 0.0}},
+    .size = {{0, 1e-7, 1, 0.0, FX_BY_MASS_PER_SPEED}},
     .shape_param = 1,
     .n_shape = 2,
     .shape = {1.0, 0.0},

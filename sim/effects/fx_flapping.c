@@ -20,7 +20,7 @@ const fx_t fx_flapping = {
               {"motor_damage", "sideways steps both ways: flapping turns round, a weak rotor stays weak"}},
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
-    .size = {{0, 1e-9, 0, 0.0}},
+    .size = {{0, 1e-9, 0, 0.0, FX_BY_INERTIA_PER_SPEED}},
     .n_param = 1,
     .param = {{"k", "kg m", -1e-3, 1.2e-8, 1e-3}},
     .load = load,

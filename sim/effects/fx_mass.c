@@ -19,7 +19,7 @@ const fx_t fx_mass = {
               {"accel_bias", "throttle steps of 20 %: a bias stays, what a mass does grows with the thrust"}},
     .class = FX_WEIGHT,
     .n_size = 1,
-    .size = {{0, 1e-4, 0, 0.0}},
+    .size = {{0, 1e-4, 0, 0.0, FX_BY_MASS}},
     .n_param = 3,
     .param = {{"add", "kg", -50.0, 1.6e-3, 50.0}, {"start", "s", 0.0, 0.0, 1e6}, {"end", "s", 0.0, 1e6, 1e6}},
     .tick = tick,

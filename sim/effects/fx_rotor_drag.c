@@ -26,7 +26,7 @@ const fx_t fx_rotor_drag = {
               {"imu_misalignment", "level flight at a steady speed, then throttle steps on the spot"}},
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
-    .size = {{0, 1e-7, 1, 0.0}},
+    .size = {{0, 1e-7, 1, 0.0, FX_BY_MASS_PER_SPEED}},
     .shape_param = 1,
     .n_shape = 2,
     .shape = {1.0, 0.0},

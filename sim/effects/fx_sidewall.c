@@ -25,7 +25,7 @@ const fx_t fx_sidewall = {
               {"accel_bias", "beside the wall and away from it: a bias stays"}},
     .needs = FX_NEEDS_WALL | FX_NEEDS_POSITION | FX_NEEDS_VELOCITY,
     .n_size = 2,
-    .size = {{1, 1e-4, 0, 0.0}, {2, 1e-6, 0, 0.0}},
+    .size = {{1, 1e-4, 0, 0.0, FX_BY_MASS}, {2, 1e-6, 0, 0.0, FX_BY_INERTIA}},
     .shape_param = 3,
     .n_shape = 5,
     .shape = {0.02, 0.04, 0.07, 0.12, 0.2},

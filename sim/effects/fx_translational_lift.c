@@ -16,7 +16,7 @@ const fx_t fx_translational_lift = {
               {"body_drag", "level circles at two speeds: lift is vertical, drag lies in the plane"}},
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
-    .size = {{0, 1e-4, 1, 0.0}},
+    .size = {{0, 1e-4, 1, 0.0, FX_BY_MASS}},
     .n_param = 1,
     .param = {{"k", "kg/m", 0.0, 3e-3, 10.0}},
     .load = load,

@@ -26,7 +26,7 @@ const fx_t fx_wind = {
     .over = {"time"},
     .needs = FX_NEEDS_ATTITUDE,
     .n_size = 2,
-    .size = {{0, 1e-4, 0, 0.0}, {1, 1e-4, 0, 0.0}},
+    .size = {{0, 1e-4, 0, 0.0, FX_BY_MASS}, {1, 1e-4, 0, 0.0, FX_BY_MASS}},
     .n_param = 8,
     .param = {{"fx", "N", -50.0, 3e-3, 50.0},
               {"fy", "N", -50.0, 0.0, 50.0},

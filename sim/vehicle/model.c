@@ -1,6 +1,7 @@
 // model.c - the effects of a model.
 #include "vehicle/model.h"
 
+#include <math.h>
 #include <string.h>
 
 // Crazyflie 2.1 with legacy propellers, decks on: the sources stand in vehicles/cf21_legacy.toml.
@@ -45,6 +46,23 @@ lag_t model_lag(const model_t *m, double more_s) {
 double model_step_s(const model_t *m, double most_s) {
   const lag_t lag = model_lag(m, 0.0);
   return lag_is_none(&lag) ? most_s : fmin(most_s, 0.5 * fmin(lag.up_s, lag.down_s));
+}
+
+double model_grows(const model_t *m, fx_grows_t how) {
+  static const model_t crazyflie = {.mass_kg = CF_MASS_KG, .rotor_radius_m = CF_RADIUS_M};
+  const frame_t own = m->frame, like = model_frame_like_crazyflie(&crazyflie);
+  const double mass = m->mass_kg / CF_MASS_KG, inertia = own.inertia_kgm2[0] / like.inertia_kgm2[0];
+  const double speed = sqrt(mass * like.kf_Ns2 / own.kf_Ns2); // of a rotor in a hover
+  switch (how) {
+  case FX_BY_MASS: return mass;
+  case FX_BY_MASS_PER_SPEED: return mass / speed;
+  case FX_BY_INERTIA: return inertia;
+  case FX_BY_INERTIA_PER_SPEED: return inertia / speed;
+  case FX_BY_ARM:
+    return hypot(own.rotor_x_m[0], own.rotor_y_m[0]) / hypot(like.rotor_x_m[0], like.rotor_y_m[0]);
+  case FX_BY_PER_WEIGHT: return 1.0 / mass;
+  default: return 1.0;
+  }
 }
 
 double model_fx_least(const model_t *m, const fx_use_t *use, int param) {

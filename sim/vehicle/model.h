@@ -70,6 +70,9 @@ lag_t model_lag(const model_t *m, double more_s);
 // A step of an integrator, at most most_s, that follows its rotors.
 double model_step_s(const model_t *m, double most_s);
 
+// What is typical of a number of an effect on this vehicle, over what it is on a Crazyflie.
+double model_grows(const model_t *m, fx_grows_t how);
+
 // The smallest that a parameter of an effect can be on this vehicle.
 double model_fx_least(const model_t *m, const fx_use_t *use, int param);
 

@@ -57,11 +57,24 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
   return NULL;
 }
 
+// The nominal value, or that of the first of the sizes that have one; never 0.
+static double typical_of(const fx_use_t *use, int k) {
+  int n;
+  const fx_param_t *param = fx_use_params(use, &n);
+  const fx_size_t *size = use->fx->size;
+  double typical = fabs(param[size[k].param].nominal);
+  for (int i = 0; i < use->fx->n_size && typical == 0.0; i++) typical = fabs(param[size[i].param].nominal);
+  return typical > 0.0 ? typical : size[k].step;
+}
+
 static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
   for (int k = 0; k < fx->n_size; k++) {
     const int param = fx->size[k].param;
+    const double grows = model_grows(m, fx->size[k].grows);
+    to->typical[k] = grows * typical_of(&to->use, k);
+    to->step[k] = grows * fx->size[k].step;
     to->use.p[param] = 0.0;
     to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
   }
@@ -83,15 +96,6 @@ done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t 
 void candidates_free(candidates_t *c) {
   free(c->candidate);
   *c = (candidates_t){.n = 0};
-}
-
-double candidate_typical(const candidate_t *c, int k) {
-  int n;
-  const fx_param_t *param = fx_use_params(&c->use, &n);
-  const fx_size_t *size = c->use.fx->size;
-  double typical = fabs(param[size[k].param].nominal);
-  for (int i = 0; i < c->n && typical == 0.0; i++) typical = fabs(param[size[i].param].nominal);
-  return typical > 0.0 ? typical : size[k].step;
 }
 
 bool candidate_is_of_a_kind(const candidate_t *c) {

@@ -12,10 +12,11 @@
 #include "gap/2_predict/residual.h"
 
 typedef struct {
-  fx_use_t use;              // with its shape; its sizes are 0
-  int first, n;              // columns
-  double least[FX_SIZE_MAX]; // that its numbers can be, by sign and for this vehicle
-  bool barred;               // a shape that held-out flights contradict: it is out of question
+  fx_use_t use;                                   // with its shape; its sizes are 0
+  int first, n;                                   // columns
+  double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
+  double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
+  bool barred; // a shape that held-out flights contradict: it is out of question
 } candidate_t;
 
 typedef struct {
@@ -48,9 +49,6 @@ bool candidates_slow(const set_t *s);
 // more. Of other effects 0.
 double candidates_least(const fx_t *fx, const set_t *s);
 
-// What is typical of its size k: its nominal value, or of the first of the sizes that have one; never 0.
-double candidate_typical(const candidate_t *c, int k);
-
 // A chosen candidate with its numbers; null pointer: it is not chosen.
 const fx_use_t *chosen_use(const chosen_t *chosen, int candidate);
 // The same, to change its numbers. Where it is not chosen yet, it is now, its sizes 0; there must be room.
@@ -67,8 +65,8 @@ void candidates_reshape(candidates_t *c, const chosen_t *chosen);
 MUST_CHECK done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why);
 
 // The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
-// gets. now, base: the model's own replay, kept. BAD_INPUT: too many effects.
-MUST_CHECK done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k,
+// gets. now, base: the model's own replay, kept. step: of that size. BAD_INPUT: too many effects.
+MUST_CHECK done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                                        double *const base[CHANNELS], double *const with[CHANNELS],
                                        why_t *why);
 

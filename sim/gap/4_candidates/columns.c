@@ -6,15 +6,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k,
+done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                             double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
-  const fx_size_t *size = &use->fx->size[k];
   fx_use_t more = *use;
-  more.p[size->param] += size->step;
+  fx_use_resize(&more, k, fx_use_size(use, k) + step);
   TRY(replay_with(g, now, &more, with, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int j = 0; j < g->n; j++) {
-      const double d = (with[ch][j] - base[ch][j]) / size->step;
+      const double d = (with[ch][j] - base[ch][j]) / step;
       with[ch][j] = isfinite(d) ? d : 0.0;
     }
   return DONE;
@@ -61,7 +60,8 @@ static done_t fill_columns(design_t *t, set_t *s, int flight, const path_t *now,
     const fx_use_t *const own = chosen_use(a->chosen, i);
     if (chosen_otherwise(a, i) != dropped) continue;
     for (int k = 0; k < c->n; k++) {
-      TRY(column_differentiate(&s->grid[flight], now, own ? own : &c->use, k, l->base, l->with, why));
+      TRY(column_differentiate(&s->grid[flight], now, own ? own : &c->use, k, c->step[k], l->base, l->with,
+                               why));
       if (fill_column(t, s, flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");
     }
   }

@@ -112,7 +112,8 @@ static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, 
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
       const int column = t->names.candidate[i].first + k;
-      status = column_differentiate(quiet, &path, &t->chosen.use[i], k, r.base, r.with, why);
+      status = column_differentiate(quiet, &path, &t->chosen.use[i], k, t->names.candidate[i].step[k], r.base,
+                                    r.with, why);
       if (status == DONE) status = put_instruments(t, flight, quiet, first, &r, column, why);
     }
   path_free(&path);

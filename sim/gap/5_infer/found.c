@@ -136,8 +136,8 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
   score_nominal_rms(&r->score, with, rms);
   score_least_gain(&r->score, with, SELECT_GAIN * left, gain);
   score_least_gain(&r->score, with, 1.0, unit);
-  for (int k = 0; k < c->n; k++) {
-    const double typical = candidate_typical(c, k), error = fmax(v.stderr_[k], rms[k]);
+  for (int k = 0; k < c->n && k < FX_SIZE_MAX; k++) {
+    const double typical = c->typical[k], error = fmax(v.stderr_[k], rms[k]);
     const double rival = unit[k] * sqrt(gain_of_rivals(r, candidate, k));
     double need = fmax(fmax(wald * v.stderr_[k], nominal * rms[k]), fmax(gain[k], rival));
     need = fmax(need, fmax(SELECT_LEAST * typical, c->use.fx->size[k].least));

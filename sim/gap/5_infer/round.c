@@ -43,7 +43,7 @@ double round_take(round_t *r, double share) {
     fx_use_t *const use = chosen_take(&r->chosen, r->c, r->choice.of[i]);
     for (int k = 0; k < c->n; k++) {
       const double value = fx_use_size(use, k), way = possible(c, k, b[n++]) - value;
-      most = fmax(most, fabs(way) / candidate_typical(c, k));
+      most = fmax(most, fabs(way) / c->typical[k]);
       fx_use_resize(use, k, value + share * way);
     }
   }

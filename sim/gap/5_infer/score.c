@@ -16,7 +16,7 @@ done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nomi
   j->color_ridge = j->ridge + c->columns + 1;
   for (int i = 0; i < c->n; i++)
     for (int k = 0; k < c->candidate[i].n; k++) {
-      const double typical = FAR * candidate_typical(&c->candidate[i], k);
+      const double typical = FAR * c->candidate[i].typical[k];
       const int column = c->candidate[i].first + k;
       j->ridge[column] = 1.0 / (typical * typical);
       j->color_ridge[column] = c->candidate[i].use.fx->only_beside_nominal ? 1e30 : j->ridge[column];
@@ -236,7 +236,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
   if ((!j->nominal || !j->nominal->n) && c->use.fx->only_beside_nominal) return false;
   for (int k = 0; k < c->n; k++) {
     if (!can_be(c, k, v->value[k], 0.0)) return false;
-    largest = fmax(largest, fabs(v->value[k]) / candidate_typical(c, k));
+    largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;
 }

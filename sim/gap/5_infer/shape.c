@@ -59,7 +59,7 @@ static void take_bounds(polish_t *p) {
   for (int k = 0; k < fx->n_size; k++) {
     const fx_size_t *const size = &fx->size[k];
     double *const unit = &p->unit[SIZE + k];
-    *unit = candidate_typical(p->own, k);
+    *unit = p->own->typical[k];
     p->low[SIZE + k] = fmax(size->sign > 0 ? 0.0 : -HUGE_VAL, param[size->param].min) / *unit;
     p->high[SIZE + k] = param[size->param].max / *unit;
   }

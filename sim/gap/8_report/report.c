@@ -49,7 +49,7 @@ static void find_untested(report_t *r) {
     }
     if (!u.obstacle) {
       u.param = &fx_use_params(&c->use, &n)[u.fx->size[0].param];
-      u.typical = candidate_typical(c, 0);
+      u.typical = c->typical[0];
       u.seen_from = fmax(least * u.typical, candidates_least(u.fx, &d->fit));
       u.testable = u.seen_from < u.typical;
       u.echo = d->found.echo[c - d->candidates.candidate];

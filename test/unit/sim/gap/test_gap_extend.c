@@ -31,9 +31,9 @@ static done_t extend(const char *path, const char *text, const fx_use_t *use, ch
 }
 
 static fx_use_t some_of(const char *name) {
-  const candidate_t c = {.use = fx_use(fx_find(name)), .n = fx_find(name)->n_size};
-  fx_use_t use = c.use;
-  for (int k = 0; k < c.n; k++) fx_use_resize(&use, k, 3.0 / 7.0 / (k + 1) * candidate_typical(&c, k));
+  fx_use_t use = fx_use(fx_find(name));
+  const double first = fx_use_size(&use, 0);
+  for (int k = 0; k < use.fx->n_size; k++) fx_use_resize(&use, k, 3.0 / 7.0 / (k + 1) * first);
   if (use.fx->n_shape) use.p[use.fx->shape_param] = use.fx->shape[1];
   return use;
 }
