@@ -17,6 +17,7 @@
 #define FX_MAX       16 // effects switched on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
 #define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
+#define FX_KIND_MAX  2
 #define FX_APART_MAX 10 // rivals of which an effect says how to tell it from them
 
 typedef struct {
@@ -24,6 +25,10 @@ typedef struct {
   const char *unit; // "" for none; "number": whole, of something
   double min, nominal, max;
 } fx_param_t;
+
+// Whether the torque follows a thrust that is changed (fx_scale_rotor).
+#define FX_TORQUE                                                                                            \
+  { "torque", "number", 0.0, 1.0, 1.0 }
 
 static inline bool fx_is_number(const fx_param_t *p) {
   return strcmp(p->unit, "number") == 0;
@@ -105,6 +110,13 @@ typedef struct {
   d3_t moment_b_Nm;            // about the centre of mass, body axes
 } fx_plant_t;
 
+// Multiplies a rotor's thrust. torque 1: its torque with it, as where it turns slower; 0: the torque stays,
+// as where its speed is what was commanded.
+static inline void fx_scale_rotor(fx_plant_t *plant, int rotor, double scale, double torque) {
+  plant->thrust_scale[rotor] *= scale;
+  if (scale > 0.0 && torque < 0.5) plant->torque_scale[rotor] /= scale;
+}
+
 // The tick that begins.
 typedef struct {
   double t_s, span_s;
@@ -183,6 +195,10 @@ typedef struct {
   fx_size_t size[FX_SIZE_MAX];
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
+  // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the
+  // thrust): each is tried with each shape. Nothing is between them. n_kind 0: there is one.
+  int kind_param, n_kind;
+  double kind[FX_KIND_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
   int n_param;
@@ -200,6 +216,11 @@ typedef struct {
 // Adds a force that acts there.
 static inline void fx_push_hub(const fx_hub_t *hub, d3_t force_b_N, load_t *load) {
   load_add(load, force_b_N, d3_cross(hub->at_b_m, force_b_N));
+}
+
+// So many candidates is it.
+static inline int fx_variants(const fx_t *fx) {
+  return (fx->n_shape ? fx->n_shape : 1) * (fx->n_kind ? fx->n_kind : 1);
 }
 
 extern const fx_t *const fx_table[];

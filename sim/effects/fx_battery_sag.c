@@ -5,7 +5,7 @@
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   const double scale = 1.0 - use->p[0] * (1.0 - tick->vbat_V / BATTERY_FULL_V);
-  for (int i = 0; i < ROTORS; i++) plant->thrust_scale[i] *= scale > 0.0 ? scale : 0.0;
+  for (int i = 0; i < ROTORS; i++) fx_scale_rotor(plant, i, scale > 0.0 ? scale : 0.0, use->p[1]);
 }
 
 const fx_t fx_battery_sag = {
@@ -20,7 +20,10 @@ const fx_t fx_battery_sag = {
     .needs = FX_NEEDS_VOLTAGE,
     .n_size = 1,
     .size = {{0, 0.05, 1, 0.0}},
-    .n_param = 1,
-    .param = {{"k", "", 0.0, 0.6, 4.0}},
+    .kind_param = 1,
+    .n_kind = 2,
+    .kind = {1.0, 0.0},
+    .n_param = 2,
+    .param = {{"k", "", 0.0, 0.6, 4.0}, FX_TORQUE},
     .tick = tick,
 };

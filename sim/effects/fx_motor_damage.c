@@ -3,7 +3,7 @@
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   if (tick->t_s < use->p[2]) return;
-  plant->thrust_scale[(int)(use->p[0] + 0.5) - 1] *= 1.0 - use->p[1];
+  fx_scale_rotor(plant, (int)(use->p[0] + 0.5) - 1, 1.0 - use->p[1], use->p[3]);
 }
 
 const fx_t fx_motor_damage = {
@@ -18,9 +18,13 @@ const fx_t fx_motor_damage = {
     .shape_param = 0,
     .n_shape = 4,
     .shape = {1.0, 2.0, 3.0, 4.0},
-    .n_param = 3,
+    .kind_param = 3,
+    .n_kind = 2,
+    .kind = {1.0, 0.0},
+    .n_param = 4,
     .param = {{"rotor", "number", 1.0, 1.0, 4.0},
               {"loss", "", 0.0, 0.06, 1.0},
-              {"start", "s", 0.0, 0.0, 1e6}},
+              {"start", "s", 0.0, 0.0, 1e6},
+              FX_TORQUE},
     .tick = tick,
 };

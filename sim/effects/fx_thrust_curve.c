@@ -7,7 +7,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
     const double f = tick->thrust_N[i], off = f - hover_N;
     if (!(f > 0.05 * hover_N)) continue; // no thrust, nothing to scale
     const double scale = 1.0 + use->p[0] * off * off / f;
-    plant->thrust_scale[i] *= scale > 0.0 ? scale : 0.0;
+    fx_scale_rotor(plant, i, scale > 0.0 ? scale : 0.0, use->p[1]);
   }
 }
 
@@ -18,7 +18,10 @@ const fx_t fx_thrust_curve = {
     .over = {"thrust"},
     .n_size = 1,
     .size = {{0, 0.05, 0, 0.0, FX_BY_PER_WEIGHT}},
-    .n_param = 1,
-    .param = {{"k", "1/N", -100.0, 1.5, 100.0}},
+    .kind_param = 1,
+    .n_kind = 2,
+    .kind = {1.0, 0.0},
+    .n_param = 2,
+    .param = {{"k", "1/N", -100.0, 1.5, 100.0}, FX_TORQUE},
     .tick = tick,
 };

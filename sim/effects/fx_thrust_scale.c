@@ -3,7 +3,7 @@
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   (void)tick;
-  for (int i = 0; i < ROTORS; i++) plant->thrust_scale[i] *= 1.0 + use->p[0];
+  for (int i = 0; i < ROTORS; i++) fx_scale_rotor(plant, i, 1.0 + use->p[0], use->p[1]);
 }
 
 const fx_t fx_thrust_scale = {
@@ -17,7 +17,10 @@ const fx_t fx_thrust_scale = {
     .class = FX_WEIGHT,
     .n_size = 1,
     .size = {{0, 0.01, 0, 0.0}},
-    .n_param = 1,
-    .param = {{"k", "", -0.9, 0.05, 4.0}},
+    .kind_param = 1,
+    .n_kind = 2,
+    .kind = {1.0, 0.0},
+    .n_param = 2,
+    .param = {{"k", "", -0.9, 0.05, 4.0}, FX_TORQUE},
     .tick = tick,
 };

@@ -128,7 +128,8 @@ static bool bar_kinds(diagnosis_t *d) {
     int others = 0;
     for (int k = 0; k < d->candidates.n; k++)
       others += k != which && all[k].use.fx == all[which].use.fx && !all[k].barred;
-    if (!candidate_is_of_a_kind(&all[which]) || others == 0) continue;
+    const bool kinds = all[which].use.fx->n_kind > 1 || candidate_is_numbered(&all[which]);
+    if (!kinds || others == 0) continue;
     barred = all[which].barred = true;
   }
   return barred;

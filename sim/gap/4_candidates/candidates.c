@@ -67,7 +67,7 @@ static double typical_of(const fx_use_t *use, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
-static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
+static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
   for (int k = 0; k < fx->n_size; k++) {
@@ -79,16 +79,18 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int shape) {
     to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
   }
   if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
-  if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[shape];
+  if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[variant % fx->n_shape];
+  if (fx->n_kind) to->use.p[fx->kind_param] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
   c->columns += to->n;
 }
 
 done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
-  *c = (candidates_t){.candidate = calloc((size_t)(fx_count * FX_SHAPE_MAX), sizeof(candidate_t))};
+  *c = (candidates_t){.candidate =
+                          calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < fx_count; i++) {
     if (is_on(m, fx_table[i]) || candidates_obstacle(fx_table[i], m, s)) continue;
-    for (int k = 0; k == 0 || k < fx_table[i]->n_shape; k++) add(c, fx_table[i], m, k);
+    for (int k = 0; k < fx_variants(fx_table[i]); k++) add(c, fx_table[i], m, k);
   }
   return DONE;
 }
@@ -98,7 +100,7 @@ void candidates_free(candidates_t *c) {
   *c = (candidates_t){.n = 0};
 }
 
-bool candidate_is_of_a_kind(const candidate_t *c) {
+bool candidate_is_numbered(const candidate_t *c) {
   int n;
   const fx_t *const fx = c->use.fx;
   return fx->n_shape > 1 && fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);

@@ -55,8 +55,8 @@ const fx_use_t *chosen_use(const chosen_t *chosen, int candidate);
 fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate);
 void chosen_drop(chosen_t *chosen, int candidate);
 
-// Its shape is one of a few kinds (which rotor, where it acts), and not a length between others.
-bool candidate_is_of_a_kind(const candidate_t *c);
+// Its shape is one of a few numbers (which rotor), and not a length between others.
+bool candidate_is_numbered(const candidate_t *c);
 
 // The candidates get the shapes of those that are chosen.
 void candidates_reshape(candidates_t *c, const chosen_t *chosen);

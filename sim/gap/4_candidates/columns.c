@@ -82,7 +82,7 @@ static done_t fill_flight(design_t *t, set_t *s, int flight, const model_t *now,
   TRY(fill_from(t, s, flight, now, NULL, a, l, why));
   for (int i = 0; i < a->chosen->n; i++) {
     const fx_t *const fx = a->chosen->use[i].fx;
-    if (fx->n_shape < 2) continue;
+    if (fx_variants(fx) < 2) continue;
     model_t m = *now;
     model_drop_fx(&m, fx);
     TRY(fill_from(t, s, flight, &m, fx, a, l, why));

@@ -55,7 +55,7 @@ choice_t round_reshaped(const round_t *r, const choice_t *choice) {
   double least = score_left(&r->score, choice, NULL);
   for (int k = 0; k < choice->n; k++) {
     const fx_t *const fx = round_fx(r, choice->of[k]);
-    for (int i = 0; i < r->c->n && fx->n_shape > 1; i++) {
+    for (int i = 0; i < r->c->n && fx_variants(fx) > 1; i++) {
       if (round_fx(r, i) != fx || i == choice->of[k]) continue;
       choice_t other = best;
       other.of[k] = i;

@@ -24,6 +24,11 @@ static void parameters(const finding_t *f, FILE *out) {
               isnan(error) ? "not known" : "the best of those tried");
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
+  if (f->fx->n_kind) {
+    page_text(out, "<tr><td>", param[f->fx->kind_param].name, "");
+    fprintf(out, "<td class=n>%g<td class=n>the better of those tried<td></tr>\n",
+            f->use->p[f->fx->kind_param]);
+  }
   fputs("</table>\n", out);
 }
 

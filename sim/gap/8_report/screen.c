@@ -23,11 +23,17 @@ static void print_shape(const finding_t *f, FILE *out) {
   if (p->unit[0] && !fx_is_number(p)) fprintf(out, " %s", p->unit);
 }
 
+static void print_kind(const finding_t *f, FILE *out) {
+  int n;
+  fprintf(out, ", %s %g", fx_use_params(f->use, &n)[f->fx->kind_param].name, f->use->p[f->fx->kind_param]);
+}
+
 // A small p beside a name that others could have would say that the name is sure.
 static void print_numbers(const finding_t *f, FILE *out) {
   char p[P_TEXT];
   for (int k = 0; k < f->fx->n_size; k++) print_value(f, k, out);
   if (f->fx->n_shape) print_shape(f, out);
+  if (f->fx->n_kind) print_kind(f, out);
   if (f->use->form) fprintf(out, ", form %s", f->use->form->name);
   fprintf(out, "; %.3g %% of the gap; %s", 100.0 * f->named->share, standing_name[f->standing]);
   if (f->standing != STANDS_AMBIGUOUS) fprintf(out, ", %s", p_words(f->named->p, p));

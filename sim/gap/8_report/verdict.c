@@ -13,6 +13,16 @@ static void add_number(cJSON *o, const char *key, double v) {
     cJSON_AddNullToObject(o, key);
 }
 
+// A number that was chosen among a few, and has no error.
+static void add_kind(cJSON *all, const finding_t *f) {
+  int n;
+  const fx_param_t *const p = &fx_use_params(f->use, &n)[f->fx->kind_param];
+  cJSON *const one = cJSON_AddObjectToObject(all, p->name);
+  add_number(one, "value", f->use->p[f->fx->kind_param]);
+  add_number(one, "stderr", (double)NAN);
+  cJSON_AddStringToObject(one, "unit", p->unit);
+}
+
 static void add_parameters(cJSON *effect, const finding_t *f) {
   cJSON *const all = cJSON_AddObjectToObject(effect, "parameters");
   int n;
@@ -24,6 +34,7 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
     add_number(one, "stderr", f->named->stderr_[k]);
     cJSON_AddStringToObject(one, "unit", p->unit);
   }
+  if (f->fx->n_kind) add_kind(all, f);
   if (!f->fx->n_shape) return;
   const fx_param_t *const p = &param[f->fx->shape_param];
   cJSON *const one = cJSON_AddObjectToObject(all, p->name);
