@@ -165,12 +165,27 @@ static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
                      m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
 }
 
-static const char *const ROOT_KEYS[] = {
-    "name",         "mass_kg",      "rotor_radius_m", "motor_tau_s", "motor_tau_down_s",
-    "lag_in",       "thrust_min_N", "thrust_max_N",   "ceiling_m",   "wall_y_m",
-    "floor_rise_x", "floor_rise_y", "thrust_map",     "body",        "rotors",
-    "battery",      "controller",   "range_up",       "range_down",  "effect",
-    NULL};
+static const char *const ROOT_KEYS[] = {"name",
+                                        "mass_kg",
+                                        "rotor_radius_m",
+                                        "motor_tau_s",
+                                        "motor_tau_down_s",
+                                        "lag_in",
+                                        "thrust_min_N",
+                                        "thrust_max_N",
+                                        "ceiling_m",
+                                        "wall_y_m",
+                                        "floor_rise_x",
+                                        "floor_rise_y",
+                                        "thrust_map",
+                                        "body",
+                                        "rotors",
+                                        "battery",
+                                        "controller",
+                                        "range_up",
+                                        "range_down",
+                                        "effect",
+                                        NULL};
 const toml_kind_t model_file_kind = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml", ROOT_KEYS};
 
 static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {

@@ -180,7 +180,7 @@ void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_S
   const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
   for (int k = 0; k < own; k++)
     rms[k] = j->nominal && !j->nominal->n
-                 ? SELECT_LEAST * candidate_typical(&j->c->candidate[choice->of[choice->n - 1]], k)
+                 ? SELECT_LEAST * j->c->candidate[choice->of[choice->n - 1]].typical[k]
                  : 0.0;
   for (int i = 0; j->nominal && i < j->nominal->n; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
