@@ -122,7 +122,7 @@ static bool looks_like(const round_t *r, const candidate_t *c, int k, int other)
   const int column = c->first + k, n = r->gram.size;
   const double *const G = r->gram.total;
   const double aa = G[column * (n + 1)], bb = G[other * (n + 1)], ab = G[column * n + other];
-  const double size = candidate_typical(c, k) * candidate_typical(c, k) * aa;
+  const double size = c->typical[k] * c->typical[k] * aa;
   const double given = aa > 0.0 && bb > 0.0 ? ab * ab / (aa * bb) : 0.0; // correlation, squared
   return size > SCORE_RIVAL_LEFT && given > MOST && size * (1.0 - given) < SCORE_RIVAL_LEFT;
 }
