@@ -31,6 +31,7 @@ typedef struct {
   double beside[FX_SIZE_MAX]; // of stderr_, what is not the regression's own
   double shape_stderr;        // of its shape (shape.h); NaN or 0: not known
   double p;                   // of the Wald test, all its numbers together
+  double probability;         // that it, or a rival that is told, is there (evidence.h); NaN: not computed
   double share;               // of the sum of squares that the original model leaves and the effect explains
   int n_rival;                // family.h
   const fx_t *rival[RIVAL_MAX];

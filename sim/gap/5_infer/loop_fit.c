@@ -78,6 +78,13 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
     const double by = times(none.of[ch], some.of[ch], log->of[ch]);
     *disturbance(loop, ch) *= residual_has(s, ch) ? fmin(by, most) : 0.0;
   }
+  // A disturbance of one channel shakes the others, too: none of them more than in the log.
+  double share = 1.0;
+  TRY(trial(loop, &some, s, m, seed, why));
+  for (int ch = 0; ch < CH_SMOOTH; ch++)
+    if (residual_has(s, ch) && none.of[ch] < log->of[ch])
+      share = fmin(share, times(none.of[ch], some.of[ch], log->of[ch]));
+  for (int ch = 0; ch < CH_SMOOTH; ch++) *disturbance(loop, ch) *= share;
   return DONE;
 }
 

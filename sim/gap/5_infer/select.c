@@ -2,14 +2,16 @@
 #include "gap/5_infer/select.h"
 
 #include "gap/5_infer/family.h"
+#include "gap/5_infer/evidence.h"
 #include "gap/5_infer/local.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUNDS 16
-#define SETTLE 6
-#define TAKES  2 // what was taken out as often as this does not come back
+#define ROUNDS  16
+#define SETTLE  6
+#define TAKES   2           // what was taken out as often as this does not come back
+#define DOUBTED (TAKES + 1) // nor what the rows do not speak for enough
 
 typedef struct {
   round_t round;
@@ -128,6 +130,25 @@ static done_t step_until_still(select_t *t, why_t *why) {
   return DONE;
 }
 
+// Takes out the name that the rows speak for least, where it is more likely not there than there: what
+// feedback makes of all names together is in it.
+static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
+  round_t *const r = &t->round;
+  double odds[NAMED_MAX], least = 0.0;
+  int worst = -1;
+  *dropped = false;
+  if (!r->nominal || r->choice.n == 0) return DONE;
+  TRY(evidence_odds(r, odds, why));
+  for (int i = 0; i < r->choice.n; i++)
+    if (odds[i] < least) least = odds[i], worst = r->choice.of[i];
+  if (worst < 0) return DONE;
+  for (int k = 0; k < r->c->n; k++)
+    if (round_fx(r, k) == round_fx(r, worst)) t->taken[k] = DOUBTED;
+  r->choice = choice_without(&r->choice, worst);
+  *dropped = true;
+  return settle(t, why);
+}
+
 // First in the colours that would be left if everything that can be named were there: they show what is slow.
 // Then in those of what the named effects really leave: what a vehicle has of slow disturbance is noise
 // there.
@@ -137,7 +158,11 @@ static done_t search(select_t *t, why_t *why) {
   memset(t->taken, 0, (size_t)t->round.c->n * sizeof(int));
   round_close(&t->round);
   TRY(round_open(&t->round, why));
-  return step_until_still(t, why);
+  for (bool dropped = true; dropped;) {
+    TRY(step_until_still(t, why));
+    TRY(drop_doubtful(t, &dropped, why));
+  }
+  return DONE;
 }
 
 // A lag or a delay that is there for sure: which of the two it is stays so.
@@ -161,14 +186,32 @@ static done_t take_timing(select_t *t, timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
+// A first look has no say; what measured rotor speeds show is no question to the rows.
+static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
+  evidence_t e = {.n = 0};
+  if (r->nominal && found->n) TRY(evidence_make(&e, r, why));
+  for (int i = 0; i < found->n; i++) {
+    named_t *const named = &found->named[i];
+    const fx_t *fx[RIVAL_MAX + 1] = {round_fx(r, named->candidate)};
+    for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
+    named->probability = e.n && choice_has(&r->choice, named->candidate)
+                             ? evidence_of(&e, r->c, named->n_rival + 1, fx)
+                             : (double)NAN;
+  }
+  // DBG
+  evidence_free(&e);
+  return DONE;
+}
+
 static done_t find_choice(select_t *t, found_t *found, why_t *why) {
   timing_t timing;
   TRY(take_timing(t, &timing, why));
   TRY(round_open(&t->round, why));
   TRY(search(t, why));
-  for (int i = 0; i < t->round.c->n; i++) found->echo[i] = t->taken[i] >= TAKES;
+  for (int i = 0; i < t->round.c->n; i++) found->echo[i] = t->taken[i] == TAKES;
   found_describe(found, &t->round, &timing);
-  return family_find(&t->round, timing.measured, found, why);
+  TRY(family_find(&t->round, timing.measured, found, why));
+  return tell_probabilities(&t->round, found, why);
 }
 
 done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,

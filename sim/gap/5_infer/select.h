@@ -9,7 +9,8 @@
 // that are not aligned: it is taken into the model, and not named. A name that others could stand for is
 // told with them (family.h). The best one
 // enters, what is named is estimated anew about its present values, and swaps and prunings are tried; until
-// nothing changes.
+// nothing changes. Of what is left then, a name that the rows speak against, beside the others and what
+// feedback makes of all of them together (evidence.h), goes out for good, the worst first.
 #ifndef SIM_GAP_5_INFER_SELECT_H
 #define SIM_GAP_5_INFER_SELECT_H
 

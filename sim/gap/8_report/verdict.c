@@ -72,7 +72,7 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
   add_number(o, "p", p_value(f->named->p));
-  cJSON_AddNullToObject(o, "probability");
+  add_number(o, "probability", f->named->probability);
   cJSON_AddStringToObject(o, "standing", standing_name[f->standing]);
   cJSON_AddStringToObject(o, "says", f->says);
   add_number(o, "share", f->named->share);

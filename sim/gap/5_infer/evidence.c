@@ -1,0 +1,191 @@
+// evidence.c - a beam over sets of effects.
+#include "gap/5_infer/evidence.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RARE   0.01 // one effect in a hundred is there
+#define BEAM   16
+#define BEHIND 25.0 // a set so far behind the best of all, in logarithms, leads nowhere
+
+static const double SCALE[] = {0.5, 1.0, 2.0, 4.0}; // of what is typical
+#define SCALES ((int)(sizeof SCALE / sizeof *SCALE))
+
+typedef struct {
+  const round_t *r;
+  information_t f;
+  double *prior; // by candidate: logarithm
+  evidence_t *e; // with room for so many
+  int room;
+} beam_t;
+
+static double set_log(const beam_t *b, const evidence_set_t *s) {
+  int column[COLUMN_MAX], n = 0;
+  double p[COLUMN_MAX];
+  bool positive[COLUMN_MAX];
+  for (int i = 0; i < s->n; i++) {
+    const candidate_t *const c = &b->r->c->candidate[s->of[i]];
+    for (int k = 0; k < c->n; k++) {
+      column[n] = c->first + k;
+      p[n] = 1.0 / (s->scale[i] * s->scale[i]);
+      positive[n++] = c->use.fx->size[k].sign > 0;
+    }
+  }
+  return evidence_log(&b->f, n, column, p, positive);
+}
+
+static evidence_set_t set_with(const evidence_set_t *s, int candidate, int *at) {
+  evidence_set_t with = *s;
+  int i = with.n++;
+  for (; i > 0 && with.of[i - 1] > candidate; i--) {
+    with.of[i] = with.of[i - 1];
+    with.scale[i] = with.scale[i - 1];
+  }
+  with.of[i] = candidate;
+  *at = i;
+  return with;
+}
+
+// The sum over the new one's scales; the best of them stays.
+static evidence_set_t extended(const beam_t *b, const evidence_set_t *s, int candidate) {
+  int at;
+  evidence_set_t with = set_with(s, candidate, &at);
+  double log_of[SCALES], best = -HUGE_VAL, sum = 0.0, scale = SCALE[0];
+  for (int q = 0; q < SCALES; q++) {
+    with.scale[at] = SCALE[q];
+    log_of[q] = set_log(b, &with);
+    if (log_of[q] > best) best = log_of[q], scale = SCALE[q];
+  }
+  for (int q = 0; q < SCALES; q++) sum += exp(log_of[q] - best) / SCALES;
+  with.scale[at] = scale;
+  with.mixed += log(sum);
+  with.log = best + with.mixed;
+  for (int i = 0; i < with.n; i++) with.log += b->prior[with.of[i]];
+  return with;
+}
+
+static bool same(const evidence_set_t *a, const evidence_set_t *b) {
+  return a->n == b->n && memcmp(a->of, b->of, (size_t)a->n * sizeof *a->of) == 0;
+}
+
+// Of a set that is met twice the better one counts: its numbers have other scales. from: sets of this size.
+static void keep(beam_t *b, int from, const evidence_set_t *s) {
+  evidence_set_t *const set = b->e->set;
+  for (int i = from; i < b->e->n; i++)
+    if (same(&set[i], s)) {
+      if (s->log > set[i].log) set[i] = *s;
+      return;
+    }
+  if (b->e->n < b->room) set[b->e->n++] = *s;
+}
+
+static bool may_join(const beam_t *b, const evidence_set_t *s, int candidate) {
+  choice_t choice = {.n = s->n};
+  memcpy(choice.of, s->of, (size_t)s->n * sizeof *s->of);
+  const candidate_t *const c = &b->r->c->candidate[candidate];
+  for (int k = 0; k < c->n; k++) // nothing in these flights depends on it
+    if (!(b->r->gram.total[(c->first + k) * (b->r->gram.size + 1)] > 0.0)) return false;
+  return !b->r->never[candidate] && round_fits(b->r, &choice, candidate);
+}
+
+static int by_log(const void *a, const void *b) {
+  const double x = ((const evidence_set_t *)a)->log, y = ((const evidence_set_t *)b)->log;
+  return (x < y) - (x > y);
+}
+
+static void search(beam_t *b) {
+  evidence_set_t *const set = b->e->set;
+  double best = 0.0;
+  b->e->n = 1; // nothing
+  for (int from = 0, to = 1, depth = 0; depth < EVIDENCE_DEPTH && to > from; depth++) {
+    const int next = b->e->n;
+    for (int i = from; i < to; i++)
+      for (int k = 0; k < b->r->c->n; k++)
+        if (may_join(b, &set[i], k)) {
+          const evidence_set_t with = extended(b, &set[i], k);
+          keep(b, next, &with);
+        }
+    qsort(set + next, (size_t)(b->e->n - next), sizeof *set, by_log);
+    if (b->e->n > next) best = fmax(best, set[next].log);
+    from = next;
+    for (to = from; to < b->e->n && to < from + BEAM && set[to].log > best - BEHIND;) to++;
+  }
+}
+
+static void share_out(evidence_t *e) {
+  double sum = 0.0;
+  qsort(e->set, (size_t)e->n, sizeof *e->set, by_log);
+  for (int i = 0; i < e->n; i++) sum += e->set[i].share = exp(e->set[i].log - e->set[0].log);
+  for (int i = 0; i < e->n; i++) e->set[i].share /= sum;
+}
+
+static void take_priors(beam_t *b) {
+  const candidates_t *const c = b->r->c;
+  for (int i = 0; i < c->n; i++) {
+    int shapes = 0;
+    for (int k = 0; k < c->n; k++) shapes += c->candidate[k].use.fx == c->candidate[i].use.fx;
+    b->prior[i] = log(RARE / shapes);
+  }
+}
+
+static done_t open_beam(beam_t *b, const round_t *r, why_t *why) {
+  *b = (beam_t){.r = r, .prior = calloc((size_t)r->c->n + 1, sizeof(double))};
+  if (!b->prior) return error_failed(why, "out of memory");
+  take_priors(b);
+  const done_t status = information_make(&b->f, r, why);
+  if (status != DONE) free(b->prior);
+  return status;
+}
+
+static void close_beam(beam_t *b) {
+  information_free(&b->f);
+  free(b->prior);
+}
+
+done_t evidence_make(evidence_t *e, const round_t *r, why_t *why) {
+  beam_t b;
+  const int room = 1 + BEAM * EVIDENCE_DEPTH * r->c->n;
+  *e = (evidence_t){.set = calloc((size_t)room, sizeof(evidence_set_t))};
+  if (!e->set) return error_failed(why, "out of memory");
+  TRY(open_beam(&b, r, why));
+  b.e = e;
+  b.room = room;
+  search(&b);
+  share_out(e);
+  close_beam(&b);
+  return DONE;
+}
+
+// without < 0: all members.
+static double choice_log(const beam_t *b, const choice_t *choice, int without) {
+  evidence_set_t s = {.n = 0};
+  for (int i = 0; i < choice->n; i++)
+    if (i != without && s.n < EVIDENCE_DEPTH) s = extended(b, &s, choice->of[i]);
+  return s.log;
+}
+
+done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why) {
+  beam_t b;
+  TRY(open_beam(&b, r, why));
+  const double all = choice_log(&b, &r->choice, -1);
+  for (int i = 0; i < r->choice.n; i++) odds[i] = all - choice_log(&b, &r->choice, i);
+  close_beam(&b);
+  return DONE;
+}
+
+void evidence_free(evidence_t *e) {
+  free(e->set);
+  *e = (evidence_t){.n = 0};
+}
+
+double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t *const fx[]) {
+  double sum = 0.0;
+  for (int i = 0; i < e->n; i++) {
+    bool has = false;
+    for (int k = 0; k < e->set[i].n; k++)
+      for (int m = 0; m < n; m++) has = has || c->candidate[e->set[i].of[k]].use.fx == fx[m];
+    sum += has ? e->set[i].share : 0.0;
+  }
+  return sum;
+}

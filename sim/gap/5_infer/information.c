@@ -1,0 +1,227 @@
+// information.c - what the rows hold of every candidate beside feedback, slow noise and misfit.
+#include "gap/5_infer/evidence.h"
+
+#include "base/lsq_blocks.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MISFIT        0.02 // of what is typical: a right form with other numbers beside it
+#define MISFIT_BESIDE 0.25 // the same, of what control makes of a disturbance (fx->only_beside_nominal)
+#define LATE          0.15 // of the least lag or delay that is named
+#define SPREADS       200  // sweeps
+
+typedef struct {
+  const round_t *r;
+  int n;
+  double *typical, *A, *g; // of the log
+  double *low;             // n x nominal flights: what feedback makes of each
+  double *wide;            // n: D
+} parts_t;
+
+static void scaled(const parts_t *p, const double *G, double *A, double *g) {
+  const int n = p->n, size = n + 1;
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < n; k++) A[i * n + k] = G[i * size + k] * p->typical[i] * p->typical[k];
+    g[i] = G[i * size + n] * p->typical[i];
+  }
+}
+
+// In place; false: not positive.
+static bool cholesky(double *A, int n) {
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k <= i; k++) {
+      double sum = A[i * n + k];
+      for (int m = 0; m < k; m++) sum -= A[i * n + m] * A[k * n + m];
+      if (i == k && !(sum > 0.0)) return false;
+      A[i * n + k] = i == k ? sqrt(sum) : sum / A[k * n + k];
+    }
+  return true;
+}
+
+static void forward(const double *L, int n, double *b) {
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < i; k++) b[i] -= L[i * n + k] * b[k];
+    b[i] /= L[i * n + i];
+  }
+}
+
+static void backward(const double *L, int n, double *b) {
+  for (int i = n - 1; i >= 0; i--) {
+    for (int k = i + 1; k < n; k++) b[i] -= L[k * n + i] * b[k];
+    b[i] /= L[i * n + i];
+  }
+}
+
+// b_i = (A_i + I)^-1 g_i of nominal flight i: bias, spread and correlations. excess: mean square of each
+// column's own score there, in the log's units.
+static void feedback(parts_t *p, double *excess, double *A, double *g) {
+  const nominal_t *const nominal = p->r->nominal;
+  const int n = p->n, flights = nominal ? nominal->n : 0;
+  for (int f = 0; f < flights; f++) {
+    scaled(p, nominal->total + (size_t)f * (size_t)(nominal->size * nominal->size), A, g);
+    for (int k = 0; k < n; k++) {
+      const double own = A[k * (n + 1)], here = p->A[k * (n + 1)];
+      const double b = own > 1e-9 * here && own > 0.0 ? g[k] / own : 0.0;
+      excess[k] += b * b * here * here / flights;
+      A[k * (n + 1)] += 1.0;
+    }
+    if (!cholesky(A, n)) continue;
+    forward(A, n, g);
+    backward(A, n, g);
+    for (int k = 0; k < n; k++) p->low[k * flights + f] = g[k] / sqrt(flights);
+  }
+}
+
+// The score of each column summed over blocks, squared: white rows would give A_kk.
+static void block_scores(const parts_t *p, double *squares) {
+  const gram_t *const gram = &p->r->gram;
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const int n = p->n, size = n + 1, m = choice_columns(p->r->c, &p->r->choice, column);
+  score_estimate(&p->r->score, &p->r->choice, b, NULL);
+  for (int block = 0; block < gram->n_block; block++) {
+    const double *const G = gram->block + (size_t)block * (size_t)(size * size);
+    for (int k = 0; k < n; k++) {
+      double score = G[k * size + n];
+      for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
+      squares[k] += score * score * p->typical[k] * p->typical[k];
+    }
+  }
+}
+
+// D >= 0 such that A D A has the diagonal that is wanted, as well as can be: least squares by sweeps that
+// keep every number's sign. Relative to what white noise has there.
+static void spread(parts_t *p, const double *wanted) {
+  const int n = p->n;
+  double *const D = p->wide;
+  for (int k = 0; k < n; k++)
+    D[k] = wanted[k] > 0.0 ? wanted[k] / (p->A[k * (n + 1)] * p->A[k * (n + 1)]) : 0.0;
+  double *const come = calloc(2 * (size_t)n, sizeof(double)), *const weight = come ? come + n : NULL;
+  if (!come) return; // D alone is too wide, not wrong
+  for (int k = 0; k < n; k++) weight[k] = p->A[k * (n + 1)] > 0.0 ? 1.0 / p->A[k * (n + 1)] : 0.0;
+  for (int s = 0; s < SPREADS; s++) {
+    for (int k = 0; k < n; k++) {
+      come[k] = 0.0;
+      for (int i = 0; i < n; i++) come[k] += p->A[k * n + i] * p->A[k * n + i] * D[i];
+    }
+    for (int i = 0; i < n; i++) {
+      double up = 0.0, down = 0.0;
+      for (int k = 0; k < n; k++) {
+        const double m = p->A[k * n + i] * p->A[k * n + i] * weight[k] * weight[k];
+        up += m * wanted[k];
+        down += m * come[k];
+      }
+      if (down > 0.0) D[i] *= up / down;
+    }
+  }
+  free(come);
+}
+
+static void widen(parts_t *p, const double *nominal, const double *blocks) {
+  const candidates_t *const c = p->r->c;
+  double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
+  if (!wanted) return;
+  for (int k = 0; k < p->n; k++) wanted[k] = fmax(fmax(nominal[k], blocks[k]) - p->A[k * (p->n + 1)], 0.0);
+  spread(p, wanted);
+  free(wanted);
+  for (int i = 0; i < c->n; i++) {
+    const fx_t *const fx = c->candidate[i].use.fx;
+    for (int k = 0; k < c->candidate[i].n; k++) {
+      const int column = c->candidate[i].first + k;
+      const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
+      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : MISFIT;
+      p->wide[column] += misfit * misfit + late * late;
+    }
+  }
+}
+
+// N = [L, sqrt(D)]: the columns with D are as many as candidates have.
+static bool inform(const parts_t *p, information_t *f) {
+  const int n = p->n, flights = p->r->nominal ? p->r->nominal->n : 0, m = n + flights;
+  double *const N = calloc((size_t)(n * m + m * m + n * m + m), sizeof(double));
+  if (!N) return false;
+  double *const C = N + n * m, *const M = C + m * m, *const z = M + n * m;
+  for (int i = 0; i < n; i++) {
+    N[i * m + i] = sqrt(p->wide[i]);
+    for (int k = 0; k < flights; k++) N[i * m + n + k] = p->low[i * flights + k];
+  }
+  for (int i = 0; i < n; i++) // A N
+    for (int j = 0; j < n; j++)
+      for (int k = 0; k < m; k++) M[i * m + k] += p->A[i * n + j] * N[j * m + k];
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < m; k++) {
+      z[k] += N[i * m + k] * p->g[i];
+      for (int j = 0; j < m && N[i * m + k] != 0.0; j++) C[k * m + j] += N[i * m + k] * M[i * m + j];
+    }
+  for (int k = 0; k < m; k++) C[k * (m + 1)] += 1.0;
+  const bool good = cholesky(C, m);
+  if (good) {
+    forward(C, m, z);
+    for (int i = 0; i < n; i++) forward(C, m, M + i * m);
+    for (int i = 0; i < n; i++) {
+      f->h[i] = p->g[i];
+      for (int k = 0; k < m; k++) f->h[i] -= M[i * m + k] * z[k];
+      for (int j = 0; j < n; j++) {
+        f->F[i * n + j] = p->A[i * n + j];
+        for (int k = 0; k < m; k++) f->F[i * n + j] -= M[i * m + k] * M[j * m + k];
+      }
+    }
+  }
+  free(N);
+  return good;
+}
+
+void information_free(information_t *f) {
+  free(f->F);
+  *f = (information_t){.n = 0};
+}
+
+done_t information_make(information_t *f, const round_t *r, why_t *why) {
+  const int n = r->c->columns, flights = r->nominal ? r->nominal->n : 0;
+  const size_t square = (size_t)(n * n), line = (size_t)n;
+  double *const room = calloc(2 * square + (6 + (size_t)flights) * line + 1, sizeof(double));
+  *f = (information_t){.n = n, .F = calloc(square + line + 1, sizeof(double))};
+  if (!room || !f->F) {
+    free(room);
+    return error_failed(why, "out of memory");
+  }
+  f->h = f->F + square;
+  double *const A = room + square, *const at = A + square;
+  parts_t p = {r, n, at, room, at + line, at + 6 * line, at + 2 * line};
+  double *const nominal = at + 3 * line, *const blocks = at + 4 * line, *const g = at + 5 * line;
+  for (int i = 0; i < r->c->n; i++)
+    for (int k = 0; k < r->c->candidate[i].n; k++)
+      p.typical[r->c->candidate[i].first + k] = r->c->candidate[i].typical[k];
+  scaled(&p, r->gram.total, p.A, p.g);
+  feedback(&p, nominal, A, g);
+  block_scores(&p, blocks);
+  widen(&p, nominal, blocks);
+  const bool good = inform(&p, f);
+  free(room);
+  return good ? DONE : error_failed(why, "out of memory");
+}
+
+double evidence_log(const information_t *f, int n, const int *column, const double *p, const bool *positive) {
+  double Q[COLUMN_MAX * COLUMN_MAX], z[COLUMN_MAX], sum = 0.0;
+  if (n == 0) return 0.0;
+  for (int i = 0; i < n; i++) {
+    z[i] = f->h[column[i]];
+    for (int k = 0; k < n; k++) Q[i * n + k] = f->F[column[i] * f->n + column[k]];
+    Q[i * (n + 1)] += p[i];
+  }
+  if (!cholesky(Q, n)) return -HUGE_VAL;
+  forward(Q, n, z);
+  for (int i = 0; i < n; i++) sum += 0.5 * z[i] * z[i] - log(Q[i * (n + 1)]) + 0.5 * log(p[i]);
+  backward(Q, n, z); // means
+  for (int i = 0; i < n; i++) {
+    if (!positive[i]) continue;
+    double e[COLUMN_MAX] = {0.0}, variance = 0.0;
+    e[i] = 1.0;
+    forward(Q, n, e);
+    for (int k = i; k < n; k++) variance += e[k] * e[k];
+    // The share of a normal prior about 0 that is positive is a half.
+    sum += log(fmax(erfc(-z[i] / sqrt(2.0 * variance)), 1e-200));
+  }
+  return sum;
+}

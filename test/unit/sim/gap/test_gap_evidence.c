@@ -1,0 +1,176 @@
+// test_gap_evidence.c - sets by evidence, on rows that no flight made.
+#include "gap/5_infer/evidence.h"
+#include "rig/gap_rows.h"
+#include "rig/test.h"
+
+#include <math.h>
+
+static int along(gap_rows_t *g, const char *effect, int channel, double sure) {
+  const int i = gap_rows_candidate(g, effect);
+  for (int k = 0; k < g->candidate[i].n; k++) {
+    double *const x = gap_rows_column(g, i, k, channel + k);
+    gap_rows_white(g, x);
+    for (int r = 0; r < GAP_ROWS; r++) x[r] *= sure / sqrt(GAP_ROWS);
+  }
+  return i;
+}
+
+// log of the integral of N(b; 0, 1/p) exp(h b - F b^2 / 2), twice its positive half where it has a sign.
+static double by_integral(double F, double h, double p, bool positive) {
+  double sum = 0.0;
+  const double step = 1e-4;
+  for (double b = positive ? 0.0 : -8.0; b < 8.0; b += step)
+    sum += step * exp(h * b - 0.5 * F * b * b - 0.5 * p * b * b) * sqrt(p / 2.0 / 3.14159265358979) *
+           (positive ? 2.0 : 1.0);
+  return log(sum);
+}
+
+TEST(gap_evidence_is_the_integral_over_the_prior) {
+  static const struct {
+    double F, h, p;
+    bool positive;
+  } row[] = {{20.0, 15.0, 1.0, false}, {20.0, 15.0, 0.25, true},  {20.0, -3.0, 1.0, true},
+             {0.0, 0.0, 4.0, false},   {50.0, 80.0, 0.25, false}, {5.0, 0.0, 1.0, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%u", i);
+    double F = row[i].F, h = row[i].h;
+    const information_t f = {.n = 1, .F = &F, .h = &h};
+    const int column = 0;
+    CHECK_NEAR(evidence_log(&f, 1, &column, &row[i].p, &row[i].positive),
+               by_integral(F, h, row[i].p, row[i].positive), 2e-3);
+  }
+  // Two numbers that do not know of each other: logarithms add.
+  double F[] = {20.0, 0.0, 0.0, 7.0}, h[] = {9.0, -4.0};
+  const information_t both = {.n = 2, .F = F, .h = h};
+  const int column[] = {0, 1};
+  const double p[] = {1.0, 0.25};
+  const bool sign[] = {true, false};
+  CHECK_NEAR(evidence_log(&both, 2, column, p, sign),
+             by_integral(20.0, 9.0, 1.0, true) + by_integral(7.0, -4.0, 0.25, false), 4e-3);
+  CHECK(evidence_log(&both, 0, column, p, sign) == 0.0);
+}
+
+// F^-1 = A^-1 + what feedback makes + misfit.
+TEST(gap_information_holds_what_feedback_makes_with_its_correlations) {
+  gap_rows_t g;
+  why_t why;
+  information_t f;
+  gap_rows_make(&g, 21);
+  (void)along(&g, "rotor_drag", CH_FX, 200.0);
+  (void)along(&g, "flapping", CH_FY, 200.0);
+  // Two nominal flights: half of each together, then the first alone.
+  gap_rows_nominal(&g, 2, 1e8, (const double[]){0.5, 0.5, 0.3, 0.0});
+  gap_rows_open(&g, 0, NULL);
+  if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
+  const double det = f.F[0] * f.F[3] - f.F[1] * f.F[2];
+  const double var0 = f.F[3] / det, var1 = f.F[0] / det, both = -f.F[1] / det;
+  CHECK_NEAR(both, 0.5 * 0.5 / 2.0, 0.02); // as the mean of b b'
+  CHECK(var0 > (0.25 + 0.09) / 2.0 && var1 > 0.25 / 2.0);
+  CHECK(var0 < 3.0 * (0.25 + 0.09) / 2.0);
+  CHECK_NEAR(f.F[1], f.F[2], 1e-9 * fabs(f.F[1]));
+  information_free(&f);
+  gap_rows_free(&g);
+}
+
+TEST(gap_information_widens_by_misfit_and_by_slow_noise) {
+  for (int slow = 0; slow < 2; slow++) {
+    gap_rows_t g;
+    why_t why;
+    information_t f;
+    ROW("%s", slow ? "sign of the residual by block" : "white");
+    gap_rows_make(&g, 22);
+    const int of = along(&g, "rotor_drag", CH_FX, 1000.0);
+    // A part of the column comes and goes from block to block, as noise that is no noise of rows.
+    const double *const x = gap_rows_column(&g, of, 0, CH_FX);
+    for (int i = 0; i < GAP_ROWS && slow; i++) g.residual[CH_FX][i] += (i / 50 % 2 ? 0.3 : -0.3) * x[i];
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
+    const double sd = 1.0 / sqrt(f.F[0]);
+    if (slow)
+      CHECK_NEAR(sd, 0.3 / sqrt(GAP_ROWS / 50.0), 0.03);
+    else
+      CHECK_NEAR(sd, 0.02, 0.004);
+    information_free(&f);
+    gap_rows_free(&g);
+  }
+}
+
+TEST(gap_evidence_finds_a_set_and_leaves_the_rest_out) {
+  static const struct {
+    const char *what;
+    double size[4];
+    const char *set;
+  } row[] = {{"nothing", {0.0, 0.0, 0.0, 0.0}, ""},
+             {"one", {0.0, 1.0, 0.0, 0.0}, "1"},
+             {"two", {0.8, 0.0, 2.0, 0.0}, "02"},
+             {"of a sign that it cannot have", {0.0, 0.0, -2.0, 0.0}, ""},
+             {"three", {1.0, 1.0, 1.0, 0.0}, "012"}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    why_t why;
+    evidence_t e;
+    char set[8] = "";
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 23);
+    static const char *const name[] = {"rotor_drag", "flapping", "climb_inflow", "translational_lift"};
+    for (int k = 0; k < 4; k++) gap_rows_add(&g, along(&g, name[k], CH_FX + k, 20.0), 0, row[i].size[k]);
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
+    for (int k = 0; k < e.set[0].n && k < 7; k++) set[k] = (char)('0' + e.set[0].of[k]), set[k + 1] = '\0';
+    CHECK_TEXT(set, row[i].set);
+    CHECK(e.set[0].share > 0.8);
+    double sum = 0.0;
+    for (int k = 0; k < e.n; k++) sum += e.set[k].share;
+    CHECK_NEAR(sum, 1.0, 1e-9);
+    evidence_free(&e);
+    gap_rows_free(&g);
+  }
+}
+
+// Two names for the same columns share the probability; together they are sure.
+TEST(gap_evidence_of_alike_effects_is_shared) {
+  gap_rows_t g;
+  why_t why;
+  evidence_t e;
+  gap_rows_make(&g, 24);
+  const int own = along(&g, "rotor_drag", CH_FX, 30.0), twin = gap_rows_candidate(&g, "flapping");
+  for (int i = 0; i < GAP_ROWS; i++)
+    gap_rows_column(&g, twin, 0, CH_FX)[i] = gap_rows_column(&g, own, 0, CH_FX)[i];
+  gap_rows_add(&g, own, 0, 1.0);
+  gap_rows_nominal(&g, 0, 0.0, NULL);
+  gap_rows_open(&g, 0, NULL);
+  if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
+  const fx_t *const both[] = {fx_find("rotor_drag"), fx_find("flapping")};
+  CHECK(evidence_of(&e, &g.candidates, 2, both) > 0.99);
+  for (int i = 0; i < 2; i++) CHECK_NEAR(evidence_of(&e, &g.candidates, 1, both + i), 0.5, 0.2);
+  evidence_free(&e);
+  gap_rows_free(&g);
+}
+
+// What feedback alone makes as much of is no evidence, however far it is from noise.
+TEST(gap_evidence_does_not_speak_for_what_feedback_makes) {
+  static const struct {
+    const char *what;
+    double feedback; // rms on nominal flights, over what is typical
+    bool there;
+  } row[] = {{"a tenth of it", 0.05, true}, {"as much", 0.5, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    why_t why;
+    double odds[NAMED_MAX];
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 25);
+    const int of = along(&g, "rotor_drag", CH_FX, 100.0), other = along(&g, "flapping", CH_FY, 100.0);
+    gap_rows_add(&g, of, 0, 0.5);
+    gap_rows_add(&g, other, 0, 1.0);
+    const double b = row[i].feedback;
+    gap_rows_nominal(&g, 4, 1e8, (const double[]){b, 0.0, -b, 0.0, b, 0.0, -b, 0.0});
+    gap_rows_open(&g, 2, (const int[]){of, other});
+    if (!CHECK_OK(evidence_odds(&g.round, odds, &why))) return;
+    CHECK((odds[0] > 0.0) == row[i].there);
+    CHECK(odds[1] > 0.0);
+    gap_rows_free(&g);
+  }
+}

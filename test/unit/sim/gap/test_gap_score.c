@@ -1,0 +1,149 @@
+// test_gap_score.c - how well a choice explains rows that no flight made, and what may enter it.
+#include "base/lsq_blocks.h"
+#include "gap/5_infer/score.h"
+#include "rig/gap_rows.h"
+#include "rig/test.h"
+
+#include <math.h>
+
+static const choice_t NONE = {.n = 0};
+
+// One candidate along force_x, so strong that a typical one has `sure` standard errors.
+static int along_x(gap_rows_t *g, const char *effect, double sure) {
+  const int i = gap_rows_candidate(g, effect);
+  double *const x = gap_rows_column(g, i, 0, CH_FX);
+  gap_rows_white(g, x);
+  for (int k = 0; k < GAP_ROWS; k++) x[k] *= sure / sqrt(GAP_ROWS);
+  return i;
+}
+
+TEST(gap_score_estimates_with_the_error_that_it_tells) {
+  double off = 0.0, told = 0.0;
+  const int draws = 60;
+  for (int d = 0; d < draws; d++) {
+    gap_rows_t g;
+    gap_rows_make(&g, 100 + (unsigned long)d);
+    const int drag = along_x(&g, "rotor_drag", 20.0);
+    gap_rows_add(&g, drag, 0, 1.5);
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, drag);
+    const verdict_t v = score_last(&g.round.score, &with);
+    const double typical = g.candidate[drag].typical[0];
+    off += pow(v.value[0] / typical - 1.5, 2) / draws;
+    told += v.stderr_[0] * v.stderr_[0] / typical / typical / draws;
+    CHECK(v.p < 1e-6);
+    CHECK(score_left(&g.round.score, &with, NULL) < score_left(&g.round.score, &NONE, NULL));
+    gap_rows_free(&g);
+  }
+  CHECK_NEAR(sqrt(told), 1.0 / 20.0, 0.01);
+  CHECK_NEAR(sqrt(off / told), 1.0, 0.25); // of 60 draws
+}
+
+TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) {
+  static const struct {
+    const char *what, *effect;
+    double size,
+        nominal; // over what is typical; nominal: rms, 0: no nominal flights, below 0: none could fly
+    bool enters;
+  } row[] = {
+      {"a first look", "rotor_drag", 0.5, 0.0, true},
+      {"smaller than is named", "rotor_drag", 0.1, 0.0, false},
+      {"of the wrong sign", "rotor_drag", -0.5, 0.0, false},
+      {"either sign", "mass", -0.5, 0.0, true},
+      {"four times what feedback makes", "rotor_drag", 0.5, 0.125, true},
+      {"twice what feedback makes", "rotor_drag", 0.5, 0.25, false},
+      {"none could fly", "rotor_drag", 0.45, -1.0, true},
+      {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, false},
+      {"only beside nominal flights", "inertia", 0.5, 0.0, false},
+      {"and there", "inertia", 0.5, 0.05, true},
+      {"and none could fly", "inertia", 0.9, -1.0, false},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 7);
+    const int of = along_x(&g, row[i].effect, 200.0);
+    for (int k = 1; k < g.candidate[of].n; k++) gap_rows_white(&g, gap_rows_column(&g, of, k, CH_FY + k - 1));
+    gap_rows_add(&g, of, 0, row[i].size);
+    const double rms = row[i].nominal, found[] = {rms, rms, rms, -rms, -rms, -rms};
+    if (rms != 0.0) gap_rows_nominal(&g, rms > 0.0 ? 2 : 0, 1e6, found);
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, of);
+    const verdict_t v = score_last(&g.round.score, &with);
+    CHECK(score_allows(&g.round.score, &with, &v) == row[i].enters);
+    gap_rows_free(&g);
+  }
+}
+
+TEST(gap_score_is_not_sure_of_what_one_half_flight_alone_shows) {
+  for (int everywhere = 0; everywhere < 2; everywhere++) {
+    gap_rows_t g;
+    ROW("%s", everywhere ? "everywhere" : "in one of four");
+    gap_rows_make(&g, 8);
+    const int of = along_x(&g, "rotor_drag", 30.0);
+    double *const x = gap_rows_column(&g, of, 0, CH_FX);
+    for (int i = GAP_ROWS / 4; i < GAP_ROWS && !everywhere; i++) x[i] *= 0.02;
+    gap_rows_add(&g, of, 0, 1.0);
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, of);
+    CHECK(score_is_sure(&g.round.score, &NONE, &with) == (bool)everywhere);
+    gap_rows_free(&g);
+  }
+}
+
+// A column that is right in forces and of the wrong sign in turning does harm there.
+TEST(gap_score_sees_harm_in_one_group_of_channels) {
+  for (int sign = -1; sign <= 1; sign += 2) {
+    gap_rows_t g;
+    ROW("sign %d", sign);
+    gap_rows_make(&g, 9);
+    const int of = along_x(&g, "flapping", 60.0);
+    gap_rows_add(&g, of, 0, 1.0);
+    double *const turn = gap_rows_column(&g, of, 0, CH_WX);
+    gap_rows_white(&g, turn);
+    for (int i = 0; i < GAP_ROWS; i++) turn[i] *= 0.5;
+    for (int i = 0; i < GAP_ROWS; i++) g.residual[CH_WX][i] += sign * turn[i];
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, of);
+    CHECK(score_harms(&g.round.score, &NONE, &with) == (sign < 0));
+    gap_rows_free(&g);
+  }
+}
+
+TEST(gap_score_tells_how_alike_two_effects_are) {
+  gap_rows_t g;
+  gap_rows_make(&g, 10);
+  const int own = along_x(&g, "rotor_drag", 50.0), same = gap_rows_candidate(&g, "flapping"),
+            half = gap_rows_candidate(&g, "climb_inflow"), other = along_x(&g, "translational_lift", 50.0);
+  const double *const x = gap_rows_column(&g, own, 0, CH_FX);
+  for (int i = 0; i < GAP_ROWS; i++) {
+    gap_rows_column(&g, same, 0, CH_FX)[i] = 3.0 * x[i];
+    gap_rows_column(&g, half, 0, CH_FX)[i] = x[i] + (i % 2 ? 1.0 : -1.0) * 50.0 / sqrt(GAP_ROWS);
+  }
+  gap_rows_add(&g, own, 0, 1.0);
+  gap_rows_open(&g, 1, &own);
+  const score_t *const s = &g.round.score;
+  const choice_t *const choice = &g.round.choice;
+  CHECK_NEAR(score_likeness(s, choice, own, same), 1.0, 1e-6);
+  CHECK_NEAR(score_likeness(s, choice, own, half), 0.5, 0.06);
+  CHECK_NEAR(score_likeness(s, choice, own, other), 0.0, 0.02);
+  CHECK_NEAR(score_alike(s, g.candidate[own].first, same), 1.0, 1e-6);
+  CHECK_NEAR(score_alike(s, g.candidate[own].first, other), 0.0, 0.02);
+  gap_rows_free(&g);
+}
+
+// So much of a number takes so much from the sum of squares, to the digit.
+TEST(gap_score_s_least_size_is_the_one_that_takes_the_gain) {
+  gap_rows_t g;
+  double size[FX_SIZE_MAX], b;
+  gap_rows_make(&g, 11);
+  const int of = along_x(&g, "rotor_drag", 50.0);
+  gap_rows_open(&g, 0, NULL);
+  const choice_t with = choice_with(&NONE, of);
+  score_least_gain(&g.round.score, &with, 30.0, size);
+  const double *const G = g.round.gram.total;
+  CHECK_NEAR(size[0] * size[0] * G[0], 30.0, 1e-6);
+  score_estimate(&g.round.score, &with, &b, NULL);
+  CHECK_NEAR(score_fitted(&g.round.score, &NONE) - score_fitted(&g.round.score, &with), b * b * G[0], 1e-6);
+  gap_rows_free(&g);
+}
