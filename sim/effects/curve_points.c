@@ -1,8 +1,8 @@
-// curve_points.c - a measured curve: straight lines between its points, level beyond its ends.
+// curve_points.c - a measured curve: straight lines between its points, level beyond its ends. What it is off
+// 1 may be scaled.
 #include "effects/fx.h"
 
-static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
-  (void)p;
+static double between(const curve_points_t *points, double distance_m, double radius_m) {
   const double x = distance_m / radius_m;
   const int last = points->n - 1;
   if (last < 0) return 1.0;
@@ -15,11 +15,19 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   return points->ratio[last];
 }
 
+static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
+  const double as_measured = between(points, distance_m, radius_m);
+  const double scaled = 1.0 + p[0] * (as_measured - 1.0);
+  return p[0] == 1.0 ? as_measured : scaled > 0.01 ? scaled : 0.01;
+}
+
 const curve_t curve_points = {
     .name = "table",
     .brief = "a measured curve, file=FILE.csv with columns distance_over_radius, ratio",
     .source = "the file",
     .surfaces = SURFACE_CEILING | SURFACE_GROUND,
     .needs_points = 1,
+    .n_param = 1,
+    .param = {{"scale", "", 0.0, 1.0, 5.0}},
     .ratio = ratio,
 };

@@ -271,4 +271,7 @@ static inline void fx_use_resize(fx_use_t *use, int k, double value) {
 // The parameters that use->p belongs to; *n gets their number.
 const fx_param_t *fx_use_params(const fx_use_t *use, int *n);
 
+// It has a shape, in the form that it has: points have none.
+bool fx_use_has_shape(const fx_use_t *use);
+
 #endif

@@ -1,10 +1,10 @@
-// fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says: T (1 - k (1 - vbat/4.2
-// V)), not below 0.
+// fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says: T (1 - k (1 -
+// vbat/zero)), not below 0. zero: the voltage of which the map is.
 #include "effects/fx.h"
 #include "plant/battery.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
-  const double scale = 1.0 - use->p[0] * (1.0 - tick->vbat_V / BATTERY_FULL_V);
+  const double scale = 1.0 - use->p[0] * (1.0 - tick->vbat_V / use->p[2]);
   for (int i = 0; i < ROTORS; i++) fx_scale_rotor(plant, i, scale > 0.0 ? scale : 0.0, use->p[1]);
 }
 
@@ -20,10 +20,13 @@ const fx_t fx_battery_sag = {
     .needs = FX_NEEDS_VOLTAGE,
     .n_size = 1,
     .size = {{0, 0.05, 1, 0.0}},
+    .shape_param = 2,
+    .n_shape = 3,
+    .shape = {3.7, 3.95, 4.2},
     .kind_param = 1,
     .n_kind = 2,
     .kind = {1.0, 0.0},
-    .n_param = 2,
-    .param = {{"k", "", 0.0, 0.6, 4.0}, FX_TORQUE},
+    .n_param = 3,
+    .param = {{"k", "", 0.0, 0.6, 4.0}, FX_TORQUE, {"zero", "V", 2.5, BATTERY_FULL_V, 60.0}},
     .tick = tick,
 };

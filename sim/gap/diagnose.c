@@ -95,7 +95,7 @@ static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *
 // What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none.
 static double bent_by(const fx_use_t *use) {
   if (use && use->fx->class == FX_TIMING) return fx_use_size(use, 0);
-  return use && use->fx->n_shape ? use->p[use->fx->shape_param] : (double)NAN;
+  return use && fx_use_has_shape(use) ? use->p[use->fx->shape_param] : (double)NAN;
 }
 
 static bool moved(const chosen_t *a, const chosen_t *b) {

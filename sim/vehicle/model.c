@@ -96,6 +96,12 @@ d3_t model_floor_up_w(const model_t *m) {
   return d3_scale(1.0 / d3_norm(up), up);
 }
 
+const fx_use_t *model_fx(const model_t *m, const fx_t *fx) {
+  for (int i = 0; i < m->n_fx; i++)
+    if (m->fx[i].fx == fx) return &m->fx[i];
+  return NULL;
+}
+
 void model_drop_fx(model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++) {
     if (m->fx[i].fx != fx) continue;

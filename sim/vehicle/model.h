@@ -83,6 +83,9 @@ MUST_CHECK done_t model_add_fx(model_t *m, const fx_use_t *use, why_t *why);
 // The floor's normal, world axes, of length 1.
 d3_t model_floor_up_w(const model_t *m);
 
+// The effect as the model has it; a null pointer: it has it not.
+const fx_use_t *model_fx(const model_t *m, const fx_t *fx);
+
 // Switches it off, if it is on.
 void model_drop_fx(model_t *m, const fx_t *fx);
 

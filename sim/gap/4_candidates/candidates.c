@@ -1,4 +1,4 @@
-// candidates.c - the effects that the model lacks.
+// candidates.c - the effects that the model lacks, or has with other numbers.
 #include "gap/4_candidates/candidates.h"
 
 #include <math.h>
@@ -8,12 +8,6 @@
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
 
 // --- the list ---------------------------------------------------------------------------------------------
-
-static bool is_on(const model_t *m, const fx_t *fx) {
-  for (int i = 0; i < m->n_fx; i++)
-    if (m->fx[i].fx == fx) return true;
-  return false;
-}
 
 static double slowest_Hz(const set_t *s) {
   double rate_Hz = HUGE_VAL;
@@ -84,13 +78,35 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) 
   c->columns += to->n;
 }
 
+// Of an effect that the file has. Which lag or delay there is, is another question.
+static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own) {
+  int n;
+  const fx_param_t *const param = fx_use_params(own, &n);
+  const fx_t *const fx = own->fx;
+  for (int k = 0; k < fx->n_size; k++)
+    if (fx->size[k].param >= n) return; // this form has no such number
+  if (fx->class == FX_TIMING) return;
+  add(c, fx, m, 0);
+  candidate_t *const to = &c->candidate[c->n - 1];
+  to->use = *own;
+  to->in_file = true;
+  for (int k = 0; k < fx->n_size; k++) {
+    to->typical[k] = model_grows(m, fx->size[k].grows) * typical_of(own, k);
+    to->least[k] = (fx->size[k].sign > 0 ? 0.0 : param[fx->size[k].param].min) - fx_use_size(own, k);
+    fx_use_resize(&to->use, k, 0.0);
+  }
+}
+
 done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
   *c = (candidates_t){.candidate =
                           calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < fx_count; i++) {
-    if (is_on(m, fx_table[i]) || candidates_obstacle(fx_table[i], m, s)) continue;
-    for (int k = 0; k < fx_variants(fx_table[i]); k++) add(c, fx_table[i], m, k);
+    if (candidates_obstacle(fx_table[i], m, s)) continue;
+    const fx_use_t *const own = model_fx(m, fx_table[i]);
+    if (own) add_difference(c, m, own);
+    for (int k = own ? fx_variants(fx_table[i]) : 0; k < fx_variants(fx_table[i]); k++)
+      add(c, fx_table[i], m, k);
   }
   return DONE;
 }
@@ -103,7 +119,8 @@ void candidates_free(candidates_t *c) {
 bool candidate_is_numbered(const candidate_t *c) {
   int n;
   const fx_t *const fx = c->use.fx;
-  return fx->n_shape > 1 && fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
+  return fx_use_has_shape(&c->use) && fx->n_shape > 1 &&
+         fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
 }
 
 void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
@@ -148,8 +165,19 @@ void chosen_drop(chosen_t *chosen, int candidate) {
   }
 }
 
+fx_use_t effect_whole(const model_t *base, const fx_use_t *use) {
+  fx_use_t whole = *use;
+  const fx_use_t *const own = model_fx(base, use->fx);
+  for (int k = 0; own && k < use->fx->n_size; k++)
+    fx_use_resize(&whole, k, fx_use_size(own, k) + fx_use_size(use, k));
+  return whole;
+}
+
 done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why) {
   *m = *base;
-  for (int i = 0; i < chosen->n; i++) TRY(model_add_fx(m, &chosen->use[i], why));
+  for (int i = 0; i < chosen->n; i++) {
+    const fx_use_t whole = effect_whole(base, &chosen->use[i]);
+    TRY(model_add_fx(m, &whole, why));
+  }
   return DONE;
 }

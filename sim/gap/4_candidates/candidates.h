@@ -1,4 +1,7 @@
-// candidates.h - the effects that the model lacks, and what each would add to every residual.
+// candidates.h - the effects that the model lacks or has with other numbers, and what each would add to every
+// residual.
+//
+// Of an effect that the vehicle file has, the numbers of a candidate are what they differ from the file's.
 //
 // An effect with a shape (the decay of a ceiling effect, the rotor that is damaged) is a candidate once for
 // each shape. A column is the derivative of the replay with respect to one number of a candidate.
@@ -12,8 +15,9 @@
 #include "gap/2_predict/residual.h"
 
 typedef struct {
-  fx_use_t use;                                   // with its shape; its sizes are 0
-  int first, n;                                   // columns
+  fx_use_t use; // with its shape; its sizes are 0
+  bool in_file; // the vehicle file has it: its sizes are differences, shape and kind the file's
+  int first, n; // columns
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
   bool barred; // a shape that held-out flights contradict: it is out of question
@@ -61,11 +65,14 @@ bool candidate_is_numbered(const candidate_t *c);
 // The candidates get the shapes of those that are chosen.
 void candidates_reshape(candidates_t *c, const chosen_t *chosen);
 
+// An effect with its whole numbers: what the file has of it (base) and the differences.
+fx_use_t effect_whole(const model_t *base, const fx_use_t *use);
+
 // The model with what is chosen. BAD_INPUT: too many effects.
 MUST_CHECK done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why);
 
-// The derivative of a flight's replay by point with respect to size k of an effect, which the model has or
-// gets. now, base: the model's own replay, kept. step: of that size. BAD_INPUT: too many effects.
+// The derivative of a flight's replay by point with respect to size k of an effect (whole), which the model
+// has or gets. now, base: the model's own replay, kept. step: of that size. BAD_INPUT: too many effects.
 MUST_CHECK done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                                        double *const base[CHANNELS], double *const with[CHANNELS],
                                        why_t *why);

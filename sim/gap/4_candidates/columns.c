@@ -41,6 +41,7 @@ static done_t fill_column(design_t *t, set_t *s, int flight, int column, const f
 typedef struct {
   const candidates_t *c;
   const chosen_t *chosen;
+  const model_t *base;
 } asked_t;
 
 // The effect that a candidate is another shape of, if that one is chosen.
@@ -59,9 +60,9 @@ static done_t fill_columns(design_t *t, set_t *s, int flight, const path_t *now,
     const candidate_t *const c = &a->c->candidate[i];
     const fx_use_t *const own = chosen_use(a->chosen, i);
     if (chosen_otherwise(a, i) != dropped) continue;
+    const fx_use_t whole = effect_whole(a->base, own ? own : &c->use);
     for (int k = 0; k < c->n; k++) {
-      TRY(column_differentiate(&s->grid[flight], now, own ? own : &c->use, k, c->step[k], l->base, l->with,
-                               why));
+      TRY(column_differentiate(&s->grid[flight], now, &whole, k, c->step[k], l->base, l->with, why));
       if (fill_column(t, s, flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");
     }
   }
@@ -82,7 +83,7 @@ static done_t fill_flight(design_t *t, set_t *s, int flight, const model_t *now,
   TRY(fill_from(t, s, flight, now, NULL, a, l, why));
   for (int i = 0; i < a->chosen->n; i++) {
     const fx_t *const fx = a->chosen->use[i].fx;
-    if (fx_variants(fx) < 2) continue;
+    if (fx_variants(fx) < 2 || a->c->candidate[a->chosen->of[i]].in_file) continue;
     model_t m = *now;
     model_drop_fx(&m, fx);
     TRY(fill_from(t, s, flight, &m, fx, a, l, why));
@@ -115,7 +116,7 @@ static bool design_room(design_t *t, const set_t *s) {
 
 done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
                    why_t *why) {
-  const asked_t asked = {c, chosen};
+  const asked_t asked = {c, chosen, base};
   flight_lines_t l;
   model_t now;
   double *r[CHANNELS];

@@ -112,8 +112,9 @@ static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, 
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
       const int column = t->names.candidate[i].first + k;
-      status = column_differentiate(quiet, &path, &t->chosen.use[i], k, t->names.candidate[i].step[k], r.base,
-                                    r.with, why);
+      const fx_use_t whole = effect_whole(t->base, &t->chosen.use[i]);
+      status =
+          column_differentiate(quiet, &path, &whole, k, t->names.candidate[i].step[k], r.base, r.with, why);
       if (status == DONE) status = put_instruments(t, flight, quiet, first, &r, column, why);
     }
   path_free(&path);
@@ -160,7 +161,7 @@ static done_t make_table(confirming_t *t, why_t *why) {
 
 static bool right_sign(const candidate_t *c, const confirm_t *a) {
   for (int k = 0; k < c->n; k++)
-    if (c->use.fx->size[k].sign > 0 && a->value[k] <= 0.0) return false;
+    if (c->use.fx->size[k].sign > 0 && a->value[k] <= c->least[k]) return false;
   return true;
 }
 

@@ -164,7 +164,7 @@ static double away(const found_t *f, const candidates_t *all, int candidate) {
   int n;
   const fx_param_t *const shape = &fx_use_params(&c->use, &n)[c->use.fx->shape_param];
   if (chosen_use(&f->chosen, candidate)) return -1.0;
-  return !c->use.fx->n_shape || fx_is_number(shape)
+  return !fx_use_has_shape(&c->use) || fx_is_number(shape)
              ? 0.0
              : fabs(log(c->use.p[c->use.fx->shape_param] / shape->nominal));
 }

@@ -149,7 +149,7 @@ done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found
   for (int i = 0; i < found->n; i++) {
     const candidate_t *const own = &c->candidate[found->named[i].candidate];
     polish_t p = {.chosen = &found->chosen, .own = own, .s = s, .base = base, .n = SIZE + own->n};
-    if (own->use.fx->n_shape < 2 || candidate_is_numbered(own)) continue;
+    if (own->in_file || own->use.fx->n_shape < 2 || candidate_is_numbered(own)) continue;
     p.use = chosen_take(&found->chosen, c, found->named[i].candidate);
     TRY(polish(&p, &found->named[i], why));
     *changed = true;

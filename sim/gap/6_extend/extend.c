@@ -13,15 +13,68 @@ static void write_list(FILE *out, const char *key, const double *v, int n) {
   fputs("]\n", out);
 }
 
+// --- effects that the file has with other numbers ---------------------------------------------------------
+
+static bool is_named(const extend_job_t *job, const fx_t *fx) {
+  for (int i = 0; i < job->found->n; i++)
+    if (found_use(job->found, &job->found->named[i])->fx == fx) return true;
+  return false;
+}
+
+static bool is_table(const char *line) {
+  return line[strspn(line, " \t")] == '[';
+}
+
+// The end of a table that begins at `line`: where the next one does.
+static const char *table_end(const char *line) {
+  do {
+    const char *const next = strchr(line, '\n');
+    line = next ? next + 1 : line + strlen(line);
+  } while (*line && !is_table(line));
+  return line;
+}
+
+// A table's `name = "..."` is of an effect that was named.
+static bool is_of_a_name(const extend_job_t *job, const char *from, const char *to) {
+  for (const char *line = from; line < to;) {
+    const char *const key = line + strspn(line, " \t");
+    const char *const quote = strncmp(key, "name", 4) == 0 ? strpbrk(key, "\"'\n") : NULL;
+    const size_t length = quote && *quote != '\n' ? strcspn(quote + 1, "\"'\n") : 0;
+    char name[32] = "";
+    if (length < sizeof name) memcpy(name, quote ? quote + 1 : "", length);
+    const fx_t *const fx = length ? fx_find(name) : NULL;
+    if (fx) return is_named(job, fx);
+    const char *const next = strchr(line, '\n');
+    line = next ? next + 1 : to;
+  }
+  return false;
+}
+
+// The text without the effects that are written anew; free it. Null: no memory.
+static char *without_names(const extend_job_t *job) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *const kept = open_memstream(&text, &size);
+  if (!kept) return NULL;
+  for (const char *line = job->text; *line;) {
+    const char *const start = line + strspn(line, " \t"), *const next = strchr(line, '\n');
+    const bool effect = strncmp(start, "[[effect]]", 10) == 0;
+    const char *const end = effect ? table_end(line) : next ? next + 1 : line + strlen(line);
+    if (!effect || !is_of_a_name(job, line, end)) fwrite(line, 1, (size_t)(end - line), kept);
+    line = end;
+  }
+  return fclose(kept) == 0 ? text : NULL;
+}
+
 // A curve from a file beside the vehicle file is not beside the new one: its points take its place.
-static void write_text(const extend_job_t *job, FILE *out) {
+static void write_text(const extend_job_t *job, const char *text, FILE *out) {
   const fx_use_t *fx = job->model->fx, *const end = fx + job->model->n_fx;
-  for (const char *line = job->text, *next; *line; line = next) {
+  for (const char *line = text, *next; *line; line = next) {
     next = strchr(line, '\n');
     next = next ? next + 1 : line + strlen(line);
     const char *const key = line + strspn(line, " \t");
     const bool file = strncmp(key, "file", 4) == 0 && key[4 + strspn(key + 4, " \t")] == '=';
-    while (file && fx < end && fx->points.n == 0) fx++;
+    while (file && fx < end && (fx->points.n == 0 || is_named(job, fx->fx))) fx++;
     if (file && fx < end) {
       fprintf(out, "# was: ");
       fwrite(line, 1, strcspn(line, "\r\n"), out);
@@ -34,13 +87,16 @@ static void write_text(const extend_job_t *job, FILE *out) {
   }
 }
 
+// --- the names --------------------------------------------------------------------------------------------
+
 static const char *unit_in_words(const char *unit) {
   return unit[0] ? unit : "without unit";
 }
 
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
-  const fx_use_t *const use = found_use(job->found, named);
+  const fx_use_t whole = effect_whole(job->model, found_use(job->found, named)), *const use = &whole;
   const fx_t *const fx = use->fx;
+  const fx_use_t *const in_file = model_fx(job->model, fx);
   int n;
   char p[P_TEXT];
   const fx_param_t *param = fx_use_params(use, &n);
@@ -48,14 +104,18 @@ static void write_effect(const extend_job_t *job, const named_t *named, FILE *ou
           "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
           job->logs, p_words(named->p, p), 100.0 * named->share, fx->name);
   if (use->form) fprintf(out, "form = \"%s\"\n", use->form->name);
+  if (use->points.n) write_list(out, "distance_over_radius", use->points.x, use->points.n);
+  if (use->points.n) write_list(out, "ratio", use->points.ratio, use->points.n);
   for (int i = 0; i < n; i++) {
     fprintf(out, "%s = %.9g", param[i].name, use->p[i]);
     const bool shape = fx->n_shape && fx->shape_param == i;
     bool estimated = false;
     for (int k = 0; k < fx->n_size; k++) {
       if (fx->size[k].param != i) continue;
-      fprintf(out, " # %s, estimated, +- %.2g (standard error)\n", unit_in_words(param[i].unit),
+      fprintf(out, " # %s, estimated, +- %.2g (standard error)", unit_in_words(param[i].unit),
               named->stderr_[k]);
+      if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
+      fputc('\n', out);
       estimated = true;
     }
     if (estimated) continue;
@@ -88,9 +148,11 @@ done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
           job->path, job->found->n);
   if (job->made) made_comment(job->made, made);
   if (job->made) fprintf(made, "# %s\n", job->logs);
-  write_text(job, made);
+  char *const kept = without_names(job);
+  if (kept) write_text(job, kept, made);
+  free(kept);
   for (int i = 0; i < job->found->n; i++) write_effect(job, &job->found->named[i], made);
-  done_t status = fclose(made) == 0 && text ? DONE : error_failed(why, "out of memory");
+  done_t status = fclose(made) == 0 && text && kept ? DONE : error_failed(why, "out of memory");
   if (status == DONE) status = check(text, job, why);
   if (status == DONE) fputs(text, out);
   free(text);

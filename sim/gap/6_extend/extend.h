@@ -1,8 +1,8 @@
 // extend.h - the vehicle file with what was named: DIR/model.toml, which `fly --vehicle` accepts.
 //
-// The vehicle file's own text is kept, with its comments, and gets one [[effect]] for each name, each number
-// with its standard error and where it comes from. What is in the model without a name (a lag or delay too
-// short for it, see select.h) belongs to the log and stays out.
+// The vehicle file's own text is kept, with its comments, and gets one [[effect]] for each name, in place of
+// one that it has of that name; each number with its standard error and where it comes from. What is in the
+// model without a name (a lag or delay too short for it, see select.h) belongs to the log and stays out.
 #ifndef SIM_GAP_6_EXTEND_EXTEND_H
 #define SIM_GAP_6_EXTEND_EXTEND_H
 

@@ -14,8 +14,9 @@ static void add_values(const finding_t *f, char text[REPORT_TEXT]) {
   for (int k = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     const size_t used = strlen(text);
-    snprintf(text + used, REPORT_TEXT - used, "%s%s %.3g +- %.2g%s%s", k ? ", " : " ", p->name, a->value[k],
-             a->stderr_[k], p->unit[0] ? " " : "", p->unit);
+    snprintf(text + used, REPORT_TEXT - used, "%s%s %.3g +- %.2g%s%s", k ? ", " : " ", p->name,
+             a->value[k] + (f->in_file ? fx_use_size(f->in_file, k) : 0.0), a->stderr_[k],
+             p->unit[0] ? " " : "", p->unit);
   }
 }
 

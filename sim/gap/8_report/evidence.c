@@ -15,6 +15,7 @@ static done_t effect_lines(const report_t *r, set_t *held, const finding_t *f, d
                            double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
   model_t m = r->study->diagnosis.extended;
   model_drop_fx(&m, f->fx);
+  if (f->in_file) TRY(model_add_fx(&m, f->in_file, why));
   TRY(residual_of(held, &m, effect, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
@@ -94,8 +95,9 @@ static void find_flight(finding_t *f) {
 
 static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  f->use = found_use(&d->found, f->named);
-  f->fx = f->use->fx;
+  f->fx = found_use(&d->found, f->named)->fx;
+  f->use = model_fx(&d->extended, f->fx);
+  f->in_file = model_fx(&r->study->vehicle, f->fx);
   lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
   done_t status = lines_make(&effect, held, why);
   if (status == DONE) status = lines_make(&variance, held, why);

@@ -14,7 +14,7 @@ static void parameters(const finding_t *f, FILE *out) {
     fprintf(out, "<td class=n>%.4g<td class=n>%.2g", fx_use_size(f->use, k), f->named->stderr_[k]);
     page_text(out, "<td>", p->unit, "</tr>\n");
   }
-  if (f->fx->n_shape) {
+  if (fx_use_has_shape(f->use)) {
     const double v = f->use->p[f->fx->shape_param], error = f->named->shape_stderr;
     page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
     if (error > 0.0)

@@ -7,13 +7,6 @@
 
 // --- what could have been seen ----------------------------------------------------------------------------
 
-static bool is_in_model(const report_t *r, const fx_t *fx) {
-  const model_t *const m = &r->study->diagnosis.extended;
-  for (int i = 0; i < m->n_fx; i++)
-    if (m->fx[i].fx == fx) return true;
-  return false;
-}
-
 static bool rivals_a_name(const report_t *r, const fx_t *fx) {
   const model_t *const m = &r->study->diagnosis.extended;
   for (int i = 0; i < m->n_fx && fx->class != FX_ALONE; i++)
@@ -38,7 +31,7 @@ static void find_untested(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < fx_count && r->n_untested < FX_TABLE_MAX; i++) {
     untested_t u = {.fx = fx_table[i]};
-    if (is_in_model(r, u.fx)) continue;
+    if (model_fx(&d->extended, u.fx)) continue;
     const candidate_t *c;
     int n;
     const double least = found_least(&d->found, &d->candidates, u.fx, &c);

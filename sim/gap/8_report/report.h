@@ -43,7 +43,8 @@ extern const char *const left_name[];
 // One named effect.
 typedef struct {
   const named_t *named;
-  const fx_use_t *use; // as the new model has it
+  const fx_use_t *use;     // as the new model has it
+  const fx_use_t *in_file; // as the vehicle file has it; null: it has it not. named->value is the difference
   const fx_t *fx;
   interval_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;

@@ -13,6 +13,7 @@ static void print_value(const finding_t *f, int k, FILE *out) {
   const fx_param_t *const p = &fx_use_params(f->use, &n)[f->fx->size[k].param];
   fprintf(out, "%s%s %.3g +- %.2g%s%s", k ? ", " : "", p->name, fx_use_size(f->use, k), f->named->stderr_[k],
           p->unit[0] ? " " : "", p->unit);
+  if (f->in_file) fprintf(out, " (the file has %.3g)", fx_use_size(f->in_file, k));
 }
 
 static void print_shape(const finding_t *f, FILE *out) {
@@ -32,7 +33,7 @@ static void print_kind(const finding_t *f, FILE *out) {
 static void print_numbers(const finding_t *f, FILE *out) {
   char p[P_TEXT];
   for (int k = 0; k < f->fx->n_size; k++) print_value(f, k, out);
-  if (f->fx->n_shape) print_shape(f, out);
+  if (fx_use_has_shape(f->use)) print_shape(f, out);
   if (f->fx->n_kind) print_kind(f, out);
   if (f->use->form) fprintf(out, ", form %s", f->use->form->name);
   fprintf(out, "; %.3g %% of the gap; %s", 100.0 * f->named->share, standing_name[f->standing]);

@@ -26,8 +26,8 @@ static amount_t amount_of(const double *v, int n) {
 static double relative_error(const finding_t *f) {
   double value = 0.0, error = 0.0;
   for (int k = 0; k < f->fx->n_size; k++) {
-    if (fabs(fx_use_size(f->use, k)) < value) continue;
-    value = fabs(fx_use_size(f->use, k));
+    if (fabs(f->named->value[k]) < value) continue;
+    value = fabs(f->named->value[k]);
     error = f->named->stderr_[k];
   }
   return value > 0.0 ? error / value : 0.0;

@@ -32,10 +32,11 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
     cJSON *const one = cJSON_AddObjectToObject(all, p->name);
     add_number(one, "value", fx_use_size(f->use, k));
     add_number(one, "stderr", f->named->stderr_[k]);
+    if (f->in_file) add_number(one, "in_file", fx_use_size(f->in_file, k));
     cJSON_AddStringToObject(one, "unit", p->unit);
   }
   if (f->fx->n_kind) add_kind(all, f);
-  if (!f->fx->n_shape) return;
+  if (!fx_use_has_shape(f->use)) return;
   const fx_param_t *const p = &param[f->fx->shape_param];
   cJSON *const one = cJSON_AddObjectToObject(all, p->name);
   add_number(one, "value", f->use->p[f->fx->shape_param]);
@@ -57,7 +58,7 @@ static void add_instrument(cJSON *o, const finding_t *f) {
   for (int k = 0; k < f->fx->n_size && !weak; k++) {
     const fx_param_t *const p = &param[f->fx->size[k].param];
     cJSON *const one = cJSON_AddObjectToObject(all, p->name);
-    add_number(one, "value", a->value[k]);
+    add_number(one, "value", a->value[k] + (f->in_file ? fx_use_size(f->in_file, k) : 0.0));
     add_number(one, "stderr", a->stderr_[k]);
     cJSON_AddStringToObject(one, "unit", p->unit);
   }

@@ -51,6 +51,16 @@ TEST(curves_have_their_published_values) {
   }
 }
 
+TEST(points_may_be_scaled_in_what_they_are_off_one) {
+  const curve_t *const curve = curve_find("table");
+  const curve_points_t points = {2, {0.5, 2.0}, {1.4, 1.0}};
+  for (int i = 0; i <= 4; i++) {
+    ROW("scale %d / 2", i);
+    const double scale = 0.5 * i;
+    CHECK_NEAR(curve->ratio(&scale, &points, 0.0225, 0.0225), 1.0 + scale * 0.4 * 2.0 / 3.0, 1e-12);
+  }
+}
+
 TEST(four_rotors_feel_the_ground_more_than_one_and_from_farther) {
   // thesis eq. 3.3 with all but the first image removed is eq. 3.1.
   const curve_t *curve = curve_find("four-rotor");

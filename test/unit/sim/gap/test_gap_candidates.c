@@ -129,3 +129,53 @@ TEST(every_pair_of_effects_says_once_how_to_tell_them_apart) {
   CHECK(pairs > 40);
   CHECK(fx_apart(fx_find("ceiling"), fx_find("wind")) == NULL);
 }
+
+TEST(what_is_typical_of_a_number_accelerates_a_large_vehicle_as_it_does_a_crazyflie) {
+  // Four times the lengths, 64 times the mass: inertia 1024 times, kf 256 times, a hover at half the speed.
+  static const struct {
+    fx_grows_t how;
+    double times;
+  } row[] = {{FX_SAME, 1.0},
+             {FX_BY_MASS, 64.0},
+             {FX_BY_INERTIA, 1024.0},
+             {FX_BY_MASS_PER_SPEED, 128.0},
+             {FX_BY_ARM, 4.0},
+             {FX_BY_INERTIA_PER_SPEED, 2048.0},
+             {FX_BY_PER_WEIGHT, 1 / 64.0}};
+  const model_t like = {.mass_kg = 0.0329, .rotor_radius_m = 0.02355};
+  model_t large = {.mass_kg = 64.0 * 0.0329, .rotor_radius_m = 4.0 * 0.02355};
+  large.frame = model_frame_like_crazyflie(&large);
+  model_t small = like;
+  small.frame = model_frame_like_crazyflie(&like);
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%d", (int)row[i].how);
+    CHECK_NEAR(model_grows(&small, row[i].how), 1.0, 1e-12);
+    CHECK_NEAR(model_grows(&large, row[i].how), row[i].times, 1e-9 * row[i].times);
+  }
+}
+
+TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
+  log_t l;
+  candidates_t c;
+  why_t why;
+  log_make(&l);
+  fx_use_t drag = fx_use(fx_find("rotor_drag"));
+  drag.p[0] = 2e-6, drag.p[1] = 0.0;
+  CHECK_OK(model_add_fx(&l.model, &drag, &why));
+  CHECK_OK(candidates_make(&c, &l.model, &l.set, &why));
+  int found = 0;
+  for (int i = 0; i < c.n; i++) {
+    const candidate_t *const own = &c.candidate[i];
+    CHECK(own->in_file == (own->use.fx == drag.fx));
+    if (!own->in_file) continue;
+    found++;
+    CHECK_NEAR(own->use.p[0], 0.0, 0.0);
+    CHECK_NEAR(own->use.p[1], 0.0, 0.0);     // the kind is the file's
+    CHECK_NEAR(own->least[0], -2e-6, 1e-18); // all of it
+    fx_use_t half = own->use;
+    half.p[0] = -1e-6;
+    CHECK_NEAR(effect_whole(&l.model, &half).p[0], 1e-6, 1e-18);
+  }
+  CHECK(found == 1);
+  candidates_free(&c);
+}

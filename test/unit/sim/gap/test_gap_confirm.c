@@ -91,6 +91,41 @@ TEST(gap_confirms_what_is_hidden_with_the_set_points_as_instrument) {
   }
 }
 
+// Flown with a drag, diagnosed with a vehicle file that has another one: the number is what it differs.
+TEST(gap_names_an_effect_of_which_the_vehicle_file_has_another_number) {
+  static const struct { double file, truth; } row[] = {{2e-6, 1e-6}, {1e-6, 3e-6}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    fx_use_t drag = fx_use(fx_find("rotor_drag"));
+    model_t file, truth;
+    gap_flight_t flight[FLIGHTS] = {{.n = 0}};
+    why_t why = {""};
+    ROW("the file has %g", row[i].file);
+    drag.p[0] = row[i].file;
+    CHECK_OK(exam_vehicle(&file, &why));
+    truth = file;
+    CHECK_OK(model_add_fx(&file, &drag, &why));
+    drag.p[0] = row[i].truth;
+    CHECK_OK(model_add_fx(&truth, &drag, &why));
+    for (unsigned k = 0; k < FLIGHTS; k++) {
+      const exam_flight_t job = {.truth = &truth, .seed = share_seed(FIRST_SEED) + 900u + 10u * i + k};
+      CHECK_OK(exam_fly(&job, &flight[k], &why));
+    }
+    const gap_flights_t fit = {flight, FLIGHTS - 1}, held = {flight + FLIGHTS - 1, 1};
+    const diagnose_job_t job = {.fit = &fit, .held = &held, .model = &file, .seed = 1};
+    diagnosis_t *const d = calloc(1, sizeof *d);
+    if (CHECK_OK(diagnose(&job, d, &why)) && CHECK(d->found.n == 1)) {
+      const named_t *const named = &d->found.named[0];
+      CHECK(found_use(&d->found, named)->fx == drag.fx);
+      CHECK_NEAR(named->value[0], row[i].truth - row[i].file, 3.0 * named->stderr_[0]);
+      CHECK_NEAR(model_fx(&d->extended, drag.fx)->p[0], row[i].truth, 3.0 * named->stderr_[0]);
+      CHECK(named->stderr_[0] < 0.2 * row[i].truth);
+    }
+    diagnosis_free(d);
+    free(d);
+    for (int k = 0; k < FLIGHTS; k++) gap_flight_free(&flight[k]);
+  }
+}
+
 // Noise of the measured speed weakens the drag that depends on it; the set points know no such noise.
 TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
   static const flown_t how = {"rotor_drag:k=3e-6", true, false, true};

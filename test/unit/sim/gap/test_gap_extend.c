@@ -75,6 +75,35 @@ TEST(gap_keeps_the_effects_that_a_vehicle_file_has_and_its_measured_curves) {
   CHECK_TEXT(m.fx[1].fx->name, "wind");
 }
 
+TEST(gap_writes_an_effect_that_the_file_has_wrong_in_its_place) {
+  static const struct {
+    const char *what, *tables; // of the vehicle file
+    const char *keeps, *drops;
+  } row[] = {
+      {"the last",
+       "[[effect]]\nname = \"body_drag\"\nc = 3e-3\n\n[[effect]]\nname = \"rotor_drag\"\nk = 2e-6 # mine\n",
+       "c = 3e-3", "mine"},
+      {"the first, told otherwise",
+       "[[effect]] # a drag\n  k = 2e-6 # mine\n  name = 'rotor_drag'\n[[effect]]\nname = \"body_drag\"\nc = "
+       "3e-3\n",
+       "c = 3e-3", "mine"},
+  };
+  const fx_use_t less = {.fx = fx_find("rotor_drag"), .p = {-5e-7, 1.0}}; // a difference
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    char vehicle[800], text[8000];
+    model_t base, m;
+    why_t why = {""};
+    ROW("%s", row[i].what);
+    snprintf(vehicle, sizeof vehicle, "%s%s", VEHICLE, row[i].tables);
+    CHECK_OK(extend("v.toml", vehicle, &less, text, sizeof text, &base, &why));
+    CHECK_OK(model_read_text("model.toml", text, &m, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(strstr(text, row[i].keeps) && !strstr(text, row[i].drops) && strstr(text, "; v.toml has 2e-06\n"));
+    const fx_use_t *const drag = model_fx(&m, less.fx);
+    if (CHECK(m.n_fx == 2 && drag)) CHECK_NEAR(drag->p[0], 1.5e-6, 1e-14);
+  }
+}
+
 TEST(gap_says_when_a_vehicle_file_cannot_be_added_to) {
   char vehicle[600], text[8000];
   snprintf(vehicle, sizeof vehicle, "effect = [{name = \"wind\"}]\n%s", VEHICLE);
