@@ -14,7 +14,7 @@ const curve_t curve_cheeseman_bennett = {
     .brief = "1/(1 - (R/4d)^2), at most max",
     .source = "Cheeseman and Bennett 1955, thesis eqs 1 and 3.1",
     .surfaces = SURFACE_CEILING | SURFACE_GROUND,
-    .n_param = 1,
-    .param = {{"max", "", 1.0, 1.6, 5.0}},
+    .n_param = 2,
+    .param = {{"max", "", 1.0, 1.6, 5.0}, CURVE_EACH},
     .ratio = ratio,
 };

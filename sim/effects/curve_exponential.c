@@ -20,8 +20,8 @@ const curve_t curve_exponential = {
     .brief = "1 + Ca exp(-Cb d/R)",
     .source = "He et al., thesis eqs 2 and 3.4",
     .surfaces = SURFACE_CEILING | SURFACE_GROUND,
-    .n_param = 2,
-    .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}},
+    .n_param = 3,
+    .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}, CURVE_EACH},
     .ratio = ratio,
     .add_excess = add_excess,
 };

@@ -27,10 +27,11 @@ const curve_t curve_four_rotor = {
     .brief = "four coplanar rotors by the method of images, at most max",
     .source = "Sanchez-Cuevas et al., thesis eq. 3.3; d and b of the Crazyflie 2.1, Kb of its authors",
     .surfaces = SURFACE_GROUND,
-    .n_param = 4,
+    .n_param = 5,
     .param = {{"d", "m", 0.01, 0.065, 2.0},
               {"b", "m", 0.01, 0.092, 3.0},
               {"Kb", "", 0.0, 2.0, 10.0},
-              {"max", "", 1.0, 1.6, 5.0}},
+              {"max", "", 1.0, 1.6, 5.0},
+              CURVE_EACH},
     .ratio = ratio,
 };

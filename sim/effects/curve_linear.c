@@ -13,7 +13,7 @@ const curve_t curve_linear = {
     .brief = "slope z/R + offset, at least 1",
     .source = "Wei et al., thesis eq. 3.2",
     .surfaces = SURFACE_GROUND,
-    .n_param = 2,
-    .param = {{"slope", "", -1.0, -0.0373, 0.0}, {"offset", "", 1.0, 1.1651, 3.0}},
+    .n_param = 3,
+    .param = {{"slope", "", -1.0, -0.0373, 0.0}, {"offset", "", 1.0, 1.1651, 3.0}, CURVE_EACH},
     .ratio = ratio,
 };

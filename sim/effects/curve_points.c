@@ -27,7 +27,7 @@ const curve_t curve_points = {
     .source = "the file",
     .surfaces = SURFACE_CEILING | SURFACE_GROUND,
     .needs_points = 1,
-    .n_param = 1,
-    .param = {{"scale", "", 0.0, 1.0, 5.0}},
+    .n_param = 2,
+    .param = {{"scale", "", 0.0, 1.0, 5.0}, CURVE_EACH},
     .ratio = ratio,
 };

@@ -15,7 +15,7 @@ const curve_t curve_square_root = {
     .brief = "0.5 + 0.5 sqrt(1 + (R/d)^2/k), d >= dmin R",
     .source = "Hsiao and Chirarattananon 2019, arXiv 1905.04632",
     .surfaces = SURFACE_CEILING,
-    .n_param = 2,
-    .param = {{"k", "", 0.5, 8.0, 100.0}, {"dmin", "R", 0.01, 0.1, 1.0}},
+    .n_param = 3,
+    .param = {{"k", "", 0.5, 8.0, 100.0}, {"dmin", "R", 0.01, 0.1, 1.0}, CURVE_EACH},
     .ratio = ratio,
 };

@@ -35,7 +35,7 @@ const fx_param_t *fx_use_params(const fx_use_t *use, int *n) {
 bool fx_use_has_shape(const fx_use_t *use) {
   int n;
   (void)fx_use_params(use, &n);
-  return use->fx->n_shape && use->fx->shape_param < n;
+  return use->fx->n_shape && use->fx->shape_param < (use->form ? n - 1 : n);
 }
 
 void fx_use_form(fx_use_t *use, const curve_t *form) {

@@ -34,6 +34,11 @@ static inline bool fx_is_number(const fx_param_t *p) {
   return strcmp(p->unit, "number") == 0;
 }
 
+// The last parameter of every curve: whether each rotor has its own distance from the surface, so that a
+// tilted vehicle is turned, or all have that of their middle, as simulators often have it.
+#define CURVE_EACH                                                                                           \
+  { "each", "number", 0.0, 1.0, 1.0 }
+
 // A published curve: thrust near a surface over thrust in free air. One file curve_NAME.c each, collected
 // into curve_table. Which effects may use it stands in `surfaces`.
 enum { SURFACE_CEILING = 1, SURFACE_GROUND = 2 };
@@ -196,7 +201,8 @@ typedef struct {
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
   // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the
-  // thrust): each is tried with each shape. Nothing is between them. n_kind 0: there is one.
+  // thrust): each is tried with each shape. Nothing is between them. n_kind 0: there is one. Of a surface it
+  // is the last of the form's (fx_use_kind).
   int kind_param, n_kind;
   double kind[FX_KIND_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
@@ -241,8 +247,22 @@ const char *fx_apart(const fx_t *a, const fx_t *b);
 const fx_t *fx_find(const char *name);
 const curve_t *curve_find(const char *name);
 
+// All rotors where their middle is.
+static inline fx_places_t fx_middle(const fx_places_t *at) {
+  fx_places_t mean = {.radius_m = at->radius_m};
+  double ceiling_m = 0.0, ground_m = 0.0;
+  for (int i = 0; i < ROTORS; i++)
+    ceiling_m += at->ceiling_gap_m[i] / ROTORS, ground_m += at->ground_gap_m[i] / ROTORS;
+  for (int i = 0; i < ROTORS; i++) mean.ceiling_gap_m[i] = ceiling_m, mean.ground_gap_m[i] = ground_m;
+  return mean;
+}
+
 // Adds the effect's excess at each rotor. The effect must have the hook.
-static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *at, double ratio[ROTORS]) {
+static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *each, double ratio[ROTORS]) {
+  const bool middle = use->form && use->p[use->form->n_param - 1] < 0.5;
+  const fx_places_t mean = middle ? fx_middle(each) : (fx_places_t){.radius_m = 0.0}, *const at = middle
+                                                                                                      ? &mean
+                                                                                                      : each;
   if (!use->form || !use->form->add_excess) {
     for (int i = 0; i < ROTORS; i++) {
       const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};
@@ -270,6 +290,11 @@ static inline void fx_use_resize(fx_use_t *use, int k, double value) {
 
 // The parameters that use->p belongs to; *n gets their number.
 const fx_param_t *fx_use_params(const fx_use_t *use, int *n);
+
+// Which parameter says its kind.
+static inline int fx_use_kind(const fx_use_t *use) {
+  return use->form ? use->form->n_param - 1 : use->fx->kind_param;
+}
 
 // It has a shape, in the form that it has: points have none.
 bool fx_use_has_shape(const fx_use_t *use);

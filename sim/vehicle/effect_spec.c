@@ -60,8 +60,9 @@ static done_t unknown_key(const fx_use_t *use, const char *key, why_t *why) {
   if (use->fx->surface) list_add(list, "form");
   if (use->form && use->form->needs_points) list_add(list, "file");
   for (int i = 0; i < n; i++) {
+    const char *const unit = fx_is_number(&param[i]) ? "" : param[i].unit;
     snprintf(item, sizeof item, "%s %g to %g%s%s", param[i].name, param[i].min, param[i].max,
-             param[i].unit[0] ? " " : "", param[i].unit);
+             unit[0] ? " " : "", unit);
     list_add(list, item);
   }
   return error_set(why, "effect %s%s%s: unknown key `%s`%s; allowed: %s", use->fx->name,

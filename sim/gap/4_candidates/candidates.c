@@ -74,7 +74,7 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) 
   }
   if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
   if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[variant % fx->n_shape];
-  if (fx->n_kind) to->use.p[fx->kind_param] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
+  if (fx->n_kind) to->use.p[fx_use_kind(&to->use)] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
   c->columns += to->n;
 }
 
@@ -83,8 +83,8 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   int n;
   const fx_param_t *const param = fx_use_params(own, &n);
   const fx_t *const fx = own->fx;
-  for (int k = 0; k < fx->n_size; k++)
-    if (fx->size[k].param >= n) return; // this form has no such number
+  // Of other forms the first number is no factor of what the effect does.
+  if (own->form && !own->form->needs_points && own->form != curve_find(fx->form_initial)) return;
   if (fx->class == FX_TIMING) return;
   add(c, fx, m, 0);
   candidate_t *const to = &c->candidate[c->n - 1];

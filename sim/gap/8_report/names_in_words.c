@@ -25,9 +25,9 @@ static void parameters(const finding_t *f, FILE *out) {
     page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
   }
   if (f->fx->n_kind) {
-    page_text(out, "<tr><td>", param[f->fx->kind_param].name, "");
+    page_text(out, "<tr><td>", param[fx_use_kind(f->use)].name, "");
     fprintf(out, "<td class=n>%g<td class=n>the better of those tried<td></tr>\n",
-            f->use->p[f->fx->kind_param]);
+            f->use->p[fx_use_kind(f->use)]);
   }
   fputs("</table>\n", out);
 }

@@ -26,7 +26,8 @@ static void print_shape(const finding_t *f, FILE *out) {
 
 static void print_kind(const finding_t *f, FILE *out) {
   int n;
-  fprintf(out, ", %s %g", fx_use_params(f->use, &n)[f->fx->kind_param].name, f->use->p[f->fx->kind_param]);
+  fprintf(out, ", %s %g", fx_use_params(f->use, &n)[fx_use_kind(f->use)].name,
+          f->use->p[fx_use_kind(f->use)]);
 }
 
 // A small p beside a name that others could have would say that the name is sure.

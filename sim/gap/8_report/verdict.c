@@ -16,9 +16,9 @@ static void add_number(cJSON *o, const char *key, double v) {
 // A number that was chosen among a few, and has no error.
 static void add_kind(cJSON *all, const finding_t *f) {
   int n;
-  const fx_param_t *const p = &fx_use_params(f->use, &n)[f->fx->kind_param];
+  const fx_param_t *const p = &fx_use_params(f->use, &n)[fx_use_kind(f->use)];
   cJSON *const one = cJSON_AddObjectToObject(all, p->name);
-  add_number(one, "value", f->use->p[f->fx->kind_param]);
+  add_number(one, "value", f->use->p[fx_use_kind(f->use)]);
   add_number(one, "stderr", (double)NAN);
   cJSON_AddStringToObject(one, "unit", p->unit);
 }

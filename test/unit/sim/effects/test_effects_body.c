@@ -223,3 +223,18 @@ TEST(motor_lag_and_delay_slow_the_thrust) {
   CHECK(b.y[RIGID_THRUST_N] > WEIGHT_N / 4.0 + 1e-4);
   body_close(&b);
 }
+
+TEST(a_surface_turns_a_tilted_vehicle_only_where_each_rotor_has_its_own_distance) {
+  for (int each = 0; each <= 1; each++) {
+    ROW("each %d", each);
+    model_t m = vehicle6(1.0);
+    fx_use_t *const ceiling = vehicle6_add(&m, "ceiling");
+    ceiling->p[ceiling->form->n_param - 1] = each;
+    body_start_t start = vehicle6_start(&m, 0.95, 1.0);
+    start.q_wb = turned_about(d3(1.0, 0.0, 0.0), 0.2); // the left side is nearer, and is pulled up
+    const felt_t got = felt(&m, &start);
+    CHECK(got.acc_b_mps2.z > 0.05);
+    CHECK(each ? got.turn_b_radps2.x > 0.1 : fabs(got.turn_b_radps2.x) < 1e-9);
+    CHECK_NEAR(got.turn_b_radps2.y, 0.0, 1e-9);
+  }
+}

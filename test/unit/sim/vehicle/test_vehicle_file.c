@@ -160,7 +160,7 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
       {"ceiling:form=table", "effect ceiling, form table: no points; file=FILE.csv is needed (columns "
                              "distance_over_radius, ratio)"},
       {"ceiling:file=x.csv",
-       "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to 5, Cb 0.01 to 50"},
+       "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to 5, Cb 0.01 to 50, each 0 to 1"},
       {"ceiling:form=table,file=/none/x.csv", "/none/x.csv: cannot be opened: No such file or directory"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
