@@ -127,8 +127,9 @@ TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_alone) {
   }
 }
 
-// More mass under a ceiling: what else is said holds the mass among its rivals, also where the vehicle file
-// has no ceiling, so that what the ceiling does stays unexplained.
+// More mass under a ceiling: what else is said holds the mass among its rivals. Where the vehicle file has no
+// ceiling, so that what the ceiling does stays unexplained, it may say instead that this is to be added
+// first.
 static bool tells_mass(const cJSON *effect) {
   const cJSON *rival;
   bool told = strcmp(verdict_string(effect, "name"), "mass") == 0;
@@ -158,7 +159,10 @@ TEST(gap_tells_more_mass_as_mass_or_as_what_looks_like_it) {
       told += tells_mass(effect);
       CHECK(tells_mass(effect) || strcmp(verdict_string(effect, "name"), "ceiling") == 0);
     }
-    CHECK(told > 0);
+    const cJSON *first = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "to_do"), 1);
+    const bool asks = strcmp(verdict_string(v, "verdict"), "unknown") == 0 && cJSON_IsString(first) &&
+                      strncmp(first->valuestring, "add: ceiling_m = 0.50 ", 22) == 0;
+    CHECK(told > 0 || (!row[i].ceiling[0] && asks));
     cJSON_Delete(v);
   }
 }

@@ -67,7 +67,7 @@ static const struct {
      "square-root"},
     {"effect key", VEHICLE "[[effect]]\nname = \"ceiling\"\nCc = 1\n",
      "v.toml:9: Cc: effect ceiling, form exponential: unknown key `Cc`; allowed: form, Ca 0 to 5, Cb 0.01 "
-     "to 50"},
+     "to 50, each 0 to 1"},
     {"effect range", VEHICLE "[[effect]]\nname = \"ceiling\"\nCa = 9\n",
      "v.toml:9: Ca: effect ceiling: Ca = 9 is out of range; allowed: 0 to 5"},
     {"points",
@@ -159,8 +159,8 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
        "effect ceiling: unknown form `linear`; allowed: cheeseman-bennett, exponential, table, square-root"},
       {"ceiling:form=table", "effect ceiling, form table: no points; file=FILE.csv is needed (columns "
                              "distance_over_radius, ratio)"},
-      {"ceiling:file=x.csv",
-       "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to 5, Cb 0.01 to 50, each 0 to 1"},
+      {"ceiling:file=x.csv", "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to "
+                             "5, Cb 0.01 to 50, each 0 to 1"},
       {"ceiling:form=table,file=/none/x.csv", "/none/x.csv: cannot be opened: No such file or directory"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
