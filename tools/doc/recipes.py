@@ -63,7 +63,7 @@ def target() -> None:
 
 def outside() -> None:
     """Only the table: what each set was stands in out/flown_outside."""
-    said = program("make", "outside", "SEED=7731", "SETS=40")
+    said = program("make", "outside", "SEED=8219", "SETS=40")
     if said.startswith("skipped"):
         raise run.Left(said.strip())
     print(said[said.index("\nseed ") + 1:], end="")
@@ -105,7 +105,7 @@ RECIPES = {
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
     "identify": Recipe(identify, data=True),
     "touches": Recipe(flights.touches),
-    "exam": Recipe(says("exam", 80001, 200)),
+    "exam": Recipe(says("exam", 82001, 200)),
     "users": Recipe(says("exam", "users", 96001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
