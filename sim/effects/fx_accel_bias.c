@@ -13,7 +13,7 @@ const fx_t fx_accel_bias = {
     .apart = {{"imu_misalignment", "throttle steps of 20 %: a bias stays, the other grows with the thrust"},
               {"wind", "a full yaw turn on the spot: a bias turns with the body, wind does not"}},
     .n_size = 3,
-    .size = {{0, 0.01, 0, 0.0}, {1, 0.01, 0, 0.0}, {2, 0.01, 0, 0.0}},
+    .size = {{0, 0.01, 0, 0.0, FX_SAME}, {1, 0.01, 0, 0.0, FX_SAME}, {2, 0.01, 0, 0.0, FX_SAME}},
     .n_param = 3,
     .param = {{"x", "m/s2", -1.0, 0.12, 1.0}, // beyond 0.1 g a sensor is broken, or it is something else
               {"y", "m/s2", -1.0, 0.0, 1.0},

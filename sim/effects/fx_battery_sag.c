@@ -19,7 +19,7 @@ const fx_t fx_battery_sag = {
               {"thrust_curve", "the same throttle steps on a full and on a nearly empty battery"}},
     .needs = FX_NEEDS_VOLTAGE,
     .n_size = 1,
-    .size = {{0, 0.05, 1, 0.0}},
+    .size = {{0, 0.05, 1, 0.0, FX_SAME}},
     .shape_param = 2,
     .n_shape = 3,
     .shape = {3.7, 3.95, 4.2},

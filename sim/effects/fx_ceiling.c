@@ -21,7 +21,7 @@ const fx_t fx_ceiling = {
               {"ceiling_rpm", "log the rotor speeds while you hold 5 cm under the ceiling"}},
     .needs = FX_NEEDS_CEILING | FX_NEEDS_POSITION,
     .n_size = 1,
-    .size = {{0, 0.01, 1, 0.0}},
+    .size = {{0, 0.01, 1, 0.0, FX_SAME}},
     .shape_param = 1,
     .n_shape = 6,
     .n_kind = 2,

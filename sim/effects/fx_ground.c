@@ -18,7 +18,7 @@ const fx_t fx_ground = {
               {"thrust_curve", "throttle steps half a metre up: a bent curve shows there too"}},
     .needs = FX_NEEDS_POSITION,
     .n_size = 1,
-    .size = {{0, 0.01, 1, 0.0}},
+    .size = {{0, 0.01, 1, 0.0, FX_SAME}},
     .shape_param = 1,
     .n_shape = 6,
     .n_kind = 2,

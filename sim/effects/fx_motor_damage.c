@@ -14,7 +14,7 @@ const fx_t fx_motor_damage = {
     .apart = {{"inertia", "a calm hover: damage shows there, inertia in attitude doublets alone"},
               {"cg_offset", "throttle steps: a weak rotor yaws the vehicle too, an offset does not"}},
     .n_size = 1,
-    .size = {{1, 1e-3, 1, 0.0}},
+    .size = {{1, 1e-3, 1, 0.0, FX_SAME}},
     .shape_param = 0,
     .n_shape = 4,
     .shape = {1.0, 2.0, 3.0, 4.0},

@@ -16,7 +16,7 @@ const fx_t fx_thrust_scale = {
               {"inertia", "throttle steps without turning, then attitude doublets"}},
     .class = FX_WEIGHT,
     .n_size = 1,
-    .size = {{0, 0.01, 0, 0.0}},
+    .size = {{0, 0.01, 0, 0.0, FX_SAME}},
     .kind_param = 1,
     .n_kind = 2,
     .kind = {1.0, 0.0},
