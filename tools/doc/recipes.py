@@ -106,7 +106,7 @@ RECIPES = {
     "identify": Recipe(identify, data=True),
     "touches": Recipe(flights.touches),
     "exam": Recipe(says("exam", 82001, 200)),
-    "users": Recipe(says("exam", "users", 96001, 240)),
+    "users": Recipe(says("exam", "users", 97001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),

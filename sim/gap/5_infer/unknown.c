@@ -162,8 +162,9 @@ static void try_windows(const products_t *p, bool centred, int channel, int coor
       if (!(free_own > 1e-3 * own)) continue;
       const double statistic = fabs(free_y) / sqrt(free_own);
       if (statistic > cell->statistic)
-        *cell = (cell_t){channel,      NAME[coordinate][0], NAME[coordinate][1], edge[from],
-                         edge[to + 1], free_y / free_own,   statistic,           to + 1 == UNKNOWN_BINS};
+        *cell =
+            (cell_t){channel,           NAME[coordinate][0], NAME[coordinate][1],    edge[from], edge[to + 1],
+                     free_y / free_own, statistic,           to + 1 == UNKNOWN_BINS, false};
     }
   }
 }
@@ -180,6 +181,27 @@ static void scan_coordinate(const set_t *s, const model_t *m, int coordinate,
       add_products(&p, rows_of(s, list), &color[ch], residual[ch], bin);
       try_windows(&p, centred, ch, coordinate, edge, cell);
     }
+  }
+}
+
+// --- the lateral force in the world's axes ----------------------------------------------------------------
+
+static bool has_lateral_force(const set_t *s) {
+  bool has = residual_has(s, CH_FX) && residual_has(s, CH_FY);
+  for (int i = 0; i < s->n_grid; i++) has = has && s->grid[i].has_attitude;
+  return has;
+}
+
+// Turned about the vertical by the heading, or back (way -1). In place, too.
+static void turn_by_heading(const set_t *s, double way, const double *fx, const double *fy, double *east,
+                            double *north) {
+  for (int i = 0; i < s->smooth.n; i++) {
+    const axes_t axes = axes_of(s->grid[s->smooth.flight[i]].point[s->smooth.point[i]].q_wb);
+    const d3_t ahead = axes_to_world(&axes, d3(1.0, 0.0, 0.0));
+    const double level = fmax(hypot(ahead.x, ahead.y), 1e-6), c = ahead.x / level, n = way * ahead.y / level,
+                 x = fx[i], y = fy[i];
+    east[i] = c * x - n * y;
+    north[i] = n * x + c * y;
   }
 }
 
@@ -204,11 +226,26 @@ static void clean(const set_t *s, const model_t *m, int coordinate, double *cons
   }
 }
 
+static void clean_in_world(const set_t *s, const model_t *m, double *const residual[CHANNELS], double *room,
+                           int *bin) {
+  double edge[UNKNOWN_BINS + 1], *const fx = residual[CH_FX], *const fy = residual[CH_FY];
+  if (!has_lateral_force(s)) return;
+  turn_by_heading(s, 1.0, fx, fy, fx, fy);
+  for (int i = 0; i < COORDINATES; i++) {
+    if (!bins_of(s, m, i, 0, room, bin, edge)) continue;
+    flatten(&s->smooth, bin, fx);
+    flatten(&s->smooth, bin, fy);
+  }
+  turn_by_heading(s, -1.0, fx, fy, fx, fy);
+}
+
 done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CHANNELS], why_t *why) {
   double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
   int *const bin = malloc(set_most_rows(s) * sizeof(int));
-  for (int sweep = 0; room && bin && sweep < 2; sweep++)
+  for (int sweep = 0; room && bin && sweep < 2; sweep++) {
     for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
+    clean_in_world(s, m, residual, room, bin);
+  }
   const bool good = room && bin;
   free(room);
   free(bin);
@@ -243,6 +280,27 @@ done_t unknown_along(const set_t *s, const model_t *m, int coordinate, double *c
   return good ? DONE : error_failed(why, "out of memory");
 }
 
+static done_t scan_world(const set_t *s, const model_t *m, double *const residual[CHANNELS], bool centred,
+                         double *room, int *bin, cell_t *cell, why_t *why) {
+  const size_t rows = (size_t)s->smooth.n + 1;
+  double *const turned = malloc(2 * rows * sizeof(double)), *all[CHANNELS];
+  color_t color[CHANNELS];
+  cell_t found = {.statistic = 0.0};
+  if (!turned) return error_failed(why, "out of memory");
+  memcpy(all, residual, sizeof all);
+  all[CH_FX] = turned;
+  all[CH_FY] = turned + rows;
+  turn_by_heading(s, 1.0, residual[CH_FX], residual[CH_FY], all[CH_FX], all[CH_FY]);
+  const done_t status = unknown_colors(s, m, all, color, why);
+  for (int ch = CH_FY + 1; ch < CHANNELS; ch++) color[ch].used = false;
+  for (int i = 0; i < COORDINATES && status == DONE; i++)
+    scan_coordinate(s, m, i, all, color, centred, room, bin, &found);
+  free(turned);
+  found.world = true;
+  if (found.statistic > cell->statistic) *cell = found;
+  return status;
+}
+
 done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                        const color_t *color, bool centred, cell_t *cell, why_t *why) {
   color_t own[CHANNELS];
@@ -252,8 +310,10 @@ done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[
   int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int i = 0; room && bin && i < COORDINATES; i++)
     scan_coordinate(s, m, i, residual, color ? color : own, centred, room, bin, cell);
-  const bool good = room && bin;
+  done_t status = room && bin ? DONE : error_failed(why, "out of memory");
+  if (status == DONE && has_lateral_force(s))
+    status = scan_world(s, m, residual, centred, room, bin, cell, why);
   free(room);
   free(bin);
-  return good ? DONE : error_failed(why, "out of memory");
+  return status;
 }

@@ -3,7 +3,8 @@
 // Every coordinate is cut into bins that hold equally many rows. For a window of neighbouring bins the
 // statistic is the generalised least squares estimate of a constant inside it, over its standard error, with
 // the autoregression of the channel and a constant over all rows taken into account. Such a maximum means
-// something against the same maximum on nominal flights.
+// something against the same maximum on nominal flights. The lateral force is looked at in the body's axes
+// and, level, in the world's.
 #ifndef SIM_GAP_5_INFER_UNKNOWN_H
 #define SIM_GAP_5_INFER_UNKNOWN_H
 
@@ -16,6 +17,7 @@ typedef struct {
   double size;                   // mean of the residual inside, in the channel's unit
   double statistic;              // 0: nothing could be judged
   bool last;                     // no row is beyond `to`
+  bool world; // force_x and force_y are along the world's x and y: it stays where the vehicle turns
 } cell_t;
 
 // Takes out of a residual what depends on any one coordinate, or on several of them added: what is left is

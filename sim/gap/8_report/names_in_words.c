@@ -106,7 +106,7 @@ void page_unknown(const report_t *r, FILE *out) {
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
   fprintf(out, "%+.3g &plusmn; %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
-  page_text(out, "", gap_channel[c->channel], ", at ");
+  page_text(out, "", gap_channel[c->channel], c->world ? " (the world's), at " : ", at ");
   page_text(out, "", c->coordinate, "");
   fprintf(out, " %.3g to %.3g ", c->from, c->to);
   page_text(out, "", c->unit, "");

@@ -167,9 +167,9 @@ void report_words(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
   if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
   if (r->study->diagnosis.unknown)
-    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s, at %s %.3g to %.3g %s\n", c->size,
-            fabs(c->size) / c->statistic, gap_unit[c->channel], gap_channel[c->channel], c->coordinate,
-            c->from, c->to, c->unit);
+    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s %.3g to %.3g %s\n", c->size,
+            fabs(c->size) / c->statistic, gap_unit[c->channel], gap_channel[c->channel],
+            c->world ? " (the world's)" : "", c->coordinate, c->from, c->to, c->unit);
   print_gap(r, out);
   print_untested(r, out);
   for (int i = 0; i < r->n_warning && i < WARNINGS; i++)

@@ -107,6 +107,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   }
   cJSON *const o = cJSON_AddObjectToObject(root, "unknown");
   cJSON_AddStringToObject(o, "channel", gap_channel[d->cell.channel]);
+  cJSON_AddStringToObject(o, "axes", d->cell.world ? "world" : "body");
   cJSON_AddStringToObject(o, "coordinate", d->cell.coordinate);
   add_number(o, "from", d->cell.from);
   add_number(o, "to", d->cell.to);

@@ -46,6 +46,29 @@ TEST(gap_finds_the_window_in_which_something_lies) {
   }
 }
 
+// A push along the world's y in a layer, on a vehicle that turns round once in it: in its own axes the push
+// goes round, too.
+TEST(gap_finds_a_layer_whose_push_stays_while_the_vehicle_turns) {
+  gap_rows_t g;
+  why_t why;
+  cell_t cell;
+  gap_rows_make(&g, 33);
+  g.grid.has_attitude = true;
+  for (int i = 0; i < GAP_ROWS; i++) {
+    const double heading = 2.0 * PI * i / 200.0, push = i >= 400 && i < 600 ? 1.0 : 0.0;
+    g.grid.point[i].q_wb = (dq_t){cos(0.5 * heading), 0.0, 0.0, sin(0.5 * heading)};
+    g.residual[CH_FX][i] += push * sin(heading);
+    g.residual[CH_FY][i] += push * cos(heading);
+  }
+  CHECK_OK(unknown_largest(&g.set, &g.model, g.residual, NULL, true, &cell, &why));
+  CHECK(cell.world && cell.channel == CH_FY && cell.statistic > 8.0);
+  CHECK_NEAR(cell.size, 1.0, 0.3);
+  CHECK_OK(unknown_clean(&g.set, &g.model, g.residual, &why));
+  CHECK_OK(unknown_largest(&g.set, &g.model, g.residual, NULL, true, &cell, &why));
+  CHECK(cell.statistic < 8.0);
+  gap_rows_free(&g);
+}
+
 // A constant is no window; it is one where nothing is taken for known.
 TEST(gap_takes_a_constant_for_no_window) {
   gap_rows_t g;
