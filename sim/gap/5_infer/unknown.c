@@ -311,7 +311,7 @@ done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[
   for (int i = 0; room && bin && i < COORDINATES; i++)
     scan_coordinate(s, m, i, residual, color ? color : own, centred, room, bin, cell);
   done_t status = room && bin ? DONE : error_failed(why, "out of memory");
-  if (status == DONE && has_lateral_force(s))
+  if (status == DONE && !color && has_lateral_force(s))
     status = scan_world(s, m, residual, centred, room, bin, cell, why);
   free(room);
   free(bin);

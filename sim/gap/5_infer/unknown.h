@@ -29,8 +29,9 @@ MUST_CHECK done_t unknown_clean(const set_t *s, const model_t *m, double *const 
 MUST_CHECK done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                  color_t color[CHANNELS], why_t *why);
 
-// The colours are those of the residual after such cleaning. FAILED: no memory. residual: by channel and
-// row.
+// color: of the residual after such cleaning, in the body's axes, which alone are then looked at; a null
+// pointer: they are formed, and the world's axes are looked at, too. FAILED: no memory. residual: by channel
+// and row.
 MUST_CHECK done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                   const color_t *color, bool centred, cell_t *cell, why_t *why);
 
