@@ -116,11 +116,12 @@ static void soil(users_set_t *set, other_job_t *job, dice_t *d) {
 // --- files -------------------------------------------------------------------------------------------------
 
 static done_t open_paper(paper_t *p, why_t *why) {
-  snprintf(p->folder, sizeof p->folder, "/tmp/exam-XXXXXX");
-  if (!mkdtemp(p->folder)) return error_failed(why, "no folder for an exam's files");
-  for (int i = 0; i < FLIGHTS; i++) snprintf(p->log[i], PATH, "%.40s/flight%d.csv", p->folder, i + 1);
-  snprintf(p->vehicle, PATH, "%.40s/vehicle.toml", p->folder);
-  snprintf(p->columns, PATH, "%.40s/columns.toml", p->folder);
+  char folder[] = "/tmp/exam-XXXXXX";
+  if (!mkdtemp(folder)) return error_failed(why, "no folder for an exam's files");
+  snprintf(p->folder, sizeof p->folder, "%s", folder);
+  for (int i = 0; i < FLIGHTS; i++) snprintf(p->log[i], PATH, "%s/flight%d.csv", folder, i + 1);
+  snprintf(p->vehicle, PATH, "%s/vehicle.toml", folder);
+  snprintf(p->columns, PATH, "%s/columns.toml", folder);
   return DONE;
 }
 
