@@ -91,9 +91,9 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
                        .motor_tau_s = model->motor_tau_s,
                        .motor_down_over_up = model->motor_down_over_up,
                        .lag_in_speed = model->lag_in_speed,
-                       .thrust_scale = {1.0, 1.0, 1.0, 1.0},
                        .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);
+  memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
   memcpy(b->rigid.spin, f->rotor_spin, sizeof b->rigid.spin);
   body_surround(&b->touch, model);
   body_place(b, b->plant.cg_b_m);

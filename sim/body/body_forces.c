@@ -130,9 +130,10 @@ void body_place(body_t *b, d3_t cg) {
 }
 
 fx_plant_t body_untouched(const model_t *m) {
+  const double *const more = m->rotor_more;
   return (fx_plant_t){.mass_kg = m->mass_kg,
                       .inertia_scale = {1.0, 1.0, 1.0},
-                      .thrust_scale = {1.0, 1.0, 1.0, 1.0},
+                      .thrust_scale = {1.0 + more[0], 1.0 + more[1], 1.0 + more[2], 1.0 + more[3]},
                       .torque_scale = {1.0, 1.0, 1.0, 1.0},
                       .motor_tau_s = m->motor_tau_s,
                       .delay_s = m->frame.motor_delay_s};

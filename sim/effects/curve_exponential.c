@@ -15,6 +15,12 @@ static void add_excess(const double *p, const double distance_m[ROTORS], double 
     pair_put(ratio + i, pair_of(ratio + i) + decay(p[0], k, pair_of(distance_m + i)));
 }
 
+static void vary(double *p, curve_points_t *points, double more, double faster) {
+  (void)points;
+  p[0] *= more;
+  p[1] *= faster;
+}
+
 const curve_t curve_exponential = {
     .name = "exponential",
     .brief = "1 + Ca exp(-Cb d/R)",
@@ -23,5 +29,6 @@ const curve_t curve_exponential = {
     .n_param = 3,
     .param = {{"Ca", "", 0.0, 0.44, 5.0}, {"Cb", "", 0.01, 1.8, 50.0}, CURVE_EACH},
     .ratio = ratio,
+    .vary = vary,
     .add_excess = add_excess,
 };

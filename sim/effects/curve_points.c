@@ -21,6 +21,11 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   return p[0] == 1.0 ? as_measured : scaled > 0.01 ? scaled : 0.01;
 }
 
+static void vary(double *p, curve_points_t *points, double more, double faster) {
+  p[0] *= more;
+  for (int i = 0; i < points->n; i++) points->x[i] /= faster;
+}
+
 const curve_t curve_points = {
     .name = "table",
     .brief = "a measured curve, file=FILE.csv with columns distance_over_radius, ratio",
@@ -30,4 +35,5 @@ const curve_t curve_points = {
     .n_param = 2,
     .param = {{"scale", "", 0.0, 1.0, 5.0}, CURVE_EACH},
     .ratio = ratio,
+    .vary = vary,
 };

@@ -10,6 +10,13 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   return 0.5 + 0.5 * sqrt(1.0 + r * r / p[0]);
 }
 
+// At the distance d it is what it was at d `faster`; more: as it is where the excess is small, (R/d)^2 / 4k.
+static void vary(double *p, curve_points_t *points, double more, double faster) {
+  (void)points;
+  p[0] *= faster * faster / more;
+  p[1] /= faster;
+}
+
 const curve_t curve_square_root = {
     .name = "square-root",
     .brief = "0.5 + 0.5 sqrt(1 + (R/d)^2/k), d >= dmin R",
@@ -18,4 +25,5 @@ const curve_t curve_square_root = {
     .n_param = 3,
     .param = {{"k", "", 0.5, 8.0, 100.0}, {"dmin", "R", 0.01, 0.1, 1.0}, CURVE_EACH},
     .ratio = ratio,
+    .vary = vary,
 };

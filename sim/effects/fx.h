@@ -60,6 +60,9 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
+  // Changes its numbers so that it adds (or takes) `more` times as much to the thrust, and that falls
+  // `faster` with the distance; null: there is no number to change. The points are a curve's own copy.
+  void (*vary)(double *p, curve_points_t *points, double more, double faster);
   // For four rotors at once: adds ratio - 1 at distance_m[i] to ratio[i]; null: one by one.
   void (*add_excess)(const double *p, const double distance_m[ROTORS], double radius_m, double ratio[ROTORS]);
 } curve_t;

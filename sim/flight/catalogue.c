@@ -71,6 +71,20 @@ static void list_effect(const fx_t *fx) {
   }
 }
 
+static void list_noise(void) {
+  printf("    %-14s %-6s", "", "");
+  for (int k = 0; k < noise_count; k++) printf(" %8s", noise_levels[k].name);
+  printf("  allowed\n");
+  for (int i = 0; i < noise_field_count; i++) {
+    const noise_field_t *f = &noise_fields[i];
+    printf("    %-14s %-6s", f->name, f->unit[0] ? f->unit : "-");
+    for (int k = 0; k < noise_count; k++) printf(" %8.3g", noise_get(&noise_levels[k], f));
+    char span[32];
+    snprintf(span, sizeof span, "%g to %g", f->min, f->max);
+    printf("  %-11s  %s (%s)\n", span, f->brief, f->source);
+  }
+}
+
 void catalogue_all(void) {
   printf("scenarios\n");
   for (int i = 0; i < scenario_count; i++)
@@ -85,8 +99,5 @@ void catalogue_all(void) {
   printf("\n  in six degrees of freedom:");
   for (int i = 0; i < noise_count; i++) printf(" %s", noise_levels[i].name);
   printf("; and of these, as real:acc.z=0.1,up=0.005\n");
-  for (int i = 0; i < noise_field_count; i++) {
-    const noise_field_t *f = &noise_fields[i];
-    printf("    %-12s %-6s %g to %g: %s\n", f->name, f->unit[0] ? f->unit : "-", f->min, f->max, f->brief);
-  }
+  list_noise();
 }

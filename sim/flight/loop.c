@@ -13,8 +13,9 @@
 
 typedef struct {
   const plan_t *plan;
-  const model_t *model;
-  model_t point; // what it is on the vertical axis
+  const model_t *model; // `own`
+  model_t own;          // this flight's: as drawn, on the vertical axis a point
+  noise_t noise;        // so are the sensors
   const pilot_t *pilot;
   body_t body;
   random_t *random;
@@ -78,8 +79,8 @@ static void see_by_mocap(flight_loop_t *f, const truth_t *truth) {
 
 // One millisecond of sensors and estimator, from what is true at the start of the tick.
 static void sense(flight_loop_t *f, const truth_t *truth) {
-  const imu_sample_t imu = imu_step(&f->imu, &f->plan->noise.imu, f->random, truth);
-  const range_sample_t range = range_step(&f->range, &f->plan->noise.range, f->random, truth);
+  const imu_sample_t imu = imu_step(&f->imu, &f->noise.imu, f->random, truth);
+  const range_sample_t range = range_step(&f->range, &f->noise.range, f->random, truth);
   ekf_in_t *const seen = &f->seen;
   seen->imu = imu;
   seen->motors = truth->motors;
@@ -218,6 +219,16 @@ static body_start_t start_of(const flight_loop_t *f) {
       .pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {each_N, each_N, each_N, each_N}, .vertical_only = true};
 }
 
+// What the file's vehicle and the level's sensors are in this flight.
+static done_t draw(flight_loop_t *f, const model_t *model, drawn_t *drawn, why_t *why) {
+  f->noise = f->plan->noise;
+  f->own = f->plan->vertical_only ? model_point(model) : *model;
+  if (f->plan->vertical_only) return DONE;
+  TRY(drawn_of(&f->noise.vary, f->plan->seed, drawn, why));
+  drawn_sense(drawn, &f->noise);
+  return drawn_vehicle(drawn, &f->own, why);
+}
+
 static done_t open(flight_loop_t *f, why_t *why) {
   const plan_t *plan = f->plan;
   body_start_t start = start_of(f);
@@ -254,18 +265,15 @@ done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, 
                 outcome_t *outcome, why_t *why) {
   flight_loop_t *f = calloc(1, sizeof *f);
   if (!f) return error_failed(why, "out of memory");
-  *f = (flight_loop_t){.plan = plan, .model = model, .pilot = pilot};
-  if (plan->vertical_only) {
-    f->point = model_point(model);
-    f->model = &f->point;
-  }
+  *f = (flight_loop_t){.plan = plan, .model = &f->own, .pilot = pilot};
   record->vertical_only = plan->vertical_only;
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_m = f->ceiling_z_m = (double)NAN;
   *outcome = (outcome_t){.finite = true};
   const double start_s = cpu_time_s();
-  done_t status = open(f, why);
+  done_t status = draw(f, model, &outcome->drawn, why);
+  if (status == DONE) status = open(f, why);
   if (status == DONE) status = run(f, record, outcome, why);
   outcome->contacts = f->body.ceiling_contacts;
   outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);

@@ -7,6 +7,7 @@
 #ifndef SIM_FLIGHT_LOOP_H
 #define SIM_FLIGHT_LOOP_H
 
+#include "flight/drawn.h"
 #include "flight/plan.h"
 #include "flight/record.h"
 
@@ -15,11 +16,13 @@
 typedef struct {
   int contacts;           // with the ceiling
   bool finite;            // the state and every command stayed finite
+  drawn_t drawn;          // six degrees of freedom: how this flight differs from the next
   double realtime_factor; // flight time over computing time; differs from run to run
 } outcome_t;
 
-// Flies the plan. *record gets the samples (it must be empty; free it after use). Its z is the height of the
-// rotors' plane, its gap that of the nearest rotor. BAD_INPUT: a model that cannot fly. FAILED: no memory.
+// Flies the plan, with the vehicle, sensors and air that its seed draws (flight/drawn.h). *record gets the
+// samples (it must be empty; free it after use). Its z is the height of the rotors' plane, its gap that of
+// the nearest rotor. BAD_INPUT: a model that cannot fly. FAILED: no memory.
 MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
                            outcome_t *outcome, why_t *why);
 

@@ -61,6 +61,12 @@ static done_t set_noise(noise_t *noise, const char *item, why_t *why) {
                    is_field(name) ? "" : nearest_hint(&nearest, hint));
 }
 
+static done_t check_span(const char *what, double min, double max, why_t *why) {
+  if (min <= max) return DONE;
+  return error_set(why, "--noise vary.%s.min=%g, vary.%s.max=%g: allowed is min <= max", what, min, what,
+                   max);
+}
+
 static done_t take_numbers(request_t *r, const char *items, why_t *why) {
   char item[ITEM_MAX];
   for (size_t size; *items; items += size + (items[size] == ',')) {
@@ -70,6 +76,9 @@ static done_t take_numbers(request_t *r, const char *items, why_t *why) {
     item[size] = '\0';
     TRY(set_noise(&r->noise_changed, item, why));
   }
+  const vary_t *const vary = &r->noise_changed.vary;
+  TRY(check_span("gust", vary->gust_min_mps2, vary->gust_max_mps2, why));
+  TRY(check_span("top", vary->top_min_m, vary->top_max_m, why));
   r->noise = &r->noise_changed;
   return DONE;
 }
@@ -102,8 +111,8 @@ done_t request_take_noise(request_t *r, const char *name, why_t *why) {
   for (int i = 0; i < noise_count; i++) nearest_try(&nearest, noise_levels[i].name);
   return error_set(
       why,
-      "--noise %s%s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees "
-      "of freedom",
+      "--noise %s%s: allowed are none, n1, n2, n3 on the vertical axis, quiet, real, flown in six "
+      "degrees of freedom",
       name, nearest_hint(&nearest, hint));
 }
 

@@ -77,10 +77,27 @@ static void add_totals(result_t *r, flown_t *flown, int contacts) {
   flown->record = (record_t){0};
 }
 
+// What the flight drew, where it drew anything.
+static void add_drawn(cJSON *json, const drawn_t *drawn) {
+  cJSON_DeleteItemFromObject(json, "drawn");
+  cJSON *const all = cJSON_CreateObject();
+  bool any = false;
+  for (int i = 0; i < drawn_field_count; i++) {
+    const double value = drawn_get(drawn, &drawn_fields[i]);
+    any = any || (value != 0.0 && !drawn_fields[i].which);
+    cJSON_AddNumberToObject(all, drawn_fields[i].name, value);
+  }
+  if (any)
+    cJSON_AddItemToObject(json, "drawn", all);
+  else
+    cJSON_Delete(all);
+}
+
 void result_add_flight(result_t *r, flown_t *flown) {
   cJSON *segments = cJSON_GetObjectItem(r->json, "segments");
   for (int i = 0; i < flown->n_segment; i++)
     cJSON_AddItemToArray(segments, segment_of(&flown->segment[i], !flown->plan.vertical_only));
+  if (!flown->plan.vertical_only) add_drawn(r->json, &flown->outcome.drawn);
   add_totals(r, flown, flown->outcome.contacts);
 }
 

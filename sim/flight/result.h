@@ -8,7 +8,8 @@
 
 typedef struct {
   // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds; "set": {...}, the
-  // parameters in which the flight code flew otherwise than it ships, as --set takes them
+  // parameters in which the flight code flew otherwise than it ships, as --set takes them; "drawn": {...},
+  // what the level of noise drew for this flight (flight/drawn.h), if it draws
   cJSON *json;
   record_t record; // of the flight that --log writes
 } result_t;

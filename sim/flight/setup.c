@@ -153,9 +153,9 @@ static done_t take_six(setup_t *setup, const request_t *request, why_t *why) {
                      "--vehicle: %s has no [body] and [rotors]; in six degrees of freedom both are needed",
                      setup->model.name);
   if (request->vertical_noise)
-    return error_set(why,
-                     "--noise %s: this scenario is flown in six degrees of freedom; allowed are quiet, real",
-                     request->vertical_noise->name);
+    return error_set(
+        why, "--noise %s: this scenario is flown in six degrees of freedom; allowed are quiet, real, flown",
+        request->vertical_noise->name);
   if (request->noise) setup->plan.noise = *request->noise;
   setup->plan.record_every = request->log_500_Hz ? 1 : 0;
   setup->request = request;

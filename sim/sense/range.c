@@ -30,8 +30,9 @@ static void up(range_t *s, const range_param_t *p, random_t *r, range_sample_t *
     const double error_m = noise(r, p->up_m);
     s->up_at = s->tick - (unsigned)fmin(age, RANGE_UP_AGE_MAX_MS);
     const double true_m = seen_m(s, s->up_at, s->up_m[s->up_at % RANGE_MEMORY], p->up_cone_rad);
-    s->up_mm = true_m <= RANGE_UP_MAX_M ? fmax(rounded(p, 1000.0 * (true_m + error_m)), RANGE_UP_FLOOR_MM)
-                                        : RANGE_UP_NOTHING_MM;
+    const double read_m = (1.0 + p->up_scale) * true_m + p->up_offset_m + error_m;
+    s->up_mm =
+        true_m <= RANGE_UP_MAX_M ? fmax(rounded(p, 1000.0 * read_m), RANGE_UP_FLOOR_MM) : RANGE_UP_NOTHING_MM;
   }
   out->up_mm = s->up_mm;
   out->up_age_ms = s->up_mm > 0.0 ? (int)(s->tick - s->up_at) : 0;
@@ -52,7 +53,8 @@ static void down(const range_t *s, const range_param_t *p, random_t *r, range_sa
   out->down_m = RANGE_DOWN_NOTHING_M;
   if (!(true_m <= RANGE_DOWN_MAX_M)) return;
   const double sd_m = p->down_m * down_noise_growth(true_m);
-  out->down_m = fmax(0.0, 1e-3 * rounded(p, 1000.0 * (true_m + sd_m * normal)));
+  const double read_m = (1.0 + p->down_scale) * true_m + p->down_offset_m + sd_m * normal;
+  out->down_m = fmax(0.0, 1e-3 * rounded(p, 1000.0 * read_m));
 }
 
 static double deliver(const range_param_t *p, random_t *r, double *moved) {

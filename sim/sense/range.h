@@ -27,11 +27,15 @@
 
 // All zero: perfect but for rate, age, floor and reach.
 //
+// A sample is (1 + scale) * distance + offset + noise; floor and reach come after.
+//
 // A cone: the sensor sees the nearest point of a level surface within that angle of its axis. The slant of
 // tilt a is then 1 / cos(max(a - cone, 0)) of the height instead of 1 / cos a.
 typedef struct {
   double up_m;   // sd of an upward sample
   double down_m; // sd of a downward sample near the ground; grows as the firmware says, twice at 2.5 m
+  double up_scale, down_scale;       // relative error of the scale: 0.01 reads 1 % too much
+  double up_offset_m, down_offset_m; // constant error, besides
   double up_cone_rad, down_cone_rad; // half the angle; 0: the axis alone
   double flow_counts;                // sd of a flow sample, each axis
   double rounding;                   // above 0.5: whole millimetres and counts, as the chips deliver

@@ -1,6 +1,6 @@
 // model.h - what the simulator takes a vehicle and its surroundings to be: numbers, map and effects.
 //
-// A vehicle file (sim/vehicle/vehicles/*.toml) holds exactly this. Sources of the numbers stand in the file.
+// A vehicle file (sim/vehicle/vehicles/*.toml) holds this. Sources of the numbers stand in the file.
 #ifndef SIM_VEHICLE_MODEL_H
 #define SIM_VEHICLE_MODEL_H
 
@@ -50,6 +50,9 @@ typedef struct {
   double wall_y_m;           // a wall in the plane of this y, INFINITY: none; what its air does is an effect
   bool wall_solid;           // and it can be touched
   double floor_rise_x, floor_rise_y; // how steeply the floor rises along x and y: tangents; 0: level
+  // What each rotor gives more than the map says, as a share, its torque with it. In no file: a flight draws
+  // it.
+  double rotor_more[ROTORS];
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
   battery_param_t battery; // capacity 0: none

@@ -30,8 +30,8 @@ static const struct {
     {"fly appendix-a --integrator sundial",
      "fly: --integrator sundial (did you mean sundials?): allowed are sundials, rk4, reference\n"},
     {"fly close-flight --noise reel",
-     "fly: --noise reel (did you mean real?): allowed are none, n1, n2, n3 on the vertical axis, quiet, real "
-     "in six degrees of freedom\n"},
+     "fly: --noise reel (did you mean real?): allowed are none, n1, n2, n3 on the vertical axis, quiet, "
+     "real, flown in six degrees of freedom\n"},
     {"fly appendix-a --vehicle sim/vehicle/vehicles/cf21_legcay.toml",
      "fly: sim/vehicle/vehicles/cf21_legcay.toml: cannot be opened: No such file or directory (did you mean "
      "sim/vehicle/vehicles/cf21_legacy.toml?)\n"},
@@ -65,8 +65,8 @@ static const struct {
     {"fly pid-tables --set indiPos.kp=1", "fly: --set: the flight code does not fly in pid-tables\n"},
     {"fly rls-sweep --controller pid", "fly: --controller pid: knows no ceiling distance to learn from\n"},
     {"fly appendix-a --noise loud",
-     "fly: --noise loud: allowed are none, n1, n2, n3 on the vertical axis, quiet, real in six degrees of "
-     "freedom\n"},
+     "fly: --noise loud: allowed are none, n1, n2, n3 on the vertical axis, quiet, real, flown in six "
+     "degrees of freedom\n"},
     {"fly appendix-a --noise real",
      "fly: --noise real: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3\n"},
     {"fly close-flight --noise real:acc.z=-1",
@@ -74,7 +74,19 @@ static const struct {
     {"fly close-flight --noise real:acc.w=1", "fly: --noise acc.w=1 (did you mean acc.z?): allowed is "
                                               "KEY=VALUE, keys and ranges as fly --list shows them\n"},
     {"fly close-flight --noise n1",
-     "fly: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real\n"},
+     "fly: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real, flown\n"},
+    {"fly close-flight --noise flow",
+     "fly: --noise flow (did you mean flown?): allowed are none, n1, n2, n3 on "
+     "the vertical axis, quiet, real, flown in six degrees of freedom\n"},
+    {"fly close-flight --noise flown:vary.mass=0.6",
+     "fly: --noise vary.mass=0.6: allowed is KEY=VALUE, keys and ranges as fly --list shows them\n"},
+    {"fly close-flight --noise flown:vary.mas=0.1", "fly: --noise vary.mas=0.1 (did you mean vary.mass?): "
+                                                    "allowed is KEY=VALUE, keys and ranges as fly --list "
+                                                    "shows them\n"},
+    {"fly close-flight --noise flown:vary.gust.min=0.2",
+     "fly: --noise vary.gust.min=0.2, vary.gust.max=0.15: allowed is min <= max\n"},
+    {"fly appendix-a --noise flown",
+     "fly: --noise flown: this scenario is flown on the vertical axis; allowed are none, n1, n2, n3\n"},
     {"fly appendix-a --integrator euler", "fly: --integrator euler: allowed are sundials, rk4, reference\n"},
     {"fly appendix-a --seeds 2 --log x.csv", "fly: --log: one flight can be written; leave out --seeds\n"},
     {"fly close-flight --from 1", "fly: --from, --to: both are needed, and --from <= --to\n"},

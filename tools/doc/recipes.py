@@ -39,6 +39,12 @@ def height() -> None:
         typed(f"{OUT}/fly {scenario} | sed -n '/^{table}/,/^contacts/{{/^contacts/!p}}'")
 
 
+def noise() -> None:
+    """The levels' numbers, as fly --list has them."""
+    said = program("fly", "--list")
+    print(said[said.index("\nnoise\n") + 1:], end="")
+
+
 def identify() -> None:
     typed(f"{OUT}/fly inner-loop --log {OUT}/shaken.csv --log-rate 500 >{OUT}/shaken.txt")
     for options in ("--lag 0.08 --delay 0.006", "--lag 0.08"):
@@ -102,6 +108,7 @@ RECIPES = {
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
     "closest": Recipe(closest),
+    "noise": Recipe(noise),
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
     "identify": Recipe(identify, data=True),
     "touches": Recipe(flights.touches),

@@ -13,6 +13,7 @@
 
 #include "base/constants.h"
 #include "flight/ceiling.h"
+#include "flight/drawn.h"
 #include "sense/ekf.h"
 
 #include <math.h>
@@ -155,6 +156,9 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
   TRY(setup_thesis(&setup, FLY_INDI, why));
   TRY(setup_apply(&setup, request, why));
   TRY(scenario_check_ladder(&setup.model, why));
+  drawn_t drawn;
+  TRY(drawn_of(&setup.plan.noise.vary, request->seed, &drawn, why));
+  drawn_sense(&drawn, &setup.plan.noise);
   hand_t *s = calloc(1, sizeof *s);
   if (!s) return error_failed(why, "out of memory");
   *s = (hand_t){

@@ -94,6 +94,29 @@ TEST(every_curve_is_finite_falls_with_distance_and_ends_at_one) {
   }
 }
 
+TEST(a_curve_that_is_varied_adds_more_and_falls_faster) {
+  for (int c = 0; c < curve_count; c++) {
+    const curve_t *const curve = curve_table[c];
+    if (!curve->vary) continue;
+    // Of the square root the share is that of far away, where it is small.
+    const bool far_only = strcmp(curve->name, "square-root") == 0;
+    for (int i = 0; i < 3; i++) {
+      static const double more[] = {1.3, 0.7, 1.0}, faster[] = {1.0, 1.0, 1.2};
+      double was[FX_PARAM_MAX], is[FX_PARAM_MAX];
+      for (int k = 0; k < curve->n_param; k++) was[k] = is[k] = curve->param[k].nominal;
+      const curve_points_t points = {.n = 3, .x = {0.1, 0.5, 1.0}, .ratio = {4.37, 1.21, 1.0}};
+      curve_points_t own = points;
+      curve->vary(is, &own, more[i], faster[i]);
+      for (double x = far_only && i < 2 ? 3.0 : 0.05; x < 5.0; x += 0.17) {
+        ROW("%s, %g, %g, at %g R", curve->name, more[i], faster[i], x);
+        const double want = more[i] * (curve->ratio(was, &points, 0.02 * x * faster[i], 0.02) - 1.0);
+        const double got = curve->ratio(is, &own, 0.02 * x, 0.02) - 1.0;
+        CHECK_NEAR(got, want, far_only && i < 2 ? 0.01 * want : 1e-12);
+      }
+    }
+  }
+}
+
 TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
   CHECK(fx_count >= 2);
   for (int i = 0; i < fx_count + curve_count; i++) {

@@ -16,7 +16,8 @@ static cJSON *made(const flight_t *f) {
   result_t result;
   why_t why;
   CHECK_OK(result_init(&result, &why));
-  flown_t flown = {.n_segment = 2, .outcome = {f->contacts, f->finite, f->factor}};
+  flown_t flown = {.n_segment = 2,
+                   .outcome = {.contacts = f->contacts, .finite = f->finite, .realtime_factor = f->factor}};
   for (int i = 0; i < 2; i++)
     flown.segment[i] = (segment_t){.setpoint_m = 0.4 + 0.1 * i,
                                    .sd_mm = f->sd_mm + i,

@@ -3,6 +3,8 @@
 #include "sense/imu.h"
 #include "sense/noise.h"
 
+#include <string.h>
+
 #define PI 3.14159265358979323846
 
 static truth_t still(bool motors) {
@@ -156,6 +158,14 @@ TEST(noise_levels_can_be_set_one_by_one) {
     const noise_field_t *f = &noise_fields[i];
     ROW("%s", f->name);
     CHECK(noise_set(&noise, f->name, 0.125));
-    CHECK(*(const double *)(const void *)((const char *)&noise + f->offset) == 0.125);
+    CHECK(noise_get(&noise, f) == 0.125);
+    CHECK(strlen(f->source) > 5 && strlen(f->brief) > 5);
+    CHECK(strcmp(f->unit, "") == 0 || strcmp(f->unit, "m/s2") == 0 || strcmp(f->unit, "rad/s") == 0 ||
+          strcmp(f->unit, "rad") == 0 || strcmp(f->unit, "m") == 0 || strcmp(f->unit, "s") == 0 ||
+          strcmp(f->unit, "counts") == 0);
+    for (int k = 0; k < noise_count; k++) {
+      const double of_level = noise_get(&noise_levels[k], f);
+      CHECK(of_level >= f->min && of_level <= f->max);
+    }
   }
 }

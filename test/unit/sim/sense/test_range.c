@@ -197,3 +197,40 @@ TEST(flow_counts_angles_of_motion_and_of_turning) {
     }
   }
 }
+
+TEST(range_has_an_error_of_scale_and_offset_before_floor_and_reach) {
+  static const struct {
+    const char *what;
+    double up_scale, up_offset_m, down_scale, down_offset_m, up_m, down_m, want_up_mm, want_down_m;
+  } row[] = {
+      {"none", 0.0, 0.0, 0.0, 0.0, 0.5, 0.4, 500.0, 0.4},
+      {"scale up", 0.01, 0.0, 0.0, 0.0, 0.5, 0.4, 505.0, 0.4},
+      {"offset up", 0.0, -0.003, 0.0, 0.0, 0.5, 0.4, 497.0, 0.4},
+      {"scale down", 0.0, 0.0, -0.01, 0.0, 0.5, 0.4, 500.0, 0.396},
+      {"offset down", 0.0, 0.0, 0.0, 0.003, 0.5, 0.4, 500.0, 0.403},
+      {"all", 0.01, 0.002, 0.02, -0.001, 0.5, 0.4, 507.0, 0.407},
+      {"the floor stays", 0.0, -0.003, 0.0, 0.0, 0.041, 0.4, 40.0, 0.4},
+      {"the reach is true", 0.1, 0.0, 0.0, 0.0, 3.99, 0.4, 4389.0, 0.4},
+      {"never below 0", 0.0, 0.0, 0.0, -0.003, 0.5, 0.001, 500.0, 0.0},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const range_param_t p = {.up_scale = row[i].up_scale,
+                             .up_offset_m = row[i].up_offset_m,
+                             .down_scale = row[i].down_scale,
+                             .down_offset_m = row[i].down_offset_m};
+    range_t s;
+    range_init(&s);
+    random_t *random = random_open(1);
+    const truth_t truth = at(row[i].up_m, row[i].down_m);
+    double up_mm = 0.0, down_m = 0.0;
+    for (int ms = 0; ms < 300; ms++) {
+      const range_sample_t out = range_step(&s, &p, random, &truth);
+      up_mm = out.up_mm;
+      if (out.down_new) down_m = out.down_m;
+    }
+    CHECK_NEAR(up_mm, row[i].want_up_mm, 1e-9);
+    CHECK_NEAR(down_m, row[i].want_down_m, 1e-12);
+    random_close(random);
+  }
+}
