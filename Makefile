@@ -39,9 +39,9 @@ SIM_SRC   := $(call sources,src sim)
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle) $(B)/gen/version.o
 SIM_OBJ    = $(call objects,$(SIM_SRC)) $(TABLES)
-PROGRAMS   = fly learn effectiveness gap slot bench
+PROGRAMS   = fly learn effectiveness gap slot bench bound
 # What the tests run.
-TESTED     = tests fly gap learn effectiveness
+TESTED     = tests fly gap learn effectiveness bound
 
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
@@ -64,7 +64,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
+.PHONY: help debug fresh demo flights touches bound recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -173,6 +173,9 @@ flights: setup $(O)/fly  ## the thesis's flights: seven controllers, ten seeds, 
 touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 flights each; minutes
 	@$(DOC) show touches
 
+bound: $(O)/bound $(O)/fly  ## the least height error that any controller could have, and what is flown as a ratio to it; minutes
+	@$(DOC) show bound
+
 example-seeds: $(O)/fly $(O)/gap  ## the workflow's example on other seeds, where a ceiling or nothing is hidden; minutes
 	@$(DOC) show seeds
 
@@ -185,7 +188,7 @@ recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR); m
 slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights); a minute
 	@$(O)/slot "$(DATA)"
 
-test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too); minutes
+test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/bound  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too); minutes
 	@$(TESTS)
 
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
@@ -244,13 +247,13 @@ compile_commands: setup  ## out/compile_commands.json, for an editor or clang-ti
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
-docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md (W=word: those whose name has it); an hour
+docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/bound $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md (W=word: those whose name has it); an hour
 	+@$(DOC) write $(W)
 
 pictures: demo  ## draw the READMEs' pictures into .doc; a minute
 	@$(DOC) write picture
 
-tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness
+tests-built: $(B)/bin/tests $(O)/fly $(O)/learn $(O)/effectiveness $(O)/bound
 
 seeded:  ## steps into every trap of test/seeded and expects the tests to say so (W=word); half an hour
 	+@test/seeded/seeded.sh "$(W)"

@@ -167,6 +167,16 @@ TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
   CHECK(strstr(text, "ceil.w7 = ") != NULL);
 }
 
+TEST(bound_says_what_it_was_asked) {
+  char text[500], stiff[500];
+  CHECK(program_run("bound --noise real 20", STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK_TEXT(text, " gap_mm   k_per_s2   still_mm    walk_mm\n     20         64       0.80       1.02\n");
+  // A stronger ceiling is felt more, in the accelerometer too.
+  CHECK(program_run("bound --noise real --effect ceiling:Ca=0.8 20", STREAM_OUTPUT, stiff, sizeof stiff) ==
+        0);
+  CHECK(strstr(stiff, "\n     20 ") != NULL && strcmp(text, stiff) != 0);
+}
+
 TEST(a_word_that_no_test_has_is_told_and_is_no_success) {
   char text[500];
   CHECK(program_run("tests no_such_test", STREAM_ERROR, text, sizeof text) == 2);

@@ -145,6 +145,13 @@ static const struct {
      "--hold-out, --set, --json, --points, --help, --version\n"},
     {"effectiveness /no/such.csv",
      "effectiveness: /no/such.csv: cannot be opened: No such file or directory\n"},
+    {"bound 0.5", "bound: a gap, 0.5: allowed is a number from 1 to 1000\n"},
+    {"bound --noise n1",
+     "bound: --noise n1: this scenario is flown in six degrees of freedom; allowed are quiet, real, flown\n"},
+    {"bound --walk -1", "bound: --walk -1: allowed is a number from 0 to 10\n"},
+    {"bound --vehicle sim/vehicle/vehicles/thesis_1d.toml",
+     "bound: --vehicle: thesis 1-D has no [body] and [rotors]; in six degrees of freedom both are "
+     "needed\n"},
 };
 
 TEST(fly_refuses_bad_input_with_one_line_and_status_two) {

@@ -31,9 +31,9 @@ def fly(*options: object) -> str:
     return run.program("fly", *options, "--integrator", "rk4")
 
 
-def fly_many(path: Path, flights: int, *options: object) -> list[dict]:
-    """What fly's JSON says of each seed from 1 on."""
-    fly(*options, "--from", 1, "--to", flights, "--json", path)
+def fly_many(path: Path, flights: int, *options: object, first: int = 1) -> list[dict]:
+    """What fly's JSON says of each of so many seeds."""
+    fly(*options, "--from", first, "--to", first + flights - 1, "--json", path)
     found = [json.loads(line) for line in path.read_text().splitlines()]
     if len(found) != flights:
         raise run.Failed(f"{path}: not the {flights} flights that were asked for")

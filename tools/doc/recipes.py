@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import bound
 import demo
 import flights
 import gap
@@ -112,6 +113,7 @@ RECIPES = {
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
     "identify": Recipe(identify, data=True),
     "touches": Recipe(flights.touches),
+    "bound": Recipe(bound.bound),
     "exam": Recipe(says("exam", 82001, 200)),
     "users": Recipe(says("exam", "users", 97001, 240)),
     "outside": Recipe(outside),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 OUT = Path(os.environ.get("O") or "out")  # the folder of all that is made
 DATA = os.environ.get("DATA", "")  # the folder of recorded flights
-PROGRAMS = ("fly", "gap", "learn", "effectiveness", "bench", "exam", "slot")
+PROGRAMS = ("fly", "gap", "learn", "effectiveness", "bench", "exam", "slot", "bound")
 HERE = Path(__file__).resolve().parent
 FLY_COLUMNS = "--columns tools/columns/fly.toml"  # of fly's own logs
 
