@@ -65,8 +65,9 @@ static void take_start(body_t *b, const body_start_t *start) {
   b->charge = 1.0 - start->discharged;
 }
 
-static void look_at_battery(body_t *b) {
-  b->current_A = battery_current_A(&b->model->battery, b->y + RIGID_THRUST_N, ROTORS);
+// left: of each rotor's current, where its inflow is hindered.
+static void look_at_battery(body_t *b, const double *left) {
+  b->current_A = battery_current_A(&b->model->battery, b->y + RIGID_THRUST_N, left, ROTORS);
   b->vbat_V = battery_voltage_V(&b->model->battery, b->charge, b->current_A);
 }
 
@@ -99,7 +100,7 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
   body_place(b, b->plant.cg_b_m);
   collect_effects(b);
   take_start(b, start);
-  look_at_battery(b);
+  look_at_battery(b, NULL);
   b->random = random_open(start->seed);
   if (!b->random) return FAILED;
   if (b->n_tick > 0) body_effects(b, 0.0);
@@ -196,7 +197,9 @@ static void tick(body_t *b, double span_s) {
   look_now(b);
   b->broken = b->broken || !isfinite(b->y[RIGID_POS_M + 2]) || !isfinite(b->y[RIGID_Q_WB]);
   b->charge = battery_discharge(&b->model->battery, b->charge, b->current_A, span_s);
-  look_at_battery(b);
+  double left[ROTORS];
+  body_current_left(b, left);
+  look_at_battery(b, left);
   b->t_s += span_s;
 }
 
@@ -238,6 +241,14 @@ double body_ceiling_gap_m(const body_t *b, int rotor) {
 
 double body_thrust_ratio(const body_t *b, int rotor) {
   return b->look.ratio[rotor];
+}
+
+void body_current_left(const body_t *b, double left[ROTORS]) {
+  for (int i = 0; i < ROTORS; i += 2) pair_put(left + i, inflow_torque(pair_of(b->look.turning + i)));
+}
+
+double body_rotor_radps(const body_t *b, int rotor) {
+  return b->look.turning[rotor] * b->look.speed_radps[rotor];
 }
 
 touch_gap_t body_clearance(const body_t *b) {

@@ -31,8 +31,9 @@ typedef struct {
 // All that the derivative at a state needs besides the commands.
 typedef struct {
   axes_t axes;
-  double ratio[ROTORS], speed_radps[ROTORS];
-  bool loaded; // else load is not set: nothing acts but the rotors
+  double ratio[ROTORS], speed_radps[ROTORS]; // speed: as it would be in free air
+  double turning[ROTORS];                    // what that is multiplied by
+  bool loaded;                               // else load is not set: nothing acts but the rotors
   load_t load;
 } body_look_t;
 
@@ -79,7 +80,10 @@ d3_t body_specific_force_b_mps2(const body_t *b);
 
 double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
 double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by
-touch_gap_t body_clearance(const body_t *b);           // of the point that is nearest; below 0: in contact
+double body_rotor_radps(const body_t *b, int rotor);   // its speed
+// What is left of each rotor's current, and of its torque, of those in free air at the same command.
+void body_current_left(const body_t *b, double left[ROTORS]);
+touch_gap_t body_clearance(const body_t *b); // of the point that is nearest; below 0: in contact
 
 // Something holds the vehicle where it is, whatever the rotors do; or lets go of it.
 void body_hold(body_t *b, bool held);

@@ -37,8 +37,16 @@ static void look_at_surfaces(const body_t *b, const double *y, const axes_t *axe
   for (int k = 0; k < b->n_excess; k++) fx_add_excess(b->excess[k], &at, ratio);
 }
 
-static fx_motion_t motion_of(const body_t *b, const double *y, const axes_t *axes,
-                             const double speed[ROTORS]) {
+static void look_at_speeds(const body_t *b, const double *y, body_look_t *look) {
+  rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(look->turning + i, inflow_turning(pair_of(look->ratio + i), pair_of(b->rigid.faster + i)));
+}
+
+static fx_motion_t motion_of(const body_t *b, const double *y, const body_look_t *look) {
+  const axes_t *const axes = &look->axes;
+  double speed[ROTORS];
+  for (int i = 0; i < ROTORS; i++) speed[i] = look->turning[i] * look->speed_radps[i];
   fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
   motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
   motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
@@ -50,23 +58,22 @@ static fx_motion_t motion_of(const body_t *b, const double *y, const axes_t *axe
   return motion;
 }
 
-static void effects_load(const body_t *b, const double *y, const axes_t *axes, const double speed[ROTORS],
-                         load_t *load) {
-  const fx_motion_t motion = motion_of(b, y, axes, speed);
-  for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, load);
+static void effects_load(const body_t *b, const double *y, body_look_t *look) {
+  const fx_motion_t motion = motion_of(b, y, look);
+  for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, &look->load);
 }
 
 static inline void look_at(const body_t *b, int surfaces, const double *y, body_look_t *look) {
   look->axes = axes_of(dq_of(y + RIGID_Q_WB));
   look_at_surfaces(b, y, &look->axes, look->ratio);
-  rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
+  look_at_speeds(b, y, look);
   look->loaded = b->n_tick > 0 || b->n_load > 0 || b->pushed || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (b->n_tick > 0)
     look->load = (load_t){axes_to_body(&look->axes, b->plant.force_w_N), b->plant.moment_b_Nm};
   if (b->pushed) load_add(&look->load, axes_to_body(&look->axes, b->push_w_N), (d3_t){0.0, 0.0, 0.0});
-  if (b->n_load > 0) effects_load(b, y, &look->axes, look->speed_radps, &look->load);
+  if (b->n_load > 0) effects_load(b, y, look);
   if (!surfaces) return;
   const int near = surfaces & touch_near(&b->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);
   if (near) touch_load(&b->touch, near, y, &look->axes, &look->load);
@@ -80,16 +87,17 @@ void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body
   if (more->fx->excess) {
     const fx_places_t at = places_of(b, d3_of(y + RIGID_POS_M), &look->axes);
     fx_add_excess(more, &at, look->ratio);
+    look_at_speeds(b, y, look);
   }
   if (!more->fx->load) return;
   if (!look->loaded) look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   look->loaded = true;
-  const fx_motion_t motion = motion_of(b, y, &look->axes, look->speed_radps);
+  const fx_motion_t motion = motion_of(b, y, look);
   more->fx->load(more, &motion, &look->load);
 }
 
 static inline void derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
-  rigid_derivative(&b->rigid, y, &look->axes, look->speed_radps, look->ratio,
+  rigid_derivative(&b->rigid, y, &look->axes, look->speed_radps, look->ratio, look->turning,
                    look->loaded ? &look->load : NULL, dydt);
 }
 
@@ -174,5 +182,6 @@ void body_effects(body_t *b, double span_s) {
   take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
   memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
+  memcpy(b->rigid.faster, b->plant.faster, sizeof b->rigid.faster);
   if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
 }

@@ -111,6 +111,7 @@ typedef struct {
   d3_t inertia_scale;          // > 0: what the inertia about each axis is multiplied by
   double thrust_scale[ROTORS]; // what each rotor's thrust is multiplied by, >= 0
   double torque_scale[ROTORS]; // what its torque is multiplied by besides, >= 0
+  double faster[ROTORS];       // by what share it turns faster at the same command, and takes less torque
   double motor_tau_s;          // > 0   lag
   double delay_s;              // >= 0  from a command to the lag
   d3_t air_w_mps;              // velocity of the air

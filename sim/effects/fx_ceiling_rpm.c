@@ -1,19 +1,19 @@
-// fx_ceiling_rpm.c - near a ceiling the rotors need less torque and turn faster at the same command: each
-// speed, and with its square the torque on the body, by the factor 1 + k exp(-b d/R).
+// fx_ceiling_rpm.c - under a ceiling the rotors turn faster than their thrust's gain says (plant/inflow.h),
+// at the same command: by k exp(-b d/R) more, and take less torque and current by the motor's line. The
+// thrust stays.
 #include "effects/fx.h"
 #include <math.h>
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   for (int i = 0; i < ROTORS; i++) {
     const fx_place_t *at = &tick->place[i];
-    const double faster = 1.0 + use->p[0] * exp(-use->p[1] * at->ceiling_gap_m / at->radius_m);
-    plant->torque_scale[i] *= faster * faster;
+    plant->faster[i] += use->p[0] * exp(-use->p[1] * at->ceiling_gap_m / at->radius_m);
   }
 }
 
 const fx_t fx_ceiling_rpm = {
     .name = "ceiling_rpm",
-    .brief = "rotors turn faster under a ceiling at the same command",
+    .brief = "rotors turn faster under a ceiling at the same command, and draw less",
     .fly = "yaw turns at 2 to 10 cm under the ceiling",
     .over = {"ceiling distance"},
     .in = "turn_z",

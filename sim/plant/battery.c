@@ -12,11 +12,11 @@ double battery_open_V(const battery_param_t *p, double charge) {
   return p->open_V[i] + (at - i) * (p->open_V[i + 1] - p->open_V[i]);
 }
 
-double battery_current_A(const battery_param_t *p, const double *thrust_N, int n) {
+double battery_current_A(const battery_param_t *p, const double *thrust_N, const double *left, int n) {
   double current_A = p->idle_A;
   for (int i = 0; i < n; i++) {
     const double f = larger(thrust_N[i], 0.0);
-    current_A += f * (p->a_ApN + f * p->b_ApN2);
+    current_A += (left ? left[i] : 1.0) * f * (p->a_ApN + f * p->b_ApN2);
   }
   return current_A;
 }

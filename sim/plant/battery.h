@@ -1,8 +1,9 @@
 // battery.h - one lithium-polymer cell under the motors' load.
 //
-//   U = U0(charge) - R I,   I = I0 + sum over rotors (a f_i + b f_i^2),   charge' = -I / capacity
+//   U = U0(charge) - R I,   I = I0 + sum over rotors q_i (a f_i + b f_i^2),   charge' = -I / capacity
 //
-// f_i: thrust in free air, newton. U0: a table over the charge, straight lines between its points.
+// f_i: thrust in free air, newton. q_i: share of the current that is left where the inflow is hindered. U0: a
+// table over the charge, straight lines between its points.
 #ifndef SIM_PLANT_BATTERY_H
 #define SIM_PLANT_BATTERY_H
 
@@ -24,8 +25,8 @@ typedef struct {
 // Open-circuit voltage at charge 0..1 (held beyond).
 double battery_open_V(const battery_param_t *p, double charge);
 
-// Current of n rotors at thrust_N[] (negative ones draw none).
-double battery_current_A(const battery_param_t *p, const double *thrust_N, int n);
+// Current of n rotors at thrust_N[] (negative ones draw none), of which left[] is drawn; left null: all.
+double battery_current_A(const battery_param_t *p, const double *thrust_N, const double *left, int n);
 
 // Voltage at the terminals, >= 0.
 double battery_voltage_V(const battery_param_t *p, double charge, double current_A);

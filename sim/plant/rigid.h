@@ -4,20 +4,22 @@
 //   q' = q (0, w) / 2                      f_i' = (command_i - f_i) / tau   lag in thrust
 //                                          Om_i' = (Om(command_i) - Om_i) / tau   lag in speed: f_i' = 2 kf
 //                                          Om_i Om_i'
-//   J w' = M + sum(r_i x e3 rho_i f_i) - e3 sum s_i (c f_i + I_r Om_i') - w x (J w + e3 sum s_i I_r Om_i)
-//   Om_i = sqrt(f_i / kf)
+//   J w' = M + sum(r_i x e3 rho_i f_i) - e3 sum d_i (c q_i f_i + I_r Om_i') - w x (J w + e3 sum d_i I_r Om_i)
+//   Om_i = s_i sqrt(f_i / kf)
 //
 // p, v: of the centre of mass, in the world (z up). R, q: body to world. w: body rates. f_i: thrust of rotor
-// i in free air, rho_i: what the surroundings multiply it by. c: torque over thrust, s_i: +1 where the rotor
+// i in free air, rho_i: what the surroundings multiply it by. c: torque over thrust, d_i: +1 where the rotor
 // turns counter-clockwise seen from above (the body is turned the other way). F, M: all other forces and
-// moments, in body axes about the centre of mass. The torque follows the thrust in free air, that is, the
-// rotor's speed.
+// moments, in body axes about the centre of mass. s_i, q_i: how much faster a rotor turns, and what is left
+// of its torque, where surroundings hinder its inflow (plant/inflow.h); 1 in free air, where the torque
+// follows the thrust. The lag is that of free air.
 #ifndef SIM_PLANT_RIGID_H
 #define SIM_PLANT_RIGID_H
 
 #include "base/constants.h"
 #include "base/d3.h"
 #include "base/pair.h"
+#include "plant/inflow.h"
 #include "plant/lag.h"
 #include <stdbool.h>
 
@@ -51,6 +53,7 @@ typedef struct {
   bool lag_in_speed;           // else in thrust
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
   double torque_scale[ROTORS]; // what the torque is multiplied by besides
+  double faster[ROTORS];       // by what share it turns faster, beside what its inflow does
   double command_N[ROTORS];    // held
   double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf; // set by rigid_tune
   bool plain_lag;     // set by rigid_tune: in thrust, and the same up and down
@@ -82,7 +85,7 @@ double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]);
 
 // --- the equations: nearly all of a flight's time goes here, so they are inline --------------------------
 
-// Speeds of the rotors at thrusts in free air f[ROTORS], rad/s, >= ROTOR_SLOWEST_RADPS.
+// Speeds of the rotors at thrusts in free air f[ROTORS], in free air, rad/s, >= ROTOR_SLOWEST_RADPS.
 static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]) {
   const pair_t zero = pair_both(0.0), slowest = pair_both(ROTOR_SLOWEST_RADPS);
   for (int i = 0; i < ROTORS; i += 2)
@@ -110,19 +113,20 @@ typedef struct {
 } rotors_t;
 
 static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const double *speed,
-                                    const double *ratio, double *df) {
+                                    const double *ratio, const double *turning, double *df) {
   pair_t lift = {0.0, 0.0}, roll = lift, pitch = lift, yaw = lift, spin = lift;
   for (int i = 0; i < ROTORS; i += 2) {
     const pair_t thrust = pair_of(f + i), scaled = pair_of(r->thrust_scale + i) * thrust,
                  up = pair_of(ratio + i) * scaled, om = pair_of(speed + i), turns = pair_of(r->spin + i),
-                 change = rigid_change_Nps(r, thrust, pair_of(r->command_N + i), om);
+                 change = rigid_change_Nps(r, thrust, pair_of(r->command_N + i), om),
+                 s = pair_of(turning + i);
     pair_put(df + i, change);
     lift += up;
     roll += pair_of(r->rotor_y_m + i) * up;
     pitch -= pair_of(r->rotor_x_m + i) * up;
-    yaw -=
-        turns * (r->torque_ratio_m * pair_of(r->torque_scale + i) * scaled + r->half_I_per_kf * change / om);
-    spin += turns * om;
+    yaw -= turns * (r->torque_ratio_m * pair_of(r->torque_scale + i) * inflow_torque(s) * scaled +
+                    r->half_I_per_kf * s * change / om);
+    spin += turns * s * om;
   }
   return (rotors_t){pair_sum(lift),
                     {pair_sum(roll), pair_sum(pitch), pair_sum(yaw)},
@@ -153,12 +157,13 @@ static inline void rigid_rotate(const rigid_t *r, const double *y, d3_t moment_b
   d3_put(dydt + RIGID_RATE_RADPS, d3(left.x * per.x, left.y * per.y, left.z * per.z));
 }
 
-// speed: of the rotors, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: per rotor. load:
-// everything that is not a rotor's thrust, torque or inertia; null: nothing.
+// speed: of the rotors in free air, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: rho
+// of each rotor, turning: its s. load: everything that is not a rotor's thrust, torque or inertia; null:
+// nothing.
 static inline void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
                                     const double speed[ROTORS], const double ratio[ROTORS],
-                                    const load_t *load, double dydt[RIGID_N]) {
-  const rotors_t all = rigid_rotors(r, y + RIGID_THRUST_N, speed, ratio, dydt + RIGID_THRUST_N);
+                                    const double turning[ROTORS], const load_t *load, double dydt[RIGID_N]) {
+  const rotors_t all = rigid_rotors(r, y + RIGID_THRUST_N, speed, ratio, turning, dydt + RIGID_THRUST_N);
   d3_t force_b_N = {0.0, 0.0, all.thrust_N}, moment_b_Nm = all.moment_b_Nm;
   if (load) {
     force_b_N = d3_add(load->force_b_N, force_b_N);

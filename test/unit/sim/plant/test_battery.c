@@ -21,7 +21,7 @@ TEST(battery_voltage_follows_charge_and_load) {
   CHECK_NEAR(battery_open_V(&p, 2.0), 4.2, 1e-12);
   const double hover_N[ROTORS] = {0.08, 0.08, 0.08, 0.08};
   // 0.279 + 4 (5.815 0.08 + 10.27 0.0064) = 2.4027 A; 4.2 - 0.163 x 2.4027 = 3.8084 V
-  CHECK_NEAR(battery_current_A(&p, hover_N, ROTORS), 2.4027, 1e-4);
+  CHECK_NEAR(battery_current_A(&p, hover_N, NULL, ROTORS), 2.4027, 1e-4);
   CHECK_NEAR(battery_voltage_V(&p, 1.0, 2.4027), 3.8084, 1e-4);
   CHECK_NEAR(battery_discharge(&p, 1.0, 2.5, 36.0), 1.0 - 90.0 / 900.0, 1e-12);
   CHECK(battery_discharge(&p, 0.01, 100.0, 1e4) == 0.0);
@@ -49,7 +49,7 @@ TEST(battery_current_is_that_of_the_bench) {
     CHECK_OK(csv_number(file, volts, CSV_GAP_REFUSED, &V, &why));
     ROW("%g g", g);
     const double f = g * 9.81e-3 / 4.0, each_N[ROTORS] = {f, f, f, f};
-    CHECK_NEAR(battery_current_A(&p, each_N, ROTORS), A, 0.05);
+    CHECK_NEAR(battery_current_A(&p, each_N, NULL, ROTORS), A, 0.05);
     CHECK_NEAR(4.035 - p.resistance_ohm * A, V,
                0.04); // the charge of that run is not known: its own constant
     rows++;

@@ -81,12 +81,13 @@ static void hover(const model_t *m, const double command_N[ROTORS], double f_N, 
     r.command_N[i] = command_N[i];
     y[RIGID_THRUST_N + i] = f_N;
   }
+  const double turning[ROTORS] = {1.0, 1.0, 1.0, 1.0};
   double speed[ROTORS];
   rigid_tune(&r);
   rigid_rotor_radps(&r, y + RIGID_THRUST_N, speed);
   const load_t none = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
-  rigid_derivative(&r, y, &axes, speed, ratio, &none, dydt);
+  rigid_derivative(&r, y, &axes, speed, ratio, turning, &none, dydt);
 }
 
 TEST(hover_is_an_equilibrium) {
