@@ -15,12 +15,14 @@ DRAWN = {
     "indi-rbf": "INDI with the RBF fitted to the theory",
     "indi-learned": "INDI with the learned RBF",
 }
+LEVELS = ["real", "flown"]  # of noise
 SEEDS = 10
 HEAD = """\
-Six degrees of freedom, real sensors, ten flights each, 10 s at each distance, the last 5 s measured. Distances are from
-the propellers to the ceiling, R is their radius. sd: over all flights and instants; oscillation: about each flight's own \
-mean.
-Each row: fly SCENARIO --controller CONTROLLER --integrator rk4 --from 1 --to 10, with what its table's head sets.
+Six degrees of freedom, ten flights each at each level of noise, 10 s at each distance, the last 5 s measured. Distances
+are from the propellers to the ceiling, R is their radius. sd: over all flights and instants; oscillation: about each \
+flight's own mean.
+Each row: fly SCENARIO --noise LEVEL --controller CONTROLLER --integrator rk4 --from 1 --to 10, with what its table's \
+head sets.
 """
 COLUMNS = """\
                commanded          mean            sd   error  oscil.   con-  flights  smallest gap   tilt
@@ -150,13 +152,14 @@ def pictures(out: Path) -> str:
 def flights() -> None:
     out = run.folder("flights")
     print(HEAD)
-    for scenario in ("test-flight", "close-flight"):
+    for scenario, level in ((scenario, level) for scenario in ("test-flight", "close-flight") for level in LEVELS):
         flown = {}
         for who in CONTROLLERS:
-            run.progress(f"flying {scenario}, {who}")
-            flown[who] = fly_many(out / f"{scenario}.{who}.jsonl", SEEDS, scenario, "--controller", who)
+            run.progress(f"flying {scenario}, {level}, {who}")
+            path = out / f"{scenario}.{level}.{who}.jsonl"
+            flown[who] = fly_many(path, SEEDS, scenario, "--noise", level, "--controller", who)
         run.progress()
-        print(scenario)
+        print(f"{scenario}, {level}")
         # All touch at the last distance of the close flight.
         table(flown, sd_of_free=scenario == "test-flight")
         print()
@@ -165,18 +168,19 @@ def flights() -> None:
 
 
 def touches(flights_each: int = 1000) -> None:
-    """How often the thesis's flights touch the ceiling: many seeds of each, real noise."""
+    """How often the thesis's flights touch the ceiling: many seeds of each, at each level of noise."""
     out = run.folder("touches")
     but = re.search(r"^parameters .*", fly("close-flight"), re.M)
     print(f"{but[0] if but else ''}; the second row: motors as the thesis has them")
-    print("flight        controller    ordered  touched there  besides")
+    print("level  flight        controller    ordered  touched there  besides")
     motors = "--effect motor_lag:add=-0.0175 --set indiPos.tauMot=0.0625"
     rows = [("test-flight", "indi", 30, ""), ("test-flight", "indi", 30, motors)]
     rows += [("close-flight", who, 20, "") for who in ("indi-theory", "indi-rbf", "indi-learned")]
-    for scenario, who, distance_mm, besides in rows:
-        run.progress(f"flying {scenario}, {who}")
-        all_of_them = fly_many(out / "all.jsonl", flights_each, scenario, "--controller", who, *besides.split())
+    for level, (scenario, who, distance_mm, besides) in ((level, row) for level in LEVELS for row in rows):
+        run.progress(f"flying {scenario}, {level}, {who}")
+        options = ["--noise", level, "--controller", who, *besides.split()]
+        all_of_them = fly_many(out / "all.jsonl", flights_each, scenario, *options)
         there = next(cell for cell in cells(all_of_them) if abs(cell.distance_mm - distance_mm) < 1e-3)
         run.progress()
         share = f"{there.touching} of {there.n}"
-        print(f"{scenario:13} {who:13} {distance_mm:4d} mm  {share:13}  {besides}".rstrip())
+        print(f"{level:6} {scenario:13} {who:13} {distance_mm:4d} mm  {share:13}  {besides}".rstrip())
