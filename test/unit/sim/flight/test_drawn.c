@@ -19,14 +19,16 @@ static drawn_t drawn(const vary_t *vary, uint64_t seed) {
 static double flown_says(const char *key) {
   for (int i = 0; i < noise_field_count; i++)
     if (strcmp(noise_fields[i].name, key) == 0) return noise_get(noise_find("flown"), &noise_fields[i]);
-  CHECK(!"a row of that name");
+  ROW("no row %s", key);
+  CHECK(false);
   return (double)NAN;
 }
 
 static const drawn_field_t *field_of(const char *name) {
   for (int i = 0; i < drawn_field_count; i++)
     if (strcmp(drawn_fields[i].name, name) == 0) return &drawn_fields[i];
-  CHECK(!"a number of that name");
+  ROW("no number %s", name);
+  CHECK(false);
   return drawn_fields;
 }
 
