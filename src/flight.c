@@ -14,8 +14,6 @@
 #define INNER_S 0.002f // watch_time runs the inner loop in every second millisecond
 // test: flight_follows_a_velocity_on_any_axis
 #define OUTER_S 0.01f // and the outer loop in one of ten
-// test: flight_takes_the_ceilings_torque_of_four_arms_out_and_divides_by_its_ratio
-#define FILTER_DELAY 0.2251f // sqrt(2) / (2 pi): delay of a second-order Butterworth filter, in its periods
 // test: flight_heading_runs_no_further_ahead_than_half_a_radian
 #define LEAD_COS 0.88f // of 0.5 rad: the heading that is held ahead of the vehicle's
 
@@ -35,7 +33,7 @@ status_t flight_tune(flight_t *f, const flight_param_t *p) {
   f->outer.coef.period_s = OUTER_S;
   TRY(outer_take(&f->outer, p));
   f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
-  f->att_lag_s = p->motor_tau_s + (p->att_cutoff_Hz > 0.0f ? FILTER_DELAY / p->att_cutoff_Hz : 0.0f);
+  f->att_lag_s = p->motor_tau_s + lpf2_delay_s(p->att_cutoff_Hz);
   return ST_OK;
 }
 

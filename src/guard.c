@@ -15,7 +15,8 @@
 // test: guard_flies_on_after_a_retreat_when_all_is_well_and_another_height_is_asked_for
 #define QUIET_MS 1000 // ten range samples
 // test: guard_goes_down_to_its_safe_gap_at_its_speed
-#define RETREAT_MS 100.0f // until a retreat has its full speed: the motors' lag
+#define RETREAT_MS                                                                                           \
+  300.0f // until a retreat has its full speed: three times the law's own time, as a step is seen
 // test: guard_has_landed_when_a_floor_carries_for_a_tenth_of_a_second
 #define LANDED_MS 100 // a bump in flight is shorter
 // test: guard_learns_hover_thrust_as_a_mean_over_half_a_second
@@ -135,9 +136,11 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   decide(g, in);
 }
 
-float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m) {
+float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m,
+                        float kp_per_s) {
   // Not all at once: the thrust is not to drop by more than it has to.
-  const float lowest_m = z_m - p->sink_mps * f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
+  const float lowest_m =
+      z_m - p->sink_mps / kp_per_s * f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
   const float safe_m = f_finite(ceiling_z_m) ? ceiling_z_m - p->safe_gap_m : lowest_m;
   const float top_m = safe_m < g->hold_z_m ? safe_m : g->hold_z_m;
   return f_max(top_m, lowest_m);

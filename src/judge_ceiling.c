@@ -15,6 +15,8 @@
 #define RATIO_FAR_M 0.11f // the curve ends at 0.1 m
 // test: guard_takes_a_range_for_frozen_that_is_the_same_for_long_enough_and_often_enough
 #define RANGE_SAME 3 // samples in whole millimetres: two are alike by chance
+// test: guard_takes_the_mean_ratio_of_a_tenth_of_a_second
+#define RATIO_MEAN_S 0.1f // a motor lag that is wrong by 30 % shows 1.15 for half of it when a climb ends
 // test: guard_knows_what_is_usual_after_a_second_in_the_air
 #define RATIO_AFTER_S 1.0f // until then it lifts off
 // test: guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed
@@ -100,12 +102,14 @@ static bool too_near(guard_t *g, const guard_in_t *in) {
 // what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down.
 static bool ratio(guard_t *g, const guard_in_t *in) {
   const float dt = 1e-3f * (float)in->ms;
-  const float now = in->force_N / f_max(in->thrust_now_N, CARRYING_SHARE * in->weight_N);
+  const float shown = in->force_N / f_max(in->thrust_now_N, CARRYING_SHARE * in->weight_N);
   g->carried_s = in->carries ? f_clamp(g->carried_s + dt, 0.0f, CARRIED_MOST_S) : 0.0f;
   if (g->carried_s < RATIO_AFTER_S) {
-    g->ratio_usual = now;
+    g->ratio_now = g->ratio_usual = shown;
     return false;
   }
+  g->ratio_now += f_clamp(dt / RATIO_MEAN_S, 0.0f, 1.0f) * (shown - g->ratio_now);
+  const float now = g->ratio_now;
   const float over_s = now > g->ratio_usual ? RATIO_SLOW_S : RATIO_FAST_S;
   g->ratio_usual += f_clamp(dt / over_s, 0.0f, 1.0f) * (now - g->ratio_usual);
   const bool high =

@@ -8,6 +8,11 @@
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
 
+// From the instant of the filtered signals until the thrust that is commanded now is there.
+static float lag_s(const flight_param_t *p, float period_s) {
+  return lpf2_delay_s(p->cutoff_Hz) + p->motor_tau_s / p->pos.quick + 0.5f * period_s;
+}
+
 status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   if (!(period_s >= 0.001f && period_s <= 0.1f)) return ST_BAD_PARAM;
   TRY(params_check(p));
@@ -18,6 +23,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   memset(f, 0, sizeof *f);
   f->coef = coef;
   f->param = *p;
+  f->lag_s = lag_s(p, period_s);
   bias_tune(&f->bias_coef, &f->param.bias, period_s);
   f->out = (outer_out_t)AT_REST;
   ceiling_init(&f->ceiling, period_s);
@@ -28,6 +34,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
 status_t outer_take(outer_t *f, const flight_param_t *p) {
   TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, f->coef.period_s));
   f->param = *p;
+  f->lag_s = lag_s(p, f->coef.period_s);
   bias_tune(&f->bias_coef, &f->param.bias, f->coef.period_s);
   return ST_OK;
 }
@@ -98,7 +105,7 @@ static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
     const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
     const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
     count(f, status);
-    if (status == ST_OK) hold_sample(&f->hold, &f->ceiling, in->pos_w_m.z);
+    if (status == ST_OK) hold_sample(&f->hold, &f->ceiling, in->pos_w_m.z, in->vel_w_mps.z, f->param.hold);
   }
   hold_step(&f->hold, &f->ceiling, in->pos_w_m.z, f->coef.period_s * (float)ticks, f->param.hold);
 }
@@ -147,29 +154,35 @@ void outer_rest(outer_t *f) {
   f->out = (outer_out_t)AT_REST;
 }
 
+typedef struct {
+  v3_t acc_mps2;
+  float climb_mps;
+} wanted_t;
+
 // Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
 // acceleration: upwards no more than a set point that rests there asks for. Who asks for a height beyond
 // rests OUTER_CLIP_M below, as no one holds a limit to the millimetre.
-static v3_t wanted_acc(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
+static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->param.pos;
-  v3_t wanted = pos_indi_wanted_acc(p, &in->setpoint, in->pos_w_m, vel_mps);
-  if (!f_finite(f->hold.ceiling_z_m)) return wanted;
+  const pos_setpoint_t *sp = &in->setpoint;
+  wanted_t w = {.acc_mps2 = pos_indi_wanted_acc(p, sp, in->pos_w_m, vel_mps),
+                .climb_mps = sp->vel_w_mps.z + p->kp_z_per_s * (sp->pos_w_m.z - in->pos_w_m.z)};
+  if (!f_finite(f->hold.ceiling_z_m)) return w;
   const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
-  const float beyond_m = f_clamp(in->setpoint.pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
-  const float climb_mps = p->kp_per_s * (limit_m - beyond_m - in->pos_w_m.z);
-  const float most_mps2 = f_clamp(p->kd_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
-  if (wanted.z > most_mps2) wanted.z = most_mps2;
-  return wanted;
+  const float beyond_m = f_clamp(sp->pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
+  const float climb_mps = p->kp_z_per_s * (limit_m - beyond_m - in->pos_w_m.z);
+  const float most_mps2 = f_clamp(p->kd_z_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
+  w.acc_mps2.z = f_min(w.acc_mps2.z, most_mps2);
+  w.climb_mps = f_min(w.climb_mps, climb_mps);
+  return w;
 }
 
-static APART v3_t acc_error(const outer_t *f, const outer_in_t *in, v3_t acc_w_mps2, v3_t vel_mps) {
-  return v3_sub(wanted_acc(f, in, vel_mps), acc_w_mps2);
-}
-
-static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_t at, v3_t error,
-                               float climb_mps) {
+static APART pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
   const pos_indi_param_t *p = &f->param.pos;
-  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, error, climb_mps, at);
+  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
+  const wanted_t w = wanted(f, in, vel);
+  const float dzc_m = pos_indi_nearing_m(p, vel.z, w.climb_mps, f->lag_s);
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, v3_sub(w.acc_mps2, x->acc_w_mps2), dzc_m, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
@@ -193,9 +206,7 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
   observe(f, x);
-  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
-  const v3_t error = acc_error(f, in, x->acc_w_mps2, vel);
-  const pos_command_t command = fly(f, x, at, error, vel.z);
+  const pos_command_t command = fly(f, in, x, at);
   f->at_limit = command.at_limit;
   f->out = (outer_out_t){
       .up_w = command.up_w,

@@ -1,22 +1,31 @@
 // pos_indi.c - outer loop: position to thrust direction and thrust.
 #include "flight/pos_indi.h"
 
+static v3_t each_by(v3_t a, v3_t b) {
+  return (v3_t){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 v3_t pos_indi_wanted_acc(const pos_indi_param_t *p, const pos_setpoint_t *sp, v3_t pos_w_m, v3_t vel_w_mps) {
-  const v3_t vel_ref = v3_add(sp->vel_w_mps, v3_scale(p->kp_per_s, v3_sub(sp->pos_w_m, pos_w_m)));
-  const v3_t acc = v3_add(sp->acc_w_mps2, v3_scale(p->kd_per_s, v3_sub(vel_ref, vel_w_mps)));
+  const v3_t kp = {p->kp_per_s, p->kp_per_s, p->kp_z_per_s}, kd = {p->kd_per_s, p->kd_per_s, p->kd_z_per_s};
+  const v3_t vel_ref = v3_add(sp->vel_w_mps, each_by(kp, v3_sub(sp->pos_w_m, pos_w_m)));
+  const v3_t acc = v3_add(sp->acc_w_mps2, each_by(kd, v3_sub(vel_ref, vel_w_mps)));
   const float max = p->acc_max_mps2;
   return (v3_t){f_clamp(acc.x, -max, max), f_clamp(acc.y, -max, max), f_clamp(acc.z, -max, max)};
 }
 
+float pos_indi_nearing_m(const pos_indi_param_t *p, float climb_mps, float wanted_mps, float lag_s) {
+  if (p->law == LAW_THESIS) return -p->lead_s * climb_mps; // a climb shortens the distance
+  return -(lag_s * climb_mps + p->catch_s * (climb_mps - wanted_mps));
+}
+
 pos_step_t pos_indi_step(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, v3_t acc_error_w_mps2,
-                         float climb_mps, rbf_point_t at) {
+                         float dzc_m, rbf_point_t at) {
   const v3_t a = quat_to_body(q_wb, acc_error_w_mps2);
-  const float dzc_m = -p->lead_s * climb_mps; // a climb shortens the distance
   const float lever_N = at.ratio * f_max(thrust_N, p->thrust_floor * p->mass_kg * GRAVITY_MPS2);
   return (pos_step_t){
       .roll_rad = -p->mass_kg * a.y / lever_N,
       .pitch_rad = p->mass_kg * a.x / lever_N,
-      .thrust_N = (p->mass_kg * a.z - thrust_N * at.slope_per_m * dzc_m) / at.ratio,
+      .thrust_N = p->quick * ((p->mass_kg * a.z - thrust_N * at.slope_per_m * dzc_m) / at.ratio),
   };
 }
 

@@ -154,7 +154,8 @@ static void set_what_flies(const flight_t *f, flight_in_t *in) {
   if (g->action == GUARD_RETREAT) {
     sp->x = sp->y = sp->z = AXIS_POSITION;
     sp->pos_w_m = g->hold_w_m;
-    sp->pos_w_m.z = guard_retreat_z_m(g, &f->outer.param.guard, in->pos_w_m.z, f->outer.out.ceiling_z_m);
+    sp->pos_w_m.z = guard_retreat_z_m(g, &f->outer.param.guard, in->pos_w_m.z, f->outer.out.ceiling_z_m,
+                                      f->outer.param.pos.kp_z_per_s);
     sp->vel_mps = sp->acc_w_mps2 = (v3_t){0.0f, 0.0f, 0.0f};
   } else if (g->action == GUARD_HAND_OVER) {
     *sp = (flight_setpoint_t){.yaw = YAW_RATE};
@@ -165,7 +166,7 @@ static void set_what_flies(const flight_t *f, flight_in_t *in) {
 // Under a ceiling a thrust by hand becomes a climb.
 static APART void keep_out(flight_t *f, flight_in_t *in, int ms) {
   const flight_param_t *p = &f->outer.param;
-  const by_hand_param_t param = {.kp_per_s = p->pos.kp_per_s,
+  const by_hand_param_t param = {.kp_per_s = p->pos.kp_z_per_s,
                                  .gap_min_m = p->gap_min_m,
                                  .up_offset_m = p->up_offset_m,
                                  .floor_m = p->ceiling.floor_m,

@@ -67,6 +67,7 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   double count;
   switch (option) {
   case 'c': return request_take_controller(&o->request, &o->kind, text, why);
+  case 'w': o->request.thesis_law = true; return DONE;
   case 's': return request_take_set(&o->request, text, why);
   case 'S': return request_take_sets(&o->request, text, why);
   case 'R': o->replay = text; return DONE;
@@ -117,7 +118,7 @@ static done_t check_many(const order_t *o, why_t *why) {
 static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   // clang-format off
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
+      {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
       {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
       {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
       {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},

@@ -5,6 +5,7 @@
 static const char USAGE[] =
     "usage: fly SCENARIO [options]\n"
     "  --controller NAME        who flies; see --list\n"
+    "  --thesis-law             the thesis's law and gains in place of those that ship\n"
     "  --set group.name=VALUE   a parameter of the flight code; see --params (may be repeated)\n"
     "  --set-from FILE          a file of such lines, group.name=VALUE\n"
     "  --effect NAME[:KEY=VALUE,...]  switches an effect of the plant on, or changes it; `none` first "

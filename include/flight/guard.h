@@ -147,7 +147,7 @@ typedef struct {
   int full_ms;
   int nearer; // what range samples say of it, summed up
   // RATIO
-  float ratio_usual, carried_s; // what the thrust usually carries; since it carries
+  float ratio_now, ratio_usual, carried_s; // what the thrust carries, and usually does; since it carries
   int ratio_ms;
   // NOT_A_NUMBER, SETPOINT
   float bad_ms; // less a quarter of what was good since
@@ -169,7 +169,8 @@ void guard_rest(guard_t *g);
 void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in);
 
 // The height that a retreat wants at this height.
-float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m);
+float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m,
+                        float kp_per_s);
 
 // The thrust of a hand-over now.
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N);

@@ -23,6 +23,11 @@ typedef struct {
 // float). rate_Hz: > 0. ST_BAD_PARAM: outside of that, or not finite; *c is kept.
 MUST_CHECK status_t lpf2_tune(lpf2_coef_t *c, float cutoff_Hz, float rate_Hz);
 
+// By how much later a slow signal leaves it, in s: sqrt(2) / (2 pi) of the cut-off's period.
+static inline float lpf2_delay_s(float cutoff_Hz) {
+  return cutoff_Hz > 0.0f ? 0.2251f / cutoff_Hz : 0.0f;
+}
+
 // As if the input had been `value` for ever.
 void lpf2_reset(lpf2_t *s, float value);
 

@@ -49,6 +49,7 @@ typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
   bias_coef_t bias_coef; // of one period
+  float lag_s;           // pos_indi.h: of one law, at these parameters
   sync_t sync;
   sync_out_t signals; // of the last step
   bias_t bias;

@@ -33,7 +33,7 @@ typedef struct {
   float up_offset_m;   // propeller plane above the upward range sensor
   float gap_min_m;     // set points are clipped to this below the ceiling
   float tilt_share;    // of the ceiling's torque about x and y that the inner loop takes out
-  int32_t hold;        // 1: the ceiling's height is latched beyond HOLD_BEYOND_M
+  int32_t hold;        // hold_mode_t: how the ceiling's height is held
   att_indi_param_t att;
   float att_cutoff_Hz; // of the inner loop's filters
   mixer_param_t mixer;
@@ -44,14 +44,26 @@ typedef struct {
 #define PARAMS_YAW_ARM_M 0.00735f // of legacy propellers; the firmware's build knows what it is built for
 #endif
 
-// Shipped for the vehicle of the tables. Mass: hover with flow and multiranger decks. tauMot: legacy
-// propellers answer in 70 to 90 ms, those of the 2.1+ in 58; set too long it costs nothing (58 set to 80: no
-// touch at 2 cm), set too short it swings (96 set to 62.5: 5 of 40 flights touch).
+// Gains: flown at 20 mm with lag +-30 %, 10 ms more delay, curve +-30 %, range 40 ms older, mass +-10 %, bias
+// 0.1 m/s2 and pairs of them. kdz 10, quick 4 or catch 0.1 touch or retreat in some corner, kdz 6 and quick 2
+// are a tenth noisier without any; kpz 1.5 to 3 is alike. kp and kd are lower than the height's: the flow is
+// too coarse to follow it more closely (14 cm of drift in a minute with any), and each degree of tilt costs
+// height (0.5 4: 4 degrees at most; 1 5: 6). Shipped for the vehicle of the tables. Mass: hover with flow and
+// multiranger decks. tauMot: legacy propellers answer in 70 to 90 ms, those of the 2.1+ in 58; set too long
+// it costs nothing (58 set to 80: no touch at 2 cm), set too short it swings (96 set to 62.5: 5 of 40 flights
+// touch).
 #define PARAMS_INDIPOS(X)                                                                                    \
-  X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 1.0f, 0.05f, 20.0f, "wanted velocity per position error") \
-  X(indiPos, kd, PARAM_FLOAT, pos.kd_per_s, "1/s", 5.0f, 0.1f, 50.0f,                                        \
-    "wanted acceleration per velocity error")                                                                \
-  X(indiPos, cutoff, PARAM_FLOAT, cutoff_Hz, "Hz", 8.0f, 0.0f, 45.0f,                                        \
+  X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 0.5f, 0.05f, 20.0f,                                       \
+    "x, y: wanted velocity per position error")                                                              \
+  X(indiPos, kd, PARAM_FLOAT, pos.kd_per_s, "1/s", 4.0f, 0.1f, 50.0f,                                        \
+    "x, y: wanted acceleration per velocity error")                                                          \
+  X(indiPos, kpz, PARAM_FLOAT, pos.kp_z_per_s, "1/s", 2.0f, 0.05f, 20.0f,                                    \
+    "height: wanted velocity per position error")                                                            \
+  X(indiPos, kdz, PARAM_FLOAT, pos.kd_z_per_s, "1/s", 8.0f, 0.1f, 50.0f,                                     \
+    "height: wanted acceleration per velocity error")                                                        \
+  X(indiPos, quick, PARAM_FLOAT, pos.quick, "", 3.0f, 0.5f, 4.0f,                                            \
+    "how many times faster than the motors the vertical acceleration follows")                               \
+  X(indiPos, cutoff, PARAM_FLOAT, cutoff_Hz, "Hz", 30.0f, 0.0f, 45.0f,                                       \
     "cut-off of the filter on all signals; 0 = none")                                                        \
   X(indiPos, tauMot, PARAM_FLOAT, motor_tau_s, "s", 0.08f, 0.001f, 0.5f, "first-order lag of the motors")    \
   X(indiPos, mass, PARAM_FLOAT, pos.mass_kg, "kg", 0.0329f, 0.01f, 2.0f, "mass ready to fly")                \
@@ -101,8 +113,12 @@ typedef struct {
     "0 off, 1 fixed weights, 2 live weights, 3 theory 1 + ca exp(-cb zc)")                                   \
   X(ceil, ca, PARAM_FLOAT, curve.ca, "", 0.44f, 0.0f, 5.0f, "theory: excess thrust ratio at zero distance")  \
   X(ceil, cb, PARAM_FLOAT, curve.cb_per_m, "1/m", 80.0f, 1.0f, 1000.0f, "theory: decay with the distance")   \
+  X(ceil, law, PARAM_INT, pos.law, "", 1, 0, 1,                                                              \
+    "0 the thesis's, by ceil.kz; 1 by the displacement predicted")                                           \
   X(ceil, kz, PARAM_FLOAT, pos.lead_s, "s", 0.3f, 0.0f, 3.0f,                                                \
-    "lead of the ceiling term, the thesis's K_zdot")                                                         \
+    "law 0: lead of the ceiling term, the thesis's K_zdot")                                                  \
+  X(ceil, catch, PARAM_FLOAT, pos.catch_s, "s", 0.05f, 0.0f, 1.0f,                                           \
+    "law 1: lead by the climb that was not wanted")                                                          \
   X(ceil, zOn, PARAM_FLOAT, curve.on_m, "m", 0.1f, 0.0f, 0.5f, "the curve acts nearer than this")            \
   X(ceil, gain, PARAM_FLOAT, ceiling.gain, "", 0.1f, 0.0f, 1.0f,                                             \
     "share of the range error taken in per sample")                                                          \
@@ -113,7 +129,7 @@ typedef struct {
   X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
     "set points are clipped to this below the ceiling, heights beyond to 6 mm more")                         \
-  X(ceil, hold, PARAM_INT, hold, "", 1, 0, 1, "1: the ceiling's height is latched beyond 20 cm")             \
+  X(ceil, hold, PARAM_INT, hold, "", 2, 0, 2, "ceiling's height: 1 latched beyond 20 cm, 2 mean of samples") \
   X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
     "share of the ceiling's torque in roll and pitch that is taken out")                                     \
   X(ceil, upOffset, PARAM_FLOAT, up_offset_m, "m", 0.0f, -0.1f, 0.1f,                                        \
@@ -155,7 +171,7 @@ typedef struct {
 #define PARAMS_GUARD(X)                                                                                      \
   X(guard, safeGap, PARAM_FLOAT, guard.safe_gap_m, "m", 0.35f, 0.05f, 2.0f,                                  \
     "a retreat ends so far below the ceiling")                                                               \
-  X(guard, sink, PARAM_FLOAT, guard.sink_mps, "m/s", 0.3f, 0.05f, 1.0f, "speed of a retreat, at kp 1")       \
+  X(guard, sink, PARAM_FLOAT, guard.sink_mps, "m/s", 0.3f, 0.05f, 1.0f, "speed of a retreat")                \
   X(guard, cutAfter, PARAM_FLOAT, guard.cut_after_s, "s", 1.5f, 0.0f, 10.0f,                                 \
     "a hand-over stops the motors after this")                                                               \
   X(guard, takeOff, PARAM_FLOAT, guard.take_off_m, "m", 0.1f, 0.0f, 1.0f,                                    \

@@ -47,6 +47,7 @@ done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
   TRY(model_builtin("thesis_1d", &setup->model, why));
   // Appendix A's own numbers; `fly` prints them.
   params_default(&setup->flight);
+  param_thesis(&setup->flight);
   setup->flight.pos.mass_kg = (float)setup->model.mass_kg;
   setup->flight.motor_tau_s = (float)setup->model.motor_tau_s;
   setup->flight.pos.thrust_max_N = 0.6f;

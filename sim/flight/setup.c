@@ -75,6 +75,7 @@ static done_t take_request(setup_t *setup, const request_t *request, why_t *why)
   flight_param_t *const flight = &setup->flight;
   if (request->kind) setup->kind = *request->kind;
   flight->curve.mode = (int32_t)mode_of[setup->kind];
+  if (request->thesis_law) param_thesis(flight);
   if (request->no_effects) setup->model.n_fx = 0;
   if (request->vehicle) take_vehicle(&setup->model, request->vehicle);
   for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(&setup->model, &request->effect[i], why));
@@ -100,6 +101,8 @@ static done_t take_vertical(setup_t *setup, const request_t *request, why_t *why
   if (request->n_set > 0 && setup->kind >= FLY_PID)
     return error_set(why, "--set: those are parameters of the flight code, and %s flies; allowed with indi*",
                      fly_name[setup->kind]);
+  if (request->thesis_law)
+    return error_set(why, "--thesis-law: this scenario is flown on the vertical axis, by that law or a PID");
   for (int i = 0; i < setup->model.n_fx; i++)
     if (!setup->model.fx[i].fx->excess)
       return error_set(why, "--effect %s: this scenario is flown on the vertical axis, where it does not act",
@@ -138,6 +141,8 @@ static done_t take_propellers(setup_t *setup, why_t *why) {
 
 static done_t check_stock(setup_t *setup, const request_t *request, why_t *why) {
   if (setup->kind < FLY_STOCK_PID) return DONE;
+  if (request->thesis_law)
+    return error_set(why, "--thesis-law: %s flies; allowed with indi*", fly_name[setup->kind]);
   if (request->n_set > 0)
     return error_set(why, "--set: those are parameters of the flight code, and %s flies; allowed with indi*",
                      fly_name[setup->kind]);

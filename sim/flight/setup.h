@@ -34,6 +34,7 @@ struct usd_deck;
 // What the command line asks for, over what the scenario brings.
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
+  bool thesis_law;        // param_thesis() first
   const model_t *vehicle; // null: the scenario's
   const noise_t *noise;   // null: the scenario's; so the next
   const vertical_noise_t *vertical_noise;

@@ -31,6 +31,7 @@ typedef struct {
 void learn_job_init(learn_job_t *job, const model_t *vehicle, int surface) {
   *job = (learn_job_t){.vehicle = *vehicle, .surface = surface, .columns = columns_crazyflie()};
   params_default(&job->param);
+  job->param.cutoff_Hz = LEARN_CUTOFF_HZ;
   job->param.motor_tau_s = (float)vehicle->motor_tau_s;
   job->param.pos.mass_kg = job->stands_mass_kg = (float)vehicle->mass_kg;
   // Weights to be typed in are to fit all flights alike; a random walk forgets within ten seconds what it

@@ -14,6 +14,7 @@
 #include "vehicle/model.h"
 #include <stdio.h>
 
+#define LEARN_CUTOFF_HZ      8.0f // a flight changes its distance more slowly; what is above is the rotors
 #define LEARN_FAR_M          0.2f // from here on the surface does nothing: thrust over specific force is the mass
 #define LEARN_NEAR_M         0.07f // "below 7 cm"
 #define LEARN_STANDS_RATIO   1.25f // force over thrust, far from any surface, with stands_mass_kg
@@ -29,8 +30,8 @@ typedef struct {
   FILE *points;         // gets `distance,ratio` of every sample that teaches; null: nothing is written
 } learn_job_t;
 
-// Defaults for this vehicle and surface: its mass and lag; rls.q = 0, so that every flight counts the same;
-// near the ground the weights start from free air, 1, 0, ...
+// Defaults for this vehicle and surface: its mass and lag, LEARN_CUTOFF_HZ; rls.q = 0, so that every flight
+// counts the same; near the ground the weights start from free air, 1, 0, ...
 void learn_job_init(learn_job_t *job, const model_t *vehicle, int surface);
 
 // Sums over ticks far from the surface.

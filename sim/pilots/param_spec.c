@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "crazyflie/sections.h"
 #include "firmware/glue.h"
+#include "flight/hold.h"
 #include <string.h>
 
 #define APP_ROW(name_, type, field, initial_, max_, help_)                                                   \
@@ -15,6 +16,22 @@ static const param_app_t *find_app(const char *name) {
   for (int i = 0; i < param_app_count; i++)
     if (strcmp(param_app_table[i].name, name) == 0) return &param_app_table[i];
   return NULL;
+}
+
+void param_thesis(flight_param_t *p) {
+  static const struct {
+    const char *name;
+    float value;
+  } row[] = {{"indiPos.kp", 1.0f},
+             {"indiPos.kd", 5.0f},
+             {"indiPos.kpz", 1.0f},
+             {"indiPos.kdz", 5.0f},
+             {"indiPos.quick", 1.0f},
+             {"indiPos.cutoff", 8.0f},
+             {"ceil.law", (float)LAW_THESIS},
+             {"ceil.hold", (float)HOLD_LATCHED}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    (void)!params_set(p, params_find(row[i].name), row[i].value); // each is in its range: a test
 }
 
 const char *param_hint(const char *name, char hint[NEAREST_HINT]) {

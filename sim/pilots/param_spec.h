@@ -25,6 +25,9 @@ typedef struct {
 // its range.
 MUST_CHECK done_t param_parse(const char *text, param_set_t *set, why_t *why);
 
+// The thesis's law: the rows in which it differs from what ships are set to what the thesis has.
+void param_thesis(flight_param_t *p);
+
 // Behind a name that is no parameter: the one that may be meant (base/nearest.h). Returns hint.
 const char *param_hint(const char *name, char hint[NEAREST_HINT]);
 

@@ -4,6 +4,7 @@
 #include "body/body.h"
 #include "crazyflie/stock_pid.h"
 #include "exam/plan.h"
+#include "pilots/param_spec.h"
 #include "pilots/pilot_flight.h"
 #include "vehicle/model_file.h"
 #include <math.h>
@@ -192,6 +193,7 @@ done_t exam_fly(const exam_flight_t *job, gap_flight_t *f, why_t *why) {
   if (status == DONE && job->indi) {
     flight_param_t param;
     params_default(&param);
+    param_thesis(&param); // what the exam's published marks are of
     param.pos.mass_kg = (float)job->truth->mass_kg;
     param.motor_tau_s = (float)job->truth->motor_tau_s;
     param.gap_min_m = 0.0f;

@@ -28,6 +28,7 @@ typedef struct {
   double tilt_cut_deg;                // when the motors stopped; -1: not
   double yaw_late_deg;                // likewise
   double wanted_N, step_max_N;        // wanted thrust and its largest change in 10 ms, within 1 s
+  double ahead_N;                     // most of what is wanted beyond what the motors give, within 1 s
   double pulse_N, smooth_N;           // most that the mean over 50 ms went above hover while it lasts
   double zc_error_m;                  // largest error of the distance from 0.5 s on, while it is known
   double shake2_early, shake2_late;   // mean square of the tilt rates in the first and in the fifth second

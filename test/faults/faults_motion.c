@@ -93,7 +93,7 @@ static const char *upright_at_cut(const case_t *c, const flown_fault_t *usual) {
 }
 static const char *bounded_step(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  return c->seen.step_max_N > (double)c->param.step_max_N * 1.001 ? "step" : NULL;
+  return c->seen.ahead_N > (double)c->param.step_max_N * 1.001 ? "step" : NULL;
 }
 static const char *distance_2_cm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;

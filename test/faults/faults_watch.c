@@ -79,6 +79,9 @@ static void thrust(case_t *c, const body_t *truth, double since_s) {
   for (int i = 0; i < ROTORS; i++) told_N += truth->command_N[i];
   const double wanted_N = (double)c->pilot.flight->out.outer.thrust_N;
   if (since_s >= 0.0 && since_s < 1.0) s->step_max_N = fmax(s->step_max_N, fabs(wanted_N - s->wanted_N));
+  const double given_N = (double)c->pilot.flight->outer.sync.thrust.model_N;
+  if (since_s >= 0.0 && since_s < 1.0 && c->pilot.flight->outer.started)
+    s->ahead_N = fmax(s->ahead_N, fabs(wanted_N - given_N));
   s->wanted_N = wanted_N;
   s->smooth_N += (told_N - s->smooth_N) / (c->t_s < 0.5 ? 1.0 : 50.0);
   for (int i = 0; i < ROTORS; i++) {

@@ -13,7 +13,8 @@ static const struct {
     {"fly loop-the-loop", "fly: loop-the-loop: no such scenario; fly --list shows them\n"},
     {"fly appendix-a appendix-a", "fly: one scenario is needed; fly --list shows them\n"},
     {"fly appendix-a --wings",
-     "fly: --wings: not an option; allowed: --controller, --set, --set-from, --params-to, --usd, "
+     "fly: --wings: not an option; allowed: --controller, --thesis-law, --set, --set-from, --params-to, "
+     "--usd, "
      "--usd-config, --replay, "
      "--effect, --vehicle, --noise, --seed, --seeds, --integrator, --from, --to, --log, --log-rate, --json, "
      "--list, --logs, --params, --help, --version\n"},
@@ -110,6 +111,10 @@ static const struct {
      "fly: effect mass: add = -1 kg to a vehicle of 0.0329 kg; allowed: -0.0296 or more\n"},
     {"fly close-flight --effect motor_damage:rotor=2.5",
      "fly: effect motor_damage: rotor = 2.5; allowed: whole numbers from 1 to 4\n"},
+    {"fly close-flight --controller stock-pid --thesis-law",
+     "fly: --thesis-law: stock-pid flies; allowed with indi*\n"},
+    {"fly appendix-a --thesis-law",
+     "fly: --thesis-law: this scenario is flown on the vertical axis, by that law or a PID\n"},
     {"fly close-flight --controller stock-pid --set indiPos.kp=2",
      "fly: --set: those are parameters of the flight code, and stock-pid flies; allowed with indi*\n"},
     {"fly ceiling-gap --set indiPos.kp=2",

@@ -11,9 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define THESIS_LAW                                                                                           \
+  " --set indiPos.kp=1 --set indiPos.kd=5 --set indiPos.kpz=1 --set indiPos.kdz=5 --set indiPos.quick=1"     \
+  " --set indiPos.cutoff=8"
 #define VERTICAL                                                                                             \
+  THESIS_LAW                                                                                                 \
   " --set indiPos.tauMot=0.0625 --set indiPos.mass=0.032 --set indiPos.tMax=0.6 --set indiPos.biasPole=0"    \
-  " --set ceil.min=0 --set ceil.clip=0 --set rls.form=0 --set rls.lambda=0.5 --set rls.p0=1 --set rls.q=0"
+  " --set ceil.law=0 --set ceil.min=0 --set ceil.hold=1 --set ceil.clip=0 --set rls.form=0 --set "           \
+  "rls.lambda=0.5 --set rls.p0=1 --set rls.q=0"
 #define CLOSE  " --set ceil.blindMax=60"
 #define NOBODY NULL // the flight code does not fly
 
@@ -23,13 +28,21 @@ static const struct {
   bool learns;     // from nothing: the weights are the controller's
   bool takes_long; // and has the same set-up as another row
 } SCENARIO[] = {
-    {"appendix-a", VERTICAL, false, false},   {"bias-hover", " --set indiPos.biasPole=0", false, true},
-    {"ceiling-gap", NOBODY, false, false},    {"close-flight", CLOSE, false, false},
-    {"closest-hover", VERTICAL, false, true}, {"hand-held", NOBODY, false, false},
-    {"inner-loop", "", false, false},         {"learning-1d", VERTICAL, true, false},
-    {"learning-flight", CLOSE, true, false},  {"ols-sweep", VERTICAL, true, true},
-    {"pid-tables", NOBODY, false, true},      {"rls-sweep", VERTICAL, true, true},
-    {"test-flight", CLOSE, false, false},     {"uneven-floor", "", false, false},
+    {"appendix-a", VERTICAL, false, false},
+    {"bias-hover", " --set indiPos.biasPole=0", false, true},
+    {"ceiling-gap", NOBODY, false, false},
+    {"close-flight", CLOSE, false, false},
+    {"closest-hover", VERTICAL, false, true},
+    {"hand-held", NOBODY, false, false},
+    {"inner-loop", "", false, false},
+    {"learning-1d", VERTICAL, true, false},
+    {"learning-flight", CLOSE, true, false},
+    {"ols-sweep", VERTICAL, true, true},
+    {"pid-tables", NOBODY, false, true},
+    {"rls-sweep", VERTICAL, true, true},
+    {"nearest-flight", " --set ceil.min=0.01 --set ceil.blindMax=120", false, true},
+    {"test-flight", CLOSE, false, false},
+    {"uneven-floor", "", false, false},
 };
 
 #define SCENARIOS (sizeof SCENARIO / sizeof *SCENARIO)
@@ -114,6 +127,8 @@ TEST(fly_prints_what_it_flew_with_as_it_is_typed) {
        "parameters as shipped, but for --set indiPos.kp=0.12345679 --set ceil.blindMax=60\n"},
       {"fly test-flight --controller indi-rbf --integrator rk4 --set ceil.blindMax=3",
        "parameters as shipped\n"},
+      {"fly test-flight --controller indi-rbf --integrator rk4 --thesis-law --set ceil.blindMax=3",
+       "parameters as shipped, but for" THESIS_LAW " --set ceil.law=0 --set ceil.hold=1\n"},
       {"fly test-flight --controller stock-pid --integrator rk4", "segments\n"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {

@@ -8,6 +8,10 @@
 
 static const pos_indi_param_t law_param = {.kp_per_s = 1.0f,
                                            .kd_per_s = 5.0f,
+                                           .kp_z_per_s = 1.0f,
+                                           .kd_z_per_s = 5.0f,
+                                           .quick = 1.0f,
+                                           .law = LAW_THESIS,
                                            .mass_kg = 0.032f,
                                            .lead_s = 0.3f,
                                            .thrust_max_N = 0.6f,

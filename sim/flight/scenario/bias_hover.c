@@ -37,7 +37,7 @@ static done_t hover(setup_t setup, double bias_mps2, result_t *result, double *h
 }
 
 static void tell(const setup_t *setup, double bias_mps2, double height_m, double level_m, result_t *result) {
-  const double kp = (double)setup->flight.pos.kp_per_s, kd = (double)setup->flight.pos.kd_per_s;
+  const double kp = (double)setup->flight.pos.kp_z_per_s, kd = (double)setup->flight.pos.kd_z_per_s;
   const double climb_mps = bias_mps2 / kd + EKF_CLIMB_S * bias_mps2;
   const double predicted_m = -climb_mps / kp - EKF_HEIGHT_S * bias_mps2;
   // The law is that of this INDI; its peers have others.

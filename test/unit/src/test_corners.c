@@ -104,13 +104,13 @@ static const struct {
   const char *name;
   bool most, at_the_edge; // at the edge: the noise decides
 } unflyable[] = {
-    {"indiPos.kp", true, false},     {"indiPos.kd", false, false},   {"indiPos.tauMot", false, false},
-    {"indiPos.mass", false, true},   {"indiPos.tMax", false, false}, {"indiAtt.kp", false, false},
-    {"indiAtt.kp", true, false},     {"indiAtt.kd", false, false},   {"indiAtt.jxx", false, false},
-    {"indiAtt.jxx", true, false},    {"indiAtt.jyy", false, false},  {"indiAtt.jyy", true, false},
-    {"indiAtt.quick", false, false}, {"indiAtt.arm", false, false},  {"indiAtt.arm", true, false},
-    {"indiAtt.yawArm", true, true},  {"indiAtt.fMax", false, false}, {"indiAtt.jzz", false, true},
-    {"indiAtt.g2", true, true},      {"indiAtt.kpYaw", true, true},
+    {"indiPos.kp", true, false},      {"indiPos.kd", false, false},    {"indiPos.kdz", false, false},
+    {"indiPos.tauMot", false, false}, {"indiPos.mass", false, true},   {"indiPos.tMax", false, false},
+    {"indiAtt.kp", false, false},     {"indiAtt.kp", true, false},     {"indiAtt.kd", false, false},
+    {"indiAtt.jxx", false, false},    {"indiAtt.jxx", true, false},    {"indiAtt.jyy", false, false},
+    {"indiAtt.jyy", true, false},     {"indiAtt.quick", false, false}, {"indiAtt.arm", false, false},
+    {"indiAtt.arm", true, false},     {"indiAtt.yawArm", true, true},  {"indiAtt.fMax", false, false},
+    {"indiAtt.jzz", false, true},     {"indiAtt.g2", true, true},      {"indiAtt.kpYaw", true, true},
 };
 static const int unflyable_count = sizeof unflyable / sizeof *unflyable;
 

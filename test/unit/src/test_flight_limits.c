@@ -15,7 +15,8 @@ TEST(flight_stays_upright_where_it_wants_no_thrust) {
     const char *what;
     pilot_mode_t mode;
     double z_m, climb_mps;
-  } row[] = {{"5 m down", PILOT_POSITION, 1.0, 0.0}, {"down at 4 m/s", PILOT_VELOCITY, 0.0, -4.0}};
+  } row[] = {{"2.5 m down, wanted at 5 m/s", PILOT_POSITION, 3.5, 0.0},
+             {"down at 4 m/s", PILOT_VELOCITY, 0.0, -4.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     hover6_t r = {.in = {.step = 0}};

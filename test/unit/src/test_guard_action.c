@@ -106,19 +106,20 @@ TEST(guard_goes_down_to_its_safe_gap_at_its_speed) {
     const char *what;
     float hold_m, z_m, ceiling_m;
     int retreat_ms;
-    float want_m;
+    float kp_per_s, want_m;
   } row[] = {
-      {"at first where it is", 1.9f, 1.9f, 2.0f, 0, 1.9f},
-      {"half a speed", 1.9f, 1.9f, 2.0f, 50, 1.75f},
-      {"full speed", 1.9f, 1.9f, 2.0f, 100, 1.65f},
-      {"full speed from higher", 2.2f, 2.2f, 2.0f, 500, 1.9f},
-      {"the safe gap", 1.9f, 1.7f, 2.0f, 500, 1.65f},
-      {"it was lower already", 1.2f, 1.2f, 2.0f, 500, 1.2f},
-      {"no ceiling known", 1.2f, 1.2f, NAN, 500, 0.9f},
+      {"at first where it is", 1.9f, 1.9f, 2.0f, 0, 1.0f, 1.9f},
+      {"half a speed", 1.9f, 1.9f, 2.0f, 150, 1.0f, 1.75f},
+      {"full speed", 1.9f, 1.9f, 2.0f, 300, 1.0f, 1.65f},
+      {"full speed of a law of twice the gain", 1.9f, 1.9f, 2.0f, 300, 2.0f, 1.75f},
+      {"full speed from higher", 2.2f, 2.2f, 2.0f, 500, 1.0f, 1.9f},
+      {"the safe gap", 1.9f, 1.7f, 2.0f, 500, 1.0f, 1.65f},
+      {"it was lower already", 1.2f, 1.2f, 2.0f, 500, 1.0f, 1.2f},
+      {"no ceiling known", 1.2f, 1.2f, NAN, 500, 1.0f, 0.9f},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     const guard_t g = {.hold_z_m = row[i].hold_m, .retreat_ms = row[i].retreat_ms};
-    CHECK_NEAR(guard_retreat_z_m(&g, &p, row[i].z_m, row[i].ceiling_m), row[i].want_m, 1e-6);
+    CHECK_NEAR(guard_retreat_z_m(&g, &p, row[i].z_m, row[i].ceiling_m, row[i].kp_per_s), row[i].want_m, 1e-6);
   }
 }

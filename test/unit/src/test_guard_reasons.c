@@ -119,8 +119,8 @@ static const struct {
     {"full thrust so near", GUARD_SATURATED, &HOVERING_NEAR, full_thrust_at, 0.2f, 0.1999f, 201},
     {"set point no number", GUARD_SETPOINT, &HOVERING_FREE, setpoint_bad, 0.0f, 1.0f, 1},
     {"velocity jumps", GUARD_VELOCITY, &HOVERING_FREE, velocity_jumps, 0.5f, 0.501f, 1},
-    {"carries too much", GUARD_RATIO, &HOVERING_FREE, carries_more, 1.149f, 1.16f, 10},
-    {"carries too much so far away", GUARD_RATIO, &HOVERING_FREE, carries_more_at, 0.11f, 0.1101f, 10},
+    {"carries too much", GUARD_RATIO, &HOVERING_FREE, carries_more, 1.149f, 1.5f, 45},
+    {"carries too much so far away", GUARD_RATIO, &HOVERING_FREE, carries_more_at, 0.11f, 0.1101f, 154},
     {"height reset", GUARD_HEIGHT_LOST, &HOVERING_FREE, height_off, 1.0f, 1.001f, 250},
     {"height reset downwards", GUARD_HEIGHT_LOST, &HOVERING_FREE, height_off, -1.0f, -1.001f, 250},
 };
@@ -165,7 +165,7 @@ static const struct {
     {"set point no number", &HOVERING_FREE, setpoint_bad, 1.0f, 251, GUARD_RETREAT},
     {"velocity jumps", &HOVERING_FREE, velocity_jumps, 1.0f, 1, GUARD_RETREAT},
     {"full thrust near", &HOVERING_NEAR, thrust, 0.6f, 201, GUARD_RETREAT},
-    {"carries too much", &HOVERING_FREE, carries_more, 1.2f, 10, GUARD_RETREAT},
+    {"carries too much", &HOVERING_FREE, carries_more, 1.5f, 45, GUARD_RETREAT},
     {"height reset", &HOVERING_FREE, height_off, 1.5f, 250, GUARD_RETREAT},
     {"blind", &HOVERING_NEAR, blind_for, 5.0f, 1, GUARD_RETREAT},
 };

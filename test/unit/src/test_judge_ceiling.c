@@ -108,10 +108,11 @@ TEST(guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed) {
     float ratio;
     int ms;
     double want;
-  } row[] = {{1.1f, 1, 1.0 + 0.1 * 0.001 / 5.0},
-             {1.1f, 10, 1.0 + 0.1 * 0.01 / 5.0},
-             {0.9f, 1, 1.0 - 0.1 * 0.001 / 2.0},
-             {0.9f, 50, 1.0 - 0.1 * 0.05 / 2.0},
+  } row[] = {{1.1f, 1, 1.0 + 0.1 * 0.01 * 0.001 / 5.0}, // the mean of now has gone a hundredth of the way
+             {1.1f, 10, 1.0 + 0.1 * 0.1 * 0.01 / 5.0},
+             {0.9f, 1, 1.0 - 0.1 * 0.01 * 0.001 / 2.0},
+             {0.9f, 50, 1.0 - 0.1 * 0.5 * 0.05 / 2.0},
+             {0.9f, 100, 1.0 - 0.1 * 0.1 / 2.0},
              {0.9f, 5000, 0.9}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g for %d ms", (double)row[i].ratio, row[i].ms);
@@ -123,7 +124,24 @@ TEST(guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed) {
     in.force_N = 0.33f * row[i].ratio;
     in.ms = row[i].ms;
     judge(&g, in, 1);
-    CHECK_NEAR(g.ratio_usual, row[i].want, 2e-6);
+    CHECK_NEAR(g.ratio_usual, row[i].want, 2e-7);
+  }
+}
+
+TEST(guard_takes_the_mean_ratio_of_a_tenth_of_a_second) {
+  // A ratio of 1.5 brings the mean to 1.15 after 36 ms; it has to stay there for 10.
+  static const struct {
+    int ms;
+    bool raised;
+  } row[] = {{44, false}, {45, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%d ms", row[i].ms);
+    guard_t g = begun();
+    judge(&g, under(0.3f), 1500);
+    guard_in_t in = under(0.3f);
+    in.force_N = 0.33f * 1.5f;
+    judge(&g, in, row[i].ms);
+    CHECK(((g.now & GUARD_RATIO) != 0) == row[i].raised);
   }
 }
 

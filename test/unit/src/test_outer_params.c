@@ -52,14 +52,27 @@ TEST(outer_takes_a_good_set_over_at_once) {
   static const struct {
     const char *name;
     float value;
-  } row[] = {{"indiPos.kp", 2},       {"indiPos.kd", 8}, {"indiPos.cutoff", 20}, {"indiPos.tauMot", 0.1f},
-             {"indiPos.mass", 0.04f}, {"ceil.mode", 0},  {"ceil.kz", 2},         {"ceil.zOn", 0.01f}};
+    int32_t law;
+  } row[] = {{"indiPos.kp", 2, LAW_PREDICTED},
+             {"indiPos.kd", 8, LAW_PREDICTED},
+             {"indiPos.kpz", 3, LAW_PREDICTED},
+             {"indiPos.kdz", 5, LAW_PREDICTED},
+             {"indiPos.quick", 2, LAW_PREDICTED},
+             {"indiPos.cutoff", 20, LAW_PREDICTED},
+             {"indiPos.tauMot", 0.1f, LAW_PREDICTED},
+             {"indiPos.mass", 0.04f, LAW_PREDICTED},
+             {"ceil.mode", 0, LAW_PREDICTED},
+             {"ceil.law", LAW_THESIS, LAW_PREDICTED},
+             {"ceil.kz", 2, LAW_THESIS},
+             {"ceil.catch", 0.2f, LAW_PREDICTED},
+             {"ceil.zOn", 0.01f, LAW_PREDICTED}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].name);
     outer_t f, twin;
     memcpy(&f, &start, sizeof f);
     memcpy(&twin, &start, sizeof twin);
     p.curve.mode = CURVE_THEORY; // the learned curve may be flat here
+    p.pos.law = row[i].law;
     flight_param_t changed = p;
     CHECK_OK(params_set(&changed, params_find(row[i].name), row[i].value));
     outer_in_t in = rig3_sense(&v, (v3_t){0.1f, 0, 0.93f});

@@ -55,15 +55,21 @@ static const struct {
   const char *name, *unit;
   float initial;
 } RELIED_ON[] = {
-    {"indiPos.kp", "1/s", 1},
-    {"indiPos.kd", "1/s", 5},
-    {"indiPos.cutoff", "Hz", 8},
+    {"indiPos.kp", "1/s", 0.5f},
+    {"indiPos.kd", "1/s", 4},
+    {"indiPos.kpz", "1/s", 2},
+    {"indiPos.kdz", "1/s", 8},
+    {"indiPos.quick", "", 3},
+    {"indiPos.cutoff", "Hz", 30},
     {"indiPos.tauMot", "s", 0.08f},
     {"indiPos.mass", "kg", 0.0329f},
     {"ceil.mode", "", 1},
     {"ceil.ca", "", 0.44f},
     {"ceil.cb", "1/m", 80},
+    {"ceil.law", "", 1},
     {"ceil.kz", "s", 0.3f},
+    {"ceil.catch", "s", 0.05f},
+    {"ceil.hold", "", 2},
     {"ceil.zOn", "m", 0.1f},
     {"ceil.gain", "", 0.1f},
     {"ceil.near", "m", 0.05f},
@@ -93,7 +99,7 @@ TEST(params_that_the_outside_relies_on_are_there) {
   const flight_param_t p = defaults();
   for (int k = 0; k < RBF_N; k++) {
     ROW("w%d is the curve's", k + 1);
-    CHECK(p.curve.fixed.w[k] == RELIED_ON[13 + k].initial);
+    CHECK(p.curve.fixed.w[k] == RELIED_ON[19 + k].initial);
   }
 }
 

@@ -77,9 +77,10 @@ TEST(pos_indi_agrees_with_the_thesis_inverted_numerically) {
     const double sink_mps = splitmix_between(&r, -0.5, 0.5);
     const d3_t want = thesis_increments(&s, e, (double)law_param.lead_s * sink_mps); // zc grows when sinking
 
+    const float dzc_m = pos_indi_nearing_m(&law_param, (float)-sink_mps, 0.0f, 0.0f);
     const pos_step_t got =
         pos_indi_step(&law_param, attitude(s.phi, s.theta, s.psi), (float)s.thrust,
-                      (v3_t){(float)e.x, (float)-e.y, (float)-e.z}, (float)-sink_mps,
+                      (v3_t){(float)e.x, (float)-e.y, (float)-e.z}, dzc_m,
                       (rbf_point_t){.ratio = (float)s.rho, .slope_per_m = (float)s.rho_slope});
 
     // d theta turns about the pitch axis of the body by cos(phi) d theta, to the right where ours is to the
@@ -117,14 +118,58 @@ TEST(pos_indi_ceiling_term_acts_on_the_thrust_alone) {
     const quat_t q = random_attitude(&r, LAW_PI / 3);
     const v3_t e = random_vector(&r, 10);
     const float thrust_N = (float)splitmix_between(&r, 0.2, 0.5),
-                climb = (float)splitmix_between(&r, -0.5, 0.5);
+                climb = (float)splitmix_between(&r, -0.5, 0.5),
+                dzc_m = pos_indi_nearing_m(&law_param, climb, 0.0f, 0.0f);
     const rbf_point_t flat = {1.1f, 0.0f}, steep = {1.1f, -20.0f};
-    const pos_step_t without = pos_indi_step(&law_param, q, thrust_N, e, climb, flat);
-    const pos_step_t with = pos_indi_step(&law_param, q, thrust_N, e, climb, steep);
+    const pos_step_t without = pos_indi_step(&law_param, q, thrust_N, e, dzc_m, flat);
+    const pos_step_t with = pos_indi_step(&law_param, q, thrust_N, e, dzc_m, steep);
     CHECK(with.roll_rad == without.roll_rad && with.pitch_rad == without.pitch_rad);
     // A climb towards the ceiling, where the thrust grows, asks for less thrust.
     CHECK_NEAR(with.thrust_N - without.thrust_N, -thrust_N * 20.0f * 0.3f * climb / 1.1f, 1e-5);
   }
+}
+
+TEST(pos_indi_foretells_the_distance_by_its_law) {
+  static const struct {
+    const char *what;
+    int32_t law;
+    float climb_mps, wanted_mps;
+    double want_m;
+  } row[] = {
+      {"thesis: by its lead of 0.3 s, whatever is wanted", LAW_THESIS, 0.1f, 0.1f, -0.03},
+      {"predicted, as wanted: by the lag alone", LAW_PREDICTED, 0.1f, 0.1f, -0.004},
+      {"predicted, not wanted: by the lag, and what is to be caught", LAW_PREDICTED, 0.1f, 0.0f, -0.009},
+      {"predicted, slower than wanted", LAW_PREDICTED, 0.0f, 0.1f, 0.005},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    pos_indi_param_t p = law_param;
+    p.law = row[i].law;
+    p.catch_s = 0.05f;
+    CHECK_NEAR(pos_indi_nearing_m(&p, row[i].climb_mps, row[i].wanted_mps, 0.04f), row[i].want_m, 1e-8);
+  }
+}
+
+TEST(pos_indi_increment_of_the_thrust_alone_is_as_many_times_as_large_as_it_is_to_be_quick) {
+  pos_indi_param_t p = law_param;
+  const rbf_point_t at = {1.1f, -5.0f};
+  const v3_t e = {0.1f, 0.2f, 0.3f};
+  const pos_step_t once = pos_indi_step(&p, (quat_t){.w = 1.0f}, 0.3f, e, 0.001f, at);
+  p.quick = 3.0f;
+  const pos_step_t quick = pos_indi_step(&p, (quat_t){.w = 1.0f}, 0.3f, e, 0.001f, at);
+  CHECK_NEAR(quick.thrust_N, 3.0 * (double)once.thrust_N, 1e-8);
+  CHECK(quick.roll_rad == once.roll_rad && quick.pitch_rad == once.pitch_rad);
+}
+
+TEST(pos_indi_has_gains_of_its_own_for_the_height) {
+  pos_indi_param_t p = law_param;
+  p.kp_z_per_s = 2.0f;
+  p.kd_z_per_s = 8.0f;
+  const pos_setpoint_t sp = {.pos_w_m = {0.1f, 0.1f, 0.1f}};
+  const v3_t a = pos_indi_wanted_acc(&p, &sp, (v3_t){0, 0, 0}, (v3_t){0, 0, 0});
+  CHECK_NEAR(a.x, 0.5, 1e-7);
+  CHECK_NEAR(a.y, 0.5, 1e-7);
+  CHECK_NEAR(a.z, 1.6, 1e-6);
 }
 
 TEST(pos_indi_command_gives_the_acceleration_that_was_wanted) {

@@ -261,7 +261,7 @@ TEST(watch_goes_down_in_a_retreat_where_it_is_and_turns_as_before) {
   const flight_setpoint_t sp = watch(&f, &in, 1).setpoint;
   CHECK(sp.x == AXIS_POSITION && sp.y == AXIS_POSITION && sp.z == AXIS_POSITION && sp.yaw_rad == 0.7f);
   CHECK(sp.pos_w_m.x == 0.3f && sp.pos_w_m.y == -0.2f);
-  CHECK_NEAR(sp.pos_w_m.z, 1.0f - f.outer.param.guard.sink_mps, 1e-6);
+  CHECK_NEAR(sp.pos_w_m.z, 1.0f - f.outer.param.guard.sink_mps / f.outer.param.pos.kp_z_per_s, 1e-6);
   CHECK(sp.vel_mps.x == 0.0f && sp.vel_mps.y == 0.0f && sp.vel_mps.z == 0.0f);
   CHECK(sp.acc_w_mps2.x == 0.0f && sp.acc_w_mps2.y == 0.0f && sp.acc_w_mps2.z == 0.0f);
 }

@@ -162,8 +162,8 @@ TEST(filter_decides_how_near_the_standard_controller_can_hover) {
       ROW("%g Hz, gains %g %g, %s", (double)row[i].cutoff_Hz, (double)row[i].kp, (double)row[i].kd,
           side < 0 ? "nearer" : "farther");
       setup_t setup = flights_appendix_a(FLY_INDI, row[i].cutoff_Hz, 0.0f, true);
-      setup.flight.pos.kp_per_s = row[i].kp;
-      setup.flight.pos.kd_per_s = row[i].kd;
+      setup.flight.pos.kp_z_per_s = row[i].kp;
+      setup.flight.pos.kd_z_per_s = row[i].kd;
       const double gap_m = 1e-3 * (row[i].limit_mm + side);
       setup.plan.n_way = 2;
       setup.plan.end_s = 120.0;
@@ -193,8 +193,8 @@ TEST(order_of_the_thesis_models_holds_over_random_gains) {
     segment_t s[ALL];
     for (int i = 0; i < ALL; i++) {
       setup_t setup = setup_of(&cases[i], cutoff_Hz);
-      setup.flight.pos.kp_per_s = kp;
-      setup.flight.pos.kd_per_s = kd;
+      setup.flight.pos.kp_z_per_s = kp;
+      setup.flight.pos.kd_z_per_s = kd;
       setup.plan.end_s = 60.0; // slow gains need their time to 90 %
       s[i] = flights_last(&setup, NULL);
       if (i == A4 && s[A4].overshoot_mm > 0.05) break;
@@ -216,8 +216,8 @@ TEST(gains_beyond_a_limit_overshoot_without_any_ceiling) {
     for (int side = -1; side <= 1; side += 2) {
       ROW("kd %g, %s", (double)row[i].kd, side < 0 ? "below" : "above");
       setup_t setup = flights_appendix_a(FLY_INDI, 0.0f, 0.0f, false);
-      setup.flight.pos.kd_per_s = row[i].kd;
-      setup.flight.pos.kp_per_s = row[i].kp_limit + 0.1f * (float)side;
+      setup.flight.pos.kd_z_per_s = row[i].kd;
+      setup.flight.pos.kp_z_per_s = row[i].kp_limit + 0.1f * (float)side;
       CHECK((flights_last(&setup, NULL).overshoot_mm < 0.05) == (side < 0));
     }
   }

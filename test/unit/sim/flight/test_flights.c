@@ -1,10 +1,11 @@
 // test_flights.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds
-// (section 5.3, appendix C.3).
+// (section 5.3, appendix C.3), by its own law and by the one that ships.
 #include "flight/scenario.h"
 #include "pilots/pilot_flight.h"
 #include "rig/rig6.h"
 #include "rig/test.h"
 
+#include <math.h>
 #include <string.h>
 
 #define SEEDS   10
@@ -15,9 +16,13 @@
 
 static const request_t FAST = {.integrate = INTEGRATE_RK4};
 
-// The flight of that scenario, controller and seed, as JSON; delete it after use.
-static cJSON *fly(const char *scenario, fly_kind_t kind, uint64_t seed) {
+typedef enum { SHIPPED, THESIS } whose_t;
+static const char *const WHOSE[] = {"law that ships", "thesis's law"};
+
+// The flight of that scenario, controller, law and seed, as JSON; delete it after use.
+static cJSON *fly(const char *scenario, fly_kind_t kind, whose_t law, uint64_t seed) {
   request_t request = FAST;
+  request.thesis_law = law == THESIS;
   request.kind = &kind;
   request.seed = seed;
   result_t result;
@@ -35,10 +40,10 @@ static double of(const cJSON *json, const char *table, int row, const char *key)
 }
 
 // Of ten close flights: how many touched the ceiling in segments first..last.
-static int touching(fly_kind_t kind, int first, int last) {
+static int touching(fly_kind_t kind, whose_t law, int first, int last) {
   int flights = 0;
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    cJSON *json = fly("close-flight", kind, seed);
+    cJSON *json = fly("close-flight", kind, law, seed);
     CHECK(cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")));
     double contacts = 0.0;
     for (int i = first; i <= last; i++) contacts += of(json, "segments", i, "contacts");
@@ -49,8 +54,8 @@ static int touching(fly_kind_t kind, int first, int last) {
 }
 
 TEST(flights6_standard_indi_holds_4_cm_and_touches_at_2_cm) {
-  CHECK(touching(FLY_INDI, 0, AT_4_CM) == 0);
-  CHECK(touching(FLY_INDI, AT_2_CM, LADDER - 1) >= 9);
+  CHECK(touching(FLY_INDI, THESIS, 0, AT_4_CM) == 0);
+  CHECK(touching(FLY_INDI, THESIS, AT_2_CM, LADDER - 1) >= 9);
 }
 
 static const struct {
@@ -61,28 +66,60 @@ static const struct {
 #define ADAPTED (sizeof adapted / sizeof *adapted)
 
 TEST(flights6_adapted_indi_stays_off_the_ceiling_at_2_cm) {
-  for (unsigned i = 0; i < ADAPTED; i++) {
-    ROW("%s", adapted[i].what);
-    CHECK(touching(adapted[i].kind, 0, LADDER - 1) == 0);
+  for (unsigned i = 0; i < 2 * ADAPTED; i++) {
+    const whose_t law = i / ADAPTED ? THESIS : SHIPPED;
+    ROW("%s, %s", adapted[i % ADAPTED].what, WHOSE[law]);
+    CHECK(touching(adapted[i % ADAPTED].kind, law, 0, LADDER - 1) == 0);
   }
 }
 
-TEST(flights6_adapted_indi_hovers_level_and_where_it_was_told_at_2_cm) {
+typedef struct {
+  double error_mm, rms_mm, tilt_deg; // of all ten together; the largest
+} hover_t;
+
+static hover_t hovers(fly_kind_t kind, whose_t law, int segment) {
+  hover_t h = {0};
+  double sum_mm2 = 0.0;
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    cJSON *json = fly("close-flight", kind, law, seed);
+    h.error_mm += of(json, "segments", segment, "mean_error_mm") / SEEDS;
+    h.tilt_deg = fmax(h.tilt_deg, of(json, "segments", segment, "tilt_max_deg"));
+    sum_mm2 += pow(of(json, "segments", segment, "rms_mm"), 2.0);
+    cJSON_Delete(json);
+  }
+  h.rms_mm = sqrt(sum_mm2 / SEEDS);
+  return h;
+}
+
+TEST(flights6_thesis_law_hovers_level_and_4_mm_low_at_2_cm) {
   // Without the ceiling's term in roll and pitch 6 to 9 mm low, and tilts of 12 to 20 degrees. Of what is
   // left 1.9 mm is there without any noise (1.2 to 1.5 mm still to be climbed after 10 s), and the rest goes
   // with the wandering over the ground, which the bias observer's velocity makes wider (-2.4 mm without it).
   for (unsigned i = 0; i < ADAPTED; i++) {
     ROW("%s", adapted[i].what);
-    double error_mm = 0.0, tilt_deg = 0.0;
-    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-      cJSON *json = fly("close-flight", adapted[i].kind, seed);
-      error_mm += of(json, "segments", AT_2_CM, "mean_error_mm") / SEEDS;
-      tilt_deg = fmax(tilt_deg, of(json, "segments", AT_2_CM, "tilt_max_deg"));
-      cJSON_Delete(json);
-    }
-    CHECK_NEAR(error_mm, -4.0, 0.8);
-    CHECK(tilt_deg < 7.0);
+    const hover_t h = hovers(adapted[i].kind, THESIS, AT_2_CM);
+    CHECK_NEAR(h.error_mm, -4.0, 0.8);
+    CHECK(h.tilt_deg < 7.0);
   }
+}
+
+TEST(flights6_law_that_ships_hovers_at_2_cm_within_2_mm_of_where_it_was_told) {
+  // The goal over many flights is 1.85 mm; ten have 0.1 mm of spread.
+  for (unsigned i = 0; i < ADAPTED; i++) {
+    ROW("%s", adapted[i].what);
+    const hover_t h = hovers(adapted[i].kind, SHIPPED, AT_2_CM);
+    CHECK(fabs(h.error_mm) < 0.8);
+    CHECK(h.rms_mm < 2.1);
+    CHECK(h.tilt_deg < 5.0);
+  }
+}
+
+TEST(flights6_gains_of_the_law_that_ships_hold_2_cm_without_a_ceiling_term_too_and_less_well) {
+  const hover_t plain = hovers(FLY_INDI, SHIPPED, AT_2_CM), adapts = hovers(FLY_INDI_RBF, SHIPPED, AT_2_CM);
+  CHECK(touching(FLY_INDI, SHIPPED, 0, LADDER - 1) == 0);
+  CHECK(plain.rms_mm > 1.2 * adapts.rms_mm);
+  CHECK(plain.error_mm < adapts.error_mm - 0.5); // and lower
+  CHECK(plain.rms_mm < 3.2);
 }
 
 // Of the flights that touched nothing: how many, and the mean of their standard deviations. One that
@@ -91,7 +128,7 @@ static double free_sd_mm(fly_kind_t kind, int segment, int *flights) {
   double sum = 0.0;
   *flights = 0;
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    cJSON *json = fly("test-flight", kind, seed);
+    cJSON *json = fly("test-flight", kind, THESIS, seed);
     if (cJSON_GetObjectItem(json, "contacts")->valueint == 0) {
       sum += of(json, "segments", segment, "sd_mm");
       ++*flights;
@@ -101,7 +138,7 @@ static double free_sd_mm(fly_kind_t kind, int segment, int *flights) {
   return sum / *flights;
 }
 
-TEST(flights6_adapted_indi_is_calmer_at_3_cm) {
+TEST(flights6_adapted_indi_by_the_thesis_law_is_calmer_at_3_cm) {
   int flights;
   const double standard_mm = free_sd_mm(FLY_INDI, AT_3_CM, &flights);
   CHECK(flights >= 5);
@@ -118,7 +155,7 @@ TEST(flights6_are_the_same_bits_for_the_same_seed) {
     ROW("%s", fly_name[kind]);
     char *text[3];
     for (int i = 0; i < 3; i++) {
-      cJSON *json = fly("test-flight", (fly_kind_t)kind, i == 2 ? 8 : 7);
+      cJSON *json = fly("test-flight", (fly_kind_t)kind, SHIPPED, i == 2 ? 8 : 7);
       cJSON_DeleteItemFromObject(json, "realtime_factor");
       text[i] = cJSON_PrintUnformatted(json);
       cJSON_Delete(json);
@@ -173,12 +210,12 @@ TEST(flights6_two_vehicles_in_one_process_do_not_know_of_each_other) {
 TEST(flights6_height_is_wrong_by_what_the_accelerometer_costs) {
   const uint64_t seeds[] = {1, 2, 3};
   for (int s = 0; s < 3; s++) {
-    cJSON *json = fly("bias-hover", FLY_INDI, seeds[s]);
+    cJSON *json = fly("bias-hover", FLY_INDI, SHIPPED, seeds[s]);
     CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(json, "bias")) == 4);
     for (int i = 0; i < 4; i++) {
       ROW("seed %d, %g m/s2", (int)seeds[s], of(json, "bias", i, "bias_mps2"));
       const double predicted_mm = of(json, "bias", i, "predicted_mm");
-      CHECK_NEAR(predicted_mm, -365.2 * of(json, "bias", i, "bias_mps2"), 0.01);
+      CHECK_NEAR(predicted_mm, -151.2 * of(json, "bias", i, "bias_mps2"), 0.01);
       CHECK_NEAR(of(json, "bias", i, "error_mm"), predicted_mm, 0.1 * fabs(predicted_mm));
       CHECK_NEAR(of(json, "bias", i, "shift_mm"), predicted_mm, 0.1 * fabs(predicted_mm));
     }

@@ -162,7 +162,7 @@ static bool keep(void *context, const char *event, double t_s, unsigned char *va
   return l->torn;
 }
 
-TEST(usd_replay_says_what_is_lost_and_is_back_to_a_quarter_of_a_millinewton_within_a_second) {
+TEST(usd_replay_says_what_is_lost_and_is_back_to_half_a_millinewton_within_a_second) {
   flight_param_t param;
   (void)fly_with_deck("test-flight", (usd_card_t){0}, "log00", &param);
   for (unsigned i = 0; i < sizeof lost / sizeof *lost; i++) {
@@ -182,11 +182,12 @@ TEST(usd_replay_says_what_is_lost_and_is_back_to_a_quarter_of_a_millinewton_with
     CHECK(r.known.differ == 0);
     CHECK((r.known.calls > 19990) == !(any && start));
     CHECK_NEAR(r.settling.calls, any ? REPLAY_SETTLE_CALLS : 0.0, 0.0);
-    // 4 mN are a twentieth of what a motor gives in hover: the filters start from what they first see.
-    CHECK(r.settling.worst_N < 4e-3);
+    // 20 mN are a quarter of what a motor gives in hover: the filters start from what they first see, and the
+    // law answers with quick times kdz.
+    CHECK(r.settling.worst_N < 2e-2);
     CHECK((r.settled.calls > 15000) == any);
     // The observer of the accelerometer's bias forgets at 1 rad/s: without it 1e-7 N are left.
-    CHECK(r.settled.worst_N < 2.5e-4);
+    CHECK(r.settled.worst_N < 5e-4);
   }
 }
 

@@ -112,7 +112,7 @@ TEST(app_flies_a_set_from_the_next_tick_on_even_where_a_write_interrupts_one) {
   app_fly(&f, 4);
   CHECK(app_log(&f, "ceil.noSet") == 1.0);
   CHECK(f.vehicle.app.flight.outer.param.pos.kp_per_s == 2.0f); // what reads back is what flies
-  CHECK(f.vehicle.app.flight.outer.param.pos.kd_per_s == 5.0f);
+  CHECK(f.vehicle.app.flight.outer.param.pos.kd_per_s == 4.0f);
 }
 
 TEST(app_commits_nothing_that_was_not_judged_even_where_a_tick_comes_before_the_callback) {

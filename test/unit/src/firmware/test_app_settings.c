@@ -47,7 +47,7 @@ TEST(app_flies_nothing_of_a_set_that_contradicts_itself_until_it_is_mended) {
   CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 2.0));
   CHECK(crazyflie_set(&f.vehicle, "rls.zMin", 0.1)); // not below rls.zMax, before any tick
   app_fly(&f, 20);
-  CHECK(flown_kp(&f) == 1.0f);
+  CHECK(flown_kp(&f) == 0.5f);
   CHECK(f.vehicle.app.flown.learn.near_m == 0.005f);
   CHECK(crazyflie_set(&f.vehicle, "rls.zMin", 0.006));
   app_fly(&f, 20);
@@ -64,10 +64,10 @@ TEST(app_mends_a_flipped_bit_of_its_parameters_in_one_call_of_ten) {
     while ((flight->phase + 1) % 10 != (unsigned)at) app_fly(&f, 1);
     flight->outer.param.pos.kp_per_s = 1.5f;
     app_fly(&f, 1);
-    CHECK(flown_kp(&f) == (at == 6 ? 1.0f : 1.5f));
+    CHECK(flown_kp(&f) == (at == 6 ? 0.5f : 1.5f));
     CHECK((flight->due == 0) || at != 6); // in one of those in which no loop runs
     app_fly(&f, 9);
-    CHECK(flown_kp(&f) == 1.0f);
+    CHECK(flown_kp(&f) == 0.5f);
   }
 }
 
@@ -84,9 +84,9 @@ TEST(app_takes_a_commit_in_a_call_of_its_own_and_the_set_in_the_next_but_one) {
   for (int ms = 0; app->commits == 0 && ms < 2; ms++) app_fly(&f, 1);
   CHECK(app->commits == 1 && app->commit == 0 && app->commit_asked == 0);
   CHECK(app->recorder.tunes == tunes + 1);
-  CHECK(app->flown.curve.fixed.w[1] == 0.25f && flown_kp(&f) == 1.0f);
+  CHECK(app->flown.curve.fixed.w[1] == 0.25f && flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
-  CHECK(flown_kp(&f) == 1.0f);
+  CHECK(flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
   CHECK(flown_kp(&f) == 2.0f && app->flight.outer.param.curve.fixed.w[1] == 0.25f);
   app_fly(&f, 20);

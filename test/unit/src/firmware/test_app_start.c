@@ -273,7 +273,7 @@ TEST(app_starts_with_the_defaults_for_stored_values_that_it_does_not_allow) {
   c.app.tuned.pos.kp_per_s = 1e9f; // stored by another version
   c.app.tuned.pos.kd_per_s = 6.0f;
   crazyflie_start(&c);
-  CHECK(c.app.flight.outer.param.pos.kp_per_s == 1.0f && c.app.tuned.pos.kp_per_s == 1.0f);
+  CHECK(c.app.flight.outer.param.pos.kp_per_s == 0.5f && c.app.tuned.pos.kp_per_s == 0.5f);
   CHECK(c.app.flight.outer.param.pos.kd_per_s == 6.0f);
   CHECK(strstr(console(&c), "Parameters refused") != NULL);
 }
