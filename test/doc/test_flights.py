@@ -26,11 +26,11 @@ def table(flown: dict[str, list[dict]]) -> str:
 class Table(unittest.TestCase):
     def test_a_row_holds_all_flights(self) -> None:
         said = table({"indi": [FLIGHT]})
-        self.assertIn("indi           100  5.00    99.0  4.95     2.0  0.10     1.0     2.0      0     0/1    90.0", said)
-        self.assertIn("indi            2.00 mm   1.00  of 1", said)
+        self.assertIn("indi            100  5.00    99.0  4.95     2.0  0.10     1.0     2.0      0     0/1    90.0", said)
+        self.assertIn("indi             2.00 mm   1.00  of 1", said)
         touching = {**FLIGHT, "segments": [FAR, {**FAR, "contacts": 3, "mean_error_mm": 3, "min_gap_mm": 1}]}
         said = table({"indi": [FLIGHT, touching]})
-        self.assertIn("indi           100  5.00    98.0  4.90     2.2  0.11     2.0     2.0      3     1/2     1.0", said)
+        self.assertIn("indi            100  5.00    98.0  4.90     2.2  0.11     2.0     2.0      3     1/2     1.0", said)
         self.assertIn("none", table({"indi": [touching]}))
 
     def test_it_says_what_flew(self) -> None:

@@ -9,7 +9,11 @@ from pathlib import Path
 
 import run
 
-CONTROLLERS = ["indi", "indi-theory", "indi-rbf", "indi-learned", "stock-pid", "stock-indi", "air-garage"]
+INDI = ["indi", "indi-theory", "indi-rbf", "indi-learned"]
+CONTROLLERS = {
+    **{who.replace("indi", "thesis", 1): f"--controller {who} --thesis-law" for who in INDI},
+    **{who: f"--controller {who}" for who in [*INDI, "stock-pid", "stock-indi", "air-garage"]},
+}
 DRAWN = {
     "indi": "standard INDI",
     "indi-rbf": "INDI with the RBF fitted to the theory",
@@ -22,11 +26,12 @@ Six degrees of freedom, ten flights each at each level of noise, 10 s at each di
 are from the propellers to the ceiling, R is their radius. sd: over all flights and instants; oscillation: about each \
 flight's own mean.
 Each row: fly SCENARIO --noise LEVEL --controller CONTROLLER --integrator rk4 --from 1 --to 10, with what its table's \
-head sets.
+head sets;
+thesis*: indi* with --thesis-law.
 """
 COLUMNS = """\
-               commanded          mean            sd   error  oscil.   con-  flights  smallest gap   tilt
-controller      mm     R      mm     R      mm     R      mm      mm  tacts touching      mm     R    deg"""
+                commanded          mean            sd   error  oscil.   con-  flights  smallest gap   tilt
+controller       mm     R      mm     R      mm     R      mm      mm  tacts touching      mm     R    deg"""
 
 
 def fly(*options: object) -> str:
@@ -70,7 +75,7 @@ class Cell:
     def row(self, who: str) -> str:
         radius, gap = self.radius_mm, self.distance_mm - self.error
         return (
-            f"{who:13} {self.distance_mm:4.0f} {self.distance_mm / radius:5.2f}  {gap:6.1f} {gap / radius:5.2f}"
+            f"{who:14} {self.distance_mm:4.0f} {self.distance_mm / radius:5.2f}  {gap:6.1f} {gap / radius:5.2f}"
             f"  {self.spread:6.1f} {self.spread / radius:5.2f}  {self.error:6.1f}  {math.sqrt(self.sd2):6.1f}"
             f"  {self.contacts:5d} {self.touching:5d}/{self.n}  {self.low:6.1f} {self.low / radius:5.2f}  {self.tilt:5.1f}"
         )
@@ -81,13 +86,13 @@ def cells(flights: list[dict]) -> list[Cell]:
     return [Cell(flights, k) for k in range(1, len(flights[0]["segments"]))]
 
 
-def flown_with(flights: list[list[dict]]) -> str:
+def flown_with(flights: dict[str, list[dict]], whose: str) -> str:
     """What the flight code flew with, as fly prints it; the peers have none."""
-    sets = [each[0]["set"] for each in flights if "set" in each[0]]
+    sets = [each[0]["set"] for who, each in flights.items() if who.startswith(whose) and "set" in each[0]]
     if any(each != sets[0] for each in sets):
         raise run.Failed("not all with the same parameters")
     but = "".join(f" --set {key}={value}" for key, value in sets[0].items()) if sets else ""
-    return "indi*: parameters as shipped" + (f", but for{but}" if but else "")
+    return f"{whose}*: parameters as shipped" + (f", but for{but}" if but else "")
 
 
 def free_sd(last: dict[str, Cell]) -> None:
@@ -95,14 +100,16 @@ def free_sd(last: dict[str, Cell]) -> None:
     print(f"\n{of[0][1].distance_mm:.0f} mm, flights that did not touch there: mean of their sd, and its ratio to the first")
     for who, cell, sd in of:
         ratio = f"{sd / of[0][2]:.2f}" if of[0][2] > 0 else "-"
-        print(f"{who:13} {sd:6.2f} mm  {ratio:>5}  of {len(cell.calm)}" if cell.calm else f"{who:13}  none")
+        print(f"{who:14} {sd:6.2f} mm  {ratio:>5}  of {len(cell.calm)}" if cell.calm else f"{who:14}  none")
 
 
 def table(flights: dict[str, list[dict]], sd_of_free: bool) -> None:
     """A row for each controller and distance, over all its flights."""
     at = {who: cells(each) for who, each in flights.items()}
     first = next(iter(at.values()))
-    print(f"{flown_with(list(flights.values()))}\nR = {first[0].radius_mm:.2f} mm\n{COLUMNS}")
+    laws = [law for law in ("indi", "thesis") if any(who.startswith(law) for who in at)]
+    print(*(flown_with(flights, law) for law in laws), sep="\n")
+    print(f"R = {first[0].radius_mm:.2f} mm\n{COLUMNS}")
     for k in range(len(first)):
         print(*(each[k].row(who) for who, each in at.items()), sep="\n")
     if sd_of_free:
@@ -110,13 +117,13 @@ def table(flights: dict[str, list[dict]], sd_of_free: bool) -> None:
 
 
 def mean_flight(out: Path, who: str) -> None:
-    """Mean and standard deviation of the height over all flights, at each instant, for the pictures."""
+    """Mean and standard deviation of the height over all flights by the thesis's law, at each instant, for the pictures."""
     at: dict[float, list[tuple[float, float]]] = defaultdict(list)
     rest = ceiling = 0.0
     told: dict[float, float] = {}
     for seed in range(1, SEEDS + 1):
         run.progress(f"flying pictures, {who} {seed}")
-        fly("test-flight", "--controller", who, "--seed", seed, "--log", out / "log.csv")
+        fly("test-flight", "--controller", who, "--thesis-law", "--seed", seed, "--log", out / "log.csv")
         with (out / "log.csv").open() as log:
             for i, row in enumerate(csv.DictReader(log)):
                 z = float(row["sim.z"])
@@ -139,7 +146,7 @@ def pictures(out: Path) -> str:
     """Figures 9 to 13, and the last one in letters."""
     for figure, (who, name) in enumerate(DRAWN.items(), 9):
         mean_flight(out, who)
-        fly("close-flight", "--controller", who, "--seed", 1, "--log", out / f"close.{who}.csv")
+        fly("close-flight", "--controller", who, "--thesis-law", "--seed", 1, "--log", out / f"close.{who}.csv")
         run.gnuplot("mean_flight", out, who=who, name=name, figure=figure, flights=SEEDS)
     run.progress("flying pictures, learning")
     learned = [" ".join(map(str, each["weights"])) for each in fly_many(out / "learned.jsonl", SEEDS, "learning-flight")]
@@ -154,10 +161,10 @@ def flights() -> None:
     print(HEAD)
     for scenario, level in ((scenario, level) for scenario in ("test-flight", "close-flight") for level in LEVELS):
         flown = {}
-        for who in CONTROLLERS:
+        for who, options in CONTROLLERS.items():
             run.progress(f"flying {scenario}, {level}, {who}")
             path = out / f"{scenario}.{level}.{who}.jsonl"
-            flown[who] = fly_many(path, SEEDS, scenario, "--noise", level, "--controller", who)
+            flown[who] = fly_many(path, SEEDS, scenario, "--noise", level, *options.split())
         run.progress()
         print(f"{scenario}, {level}")
         # All touch at the last distance of the close flight.
@@ -173,9 +180,11 @@ def touches(flights_each: int = 1000) -> None:
     but = re.search(r"^parameters .*", fly("close-flight"), re.M)
     print(f"{but[0] if but else ''}; the second row: motors as the thesis has them")
     print("level  flight        controller    ordered  touched there  besides")
-    motors = "--effect motor_lag:add=-0.0175 --set indiPos.tauMot=0.0625"
-    rows = [("test-flight", "indi", 30, ""), ("test-flight", "indi", 30, motors)]
-    rows += [("close-flight", who, 20, "") for who in ("indi-theory", "indi-rbf", "indi-learned")]
+    thesis = "--thesis-law"
+    motors = f"{thesis} --effect motor_lag:add=-0.0175 --set indiPos.tauMot=0.0625"
+    rows = [("test-flight", "indi", 30, thesis), ("test-flight", "indi", 30, motors)]
+    rows += [("close-flight", who, 20, thesis) for who in INDI[1:]]
+    rows += [("test-flight", "indi", 30, "")] + [("close-flight", who, 20, "") for who in INDI]
     for level, (scenario, who, distance_mm, besides) in ((level, row) for level in LEVELS for row in rows):
         run.progress(f"flying {scenario}, {level}, {who}")
         options = ["--noise", level, "--controller", who, *besides.split()]

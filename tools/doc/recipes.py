@@ -13,6 +13,7 @@ import bound
 import demo
 import flights
 import gap
+import laws
 import run
 from run import OUT, program, typed
 
@@ -32,7 +33,7 @@ def says(*words: object, **options) -> Callable[[], None]:
 def closest() -> None:
     for kp, kd in ((1, 5), (2, 8)):
         nearest = """awk '$1 == "gap" && $NF == 0 { mm = $2 } END { print mm " mm" }'"""
-        typed(f"{OUT}/fly closest-hover --set indiPos.kp={kp} --set indiPos.kd={kd} | {nearest}")
+        typed(f"{OUT}/fly closest-hover --set indiPos.kpz={kp} --set indiPos.kdz={kd} | {nearest}")
 
 
 def height() -> None:
@@ -85,7 +86,8 @@ def faults() -> None:
 def picture_of_flight() -> None:
     out = run.folder("pictures")
     for who in ("indi", "indi-theory"):
-        program("fly", "close-flight", "--controller", who, *"--integrator rk4 --seed 1 --log".split(), out / f"{who}.csv")
+        flown = "--thesis-law --integrator rk4 --seed 1 --log".split()
+        program("fly", "close-flight", "--controller", who, *flown, out / f"{who}.csv")
     print(run.gnuplot("picture_flight", out), end="")
 
 
@@ -112,6 +114,7 @@ RECIPES = {
     "noise": Recipe(noise),
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
     "identify": Recipe(identify, data=True),
+    "laws": Recipe(laws.laws),
     "touches": Recipe(flights.touches),
     "bound": Recipe(bound.bound),
     "exam": Recipe(says("exam", 82001, 200)),
