@@ -354,7 +354,7 @@ TEST(each_row_is_felt_in_flight) {
   }
 }
 
-TEST(the_same_seed_draws_the_same_for_the_learning_flight_and_the_flight) {
+TEST(the_same_seed_draws_the_same_whoever_flies) {
   flown_t one = fly(noise_find("flown"), FLY_STOCK_PID, 1.5, 3),
           two = fly(noise_find("flown"), FLY_INDI, 1.5, 3);
   for (int i = 0; i < drawn_field_count; i++) {
