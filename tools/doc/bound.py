@@ -14,6 +14,7 @@ CONTROLLERS = {
     "stock-pid": "--controller stock-pid",
     "stock-indi": "--controller stock-indi",
     "indi": "--controller indi",
+    "thesis-theory": "--controller indi-theory --thesis-law",
     "indi-theory": "--controller indi-theory",
 }
 HEAD = f"""\
@@ -22,7 +23,7 @@ Flown: close-flight, {FLIGHTS} flights each, seeds from {FIRST} on, the last 5 s
 ceiling. about mean: rms about each flight's own mean, over all flights; ratio: to the bound, at real without any force, at
 flown with its gusts; error: mean of the flights' means, and their sd; touching: flights that touched there.
 
-level  gap mm  bound mm  controller   about mean  ratio  error mm     sd  touching"""
+level  gap mm  bound mm  controller     about mean  ratio  error mm     sd  touching"""
 
 
 def bounds(level: str) -> dict[int, float]:
@@ -35,7 +36,7 @@ def row(level: str, gap_mm: int, bound_mm: float, who: str, cell: flights.Cell) 
     about_mean = math.sqrt(cell.sd2)
     of_means = math.sqrt(max(cell.spread**2 - cell.sd2, 0.0))
     return (
-        f"{level:5}  {gap_mm:6d}  {bound_mm:8.2f}  {who:11}  {about_mean:10.2f}  {about_mean / bound_mm:5.1f}"
+        f"{level:5}  {gap_mm:6d}  {bound_mm:8.2f}  {who:13}  {about_mean:10.2f}  {about_mean / bound_mm:5.1f}"
         f"  {cell.error:8.1f}  {of_means:5.1f}  {cell.touching:8d}"
     )
 
