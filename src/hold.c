@@ -7,13 +7,16 @@ void hold_init(hold_t *s) {
   *s = (hold_t){.ceiling_z_m = NAN};
 }
 
+// The estimate is slow: it may lag behind what has changed, and one stray sample may lift it far.
+static bool is_settled_far(const hold_t *s, const ceiling_t *c) {
+  return s->samples >= HOLD_SAMPLES && s->against == 0 && c->zc_m > HOLD_BEYOND_M &&
+         c->seen_m > HOLD_BEYOND_M;
+}
+
 void hold_step(hold_t *s, const ceiling_t *c, float z_m, float period_s, int32_t mode) {
   if (s->against > 0) s->against_s += period_s;
   if (!c->known) return;
-  // The estimate is slow: it may lag behind what has changed, and one stray sample may lift it far.
-  const bool settled = s->samples >= HOLD_SAMPLES && s->against == 0;
-  const bool far = c->zc_m > HOLD_BEYOND_M && c->seen_m > HOLD_BEYOND_M;
-  const bool follows = mode == HOLD_NOT || (mode == HOLD_LATCHED && settled && far);
+  const bool follows = mode == HOLD_NOT || (mode == HOLD_LATCHED && is_settled_far(s, c));
   if (follows || !f_finite(s->ceiling_z_m)) s->ceiling_z_m = z_m + c->zc_m;
 }
 

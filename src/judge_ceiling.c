@@ -108,10 +108,10 @@ static bool ratio(guard_t *g, const guard_in_t *in) {
     g->ratio_now = g->ratio_usual = shown;
     return false;
   }
-  g->ratio_now += f_clamp(dt / RATIO_MEAN_S, 0.0f, 1.0f) * (shown - g->ratio_now);
+  g->ratio_now += f_min(dt / RATIO_MEAN_S, 1.0f) * (shown - g->ratio_now);
   const float now = g->ratio_now;
   const float over_s = now > g->ratio_usual ? RATIO_SLOW_S : RATIO_FAST_S;
-  g->ratio_usual += f_clamp(dt / over_s, 0.0f, 1.0f) * (now - g->ratio_usual);
+  g->ratio_usual += f_min(dt / over_s, 1.0f) * (now - g->ratio_usual);
   const bool high =
       now > RATIO_NEAR * g->ratio_usual && !g->acc_lost && in->zc_known && in->zc_m > RATIO_FAR_M;
   g->ratio_ms = judge_longer(g->ratio_ms, high, in->ms);

@@ -171,19 +171,38 @@ static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
   const float beyond_m = f_clamp(sp->pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
   const float climb_mps = p->kp_z_per_s * (limit_m - beyond_m - in->pos_w_m.z);
-  const float most_mps2 = f_clamp(p->kd_z_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2, p->acc_max_mps2);
+  const float most_mps2 = f_max(p->kd_z_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2);
   w.acc_mps2.z = f_min(w.acc_mps2.z, most_mps2);
   w.climb_mps = f_min(w.climb_mps, climb_mps);
   return w;
 }
 
-static APART pos_command_t fly(const outer_t *f, const outer_in_t *in, const sync_out_t *x, rbf_point_t at) {
-  const pos_indi_param_t *p = &f->param.pos;
+// What the increment is made of.
+typedef struct {
+  v3_t error_mps2; // of the acceleration
+  float dzc_m, most_N;
+} aim_t;
+
+// What carries more than it accelerates pushes against something, and does not push harder than ceil.push.
+static float most_N(const outer_t *f, float ratio, float climb_mps) {
+  const bool reaches = f->ceiling.known && f->ceiling.zc_m < OUTER_TOUCH_M && climb_mps > -OUTER_STILL_MPS;
+  if (!reaches || f->param.pos.law == LAW_THESIS) return f->param.step_max_N;
+  const float pushed_N = ratio * f->sample.thrust_N - f->sample.force_N;
+  return f_clamp((f->param.push_N - pushed_N) / ratio, 0.0f, f->param.step_max_N);
+}
+
+static APART aim_t aim(const outer_t *f, const outer_in_t *in, const sync_out_t *x, float ratio) {
   const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
   const wanted_t w = wanted(f, in, vel);
-  const float dzc_m = pos_indi_nearing_m(p, vel.z, w.climb_mps, f->lag_s);
-  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, v3_sub(w.acc_mps2, x->acc_w_mps2), dzc_m, at);
-  step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, f->param.step_max_N);
+  return (aim_t){.error_mps2 = v3_sub(w.acc_mps2, x->acc_w_mps2),
+                 .dzc_m = pos_indi_nearing_m(&f->param.pos, vel.z, w.climb_mps, f->lag_s),
+                 .most_N = most_N(f, ratio, vel.z)};
+}
+
+static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_t at, const aim_t *to) {
+  const pos_indi_param_t *p = &f->param.pos;
+  pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, to->error_mps2, to->dzc_m, at);
+  step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, to->most_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);
 }
 
@@ -206,7 +225,8 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   f->missed = 0;
   const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
   observe(f, x);
-  const pos_command_t command = fly(f, in, x, at);
+  const aim_t to = aim(f, in, x, at.ratio);
+  const pos_command_t command = fly(f, x, at, &to);
   f->at_limit = command.at_limit;
   f->out = (outer_out_t){
       .up_w = command.up_w,

@@ -13,11 +13,6 @@ v3_t pos_indi_wanted_acc(const pos_indi_param_t *p, const pos_setpoint_t *sp, v3
   return (v3_t){f_clamp(acc.x, -max, max), f_clamp(acc.y, -max, max), f_clamp(acc.z, -max, max)};
 }
 
-float pos_indi_nearing_m(const pos_indi_param_t *p, float climb_mps, float wanted_mps, float lag_s) {
-  if (p->law == LAW_THESIS) return -p->lead_s * climb_mps; // a climb shortens the distance
-  return -(lag_s * climb_mps + p->catch_s * (climb_mps - wanted_mps));
-}
-
 pos_step_t pos_indi_step(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, v3_t acc_error_w_mps2,
                          float dzc_m, rbf_point_t at) {
   const v3_t a = quat_to_body(q_wb, acc_error_w_mps2);

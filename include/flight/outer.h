@@ -40,6 +40,10 @@ typedef struct {
   float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
+// Where the top of the body may touch: it is 7 to 10 mm above the propellers, and the estimate is off by 3
+// mm. Farther off nothing holds the vehicle, and a wrong curve or mass that looks like a push costs nothing.
+#define OUTER_TOUCH_M    0.014f
+#define OUTER_STILL_MPS  0.03f  // what sinks faster pushes against nothing
 #define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
 #define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
 #define FLOOR_SHARE      0.5f   // of the weight that something else than the rotors carries: a floor

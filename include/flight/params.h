@@ -31,6 +31,7 @@ typedef struct {
   float step_max_N;    // bound of the thrust wanted minus what the motors give now
   float learn_after_s; // learning starts this long after the rotors began to carry
   float up_offset_m;   // propeller plane above the upward range sensor
+  float push_N;        // largest force against a ceiling that is touched
   float gap_min_m;     // set points are clipped to this below the ceiling
   float tilt_share;    // of the ceiling's torque about x and y that the inner loop takes out
   int32_t hold;        // hold_mode_t: how the ceiling's height is held
@@ -129,6 +130,8 @@ typedef struct {
   X(ceil, far, PARAM_FLOAT, ceiling.far_m, "m", 0.5f, 0.25f, 4.0f, "farther than this there is no ceiling")  \
   X(ceil, min, PARAM_FLOAT, gap_min_m, "m", 0.02f, 0.0f, 0.5f,                                               \
     "set points are clipped to this below the ceiling, heights beyond to 6 mm more")                         \
+  X(ceil, push, PARAM_FLOAT, push_N, "N", 0.05f, 0.0f, 1.0f,                                                 \
+    "law 1: largest force against a ceiling that is touched")                                                \
   X(ceil, hold, PARAM_INT, hold, "", 2, 0, 2, "ceiling's height: 1 latched beyond 20 cm, 2 mean of samples") \
   X(ceil, tilt, PARAM_FLOAT, tilt_share, "", 1.0f, 0.0f, 2.0f,                                               \
     "share of the ceiling's torque in roll and pitch that is taken out")                                     \

@@ -73,8 +73,13 @@ typedef struct {
 // acc_sp + kd (vel_sp + kp (pos_sp - pos) - vel), each axis within +-acc_max_mps2.
 v3_t pos_indi_wanted_acc(const pos_indi_param_t *p, const pos_setpoint_t *sp, v3_t pos_w_m, v3_t vel_w_mps);
 
-// dzc: at a climb of climb_mps where wanted_mps is wanted.
-float pos_indi_nearing_m(const pos_indi_param_t *p, float climb_mps, float wanted_mps, float lag_s);
+// dzc: at a climb of climb_mps where wanted_mps is wanted; a climb shortens the distance. In the header: the
+// call costs more than it does.
+static inline float pos_indi_nearing_m(const pos_indi_param_t *p, float climb_mps, float wanted_mps,
+                                       float lag_s) {
+  if (p->law == LAW_THESIS) return -p->lead_s * climb_mps;
+  return -(lag_s * climb_mps + p->catch_s * (climb_mps - wanted_mps));
+}
 
 // The increment that changes the acceleration by acc_error_w_mps2, from the filtered attitude q_wb and the
 // synchronous thrust_N, while the distance changes by dzc_m and the curve's value and slope are `at`

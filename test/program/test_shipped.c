@@ -42,6 +42,7 @@ static const struct {
     {"rls-sweep", VERTICAL, true, true},
     {"nearest-flight", " --set ceil.min=0.01 --set ceil.blindMax=120", false, true},
     {"test-flight", CLOSE, false, false},
+    {"touch-and-go", " --set ceil.min=0 --set ceil.blindMax=60", false, true},
     {"uneven-floor", "", false, false},
 };
 

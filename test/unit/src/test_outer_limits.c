@@ -139,3 +139,49 @@ TEST(outer_keeps_bias_and_ceiling_through_a_reset_of_the_height) {
     rig3_move(&v, &out);
   }
 }
+
+// By how much the thrust is raised below a ceiling at this gap, where a height beyond it is wanted, the
+// rotors give the weight and the accelerometer feels `felt` of it.
+static float raised_N(float gap_m, float felt, float climb_mps, int32_t law, float push_N) {
+  flight_param_t p = rig3_param();
+  p.pos.law = law;
+  p.push_N = push_N;
+  p.curve.mode = CURVE_OFF;
+  p.gap_min_m = 0.0f;
+  outer_t f;
+  CHECK_OK(outer_init(&f, &p, 0.01f));
+  rig3_t v = rig3_at(0, 0, 1.0 - (double)gap_m, RIG3_NO_CEILING);
+  outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 1.05f});
+  const float weight_N = p.pos.mass_kg * GRAVITY_MPS2;
+  in.thrust_N = weight_N;
+  in.acc_b_mps2 = (v3_t){0, 0, felt * GRAVITY_MPS2};
+  in.range_new = false;
+  (void)outer_step(&f, &in);
+  f.ceiling.known = true;
+  f.ceiling.zc_m = gap_m;
+  in.vel_w_mps.z = climb_mps;
+  in.pos_w_m.z += 0.01f * climb_mps;
+  return outer_step(&f, &in)->thrust_N - weight_N;
+}
+
+TEST(outer_pushes_against_a_ceiling_no_harder_than_it_is_told) {
+  static const struct {
+    const char *what;
+    float gap_m, felt, climb_mps;
+    int32_t law;
+    float push_N;
+    bool raises;
+  } row[] = {
+      {"pushes as hard as it may", 0.008f, 0.8f, 0.0f, LAW_PREDICTED, 0.05f, false},
+      {"may push harder", 0.008f, 0.8f, 0.0f, LAW_PREDICTED, 0.2f, true},
+      {"flies", 0.008f, 1.0f, 0.0f, LAW_PREDICTED, 0.05f, true},
+      {"cannot reach it", 0.016f, 0.8f, 0.0f, LAW_PREDICTED, 0.05f, true},
+      {"sinks", 0.008f, 0.8f, -0.04f, LAW_PREDICTED, 0.05f, true},
+      {"thesis's law", 0.008f, 0.8f, 0.0f, LAW_THESIS, 0.05f, true},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const float N = raised_N(row[i].gap_m, row[i].felt, row[i].climb_mps, row[i].law, row[i].push_N);
+    CHECK((N > 1e-3f) == row[i].raises);
+  }
+}

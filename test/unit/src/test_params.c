@@ -70,6 +70,7 @@ static const struct {
     {"ceil.kz", "s", 0.3f},
     {"ceil.catch", "s", 0.05f},
     {"ceil.hold", "", 2},
+    {"ceil.push", "N", 0.05f},
     {"ceil.zOn", "m", 0.1f},
     {"ceil.gain", "", 0.1f},
     {"ceil.near", "m", 0.05f},
@@ -99,7 +100,7 @@ TEST(params_that_the_outside_relies_on_are_there) {
   const flight_param_t p = defaults();
   for (int k = 0; k < RBF_N; k++) {
     ROW("w%d is the curve's", k + 1);
-    CHECK(p.curve.fixed.w[k] == RELIED_ON[19 + k].initial);
+    CHECK(p.curve.fixed.w[k] == RELIED_ON[20 + k].initial);
   }
 }
 

@@ -242,3 +242,20 @@ TEST(flights6_gate_keeps_the_ceiling_where_it_is) {
     result_free(&result);
   }
 }
+
+TEST(flights6_vehicle_that_pushes_against_a_ceiling_is_released_and_caught) {
+  // Orders: 20 cm, 6 cm, and three times beyond the ceiling and back. Pushing without a bound it winds up,
+  // and leans by 15 degrees or retreats.
+  const fly_kind_t kind = FLY_INDI_RBF;
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    ROW("seed %d", (int)seed);
+    cJSON *json = fly("touch-and-go", kind, SHIPPED, seed);
+    for (int i = 2; i < 8; i += 2) {
+      CHECK(of(json, "segments", i, "contacts") > 0.0);
+      CHECK(of(json, "segments", i, "min_gap_mm") < 10.0);
+      CHECK(of(json, "segments", i + 1, "overshoot_mm") < 50.0);
+      CHECK(of(json, "segments", i + 1, "rms_mm") < 20.0); // of all 5 s, the way down included
+    }
+    cJSON_Delete(json);
+  }
+}
