@@ -46,13 +46,13 @@ typedef struct {
 #endif
 
 // Gains: flown at 20 mm with lag +-30 %, 10 ms more delay, curve +-30 %, range 40 ms older, mass +-10 %, bias
-// 0.1 m/s2 and pairs of them. kdz 10, quick 4 or catch 0.1 touch or retreat in some corner, kdz 6 and quick 2
-// are a tenth noisier without any; kpz 1.5 to 3 is alike. kp and kd are lower than the height's: the flow is
-// too coarse to follow it more closely (14 cm of drift in a minute with any), and each degree of tilt costs
+// 0.1 m/s2 and pairs of them. quick 4 swings where motors 30 % faster meet 10 ms of delay (3.4 mm of rms in
+// place of 1.8), catch 0.1 touches at 16 mm there and with slow motors, kdz 10 at 15 mm; kdz 6 and quick 2
+// are noisier by a tenth. kpz 1.5 to 3 is alike. kp and kd are lower than the height's: the flow is too
+// coarse to follow it more closely (14 cm of drift in a minute with any), and each degree of tilt costs
 // height (0.5 4: 4 degrees at most; 1 5: 6). Shipped for the vehicle of the tables. Mass: hover with flow and
-// multiranger decks. tauMot: legacy propellers answer in 70 to 90 ms, those of the 2.1+ in 58; set too long
-// it costs nothing (58 set to 80: no touch at 2 cm), set too short it swings (96 set to 62.5: 5 of 40 flights
-// touch).
+// multiranger decks. tauMot: legacy propellers answer in 70 to 90 ms, those of the 2.1+ in 58; 96 set to 62.5
+// costs nothing at 20 mm (with the thesis's law 5 of 40 flights touched).
 #define PARAMS_INDIPOS(X)                                                                                    \
   X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 0.5f, 0.05f, 20.0f,                                       \
     "x, y: wanted velocity per position error")                                                              \
