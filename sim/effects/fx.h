@@ -189,7 +189,7 @@ typedef struct {
   const char *name;
   const char *brief;
   const char *fly; // the manoeuvre that shows it
-  // Where it shows: the coordinates along which it changes (gap/5_infer/unknown.h), none: any but time; and
+  // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h), none: any but time; and
   // the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does most.
   const char *over[2], *in;
   fx_apart_t apart[FX_APART_MAX]; // ends where there is no rival

@@ -13,8 +13,6 @@
 
 #define MOVED       0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
 #define TRIAL_SEED  1000 // other draws than the flights that count
-#define CELL_LEAST  6.5  // standard errors
-#define CELL_MARGIN 1.4  // over the largest of the nominal flights
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
                           why_t *why) {
@@ -76,11 +74,10 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
 
 static done_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
-  TRY(unknown_largest(&d->fit, &d->extended, d->residual, NULL, true, &d->cell, why));
-  double most = 0.0;
-  for (int i = 0; i < d->nominal.n; i++) most = fmax(most, d->nominal.cell[i]);
-  d->cell_bound = fmax(CELL_LEAST, CELL_MARGIN * most);
-  d->unknown = d->nominal_flew && d->cell.statistic > d->cell_bound;
+  scan_t scan;
+  TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
+  unknown_judge(&scan, d->nominal.scan, d->nominal.n, &d->left);
+  d->unknown = d->nominal_flew && d->left.cell.statistic > d->left.cell_bound;
   return DONE;
 }
 

@@ -26,9 +26,8 @@ typedef struct {
   closed_loop_t loop;
   chosen_t flown;    // what nominal flights had beside the model
   bool nominal_flew; // false: none could; then names need more evidence and nothing is unknown
-  double cell_bound; // of the statistic
-  cell_t cell;       // the largest
-  bool unknown;      // it is beyond the bound
+  judged_t left;     // what no name explains
+  bool unknown;      // it is beyond its bound
   held_t held_out;
   double *residual[CHANNELS]; // of the fitted flights, extended model
 } diagnosis_t;

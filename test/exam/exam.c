@@ -89,13 +89,13 @@ static void mark_names(exam_set_t *set, const diagnosis_t *d) {
 
 static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
   set->unknown = d->unknown;
-  set->cell = d->cell;
+  set->cell = d->left.cell;
   if (set->kind != EXAM_STRANGE || !d->unknown) return;
-  const char *at = set->strange.coordinate, *said = d->cell.coordinate;
+  const char *at = set->strange.coordinate, *said = d->left.cell.coordinate;
   const bool level = strcmp(at, "xy") == 0 && (strcmp(said, "x") == 0 || strcmp(said, "y") == 0);
   const bool high = strcmp(at, "height") == 0 && strcmp(said, "ceiling distance") == 0;
   const bool place = level || high || at[0] == '\0' || strcmp(at, said) == 0;
-  set->unknown_right = place && (set->strange.channels >> d->cell.channel & 1u);
+  set->unknown_right = place && (set->strange.channels >> d->left.cell.channel & 1u);
 }
 
 // What the verdict lists: effects whose typical size would not have been seen; and smallest sizes.

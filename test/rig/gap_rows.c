@@ -80,7 +80,7 @@ void gap_rows_free(gap_rows_t *g) {
     free(r[i]->follows);
   }
   free(g->nominal.total);
-  free(g->nominal.cell);
+  free(g->nominal.scan);
   free(g->nominal.kept);
   random_close(g->random);
 }
@@ -126,11 +126,11 @@ static double typical_of(const gap_rows_t *g, int column) {
 void gap_rows_nominal(gap_rows_t *g, int flights, double information, const double *b) {
   const int n = g->candidates.columns, size = n + 1;
   free(g->nominal.total);
-  free(g->nominal.cell);
+  free(g->nominal.scan);
   free(g->nominal.kept);
   g->nominal = (nominal_t){.n = flights, .size = size};
   g->nominal.total = room((size_t)(flights * size * size) + 1, sizeof(double));
-  g->nominal.cell = room((size_t)flights + 1, sizeof(double));
+  g->nominal.scan = room((size_t)flights + 1, sizeof(scan_t));
   g->nominal.kept = room((size_t)size, sizeof(double));
   for (int k = 0; k < size; k++) g->nominal.kept[k] = 1.0;
   for (int f = 0; f < flights; f++)

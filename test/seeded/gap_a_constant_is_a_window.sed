@@ -1,4 +1,4 @@
 # A constant over the whole flight lies at one place.
-# file: sim/gap/5_infer/unknown.c
+# file: sim/gap/5_infer/windows.c
 # test: gap_takes_a_constant
-s/centred ? cross \/ all : 0\.0;/centred \&\& cross < 0.0 ? cross \/ all : 0.0;/
+s/centred ? w->cross \/ all : 0\.0;/centred \&\& w->cross < 0.0 ? w->cross \/ all : 0.0;/

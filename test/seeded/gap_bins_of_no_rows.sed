@@ -1,4 +1,4 @@
 # The first bins of a coordinate hold hardly a row.
-# file: sim/gap/5_infer/unknown.c
+# file: sim/gap/5_infer/windows.c
 # test: gap_bins_hold
-s/k \* (n - 1) \/ UNKNOWN_BINS;/k * k * (n - 1) \/ UNKNOWN_BINS \/ UNKNOWN_BINS;/
+s/(double)k \* (n - 1) \/ bins/(double)k * k * (n - 1) \/ bins \/ bins/

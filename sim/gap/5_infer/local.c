@@ -123,7 +123,7 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
 #define WIDER        1.5  // standard errors grow by this: white rows are not quite independent
 
 typedef struct {
-  double ff[UNKNOWN_BINS], fy[UNKNOWN_BINS];
+  double ff[WINDOW_BINS], fy[WINDOW_BINS];
 } by_bin_t;
 
 typedef struct {
@@ -179,13 +179,13 @@ static bool absent(double ff_in, double fy_in, double ff_out, double fy_out) {
 
 static bool needed_in_a_part(const by_bin_t *s) {
   double ff = 0.0, fy = 0.0;
-  for (int i = 0; i < UNKNOWN_BINS; i++) {
+  for (int i = 0; i < WINDOW_BINS; i++) {
     ff += s->ff[i];
     fy += s->fy[i];
   }
-  for (int from = 0; from < UNKNOWN_BINS; from++) {
+  for (int from = 0; from < WINDOW_BINS; from++) {
     double own_ff = 0.0, own_fy = 0.0;
-    for (int to = from; to < UNKNOWN_BINS; to++) {
+    for (int to = from; to < WINDOW_BINS; to++) {
       own_ff += s->ff[to];
       own_fy += s->fy[to];
       if (absent(own_ff, own_fy, ff - own_ff, fy - own_fy) ||
@@ -206,7 +206,7 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
 
 // Sums over bins of time: of the name's contribution, and of what constants in each channel would give.
 typedef struct {
-  double ff[UNKNOWN_BINS], fy, wy[CH_SMOOTH][UNKNOWN_BINS], ww[CH_SMOOTH][UNKNOWN_BINS];
+  double ff[WINDOW_BINS], fy, wy[CH_SMOOTH][WINDOW_BINS], ww[CH_SMOOTH][WINDOW_BINS];
 } times_t;
 
 static void add_times(const round_t *round, const parts_t *p, const int *bin, times_t *s) {
@@ -239,10 +239,10 @@ static double by_constants(const times_t *s, int from, int to) {
 
 static bool at_times(const times_t *s) {
   double ff = 0.0;
-  for (int i = 0; i < UNKNOWN_BINS; i++) ff += s->ff[i];
-  for (int from = 0; ff > 0.0 && from < UNKNOWN_BINS; from++) {
+  for (int i = 0; i < WINDOW_BINS; i++) ff += s->ff[i];
+  for (int from = 0; ff > 0.0 && from < WINDOW_BINS; from++) {
     double inside = 0.0;
-    for (int to = from; to < UNKNOWN_BINS && to - from < UNKNOWN_BINS - BESIDE; to++) {
+    for (int to = from; to < WINDOW_BINS && to - from < WINDOW_BINS - BESIDE; to++) {
       inside += s->ff[to];
       if (inside > (1.0 - LEFT_OUTSIDE) * ff && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
         return true;
@@ -261,13 +261,13 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   const fx_t *const fx = round_fx(round, candidate);
   const bool curve =
       fx->surface || (fx->needs & FX_NEEDS_WALL); // of a distance: its shape is another question
-  for (int i = curve ? coordinate_count : 0; status == DONE && i < coordinate_count && !*is; i++)
+  for (int i = curve ? COORDINATES : 0; status == DONE && i < COORDINATES && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       by_bin_t s = {.ff = {0.0}};
       times_t at = {.fy = 0.0};
-      if (!unknown_bins(round->s, round->base, i, list, room, bin)) continue;
+      if (!windows_bins(round->s, round->base, i, list, room, bin)) continue;
       add_slopes(round, &p, list, bin, &s);
-      if (list == 0 && strcmp(coordinate_name(i), "time") == 0) add_times(round, &p, bin, &at);
+      if (list == 0 && i == COORDINATE_TIME) add_times(round, &p, bin, &at);
       *is = *is || needed_in_a_part(&s) || at_times(&at);
     }
   free(p.room);

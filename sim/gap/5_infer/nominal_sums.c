@@ -1,7 +1,6 @@
 // nominal_sums.c - what the workflow sees in flights in which nothing is hidden.
 #include "gap/5_infer/nominal_sums.h"
 
-#include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,7 +51,6 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
                         why_t *why) {
   design_t t;
   gram_t g;
-  cell_t cell;
   double *residual[CHANNELS];
   const explained_t nothing = {.n = 0};
   TRY(design_make(&t, s, job->base, job->c, job->chosen, why));
@@ -71,8 +69,7 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
     if (truth) status = find_errors(n, s, &t, g.color, truth, job, why);
     gram_free(&g);
   }
-  if (status == DONE) status = unknown_largest(s, job->base, residual, NULL, true, &cell, why);
-  if (status == DONE) n->cell[i] = cell.statistic;
+  if (status == DONE) status = unknown_scan(s, job->base, residual, &n->scan[i], why);
   design_free(&t);
   return status;
 }
@@ -103,10 +100,10 @@ static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
 done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   *n = (nominal_t){.size = job->c->columns + 1};
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
-  n->cell = calloc(NOMINAL_FLIGHTS, sizeof(double));
+  n->scan = calloc(NOMINAL_FLIGHTS, sizeof *n->scan);
   n->kept = malloc((size_t)n->size * sizeof(double));
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
-  done_t status = n->total && n->cell && n->kept ? DONE : error_failed(why, "out of memory");
+  done_t status = n->total && n->scan && n->kept ? DONE : error_failed(why, "out of memory");
   for (int i = 0; i < NOMINAL_FLIGHTS && status != FAILED; i++) status = one(n, i, job, why);
   for (int ch = 0; ch < CHANNELS && n->n; ch++) n->floor[ch] /= n->n;
   if (status == FAILED) nominal_free(n);
@@ -115,7 +112,7 @@ done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
 
 void nominal_free(nominal_t *n) {
   free(n->total);
-  free(n->cell);
+  free(n->scan);
   free(n->kept);
   *n = (nominal_t){.n = 0};
 }

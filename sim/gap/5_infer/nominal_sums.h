@@ -1,10 +1,10 @@
 // nominal_sums.h - what the inference takes of flights in which nothing is hidden: sums of products of the
-// candidates' columns, and the largest cell of what is left.
+// candidates' columns, and what is found in what is left.
 #ifndef SIM_GAP_5_INFER_NOMINAL_SUMS_H
 #define SIM_GAP_5_INFER_NOMINAL_SUMS_H
 
 #include "gap/3_feedback/nominal.h"
-#include "gap/5_infer/whiten.h"
+#include "gap/5_infer/unknown.h"
 
 #define NOMINAL_FLIGHTS 10
 
@@ -13,7 +13,7 @@ typedef struct {
   int n, size;
   int flown, lost;        // flights that could be flown, and that could not
   double *total;          // n matrices
-  double *cell;           // n numbers: the largest statistic of unknown.h
+  scan_t *scan;           // n: what looks without a name find (unknown.h)
   double *kept;           // by column: what is found of a size, because what it is multiplied by has errors
   double floor[CHANNELS]; // rms of a residual row
 } nominal_t;
@@ -31,7 +31,7 @@ typedef struct {
 } nominal_job_t;
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
-// candidates' columns with the residual, and the largest cell of each (unknown.h); of the first one, by
+// candidates' columns with the residual, and what looks find (unknown.h); of the first one, by
 // column x and without errors x', what least squares find of a size: x x' / x x. A flight that cannot be
 // flown is left out alone; n is 0 where none can. FAILED: no memory.
 MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);

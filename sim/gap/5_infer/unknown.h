@@ -1,24 +1,19 @@
-// unknown.h - where a residual is largest: by coordinate, range of it and channel.
+// unknown.h - what is left that no name explains: where it is, and whether flights in which nothing is hidden
+// show as much.
 //
-// Every coordinate is cut into bins that hold equally many rows. For a window of neighbouring bins the
-// statistic is the generalised least squares estimate of a constant inside it, over its standard error, with
-// the autoregression of the channel and a constant over all rows taken into account. Such a maximum means
-// something against the same maximum on nominal flights. The lateral force is looked at in the body's axes
-// and, level, in the world's.
+// A look is one way to look at a residual: along a coordinate, on patches of the floor (windows.h), for
+// pulses, for lines (in_time.h). Each channel is looked at in each way; the lateral force in the body's axes
+// and, level, in the world's. What feedback leaves differs from look to look by far more than chance: each is
+// measured against what the same look finds in nominal flights, and the one that explains most beyond that
+// tells.
 #ifndef SIM_GAP_5_INFER_UNKNOWN_H
 #define SIM_GAP_5_INFER_UNKNOWN_H
 
+#include "gap/2_predict/lines.h"
 #include "gap/5_infer/whiten.h"
+#include "gap/5_infer/windows.h"
 
-typedef struct {
-  int channel;
-  const char *coordinate, *unit; // of the coordinate
-  double from, to;               // of the coordinate
-  double size;                   // mean of the residual inside, in the channel's unit
-  double statistic;              // 0: nothing could be judged
-  bool last;                     // no row is beyond `to`
-  bool world; // force_x and force_y are along the world's x and y: it stays where the vehicle turns
-} cell_t;
+// --- the residual without what depends on anything --------------------------------------------------------
 
 // Takes out of a residual what depends on any one coordinate, or on several of them added: what is left is
 // noise. FAILED: no memory.
@@ -29,9 +24,9 @@ MUST_CHECK done_t unknown_clean(const set_t *s, const model_t *m, double *const 
 MUST_CHECK done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                  color_t color[CHANNELS], why_t *why);
 
-// color: of the residual after such cleaning, in the body's axes, which alone are then looked at; a null
-// pointer: they are formed, and the world's axes are looked at, too. FAILED: no memory. residual: by channel
-// and row.
+// --- the largest cell, along coordinates, in the body's axes ----------------------------------------------
+
+// color: of unknown_colors. residual: by channel and row. FAILED: no memory.
 MUST_CHECK done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                   const color_t *color, bool centred, cell_t *cell, why_t *why);
 
@@ -40,18 +35,35 @@ MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int coordinate
                                 double *const residual[CHANNELS], const color_t *color, cell_t *cell,
                                 why_t *why);
 
-#define UNKNOWN_BINS 12
+// --- all looks --------------------------------------------------------------------------------------------
 
-// The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
-// move. room: twice as many numbers as rows.
-bool unknown_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);
+enum { LOOK_FLOOR = COORDINATES, LOOK_PULSE, LOOK_LINE, UNKNOWN_LOOKS }; // those before: along a coordinate
 
-// Coordinates, for those who look where something lies.
-extern const int coordinate_count;
-const char *coordinate_name(int i);
-const char *coordinate_unit(int i);
-bool coordinate_is_place(int i); // or a time
-// NaN where the log has it not.
-double coordinate_of(int i, const grid_t *g, const model_t *m, int point);
+#define UNKNOWN_LEVEL 2 // channels that are looked at in the world's axes, too
+#define UNKNOWN_CELLS ((CHANNELS + UNKNOWN_LEVEL) * UNKNOWN_LOOKS)
+
+// The largest cell of each channel and look.
+typedef struct {
+  cell_t cell[UNKNOWN_CELLS];
+} scan_t;
+
+static inline int unknown_cell(int channel, int look, bool world) {
+  return (world ? CHANNELS + channel : channel) * UNKNOWN_LOOKS + look;
+}
+
+// FAILED: no memory.
+MUST_CHECK done_t unknown_scan(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                               scan_t *scan, why_t *why);
+// The largest statistic along any coordinate.
+double unknown_in_windows(const scan_t *scan);
+
+typedef struct {
+  double bound[UNKNOWN_CELLS]; // of the statistics: nominal flights do not come near
+  cell_t cell;                 // the one that explains most beyond what its bound would
+  double cell_bound;
+} judged_t;
+
+// nominal: n scans of flights in which nothing is hidden.
+void unknown_judge(const scan_t *log, const scan_t *nominal, int n, judged_t *to);
 
 #endif

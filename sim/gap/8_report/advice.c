@@ -37,11 +37,11 @@ static void advise_fly(report_t *r) {
       snprintf(r->advice[2], REPORT_TEXT, "fly: %.280s", r->finding[i].fly);
       return;
     }
-  const cell_t *const c = &r->study->diagnosis.cell;
+  const cell_t *const c = &r->study->diagnosis.left.cell;
   if (r->study->diagnosis.unknown) {
+    char where[REPORT_PLACE];
     snprintf(r->advice[2], REPORT_TEXT,
-             "fly: the same again with more time at %s %.3g to %.3g %s, and as much beside it", c->coordinate,
-             c->from, c->to, c->unit);
+             "fly: the same again with more time at %.200s, and as much beside it", report_place(c, where));
     return;
   }
   for (int i = 0; i < r->n_untested; i++)

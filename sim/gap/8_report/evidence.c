@@ -62,10 +62,10 @@ static bool is_wanted(const fx_t *fx, int coordinate) {
 // Of the coordinates that an effect depends on the one that tells most of it; else time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
-  const int channel = channel_of(r, f->fx->in, effect), time = report_coordinate("time");
+  const int channel = channel_of(r, f->fx->in, effect), time = COORDINATE_TIME;
   double most = -1.0;
-  for (int k = 0; k <= coordinate_count; k++) {
-    const bool last = k == coordinate_count;
+  for (int k = 0; k <= COORDINATES; k++) {
+    const bool last = k == COORDINATES;
     profile_t p = {.channel = channel, .coordinate = last ? time : k};
     if (last ? most >= 0.0 : !is_wanted(f->fx, k)) continue;
     const interval_t span = report_where(r, &p, effect[channel]);
@@ -130,8 +130,7 @@ done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));
-  const int coordinate = report_coordinate(d->cell.coordinate);
-  r->left = (profile_t){.channel = d->cell.channel, .coordinate = coordinate};
-  if (d->cell.statistic > 0.0 && coordinate >= 0) report_profile(r, NULL, NULL, NULL, &r->left);
+  r->left = (profile_t){.channel = d->left.cell.channel, .coordinate = d->left.cell.along};
+  if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE) report_profile(r, NULL, NULL, NULL, &r->left);
   return DONE;
 }

@@ -79,8 +79,8 @@ static double heading_deg(const set_t *s) {
 
 static void tell_motion(const report_t *r, double *room, char text[REPORT_LONG]) {
   interval_t span;
-  for (int i = 0; i < coordinate_count; i++) {
-    if (strcmp(coordinate_name(i), "time") == 0 || !span_of(r, i, room, &span)) continue;
+  for (int i = 0; i < COORDINATES; i++) {
+    if (i == COORDINATE_TIME || !span_of(r, i, room, &span)) continue;
     add(text, "%s%s %.3g to %.3g %s", text[0] ? ", " : "", coordinate_name(i), span.from, span.to,
         coordinate_unit(i));
   }
@@ -170,14 +170,14 @@ static double seen_ceiling_m(const report_t *r) {
 
 static done_t look_for_ceiling(report_t *r, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  const int height = report_coordinate("height");
+  const int height = COORDINATE_HEIGHT;
   color_t color[CHANNELS];
   cell_t cell;
   if (isfinite(r->study->vehicle.ceiling_m) || !d->nominal_flew || !residual_has(&d->fit, CH_FZ)) return DONE;
   TRY(unknown_colors(&d->fit, &d->extended, d->residual, color, why));
   for (int ch = 0; ch < CHANNELS; ch++) color[ch].used = color[ch].used && ch == CH_FZ;
   TRY(unknown_along(&d->fit, &d->extended, height, d->residual, color, &cell, why));
-  if (!(cell.statistic > d->cell_bound && cell.size > 0.0 && cell.last)) return DONE;
+  if (!(cell.statistic > d->left.bound[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last)) return DONE;
   const double at_m = seen_ceiling_m(r);
   r->ceiling_suspected = true;
   add(r->fitness[r->n_fitness++],

@@ -100,18 +100,21 @@ void page_finding(const finding_t *f, FILE *out) {
 
 void page_unknown(const report_t *r, FILE *out) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  const cell_t *const c = &d->cell;
+  const cell_t *const c = &d->left.cell;
   if (!(c->statistic > 0.0) || !d->nominal_flew || (!d->unknown && r->n_finding)) return;
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
   fprintf(out, "%+.3g &plusmn; %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
   page_text(out, "", gap_channel[c->channel], c->world ? " (the world's), at " : ", at ");
-  page_text(out, "", c->coordinate, "");
-  fprintf(out, " %.3g to %.3g ", c->from, c->to);
-  page_text(out, "", c->unit, "");
-  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>\n<figure>", c->statistic,
-          d->cell_bound, d->unknown ? "" : ": chance");
-  picture_place(&r->left, c->from, c->to, "the largest cell", out);
-  fputs("<figcaption>The held-out flights over that coordinate</figcaption></figure></section>\n", out);
+  char where[REPORT_PLACE];
+  page_text(out, "", report_place(c, where), "");
+  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic,
+          d->left.cell_bound, d->unknown ? "" : ": chance");
+  if (c->along != NOWHERE) {
+    fputs("\n<figure>", out);
+    picture_place(&r->left, c->from, c->to, "the largest cell", out);
+    fputs("<figcaption>The held-out flights over that coordinate</figcaption></figure>", out);
+  }
+  fputs("</section>\n", out);
 }

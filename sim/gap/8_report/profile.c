@@ -10,10 +10,11 @@
 #define OUTSIDE      0.01 // of the rows, on each side, that no range reaches to
 #define TAIL         0.05 // of the sum of squares on each side of `where`
 
-int report_coordinate(const char *name) {
-  for (int i = 0; i < coordinate_count; i++)
-    if (name && strcmp(coordinate_name(i), name) == 0) return i;
-  return -1;
+const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
+  const int n = snprintf(text, REPORT_PLACE, "%s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
+  if (c->is_patch)
+    snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
+  return text;
 }
 
 static double at(const report_t *r, int channel, int coordinate, int row) {

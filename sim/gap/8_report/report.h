@@ -94,8 +94,9 @@ void report_free(report_t *r);
 void report_profile(const report_t *r, const double *effect, const double *variance, const interval_t *near,
                     profile_t *p);
 
-// The coordinate of that name (unknown.h); -1: none, or a null pointer.
-int report_coordinate(const char *name);
+// Where a cell is: "height 0.4 to 0.6 m". Returns text.
+#define REPORT_PLACE 96
+const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
 // Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
 // how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
 interval_t report_where(const report_t *r, const profile_t *p, const double *effect);

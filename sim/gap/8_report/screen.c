@@ -160,16 +160,17 @@ static void print_verdict(const report_t *r, FILE *out) {
 }
 
 void report_words(const report_t *r, FILE *out) {
-  const cell_t *const c = &r->study->diagnosis.cell;
+  const cell_t *const c = &r->study->diagnosis.left.cell;
   for (int i = 0; i < r->n_fitness; i++) print_wrapped(r->fitness[i], out);
   if (r->n_fitness) fputc('\n', out);
   print_verdict(r, out);
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
   if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
+  char where[REPORT_PLACE];
   if (r->study->diagnosis.unknown)
-    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s %.3g to %.3g %s\n", c->size,
-            fabs(c->size) / c->statistic, gap_unit[c->channel], gap_channel[c->channel],
-            c->world ? " (the world's)" : "", c->coordinate, c->from, c->to, c->unit);
+    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s\n", c->size, fabs(c->size) / c->statistic,
+            gap_unit[c->channel], gap_channel[c->channel], c->world ? " (the world's)" : "",
+            report_place(c, where));
   print_gap(r, out);
   print_untested(r, out);
   for (int i = 0; i < r->n_warning && i < WARNINGS; i++)

@@ -82,7 +82,7 @@ standing_t report_standing(const report_t *r, const finding_t *f) {
   const int ch = f->profile.channel;
   const bool feedback = f->named->confirm.answer == CONFIRM_NO;
   if (f->named->n_rival || feedback) return STANDS_AMBIGUOUS;
-  const bool unexplained = d->unknown && d->cell.channel == ch;
+  const bool unexplained = d->unknown && d->left.cell.channel == ch;
   const left_over_t left = report_adequacy(r, ch);
   return unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN ? STANDS_LIKELY : STANDS_STRONG;
 }

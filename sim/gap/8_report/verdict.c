@@ -106,15 +106,19 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
     return;
   }
   cJSON *const o = cJSON_AddObjectToObject(root, "unknown");
-  cJSON_AddStringToObject(o, "channel", gap_channel[d->cell.channel]);
-  cJSON_AddStringToObject(o, "axes", d->cell.world ? "world" : "body");
-  cJSON_AddStringToObject(o, "coordinate", d->cell.coordinate);
-  add_number(o, "from", d->cell.from);
-  add_number(o, "to", d->cell.to);
-  add_number(o, "size", d->cell.size);
-  add_number(o, "stderr", fabs(d->cell.size) / d->cell.statistic);
-  // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s or s).
-  cJSON_AddStringToObject(o, "unit", gap_unit[d->cell.channel]);
+  cJSON_AddStringToObject(o, "channel", gap_channel[d->left.cell.channel]);
+  cJSON_AddStringToObject(o, "axes", d->left.cell.world ? "world" : "body");
+  cJSON_AddStringToObject(o, "coordinate", d->left.cell.coordinate);
+  add_number(o, "from", d->left.cell.from);
+  add_number(o, "to", d->left.cell.to);
+  if (d->left.cell.is_patch) {
+    add_number(o, "y_from", d->left.cell.y_from_m);
+    add_number(o, "y_to", d->left.cell.y_to_m);
+  }
+  add_number(o, "size", d->left.cell.size);
+  add_number(o, "stderr", fabs(d->left.cell.size) / d->left.cell.statistic);
+  // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
+  cJSON_AddStringToObject(o, "unit", gap_unit[d->left.cell.channel]);
 }
 
 static void add_gap(cJSON *root, const report_t *r) {

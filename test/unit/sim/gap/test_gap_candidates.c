@@ -97,7 +97,7 @@ TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
 }
 
 static bool is_coordinate(const char *name) {
-  for (int i = 0; i < coordinate_count; i++)
+  for (int i = 0; i < COORDINATES; i++)
     if (strcmp(coordinate_name(i), name) == 0) return true;
   return false;
 }

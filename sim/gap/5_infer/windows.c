@@ -1,0 +1,209 @@
+// windows.c - in which part of a coordinate, or of the floor, a residual is largest.
+#include "gap/5_infer/windows.h"
+
+#include "base/nth.h"
+#include <math.h>
+#include <string.h>
+
+#define FINE     36                // bins of equal width: a layer may be thin
+#define STRIPS   8                 // of the floor, each way
+#define MOST     6                 // strips of a patch
+#define BINS_MAX (STRIPS * STRIPS) // bins of any cut
+#define ROWS     4                 // of a bin, on the average, or nothing is said
+
+// --- bins -------------------------------------------------------------------------------------------------
+
+// Bins of equally many rows each, or of equal width.
+typedef enum { BY_ROWS, BY_WIDTH, CUTS } cut_t;
+
+// The bin of every row, and the edges (bins + 1). False: the coordinate is not there or does not move.
+static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *parted, int *bin,
+                     double *edge) {
+  for (int i = 0; i < n; i++) {
+    if (isnan(value[i])) return false;
+    parted[i] = value[i];
+  }
+  for (int k = 0, from = 0, at = 0; k <= bins; k++, from = at) {
+    at = (int)((double)k * (n - 1) / bins);
+    edge[k] = nth_smallest(parted + from, n - from, at - from);
+  }
+  if (!(edge[bins] - edge[0] > 1e-9)) return false;
+  // Of equal width between the outermost of them: a row far out has no bin of its own.
+  const double low = edge[1], high = edge[bins - 1];
+  for (int k = 1; cut == BY_WIDTH && k < bins; k++) edge[k] = low + (k - 1) * (high - low) / (bins - 2);
+  for (int i = 0; i < n; i++) {
+    int k = 0;
+    while (k < bins - 1 && value[i] >= edge[k + 1]) k++;
+    bin[i] = k;
+  }
+  return true;
+}
+
+// A list's rows: 0: smooth, 1: range.
+static const rows_t *rows_of(const set_t *s, int list) {
+  return list ? &s->range : &s->smooth;
+}
+
+static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
+                    double *room, int *bin, double *edge) {
+  const rows_t *r = rows_of(s, list);
+  if (r->n < ROWS * bins) return false;
+  for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
+  return cut_bins(room, r->n, bins, cut, room + r->n, bin, edge);
+}
+
+bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
+  double edge[WINDOW_BINS + 1];
+  return bins_of(s, m, coordinate, list, WINDOW_BINS, BY_ROWS, room, bin, edge);
+}
+
+// --- sums -------------------------------------------------------------------------------------------------
+
+// Products of indicator columns with each other and with the residual, all white.
+typedef struct {
+  int bins; // after them: a constant
+  double D[BINS_MAX + 1][BINS_MAX + 1], y[BINS_MAX + 1];
+} products_t;
+
+static void add_products(products_t *p, int bins, const rows_t *r, const color_t *c, const double *v,
+                         const int *bin) {
+  const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
+  const double constant = weight[0] + weight[1] + weight[2];
+  memset(p, 0, sizeof *p);
+  p->bins = bins;
+  for (int i = 2; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    const double white = weight[0] * v[i] + weight[1] * v[i - 1] + weight[2] * v[i - 2];
+    for (int a = 0; a < 3; a++) {
+      const int k = bin[i - a];
+      p->y[k] += weight[a] * white;
+      p->D[k][bins] += weight[a] * constant;
+      for (int b = 0; b < 3; b++) p->D[k][bin[i - b]] += weight[a] * weight[b];
+    }
+    p->y[bins] += constant * white;
+    p->D[bins][bins] += constant * constant;
+  }
+}
+
+// Sums over the bins of a window.
+typedef struct {
+  double y, own, cross;
+} inside_t;
+
+static void take_in(inside_t *w, const products_t *p, int k, const int *before, int n) {
+  w->y += p->y[k];
+  w->cross += p->D[k][p->bins];
+  w->own += p->D[k][k];
+  for (int i = 0; i < n; i++) w->own += 2.0 * p->D[before[i]][k];
+}
+
+// The estimate and its distance from zero. False: no row tells it from a constant.
+static bool judge(const products_t *p, bool centred, const inside_t *w, double *size, double *statistic) {
+  const double all = p->D[p->bins][p->bins];
+  if (!(all > 0.0)) return false;
+  const double share = centred ? w->cross / all : 0.0;
+  const double y = w->y - share * p->y[p->bins], own = w->own - share * w->cross;
+  if (!(own > 1e-3 * w->own)) return false;
+  *size = y / own;
+  *statistic = fabs(y) / sqrt(own);
+  return true;
+}
+
+// --- along one coordinate ---------------------------------------------------------------------------------
+
+static void try_windows(const products_t *p, bool centred, int channel, int coordinate, const double *edge,
+                        cell_t *cell) {
+  int in[BINS_MAX];
+  double size, statistic;
+  for (int from = 0; from < p->bins; from++) {
+    inside_t w = {0.0, 0.0, 0.0};
+    for (int to = from; to < p->bins && to < from + p->bins / 2; to++) {
+      take_in(&w, p, to, in, to - from);
+      in[to - from] = to;
+      if (!judge(p, centred, &w, &size, &statistic) || statistic <= cell->statistic) continue;
+      *cell = (cell_t){.channel = channel,
+                       .along = coordinate,
+                       .coordinate = coordinate_name(coordinate),
+                       .unit = coordinate_unit(coordinate),
+                       .from = edge[from],
+                       .to = edge[to + 1],
+                       .size = size,
+                       .statistic = statistic,
+                       .explained = statistic * statistic,
+                       .last = to + 1 == p->bins};
+    }
+  }
+}
+
+void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
+  products_t p;
+  double edge[BINS_MAX + 1];
+  for (int i = 0; i < 2 * CUTS; i++) {
+    const int list = i / CUTS;
+    const cut_t cut = (cut_t)(i % CUTS);
+    const int bins = cut == BY_ROWS ? WINDOW_BINS : FINE;
+    if (!bins_of(l->s, l->m, coordinate, list, bins, cut, l->room, l->bin, edge)) continue;
+    for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
+      if (!l->color[ch].used) continue;
+      add_products(&p, bins, rows_of(l->s, list), &l->color[ch], l->residual[ch], l->bin);
+      try_windows(&p, l->centred, ch, coordinate, edge, &cell[ch]);
+    }
+  }
+}
+
+// --- on the floor -----------------------------------------------------------------------------------------
+
+typedef struct {
+  int x, x_to, y, y_to; // strips, both ends inside
+} patch_t;
+
+static bool judge_patch(const products_t *p, bool centred, const patch_t *at, double *size,
+                        double *statistic) {
+  inside_t w = {0.0, 0.0, 0.0};
+  int in[BINS_MAX], n = 0;
+  for (int x = at->x; x <= at->x_to; x++)
+    for (int y = at->y; y <= at->y_to; y++) {
+      take_in(&w, p, x * STRIPS + y, in, n);
+      in[n++] = x * STRIPS + y;
+    }
+  return judge(p, centred, &w, size, statistic);
+}
+
+static void try_patches(const products_t *p, bool centred, int channel, const double x_edge[STRIPS + 1],
+                        const double y_edge[STRIPS + 1], cell_t *cell) {
+  double size, statistic;
+  for (patch_t at = {.x = 0}; at.x < STRIPS; at.x++)
+    for (at.y = 0; at.y < STRIPS; at.y++)
+      for (at.x_to = at.x; at.x_to < STRIPS && at.x_to < at.x + MOST; at.x_to++)
+        for (at.y_to = at.y; at.y_to < STRIPS && at.y_to < at.y + MOST; at.y_to++) {
+          if (!judge_patch(p, centred, &at, &size, &statistic) || statistic <= cell->statistic) continue;
+          *cell = (cell_t){.channel = channel,
+                           .along = COORDINATE_X,
+                           .coordinate = coordinate_name(COORDINATE_X),
+                           .unit = coordinate_unit(COORDINATE_X),
+                           .from = x_edge[at.x],
+                           .to = x_edge[at.x_to + 1],
+                           .size = size,
+                           .statistic = statistic,
+                           .explained = statistic * statistic,
+                           .last = at.x_to + 1 == STRIPS,
+                           .is_patch = true,
+                           .y_from_m = y_edge[at.y],
+                           .y_to_m = y_edge[at.y_to + 1]};
+        }
+}
+
+void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
+  products_t p;
+  double x_edge[STRIPS + 1], y_edge[STRIPS + 1];
+  const rows_t *const r = &l->s->smooth;
+  int *const y_bin = l->bin + r->n;
+  if (!bins_of(l->s, l->m, COORDINATE_X, 0, STRIPS, BY_ROWS, l->room, l->bin, x_edge)) return;
+  if (!bins_of(l->s, l->m, COORDINATE_Y, 0, STRIPS, BY_ROWS, l->room, y_bin, y_edge)) return;
+  for (int i = 0; i < r->n; i++) l->bin[i] = l->bin[i] * STRIPS + y_bin[i];
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    if (!l->color[ch].used) continue;
+    add_products(&p, STRIPS * STRIPS, r, &l->color[ch], l->residual[ch], l->bin);
+    try_patches(&p, l->centred, ch, x_edge, y_edge, &cell[ch]);
+  }
+}
