@@ -198,7 +198,6 @@ static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
                              ? evidence_of(&e, r->c, named->n_rival + 1, fx)
                              : (double)NAN;
   }
-  // DBG
   evidence_free(&e);
   return DONE;
 }
