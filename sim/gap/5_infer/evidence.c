@@ -29,7 +29,7 @@ static double set_log(const beam_t *b, const evidence_set_t *s) {
     for (int k = 0; k < c->n; k++) {
       column[n] = c->first + k;
       p[n] = 1.0 / (s->scale[i] * s->scale[i]);
-      positive[n++] = c->use.fx->size[k].sign > 0;
+      positive[n++] = c->least[k] >= 0.0;
     }
   }
   return evidence_log(&b->f, n, column, p, positive);
