@@ -111,6 +111,7 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   const bool other = moved(&d->found.chosen, &d->flown) || moved(&d->flown, &d->found.chosen);
   if (!refined && !other) return DONE;
   if (other) TRY(fly_with(job, d, &d->found.chosen, why));
+  TRY(shapes_alone(&d->candidates, &d->fit, job->model, &d->found, why));
   found_free(&d->found);
   return look_once(d, job->model, &refined, why);
 }

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MISFIT        0.02 // of what is typical: a right form with other numbers beside it
 #define MISFIT_BESIDE 0.25 // the same, of what control makes of a disturbance (fx->only_beside_nominal)
 #define LATE          0.15 // of the least lag or delay that is named
 #define SPREADS       200  // sweeps
@@ -130,7 +129,7 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : MISFIT;
+      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : EVIDENCE_MISFIT;
       p->wide[column] += misfit * misfit + late * late;
     }
   }

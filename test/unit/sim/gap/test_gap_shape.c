@@ -56,3 +56,17 @@ TEST(gap_leaves_the_number_of_a_rotor_a_number) {
   if (found) CHECK(found->p[0] == 3.0 && c->d.found.named[0].shape_stderr == 0.0);
   gap_case_free(c);
 }
+
+// Between the voltages that are tried: with one of those a constant is left, which looks like a thrust scale.
+TEST(gap_finds_the_voltage_of_which_a_thrust_map_is) {
+  fx_use_t hidden = fx_use(fx_find("battery_sag"));
+  hidden.p[0] = 1.2;
+  hidden.p[2] = 4.08;
+  gap_case_t *const c = diagnosed(&hidden);
+  const fx_use_t *const found = only_one(c, "battery_sag");
+  if (found) {
+    CHECK_NEAR(found->p[0], 1.2, 0.1);
+    CHECK_NEAR(found->p[2], 4.08, 0.02);
+  }
+  gap_case_free(c);
+}
