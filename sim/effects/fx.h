@@ -175,7 +175,8 @@ enum {
   FX_NEEDS_VOLTAGE = 1 << 4,  // of the battery
   FX_NEEDS_VELOCITY = 1 << 5,
   FX_NEEDS_ATTITUDE = 1 << 6,
-  FX_NEEDS_QUICK_LOG = 1 << 7, // commands as often as attitude control gives them
+  FX_NEEDS_ACCELERATION = 1 << 8, // logged, not made of the velocity
+  FX_NEEDS_QUICK_LOG = 1 << 7,    // commands as often as attitude control gives them
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
@@ -189,8 +190,9 @@ typedef struct {
   const char *name;
   const char *brief;
   const char *fly; // the manoeuvre that shows it
-  // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h), none: any but time; and
-  // the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does most.
+  // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h), none: any but time;
+  // and the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does
+  // most.
   const char *over[2], *in;
   fx_apart_t apart[FX_APART_MAX]; // ends where there is no rival
   int needs;                      // FX_NEEDS_*

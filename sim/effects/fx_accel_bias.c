@@ -12,6 +12,7 @@ const fx_t fx_accel_bias = {
     .over = {"time"},
     .apart = {{"imu_misalignment", "throttle steps of 20 %: a bias stays, the other grows with the thrust"},
               {"wind", "a full yaw turn on the spot: a bias turns with the body, wind does not"}},
+    .needs = FX_NEEDS_ACCELERATION,
     .n_size = 3,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}, {1, 0.01, 0, 0.0, FX_SAME}, {2, 0.01, 0, 0.0, FX_SAME}},
     .n_param = 3,

@@ -12,6 +12,7 @@ const fx_t fx_imu_misalignment = {
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"wind", "a full yaw turn on the spot: the sensor turns with the body, wind does not"}},
+    .needs = FX_NEEDS_ACCELERATION,
     .n_size = 2,
     .size = {{0, 1e-3, 0, 0.0, FX_SAME}, {1, 1e-3, 0, 0.0, FX_SAME}},
     .n_param = 2,

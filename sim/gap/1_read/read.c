@@ -151,15 +151,19 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
 
 // What the log lacks, and what that costs.
 static void note_missing(gap_flight_t *f) {
-  static const struct {
+  const struct {
     signals_t need;
     const char *what, *cost;
   } row[] = {
-      {SIGNALS(SIG_AX, SIG_AZ), "acceleration", "no force is compared"},
+      {SIGNALS(SIG_AX, SIG_AZ), "acceleration",
+       f->v[SIG_VX] && f->v[SIG_QW]
+           ? "that of the velocity stands in for it; its own errors are not looked for"
+           : "no force is compared"},
       {SIGNALS(SIG_GX, SIG_GZ), "rates", "no moment is compared"},
       {ATTITUDE_BITS, "attitude", "neither wind nor anything else in the world's axes is looked for"},
       {SIGNALS(SIG_VX, SIG_VZ), "velocity",
-       "no drag, flapping, inflow and translational lift are looked for"},
+       f->v[SIG_X] ? "that of the place stands in for it"
+                   : "no drag, flapping, inflow and translational lift are looked for"},
       {SIGNALS(SIG_X, SIG_Z), "place", "no ceiling, ground and wall are looked for"},
       {SIGNAL_BIT(SIG_VBAT), "voltage", "battery_sag is not looked for"},
   };

@@ -166,6 +166,39 @@ static void take_points(grid_t *g, const model_t *m, int to) {
   }
 }
 
+// The points before and after, of the same segment; at an end the point itself.
+static const grid_point_t *beside(const grid_t *g, int j, int way) {
+  const int other = j + way;
+  const bool there = other >= 0 && other < g->n && g->point[other].segment == g->point[j].segment;
+  return &g->point[there ? other : j];
+}
+
+static d3_t per_span(d3_t change, const grid_point_t *before, const grid_point_t *after) {
+  const double span_s = after->t_s - before->t_s;
+  return span_s > 0.0 ? d3_scale(1.0 / span_s, change) : d3(0.0, 0.0, 0.0);
+}
+
+// Where no velocity is logged: the way from the point before to the point after. Nothing is good beside a
+// place that is not known.
+static void make_velocity(grid_t *g) {
+  for (int j = 0; j < g->n; j++) {
+    const grid_point_t *const a = beside(g, j, -1), *const b = beside(g, j, 1);
+    g->point[j].vel_w_mps = per_span(d3_sub(b->pos_w_m, a->pos_w_m), a, b);
+    g->point[j].ok = g->point[j].ok && finite3(g->point[j].vel_w_mps);
+  }
+}
+
+// Where no acceleration is logged: likewise of the velocity, with gravity, in the body's axes.
+static void make_acceleration(grid_t *g) {
+  for (int j = 0; j < g->n; j++) {
+    const grid_point_t *const a = beside(g, j, -1), *const b = beside(g, j, 1);
+    const d3_t acc_w = per_span(d3_sub(b->vel_w_mps, a->vel_w_mps), a, b);
+    const axes_t axes = axes_of(g->point[j].q_wb);
+    g->point[j].acc_b_mps2 = axes_to_body(&axes, d3_add(acc_w, d3(0.0, 0.0, G_MPS2)));
+    g->point[j].ok = g->point[j].ok && finite3(g->point[j].acc_b_mps2);
+  }
+}
+
 done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
   *g = (grid_t){.flight = f, .from = from, .samples = to - from};
   g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
@@ -185,6 +218,12 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
     return error_failed(why, "out of memory");
   TRY(take_commands(g, m, to - from, why));
   take_points(g, m, to);
+  g->velocity_made = g->has_position && !g->has_velocity;
+  if (g->velocity_made) make_velocity(g);
+  g->acceleration_made = g->has_velocity && g->has_attitude && !g->has_force;
+  if (g->acceleration_made) make_acceleration(g);
+  g->has_velocity = g->has_velocity || g->velocity_made;
+  g->has_force = g->has_force || g->acceleration_made;
   set_points_judge(g);
   return DONE;
 }

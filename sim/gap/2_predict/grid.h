@@ -49,7 +49,8 @@ typedef struct {
   grid_point_t *point;
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
-  double *command_N[ROTORS];  // by sample, from `from`
+  bool velocity_made, acceleration_made; // of the place, of the velocity: they are not logged
+  double *command_N[ROTORS];             // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];
   int motors_used;

@@ -56,6 +56,7 @@ static double differentiated(const grid_t *g, const double *v, int j) {
   return (next - before) / (2.0 * g->period_s);
 }
 
+// The mean over the way from the point before to the point after: what a difference of the two sees.
 static double over_two(const grid_t *g, const double *v, int j) {
   const double next = g->mark[j] & MARK_LAST ? v[j] : v[j + 1];
   const double before = g->mark[j] & MARK_FIRST ? v[j] : v[j - 1];
@@ -68,7 +69,8 @@ static void take(const grid_t *g, int channel, series_t kind, const double *seri
   const int is_free = channel < CH_FORCES ? MARK_FREE : MARK_TURN_FREE;
   double last = 0.0;
   for (int j = 0; j < g->n; j++) {
-    const double x = channel < CH_FORCES        ? series[j]
+    const bool plain = channel < CH_FORCES && (kind == SERIES_RATE || !g->acceleration_made);
+    const double x = plain                      ? series[j]
                      : kind == SERIES_PREDICTED ? over_two(g, series, j)
                                                 : differentiated(g, series, j);
     if (isfinite(x) && (g->mark[j] & is_free)) last = x;

@@ -107,10 +107,11 @@ static spans_t of_two_axes(spans_t s) {
 void slow_errors(const grid_t *g, const white_error_t *white, slow_t *pos_m, slow_t *vel_mps,
                  slow_t *angle_rad) {
   spans_t s = {.n = 0};
-  if (g->has_position && g->has_velocity) s = misses(g, position, velocity);
+  const bool own = g->has_velocity && !g->velocity_made; // of its errors the place says nothing
+  if (g->has_position && own) s = misses(g, position, velocity);
   *pos_m = solve_axes(&s, g, white->pos_m, POS_MOST_M);
   s.n = 0;
-  if (g->has_velocity && g->has_force && g->has_attitude) s = misses(g, velocity, acc_w);
+  if (own && g->has_force && !g->acceleration_made && g->has_attitude) s = misses(g, velocity, acc_w);
   *vel_mps = solve_axes(&s, g, white->vel_mps, VEL_MOST_MPS);
   s.n = 0;
   if (g->has_attitude && g->has_rates) s = of_two_axes(misses(g, up_b, up_rate));

@@ -39,6 +39,7 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
       {FX_NEEDS_RANGE, residual_has(s, CH_RANGE), "the log has no range sensor's samples"},
       {FX_NEEDS_VOLTAGE, g->has_vbat, "the log has no battery voltage"},
       {FX_NEEDS_VELOCITY, g->has_velocity, "the log has no velocity"},
+      {FX_NEEDS_ACCELERATION, g->has_force && !g->acceleration_made, "the log has no acceleration"},
       {FX_NEEDS_ATTITUDE, g->has_attitude, "the log has no attitude"},
       {FX_NEEDS_QUICK_LOG, !candidates_slow(s),
        "the log is too slow: what commands did between two samples looks like it"},

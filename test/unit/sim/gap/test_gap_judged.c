@@ -4,6 +4,7 @@
 #include "rig/programs.h"
 #include "rig/test.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define GAP "gap --vehicle $S/room.toml --columns "
@@ -50,6 +51,35 @@ TEST(gap_names_from_rates_alone) {
             "$S/rates.toml $S/blind?.csv",
             STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "Missing in room.toml: cg_offset.\n") != NULL);
+}
+
+// The place's changes stand in for the velocity, the velocity's for the acceleration, whose own errors are
+// then not looked for.
+TEST(gap_makes_of_one_stream_what_the_log_lacks) {
+  static const struct {
+    const char *lacks, *effect;
+    double size;
+    const char *told;
+  } row[] = {{"v[xyz]", "rotor_drag", 4e-6, "without velocity that of the place stands in for it"},
+             {"a[xyz]", "rotor_drag", 4e-6, "without acceleration that of the velocity stands in for it"},
+             {"a[xyz]", "mass", 0.003, "without acceleration that of the velocity stands in for it"}};
+  char text[6000], line[400];
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s without %s", row[i].effect, row[i].lacks);
+    fx_use_t hidden = fx_use(fx_find(row[i].effect));
+    hidden.p[0] = row[i].size;
+    CHECK(gap_logs_fly("made", 3, &hidden));
+    snprintf(line, sizeof line,
+             "grep -vE '^%s\\b' tools/columns/fly.toml >$S/made.toml; " GAP
+             "$S/made.toml --out $S/made $S/made?.csv; grep -A1 accel_bias $S/made/verdict.json",
+             row[i].lacks);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK(strstr(text, "Missing in room.toml: ") && strstr(text, row[i].effect) < strstr(text, ".\n"));
+    CHECK((strstr(text, "the log has no acceleration") != NULL) == (row[i].lacks[0] == 'a'));
+    CHECK(program_run("grep -o 'without [a-z]* that [^\";]*' $S/made/verdict.json | head -1", STREAM_OUTPUT,
+                      text, sizeof text) == 0);
+    CHECK(strncmp(text, row[i].told, strlen(row[i].told)) == 0);
+  }
 }
 
 #define ODD_CONTROLLER                                                                                       \
