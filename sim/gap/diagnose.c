@@ -76,8 +76,8 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
   scan_t scan;
   TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
-  unknown_judge(&scan, d->nominal.scan, d->nominal.n, &d->left);
-  d->unknown = d->nominal_flew && d->left.cell.statistic > d->left.cell_bound;
+  unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
+  d->unknown = d->nominal_flew && d->left.found;
   return DONE;
 }
 

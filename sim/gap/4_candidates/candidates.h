@@ -14,6 +14,8 @@
 #include "gap/2_predict/predict.h"
 #include "gap/2_predict/residual.h"
 
+#define CANDIDATES_MISFIT 0.02 // of what is typical: a right form with other numbers beside it
+
 typedef struct {
   fx_use_t use; // with its shape; its sizes are 0
   bool in_file; // the vehicle file has it: its sizes are differences, shape and kind the file's

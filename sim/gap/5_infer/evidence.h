@@ -16,8 +16,7 @@
 
 #include "gap/5_infer/round.h"
 
-#define EVIDENCE_MISFIT 0.02      // of what is typical: a right form with other numbers beside it
-#define EVIDENCE_DEPTH  NAMED_MAX // effects of a set, at most
+#define EVIDENCE_DEPTH NAMED_MAX // effects of a set, at most
 
 typedef struct {
   int n, of[EVIDENCE_DEPTH];    // candidates, in their order

@@ -18,7 +18,8 @@ typedef struct {
 
 static double beyond_nominal(const round_t *r, double statistic) {
   double chance = 0.0;
-  for (int i = 0; r->nominal && i < r->nominal->n; i++) chance = fmax(chance, unknown_in_windows(&r->nominal->scan[i]));
+  for (int i = 0; r->nominal && i < r->nominal->n; i++)
+    chance = fmax(chance, unknown_in_windows(&r->nominal->scan[i]));
   return sqrt(fmax(statistic * statistic - chance * chance, 0.0));
 }
 

@@ -11,6 +11,7 @@
 
 #define SHORTEST 2  // rows of a pulse: what the rows' filter leaves of one
 #define LONGEST  16 // longer ones are windows of time
+#define SETTLED  25 // rows of a flight or after a gap: estimators and pilots begin there
 
 // White weights of a pulse of so many rows, from its first row on: those of the rows between are all alike.
 typedef struct {
@@ -35,10 +36,10 @@ typedef struct {
 } pulses_t;
 
 // Row `from` and all rows to two behind the pulse reach back without a gap.
-static bool unbroken(const rows_t *r, int from, int rows, int *good_to) {
-  if (*good_to < from) *good_to = from;
+static bool unbroken(const rows_t *r, int from, int rows, int *good_to, int *began) {
+  if (*good_to < from) *good_to = *began = from;
   while (*good_to < r->n && *good_to < from + rows + 2 && color_reaches(r, *good_to)) ++*good_to;
-  return *good_to >= from + rows + 2;
+  return *good_to >= from + rows + 2 && from >= *began + SETTLED;
 }
 
 // Of statistics at successive rows: what pulses of one size explain, at all peaks of the largest's sign that
@@ -63,10 +64,10 @@ static double alike_squares(const double *found, int n, double largest, int rows
 static bool largest_pulse(const pulses_t *w, const pulse_t *p, int rows, int *at, double *largest,
                           double *alike, double *scatter) {
   const double *const e = w->white;
-  int n = 0, good_to = 0;
+  int n = 0, good_to = 0, began = 0;
   *largest = 0.0;
   for (int i = 2; i + rows + 2 <= w->r->n; i++) {
-    if (!unbroken(w->r, i, rows, &good_to)) continue;
+    if (!unbroken(w->r, i, rows, &good_to, &began)) continue;
     double y = p->first * e[i] + p->second * e[i + 1] + p->after * e[i + rows] + p->last * e[i + rows + 1];
     for (int k = 2; k < rows; k++) y += p->inner * e[i + k];
     y /= sqrt(p->energy);

@@ -129,7 +129,7 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : EVIDENCE_MISFIT;
+      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : CANDIDATES_MISFIT;
       p->wide[column] += misfit * misfit + late * late;
     }
   }

@@ -47,6 +47,19 @@ static done_t find_errors(nominal_t *n, const set_t *seen, const design_t *t, co
   return status;
 }
 
+static void find_misfit(nominal_t *n, const set_t *s, const design_t *t, const candidates_t *c) {
+  for (int i = 0; i < c->n; i++)
+    for (int q = 0; q < c->candidate[i].n * CHANNELS; q++) {
+      const int ch = q % CHANNELS, k = q / CHANNELS, rows = set_rows(s, ch)->n;
+      const double *const x = t->x[ch][c->candidate[i].first + k];
+      double sum = 0.0;
+      for (int r = 0; x && r < rows; r++) sum += x[r] * x[r];
+      if (sum > 0.0)
+        n->misfit[ch] =
+            fmax(n->misfit[ch], CANDIDATES_MISFIT * c->candidate[i].typical[k] * sqrt(sum / rows));
+    }
+}
+
 static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
                         why_t *why) {
   design_t t;
@@ -62,6 +75,7 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
     n->floor[ch] += rows ? sqrt(sum / rows) : 0.0;
   }
+  if (i == 0) find_misfit(n, s, &t, job->c);
   done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
   if (status == DONE) {
     memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,

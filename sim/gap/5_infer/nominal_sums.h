@@ -11,11 +11,12 @@
 // Sums of products of nominal flights, one matrix each, with the columns of the candidates.
 typedef struct {
   int n, size;
-  int flown, lost;        // flights that could be flown, and that could not
-  double *total;          // n matrices
-  scan_t *scan;           // n: what looks without a name find (unknown.h)
-  double *kept;           // by column: what is found of a size, because what it is multiplied by has errors
-  double floor[CHANNELS]; // rms of a residual row
+  int flown, lost;         // flights that could be flown, and that could not
+  double *total;           // n matrices
+  scan_t *scan;            // n: what looks without a name find (unknown.h)
+  double *kept;            // by column: what is found of a size, because what it is multiplied by has errors
+  double floor[CHANNELS];  // rms of a residual row
+  double misfit[CHANNELS]; // of the effect that is largest there at its typical size, rms
 } nominal_t;
 
 // What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every

@@ -1,8 +1,6 @@
 // shape.c - the shapes of what is named, between the values that were tried.
 #include "gap/5_infer/shape.h"
 
-#include "gap/5_infer/evidence.h"
-
 #include "base/lsq_blocks.h"
 #include "gap/2_predict/lines.h"
 #include <math.h>
@@ -205,7 +203,7 @@ static done_t shape_alone(candidates_t *c, set_t *s, const model_t *base, found_
     chosen_t rest = found->chosen;
     chosen_drop(&rest, other);
     TRY(least_left(c, which, &rest, &like, &alone, why));
-    const double misfit = EVIDENCE_MISFIT * EVIDENCE_MISFIT * (alone.without - alone.left);
+    const double misfit = CANDIDATES_MISFIT * CANDIDATES_MISFIT * (alone.without - alone.left);
     if (all.left < alone.left * (1.0 - SELECT_GAIN) - misfit) continue;
     own->use.p[own->use.fx->shape_param] = alone.shape;
     break;

@@ -219,20 +219,54 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
   return sqrt(squares / flights);
 }
 
-void unknown_judge(const scan_t *log, const scan_t *nominal, int n, judged_t *to) {
+// With a misfit beside the standard error.
+static double beside_misfit(const cell_t *c, const double misfit[CHANNELS]) {
+  const double share = c->size != 0.0 ? misfit[c->channel] * c->statistic / c->size : 0.0;
+  return c->statistic / sqrt(1.0 + share * share);
+}
+
+// What lies at a place stays there; what begins at the same time in every flight is rarer, and a state is
+// mostly where the vehicle happened to be in it.
+static int rank_of(int along) {
+  return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
+}
+
+// Of those that explain as much but for a tenth: which is told first, and another one.
+static void weigh_ties(const scan_t *log, judged_t *to) {
+  const cell_t best = to->cell;
+  double most = 0.0;
+  for (int k = 0; k < UNKNOWN_CELLS; k++) {
+    const cell_t *const c = &log->cell[k];
+    const bool same = c->channel == best.channel && c->world == best.world && c->along != best.along;
+    if (!same || !(c->statistic > to->bound[k]) || !(c->explained > fmax(most, 0.9 * best.explained)))
+      continue;
+    most = c->explained;
+    to->also = *c;
+    to->cell = best;
+    if (rank_of(c->along) >= rank_of(best.along)) continue;
+    to->cell = *c;
+    to->cell_bound = to->bound[k];
+    to->also = best;
+  }
+}
+
+void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
+                   judged_t *to) {
   double furthest = 1.0, most = -HUGE_VAL;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
       furthest = fmax(furthest, nominal[i].cell[k].statistic / usual(nominal, n, i, k));
-  *to = (judged_t){.cell = {.statistic = 0.0}};
+  *to = (judged_t){.found = false};
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     to->bound[k] = fmax(LEAST, MARGIN * furthest * usual(nominal, n, -1, k));
     const cell_t *const c = &log->cell[k];
     if (!(c->statistic > 0.0)) continue;
-    const double beyond = c->explained * (1.0 - pow(to->bound[k] / c->statistic, 2.0));
+    const double beyond = c->explained * (1.0 - pow(to->bound[k] / beside_misfit(c, misfit), 2.0));
     if (!(beyond > most)) continue;
     most = beyond;
     to->cell = *c;
     to->cell_bound = to->bound[k];
   }
+  to->found = most > 0.0;
+  if (to->found) weigh_ties(log, to);
 }

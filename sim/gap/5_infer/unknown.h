@@ -61,9 +61,14 @@ typedef struct {
   double bound[UNKNOWN_CELLS]; // of the statistics: nominal flights do not come near
   cell_t cell;                 // the one that explains most beyond what its bound would
   double cell_bound;
+  bool found;  // it is beyond its bound
+  cell_t also; // of the same channel, along something else, explains as much but for a tenth; statistic 0:
+               // none 0: none
 } judged_t;
 
-// nominal: n scans of flights in which nothing is hidden.
-void unknown_judge(const scan_t *log, const scan_t *nominal, int n, judged_t *to);
+// nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves: no
+// size below it counts.
+void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
+                   judged_t *to);
 
 #endif

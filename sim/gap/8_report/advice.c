@@ -40,8 +40,8 @@ static void advise_fly(report_t *r) {
   const cell_t *const c = &r->study->diagnosis.left.cell;
   if (r->study->diagnosis.unknown) {
     char where[REPORT_PLACE];
-    snprintf(r->advice[2], REPORT_TEXT,
-             "fly: the same again with more time at %.200s, and as much beside it", report_place(c, where));
+    snprintf(r->advice[2], REPORT_TEXT, "fly: the same again with more time at %.200s, and as much beside it",
+             report_place(c, where));
     return;
   }
   for (int i = 0; i < r->n_untested; i++)

@@ -131,6 +131,7 @@ done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   order_by_share(r, &d->found);
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));
   r->left = (profile_t){.channel = d->left.cell.channel, .coordinate = d->left.cell.along};
-  if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE) report_profile(r, NULL, NULL, NULL, &r->left);
+  if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE)
+    report_profile(r, NULL, NULL, NULL, &r->left);
   return DONE;
 }

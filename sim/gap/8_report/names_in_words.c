@@ -109,8 +109,10 @@ void page_unknown(const report_t *r, FILE *out) {
   page_text(out, "", gap_channel[c->channel], c->world ? " (the world's), at " : ", at ");
   char where[REPORT_PLACE];
   page_text(out, "", report_place(c, where), "");
-  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic,
-          d->left.cell_bound, d->unknown ? "" : ": chance");
+  if (d->left.also.statistic > 0.0)
+    page_text(out, ", or at ", report_place(&d->left.also, where), " as well");
+  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
+          d->unknown ? "" : ": chance");
   if (c->along != NOWHERE) {
     fputs("\n<figure>", out);
     picture_place(&r->left, c->from, c->to, "the largest cell", out);

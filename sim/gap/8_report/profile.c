@@ -12,8 +12,7 @@
 
 const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
   const int n = snprintf(text, REPORT_PLACE, "%s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
-  if (c->is_patch)
-    snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
+  if (c->is_patch) snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
   return text;
 }
 

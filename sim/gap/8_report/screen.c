@@ -167,10 +167,14 @@ void report_words(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
   if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
   char where[REPORT_PLACE];
-  if (r->study->diagnosis.unknown)
-    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s\n", c->size, fabs(c->size) / c->statistic,
+  if (r->study->diagnosis.unknown) {
+    const cell_t *const also = &r->study->diagnosis.left.also;
+    fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s", c->size, fabs(c->size) / c->statistic,
             gap_unit[c->channel], gap_channel[c->channel], c->world ? " (the world's)" : "",
             report_place(c, where));
+    if (also->statistic > 0.0) fprintf(out, "; it could be at %s as well", report_place(also, where));
+    fputc('\n', out);
+  }
   print_gap(r, out);
   print_untested(r, out);
   for (int i = 0; i < r->n_warning && i < WARNINGS; i++)

@@ -117,6 +117,12 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   }
   add_number(o, "size", d->left.cell.size);
   add_number(o, "stderr", fabs(d->left.cell.size) / d->left.cell.statistic);
+  if (d->left.also.statistic > 0.0) {
+    cJSON *const also = cJSON_AddObjectToObject(o, "also"); // explains as much but for a tenth
+    cJSON_AddStringToObject(also, "coordinate", d->left.also.coordinate);
+    add_number(also, "from", d->left.also.from);
+    add_number(also, "to", d->left.also.to);
+  }
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[d->left.cell.channel]);
 }

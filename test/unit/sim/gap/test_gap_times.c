@@ -29,7 +29,9 @@ TEST(gap_gives_no_name_to_what_begins_in_flight) {
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
     CHECK(strstr(text, "Something is missing in own.toml that cannot be named.\n") != NULL);
     const char *const unknown = strstr(text, "\nunknown: ");
-    CHECK(unknown && strstr(unknown, "force_z,") && strstr(unknown, row[i].seen_in));
+    // A weak motor is seen in yaw as well; what falls with time falls with the voltage.
+    CHECK(unknown && (strstr(unknown, "force_z,") || strstr(unknown, "turn_z,")) &&
+          strstr(unknown, row[i].seen_in));
   }
 }
 

@@ -21,7 +21,7 @@ static cell_t largest(gap_rows_t *g) {
   judged_t judged;
   why_t why;
   CHECK_OK(unknown_scan(&g->set, &g->model, g->residual, &scan, &why));
-  unknown_judge(&scan, NULL, 0, &judged);
+  unknown_judge(&scan, NULL, 0, (const double[CHANNELS]){0.0}, &judged);
   return judged.cell;
 }
 
@@ -79,8 +79,8 @@ TEST(gap_finds_a_layer_whose_push_stays_while_the_vehicle_turns) {
   gap_rows_free(&g);
 }
 
-// A corner of the floor; three pulses; a line. Each is found by the look that is made for it, and noise alone by
-// none.
+// A corner of the floor; three pulses; a line. Each is found by the look that is made for it, and noise alone
+// by none.
 typedef enum { A_CORNER, PULSES, A_SHAKE } lie_t;
 
 static double lies(lie_t what, const grid_point_t *p) {
@@ -126,6 +126,7 @@ TEST(gap_finds_a_corner_a_pulse_and_a_shake) {
 // Nominal flights in which one look finds much say nothing against another look.
 TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
   static scan_t log, nominal[5];
+  const double misfit[CHANNELS] = {[CH_FZ] = 0.02};
   judged_t judged;
   const int shaken = unknown_cell(CH_WX, COORDINATE_VEL_Z, false),
             quiet = unknown_cell(CH_FZ, COORDINATE_HEIGHT, false);
@@ -134,15 +135,32 @@ TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
       nominal[i].cell[k].statistic = k == shaken ? 40.0 + i : 3.0 + 0.2 * i;
   for (int k = 0; k < UNKNOWN_CELLS; k++) log.cell[k] = (cell_t){.statistic = 3.5, .explained = 12.0};
   log.cell[shaken] = (cell_t){.channel = CH_WX, .statistic = 45.0, .explained = 2000.0};
-  unknown_judge(&log, nominal, 5, &judged);
-  CHECK(judged.cell.statistic < judged.cell_bound);
-  log.cell[quiet] = (cell_t){.channel = CH_FZ, .statistic = 12.0, .explained = 144.0};
-  unknown_judge(&log, nominal, 5, &judged);
-  CHECK(judged.cell.channel == CH_FZ && judged.cell.statistic > judged.cell_bound);
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(!judged.found);
+  log.cell[quiet] = (cell_t){.channel = CH_FZ, .size = 0.5, .statistic = 12.0, .explained = 144.0};
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(judged.found && judged.cell.channel == CH_FZ && judged.also.statistic == 0.0);
+  // Along something else as much but for a tenth: it is told, too, and a place first.
+  const int timed = unknown_cell(CH_FZ, COORDINATE_TIME, false);
+  log.cell[quiet].along = COORDINATE_HEIGHT;
+  log.cell[timed] = (cell_t){
+      .channel = CH_FZ, .along = COORDINATE_TIME, .size = 0.5, .statistic = 12.2, .explained = 149.0};
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(judged.found && judged.cell.along == COORDINATE_HEIGHT && judged.also.along == COORDINATE_TIME);
+  log.cell[quiet].explained = 120.0;
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(judged.found && judged.cell.along == COORDINATE_TIME && judged.also.statistic == 0.0);
+  log.cell[quiet].explained = 144.0;
+  log.cell[timed].statistic = 3.0;
+  // No size below what a right model leaves counts, however sure.
+  log.cell[quiet].size = 0.02;
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(!judged.found);
+  log.cell[quiet].size = 0.5;
   // As much as that in one of five nominal flights, and it is chance.
   nominal[3].cell[quiet].statistic = 12.0;
-  unknown_judge(&log, nominal, 5, &judged);
-  CHECK(judged.cell.statistic < judged.cell_bound);
+  unknown_judge(&log, nominal, 5, misfit, &judged);
+  CHECK(!judged.found);
 }
 
 // A constant is no window; it is one where nothing is taken for known.
@@ -169,7 +187,7 @@ TEST(gap_bins_hold_equally_many_rows_each) {
   CHECK(windows_bins(&g.set, &g.model, COORDINATE_HEIGHT, 0, room, bin));
   for (int i = 0; i < GAP_ROWS; i++) count[bin[i]]++;
   for (int k = 0; k < WINDOW_BINS; k++) CHECK_NEAR(count[k], GAP_ROWS / WINDOW_BINS, 2);
-  CHECK(!windows_bins(&g.set, &g.model, COORDINATE_Y, 0, room, bin)); // it does not move
+  CHECK(!windows_bins(&g.set, &g.model, COORDINATE_Y, 0, room, bin));      // it does not move
   CHECK(!windows_bins(&g.set, &g.model, COORDINATE_HEIGHT, 1, room, bin)); // no row
   gap_rows_free(&g);
 }
