@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOVED       0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
-#define TRIAL_SEED  1000 // other draws than the flights that count
+#define MOVED      0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
+#define TRIAL_SEED 1000 // other draws than the flights that count
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
                           why_t *why) {
