@@ -150,8 +150,9 @@ TEST(gap_reads_a_usd_log_as_the_same_flight_and_holds_out_what_it_is_told) {
 
 TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   char text[4000];
-  CHECK(gap_logs_fly("n", 1, NULL));
-  CHECK(program_run(GAP "--json $S/none.json $S/n0.csv", STREAM_OUTPUT, text, sizeof text) == 0);
+  // The first flight of the rig leaves twice its floor in turn_y, a little more or less by the compiler.
+  CHECK(gap_logs_fly("n", 2, NULL));
+  CHECK(program_run(GAP "--json $S/none.json $S/n1.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "Nothing is missing in room.toml that these flights could show.\n") != NULL);
   CHECK(strstr(text, "held out: the last third of the flight\n") != NULL);
   cJSON *const v = verdict_read("none.json");
