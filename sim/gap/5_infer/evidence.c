@@ -187,5 +187,5 @@ double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t
       for (int m = 0; m < n; m++) has = has || c->candidate[e->set[i].of[k]].use.fx == fx[m];
     sum += has ? e->set[i].share : 0.0;
   }
-  return sum;
+  return fmin(sum, 1.0); // the shares' rounding adds up
 }

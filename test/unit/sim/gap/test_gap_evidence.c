@@ -152,6 +152,14 @@ TEST(gap_evidence_of_alike_effects_is_shared) {
   gap_rows_free(&g);
 }
 
+TEST(gap_evidence_is_never_more_than_sure) {
+  candidate_t candidate = {.use.fx = fx_find("rotor_drag")};
+  const candidates_t c = {.n = 1, .candidate = &candidate};
+  evidence_set_t set[2] = {{.n = 1, .share = 0.5}, {.n = 1, .share = 0.5 + 1e-15}};
+  const evidence_t e = {2, set};
+  CHECK(evidence_of(&e, &c, 1, &(const fx_t *const){candidate.use.fx}) == 1.0);
+}
+
 // What feedback alone makes as much of is no evidence, however far it is from noise.
 TEST(gap_evidence_does_not_speak_for_what_feedback_makes) {
   static const struct {
