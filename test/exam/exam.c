@@ -72,6 +72,9 @@ static void mark_names(exam_set_t *set, const diagnosis_t *d) {
   for (int i = 0; i < d->found.n; i++) {
     const named_t *named = &d->found.named[i];
     const char *name = found_use(&d->found, named)->fx->name;
+    bool right = is_hidden(set, name);
+    for (int q = 0; q < named->n_rival; q++) right = right || is_hidden(set, named->rival[q]->name);
+    reliability_add(&set->stated, named->probability, right);
     if (is_hidden(set, name))
       set->found++;
     else

@@ -3,6 +3,7 @@
 #define TEST_EXAM_EXAM_H
 
 #include "exam/flights.h"
+#include "exam/reliability.h"
 #include "exam/truth.h"
 #include "gap/diagnose.h"
 
@@ -29,9 +30,10 @@ typedef struct {
   double times[2];
   strange_t strange;
   // marks
-  int found, wrong;   // of the hidden ones; names that are none of them
-  bool exact;         // every hidden one, and nothing else
-  bool rival_held[2]; // found, or among the rivals of a name
+  int found, wrong;     // of the hidden ones; names that are none of them
+  bool exact;           // every hidden one, and nothing else
+  bool rival_held[2];   // found, or among the rivals of a name
+  reliability_t stated; // of the names: right if it, or a rival that is told, is hidden
   bool unknown, unknown_right;
   cell_t cell;            // of what has no name
   double least[2];        // smallest size told, over the exam's typical one

@@ -62,6 +62,7 @@ typedef struct {
   rate_t alarm, band[4], two, two_large, rival, strange, located, hover, hover_says, large, large_own,
       unknown_wrong;
   rate_t recall, precision, hover_recall, values, promise, too_large;
+  reliability_t stated;
   double after, oracle;
   int shrunk, no_rows, drawn_again;
 } marks_t;
@@ -83,6 +84,7 @@ static void add(marks_t *m, const exam_set_t *s) {
   m->drawn_again += s->drawn_again;
   if (!s->flew) return;
   for (int i = 0; i < s->n_value; i++) count(&m->values, exam_holds(&s->value[i]));
+  reliability_join(&m->stated, &s->stated);
   add_told(m, s);
   if (s->kind == EXAM_NOTHING) count(&m->alarm, s->wrong > 0);
   if (s->kind == EXAM_NOTHING) count(&m->unknown_wrong, s->unknown);
@@ -136,6 +138,8 @@ static void print_marks(const marks_t *m) {
   printf("held-out sum of squares, after / with the truth (goal: 1.05)   %.3f / %.3f = %.3f\n", m->after / n,
          m->oracle / n, m->oracle > 0.0 ? m->after / m->oracle : 0.0);
   printf("  left out of it, because the held-out flight has no row to compare: %d\n", m->no_rows);
+  printf("names of all sets, by the probability stated; right: it, or a rival that is told, was hidden\n");
+  reliability_print(&m->stated, stdout);
 }
 
 int main(int argc, char **argv) {

@@ -44,7 +44,8 @@ TEST(an_answer_to_users_logs_is_marked_by_names_families_and_rivals) {
     users_mark(&set, verdict);
     CHECK(set.right == row[i].right && set.beside == row[i].beside && set.wrong == row[i].wrong);
     CHECK(users_exact(&set) == row[i].exact);
-    CHECK(set.sure == set.names && set.sure_right == set.right + set.beside);
+    CHECK(set.stated.bin[RELIABILITY_SURE].of == set.names &&
+          set.stated.bin[RELIABILITY_SURE].right == set.right + set.beside);
     cJSON_Delete(verdict);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "exam/other/flight.h"
+#include "exam/reliability.h"
 #include <cjson/cJSON.h>
 
 typedef enum {
@@ -31,7 +32,7 @@ typedef struct {
   // marks (users_mark.c)
   bool refused, unknown, located;
   int names, right, beside, wrong; // right: hidden effects that a name, or a told rival of its family, holds
-  int sure, sure_right;            // names stated at 0.95 or more
+  reliability_t stated;            // of the names
   char answer[USERS_TEXT];
 } users_set_t;
 

@@ -1,4 +1,4 @@
-// users_main.c - sits the exam with users' logs and prints the marks by kind.
+// users_main.c - sits the exam with users' logs and prints the marks by kind, and the reliability diagram.
 #include "exam/users.h"
 
 #include <stdio.h>
@@ -30,6 +30,13 @@ static void print_rate(const rate_t *r) {
   if (r->of) printf("  %-58s %4d/%-4d %5.1f %%\n", r->what, r->yes, r->of, 100.0 * r->yes / r->of);
 }
 
+static reliability_t stated_in(users_kind_t kind, const users_set_t *set, int n) {
+  reliability_t stated = {.unstated = 0};
+  for (int i = 0; i < n; i++)
+    if (set[i].kind == kind) reliability_join(&stated, &set[i].stated);
+  return stated;
+}
+
 static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   rate_t alarm = {"nothing hidden: a name", 0, 0}, guess = {"nothing hidden: unknown", 0, 0};
   rate_t one = {"one effect, once to four times typical: exact", 0, 0}, two = {"two effects: exact", 0, 0};
@@ -38,7 +45,10 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   rate_t strange = {"outside the library: no name", 0, 0},
          located = {"outside the library: unknown, and where", 0, 0};
   rate_t dirty = {"refused for the cause", 0, 0}, repaired = {"not refused, and no name", 0, 0};
-  rate_t refused = {"refused", 0, 0}, sure = {"stated at 0.95 or more: right", 0, 0};
+  const reliability_t stated = stated_in(kind, set, n);
+  rate_t refused = {"refused", 0, 0},
+         sure = {"stated at 0.95 or more: right", stated.bin[RELIABILITY_SURE].right,
+                 stated.bin[RELIABILITY_SURE].of};
   int again = 0;
   for (int i = 0; i < n; i++) {
     const users_set_t *const s = &set[i];
@@ -46,7 +56,6 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
     again += s->drawn_again;
     refused.of++, refused.yes += s->refused;
     names.of += s->names, names.yes += s->right + s->beside;
-    sure.of += s->sure, sure.yes += s->sure_right;
     held.of += s->n, held.yes += s->right;
     if (s->cause) {
       dirty.of++, dirty.yes += users_exact(s);
@@ -89,6 +98,13 @@ int users_main(int argc, char **argv) {
       fflush(stdout);
     }
   }
-  for (int k = 0; k < USERS_KINDS; k++) print_kind((users_kind_t)k, sets, n);
+  reliability_t stated = {.unstated = 0};
+  for (int k = 0; k < USERS_KINDS; k++) {
+    const reliability_t own = stated_in((users_kind_t)k, sets, n);
+    print_kind((users_kind_t)k, sets, n);
+    if (k < USERS_OUTSIDE) reliability_join(&stated, &own);
+  }
+  printf("names of all kinds but outside the library and dirty, by the probability stated\n");
+  reliability_print(&stated, stdout);
   return failed;
 }

@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SURE 0.95
-
 // Effects that some flights cannot separate: lift, time, push, moment, drag, place.
 static const char *const FAMILY[][8] = {
     {"mass", "thrust_scale", "accel_bias", "battery_sag", "climb_inflow", "motor_damage", "thrust_curve"},
@@ -66,14 +64,13 @@ static void mark_effect(users_set_t *set, const cJSON *effect, bool found[USERS_
   for (int i = 0; i < set->n; i++) sag = sag || strcmp(set->hidden[i], "battery_sag") == 0;
   const bool beside = !right && sag && (strcmp(name, "mass") == 0 || strcmp(name, "thrust_scale") == 0);
   if (right) found[k] = true;
-  const bool sure =
-      cJSON_GetNumberValue(cJSON_GetObjectItem(effect, "probability")) >= SURE; // not there: NaN
   set->names++;
   set->right += right;
   set->beside += beside;
   set->wrong += !right && !beside;
-  set->sure += sure;
-  set->sure_right += sure && (right || beside);
+  // Not there: NaN.
+  reliability_add(&set->stated, cJSON_GetNumberValue(cJSON_GetObjectItem(effect, "probability")),
+                  right || beside);
   const size_t used = strlen(set->answer);
   snprintf(set->answer + used, sizeof set->answer - used, "%s%s", used ? "+" : "", name);
 }

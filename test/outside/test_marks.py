@@ -6,6 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools/outside"))
 import marks  # noqa: E402
+import reliability  # noqa: E402
 
 
 def verdict(*effects: tuple, unknown: bool = False) -> dict:
@@ -50,12 +51,23 @@ class Marks(unittest.TestCase):
         self.assertFalse(m.exact)
         self.assertEqual(m.line, "vehicle.toml:3: x")
 
-    def test_what_is_stated_as_sure(self):
+    def test_what_is_stated(self):
         answer = verdict(("mass",), ("wind",), ("delay",))
         for effect, p in zip(answer["effects"], (0.99, 0.97, 0.5)):
             effect["probability"] = p
         m = marks.mark(answer, ["mass"])
-        self.assertEqual((m.sure, m.sure_right), (2, 1))
+        self.assertEqual(m.stated, [(0.99, True), (0.97, False), (0.5, False)])
+
+    def test_the_reliability_diagram(self):
+        stated = [(1.0, True), (0.95, True), (0.99, False), (0.97, True), (0.9499, True), (0.8, False), (0.0, False),
+                  (None, True), (None, False)]
+        self.assertEqual(reliability.table(stated).splitlines(), [  # as the exam's (test/exam/test_reliability.c)
+            "  stated           mean       right            90 % interval",
+            "  0    to 0.5      0.000    0/1      0.0 %     0.0 to  73.0 %",
+            "  0.5  to 0.8          -    0/0",
+            "  0.8  to 0.95     0.875    1/2     50.0 %    12.1 to  87.9 %",
+            "  0.95 to 1        0.978    3/4     75.0 %    35.6 to  94.2 %",
+            "  names without a probability: 2"])
 
     def test_the_table_counts(self):
         all_marks = [marks.mark(verdict(("mass",)), ["mass"]), marks.mark(verdict(("wind",)), []),
@@ -68,7 +80,7 @@ class Marks(unittest.TestCase):
         self.assertIn("named: 1/3 33 % of what was hidden", lines)
         self.assertIn("exact: 1/2 50 % of the sets that hide something", lines)
         self.assertIn("nothing hidden, and read: a name in 1/1 100 %, unknown in 0/1 0 %", lines)
-        self.assertIn("no name has a probability", lines)
+        self.assertEqual(lines[-1], "  names without a probability: 2")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,9 @@ refused  The log or the vehicle file was not taken.
 A family holds effects that some flights cannot separate.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import reliability
 
 FAMILIES = (
     {"mass", "thrust_scale", "accel_bias", "battery_sag", "climb_inflow", "motor_damage", "thrust_curve"},  # constant lift
@@ -22,7 +24,6 @@ FAMILIES = (
     {"ceiling", "tof_bias", "battery_sag"},  # by place, where place and time go together
 )
 SAME_LIFT = {"mass", "thrust_scale"}
-SURE = 0.95
 
 
 @dataclass
@@ -34,8 +35,7 @@ class Mark:
     false: int = 0
     beside: int = 0
     unknown: str = ""
-    sure: int = 0  # stated at SURE or more
-    sure_right: int = 0
+    stated: list[tuple[float | None, bool]] = field(default_factory=list)  # of each name: its probability, right
     line: str = ""  # the first warning
 
     @property
@@ -70,9 +70,7 @@ def mark(verdict: dict, hidden: list[str]) -> Mark:
         beside = not right and "battery_sag" in hidden and effect["name"] in SAME_LIFT
         m.beside += beside
         m.false += not right and not beside
-        sure = (effect.get("probability") or 0.0) >= SURE
-        m.sure += sure
-        m.sure_right += sure and (right or beside)
+        m.stated.append((effect.get("probability"), right or beside))
     m.right = len(found)
     return m
 
@@ -101,7 +99,5 @@ def table(marks: list[Mark]) -> str:
     lines.append("false names: " + share(sum(m.false for m in marks), sum(len(m.names) for m in marks)) + " of all names")
     lines.append("nothing hidden, and read: a name in " + share(sum(bool(m.names) for m in none), len(none)) +
                  ", unknown in " + share(sum(bool(m.unknown) for m in none), len(none)))
-    sure = sum(m.sure for m in marks)
-    lines.append(f"stated at {SURE} or more: right in " + share(sum(m.sure_right for m in marks), sure) if sure else
-                 "no name has a probability")
+    lines += ["", "names, by the probability stated", reliability.table([one for m in marks for one in m.stated])]
     return "\n".join(lines)
