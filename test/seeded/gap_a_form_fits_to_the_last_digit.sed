@@ -1,4 +1,4 @@
 # A right form leaves no misfit.
-# file: sim/gap/5_infer/information.c
+# file: sim/gap/4_candidates/candidates.h
 # test: gap_information_widens
-s/^#define MISFIT        0\.02/#define MISFIT 0.0001/
+s/^#define CANDIDATES_MISFIT 0\.02/#define CANDIDATES_MISFIT 0.0001/

@@ -1,0 +1,101 @@
+// test_gap_in_time.c - pulses and lines on rows that no flight made.
+#include "gap/5_infer/in_time.h"
+#include "rig/gap_rows.h"
+#include "rig/test.h"
+
+#include <math.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ROW_S 0.04
+#define CALM  0.05 // of the rows' standard deviation: the noise of what is not added here
+
+// The largest pulse or line in the force along z, of rows without colour.
+static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[CHANNELS])) {
+  color_t color[CHANNELS] = {[CH_FZ] = {.used = true, .sd = 1.0}};
+  double *const room = malloc(2 * GAP_ROWS * sizeof(double));
+  cell_t cell[CHANNELS] = {{.statistic = 0.0}};
+  const look_t l = {&g->set, &g->model, g->residual, color, true, room, NULL};
+  if (CHECK(room)) in_time(&l, cell);
+  free(room);
+  return cell[CH_FZ];
+}
+
+static void make_calm(gap_rows_t *g, unsigned long seed) {
+  gap_rows_make(g, seed);
+  for (int i = 0; i < GAP_ROWS; i++) g->residual[CH_FZ][i] *= CALM;
+}
+
+static void put(gap_rows_t *g, int from, int rows, double size) {
+  for (int i = from; i < from + rows; i++) g->residual[CH_FZ][i] += size;
+}
+
+// Of 2 to 16 rows. One row alone is not told as such: the rows are filtered. What is longer is told in part,
+// and lies in a window of time.
+TEST(gap_finds_a_pulse_of_any_length_up_to_two_thirds_of_a_second) {
+  static const struct {
+    int rows, told;
+    double size;
+  } row[] = {{1, 2, 0.5}, {2, 2, 1.0}, {4, 4, 1.0}, {8, 8, 1.0}, {16, 16, 1.0}, {40, 16, 1.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("%d rows", row[i].rows);
+    make_calm(&g, 41);
+    put(&g, 400, row[i].rows, 1.0);
+    const cell_t cell = look(&g, in_time_pulses);
+    CHECK_NEAR((cell.to - cell.from) / ROW_S + 1.0, row[i].told, 0.1);
+    CHECK(cell.from / ROW_S > 398.5 && cell.to / ROW_S < 400.5 + row[i].rows);
+    CHECK_NEAR(cell.size, row[i].size, 0.1);
+    gap_rows_free(&g);
+  }
+}
+
+// What begins with a flight, or with the rows after a gap, is the start of estimator and pilot.
+TEST(gap_finds_no_pulse_in_the_first_second) {
+  static const struct {
+    int gap, from; // the rows break off before `gap`
+    bool found;
+  } row[] = {{0, 21, false}, {0, 28, true}, {600, 621, false}, {600, 628, true}, {600, 590, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("gap at %d, pulse at %d", row[i].gap, row[i].from);
+    make_calm(&g, 42);
+    if (row[i].gap) g.set.smooth.follows[row[i].gap] = false;
+    put(&g, row[i].from, 2, 2.0);
+    const cell_t cell = look(&g, in_time_pulses);
+    CHECK((cell.statistic > 10.0) == row[i].found);
+    if (row[i].found) CHECK_NEAR(cell.from / ROW_S, row[i].from, 0.1);
+    gap_rows_free(&g);
+  }
+}
+
+// Lines from one number to another, a sixteenth of a hertz each, all as strong.
+static void hum(gap_rows_t *g, int from, int to) {
+  for (int k = from; k <= to; k++)
+    for (int i = 0; i < GAP_ROWS; i++)
+      g->residual[CH_FZ][i] += 0.2 * sin(2.0 * PI * k / 16.0 * ROW_S * i + 1.7 * k * k);
+}
+
+// Slower than 1 Hz is how the vehicle flies about; faster than 8 Hz the rows do not hold. A narrow hum is a
+// line beside what is quiet to either side, a wide one is the colour of the noise.
+TEST(gap_finds_a_line_where_it_is_narrow_and_faster_than_the_flight) {
+  static const struct {
+    const char *what;
+    int from, to;
+    bool found;
+  } row[] = {{"nothing", 1, 0, false},    {"0.87 Hz", 14, 14, false}, {"1.06 Hz", 17, 17, true},
+             {"2.5 Hz", 40, 40, true},    {"7.8 Hz", 125, 125, true}, {"2.2 to 2.8 Hz", 35, 45, true},
+             {"2 to 3 Hz", 32, 48, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("%s", row[i].what);
+    make_calm(&g, 43);
+    hum(&g, row[i].from, row[i].to);
+    const cell_t cell = look(&g, in_time_lines);
+    CHECK((cell.statistic > 6.0) == row[i].found);
+    if (row[i].found) CHECK(cell.from >= (row[i].from - 1.5) / 16.0 && cell.to <= (row[i].to + 1.5) / 16.0);
+    if (row[i].found && row[i].from == row[i].to) CHECK_NEAR(cell.size, 0.2, 0.03);
+    gap_rows_free(&g);
+  }
+}
