@@ -97,10 +97,17 @@ static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
          m->lag.in_speed == lag->in_speed && m->delay_s == delay_s;
 }
 
+// The next one to be filled. The first stays: it is of the model alone, and what is asked for again and again.
+static lagged_t *place_of(grid_t *g) {
+  lagged_t *const first = &g->motors[0];
+  if (!first->thrust_N[0] || isnan(first->delay_s)) return first;
+  return &g->motors[1 + g->motors_used++ % (GRID_MOTORS - 1)];
+}
+
 const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
   for (int i = 0; i < GRID_MOTORS; i++)
     if (is_of(&g->motors[i], lag, delay_s)) return &g->motors[i];
-  lagged_t *const m = &g->motors[g->motors_used++ % GRID_MOTORS];
+  lagged_t *const m = place_of(g);
   const size_t n = (size_t)g->n;
   if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
   forces_t *const room = malloc(2 * (size_t)g->samples * sizeof *room);
