@@ -117,8 +117,8 @@ $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazy
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 # The exam's second plant sees nothing of the first.
 $(B)/test/exam/other/%.o: SEES = -Itest
-# They fly many vehicles at once.
-$(B)/sim/flight/many.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o: MANY = $(OMP)
+# They fly many vehicles at once, or form many columns.
+$(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP)
 
 define compile
 @$(begin)

@@ -39,6 +39,7 @@ typedef struct {
   lag_t lag;
   double delay_s;
   double *thrust_N[ROTORS], *rise_Nps[ROTORS];
+  bool lent; // another grid's, only to be read
 } lagged_t;
 
 typedef struct {
@@ -65,6 +66,11 @@ void grid_free(grid_t *g);
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
 // memory.
 const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s);
+
+// The same grid for one thread beside others: motor histories that are new are the copy's own. Meanwhile the
+// grid must not change.
+grid_t grid_lend(const grid_t *g);
+void grid_give_back(grid_t *lent);
 
 // --- what the controller was told (set_points.c) ---------------------------------------------------------
 

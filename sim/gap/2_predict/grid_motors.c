@@ -22,10 +22,20 @@ typedef struct {
   double thrust_N, rise_Nps, end; // end: what follows, when the hold is over
 } hold_t;
 
-static hold_t hold(const lag_t *lag, double rate_Hz, bool mean, double start, double command_N) {
+// What a hold leaves of a distance, while the rotor speeds up and while it slows down.
+typedef struct {
+  double up, down;
+} keep_t;
+
+static keep_t keep_of(const lag_t *lag, double rate_Hz) {
+  return (keep_t){exp(-1.0 / (rate_Hz * lag->up_s)), exp(-1.0 / (rate_Hz * lag->down_s))};
+}
+
+static hold_t hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean, double start,
+                   double command_N) {
   const double to = lag_follows(lag, command_N), tau_s = lag_s(lag, start, to);
   if (lag_is_none(lag)) return (hold_t){command_N, 0.0, to};
-  const double keep = exp(-1.0 / (rate_Hz * tau_s)), off = start - to;
+  const double keep = to > start ? left->up : left->down, off = start - to;
   const double end = to + keep * off, rise = (to - start) / tau_s;
   const double now_N = lag_thrust_N(lag, start), end_N = lag_thrust_N(lag, end);
   if (!mean) return (hold_t){now_N, lag->in_speed ? 2.0 * start * rise : rise, end};
@@ -38,12 +48,13 @@ static hold_t hold(const lag_t *lag, double rate_Hz, bool mean, double start, do
 // A command was there long enough at the start of a segment.
 static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  const keep_t left = keep_of(lag, g->flight->rate_Hz);
   for (int k = 0; k < ROTORS; k++) {
     double now = 0.0;
     for (int i = 0; i < g->samples; i++) {
       const double command_N = g->command_N[k][i];
       if (i == 0 || (segment && segment[i] != segment[i - 1])) now = lag_follows(lag, command_N);
-      const hold_t row = hold(lag, g->flight->rate_Hz, g->flight->rows_are_means, now, command_N);
+      const hold_t row = hold(lag, &left, g->flight->rate_Hz, g->flight->rows_are_means, now, command_N);
       h->thrust_N[i][k] = row.thrust_N;
       h->rise_Nps[i][k] = row.rise_Nps;
       now = row.end;
@@ -101,7 +112,9 @@ static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
 static lagged_t *place_of(grid_t *g) {
   lagged_t *const first = &g->motors[0];
   if (!first->thrust_N[0] || isnan(first->delay_s)) return first;
-  return &g->motors[1 + g->motors_used++ % (GRID_MOTORS - 1)];
+  lagged_t *const m = &g->motors[1 + g->motors_used++ % (GRID_MOTORS - 1)];
+  if (m->lent) *m = (lagged_t){.lent = false};
+  return m;
 }
 
 const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
@@ -126,4 +139,15 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
   average(g, &h, m);
   free(room);
   return m;
+}
+
+grid_t grid_lend(const grid_t *g) {
+  grid_t lent = *g;
+  for (int i = 0; i < GRID_MOTORS; i++) lent.motors[i].lent = lent.motors[i].thrust_N[0] != NULL;
+  return lent;
+}
+
+void grid_give_back(grid_t *lent) {
+  for (int i = 0; i < GRID_MOTORS; i++)
+    if (!lent->motors[i].lent) free(lent->motors[i].thrust_N[0]);
 }

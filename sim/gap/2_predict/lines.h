@@ -41,4 +41,11 @@ static inline bool flight_lines_make(flight_lines_t *l, const set_t *s) {
   return l->room != NULL;
 }
 
+// For one thread beside others: all but `base` is its own.
+static inline bool flight_lines_beside(flight_lines_t *l, const set_t *s, const flight_lines_t *other) {
+  const bool good = flight_lines_make(l, s);
+  for (int c = 0; c < CHANNELS && good; c++) l->base[c] = other->base[c];
+  return good;
+}
+
 #endif

@@ -25,7 +25,7 @@ static bool all_zero(const double *v, int n) {
   return true;
 }
 
-static done_t fill_column(design_t *t, set_t *s, int flight, int column, const flight_lines_t *l) {
+static done_t fill_column(design_t *t, const set_t *s, int flight, int column, const flight_lines_t *l) {
   double *row[CHANNELS] = {NULL};
   for (int ch = 0; ch < CHANNELS; ch++) {
     if (!residual_has(s, ch) || all_zero(l->with[ch], s->grid[flight].n)) continue;
@@ -52,21 +52,70 @@ static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
   return NULL;
 }
 
+// The columns of one flight that start from one model.
+typedef struct {
+  design_t *t;
+  const set_t *s;
+  int flight;
+  const path_t *now;
+  const asked_t *asked;
+  int n, *candidate, *size; // whose, and of which of its numbers
+} column_list_t;
+
+static bool columns_list(column_list_t *to, const fx_t *dropped) {
+  const candidates_t *const c = to->asked->c;
+  to->candidate = malloc(2 * ((size_t)c->columns + 1) * sizeof(int));
+  to->size = to->candidate ? to->candidate + c->columns : NULL;
+  for (int i = 0; to->candidate && i < c->n; i++)
+    for (int k = 0; chosen_otherwise(to->asked, i) == dropped && k < c->candidate[i].n; k++) {
+      to->candidate[to->n] = i;
+      to->size[to->n++] = k;
+    }
+  return to->candidate != NULL;
+}
+
+static done_t fill_one(const column_list_t *a, int i, grid_t *g, const flight_lines_t *l, why_t *why) {
+  const candidate_t *const c = &a->asked->c->candidate[a->candidate[i]];
+  const fx_use_t *const own = chosen_use(a->asked->chosen, a->candidate[i]);
+  const fx_use_t whole = effect_whole(a->asked->base, own ? own : &c->use);
+  const int k = a->size[i];
+  TRY(column_differentiate(g, a->now, &whole, k, c->step[k], l->base, l->with, why));
+  if (fill_column(a->t, a->s, a->flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");
+  return DONE;
+}
+
+// Of the failures the first in the columns' order is told, whoever met it.
+static done_t fill_all(const column_list_t *a, const flight_lines_t *base, why_t *why) {
+  done_t status = DONE;
+  int failed = a->n;
+#pragma omp parallel
+  {
+    flight_lines_t l;
+    grid_t g = grid_lend(&a->s->grid[a->flight]);
+    const bool room = flight_lines_beside(&l, a->s, base);
+#pragma omp for schedule(dynamic, 4)
+    for (int i = 0; i < a->n; i++) {
+      why_t own;
+      const done_t now = room ? fill_one(a, i, &g, &l, &own) : error_failed(&own, "out of memory");
+      if (now == DONE) continue;
+#pragma omp critical(columns_failed)
+      if (i < failed) failed = i, status = now, *why = own;
+    }
+    free(l.room);
+    grid_give_back(&g);
+  }
+  return status;
+}
+
 // The columns of the candidates that start from this model: of all but the other shapes of a chosen effect,
 // or of those of one that the model has no longer.
-static done_t fill_columns(design_t *t, set_t *s, int flight, const path_t *now, const fx_t *dropped,
-                           const asked_t *a, flight_lines_t *l, why_t *why) {
-  for (int i = 0; i < a->c->n; i++) {
-    const candidate_t *const c = &a->c->candidate[i];
-    const fx_use_t *const own = chosen_use(a->chosen, i);
-    if (chosen_otherwise(a, i) != dropped) continue;
-    const fx_use_t whole = effect_whole(a->base, own ? own : &c->use);
-    for (int k = 0; k < c->n; k++) {
-      TRY(column_differentiate(&s->grid[flight], now, &whole, k, c->step[k], l->base, l->with, why));
-      if (fill_column(t, s, flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");
-    }
-  }
-  return DONE;
+static done_t fill_columns(design_t *t, const set_t *s, int flight, const path_t *now, const fx_t *dropped,
+                           const asked_t *asked, const flight_lines_t *base, why_t *why) {
+  column_list_t all = {t, s, flight, now, asked, 0, NULL, NULL};
+  const done_t status =
+      columns_list(&all, dropped) ? fill_all(&all, base, why) : error_failed(why, "out of memory");
+  free(all.candidate);
+  return status;
 }
 
 static done_t fill_from(design_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,

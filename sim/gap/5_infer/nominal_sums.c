@@ -8,13 +8,13 @@
 #define KEPT_LEAST 0.02
 
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
-static done_t find_kept(nominal_t *n, const set_t *s, const design_t *seen, const design_t *is,
+static done_t find_kept(double *kept, const set_t *s, const design_t *seen, const design_t *is,
                         const color_t color[CHANNELS], why_t *why) {
   const size_t rows = set_most_rows(s);
   double *const x = malloc(2 * rows * sizeof(double));
   if (!x) return error_failed(why, "out of memory");
   double *const y = x + rows;
-  for (int k = 0; k < n->size - 1; k++) {
+  for (int k = 0; k < seen->columns; k++) {
     double xx = 0.0, xy = 0.0;
     for (int ch = 0; ch < CHANNELS; ch++) {
       if (!color[ch].used || !seen->x[ch][k]) continue;
@@ -24,7 +24,7 @@ static done_t find_kept(nominal_t *n, const set_t *s, const design_t *seen, cons
       for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
       for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
     }
-    if (xx > 0.0) n->kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
+    if (xx > 0.0) kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
   }
   free(x);
   return DONE;
@@ -32,7 +32,7 @@ static done_t find_kept(nominal_t *n, const set_t *s, const design_t *seen, cons
 
 // The same flights without errors have the same rows, but for a few that errors move out of sight: then
 // nothing is known.
-static done_t find_errors(nominal_t *n, const set_t *seen, const design_t *t, const color_t color[CHANNELS],
+static done_t find_errors(double *kept, const set_t *seen, const design_t *t, const color_t color[CHANNELS],
                           const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
   design_t is = {.columns = 0};
@@ -40,14 +40,14 @@ static done_t find_errors(nominal_t *n, const set_t *seen, const design_t *t, co
   memcpy(own.excluded, seen->excluded, sizeof own.excluded);
   if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
     status = design_make(&is, &own, job->base, job->c, job->chosen, why);
-    if (status == DONE) status = find_kept(n, seen, t, &is, color, why);
+    if (status == DONE) status = find_kept(kept, seen, t, &is, color, why);
     if (status == DONE) design_free(&is);
   }
   set_free(&own);
   return status;
 }
 
-static void find_misfit(nominal_t *n, const set_t *s, const design_t *t, const candidates_t *c) {
+static void find_misfit(double misfit[CHANNELS], const set_t *s, const design_t *t, const candidates_t *c) {
   for (int i = 0; i < c->n; i++)
     for (int q = 0; q < c->candidate[i].n * CHANNELS; q++) {
       const int ch = q % CHANNELS, k = q / CHANNELS, rows = set_rows(s, ch)->n;
@@ -55,12 +55,23 @@ static void find_misfit(nominal_t *n, const set_t *s, const design_t *t, const c
       double sum = 0.0;
       for (int r = 0; x && r < rows; r++) sum += x[r] * x[r];
       if (sum > 0.0)
-        n->misfit[ch] =
-            fmax(n->misfit[ch], CANDIDATES_MISFIT * c->candidate[i].typical[k] * sqrt(sum / rows));
+        misfit[ch] = fmax(misfit[ch], CANDIDATES_MISFIT * c->candidate[i].typical[k] * sqrt(sum / rows));
     }
 }
 
-static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
+// What one of the flights gives: they are flown side by side.
+typedef struct {
+  done_t status;
+  why_t why;
+  int flown, lost;
+  double *total; // into those of all
+  scan_t *scan;
+  double floor[CHANNELS];
+  bool first; // of it alone: kept and misfit
+  double *kept, misfit[CHANNELS];
+} part_t;
+
+static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const nominal_job_t *job,
                         why_t *why) {
   design_t t;
   gram_t g;
@@ -73,42 +84,78 @@ static done_t take_sums(nominal_t *n, int i, set_t *s, const gap_flights_t *trut
     const int rows = set_rows(s, ch)->n;
     double sum = 0.0;
     for (int r = 0; r < rows; r++) sum += residual[ch][r] * residual[ch][r];
-    n->floor[ch] += rows ? sqrt(sum / rows) : 0.0;
+    p->floor[ch] = rows ? sqrt(sum / rows) : 0.0;
   }
-  if (i == 0) find_misfit(n, s, &t, job->c);
+  if (p->first) find_misfit(p->misfit, s, &t, job->c);
   done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
   if (status == DONE) {
-    memcpy(n->total + (size_t)i * (size_t)(n->size * n->size), g.total,
-           (size_t)(n->size * n->size) * sizeof(double));
-    if (truth) status = find_errors(n, s, &t, g.color, truth, job, why);
+    memcpy(p->total, g.total, (size_t)(g.size * g.size) * sizeof(double));
+    if (p->first) status = find_errors(p->kept, s, &t, g.color, truth, job, why);
     gram_free(&g);
   }
-  if (status == DONE) status = unknown_scan(s, job->base, residual, &n->scan[i], why);
+  if (status == DONE) status = unknown_scan(s, job->base, residual, p->scan, why);
   design_free(&t);
   return status;
 }
 
 // Flight number i of NOMINAL_FLIGHTS along each of the set's tracks.
-static done_t one(nominal_t *n, int i, const nominal_job_t *job, why_t *why) {
+static done_t one(part_t *p, int i, const nominal_job_t *job, why_t *why) {
   const set_t *s = job->set;
   const closed_loop_t loop = closed_loop_varied(job->loop, i);
   const size_t flights = (size_t)s->n_grid;
   gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
-  gap_flights_t *const is = n->n == 0 ? &truth : NULL;
+  gap_flights_t *const is = p->first ? &truth : NULL;
   set_t own = {.n_grid = 0};
   if (!flown.flight) return error_failed(why, "out of memory");
   truth.flight = flown.flight + flights;
   done_t status = nominal_flights(&flown, is, s, &job->flown, &loop, job->seed + (unsigned long)i, why);
-  n->flown += flown.n;
-  n->lost += s->n_grid - flown.n;
+  p->flown = flown.n;
+  p->lost = s->n_grid - flown.n;
   if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
   memcpy(own.excluded, s->excluded, sizeof own.excluded);
-  if (status == DONE) status = take_sums(n, n->n, &own, is, job, why);
-  n->n += status == DONE;
+  if (status == DONE) status = take_sums(p, &own, is, job, why);
   set_free(&own);
   for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
   return status;
+}
+
+static void fly_part(part_t *p, int i, const nominal_job_t *job) {
+  p->status = one(p, i, job, &p->why);
+}
+
+// What errors make of a size is told by the first flight that could be flown.
+static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
+  const size_t room = (size_t)(n->size * n->size);
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++)
+    part[i] =
+        (part_t){.total = n->total + (size_t)i * room, .scan = &n->scan[i], .kept = n->kept, .first = i == 0};
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++) fly_part(&part[i], i, job);
+  int first = 0;
+  while (first < NOMINAL_FLIGHTS && part[first].status == BAD_INPUT) first++;
+  if (first == 0 || first == NOMINAL_FLIGHTS) return;
+  part[first].first = true;
+  fly_part(&part[first], first, job);
+}
+
+// In their order, those that could be flown.
+static done_t take_parts(nominal_t *n, const part_t part[NOMINAL_FLIGHTS], why_t *why) {
+  const size_t room = (size_t)(n->size * n->size);
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
+    const part_t *const p = &part[i];
+    n->flown += p->flown;
+    n->lost += p->lost;
+    if (p->status == FAILED) *why = p->why;
+    if (p->status == FAILED) return FAILED;
+    if (p->status != DONE) continue;
+    memmove(n->total + (size_t)n->n * room, p->total, room * sizeof(double));
+    n->scan[n->n++] = *p->scan;
+    for (int ch = 0; ch < CHANNELS; ch++) n->floor[ch] += p->floor[ch];
+    if (p->first) memcpy(n->misfit, p->misfit, sizeof n->misfit);
+  }
+  for (int ch = 0; ch < CHANNELS && n->n; ch++) n->floor[ch] /= n->n;
+  return DONE;
 }
 
 done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
@@ -116,12 +163,14 @@ done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
   n->scan = calloc(NOMINAL_FLIGHTS, sizeof *n->scan);
   n->kept = malloc((size_t)n->size * sizeof(double));
+  part_t *const part = malloc(NOMINAL_FLIGHTS * sizeof *part);
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
-  done_t status = n->total && n->scan && n->kept ? DONE : error_failed(why, "out of memory");
-  for (int i = 0; i < NOMINAL_FLIGHTS && status != FAILED; i++) status = one(n, i, job, why);
-  for (int ch = 0; ch < CHANNELS && n->n; ch++) n->floor[ch] /= n->n;
-  if (status == FAILED) nominal_free(n);
-  return status == FAILED ? FAILED : DONE;
+  const bool room = n->total && n->scan && n->kept && part;
+  if (room) fly_all(n, part, job);
+  const done_t status = room ? take_parts(n, part, why) : error_failed(why, "out of memory");
+  free(part);
+  if (status != DONE) nominal_free(n);
+  return status;
 }
 
 void nominal_free(nominal_t *n) {
