@@ -108,7 +108,8 @@ static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
          m->lag.in_speed == lag->in_speed && m->delay_s == delay_s;
 }
 
-// The next one to be filled. The first stays: it is of the model alone, and what is asked for again and again.
+// The next one to be filled. The first stays: it is of the model alone, and what is asked for again and
+// again.
 static lagged_t *place_of(grid_t *g) {
   lagged_t *const first = &g->motors[0];
   if (!first->thrust_N[0] || isnan(first->delay_s)) return first;

@@ -91,6 +91,10 @@ typedef struct {
 // Of all candidates, about the numbers of those that are chosen. FAILED: no memory.
 MUST_CHECK done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c,
                               const chosen_t *chosen, why_t *why);
+// The columns of the chosen alone about other numbers, and the residual; the other columns stay as they are.
+// FAILED: no memory; then it is empty.
+MUST_CHECK done_t design_renew(design_t *t, set_t *s, const model_t *base, const candidates_t *c,
+                               const chosen_t *chosen, why_t *why);
 void design_free(design_t *t);
 
 // Adds to the residual so many times what the straight line says that the chosen candidates do.

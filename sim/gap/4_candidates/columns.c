@@ -42,6 +42,7 @@ typedef struct {
   const candidates_t *c;
   const chosen_t *chosen;
   const model_t *base;
+  bool chosen_only;
 } asked_t;
 
 // The effect that a candidate is another shape of, if that one is chosen.
@@ -50,6 +51,12 @@ static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
     if (a->chosen->of[i] != candidate && a->chosen->use[i].fx == a->c->candidate[candidate].use.fx)
       return a->chosen->use[i].fx;
   return NULL;
+}
+
+// The column starts from the model without `dropped`.
+static bool is_asked(const asked_t *a, int candidate, const fx_t *dropped) {
+  if (a->chosen_only && !chosen_use(a->chosen, candidate)) return false;
+  return chosen_otherwise(a, candidate) == dropped;
 }
 
 // The columns of one flight that start from one model.
@@ -62,12 +69,13 @@ typedef struct {
   int n, *candidate, *size; // whose, and of which of its numbers
 } column_list_t;
 
+// dropped: of the other shapes of this one; null: of those that start from the model with all.
 static bool columns_list(column_list_t *to, const fx_t *dropped) {
   const candidates_t *const c = to->asked->c;
   to->candidate = malloc(2 * ((size_t)c->columns + 1) * sizeof(int));
   to->size = to->candidate ? to->candidate + c->columns : NULL;
   for (int i = 0; to->candidate && i < c->n; i++)
-    for (int k = 0; chosen_otherwise(to->asked, i) == dropped && k < c->candidate[i].n; k++) {
+    for (int k = 0; is_asked(to->asked, i, dropped) && k < c->candidate[i].n; k++) {
       to->candidate[to->n] = i;
       to->size[to->n++] = k;
     }
@@ -118,24 +126,27 @@ static done_t fill_columns(design_t *t, const set_t *s, int flight, const path_t
   return status;
 }
 
+// predicted: the rows of what this model says, or null.
 static done_t fill_from(design_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
-                        const asked_t *a, flight_lines_t *l, why_t *why) {
+                        const asked_t *a, flight_lines_t *l, const lines_t *predicted, why_t *why) {
   path_t path;
   done_t status = replay_keep(&s->grid[flight], m, &path, l->base, why);
+  if (status == DONE && predicted)
+    residual_rows(s, flight, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);
   if (status == DONE) status = fill_columns(t, s, flight, &path, dropped, a, l, why);
   path_free(&path);
   return status;
 }
 
 static done_t fill_flight(design_t *t, set_t *s, int flight, const model_t *now, const asked_t *a,
-                          flight_lines_t *l, why_t *why) {
-  TRY(fill_from(t, s, flight, now, NULL, a, l, why));
-  for (int i = 0; i < a->chosen->n; i++) {
+                          flight_lines_t *l, const lines_t *predicted, why_t *why) {
+  TRY(fill_from(t, s, flight, now, NULL, a, l, predicted, why));
+  for (int i = 0; i < a->chosen->n && !a->chosen_only; i++) {
     const fx_t *const fx = a->chosen->use[i].fx;
     if (fx_variants(fx) < 2 || a->c->candidate[a->chosen->of[i]].in_file) continue;
     model_t m = *now;
     model_drop_fx(&m, fx);
-    TRY(fill_from(t, s, flight, &m, fx, a, l, why));
+    TRY(fill_from(t, s, flight, &m, fx, a, l, NULL, why));
   }
   return DONE;
 }
@@ -163,25 +174,54 @@ static bool design_room(design_t *t, const set_t *s) {
   return true;
 }
 
+// Into columns that are empty.
+static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, lines_t *predicted,
+                   why_t *why) {
+  double *r[CHANNELS];
+  model_t now;
+  TRY(chosen_model(a->chosen, a->base, &now, why));
+  TRY(lines_make(predicted, s, why));
+  if (!flight_lines_make(l, s)) return error_failed(why, "out of memory");
+  for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
+  TRY(residual_measured(s, r, why));
+  for (int f = 0; f < s->n_grid; f++) TRY(fill_flight(t, s, f, &now, a, l, predicted, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    for (int i = 0; i < set_rows(s, ch)->n; i++) r[ch][i] -= predicted->r[ch][i];
+  design_add_chosen(t, s, a->c, a->chosen, 1.0); // as the straight line has them
+  return DONE;
+}
+
+static done_t fill_design(design_t *t, set_t *s, const asked_t *a, why_t *why) {
+  flight_lines_t l = {.room = NULL};
+  lines_t predicted = {.r = {NULL}};
+  const done_t status = fill(t, s, a, &l, &predicted, why);
+  free(l.room);
+  lines_free(&predicted);
+  if (status != DONE) design_free(t);
+  return status;
+}
+
 done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
                    why_t *why) {
-  const asked_t asked = {c, chosen, base};
-  flight_lines_t l;
-  model_t now;
-  double *r[CHANNELS];
   *t = (design_t){.columns = c->columns};
-  TRY(chosen_model(chosen, base, &now, why));
-  if (!design_room(t, s) || !flight_lines_make(&l, s)) {
+  if (!design_room(t, s)) {
     design_free(t);
     return error_failed(why, "out of memory");
   }
-  for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
-  done_t status = residual_of(s, &now, r, why);
-  for (int f = 0; f < s->n_grid && status == DONE; f++) status = fill_flight(t, s, f, &now, &asked, &l, why);
-  free(l.room);
-  if (status == DONE) design_add_chosen(t, s, c, chosen, 1.0); // as the straight line has them
-  if (status != DONE) design_free(t);
-  return status;
+  return fill_design(t, s, &(asked_t){c, chosen, base, false}, why);
+}
+
+done_t design_renew(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                    why_t *why) {
+  for (int i = 0; i < chosen->n; i++) {
+    const candidate_t *const own = &c->candidate[chosen->of[i]];
+    for (int k = own->first; k < own->first + own->n; k++)
+      for (int ch = 0; ch < CHANNELS; ch++) {
+        free(t->x[ch][k]);
+        t->x[ch][k] = NULL;
+      }
+  }
+  return fill_design(t, s, &(asked_t){c, chosen, base, true}, why);
 }
 
 void design_free(design_t *t) {

@@ -2,6 +2,7 @@
 #include "gap/5_infer/round.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 void round_close(round_t *r) {
   score_free(&r->score);
@@ -9,19 +10,39 @@ void round_close(round_t *r) {
   design_free(&r->table);
 }
 
-done_t round_open(round_t *r, why_t *why) {
-  int column[COLUMN_MAX], n = 0;
-  double b[COLUMN_MAX];
+// The columns of the choice with the chosen numbers, 0 where it has none yet.
+static explained_t known_of(const round_t *r, int column[COLUMN_MAX], double b[COLUMN_MAX]) {
+  int n = 0;
   for (int i = 0; i < r->choice.n; i++) {
     const fx_use_t *const use = chosen_use(&r->chosen, r->choice.of[i]);
     for (int k = 0; k < r->c->candidate[r->choice.of[i]].n; k++) b[n++] = use ? fx_use_size(use, k) : 0.0;
   }
-  const explained_t known = {choice_columns(r->c, &r->choice, column), column, b, false};
+  return (explained_t){choice_columns(r->c, &r->choice, column), column, b, false};
+}
+
+done_t round_open(round_t *r, why_t *why) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const explained_t known = known_of(r, column, b);
   r->rounds++;
   TRY(design_make(&r->table, r->s, r->base, r->c, &r->chosen, why));
   done_t status = score_make(&r->score, r->c, &r->gram, r->nominal, why);
   if (status == DONE)
     status = gram_make(&r->gram, r->s, &r->table, &known, r->strict ? NULL : r->score.color_ridge, why);
+  if (status != DONE) round_close(r);
+  return status;
+}
+
+done_t round_renew(round_t *r, why_t *why) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  const explained_t known = known_of(r, column, b);
+  bool *const some = calloc((size_t)r->c->columns + 1, sizeof(bool));
+  for (int i = 0; some && i < known.n; i++) some[column[i]] = true;
+  done_t status = some ? design_renew(&r->table, r->s, r->base, r->c, &r->chosen, why)
+                       : error_failed(why, "out of memory");
+  if (status == DONE) status = gram_renew(&r->gram, r->s, &r->table, r->strict ? &known : NULL, some, why);
+  free(some);
   if (status != DONE) round_close(r);
   return status;
 }

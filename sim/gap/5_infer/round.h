@@ -16,7 +16,7 @@ typedef struct {
   choice_t choice;   // in the order in which they entered
   chosen_t chosen;   // the same with their numbers, as of the last round_take
   bool strict;       // colours of what is chosen alone, not of all candidates
-  int rounds;        // times that the columns were formed
+  int rounds;        // times that all columns were formed
   design_t table;
   gram_t gram;
   score_t score;
@@ -24,6 +24,9 @@ typedef struct {
 
 // Forms columns, colours and products about the chosen numbers. FAILED: no memory; then it is closed.
 MUST_CHECK done_t round_open(round_t *r, why_t *why);
+// The same of the choice alone, by which its numbers are estimated: nothing else may be asked then. Unless
+// strict, the colours stay. FAILED: no memory; then it is closed.
+MUST_CHECK done_t round_renew(round_t *r, why_t *why);
 void round_close(round_t *r);
 
 // Brings the numbers of the choice by this share of the way to what is estimated now. Returns the largest

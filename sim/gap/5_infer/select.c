@@ -91,18 +91,30 @@ static bool prune_one(select_t *t) {
   return false;
 }
 
-// Straight lines about the last values, until these stay; by half where they only go to and fro.
+static done_t reopen(select_t *t, why_t *why) {
+  round_close(&t->round);
+  return round_open(&t->round, why);
+}
+
+// Straight lines about the last values, until these stay; by half where they only go to and fro. On the way
+// only the columns of the choice are formed anew. With all of them the colours may be a little others: then
+// once more.
 static done_t settle(select_t *t, why_t *why) {
+  const double stays = 1e-3; // of what is typical
   double last = HUGE_VAL, share = 1.0;
+  bool all = true; // columns
   for (int i = 0; i < SETTLE; i++) {
     const double change = round_take(&t->round, share);
-    if (change < 1e-3) break;
+    if (change < stays && all) return DONE;
     if (change > 0.7 * last) share = 0.5;
-    last = change;
-    round_close(&t->round);
-    TRY(round_open(&t->round, why));
+    last = change < stays ? HUGE_VAL : change;
+    all = change < stays;
+    if (all)
+      TRY(reopen(t, why));
+    else
+      TRY(round_renew(&t->round, why));
   }
-  return DONE;
+  return all ? DONE : reopen(t, why);
 }
 
 static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
@@ -156,8 +168,7 @@ static done_t search(select_t *t, why_t *why) {
   TRY(step_until_still(t, why));
   t->round.strict = true;
   memset(t->taken, 0, (size_t)t->round.c->n * sizeof(int));
-  round_close(&t->round);
-  TRY(round_open(&t->round, why));
+  TRY(reopen(t, why));
   for (bool dropped = true; dropped;) {
     TRY(step_until_still(t, why));
     TRY(drop_doubtful(t, &dropped, why));

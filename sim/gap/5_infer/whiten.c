@@ -40,12 +40,14 @@ static void white_free(white_t *w) {
   free(w->x);
 }
 
-static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, const color_t *color) {
+// some: by column, or null: all.
+static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, const color_t *color,
+                       const bool *some) {
   const rows_t *r = set_rows(s, ch);
   const size_t n = (size_t)t->columns + 1;
   *w = (white_t){.column = malloc(n * sizeof(int)), .x = malloc(n * sizeof(double *))};
   for (int i = 0; w->column && i <= t->columns; i++)
-    if (t->x[ch][i]) w->column[w->n++] = i;
+    if (t->x[ch][i] && (!some || i == t->columns || some[i])) w->column[w->n++] = i;
   w->room = malloc((size_t)w->n * ((size_t)r->n + 1) * sizeof(double));
   if (!w->column || !w->x || !w->room) return false;
   for (int i = 0; i < w->n; i++) {
@@ -58,7 +60,7 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
 static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
   const rows_t *r = set_rows(s, ch);
   white_t w;
-  const bool made = white_make(&w, s, t, ch, &g->color[ch]);
+  const bool made = white_make(&w, s, t, ch, &g->color[ch], NULL);
   const double **from = malloc(((size_t)w.n + 1) * sizeof(double *));
   for (int i = 0; made && from && i < r->n;) {
     int end = i;
@@ -74,6 +76,16 @@ static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
   free(from);
   white_free(&w);
   return done;
+}
+
+// To `total` alone.
+static bool add_total(gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some) {
+  white_t w;
+  const bool made = white_make(&w, s, t, ch, &g->color[ch], some);
+  if (made)
+    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size, g->total, NULL);
+  white_free(&w);
+  return made;
 }
 
 static void add_blocks(gram_t *g) {
@@ -106,6 +118,17 @@ static bool fill(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return good;
 }
 
+// e: null: the colours stay.
+static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *e, const bool *some) {
+  bool good = true;
+  memset(g->total, 0, (size_t)(g->size * g->size) * sizeof(double));
+  for (int ch = 0; ch < CHANNELS && good; ch++) {
+    if (e) good = fit_color(g, s, t, ch, e);
+    if (good && g->color[ch].used) good = add_total(g, s, t, ch, some);
+  }
+  return good;
+}
+
 // In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
 // least squares come first; an autoregression of the raw residual would hide what is slow in it.
 static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge) {
@@ -113,12 +136,12 @@ static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *r
   int *const column = malloc(((size_t)n + 1) * sizeof(int));
   double *const b = malloc(((size_t)n + 1) * sizeof(double));
   explained_t e = {0, column, b, true};
-  bool good = column && b && fill(g, s, t, &e);
+  bool good = column && b && fill_total(g, s, t, &e, NULL);
   for (int i = 0; good && i < n; i++) column[i] = i;
   e = (explained_t){n, column, b, false};
   for (int i = 0; good && i < 2; i++) {
     lsq_solve_products(g->total, g->size, column, n, ridge, b, NULL);
-    good = fill(g, s, t, &e);
+    good = i == 0 ? fill_total(g, s, t, &e, NULL) : fill(g, s, t, &e);
   }
   free(column);
   free(b);
@@ -141,6 +164,11 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
   if (good) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
+}
+
+done_t gram_renew(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, const bool *some,
+                  why_t *why) {
+  return fill_total(g, s, t, known, some) ? DONE : error_failed(why, "out of memory");
 }
 
 void gram_free(gram_t *g) {

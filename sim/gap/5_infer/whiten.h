@@ -31,6 +31,10 @@ typedef struct {
 // leave.
 MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
                             const double *ridge, why_t *why);
+// Of some columns (by column) and the residual, `total` anew, the others 0 there; the rest of it stays as it
+// is. known: as above, or null: in the colours that it has. FAILED: no memory.
+MUST_CHECK done_t gram_renew(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
+                             const bool *some, why_t *why);
 void gram_free(gram_t *g);
 
 // White sum of squares that a model leaves, in the colours of another one's residual.

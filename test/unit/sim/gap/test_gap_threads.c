@@ -50,8 +50,8 @@ static void compare_names(const found_t *a, const found_t *b) {
 }
 
 TEST(gap_says_the_same_to_the_bit_whatever_the_number_of_threads) {
-  const gap_hidden_t hidden = {
-      2, {gap_effect("thrust_scale", 0.92, 0.0), gap_effect("motor_lag", 0.03, 0.0)}};
+  const gap_hidden_t hidden = {2,
+                               {gap_effect("thrust_scale", 0.92, 0.0), gap_effect("motor_lag", 0.03, 0.0)}};
   const int before = use_threads(1);
   gap_case_t *const alone = gap_case(&hidden, &hidden);
   use_threads(3);
