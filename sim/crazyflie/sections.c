@@ -51,9 +51,11 @@ const section_log_t *sections_log(const char *full_name) {
 }
 
 int sections_logs(void) {
-  char name[32];
+  const section_log_group_t *const *group;
+  const int groups = sections_log_groups(&group);
   int n = 0;
-  while (sections_log_at(n, name)) n++;
+  for (int g = 0; g < groups; g++)
+    for (const section_log_t *l = group[g]->log; l->name; l++) n++;
   return n;
 }
 
