@@ -9,7 +9,9 @@
 
 bool number_parse(const char *text, double *value) {
   // strtod also takes blanks, hexadecimal numbers, `inf` and `nan`.
-  if (text[0] == '\0' || text[strspn(text, "0123456789+-.eE")] != '\0') return false;
+  const size_t size = strspn(text, "0123456789+-.eE");
+  if (size == 0 || text[size] != '\0') return false;
+  if (number_read(text, size, value)) return true;
   char *end;
   // The "C" locale is built in: this neither allocates nor fails.
   const locale_t point = newlocale(LC_ALL_MASK, "C", (locale_t)0);

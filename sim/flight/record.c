@@ -2,6 +2,7 @@
 #include "flight/record.h"
 
 #include "base/constants.h"
+#include "base/pen.h"
 #include "crazyflie/sections.h"
 #include <math.h>
 #include <stdlib.h>
@@ -133,34 +134,83 @@ static void write_names(FILE *file, const record_t *r, const bool *column, int n
   fputc('\n', file);
 }
 
-static void write_attitude(FILE *file, const sample_t *s) {
+// Behind a comma.
+static void put(pen_t *pen, int places, double value) {
+  pen_char(pen, ',');
+  pen_fixed(pen, value, places);
+}
+
+static void put3(pen_t *pen, int places, d3_t v) {
+  put(pen, places, v.x);
+  put(pen, places, v.y);
+  put(pen, places, v.z);
+}
+
+static void write_attitude(pen_t *pen, const sample_t *s) {
   const dq_t q = s->estimate.q_wb;
-  const d3_t a = d3_scale(1.0 / G_MPS2, s->acc_b_mps2);
-  fprintf(file, "%.7f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f,", q.w, q.x, q.y, q.z, a.x, a.y, a.z);
+  put(pen, 7, q.w);
+  put3(pen, 7, d3(q.x, q.y, q.z));
+  put3(pen, 6, d3_scale(1.0 / G_MPS2, s->acc_b_mps2));
 }
 
-static void write_more(FILE *file, const sample_t *s) {
-  const d3_t p = s->estimate.pos_w_m, v = s->estimate.vel_w_mps, w = d3_scale(DEG_PER_RAD, s->gyro_b_radps);
-  fprintf(file, ",%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f", p.x, p.y, v.x, v.y, w.x, w.y, w.z);
-  for (int i = 0; i < 4; i++) fprintf(file, ",%.6f", s->motor_N[i]);
-  fprintf(file, ",%.4f,%.6f,%.6f,%.4f", s->vbat_V, s->pos_w_m.x, s->pos_w_m.y, DEG_PER_RAD * s->tilt_rad);
+static void write_more(pen_t *pen, const sample_t *s) {
+  const d3_t p = s->estimate.pos_w_m, v = s->estimate.vel_w_mps;
+  put(pen, 6, p.x);
+  put(pen, 6, p.y);
+  put(pen, 6, v.x);
+  put(pen, 6, v.y);
+  put3(pen, 4, d3_scale(DEG_PER_RAD, s->gyro_b_radps));
+  for (int i = 0; i < 4; i++) put(pen, 6, s->motor_N[i]);
+  put(pen, 4, s->vbat_V);
+  put(pen, 6, s->pos_w_m.x);
+  put(pen, 6, s->pos_w_m.y);
+  put(pen, 4, DEG_PER_RAD * s->tilt_rad);
   const d3_t r = s->gyro_b_radps; // roll right, nose up, counter-clockwise
-  fprintf(file, ",%.7f,%.7f,%.7f,%.2f,%.2f,%.2f,%.2f", r.x, -r.y, r.z, s->command_roll, s->command_pitch,
-          s->command_yaw, s->command_thrust);
+  put3(pen, 7, d3(r.x, -r.y, r.z));
+  put3(pen, 2, d3(s->command_roll, s->command_pitch, s->command_yaw));
+  put(pen, 2, s->command_thrust);
 }
 
-static void write_sample(FILE *file, const sample_t *s, bool vertical_only) {
-  fprintf(file, "%.3f,%.4f,%.6f,%.6f,", 1e3 * s->t_s, s->setpoint_z_m, s->sense.z_m, s->sense.climb_mps);
-  write_attitude(file, s);
-  const thoughts_t *th = &s->thoughts;
-  fprintf(file, "%.0f,%.6f,%.6f,%.6f,%.6f,%u,%u,", 1e3 * s->sense.range_m, s->command_N, s->sense.applied_N,
-          th->zc_m, th->ceiling_z_m, th->guard_now, th->guard_latched);
-  fprintf(file, "%.6f,%.5f,%.5f,", s->thoughts.ratio, s->thoughts.slope_per_m, s->thoughts.y);
-  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.weights[i]);
-  for (int i = 0; i < CURVE_WEIGHTS; i++) fprintf(file, "%.7g,", s->thoughts.variance[i]);
-  fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6f,%d", s->z_m, s->climb_mps, s->gap_m, s->thrust_N, s->ratio,
-          s->contacts);
-  if (!vertical_only) write_more(file, s);
+static void write_thoughts(pen_t *pen, const thoughts_t *th) {
+  put(pen, 6, th->zc_m);
+  put(pen, 6, th->ceiling_z_m);
+  put(pen, 0, th->guard_now);
+  put(pen, 0, th->guard_latched);
+  put(pen, 6, th->ratio);
+  put(pen, 5, th->slope_per_m);
+  put(pen, 5, th->y);
+  const double *const lists[] = {th->weights, th->variance};
+  for (int k = 0; k < 2 * CURVE_WEIGHTS; k++) {
+    pen_char(pen, ',');
+    pen_general(pen, lists[k / CURVE_WEIGHTS][k % CURVE_WEIGHTS], 7);
+  }
+}
+
+static void write_sample(pen_t *pen, const sample_t *s, bool vertical_only) {
+  pen_fixed(pen, 1e3 * s->t_s, 3);
+  put(pen, 4, s->setpoint_z_m);
+  put(pen, 6, s->sense.z_m);
+  put(pen, 6, s->sense.climb_mps);
+  write_attitude(pen, s);
+  put(pen, 0, 1e3 * s->sense.range_m);
+  put(pen, 6, s->command_N);
+  put(pen, 6, s->sense.applied_N);
+  write_thoughts(pen, &s->thoughts);
+  put3(pen, 6, d3(s->z_m, s->climb_mps, s->gap_m));
+  put(pen, 6, s->thrust_N);
+  put(pen, 6, s->ratio);
+  put(pen, 0, s->contacts);
+  if (!vertical_only) write_more(pen, s);
+}
+
+// Of a row of the app's logs those that are columns; null: all, and the first without a comma.
+static void write_app(pen_t *pen, const record_t *r, int row, const bool *column, int n) {
+  const float *const app = r->app + (size_t)row * (size_t)n;
+  for (int k = 0; k < n; k++) {
+    if (column && !column[k]) continue;
+    if (column || k) pen_char(pen, ',');
+    pen_general(pen, (double)app[k], 9);
+  }
 }
 
 static void write_calls(const record_t *r, FILE *file) {
@@ -168,11 +218,13 @@ static void write_calls(const record_t *r, FILE *file) {
   const int n = sections_logs();
   for (int k = 0; k < n && sections_log_at(k, name); k++) fprintf(file, k ? ",%s" : "%s", name);
   fputc('\n', file);
+  pen_t pen;
+  pen_begin(&pen, file);
   for (int i = 0; i < r->n_calls; i++) {
-    for (int k = 0; k < n; k++)
-      fprintf(file, k ? ",%.9g" : "%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
-    fputc('\n', file);
+    write_app(&pen, r, i, NULL, n);
+    pen_char(&pen, '\n');
   }
+  pen_flush(&pen);
 }
 
 void record_write(const record_t *r, FILE *file) {
@@ -183,10 +235,12 @@ void record_write(const record_t *r, FILE *file) {
   bool column[APP_LOGS_MAX];
   const int n = choose(column);
   write_names(file, r, column, n);
+  pen_t pen;
+  pen_begin(&pen, file);
   for (int i = 0; i < r->n; i++) {
-    write_sample(file, &r->sample[i], r->vertical_only);
-    for (int k = 0; k < n; k++)
-      if (r->app && column[k]) fprintf(file, ",%.9g", (double)r->app[(size_t)i * (size_t)n + (size_t)k]);
-    fputc('\n', file);
+    write_sample(&pen, &r->sample[i], r->vertical_only);
+    if (r->app) write_app(&pen, r, i, column, n);
+    pen_char(&pen, '\n');
   }
+  pen_flush(&pen);
 }
