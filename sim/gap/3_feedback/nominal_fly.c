@@ -19,9 +19,9 @@
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
   const double *p = use->p;
   double *const m = t->memory;
-  for (int i = 0; i < 6; i++) {
-    const double keep = m[6] > 0.0 ? exp(-t->span_s / p[i < 3 ? 6 : 7]) : 0.0;
-    m[i] = keep * m[i] + p[i] * sqrt(1.0 - keep * keep) * random_normal(t->random);
+  for (int k = 0; k < 2; k++) {
+    const double keep = m[6] > 0.0 ? exp(-t->span_s / p[6 + k]) : 0.0, fresh = sqrt(1.0 - keep * keep);
+    for (int i = 3 * k; i < 3 * k + 3; i++) m[i] = keep * m[i] + p[i] * fresh * random_normal(t->random);
   }
   m[6] = 1.0;
   plant->force_w_N = d3_add(plant->force_w_N, d3_of(m));
@@ -64,20 +64,26 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
   return s;
 }
 
-static d3_t drifted(const nominal_flight_t *f, d3_t off, const slow_t *slow, double step_s) {
+static decay_t decay_of(const slow_t *slow, double step_s) {
+  decay_t d;
+  for (int i = 0; i < 3; i++) {
+    d.keep[i] = slow->tau_s[i] > 0.0 ? exp(-step_s / slow->tau_s[i]) : 0.0;
+    d.fresh[i] = slow->sd[i] * sqrt(1.0 - d.keep[i] * d.keep[i]);
+  }
+  return d;
+}
+
+static d3_t drifted(const nominal_flight_t *f, d3_t off, const decay_t *d) {
   const double was[3] = {off.x, off.y, off.z};
   double now[3];
-  for (int i = 0; i < 3; i++) {
-    const double keep = slow->tau_s[i] > 0.0 ? exp(-step_s / slow->tau_s[i]) : 0.0;
-    now[i] = noisy(f, keep * was[i], slow->sd[i] * sqrt(1.0 - keep * keep));
-  }
+  for (int i = 0; i < 3; i++) now[i] = noisy(f, d->keep[i] * was[i], d->fresh[i]);
   return d3_of(now);
 }
 
-static void drift(nominal_flight_t *f, double step_s) {
-  f->pos_off_m = drifted(f, f->pos_off_m, &f->w->slow_pos_m, step_s);
-  f->vel_off_mps = drifted(f, f->vel_off_mps, &f->w->slow_vel_mps, step_s);
-  f->angle_off_rad = drifted(f, f->angle_off_rad, &f->w->slow_angle_rad, step_s);
+static void drift(nominal_flight_t *f) {
+  f->pos_off_m = drifted(f, f->pos_off_m, &f->pos_keeps);
+  f->vel_off_mps = drifted(f, f->vel_off_mps, &f->vel_keeps);
+  f->angle_off_rad = drifted(f, f->angle_off_rad, &f->angle_keeps);
 }
 
 static grid_point_t is(const nominal_flight_t *f) {
@@ -176,6 +182,9 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
   const double step_s = log_s / inner;
   double motor_N[ROTORS];
+  f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);
+  f->vel_keeps = decay_of(&f->w->slow_vel_mps, step_s);
+  f->angle_keeps = decay_of(&f->w->slow_angle_rad, step_s);
   for (int first = f->at = f->from; f->at < f->to; f->at++) {
     if (goes_on(f)) {
       first = f->at;
@@ -184,7 +193,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
     for (int i = 0; i < per_point; i++) {
       const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {
-        drift(f, step_s);
+        drift(f);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
         const grid_point_t truth = is(f), seen = see(f, &truth);
         steer(f, step_s, &seen, motor_N);

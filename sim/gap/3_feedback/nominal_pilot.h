@@ -4,6 +4,11 @@
 
 #include "gap/3_feedback/nominal.h"
 
+// What a step leaves of an error by axis, and the sd of what comes anew.
+typedef struct {
+  double keep[3], fresh[3];
+} decay_t;
+
 typedef struct {
   const grid_t *g;
   const model_t *m;
@@ -20,9 +25,10 @@ typedef struct {
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
   unsigned long seed;
-  double down_s, masked_to_s; // in contact since it was put on its track; of the log
-  int puts;                   // how often it was put back
-  struct known *known;        // who flew, where the vehicle file says so (nominal_known.h); else null
+  decay_t pos_keeps, vel_keeps, angle_keeps; // of what lasts, over a step
+  double down_s, masked_to_s;                // in contact since it was put on its track; of the log
+  int puts;                                  // how often it was put back
+  struct known *known; // who flew, where the vehicle file says so (nominal_known.h); else null
 } nominal_flight_t;
 
 // Commands that bring the vehicle, as it is seen, to its track.
