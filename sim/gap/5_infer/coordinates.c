@@ -35,20 +35,23 @@ static double thrust_of(const grid_t *g, int j) {
   return sum;
 }
 
+static d3_t vel_b_mps(const grid_point_t *p) {
+  const axes_t axes = axes_of(p->q_wb);
+  return axes_to_body(&axes, p->vel_w_mps);
+}
+
 double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
   const grid_point_t *p = &g->point[j];
   const double none = (double)NAN;
-  const axes_t axes = axes_of(p->q_wb);
-  const d3_t v = axes_to_body(&axes, p->vel_w_mps);
   const double up_m = m->ceiling_m - p->pos_w_m.z - body_rotor_z_m(m);
   switch (i) {
   case COORDINATE_CEILING: return g->has_position && isfinite(up_m) ? up_m : none;
   case COORDINATE_HEIGHT: return g->has_position ? p->pos_w_m.z - body_rest_z_m(m) : none;
   case COORDINATE_X: return g->has_position ? p->pos_w_m.x : none;
   case COORDINATE_Y: return g->has_position ? p->pos_w_m.y : none;
-  case COORDINATE_VEL_X: return g->has_velocity ? v.x : none;
-  case COORDINATE_VEL_Y: return g->has_velocity ? v.y : none;
-  case COORDINATE_VEL_Z: return g->has_velocity ? v.z : none;
+  case COORDINATE_VEL_X: return g->has_velocity ? vel_b_mps(p).x : none;
+  case COORDINATE_VEL_Y: return g->has_velocity ? vel_b_mps(p).y : none;
+  case COORDINATE_VEL_Z: return g->has_velocity ? vel_b_mps(p).z : none;
   case COORDINATE_VOLTAGE: return g->has_vbat ? p->vbat_V : none;
   case COORDINATE_THRUST: return g->motors[0].thrust_N[0] ? thrust_of(g, j) : none;
   case COORDINATE_RATE_X: return g->has_rates ? p->rate_b_radps.x : none;

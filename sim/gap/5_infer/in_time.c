@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "base/nth.h"
+#include "base/pair.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -126,29 +127,48 @@ typedef struct {
   int stretches;
 } spectrum_t;
 
-// A stretch of rows of one flight, tapered (Hann) by time.
-static void add_stretch(const look_t *l, const double *v, int from, int to, spectrum_t *sum) {
-  double re[LINES + 1] = {0.0}, im[LINES + 1] = {0.0}, weights = 0.0;
+// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once: one alone would wait
+// for itself.
+typedef struct {
+  pair_t x, y, c, s;
+} turning_t;
+
+static double put_row(turning_t *t, int which, double t_s, double span_s, double v) {
+  const double turn = 2.0 * PI * t_s / STRETCH_S, taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / span_s);
+  t->x[which] = taper * v;
+  t->y[which] = 0.0;
+  t->c[which] = cos(turn);
+  t->s[which] = sin(turn);
+  return taper * taper;
+}
+
+// A stretch of rows of one flight, tapered (Hann) by time; lines 0 to last.
+static void add_stretch(const look_t *l, const double *v, int from, int to, int last, spectrum_t *sum) {
+  pair_t re[LINES + 1], im[LINES + 1];
+  double weights = 0.0;
+  for (int k = 0; k <= last; k++) re[k] = im[k] = pair_both(0.0);
   const double start_s = time_s(l, from), span_s = time_s(l, to - 1) - start_s;
-  for (int i = from; i < to; i++) {
-    const double t_s = time_s(l, i) - start_s, turn = 2.0 * PI * t_s / STRETCH_S;
-    const double taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / span_s), c = cos(turn), s = sin(turn);
-    double x = taper * v[i], y = 0.0;
-    weights += taper * taper;
-    for (int k = 0; k <= LINES; k++) {
-      re[k] += x;
-      im[k] += y;
-      const double next = c * x - s * y;
-      y = s * x + c * y;
-      x = next;
+  for (int i = from; i < to; i += 2) {
+    turning_t t = {pair_both(0.0), pair_both(0.0), pair_both(0.0), pair_both(0.0)};
+    for (int which = 0; which < 2 && i + which < to; which++)
+      weights += put_row(&t, which, time_s(l, i + which) - start_s, span_s, v[i + which]);
+    for (int k = 0; k <= last; k++) {
+      re[k] += t.x;
+      im[k] += t.y;
+      const pair_t next = t.c * t.x - t.s * t.y;
+      t.y = t.s * t.x + t.c * t.y;
+      t.x = next;
     }
   }
-  for (int k = 0; k <= LINES; k++) sum->power[k] += (re[k] * re[k] + im[k] * im[k]) / weights;
+  for (int k = 0; k <= last; k++) {
+    const double x = pair_sum(re[k]), y = pair_sum(im[k]);
+    sum->power[k] += (x * x + y * y) / weights;
+  }
   sum->stretches++;
 }
 
 // Half stretches overlap. What is shorter than half of one says nothing of lines.
-static spectrum_t spectrum_of(const look_t *l, const double *v) {
+static spectrum_t spectrum_of(const look_t *l, const double *v, int last) {
   const rows_t *const r = &l->s->smooth;
   spectrum_t sum = {.stretches = 0};
   const int rows = (int)(STRETCH_S * RESIDUAL_HZ);
@@ -159,7 +179,7 @@ static spectrum_t spectrum_of(const look_t *l, const double *v) {
       if (time_s(l, to) < start_s + 0.5 * STRETCH_S) half = to + 1;
       to++;
     }
-    if (to - from >= rows / 2) add_stretch(l, v, from, to, &sum);
+    if (to - from >= rows / 2) add_stretch(l, v, from, to, last, &sum);
     from = half;
   }
   return sum;
@@ -176,7 +196,7 @@ static double beside(const spectrum_t *p, int at) {
 static void lines_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
   color_whiten(c, &l->s->smooth, l->residual[ch], l->room);
-  const spectrum_t white = spectrum_of(l, l->room);
+  const spectrum_t white = spectrum_of(l, l->room, LINES);
   int best = 0;
   double largest = cell->statistic;
   for (int k = LOWEST; white.stretches && k <= LINES - OWN; k++) {
@@ -184,7 +204,7 @@ static void lines_in(const look_t *l, int ch, cell_t *cell) {
     if (statistic > largest) largest = statistic, best = k;
   }
   if (!best) return;
-  const spectrum_t raw = spectrum_of(l, l->residual[ch]);
+  const spectrum_t raw = spectrum_of(l, l->residual[ch], best);
   // Of a sine A sin, tapered: power A^2/4 (sum of the taper)^2 / (sum of its squares), 2/3 of the rows. It
   // explains A^2/2 a row.
   const double rows = STRETCH_S * RESIDUAL_HZ;
