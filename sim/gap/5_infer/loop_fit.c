@@ -71,8 +71,17 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
     *disturbance(&calm, ch) = 0.0;
     *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch]) / MORE);
   }
-  TRY(trial(&calm, &none, s, m, seed, why));
-  TRY(trial(loop, &some, s, m, seed, why));
+  const closed_loop_t *const flown[] = {&calm, loop};
+  squares_t *const seen[] = {&none, &some};
+  done_t status[2];
+  why_t whys[2];
+#pragma omp parallel for
+  for (int i = 0; i < 2; i++) status[i] = trial(flown[i], seen[i], s, m, seed, &whys[i]);
+  for (int i = 0; i < 2; i++) {
+    if (status[i] == DONE) continue;
+    *why = whys[i];
+    return status[i];
+  }
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     const double most = ch < CH_FORCES ? MORE : 1.0; // what turns it was read before control cancelled any
     const double by = times(none.of[ch], some.of[ch], log->of[ch]);

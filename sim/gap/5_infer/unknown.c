@@ -127,15 +127,27 @@ static cell_t largest_of(const cell_t cell[CHANNELS]) {
   return *most;
 }
 
+// Coordinates are looked along side by side; of cells that are alike that of the first counts.
 static done_t look_along(const set_t *s, const model_t *m, int from, int to, double *const residual[CHANNELS],
                          const color_t *color, bool centred, cell_t *cell, why_t *why) {
-  look_t l = {s, m, residual, color, centred, NULL, NULL};
-  cell_t each[CHANNELS] = {{.statistic = 0.0}};
-  const done_t status = open_look(&l, why);
-  for (int i = from; status == DONE && i < to; i++) windows_along(&l, i, each);
-  close_look(&l);
-  *cell = largest_of(each);
-  return status;
+  cell_t each[COORDINATES][CHANNELS] = {{{.statistic = 0.0}}};
+  bool good = true;
+#pragma omp parallel reduction(&& : good)
+  {
+    look_t l = {s, m, residual, color, centred, NULL, NULL};
+    why_t own;
+    good = open_look(&l, &own) == DONE;
+#pragma omp for schedule(dynamic, 1)
+    for (int i = from; i < to; i++)
+      if (l.room && l.bin) windows_along(&l, i, each[i]);
+    close_look(&l);
+  }
+  cell_t most[CHANNELS] = {{.statistic = 0.0}};
+  for (int i = from; i < to; i++)
+    for (int ch = 0; ch < CHANNELS; ch++)
+      if (each[i][ch].statistic > most[ch].statistic) most[ch] = each[i][ch];
+  *cell = largest_of(most);
+  return good ? DONE : error_failed(why, "out of memory");
 }
 
 done_t unknown_along(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],

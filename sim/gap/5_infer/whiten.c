@@ -57,33 +57,40 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
   return true;
 }
 
+// The rows of one half-flight: the blocks of it are no other's.
+static bool add_half(gram_t *g, const rows_t *r, int ch, int half, const white_t *w) {
+  const size_t room = (size_t)(g->size * g->size);
+  const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
+  const double **from = malloc(((size_t)w->n + 1) * sizeof(double *));
+  for (int i = 0, end; from && i < r->n; i = end) {
+    for (end = i; end < r->n && r->block[end] == r->block[i];) end++;
+    if (g->half[r->block[i]] != half) continue;
+    for (int k = 0; k < w->n; k++) from[k] = w->x[k] + i;
+    lsq_add_products(end - i, w->n, from, w->column, g->size, g->block + (size_t)r->block[i] * room,
+                     g->by_group[group] + (size_t)half * room);
+  }
+  free(from);
+  return from != NULL;
+}
+
 static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
   const rows_t *r = set_rows(s, ch);
   white_t w;
-  const bool made = white_make(&w, s, t, ch, &g->color[ch], NULL);
-  const double **from = malloc(((size_t)w.n + 1) * sizeof(double *));
-  for (int i = 0; made && from && i < r->n;) {
-    int end = i;
-    while (end < r->n && r->block[end] == r->block[i]) g->rows += color_reaches(r, end++);
-    for (int k = 0; k < w.n; k++) from[k] = w.x[k] + i;
-    const size_t room = (size_t)(g->size * g->size);
-    const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
-    lsq_add_products(end - i, w.n, from, w.column, g->size, g->block + (size_t)r->block[i] * room,
-                     g->by_group[group] + (size_t)g->half[r->block[i]] * room);
-    i = end;
-  }
-  const bool done = made && from;
-  free(from);
+  bool good = white_make(&w, s, t, ch, &g->color[ch], NULL);
+  for (int i = 0; i < r->n; i++) g->rows += color_reaches(r, i);
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : good)
+  for (int half = 0; half < g->n_half; half++) good = good && add_half(g, r, ch, half, &w);
   white_free(&w);
-  return done;
+  return good;
 }
 
-// To `total` alone.
-static bool add_total(gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some) {
+// To `total` alone, or to another one of its size.
+static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some,
+                      double *total) {
   white_t w;
   const bool made = white_make(&w, s, t, ch, &g->color[ch], some);
   if (made)
-    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size, g->total, NULL);
+    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size, total, NULL);
   white_free(&w);
   return made;
 }
@@ -118,14 +125,19 @@ static bool fill(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return good;
 }
 
-// e: null: the colours stay.
+// e: null: the colours stay. The channels' sums come together in their order.
 static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *e, const bool *some) {
-  bool good = true;
-  memset(g->total, 0, (size_t)(g->size * g->size) * sizeof(double));
-  for (int ch = 0; ch < CHANNELS && good; ch++) {
-    if (e) good = fit_color(g, s, t, ch, e);
-    if (good && g->color[ch].used) good = add_total(g, s, t, ch, some);
+  const size_t room = (size_t)(g->size * g->size);
+  double *const each = calloc(CHANNELS * room, sizeof(double));
+  bool good = each != NULL;
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : good)
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    if (good && e) good = fit_color(g, s, t, ch, e);
+    if (good && g->color[ch].used) good = add_total(g, s, t, ch, some, each + (size_t)ch * room);
   }
+  memset(g->total, 0, room * sizeof(double));
+  for (size_t i = 0; good && i < CHANNELS * room; i++) g->total[i % room] += each[i];
+  free(each);
   return good;
 }
 
