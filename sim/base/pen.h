@@ -19,11 +19,12 @@ int pen_fixed_text(char text[PEN_NUMBER], double value, int places);
 // As "%.{digits}g".
 int pen_general_text(char text[PEN_NUMBER], double value, int digits);
 
-// What is written goes to the file in large pieces, the rest with pen_flush. The file knows if that failed.
+// What is written goes to the file in pieces, the rest with pen_flush. The file knows if that failed, and for
+// what reason when it is closed: a piece is smaller than the stream's own room, where it stays then.
 typedef struct {
   FILE *file;
   size_t used;
-  char text[4096];
+  char text[2048];
 } pen_t;
 
 void pen_begin(pen_t *pen, FILE *file);
