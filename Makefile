@@ -159,7 +159,8 @@ $(PROGRAMS:%=$(O)/%) $(O)/exam: $(O)/%: $(B)/bin/%
 
 PYTHON = PYTHONDONTWRITEBYTECODE=1 python3
 DOC    = DATA="$(DATA)" $(PYTHON) tools/doc/doc.py
-TESTS  = DATA="$(DATA)" PROGRAMS=$(B)/bin $(B)/bin/tests "$(W)"
+# They share the cores already.
+TESTS  = DATA="$(DATA)" PROGRAMS=$(B)/bin OMP_NUM_THREADS=1 $(B)/bin/tests "$(W)"
 # What is built in another way, in a folder of its own: followed by the flags.
 built  = $(MAKE) B=$(B) $(TESTED:%=$(B)/bin/%)
 sanitize clang coverage: B = $(O)/$@
@@ -262,7 +263,7 @@ seeded:  ## steps into every trap of test/seeded and expects the tests to say so
 coverage:  ## which lines and branches the tests run, by folder; of src and src/firmware every branch (DATA=DIR)
 	+@$(built) OPT=-O1 SANITIZE=--coverage WARN= FLIGHT_FLAGS='$(FLIGHT_FLAGS) -O0'
 	@find $(B) -name '*.gcda' -delete
-	@OMP_NUM_THREADS=1 $(TESTS)
+	@$(TESTS)
 	@$(PYTHON) test/coverage/coverage.py $(B)
 
 # N mistakes of one token or statement each; what is expected of the tests stands in test/mutants/mutants.py.
