@@ -118,8 +118,9 @@ static void keep_new_ranges(raw_t *raw, const columns_t *columns, double *v, dou
   for (int k = 0; k < 2; k++) {
     double *const now_m = &v[range[k]];
     const bool repeat = *now_m == last_m[k];
+    if (isnan(*now_m)) continue; // what it said last stays: rows of other events may lie between
     last_m[k] = *now_m;
-    if (repeat || isnan(*now_m)) {
+    if (repeat) {
       *now_m = (double)NAN;
     } else if (*now_m == columns->of[range[k]].offset || !(*now_m < NO_RETURN_M)) {
       raw->range_unusable++;
