@@ -57,6 +57,7 @@ static void check_page(void) {
                                       "standard error",
                                       "m/s</text>",
                                       "two standard errors",
+                                      "That it is there has a probability of more than 0.999, if the library",
                                       "On flights that were not used",
                                       "Flown again in closed loop",
                                       "What these flights cannot tell",

@@ -4,6 +4,8 @@
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 
+#define SURE 0.999 // of a probability: no exam is long enough to tell more
+
 static void parameters(const finding_t *f, FILE *out) {
   int n;
   const fx_param_t *const param = fx_use_params(f->use, &n);
@@ -73,6 +75,10 @@ void page_finding(const finding_t *f, FILE *out) {
   fprintf(out, "It explains %.3g %% of the gap", 100.0 * f->named->share);
   if (f->standing != STANDS_AMBIGUOUS) page_text(out, " (", p_words(f->named->p, p), ")");
   fputs(". ", out);
+  if (isfinite(f->named->probability))
+    fprintf(out, "That it%s is there has a probability of %s%.3g, if the library has what is missing. ",
+            f->named->n_rival ? ", or one that would do as well," : "",
+            f->named->probability > SURE ? "more than " : "", fmin(f->named->probability, SURE));
   page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
   page_text(out, "", coordinate_name(coordinate), "");
   fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
@@ -105,7 +111,7 @@ void page_unknown(const report_t *r, FILE *out) {
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
-  fprintf(out, "%+.3g &plusmn; %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
+  fprintf(out, "%+.3g +- %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
   page_text(out, "", gap_channel[c->channel], c->world ? " (the world's), at " : ", at ");
   char where[REPORT_PLACE];
   page_text(out, "", report_place(c, where), "");

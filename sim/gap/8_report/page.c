@@ -21,9 +21,9 @@ static const char HEAD[] =
     "td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}\n"
     ".bar{display:block;height:9px;border-radius:2px;margin:2px 0}"
     ".bar.before{background:#ea7a3a}.bar.after{background:#0f8a7e}.bar.floor{background:#cbd5e1}\n"
-    "svg text{font:12px system-ui,sans-serif;fill:#475569}svg .axis{fill:#1e293b}"
+    "svg text{font:11px system-ui,sans-serif;fill:#475569}svg .axis{fill:#1e293b}"
     ".grid{stroke:#eef2f7}.zero{stroke:#94a3b8}\n"
-    "svg path{fill:none;stroke-width:2.2;stroke-linejoin:round}svg path.thin{stroke-width:1.2}"
+    "svg path{fill:none;stroke-width:1.8;stroke-linejoin:round}svg path.thin{stroke-width:1}"
     "path.before{stroke:#ea7a3a}path.after{stroke:#0f8a7e}path.track{stroke:#1e293b;stroke-width:2.6}\n"
     ".before-dot{fill:#ea7a3a}.after-dot{fill:#0f8a7e}.seen{fill:#1e293b}"
     "path.band,rect.band{fill:#0f8a7e;fill-opacity:.18;stroke:none}rect.mark{fill:#fde68a;fill-opacity:.45}\n"
@@ -32,8 +32,9 @@ static const char HEAD[] =
     "@media(max-width:600px){main{padding:16px 10px 40px}section{padding:14px 12px;margin:12px "
     "0}h1{font-size:23px}"
     "figure{margin:12px 0 "
-    "4px;overflow-x:auto}svg{min-width:560px}td,th{padding-right:7px}table{font-size:14px}"
-    ".wide td:last-child,.wide th:last-child,.wide th:nth-child(2),.wide td:nth-child(2){display:none}}\n"
+    "4px;overflow-x:auto}svg text{font-size:15px}td,th{padding-right:7px}table{font-size:14px}"
+    ".wide td:last-child,.wide th:last-child,.wide th:nth-child(2),.wide td:nth-child(2),.wide "
+    ".bars{display:none}}\n"
     "@media print{body{background:#fff}section{break-inside:avoid}}\n"
     "</style></head><body><main>\n";
 static const char FOOT[] = "</main></body></html>\n";
@@ -74,7 +75,9 @@ static void overview(const report_t *r, FILE *out) {
   double most = fmax(report_left(r), 1e-9);
   for (int i = 0; i < r->n_finding; i++) most = fmax(most, r->finding[i].named->share);
   if (r->n_finding == 0) return;
-  fputs("<section><table><tr><th>missing<th class=n>of the gap<th><th>shows in</tr>\n", out);
+  fputs("<section><h2>What is missing, and what is left</h2>\n<table><tr><th>name<th class=n>of the "
+        "gap<th><th>shows in</tr>\n",
+        out);
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
     page_text(out, "<tr><td>", f->fx->name, "");
@@ -131,9 +134,9 @@ static void held_out(const report_t *r, FILE *out) {
     bars(p, floor, out);
     fputs("</tr>\n", out);
   }
-  fputs(
-      "</table><p class=quiet>Orange: before. Green: after. Grey: what noise and feedback alone leave.</p>\n",
-      out);
+  fputs("</table><p class=\"quiet bars\">Orange: before. Green: after. Grey: what noise and feedback alone "
+        "leave.</p>\n",
+        out);
   const int channel = widest(r);
   if (channel >= 0) {
     fputs("<figure>", out);

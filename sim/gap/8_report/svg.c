@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define WIDE   860.0
-#define HIGH   300.0
-#define LEFT   70.0
+#define WIDE   640.0 // on a page of 420 px, too, letters of 15 can be read
+#define HIGH   280.0
+#define LEFT   74.0
 #define RIGHT  12.0
 #define TOP    34.0
-#define BOTTOM 46.0
+#define BOTTOM 50.0
 #define POINTS 900 // of a line; longer ones are drawn by the least and the most of each part
 #define TICKS  6
 
@@ -97,7 +97,7 @@ void svg_close(chart_t *c) {
 // A sample of the style and its name, left to right above the frame.
 static void legend(chart_t *c, const char *style, const char *label, const char *sample) {
   if (!label) return;
-  const double x = LEFT + 4.0 + 190.0 * c->n_label++;
+  const double x = LEFT + 4.0 + 165.0 * c->n_label++;
   if (sample[0] == 'l')
     fprintf(c->out, "<path class=\"%s\" d=\"M%g 16h22\" />", style, x);
   else if (sample[0] == 'd')
