@@ -145,6 +145,28 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   return DONE;
 }
 
+// A name that the set points refute is out of question: what it explained is looked at without it.
+static bool bar_refuted(diagnosis_t *d) {
+  bool refuted = false;
+  for (int i = 0; i < d->found.n; i++) {
+    const named_t *const named = &d->found.named[i];
+    if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
+    candidate_t *const c = &d->candidates.candidate[named->candidate];
+    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], named->confirm};
+    refuted = c->barred = true;
+  }
+  return refuted;
+}
+
+static done_t find_what_stands(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  for (;;) {
+    TRY(find_and_verify(job, d, why));
+    TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
+    if (!bar_refuted(d)) return DONE;
+    found_free(&d->found);
+  }
+}
+
 static void tell(const diagnose_job_t *job, const char *what) {
   if (job->progress) job->progress(what);
 }
@@ -159,8 +181,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
-  TRY(find_and_verify(job, d, why));
-  TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
+  TRY(find_what_stands(job, d, why));
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));

@@ -13,6 +13,13 @@ typedef struct {
   void (*progress)(const char *what); // is told what begins; may be null
 } diagnose_job_t;
 
+// A name that feedback made: least squares see it, the set points as instruments do not.
+typedef struct {
+  const fx_t *fx;
+  double value; // the first of its numbers
+  confirm_t by_set_points;
+} refuted_t;
+
 typedef struct {
   set_t fit, held;
   candidates_t candidates;
@@ -22,6 +29,8 @@ typedef struct {
       *why_not_confirmed; // why the reference could not be the instrument; null: it was, or is not there
   int rounds;             // times that all columns were formed, by the first look and the last
   withdrawn_list_t withdrawn;
+  int n_refuted;
+  refuted_t refuted[NAMED_MAX];
   model_t extended;
   closed_loop_t loop;
   chosen_t flown;    // what nominal flights had beside the model

@@ -71,3 +71,18 @@ TEST(an_unknown_is_right_where_it_is_and_in_what) {
     cJSON_Delete(verdict);
   }
 }
+
+// Feedback made a name of what the sensors had: the set points refute it.
+TEST(users_logs_are_not_given_a_name_that_feedback_made) {
+  static const struct {
+    unsigned long seed;
+    const char *answer;
+  } row[] = {{24546, "ceiling"}, {24512, "ceiling"}, {24627, "nothing"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    users_set_t set;
+    why_t why;
+    ROW("%lu", row[i].seed);
+    if (!CHECK_OK(users_one(USERS_LADDER, row[i].seed, &set, &why))) return;
+    CHECK_TEXT(set.answer, row[i].answer); // was with delay
+  }
+}

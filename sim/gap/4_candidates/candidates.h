@@ -22,7 +22,7 @@ typedef struct {
   int first, n; // columns
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
-  bool barred; // a shape that held-out flights contradict: it is out of question
+  bool barred; // held-out flights or set points contradict it: it is out of question
 } candidate_t;
 
 typedef struct {

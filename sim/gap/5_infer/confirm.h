@@ -11,6 +11,12 @@
 
 #include "gap/5_infer/found.h"
 
+// The set points tell of it, as strongly as is needed, and they tell of something else than least squares:
+// feedback made it.
+static inline bool confirm_refutes(const confirm_t *a) {
+  return a->answer == CONFIRM_NO && a->apart;
+}
+
 // Sets found->named[].confirm; nothing changes where no log has set points, or the model cannot be flown
 // along them (*why_not says so, else it is null). Names and their values stay. FAILED: no memory.
 MUST_CHECK done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base,

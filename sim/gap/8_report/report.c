@@ -22,6 +22,8 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   for (int i = 0; i < d->withdrawn.n; i++)
     if (d->withdrawn.name[i].fx == fx)
       return "the fitted flights show it, and the held-out ones contradict it";
+  for (int i = 0; i < d->n_refuted; i++)
+    if (d->refuted[i].fx == fx) return "feedback makes it: the set points as instruments do not show it";
   if (!d->nominal_flew)
     return "the model could not be flown along these tracks: what feedback alone would show is not known";
   return NULL;

@@ -97,6 +97,15 @@ static void warn_of_diagnosis(report_t *r) {
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
          w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
   }
+  for (int i = 0; i < d->n_refuted; i++) {
+    const refuted_t *const f = &d->refuted[i];
+    const fx_size_t *const size = &f->fx->size[0];
+    const char *const unit = f->fx->param[size->param].unit;
+    warn(r,
+         "%s is withdrawn: the rows show %.3g %s, but by the set points as instrument it is %.3g +- %.2g %s: "
+         "feedback makes it",
+         f->fx->name, f->value, unit, f->by_set_points.value[0], f->by_set_points.stderr_[0], unit);
+  }
   warn_of_nominal(r);
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.excluded[ch])
