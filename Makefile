@@ -199,8 +199,8 @@ test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=
 	@test/cf/run.sh "$(CF_PACKAGES)" "$(W)"
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
-	@$(O)/exam $(or $(SEED),82001) 200
-	@$(O)/exam users $(or $(SEED),82001) 120
+	@$(O)/exam $(or $(SEED),83001) 200
+	@$(O)/exam users $(or $(SEED),83001) 120
 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"

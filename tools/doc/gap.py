@@ -160,9 +160,9 @@ def in_short(said: str) -> Iterator[str]:
     for line in lines:
         if re.match("gap:|Nothing|These|Something|unknown:", line):
             yield line
-        elif named := re.match("(?!note)([a-z_]+): ", line):
+        elif named := re.match("(?!note|left)([a-z_]+): ", line):
             yield f"{named[1]} {next(lines)}"
-        elif line.startswith("  force_z "):
+        elif line.startswith("  force_z ") and " m/s2 " in line and " changes " not in line:
             yield "force_z m/s2, held out: {2} -> {3}".format(*line.split())
         elif line.startswith("  would do as well"):
             yield line.partition("; to tell")[0]
