@@ -21,10 +21,39 @@ static bool same(double v, int n) {
 }
 
 // Ties that are exact, ties that only seem to be, the ends of what a double is, and what is none.
-static const double ODD[] = {
-    0.0,      -0.0,  0.5,    1.5,     2.5,   0.125,    0.375,     -0.5,   0.05,     0.15,      0.25,
-    1e-7,     5e-8,  4.9e-8, 1e22,    1e23,  123456.5, 9.9999995, 0.9995, 99999.5,  999999.5,  1e-5,
-    9.995e-5, 1e300, 1e-300, 65535.0, -1e-9, DBL_MAX,  DBL_MIN,   5e-324, INFINITY, -INFINITY, NAN};
+static const double ODD[] = {0.0,
+                             -0.0,
+                             0.5,
+                             1.5,
+                             2.5,
+                             0.125,
+                             0.375,
+                             -0.5,
+                             0.05,
+                             0.15,
+                             0.25,
+                             1e-7,
+                             5e-8,
+                             4.9e-8,
+                             1e22,
+                             1e23,
+                             123456.5,
+                             9.9999995,
+                             0.9995,
+                             99999.5,
+                             999999.5,
+                             1e-5,
+                             9.995e-5,
+                             1e300,
+                             1e-300,
+                             65535.0,
+                             -1e-9,
+                             DBL_MAX,
+                             DBL_MIN,
+                             5e-324,
+                             (double)INFINITY,
+                             -(double)INFINITY,
+                             (double)NAN};
 
 TEST(pen_writes_the_same_bytes_as_printf) {
   for (unsigned i = 0; i < sizeof ODD / sizeof *ODD; i++)
