@@ -83,14 +83,8 @@ static void warn_of_nominal(report_t *r) {
          d->nominal.lost, d->nominal.lost + d->nominal.flown);
 }
 
-static void warn_of_diagnosis(report_t *r) {
+static void warn_of_withdrawn(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  if (!report_has_residual(r))
-    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
-            "explain them");
-  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
-    warn(r, "the held-out flights speak against what is named: all channels together they are explained no "
-            "better than before");
   for (int i = 0; i < d->withdrawn.n; i++) {
     const withdrawn_t *const w = &d->withdrawn.name[i];
     warn(r,
@@ -106,6 +100,17 @@ static void warn_of_diagnosis(report_t *r) {
          "feedback makes it",
          f->fx->name, f->value, unit, f->by_set_points.value[0], f->by_set_points.stderr_[0], unit);
   }
+}
+
+static void warn_of_diagnosis(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  if (!report_has_residual(r))
+    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
+            "explain them");
+  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
+    warn(r, "the held-out flights speak against what is named: all channels together they are explained no "
+            "better than before");
+  warn_of_withdrawn(r);
   warn_of_nominal(r);
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.excluded[ch])
