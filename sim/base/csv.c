@@ -106,43 +106,17 @@ static done_t read_line(csv_file_t *file, size_t *size, why_t *why) {
   return DONE;
 }
 
-// A line without quotes, as almost all are: what the parser does with it, several times as fast. False: not
-// such a line, or one for which there may be no room.
-static bool split(csv_file_t *file, const char *line, size_t size) {
-  row_t *const row = file->into;
-  if (size == 0 || size >= sizeof row->text || memchr(line, '"', size)) return false;
-  memcpy(row->text, line, size);
-  char *at = row->text, *const end = row->text + size - (line[size - 1] == '\n');
-  while (at < end && is_blank((unsigned char)*at)) at++;
-  file->ended = at < end;
-  for (char *to; file->ended; at = to + 1) {
-    to = memchr(at, ',', (size_t)(end - at));
-    const bool last = !to;
-    if (last) to = end;
-    char *trimmed = to;
-    while (at < to && is_blank((unsigned char)*at)) at++;
-    while (trimmed > at && is_blank((unsigned char)trimmed[-1])) trimmed--;
-    *trimmed = '\0';
-    if (row->count < CSV_COLUMN_MAX) row->cell[row->count] = at;
-    row->count++;
-    if (last) break;
-  }
-  return true;
-}
-
 // The next row that is not blank; none is left where into->count stays 0.
 static done_t read_row(csv_file_t *file, row_t *into, why_t *why) {
   into->count = 0;
   into->used = 0;
   file->into = into;
   file->ended = false;
-  for (bool begun = false; !file->ended;) {
+  while (!file->ended) {
     size_t size;
     TRY(read_line(file, &size, why));
     const bool bom = file->line_number == 1 && size >= 3 && memcmp(file->line, "\xEF\xBB\xBF", 3) == 0;
     const size_t skip = bom ? 3 : 0;
-    if (!begun && split(file, file->line + skip, size - skip)) continue;
-    begun = true; // it may go on in the next line
     bool good =
         csv_parse(&file->parser, file->line + skip, size - skip, on_cell, on_row, file) == size - skip;
     if (size == 0) good = csv_fini(&file->parser, on_cell, on_row, file) == 0;
