@@ -39,6 +39,7 @@ typedef struct {
   const char *mass_from;
   learn_t learn;
   learn_score_t score[FILES_MAX];
+  learn_bad_t bad[2 * FILES_MAX]; // of the logs, then of those held out
 } lesson_t;
 
 static const char USAGE[] =
@@ -135,7 +136,7 @@ static done_t weigh(const order_t *o, lesson_t *r, why_t *why) {
     struct stat s;
     if (stat(o->log[i], &s) == 0 && !S_ISREG(s.st_mode) && !S_ISDIR(s.st_mode))
       return error_set(why, "%s: not a file; allowed: a file, because it is read twice", o->log[i]);
-    TRY(learn_log_mass(&r->job, o->log[i], &r->mass, why));
+    TRY(learn_log_mass(&r->job, o->log[i], &r->mass, &r->bad[i], why));
   }
   return DONE;
 }
@@ -168,7 +169,8 @@ static done_t learn(const order_t *o, lesson_t *r, FILE *points, why_t *why) {
                      "%s: no sample may teach; allowed: %g to %g m from a known surface (rls.zMin, rls.zMax)",
                      o->log[o->n_log - 1], (double)p->learn.near_m, (double)p->learn.far_m);
   for (int i = 0; i < o->n_held_out; i++)
-    TRY(learn_log_score(&r->job, o->held_out[i], &r->learn.rls.theta, &r->score[i], why));
+    TRY(learn_log_score(&r->job, o->held_out[i], &r->learn.rls.theta, &r->score[i], &r->bad[o->n_log + i],
+                        why));
   return DONE;
 }
 
@@ -213,6 +215,8 @@ static void print_mN(double before_N, double after_N) {
 static void print(const order_t *o, const lesson_t *r) {
   printf("# %u samples taught, %u were not allowed to; mass %.1f g (%s)\n", r->learn.rls.count,
          r->learn.refused, 1e3 * (double)r->job.param.pos.mass_kg, r->mass_from);
+  for (int i = 0; i < o->n_log + o->n_held_out; i++)
+    if (r->bad[i].n) printf("# %s\n", r->bad[i].first.text);
   for (int i = 0; i < RBF_N; i++) printf("ceil.w%d = %.7g\n", i + 1, (double)r->learn.rls.theta.w[i]);
   if (o->n_held_out == 0) return;
   printf("\nvertical force residual without -> with the curve, mN\n%20s  %18s  %8s  %s\n", "all, sd",

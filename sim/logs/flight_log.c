@@ -50,6 +50,10 @@ flight_log_count_t flight_log_count(const flight_log_t *log) {
   return log->count;
 }
 
+long flight_log_bad(const flight_log_t *log, why_t *first) {
+  return log_rows_bad(&log->rows, first);
+}
+
 bool flight_log_has(const flight_log_t *log, signal_id_t signal) {
   return log->rows.has & SIGNAL_BIT(signal);
 }
@@ -79,6 +83,11 @@ static done_t read_after(flight_log_t *log, why_t *why) {
     log->count.gaps++;
     take_range(log, &log->after);
   }
+}
+
+static done_t check_all(const flight_log_t *log, why_t *why) {
+  TRY(log_rows_check_cells(&log->rows, log->count.rows, why));
+  return log_sanity_check(&log->sanity, &log->rows, why);
 }
 
 // `after` belongs to the tick's period: it becomes `before`.
@@ -144,7 +153,7 @@ done_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t
          log->after.v[SIG_TIME] - log->before.v[SIG_TIME] <= LOG_GAP_S)
     TRY(take_row(log, why));
   if (grid_ends(log, t_s)) {
-    if (!log->any_after) return log_sanity_check(&log->sanity, &log->rows, why);
+    if (!log->any_after) return check_all(log, why);
     t_s = log->start_s = log->after.v[SIG_TIME];
     log->k = 0;
     log->count.splits += log->any_before;

@@ -1,9 +1,9 @@
 // flight_log.h - a recorded flight on the flight code's 100 Hz grid, in SI, tick by tick, in fixed memory.
 //
 // A log with three rows or more per tick: their mean; a slower one: straight lines between rows. Rows without
-// a signal that is needed are left out and counted. Where rows are more than LOG_GAP_S apart the
-// flight is split: a new grid starts, the tick says so, and whoever filters starts again. Time that does not
-// increase is refused, never sorted.
+// a signal that is needed (a bad cell is none) are left out and counted. Where rows are more than LOG_GAP_S
+// apart the flight is split: a new grid starts, the tick says so, and whoever filters starts again. Time that
+// does not increase is refused, never sorted.
 #ifndef SIM_LOGS_FLIGHT_LOG_H
 #define SIM_LOGS_FLIGHT_LOG_H
 
@@ -32,15 +32,18 @@ typedef struct {
 MUST_CHECK done_t flight_log_open(flight_log_t **log, const char *path, const columns_t *columns,
                                   const model_t *vehicle, signals_t need, why_t *why);
 
-// *more is false at the end. BAD_INPUT: as log_rows_next; at the end also if the signals contradict
-// physics or each other over the whole flight: rows too close or too far, mean |acceleration| not near 1 g, z
-// not moving as vz says, commands that never exceed 100.
+// *more is false at the end. BAD_INPUT: as log_rows_next; at the end as log_rows_check_cells, or if the
+// signals contradict physics or each other over the whole flight: rows too close or too far, mean
+// |acceleration| not near 1 g, z not moving as vz says, commands that never exceed 100.
 MUST_CHECK done_t flight_log_next(flight_log_t *log, flight_tick_t *tick, bool *more, why_t *why);
 
 // The log holds this signal.
 bool flight_log_has(const flight_log_t *log, signal_id_t signal);
 
 flight_log_count_t flight_log_count(const flight_log_t *log);
+
+// As log_rows_bad.
+long flight_log_bad(const flight_log_t *log, why_t *first);
 
 // A null pointer is allowed.
 void flight_log_close(flight_log_t *log);

@@ -130,7 +130,8 @@ static done_t pass_open(pass_t *p, const learn_job_t *job, const char *path, why
 
 // Goes over a flight and hands every tick to `take`.
 static done_t each(const learn_job_t *job, const char *path,
-                   void (*take)(const learn_job_t *, const view_t *, void *), void *into, why_t *why) {
+                   void (*take)(const learn_job_t *, const view_t *, void *), void *into, learn_bad_t *bad,
+                   why_t *why) {
   pass_t p;
   TRY(pass_open(&p, job, path, why));
   done_t status;
@@ -142,6 +143,7 @@ static done_t each(const learn_job_t *job, const char *path,
   }
   if (status == DONE && flight_log_count(p.log).ticks == 0)
     status = error_set(why, "%s: no row has all the signals that are needed", path);
+  if (bad) bad->n = flight_log_bad(p.log, &bad->first);
   flight_log_close(p.log);
   return status;
 }
@@ -155,8 +157,9 @@ static void add_mass(const learn_job_t *job, const view_t *view, void *into) {
   sum->n++;
 }
 
-done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why) {
-  return each(job, path, add_mass, sum, why);
+done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, learn_bad_t *bad,
+                      why_t *why) {
+  return each(job, path, add_mass, sum, bad, why);
 }
 
 double learn_mass_kg(const learn_mass_t *sum) {
@@ -171,7 +174,7 @@ static void teach(const learn_job_t *job, const view_t *view, void *into) {
 }
 
 done_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why) {
-  return each(job, path, teach, learn, why);
+  return each(job, path, teach, learn, NULL, why);
 }
 
 // Running mean and sum of squared deviations (Welford), and sums over the near ticks.
@@ -205,13 +208,13 @@ static void add_residual(const learn_job_t *job, const view_t *view, void *into)
 }
 
 done_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
-                       learn_score_t *score, why_t *why) {
+                       learn_score_t *score, learn_bad_t *bad, why_t *why) {
   // The curve as it flies (1 beyond ceil.zOn), but not clipped: the clip is for control.
   residual_t r = {.curve = job->param.curve};
   r.curve.mode = CURVE_FIXED;
   r.curve.clip = 0;
   r.curve.fixed = *curve;
-  TRY(each(job, path, add_residual, &r, why));
+  TRY(each(job, path, add_residual, &r, bad, why));
   if (r.n == 0) return error_set(why, "%s: the surface is never in sight", path);
   const double n = (double)r.n, near = (double)r.near;
   *score = (learn_score_t){

@@ -34,6 +34,12 @@ typedef struct {
 // counts the same; near the ground the weights start from free air, 1, 0, ...
 void learn_job_init(learn_job_t *job, const model_t *vehicle, int surface);
 
+// Cells of a flight that were left out; as log_rows_bad.
+typedef struct {
+  long n;
+  why_t first;
+} learn_bad_t;
+
 // Sums over ticks far from the surface.
 typedef struct {
   double thrust_N, force_mps2;
@@ -51,11 +57,12 @@ typedef struct {
 } learn_score_t;
 
 // Each goes over one flight. BAD_INPUT: as flight_log_open and flight_log_next, or no tick at all; what
-// was summed or learned so far is then of no use.
-MUST_CHECK done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum, why_t *why);
+// was summed or learned so far is then of no use. bad may be null.
+MUST_CHECK done_t learn_log_mass(const learn_job_t *job, const char *path, learn_mass_t *sum,
+                                 learn_bad_t *bad, why_t *why);
 MUST_CHECK done_t learn_log_teach(const learn_job_t *job, const char *path, learn_t *learn, why_t *why);
 MUST_CHECK done_t learn_log_score(const learn_job_t *job, const char *path, const rbf_weights_t *curve,
-                                  learn_score_t *score, why_t *why);
+                                  learn_score_t *score, learn_bad_t *bad, why_t *why);
 
 // The mass that the sums tell, or NaN if there were too few ticks.
 double learn_mass_kg(const learn_mass_t *sum);

@@ -82,7 +82,8 @@ void log_rows_close(log_rows_t *r) {
   table_close(&r->table);
 }
 
-done_t log_rows_refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why) {
+// The first bad cell of a column as an error; `more` is said behind it.
+static done_t refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why) {
   const bad_cells_t *const bad = &r->bad[signal];
   const char *const si = columns_si(&r->columns, signal);
   double min, max;
@@ -98,11 +99,35 @@ done_t log_rows_refuse_bad(const log_rows_t *r, signal_id_t signal, const char *
                       columns_hint(&r->columns, signal, bad->value, min, max, hint), more);
 }
 
+done_t log_rows_check_cells(const log_rows_t *r, long rows, why_t *why) {
+  for (int i = 0; i < SIG_COLUMNS; i++) {
+    const bad_cells_t *const bad = &r->bad[i];
+    if ((double)bad->n <= LOG_CELLS_LOST * (double)rows) continue;
+    char more[100];
+    snprintf(more, sizeof more, ", the first of %ld such cells in %ld rows; allowed: 5 %%", bad->n, rows);
+    return refuse_bad(r, (signal_id_t)i, more, why);
+  }
+  return DONE;
+}
+
+long log_rows_bad(const log_rows_t *r, why_t *first) {
+  long n = 0;
+  int at = -1;
+  for (int i = 0; i < SIG_COLUMNS; i++) {
+    n += r->bad[i].n;
+    if (r->bad[i].n && (at < 0 || r->bad[i].line < r->bad[at].line)) at = i;
+  }
+  if (at >= 0)
+    (void)table_refuse(&r->table, r->bad[at].line, r->at[at], first,
+                       "the first of %ld cells that are no numbers or out of range; they are left out", n);
+  return n;
+}
+
 static done_t take_bad(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
   bad_cells_t *const bad = &r->bad[i];
   if (bad->n++ == 0) *bad = (bad_cells_t){1, table_line(&r->table), *value, false};
   *value = GAP;
-  return r->care == LOG_STRICT || i == SIG_TIME ? log_rows_refuse_bad(r, i, "", why) : DONE;
+  return i == SIG_TIME ? refuse_bad(r, i, "", why) : DONE;
 }
 
 // A controller asks for less than nothing and for more than there is, and the motor gives what it can; what
@@ -119,7 +144,7 @@ static bool clip_command(log_rows_t *r, signal_id_t i, double min, double max, d
 }
 
 static done_t read_cell(log_rows_t *r, signal_id_t i, double *value, why_t *why) {
-  const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : r->care == LOG_MEND ? CSV_GAP_MARKED : CSV_GAP_NAN;
+  const csv_gap_t gap = i == SIG_TIME ? CSV_GAP_REFUSED : CSV_GAP_MARKED;
   double min, max;
   TRY(table_number(&r->table, r->at[i], gap, value, why));
   if (isinf(*value)) return take_bad(r, i, value, why);
@@ -153,8 +178,8 @@ static void quaternion_from_angles(double *v) {
   v[SIG_QZ] = cr * cp * sy - sr * sp * cy;
 }
 
-static done_t read_attitude(log_rows_t *r, log_row_t *row, why_t *why) {
-  if (!has(r, QUATERNION)) return DONE;
+static void read_attitude(log_rows_t *r, log_row_t *row) {
+  if (!has(r, QUATERNION)) return;
   double *const q = &row->v[SIG_QW], same = 0.0;
   if (r->at[SIG_QW] < 0 || r->at[SIG_QX] < 0 || r->at[SIG_QY] < 0 || r->at[SIG_QZ] < 0)
     quaternion_from_angles(row->v);
@@ -163,11 +188,10 @@ static done_t read_attitude(log_rows_t *r, log_row_t *row, why_t *why) {
     bad_cells_t *const bad = &r->bad[SIG_QW];
     if (bad->n++ == 0) *bad = (bad_cells_t){1, table_line(&r->table), norm, true};
     for (int i = 0; i < 4; i++) q[i] = GAP;
-    return r->care == LOG_STRICT ? log_rows_refuse_bad(r, SIG_QW, "", why) : DONE;
+    return;
   }
   for (int i = 0; i < 4; i++) same += q[i] * r->last.v[SIG_QW + i];
   for (int i = 0; i < 4; i++) q[i] *= (r->any && same < 0.0 ? -1.0 : 1.0) / norm;
-  return DONE;
 }
 
 // World to body: a' = a + 2 u x (u x a + w a) with u the negative vector part.
@@ -204,7 +228,7 @@ done_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
   TRY(check_time(r, row->v[SIG_TIME], why));
   if (isnan(row->v[SIG_VBAT])) row->v[SIG_VBAT] = r->vbat_V;
   r->vbat_V = row->v[SIG_VBAT];
-  TRY(read_attitude(r, row, why));
+  read_attitude(r, row);
   acceleration_to_body(r, row->v);
   row->at_limit = log_motors_fill(&r->motors, &r->columns, &r->vehicle, row->v);
   // A gap in the attitude does not break the chain of signs.

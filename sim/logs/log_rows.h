@@ -9,10 +9,12 @@
 
 #define LOG_GAP_S 0.15 // rows that are farther apart have a gap between them
 
-// LOG_STRICT: a cell that is no number or beyond what is plausible is refused, and so are commands that the
-// vehicle's map cannot tell in newton, and time that stands. LOG_MEND: such cells are taken as missing and
-// counted, such commands have no newton, a row cut off at the end is left out; for time that stands the rows
-// are handed on.
+#define LOG_CELLS_LOST 0.05 // of a column, at most: more of it would be made up between what is there
+
+// A cell that is no number or beyond what is plausible is taken as missing and counted.
+// LOG_STRICT: commands that the vehicle's map cannot tell in newton are refused, and so are time that stands
+// and a row cut off at the end. LOG_MEND: such commands have no newton, such a row is left out; for time that
+// stands the rows are handed on.
 typedef enum { LOG_STRICT, LOG_MEND } log_care_t;
 
 typedef struct {
@@ -52,10 +54,14 @@ typedef struct {
 MUST_CHECK done_t log_rows_open(log_rows_t *r, const char *path, const columns_t *columns,
                                 const model_t *vehicle, log_care_t care, signals_t need, why_t *why);
 
-// The first bad cell of a column as an error (names the unit that would fit); `more` is said behind it.
-done_t log_rows_refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why);
+// After the last row. BAD_INPUT: more than LOG_CELLS_LOST of a column is bad; names the first such cell and
+// the unit that would fit. rows: that were read.
+MUST_CHECK done_t log_rows_check_cells(const log_rows_t *r, long rows, why_t *why);
 
-// BAD_INPUT: not a number, beyond what is plausible (names the unit that would fit), or time that does not
+// Bad cells of all columns; `first` is where the first one is, and what they all are.
+long log_rows_bad(const log_rows_t *r, why_t *first);
+
+// BAD_INPUT: no row of a table, a decimal comma, or time that is no number, not plausible or does not
 // increase. LOG_STRICT: also a uSD log that is damaged, behind its last row.
 MUST_CHECK done_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why);
 

@@ -6,25 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CELLS_LOST 0.05 // of a column, at most: more of it would be made up between what is there
-#define USUAL      0.6  // of the distances of a stream's values are no longer than its usual one
+#define USUAL 0.6 // of the distances of a stream's values are no longer than its usual one
 
 // Signals of which every row, or every so many rows, has a value: what is seen now and then (ranges), held
 // (voltage) or not always wanted (set points) may be empty.
 static bool is_steady(signal_id_t i) {
   return (i >= SIG_X && i <= SIG_THRUST) || (i >= SIG_TX && i <= SIG_W4);
-}
-
-static done_t refuse_bad(const raw_t *raw, const log_rows_t *rows, why_t *why) {
-  for (int i = 0; i < SIG_COLUMNS; i++) {
-    const bad_cells_t *const bad = &rows->bad[i];
-    if ((double)bad->n <= CELLS_LOST * (double)raw->rows) continue;
-    char more[100];
-    snprintf(more, sizeof more, ", the first of %ld such cells in %ld rows; allowed: 5 %%", bad->n,
-             raw->rows);
-    return log_rows_refuse_bad(rows, (signal_id_t)i, more, why);
-  }
-  return DONE;
 }
 
 // The distance within which most values follow on the one before: a stream slower than the log has its own.
@@ -56,7 +43,7 @@ static done_t refuse_holes(const raw_t *raw, const log_rows_t *rows, signal_id_t
     due += 1 + (last >= 0 ? holes : 0);
     last = i;
   }
-  if (lost <= CELLS_LOST * due) return DONE;
+  if (lost <= LOG_CELLS_LOST * due) return DONE;
   return table_refuse(&rows->table, line, rows->at[signal], why,
                       "%.3g %% of its cells are empty, from here on; allowed: 5 %%", 100.0 * lost / due);
 }
@@ -83,17 +70,9 @@ static done_t refuse_no_newton(const log_rows_t *rows, why_t *why) {
 }
 
 static void note_bad(gap_flight_t *f, const log_rows_t *rows) {
-  int first = -1;
-  for (int i = 0; i < SIG_COLUMNS; i++) {
-    f->cells_bad += rows->bad[i].n;
-    if (rows->bad[i].n && (first < 0 || rows->bad[i].line < rows->bad[first].line)) first = i;
-  }
-  if (first < 0) return;
-  why_t where;
-  (void)table_refuse(&rows->table, rows->bad[first].line, rows->at[first], &where,
-                     "the first of %ld cells that are no numbers or out of range; they are left out",
-                     f->cells_bad);
-  gap_note(f, "%.190s", where.text);
+  why_t first;
+  f->cells_bad = log_rows_bad(rows, &first);
+  if (f->cells_bad) gap_note(f, "%.190s", first.text);
 }
 
 static void note_rows(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows) {
@@ -124,7 +103,7 @@ done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows
       memcpy(f->motor_column[i], rows->columns.of[SIG_M1 + i].column, COLUMN_NAME_MAX);
   TRY(refuse_some_motors(rows, why));
   TRY(refuse_no_newton(rows, why));
-  TRY(refuse_bad(raw, rows, why));
+  TRY(log_rows_check_cells(rows, raw->rows, why));
   double *const room = malloc(((size_t)raw->n + 1) * sizeof *room);
   if (!room) return error_failed(why, "out of memory");
   done_t status = DONE;

@@ -19,7 +19,8 @@ static done_t first_row(const char *csv, const columns_t *c, const model_t *vehi
   log_rows_t rows;
   bool more;
   TRY(log_rows_open(&rows, scratch_file("log.csv", csv, -1), c, vehicle, LOG_STRICT, need, why));
-  const done_t status = log_rows_next(&rows, row, &more, why);
+  done_t status = log_rows_next(&rows, row, &more, why);
+  if (status == DONE) status = log_rows_check_cells(&rows, 1, why);
   log_rows_close(&rows);
   return status;
 }
@@ -133,6 +134,8 @@ TEST(columns_files_are_refused_with_line_and_key) {
   }
 }
 
+#define ALL_BAD ", the first of 1 such cells in 1 rows; allowed: 5 %"
+
 TEST(rows_are_refused_with_column_and_factor) {
   const columns_t c = columns_crazyflie();
   static const struct {
@@ -144,17 +147,17 @@ TEST(rows_are_refused_with_column_and_factor) {
        "log.csv:1: column stateEstimate.z: missing; needed: the signal `z`, named by --columns FILE"},
       {"height in mm", "timestamp,stateEstimate.z\n1,412\n",
        "log.csv:2: column stateEstimate.z: 412 m is not plausible; allowed: -30 to 100 m; the unit cm would "
-       "fit (factor 0.01), or mm would fit (factor 0.001)"},
+       "fit (factor 0.01), or mm would fit (factor 0.001)" ALL_BAD},
       {"volts in mV", "timestamp,stateEstimate.z,pm.vbat\n1,0.4,3700\n",
        "log.csv:2: column pm.vbat: 3700 V is not plausible; allowed: 1 to 60 V; the unit mV would fit "
-       "(factor 0.001)"},
+       "(factor 0.001)" ALL_BAD},
       {"acceleration in m/s2", "timestamp,stateEstimate.z,acc.z\n1,0.4,30\n",
        "log.csv:2: column acc.z: 294.3 m/s2 is not plausible; allowed: -240 to 240 m/s2; the unit m/s2 would "
-       "fit (factor 0.1019), or mg would fit (factor 0.001)"},
+       "fit (factor 0.1019), or mg would fit (factor 0.001)" ALL_BAD},
       {"quaternion",
        "timestamp,stateEstimate.z,stateEstimate.qw,stateEstimate.qx,stateEstimate.qy,stateEstimate.qz\n"
        "1,0.4,0.5,0,0,0\n",
-       "log.csv:2: column stateEstimate.qw: the quaternion's length is 0.5; allowed: 0.9 to 1.1"},
+       "log.csv:2: column stateEstimate.qw: the quaternion's length is 0.5; allowed: 0.9 to 1.1" ALL_BAD},
       {"no map", "timestamp,stateEstimate.z,motor.m1,motor.m2,motor.m3,motor.m4\n1,0.4,1,1,1,1\n",
        "log.csv:1: column motor.m1: a motor command, but vehicle newton has no [thrust_map]; choose one that "
        "has "

@@ -56,14 +56,14 @@ TEST(learn_log_finds_the_curve_that_was_put_in) {
     learn_score_t score;
     why_t why = {""};
     const char *path = write_sweeps("learn.csv", i == 0, 0.3);
-    CHECK_OK(learn_log_mass(&job, path, &mass, &why));
+    CHECK_OK(learn_log_mass(&job, path, &mass, NULL, &why));
     // The curve is 0.13 % above 1 at 15 cm, less beyond: that much the mass is too small.
     CHECK_NEAR(learn_mass_kg(&mass), 0.031, 0.031 * 0.002);
     job.param.pos.mass_kg = (float)learn_mass_kg(&mass);
     CHECK_OK(learn_init(&learn, &job.param.learn, &job.param.curve.fixed));
     CHECK_OK(learn_log_teach(&job, path, &learn, &why));
-    CHECK_OK(
-        learn_log_score(&job, write_sweeps("held_out.csv", i == 0, 1.7), &learn.rls.theta, &score, &why));
+    CHECK_OK(learn_log_score(&job, write_sweeps("held_out.csv", i == 0, 1.7), &learn.rls.theta, &score, NULL,
+                             &why));
     CHECK_TEXT(why.text, "");
     // Seven bells are no exponential; a centimetre is the nearest that was flown.
     for (double d_m = 0.012; d_m < 0.1; d_m += 0.004)
@@ -95,8 +95,8 @@ TEST(learn_log_does_not_take_flying_for_standing_with_a_mass_set_by_hand) {
   static const float mass_kg[] = {0.031f, 0.062f};
   for (int i = 0; i < 2; i++) {
     job.param.pos.mass_kg = mass_kg[i];
-    CHECK_OK(learn_log_mass(&job, path, &mass[i], &why));
-    CHECK_OK(learn_log_score(&job, path, &job.param.curve.fixed, &score[i], &why));
+    CHECK_OK(learn_log_mass(&job, path, &mass[i], NULL, &why));
+    CHECK_OK(learn_log_score(&job, path, &job.param.curve.fixed, &score[i], NULL, &why));
   }
   CHECK(mass[0].n > 1000 && mass[1].n == mass[0].n);
   CHECK(score[0].ticks > 4000 && score[1].ticks == score[0].ticks);
@@ -108,7 +108,7 @@ TEST(learn_log_refuses_what_does_not_say_where_the_surface_is) {
   job.vehicle.ceiling_m = HUGE_VAL;
   learn_mass_t mass = {0};
   why_t why;
-  CHECK_STATUS(BAD_INPUT, learn_log_mass(&job, write_sweeps("a.csv", 1, 0.0), &mass, &why));
+  CHECK_STATUS(BAD_INPUT, learn_log_mass(&job, write_sweeps("a.csv", 1, 0.0), &mass, NULL, &why));
   CHECK_TEXT(scratch_short(why.text),
              "a.csv:1: column range.up: missing; --surface ceiling needs the upward range "
              "sensor, or a vehicle with ceiling_m");
@@ -142,12 +142,12 @@ static void check_held_out(const char *first, const char *second, const char *he
   why_t why = {""};
   ROW("%s held out", held_out);
   if (!measured_job(&job, "cf21_neural_swarm", "tools/columns/neural_swarm.toml")) return;
-  for (int i = 0; i < 2; i++) CHECK_OK(learn_log_mass(&job, data_path(learn_from[i]), &mass, &why));
+  for (int i = 0; i < 2; i++) CHECK_OK(learn_log_mass(&job, data_path(learn_from[i]), &mass, NULL, &why));
   CHECK_NEAR(learn_mass_kg(&mass), 0.0333, 0.0004); // the data's README: 33.2-33.5 g
   job.param.pos.mass_kg = (float)learn_mass_kg(&mass);
   CHECK_OK(learn_init(&learn, &job.param.learn, &job.param.curve.fixed));
   for (int i = 0; i < 2; i++) CHECK_OK(learn_log_teach(&job, data_path(learn_from[i]), &learn, &why));
-  CHECK_OK(learn_log_score(&job, data_path(held_out), &learn.rls.theta, &score, &why));
+  CHECK_OK(learn_log_score(&job, data_path(held_out), &learn.rls.theta, &score, NULL, &why));
   CHECK_TEXT(why.text, "");
   CHECK(score.all_before_N > 7e-3 && score.near_before_N > 15e-3);
   CHECK(score.all_after_N <= score.all_before_N / 2.0);
@@ -171,7 +171,7 @@ TEST(learn_log_finds_no_curve_where_there_was_no_surface) {
   if (!measured_job(&job, "cf21_imrc", "tools/columns/imrc.toml")) return;
   const char *path = data_path("imu_rpm_500hz/jana05.csv");
   job.param.learn.far_m = 1.0f; // it flies 0.5 m above the ground
-  CHECK_OK(learn_log_mass(&job, path, &mass, &why));
+  CHECK_OK(learn_log_mass(&job, path, &mass, NULL, &why));
   CHECK_NEAR(learn_mass_kg(&mass), 0.0347, 0.0347 * 0.02);
   job.param.pos.mass_kg = (float)learn_mass_kg(&mass);
   CHECK_OK(learn_init(&learn, &job.param.learn, &job.param.curve.fixed));
