@@ -157,22 +157,29 @@ TEST(gap_refuses_motors_whose_order_turns_the_vehicle_the_other_way) {
 TEST(gap_refuses_motors_of_which_some_are_exchanged) {
   static const struct {
     const char *sed, *order, *column;
+    int every; // rows of 500 Hz
   } row[] = {
-      {"s/indi.m1/X/; s/indi.m2/indi.m1/; s/X/indi.m2/", "2, 1, 3 and 4", "indi.m1"},
-      {"s/indi.m1/X/; s/indi.m3/indi.m1/; s/X/indi.m3/", "3, 2, 1 and 4", "indi.m1"},
-      {"s/indi.m3/X/; s/indi.m4/indi.m3/; s/X/indi.m4/", "1, 2, 4 and 3", "indi.m3"},
+      {"s/indi.m1/X/; s/indi.m2/indi.m1/; s/X/indi.m2/", "2, 1, 3 and 4", "indi.m1", 1},
+      {"s/indi.m1/X/; s/indi.m3/indi.m1/; s/X/indi.m3/", "3, 2, 1 and 4", "indi.m1", 1},
+      {"s/indi.m3/X/; s/indi.m4/indi.m3/; s/X/indi.m4/", "1, 2, 4 and 3", "indi.m3", 1},
+      {"s/indi.m1/X/; s/indi.m2/indi.m1/; s/X/indi.m2/", "2, 1, 3 and 4", "indi.m1", 10},
+      {"s/indi.m1/X/; s/indi.m3/indi.m1/; s/X/indi.m3/", "3, 2, 1 and 4", "indi.m1", 10},
+      {"s/indi.m2/X/; s/indi.m4/indi.m2/; s/X/indi.m4/", "1, 4, 3 and 2", "indi.m2", 10},
       // what motor 1 did is called m2, motor 2's m3, motor 3's m1
       {"s/indi.m1/X/; s/indi.m2/Y/; s/indi.m3/indi.m1/; s/X/indi.m2/; s/Y/indi.m3/", "3, 1, 2 and 4",
-       "indi.m1"},
+       "indi.m1", 1},
+      {"s/indi.m1/X/; s/indi.m2/Y/; s/indi.m3/indi.m1/; s/X/indi.m2/; s/Y/indi.m3/", "3, 1, 2 and 4",
+       "indi.m1", 10},
   };
   CHECK(gap_logs_fly("x", 1, NULL));
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].order);
+    ROW("%s, every row of %d", row[i].order, row[i].every);
     char line[400], text[4000], told[150];
     snprintf(line, sizeof line,
-             "head -n 1 $S/x0.csv | sed '%s' >$S/e.csv; tail -n +2 $S/x0.csv >>$S/e.csv; gap --vehicle "
+             "head -n 1 $S/x0.csv | sed '%s' >$S/e.csv; tail -n +2 $S/x0.csv | sed -n '1~%dp' >>$S/e.csv; "
+             "gap --vehicle "
              "$S/room.toml --columns tools/columns/fly.toml $S/e.csv",
-             row[i].sed);
+             row[i].sed, row[i].every);
     CHECK(program_run(line, STREAM_ERROR, text, sizeof text) == 2);
     snprintf(told, sizeof told,
              "e.csv: column %s: the rates contradict the motor commands, and follow them if m1 to m4 are "

@@ -8,9 +8,8 @@
 
 static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
 
-#define ORDERS     24   // of four motors
-#define FOLLOWS    0.35 // correlation
-#define MORE_ALIKE 0.3  // of correlation
+#define ORDERS        24   // of four motors
+#define EXPLAINS_MORE 0.25 // of the turning about one axis
 
 typedef struct {
   double slope, correlation;
@@ -68,13 +67,17 @@ static void order_of(int i, int order[ROTORS]) {
   }
 }
 
-static bool is_better(const likeness_t given[CHANNELS], const likeness_t other[CHANNELS]) {
-  int better = 0;
-  for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-    if (!(other[ch].correlation > FOLLOWS)) return false;
-    better += other[ch].correlation > given[ch].correlation + MORE_ALIKE;
-  }
-  return better >= 2;
+// Of the turning about all axes, how much the commands explain; what goes against them counts against it.
+static double explained(const likeness_t axis[CHANNELS]) {
+  double sum = 0.0;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) sum += axis[ch].correlation * fabs(axis[ch].correlation);
+  return sum;
+}
+
+static bool all_follow(const likeness_t axis[CHANNELS]) {
+  for (int ch = CH_WX; ch <= CH_WZ; ch++)
+    if (!(axis[ch].correlation > 0.0)) return false;
+  return true;
 }
 
 // The column of the first motor that is another one, as errors name columns; "": the log has none.
@@ -86,27 +89,35 @@ static const char *first_exchanged(const gap_flight_t *f, const int order[ROTORS
   return text;
 }
 
-static done_t find_order(set_t *s, const model_t *m, const likeness_t given[CHANNELS], double *room,
-                         why_t *why) {
-  for (int i = 1; i < ORDERS; i++) {
-    likeness_t other[CHANNELS];
+// Tries every order without more lag, the given one too: number 0.
+static done_t find_order(set_t *s, const model_t *m, double *room, why_t *why) {
+  int best = 0;
+  double given = 0.0, most = 0.0;
+  for (int i = 0; i < ORDERS; i++) {
+    likeness_t axis[CHANNELS];
     int order[ROTORS], back[ROTORS];
-    char column[COLUMN_NAME_MAX + 10];
     order_of(i, order);
     for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
     reorder(s, order);
-    const done_t status = best_of(s, m, 1, room, other, why);
+    const done_t status = best_of(s, m, 1, room, axis, why);
     reorder(s, back);
     TRY(status);
-    if (!is_better(given, other)) continue;
-    return error_set(
-        why,
-        "%s: %sthe rates contradict the motor commands, and follow them if m1 to m4 are motors %d, "
-        "%d, %d and %d; allowed: motors in the vehicle file's order",
-        s->grid[0].flight->name, first_exchanged(s->grid[0].flight, order, column), order[0] + 1,
-        order[1] + 1, order[2] + 1, order[3] + 1);
+    const double now = explained(axis);
+    if (i == 0) given = most = now;
+    if (now <= most || !all_follow(axis)) continue;
+    most = now;
+    best = i;
   }
-  return DONE;
+  if (most <= given + EXPLAINS_MORE) return DONE;
+  int order[ROTORS];
+  char column[COLUMN_NAME_MAX + 10];
+  order_of(best, order);
+  return error_set(
+      why,
+      "%s: %sthe rates contradict the motor commands, and follow them if m1 to m4 are motors %d, %d, %d and "
+      "%d; allowed: motors in the vehicle file's order",
+      s->grid[0].flight->name, first_exchanged(s->grid[0].flight, order, column), order[0] + 1, order[1] + 1,
+      order[2] + 1, order[3] + 1);
 }
 
 static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
@@ -124,7 +135,7 @@ static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
     s->excluded[ch] = best[ch].slope < EXCLUDED_SLOPE;
     any = any || s->excluded[ch];
   }
-  return any ? find_order(s, m, best, room, why) : DONE;
+  return any ? find_order(s, m, room, why) : DONE;
 }
 
 done_t excluded_find(set_t *s, const model_t *m, why_t *why) {
