@@ -11,7 +11,7 @@
 #define RECORD_S 0.01
 #define IDLE_N   0.002 // of one motor: below, it stands
 
-typedef struct {
+struct flight_loop {
   const plan_t *plan;
   const model_t *model; // `own`
   model_t own;          // this flight's: as drawn, on the vertical axis a point
@@ -32,7 +32,11 @@ typedef struct {
   bool range_new;
   int way;
   double ceiling_z_m; // as the pilot thinks it, at the last sample
-} flight_loop_t;
+  long tick;
+  int every; // ticks a sample
+  truth_t truth;
+  thoughts_t thoughts;
+};
 
 static truth_t truth_of(const flight_loop_t *f) {
   const body_t *b = &f->body;
@@ -100,6 +104,8 @@ static void sense(flight_loop_t *f, const truth_t *truth) {
   f->in.gyro_b_radps = imu.gyro_b_radps;
   f->in.acc_b_mps2 = imu.acc_b_mps2;
   f->in.range_new = range.up_new;
+  f->in.down_new = range.down_new;
+  f->in.down_m = range.down_m;
   f->in.range_m = range.up_mm >= RANGE_UP_NOTHING_MM ? (double)NAN : 1e-3 * range.up_mm;
   if (range.up_new) f->range_m = f->in.range_m;
   f->range_new = f->range_new || range.up_new;
@@ -138,19 +144,19 @@ static void call_pilot(flight_loop_t *f, const truth_t *truth) {
   f->in.step++;
 }
 
-static done_t keep(flight_loop_t *f, record_t *record, double t_s, const truth_t *truth, why_t *why) {
-  thoughts_t thoughts = {.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
-  if (f->pilot->tell) f->pilot->tell(f->pilot->state, &thoughts);
-  f->ceiling_z_m = thoughts.ceiling_z_m;
+static tick_t look(flight_loop_t *f, double t_s) {
+  f->thoughts = (thoughts_t){.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
+  if (f->pilot->tell) f->pilot->tell(f->pilot->state, &f->thoughts);
+  f->ceiling_z_m = f->thoughts.ceiling_z_m;
   const tick_t tick = {
       .t_s = t_s,
       .setpoint_m = f->plan->way[f->way].setpoint_m,
       .body = &f->body,
-      .truth = truth,
+      .truth = &f->truth,
       .in = &f->in,
       .estimate = &f->estimate,
       .motor_N = f->motor_N,
-      .thoughts = &thoughts,
+      .thoughts = &f->thoughts,
       .up_min = f->up_min,
       .gap_min_m = f->gap_min_m,
       .range_new = f->range_new,
@@ -159,7 +165,7 @@ static done_t keep(flight_loop_t *f, record_t *record, double t_s, const truth_t
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_new = false;
-  return record_add(record, &tick, why);
+  return tick;
 }
 
 static void look_at_rotors(flight_loop_t *f) {
@@ -180,26 +186,39 @@ static void move(flight_loop_t *f, double tick_s) {
   f->gap_min_m = fmin(f->gap_min_m, record_gap_m(&f->body));
 }
 
-static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t *why) {
+static double tick_s_of(const flight_loop_t *f) {
+  return f->plan->vertical_only ? f->plan->period_s : LOOP_TICK_S;
+}
+
+flight_over_t loop_tick(flight_loop_t *f, tick_t *seen, bool *is_sample) {
   const plan_t *plan = f->plan;
-  const double tick_s = plan->vertical_only ? plan->period_s : LOOP_TICK_S;
+  const double tick_s = tick_s_of(f), t_s = (double)f->tick * tick_s;
+  *is_sample = false;
+  const flight_over_t over = flight_over(plan, tick_s, f->tick, &f->body, f->motor_N);
+  if (over != FLIGHT_FLIES) return over;
+  order(f, t_s);
+  if (f->body.rigid.held && t_s >= plan->held_s) body_hold(&f->body, false);
+  f->truth = truth_of(f);
   const int calls = plan->vertical_only ? 1 : 2;
-  const long ticks = lround(plan->end_s / tick_s);
-  const int every = plan->record_every > 0 ? plan->record_every : (int)lround(fmax(1.0, RECORD_S / tick_s));
-  TRY(record_reserve(record, (int)(ticks / every) + 1, why));
+  for (int i = 0; i < calls; i++) call_pilot(f, &f->truth);
+  const axes_t axes = axes_of(f->truth.q_wb);
+  f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
+  *is_sample = f->tick % f->every == 0;
+  if (*is_sample) *seen = look(f, t_s);
+  return FLIGHT_FLIES;
+}
+
+void loop_move(flight_loop_t *f) {
+  move(f, tick_s_of(f));
+  f->tick++;
+}
+
+static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t *why) {
+  TRY(record_reserve(record, (int)(lround(f->plan->end_s / tick_s_of(f)) / f->every) + 1, why));
   flight_over_t over;
-  for (long tick = 0; (over = flight_over(plan, tick_s, tick, &f->body, f->motor_N)) == FLIGHT_FLIES;
-       tick++) {
-    const double t_s = (double)tick * tick_s;
-    order(f, t_s);
-    if (f->body.rigid.held && t_s >= plan->held_s) body_hold(&f->body, false);
-    const truth_t truth = truth_of(f);
-    for (int i = 0; i < calls; i++) call_pilot(f, &truth);
-    const axes_t axes = axes_of(truth.q_wb);
-    f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
-    if (tick % every == 0) TRY(keep(f, record, t_s, &truth, why));
-    move(f, tick_s);
-  }
+  tick_t seen;
+  for (bool is_sample; (over = loop_tick(f, &seen, &is_sample)) == FLIGHT_FLIES; loop_move(f))
+    if (is_sample) TRY(record_add(record, &seen, why));
   outcome->finite = over != FLIGHT_NOT_FINITE;
   return DONE;
 }
@@ -229,7 +248,7 @@ static done_t draw(flight_loop_t *f, const model_t *model, drawn_t *drawn, why_t
   return drawn_vehicle(drawn, &f->own, why);
 }
 
-static done_t open(flight_loop_t *f, why_t *why) {
+static done_t begin(flight_loop_t *f, why_t *why) {
   const plan_t *plan = f->plan;
   body_start_t start = start_of(f);
   start.seed = plan->seed ^ 0x9e3779b97f4a7c15u;
@@ -261,24 +280,50 @@ static done_t open(flight_loop_t *f, why_t *why) {
   return DONE;
 }
 
-done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
-                outcome_t *outcome, why_t *why) {
-  flight_loop_t *f = calloc(1, sizeof *f);
+done_t loop_open(flight_loop_t **loop, const plan_t *plan, const model_t *model, const pilot_t *pilot,
+                 drawn_t *drawn, why_t *why) {
+  flight_loop_t *f = *loop = calloc(1, sizeof *f);
   if (!f) return error_failed(why, "out of memory");
   *f = (flight_loop_t){.plan = plan, .model = &f->own, .pilot = pilot};
-  record->vertical_only = plan->vertical_only;
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_m = f->ceiling_z_m = (double)NAN;
-  *outcome = (outcome_t){.finite = true};
-  const double start_s = cpu_time_s();
-  done_t status = draw(f, model, &outcome->drawn, why);
-  if (status == DONE) status = open(f, why);
-  if (status == DONE) status = run(f, record, outcome, why);
-  outcome->contacts = f->body.ceiling_contacts;
-  outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);
+  f->every = plan->record_every > 0 ? plan->record_every : (int)lround(fmax(1.0, RECORD_S / tick_s_of(f)));
+  done_t status = draw(f, model, drawn, why);
+  if (status == DONE) status = begin(f, why);
+  if (status == DONE) return DONE;
+  loop_close(f);
+  *loop = NULL;
+  return status;
+}
+
+body_t *loop_body(flight_loop_t *f) {
+  return &f->body;
+}
+model_t *loop_model(flight_loop_t *f) {
+  return &f->own;
+}
+ekf_t *loop_estimator(flight_loop_t *f) {
+  return &f->ekf;
+}
+
+void loop_close(flight_loop_t *f) {
+  if (!f) return;
   if (f->body.integrate) body_close(&f->body);
   random_close(f->random);
   free(f);
+}
+
+done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
+                outcome_t *outcome, why_t *why) {
+  record->vertical_only = plan->vertical_only;
+  *outcome = (outcome_t){.finite = true};
+  const double start_s = cpu_time_s();
+  flight_loop_t *f;
+  TRY(loop_open(&f, plan, model, pilot, &outcome->drawn, why));
+  const done_t status = run(f, record, outcome, why);
+  outcome->contacts = f->body.ceiling_contacts;
+  outcome->realtime_factor = cpu_time_factor(plan->end_s, start_s);
+  loop_close(f);
   return status;
 }

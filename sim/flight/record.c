@@ -227,14 +227,15 @@ static void write_calls(const record_t *r, FILE *file) {
   pen_flush(&pen);
 }
 
-void record_write(const record_t *r, FILE *file) {
-  if (r->n_calls > 0) {
-    write_calls(r, file);
-    return;
-  }
+void record_write_names(const record_t *r, FILE *file) {
   bool column[APP_LOGS_MAX];
   const int n = choose(column);
   write_names(file, r, column, n);
+}
+
+void record_write_rows(const record_t *r, FILE *file) {
+  bool column[APP_LOGS_MAX];
+  const int n = choose(column);
   pen_t pen;
   pen_begin(&pen, file);
   for (int i = 0; i < r->n; i++) {
@@ -243,4 +244,13 @@ void record_write(const record_t *r, FILE *file) {
     pen_char(&pen, '\n');
   }
   pen_flush(&pen);
+}
+
+void record_write(const record_t *r, FILE *file) {
+  if (r->n_calls > 0) {
+    write_calls(r, file);
+    return;
+  }
+  record_write_names(r, file);
+  record_write_rows(r, file);
 }

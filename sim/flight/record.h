@@ -72,6 +72,11 @@ MUST_CHECK done_t record_add(record_t *r, const tick_t *tick, why_t *why);
 
 void record_free(record_t *r);
 
+// The same in parts, for a flight that is longer than memory: the first row once, then the rows that the
+// record holds.
+void record_write_names(const record_t *r, FILE *file);
+void record_write_rows(const record_t *r, FILE *file);
+
 // Writes the flight as a CSV with Crazyflie log names (src/firmware/README.md, learn). The stream knows if
 // that failed.
 void record_write(const record_t *r, FILE *file);
