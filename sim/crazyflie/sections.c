@@ -59,18 +59,46 @@ int sections_logs(void) {
   return n;
 }
 
-const section_log_t *sections_log_at(int i, char name[32]) {
+const section_log_t *sections_log_in(int i, const char **name) {
   const section_log_group_t *const *group;
   const int n = sections_log_groups(&group);
-  for (int g = 0; g < n; g++) {
+  for (int g = 0; g < n; g++)
     for (const section_log_t *l = group[g]->log; l->name; l++) {
       if (i-- > 0) continue;
-      strncpy(name, group[g]->name, 15); // both together at most 25 (firmware)
-      name[15] = '\0';
-      strcat(strcat(name, "."), l->name);
+      if (name) *name = group[g]->name;
       return l;
     }
-  }
+  return NULL;
+}
+
+const section_log_t *sections_log_at(int i, char name[32]) {
+  const char *group;
+  const section_log_t *const l = sections_log_in(i, &group);
+  if (!l) return NULL;
+  strncpy(name, group, 15); // both together at most 25 (firmware)
+  name[15] = '\0';
+  strcat(strcat(name, "."), l->name);
+  return l;
+}
+
+int sections_params(void) {
+  const section_param_group_t *const *group;
+  const int groups = sections_param_groups(&group);
+  int n = 0;
+  for (int g = 0; g < groups; g++)
+    for (const section_param_t *p = group[g]->param; p->name; p++) n++;
+  return n;
+}
+
+const section_param_t *sections_param_at(int i, const char **name) {
+  const section_param_group_t *const *group;
+  const int n = sections_param_groups(&group);
+  for (int g = 0; g < n; g++)
+    for (const section_param_t *p = group[g]->param; p->name; p++) {
+      if (i-- > 0) continue;
+      if (name) *name = group[g]->name;
+      return p;
+    }
   return NULL;
 }
 

@@ -39,6 +39,11 @@ int sections_log_groups(const section_log_group_t *const **first);
 int sections_logs(void);
 const section_log_t *sections_log_at(int i, char name[32]);
 
+// The same by group and name; group: a null pointer is allowed. A null pointer: there is none of that number.
+int sections_params(void);
+const section_param_t *sections_param_at(int i, const char **group);
+const section_log_t *sections_log_in(int i, const char **group);
+
 // Where the app triggers the firmware's events.
 typedef struct {
   const char *name;

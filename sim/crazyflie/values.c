@@ -15,11 +15,13 @@ static double within(double value, double min, double max) {
 void values_put(int param_type, void *at, double value) {
   const float real = (float)value;
   const uint8_t small = (uint8_t)within(value, 0.0, 255.0);
+  const uint16_t middle = (uint16_t)within(value, 0.0, 65535.0);
   const uint32_t natural = (uint32_t)within(value, 0.0, 4294967295.0);
   const int32_t whole = (int32_t)within(value, -2147483648.0, 2147483647.0);
   switch (KIND(param_type)) {
   case PARAM_FLOAT: memcpy(at, &real, sizeof real); break;
   case PARAM_UINT8: memcpy(at, &small, sizeof small); break;
+  case PARAM_UINT16: memcpy(at, &middle, sizeof middle); break;
   case PARAM_UINT32: memcpy(at, &natural, sizeof natural); break;
   case PARAM_INT32: memcpy(at, &whole, sizeof whole); break;
   }
@@ -47,6 +49,7 @@ double values_of_param(int param_type, const void *at) {
   switch (KIND(param_type)) {
   case PARAM_FLOAT: READ(float, at);
   case PARAM_UINT8: READ(uint8_t, at);
+  case PARAM_UINT16: READ(uint16_t, at);
   case PARAM_UINT32: READ(uint32_t, at);
   case PARAM_INT32: READ(int32_t, at);
   }
@@ -57,7 +60,11 @@ double values_of_log(int log_type, const void *at) {
   switch (KIND(log_type)) {
   case LOG_FLOAT: READ(float, at);
   case LOG_UINT8: READ(uint8_t, at);
+  case LOG_UINT16: READ(uint16_t, at);
   case LOG_UINT32: READ(uint32_t, at);
+  case LOG_INT8: READ(int8_t, at);
+  case LOG_INT16: READ(int16_t, at);
+  case LOG_INT32: READ(int32_t, at);
   }
   return (double)NAN;
 }
