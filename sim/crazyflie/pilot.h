@@ -26,7 +26,8 @@ typedef struct {
   d3_t pos_w_m;
   bool vel_in_body; // vel_mps is along the heading: x forward, y left, z up; else along the world's axes
   d3_t vel_mps;
-  d3_t acc_w_mps2; // without gravity
+  d3_t acc_w_mps2;               // without gravity
+  double roll_rad, pitch_up_rad; // if x or y is off; 0: level. Right-hand about x; nose up
   bool yaw_by_rate;
   double yaw_rad;        // counter-clockwise from above, any number of turns; unless yaw_by_rate
   double yaw_rate_radps; // if yaw_by_rate
@@ -44,6 +45,8 @@ typedef struct {
   double vbat_V;   // as measured
   bool range_new;  // range_m was not there at the last call
   double range_m;  // upward range sensor, along body z; NaN: no valid distance
+  bool down_new;   // likewise
+  double down_m;   // downward range sensor
   pilot_setpoint_t set;
 } pilot_in_t;
 

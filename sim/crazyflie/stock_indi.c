@@ -59,8 +59,8 @@ static void run_position(stock_indi_t *s, const pilot_in_t *in, const stock_view
   if (mode[2] == PILOT_OFF)
     s->thrust = STOCK_FULL * in->set.thrust_N / (PILOT_MOTORS * s->param.power.thrust_max_N);
   // Wanted roll hangs on the mode of x, pitch on that of y.
-  if (mode[0] == PILOT_OFF) s->angle_rad[ROLL] = 0.0;
-  if (mode[1] == PILOT_OFF) s->angle_rad[PITCH] = 0.0;
+  if (mode[0] == PILOT_OFF) s->angle_rad[ROLL] = in->set.roll_rad;
+  if (mode[1] == PILOT_OFF) s->angle_rad[PITCH] = in->set.pitch_up_rad;
 }
 
 static void increment(stock_indi_t *s, int axis, double angle_rad, double rate_radps) {
@@ -84,8 +84,7 @@ static void run_attitude(stock_indi_t *s, const stock_view_t *view) {
   increment(s, YAW, -k * view->yaw_deg, -k * view->gyro_dps.z);
 }
 
-static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
-  stock_indi_t *const s = state;
+void stock_indi_step(stock_indi_t *s, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   const stock_view_t view = stock_view(in);
   const bool attitude_turn = in->step % STOCK_ATTITUDE_STEP == 0;
   if (attitude_turn) turn(s, &in->set);
@@ -103,6 +102,10 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
   double unit[PILOT_MOTORS];
   stock_mix(&s->command, unit);
   stock_power_step(&s->power, &s->param.power, unit, in->vbat_V, motor_N);
+}
+
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+  stock_indi_step(state, in, motor_N);
 }
 
 static void reset(void *state) {

@@ -51,6 +51,9 @@ typedef struct {
 // the thrust of the position loop stays (fault 5). pilot's reset is power-on: everything starts at 0.
 void stock_indi_select(stock_indi_t *s);
 
+// Every millisecond; s->command is what goes to the mixer.
+void stock_indi_step(stock_indi_t *s, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
+
 pilot_t stock_indi_pilot(stock_indi_t *s, const stock_indi_param_t *param);
 
 #endif

@@ -57,8 +57,8 @@ static double saturated(double command) {
 
 static void hold_attitude(stock_pid_t *s, const pilot_setpoint_t *set, const stock_view_t *view) {
   const bool level = set->mode[0] == PILOT_OFF || set->mode[1] == PILOT_OFF;
-  const double wanted_deg[3] = {level ? 0.0 : s->wanted.roll_deg, level ? 0.0 : s->wanted.pitch_deg,
-                                s->yaw_deg};
+  const double wanted_deg[3] = {level ? STOCK_DEG * set->roll_rad : s->wanted.roll_deg,
+                                level ? STOCK_DEG * set->pitch_up_rad : s->wanted.pitch_deg, s->yaw_deg};
   const double angle_deg[3] = {view->roll_deg, view->pitch_deg, view->yaw_deg};
   const double rate_dps[3] = {view->gyro_dps.x, -view->gyro_dps.y, view->gyro_dps.z};
   double command[3];
