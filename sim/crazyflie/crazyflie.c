@@ -130,6 +130,8 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
 
 // The firmware cuts metres, a float, to whole millimetres in 16 bits.
 static void range(crazyflie_t *c, const pilot_in_t *in) {
+  if (in->down_new)
+    c->around.range_mm[rangeDown] = (uint16_t)fminf(fmaxf((float)in->down_m * 1000.0f, 0.0f), 65535.0f);
   if (!in->range_new) return;
   const float m = isnan(in->range_m) ? RANGE_NONE_M : (float)in->range_m;
   c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
@@ -161,9 +163,9 @@ static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
     motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
     c->around.duty[i] = (uint16_t)duty[i];
     if (duty[i] > 0.0) c->turned_step = in->step;
-    c->around.flying = c->around.flying || duty[i] > 0.0;
+    if (!c->command) c->around.flying = c->around.flying || duty[i] > 0.0;
   }
-  if (in->step - c->turned_step >= FLYING_STEPS) c->around.flying = false;
+  if (!c->command && in->step - c->turned_step >= FLYING_STEPS) c->around.flying = false;
 }
 
 // Whoever flew before has commanded this.
@@ -179,19 +181,53 @@ static void take_over(crazyflie_t *c, const pilot_in_t *in) {
   c->called = true;
 }
 
+static void fly(crazyflie_t *c, const pilot_in_t *in) {
+  c->now = in;
+  if (c->fly)
+    c->fly(c->fly_context, &c->control, &c->setpoint, &c->sensors, &c->state, in->step);
+  else
+    controllerOutOfTree(&c->control, &c->setpoint, &c->sensors, &c->state, in->step);
+}
+
+static pilot_mode_t pilot_mode(stab_mode_t mode) {
+  return mode == modeAbs ? PILOT_POSITION : mode == modeVelocity ? PILOT_VELOCITY : PILOT_OFF;
+}
+
+// The firmware's set point as the host's controllers take it: the way back of order().
+static pilot_setpoint_t as_pilot(const crazyflie_t *c, const setpoint_t *sp) {
+  const double k = RAD_PER_DEG;
+  const bool tilts = sp->mode.roll == modeAbs && sp->mode.pitch == modeAbs;
+  return (pilot_setpoint_t){
+      .mode = {pilot_mode(sp->mode.x), pilot_mode(sp->mode.y), pilot_mode(sp->mode.z)},
+      .pos_w_m = {(double)sp->position.x, (double)sp->position.y, (double)sp->position.z},
+      .vel_in_body = sp->velocity_body,
+      .vel_mps = {(double)sp->velocity.x, (double)sp->velocity.y, (double)sp->velocity.z},
+      .acc_w_mps2 = {(double)sp->acceleration.x, (double)sp->acceleration.y, (double)sp->acceleration.z},
+      .roll_rad = tilts ? k * (double)sp->attitude.roll : 0.0,
+      .pitch_up_rad = tilts ? k * (double)sp->attitude.pitch : 0.0,
+      .yaw_by_rate = sp->mode.yaw != modeAbs,
+      .yaw_rad = k * (double)sp->attitude.yaw,
+      .yaw_rate_radps = sp->mode.yaw == modeVelocity ? k * (double)sp->attitudeRate.yaw : 0.0,
+      .thrust_N = (double)sp->thrust * PILOT_MOTORS * c->firmware.thrust_max_N / UNIT_MAX,
+  };
+}
+
 void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stand_in = &c->around;
   if (!c->called) take_over(c, in);
-  sensorData_t sensors = {.acc = {0}};
-  state_t state = {.position = {0}};
-  measure(in, &sensors, &state);
+  c->sensors = (sensorData_t){.acc = {0}};
+  c->state = (state_t){.position = {0}};
+  measure(in, &c->sensors, &c->state);
   range(c, in);
-  const setpoint_t setpoint = order(c, &in->set);
-  c->now = in;
-  if (c->fly)
-    c->fly(c->fly_context, &c->control, &setpoint, &sensors, &state, in->step);
-  else
-    controllerOutOfTree(&c->control, &setpoint, &sensors, &state, in->step);
+  if (c->command) {
+    pilot_in_t told = *in;
+    c->setpoint = c->command(c->command_context, &c->sensors, &c->state, in->step);
+    told.set = as_pilot(c, &c->setpoint);
+    fly(c, &told);
+  } else {
+    c->setpoint = order(c, &in->set);
+    fly(c, in);
+  }
   drive(c, in, motor_N);
 }
 

@@ -18,6 +18,13 @@ typedef struct {
   void (*fly)(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
               const state_t *state, uint32_t step);
   void *fly_context;
+  // Set points by the firmware's commander and supervisor, which then also say whether it flies; null: those
+  // of pilot_in_t.
+  setpoint_t (*command)(void *context, const sensorData_t *sensors, const state_t *state, uint32_t step);
+  void *command_context;
+  setpoint_t setpoint; // of the last millisecond
+  sensorData_t sensors;
+  state_t state;
   // Not for callers.
   stock_power_param_t firmware;
   bool compensates; // the firmware knows the propellers: a command is thrust, not duty

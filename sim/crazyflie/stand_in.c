@@ -69,11 +69,13 @@ uint32_t crtpSupervisorGetEmergencyStopWatchdogNotificationTick(void) {
 
 void commanderRelaxPriority(void) {
   stand_in->relaxed++;
+  if (stand_in->relax) stand_in->relax(stand_in->commander_context);
 }
 int crtpCommanderHighLevelLandWithVelocity(const float height_m, const float velocity_m_s, bool relative) {
   stand_in->landings += !relative;
   stand_in->landing_m = height_m;
   stand_in->landing_mps = velocity_m_s;
+  if (stand_in->land) return stand_in->land(stand_in->commander_context, height_m, velocity_m_s, relative);
   return stand_in->no_landing;
 }
 
@@ -81,7 +83,7 @@ TickType_t xTaskGetTickCount(void) {
   return stand_in->clock_ms;
 }
 void vTaskDelay(TickType_t ticks) {
-  stand_in->clock_ms += ticks;
+  if (!stand_in->clocked) stand_in->clock_ms += ticks;
   if (stand_in->delay) stand_in->delay(stand_in->delay_context, ticks);
 }
 

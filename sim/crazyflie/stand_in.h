@@ -46,6 +46,11 @@ typedef struct stand_in {
   bool no_landing;           // the high-level commander refuses
   int landings, relaxed;     // how often it was asked for one, and the priority given back
   float landing_mps, landing_m;
+  // The firmware's commander and planner, where they are there; null: asked for, and counted, in vain.
+  void (*relax)(void *context);
+  int (*land)(void *context, float height_m, float speed_mps, bool relative);
+  void *commander_context;
+  bool clocked;                                 // the vehicle moves its clock; else vTaskDelay does
   void (*delay)(void *context, uint32_t ticks); // vTaskDelay; null: returns at once
   void *delay_context;
   char console[STAND_IN_CONSOLE]; // what was printed, its end if it was more

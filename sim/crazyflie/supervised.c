@@ -1,0 +1,167 @@
+// supervised.c - the firmware's supervisor.
+#include "supervised.h"
+
+#include <math.h>
+
+#define FLYING_MS      2000 // so long after the last thrust it still flies
+#define LEVEL_OUT_MS   500  // age of a set point
+#define LOCK_MS        2000 // age of a set point
+#define FED_MS         1000 // age of the watchdog's food
+#define FREE_FALL_G    0.1f // less on each axis is no tilt
+#define TILTED_G       0.5f // on z: 60 degrees
+#define TILTED_MS      1000
+#define UPSIDE_DOWN_G  -0.2f
+#define UPSIDE_DOWN_MS 100
+
+const supervised_param_t supervised_default = {.preflight_ms = 30000, .landed_ms = 3000, .tumble_check = 1};
+
+enum {
+  IS_ARMED = 1 << 0,
+  IS_FLYING = 1 << 1,
+  IS_TUMBLED = 1 << 2,
+  IS_STALE = 1 << 3,   // the set point: level out
+  IS_LOST = 1 << 4,    // the set point: lock
+  IS_STOPPED = 1 << 5, // emergency stop
+  IS_CRASHED = 1 << 6,
+  IS_OVERDUE = 1 << 7, // armed, and does not fly
+  IS_DOWN = 1 << 8,    // has landed long ago
+};
+
+// The first row whose condition holds is taken: one of `any` is, or one of `lacks` is not, or all of `all`
+// are and none of `none`; never if one of `but` is. A row without any condition always holds.
+typedef struct {
+  supervised_state_t from, to;
+  unsigned any, lacks, all, none, but;
+} transition_t;
+
+static const transition_t transitions[] = {
+    {.from = SUPERVISED_BEGIN, .to = SUPERVISED_NOT_PASSED},
+    {.from = SUPERVISED_NOT_PASSED, .to = SUPERVISED_FREE_FALL, .any = IS_STOPPED},
+    {.from = SUPERVISED_NOT_PASSED, .to = SUPERVISED_PASSED, .but = IS_TUMBLED},
+    {.from = SUPERVISED_PASSED, .to = SUPERVISED_FREE_FALL, .any = IS_STOPPED},
+    {.from = SUPERVISED_PASSED, .to = SUPERVISED_NOT_PASSED, .any = IS_TUMBLED},
+    {.from = SUPERVISED_PASSED, .to = SUPERVISED_ARMING, .all = IS_ARMED, .but = IS_TUMBLED},
+    {.from = SUPERVISED_ARMING, .to = SUPERVISED_FREE_FALL, .any = IS_STOPPED},
+    {.from = SUPERVISED_ARMING, .to = SUPERVISED_NOT_PASSED, .any = IS_TUMBLED, .lacks = IS_ARMED},
+    {.from = SUPERVISED_ARMING, .to = SUPERVISED_READY},
+    {.from = SUPERVISED_READY, .to = SUPERVISED_FREE_FALL, .any = IS_STOPPED},
+    {.from = SUPERVISED_READY,
+     .to = SUPERVISED_NOT_PASSED,
+     .any = IS_TUMBLED | IS_OVERDUE,
+     .lacks = IS_ARMED},
+    {.from = SUPERVISED_READY, .to = SUPERVISED_FLYING, .all = IS_FLYING},
+    {.from = SUPERVISED_FLYING, .to = SUPERVISED_FREE_FALL, .any = IS_LOST | IS_STOPPED},
+    {.from = SUPERVISED_FLYING, .to = SUPERVISED_CRASHED, .any = IS_TUMBLED},
+    {.from = SUPERVISED_FLYING, .to = SUPERVISED_RESET, .lacks = IS_ARMED},
+    {.from = SUPERVISED_FLYING, .to = SUPERVISED_LEVEL_OUT, .any = IS_STALE},
+    {.from = SUPERVISED_FLYING, .to = SUPERVISED_LANDED, .lacks = IS_FLYING},
+    {.from = SUPERVISED_LANDED, .to = SUPERVISED_RESET, .any = IS_DOWN, .lacks = IS_ARMED},
+    {.from = SUPERVISED_LANDED, .to = SUPERVISED_FLYING, .all = IS_FLYING},
+    {.from = SUPERVISED_RESET, .to = SUPERVISED_NOT_PASSED},
+    {.from = SUPERVISED_LEVEL_OUT, .to = SUPERVISED_FREE_FALL, .any = IS_LOST | IS_TUMBLED | IS_STOPPED},
+    {.from = SUPERVISED_LEVEL_OUT, .to = SUPERVISED_FLYING, .none = IS_STALE | IS_LOST},
+    {.from = SUPERVISED_FREE_FALL, .to = SUPERVISED_LOCKED},
+    {.from = SUPERVISED_CRASHED, .to = SUPERVISED_NOT_PASSED, .none = IS_CRASHED | IS_TUMBLED},
+    {.from = SUPERVISED_CRASHED, .to = SUPERVISED_LOCKED, .any = IS_STOPPED},
+};
+
+static bool holds(const transition_t *t, unsigned now) {
+  if (now & t->but) return false;
+  if (t->any || t->lacks) return (now & t->any) || (~now & t->lacks);
+  return (now & t->all) == t->all && !(now & t->none);
+}
+
+static supervised_state_t next(supervised_state_t state, unsigned now) {
+  for (unsigned i = 0; i < sizeof transitions / sizeof *transitions; i++)
+    if (transitions[i].from == state && holds(&transitions[i], now)) return transitions[i].to;
+  return state;
+}
+
+// Tilted for a while, or upside down for a moment. To fall is to fly.
+static bool tumbles(supervised_t *s, const supervised_in_t *in) {
+  const float *const g = in->acc_g;
+  if (fabsf(g[0]) < FREE_FALL_G && fabsf(g[1]) < FREE_FALL_G && fabsf(g[2]) < FREE_FALL_G) s->tilted_ms = 0;
+  if (!(g[2] < TILTED_G)) {
+    s->tilted_ms = 0;
+    return false;
+  }
+  if (s->tilted_ms == 0) s->tilted_ms = in->now_ms;
+  const uint32_t since_ms = in->now_ms - s->tilted_ms;
+  return since_ms > (g[2] < UPSIDE_DOWN_G ? UPSIDE_DOWN_MS : TILTED_MS);
+}
+
+static unsigned when(bool condition, unsigned bit) {
+  return condition ? bit : 0;
+}
+
+static unsigned look(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in) {
+  const uint32_t now_ms = in->now_ms, age_ms = now_ms - in->setpoint_ms;
+  if (in->motors) s->thrust_ms = now_ms;
+  s->tumbled = tumbles(s, in) && p->tumble_check;
+  const bool starved = in->fed_ms > 0 && now_ms - in->fed_ms >= FED_MS;
+  return when(s->armed, IS_ARMED) | when(s->thrust_ms != 0 && now_ms - s->thrust_ms < FLYING_MS, IS_FLYING) |
+         when(s->tumbled, IS_TUMBLED) | when(age_ms > LEVEL_OUT_MS, IS_STALE) |
+         when(age_ms > LOCK_MS, IS_LOST) | when(starved || in->stop, IS_STOPPED) |
+         when(s->crashed, IS_CRASHED) |
+         when(s->state == SUPERVISED_READY && now_ms - s->armed_ms > p->preflight_ms, IS_OVERDUE) |
+         when(s->landed_ms != 0 && now_ms - s->landed_ms > p->landed_ms, IS_DOWN);
+}
+
+static bool stays_armed(supervised_state_t state) {
+  return state == SUPERVISED_ARMING || state == SUPERVISED_READY || state == SUPERVISED_FLYING ||
+         state == SUPERVISED_LEVEL_OUT || state == SUPERVISED_LANDED;
+}
+
+static void enter(supervised_t *s, supervised_state_t state, uint32_t now_ms) {
+  s->state = state;
+  if (state == SUPERVISED_READY) s->armed_ms = now_ms;
+  if (state == SUPERVISED_LANDED) s->landed_ms = now_ms;
+  if (state == SUPERVISED_CRASHED) s->crashed = true;
+  // It arms itself.
+  s->armed = state == SUPERVISED_PASSED || (s->armed && stays_armed(state));
+}
+
+bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in) {
+  const supervised_state_t to = next(s->state, look(s, p, in));
+  if (to == s->state) return false;
+  enter(s, to, in->now_ms);
+  return true;
+}
+
+bool supervised_flies(const supervised_t *s) {
+  return s->state == SUPERVISED_FLYING || s->state == SUPERVISED_LEVEL_OUT;
+}
+
+bool supervised_can_fly(const supervised_t *s) {
+  return supervised_flies(s) || s->state == SUPERVISED_READY || s->state == SUPERVISED_LANDED;
+}
+
+bool supervised_motors_run(const supervised_t *s) {
+  return stays_armed(s->state);
+}
+
+bool supervised_arm(supervised_t *s, bool arm) {
+  if (arm == s->armed) return true;
+  if (arm && s->state != SUPERVISED_PASSED) return false;
+  s->armed = arm;
+  return true;
+}
+
+bool supervised_recover(supervised_t *s) {
+  if (s->crashed && s->tumbled) return false;
+  s->crashed = false;
+  return true;
+}
+
+unsigned supervised_info(const supervised_t *s) {
+  return when(s->state == SUPERVISED_PASSED, 1) | when(s->armed, 2) | 4 | when(supervised_can_fly(s), 8) |
+         when(supervised_flies(s), 16) | when(s->tumbled, 32) | when(s->state == SUPERVISED_LOCKED, 64) |
+         when(s->crashed, 128);
+}
+
+const char *supervised_words(supervised_state_t state) {
+#define WORDS(name, words) words,
+  static const char *const table[] = {SUPERVISED_STATES(WORDS)};
+#undef WORDS
+  return table[state];
+}
