@@ -1,0 +1,99 @@
+// firmware.h - the firmware around the app, as a client meets it: commander, planner and supervisor, the
+// choice of the controller, the app's own task, and all parameters and logs by number.
+//
+//   link -> commander, planner -> supervisor -> app (6), stock PID (1), stock INDI (3) -> power distribution
+//
+// in the order of the firmware's stabilizer task, every millisecond. Source: bitcraze/crazyflie-firmware
+// 2a18fc29, stabilizer.c. Controllers that the host does not have (2, 4, 5) are refused on the console.
+#ifndef SIM_CRAZYFLIE_FIRMWARE_H
+#define SIM_CRAZYFLIE_FIRMWARE_H
+
+#include "commanded.h"
+#include "crazyflie.h"
+#include "stock_indi.h"
+#include "stock_table.h"
+#include "supervised.h"
+#include "task_switch.h"
+
+enum { CONTROLLER_AUTO = 0, CONTROLLER_PID = 1, CONTROLLER_INDI = 3, CONTROLLER_APP = 6 };
+
+typedef struct {
+  const stock_row_t *param, *log;
+  int n_param, n_log;
+  void *(*params)(void *context); // what the rows' offsets count from
+  void *(*logs)(void *context);
+  const double *param_default;               // n_param
+  void (*written)(void *context, int param); // number in `param`; may change the value again
+} firmware_more_t;
+
+typedef struct firmware {
+  crazyflie_t vehicle;
+  supervised_t supervised;
+  commanded_t commanded;
+  stock_indi_t indi;
+  stock_params_t params;
+  stock_logs_t logs;
+  bool emergency; // asked for over the link; until power-off
+  // What the world may tell it beside pilot_in_t.
+  float variance[6]; // of position and velocity, of the estimator
+  // Parameters and logs that are not the firmware's: of what simulates it. None without.
+  const firmware_more_t *more;
+  void *more_context;
+  // The client is told of a parameter that was changed on board: its number; null: nobody listens.
+  void (*changed)(void *context, int param);
+  void *changed_context;
+  // Somebody on board rests for some milliseconds in a write of a parameter; null: returns at once. It may
+  // call firmware_ms() that often.
+  void (*rest)(void *context, uint32_t ms);
+  void *rest_context;
+  // Not for callers.
+  task_switch_t *task;
+  uint8_t runs;     // CONTROLLER_*
+  uint32_t good_ms; // when the battery was last above pm.lowVoltage
+  stock_params_t params_default;
+  glue_t app_default;
+} firmware_t;
+
+// A vehicle that is switched on. model: as crazyflie_init. It must stay where it is. FAILED: no memory.
+MUST_CHECK done_t firmware_open(firmware_t *f, const model_t *model, why_t *why);
+// Its first millisecond comes next: parameters stand as they were stored.
+void firmware_start(firmware_t *f);
+void firmware_close(firmware_t *f);
+
+// One millisecond: as crazyflie_ms. in->set is not looked at.
+void firmware_ms(firmware_t *f, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
+
+uint32_t firmware_now_ms(const firmware_t *f);
+
+// The log supervisor.info.
+uint16_t firmware_info(const firmware_t *f);
+
+// What was printed since the last call, at most size - 1 characters; how many.
+int firmware_console(firmware_t *f, char *text, int size);
+
+// --- parameters and logs by number, 0 and on ---------------------------------------------------------------
+
+typedef struct {
+  const char *group, *name;
+  int type; // param.h, log.h
+} firmware_row_t;
+
+int firmware_params(const firmware_t *f);
+int firmware_logs(const firmware_t *f);
+firmware_row_t firmware_param_row(const firmware_t *f, int i);
+firmware_row_t firmware_log_row(const firmware_t *f, int i);
+int firmware_param_find(const firmware_t *f, const char *full_name); // -1: none
+int firmware_log_find(const firmware_t *f, const char *full_name);
+
+double firmware_param(const firmware_t *f, int i);
+double firmware_param_default(const firmware_t *f, int i);
+// As it stands in the memory at power-on: nobody is called back.
+void firmware_param_put(firmware_t *f, int i, double value);
+// As a client writes it: what depends on it follows, the app is called back.
+void firmware_param_set(firmware_t *f, int i, double value);
+
+// Brings the stock firmware's logs up to date; then values of one instant.
+void firmware_look(firmware_t *f);
+double firmware_log(const firmware_t *f, int i);
+
+#endif
