@@ -23,6 +23,7 @@ FLOORS = [
     ["sim/body"],
     ["sim/sense"],
     ["sim/crazyflie"],
+    ["sim/link"],
     ["sim/logs", "sim/pilots"],
     ["sim/flight"],
     ["sim/flight/scenario"],

@@ -1,0 +1,129 @@
+// link.h - the radio link of a Crazyflie, as its client library speaks it: datagrams in, datagrams out.
+//
+// A packet is one header byte (port << 4 | 0x0C | channel) and 0 to 30 bytes. What it understands: source and
+// echo (15), platform (13), logs (5), parameters (2), memories (4), set points (3, 7), high-level commands
+// (8), supervisor (9), localization (6: taken, and not used), console (0). Every request is answered, in the
+// order in which they came. What is malformed or of no known kind is answered as the firmware does, or
+// dropped and counted.
+//
+// Source: bitcraze/crazyflie-firmware 2a18fc29 (log.c, param_logic.c, mem.c, crtp_*.c, platformservice.c),
+// and what cflib 0.1.34 sends. Own code.
+#ifndef SIM_LINK_LINK_H
+#define SIM_LINK_LINK_H
+
+#include "crazyflie/firmware.h"
+#include <stdint.h>
+
+#define LINK_DATA_MAX 30
+#define LINK_QUEUE    512 // answers that wait
+
+typedef struct {
+  uint8_t size; // of header and data: 1..31
+  uint8_t byte[1 + LINK_DATA_MAX];
+} packet_t;
+
+// --- logs: blocks of variables that a client asks for ------------------------------------------------------
+
+#define LINK_BLOCKS 16
+#define LINK_OPS    128 // variables in all blocks
+#define LINK_OF     26  // bytes of a block
+
+typedef struct {
+  int log;      // firmware_log_row
+  uint8_t type; // log.h: as it is sent
+} link_op_t;
+
+typedef struct {
+  bool used, runs;
+  uint8_t id;
+  uint32_t period_ms, due_ms;
+  int n;
+  link_op_t op[LINK_OF];
+} link_block_t;
+
+// --- what is stored for good -------------------------------------------------------------------------------
+
+// One value a parameter, by number; NaN: none.
+typedef struct {
+  const char *path; // null: forgotten with the program
+  double *value;
+  int n;
+} storage_t;
+
+// Reads the file, if there is one, and writes what it holds into the firmware's parameters. A line that is no
+// "group.name = value", or of a parameter that is not there, is BAD_INPUT. FAILED: no memory.
+MUST_CHECK done_t storage_open(storage_t *s, const char *path, firmware_t *f, why_t *why);
+void storage_close(storage_t *s);
+// Value NaN forgets it. False: it could not be written; nothing has changed then.
+bool storage_put(storage_t *s, const firmware_t *f, int param, double value);
+
+// ------------------------------------------------------------------------------------------------------------
+
+typedef struct {
+  firmware_t *firmware;
+  storage_t *storage;
+  link_block_t block[LINK_BLOCKS];
+  packet_t queue[LINK_QUEUE];
+  unsigned put, taken;             // wrap; what lies between waits
+  uint32_t log_crc, param_crc;     // of names and types
+  uint32_t in, out, dropped, lost; // packets: taken, given, not understood, no room for the answer
+} link_t;
+
+// It must stay where it is; the firmware tells it of changed parameters.
+void link_init(link_t *l, firmware_t *firmware, storage_t *storage);
+
+// A datagram of the client; any bytes, any size.
+void link_take(link_t *l, const uint8_t *bytes, int size);
+
+// After each millisecond of the firmware: log blocks that are due, and the console.
+void link_ms(link_t *l);
+
+// The next datagram to the client; false: none waits.
+bool link_give(link_t *l, packet_t *packet);
+
+// Nobody listens any more: blocks end, what waits is forgotten.
+void link_reset(link_t *l);
+
+// --- the inside: one file a port
+// ----------------------------------------------------------------------------
+
+// A request's data, without the header. Each is of at most LINK_DATA_MAX bytes; what is behind size is 0.
+typedef struct {
+  uint8_t channel;
+  int size;
+  uint8_t data[LINK_DATA_MAX];
+} request_packet_t;
+
+// A list that clients keep by its sum: of parameters, or of logs.
+typedef struct {
+  int port, n;
+  firmware_row_t (*row)(const firmware_t *f, int i);
+  uint8_t (*type)(const firmware_row_t *row); // as it goes over the link
+  uint32_t crc;
+  uint8_t more[2]; // what stands behind count and sum
+  int n_more;
+} link_list_t;
+
+uint32_t link_list_crc(const link_t *l, const link_list_t *list);
+// Channel 0 of its port. False: not understood.
+bool link_list(link_t *l, const link_list_t *list, const request_packet_t *r);
+
+void link_answer(link_t *l, int port, int channel, const void *data, int size);
+
+// False: not understood.
+bool link_logs(link_t *l, const request_packet_t *r);
+bool link_params(link_t *l, const request_packet_t *r);
+bool link_memory(link_t *l, const request_packet_t *r);
+
+void link_logs_init(link_t *l);
+void link_logs_ms(link_t *l);
+void link_logs_reset(link_t *l);
+void link_params_init(link_t *l);
+void link_params_changed(void *link, int param);
+
+// Numbers as they stand in packets; bytes of a type of param.h (low nibble), log.h.
+uint16_t link_u16(const uint8_t *at);
+uint32_t link_u32(const uint8_t *at);
+int link_param_bytes(int type);
+
+#endif
