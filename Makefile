@@ -10,12 +10,13 @@ B   = $(O)/release
 OPT = -O3
 
 # What demo and test need, so that there is one list to install, once.
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev gnuplot-nox python3
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev libmicrohttpd-dev gnuplot-nox python3
 # What some goals need besides.
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 LINT_GOALS    = lint arrows pictures format clang fuzz check mutants coverage setup-lint
 PIL_PACKAGES  = gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 CF_PACKAGES   = python3-venv
+DESK_PACKAGES = python3-venv chromium
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
@@ -30,16 +31,20 @@ else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
 LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
+DESK_LIBS = -lmicrohttpd
 
 # Every source of some folders.
 sources    = $(sort $(shell find $(1) -name '*.c' -o -name '*.cpp' 2>/dev/null))
 EXAM_SRC  := $(filter-out test/exam/test_%,$(call sources,test/exam))
 TEST_SRC  := $(filter-out test/exam/main.c test/exam/users_main.c,$(call sources,test/rig test/unit test/program test/faults test/exam))
-SIM_SRC   := $(call sources,src sim)
+# What serves people while it flies, and nobody else: apart, so that no other program loads a server's libraries.
+DESK_SRC  := $(call sources,sim/desk)
+SIM_SRC   := $(filter-out $(DESK_SRC),$(call sources,src sim))
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle) $(B)/gen/version.o
 SIM_OBJ    = $(call objects,$(SIM_SRC)) $(TABLES)
-PROGRAMS   = fly learn effectiveness gap slot bench bound
+DESK_OBJ   = $(call objects,$(DESK_SRC)) $(B)/gen/page.o
+PROGRAMS   = fly learn effectiveness gap slot bench bound desk
 # What the tests run.
 TESTED     = tests fly gap learn effectiveness bound
 
@@ -64,7 +69,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fresh demo flights touches bound recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf mutants coverage outside
+.PHONY: help debug fresh demo desk flights touches bound recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf test-desk mutants coverage outside
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -112,7 +117,7 @@ SEES_OF_SRC = $(FLIGHT_FLAGS) -Iinclude
 $(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
 SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
 $(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
-$(B)/sim/crazyflie/%.o $(B)/sim/link/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
+$(B)/sim/crazyflie/%.o $(B)/sim/link/%.o $(B)/sim/desk/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 # The exam's second plant sees nothing of the first.
@@ -135,13 +140,17 @@ $(O)/gen/%_table.c: $(force_tables) | setup
 	@tools/table.sh $* $@
 $(O)/gen/version.c: $(force_tables)
 	@tools/version.sh $@
+$(O)/gen/page.c: sim/desk/page.html tools/page.py | setup
+	@$(PYTHON) tools/page.py $< $@
 
 # A program: what is its own, and the simulator.
-TESTS_OBJ = $(call objects,$(TEST_SRC)) $(B)/gen/test_table.o $(SIM_OBJ)
+TESTS_OBJ = $(call objects,$(TEST_SRC)) $(B)/gen/test_table.o $(DESK_OBJ) $(SIM_OBJ)
 FUZZ_OBJ  = $(call objects,test/fuzz/fuzz.c test/rig/flight_csv.c test/rig/usd_bytes.c test/rig/scratch.c)
 $(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/tools/%.o
 $(B)/bin/bench: $(B)/tools/bench_gap.o
 $(B)/bin/tests: $(TESTS_OBJ)
+$(B)/bin/desk: $(DESK_OBJ)
+$(B)/bin/tests $(B)/bin/desk: LIBS += $(DESK_LIBS)
 $(B)/bin/exam: $(call objects,$(EXAM_SRC))
 $(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o
 $(B)/bin/fuzz_csv $(B)/bin/fuzz_usd: $(B)/bin/%: $(B)/test/fuzz/%.o $(FUZZ_OBJ)
@@ -195,8 +204,11 @@ test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/bound 
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
-test-cf:  ## the tests of tools/cf.py, over a fake link with the stock cflib (W=word: those whose name has it); a minute
+test-cf: $(O)/desk  ## the tests of tools/cf.py, over a fake link and at the desk, with the stock cflib (W=word: those whose name has it); minutes
 	@test/cf/run.sh "$(CF_PACKAGES)" "$(W)"
+
+test-desk: $(B)/bin/desk  ## the desk's page in a Chromium without a window (W=word: those whose name has it); skips without one; a minute
+	@PROGRAMS=$(B)/bin test/desk/run.sh "$(DESK_PACKAGES)" "$(W)"
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked (SEED=FIRST); 10 min
 	@$(O)/exam $(or $(SEED),83001) 200
@@ -205,7 +217,7 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"
 
-check: test test-cf sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
+check: test test-cf test-desk sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@TEST_LONG=1 $(TESTS)
 	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
 	+@test/seeded/seeded.sh
@@ -228,6 +240,10 @@ fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each; minu
 	@$(MAKE) B=$(O)/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(O)/fuzz/bin/fuzz_csv $(O)/fuzz/bin/fuzz_usd
 	@mkdir -p $(O)/fuzz/csv $(O)/fuzz/usd
 	@cd $(O)/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
+
+DESK_STORAGE = $(O)/desk.storage
+desk: setup $(O)/desk  ## a simulated Crazyflie that the stock client and library fly, until Ctrl-C (SCENE=FILE.toml)
+	@$(O)/desk $(SCENE) --storage $(DESK_STORAGE)
 
 bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log; a minute
 	@$(O)/bench
@@ -271,7 +287,7 @@ N = 300
 mutants: $(B)/bin/tests  ## small mistakes in the flight code, and which no test notices (N=300 SEED=s W=word of a file); an hour
 	@$(PYTHON) test/mutants/test_mutate.py
 	@FLIGHT='$(C) $(SEES_OF_SRC)' APP='$(C) $(SEES_OF_APP)' \
-	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS)' OBJECTS='$(TESTS_OBJ)' \
+	 LINK='$(CC) $(SANITIZE)' LIBRARIES='$(LIBS) $(DESK_LIBS)' OBJECTS='$(TESTS_OBJ)' \
 	 $(PYTHON) test/mutants/mutants.py $(N) $(or $(SEED),1) "$(W)"
 
 pil:  ## the app on an emulated Cortex-M4F: its objects, its bits, its cost (setup-pil installs what it needs); minutes

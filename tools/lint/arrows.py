@@ -26,7 +26,7 @@ FLOORS = [
     ["sim/link"],
     ["sim/logs", "sim/pilots"],
     ["sim/flight"],
-    ["sim/flight/scenario"],
+    ["sim/flight/scenario", "sim/desk"],
     ["sim/gap/1_read"],
     ["sim/gap/2_predict"],
     ["sim/gap/3_feedback"],

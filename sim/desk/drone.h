@@ -1,0 +1,64 @@
+// drone.h - one simulated Crazyflie that clients fly: plant, sensors and estimator around firmware and link.
+//
+// Tick by tick of 2 ms, in simulated time alone: who paces it, and how packets come and go, is not its
+// business. The same packets at the same ticks make the same flight, to the bit.
+#ifndef SIM_DESK_DRONE_H
+#define SIM_DESK_DRONE_H
+
+#include "desk/rows.h"
+#include "desk/scene.h"
+#include "flight/loop.h"
+#include "link/link.h"
+#include <stdio.h>
+
+typedef struct {
+  scene_t scene; // its own copy
+  plan_t plan;
+  pilot_t pilot;
+  firmware_t firmware;
+  link_t link;
+  storage_t storage;
+  flight_loop_t *loop;
+  drawn_t drawn;
+  tick_t seen; // newest sample
+  bool has_seen;
+  bool finite; // else it stands still
+  desk_params_t params, was;
+  desk_logs_t logs;
+  record_t record; // samples not yet written
+  FILE *log;       // flight, as fly writes it; null: none
+  FILE *commands;  // what came over the link and when: "MS HEX" a line, "MS" where it left; null: none
+  // Not for callers.
+  firmware_more_t more;
+  double initial[DESK_PARAMS_MAX];
+  const char *stored; // a storage's file
+  bool reset_asked;
+  uint32_t now_ms;
+} drone_t;
+
+// Switched on, on the floor. storage: a file's path, or null. The files are the caller's; *d must stay where
+// it is. BAD_INPUT: a vehicle that cannot fly, a storage that is none. FAILED: no memory.
+MUST_CHECK done_t drone_open(drone_t *d, const scene_t *scene, const char *storage, FILE *log, FILE *commands,
+                             why_t *why);
+// Writes what is left of the log.
+void drone_close(drone_t *d);
+
+// Since drone_open, through restarts; the firmware's own clock begins anew with each.
+uint32_t drone_now_ms(const drone_t *d);
+
+// A packet of the client, now.
+void drone_take(drone_t *d, const uint8_t *bytes, int size);
+
+// The client has gone, now.
+void drone_left(drone_t *d);
+
+// The next 2 ms. FAILED: no memory, or a log cannot be written.
+MUST_CHECK done_t drone_tick(drone_t *d, why_t *why);
+
+// Sets a desk parameter as a client would. Null: done; else what is allowed.
+const char *drone_set(drone_t *d, const char *name, double value);
+
+// A recorded file of commands, flown anew, to its end and `more_s` on. BAD_INPUT: not such a file.
+MUST_CHECK done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s, why_t *why);
+
+#endif

@@ -1,0 +1,56 @@
+// rows.h - what a person at a client, or at the page, can do to a vehicle that flies at the desk: the
+// parameters of the group `desk`; and what no real vehicle could tell: its logs.
+#ifndef SIM_DESK_ROWS_H
+#define SIM_DESK_ROWS_H
+
+#include "crazyflie/stock_table.h"
+#include <stdbool.h>
+
+// X(name, C type, type, at the start, least, most, is it a switch, unit, what it does)
+#define DESK_PARAMS(X)                                                                                       \
+  X(ceiling, float, PARAM_FLOAT, 1.5, 0.15, 10, false, "m", "height of the ceiling; 10: none is felt")       \
+  X(cover, uint8_t, PARAM_UINT8, 0, 0, 1, true, "", "cover the upward range sensor")                         \
+  X(windX, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along x")                                    \
+  X(windY, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along y")                                    \
+  X(windZ, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push upwards")                                    \
+  X(payload, float, PARAM_FLOAT, 0, 0, 15, false, "g", "put on a payload")                                   \
+  X(weakMotor, uint8_t, PARAM_UINT8, 0, 0, 4, false, "", "motor that is weak; 0: none")                      \
+  X(weakBy, float, PARAM_FLOAT, 0.2, 0, 1, false, "", "share of its thrust that is lost")                    \
+  X(battery, float, PARAM_FLOAT, 1, 0.01, 1, false, "", "charge of the battery")                             \
+  X(loss, float, PARAM_FLOAT, 0, 0, 0.9, false, "", "share of the link's packets that is lost")              \
+  X(delay, float, PARAM_FLOAT, 0, 0, 1, false, "s", "delay of the link's packets")                           \
+  X(restart, uint8_t, PARAM_UINT8, 0, 0, 1, true, "", "back to the start, and switched on anew")
+
+// X(name, C type, type)
+#define DESK_LOGS(X)                                                                                         \
+  X(x, float, LOG_FLOAT)                                                                                     \
+  X(y, float, LOG_FLOAT)                                                                                     \
+  X(z, float, LOG_FLOAT)                                                                                     \
+  X(gap, float, LOG_FLOAT)                                                                                   \
+  X(ratio, float, LOG_FLOAT)                                                                                 \
+  X(contacts, uint32_t, LOG_UINT32)                                                                          \
+  X(behind, float, LOG_FLOAT)
+
+#define DESK_FIELD(name, c_type, ...) c_type name;
+typedef struct {
+  DESK_PARAMS(DESK_FIELD)
+} desk_params_t;
+// As it is: m, the propellers' distance to the ceiling, rotor 1's thrust ratio; s behind the clock.
+typedef struct {
+  DESK_LOGS(DESK_FIELD)
+} desk_logs_t;
+#undef DESK_FIELD
+
+typedef struct {
+  double initial, min, max;
+  bool is_switch;
+  const char *unit, *what;
+} desk_range_t;
+
+extern const stock_row_t desk_param_rows[], desk_log_rows[];
+extern const desk_range_t desk_ranges[];
+#define DESK_PARAMS_MAX 32
+
+extern const int desk_param_count, desk_log_count;
+
+#endif

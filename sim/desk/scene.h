@@ -1,0 +1,35 @@
+// scene.h - where simulated vehicles fly for clients: a vehicle, its surroundings, and how much they disturb.
+//
+// A TOML file, every key of which may be left out:
+//
+//   vehicle = "cf21_legacy"     one that comes with the program, or a file's path, from the scene's folder
+//   noise = "real"              as fly takes it
+//   seed = 1
+//   ceiling_m = 1.5             inf: none
+//   floor_rise_x = 0.0, floor_rise_y = 0.0   tangents
+//   wall_y_m = 1.0              a wall in the plane of this y that can be touched
+//   battery = 1.0               charge at the start, 0 to 1
+//   [[effect]]                  as many as are wanted; what begins later says so itself (mass: start)
+//   is = "mass:add=0.003,start=20"
+//
+// Without a file: the thesis's Crazyflie and its ceiling effect, with a ceiling at 1.5 m.
+#ifndef SIM_DESK_SCENE_H
+#define SIM_DESK_SCENE_H
+
+#include "flight/setup.h"
+
+typedef struct {
+  setup_t setup; // model and noise
+  double battery;
+  uint64_t seed;
+} scene_t;
+
+MUST_CHECK done_t scene_default(scene_t *scene, why_t *why);
+
+// Over what is there. BAD_INPUT: the file is missing or not TOML, a key is unknown or out of range.
+MUST_CHECK done_t scene_read(const char *path, scene_t *scene, why_t *why);
+
+// What a command line asks for, over it: request_t's vehicle, effects and noise.
+MUST_CHECK done_t scene_apply(scene_t *scene, const request_t *request, why_t *why);
+
+#endif
