@@ -12,7 +12,6 @@
 #include <string.h>
 
 #define RANGE_NONE_M 32.767f
-#define FLYING_STEPS 2000 // the supervisor's memory of a motor that turns
 #define UNIT_MAX     65535.0
 
 // --- opening --------------------------------------------------------------------------------------------
@@ -62,9 +61,9 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
   c->around = (stand_in_t){.app = &c->app,
                            .has_flow = true,
                            .has_multiranger = true,
-                           .motors_allowed = true,
                            .stock = stock,
                            .stock_context = c};
+  c->supervised_by = supervised_default;
   take_model(c, model);
   c->stock.param = stock_pid_default();
   c->stock.param.power = c->firmware;
@@ -73,7 +72,8 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
 void crazyflie_start(crazyflie_t *c) {
   stand_in = &c->around;
   memset(c->around.range_mm, 0, sizeof c->around.range_mm);
-  c->around.flying = false;
+  c->around.flying = c->around.motors_allowed = false;
+  c->supervised = (supervised_t){.state = SUPERVISED_BEGIN};
   c->called = false;
   c->control = (control_t){.controlMode = controlModeLegacy};
   stock_power_start(&c->power);
@@ -118,6 +118,7 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
                .pitch = level ? modeAbs : modeDisable,
                .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
       .velocity_body = set->vel_in_body,
+      .timestamp = c->around.clock_ms,
       .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
       .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
       .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
@@ -162,23 +163,52 @@ static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
   for (int i = 0; i < PILOT_MOTORS; i++) {
     motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
     c->around.duty[i] = (uint16_t)duty[i];
-    if (duty[i] > 0.0) c->turned_step = in->step;
-    if (!c->command) c->around.flying = c->around.flying || duty[i] > 0.0;
   }
-  if (!c->command && in->step - c->turned_step >= FLYING_STEPS) c->around.flying = false;
 }
 
 // Whoever flew before has commanded this.
 static void take_over(crazyflie_t *c, const pilot_in_t *in) {
   c->control.controlMode = controlModeForce;
+  bool flies = false;
   for (int i = 0; i < PILOT_MOTORS; i++) {
     c->control.normalizedForces[i] = (float)(in->applied_N[i] / c->firmware.thrust_max_N);
-    c->around.flying = c->around.flying || in->applied_N[i] > 0.0;
+    flies = flies || in->applied_N[i] > 0.0;
   }
-  c->turned_step = in->step;
+  if (!c->command) c->supervised = supervised_begun(flies, c->around.clock_ms);
   c->power.supply_V = in->vbat_V;
   c->around.battery_V = (float)in->vbat_V;
   c->called = true;
+}
+
+static bool acts(const stand_in_t *around) {
+  for (int i = 0; i < PILOT_MOTORS; i++)
+    if (around->duty[i] > 0) return true;
+  return false;
+}
+
+static void supervise(crazyflie_t *c) {
+  const Axis3f acc = c->sensors.acc;
+  const supervised_in_t in = {.now_ms = c->around.clock_ms,
+                              .motors = acts(&c->around),
+                              .acc_g = {acc.x, acc.y, acc.z},
+                              .setpoint_ms = c->setpoint.timestamp,
+                              .fed_ms = c->around.fed_ms,
+                              .stop = c->stop};
+  if (!supervised_update(&c->supervised, &c->supervised_by, &in)) return;
+  if (c->supervised.state == SUPERVISED_LOCKED) stand_in_print("SUP: Locked, reboot required\n");
+  if (c->supervised.state == SUPERVISED_CRASHED) stand_in_print("SUP: Crashed, recovery required\n");
+}
+
+static void override(const supervised_t *s, setpoint_t *set) {
+  if (s->state == SUPERVISED_LEVEL_OUT) {
+    set->mode.x = set->mode.y = modeDisable;
+    set->mode.roll = set->mode.pitch = modeAbs;
+    set->mode.yaw = modeVelocity;
+    set->attitude.roll = set->attitude.pitch = 0.0f;
+    set->attitudeRate.yaw = 0.0f;
+  } else if (!supervised_motors_run(s)) {
+    *set = (setpoint_t){.thrust = 0.0f};
+  }
 }
 
 static void fly(crazyflie_t *c, const pilot_in_t *in) {
@@ -219,16 +249,16 @@ void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
   c->state = (state_t){.position = {0}};
   measure(in, &c->sensors, &c->state);
   range(c, in);
-  if (c->command) {
-    pilot_in_t told = *in;
-    c->setpoint = c->command(c->command_context, &c->sensors, &c->state, in->step);
-    told.set = as_pilot(c, &c->setpoint);
-    fly(c, &told);
-  } else {
-    c->setpoint = order(c, &in->set);
-    fly(c, in);
-  }
+  c->setpoint = c->command ? c->command(c->command_context, &c->state, in->step) : order(c, &in->set);
+  if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
+  override(&c->supervised, &c->setpoint);
+  c->around.flying = supervised_flies(&c->supervised);
+  c->around.motors_allowed = supervised_motors_run(&c->supervised);
+  pilot_in_t told = *in;
+  if (c->command) told.set = as_pilot(c, &c->setpoint);
+  fly(c, &told);
   drive(c, in, motor_N);
+  c->around.clock_ms++;
 }
 
 // --- looking ----------------------------------------------------------------------------------------------

@@ -7,9 +7,10 @@
 
 #include "crazyflie/stabilizer_types.h"
 #include "crazyflie/stand_in.h"
+#include "crazyflie/stock_pid.h"
+#include "crazyflie/supervised.h"
 #include "firmware/glue.h"
 #include "vehicle/model.h"
-#include "crazyflie/stock_pid.h"
 
 typedef struct {
   glue_t app; // the app's state: to be looked at, and for faults to be put in
@@ -18,10 +19,12 @@ typedef struct {
   void (*fly)(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
               const state_t *state, uint32_t step);
   void *fly_context;
-  // Set points by the firmware's commander and supervisor, which then also say whether it flies; null: those
-  // of pilot_in_t.
-  setpoint_t (*command)(void *context, const sensorData_t *sensors, const state_t *state, uint32_t step);
+  // Set points by the firmware's commander; null: those of pilot_in_t, new in every millisecond.
+  setpoint_t (*command)(void *context, const state_t *state, uint32_t step);
   void *command_context;
+  supervised_t supervised;
+  supervised_param_t supervised_by;
+  bool stop;           // a client asks for the emergency stop
   setpoint_t setpoint; // of the last millisecond
   sensorData_t sensors;
   state_t state;
@@ -33,7 +36,6 @@ typedef struct {
   control_t control;
   stock_pid_t stock;
   const pilot_in_t *now; // during a call
-  uint32_t turned_step;
   bool called;
 } crazyflie_t;
 
@@ -42,10 +44,11 @@ typedef struct {
 void crazyflie_init(crazyflie_t *c, const model_t *model);
 
 // Switches it on, or the controller anew: as on the vehicle, all but parameters and their commits is fresh.
+// Who flies it by pilot_in_t has waited until it was armed, or took over in flight: the first call tells.
 void crazyflie_start(crazyflie_t *c);
 
-// One millisecond: sensors, estimate and set point through the firmware's units, the app, power distribution
-// and battery compensation. Newton of each motor in free air, by the model's map at in->vbat_V. in->applied_N
+// One millisecond: sensors, estimate and set point through the firmware's units, the supervisor, the app,
+// power distribution and battery compensation. Newton of each motor in free air, by the model's map at in->vbat_V. in->applied_N
 // is what another controller did before, and counts in the first call alone.
 void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
 

@@ -19,7 +19,7 @@ enum { INFO_PLANNED = 1 << 8, INFO_FINISHED = 1 << 9, INFO_DISABLED = 1 << 10 };
 
 uint16_t firmware_info(const firmware_t *f) {
   const planner_t *const p = &f->commanded.planner;
-  unsigned info = supervised_info(&f->supervised);
+  unsigned info = supervised_info(&f->vehicle.supervised);
   if (planner_active(p)) info |= INFO_PLANNED;
   if (planner_finished(p, firmware_now_ms(f))) info |= INFO_FINISHED;
   if (p->state == PLANNER_DISABLED) info |= INFO_DISABLED;
@@ -28,51 +28,10 @@ uint16_t firmware_info(const firmware_t *f) {
 
 // --- the stabilizer ----------------------------------------------------------------------------------------
 
-static bool acts(const stand_in_t *around) {
-  for (int i = 0; i < STAND_IN_MOTORS; i++)
-    if (around->duty[i] > 0) return true;
-  return false;
-}
-
-static void supervise(firmware_t *f, const setpoint_t *set) {
-  const stock_params_t *const p = &f->params;
-  const supervised_param_t param = {p->supervisor_prefltTimeout, p->supervisor_landedTimeout,
-                                    p->supervisor_tmblChckEn};
-  const Axis3f acc = f->vehicle.sensors.acc;
-  const supervised_in_t in = {.now_ms = firmware_now_ms(f),
-                              .motors = acts(&f->vehicle.around),
-                              .acc_g = {acc.x, acc.y, acc.z},
-                              .setpoint_ms = set->timestamp,
-                              .fed_ms = f->vehicle.around.fed_ms,
-                              .stop = f->emergency || p->stabilizer_stop};
-  if (!supervised_update(&f->supervised, &param, &in)) return;
-  if (f->supervised.state == SUPERVISED_LOCKED) stand_in_print("SUP: Locked, reboot required\n");
-  if (f->supervised.state == SUPERVISED_CRASHED) stand_in_print("SUP: Crashed, recovery required\n");
-}
-
-static void override(const supervised_t *s, setpoint_t *set) {
-  if (s->state == SUPERVISED_LEVEL_OUT) {
-    set->mode.x = set->mode.y = modeDisable;
-    set->mode.roll = set->mode.pitch = modeAbs;
-    set->mode.yaw = modeVelocity;
-    set->attitude.roll = set->attitude.pitch = 0.0f;
-    set->attitudeRate.yaw = 0.0f;
-  } else if (!supervised_motors_run(s)) {
-    *set = (setpoint_t){.thrust = 0.0f};
-  }
-}
-
-static setpoint_t command(void *context, const sensorData_t *sensors, const state_t *state, uint32_t step) {
+static setpoint_t command(void *context, const state_t *state, uint32_t step) {
   firmware_t *const f = context;
-  stand_in_t *const around = &f->vehicle.around;
-  (void)sensors;
-  const bool can_fly = supervised_can_fly(&f->supervised);
-  setpoint_t set = commanded_now(&f->commanded, state, can_fly, step, firmware_now_ms(f));
-  if (step % SUPERVISED_PERIOD_MS == 0) supervise(f, &set);
-  override(&f->supervised, &set);
-  around->flying = supervised_flies(&f->supervised);
-  around->motors_allowed = supervised_motors_run(&f->supervised);
-  return set;
+  return commanded_now(&f->commanded, state, supervised_can_fly(&f->vehicle.supervised), step,
+                       firmware_now_ms(f));
 }
 
 // --- which controller flies --------------------------------------------------------------------------------
@@ -116,8 +75,11 @@ static void fly(void *context, control_t *control, const setpoint_t *set, const 
 void firmware_ms(firmware_t *f, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stand_in = &f->vehicle.around;
   task_run(f->task, firmware_now_ms(f));
+  const stock_params_t *const p = &f->params;
+  f->vehicle.supervised_by = (supervised_param_t){p->supervisor_prefltTimeout, p->supervisor_landedTimeout,
+                                                  p->supervisor_tmblChckEn};
+  f->vehicle.stop = f->emergency || p->stabilizer_stop;
   crazyflie_ms(&f->vehicle, in, motor_N);
-  f->vehicle.around.clock_ms++;
 }
 
 // --- what the app asks of it -------------------------------------------------------------------------------
@@ -162,7 +124,6 @@ done_t firmware_open(firmware_t *f, const model_t *model, why_t *why) {
   indi.power = c->firmware;
   (void)stock_indi_pilot(&f->indi, &indi);
   stand_in_t *const around = &c->around;
-  around->motors_allowed = false;
   around->clocked = true;
   around->relax = relax;
   around->land = land;

@@ -12,7 +12,6 @@
 #include "crazyflie.h"
 #include "stock_indi.h"
 #include "stock_table.h"
-#include "supervised.h"
 #include "task_switch.h"
 
 enum { CONTROLLER_AUTO = 0, CONTROLLER_PID = 1, CONTROLLER_INDI = 3, CONTROLLER_APP = 6 };
@@ -28,7 +27,6 @@ typedef struct {
 
 typedef struct firmware {
   crazyflie_t vehicle;
-  supervised_t supervised;
   commanded_t commanded;
   stock_indi_t indi;
   stock_params_t params;

@@ -97,7 +97,7 @@ static void look_at_battery(stock_logs_t *l, firmware_t *f) {
 }
 
 static void look_at_supervisor(stock_logs_t *l, const firmware_t *f) {
-  const supervised_t *const s = &f->supervised;
+  const supervised_t *const s = &f->vehicle.supervised;
   const Axis3f a = f->vehicle.sensors.acc;
   l->sys_canfly = supervised_can_fly(s), l->sys_isFlying = supervised_flies(s);
   l->sys_isTumbled = s->tumbled, l->sys_armed = s->armed;

@@ -121,6 +121,13 @@ static void enter(supervised_t *s, supervised_state_t state, uint32_t now_ms) {
   s->armed = state == SUPERVISED_PASSED || (s->armed && stays_armed(state));
 }
 
+supervised_t supervised_begun(bool flies, uint32_t now_ms) {
+  supervised_t s = {.state = SUPERVISED_BEGIN, .armed = true};
+  enter(&s, flies ? SUPERVISED_FLYING : SUPERVISED_READY, now_ms);
+  if (flies) s.thrust_ms = now_ms > 0 ? now_ms : 1;
+  return s;
+}
+
 bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in) {
   const supervised_state_t to = next(s->state, look(s, p, in));
   if (to == s->state) return false;

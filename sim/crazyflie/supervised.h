@@ -57,6 +57,9 @@ typedef struct {
 
 // All zero is the state after power-on.
 
+// One that was switched on long before: armed on the ground, or in flight.
+supervised_t supervised_begun(bool flies, uint32_t now_ms);
+
 // One call at 25 Hz. Returns true if the state has changed.
 bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in);
 

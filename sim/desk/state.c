@@ -89,7 +89,7 @@ cJSON *state_of(const drone_t *d, const seen_as_t *as) {
     add_place(to, d, as->beside_m);
     add_thoughts(to, d);
   }
-  cJSON_AddStringToObject(to, "state", supervised_words(d->firmware.supervised.state));
+  cJSON_AddStringToObject(to, "state", supervised_words(d->firmware.vehicle.supervised.state));
   cJSON_AddStringToObject(to, "controller", who_flies(&d->firmware));
   add(to, "vbat_V", (double)d->firmware.vehicle.around.battery_V);
   add(to, "clients", as->clients);

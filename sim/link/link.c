@@ -53,7 +53,7 @@ bool link_give(link_t *l, packet_t *packet) {
 // always, and would keep the planner from flying in the next session: on the ground it is let go.
 void link_reset(link_t *l) {
   link_logs_reset(l);
-  if (!supervised_flies(&l->firmware->supervised)) l->firmware->commanded.priority = COMMANDED_NOBODY;
+  if (!supervised_flies(&l->firmware->vehicle.supervised)) l->firmware->commanded.priority = COMMANDED_NOBODY;
   l->taken = l->put;
 }
 
@@ -86,7 +86,7 @@ static bool version(link_t *l, const request_packet_t *r) {
 enum { ARM = 1, RECOVER, EMERGENCY_STOP, FEED };
 
 static void arm_or_recover(link_t *l, int port, int channel, uint8_t reply, const request_packet_t *r) {
-  supervised_t *const s = &l->firmware->supervised;
+  supervised_t *const s = &l->firmware->vehicle.supervised;
   const bool arms = r->data[0] == ARM;
   const bool done = arms ? supervised_arm(s, r->data[1] != 0) : supervised_recover(s);
   const uint8_t answer[] = {reply, done, arms ? s->armed : !s->crashed};

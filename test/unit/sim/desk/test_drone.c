@@ -79,11 +79,11 @@ TEST(a_client_takes_off_hovers_and_lands_with_each_controller) {
     climb(d, 0.6f);
     pass(d, 8.0);
     CHECK_NEAR(d->seen.truth->pos_w_m.z - 0.017, 0.6, 0.05);
-    CHECK(supervised_flies(&d->firmware.supervised));
+    CHECK(supervised_flies(&d->firmware.vehicle.supervised));
     land(d);
     pass(d, 7.0);
     CHECK_NEAR(d->seen.truth->pos_w_m.z - 0.017, 0.0, 0.01);
-    CHECK(!supervised_flies(&d->firmware.supervised));
+    CHECK(!supervised_flies(&d->firmware.vehicle.supervised));
     end(d);
   }
 }
@@ -118,12 +118,12 @@ TEST(set_points_that_stop_coming_end_the_flight) {
   }
   CHECK_NEAR(log_of(d, "desk.z") - 0.017, 0.4, 0.05);
   pass(d, 1.0);
-  CHECK(d->firmware.supervised.state == SUPERVISED_LEVEL_OUT);
+  CHECK(d->firmware.vehicle.supervised.state == SUPERVISED_LEVEL_OUT);
   pass(d, 1.5);
-  CHECK(d->firmware.supervised.state == SUPERVISED_LOCKED);
+  CHECK(d->firmware.vehicle.supervised.state == SUPERVISED_LOCKED);
   set(d, "desk.restart", 1);
   pass(d, 1.0);
-  CHECK(supervised_can_fly(&d->firmware.supervised));
+  CHECK(supervised_can_fly(&d->firmware.vehicle.supervised));
   end(d);
 }
 

@@ -134,7 +134,7 @@ TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
   CHECK(w.shown == 0.125 && w.notified == RBF_N + 2);
   // Refused in the tick: it learns.
   type(&w, "ceil.mode", CURVE_LIVE);
-  app_fly(&w.flying, 10);
+  app_fly(&w.flying, 3 * SUPERVISED_PERIOD_MS);
   w.notified = 0;
   type(&w, "ceil.commit", COMMIT_LEARNED);
   CHECK(w.shown == 0.0 && app_log(&w.flying, "ceil.noCommit") == 1.0);

@@ -96,8 +96,9 @@ TEST(app_counts_as_applied_nothing_while_the_motors_are_not_allowed_to_run) {
   app_start(&f);
   app_fly(&f, 50);
   CHECK(app_log(&f, "indiIn.f1") > 0.05);
-  f.vehicle.around.motors_allowed = false;
-  app_fly(&f, 1);
+  f.vehicle.stop = true;
+  app_fly(&f, 2 * SUPERVISED_PERIOD_MS);
+  CHECK(f.vehicle.supervised.state == SUPERVISED_LOCKED);
   CHECK(app_log(&f, "indiIn.f1") == 0.0);
 }
 
@@ -145,9 +146,60 @@ TEST(app_teaches_nothing_while_the_supervisor_says_it_does_not_fly) {
   body.floor = true;
   f.rig = rig6_at(&body, d3(0.0, 0.0, 0.0), 0.0, false);
   crazyflie_start(&f.vehicle);
-  f.vehicle.around.motors_allowed = false;
+  f.vehicle.stop = true;
   app_fly(&f, 3000);
   CHECK(app_log(&f, "rls.taught") == 0.0 && app_log(&f, "indiIn.noLesson") == 1.0);
+}
+
+// It looks 25 times a second.
+TEST(app_hears_that_it_flies_up_to_80_ms_after_the_first_thrust) {
+  for (uint32_t begin = 0; begin < SUPERVISED_PERIOD_MS; begin += 7) {
+    static flying_t f;
+    app_start(&f);
+    rig6_param_t body = rig6_crazyflie();
+    body.floor = true;
+    f.rig = rig6_at(&body, d3(0.0, 0.0, 0.0), 0.0, false);
+    f.rig.step = begin;
+    crazyflie_start(&f.vehicle);
+    int turned_ms = 0;
+    do {
+      app_fly(&f, 1);
+      turned_ms += f.vehicle.around.duty[0] > 0;
+    } while (turned_ms < 200 && app_log(&f, "indiIn.noLesson") == 1.0);
+    CHECK(turned_ms > 1 && turned_ms <= 2 * SUPERVISED_PERIOD_MS);
+  }
+}
+
+// The supervisor finds it on the ground, takes the set point away, and arms it: no pilot has let go.
+TEST(app_stays_down_after_a_hand_over_until_the_pilot_lets_go) {
+  static flying_t f;
+  app_start(&f);
+  rig6_param_t body = rig6_crazyflie();
+  body.floor = true;
+  f.rig = rig6_at(&body, d3(0.0, 0.0, 0.3), 0.0, true);
+  crazyflie_start(&f.vehicle);
+  app_fly(&f, 1000);
+  CHECK(f.rig.pos_w_m.z > 0.2);
+  for (int ms = 0; ms < 200; ms++) { // no number is felt
+    pilot_in_t in = rig6_sense(&f.rig, &f.set);
+    in.gyro_b_radps.x = (double)NAN;
+    double motor_N[PILOT_MOTORS];
+    crazyflie_ms(&f.vehicle, &in, motor_N);
+    rig6_step(&f.rig, motor_N);
+  }
+  bool armed_anew = false;
+  for (int ms = 0; ms < 12000; ms++) {
+    app_fly(&f, 1);
+    armed_anew = armed_anew || f.vehicle.supervised.state == SUPERVISED_PASSED;
+    CHECK(f.vehicle.around.duty[0] == 0 || ms < 2000);
+  }
+  CHECK(armed_anew && f.vehicle.supervised.state == SUPERVISED_READY);
+  const pilot_setpoint_t wanted = f.set;
+  f.set.mode[0] = f.set.mode[1] = f.set.mode[2] = PILOT_OFF;
+  app_fly(&f, 100);
+  f.set = wanted;
+  app_fly(&f, 3000);
+  CHECK(f.rig.pos_w_m.z > 0.2);
 }
 
 // --- the task ---------------------------------------------------------------------------------------------
