@@ -117,7 +117,7 @@ SEES_OF_SRC = $(FLIGHT_FLAGS) -Iinclude
 $(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
 SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
 $(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
-$(B)/sim/crazyflie/%.o $(B)/sim/link/%.o $(B)/sim/desk/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
+$(B)/sim/crazyflie/%.o $(B)/sim/link/%.o $(B)/sim/drone/%.o $(B)/sim/desk/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 # The exam's second plant sees nothing of the first.

@@ -3,7 +3,7 @@
 #include "base/made.h"
 #include "base/number.h"
 #include "base/option.h"
-#include "desk/drone.h"
+#include "drone/drone.h"
 #include "desk/datagrams.h"
 #include "desk/http.h"
 #include "desk/state.h"
@@ -25,19 +25,20 @@
 #define PORT       19850
 #define PAGE       8080
 #define URI_BYTES  64
-#define APART_M    0.5 // places on the page
-#define BATCH_MS   20  // simulated at most between two looks at the sockets
-#define BEHIND_S   0.2 // farther behind than this, the time is let go
-#define AFTER_S    1.0 // a replay flies on for so long
+#define APART_M    0.5  // places on the page
+#define BOOT_MS    1000 // a vehicle that answers has passed its checks and is armed
+#define BATCH_MS   20   // simulated at most between two looks at the sockets
+#define BEHIND_S   0.2  // farther behind than this, the time is let go
 
 typedef struct {
   request_t request;
   model_t vehicle;
   scene_t scene;
-  const char *address, *storage, *log, *replay;
+  const char *address, *storage, *log, *scene_path;
   bool seed_said, help, version;
   double port, page, drones, speed, for_s;
   double loss, delay_s;
+  made_t made, again; // again: how fly flies it anew
 } order_t;
 
 typedef struct {
@@ -62,7 +63,6 @@ static void end(int signal_number) {
 }
 
 // --- options
-// ------------------------------------------------------------------------------------------------
 
 static done_t take_number(const char *option, const char *text, double min, double max, bool whole,
                           double *value, why_t *why) {
@@ -107,61 +107,82 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   case 'k': return take_link(o, text, why);
   case 'S': o->storage = text; return DONE;
   case 'l': o->log = text; return DONE;
-  case 'R': o->replay = text; return DONE;
   case 'f': return take_number("--for", text, 0.0, 1e6, false, &o->for_s, why);
   case 'V': o->version = true; return DONE;
   default: o->help = true; return DONE;
   }
 }
 
-static done_t take_scene(order_t *o, const char *path, why_t *why) {
-  TRY(scene_default(&o->scene, why));
-  if (path) TRY(scene_read(path, &o->scene, why));
-  if (!o->seed_said) o->request.seed = o->scene.seed;
-  o->scene.seed = o->request.seed;
-  return scene_apply(&o->scene, &o->request, why);
-}
-
 static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
-  static const struct option options[] = {{"vehicle", 1, 0, 'v'},
-                                          {"effect", 1, 0, 'e'},
-                                          {"noise", 1, 0, 'n'},
-                                          {"seed", 1, 0, 'd'},
-                                          {"drones", 1, 0, 'N'},
-                                          {"port", 1, 0, 'p'},
-                                          {"page", 1, 0, 'g'},
-                                          {"address", 1, 0, 'a'},
-                                          {"speed", 1, 0, 's'},
-                                          {"link", 1, 0, 'k'},
-                                          {"storage", 1, 0, 'S'},
-                                          {"log", 1, 0, 'l'},
-                                          {"replay", 1, 0, 'R'},
-                                          {"for", 1, 0, 'f'},
-                                          {"help", 0, 0, 'h'},
-                                          {"version", 0, 0, 'V'},
-                                          {0}};
+  static const struct option options[] = {
+      {"vehicle", 1, 0, 'v'}, {"effect", 1, 0, 'e'}, {"noise", 1, 0, 'n'},   {"seed", 1, 0, 'd'},
+      {"drones", 1, 0, 'N'},  {"port", 1, 0, 'p'},   {"page", 1, 0, 'g'},    {"address", 1, 0, 'a'},
+      {"speed", 1, 0, 's'},   {"link", 1, 0, 'k'},   {"storage", 1, 0, 'S'}, {"log", 1, 0, 'l'},
+      {"for", 1, 0, 'f'},     {"help", 0, 0, 'h'},   {"version", 0, 0, 'V'}, {0}};
   *o = (order_t){.address = "127.0.0.1", .port = PORT, .page = PAGE, .drones = 1.0, .speed = 1.0};
+  o->made = made_by("desk", argc, argv);
+  o->again = (made_t){.command = NULL};
   opterr = 0;
   for (int option, at; (option = getopt_long(argc, argv, "", options, &at)) != -1;) {
     if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
+    if (strchr("ven", option)) made_option(&o->again, options[at].name, optarg);
   }
   if (o->help || o->version) return DONE;
   if (optind + 1 < argc) return error_set(why, "%s: one scene is enough", argv[optind + 1]);
   if (o->port + o->drones > 65536.0) return error_set(why, "--port, --drones: the last port is beyond 65535");
-  if (o->replay && o->drones > 1.0) return error_set(why, "--replay: one drone is flown; leave out --drones");
-  return take_scene(o, argv[optind], why);
+  o->scene_path = argv[optind];
+  return scene_take(&o->scene, o->scene_path, &o->request, o->seed_said, why);
 }
 
 // --- places
-// -------------------------------------------------------------------------------------------------
 
-static done_t open_file(const char *folder, int number, const char *kind, FILE **file, why_t *why) {
-  char path[PATH_BYTES];
-  if (snprintf(path, sizeof path, "%s/%d.%s", folder, number, kind) >= (int)sizeof path)
-    return error_set(why, "--log: the path is too long");
+static done_t name_file(const char *folder, int number, const char *kind, char path[PATH_BYTES], why_t *why) {
+  if (snprintf(path, PATH_BYTES, "%s/%d.%s", folder, number, kind) < PATH_BYTES) return DONE;
+  return error_set(why, "--log: the path is too long");
+}
+
+static done_t open_file(const char *path, FILE **file, why_t *why) {
   *file = fopen(path, "w");
   return *file ? DONE : error_set(why, "%s: %s", path, strerror(errno));
+}
+
+// What was stored before, as it is flown anew with it.
+static done_t copy_storage(const char *from, const char *path, bool *copied, why_t *why) {
+  FILE *const file = from ? fopen(from, "r") : NULL, *copy = NULL;
+  *copied = file != NULL;
+  if (!file) return DONE;
+  const done_t status = open_file(path, &copy, why);
+  for (int c; copy && (c = fgetc(file)) != EOF;) fputc(c, copy);
+  fclose(file);
+  if (copy && fclose(copy) != 0) return error_failed(why, "%s: cannot be written", path);
+  return status;
+}
+
+static done_t open_log(const order_t *o, int number, uint64_t seed, place_t *place, why_t *why) {
+  if (mkdir(o->log, 0777) != 0 && errno != EEXIST)
+    return error_set(why, "--log %s: %s", o->log, strerror(errno));
+  char log[PATH_BYTES], commands[PATH_BYTES], storage[PATH_BYTES], text[32];
+  TRY(name_file(o->log, number, "csv", log, why));
+  TRY(name_file(o->log, number, "commands", commands, why));
+  TRY(name_file(o->log, number, "storage", storage, why));
+  TRY(open_file(log, &place->log, why));
+  TRY(open_file(commands, &place->commands, why));
+  bool stored;
+  TRY(copy_storage(number == 0 ? o->storage : NULL, storage, &stored, why));
+  made_t again = made_by("out/fly", 0, NULL);
+  made_option(&again, "commands", commands);
+  if (o->scene_path) made_option(&again, "scene", o->scene_path);
+  snprintf(text, sizeof text, "%llu", (unsigned long long)seed);
+  made_option(&again, "seed", text);
+  if (stored) made_option(&again, "storage", storage);
+  made_words(&again, o->again.command);
+  made_comment(&o->made, place->commands);
+  fputs("# flown anew by: ", place->commands);
+  made_line(&again, place->commands);
+  fputs(" --log FILE.csv\n", place->commands);
+  made_free(&again);
+  return DONE;
 }
 
 static done_t open_place(const order_t *o, int number, place_t *place, why_t *why) {
@@ -169,16 +190,12 @@ static done_t open_place(const order_t *o, int number, place_t *place, why_t *wh
   snprintf(place->uri, sizeof place->uri, "udp://%s:%d", o->address, (int)o->port + number);
   scene_t scene = o->scene;
   scene.seed += (uint64_t)number;
-  if (!o->replay) TRY(datagrams_open(&place->radio, o->address, (int)o->port + number, scene.seed, why));
-  if (o->log) {
-    if (mkdir(o->log, 0777) != 0 && errno != EEXIST)
-      return error_set(why, "--log %s: %s", o->log, strerror(errno));
-    TRY(open_file(o->log, number, "csv", &place->log, why));
-    TRY(open_file(o->log, number, "commands", &place->commands, why));
-  }
+  TRY(datagrams_open(&place->radio, o->address, (int)o->port + number, scene.seed, why));
+  if (o->log) TRY(open_log(o, number, scene.seed, place, why));
   TRY(drone_open(&place->drone, &scene, number == 0 ? o->storage : NULL, place->log, place->commands, why));
   place->drone.params.loss = (float)o->loss;
   place->drone.params.delay = (float)o->delay_s;
+  while (drone_now_ms(&place->drone) < BOOT_MS) TRY(drone_tick(&place->drone, why));
   return DONE;
 }
 
@@ -190,7 +207,6 @@ static void close_place(place_t *place) {
 }
 
 // --- the clock
-// ----------------------------------------------------------------------------------------------
 
 static double wall_s(void) {
   struct timespec now;
@@ -219,7 +235,6 @@ static done_t catch_up(place_t *p, double until_ms, why_t *why) {
 }
 
 // --- the page
-// -----------------------------------------------------------------------------------------------
 
 static char *tell_page(void *context) {
   const room_t *const room = context;
@@ -245,7 +260,6 @@ static const char *set_from_page(void *context, int drone, const char *name, dou
 }
 
 // --- flying
-// -------------------------------------------------------------------------------------------------
 
 static done_t fly(room_t *room, http_t *http, why_t *why) {
   const order_t *const o = room->order;
@@ -254,7 +268,7 @@ static done_t fly(room_t *room, http_t *http, why_t *why) {
   const int n = (int)o->drones;
   for (int i = 0; i < n; i++) fd[i] = (struct pollfd){.fd = place[i].radio.socket, .events = POLLIN};
   fd[n] = (struct pollfd){.fd = http ? http_fd(http) : -1, .events = POLLIN};
-  double begin_s = wall_s(), at_s = 0.0;
+  double begin_s = wall_s() - 1e-3 * BOOT_MS / o->speed, at_s = 0.0;
   while (!ended && !(o->for_s > 0.0 && at_s >= o->for_s)) {
     const double now_s = wall_s();
     at_s = 1e-3 * drone_now_ms(&place[0].drone);
@@ -273,17 +287,7 @@ static done_t fly(room_t *room, http_t *http, why_t *why) {
   return DONE;
 }
 
-static done_t replay(const order_t *o, place_t *place, why_t *why) {
-  TRY(open_place(o, 0, place, why));
-  FILE *const file = fopen(o->replay, "r");
-  if (!file) return error_set(why, "%s: %s", o->replay, strerror(errno));
-  const done_t status = drone_replay(&place->drone, file, o->replay, AFTER_S, why);
-  fclose(file);
-  return status;
-}
-
 // --- all
-// ----------------------------------------------------------------------------------------------------
 
 static void say(const order_t *o) {
   const char *const a = o->address;
@@ -308,7 +312,6 @@ static done_t run(order_t *o, place_t *place, int argc, char **argv, why_t *why)
   if (o->help) fputs(USAGE, stdout);
   if (o->version) made_version("desk");
   if (o->help || o->version) return DONE;
-  if (o->replay) return replay(o, place, why);
   // The page first: a second start writes over no log of the first.
   room_t room = {.order = o, .place = place};
   const http_answers_t answers = {&room, tell_page, set_from_page};
@@ -333,5 +336,7 @@ int main(int argc, char **argv) {
   signal(SIGPIPE, SIG_IGN);
   const done_t status = run(&order, place, argc, argv, &why);
   for (int i = 0; i < DRONES_MAX; i++) close_place(&place[i]);
+  made_free(&order.made);
+  made_free(&order.again);
   return error_exit("desk", status, &why);
 }

@@ -2,8 +2,10 @@
 #include "base/made.h"
 #include "base/number.h"
 #include "base/option.h"
+#include "base/stream.h"
 #include "base/whole_file.h"
 #include "crazyflie/usd_deck.h"
+#include "drone/drone.h"
 #include "flight/catalogue.h"
 #include "flight/many.h"
 #include "flight/replay_report.h"
@@ -32,6 +34,7 @@ typedef struct {
   bool seed_said;
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path, *replay, *params_to, *usd, *usd_config;
+  const char *commands, *scene, *storage;
   bool list, logs, params, markdown, help, rate_said;
   bool version;
   made_t made, each; // each: of one of many flights, but for its seed
@@ -71,6 +74,9 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   case 's': return request_take_set(&o->request, text, why);
   case 'S': return request_take_sets(&o->request, text, why);
   case 'R': o->replay = text; return DONE;
+  case 'C': o->commands = text; return DONE;
+  case 'x': o->scene = text; return DONE;
+  case 'X': o->storage = text; return DONE;
   case 'T': o->params_to = text; return DONE;
   case 'u': o->usd = text; return DONE;
   case 'U': o->usd_config = text; return DONE;
@@ -115,11 +121,25 @@ static done_t check_many(const order_t *o, why_t *why) {
   return DONE;
 }
 
+// What clients sent at the desk is flown with the desk's own options.
+static done_t check_commands(const order_t *o, const char *given, const char *scenario, why_t *why) {
+  if (!o->commands) {
+    if (!o->scene && !o->storage) return DONE;
+    return error_set(why, "--scene, --storage: allowed with --commands FILE");
+  }
+  if (scenario) return error_set(why, "--commands: no scenario is flown; leave out %s", scenario);
+  if (strspn(given, "CxXvendl") == strlen(given)) return DONE;
+  return error_set(why,
+                   "--commands: allowed with it are --scene, --storage, --vehicle, --effect, --noise, --seed "
+                   "and --log");
+}
+
 static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   // clang-format off
   static const struct option options[] = {
       {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
       {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
+      {"commands", 1, 0, 'C'}, {"scene", 1, 0, 'x'}, {"storage", 1, 0, 'X'},
       {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
       {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
       {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"logs", 0, 0, 'G'},
@@ -130,13 +150,16 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   o->made = made_by("fly", argc, argv);
   o->each = made_by("fly", 0, NULL);
   opterr = 0;
+  char given[64] = "";
   for (int option, at; (option = getopt_long(argc, argv, "", options, &at)) != -1;) {
     if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
+    if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
     if (!strchr("ftjlT", option)) made_option(&o->each, options[at].name, optarg);
   }
   if (o->list || o->logs || o->params || o->help || o->version) return DONE;
-  if (o->replay && optind == argc) return DONE;
+  TRY(check_commands(o, given, argv[optind], why));
+  if (o->commands || (o->replay && optind == argc)) return DONE;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
   TRY(scenario_take(argv[optind], &o->scenario, why));
@@ -163,6 +186,9 @@ static done_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
   TRY(whole_files_open(&out->files, o->usd, &out->usd, why));
   TRY(whole_files_spare(&out->files, o->usd_config, why));
+  TRY(whole_files_spare(&out->files, o->commands, why));
+  TRY(whole_files_spare(&out->files, o->scene, why));
+  TRY(whole_files_spare(&out->files, o->storage, why));
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
@@ -238,6 +264,27 @@ static done_t fly_many(order_t *o, output_t *out, why_t *why) {
   return many_fly(&m, why);
 }
 
+#define AFTER_S 1.0 // flown on, after the last packet
+
+static done_t fly_commands(order_t *o, output_t *out, why_t *why) {
+  static drone_t drone;
+  scene_t scene;
+  TRY(scene_take(&scene, o->scene, &o->request, o->seed_said, why));
+  FILE *commands;
+  TRY(stream_open(&commands, o->commands, why));
+  done_t status = drone_open(&drone, &scene, o->storage, out->log, NULL, why);
+  if (status == DONE) {
+    status = drone_replay(&drone, commands, o->commands, AFTER_S, why);
+    if (status == DONE)
+      printf("%.1f s of what clients sent; %d contacts, at the end %.2f m high and %s\n",
+             1e-3 * drone_now_ms(&drone), (int)drone.logs.contacts, (double)drone.logs.z,
+             supervised_words(drone.firmware.vehicle.supervised.state));
+    drone_close(&drone);
+  }
+  fclose(commands);
+  return status;
+}
+
 static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *why) {
   TRY(take_order(order, argc, argv, why));
   if (order->help) fputs(USAGE, stdout);
@@ -246,9 +293,10 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
   if (order->replay) return replay_report(order->replay, &order->request, why);
-  if (!order->scenario) return DONE;
+  if (!order->scenario && !order->commands) return DONE;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));
+  if (order->commands) return fly_commands(order, out, why);
   if (out->usd) return fly_with_deck(order, out, why);
   return many(order) ? fly_many(order, out, why) : fly(order, out, why);
 }

@@ -4,6 +4,7 @@
 
 static const char USAGE[] =
     "usage: fly SCENARIO [options]\n"
+    "       fly --commands FILE [--scene FILE.toml] [--storage FILE] [options]\n"
     "  --controller NAME        who flies; see --list\n"
     "  --thesis-law             the thesis's law and gains in place of those that ship\n"
     "  --set group.name=VALUE   a parameter of the flight code; see --params (may be repeated)\n"
@@ -30,6 +31,12 @@ static const char USAGE[] =
     "whether "
     "it\n"
     "                           commands what was logged\n"
+    "  --commands FILE          in place of a scenario: what clients sent at the desk (desk --log DIR), "
+    "flown "
+    "anew;\n"
+    "                           with the desk's options the same flight, to the bit\n"
+    "  --scene FILE.toml        where, as for the desk\n"
+    "  --storage FILE           what was stored before; it is not written\n"
     "  --json FILE              writes what is printed, and more\n"
     "  --list                   scenarios, controllers and effects\n"
     "  --logs                   what the app logs, by group\n"

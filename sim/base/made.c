@@ -94,9 +94,13 @@ void made_add(cJSON *json, const made_t *m, double seed, double rows) {
   cJSON_AddNumberToObject(made, "rows", rows);
 }
 
+void made_line(const made_t *m, FILE *out) {
+  for (const char *c = m->command ? m->command : ""; *c; c++) fputc(*c >= ' ' && *c <= '~' ? *c : '?', out);
+}
+
 void made_comment(const made_t *m, FILE *out) {
   fprintf(out, "# made by %s at %s\n# ", m->by, m->date);
-  for (const char *c = m->command ? m->command : ""; *c; c++) fputc(*c >= ' ' && *c <= '~' ? *c : '?', out);
+  made_line(m, out);
   fputc('\n', out);
 }
 

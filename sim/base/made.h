@@ -32,6 +32,9 @@ void made_add(cJSON *json, const made_t *m, double seed, double rows);
 // in letters that any file takes.
 void made_comment(const made_t *m, FILE *out);
 
+// The command alone, on one line, in such letters.
+void made_line(const made_t *m, FILE *out);
+
 // --version.
 void made_version(const char *program);
 

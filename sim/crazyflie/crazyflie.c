@@ -58,11 +58,8 @@ static void take_model(crazyflie_t *c, const model_t *model) {
 
 void crazyflie_init(crazyflie_t *c, const model_t *model) {
   *c = (crazyflie_t){.app = glue_static};
-  c->around = (stand_in_t){.app = &c->app,
-                           .has_flow = true,
-                           .has_multiranger = true,
-                           .stock = stock,
-                           .stock_context = c};
+  c->around = (stand_in_t){
+      .app = &c->app, .has_flow = true, .has_multiranger = true, .stock = stock, .stock_context = c};
   c->supervised_by = supervised_default;
   take_model(c, model);
   c->stock.param = stock_pid_default();

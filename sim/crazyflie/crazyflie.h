@@ -48,8 +48,8 @@ void crazyflie_init(crazyflie_t *c, const model_t *model);
 void crazyflie_start(crazyflie_t *c);
 
 // One millisecond: sensors, estimate and set point through the firmware's units, the supervisor, the app,
-// power distribution and battery compensation. Newton of each motor in free air, by the model's map at in->vbat_V. in->applied_N
-// is what another controller did before, and counts in the first call alone.
+// power distribution and battery compensation. Newton of each motor in free air, by the model's map at
+// in->vbat_V. in->applied_N is what another controller did before, and counts in the first call alone.
 void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
 
 // A parameter or log of the app, "group.name"; the whole number for those that are no floats.

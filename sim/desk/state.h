@@ -2,7 +2,7 @@
 #ifndef SIM_DESK_STATE_H
 #define SIM_DESK_STATE_H
 
-#include "desk/drone.h"
+#include "drone/drone.h"
 #include <cjson/cJSON.h>
 
 typedef struct {

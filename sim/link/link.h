@@ -54,6 +54,8 @@ typedef struct {
 // "group.name = value", or of a parameter that is not there, is BAD_INPUT. FAILED: no memory.
 MUST_CHECK done_t storage_open(storage_t *s, const char *path, firmware_t *f, why_t *why);
 void storage_close(storage_t *s);
+// Into a firmware that is switched on anew.
+void storage_restore(const storage_t *s, firmware_t *f);
 // Value NaN forgets it. False: it could not be written; nothing has changed then.
 bool storage_put(storage_t *s, const firmware_t *f, int param, double value);
 

@@ -44,6 +44,11 @@ done_t storage_open(storage_t *s, const char *path, firmware_t *f, why_t *why) {
   return status;
 }
 
+void storage_restore(const storage_t *s, firmware_t *f) {
+  for (int i = 0; i < s->n; i++)
+    if (!isnan(s->value[i])) firmware_param_put(f, i, s->value[i]);
+}
+
 void storage_close(storage_t *s) {
   free(s->value);
   s->value = NULL;

@@ -49,8 +49,8 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   if (!supervisorAreMotorsAllowedToRun())
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
-  // Motors that are not allowed to run come with no set point: the supervisor's, which lets nothing go. Else a
-  // vehicle that was handed over, fell and armed itself anew would take off again.
+  // Motors that are not allowed to run come with no set point: the supervisor's, which lets nothing go. Else
+  // a vehicle that was handed over, fell and armed itself anew would take off again.
   if (supervisorAreMotorsAllowedToRun() || GLUE.flight.guard.action == GUARD_FLY)
     units_setpoint(&in->setpoint, setpoint);
   // For a person to read: in a call of ten in which no loop runs.

@@ -1,73 +1,17 @@
-"""The stock library, and the commands of tools/cf.py, over UDP to out/desk: nothing of either is patched."""
+"""The stock library flies what is at the desk: parameters, logs, its own commanders."""
 
-import contextlib
-import os
-import re
-import subprocess
-import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-DESK = ROOT / os.environ.get("O", "out") / "desk"
-PORT = 19871  # not the one that a person's own desk has
+from desk_rig import AtTheDesk
 
 try:
-    import cflib.crtp
-    from cflib.crazyflie import Crazyflie
-    from cflib.crazyflie.log import LogConfig
     from cflib.crazyflie.mem import MemoryElement, Poly4D
-    from cflib.crazyflie.syncCrazyflie import SyncCrazyflie
-    from cflib.crazyflie.syncLogger import SyncLogger
-    from cflib.crtp.udpdriver import UdpDriver
     from cflib.positioning.motion_commander import MotionCommander
     from cflib.positioning.position_hl_commander import PositionHlCommander
     from cflib.utils.multiranger import Multiranger
 except ImportError:
-    cflib = None
-
-
-@contextlib.contextmanager
-def desk(*options: object):
-    """A desk that is on, and its URI."""
-    command = [DESK, "--port", PORT, "--page", 0, *options]
-    running = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True)
-    try:
-        assert running.stdout.readline().startswith("A simulated Crazyflie"), "the desk does not start"
-        yield f"udp://127.0.0.1:{PORT}"
-    finally:
-        running.terminate()
-        running.communicate(timeout=10)
-
-
-@unittest.skipUnless(cflib and DESK.exists(), "no cflib, or no out/desk")
-class AtTheDesk(unittest.TestCase):
-    OPTIONS: tuple = ()
-
-    def setUp(self) -> None:
-        cflib.crtp.CLASSES[:] = [UdpDriver]
-        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        self.uri = self.enterContext(desk(*self.OPTIONS))
-
-    @contextlib.contextmanager
-    def flown(self):
-        with SyncCrazyflie(self.uri, cf=Crazyflie(rw_cache=str(self.folder))) as connected:
-            connected.wait_for_params()
-            yield connected
-
-    def logged(self, connected, seconds: float, *names: str, period_ms: int = 100) -> list[dict]:
-        block = LogConfig("block", period_ms)
-        for name in names:
-            block.add_variable(name)
-        rows = []
-        with SyncLogger(connected, block) as logger:
-            for stamp_ms, values, _ in logger:
-                rows.append(values | {"ms": stamp_ms})
-                if rows[-1]["ms"] - rows[0]["ms"] >= 1000 * seconds:
-                    return rows
-        return rows
+    pass  # skipped by the rig
 
 
 class Connected(AtTheDesk):
@@ -145,50 +89,6 @@ class Flying(AtTheDesk):
             self.assertAlmostEqual(ranger.up, 0.04, delta=0.01)
 
 
-class Commands(AtTheDesk):
-    def cf(self, *words: object, status: int = 0) -> str:
-        command = [sys.executable, ROOT / "tools" / "cf.py", "--uri", self.uri, *words]
-        ran = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=200, cwd=self.folder)
-        self.assertEqual(ran.returncode, status, ran.stderr)
-        return ran.stdout if status == 0 else ran.stderr
-
-    def test_parameters_are_listed_read_and_written(self) -> None:
-        self.assertIn("indiPos.kpz", self.cf("params", "list"))
-        self.cf("params", "set", "indiPos.kpz=1.5")
-        self.assertEqual(self.cf("params", "get", "indiPos.kpz").split()[-1], "1.5")
-
-    def test_in_shadow_it_does_not_learn(self) -> None:
-        self.assertIn("ceil.shadow is 1", self.cf("learn", status=1))
-
-    def test_it_learns_a_ceiling_that_it_then_holds(self) -> None:
-        self.cf("params", "set", "ceil.shadow=0")
-        learned = self.cf("learn", "--hold", "3")
-        weights = [float(w) for w in re.findall(r"ceil\.w\d = (\S+)", learned)]
-        self.assertEqual(len(weights), 7)
-        self.assertIn("the weights are stored", learned)
-
-
-class Kept(AtTheDesk):
-    def test_what_is_stored_is_there_after_a_restart(self) -> None:
-        storage = self.folder / "storage"
-        with contextlib.ExitStack() as stack:  # another desk beside the first, on a port of its own
-            global PORT
-            PORT += 1
-            stack.callback(lambda: globals().update(PORT=PORT - 1))
-            for expected in (None, 1.5):
-                with desk("--storage", storage) as self.uri, self.flown() as connected:
-                    param = connected.cf.param
-                    if expected is None:
-                        param.set_value("indiPos.kpz", 1.5)
-                        time.sleep(0.2)
-                        done = []
-                        param.persistent_store("indiPos.kpz", lambda name, ok: done.append(ok))
-                        time.sleep(0.5)
-                        self.assertEqual(done, [True])
-                    else:
-                        self.assertEqual(float(param.get_value("indiPos.kpz")), expected)
-
-
 class Lossy(AtTheDesk):
     def test_with_packets_lost_it_flies_on_and_time_does_not_run_ahead(self) -> None:
         with self.flown() as connected:
@@ -200,28 +100,6 @@ class Lossy(AtTheDesk):
                 self.assertLess((rows[-1]["ms"] - rows[0]["ms"]) / 1000, time.monotonic() - began_s + 0.5)
             self.assertGreater(len(rows), 350)
             self.assertTrue(all(row["desk.z"] > 0.3 for row in rows[100:]))
-
-
-class WrongInput(unittest.TestCase):
-    def refused(self, says: str, *words: object) -> None:
-        ran = subprocess.run(list(map(str, [DESK, *words])), capture_output=True, text=True, timeout=20)
-        self.assertEqual((ran.returncode, ran.stderr.count("\n")), (2, 1), ran.stderr)
-        self.assertIn(says, ran.stderr)
-
-    @unittest.skipUnless(DESK.exists(), "no out/desk")
-    def test_it_ends_with_one_line(self) -> None:
-        with desk():
-            self.refused("is it running already?", "--port", PORT, "--page", 0)
-        for says, *words in (
-            ("--port 0: allowed is a whole number from 1 to 65535", "--port", 0),
-            ("--address here: allowed is an IPv4 address", "--address", "here", "--page", 0),
-            ("--speed 0: allowed", "--speed", 0),
-            ("--link los=1: allowed is loss=SHARE,delay=SECONDS", "--link", "los=1"),
-            ("no-such.toml", "no-such.toml"),
-            ("--drones 11: allowed", "--drones", 11),
-        ):
-            with self.subTest(words=words):
-                self.refused(says, *words)
 
 
 if __name__ == "__main__":

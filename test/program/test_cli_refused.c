@@ -16,8 +16,18 @@ static const struct {
      "fly: --wings: not an option; allowed: --controller, --thesis-law, --set, --set-from, --params-to, "
      "--usd, "
      "--usd-config, --replay, "
-     "--effect, --vehicle, --noise, --seed, --seeds, --integrator, --from, --to, --log, --log-rate, --json, "
+     "--effect, --commands, --scene, --storage, --vehicle, --noise, --seed, --seeds, --integrator, --from, "
+     "--to, --log, --log-rate, --json, "
      "--list, --logs, --params, --help, --version\n"},
+    {"fly test-flight --scene README.md", "fly: --scene, --storage: allowed with --commands FILE\n"},
+    {"fly test-flight --commands README.md",
+     "fly: --commands: no scenario is flown; leave out test-flight\n"},
+    {"fly --commands README.md --seeds 3",
+     "fly: --commands: allowed with it are --scene, --storage, --vehicle, --effect, --noise, --seed and "
+     "--log\n"},
+    {"fly --commands README.md", "fly: README.md:2: allowed is `MS HEX`, or `MS`, in the order of time\n"},
+    {"fly --commands README.md --log README.md",
+     "fly: README.md: to be read and to be written; allowed: one of them\n"},
     {"fly appendix-a --seed", "fly: --seed: its value is missing; allowed: --seed VALUE\n"},
     {"fly --help=3", "fly: --help: takes no value; allowed: --help\n"},
     {"fly close-fligth",

@@ -1,5 +1,5 @@
 // scene.c - where simulated vehicles fly for clients.
-#include "desk/scene.h"
+#include "drone/scene.h"
 
 #include "flight/request_spec.h"
 #include "vehicle/model_file.h"
@@ -105,4 +105,12 @@ done_t scene_read(const char *path, scene_t *scene, why_t *why) {
   toml_close(file);
   if (status == DONE) *scene = read;
   return status;
+}
+
+done_t scene_take(scene_t *scene, const char *path, request_t *request, bool seed_said, why_t *why) {
+  TRY(scene_default(scene, why));
+  if (path) TRY(scene_read(path, scene, why));
+  if (!seed_said) request->seed = scene->seed;
+  scene->seed = request->seed;
+  return scene_apply(scene, request, why);
 }

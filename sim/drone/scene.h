@@ -13,8 +13,8 @@
 //   is = "mass:add=0.003,start=20"
 //
 // Without a file: the thesis's Crazyflie and its ceiling effect, with a ceiling at 1.5 m.
-#ifndef SIM_DESK_SCENE_H
-#define SIM_DESK_SCENE_H
+#ifndef SIM_DRONE_SCENE_H
+#define SIM_DRONE_SCENE_H
 
 #include "flight/setup.h"
 
@@ -31,5 +31,10 @@ MUST_CHECK done_t scene_read(const char *path, scene_t *scene, why_t *why);
 
 // What a command line asks for, over it: request_t's vehicle, effects and noise.
 MUST_CHECK done_t scene_apply(scene_t *scene, const request_t *request, why_t *why);
+
+// All of it: the default, the file at path (null: none), and what the command line asks for; whose seed is
+// the file's unless it says one.
+MUST_CHECK done_t scene_take(scene_t *scene, const char *path, request_t *request, bool seed_said,
+                             why_t *why);
 
 #endif

@@ -1,5 +1,5 @@
 // test_drone.c - a simulated vehicle flown through its link, in simulated time.
-#include "desk/drone.h"
+#include "drone/drone.h"
 
 #include "crazyflie/values.h"
 #include "flight/guard.h"
@@ -220,10 +220,45 @@ TEST(a_recorded_session_is_flown_anew_to_the_bit) {
   free(b);
 }
 
+// As on a vehicle whose battery is changed; a replay leaves the file as it is.
+TEST(what_a_client_stores_is_there_after_a_restart_and_a_replay_stores_nothing) {
+  char path[512], commands[512];
+  snprintf(path, sizeof path, "%s", scratch_file("storage", "indiPos.kdz = 2\n", -1));
+  snprintf(commands, sizeof commands, "%s", scratch_path("commands"));
+  FILE *told = fopen(commands, "w");
+  for (int replayed = 0; replayed < 2; replayed++) {
+    ROW("%s", replayed ? "flown anew" : "by the client");
+    drone_t *const d = calloc(1, sizeof *d);
+    scene_t scene;
+    why_t why;
+    CHECK_OK(scene_default(&scene, &why));
+    CHECK_OK(drone_open(d, &scene, replayed ? path : NULL, NULL, replayed ? NULL : told, &why));
+    const int i = firmware_param_find(&d->firmware, "indiPos.kpz");
+    if (replayed) {
+      told = fopen(commands, "r");
+      CHECK_OK(drone_replay(d, told, "commands", 0.1, &why));
+      CHECK_NEAR(firmware_param(&d->firmware, firmware_param_find(&d->firmware, "indiPos.kdz")), 2.0, 0);
+    } else {
+      set(d, "indiPos.kpz", 1.25);
+      drone_take(d, (uint8_t[]){0x2f, 3, (uint8_t)i, (uint8_t)(i >> 8)}, 4);
+      set(d, "indiPos.kpz", 1.5);
+      set(d, "desk.restart", 1);
+      pass(d, 0.1);
+    }
+    CHECK_NEAR(firmware_param(&d->firmware, i), 1.25, 0);
+    end(d);
+    fclose(told);
+  }
+  char *const stored = scratch_text("storage");
+  CHECK_TEXT(stored, "indiPos.kdz = 2\n");
+  free(stored);
+}
+
 TEST(a_recording_that_is_none_is_refused_with_its_line) {
   static const struct {
     const char *text, *says;
-  } row[] = {{"12 fd00\nfoo\n", "it:2: allowed is `MS HEX`, or `MS`, in the order of time"},
+  } row[] = {{"# made by hand\n12 fd00\nfoo\n", "it:3: allowed is"},
+             {"12 fd00\nfoo\n", "it:2: allowed is `MS HEX`, or `MS`, in the order of time"},
              {"12 fd00\n4 fd00\n", "it:2: allowed is"},
              {"12 fdxx\n", "it:1: allowed is"}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {

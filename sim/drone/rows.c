@@ -1,5 +1,5 @@
 // rows.c - the parameters and logs of the group `desk`.
-#include "desk/rows.h"
+#include "drone/rows.h"
 
 #include "crazyflie/log.h"
 #include "crazyflie/param.h"

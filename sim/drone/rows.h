@@ -1,7 +1,7 @@
 // rows.h - what a person at a client, or at the page, can do to a vehicle that flies at the desk: the
 // parameters of the group `desk`; and what no real vehicle could tell: its logs.
-#ifndef SIM_DESK_ROWS_H
-#define SIM_DESK_ROWS_H
+#ifndef SIM_DRONE_ROWS_H
+#define SIM_DRONE_ROWS_H
 
 #include "crazyflie/stock_table.h"
 #include <stdbool.h>

@@ -2,11 +2,11 @@
 //
 // Tick by tick of 2 ms, in simulated time alone: who paces it, and how packets come and go, is not its
 // business. The same packets at the same ticks make the same flight, to the bit.
-#ifndef SIM_DESK_DRONE_H
-#define SIM_DESK_DRONE_H
+#ifndef SIM_DRONE_DRONE_H
+#define SIM_DRONE_DRONE_H
 
-#include "desk/rows.h"
-#include "desk/scene.h"
+#include "drone/rows.h"
+#include "drone/scene.h"
 #include "flight/loop.h"
 #include "link/link.h"
 #include <stdio.h>
@@ -58,7 +58,8 @@ MUST_CHECK done_t drone_tick(drone_t *d, why_t *why);
 // Sets a desk parameter as a client would. Null: done; else what is allowed.
 const char *drone_set(drone_t *d, const char *name, double value);
 
-// A recorded file of commands, flown anew, to its end and `more_s` on. BAD_INPUT: not such a file.
+// A recorded file of commands, flown anew, to its end and `more_s` on; lines that begin with # are comments.
+// The storage's file stays as it is. BAD_INPUT: not such a file.
 MUST_CHECK done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s, why_t *why);
 
 #endif

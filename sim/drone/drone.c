@@ -1,5 +1,5 @@
 // drone.c - one simulated Crazyflie that clients fly.
-#include "desk/drone.h"
+#include "drone/drone.h"
 
 #include "crazyflie/sections.h"
 #include "crazyflie/values.h"
@@ -234,7 +234,10 @@ static done_t switch_on(drone_t *d, why_t *why) {
   f->rest = wait;
   f->changed = link_params_changed;
   f->changed_context = &d->link;
-  TRY(storage_open(&d->storage, d->stored, f, why));
+  if (d->storage.value)
+    storage_restore(&d->storage, f);
+  else
+    TRY(storage_open(&d->storage, d->stored, f, why));
   firmware_start(f);
   TRY(loop_open(&d->loop, &d->plan, &d->scene.setup.model, &d->pilot, &d->drawn, why));
   loop_body(d->loop)->charge = d->scene.battery;
@@ -249,7 +252,6 @@ static done_t switch_on(drone_t *d, why_t *why) {
 static void switch_off(drone_t *d) {
   loop_close(d->loop);
   d->loop = NULL;
-  storage_close(&d->storage);
   firmware_close(&d->firmware);
 }
 
@@ -328,6 +330,7 @@ void drone_close(drone_t *d) {
   (void)!write_rows(d, &why);
   record_free(&d->record);
   switch_off(d);
+  storage_close(&d->storage);
 }
 
 // --- flown anew --------------------------------------------------------------------------------------------
@@ -347,7 +350,12 @@ done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s,
   char text[LINE];
   uint32_t ms = 0;
   uint8_t bytes[64];
+  d->storage.path = NULL; // what is stored again is stored nowhere
   for (int line = 1; fgets(text, sizeof text, commands); line++) {
+    if (text[0] == '#') {
+      while (!strchr(text, '\n') && fgets(text, sizeof text, commands)) continue;
+      continue;
+    }
     const int n = read_packet(text, &ms, bytes);
     if (n < 0 || ms < drone_now_ms(d))
       return error_set(why, "%s:%d: allowed is `MS HEX`, or `MS`, in the order of time", path, line);
