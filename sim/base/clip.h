@@ -2,11 +2,11 @@
 #ifndef SIM_BASE_CLIP_H
 #define SIM_BASE_CLIP_H
 
-#include <math.h>
+#include "base/larger.h"
 
 // lo <= hi. NaN becomes lo.
 static inline double clip(double x, double lo, double hi) {
-  return fmin(fmax(x, lo), hi);
+  return smaller(larger(x, lo), hi);
 }
 
 #endif

@@ -1,6 +1,7 @@
 // crazyflie.c - a Crazyflie on the host.
 #include "crazyflie.h"
 
+#include "base/clip.h"
 #include "base/constants.h"
 #include "controller.h"
 #include "plant/rotor.h"
@@ -146,7 +147,7 @@ static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
     return;
   }
   for (int i = 0; i < PILOT_MOTORS; i++)
-    unit[i] = trunc(UNIT_MAX * fmin(fmax((double)control->normalizedForces[i], 0.0), 1.0));
+    unit[i] = trunc(UNIT_MAX * clip((double)control->normalizedForces[i], 0.0, 1.0));
 }
 
 static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {

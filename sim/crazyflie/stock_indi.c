@@ -1,6 +1,8 @@
 // stock_indi.c - the Crazyflie firmware's own INDI.
 #include "crazyflie/stock_indi.h"
 
+#include "base/clip.h"
+
 enum { ROLL, PITCH, YAW };
 
 stock_indi_param_t stock_indi_default(void) {
@@ -73,7 +75,7 @@ static void increment(stock_indi_t *s, int axis, double angle_rad, double rate_r
   const double error = p->rate_per_s * (rate_ref - rate_radps) - slope;
   double du = error / p->g1[axis];
   if (axis == YAW) du = s->du_yaw = (error + p->g2 * s->du_yaw) / (p->g1[axis] + p->g2);
-  s->u_in[axis] = fmin(fmax(u + du, -p->command_max), p->command_max);
+  s->u_in[axis] = clip(u + du, -p->command_max, p->command_max);
   s->u_lagged[axis] += p->lag_gain * (s->u_in[axis] - s->u_lagged[axis]);
 }
 

@@ -1,6 +1,8 @@
 // stock_pid.c - the Crazyflie firmware's cascaded PID controller.
 #include "crazyflie/stock_pid.h"
 
+#include "base/clip.h"
+
 #define COMMAND_MAX 32767.0
 
 stock_pid_param_t stock_pid_default(void) {
@@ -52,7 +54,7 @@ static void turn(stock_pid_t *s, const pilot_setpoint_t *set) {
 }
 
 static double saturated(double command) {
-  return fmin(fmax(command, -COMMAND_MAX), COMMAND_MAX);
+  return clip(command, -COMMAND_MAX, COMMAND_MAX);
 }
 
 static void hold_attitude(stock_pid_t *s, const pilot_setpoint_t *set, const stock_view_t *view) {

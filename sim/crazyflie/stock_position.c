@@ -56,6 +56,6 @@ stock_position_out_t stock_position_step(stock_position_t *s, const stock_positi
   return (stock_position_out_t){
       .roll_deg = clip(-out[1], -p->tilt_max_deg, p->tilt_max_deg),
       .pitch_deg = clip(-out[0], -p->tilt_max_deg, p->tilt_max_deg),
-      .thrust = clip(fmax(out[2] * p->thrust_scale + p->thrust_base, p->thrust_min), 0.0, STOCK_FULL),
+      .thrust = clip(larger(out[2] * p->thrust_scale + p->thrust_base, p->thrust_min), 0.0, STOCK_FULL),
   };
 }

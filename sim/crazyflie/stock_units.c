@@ -1,6 +1,7 @@
 // stock_units.c - the border between SI and the units of the Crazyflie's firmware.
 #include "crazyflie/stock_units.h"
 
+#include "base/clip.h"
 #include "base/constants.h"
 #define SUPPLY_START_V 4.2
 #define SUPPLY_GAIN    0.01
@@ -14,7 +15,7 @@ stock_view_t stock_view(const pilot_in_t *in) {
       .gyro_dps = d3_scale(STOCK_DEG, in->gyro_b_radps),
       .acc_g = d3_scale(1.0 / G_MPS2, in->acc_b_mps2),
       .roll_deg = STOCK_DEG * atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)),
-      .pitch_deg = -STOCK_DEG * asin(fmin(fmax(lean, -1.0), 1.0)),
+      .pitch_deg = -STOCK_DEG * asin(clip(lean, -1.0, 1.0)),
       .yaw_deg = STOCK_DEG * atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)),
   };
 }
@@ -96,7 +97,7 @@ static double wanted_V(const stock_power_param_t *p, double thrust_N, double las
 
 // Written so that a voltage that is not a number stops the motors.
 static double duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, double unit) {
-  const double wanted_N = p->thrust_max_N / STOCK_FULL * fmin(fmax(trunc(unit), -UNIT_MAX), UNIT_MAX);
+  const double wanted_N = p->thrust_max_N / STOCK_FULL * clip(trunc(unit), -UNIT_MAX, UNIT_MAX);
   if (!(wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V)) return 0.0;
   if (wanted_N != s->wanted_N[motor]) {
     s->wanted_N[motor] = wanted_N;
@@ -111,9 +112,9 @@ void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const doub
   double most = STOCK_FULL;
   for (int i = 0; i < PILOT_MOTORS; i++) {
     duty[i] = duty_of(s, p, i, unit[i]);
-    most = fmax(most, duty[i]);
+    most = larger(most, duty[i]);
   }
-  for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = fmax(duty[i] - (most - STOCK_FULL), 0.0);
+  for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = larger(duty[i] - (most - STOCK_FULL), 0.0);
 }
 
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
@@ -122,6 +123,6 @@ void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const doub
   stock_power_duty(s, p, unit, vbat_V, duty);
   for (int i = 0; i < PILOT_MOTORS; i++) {
     const double share = duty[i] / STOCK_FULL;
-    motor_N[i] = share > 0.0 ? fmax(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
+    motor_N[i] = share > 0.0 ? larger(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
   }
 }

@@ -1,11 +1,12 @@
 // curve_linear.c - slope z/R + offset, at least 1 (Wei et al., thesis eq. 3.2): 1 beyond z/R = 4.42.
 #include "effects/fx.h"
 
+#include "base/larger.h"
 #include <math.h>
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  return fmax(1.0, p[0] * distance_m / radius_m + p[1]);
+  return larger(1.0, p[0] * distance_m / radius_m + p[1]);
 }
 
 const curve_t curve_linear = {

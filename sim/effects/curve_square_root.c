@@ -2,11 +2,12 @@
 // it has not been measured, and it would be infinite at contact.
 #include "effects/fx.h"
 
+#include "base/larger.h"
 #include <math.h>
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  const double r = radius_m / fmax(distance_m, p[1] * radius_m);
+  const double r = radius_m / larger(distance_m, p[1] * radius_m);
   return 0.5 + 0.5 * sqrt(1.0 + r * r / p[0]);
 }
 

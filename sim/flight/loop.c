@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "base/cpu_time.h"
+#include "base/larger.h"
 #include "flight/over.h"
 #include "sense/ekf.h"
 #include <math.h>
@@ -43,12 +44,12 @@ static truth_t truth_of(const flight_loop_t *f) {
   const double *y = b->y;
   const dq_t q = dq_of(y + RIGID_Q_WB);
   const axes_t axes = axes_of(q);
-  const double up = fmax(axes_up_b(&axes).z, 1e-3);
+  const double up = larger(axes_up_b(&axes).z, 1e-3);
   bool motors = false;
   for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
   const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
   const d3_t floor_up_w = b->touch.floor_up_w, pos_w_m = d3_of(y + RIGID_POS_M);
-  const double floor_up = fmax(d3_dot(axes.z, floor_up_w), 1e-3);
+  const double floor_up = larger(d3_dot(axes.z, floor_up_w), 1e-3);
   // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
   fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
                        .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
@@ -183,7 +184,7 @@ static void move(flight_loop_t *f, double tick_s) {
   for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
   look_at_rotors(f);
   f->in.vbat_V = f->body.vbat_V;
-  f->gap_min_m = fmin(f->gap_min_m, record_gap_m(&f->body));
+  f->gap_min_m = smaller(f->gap_min_m, record_gap_m(&f->body));
 }
 
 static double tick_s_of(const flight_loop_t *f) {
@@ -202,7 +203,7 @@ flight_over_t loop_tick(flight_loop_t *f, tick_t *seen, bool *is_sample) {
   const int calls = plan->vertical_only ? 1 : 2;
   for (int i = 0; i < calls; i++) call_pilot(f, &f->truth);
   const axes_t axes = axes_of(f->truth.q_wb);
-  f->up_min = fmin(f->up_min, axes_up_b(&axes).z);
+  f->up_min = smaller(f->up_min, axes_up_b(&axes).z);
   *is_sample = f->tick % f->every == 0;
   if (*is_sample) *seen = look(f, t_s);
   return FLIGHT_FLIES;
@@ -232,7 +233,7 @@ static body_start_t start_of(const flight_loop_t *f) {
   }
   // On the ground it lies as deep as its springs need to carry what the rotors do not.
   const double each_N = plan->start_thrust_N / ROTORS;
-  const double left_mps2 = fmax(0.0, G_MPS2 - plan->start_thrust_N / f->model->mass_kg);
+  const double left_mps2 = larger(0.0, G_MPS2 - plan->start_thrust_N / f->model->mass_kg);
   const double z_m = plan->start_z_m > 0.0 ? plan->start_z_m : -left_mps2 / (TOUCH_POINTS * TOUCH_SPRING);
   return (body_start_t){
       .pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {each_N, each_N, each_N, each_N}, .vertical_only = true};
@@ -288,7 +289,7 @@ done_t loop_open(flight_loop_t **loop, const plan_t *plan, const model_t *model,
   f->gap_min_m = HUGE_VAL;
   f->up_min = 1.0;
   f->range_m = f->ceiling_z_m = (double)NAN;
-  f->every = plan->record_every > 0 ? plan->record_every : (int)lround(fmax(1.0, RECORD_S / tick_s_of(f)));
+  f->every = plan->record_every > 0 ? plan->record_every : (int)lround(larger(1.0, RECORD_S / tick_s_of(f)));
   done_t status = draw(f, model, drawn, why);
   if (status == DONE) status = begin(f, why);
   if (status == DONE) return DONE;

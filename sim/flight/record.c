@@ -2,6 +2,7 @@
 #include "flight/record.h"
 
 #include "base/constants.h"
+#include "base/larger.h"
 #include "base/pen.h"
 #include "crazyflie/sections.h"
 #include <math.h>
@@ -43,7 +44,7 @@ static sample_t sample_of(const tick_t *t) {
       .climb_mps = t->truth->vel_w_mps.z,
       .acc_mps2 = d3_dot(axes_up_b(&axes), t->truth->force_b_mps2) - G_MPS2,
       .gap_m = gap_m,
-      .gap_min_m = fmin(t->gap_min_m, gap_m),
+      .gap_min_m = smaller(t->gap_min_m, gap_m),
       .ratio = body_thrust_ratio(b, 0),
       .contacts = b->ceiling_contacts,
       .touching = b->on_ceiling,
@@ -53,7 +54,7 @@ static sample_t sample_of(const tick_t *t) {
                 .range_new = t->range_new,
                 .range_m = t->range_m},
       .thoughts = *t->thoughts,
-      .tilt_rad = acos(fmax(-1.0, fmin(1.0, t->up_min))),
+      .tilt_rad = acos(larger(-1.0, smaller(1.0, t->up_min))),
       .pos_w_m = t->truth->pos_w_m,
       .vbat_V = b->vbat_V,
       .estimate = *t->estimate,

@@ -1,6 +1,8 @@
 // air_garage.c - the air garage's thrust division around the stock PID.
 #include "pilots/air_garage.h"
 
+#include "base/clip.h"
+
 #define ARM_M 0.032
 
 air_garage_param_t air_garage_2024(void) {
@@ -60,7 +62,7 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
   stock_mix(&command, unit);
   for (int i = 0; i < PILOT_MOTORS; i++) {
     if (p->how == AIR_GARAGE_PER_ROTOR) unit[i] /= rotor_root(p, in, i);
-    unit[i] = fmin(fmax(unit[i], 0.0), STOCK_FULL); // not a number becomes 0
+    unit[i] = clip(unit[i], 0.0, STOCK_FULL); // not a number becomes 0
   }
   stock_power_step(&s->pid.power, &s->pid.param.power, unit, in->vbat_V, motor_N);
 }

@@ -3,6 +3,7 @@
 #ifndef SIM_PLANT_LAG_H
 #define SIM_PLANT_LAG_H
 
+#include "base/larger.h"
 #include <math.h>
 #include <stdbool.h>
 
@@ -19,7 +20,7 @@ static inline bool lag_is_none(const lag_t *lag) {
 
 // What follows: the thrust, or the root of it, which is a speed.
 static inline double lag_follows(const lag_t *lag, double thrust_N) {
-  return lag->in_speed ? sqrt(fmax(thrust_N, 0.0)) : thrust_N;
+  return lag->in_speed ? sqrt(larger(thrust_N, 0.0)) : thrust_N;
 }
 static inline double lag_thrust_N(const lag_t *lag, double follows) {
   return lag->in_speed ? follows * follows : follows;

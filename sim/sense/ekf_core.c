@@ -2,6 +2,7 @@
 #include "sense/ekf.h"
 
 #include "base/constants.h"
+#include "base/larger.h"
 #include "base/pair.h"
 #include <math.h>
 #include <string.h>
@@ -189,14 +190,14 @@ void ekf_core_range(ekf_t *e, double range_m) {
   if (!(up > UP_LEAST)) return;
   ekf_core_noise(e);
   // The nearest ground in the sensor's cone is what it sees.
-  const double slant = 1.0 / cos(fmax(acos(fmin(up, 1.0)) - RANGE_HALF_CONE, 0.0));
+  const double slant = 1.0 / cos(larger(acos(smaller(up, 1.0)) - RANGE_HALF_CONE, 0.0));
   const double sd = e->param.range_m * (1.0 + exp(log(80.0) / 1.5 * (range_m - 2.5)));
   correct(e, POS + 2, slant, POS, 0.0, range_m - slant * e->s[POS + 2], sd);
 }
 
 void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   ekf_core_noise(e);
-  const double k = span_s * PIXELS_PER_RAD, z = fmax(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
+  const double k = span_s * PIXELS_PER_RAD, z = larger(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
   const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
   const double vx = e->s[VEL], vy = e->s[VEL + 1]; // both from before either correction
   const double seen_x = k * (vx * up / z - e->imu.gyro_b_radps.y),

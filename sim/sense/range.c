@@ -1,6 +1,7 @@
 // range.c - range and flow sensors.
 #include "sense/range.h"
 
+#include "base/larger.h"
 #include <math.h>
 
 static double noise(random_t *r, double sd) {
@@ -19,7 +20,7 @@ void range_init(range_t *s) {
 static double seen_m(const range_t *s, unsigned tick, double distance_m, double cone_rad) {
   const double upright = s->upright[tick % RANGE_MEMORY];
   if (!(cone_rad > 0.0 && upright > 0.0)) return distance_m;
-  return distance_m * upright / cos(fmax(acos(upright) - cone_rad, 0.0));
+  return distance_m * upright / cos(larger(acos(upright) - cone_rad, 0.0));
 }
 
 static void up(range_t *s, const range_param_t *p, random_t *r, range_sample_t *out) {
@@ -28,11 +29,11 @@ static void up(range_t *s, const range_param_t *p, random_t *r, range_sample_t *
     const double age = random_uniform(r, RANGE_UP_AGE_MIN_MS, RANGE_UP_AGE_MAX_MS + 1);
     // Drawn before anything is decided: what is above must not shift the other sensors' noise.
     const double error_m = noise(r, p->up_m);
-    s->up_at = s->tick - (unsigned)fmin(age, RANGE_UP_AGE_MAX_MS);
+    s->up_at = s->tick - (unsigned)smaller(age, RANGE_UP_AGE_MAX_MS);
     const double true_m = seen_m(s, s->up_at, s->up_m[s->up_at % RANGE_MEMORY], p->up_cone_rad);
     const double read_m = (1.0 + p->up_scale) * true_m + p->up_offset_m + error_m;
-    s->up_mm =
-        true_m <= RANGE_UP_MAX_M ? fmax(rounded(p, 1000.0 * read_m), RANGE_UP_FLOOR_MM) : RANGE_UP_NOTHING_MM;
+    s->up_mm = true_m <= RANGE_UP_MAX_M ? larger(rounded(p, 1000.0 * read_m), RANGE_UP_FLOOR_MM)
+                                        : RANGE_UP_NOTHING_MM;
   }
   out->up_mm = s->up_mm;
   out->up_age_ms = s->up_mm > 0.0 ? (int)(s->tick - s->up_at) : 0;
@@ -54,7 +55,7 @@ static void down(const range_t *s, const range_param_t *p, random_t *r, range_sa
   if (!(true_m <= RANGE_DOWN_MAX_M)) return;
   const double sd_m = p->down_m * down_noise_growth(true_m);
   const double read_m = (1.0 + p->down_scale) * true_m + p->down_offset_m + sd_m * normal;
-  out->down_m = fmax(0.0, 1e-3 * rounded(p, 1000.0 * read_m));
+  out->down_m = larger(0.0, 1e-3 * rounded(p, 1000.0 * read_m));
 }
 
 static double deliver(const range_param_t *p, random_t *r, double *moved) {
@@ -65,7 +66,7 @@ static double deliver(const range_param_t *p, random_t *r, double *moved) {
 
 static void flow(range_t *s, const range_param_t *p, random_t *r, const truth_t *truth, range_sample_t *out) {
   const d3_t v = dq_to_body(truth->q_wb, truth->vel_w_mps), w = truth->rate_b_radps;
-  const double inverse_per_m = 1.0 / fmax(truth->down_m, RANGE_FLOW_NEAREST_M);
+  const double inverse_per_m = 1.0 / larger(truth->down_m, RANGE_FLOW_NEAREST_M);
   // The image moves when the camera moves over the ground and when it turns.
   s->moved_x += 1e-3 * RANGE_COUNTS_PER_RAD * (v.x * inverse_per_m - w.y);
   s->moved_y += 1e-3 * RANGE_COUNTS_PER_RAD * (v.y * inverse_per_m + w.x);
@@ -81,7 +82,7 @@ range_sample_t range_step(range_t *s, const range_param_t *p, random_t *r, const
   s->up_m[s->tick % RANGE_MEMORY] = truth->up_m;
   s->down_m[s->tick % RANGE_MEMORY] = truth->down_m;
   const dq_t q = truth->q_wb;
-  s->upright[s->tick % RANGE_MEMORY] = fmin(1.0, 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
+  s->upright[s->tick % RANGE_MEMORY] = smaller(1.0, 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
   up(s, p, r, &out);
   down(s, p, r, &out);
   flow(s, p, r, truth, &out);

@@ -2,6 +2,7 @@
 #include "sense/vertical.h"
 
 #include "base/constants.h"
+#include "base/larger.h"
 #include <math.h>
 
 #define DOWN_PERIOD_S   0.02
@@ -18,12 +19,12 @@ const int vertical_noise_count = (int)(sizeof vertical_noise_levels / sizeof *ve
 
 // Every how many ticks something of that period happens; at least every tick.
 static int ticks_of(double period_s, double tick_s) {
-  return (int)lround(fmax(1.0, period_s / tick_s));
+  return (int)lround(larger(1.0, period_s / tick_s));
 }
 
 void vertical_init(vertical_t *s, const vertical_noise_t *noise, double period_s, double z_m) {
   *s = (vertical_t){.period_s = period_s};
-  kalman_z_init(&s->kalman, KALMAN_ACC_MPS2, fmax(noise->down_m, 1e-4), period_s,
+  kalman_z_init(&s->kalman, KALMAN_ACC_MPS2, larger(noise->down_m, 1e-4), period_s,
                 ticks_of(DOWN_PERIOD_S, period_s), z_m);
 }
 
@@ -55,5 +56,5 @@ double vertical_gust_mps2(vertical_t *s, const vertical_noise_t *noise, random_t
 double vertical_up_m(const vertical_noise_t *noise, random_t *r, double gap_m) {
   if (!(gap_m <= UP_MAX_M)) return UP_NOTHING_M;
   const double range_m = noise->up_m > 0.0 ? gap_m + noise->up_m * random_normal(r) : gap_m;
-  return fmax(range_m, UP_FLOOR_M);
+  return larger(range_m, UP_FLOOR_M);
 }
