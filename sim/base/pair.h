@@ -5,6 +5,7 @@
 #define SIM_BASE_PAIR_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -25,17 +26,25 @@ static inline pair_t pair_both(double a) {
 static inline double pair_sum(pair_t a) {
   return a[0] + a[1];
 }
+// a where a comparison holds, elsewhere b.
+static inline pair_t pair_where(pair_bits_t holds, pair_t a, pair_t b) {
+  return (pair_t)((holds & (pair_bits_t)a) | (~holds & (pair_bits_t)b));
+}
+static inline bool pair_any(pair_bits_t holds) {
+  return (holds[0] | holds[1]) != 0;
+}
 // The smaller and the larger; where a is NaN, b.
 static inline pair_t pair_min(pair_t a, pair_t b) {
-  const pair_bits_t first = a < b;
-  return (pair_t)((first & (pair_bits_t)a) | (~first & (pair_bits_t)b));
+  return pair_where(a < b, a, b);
 }
 static inline pair_t pair_max(pair_t a, pair_t b) {
-  const pair_bits_t first = a > b;
-  return (pair_t)((first & (pair_bits_t)a) | (~first & (pair_bits_t)b));
+  return pair_where(a > b, a, b);
 }
 static inline pair_t pair_sqrt(pair_t a) {
   return (pair_t){sqrt(a[0]), sqrt(a[1])};
+}
+static inline pair_t pair_trunc(pair_t a) {
+  return (pair_t){trunc(a[0]), trunc(a[1])};
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/clip.h"
 #include "base/constants.h"
+#include "base/pair.h"
 #include "controller.h"
 #include "plant/rotor.h"
 #include "range.h"
@@ -89,17 +90,26 @@ void crazyflie_start(crazyflie_t *c) {
     (to).z = (float)((scale) * (from).z);                                                                    \
   } while (0)
 
-static void measure(const pilot_in_t *in, sensorData_t *sensors, state_t *state) {
+// The angles cost more than all the rest, and in most milliseconds the estimate does not turn.
+static void take_attitude(crazyflie_t *c, dq_t q_wb) {
+  if (memcmp(&q_wb, &c->q_wb, sizeof q_wb) == 0) return;
+  c->q_wb = q_wb;
+  const stock_angles_t angles = stock_angles(q_wb);
+  c->state.attitude.roll = (float)angles.roll_deg;
+  c->state.attitude.pitch = (float)angles.pitch_deg;
+  c->state.attitude.yaw = (float)angles.yaw_deg;
+  TO_FIRMWARE(c->state.attitudeQuaternion, 1.0, q_wb);
+  c->state.attitudeQuaternion.w = (float)q_wb.w;
+}
+
+static void measure(crazyflie_t *c, const pilot_in_t *in) {
+  sensorData_t *const sensors = &c->sensors;
+  state_t *const state = &c->state;
   TO_FIRMWARE(sensors->acc, 1.0 / G_MPS2, in->acc_b_mps2);
   TO_FIRMWARE(sensors->gyro, DEG_PER_RAD, in->gyro_b_radps);
   TO_FIRMWARE(state->position, 1.0, in->pos_w_m);
   TO_FIRMWARE(state->velocity, 1.0, in->vel_w_mps);
-  TO_FIRMWARE(state->attitudeQuaternion, 1.0, in->q_wb);
-  state->attitudeQuaternion.w = (float)in->q_wb.w;
-  const stock_view_t view = stock_view(in);
-  state->attitude.roll = (float)view.roll_deg;
-  state->attitude.pitch = (float)view.pitch_deg;
-  state->attitude.yaw = (float)view.yaw_deg;
+  take_attitude(c, in->q_wb);
 }
 
 static stab_mode_t mode_of(pilot_mode_t mode) {
@@ -116,7 +126,6 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
                .pitch = level ? modeAbs : modeDisable,
                .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
       .velocity_body = set->vel_in_body,
-      .timestamp = c->around.clock_ms,
       .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
       .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
       .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
@@ -125,6 +134,15 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
   TO_FIRMWARE(sp.velocity, 1.0, set->vel_mps);
   TO_FIRMWARE(sp.acceleration, 1.0, set->acc_w_mps2);
   return sp;
+}
+
+// Most set points stand for seconds: the firmware's is made when another one is asked for.
+static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
+  if (!c->ordered || memcmp(set, &c->asked, sizeof *set) != 0) {
+    memcpy(&c->asked, set, sizeof *set);
+    c->setpoint = order(c, set);
+  }
+  c->setpoint.timestamp = c->around.clock_ms;
 }
 
 // The firmware cuts metres, a float, to whole millimetres in 16 bits.
@@ -158,8 +176,10 @@ static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
   else
     memcpy(duty, unit, sizeof duty);
   c->around.battery_V = (float)in->vbat_V;
+  for (int i = 0; i < PILOT_MOTORS; i += 2)
+    pair_put(motor_N + i,
+             rotor_command_pair_N(&c->map, pair_of(duty + i), in->vbat_V, c->firmware.thrust_max_N));
   for (int i = 0; i < PILOT_MOTORS; i++) {
-    motor_N[i] = rotor_command_N(&c->map, duty[i], in->vbat_V, c->firmware.thrust_max_N);
     c->around.duty[i] = (uint16_t)duty[i];
   }
 }
@@ -197,16 +217,19 @@ static void supervise(crazyflie_t *c) {
   if (c->supervised.state == SUPERVISED_CRASHED) stand_in_print("SUP: Crashed, recovery required\n");
 }
 
-static void override(const supervised_t *s, setpoint_t *set) {
+// Whether it changed anything.
+static bool override(const supervised_t *s, setpoint_t *set) {
   if (s->state == SUPERVISED_LEVEL_OUT) {
     set->mode.x = set->mode.y = modeDisable;
     set->mode.roll = set->mode.pitch = modeAbs;
     set->mode.yaw = modeVelocity;
     set->attitude.roll = set->attitude.pitch = 0.0f;
     set->attitudeRate.yaw = 0.0f;
-  } else if (!supervised_motors_run(s)) {
-    *set = (setpoint_t){.thrust = 0.0f};
+    return true;
   }
+  if (supervised_motors_run(s)) return false;
+  *set = (setpoint_t){.thrust = 0.0f};
+  return true;
 }
 
 static void fly(crazyflie_t *c, const pilot_in_t *in) {
@@ -243,18 +266,24 @@ static pilot_setpoint_t as_pilot(const crazyflie_t *c, const setpoint_t *sp) {
 void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stand_in = &c->around;
   if (!c->called) take_over(c, in);
-  c->sensors = (sensorData_t){.acc = {0}};
-  c->state = (state_t){.position = {0}};
-  measure(in, &c->sensors, &c->state);
+  measure(c, in);
   range(c, in);
-  c->setpoint = c->command ? c->command(c->command_context, &c->state, in->step) : order(c, &in->set);
+  if (c->command)
+    c->setpoint = c->command(c->command_context, &c->state, in->step);
+  else
+    take_order(c, &in->set);
   if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
-  override(&c->supervised, &c->setpoint);
+  const bool overridden = override(&c->supervised, &c->setpoint);
+  c->ordered = !c->command && !overridden;
   c->around.flying = supervised_flies(&c->supervised);
   c->around.motors_allowed = supervised_motors_run(&c->supervised);
-  pilot_in_t told = *in;
-  if (c->command) told.set = as_pilot(c, &c->setpoint);
-  fly(c, &told);
+  if (c->command) {
+    pilot_in_t told = *in;
+    told.set = as_pilot(c, &c->setpoint);
+    fly(c, &told);
+  } else {
+    fly(c, in);
+  }
   drive(c, in, motor_N);
   c->around.clock_ms++;
 }

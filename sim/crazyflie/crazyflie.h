@@ -35,7 +35,10 @@ typedef struct {
   stock_power_t power;
   control_t control;
   stock_pid_t stock;
-  const pilot_in_t *now; // during a call
+  dq_t q_wb;              // that the angles in `state` are of
+  bool ordered;           // `setpoint` is that of
+  pilot_setpoint_t asked; // this one
+  const pilot_in_t *now;  // during a call
   bool called;
 } crazyflie_t;
 

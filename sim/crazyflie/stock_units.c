@@ -3,20 +3,29 @@
 
 #include "base/clip.h"
 #include "base/constants.h"
+#include "base/pair.h"
 #define SUPPLY_START_V 4.2
 #define SUPPLY_GAIN    0.01
 #define SUPPLY_MIN_V   2.0
 #define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
 
-stock_view_t stock_view(const pilot_in_t *in) {
-  const dq_t q = in->q_wb;
+stock_angles_t stock_angles(dq_t q) {
   const double lean = 2.0 * (q.w * q.y - q.x * q.z); // sine of the nose-down angle
-  return (stock_view_t){
-      .gyro_dps = d3_scale(STOCK_DEG, in->gyro_b_radps),
-      .acc_g = d3_scale(1.0 / G_MPS2, in->acc_b_mps2),
+  return (stock_angles_t){
       .roll_deg = STOCK_DEG * atan2(2.0 * (q.w * q.x + q.y * q.z), 1.0 - 2.0 * (q.x * q.x + q.y * q.y)),
       .pitch_deg = -STOCK_DEG * asin(clip(lean, -1.0, 1.0)),
       .yaw_deg = STOCK_DEG * atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z)),
+  };
+}
+
+stock_view_t stock_view(const pilot_in_t *in) {
+  const stock_angles_t angles = stock_angles(in->q_wb);
+  return (stock_view_t){
+      .gyro_dps = d3_scale(STOCK_DEG, in->gyro_b_radps),
+      .acc_g = d3_scale(1.0 / G_MPS2, in->acc_b_mps2),
+      .roll_deg = angles.roll_deg,
+      .pitch_deg = angles.pitch_deg,
+      .yaw_deg = angles.yaw_deg,
   };
 }
 
@@ -66,7 +75,7 @@ void stock_mix(const stock_command_t *command, double unit[PILOT_MOTORS]) {
   unit[3] = trunc(t + r + p - yaw);
 }
 
-static double cubic_N(const double c[4], double v) {
+static pair_t cubic_N(const double c[4], pair_t v) {
   return c[0] + v * (c[1] + v * (c[2] + v * c[3]));
 }
 
@@ -79,41 +88,50 @@ static double cubic_V(const double c[4], double thrust_N) {
   return cbrt(n + root) + cbrt(n - root) - shift;
 }
 
-// The same from a root of a thrust that was a little different, by Newton's method.
-static double near_V(const double c[4], double thrust_N, double v) {
-  for (int i = 0; i < 6; i++) {
-    const double step = (cubic_N(c, v) - thrust_N) / (c[1] + v * (2.0 * c[2] + v * 3.0 * c[3]));
-    v -= step;
-    if (fabs(step) < 1e-9) return v; // the next step would be its square
+// The same of those of two motors that are asked for, by Newton's method from the roots of thrusts that were
+// a little different: who is there waits for the other.
+static pair_t near_V(const double c[4], pair_t thrust_N, pair_t v, pair_bits_t asked) {
+  const pair_t zero = pair_both(0.0), near = pair_both(1e-9); // the next step would be its square
+  const pair_bits_t known = v > zero;
+  pair_bits_t goes_on = asked & known;
+  for (int i = 0; i < 6 && pair_any(goes_on); i++) {
+    const pair_t step = (cubic_N(c, v) - thrust_N) / (c[1] + v * (2.0 * c[2] + v * 3.0 * c[3]));
+    v -= pair_where(goes_on, step, zero);
+    goes_on &= ~((step < near) & (-step < near));
   }
-  return cubic_V(c, thrust_N);
+  const pair_bits_t unsolved = goes_on | (asked & ~known);
+  for (int k = 0; k < 2; k++)
+    if (unsolved[k]) v[k] = cubic_V(c, thrust_N[k]);
+  return v;
 }
 
-static double wanted_V(const stock_power_param_t *p, double thrust_N, double last_V) {
-  const double *q = p->volt_quadratic, grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N;
-  if (q[0] > 0.0) return grams * (q[0] + q[1] * grams);
-  return last_V > 0.0 ? near_V(p->volt_cubic, thrust_N, last_V) : cubic_V(p->volt_cubic, thrust_N);
+static pair_t wanted_V(const stock_power_param_t *p, pair_t thrust_N, pair_t last_V, pair_bits_t asked) {
+  const double *q = p->volt_quadratic;
+  const pair_t grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N;
+  if (q[0] > 0.0) return pair_where(asked, grams * (q[0] + q[1] * grams), last_V);
+  return near_V(p->volt_cubic, thrust_N, last_V, asked);
 }
 
-// Written so that a voltage that is not a number stops the motors.
-static double duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, double unit) {
-  const double wanted_N = p->thrust_max_N / STOCK_FULL * clip(trunc(unit), -UNIT_MAX, UNIT_MAX);
-  if (!(wanted_N >= p->thrust_min_N && s->supply_V >= SUPPLY_MIN_V)) return 0.0;
-  if (wanted_N != s->wanted_N[motor]) {
-    s->wanted_N[motor] = wanted_N;
-    s->wanted_V[motor] = wanted_V(p, wanted_N, s->wanted_V[motor]);
+// Of two motors. Written so that a voltage that is not a number stops them.
+static pair_t duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, pair_t unit) {
+  const pair_t off = pair_both(0.0), last_N = pair_of(s->wanted_N + motor);
+  if (!(s->supply_V >= SUPPLY_MIN_V)) return off;
+  const pair_t whole = pair_min(pair_max(pair_trunc(unit), pair_both(-UNIT_MAX)), pair_both(UNIT_MAX));
+  const pair_t wanted_N = p->thrust_max_N / STOCK_FULL * whole;
+  const pair_bits_t runs = wanted_N >= p->thrust_min_N, changed = runs & (wanted_N != last_N);
+  if (pair_any(changed)) {
+    pair_put(s->wanted_N + motor, pair_where(changed, wanted_N, last_N));
+    pair_put(s->wanted_V + motor, wanted_V(p, wanted_N, pair_of(s->wanted_V + motor), changed));
   }
-  return trunc(STOCK_FULL * s->wanted_V[motor] / s->supply_V);
+  return pair_where(runs, pair_trunc(STOCK_FULL * pair_of(s->wanted_V + motor) / s->supply_V), off);
 }
 
 void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
                       double vbat_V, double duty[PILOT_MOTORS]) {
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
   double most = STOCK_FULL;
-  for (int i = 0; i < PILOT_MOTORS; i++) {
-    duty[i] = duty_of(s, p, i, unit[i]);
-    most = larger(most, duty[i]);
-  }
+  for (int i = 0; i < PILOT_MOTORS; i += 2) pair_put(duty + i, duty_of(s, p, i, pair_of(unit + i)));
+  for (int i = 0; i < PILOT_MOTORS; i++) most = larger(most, duty[i]);
   for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = larger(duty[i] - (most - STOCK_FULL), 0.0);
 }
 
@@ -121,8 +139,10 @@ void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const doub
                       double vbat_V, double motor_N[PILOT_MOTORS]) {
   double duty[PILOT_MOTORS];
   stock_power_duty(s, p, unit, vbat_V, duty);
-  for (int i = 0; i < PILOT_MOTORS; i++) {
-    const double share = duty[i] / STOCK_FULL;
-    motor_N[i] = share > 0.0 ? larger(cubic_N(p->volt_cubic, share * s->supply_V), 0.0) : 0.0;
+  const pair_t off = pair_both(0.0);
+  for (int i = 0; i < PILOT_MOTORS; i += 2) {
+    const pair_t share = pair_of(duty + i) / STOCK_FULL;
+    const pair_t turning_N = pair_max(cubic_N(p->volt_cubic, share * s->supply_V), off);
+    pair_put(motor_N + i, pair_where(share > off, turning_N, off));
   }
 }

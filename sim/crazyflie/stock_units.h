@@ -26,6 +26,13 @@ typedef struct {
 
 stock_view_t stock_view(const pilot_in_t *in);
 
+// Of an attitude alone.
+typedef struct {
+  double roll_deg, pitch_deg, yaw_deg;
+} stock_angles_t;
+
+stock_angles_t stock_angles(dq_t q_wb);
+
 // Into -180..180.
 double stock_cap_deg(double angle_deg);
 

@@ -1,13 +1,16 @@
 // rotor.c - motor commands and battery voltage to thrust.
 #include "plant/rotor.h"
 
-#include "base/larger.h"
+pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N) {
+  const pair_t off = pair_both(0.0);
+  const pair_t held = pair_min(pair_max(pwm, off), pair_both(ROTOR_PWM_MAX)); // NaN is 0: the motor is off
+  if (map->kind == THRUST_MAP_NONE || thrust_map_takes_speed(map)) return held / ROTOR_PWM_MAX * max_N;
+  if (!(vbat_V > 0.0)) return off;
+  return pair_where(held > off, thrust_map_pair_N(map, held, vbat_V), off);
+}
 
 double rotor_command_N(const thrust_map_t *map, double pwm, double vbat_V, double max_N) {
-  const double held = pwm > 0.0 ? smaller(pwm, ROTOR_PWM_MAX) : 0.0; // NaN is 0: the motor is off
-  if (map->kind == THRUST_MAP_NONE || thrust_map_takes_speed(map)) return held / ROTOR_PWM_MAX * max_N;
-  if (!(vbat_V > 0.0) || !(held > 0.0)) return 0.0;
-  return thrust_map_N(map, held, vbat_V);
+  return rotor_command_pair_N(map, pair_both(pwm), vbat_V, max_N)[0];
 }
 
 double rotor_pwm(const thrust_map_t *map, double thrust_N, double vbat_V, double max_N) {
