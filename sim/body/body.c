@@ -42,7 +42,10 @@ static void look_now(body_t *b) {
 static void collect_effects(body_t *b) {
   for (int k = 0; k < b->model->n_fx; k++) {
     const fx_use_t *use = &b->model->fx[k];
-    if (use->fx->excess) b->excess[b->n_excess++] = use;
+    if (use->fx->excess) {
+      b->excess[b->n_excess++] = use;
+      b->excess_of |= body_surfaces_of(use);
+    }
     if (use->fx->load) b->load[b->n_load++] = use;
     b->n_tick += use->fx->tick != NULL;
   }

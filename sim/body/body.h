@@ -57,6 +57,7 @@ typedef struct {
   double memory[FX_MAX][FX_MEMORY];
   const fx_use_t *excess[FX_MAX], *load[FX_MAX];
   int n_excess, n_load, n_tick;
+  int excess_of;    // SURFACE_* that they have to do with
   int surfaces;     // TOUCH_* that are near enough to look at
   body_look_t look; // at y, between ticks
   bool look_is_y;   // also at the integrator's next call
@@ -108,6 +109,9 @@ void body_close(body_t *b);
 
 // What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
 void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look);
+
+// SURFACE_* whose distance the excess of an effect asks for.
+int body_surfaces_of(const fx_use_t *use);
 
 // Adds what one effect more does to the rotors and the body, after those of the model; not what it does at
 // the beginning of a tick.

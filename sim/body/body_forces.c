@@ -14,52 +14,63 @@ static inline pair_t along(const rigid_t *r, int i, d3_t to) {
          to.z * pair_of(r->rotor_z_m + i);
 }
 
-// Where the rotors are; pos_w_m: of the centre of mass.
-static inline fx_places_t places_of(const body_t *b, d3_t pos_w_m, const axes_t *axes) {
-  const d3_t up = axes_up_b(axes), floor_up = axes_to_body(axes, b->touch.floor_up_w);
-  const double above_m = touch_above_floor_m(&b->touch, pos_w_m);
+#define SURFACES (SURFACE_CEILING | SURFACE_GROUND)
+
+int body_surfaces_of(const fx_use_t *use) {
+  return use->fx->surface ? use->fx->surface : SURFACES;
+}
+
+// How far the rotors are from the ceiling, and from the ground if it is asked for; pos_w_m: of the centre of
+// mass.
+static inline fx_places_t places_of(const body_t *b, int surfaces, d3_t pos_w_m, const axes_t *axes) {
+  const d3_t up = axes_up_b(axes);
   const rigid_t *r = &b->rigid;
-  const pair_t zero = pair_both(0.0);
+  const pair_t zero = pair_both(0.0), nowhere = pair_both(HUGE_VAL);
   fx_places_t at;
   at.radius_m = b->model->rotor_radius_m;
   for (int i = 0; i < ROTORS; i += 2) {
     pair_put(at.ceiling_gap_m + i, pair_max(b->touch.ceiling_m - (pos_w_m.z + along(r, i, up)), zero));
-    pair_put(at.ground_gap_m + i, pair_max(above_m + along(r, i, floor_up), zero));
+    pair_put(at.ground_gap_m + i, nowhere);
   }
+  if (!(surfaces & SURFACE_GROUND)) return at;
+  const d3_t floor_up = axes_to_body(axes, b->touch.floor_up_w);
+  const double above_m = touch_above_floor_m(&b->touch, pos_w_m);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(at.ground_gap_m + i, pair_max(above_m + along(r, i, floor_up), zero));
   return at;
 }
 
 // What the surroundings multiply each rotor's thrust by.
-static void look_at_surfaces(const body_t *b, const double *y, const axes_t *axes, double ratio[ROTORS]) {
+static inline void look_at_surfaces(const body_t *b, const double *y, const axes_t *axes,
+                                    double ratio[ROTORS]) {
   for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
   if (b->n_excess == 0) return;
-  const fx_places_t at = places_of(b, d3_of(y + RIGID_POS_M), axes);
+  const fx_places_t at = places_of(b, b->excess_of, d3_of(y + RIGID_POS_M), axes);
   for (int k = 0; k < b->n_excess; k++) fx_add_excess(b->excess[k], &at, ratio);
 }
 
-static void look_at_speeds(const body_t *b, const double *y, body_look_t *look) {
+static inline void look_at_speeds(const body_t *b, const double *y, body_look_t *look) {
   rigid_rotor_radps(&b->rigid, y + RIGID_THRUST_N, look->speed_radps);
   for (int i = 0; i < ROTORS; i += 2)
     pair_put(look->turning + i, inflow_turning(pair_of(look->ratio + i), pair_of(b->rigid.faster + i)));
 }
 
-static fx_motion_t motion_of(const body_t *b, const double *y, const body_look_t *look) {
+// Written in place: who takes it copied waits for each of these stores.
+static inline void move(const body_t *b, const double *y, const body_look_t *look, fx_motion_t *motion) {
   const axes_t *const axes = &look->axes;
-  double speed[ROTORS];
-  for (int i = 0; i < ROTORS; i++) speed[i] = look->turning[i] * look->speed_radps[i];
-  fx_motion_t motion = {.pos_w_m = d3_of(y + RIGID_POS_M), .axes = axes};
-  motion.air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
-  motion.rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
-  for (int i = 0; i < ROTORS; i++) {
-    motion.hub_b_m[i] = d3(b->rigid.rotor_x_m[i], b->rigid.rotor_y_m[i], b->rigid.rotor_z_m[i]);
-    motion.rotor_radps[i] = speed[i];
-    motion.rotor_spin_radps += b->rigid.spin[i] * speed[i];
-  }
-  return motion;
+  motion->pos_w_m = d3_of(y + RIGID_POS_M);
+  motion->air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), b->plant.air_w_mps));
+  motion->rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
+  motion->axes = axes;
+  motion->hub_b_m = b->touch.disc;
+  motion->spin = b->rigid.spin;
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(motion->rotor_radps + i, pair_of(look->turning + i) * pair_of(look->speed_radps + i));
 }
 
 static void effects_load(const body_t *b, const double *y, body_look_t *look) {
-  const fx_motion_t motion = motion_of(b, y, look);
+  fx_motion_t motion;
+  move(b, y, look, &motion);
   for (int k = 0; k < b->n_load; k++) b->load[k]->fx->load(b->load[k], &motion, &look->load);
 }
 
@@ -85,14 +96,15 @@ void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look
 
 void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look) {
   if (more->fx->excess) {
-    const fx_places_t at = places_of(b, d3_of(y + RIGID_POS_M), &look->axes);
+    const fx_places_t at = places_of(b, body_surfaces_of(more), d3_of(y + RIGID_POS_M), &look->axes);
     fx_add_excess(more, &at, look->ratio);
     look_at_speeds(b, y, look);
   }
   if (!more->fx->load) return;
   if (!look->loaded) look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   look->loaded = true;
-  const fx_motion_t motion = motion_of(b, y, look);
+  fx_motion_t motion;
+  move(b, y, look, &motion);
   more->fx->load(more, &motion, &look->load);
 }
 
@@ -165,7 +177,7 @@ void body_effects(body_t *b, double span_s) {
   b->plant = body_untouched(m);
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   fx_place_t place[ROTORS];
-  const fx_places_t at = places_of(b, d3_of(b->y + RIGID_POS_M), &axes);
+  const fx_places_t at = places_of(b, SURFACES, d3_of(b->y + RIGID_POS_M), &axes);
   for (int i = 0; i < ROTORS; i++)
     place[i] = (fx_place_t){at.ceiling_gap_m[i], at.ground_gap_m[i], at.radius_m};
   for (int k = 0; k < m->n_fx; k++) {

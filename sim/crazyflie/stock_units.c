@@ -4,9 +4,11 @@
 #include "base/clip.h"
 #include "base/constants.h"
 #include "base/pair.h"
+
 #define SUPPLY_START_V 4.2
 #define SUPPLY_GAIN    0.01
 #define SUPPLY_MIN_V   2.0
+#define PAIRS          (PILOT_MOTORS / 2)
 #define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
 
 stock_angles_t stock_angles(dq_t q) {
@@ -88,49 +90,72 @@ static double cubic_V(const double c[4], double thrust_N) {
   return cbrt(n + root) + cbrt(n - root) - shift;
 }
 
-// The same of those of two motors that are asked for, by Newton's method from the roots of thrusts that were
-// a little different: who is there waits for the other.
-static pair_t near_V(const double c[4], pair_t thrust_N, pair_t v, pair_bits_t asked) {
+// The same of those motors that are asked for, by Newton's method from the roots of thrusts that were a
+// little different. All four at once, for a step is one long division after another: who is there waits for
+// the others.
+static void near_V(const double c[4], const pair_t thrust_N[PAIRS], const pair_bits_t asked[PAIRS],
+                   pair_t v[PAIRS]) {
   const pair_t zero = pair_both(0.0), near = pair_both(1e-9); // the next step would be its square
-  const pair_bits_t known = v > zero;
-  pair_bits_t goes_on = asked & known;
-  for (int i = 0; i < 6 && pair_any(goes_on); i++) {
-    const pair_t step = (cubic_N(c, v) - thrust_N) / (c[1] + v * (2.0 * c[2] + v * 3.0 * c[3]));
-    v -= pair_where(goes_on, step, zero);
-    goes_on &= ~((step < near) & (-step < near));
+  const pair_bits_t known[PAIRS] = {v[0] > zero, v[1] > zero};
+  pair_bits_t goes_on[PAIRS] = {asked[0] & known[0], asked[1] & known[1]};
+  for (int n = 0; n < 6 && pair_any(goes_on[0] | goes_on[1]); n++)
+    for (int i = 0; i < PAIRS; i++) {
+      const pair_t step = (cubic_N(c, v[i]) - thrust_N[i]) / (c[1] + v[i] * (2.0 * c[2] + v[i] * 3.0 * c[3]));
+      v[i] -= pair_where(goes_on[i], step, zero);
+      goes_on[i] &= ~((step < near) & (-step < near));
+    }
+  for (int k = 0; k < PILOT_MOTORS; k++) {
+    const int i = k / 2;
+    if ((goes_on[i] | (asked[i] & ~known[i]))[k % 2]) v[i][k % 2] = cubic_V(c, thrust_N[i][k % 2]);
   }
-  const pair_bits_t unsolved = goes_on | (asked & ~known);
-  for (int k = 0; k < 2; k++)
-    if (unsolved[k]) v[k] = cubic_V(c, thrust_N[k]);
-  return v;
 }
 
-static pair_t wanted_V(const stock_power_param_t *p, pair_t thrust_N, pair_t last_V, pair_bits_t asked) {
+static void wanted_V(const stock_power_param_t *p, const pair_t thrust_N[PAIRS],
+                     const pair_bits_t asked[PAIRS], pair_t v[PAIRS]) {
   const double *q = p->volt_quadratic;
-  const pair_t grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N;
-  if (q[0] > 0.0) return pair_where(asked, grams * (q[0] + q[1] * grams), last_V);
-  return near_V(p->volt_cubic, thrust_N, last_V, asked);
+  if (!(q[0] > 0.0)) {
+    near_V(p->volt_cubic, thrust_N, asked, v);
+    return;
+  }
+  for (int i = 0; i < PAIRS; i++) {
+    const pair_t grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N[i];
+    v[i] = pair_where(asked[i], grams * (q[0] + q[1] * grams), v[i]);
+  }
 }
 
-// Of two motors. Written so that a voltage that is not a number stops them.
-static pair_t duty_of(stock_power_t *s, const stock_power_param_t *p, int motor, pair_t unit) {
-  const pair_t off = pair_both(0.0), last_N = pair_of(s->wanted_N + motor);
-  if (!(s->supply_V >= SUPPLY_MIN_V)) return off;
-  const pair_t whole = pair_min(pair_max(pair_trunc(unit), pair_both(-UNIT_MAX)), pair_both(UNIT_MAX));
-  const pair_t wanted_N = p->thrust_max_N / STOCK_FULL * whole;
-  const pair_bits_t runs = wanted_N >= p->thrust_min_N, changed = runs & (wanted_N != last_N);
-  if (pair_any(changed)) {
-    pair_put(s->wanted_N + motor, pair_where(changed, wanted_N, last_N));
-    pair_put(s->wanted_V + motor, wanted_V(p, wanted_N, pair_of(s->wanted_V + motor), changed));
+// Volts at the motors for units; which of them run.
+static void want(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
+                 pair_t v[PAIRS], pair_bits_t runs[PAIRS]) {
+  pair_t wanted_N[PAIRS];
+  pair_bits_t changed[PAIRS];
+  for (int i = 0; i < PAIRS; i++) {
+    const pair_t whole = pair_trunc(pair_of(unit + 2 * i)), last_N = pair_of(s->wanted_N + 2 * i);
+    wanted_N[i] =
+        p->thrust_max_N / STOCK_FULL * pair_min(pair_max(whole, pair_both(-UNIT_MAX)), pair_both(UNIT_MAX));
+    runs[i] = wanted_N[i] >= p->thrust_min_N;
+    changed[i] = runs[i] & (wanted_N[i] != last_N);
+    v[i] = pair_of(s->wanted_V + 2 * i);
+    pair_put(s->wanted_N + 2 * i, pair_where(changed[i], wanted_N[i], last_N));
   }
-  return pair_where(runs, pair_trunc(STOCK_FULL * pair_of(s->wanted_V + motor) / s->supply_V), off);
+  if (!pair_any(changed[0] | changed[1])) return;
+  wanted_V(p, wanted_N, changed, v);
+  for (int i = 0; i < PAIRS; i++) pair_put(s->wanted_V + 2 * i, v[i]);
 }
 
 void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
                       double vbat_V, double duty[PILOT_MOTORS]) {
+  const pair_t off = pair_both(0.0);
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
+  if (!(s->supply_V >= SUPPLY_MIN_V)) { // not a number stops the motors, too
+    for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = 0.0;
+    return;
+  }
+  pair_t v[PAIRS];
+  pair_bits_t runs[PAIRS];
+  want(s, p, unit, v, runs);
+  for (int i = 0; i < PAIRS; i++)
+    pair_put(duty + 2 * i, pair_where(runs[i], pair_trunc(STOCK_FULL * v[i] / s->supply_V), off));
   double most = STOCK_FULL;
-  for (int i = 0; i < PILOT_MOTORS; i += 2) pair_put(duty + i, duty_of(s, p, i, pair_of(unit + i)));
   for (int i = 0; i < PILOT_MOTORS; i++) most = larger(most, duty[i]);
   for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = larger(duty[i] - (most - STOCK_FULL), 0.0);
 }

@@ -89,9 +89,9 @@ typedef struct {
   d3_t air_b_mps; // velocity through the air, body axes
   d3_t rate_b_radps;
   const axes_t *axes;         // of the body
-  d3_t hub_b_m[ROTORS];       // the rotors' centres, from the centre of mass
+  const d3_t *hub_b_m;        // the rotors' centres, from the centre of mass
   double rotor_radps[ROTORS]; // their speeds
-  double rotor_spin_radps;    // the same added, each with its sense of turning (plant/rigid.h, s_i)
+  const double *spin;         // their senses of turning (plant/rigid.h, d_i)
 } fx_motion_t;
 
 // A rotor's hub, `arm` of the way from the centre of mass to it: 1 the hub, 0 the centre of mass.

@@ -8,11 +8,13 @@
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  load_t all = *load; // what is written through a pointer may be `motion`, to a compiler
   for (int i = 0; i < ROTORS; i++) {
     const double k = use->p[0] * motion->rotor_radps[i];
     const fx_hub_t hub = fx_hub(motion, i, use->p[1]);
-    fx_push_hub(&hub, d3(-k * hub.air_b_mps.x, -k * hub.air_b_mps.y, 0.0), load);
+    fx_push_hub(&hub, d3(-k * hub.air_b_mps.x, -k * hub.air_b_mps.y, 0.0), &all);
   }
+  *load = all;
 }
 
 const fx_t fx_rotor_drag = {

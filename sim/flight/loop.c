@@ -139,9 +139,13 @@ static void order(flight_loop_t *f, double t_s) {
 
 static void call_pilot(flight_loop_t *f, const truth_t *truth) {
   f->plan->vertical_only ? sense_vertical(f, truth) : sense(f, truth);
-  pilot_in_t in = f->in;
-  if (f->plan->edit) f->plan->edit(f->plan->edit_context, &f->body, &in);
-  f->pilot->step(f->pilot->state, &in, f->motor_N);
+  if (f->plan->edit) {
+    pilot_in_t in = f->in;
+    f->plan->edit(f->plan->edit_context, &f->body, &in);
+    f->pilot->step(f->pilot->state, &in, f->motor_N);
+  } else {
+    f->pilot->step(f->pilot->state, &f->in, f->motor_N);
+  }
   f->in.step++;
 }
 
