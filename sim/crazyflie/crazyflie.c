@@ -5,6 +5,7 @@
 #include "base/constants.h"
 #include "base/pair.h"
 #include "controller.h"
+#include "log.h"
 #include "plant/rotor.h"
 #include "range.h"
 #include "stand_in.h"
@@ -324,6 +325,9 @@ void crazyflie_logs(const crazyflie_t *c, float *value) {
   const section_log_group_t *const *group;
   const int n = sections_log_groups(&group);
   for (int g = 0; g < n; g++)
-    for (const section_log_t *l = group[g]->log; l->name; l++)
-      *value++ = (float)values_of_log(l->type, own(c, l->address));
+    for (const section_log_t *l = group[g]->log; l->name; l++, value++)
+      if (l->type == LOG_FLOAT) // nearly all of them
+        memcpy(value, own(c, l->address), sizeof *value);
+      else
+        *value = (float)values_of_log(l->type, own(c, l->address));
 }

@@ -29,7 +29,7 @@ static bool send(pilot_flight_t *p) {
 // At every call, or the second of so many as loop keeps its samples. Without memory the rows end.
 static void keep_log(pilot_flight_t *p, uint32_t step) {
   if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
-  const int width = sections_logs();
+  const int width = p->log_width;
   if (p->n_log == p->room_log) {
     const int room = p->room_log ? 2 * p->room_log : 1024;
     float *const more = realloc(p->log, (size_t)room * (size_t)width * sizeof *more);
@@ -70,6 +70,7 @@ done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const m
   p->log = NULL;
   p->n_log = p->room_log = 0;
   p->log_every_ms = 0;
+  p->log_width = sections_logs();
   memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
   // As a pilot does who has seen enough of it in shadow.
   if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;

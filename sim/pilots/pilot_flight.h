@@ -12,6 +12,7 @@ typedef struct {
   flight_param_t sent;
   float *log; // rows of the app's logs; null unless kept; free it
   int n_log, room_log;
+  int log_width;    // logs of the app
   int log_every_ms; // 10, 2 or 1; 0: none is kept
 } pilot_flight_t;
 
