@@ -71,7 +71,10 @@ TEST(pen_writes_the_same_bytes_as_printf) {
     if (isnan(any)) continue;
     ROW("%.17g and %.17g", any, usual);
     const int n = (int)(bits >> 3 & 7) + 1;
+    const double near_ten = pow(10.0, (double)(bits % 19) - 6.0), single = (double)(float)usual;
+    const double beside = nextafter(near_ten, bits & 32 ? HUGE_VAL : 0.0);
     if (!same(any, n) || !same(usual, n) || !same(short_one, n) || !same(tie, n)) return;
+    if (!same(single, n) || !same(single, 9) || !same(near_ten, n) || !same(beside, n + 4)) return;
   }
 }
 
