@@ -200,7 +200,8 @@ static done_t open_place(const order_t *o, int number, place_t *place, why_t *wh
 }
 
 static void close_place(place_t *place) {
-  if (place->drone.loop) drone_close(&place->drone);
+  why_t why;
+  if (place->drone.loop) (void)!drone_close(&place->drone, &why);
   if (place->radio.socket >= 0) datagrams_close(&place->radio);
   if (place->log) fclose(place->log);
   if (place->commands) fclose(place->commands);
@@ -256,7 +257,8 @@ static char *tell_page(void *context) {
 static const char *set_from_page(void *context, int drone, const char *name, double value) {
   const room_t *const room = context;
   if (drone < 0 || drone >= (int)room->order->drones) return "there is no such drone";
-  return drone_set(&room->place[drone].drone, name, value);
+  static why_t why;
+  return drone_set(&room->place[drone].drone, name, value, &why) == DONE ? NULL : why.text;
 }
 
 // --- flying

@@ -279,7 +279,8 @@ static done_t fly_commands(order_t *o, output_t *out, why_t *why) {
       printf("%.1f s of what clients sent; %d contacts, at the end %.2f m high and %s\n",
              1e-3 * drone_now_ms(&drone), (int)drone.logs.contacts, (double)drone.logs.z,
              supervised_words(drone.firmware.vehicle.supervised.state));
-    drone_close(&drone);
+    why_t lost;
+    if (drone_close(&drone, &lost) != DONE && status == DONE) status = error_failed(why, "%s", lost.text);
   }
   fclose(commands);
   return status;

@@ -231,6 +231,10 @@ void commanded_relax(commanded_t *c) {
   c->priority = COMMANDED_PLANNER;
 }
 
+void commanded_let_go(commanded_t *c) {
+  c->priority = COMMANDED_NOBODY;
+}
+
 setpoint_t commanded_now(commanded_t *c, const state_t *state, bool can_fly, uint32_t step, uint32_t now_ms) {
   planner_block(&c->planner, !can_fly);
   setpoint_t planned = {.thrust = 0.0f};

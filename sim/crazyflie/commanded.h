@@ -36,6 +36,9 @@ bool commanded_take_pad(commanded_t *c, const uint8_t *data, int size, uint32_t 
 // From now on the planner may set points again.
 void commanded_relax(commanded_t *c);
 
+// Nobody sets points any more: the next who does may.
+void commanded_let_go(commanded_t *c);
+
 // Every millisecond, in the stabilizer: what is to be flown. can_fly: the supervisor's.
 setpoint_t commanded_now(commanded_t *c, const state_t *state, bool can_fly, uint32_t step, uint32_t now_ms);
 

@@ -34,6 +34,12 @@ static setpoint_t command(void *context, const state_t *state, uint32_t step) {
                        firmware_now_ms(f));
 }
 
+int firmware_high_level(firmware_t *f, const uint8_t *data, int size) {
+  const int result = planner_command(&f->commanded.planner, data, size, firmware_now_ms(f));
+  f->params.hlCommander_groupmask = f->commanded.planner.param.groups;
+  return result;
+}
+
 // --- which controller flies --------------------------------------------------------------------------------
 
 static void select_controller(firmware_t *f) {
@@ -43,6 +49,7 @@ static void select_controller(firmware_t *f) {
   if (!known && *wanted != CONTROLLER_AUTO)
     stand_in_print("DESK: controller %u is not simulated; allowed are 0, 1, 3, 6\n", *wanted);
   *wanted = *wanted == CONTROLLER_AUTO ? CONTROLLER_APP : known ? *wanted : f->runs;
+  if (!known && f->changed) f->changed(f->changed_context, firmware_param_find(f, "stabilizer.controller"));
   if (*wanted == f->runs) return;
   f->runs = *wanted;
   if (f->runs == CONTROLLER_APP) controllerOutOfTreeInit();

@@ -61,6 +61,9 @@ void firmware_close(firmware_t *f);
 // One millisecond: as crazyflie_ms. in->set is not looked at.
 void firmware_ms(firmware_t *f, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
 
+// A high-level command, as planner_command takes it; its result.
+int firmware_high_level(firmware_t *f, const uint8_t *data, int size);
+
 uint32_t firmware_now_ms(const firmware_t *f);
 
 // The log supervisor.info.

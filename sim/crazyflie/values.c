@@ -17,12 +17,16 @@ void values_put(int param_type, void *at, double value) {
   const uint8_t small = (uint8_t)within(value, 0.0, 255.0);
   const uint16_t middle = (uint16_t)within(value, 0.0, 65535.0);
   const uint32_t natural = (uint32_t)within(value, 0.0, 4294967295.0);
+  const int8_t tiny = (int8_t)within(value, -128.0, 127.0);
+  const int16_t brief = (int16_t)within(value, -32768.0, 32767.0);
   const int32_t whole = (int32_t)within(value, -2147483648.0, 2147483647.0);
   switch (KIND(param_type)) {
   case PARAM_FLOAT: memcpy(at, &real, sizeof real); break;
   case PARAM_UINT8: memcpy(at, &small, sizeof small); break;
   case PARAM_UINT16: memcpy(at, &middle, sizeof middle); break;
   case PARAM_UINT32: memcpy(at, &natural, sizeof natural); break;
+  case PARAM_INT8: memcpy(at, &tiny, sizeof tiny); break;
+  case PARAM_INT16: memcpy(at, &brief, sizeof brief); break;
   case PARAM_INT32: memcpy(at, &whole, sizeof whole); break;
   }
 }
@@ -51,6 +55,8 @@ double values_of_param(int param_type, const void *at) {
   case PARAM_UINT8: READ(uint8_t, at);
   case PARAM_UINT16: READ(uint16_t, at);
   case PARAM_UINT32: READ(uint32_t, at);
+  case PARAM_INT8: READ(int8_t, at);
+  case PARAM_INT16: READ(int16_t, at);
   case PARAM_INT32: READ(int32_t, at);
   }
   return (double)NAN;

@@ -17,50 +17,8 @@ uint32_t drone_now_ms(const drone_t *d) {
   return d->now_ms;
 }
 
-// --- what a person does to it ------------------------------------------------------------------------------
-
-static fx_use_t *effect(drone_t *d, const char *name) {
-  model_t *const m = loop_model(d->loop);
-  const fx_t *const fx = fx_find(name);
-  for (int i = 0; i < m->n_fx; i++)
-    if (m->fx[i].fx == fx) return &m->fx[i];
-  return NULL;
-}
-
-// The scene's own wind and payload stay; what is asked for comes on top.
-static void push(drone_t *d) {
-  const desk_params_t *const p = &d->params;
-  body_push(loop_body(d->loop), d3(1e-3 * (double)p->windX, 1e-3 * (double)p->windY,
-                                   1e-3 * ((double)p->windZ - 9.81 * (double)p->payload)));
-}
-
-static void move_ceiling(drone_t *d) {
-  model_t *const m = loop_model(d->loop);
-  m->ceiling_m = (double)d->params.ceiling;
-  body_surround(&loop_body(d->loop)->touch, m);
-}
-
-static void weaken(drone_t *d) {
-  fx_use_t *const use = effect(d, "motor_damage");
-  if (!use) return;
-  use->p[0] = d->params.weakMotor ? d->params.weakMotor : 1.0;
-  use->p[1] = d->params.weakMotor ? (double)d->params.weakBy : 0.0;
-  use->p[2] = 0.0;
-}
-
-static bool changed(const void *now, const void *was, size_t size) {
-  return memcmp(now, was, size) != 0;
-}
-
-static void apply(drone_t *d) {
-  const desk_params_t *const p = &d->params, *const w = &d->was;
-  if (changed(&p->ceiling, &w->ceiling, sizeof p->ceiling)) move_ceiling(d);
-  if (changed(&p->windX, &w->windX, 3 * sizeof(float)) ||
-      changed(&p->payload, &w->payload, sizeof p->payload))
-    push(d);
-  if (p->weakMotor != w->weakMotor || changed(&p->weakBy, &w->weakBy, sizeof p->weakBy)) weaken(d);
-  if (changed(&p->battery, &w->battery, sizeof p->battery)) loop_body(d->loop)->charge = (double)p->battery;
-  d->was = *p;
+int drone_first_param(const drone_t *d) {
+  return firmware_params(&d->firmware) - desk_param_count;
 }
 
 static void *params_of(void *context) {
@@ -70,42 +28,28 @@ static void *logs_of(void *context) {
   return &((drone_t *)context)->logs;
 }
 
-static int first_param(const drone_t *d) {
-  return firmware_params(&d->firmware) - desk_param_count;
-}
-
 // What is out of its range is put back, and the client is told.
 static void written(void *context, int i) {
   drone_t *const d = context;
-  const int number = first_param(d) + i;
-  const double value = firmware_param(&d->firmware, number);
-  const desk_range_t *const range = &desk_ranges[i];
-  if (value >= range->min && value <= range->max) return;
-  stand_in_print("DESK: desk.%s: allowed is %g to %g %s\n", desk_param_rows[i].name, range->min, range->max,
-                 range->unit);
+  why_t why;
+  const int number = drone_first_param(d) + i;
+  if (desk_param_check(desk_param_rows[i].name, firmware_param(&d->firmware, number), &why) == DONE) return;
+  stand_in_print("DESK: %s\n", why.text);
   memcpy((char *)&d->params + desk_param_rows[i].offset, (const char *)&d->was + desk_param_rows[i].offset,
          (size_t)link_param_bytes(desk_param_rows[i].type));
   link_params_changed(&d->link, number);
 }
 
-const char *drone_set(drone_t *d, const char *name, double value) {
-  static _Thread_local char says[128];
-  for (int i = 0; i < desk_param_count; i++) {
-    const stock_row_t *const row = &desk_param_rows[i];
-    if (strcmp(row->name, name) != 0) continue;
-    if (!(value >= desk_ranges[i].min && value <= desk_ranges[i].max)) {
-      snprintf(says, sizeof says, "desk.%s: allowed is %g to %g %s", name, desk_ranges[i].min,
-               desk_ranges[i].max, desk_ranges[i].unit);
-      return says;
-    }
-    // Over the link, so that it stands in the commands and the client hears of it.
-    const int number = first_param(d) + i, bytes = link_param_bytes(row->type);
-    uint8_t packet[7] = {0x2e, (uint8_t)number, (uint8_t)(number >> 8)};
-    values_put(row->type, packet + 3, value);
-    drone_take(d, packet, 3 + bytes);
-    return NULL;
-  }
-  return "there is no such parameter in the group desk";
+done_t drone_set(drone_t *d, const char *name, double value, why_t *why) {
+  const int i = desk_param_find(name);
+  TRY(desk_param_check(name, value, why));
+  // Over the link, so that it stands in the commands; who asked is not the client, which is told of it.
+  const int number = drone_first_param(d) + i, type = desk_param_rows[i].type;
+  uint8_t packet[7] = {0x2e, (uint8_t)number, (uint8_t)(number >> 8)};
+  values_put(type, packet + 3, value);
+  drone_take(d, packet, 3 + link_param_bytes(type));
+  link_params_changed(&d->link, number);
+  return DONE;
 }
 
 // --- in the loop -------------------------------------------------------------------------------------------
@@ -143,6 +87,7 @@ static done_t write_rows(drone_t *d, why_t *why) {
 static done_t keep(drone_t *d, why_t *why) {
   if (!d->log) return DONE;
   const int width = sections_logs();
+  d->seen.t_s = 1e-3 * (double)(d->now_ms - TICK_MS); // through restarts
   TRY(record_add(&d->record, &d->seen, why));
   crazyflie_logs(&d->firmware.vehicle, d->record.app + (size_t)(d->record.n - 1) * (size_t)width);
   return d->record.n == ROWS ? write_rows(d, why) : DONE;
@@ -175,14 +120,29 @@ static void reset_estimate(drone_t *d) {
   e->s[2] = (double)p->kalman_initialZ;
 }
 
+static void follow(drone_t *d) {
+  for (const event_t *e; (e = disturbed_due(&d->disturbed, &d->scene, d->on_ms)) != NULL;) {
+    const int number = drone_first_param(d) + e->param;
+    firmware_param_put(&d->firmware, number, e->value);
+    link_params_changed(&d->link, number);
+  }
+  disturbed_follow(&d->disturbed, d->loop, &d->params, &d->was);
+  d->was = d->params;
+}
+
 static done_t tick(drone_t *d, why_t *why) {
-  apply(d);
-  reset_estimate(d);
   d->now_ms += TICK_MS;
   if (!d->finite) return DONE;
+  follow(d);
+  reset_estimate(d);
+  d->on_ms += TICK_MS;
   bool is_sample;
   d->finite = loop_tick(d->loop, &d->seen, &is_sample) == FLIGHT_FLIES;
-  if (!d->finite) return DONE;
+  if (!d->finite) {
+    stand_in_print("DESK: it flies no more, its state is no number; desk.restart 1 puts it back\n");
+    link_ms(&d->link);
+    return DONE;
+  }
   if (is_sample) {
     d->has_seen = true;
     look(d);
@@ -198,7 +158,7 @@ static void wait(void *context, uint32_t ms) {
   drone_t *const d = context;
   why_t why;
   for (uint32_t i = 0; i < ms; i += TICK_MS)
-    if (tick(d, &why) != DONE) return;
+    if (tick(d, &why) != DONE) return; // the log that cannot be written says so at the next tick
 }
 
 void drone_take(drone_t *d, const uint8_t *bytes, int size) {
@@ -218,14 +178,6 @@ void drone_left(drone_t *d) {
 
 // --- switching on and off ----------------------------------------------------------------------------------
 
-static done_t add_damage(model_t *m, why_t *why) {
-  const fx_t *const damage = fx_find("motor_damage");
-  if (model_fx(m, damage)) return DONE;
-  fx_use_t use = fx_use(damage);
-  use.p[1] = 0.0; // the loss
-  return model_add_fx(m, &use, why);
-}
-
 static done_t switch_on(drone_t *d, why_t *why) {
   firmware_t *const f = &d->firmware;
   TRY(firmware_open(f, &d->scene.setup.model, why));
@@ -241,11 +193,11 @@ static done_t switch_on(drone_t *d, why_t *why) {
   firmware_start(f);
   TRY(loop_open(&d->loop, &d->plan, &d->scene.setup.model, &d->pilot, &d->drawn, why));
   loop_body(d->loop)->charge = d->scene.battery;
-  d->was = d->params;
   d->finite = true;
   d->reset_asked = d->has_seen = false;
-  push(d);
-  weaken(d);
+  d->on_ms = 0;
+  d->was = d->params;
+  disturbed_begin(&d->disturbed, d->loop, &d->params);
   return DONE;
 }
 
@@ -262,9 +214,20 @@ static void begin(drone_t *d) {
 }
 
 static done_t restart(drone_t *d, why_t *why) {
+  const int n = firmware_params(&d->firmware);
+  double *const was = malloc((size_t)n * sizeof *was);
+  if (!was) return error_failed(why, "out of memory");
+  for (int i = 0; i < n; i++) was[i] = firmware_param(&d->firmware, i);
   switch_off(d);
   begin(d);
-  return switch_on(d, why);
+  const done_t status = switch_on(d, why);
+  if (status == DONE) {
+    link_restarted(&d->link);
+    for (int i = 0; i < n; i++)
+      if (firmware_param(&d->firmware, i) != was[i]) link_params_changed(&d->link, i);
+  }
+  free(was);
+  return status;
 }
 
 done_t drone_tick(drone_t *d, why_t *why) {
@@ -296,12 +259,13 @@ static done_t open_log(drone_t *d, why_t *why) {
 }
 
 static done_t open(drone_t *d, why_t *why) {
-  TRY(add_damage(&d->scene.setup.model, why));
+  TRY(disturbed_open(&d->disturbed, &d->scene.setup.model, why));
   plan(d);
   for (int i = 0; i < desk_param_count; i++) d->initial[i] = desk_ranges[i].initial;
-  d->initial[0] = fmin(d->scene.setup.model.ceiling_m, desk_ranges[0].max);
-  for (int i = 0; i < desk_param_count; i++)
-    if (strcmp(desk_param_rows[i].name, "battery") == 0) d->initial[i] = d->scene.battery;
+  d->initial[desk_param_find("ceiling")] = fmin(d->scene.setup.model.ceiling_m, DISTURBED_NO_CEILING_M);
+  d->initial[desk_param_find("battery")] = d->scene.battery;
+  d->initial[desk_param_find("loss")] = d->scene.loss;
+  d->initial[desk_param_find("delay")] = d->scene.delay_s;
   begin(d);
   d->more = (firmware_more_t){desk_param_rows, desk_log_rows, desk_param_count, desk_log_count,
                               params_of,       logs_of,       d->initial,       written};
@@ -320,54 +284,18 @@ done_t drone_open(drone_t *d, const scene_t *scene, const char *storage, FILE *l
   d->commands = commands;
   const done_t status = open(d, why);
   if (status == DONE) return DONE;
-  d->log = NULL; // nothing has flown
-  drone_close(d);
+  d->log = d->commands = NULL; // nothing has flown
+  why_t lost;
+  (void)!drone_close(d, &lost);
   return status;
 }
 
-void drone_close(drone_t *d) {
-  why_t why;
-  (void)!write_rows(d, &why);
+done_t drone_close(drone_t *d, why_t *why) {
+  const done_t status = write_rows(d, why);
   record_free(&d->record);
   switch_off(d);
   storage_close(&d->storage);
-}
-
-// --- flown anew --------------------------------------------------------------------------------------------
-
-#define LINE 256 // of 64 bytes in hex, and the time
-
-// "MS HEX", or "MS"
-static int read_packet(const char *text, uint32_t *ms, uint8_t bytes[64]) {
-  int at, n = 0;
-  unsigned byte;
-  if (sscanf(text, "%u %n", ms, &at) != 1) return -1;
-  for (; n < 64 && sscanf(text + at, "%2x", &byte) == 1; at += 2) bytes[n++] = (uint8_t)byte;
-  return text[at] == '\n' || text[at] == '\0' ? n : -1;
-}
-
-done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s, why_t *why) {
-  char text[LINE];
-  uint32_t ms = 0;
-  uint8_t bytes[64];
-  d->storage.path = NULL; // what is stored again is stored nowhere
-  for (int line = 1; fgets(text, sizeof text, commands); line++) {
-    if (text[0] == '#') {
-      while (!strchr(text, '\n') && fgets(text, sizeof text, commands)) continue;
-      continue;
-    }
-    const int n = read_packet(text, &ms, bytes);
-    if (n < 0 || ms < drone_now_ms(d))
-      return error_set(why, "%s:%d: allowed is `MS HEX`, or `MS`, in the order of time", path, line);
-    while (drone_now_ms(d) < ms) TRY(drone_tick(d, why));
-    if (n > 0)
-      drone_take(d, bytes, n);
-    else
-      drone_left(d);
-  }
-  for (packet_t packet; drone_now_ms(d) < ms + (uint32_t)(1e3 * more_s);) {
-    TRY(drone_tick(d, why));
-    while (link_give(&d->link, &packet)) continue;
-  }
-  return DONE;
+  if (status == DONE && d->commands && (fflush(d->commands) != 0 || ferror(d->commands)))
+    return error_failed(why, "the recording of what came over the link cannot be written");
+  return status;
 }

@@ -5,8 +5,7 @@
 #ifndef SIM_DRONE_DRONE_H
 #define SIM_DRONE_DRONE_H
 
-#include "drone/rows.h"
-#include "drone/scene.h"
+#include "drone/disturbed.h"
 #include "flight/loop.h"
 #include "link/link.h"
 #include <stdio.h>
@@ -24,6 +23,7 @@ typedef struct {
   bool has_seen;
   bool finite; // else it stands still
   desk_params_t params, was;
+  disturbed_t disturbed;
   desk_logs_t logs;
   record_t record; // samples not yet written
   FILE *log;       // flight, as fly writes it; null: none
@@ -33,18 +33,21 @@ typedef struct {
   double initial[DESK_PARAMS_MAX];
   const char *stored; // a storage's file
   bool reset_asked;
-  uint32_t now_ms;
+  uint32_t now_ms, on_ms; // since drone_open, since it was switched on
 } drone_t;
 
 // Switched on, on the floor. storage: a file's path, or null. The files are the caller's; *d must stay where
 // it is. BAD_INPUT: a vehicle that cannot fly, a storage that is none. FAILED: no memory.
 MUST_CHECK done_t drone_open(drone_t *d, const scene_t *scene, const char *storage, FILE *log, FILE *commands,
                              why_t *why);
-// Writes what is left of the log.
-void drone_close(drone_t *d);
+// Writes what is left of the log. FAILED: it cannot be written, or the commands could not.
+MUST_CHECK done_t drone_close(drone_t *d, why_t *why);
 
 // Since drone_open, through restarts; the firmware's own clock begins anew with each.
 uint32_t drone_now_ms(const drone_t *d);
+
+// Number of the first parameter of the group desk, among all.
+int drone_first_param(const drone_t *d);
 
 // A packet of the client, now.
 void drone_take(drone_t *d, const uint8_t *bytes, int size);
@@ -55,8 +58,8 @@ void drone_left(drone_t *d);
 // The next 2 ms. FAILED: no memory, or a log cannot be written.
 MUST_CHECK done_t drone_tick(drone_t *d, why_t *why);
 
-// Sets a desk parameter as a client would. Null: done; else what is allowed.
-const char *drone_set(drone_t *d, const char *name, double value);
+// Sets a desk parameter for somebody who is not the client. BAD_INPUT: says what is allowed.
+MUST_CHECK done_t drone_set(drone_t *d, const char *name, double value, why_t *why);
 
 // A recorded file of commands, flown anew, to its end and `more_s` on; lines that begin with # are comments.
 // The storage's file stays as it is. BAD_INPUT: not such a file.

@@ -3,17 +3,18 @@
 #ifndef SIM_DRONE_ROWS_H
 #define SIM_DRONE_ROWS_H
 
+#include "base/error.h"
 #include "crazyflie/stock_table.h"
 #include <stdbool.h>
 
 // X(name, C type, type, at the start, least, most, is it a switch, unit, what it does)
 #define DESK_PARAMS(X)                                                                                       \
-  X(ceiling, float, PARAM_FLOAT, 1.5, 0.15, 10, false, "m", "height of the ceiling; 10: none is felt")       \
+  X(ceiling, float, PARAM_FLOAT, 1.5, 0.15, 10, false, "m", "height of the ceiling; 10: none")               \
   X(cover, uint8_t, PARAM_UINT8, 0, 0, 1, true, "", "cover the upward range sensor")                         \
   X(windX, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along x")                                    \
   X(windY, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along y")                                    \
   X(windZ, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push upwards")                                    \
-  X(payload, float, PARAM_FLOAT, 0, 0, 15, false, "g", "put on a payload")                                   \
+  X(payload, float, PARAM_FLOAT, 0, 0, 15, false, "g", "hang on a weight (its force alone)")                 \
   X(weakMotor, uint8_t, PARAM_UINT8, 0, 0, 4, false, "", "motor that is weak; 0: none")                      \
   X(weakBy, float, PARAM_FLOAT, 0.2, 0, 1, false, "", "share of its thrust that is lost")                    \
   X(battery, float, PARAM_FLOAT, 1, 0.01, 1, false, "", "charge of the battery")                             \
@@ -52,5 +53,11 @@ extern const desk_range_t desk_ranges[];
 #define DESK_PARAMS_MAX 32
 
 extern const int desk_param_count, desk_log_count;
+
+// Its number; -1: none of that name.
+int desk_param_find(const char *name);
+
+// BAD_INPUT: no such parameter, or a value that it does not take.
+MUST_CHECK done_t desk_param_check(const char *name, double value, why_t *why);
 
 #endif

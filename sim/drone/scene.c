@@ -1,6 +1,8 @@
 // scene.c - where simulated vehicles fly for clients.
 #include "drone/scene.h"
 
+#include "base/number.h"
+#include "drone/rows.h"
 #include "flight/request_spec.h"
 #include "vehicle/model_file.h"
 #include <math.h>
@@ -10,9 +12,11 @@
 #define CEILING_M 1.5
 #define TEXT_MAX  256
 
-static const char *const keys[] = {"vehicle",      "noise",    "seed",    "ceiling_m", "floor_rise_x",
-                                   "floor_rise_y", "wall_y_m", "battery", "effect",    NULL};
+static const char *const keys[] = {"vehicle",      "noise",        "seed",     "ceiling_m",
+                                   "floor_rise_x", "floor_rise_y", "wall_y_m", "battery",
+                                   "effect",       "event",        NULL};
 static const char *const effect_keys[] = {"is", NULL};
+static const char *const event_keys[] = {"at_s", "set", NULL};
 static const toml_kind_t kind = {
     "a scene", "vehicle = \"cf21_legacy\", ceiling_m = 1.5, [[effect]] is = \"ceiling:Ca=0.6\"", keys};
 
@@ -68,6 +72,36 @@ static done_t take_effects(toml_t root, request_t *request, why_t *why) {
   }
 }
 
+// "NAME=VALUE"
+static done_t take_set(toml_t t, event_t *event, why_t *why) {
+  char text[TEXT_MAX];
+  why_t said;
+  TRY(toml_string(t, "set", text, sizeof text, why));
+  char *const equals = strchr(text, '=');
+  if (!equals || !number_parse(equals + 1, &event->value))
+    return toml_refuse(t, "set", why, "%s; allowed: NAME=VALUE, of the group desk", text);
+  *equals = '\0';
+  if (desk_param_check(text, event->value, &said) != DONE) return toml_refuse(t, "set", why, "%s", said.text);
+  event->param = desk_param_find(text);
+  return DONE;
+}
+
+static done_t take_events(toml_t root, scene_t *scene, why_t *why) {
+  for (int i = 0;; i++) {
+    toml_t t;
+    bool more;
+    TRY(toml_table_at(root, "event", i, &t, &more, why));
+    if (!more) return DONE;
+    TRY(toml_only(t, event_keys, why));
+    if (i == SCENE_EVENTS)
+      return toml_refuse(t, "at_s", why, "one event too many; allowed: %d", SCENE_EVENTS);
+    event_t *const event = &scene->event[scene->n_event++];
+    const double before_s = i > 0 ? event[-1].at_s : 0.0;
+    TRY(toml_double(t, "at_s", before_s, 1e6, &event->at_s, why));
+    TRY(take_set(t, event, why));
+  }
+}
+
 static done_t take(toml_t t, const char *path, scene_t *scene, why_t *why) {
   model_t vehicle;
   request_t request = {.seed = scene->seed};
@@ -87,12 +121,15 @@ static done_t take(toml_t t, const char *path, scene_t *scene, why_t *why) {
   model_t *const m = &scene->setup.model;
   double seed = (double)scene->seed;
   TRY(number(t, "seed", 0.0, 1e9, &seed, why));
+  if (seed != floor(seed)) return toml_refuse(t, "seed", why, "%g; allowed: a whole number", seed);
   scene->seed = (uint64_t)seed;
-  TRY(number(t, "ceiling_m", 0.1, HUGE_VAL, &m->ceiling_m, why));
+  TRY(number(t, "ceiling_m", 0.15, 10.0, &m->ceiling_m, why));
+  if (m->ceiling_m >= 10.0) m->ceiling_m = HUGE_VAL;
   TRY(number(t, "floor_rise_x", -0.5, 0.5, &m->floor_rise_x, why));
   TRY(number(t, "floor_rise_y", -0.5, 0.5, &m->floor_rise_y, why));
   m->wall_solid = m->wall_solid || toml_has(t, "wall_y_m");
   TRY(number(t, "wall_y_m", -100.0, 100.0, &m->wall_y_m, why));
+  TRY(take_events(t, scene, why));
   return number(t, "battery", 0.01, 1.0, &scene->battery, why);
 }
 

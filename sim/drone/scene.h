@@ -5,12 +5,15 @@
 //   vehicle = "cf21_legacy"     one that comes with the program, or a file's path, from the scene's folder
 //   noise = "real"              as fly takes it
 //   seed = 1
-//   ceiling_m = 1.5             inf: none
+//   ceiling_m = 1.5             10: none
 //   floor_rise_x = 0.0, floor_rise_y = 0.0   tangents
 //   wall_y_m = 1.0              a wall in the plane of this y that can be touched
 //   battery = 1.0               charge at the start, 0 to 1
 //   [[effect]]                  as many as are wanted; what begins later says so itself (mass: start)
 //   is = "mass:add=0.003,start=20"
+//   [[event]]                   parameters of the group desk that change by themselves, in the order of time:
+//   at_s = 20.0                 here a fan that begins to blow, mN
+//   set = "windX=30"
 //
 // Without a file: the thesis's Crazyflie and its ceiling effect, with a ceiling at 1.5 m.
 #ifndef SIM_DRONE_SCENE_H
@@ -18,10 +21,21 @@
 
 #include "flight/setup.h"
 
+#define SCENE_EVENTS 16
+
+typedef struct {
+  double at_s; // since it was switched on
+  int param;   // number of a desk parameter
+  double value;
+} event_t;
+
 typedef struct {
   setup_t setup; // model and noise
   double battery;
+  double loss, delay_s; // of the link's packets; no key of the file
   uint64_t seed;
+  event_t event[SCENE_EVENTS];
+  int n_event;
 } scene_t;
 
 MUST_CHECK done_t scene_default(scene_t *scene, why_t *why);

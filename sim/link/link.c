@@ -28,8 +28,7 @@ uint32_t link_u32(const uint8_t *at) {
   return link_u16(at) | (uint32_t)link_u16(at + 2) << 16;
 }
 
-// --- the queue
-// ----------------------------------------------------------------------------------------------
+// --- the queue ---------------------------------------------------------------------------------------------
 
 void link_answer(link_t *l, int port, int channel, const void *data, int size) {
   if (l->put - l->taken == LINK_QUEUE) {
@@ -53,12 +52,15 @@ bool link_give(link_t *l, packet_t *packet) {
 // always, and would keep the planner from flying in the next session: on the ground it is let go.
 void link_reset(link_t *l) {
   link_logs_reset(l);
-  if (!supervised_flies(&l->firmware->vehicle.supervised)) l->firmware->commanded.priority = COMMANDED_NOBODY;
+  if (!supervised_flies(&l->firmware->vehicle.supervised)) commanded_let_go(&l->firmware->commanded);
   l->taken = l->put;
 }
 
-// --- the small ports
-// ----------------------------------------------------------------------------------------
+void link_restarted(link_t *l) {
+  link_logs_restart(l);
+}
+
+// --- the small ports ---------------------------------------------------------------------------------------
 
 static bool echo_and_source(link_t *l, const request_packet_t *r) {
   uint8_t source[LINK_DATA_MAX] = SOURCE;
@@ -85,12 +87,14 @@ static bool version(link_t *l, const request_packet_t *r) {
 
 enum { ARM = 1, RECOVER, EMERGENCY_STOP, FEED };
 
-static void arm_or_recover(link_t *l, int port, int channel, uint8_t reply, const request_packet_t *r) {
+static bool arm_or_recover(link_t *l, int port, int channel, uint8_t reply, const request_packet_t *r) {
+  if (r->data[0] == ARM && r->size < 2) return false;
   supervised_t *const s = &l->firmware->vehicle.supervised;
   const bool arms = r->data[0] == ARM;
   const bool done = arms ? supervised_arm(s, r->data[1] != 0) : supervised_recover(s);
   const uint8_t answer[] = {reply, done, arms ? s->armed : !s->crashed};
   link_answer(l, port, channel, answer, sizeof answer);
+  return true;
 }
 
 // The old way to arm goes on here.
@@ -98,16 +102,26 @@ static bool platform(link_t *l, const request_packet_t *r) {
   if (r->channel == 1) return r->size > 0 && version(l, r);
   if (r->channel == 2) return true; // an app's own channel, and the app has none
   if (r->channel != 0 || r->size < 1) return false;
-  if (r->data[0] == ARM || r->data[0] == RECOVER)
-    arm_or_recover(l, PLATFORM, 0, r->data[0], r);
-  else
-    link_answer(l, PLATFORM, 0, r->data, r->data[0] == 3 ? 0 : r->size);
+  if (r->data[0] == ARM || r->data[0] == RECOVER) return arm_or_recover(l, PLATFORM, 0, r->data[0], r);
+  link_answer(l, PLATFORM, 0, r->data, r->data[0] == 3 ? 0 : r->size);
   return true;
 }
 
 #define REPLY     0x80
 #define INFO_BITS 11
 #define INFO_ALL  12
+
+static bool stop_or_feed(firmware_t *f, uint8_t what) {
+  if (what == EMERGENCY_STOP) f->emergency = true;
+  if (what == FEED) f->vehicle.around.fed_ms = firmware_now_ms(f);
+  return what == EMERGENCY_STOP || what == FEED;
+}
+
+// Where older clients stop it. Positions are taken, and not used.
+static bool place(link_t *l, const request_packet_t *r) {
+  if (r->channel == 1 && r->size > 0) (void)stop_or_feed(l->firmware, r->data[0]);
+  return true;
+}
 
 static bool supervisor(link_t *l, const request_packet_t *r) {
   firmware_t *const f = l->firmware;
@@ -128,13 +142,8 @@ static bool supervisor(link_t *l, const request_packet_t *r) {
     return true;
   }
   if (r->channel != 1) return false;
-  switch (what) {
-  case ARM:
-  case RECOVER: arm_or_recover(l, SUPERVISOR, 1, REPLY | what, r); return true;
-  case EMERGENCY_STOP: f->emergency = true; return true;
-  case FEED: f->vehicle.around.fed_ms = firmware_now_ms(f); return true;
-  default: return false;
-  }
+  if (what == ARM || what == RECOVER) return arm_or_recover(l, SUPERVISOR, 1, REPLY | what, r);
+  return stop_or_feed(f, what);
 }
 
 static bool set_points(link_t *l, const request_packet_t *r) {
@@ -149,15 +158,13 @@ static bool set_points(link_t *l, const request_packet_t *r) {
 static bool high_level(link_t *l, const request_packet_t *r) {
   firmware_t *const f = l->firmware;
   if (r->size < 1) return false;
-  const int result = planner_command(&f->commanded.planner, r->data, r->size, firmware_now_ms(f));
-  f->params.hlCommander_groupmask = f->commanded.planner.param.groups;
+  const int result = firmware_high_level(f, r->data, r->size);
   const uint8_t answer[] = {r->data[0], r->data[1], r->data[2], (uint8_t)result};
   link_answer(l, HIGH_LEVEL, r->channel, answer, sizeof answer);
   return true;
 }
 
-// --- all
-// ------------------------------------------------------------------------------------------------------
+// --- all ---------------------------------------------------------------------------------------------------
 
 static bool understood(link_t *l, int port, const request_packet_t *r) {
   switch (port) {
@@ -167,7 +174,7 @@ static bool understood(link_t *l, int port, const request_packet_t *r) {
            commanded_take_pad(&l->firmware->commanded, r->data, r->size, firmware_now_ms(l->firmware));
   case MEMORY: return link_memory(l, r);
   case LOGS: return link_logs(l, r);
-  case PLACE: return true;
+  case PLACE: return place(l, r);
   case SET_POINTS: return set_points(l, r);
   case HIGH_LEVEL: return high_level(l, r);
   case SUPERVISOR: return supervisor(l, r);

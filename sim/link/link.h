@@ -2,9 +2,9 @@
 //
 // A packet is one header byte (port << 4 | 0x0C | channel) and 0 to 30 bytes. What it understands: source and
 // echo (15), platform (13), logs (5), parameters (2), memories (4), set points (3, 7), high-level commands
-// (8), supervisor (9), localization (6: taken, and not used), console (0). Every request is answered, in the
-// order in which they came. What is malformed or of no known kind is answered as the firmware does, or
-// dropped and counted.
+// (8), supervisor (9), localization (6: the emergency stop; positions are taken, and not used), console (0).
+// Every request is answered, in the order in which they came. What is malformed or of no known kind is
+// answered as the firmware does, or dropped and counted.
 //
 // Source: bitcraze/crazyflie-firmware 2a18fc29 (log.c, param_logic.c, mem.c, crtp_*.c, platformservice.c),
 // and what cflib 0.1.34 sends. Own code.
@@ -12,6 +12,7 @@
 #define SIM_LINK_LINK_H
 
 #include "crazyflie/firmware.h"
+#include "crazyflie/storage.h"
 #include <stdint.h>
 
 #define LINK_DATA_MAX 30
@@ -41,26 +42,6 @@ typedef struct {
   link_op_t op[LINK_OF];
 } link_block_t;
 
-// --- what is stored for good -------------------------------------------------------------------------------
-
-// One value a parameter, by number; NaN: none.
-typedef struct {
-  const char *path; // null: forgotten with the program
-  double *value;
-  int n;
-} storage_t;
-
-// Reads the file, if there is one, and writes what it holds into the firmware's parameters. A line that is no
-// "group.name = value", or of a parameter that is not there, is BAD_INPUT. FAILED: no memory.
-MUST_CHECK done_t storage_open(storage_t *s, const char *path, firmware_t *f, why_t *why);
-void storage_close(storage_t *s);
-// Into a firmware that is switched on anew.
-void storage_restore(const storage_t *s, firmware_t *f);
-// Value NaN forgets it. False: it could not be written; nothing has changed then.
-bool storage_put(storage_t *s, const firmware_t *f, int param, double value);
-
-// ------------------------------------------------------------------------------------------------------------
-
 typedef struct {
   firmware_t *firmware;
   storage_t *storage;
@@ -85,6 +66,9 @@ bool link_give(link_t *l, packet_t *packet);
 
 // Nobody listens any more: blocks end, what waits is forgotten.
 void link_reset(link_t *l);
+
+// The firmware was switched on anew, and its clock with it, while the link stayed up: blocks that run go on.
+void link_restarted(link_t *l);
 
 // --- the inside: one file a port
 // ----------------------------------------------------------------------------
@@ -120,6 +104,7 @@ bool link_memory(link_t *l, const request_packet_t *r);
 void link_logs_init(link_t *l);
 void link_logs_ms(link_t *l);
 void link_logs_reset(link_t *l);
+void link_logs_restart(link_t *l);
 void link_params_init(link_t *l);
 void link_params_changed(void *link, int param);
 

@@ -32,8 +32,7 @@ void link_logs_init(link_t *l) {
   l->log_crc = link_list_crc(l, &list);
 }
 
-// --- blocks
-// ---------------------------------------------------------------------------------------------------
+// --- blocks ------------------------------------------------------------------------------------------------
 
 static link_block_t *find(link_t *l, uint8_t id) {
   for (int i = 0; i < LINK_BLOCKS; i++)
@@ -102,6 +101,16 @@ void link_logs_reset(link_t *l) {
   for (int i = 0; i < LINK_BLOCKS; i++) l->block[i].used = false;
 }
 
+void link_logs_restart(link_t *l) {
+  for (int i = 0; i < LINK_BLOCKS; i++)
+    l->block[i].due_ms = firmware_now_ms(l->firmware) + l->block[i].period_ms;
+}
+
+// Bytes that a command has at least.
+static int least(uint8_t what) {
+  return what == RESET ? 1 : what == RUN ? 3 : what == RUN_MS ? 4 : 2;
+}
+
 static int control(link_t *l, const request_packet_t *r) {
   switch (r->data[0]) {
   case DELETE: return drop(l, r->data[1]);
@@ -119,14 +128,13 @@ bool link_logs(link_t *l, const request_packet_t *r) {
   if (r->size < 1) return false;
   const link_list_t list = all(l);
   if (r->channel == TOC) return link_list(l, &list, r);
-  if (r->channel != CONTROL) return false;
+  if (r->channel != CONTROL || r->size < least(r->data[0])) return false;
   const uint8_t answer[] = {r->data[0], r->data[1], (uint8_t)control(l, r)};
   link_answer(l, PORT, CONTROL, answer, sizeof answer);
   return true;
 }
 
-// --- data
-// -----------------------------------------------------------------------------------------------------
+// --- data --------------------------------------------------------------------------------------------------
 
 // To half precision, to the nearest and to even; too large is infinite.
 static uint16_t half_of(float value) {

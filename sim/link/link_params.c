@@ -94,14 +94,13 @@ static bool write_by_name(link_t *l, const request_packet_t *r) {
   return true;
 }
 
-// --- what is stored
-// -----------------------------------------------------------------------------------------
+// --- what is stored ----------------------------------------------------------------------------------------
 
 static int tell_state(link_t *l, int i, uint8_t *out) {
   const double stored = l->storage->value[i];
   const bool is_stored = stored == stored;
-  int size = 4;
-  out[3] = (uint8_t)is_stored;
+  int size = 1;
+  out[0] = (uint8_t)is_stored;
   size += put(l, out + size, i, firmware_param_default(l->firmware, i));
   if (is_stored) size += put(l, out + size, i, stored);
   return size;
@@ -113,31 +112,38 @@ static uint8_t store(link_t *l, int i, bool keep) {
   return can && storage_put(l->storage, l->firmware, i, value) ? 0 : NOT_THERE;
 }
 
+static int tell_default(const link_t *l, int i, uint8_t *out) {
+  if (firmware_param_row(l->firmware, i).type & PARAM_RONLY) return 1;
+  out[0] = 0;
+  return 1 + put(l, out + 1, i, firmware_param_default(l->firmware, i));
+}
+
+// Of a parameter that is there: its answer behind the command and the number, out[0] NOT_THERE so far. How
+// many bytes; 0: not understood.
+static int of_one(link_t *l, uint8_t what, int i, uint8_t *out) {
+  const bool persistent = firmware_param_row(l->firmware, i).type & PARAM_PERSISTENT;
+  switch (what) {
+  case OLD_EXTENDED: out[0] = persistent; return 1;
+  case EXTENDED:
+    if (!persistent) return 1;
+    out[0] = 0, out[1] = 1;
+    return 2;
+  case STORE: out[0] = store(l, i, true); return 1;
+  case CLEAR: out[0] = store(l, i, false); return 1;
+  case STATE: return tell_state(l, i, out);
+  case OLD_DEFAULT: return put(l, out, i, firmware_param_default(l->firmware, i));
+  case DEFAULT: return tell_default(l, i, out);
+  default: return 0;
+  }
+}
+
 static bool misc(link_t *l, const request_packet_t *r) {
   if (r->data[0] == BY_NAME) return write_by_name(l, r);
+  if (r->size < 3 || r->data[0] == UPDATED || r->data[0] > DEFAULT) return false;
   const int i = link_u16(r->data + 1);
   uint8_t out[LINK_DATA_MAX] = {r->data[0], r->data[1], r->data[2], NOT_THERE};
-  int size = 4;
-  const bool there = i < firmware_params(l->firmware);
-  const bool persistent = there && firmware_param_row(l->firmware, i).type & PARAM_PERSISTENT;
-  switch (there ? r->data[0] : -r->data[0]) {
-  case OLD_EXTENDED: out[3] = persistent; break;
-  case EXTENDED: out[3] = 0, out[4] = persistent, size = 5; break;
-  case STORE: out[3] = store(l, i, true); break;
-  case CLEAR: out[3] = store(l, i, false); break;
-  case STATE: size = tell_state(l, i, out); break;
-  case OLD_DEFAULT: size = 3 + put(l, out + 3, i, firmware_param_default(l->firmware, i)); break;
-  case DEFAULT: out[3] = 0, size = 4 + put(l, out + 4, i, firmware_param_default(l->firmware, i)); break;
-  case -OLD_EXTENDED:
-  case -EXTENDED:
-  case -STORE:
-  case -CLEAR:
-  case -STATE:
-  case -OLD_DEFAULT:
-  case -DEFAULT: break;
-  default: return false;
-  }
-  link_answer(l, PORT, MISC, out, size);
+  const int size = i < firmware_params(l->firmware) ? of_one(l, r->data[0], i, out + 3) : 1;
+  link_answer(l, PORT, MISC, out, 3 + size);
   return true;
 }
 

@@ -68,41 +68,46 @@ static bool nothing_waits(rig_t *r) {
   return !link_give(&r->link, &p);
 }
 
+static const struct {
+  const char *what, *asked, *answered;
+} ANSWERS[] = {
+    {"a scan", "ff", "ff"},
+    {"an echo", "fc010203", "fc010203"},
+    {"the source", "fd00", "fd42697463726170652043726179666c6965"},
+    {"the protocol's version", "dd00", "dd000c000000"},
+    {"one version too many", "dd07", ""},
+    {"a log number beyond the last", "5c02ffff", "5c02"},
+    {"a parameter beyond the last", "2c02ffff", "2c02"},
+    {"a value of none", "2dffff", "2dffff02"},
+    {"a write to none", "2effff01", "2effff02"},
+    {"how many memories", "4c01", "4c0101"},
+    {"the memory", "4c0200", "4c020012001000000000000000000000"},
+    {"reset of the logs", "5d05", "5d050000"},
+    {"a block that is not there is started", "5d030a0a", "5d030a02"},
+    {"a command of logs that is none", "5d630a", "5d630a08"},
+    {"all about the supervisor", "9c0c", "9c8c0402"},
+    {"to recover without a crash", "9d02", "9d820101"},
+    {"to arm before the checks", "9d0101", "9d810000"},
+    {"a take-off while blocked", "8c07000000803f000000000100000040", "8c07000000"},
+    {"a place of motion capture", "6c00000000", ""},
+    {"a request of a value's state, cut", "2f04", ""},
+    {"a block deleted without its number", "5d02", ""},
+    {"a block started without its period", "5d0307", ""},
+    {"to arm, or not?", "9d01", ""},
+    {"an unknown port", "ac0102", ""},
+    {"a port of another kind", "bc00", ""},
+};
+
 TEST(link_answers_as_the_firmware_does) {
-  static const struct {
-    const char *what, *asked, *answered;
-  } row[] = {
-      {"a scan", "ff", "ff"},
-      {"an echo", "fc010203", "fc010203"},
-      {"the source", "fd00", "fd42697463726170652043726179666c6965"},
-      {"the protocol's version", "dd00", "dd000c000000"},
-      {"one version too many", "dd07", ""},
-      {"a log number beyond the last", "5c02ffff", "5c02"},
-      {"a parameter beyond the last", "2c02ffff", "2c02"},
-      {"a value of none", "2dffff", "2dffff02"},
-      {"a write to none", "2effff01", "2effff02"},
-      {"how many memories", "4c01", "4c0101"},
-      {"the memory", "4c0200", "4c020012001000000000000000000000"},
-      {"reset of the logs", "5d05", "5d050000"},
-      {"a block that is not there is started", "5d030a0a", "5d030a02"},
-      {"a command of logs that is none", "5d630a", "5d630a08"},
-      {"all about the supervisor", "9c0c", "9c8c0402"},
-      {"to recover without a crash", "9d02", "9d820101"},
-      {"to arm before the checks", "9d0101", "9d810000"},
-      {"a take-off while blocked", "8c07000000803f000000000100000040", "8c07000000"},
-      {"a place of motion capture", "6c00000000", ""},
-      {"an unknown port", "ac0102", ""},
-      {"a port of another kind", "bc00", ""},
-  };
   rig_t *const r = rig_open(NULL);
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
-    const char *const got = ask(r, row[i].asked);
-    const bool padded = strncmp(row[i].asked, "fd", 2) == 0; // with zeros, to 30 bytes
+  for (unsigned i = 0; i < sizeof ANSWERS / sizeof *ANSWERS; i++) {
+    ROW("%s", ANSWERS[i].what);
+    const char *const got = ask(r, ANSWERS[i].asked);
+    const bool padded = strncmp(ANSWERS[i].asked, "fd", 2) == 0; // with zeros, to 30 bytes
     if (padded)
       CHECK(strncmp(got, "fd42697463726179", 12) == 0 && strlen(got) == 62);
     else
-      CHECK_TEXT(got, row[i].answered);
+      CHECK_TEXT(got, ANSWERS[i].answered);
     CHECK(nothing_waits(r));
   }
   rig_close(r);
@@ -149,6 +154,24 @@ TEST(link_writes_what_may_be_written_and_tells_what_the_app_put_back) {
   rig_close(r);
 }
 
+TEST(link_tells_of_a_parameter_what_there_is_to_tell) {
+  static const struct {
+    const char *what, *head, *param, *ends;
+    size_t bytes;
+  } row[] = {{"kept for good?", "2f07", "indiPos.kpz", "0001", 6},
+             {"not kept for good", "2f07", "stabilizer.controller", "02", 5},
+             {"its default", "2f08", "stabilizer.controller", "0006", 6},
+             {"the default of what is read alone", "2f08", "deck.bcFlow2", "02", 5}};
+  rig_t *const r = rig_open(NULL);
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const char *const got = ask_about(r, row[i].head, row[i].param, "");
+    CHECK(strlen(got) == 2 * row[i].bytes);
+    CHECK_TEXT(got + strlen(got) - strlen(row[i].ends), row[i].ends);
+  }
+  rig_close(r);
+}
+
 TEST(link_writes_by_name) {
   rig_t *const r = rig_open(NULL);
   // "pm" 0 "lowVoltage" 0 float 3.5
@@ -174,9 +197,9 @@ TEST(link_sends_the_blocks_that_it_was_asked_for) {
            "07%02x%02x07%02x%02x07%02x%02x07%02x%02x07%02x%02x07%02x%02x",
            vbat & 255, vbat >> 8, vbat & 255, vbat >> 8, vbat & 255, vbat >> 8, vbat & 255, vbat >> 8,
            vbat & 255, vbat >> 8, vbat & 255, vbat >> 8);
-  CHECK_TEXT(ask(r, hex), "5d070707");        // 26 bytes hold six and a half
-  CHECK_TEXT(ask(r, "5d080701"), "5d080700"); // 1 byte of the period's two: 1 ms
-  CHECK_TEXT(ask(r, "5d030701"), "5d030700"); // every 10 ms
+  CHECK_TEXT(ask(r, hex), "5d070707");          // 26 bytes hold six and a half
+  CHECK_TEXT(ask(r, "5d08070100"), "5d080700"); // every ms
+  CHECK_TEXT(ask(r, "5d030701"), "5d030700");   // every 10 ms
   f->vehicle.around.battery_V = 3.75f;
   int packets = 0;
   packet_t p;
@@ -262,19 +285,67 @@ TEST(a_storage_that_is_none_is_refused_with_its_line) {
   } row[] = {
       {"indiPos.kpz 3\n", ":1: allowed is `group.name = value`"},
       {"# that\nindiPos.kpz = three\n", ":2: allowed is `group.name = value`"},
-      {"no.such = 3\n", "no.such: allowed is a parameter that can be stored"},
-      {"deck.bcFlow2 = 0\n", "deck.bcFlow2: allowed is a parameter that can be stored"},
+      {NULL, "/: a folder; allowed: a file"},
   };
   rig_t *const r = rig_open(NULL);
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].text);
-    const char *const path = scratch_file("bad", row[i].text, -1);
+    ROW("%s", row[i].text ? row[i].text : "a folder");
+    const char *const path = row[i].text ? scratch_file("bad", row[i].text, -1) : "/";
     storage_t s;
     why_t why = {""};
     CHECK_STATUS(BAD_INPUT, storage_open(&s, path, &r->firmware, &why));
-    CHECK(strstr(why.text, row[i].says) != NULL);
+    if (!CHECK(strstr(why.text, row[i].says) != NULL)) CHECK_TEXT(why.text, row[i].says);
   }
   rig_close(r);
+}
+
+TEST(what_another_firmware_stored_is_left_out) {
+  static const char *const row[] = {"no.such = 3\nindiPos.kpz = 1.5\n",
+                                    "deck.bcFlow2 = 0\nindiPos.kpz = 1.5\n"};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i]);
+    rig_t *const r = rig_open(scratch_file("old", row[i], -1));
+    CHECK_NEAR(firmware_param(&r->firmware, firmware_param_find(&r->firmware, "indiPos.kpz")), 1.5, 0);
+    CHECK_NEAR(firmware_param(&r->firmware, firmware_param_find(&r->firmware, "deck.bcFlow2")), 1, 0);
+    CHECK(strstr(r->firmware.vehicle.around.console, "cannot be stored, and is left out") != NULL);
+    rig_close(r);
+  }
+}
+
+TEST(every_stock_parameter_begins_with_its_default) {
+  rig_t *const r = rig_open(NULL);
+  const firmware_t *const f = &r->firmware;
+  for (int i = 0; i < firmware_params(f); i++) {
+    const firmware_row_t row = firmware_param_row(f, i);
+    ROW("%s.%s", row.group, row.name);
+    CHECK(firmware_param(f, i) == firmware_param_default(f, i)); // no NaN either
+  }
+  CHECK_NEAR(firmware_param(f, firmware_param_find(f, "system.selftestPassed")), 1, 0);
+  rig_close(r);
+}
+
+TEST(an_emergency_stop_holds_wherever_it_comes_from) {
+  static const struct {
+    const char *what, *asked;
+    bool stops;
+  } row[] = {{"the supervisor's port", "9d03", true},
+             {"the localization's port, as older clients", "6d03", true},
+             {"a watchdog that is not fed again", "6d04", true},
+             {"a position", "6d02", false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    rig_t *const r = rig_open(NULL);
+    firmware_t *const f = &r->firmware;
+    const pilot_in_t in = {.vbat_V = 4.0, .acc_b_mps2 = {0.0, 0.0, 9.81}, .q_wb = {1.0, 0.0, 0.0, 0.0}};
+    pilot_in_t now = in;
+    double motor_N[PILOT_MOTORS];
+    for (; now.step < 2500; now.step++) {
+      if (now.step == 500) (void)ask(r, row[i].asked);
+      firmware_ms(f, &now, motor_N);
+    }
+    CHECK((f->vehicle.supervised.state == SUPERVISED_LOCKED) == row[i].stops);
+    rig_close(r);
+  }
 }
 
 TEST(any_bytes_are_answered_or_dropped) {

@@ -1,9 +1,10 @@
 // storage.c - parameters that outlast the program: a text file, "group.name = value" a line.
-#include "link/link.h"
+#include "storage.h"
 
 #include "base/number.h"
 #include "base/whole_file.h"
-#include "crazyflie/param.h"
+#include "param.h"
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,8 +18,11 @@ static done_t take(storage_t *s, firmware_t *f, int line, char *text, why_t *why
   if (sscanf(text, " %127[^ =] = %127s %c", name, number, &more) != 2 || !number_parse(number, &value))
     return error_set(why, "%s:%d: allowed is `group.name = value`", s->path, line);
   const int i = firmware_param_find(f, name);
-  if (i < 0 || !(firmware_param_row(f, i).type & PARAM_PERSISTENT))
-    return error_set(why, "%s:%d: %s: allowed is a parameter that can be stored", s->path, line, name);
+  if (i < 0 || !(firmware_param_row(f, i).type & PARAM_PERSISTENT)) {
+    // Stored by a firmware that had it.
+    stand_in_print("DESK: %s cannot be stored, and is left out\n", name);
+    return DONE;
+  }
   s->value[i] = value;
   firmware_param_put(f, i, value);
   return DONE;
@@ -31,15 +35,31 @@ static done_t read_all(storage_t *s, firmware_t *f, FILE *file, why_t *why) {
   return DONE;
 }
 
+// A client is not to find out when it stores.
+static done_t can_write(const char *path, why_t *why) {
+  whole_files_t files = {0};
+  FILE *file;
+  const done_t status = whole_files_open(&files, path, &file, why);
+  whole_files_drop(&files);
+  return status;
+}
+
+static done_t read_file(storage_t *s, firmware_t *f, why_t *why) {
+  TRY(can_write(s->path, why));
+  FILE *const file = fopen(s->path, "r");
+  if (!file && errno == ENOENT) return DONE;
+  if (!file) return error_set(why, "%s: cannot be opened: %s", s->path, strerror(errno));
+  const done_t status = read_all(s, f, file, why);
+  fclose(file);
+  return status;
+}
+
 done_t storage_open(storage_t *s, const char *path, firmware_t *f, why_t *why) {
   *s = (storage_t){.path = path, .n = firmware_params(f)};
   s->value = malloc((size_t)s->n * sizeof *s->value);
   if (!s->value) return error_failed(why, "out of memory");
   for (int i = 0; i < s->n; i++) s->value[i] = (double)NAN;
-  FILE *const file = path ? fopen(path, "r") : NULL;
-  if (!file) return DONE;
-  const done_t status = read_all(s, f, file, why);
-  fclose(file);
+  const done_t status = path ? read_file(s, f, why) : DONE;
   if (status != DONE) storage_close(s);
   return status;
 }
