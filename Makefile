@@ -147,6 +147,7 @@ $(O)/gen/page.c: sim/desk/page.html tools/page.py | setup
 
 # A program: what is its own, and the simulator.
 TESTS_OBJ = $(call objects,$(TEST_SRC)) $(B)/gen/test_table.o $(DESK_OBJ) $(SIM_OBJ)
+FUZZED    = csv usd link
 FUZZ_OBJ  = $(call objects,test/fuzz/fuzz.c test/rig/flight_csv.c test/rig/usd_bytes.c test/rig/scratch.c)
 $(PROGRAMS:%=$(B)/bin/%): $(B)/bin/%: $(B)/tools/%.o
 $(B)/bin/bench: $(B)/tools/bench_gap.o
@@ -156,7 +157,8 @@ $(B)/bin/tests $(B)/bin/desk: LIBS += $(DESK_LIBS)
 $(B)/bin/exam: $(call objects,$(EXAM_SRC))
 $(B)/bin/pil-record: $(B)/test/pil/record.o $(B)/test/pil/pil.o
 $(B)/bin/fuzz_csv $(B)/bin/fuzz_usd: $(B)/bin/%: $(B)/test/fuzz/%.o $(FUZZ_OBJ)
-$(B)/bin/fuzz_csv $(B)/bin/fuzz_usd: LINKER = $(CXX) -fsanitize=fuzzer
+$(B)/bin/fuzz_link: $(B)/test/fuzz/fuzz_link.o
+$(FUZZED:%=$(B)/bin/fuzz_%): LINKER = $(CXX) -fsanitize=fuzzer
 LINKER = $(CC)
 $(B)/bin/%: $(SIM_OBJ)
 	@$(link) $(LIBS) -o $@
@@ -246,10 +248,10 @@ clang: setup-lint  ## everything again, and the tests, with clang; minutes
 	@$(TESTS)
 
 FUZZ_S = 60
-fuzz: setup-lint  ## both log readers on any bytes, FUZZ_S=60 seconds each; minutes
-	@$(MAKE) B=$(O)/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(O)/fuzz/bin/fuzz_csv $(O)/fuzz/bin/fuzz_usd
-	@mkdir -p $(O)/fuzz/csv $(O)/fuzz/usd
-	@cd $(O)/fuzz && for log in csv usd; do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
+fuzz: setup-lint  ## both log readers, and a vehicle that flies at the desk, on any bytes, FUZZ_S=60 seconds each; minutes
+	@$(MAKE) B=$(O)/fuzz CC=clang CXX=clang++ OPT='-O1 -g' SANITIZE='-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' $(FUZZED:%=$(O)/fuzz/bin/fuzz_%)
+	@mkdir -p $(FUZZED:%=$(O)/fuzz/%)
+	@cd $(O)/fuzz && for log in $(FUZZED); do bin/fuzz_$$log -max_total_time=$(FUZZ_S) -max_len=4096 -len_control=0 -timeout=5 -rss_limit_mb=512 -verbosity=0 -print_final_stats=1 $$log || exit 1; done
 
 DESK_STORAGE = $(O)/desk.storage
 desk: setup $(O)/desk  ## a simulated Crazyflie that the stock client and library fly, until Ctrl-C (SCENE=FILE.toml)
