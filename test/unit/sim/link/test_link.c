@@ -133,6 +133,31 @@ TEST(link_lists_every_log_and_parameter_once_with_names_that_fit) {
   rig_close(r);
 }
 
+static firmware_row_t of_list[2];
+static firmware_row_t row_of_list(const firmware_t *f, int i) {
+  (void)f;
+  return of_list[i];
+}
+static uint8_t type_in_list(const firmware_row_t *row) {
+  return (uint8_t)row->type;
+}
+
+// Else a client would go by the list that it kept of another build.
+TEST(the_sum_of_a_list_changes_with_each_name_type_and_place) {
+  static const firmware_row_t other[][2] = {
+      {{"ceil", "w1", 6}, {"ceil", "w2", 6}}, {{"ceil", "w1", 6}, {"ceil", "w3", 6}},
+      {{"seil", "w1", 6}, {"ceil", "w2", 6}}, {{"ceil", "w1", 8}, {"ceil", "w2", 6}},
+      {{"ceil", "w2", 6}, {"ceil", "w1", 6}}, {{"ceilw", "1", 6}, {"ceil", "w2", 6}}};
+  const link_list_t list = {.n = 2, .row = row_of_list, .type = type_in_list};
+  const link_t l = {0};
+  uint32_t sum[6];
+  for (int i = 0; i < 6; i++) {
+    memcpy(of_list, other[i], sizeof of_list);
+    sum[i] = link_list_crc(&l, &list);
+    for (int k = 0; k < i; k++) CHECK(sum[i] != sum[k]);
+  }
+}
+
 TEST(link_writes_what_may_be_written_and_tells_what_the_app_put_back) {
   rig_t *const r = rig_open(NULL);
   firmware_t *const f = &r->firmware;

@@ -153,7 +153,8 @@ TEST(app_teaches_nothing_while_the_supervisor_says_it_does_not_fly) {
 
 // It looks 25 times a second.
 TEST(app_hears_that_it_flies_up_to_80_ms_after_the_first_thrust) {
-  for (uint32_t begin = 0; begin < SUPERVISED_PERIOD_MS; begin += 7) {
+  int latest_ms = 0;
+  for (uint32_t begin = 0; begin < SUPERVISED_PERIOD_MS; begin += 4) {
     static flying_t f;
     app_start(&f);
     rig6_param_t body = rig6_crazyflie();
@@ -166,8 +167,10 @@ TEST(app_hears_that_it_flies_up_to_80_ms_after_the_first_thrust) {
       app_fly(&f, 1);
       turned_ms += f.vehicle.around.duty[0] > 0;
     } while (turned_ms < 200 && app_log(&f, "indiIn.noLesson") == 1.0);
-    CHECK(turned_ms > 1 && turned_ms <= 2 * SUPERVISED_PERIOD_MS);
+    CHECK(turned_ms <= 2 * SUPERVISED_PERIOD_MS);
+    latest_ms = turned_ms > latest_ms ? turned_ms : latest_ms;
   }
+  CHECK(latest_ms > SUPERVISED_PERIOD_MS / 2);
 }
 
 // The supervisor finds it on the ground, takes the set point away, and arms it: no pilot has let go.
