@@ -70,6 +70,7 @@
   X(motorPowerSet, enable, uint8_t, STOCK_U8, 0)                                                             \
   X(pm, lowVoltage, float, STOCK_F, 3.2f)                                                                    \
   X(pm, criticalLowVoltage, float, STOCK_F, 3.0f)                                                            \
+  X(led, bitmask, uint8_t, STOCK_U8, 0)                                                                      \
   X(ring, effect, uint8_t, STOCK_U8 | STOCK_P, 6)                                                            \
   X(ring, headlightEnable, uint8_t, STOCK_U8, 0)                                                             \
   X(sound, effect, uint8_t, STOCK_U8, 0)                                                                     \
