@@ -11,7 +11,8 @@ static const char USAGE[] =
     "  --seed N                 of the noise (1)\n"
     "  --drones N               so many, on ports that follow each other (1 to 10)\n"
     "  --port N                 of the first (19850: what the client scans)\n"
-    "  --address A              listens there (127.0.0.1: this machine alone)\n"
+    "  --address A              listens there (127.0.0.1: this machine alone; 0.0.0.0: at every address of "
+    "it)\n"
     "  --page PORT              where a browser sees it (8080; 0: nowhere)\n"
     "  --speed X                times real time (1)\n"
     "  --link KEY=VALUE,...     loss=SHARE,delay=SECONDS of the packets (0)\n"
@@ -22,7 +23,8 @@ static const char USAGE[] =
     "                           flies it anew stands in it), and what was stored before (N.storage)\n"
     "  --for SECONDS            ends by itself after so much simulated time\n"
     "  --version, --help\n"
-    "Ctrl-C ends it; what was logged is whole. Exit status: 0; 2 if the input is bad; 1 if something "
+    "Ctrl-C, SIGTERM or SIGHUP ends it; what was logged is whole. Exit status: 0; 2 if the input is bad; 1 "
+    "if something "
     "fails.\n";
 
 #endif

@@ -1,6 +1,7 @@
 // datagrams.c - the datagrams between one vehicle and its client.
 #include "desk/datagrams.h"
 
+#include "desk/address.h"
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -10,19 +11,27 @@
 
 #define BURST 64 // datagrams taken at once, so that a flood does not stop the flight
 
-done_t datagrams_open(datagrams_t *r, const char *address, int port, uint64_t seed, why_t *why) {
+static bool bound(datagrams_t *r, struct in_addr address, int port) {
+  struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port), .sin_addr = address};
+  socklen_t size = sizeof at;
+  if (bind(r->socket, (const struct sockaddr *)&at, sizeof at) != 0 ||
+      getsockname(r->socket, (struct sockaddr *)&at, &size) != 0)
+    return false;
+  r->port = ntohs(at.sin_port);
+  return true;
+}
+
+done_t datagrams_open(datagrams_t *r, struct in_addr address, int port, uint64_t seed, why_t *why) {
   memset(r, 0, sizeof *r);
-  r->socket = -1;
-  struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
-  if (inet_pton(AF_INET, address, &at.sin_addr) != 1)
-    return error_set(why, "--address %s: allowed is an IPv4 address, as 127.0.0.1", address);
   r->random = random_open(seed ^ 0x52414449u);
   r->socket = socket(AF_INET, SOCK_DGRAM, 0);
-  if (!r->random || r->socket < 0 || fcntl(r->socket, F_SETFL, O_NONBLOCK) < 0)
-    return error_failed(why, "no socket: %s", strerror(errno));
-  if (bind(r->socket, (const struct sockaddr *)&at, sizeof at) == 0) return DONE;
-  return error_set(why, "%s:%d: %s; another --port, or is it running already?", address, port,
-                   strerror(errno));
+  if (r->random && r->socket >= 0 && fcntl(r->socket, F_SETFL, O_NONBLOCK) == 0 && bound(r, address, port))
+    return DONE;
+  const int error = errno;
+  const bool had = r->random && r->socket >= 0;
+  datagrams_close(r);
+  return had ? address_refuse(address, port, "--port", error, why)
+             : error_failed(why, "no socket: %s", strerror(error));
 }
 
 void datagrams_close(datagrams_t *r) {
@@ -66,6 +75,36 @@ static bool same(const struct sockaddr_in *a, const struct sockaddr_in *b) {
   return a->sin_port == b->sin_port && a->sin_addr.s_addr == b->sin_addr.s_addr;
 }
 
+// The first packet of a session.
+static bool begins(const uint8_t *bytes, ssize_t n) {
+  return n == 2 && bytes[0] == 0xfd && bytes[1] == 0;
+}
+
+// What was under way from and to the one before is nothing to this one.
+static void change(datagrams_t *r, const struct sockaddr_in *client) {
+  r->lost += (uint32_t)(r->up.n + r->down.n);
+  r->up.n = r->down.n = 0;
+  r->changed = r->has_client;
+  r->client = *client;
+  r->has_client = true;
+}
+
+static void hear(datagrams_t *r, const struct sockaddr_in *from, const uint8_t *bytes, ssize_t n,
+                 double wall_s, uint32_t now_ms) {
+  const bool known = r->has_client && same(from, &r->client);
+  if (n == 1 && bytes[0] == 0xff && !known) {
+    (void)!sendto(r->socket, bytes, 1, 0, (const struct sockaddr *)from, sizeof *from);
+    return;
+  }
+  if (n == 0 || (r->has_client && !known && !begins(bytes, n))) {
+    r->dropped++;
+    return;
+  }
+  if (!known) change(r, from);
+  r->heard_s = wall_s;
+  put(r, &r->up, bytes, (int)n, now_ms);
+}
+
 void datagrams_listen(datagrams_t *r, double wall_s, uint32_t now_ms) {
   uint8_t bytes[DATAGRAMS_BYTES];
   struct sockaddr_in from;
@@ -74,17 +113,7 @@ void datagrams_listen(datagrams_t *r, double wall_s, uint32_t now_ms) {
     const ssize_t n = recvfrom(r->socket, bytes, sizeof bytes, 0, (struct sockaddr *)&from, &length);
     if (n < 0 && errno == ECONNREFUSED) continue; // of something sent before to a client that has gone
     if (n < 0) return;
-    const bool scans = n == 1 && bytes[0] == 0xff;
-    if (scans && r->has_client && !same(&from, &r->client)) {
-      // Somebody looks who is there: the client that flies it stays.
-      (void)!sendto(r->socket, bytes, 1, 0, (const struct sockaddr *)&from, sizeof from);
-      continue;
-    }
-    r->changed = r->changed || (r->has_client && !same(&from, &r->client));
-    r->client = from;
-    r->has_client = true;
-    r->heard_s = wall_s;
-    put(r, &r->up, bytes, (int)n, now_ms);
+    hear(r, &from, bytes, n, wall_s, now_ms);
   }
 }
 

@@ -1,7 +1,10 @@
 // datagrams.h - the datagrams between one vehicle and its client: a UDP socket, and what the air in between
 // loses, delays and puts out of order.
 //
-// One client at a time: who sent last. Who has sent nothing for DATAGRAMS_SILENT_S has gone.
+// One client at a time. Another one takes its place with the first packet of a session, a request for the
+// source (15.1 with a 0), or with any packet once the one before has sent nothing for DATAGRAMS_SILENT_S and
+// so has gone. Who only looks who is there (a byte 0xFF) gets it back; whatever else comes from elsewhere is
+// dropped.
 #ifndef SIM_DESK_DATAGRAMS_H
 #define SIM_DESK_DATAGRAMS_H
 
@@ -28,18 +31,19 @@ typedef struct {
 } air_t;
 
 typedef struct {
-  int socket;
+  int socket, port;
   struct sockaddr_in client;
   bool has_client, changed; // another one came in its place
   double heard_s;           // last, by the clock on the wall
   air_t up, down;
   random_t *random;
-  double loss, delay_s; // share of packets; each is delayed by half to one and a half times this
-  uint32_t lost;
+  double loss, delay_s;   // share of packets; each is delayed by half to one and a half times this
+  uint32_t lost, dropped; // in the air; of others than the client, or empty
 } datagrams_t;
 
-// BAD_INPUT: the address is none, or the port is in use. FAILED: no memory, no socket.
-MUST_CHECK done_t datagrams_open(datagrams_t *r, const char *address, int port, uint64_t seed, why_t *why);
+// Port 0: any that is free. BAD_INPUT: it cannot be listened on. FAILED: no memory, no socket. On error there
+// is nothing to close.
+MUST_CHECK done_t datagrams_open(datagrams_t *r, struct in_addr address, int port, uint64_t seed, why_t *why);
 void datagrams_close(datagrams_t *r);
 
 // Takes what has come from the socket. wall_s: the clock.

@@ -3,6 +3,7 @@
 #include "desk/http.h"
 
 #include "base/number.h"
+#include "desk/address.h"
 #include "desk/page.h"
 
 #include <arpa/inet.h>
@@ -154,15 +155,16 @@ static bool host_is(const char *host, const char *name, int port) {
   return strcasecmp(host, full) == 0 || (port == 80 && strcasecmp(host, name) == 0);
 }
 
-static bool asks_us(connection_t *c, int port) {
+// address: what the connection came to.
+static bool asks_us(connection_t *c, int port, char address[ADDRESS_TEXT]) {
   const char *const host = header(c, MHD_HTTP_HEADER_HOST);
   const union MHD_ConnectionInfo *const info = MHD_get_connection_info(c, MHD_CONNECTION_INFO_CONNECTION_FD);
   struct sockaddr_in came_to;
   socklen_t size = sizeof came_to;
-  char address[INET_ADDRSTRLEN];
-  if (!host || !info || getsockname(info->connect_fd, (struct sockaddr *)&came_to, &size) != 0) return false;
-  return (inet_ntop(AF_INET, &came_to.sin_addr, address, sizeof address) && host_is(host, address, port)) ||
-         host_is(host, "localhost", port);
+  strcpy(address, "localhost");
+  if (!info || getsockname(info->connect_fd, (struct sockaddr *)&came_to, &size) != 0) return false;
+  inet_ntop(AF_INET, &came_to.sin_addr, address, ADDRESS_TEXT);
+  return host && (host_is(host, address, port) || host_is(host, "localhost", port));
 }
 
 // The host was looked at already.
@@ -218,7 +220,12 @@ static result_t take_word(void *context, enum MHD_ValueKind kind, const char *ke
 static result_t begin(const http_t *http, connection_t *c, const char *path, const char *method,
                       void **request) {
   const route_t *const at = route_of(path);
-  if (!asks_us(c, http->port)) return say(c, MHD_HTTP_FORBIDDEN, "another host's name than this one's");
+  char address[ADDRESS_TEXT], line[128];
+  if (!asks_us(c, http->port, address)) {
+    snprintf(line, sizeof line, "another host's name than this one's; allowed: %s:%d, localhost:%d", address,
+             http->port, http->port);
+    return say(c, MHD_HTTP_FORBIDDEN, line);
+  }
   if (!at) return say(c, MHD_HTTP_NOT_FOUND, "there are: / /state /set");
   if (!is_method(at, method)) return wrong_method(c, at);
   const bool post = strcmp(method, "POST") == 0;
@@ -266,14 +273,8 @@ static void forget(void *context, connection_t *c, void **request, enum MHD_Requ
 // --- the server -------------------------------------------------------------------------------------------
 
 // A socket that listens; *port gets the one that it is.
-static done_t listens(int *fd, const char *address, int *port, why_t *why) {
-  char shown[NUMBER_SHOWN];
-  struct sockaddr_in at = {.sin_family = AF_INET};
-  if (!(*port >= 0 && *port <= 65535)) return error_set(why, "port %d: allowed: 0 to 65535", *port);
-  if (inet_pton(AF_INET, address, &at.sin_addr) != 1)
-    return error_set(why, "address %s: allowed: an IPv4 address, as 127.0.0.1", number_shown(address, shown));
-  at.sin_port = htons((uint16_t)*port);
-
+static done_t listens(int *fd, struct in_addr address, int *port, why_t *why) {
+  struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((uint16_t)*port), .sin_addr = address};
   *fd = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (*fd < 0) return error_failed(why, "no socket: %s", strerror(errno));
   // What a server before this one left waiting is no other server.
@@ -287,9 +288,7 @@ static done_t listens(int *fd, const char *address, int *port, why_t *why) {
   }
   const int error = errno;
   close(*fd);
-  return error_set(why, "%s:%d: %s", address, *port,
-                   error == EADDRINUSE ? "in use by another program; allowed: a port that is free"
-                                       : strerror(error));
+  return address_refuse(address, *port, "--page (0: none)", error, why);
 }
 
 // The library's own epoll would do, but that it sleeps over the end of a connection that comes with its last
@@ -324,7 +323,7 @@ static struct MHD_Daemon *start(http_t *h, int fd) {
                           MHD_OPTION_END);
 }
 
-done_t http_open(http_t **http, const char *address, int port, const http_answers_t *answers, why_t *why) {
+done_t http_open(http_t **http, struct in_addr address, int port, const http_answers_t *answers, why_t *why) {
   int fd = -1;
   TRY(listens(&fd, address, &port, why));
   http_t *const h = calloc(1, sizeof *h);
@@ -337,7 +336,7 @@ done_t http_open(http_t **http, const char *address, int port, const http_answer
     close(fd);
     if (h && h->epoll >= 0) close(h->epoll);
     free(h);
-    return error_failed(why, "%s:%d: no server: out of memory or of descriptors", address, port);
+    return error_failed(why, "--page %d: no server: out of memory or of descriptors", port);
   }
   watch(h);
   *http = h;

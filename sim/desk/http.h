@@ -7,12 +7,13 @@
 //
 // A page of somebody else's in the same browser can neither read nor set: the Host header must name the
 // address that the connection came to, or localhost, with the port; a POST that says its Origin must come
-// from there; nothing is said about other origins (403). What is not there is 404, another method 405, a body
-// of more than 1 kB 413, one of unknown length 411.
+// from there; nothing is said about other origins (403 says which host is allowed). What is not there is 404,
+// another method 405, a body of more than 1 kB 413, one of unknown length 411.
 #ifndef SIM_DESK_HTTP_H
 #define SIM_DESK_HTTP_H
 
 #include "base/error.h"
+#include <netinet/in.h>
 
 typedef struct http http_t;
 
@@ -26,9 +27,9 @@ typedef struct {
   const char *(*set)(void *context, int drone, const char *name, double value);
 } http_answers_t;
 
-// Listens on an IPv4 address and a port, 0: any that is free. answers stays the caller's, until http_close.
+// Listens on an address and a port, 0: any that is free. answers stays the caller's, until http_close.
 // BAD_INPUT: it cannot be listened on, and why. FAILED: memory.
-MUST_CHECK done_t http_open(http_t **http, const char *address, int port, const http_answers_t *answers,
+MUST_CHECK done_t http_open(http_t **http, struct in_addr address, int port, const http_answers_t *answers,
                             why_t *why);
 
 // The port that is listened on.
