@@ -143,7 +143,7 @@ static char *tell_page(void *context) {
   cJSON *const drones = cJSON_AddArrayToObject(all, "drones");
   for (int i = 0; i < room->n; i++) {
     const place_t *const p = &room->place[i];
-    const seen_as_t as = {p->uri, p->radio.has_client, APART_M * i};
+    const seen_as_t as = {p->uri, &p->radio, APART_M * i};
     cJSON_AddItemToArray(drones, state_of(&p->drone, &as));
   }
   char *const text = cJSON_PrintUnformatted(all);
@@ -196,15 +196,16 @@ static void say(const order_t *o, const char *uri) {
   puts(".");
   if (address_is_every(o->places.address))
     printf("Another machine types this one's own address in place of %s.\n", near);
-  printf(
-      "Its stock controller flies until ceil.shadow is 0 (src/firmware/README.md). Try, in another "
-      "terminal:\n"
-      "  cfclient                                          Scan finds it; the parameters `desk` disturb it\n"
-      "  tools/cf.py --uri %s params set ceil.shadow=0\n"
-      "  tools/cf.py --uri %s learn         learns the ceiling\n"
-      "  tools/cf.py --uri %s monitor       shows what it thinks\n"
-      "Ctrl-C ends it.\n",
-      uri, uri, uri);
+  printf("Its stock controller flies until ceil.shadow is 0 (src/firmware/README.md). Try, in another "
+         "terminal:\n"
+         "  make setup-cf                                # first: the stock library, into out/cf; a minute\n"
+         "  out/cf/bin/python tools/cf/hop.py %s   # takes off, goes 30 cm, lands\n"
+         "  out/cf/bin/python tools/cf.py --uri %s params set ceil.shadow=0\n"
+         "  out/cf/bin/python tools/cf.py --uri %s learn   # the ceiling; 90 s\n"
+         "  cfclient                                     # pip install cfclient; Scan finds it, and its\n"
+         "                                               # parameters `desk` disturb it\n"
+         "Ctrl-C ends it.\n",
+         uri, uri, uri);
   fflush(stdout);
 }
 

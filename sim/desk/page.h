@@ -12,7 +12,9 @@
 //     "ratio": [4 numbers], "motor": [4 of 0..1], "weights": [7 numbers],
 //     "guard_now": ["words"], "guard_latched": ["words"],
 //     "state": "Flying", "controller": "app", "vbat_V": 4.1,
-//     "clients": 1, "packets_in": 0, "packets_out": 0, "dropped": 0,
+//     "clients": 1, "packets_in": 0, "packets_out": 0,
+//     "lost": 0, "no_room": 0,                    packets: in the air, and answers too many to be kept
+//     "dropped": 0, "strays": 0,                  not understood; of others than the client
 //     "desk": [{"name": "ceiling", "value": 1.5, "min": 0.2, "max": 4.0, "unit": "m",
 //               "what": "height of the ceiling", "kind": "number" or "switch"}]}]}
 //

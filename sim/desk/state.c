@@ -81,6 +81,16 @@ static void add_desk(cJSON *to, const drone_t *d) {
   }
 }
 
+static void add_link(cJSON *to, const link_t *link, const datagrams_t *radio) {
+  add(to, "clients", radio->has_client);
+  add(to, "packets_in", link->in);
+  add(to, "packets_out", link->out);
+  add(to, "lost", radio->lost);
+  add(to, "no_room", link->lost);
+  add(to, "dropped", link->dropped);
+  add(to, "strays", radio->dropped);
+}
+
 cJSON *state_of(const drone_t *d, const seen_as_t *as) {
   cJSON *const to = cJSON_CreateObject();
   if (!to) return NULL;
@@ -92,10 +102,7 @@ cJSON *state_of(const drone_t *d, const seen_as_t *as) {
   cJSON_AddStringToObject(to, "state", supervised_words(d->firmware.vehicle.supervised.state));
   cJSON_AddStringToObject(to, "controller", who_flies(&d->firmware));
   add(to, "vbat_V", (double)d->firmware.vehicle.around.battery_V);
-  add(to, "clients", as->clients);
-  add(to, "packets_in", d->link.in);
-  add(to, "packets_out", d->link.out);
-  add(to, "dropped", d->link.dropped);
+  add_link(to, &d->link, as->radio);
   add_desk(to, d);
   return to;
 }

@@ -2,12 +2,13 @@
 #ifndef SIM_DESK_STATE_H
 #define SIM_DESK_STATE_H
 
+#include "desk/datagrams.h"
 #include "drone/drone.h"
 #include <cjson/cJSON.h>
 
 typedef struct {
   const char *uri;
-  int clients;
+  const datagrams_t *radio;
   double beside_m; // where its place is on the page, along y
 } seen_as_t;
 

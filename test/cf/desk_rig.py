@@ -2,14 +2,15 @@
 
 import contextlib
 import os
+import socket
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 DESK = ROOT / os.environ.get("O", "out") / "desk"
-PORT = 19871  # not the one that a person's own desk has
 
 try:
     import cflib.crtp
@@ -22,13 +23,26 @@ except ImportError:
     cflib = None
 
 
+def free_port(kind: socket.SocketKind = socket.SOCK_DGRAM) -> int:
+    """Of this machine, one that nobody listens on."""
+    with socket.socket(socket.AF_INET, kind) as taken:
+        taken.bind(("127.0.0.1", 0))
+        return taken.getsockname()[1]
+
+
+def start(*options: object) -> subprocess.Popen:
+    """A desk that is on; who starts it ends it."""
+    running = subprocess.Popen(list(map(str, [DESK, *options])), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout.readline().startswith("A simulated Crazyflie"), running.communicate(timeout=10)
+    return running
+
+
 @contextlib.contextmanager
-def desk(*options: object, port: int = PORT):
+def desk(*options: object):
     """A desk that is on, and its URI."""
-    command = [DESK, "--port", port, "--page", 0, *options]
-    running = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True)
+    port = free_port()
+    running = start("--port", port, "--page", 0, *options)
     try:
-        assert running.stdout.readline().startswith("A simulated Crazyflie"), "the desk does not start"
         yield f"udp://127.0.0.1:{port}"
     finally:
         running.terminate()
@@ -43,6 +57,15 @@ class AtTheDesk(unittest.TestCase):
         cflib.crtp.CLASSES[:] = [UdpDriver]
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.uri = self.enterContext(desk(*self.OPTIONS))
+
+    def cf(self, *words: object, status: int = 0) -> str:
+        """A command of tools/cf.py, and what it says."""
+        ran = subprocess.run(self.typed(*words), capture_output=True, text=True, timeout=200, cwd=self.folder)
+        self.assertEqual(ran.returncode, status, ran.stderr)
+        return ran.stdout if status == 0 else ran.stderr
+
+    def typed(self, *words: object) -> list[str]:
+        return list(map(str, [sys.executable, "-u", ROOT / "tools" / "cf.py", "--uri", self.uri, *words]))
 
     @contextlib.contextmanager
     def flown(self):

@@ -13,7 +13,9 @@ import unittest
 import urllib.request
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "cf"))
 import browser
+from desk_rig import free_port
 
 DESK = Path(os.environ.get("PROGRAMS", "out/release/bin")) / "desk"
 SIZES = (("wide", 1280, 800, False), ("narrow", 420, 800, True))
@@ -24,17 +26,11 @@ PAINTED = """[...document.querySelectorAll('canvas')].every((c) => {
   return p.some((colour) => colour !== p[0]); })"""
 
 
-def free_port(kind: socket.SocketKind) -> int:
-    with socket.socket(socket.AF_INET, kind) as taken:
-        taken.bind(("127.0.0.1", 0))
-        return taken.getsockname()[1]
-
-
 class Desk:
     """The program, on ports that are free."""
 
     def __init__(self) -> None:
-        self.port = free_port(socket.SOCK_DGRAM)
+        self.port = free_port()
         command = [DESK, "--port", str(self.port), "--page", str(free_port(socket.SOCK_STREAM))]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         said = ""
@@ -144,6 +140,8 @@ class TestPage(unittest.TestCase):
                     self.assertIn(row["what"].lower(), text.lower())
                 self.assertIn(drone["uri"], text)
                 self.assertIn(drone["state"], text)
+                self.assertIn("0 in the air, 0 for want of room", text)
+                self.assertIn("0 not understood, 0 from elsewhere", text)
                 self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), width)
                 # What can be pressed is large enough and within the page.
                 for x, right, high in self.browser.value(

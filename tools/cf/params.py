@@ -12,6 +12,7 @@ from .terminal import say
 from .weights import read_once
 
 COUNTS = ("ceil.commits", "ceil.noCommit")
+RESTART = "desk.restart"  # of a simulated one (sim/desk)
 
 WHOLE = {
     "uint8_t": (0, 255),
@@ -83,6 +84,11 @@ def set_all(vehicle: Craft, texts: list[str]) -> None:
     for name, value in [parse(text, rows) for text in texts]:
         if name == "ceil.commit":
             _commit(vehicle, int(value))
+            continue
+        if name == RESTART:
+            vehicle.set(name, value)
+            vehicle.sleep(1.0)  # it goes back to 0 by itself, and the app has made its checks
+            say(f"{name} {value:g} taken")
             continue
         vehicle.set(name, value)
         vehicle.sleep(0.05)  # the app judges it within a few milliseconds

@@ -103,6 +103,7 @@ RECIPES = {
     "logs": Recipe(says("fly", "--logs"), markdown=True),
     "image": Recipe(image),
     "pil": Recipe(target),
+    "hop": Recipe(lambda: print("```python", Path("tools/cf/hop.py").read_text() + "```", sep="\n"), markdown=True),
     "cf": Recipe(lambda: typed("tools/cf.py test-flight --dry-run")),
     "demo": Recipe(demo.demo, data=True, leaves_out=rf"{re.escape(run.DATA)}/\S*/|{run.NO_PICTURES}"),
     "gap": Recipe(gap.example, data=True, leaves_out=r", \d+ x real time"),

@@ -54,26 +54,27 @@ static int through(datagrams_t *r, uint32_t now_ms, int *number, int most) {
   return n;
 }
 
+static const uint8_t much[200] = {0xfd};
+static const struct {
+  const char *what;
+  const uint8_t *bytes;
+  size_t size;
+  bool takes;
+  int answer;
+  uint32_t dropped;
+} stray[] = {
+    {"an empty one", begins, 0, false, -1, 1},
+    {"a scan", scans, 1, false, 0xff, 0},
+    {"an echo", asks, 2, false, -1, 1},
+    {"another request of the source's port", other_source, 2, false, -1, 1},
+    {"the request without its 0", begins, 1, false, -1, 1},
+    {"one that is too long", much, sizeof much, false, -1, 1},
+    {"what a session begins with", begins, 2, true, -1, 0},
+};
+
 TEST(datagrams_a_client_stays_whatever_comes_from_elsewhere) {
-  static const uint8_t much[200] = {0xfd};
-  static const struct {
-    const char *what;
-    const uint8_t *bytes;
-    size_t size;
-    bool takes;
-    int answer;
-    uint32_t dropped;
-  } row[] = {
-      {"an empty one", begins, 0, false, -1, 1},
-      {"a scan", scans, 1, false, 0xff, 0},
-      {"an echo", asks, 2, false, -1, 1},
-      {"another request of the source's port", other_source, 2, false, -1, 1},
-      {"the request without its 0", begins, 1, false, -1, 1},
-      {"one that is too long", much, sizeof much, false, -1, 1},
-      {"what a session begins with", begins, 2, true, -1, 0},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof stray / sizeof *stray; i++) {
+    ROW("%s", stray[i].what);
     datagrams_t r;
     int got[4];
     if (!opened(&r, 1)) return;
@@ -83,16 +84,16 @@ TEST(datagrams_a_client_stays_whatever_comes_from_elsewhere) {
     CHECK_NEAR(through(&r, 0, got, 4), 1, 0);
     CHECK(!datagrams_left(&r, 0.0));
 
-    say(second, row[i].bytes, row[i].size);
+    say(second, stray[i].bytes, stray[i].size);
     datagrams_listen(&r, 0.1, 100);
-    CHECK(datagrams_left(&r, 0.1) == row[i].takes);
+    CHECK(datagrams_left(&r, 0.1) == stray[i].takes);
     CHECK(!datagrams_left(&r, 0.1));
-    CHECK_NEAR(through(&r, 100, got, 4), row[i].takes, 0);
-    CHECK_NEAR(r.dropped, row[i].dropped, 0);
-    CHECK_NEAR(heard(second), row[i].answer, 0);
+    CHECK_NEAR(through(&r, 100, got, 4), stray[i].takes, 0);
+    CHECK_NEAR(r.dropped, stray[i].dropped, 0);
+    CHECK_NEAR(heard(second), stray[i].answer, 0);
     tell(&r, 9, 100);
-    CHECK_NEAR(heard(first), row[i].takes ? -1 : 9, 0);
-    CHECK_NEAR(heard(second), row[i].takes ? 9 : -1, 0);
+    CHECK_NEAR(heard(first), stray[i].takes ? -1 : 9, 0);
+    CHECK_NEAR(heard(second), stray[i].takes ? 9 : -1, 0);
     close(first);
     close(second);
     datagrams_close(&r);

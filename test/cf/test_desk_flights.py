@@ -1,0 +1,67 @@
+"""What tools/cf.py flies at the desk: it learns a ceiling, holds 3 cm below it with that, and the space bar stops it."""
+
+import csv
+import os
+import re
+import subprocess
+import time
+import unittest
+
+from desk_rig import AtTheDesk, desk
+
+NEAR_M, HOLD_S = 0.03, 4
+
+
+class Flights(AtTheDesk):
+    def test_in_shadow_it_does_not_learn(self) -> None:
+        self.assertIn("ceil.shadow is 1", self.cf("learn", status=1))
+
+    def held_m(self) -> list[float]:
+        """The true gaps while the nearest height was commanded, but for its first second."""
+        with (self.folder / "flown" / "0.csv").open() as log:
+            rows = [row for row in csv.DictReader(log) if row["indiSet.modeZ"] == "1"]
+        highest_m = max(float(row["indiSet.z"]) for row in rows)
+        return [float(row["sim.gap"]) for row in rows if float(row["indiSet.z"]) > highest_m - 1e-3][100:]
+
+    def test_it_learns_a_ceiling_and_the_next_day_holds_3_cm_below_it(self) -> None:
+        storage = self.folder / "storage"
+        with desk("--storage", storage) as self.uri:
+            self.cf("params", "set", "ceil.shadow=0")
+            learned = self.cf("learn", "--hold", 3)
+            self.assertEqual(len(re.findall(r"ceil\.w\d = (\S+)", learned)), 7)
+            self.assertIn("the weights are stored", learned)
+        with desk("--storage", storage, "--log", self.folder / "flown") as self.uri:
+            self.cf("params", "set", "ceil.shadow=0", "ceil.mode=1")
+            flown = self.cf("test-flight", "--gaps", "9,3", "--hold", HOLD_S, "--log", "flight.csv")
+        self.assertIn("latched reasons of the guard: 0x0", flown)
+        self.assertGreater(len((self.folder / "flight.csv").read_text().splitlines()), 500)
+        gaps_m = self.held_m()
+        self.assertGreater(len(gaps_m), 100 * (HOLD_S - 2))
+        self.assertAlmostEqual(sum(gaps_m) / len(gaps_m), NEAR_M, delta=0.005)
+        self.assertGreater(min(gaps_m), 0.0)
+
+    def test_the_space_bar_stops_the_motors_and_it_falls(self) -> None:
+        self.cf("params", "set", "ceil.shadow=0")
+        typist, terminal = os.openpty()
+        self.addCleanup(os.close, typist)
+        words = self.typed("test-flight", "--gaps", 9, "--hold", 1)
+        flying = subprocess.Popen(words, stdin=terminal, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(flying.kill)
+        os.close(terminal)
+        while not (line := flying.stdout.readline()).startswith("take-off"):
+            self.assertTrue(line, "it does not take off")
+        time.sleep(2.0)
+        os.write(typist, b" ")
+        _, said = flying.communicate(timeout=20)
+        self.assertEqual(flying.returncode, 1)
+        self.assertIn("stopped by hand: the motors were cut", said)
+        time.sleep(1.0)
+        with self.flown() as connected:
+            seen = self.logged(connected, 0.0, "desk.z", "motor.m1", "supervisor.info")[0]
+        self.assertLess(seen["desk.z"], 0.1)
+        self.assertEqual(seen["motor.m1"], 0)
+        self.assertTrue(seen["supervisor.info"] & 1 << 6, "it is not locked")
+
+
+if __name__ == "__main__":
+    unittest.main()
