@@ -14,6 +14,8 @@ _Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
 struct integrate {
   integrate_kind_t kind;
   ode_t ode;
+  double span_s, h; // by hand: the last span, and the step that it was cut into
+  int steps;
   SUNContext sun;
   N_Vector y; // SUNDIALS's own copy of the state
   void *erk;
@@ -21,6 +23,7 @@ struct integrate {
 
 // --- by hand ------------------------------------------------------------------------------------------
 
+// next may be y.
 static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
   const int n = ode->n;
   double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
@@ -49,13 +52,27 @@ static double rk4_until_event(const ode_t *ode, const double *y, double h, doubl
   return hi;
 }
 
-static double rk4_to(const ode_t *ode, double *y, double span_s, bool *event) {
-  const int steps = (int)ceil(span_s / ode->step_s - 1e-9);
-  const double h = span_s / steps;
+// Spans are of few lengths.
+static void rk4_cut(integrate_t *s, double span_s) {
+  if (span_s == s->span_s) return;
+  s->span_s = span_s;
+  s->steps = (int)ceil(span_s / s->ode.step_s - 1e-9);
+  s->h = span_s / s->steps;
+}
+
+static double rk4_to(integrate_t *s, double *y, double span_s, bool *event) {
+  const ode_t *const ode = &s->ode;
+  rk4_cut(s, span_s);
+  const int steps = s->steps;
+  const double h = s->h;
+  if (!ode->margin) {
+    for (int i = 0; i < steps; i++) rk4_step(ode, y, h, y);
+    return span_s;
+  }
   double next[ODE_MAX], passed_s = 0.0;
   for (int i = 0; i < steps && !*event; i++) {
     rk4_step(ode, y, h, next);
-    *event = ode->margin && !(ode->margin(ode->context, next) > 0.0);
+    *event = !(ode->margin(ode->context, next) > 0.0);
     passed_s += *event ? rk4_until_event(ode, y, h, next) : h;
     memcpy(y, next, (size_t)ode->n * sizeof *y);
   }
@@ -162,7 +179,7 @@ done_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode) 
 double integrate_to(integrate_t *s, double *y, double span_s, bool *event) {
   *event = s->ode.margin && !(s->ode.margin(s->ode.context, y) > 0.0);
   if (*event || !(span_s > 0.0)) return 0.0;
-  return s->kind == INTEGRATE_RK4 ? rk4_to(&s->ode, y, span_s, event) : erk_to(s, y, span_s, event);
+  return s->kind == INTEGRATE_RK4 ? rk4_to(s, y, span_s, event) : erk_to(s, y, span_s, event);
 }
 
 void integrate_close(integrate_t *s) {

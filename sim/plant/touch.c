@@ -54,9 +54,10 @@ static bool is_near(const touch_t *t, side_t side, double margin_m) {
 }
 
 int touch_near(const touch_t *t, d3_t pos_w_m, const axes_t *axes, double margin_m) {
+  const bool wall = t->wall_y_m < HUGE_VAL && t->wall_y_m > -HUGE_VAL; // most vehicles know of none
   return (is_near(t, floor_of(t, pos_w_m, axes), margin_m) ? TOUCH_FLOOR : 0) |
          (is_near(t, ceiling_of(t, pos_w_m, axes), margin_m) ? TOUCH_CEILING : 0) |
-         (is_near(t, wall_of(t, pos_w_m, axes), margin_m) ? TOUCH_WALL : 0);
+         (wall && is_near(t, wall_of(t, pos_w_m, axes), margin_m) ? TOUCH_WALL : 0);
 }
 
 // How far a disc's nearest point towards the surface lies from its centre, times `to`.
