@@ -1,9 +1,11 @@
 // short_vector.c - vectors of a few numbers for SUNDIALS.
 #include "plant/short_vector.h"
 
+#include "base/pair.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
-#include <string.h>
+
+#define TERMS_MAX 16 // the state and the stages of the longest table, 13
 
 // All vectors of one integrator are of one length. Arguments may be one and the same vector: element by
 // element that does no harm.
@@ -17,10 +19,7 @@ static void scale(realtype c, N_Vector x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   const realtype *in = NV_DATA_S(x);
   realtype *out = NV_DATA_S(z);
-  if (c == 1.0)
-    memmove(out, in, (size_t)n * sizeof *out);
-  else
-    for (sunindextype i = 0; i < n; i++) out[i] = c * in[i];
+  for (sunindextype i = 0; i < n; i++) out[i] = c * in[i];
 }
 
 static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
@@ -30,16 +29,30 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
   for (sunindextype i = 0; i < n; i++) out[i] = a * p[i] + b * q[i];
 }
 
-// c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
+// Of the elements i and i + 1; alone: there is no other.
+static inline pair_t sum_at(int terms, const realtype *factor, const realtype *const *in, sunindextype i,
+                            bool alone) {
+  pair_t sum = pair_both(0.0);
+  for (int k = 0; k < terms; k++) sum += factor[k] * (alone ? pair_both(in[k][i]) : pair_of(in[k] + i));
+  return sum;
+}
+
+// c1 x1 + c2 x2 + ..., from left to right, in pairs. A term with factor 0 is left out: of a table's stages,
+// half are.
 static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
-  realtype sum[SHORT_VECTOR_MAX] = {0.0};
+  const realtype *in[TERMS_MAX];
+  realtype factor[TERMS_MAX], *const out = NV_DATA_S(z);
+  int used = 0;
+  if (terms > TERMS_MAX) return -1;
   for (int k = 0; k < terms; k++) {
     if (c[k] == 0.0) continue;
-    const realtype factor = c[k], *in = NV_DATA_S(x[k]);
-    for (sunindextype i = 0; i < n; i++) sum[i] += factor * in[i];
+    factor[used] = c[k];
+    in[used++] = NV_DATA_S(x[k]);
   }
-  memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
+  sunindextype i = 0;
+  for (; i + 1 < n; i += 2) pair_put(out + i, sum_at(used, factor, in, i, false));
+  if (i < n) out[i] = sum_at(used, factor, in, i, true)[0];
   return 0;
 }
 
