@@ -10,7 +10,7 @@
 
 typedef enum {
   INTEGRATE_SUNDIALS,  // ERKStep, fixed step, classic four-stage table: the one to fly with
-  INTEGRATE_RK4,       // the same method by hand: the cross-check, and six times as fast
+  INTEGRATE_RK4,       // the same method by hand: the cross-check, and faster
   INTEGRATE_REFERENCE, // ERKStep, order 5, adaptive, rtol 1e-9, atol 1e-11: what the others are judged by
 } integrate_kind_t;
 

@@ -55,6 +55,13 @@ def identify() -> None:
     typed(f'{OUT}/effectiveness "$DATA/inner_loop_id/data_1901.csv" --as-stock')
 
 
+def bench_fast() -> None:
+    fast = OUT / "fast/bin/bench"
+    if not fast.is_file():
+        raise run.Left("make fast was not run")
+    print(program(fast, "loop"), end="")
+
+
 def image() -> None:
     size = OUT / "firmware/size"
     if not size.is_file():
@@ -112,6 +119,7 @@ RECIPES = {
     "mass-flights": Recipe(gap.mass_flights),
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
+    "bench-fast": Recipe(bench_fast),
     "closest": Recipe(closest),
     "noise": Recipe(noise),
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
