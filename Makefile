@@ -276,7 +276,7 @@ compile_commands: setup  ## out/compile_commands.json, for an editor or clang-ti
 format: setup-lint  ## bring every source into the one format; seconds
 	@clang-format -i $$(find include src sim test tools -name '*.[ch]' -o -name '*.cpp' -o -name '*.hpp')
 
-docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/bound $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md (W=word: those whose name has it); an hour
+docs: setup $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/slot $(O)/bench $(O)/bound $(O)/desk $(O)/exam $(B)/bin/tests  ## write the tables and figures of every README.md (W=word: those whose name has it); an hour
 	+@$(DOC) write $(W)
 
 pictures: demo  ## draw the READMEs' pictures into .doc; a minute

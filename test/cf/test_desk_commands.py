@@ -82,7 +82,8 @@ class FlownAnew(unittest.TestCase):
                 recorded = (folder / "0.commands").read_text()
                 again = re.search("# flown anew by: (.*)", recorded)[1].replace("FILE.csv", f"{made}/again.csv")
                 self.assertTrue(again.startswith("out/fly "))
-                subprocess.run(again.replace("out/fly", str(DESK.with_name("fly")), 1), shell=True, check=True)
+                again = again.replace("out/fly", str(DESK.with_name("fly")), 1)
+                subprocess.run(again, shell=True, check=True, stdout=subprocess.DEVNULL)
                 rows = [(folder / name).read_text().splitlines() for name in ("0.csv", "again.csv")]
                 both = min(map(len, rows))
                 self.assertGreater(both, 400 * speed)

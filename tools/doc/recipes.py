@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import bound
 import demo
+import desk
 import flights
 import gap
 import laws
@@ -120,6 +121,7 @@ RECIPES = {
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
     "bench-fast": Recipe(bench_fast),
+    "desk": Recipe(desk.load),
     "closest": Recipe(closest),
     "noise": Recipe(noise),
     "flights": Recipe(flights.flights, leaves_out=run.NO_PICTURES),
