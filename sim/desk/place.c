@@ -76,6 +76,19 @@ static done_t open_files(place_t *p, const place_order_t *o, int number, uint64_
   return DONE;
 }
 
+done_t place_flush(place_t *p, why_t *why) {
+  if (p->log && (fflush(p->log) != 0 || ferror(p->log))) return not_whole(p->log_path, why);
+  if (p->commands && (fflush(p->commands) != 0 || ferror(p->commands)))
+    return not_whole(p->commands_path, why);
+  return DONE;
+}
+
+static done_t tick(place_t *p, why_t *why) {
+  const done_t status = drone_tick(&p->drone, why);
+  if (status != DONE) TRY(place_flush(p, why)); // names the file, if it is one
+  return status;
+}
+
 static done_t open_all(place_t *p, const place_order_t *o, int number, why_t *why) {
   char near[ADDRESS_TEXT];
   scene_t scene = *o->scene;
@@ -84,7 +97,7 @@ static done_t open_all(place_t *p, const place_order_t *o, int number, why_t *wh
   snprintf(p->uri, sizeof p->uri, "udp://%s:%d", address_near(o->address, near), p->radio.port);
   if (o->log) TRY(open_files(p, o, number, scene.seed, why));
   TRY(drone_open(&p->drone, &scene, number == 0 ? o->storage : NULL, p->log, p->commands, why));
-  while (drone_now_ms(&p->drone) < PLACE_BOOT_MS) TRY(drone_tick(&p->drone, why));
+  while (drone_now_ms(&p->drone) < PLACE_BOOT_MS) TRY(tick(p, why));
   return DONE;
 }
 
@@ -107,13 +120,6 @@ done_t place_close(place_t *p, why_t *why) {
   return log != DONE ? log : commands != DONE ? commands : flown;
 }
 
-done_t place_flush(place_t *p, why_t *why) {
-  if (p->log && (fflush(p->log) != 0 || ferror(p->log))) return not_whole(p->log_path, why);
-  if (p->commands && (fflush(p->commands) != 0 || ferror(p->commands)))
-    return not_whole(p->commands_path, why);
-  return DONE;
-}
-
 static void exchange(place_t *p) {
   const uint32_t now_ms = drone_now_ms(&p->drone);
   uint8_t bytes[DATAGRAMS_BYTES];
@@ -129,10 +135,7 @@ done_t place_fly(place_t *p, double wall_s, double until_s, why_t *why) {
   if (datagrams_left(&p->radio, wall_s)) drone_left(&p->drone);
   for (int i = 0; i < BATCH_MS && drone_now_ms(&p->drone) + 2.0 <= 1e3 * until_s; i += 2) {
     exchange(p);
-    const done_t status = drone_tick(&p->drone, why);
-    if (status == DONE) continue;
-    TRY(place_flush(p, why)); // names the file, if it is one
-    return status;
+    TRY(tick(p, why));
   }
   exchange(p);
   return DONE;

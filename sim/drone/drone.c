@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define COVERED_M 0.04 // what the sensor says of a hand
-#define ROWS      256  // samples kept before they are written
+#define ROWS      100  // samples kept before they are written: a second's
 #define FOREVER_S 1e7
 #define TICK_MS   2
 
@@ -87,7 +87,9 @@ static done_t write_rows(drone_t *d, why_t *why) {
 static done_t keep(drone_t *d, why_t *why) {
   if (!d->log) return DONE;
   const int width = sections_logs();
+  const model_t *const m = loop_model(d->loop);
   d->seen.t_s = 1e-3 * (double)(d->now_ms - TICK_MS); // through restarts
+  d->seen.setpoint_m = (double)d->firmware.vehicle.setpoint.position.z + body_rest_z_m(m) + body_rotor_z_m(m);
   TRY(record_add(&d->record, &d->seen, why));
   crazyflie_logs(&d->firmware.vehicle, d->record.app + (size_t)(d->record.n - 1) * (size_t)width);
   return d->record.n == ROWS ? write_rows(d, why) : DONE;
