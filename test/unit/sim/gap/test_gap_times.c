@@ -49,7 +49,9 @@ TEST(gap_does_not_say_that_nothing_is_missing_where_much_is_left) {
   }
   CHECK(program_run("gap --vehicle $S/room.toml --columns tools/columns/fly.toml $S/wild?.csv", STREAM_OUTPUT,
                     text, sizeof text) == 0);
-  CHECK(strstr(text, "Nothing can be named that is missing in room.toml, and more is left than noise") !=
-        NULL);
-  CHECK(strstr(text, "note: force_z: ") != NULL);
+  // The flights are so wild that another compiler's differ: a part of what is left may stand out.
+  const bool unknown = strstr(text, "Something is missing in room.toml that cannot be named.\n") != NULL;
+  CHECK(unknown || strstr(text, "Nothing can be named that is missing in room.toml, and more is left than "
+                                "noise") != NULL);
+  CHECK(unknown || strstr(text, "note: force_z: ") != NULL);
 }
