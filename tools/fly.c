@@ -293,6 +293,7 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->list) catalogue_all();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
+  if (order->help || order->version || order->list || order->logs || order->params) return DONE;
   if (order->replay) return replay_report(order->replay, &order->request, why);
   if (!order->scenario && !order->commands) return DONE;
   if (order->seeds == 0) order->seeds = 1;

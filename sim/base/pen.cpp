@@ -56,6 +56,7 @@ static int fixed_shortly(char *text, double value, int places) {
 static int power_of(double value) {
   int power = 0;
   while (value >= TEN[power + 1]) power++;
+  if (power > 0) return power;
   while (value * TEN[-power] < 1.0) power--;
   return power;
 }

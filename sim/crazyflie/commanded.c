@@ -242,6 +242,5 @@ setpoint_t commanded_now(commanded_t *c, const state_t *state, bool can_fly, uin
   if (can_fly && due && planner_setpoint(&c->planner, state, now_ms, &planned))
     set(c, &planned, COMMANDED_PLANNER, now_ms);
   c->state = *state;
-  if (can_fly) return c->set;
-  return (setpoint_t){.timestamp = 0};
+  return c->set;
 }

@@ -72,7 +72,7 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
 void crazyflie_start(crazyflie_t *c) {
   stand_in = &c->around;
   memset(c->around.range_mm, 0, sizeof c->around.range_mm);
-  c->around.flying = c->around.motors_allowed = false;
+  c->around.can_fly = c->around.flying = c->around.motors_allowed = false;
   c->supervised = (supervised_t){.state = SUPERVISED_BEGIN};
   c->called = false;
   c->control = (control_t){.controlMode = controlModeLegacy};
@@ -273,9 +273,11 @@ void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
     c->setpoint = c->command(c->command_context, &c->state, in->step);
   else
     take_order(c, &in->set);
+  if (!supervised_can_fly(&c->supervised)) c->setpoint = (setpoint_t){.timestamp = 0};
   if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
   const bool overridden = override(&c->supervised, &c->setpoint);
   c->ordered = !c->command && !overridden;
+  c->around.can_fly = supervised_can_fly(&c->supervised);
   c->around.flying = supervised_flies(&c->supervised);
   c->around.motors_allowed = supervised_motors_run(&c->supervised);
   if (c->command) {

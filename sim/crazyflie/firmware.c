@@ -123,6 +123,7 @@ done_t firmware_open(firmware_t *f, const model_t *model, why_t *why) {
   memset(f, 0, sizeof *f);
   crazyflie_t *const c = &f->vehicle;
   crazyflie_init(c, model);
+  stand_in = &c->around; // what is printed before its first millisecond is its own
   f->params = f->params_default = stock_params_default();
   f->app_default = c->app;
   f->runs = CONTROLLER_APP;

@@ -22,13 +22,13 @@ struct sensorData_s;
 struct state_s;
 
 typedef struct stand_in {
-  void *app;                          // the app's glue_t
-  float thrust_max_N;                 // of one motor: what a command of 1 stands for
-  uint16_t range_mm[STAND_IN_RANGES]; // by rangeDirection_t
-  bool flying, motors_allowed;        // as the supervisor says
-  float volt_N[STAND_IN_VOLT_N];      // thrust of a motor by its voltage: the firmware's cubic
-  float battery_V;                    // as last measured
-  uint16_t duty[STAND_IN_MOTORS];     // of the motors in the last millisecond
+  void *app;                            // the app's glue_t
+  float thrust_max_N;                   // of one motor: what a command of 1 stands for
+  uint16_t range_mm[STAND_IN_RANGES];   // by rangeDirection_t
+  bool can_fly, flying, motors_allowed; // as the supervisor says
+  float volt_N[STAND_IN_VOLT_N];        // thrust of a motor by its voltage: the firmware's cubic
+  float battery_V;                      // as last measured
+  uint16_t duty[STAND_IN_MOTORS];       // of the motors in the last millisecond
   bool has_flow, has_multiranger, has_usd;
   bool no_usd_driver; // the image does not know that deck
   // What the firmware tells the client of a parameter; null: nobody listens.

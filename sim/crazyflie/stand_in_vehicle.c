@@ -13,6 +13,9 @@ float rangeGet(rangeDirection_t direction) {
   return stand_in->range_mm[direction];
 }
 
+bool supervisorCanFly(void) {
+  return stand_in->can_fly;
+}
 bool supervisorIsFlying(void) {
   return stand_in->flying;
 }

@@ -78,7 +78,7 @@ static void write_all(const storage_t *s, const firmware_t *f, FILE *file) {
   fputs("# parameters stored by a client, as the vehicle's own memory would hold them\n", file);
   for (int i = 0; i < s->n; i++) {
     const firmware_row_t row = firmware_param_row(f, i);
-    if (!isnan(s->value[i])) fprintf(file, "%s.%s = %.9g\n", row.group, row.name, s->value[i]);
+    if (!isnan(s->value[i])) fprintf(file, "%s.%s = %.17g\n", row.group, row.name, s->value[i]);
   }
 }
 

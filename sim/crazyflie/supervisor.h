@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+bool supervisorCanFly(void);
 bool supervisorIsFlying(void);
 bool supervisorAreMotorsAllowedToRun(void);
 

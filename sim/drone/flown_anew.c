@@ -17,7 +17,7 @@ static int read_packet(const char *text, uint32_t *ms, uint8_t bytes[64]) {
 
 done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s, why_t *why) {
   char text[LINE];
-  uint32_t ms = 0;
+  uint32_t ms = 0, last_ms = 0;
   uint8_t bytes[64];
   d->storage.path = NULL; // what is stored again is stored nowhere
   for (int line = 1; fgets(text, sizeof text, commands); line++) {
@@ -26,8 +26,9 @@ done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s,
       continue;
     }
     const int n = read_packet(text, &ms, bytes);
-    if (n < 0 || ms < drone_now_ms(d))
+    if (n < 0 || ms < last_ms)
       return error_set(why, "%s:%d: allowed is `MS HEX`, or `MS`, in the order of time", path, line);
+    last_ms = ms;
     while (drone_now_ms(d) < ms) TRY(drone_tick(d, why));
     if (n > 0)
       drone_take(d, bytes, n);

@@ -39,6 +39,15 @@ static void take_range(flight_in_t *in, uint32_t step) {
   in->range_age_s = sample.age_s;
 }
 
+// Who may not fly gets no set point: that is the supervisor's, and lets no hand-over go. Else a vehicle that
+// was handed over, fell and was armed anew would take off again under a client that still sends. In the call
+// in which it may fly again, the set point is still of before.
+static bool is_pilots(void) {
+  const bool could_fly = GLUE.could_fly;
+  GLUE.could_fly = supervisorCanFly();
+  return (could_fly && GLUE.could_fly) || GLUE.flight.guard.action != GUARD_HAND_OVER;
+}
+
 static APART void take_inputs(const control_t *control, const setpoint_t *setpoint,
                               const sensorData_t *sensors, const state_t *state, uint32_t step) {
   flight_in_t *const in = &GLUE.in;
@@ -49,10 +58,7 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   if (!supervisorAreMotorsAllowedToRun())
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
-  // Motors that are not allowed to run come with no set point: the supervisor's, which lets nothing go. Else
-  // a vehicle that was handed over, fell and armed itself anew would take off again.
-  if (supervisorAreMotorsAllowedToRun() || GLUE.flight.guard.action == GUARD_FLY)
-    units_setpoint(&in->setpoint, setpoint);
+  if (is_pilots()) units_setpoint(&in->setpoint, setpoint);
   // For a person to read: in a call of ten in which no loop runs.
   if (GLUE.flight.phase == 1) GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
   in->no_lesson = !supervisorIsFlying();
@@ -113,7 +119,8 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
   take_inputs(control, setpoint, sensors, state, step);
   judge_flyable(&GLUE.in);
   const bool grounded = GLUE.flyable.not_flyable != 0;
-  if (grounded) GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
+  if (grounded && GLUE.flight.guard.action != GUARD_HAND_OVER) // that one only a pilot lets go
+    GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
   (void)flight_step(&GLUE.flight, &GLUE.in);
   GLUE.learning = settings_learning();
   if (grounded)

@@ -52,6 +52,7 @@ typedef struct {
   uint32_t sets_refused;             // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
+  bool could_fly;    // in the last call
   float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way
   struct {
     int16_t roll, pitch, yaw;

@@ -25,6 +25,8 @@ static void fly(drone_t *d, int ticks) {
 static void take_off(drone_t *d) {
   static const uint8_t up[16] = {0x8c, 7, 0, 0, 0, 0, 0x3f, 0, 0, 0, 0, 1, 0, 0, 0x80, 0x3f};
   fly(d, 250);
+  const int shadow = firmware_param_find(&d->firmware, "ceil.shadow");
+  drone_take(d, (uint8_t[]){0x2e, (uint8_t)shadow, (uint8_t)(shadow >> 8), 0}, 4);
   drone_take(d, up, sizeof up);
   fly(d, 500);
 }

@@ -104,6 +104,7 @@ void pil_before(const pil_in_t *in) {
   for (int i = 0; i < 4; i++) around.duty[i] = (uint16_t)in->duty[i];
   around.flying = (in->flags & PIL_FLYING) != 0;
   around.motors_allowed = (in->flags & PIL_ALLOWED) != 0;
+  around.can_fly = (in->flags & PIL_CAN_FLY) != 0;
   if (in->flags & PIL_START) {
     params_default(&glue_static.tuned);
     glue_static.shadow = 0;

@@ -12,7 +12,8 @@
 enum {
   PIL_START = 1,
   PIL_FLYING = 2,
-  PIL_ALLOWED = 4
+  PIL_ALLOWED = 4,
+  PIL_CAN_FLY = 8
 }; // PIL_START: the controller is selected before this call
 enum { PIL_NO_PARAM = -1, PIL_COMMIT = -2 };
 

@@ -115,7 +115,7 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
   pil_in_t in = {.param = PIL_NO_PARAM, .range_mm = around->range_mm[4], .battery_V = around->battery_V};
   for (int i = 0; i < 4; i++) in.duty[i] = around->duty[i];
   in.flags = (r->first ? PIL_START : 0u) | (around->flying ? PIL_FLYING : 0u) |
-             (around->motors_allowed ? PIL_ALLOWED : 0u);
+             (around->motors_allowed ? PIL_ALLOWED : 0u) | (around->can_fly ? PIL_CAN_FLY : 0u);
   memcpy(in.applied, control->normalizedForces, sizeof in.applied);
   pil_pack(&in, setpoint, sensors, state, step);
   // The parameters of this flight, one a call, before it begins.

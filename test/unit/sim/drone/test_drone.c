@@ -162,6 +162,36 @@ TEST(a_ceiling_that_is_lowered_onto_the_vehicle_leaves_it_whole) {
   }
 }
 
+// It has handed over, fallen, and is armed anew, and its client sends all the time.
+TEST(a_vehicle_that_handed_over_stays_down_while_its_client_sends) {
+  drone_t *const d = desk_drone(3.0, NULL, NULL);
+  const float hover[] = {0.0f, 0.0f, 0.0f, 0.4f};
+  uint8_t packet[18] = {0x7c, 10};
+  memcpy(packet + 2, hover, sizeof hover);
+  desk_set(d, "ceil.shadow", 0);
+  desk_pass(d, 1.0);
+  bool armed_anew = false;
+  for (int i = 0; i < 200; i++) {
+    if (i == 40) d->firmware.vehicle.app.flight.guard.action = GUARD_HAND_OVER;
+    if (i == 40) CHECK_NEAR(desk_log(d, "desk.z") - 0.017, 0.4, 0.05);
+    drone_take(d, packet, sizeof packet);
+    for (int ms = 0; ms < 100; ms += 2) {
+      desk_pass(d, 0.002);
+      armed_anew = armed_anew || (i > 60 && d->firmware.vehicle.supervised.state == SUPERVISED_ARMING);
+    }
+    if (i > 80) CHECK(desk_log(d, "desk.z") < 0.05);
+  }
+  CHECK(armed_anew);
+  drone_take(d, (uint8_t[]){0x7c, 0}, 2); // it lets go
+  desk_pass(d, 0.5);
+  for (int i = 0; i < 50; i++) {
+    drone_take(d, packet, sizeof packet);
+    desk_pass(d, 0.1);
+  }
+  CHECK_NEAR(desk_log(d, "desk.z") - 0.017, 0.4, 0.05);
+  desk_end(d);
+}
+
 TEST(what_may_not_be_done_at_the_desk_is_refused_with_its_range) {
   static const struct {
     const char *name;

@@ -87,7 +87,8 @@ TEST(what_a_client_stores_is_there_after_a_restart_and_a_replay_stores_nothing) 
 TEST(a_recording_that_is_none_is_refused_with_its_line) {
   static const struct {
     const char *text, *says;
-  } row[] = {{"# made by hand\n12 fd00\nfoo\n", "it:3: allowed is"},
+  } row[] = {{"13 fd00\n13 fd00\n12 fd00\n", "it:3: allowed is"},
+             {"# made by hand\n12 fd00\nfoo\n", "it:3: allowed is"},
              {"12 fd00\nfoo\n", "it:2: allowed is `MS HEX`, or `MS`, in the order of time"},
              {"12 fd00\n4 fd00\n", "it:2: allowed is"},
              {"12 fdxx\n", "it:1: allowed is"}};

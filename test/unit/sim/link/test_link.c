@@ -294,8 +294,12 @@ TEST(link_stores_parameters_in_a_file_and_finds_them_again) {
   CHECK(strstr(ask_about(r, "2f03", "indiPos.kpz", ""), "00") != NULL);
   const char *const state = ask_about(r, "2f04", "indiPos.kpz", "");
   CHECK(strlen(state) == 2 * 13 && strncmp(state + 8, "01", 2) == 0 && strcmp(state + 18, "0000c03f") == 0);
+  const int sum = firmware_param_find(&r->firmware, "ceil.wSum"); // of weights, to its last bit
+  firmware_param_put(&r->firmware, sum, 2212620261.0);
+  CHECK(strlen(ask_about(r, "2f03", "ceil.wSum", "")) > 0);
   rig_close(r);
   r = rig_open(path);
+  CHECK_NEAR(r->storage.value[sum], 2212620261.0, 0);
   CHECK_NEAR(firmware_param(&r->firmware, firmware_param_find(&r->firmware, "indiPos.kpz")), 1.5, 0);
   CHECK(strlen(ask_about(r, "2f05", "indiPos.kpz", "")) > 0);
   CHECK(strlen(ask_about(r, "2f04", "indiPos.kpz", "")) == 2 * 9);
