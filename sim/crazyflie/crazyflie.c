@@ -273,10 +273,11 @@ void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
     c->setpoint = c->command(c->command_context, &c->state, in->step);
   else
     take_order(c, &in->set);
-  if (!supervised_can_fly(&c->supervised)) c->setpoint = (setpoint_t){.timestamp = 0};
+  const bool may = supervised_can_fly(&c->supervised);
+  if (!may) c->setpoint = (setpoint_t){.timestamp = 0};
   if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
   const bool overridden = override(&c->supervised, &c->setpoint);
-  c->ordered = !c->command && !overridden;
+  c->ordered = !c->command && may && !overridden; // else it is made anew
   c->around.can_fly = supervised_can_fly(&c->supervised);
   c->around.flying = supervised_flies(&c->supervised);
   c->around.motors_allowed = supervised_motors_run(&c->supervised);

@@ -1,4 +1,4 @@
 # The supervisor's empty set point lets a hand-over go.
 # file: src/firmware/controller.c
-# test: a_vehicle_that_handed_over
+# test: app_stays_down_after
 s/return (could_fly \&\& GLUE.could_fly) || .*/return true || could_fly;/

@@ -197,6 +197,14 @@ TEST(app_stays_down_after_a_hand_over_until_the_pilot_lets_go) {
     CHECK(f.vehicle.around.duty[0] == 0 || ms < 2000);
   }
   CHECK(armed_anew && f.vehicle.supervised.state == SUPERVISED_READY);
+  for (int ms = 0; ms < 4000; ms++) { // somebody picks it up, and turns it over and back
+    pilot_in_t in = rig6_sense(&f.rig, &f.set);
+    if (ms < 500) in.acc_b_mps2.z = -in.acc_b_mps2.z;
+    double motor_N[PILOT_MOTORS];
+    crazyflie_ms(&f.vehicle, &in, motor_N);
+    CHECK(f.vehicle.around.duty[0] == 0 && (ms != 450 || app_log(&f, "guard.notFlyable") != 0.0));
+    rig6_step(&f.rig, motor_N);
+  }
   const pilot_setpoint_t wanted = f.set;
   f.set.mode[0] = f.set.mode[1] = f.set.mode[2] = PILOT_OFF;
   app_fly(&f, 100);
