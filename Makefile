@@ -208,7 +208,7 @@ test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/bound 
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
 	@FAULTS_TABLE=1 TEST_LONG=1 $(B)/bin/tests faults_of_the_list
 
-test-cf: $(O)/desk  ## the tests of tools/cf.py, over a fake link and at the desk, with the stock cflib (W=word: those whose name has it); minutes
+test-cf: $(O)/desk $(O)/fly  ## the tests of tools/cf.py, over a fake link and at the desk, with the stock cflib (W=word: those whose name has it); minutes
 	@test/cf/run.sh "$(CF_PACKAGES)" "$(W)"
 
 test-desk: $(B)/bin/desk  ## the desk's page in a Chromium without a window (W=word: those whose name has it); skips without one; a minute
