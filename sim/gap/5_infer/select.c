@@ -132,9 +132,40 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   return DONE;
 }
 
+static done_t left_by(const select_t *t, const chosen_t *chosen, const color_t color[CHANNELS], double *left,
+                      why_t *why) {
+  model_t m;
+  TRY(chosen_model(chosen, t->round.base, &m, why));
+  return whiten_left(t->round.s, &m, color, left, why);
+}
+
+// A swap is promised by straight lines about the one that goes: a lag that is taken out along its line leaves
+// what no vehicle does, and a delay may fit that better. It stays if the models themselves, both replayed,
+// keep the promise.
+static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
+  round_t *const r = &t->round;
+  const choice_t choice = r->choice;
+  const chosen_t chosen = r->chosen;
+  color_t color[CHANNELS];
+  double before, after;
+  memcpy(color, r->gram.color, sizeof color);
+  *swapped = swap_one(t);
+  if (!*swapped) return DONE;
+  TRY(left_by(t, &chosen, color, &before, why));
+  TRY(settle(t, why));
+  TRY(left_by(t, &r->chosen, color, &after, why));
+  if (after < before) return DONE;
+  r->choice = choice;
+  r->chosen = chosen;
+  return reopen(t, why);
+}
+
 static done_t step_until_still(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
-    bool changed = prune_one(t) || swap_one(t) || add_best(t);
+    bool swapped = false, changed = prune_one(t);
+    if (!changed) TRY(try_swap(t, &swapped, why));
+    if (swapped) continue;
+    changed = changed || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
     TRY(settle(t, why));

@@ -34,14 +34,16 @@ TEST(gap_gives_errors_that_hold_what_was_hidden) {
   }
 }
 
-// The gyro's filter and the hold of a command are late, too; no log tells how much, and this columns file
-// does not either.
+// The gyro's filter and the hold of a command are late, too; no log tells how much, and a columns file may
+// not either. A lag is told from a delay only where it does: about a lag of 25 ms the straight line promises
+// more of a delay than the model with one keeps.
 TEST(gap_gives_errors_that_hold_the_lateness_of_instruments) {
   static const struct {
-    const char *name, *effect;
+    const char *name, *effect, *untold; // what the columns file does not tell
     double value;
-  } row[] = {{"delay", "delay:add=0.01", 0.01}, {"motor_lag", "motor_lag:add=0.025", 0.025}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+  } row[] = {{"delay", "delay:add=0.01", "s/, late_ms = [0-9.]*//", 0.01},
+             {"motor_lag", "motor_lag:add=0.025", "", 0.025}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].effect);
     char line[700], text[200];
     double value = 0.0, stderr_ = 0.0;
@@ -51,11 +53,11 @@ TEST(gap_gives_errors_that_hold_the_lateness_of_instruments) {
         "3; do "
         "fly test-flight --controller indi-theory --effect none --effect rotor_drag:k=1.7e-6 --effect %s "
         "--seed $k --log $S/late$k.csv --log-rate 500; done >$S/fly.txt; "
-        "sed 's/, late_ms = [0-9.]*//' tools/columns/fly.toml >$S/silent.toml; "
+        "sed '%s' tools/columns/fly.toml >$S/silent.toml; "
         "gap --vehicle $S/vehicle.toml --columns $S/silent.toml --json $S/late.json $S/late?.csv "
         ">$S/gap.txt; "
         "grep -A6 '\"name\".*%s' $S/late.json | tr -dc 'a-z0-9.:,e\n-' | sed -n 's/^value:\\|^stderr://p'",
-        row[i].effect, row[i].name);
+        row[i].effect, row[i].untold, row[i].name);
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
     CHECK(sscanf(text, "%lf,%lf", &value, &stderr_) == 2);
     CHECK_NEAR(value, row[i].value, 2.0 * stderr_);
