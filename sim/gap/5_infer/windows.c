@@ -5,11 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-#define FINE     36                // bins of equal width: a layer may be thin
-#define STRIPS   8                 // of the floor, each way
-#define MOST     6                 // strips of a patch
-#define BINS_MAX (STRIPS * STRIPS) // bins of any cut
-#define ROWS     4                 // of a bin, on the average, or nothing is said
+#define FINE     36                   // bins of equal width: a layer may be thin
+#define STRIPS   8                    // of the floor, each way, to find a patch
+#define MOST     6                    // strips of a patch
+#define PARTS    16                   // of a strip at most, to fit the patch's ends
+#define TURNS    2                    // of fitting the ends along x and along y
+#define BINS_MAX (STRIPS * PARTS + 1) // of any cut, and one for what lies beside
+#define ROWS     4                    // of a bin, on the average, or nothing is said
+
+_Static_assert(STRIPS *STRIPS <= BINS_MAX && FINE <= BINS_MAX, "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------
 
@@ -69,8 +73,9 @@ static void add_products(products_t *p, int bins, const rows_t *r, const color_t
                          const int *bin) {
   const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
   const double constant = weight[0] + weight[1] + weight[2];
-  memset(p, 0, sizeof *p);
   p->bins = bins;
+  for (int k = 0; k <= bins; k++) memset(p->D[k], 0, ((size_t)bins + 1) * sizeof(double));
+  memset(p->y, 0, ((size_t)bins + 1) * sizeof(double));
   for (int i = 2; i < r->n; i++) {
     if (!color_reaches(r, i)) continue;
     const double white = weight[0] * v[i] + weight[1] * v[i - 1] + weight[2] * v[i - 2];
@@ -111,28 +116,46 @@ static bool judge(const products_t *p, bool centred, const inside_t *w, double *
 
 // --- along one coordinate ---------------------------------------------------------------------------------
 
-static void try_windows(const products_t *p, bool centred, int channel, int coordinate, const double *edge,
-                        cell_t *cell) {
-  int in[BINS_MAX];
+typedef struct {
+  int from, to; // bins, both ends inside
   double size, statistic;
-  for (int from = 0; from < p->bins; from++) {
+} window_t;
+
+// Of the first bins, windows of at most so many. False: none is better than *best.
+static bool best_window(const products_t *p, bool centred, int bins, int longest, window_t *best) {
+  double size, statistic;
+  double column[BINS_MAX + 1]; // of D: sums over the window's rows
+  bool better = false;
+  for (int from = 0; from < bins; from++) {
     inside_t w = {0.0, 0.0, 0.0};
-    for (int to = from; to < p->bins && to < from + p->bins / 2; to++) {
-      take_in(&w, p, to, in, to - from);
-      in[to - from] = to;
-      if (!judge(p, centred, &w, &size, &statistic) || statistic <= cell->statistic) continue;
-      *cell = (cell_t){.channel = channel,
-                       .along = coordinate,
-                       .coordinate = coordinate_name(coordinate),
-                       .unit = coordinate_unit(coordinate),
-                       .from = edge[from],
-                       .to = edge[to + 1],
-                       .size = size,
-                       .statistic = statistic,
-                       .explained = statistic * statistic,
-                       .last = to + 1 == p->bins};
+    memset(column, 0, sizeof column);
+    for (int to = from; to < bins && to < from + longest; to++) {
+      w.y += p->y[to];
+      w.cross += p->D[to][p->bins];
+      w.own += 2.0 * column[to] + p->D[to][to];
+      for (int k = to + 1; k < bins; k++) column[k] += p->D[to][k];
+      if (!judge(p, centred, &w, &size, &statistic) || statistic <= best->statistic) continue;
+      *best = (window_t){from, to, size, statistic};
+      better = true;
     }
   }
+  return better;
+}
+
+static void try_windows(const products_t *p, bool centred, int channel, int coordinate, const double *edge,
+                        cell_t *cell) {
+  window_t best = {.statistic = cell->statistic};
+  if (!best_window(p, centred, p->bins, p->bins / 2, &best)) return;
+  *cell = (cell_t){.channel = channel,
+                   .along = coordinate,
+                   .coordinate = coordinate_name(coordinate),
+                   .unit = coordinate_unit(coordinate),
+                   .from = edge[best.from],
+                   .to = edge[best.to + 1],
+                   .size = best.size,
+                   .statistic = best.statistic,
+                   .explained = best.statistic * best.statistic,
+                   .last = best.to + 1 == p->bins};
 }
 
 void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
@@ -153,57 +176,95 @@ void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
 
 // --- on the floor -----------------------------------------------------------------------------------------
 
+// Bins by rows each way; both ends are inside.
 typedef struct {
-  int x, x_to, y, y_to; // strips, both ends inside
+  int x, x_to, y, y_to;
+  double size, statistic;
 } patch_t;
 
-static bool judge_patch(const products_t *p, bool centred, const patch_t *at, double *size,
-                        double *statistic) {
+static void judge_patch(const products_t *p, bool centred, patch_t at, patch_t *best) {
   inside_t w = {0.0, 0.0, 0.0};
   int in[BINS_MAX], n = 0;
-  for (int x = at->x; x <= at->x_to; x++)
-    for (int y = at->y; y <= at->y_to; y++) {
+  for (int x = at.x; x <= at.x_to; x++)
+    for (int y = at.y; y <= at.y_to; y++) {
       take_in(&w, p, x * STRIPS + y, in, n);
       in[n++] = x * STRIPS + y;
     }
-  return judge(p, centred, &w, size, statistic);
+  if (judge(p, centred, &w, &at.size, &at.statistic) && at.statistic > best->statistic) *best = at;
 }
 
-static void try_patches(const products_t *p, bool centred, int channel, const double x_edge[STRIPS + 1],
-                        const double y_edge[STRIPS + 1], cell_t *cell) {
-  double size, statistic;
+static patch_t best_of_strips(const products_t *p, bool centred) {
+  patch_t best = {.statistic = 0.0};
   for (patch_t at = {.x = 0}; at.x < STRIPS; at.x++)
     for (at.y = 0; at.y < STRIPS; at.y++)
       for (at.x_to = at.x; at.x_to < STRIPS && at.x_to < at.x + MOST; at.x_to++)
-        for (at.y_to = at.y; at.y_to < STRIPS && at.y_to < at.y + MOST; at.y_to++) {
-          if (!judge_patch(p, centred, &at, &size, &statistic) || statistic <= cell->statistic) continue;
-          *cell = (cell_t){.channel = channel,
-                           .along = COORDINATE_X,
-                           .coordinate = coordinate_name(COORDINATE_X),
-                           .unit = coordinate_unit(COORDINATE_X),
-                           .from = x_edge[at.x],
-                           .to = x_edge[at.x_to + 1],
-                           .size = size,
-                           .statistic = statistic,
-                           .explained = statistic * statistic,
-                           .last = at.x_to + 1 == STRIPS,
-                           .is_patch = true,
-                           .y_from_m = y_edge[at.y],
-                           .y_to_m = y_edge[at.y_to + 1]};
-        }
+        for (at.y_to = at.y; at.y_to < STRIPS && at.y_to < at.y + MOST; at.y_to++)
+          judge_patch(p, centred, at, &best);
+  return best;
+}
+
+// The floor cut finely: the bin of every row each way, and the edges.
+typedef struct {
+  const look_t *l;
+  int *x, *y, *bin; // bin: room
+  int parts;        // of a strip
+  double x_edge[BINS_MAX + 1], y_edge[BINS_MAX + 1];
+} floor_t;
+
+// Its ends along x (else y) among the rows of its other way: a patch as wide as strips takes in much that
+// lies beside what is there.
+static void fit_ends(const floor_t *f, int ch, bool along_x, patch_t *at) {
+  const rows_t *const r = &f->l->s->smooth;
+  const int *const own = along_x ? f->x : f->y, *const other = along_x ? f->y : f->x;
+  const int low = along_x ? at->y : at->x, high = along_x ? at->y_to : at->x_to, bins = STRIPS * f->parts;
+  products_t p;
+  window_t best = {.statistic = at->statistic};
+  for (int i = 0; i < r->n; i++) f->bin[i] = other[i] >= low && other[i] <= high ? own[i] : bins;
+  add_products(&p, bins + 1, r, &f->l->color[ch], f->l->residual[ch], f->bin);
+  if (!best_window(&p, f->l->centred, bins, MOST * f->parts, &best)) return;
+  *(along_x ? &at->x : &at->y) = best.from;
+  *(along_x ? &at->x_to : &at->y_to) = best.to;
+  at->size = best.size;
+  at->statistic = best.statistic;
+}
+
+static cell_t cell_of(const floor_t *f, int ch, const patch_t *at) {
+  return (cell_t){.channel = ch,
+                  .along = COORDINATE_X,
+                  .coordinate = coordinate_name(COORDINATE_X),
+                  .unit = coordinate_unit(COORDINATE_X),
+                  .from = f->x_edge[at->x],
+                  .to = f->x_edge[at->x_to + 1],
+                  .size = at->size,
+                  .statistic = at->statistic,
+                  .explained = at->statistic * at->statistic,
+                  .last = at->x_to + 1 == STRIPS * f->parts,
+                  .is_patch = true,
+                  .y_from_m = f->y_edge[at->y],
+                  .y_to_m = f->y_edge[at->y_to + 1]};
+}
+
+static void look_at_floor(const floor_t *f, int ch, cell_t *cell) {
+  const rows_t *const r = &f->l->s->smooth;
+  products_t p;
+  for (int i = 0; i < r->n; i++) f->bin[i] = f->x[i] / f->parts * STRIPS + f->y[i] / f->parts;
+  add_products(&p, STRIPS * STRIPS, r, &f->l->color[ch], f->l->residual[ch], f->bin);
+  patch_t at = best_of_strips(&p, f->l->centred);
+  if (!(at.statistic > 0.0)) return;
+  at.x *= f->parts, at.x_to = (at.x_to + 1) * f->parts - 1;
+  at.y *= f->parts, at.y_to = (at.y_to + 1) * f->parts - 1;
+  for (int i = 0; i < 2 * TURNS; i++) fit_ends(f, ch, i % 2 == 0, &at);
+  if (at.statistic > cell->statistic) *cell = cell_of(f, ch, &at);
 }
 
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
-  products_t p;
-  double x_edge[STRIPS + 1], y_edge[STRIPS + 1];
-  const rows_t *const r = &l->s->smooth;
-  int *const y_bin = l->bin + r->n;
-  if (!bins_of(l->s, l->m, COORDINATE_X, 0, STRIPS, BY_ROWS, l->room, l->bin, x_edge)) return;
-  if (!bins_of(l->s, l->m, COORDINATE_Y, 0, STRIPS, BY_ROWS, l->room, y_bin, y_edge)) return;
-  for (int i = 0; i < r->n; i++) l->bin[i] = l->bin[i] * STRIPS + y_bin[i];
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    if (!l->color[ch].used) continue;
-    add_products(&p, STRIPS * STRIPS, r, &l->color[ch], l->residual[ch], l->bin);
-    try_patches(&p, l->centred, ch, x_edge, y_edge, &cell[ch]);
-  }
+  const int n = l->s->smooth.n;
+  const int enough = n / (ROWS * STRIPS);
+  floor_t f = {l, l->bin, l->bin + n, l->bin + 2 * n, enough < PARTS ? enough : PARTS, {0.0}, {0.0}};
+  const int bins = STRIPS * f.parts;
+  if (bins < 1 || !bins_of(l->s, l->m, COORDINATE_X, 0, bins, BY_ROWS, l->room, f.x, f.x_edge) ||
+      !bins_of(l->s, l->m, COORDINATE_Y, 0, bins, BY_ROWS, l->room, f.y, f.y_edge))
+    return;
+  for (int ch = 0; ch < CH_SMOOTH; ch++)
+    if (l->color[ch].used) look_at_floor(&f, ch, &cell[ch]);
 }

@@ -35,7 +35,7 @@ typedef struct {
   const color_t *color;
   bool centred;
   double *room; // twice as many numbers as rows
-  int *bin;     // likewise
+  int *bin;     // three times as many
 } look_t;
 
 // Each puts in place of cell[channel] what has a larger statistic.

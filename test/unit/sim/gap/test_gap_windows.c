@@ -99,7 +99,7 @@ TEST(gap_finds_a_corner_a_pulse_and_a_shake) {
     const char *coordinate;
     double from, to, within; // bounds of the cell, at most so far off
     double size;
-  } row[] = {{"a corner", A_CORNER, "x", 0.2, 1.0, 0.25, -1.5},
+  } row[] = {{"a corner", A_CORNER, "x", 0.2, 1.0, 0.02, -1.5},
              {"pulses", PULSES, "time", 12.5, 13.0, 0.2, 2.5},
              {"a shake", A_SHAKE, "frequency", 2.4, 2.6, 0.1, 1.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
