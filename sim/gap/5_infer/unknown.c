@@ -218,6 +218,7 @@ double unknown_in_windows(const scan_t *scan) {
 #define CHANCE 4.0 // standard errors: the largest of so many windows of noise alone
 #define LEAST  6.5 // standard errors: less is never told
 #define MARGIN 1.4 // over what is furthest out of the nominal flights
+#define TIE    0.8 // of what explains most, that explains as much
 
 // What a look finds in nominal flights, but for one of them (none: < 0): rms, with one flight of noise alone.
 static double usual(const scan_t *nominal, int n, int but, int cell) {
@@ -231,10 +232,11 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
   return sqrt(squares / flights);
 }
 
-// With a misfit beside the standard error.
-static double beside_misfit(const cell_t *c, const double misfit[CHANNELS]) {
+// The bound with what a right form with other numbers leaves beside it: an error of the model, which nominal
+// flights do not have.
+static double beside_misfit(double bound, const cell_t *c, const double misfit[CHANNELS]) {
   const double share = c->size != 0.0 ? misfit[c->channel] * c->statistic / c->size : 0.0;
-  return c->statistic / sqrt(1.0 + share * share);
+  return hypot(bound, LEAST * share);
 }
 
 // What lies at a place stays there; what begins at the same time in every flight is rarer, and a state is
@@ -243,14 +245,16 @@ static int rank_of(int along) {
   return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
 }
 
-// Of those that explain as much but for a tenth: which is told first, and another one.
+// Of those that explain as much but for a fifth: which is told first, and another one. A place is known to
+// some centimetres, and what lies there begins and ends some rows beside its window; pulses end at the very
+// row. The lateral force in either axes is one.
 static void weigh_ties(const scan_t *log, judged_t *to) {
   const cell_t best = to->cell;
   double most = 0.0;
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     const cell_t *const c = &log->cell[k];
-    const bool same = c->channel == best.channel && c->world == best.world && c->along != best.along;
-    if (!same || !(c->statistic > to->bound[k]) || !(c->explained > fmax(most, 0.9 * best.explained)))
+    const bool same = c->channel == best.channel && c->along != best.along;
+    if (!same || !(c->statistic > to->bound[k]) || !(c->explained > fmax(most, TIE * best.explained)))
       continue;
     most = c->explained;
     to->also = *c;
@@ -273,7 +277,8 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
     to->bound[k] = fmax(LEAST, MARGIN * furthest * usual(nominal, n, -1, k));
     const cell_t *const c = &log->cell[k];
     if (!(c->statistic > 0.0)) continue;
-    const double beyond = c->explained * (1.0 - pow(to->bound[k] / beside_misfit(c, misfit), 2.0));
+    const double beyond =
+        c->explained * (1.0 - pow(beside_misfit(to->bound[k], c, misfit) / c->statistic, 2.0));
     if (!(beyond > most)) continue;
     most = beyond;
     to->cell = *c;

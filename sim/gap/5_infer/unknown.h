@@ -62,8 +62,8 @@ typedef struct {
   cell_t cell;                 // the one that explains most beyond what its bound would
   double cell_bound;
   bool found;  // it is beyond its bound
-  cell_t also; // of the same channel, along something else, explains as much but for a tenth; statistic 0:
-               // none 0: none
+  cell_t also; // of the same channel, along something else, explains as much but for a fifth; statistic 0:
+               // none
 } judged_t;
 
 // nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves: no

@@ -118,7 +118,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   add_number(o, "size", d->left.cell.size);
   add_number(o, "stderr", fabs(d->left.cell.size) / d->left.cell.statistic);
   if (d->left.also.statistic > 0.0) {
-    cJSON *const also = cJSON_AddObjectToObject(o, "also"); // explains as much but for a tenth
+    cJSON *const also = cJSON_AddObjectToObject(o, "also"); // explains as much but for a fifth
     cJSON_AddStringToObject(also, "coordinate", d->left.also.coordinate);
     add_number(also, "from", d->left.also.from);
     add_number(also, "to", d->left.also.to);
