@@ -135,7 +135,7 @@ static char *log_of(uint64_t seed, uint64_t flight, bool *flew) {
   job.truth = job.known;
   job.span_s = 15.0, job.seed = flight;
   FILE *const file = tmpfile();
-  *flew = file && other_fly(&job, file);
+  *flew = file && other_fly(&job, file, NULL);
   const long size = file ? ftell(file) : 0;
   char *const text = calloc((size_t)size + 1, 1);
   if (file) rewind(file);
@@ -173,7 +173,7 @@ TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
   job.ladder = true, job.span_s = 26.0, job.seed = 1;
   job.habits.every = 5, job.habits.means = false;
   FILE *const file = tmpfile();
-  CHECK(file && other_fly(&job, file));
+  CHECK(file && other_fly(&job, file, NULL));
   static char log[2000000];
   rewind(file);
   log[fread(log, 1, sizeof log - 1, file)] = '\0';

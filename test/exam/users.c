@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #define FLIGHTS 3
+#define FITTED  2   // of them; the last is held out
+#define FELT_S  1.0 // at least, in those, of what is outside the library
 #define DRAWS   20
 #define PATH    80
 
@@ -143,15 +145,20 @@ static done_t write_file(const char *path, const other_job_t *job, void (*write)
 static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, bool *flew, why_t *why) {
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
+  double all_s = 0.0;
   *flew = true;
   for (int i = 0; i < flights && *flew; i++) {
+    double felt_s = 0.0;
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
     job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
     job->seed = (uint64_t)(1e15 * dice_share(d));
-    *flew = other_fly(job, out);
+    *flew = other_fly(job, out, &felt_s);
+    if (i < FITTED) all_s += felt_s;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
   }
+  // What lies where nobody flew is not hidden.
+  *flew = *flew && (job->truth.strange == STRANGE_NONE || all_s >= FELT_S);
   return DONE;
 }
 

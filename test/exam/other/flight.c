@@ -225,7 +225,7 @@ static bool lost(const other_t *o, const pilot_wish_t *wish) {
          o->body.s.pos_m.z >= o->body.nature->ceiling_m;
 }
 
-bool other_fly(const other_job_t *job, FILE *out) {
+bool other_fly(const other_job_t *job, FILE *out, double *felt_s) {
   static _Thread_local other_t o;
   memset(&o, 0, sizeof o);
   o.dice.at = job->seed;
@@ -255,5 +255,6 @@ bool other_fly(const other_job_t *job, FILE *out) {
     for (int k = 0; k < STEPS; k++) nature_step(&o.body, command);
     if (lost(&o, &wish)) return false;
   }
+  if (felt_s) *felt_s = o.body.felt_s;
   return !ferror(out);
 }

@@ -48,8 +48,8 @@ typedef struct {
 other_job_t other_job(dice_t *d);
 
 // Flies pieces that excite it, near the floor and under the ceiling where there is one. False: it was lost,
-// or could not be written.
-bool other_fly(const other_job_t *job, FILE *out);
+// or could not be written. felt_s: so long something outside the library acted; may be null.
+bool other_fly(const other_job_t *job, FILE *out, double *felt_s);
 
 void other_write_columns(const other_job_t *job, FILE *out);
 void other_write_vehicle(const other_job_t *job, FILE *out);

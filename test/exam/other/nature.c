@@ -138,6 +138,8 @@ void nature_step(nature_flight_t *f, const double command_radps[4]) {
   const nature_state_t half = advanced(f, &f->s, &f->s, acts, 0.5 * NATURE_STEP_S, &f->force_b_N);
   f->s = advanced(f, &f->s, &half, acts, NATURE_STEP_S, &f->force_b_N);
   stop(f);
+  if (n->strange_N != 0.0 && vec_length(strange_N(f, &f->s)) >= 0.5 * fabs(n->strange_N))
+    f->felt_s += NATURE_STEP_S;
   f->steps++;
   f->t_s = f->steps * NATURE_STEP_S;
 }

@@ -59,6 +59,7 @@ typedef struct {
   double volt, t_s;
   double late_radps[NATURE_DELAY_MAX][4];
   int steps;
+  double felt_s; // so long something outside the library acted, at half its size or more
 } nature_flight_t;
 
 // Speed of each rotor in a hover.
