@@ -72,8 +72,7 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
     }
   }
   if (!refused.of) return;
-  printf("%s, %d sets (%d that could not fly, or never met what is hidden, were drawn again)\n", KIND[kind],
-         refused.of, again);
+  printf("%s, %d sets (%d drawn again: lost, or never there)\n", KIND[kind], refused.of, again);
   const rate_t *const all[] = {&alarm,   &guess,   &one,   &two,      &held,    &names,
                                &strange, &located, &dirty, &repaired, &refused, &sure};
   for (unsigned i = 0; i < sizeof all / sizeof *all; i++) print_rate(all[i]);
