@@ -26,8 +26,8 @@ static const struct {
      "fly: --commands: allowed with it are --scene, --storage, --vehicle, --effect, --noise, --seed and "
      "--log\n"},
     {"fly --commands README.md", "fly: README.md:2: allowed is `MS HEX`, or `MS`, in the order of time\n"},
-    {"fly --commands README.md --log README.md",
-     "fly: README.md: to be read and to be written; allowed: one of them\n"},
+    {"cp README.md $S/both; fly --commands $S/both --log $S/both", // the tree may be another user's
+     "fly: both: to be read and to be written; allowed: one of them\n"},
     {"fly appendix-a --seed", "fly: --seed: its value is missing; allowed: --seed VALUE\n"},
     {"fly --help=3", "fly: --help: takes no value; allowed: --help\n"},
     {"fly close-fligth",
