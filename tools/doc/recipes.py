@@ -79,7 +79,7 @@ def target() -> None:
 
 def outside() -> None:
     """Only the table: what each set was stands in out/flown_outside."""
-    said = program("make", "outside", "SEED=9127", "SETS=40")
+    said = program("make", "outside", "SEED=10243", "SETS=40")
     if said.startswith("skipped"):
         raise run.Left(said.strip())
     print(said[said.index("\nseed ") + 1:], end="")
@@ -130,8 +130,8 @@ RECIPES = {
     "laws": Recipe(laws.laws),
     "touches": Recipe(flights.touches),
     "bound": Recipe(bound.bound),
-    "exam": Recipe(says("exam", 83001, 200)),
-    "users": Recipe(says("exam", "users", 99001, 240)),
+    "exam": Recipe(says("exam", 102001, 200)),
+    "users": Recipe(says("exam", "users", 101001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),
