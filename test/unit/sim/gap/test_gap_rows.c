@@ -9,15 +9,16 @@
 #define PERIOD_S 0.02
 #define SOME     100
 
-static set_t set_of(int flights) {
+static set_t set_of(int flights, int points) {
   set_t s;
   why_t why;
   grid_t *const grid = calloc((size_t)flights, sizeof *grid);
   if (!grid) abort();
   for (int f = 0; f < flights; f++) {
-    grid[f] = (grid_t){.period_s = PERIOD_S, .n = POINTS, .point = calloc(POINTS, sizeof(grid_point_t))};
+    grid[f] =
+        (grid_t){.period_s = PERIOD_S, .n = points, .point = calloc((size_t)points, sizeof(grid_point_t))};
     if (!grid[f].point) abort();
-    for (int j = 0; j < POINTS; j++)
+    for (int j = 0; j < points; j++)
       grid[f].point[j] = (grid_point_t){.t_s = PERIOD_S * j, .ok = true, .range_m = 0.5};
   }
   CHECK_OK(set_make(&s, grid, flights, &why));
@@ -37,7 +38,7 @@ static void rows_of(const set_t *s, int flight, const double *series, double *co
 // What dies away in a filter becomes numbers with which processors are tens of times as slow: the longer the
 // log, the more of them.
 TEST(gap_rows_hold_no_number_that_is_almost_nothing) {
-  set_t s = set_of(1);
+  set_t s = set_of(1, POINTS);
   double *const series = calloc(POINTS, sizeof(double)), *const row = calloc(POINTS, sizeof(double));
   if (!series || !row) abort();
   for (int j = 0; j < SOME; j++) series[j] = 1.0;
@@ -57,7 +58,7 @@ TEST(gap_rows_hold_no_number_that_is_almost_nothing) {
 }
 
 TEST(gap_rows_of_a_flight_are_its_own_and_only_those_that_are_wanted) {
-  set_t s = set_of(3);
+  set_t s = set_of(3, POINTS);
   double *const series = calloc(POINTS, sizeof(double)), *const y = calloc(3 * POINTS, sizeof(double)),
                 *const range = calloc(3 * POINTS, sizeof(double));
   if (!series || !y || !range) abort();
@@ -71,4 +72,23 @@ TEST(gap_rows_of_a_flight_are_its_own_and_only_those_that_are_wanted) {
   free(y);
   free(range);
   set_free(&s);
+}
+
+// What is met once in a lone flight has to be confirmed by the same flight; slow drifts are not to be.
+TEST(gap_halves_of_a_lone_flight_interleave) {
+  static const struct {
+    int flights;
+    double span_s, at_s; // of the first flight
+    int half;
+  } row[] = {{1, 12.0, 1.0, 0},  {1, 12.0, 3.0, 1},   {1, 12.0, 5.0, 0},   {1, 12.0, 11.0, 1},
+             {1, 120.1, 1.0, 0}, {1, 120.1, 19.0, 0}, {1, 120.1, 21.0, 1}, {1, 120.1, 41.0, 0},
+             {2, 12.0, 1.0, 0},  {2, 12.0, 5.0, 0},   {2, 12.0, 7.0, 1},   {2, 12.0, 11.0, 1}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%d of %g s, at %g s", row[i].flights, row[i].span_s, row[i].at_s);
+    set_t s = set_of(row[i].flights, (int)lround(row[i].span_s / PERIOD_S));
+    int k = 0;
+    while (s.grid[0].point[s.smooth.point[k]].t_s < row[i].at_s) k++;
+    CHECK(s.half[s.smooth.block[k]] == row[i].half && s.n_half == 2 * row[i].flights);
+    set_free(&s);
+  }
 }
