@@ -34,6 +34,7 @@ static const struct {
     {"close-flight", CLOSE, false, false},
     {"closest-hover", VERTICAL, false, true},
     {"hand-held", NOBODY, false, false},
+    {"in-passing", " --set ceil.min=0.01 --set ceil.blindMax=60", true, true},
     {"inner-loop", "", false, false},
     {"learning-1d", VERTICAL, true, false},
     {"learning-flight", CLOSE, true, false},
