@@ -15,6 +15,8 @@ import desk
 import flights
 import gap
 import laws
+import passing
+import robust
 import run
 from run import OUT, program, typed
 
@@ -130,6 +132,9 @@ RECIPES = {
     "laws": Recipe(laws.laws),
     "touches": Recipe(flights.touches),
     "bound": Recipe(bound.bound),
+    "passing": Recipe(passing.passing),
+    "pushes": Recipe(passing.pushes),
+    "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 102001, 200)),
     "users": Recipe(says("exam", "users", 101001, 240)),
     "outside": Recipe(outside),
