@@ -121,8 +121,9 @@ typedef struct {
   double size, statistic;
 } window_t;
 
-// Of the first bins, windows of at most so many. False: none is better than *best.
-static bool best_window(const products_t *p, bool centred, int bins, int longest, window_t *best) {
+// Of the first bins, windows of so many. False: none is better than *best.
+static bool best_window(const products_t *p, bool centred, int bins, int shortest, int longest,
+                        window_t *best) {
   double size, statistic;
   double column[BINS_MAX + 1]; // of D: sums over the window's rows
   bool better = false;
@@ -134,7 +135,9 @@ static bool best_window(const products_t *p, bool centred, int bins, int longest
       w.cross += p->D[to][p->bins];
       w.own += 2.0 * column[to] + p->D[to][to];
       for (int k = to + 1; k < bins; k++) column[k] += p->D[to][k];
-      if (!judge(p, centred, &w, &size, &statistic) || statistic <= best->statistic) continue;
+      if (to - from + 1 < shortest || !judge(p, centred, &w, &size, &statistic) ||
+          statistic <= best->statistic)
+        continue;
       *best = (window_t){from, to, size, statistic};
       better = true;
     }
@@ -145,7 +148,7 @@ static bool best_window(const products_t *p, bool centred, int bins, int longest
 static void try_windows(const products_t *p, bool centred, int channel, int coordinate, const double *edge,
                         cell_t *cell) {
   window_t best = {.statistic = cell->statistic};
-  if (!best_window(p, centred, p->bins, p->bins / 2, &best)) return;
+  if (!best_window(p, centred, p->bins, 1, p->bins / 2, &best)) return;
   *cell = (cell_t){.channel = channel,
                    .along = coordinate,
                    .coordinate = coordinate_name(coordinate),
@@ -213,6 +216,7 @@ typedef struct {
 
 // Its ends along x (else y) among the rows of its other way: a patch as wide as strips takes in much that
 // lies beside what is there.
+// It stays as wide as a strip: a hover's half millimetre is no place.
 static void fit_ends(const floor_t *f, int ch, bool along_x, patch_t *at) {
   const rows_t *const r = &f->l->s->smooth;
   const int *const own = along_x ? f->x : f->y, *const other = along_x ? f->y : f->x;
@@ -221,7 +225,7 @@ static void fit_ends(const floor_t *f, int ch, bool along_x, patch_t *at) {
   window_t best = {.statistic = at->statistic};
   for (int i = 0; i < r->n; i++) f->bin[i] = other[i] >= low && other[i] <= high ? own[i] : bins;
   add_products(&p, bins + 1, r, &f->l->color[ch], f->l->residual[ch], f->bin);
-  if (!best_window(&p, f->l->centred, bins, MOST * f->parts, &best)) return;
+  if (!best_window(&p, f->l->centred, bins, f->parts, MOST * f->parts, &best)) return;
   *(along_x ? &at->x : &at->y) = best.from;
   *(along_x ? &at->x_to : &at->y_to) = best.to;
   at->size = best.size;
