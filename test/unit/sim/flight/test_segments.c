@@ -23,7 +23,7 @@ TEST(segments_judge_the_hover_over_the_last_five_seconds) {
       {"the older half", 5.005, 7.505, 5.0, 7.0710678, 5.0},
       {"the newer half", 7.505, 10.005, 5.0, 7.0710678, 5.0},
   };
-  static sample_t sample[N];
+  sample_t sample[N];
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     plan_t plan;
@@ -54,7 +54,7 @@ TEST(segments_count_a_contact_that_lasts_in_each) {
       {"from the start to the end", 0, N, N, {1, 1}},
       {"through both, and again", 500, 1200, 1500, {1, 2}},
   };
-  static sample_t sample[N];
+  sample_t sample[N];
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     plan_t plan;

@@ -54,7 +54,7 @@ typedef struct {
 } made_t;
 
 static const char *write_flight(const made_t *f) {
-  static char text[400000];
+  char text[400000];
   size_t used = (size_t)snprintf(text, sizeof text, NAMES);
   for (int i = 0; i < f->n && used < sizeof text - 200; i++) {
     if (i >= f->gap_from && i < f->gap_from + f->gap_rows) continue;

@@ -19,7 +19,7 @@ static double curve_at_m(double d_m) {
 // Slow sweeps between 1 and 30 cm from a surface, thrust in newton, 31 g; what the motors' lag does is put
 // into the command, as a perfect controller would. The first second stands at the surface.
 static const char *write_sweeps(const char *name, int ceiling, double phase) {
-  static char text[700000];
+  char text[700000];
   size_t used = (size_t)snprintf(text, sizeof text,
                                  "timestamp,stateEstimate.z,stateEstimate.qw,stateEstimate.qx,"
                                  "stateEstimate.qy,stateEstimate.qz,acc.x,acc.y,acc.z,indi.thrust\n");

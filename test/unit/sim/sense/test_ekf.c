@@ -102,7 +102,7 @@ static void flown(uint64_t seed, double ceiling_m, ekf_out_t *out, int n) {
 
 TEST(ekf_never_reads_the_upward_range_and_the_same_seed_gives_the_same_bits) {
   enum { N = 4000 };
-  static ekf_out_t first[N], other[N];
+  ekf_out_t first[N], other[N];
   flown(7, 0.45, first, N);
   flown(7, 0.45, other, N);
   CHECK(memcmp(first, other, sizeof first) == 0);
