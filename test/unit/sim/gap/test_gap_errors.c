@@ -35,8 +35,8 @@ TEST(gap_gives_errors_that_hold_what_was_hidden) {
 }
 
 // The gyro's filter and the hold of a command are late, too; no log tells how much, and a columns file may
-// not either. A lag is told from a delay only where it does: about a lag of 25 ms the straight line promises
-// more of a delay than the model with one keeps.
+// not either. A lag is told from a delay only where it does. About a lag of 25 ms that is found the straight
+// line promises more of a delay than the model with one keeps.
 TEST(gap_gives_errors_that_hold_the_lateness_of_instruments) {
   static const struct {
     const char *name, *effect, *untold; // what the columns file does not tell
