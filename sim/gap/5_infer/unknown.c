@@ -216,7 +216,7 @@ double unknown_in_windows(const scan_t *scan) {
 // --- what is beyond nominal flights -----------------------------------------------------------------------
 
 #define CHANCE 4.0 // standard errors: the largest of so many windows of noise alone
-#define LEAST  6.5 // standard errors: less is never told
+#define LEAST  6.5 // errors, of chance or of a right form with other numbers: less is never told
 #define MARGIN 1.4 // over what is furthest out of the nominal flights
 #define TIE    0.8 // of what explains most, that explains as much
 
@@ -232,11 +232,17 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
   return sqrt(squares / flights);
 }
 
-// The bound with what a right form with other numbers leaves beside it: an error of the model, which nominal
-// flights do not have.
-static double beside_misfit(double bound, const cell_t *c, const double misfit[CHANNELS]) {
+// The bound of a cell with what a right form with other numbers leaves beside chance: an error of the model,
+// which nominal flights do not have.
+static double bound_of(const cell_t *c, double chance, const double misfit[CHANNELS]) {
   const double share = c->size != 0.0 ? misfit[c->channel] * c->statistic / c->size : 0.0;
-  return hypot(bound, LEAST * share);
+  return hypot(chance, LEAST * share);
+}
+
+// What a cell explains beyond what its bound would.
+static double beyond(const cell_t *c, double bound) {
+  return c->statistic > 0.0 ? c->explained * (1.0 - bound * bound / (c->statistic * c->statistic))
+                            : -HUGE_VAL;
 }
 
 // What lies at a place stays there; what begins at the same time in every flight is rarer, and a state is
@@ -245,24 +251,33 @@ static int rank_of(int along) {
   return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
 }
 
-// Of those that explain as much but for a fifth: which is told first, and another one. A place is known to
-// some centimetres, and what lies there begins and ends some rows beside its window; pulses end at the very
-// row. The lateral force in either axes is one.
+// Of one force: the lateral one has other names along the body's axes and along the world's.
+static bool of_one_force(const cell_t *a, const cell_t *b) {
+  return a->world == b->world ? a->channel == b->channel
+                              : a->channel < UNKNOWN_LEVEL && b->channel < UNKNOWN_LEVEL;
+}
+
+static bool goes_before(const cell_t *a, const cell_t *b) {
+  const int first = rank_of(a->along), second = rank_of(b->along);
+  return first != second ? first < second : a->explained > b->explained;
+}
+
+// Of those that explain as much but for a fifth: which is told first, and the one of the others, along
+// something else, that explains most. A place is known to some centimetres, and what lies there begins and
+// ends some rows beside its window; pulses end at the very row.
 static void weigh_ties(const scan_t *log, judged_t *to) {
   const cell_t best = to->cell;
-  double most = 0.0;
+  bool tied[UNKNOWN_CELLS];
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     const cell_t *const c = &log->cell[k];
-    const bool same = c->channel == best.channel && c->along != best.along;
-    if (!same || !(c->statistic > to->bound[k]) || !(c->explained > fmax(most, TIE * best.explained)))
-      continue;
-    most = c->explained;
-    to->also = *c;
-    to->cell = best;
-    if (rank_of(c->along) >= rank_of(best.along)) continue;
+    tied[k] = beyond(c, to->bound[k]) > 0.0 && of_one_force(c, &best) && c->explained >= TIE * best.explained;
+    if (!tied[k] || !goes_before(c, &to->cell)) continue;
     to->cell = *c;
     to->cell_bound = to->bound[k];
-    to->also = best;
+  }
+  for (int k = 0; k < UNKNOWN_CELLS; k++) {
+    const cell_t *const c = &log->cell[k];
+    if (tied[k] && c->along != to->cell.along && c->explained > to->also.explained) to->also = *c;
   }
 }
 
@@ -274,13 +289,11 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
       furthest = fmax(furthest, nominal[i].cell[k].statistic / usual(nominal, n, i, k));
   *to = (judged_t){.found = false};
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
-    to->bound[k] = fmax(LEAST, MARGIN * furthest * usual(nominal, n, -1, k));
     const cell_t *const c = &log->cell[k];
-    if (!(c->statistic > 0.0)) continue;
-    const double beyond =
-        c->explained * (1.0 - pow(beside_misfit(to->bound[k], c, misfit) / c->statistic, 2.0));
-    if (!(beyond > most)) continue;
-    most = beyond;
+    to->chance[k] = fmax(LEAST, MARGIN * furthest * usual(nominal, n, -1, k));
+    to->bound[k] = bound_of(c, to->chance[k], misfit);
+    if (!(beyond(c, to->bound[k]) > most)) continue;
+    most = beyond(c, to->bound[k]);
     to->cell = *c;
     to->cell_bound = to->bound[k];
   }

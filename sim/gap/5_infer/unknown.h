@@ -58,16 +58,16 @@ MUST_CHECK done_t unknown_scan(const set_t *s, const model_t *m, double *const r
 double unknown_in_windows(const scan_t *scan);
 
 typedef struct {
-  double bound[UNKNOWN_CELLS]; // of the statistics: nominal flights do not come near
-  cell_t cell;                 // the one that explains most beyond what its bound would
+  double chance[UNKNOWN_CELLS]; // of the statistics: nominal flights do not come near
+  double bound[UNKNOWN_CELLS];  // with what a right form with other numbers leaves
+  cell_t cell;                  // of those that explain most beyond what their bound would: a place first
   double cell_bound;
   bool found;  // it is beyond its bound
-  cell_t also; // of the same channel, along something else, explains as much but for a fifth; statistic 0:
-               // none
+  cell_t also; // of the same force, along something else, explains as much but for a fifth; statistic 0: none
 } judged_t;
 
-// nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves: no
-// size below it counts.
+// nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves, rms:
+// 6.5 times as much counts.
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
 

@@ -177,7 +177,7 @@ static done_t look_for_ceiling(report_t *r, why_t *why) {
   TRY(unknown_colors(&d->fit, &d->extended, d->residual, color, why));
   for (int ch = 0; ch < CHANNELS; ch++) color[ch].used = color[ch].used && ch == CH_FZ;
   TRY(unknown_along(&d->fit, &d->extended, height, d->residual, color, &cell, why));
-  if (!(cell.statistic > d->left.bound[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last))
+  if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last))
     return DONE;
   const double at_m = seen_ceiling_m(r);
   r->ceiling_suspected = true;

@@ -118,7 +118,7 @@ void page_unknown(const report_t *r, FILE *out) {
   if (d->left.also.statistic > 0.0)
     page_text(out, ", or at ", report_place(&d->left.also, where), " as well");
   fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
-          d->unknown ? "" : ": chance");
+          d->unknown ? "" : ": chance, or a right form with other numbers");
   if (c->along != NOWHERE) {
     fputs("\n<figure>", out);
     picture_place(&r->left, c->from, c->to, "the largest cell", out);

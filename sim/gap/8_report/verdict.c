@@ -100,28 +100,29 @@ static void add_effect(cJSON *list, const finding_t *f) {
   add_instrument(o, f);
 }
 
+static void add_place(cJSON *o, const cell_t *c) {
+  cJSON_AddStringToObject(o, "channel", gap_channel[c->channel]);
+  cJSON_AddStringToObject(o, "axes", c->world ? "world" : "body");
+  cJSON_AddStringToObject(o, "coordinate", c->coordinate);
+  add_number(o, "from", c->from);
+  add_number(o, "to", c->to);
+  if (!c->is_patch) return;
+  add_number(o, "y_from", c->y_from_m);
+  add_number(o, "y_to", c->y_to_m);
+}
+
 static void add_unknown(cJSON *root, const diagnosis_t *d) {
   if (!d->unknown) {
     cJSON_AddNullToObject(root, "unknown");
     return;
   }
   cJSON *const o = cJSON_AddObjectToObject(root, "unknown");
-  cJSON_AddStringToObject(o, "channel", gap_channel[d->left.cell.channel]);
-  cJSON_AddStringToObject(o, "axes", d->left.cell.world ? "world" : "body");
-  cJSON_AddStringToObject(o, "coordinate", d->left.cell.coordinate);
-  add_number(o, "from", d->left.cell.from);
-  add_number(o, "to", d->left.cell.to);
-  if (d->left.cell.is_patch) {
-    add_number(o, "y_from", d->left.cell.y_from_m);
-    add_number(o, "y_to", d->left.cell.y_to_m);
-  }
+  add_place(o, &d->left.cell);
   add_number(o, "size", d->left.cell.size);
   add_number(o, "stderr", fabs(d->left.cell.size) / d->left.cell.statistic);
   if (d->left.also.statistic > 0.0) {
     cJSON *const also = cJSON_AddObjectToObject(o, "also"); // explains as much but for a fifth
-    cJSON_AddStringToObject(also, "coordinate", d->left.also.coordinate);
-    add_number(also, "from", d->left.also.from);
-    add_number(also, "to", d->left.also.to);
+    add_place(also, &d->left.also);
   }
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[d->left.cell.channel]);
