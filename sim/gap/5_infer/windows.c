@@ -8,12 +8,12 @@
 #define FINE     36                   // bins of equal width: a layer may be thin
 #define STRIPS   8                    // of the floor, each way, to find a patch
 #define MOST     6                    // strips of a patch
-#define PARTS    16                   // of a strip at most, to fit the patch's ends
-#define TURNS    2                    // of fitting the ends along x and along y
-#define BINS_MAX (STRIPS * PARTS + 1) // of any cut, and one for what lies beside
-#define ROWS     4                    // of a bin, on the average, or nothing is said
+#define PARTS    16                   // of a strip, to fit a patch's ends: two rows or so, in 20 s of flight
+#define BINS_MAX (STRIPS * PARTS + 1) // of any cut; one for what lies beside
+#define ROWS     4                    // of a coordinate's bin, on the average, or nothing is said
 
-_Static_assert(STRIPS *STRIPS <= BINS_MAX && FINE <= BINS_MAX, "every cut has room");
+_Static_assert(STRIPS *STRIPS <= BINS_MAX && FINE <= BINS_MAX && WINDOW_BINS <= BINS_MAX,
+               "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------
 
@@ -211,25 +211,25 @@ typedef struct {
   const look_t *l;
   int *x, *y, *bin; // bin: room
   int parts;        // of a strip
+  products_t p;     // room
   double x_edge[BINS_MAX + 1], y_edge[BINS_MAX + 1];
 } floor_t;
 
-// Its ends along x (else y) among the rows of its other way: a patch as wide as strips takes in much that
-// lies beside what is there.
-// It stays as wide as a strip: a hover's half millimetre is no place.
-static void fit_ends(const floor_t *f, int ch, bool along_x, patch_t *at) {
+// Its ends along x (else y) among the rows of its other way: strips take in much that lies beside what is
+// there. It stays as wide as a strip: a hover's half millimetre is no place. False: they stay.
+static bool fit_ends(floor_t *f, int ch, bool along_x, patch_t *at) {
   const rows_t *const r = &f->l->s->smooth;
   const int *const own = along_x ? f->x : f->y, *const other = along_x ? f->y : f->x;
   const int low = along_x ? at->y : at->x, high = along_x ? at->y_to : at->x_to, bins = STRIPS * f->parts;
-  products_t p;
   window_t best = {.statistic = at->statistic};
   for (int i = 0; i < r->n; i++) f->bin[i] = other[i] >= low && other[i] <= high ? own[i] : bins;
-  add_products(&p, bins + 1, r, &f->l->color[ch], f->l->residual[ch], f->bin);
-  if (!best_window(&p, f->l->centred, bins, f->parts, MOST * f->parts, &best)) return;
+  add_products(&f->p, bins + 1, r, &f->l->color[ch], f->l->residual[ch], f->bin);
+  if (!best_window(&f->p, f->l->centred, bins, f->parts, MOST * f->parts, &best)) return false;
   *(along_x ? &at->x : &at->y) = best.from;
   *(along_x ? &at->x_to : &at->y_to) = best.to;
   at->size = best.size;
   at->statistic = best.statistic;
+  return true;
 }
 
 static cell_t cell_of(const floor_t *f, int ch, const patch_t *at) {
@@ -248,23 +248,30 @@ static cell_t cell_of(const floor_t *f, int ch, const patch_t *at) {
                   .y_to_m = f->y_edge[at->y_to + 1]};
 }
 
-static void look_at_floor(const floor_t *f, int ch, cell_t *cell) {
+static void look_at_floor(floor_t *f, int ch, cell_t *cell) {
   const rows_t *const r = &f->l->s->smooth;
-  products_t p;
   for (int i = 0; i < r->n; i++) f->bin[i] = f->x[i] / f->parts * STRIPS + f->y[i] / f->parts;
-  add_products(&p, STRIPS * STRIPS, r, &f->l->color[ch], f->l->residual[ch], f->bin);
-  patch_t at = best_of_strips(&p, f->l->centred);
+  add_products(&f->p, STRIPS * STRIPS, r, &f->l->color[ch], f->l->residual[ch], f->bin);
+  patch_t at = best_of_strips(&f->p, f->l->centred);
   if (!(at.statistic > 0.0)) return;
   at.x *= f->parts, at.x_to = (at.x_to + 1) * f->parts - 1;
   at.y *= f->parts, at.y_to = (at.y_to + 1) * f->parts - 1;
-  for (int i = 0; i < 2 * TURNS; i++) fit_ends(f, ch, i % 2 == 0, &at);
+  for (bool moved = true; moved;) { // each time the statistic grows
+    const bool along_x = fit_ends(f, ch, true, &at);
+    moved = fit_ends(f, ch, false, &at) || along_x;
+  }
   if (at.statistic > cell->statistic) *cell = cell_of(f, ch, &at);
 }
 
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
   const int n = l->s->smooth.n;
   const int enough = n / (ROWS * STRIPS);
-  floor_t f = {l, l->bin, l->bin + n, l->bin + 2 * n, enough < PARTS ? enough : PARTS, {0.0}, {0.0}};
+  floor_t f;
+  f.l = l;
+  f.x = l->bin;
+  f.y = f.x + n;
+  f.bin = f.y + n;
+  f.parts = enough < PARTS ? enough : PARTS;
   const int bins = STRIPS * f.parts;
   if (bins < 1 || !bins_of(l->s, l->m, COORDINATE_X, 0, bins, BY_ROWS, l->room, f.x, f.x_edge) ||
       !bins_of(l->s, l->m, COORDINATE_Y, 0, bins, BY_ROWS, l->room, f.y, f.y_edge))

@@ -1,9 +1,10 @@
 // windows.h - in which part of a coordinate, or of the floor, a residual is largest.
 //
 // A coordinate is cut into bins that hold equally many rows, and again into bins of equal width; the floor
-// into strips of x and of y that hold equally many. For a window of neighbouring bins the statistic is the
-// generalised least squares estimate of a constant inside it, over its standard error, with the
-// autoregression of the channel and a constant over all rows taken into account.
+// into strips of x and of y that hold equally many, and a patch of strips is fitted to parts of them at its
+// ends. For a window of neighbouring bins the statistic is the generalised least squares estimate of a
+// constant inside it, over its standard error, with the autoregression of the channel and a constant over all
+// rows taken into account.
 #ifndef SIM_GAP_5_INFER_WINDOWS_H
 #define SIM_GAP_5_INFER_WINDOWS_H
 
