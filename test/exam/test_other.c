@@ -174,7 +174,7 @@ TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
   job.habits.every = 5, job.habits.means = false;
   FILE *const file = tmpfile();
   CHECK(file && other_fly(&job, file, NULL));
-  static char log[2000000];
+  char log[2000000];
   rewind(file);
   log[fread(log, 1, sizeof log - 1, file)] = '\0';
   fclose(file);
@@ -184,4 +184,33 @@ TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
   CHECK(cell(log, 100, M1) == 0.0 && cell(log, -1, M1) == 0.0);
   CHECK_NEAR(cell(log, 1300, Z), 0.9 * hide_stretch(&job.known), 0.1); // its top, in the middle of the flight
   CHECK_NEAR(cell(log, -1, Z), job.known.rest_m, 0.02);
+}
+
+// A set of the exam whose flights did not meet what is hidden expects the impossible, and is drawn again.
+TEST(the_second_plant_counts_how_long_what_no_library_has_is_felt) {
+  static const struct {
+    const char *what;
+    strange_kind_t strange;
+    double at[3], x_m, z_m; // the vehicle hovers there
+    double share;           // of the flight
+  } row[] = {
+      {"at the place", STRANGE_PLACE, {1.0, 0.0, 0.5}, 1.0, 1.0, 1.0},
+      {"where half of it is felt", STRANGE_PLACE, {1.0, 0.0, 0.5}, 1.4, 1.0, 1.0}, // exp(-0.64)
+      {"beside it", STRANGE_PLACE, {1.0, 0.0, 0.5}, 1.5, 1.0, 0.0},                // exp(-1)
+      {"above a layer", STRANGE_LAYER, {1.0, 0.0, 0.2}, 0.0, 1.3, 0.0},
+      {"out of the corner", STRANGE_CORNER, {0.5, -0.5, 0.0}, 0.0, 1.0, 0.0},
+      {"a pulse in each half second", STRANGE_PULSES, {0.5, 0.0, 0.1}, 0.0, 1.0, 0.2},
+      {"a shake, but where it turns", STRANGE_SHAKE, {2.0, 0.0, 0.0}, 0.0, 1.0, 2.0 / 3.0},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    nature_t n = plain();
+    nature_flight_t f;
+    n.strange = row[i].strange;
+    n.strange_N = 1e-9 * n.mass_kg; // it stays where it is
+    memcpy(n.strange_at, row[i].at, sizeof n.strange_at);
+    nature_start(&f, &n, vec(row[i].x_m, 0.0, row[i].z_m));
+    run(&f, 1.0, nature_hover_radps(&n));
+    CHECK_NEAR(f.felt_s, row[i].share, 0.01);
+  }
 }

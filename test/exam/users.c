@@ -9,7 +9,7 @@
 
 #define FLIGHTS 3
 #define FITTED  2   // of them; the last is held out
-#define FELT_S  1.0 // at least, in those, of what is outside the library
+#define FELT_S  1.0 // at least, in those, of what is outside the library: half a block of the Wald F
 #define DRAWS   20
 #define PATH    80
 
@@ -142,23 +142,24 @@ static done_t write_file(const char *path, const other_job_t *job, void (*write)
   return fclose(out) == 0 ? DONE : error_failed(why, "%s: cannot be written", path);
 }
 
-static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, bool *flew, why_t *why) {
+typedef enum { FLEW, LOST, UNMET } flown_t; // UNMET: what lies where nobody flew is not hidden
+
+static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, flown_t *flown, why_t *why) {
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
   double all_s = 0.0;
-  *flew = true;
-  for (int i = 0; i < flights && *flew; i++) {
+  *flown = FLEW;
+  for (int i = 0; i < flights && *flown == FLEW; i++) {
     double felt_s = 0.0;
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
     job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
     job->seed = (uint64_t)(1e15 * dice_share(d));
-    *flew = other_fly(job, out, &felt_s);
+    if (!other_fly(job, out, &felt_s)) *flown = LOST;
     if (i < FITTED) all_s += felt_s;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
   }
-  // What lies where nobody flew is not hidden.
-  *flew = *flew && (job->truth.strange == STRANGE_NONE || all_s >= FELT_S);
+  if (*flown == FLEW && job->truth.strange != STRANGE_NONE && all_s < FELT_S) *flown = UNMET;
   return DONE;
 }
 
@@ -198,16 +199,20 @@ done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t 
   dice_t d = {(uint64_t)seed * 7919u + (uint64_t)kind};
   paper_t paper;
   const int flights = kind == USERS_ALONE ? 1 : FLIGHTS;
-  bool flew = false;
+  flown_t flown = LOST;
+  int lost = 0, unmet = 0;
   TRY(open_paper(&paper, why));
   done_t status = DONE;
-  for (int draw = 0; draw < DRAWS && status == DONE && !flew; draw++) {
-    *set = (users_set_t){.kind = kind, .drawn_again = draw};
+  while (status == DONE && lost + unmet < DRAWS) {
+    *set = (users_set_t){.kind = kind, .lost = lost, .unmet = unmet};
     other_job_t job = other_job(&d);
     how[kind](set, &job, &d);
-    status = fly(&paper, flights, &job, &d, &flew, why);
+    status = fly(&paper, flights, &job, &d, &flown, why);
+    if (flown == FLEW) break;
+    ++*(flown == LOST ? &lost : &unmet);
   }
-  if (status == DONE && !flew) status = error_failed(why, "no vehicle of %d flies", DRAWS);
+  if (status == DONE && flown != FLEW)
+    status = error_failed(why, "of %d vehicles none flies and meets what is hidden", DRAWS);
   if (status == DONE) status = answer(&paper, flights, seed, set, why);
   close_paper(&paper);
   return status;

@@ -23,7 +23,7 @@ typedef enum {
 
 typedef struct {
   users_kind_t kind;
-  int drawn_again; // so often: the vehicle could not fly with what was hidden
+  int lost, unmet; // drawn again so often: it could not fly, or did not come where it was hidden for a second
   int n;           // hidden effects
   const char *hidden[USERS_HIDDEN];
   double times[USERS_HIDDEN];

@@ -49,14 +49,13 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   rate_t refused = {"refused", 0, 0},
          sure = {"stated at 0.95 or more: right", stated.bin[RELIABILITY_SURE].right,
                  stated.bin[RELIABILITY_SURE].of};
-  int again = 0;
+  int lost = 0, unmet = 0;
   for (int i = 0; i < n; i++) {
     const users_set_t *const s = &set[i];
     if (s->kind != kind) continue;
-    again += s->drawn_again;
+    lost += s->lost, unmet += s->unmet;
     refused.of++, refused.yes += s->refused;
-    names.of += s->names, names.yes += s->right + s->beside;
-    held.of += s->n, held.yes += s->right;
+    names.of += s->names, names.yes += s->right + s->beside, held.of += s->n, held.yes += s->right;
     if (s->cause) {
       dirty.of++, dirty.yes += users_exact(s);
       repaired.of++, repaired.yes += !s->refused && s->names == 0;
@@ -72,7 +71,8 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
     }
   }
   if (!refused.of) return;
-  printf("%s, %d sets (%d drawn again: lost, or never there)\n", KIND[kind], refused.of, again);
+  printf("%s, %d sets (drawn again: lost %d, never where it is hidden %d)\n", KIND[kind], refused.of, lost,
+         unmet);
   const rate_t *const all[] = {&alarm,   &guess,   &one,   &two,      &held,    &names,
                                &strange, &located, &dirty, &repaired, &refused, &sure};
   for (unsigned i = 0; i < sizeof all / sizeof *all; i++) print_rate(all[i]);
