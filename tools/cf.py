@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # the source tree stays clean
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from cf import blocks, ladder, log, params
+from cf import blocks, identify, ladder, log, params
 from cf.dry import DryVehicle
 from cf.errors import Failed, Refused
 from cf.flight import ENDS, FAR_M, Plan
@@ -80,7 +80,6 @@ def gaps(text: str) -> tuple[float, ...]:
 
 
 def flight_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--hold", type=between(1, 60, "s"), default=10.0, metavar="S", help="at each gap, default 10")
     command.add_argument(
         "--battery", type=between(3.5, 4.2, "V"), default=3.8, metavar="V", help="least before take-off, default 3.8"
     )
@@ -115,11 +114,25 @@ def parser() -> argparse.ArgumentParser:
     of_log.add_argument("--period", type=int, default=20, metavar="MS", help="of the named variables, default 20")
     of_log.add_argument("--for", dest="for_s", type=between(0.1, 86400, "s"), metavar="S", help="default: until Ctrl-C")
 
-    flight_options(commands.add_parser("learn", parents=[dry], help="fly the learning flight, store the weights"))
+    learn = commands.add_parser("learn", parents=[dry], help="fly the learning flight, store the weights")
     test = commands.add_parser("test-flight", parents=[dry], help="far hover, then 9, 5 and 3 cm below the ceiling")
+    for each in learn, test:
+        each.add_argument("--hold", type=between(1, 60, "s"), default=10.0, metavar="S", help="at each gap, default 10")
+        flight_options(each)
+    flight_options(commands.add_parser("identify", parents=[dry], help="hop for 20 s: the motors' lag and delay"))
     test.add_argument("--gaps", type=gaps, default=(0.09, 0.05, 0.03), metavar="CM,CM", help="default 9,5,3")
-    flight_options(test)
     return top
+
+
+def fly(vehicle: Vehicle | DryVehicle, asked: argparse.Namespace) -> None:
+    plan = Plan(getattr(asked, "gaps", ()), getattr(asked, "hold", identify.HOVER_S), asked.battery)
+    file = None if asked.dry_run else asked.log
+    if asked.command == "identify":
+        rows = identify.hop_rows(vehicle, plan, file)
+        if not asked.dry_run:
+            identify.tell(vehicle, rows)
+    else:
+        (ladder.learn if asked.command == "learn" else ladder.test_flight)(vehicle, plan, file)
 
 
 def run(asked: argparse.Namespace) -> None:
@@ -136,8 +149,7 @@ def run(asked: argparse.Namespace) -> None:
             wanted = log.chosen(vehicle, asked.names, asked.config, asked.period)
             log.run(vehicle, wanted, None if asked.dry_run else asked.out, asked.for_s or math.inf)
         else:
-            fly = ladder.learn if asked.command == "learn" else ladder.test_flight
-            fly(vehicle, Plan(getattr(asked, "gaps", ()), asked.hold, asked.battery), None if asked.dry_run else asked.log)
+            fly(vehicle, asked)
     finally:
         vehicle.close()
 

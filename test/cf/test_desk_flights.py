@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from desk_rig import AtTheDesk, desk
+from desk_rig import ROOT, AtTheDesk, desk
 
 NEAR_M, HOLD_S = 0.03, 4
 
@@ -39,6 +39,23 @@ class Flights(AtTheDesk):
         self.assertGreater(len(gaps_m), 100 * (HOLD_S - 2))
         self.assertAlmostEqual(sum(gaps_m) / len(gaps_m), NEAR_M, delta=0.005)
         self.assertGreater(min(gaps_m), 0.0)
+
+    def test_it_identifies_motors_that_its_parameters_do_not_know(self) -> None:
+        text = (ROOT / "sim" / "vehicle" / "vehicles" / "cf21_legacy.toml").read_text()
+        vehicle = self.folder / "slow.toml"
+        slow, lags = re.subn(r"(?m)^motor_tau_s = \S+", "motor_tau_s = 0.11", text)
+        slow, delays = re.subn(r"(?m)^delay_s = \S+", "delay_s = 0.0", slow)
+        self.assertEqual((lags, delays), (1, 1))
+        vehicle.write_text(slow)
+        with desk("--vehicle", vehicle) as self.uri:
+            self.cf("params", "set", "ceil.shadow=0")
+            said = self.cf("identify")
+        lag_ms, lag_error_ms, delay_ms, delay_error_ms = map(float, re.findall(r"([\d.-]+) \+- ([\d.]+) ms", said)[0] +
+                                                             re.findall(r"([\d.-]+) \+- ([\d.]+) ms", said)[1])
+        self.assertLess(lag_error_ms, 6.0)
+        self.assertAlmostEqual(lag_ms, 110.0, delta=2 * lag_error_ms)
+        self.assertAlmostEqual(delay_ms, 0.0, delta=2.0 + delay_error_ms)
+        self.assertIn(f"cf params set indiPos.tauMot={lag_ms / 1000:.3f}", said)
 
     def test_the_space_bar_stops_the_motors_and_it_falls(self) -> None:
         self.cf("params", "set", "ceil.shadow=0")

@@ -36,6 +36,13 @@ class DryRun(unittest.TestCase):
         self.assertEqual(re.findall(r"go to .* z (\S+) m", ran.stdout), ["1.300", "1.410", "1.450", "1.470"])
         self.assertNotIn("store", ran.stdout)
 
+    def test_identify_says_its_hops_and_fits_nothing(self) -> None:
+        ran = self.cf("identify", "--dry-run")
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
+        heights_m = re.findall(r"go to .* z (\S+) m", ran.stdout)
+        self.assertEqual(heights_m, ["1.300"] + 12 * ["1.275", "1.300"])
+        self.assertNotIn("motor lag", ran.stdout)
+
     def test_params_and_log_say_what_they_would_do(self) -> None:
         for words, says in (
             (("params", "list"), "would read all parameters\n"),
@@ -60,6 +67,7 @@ class DryRun(unittest.TestCase):
             (("params", "gett", "ceil.min"), "(did you mean get?)"),
             (("learn", "--dryrun"), "(did you mean --dry-run?)"),
             (("learn", "--hold", "99"), "argument --hold: 99: allowed are 1 to 60 s; "),
+            (("identify", "--hold", "9"), "unrecognized arguments: --hold 9"),
         ):
             with self.subTest(words=words):
                 ran = self.cf(*words)
@@ -67,7 +75,7 @@ class DryRun(unittest.TestCase):
                 self.assertIn(says, ran.stderr)
 
     def test_it_writes_no_file(self) -> None:
-        for words in (("log", "acc.z", "--out"), ("learn", "--log"), ("test-flight", "--log")):
+        for words in (("log", "acc.z", "--out"), ("learn", "--log"), ("test-flight", "--log"), ("identify", "--log")):
             self.cf(*words, self.folder / "x.csv", "--dry-run")
             self.assertFalse((self.folder / "x.csv").exists())
 
@@ -91,7 +99,7 @@ class DryRun(unittest.TestCase):
     def test_help_names_every_command(self) -> None:
         ran = self.cf("--help")
         self.assertEqual(ran.returncode, 0)
-        for command in ("params", "log", "learn", "test-flight"):
+        for command in ("params", "log", "learn", "test-flight", "identify"):
             self.assertIn(command, ran.stdout)
 
 

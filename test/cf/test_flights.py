@@ -8,6 +8,18 @@ from fake_vehicle import LEARNED
 from rig import WEIGHTS, OverTheLink
 
 
+class Identify(OverTheLink):
+    def test_rows_that_tell_nothing_are_said_after_it_has_landed(self) -> None:
+        self.refused(1, "rows came; 500 and more tell the motors' lag", "identify")
+        self.assertEqual(self.flown(), ["take off"] + 25 * ["go to"] + ["land", "stop"])
+        self.assertEqual(self.gaps_mm(), [200] + 12 * [225, 200])
+
+    def test_what_the_app_commands_has_to_be_flown(self) -> None:
+        self.vehicle.param["ceil.shadow"] = 1
+        self.refused(1, "ceil.shadow is 1: the stock controller flies", "identify")
+        self.assertEqual(self.flown(), [])
+
+
 class Learn(OverTheLink):
     def test_it_flies_10_to_2_cm_and_stores_what_was_learned(self) -> None:
         ran = self.cf("learn")

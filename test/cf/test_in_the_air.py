@@ -36,7 +36,7 @@ class Refusals(OverTheLink):
         ):
             with self.subTest(wrong=wrong):
                 self.vehicle.wrong = wrong
-                for command in ("learn", "test-flight"):
+                for command in ("learn", "test-flight", "identify"):
                     self.refused(1, says, command)
                 self.assertEqual((self.flown(), self.vehicle.fed), ([], 0))
 

@@ -23,10 +23,13 @@ PARAMS = (
     "ceil.near",
     "ceil.blindMax",
     "ceil.shadow",
+    "indiPos.mass",
+    "indiPos.tauMot",
     "stabilizer.controller",
     "kalman.resetEstimation",
 )
-LOGS = (*LEARNED, *(name for block in WATCHED for name in block.types))
+IDENTIFY = ("indiIn.step", "indi.total", "indiIn.az", "indiSet.z", "pm.vbat")  # rows of actuator.py
+LOGS = (*LEARNED, *IDENTIFY, *(name for block in WATCHED for name in block.types))
 
 
 def check(vehicle: Craft) -> None:

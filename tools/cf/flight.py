@@ -144,6 +144,12 @@ class Flight:
         self._z_m = z_m
         self.wait(duration_s + self._plan.hold_s, f"{100 * gap_m:g} cm")
 
+    def hop(self, by_m: float, duration_s: float, rest_s: float, what: str) -> None:
+        """So much higher, and stays there for rest_s."""
+        self._z_m += by_m
+        self._vehicle.go_to(self._x_m, self._y_m, self._z_m, self._yaw_rad, duration_s)
+        self.wait(duration_s + rest_s, what)
+
     def land(self) -> None:
         """Down, and motors off. LinkLost: unseen, or not at all."""
         high_m = max(self._z_m, self._now["stateEstimate.z"]) - self._floor_m  # what is commanded is a number
@@ -173,20 +179,22 @@ class Flight:
         return seen
 
 
-def fly(vehicle: Craft, now: Monitor, plan: Plan) -> None:
-    """The whole way. Failed, KeyboardInterrupt: it has landed. LinkLost: it may have. Stopped: it fell."""
+def fly(vehicle: Craft, now: Monitor, plan: Plan, then: Callable[[Flight], None] = lambda _: None) -> None:
+    """The whole way, and after the gaps what else. Failed, KeyboardInterrupt: it has landed. LinkLost: it may have.
+    Stopped: it fell."""
     with stop_key(vehicle) as pressed:
         preflight.arm(vehicle, now)
-        _fly(vehicle, now, plan, pressed)
+        _fly(vehicle, now, plan, then, pressed)
 
 
-def _fly(vehicle: Craft, now: Monitor, plan: Plan, pressed: Event) -> None:
+def _fly(vehicle: Craft, now: Monitor, plan: Plan, then: Callable[[Flight], None], pressed: Event) -> None:
     with deferred() as ends:
         flight = Flight(vehicle, now, plan, ends, pressed)
         try:
             flight.up()
             for gap_m in plan.gaps_m:
                 flight.to(gap_m)
+            then(flight)
         except Stopped:
             raise
         except BaseException as why:

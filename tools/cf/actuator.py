@@ -1,0 +1,126 @@
+"""actuator.py - the motors' lag and delay out of a hover with hops: thrust commanded, specific force measured.
+
+    m a = T'   T': the thrust T that is commanded, times (V / V')^2.25, a delay later, through a lag of first order;
+               what the firmware makes of a command is right at V', the battery's voltage V through its low-pass
+               of 100 ms, and a hop draws the voltage down at once
+    a          through the firmware's filter of the accelerometer
+
+The controller answers to what it measures, so that noise of the accelerometer is in the command, too, and least squares
+take some of it for motors that are quick. Heights that were set know no noise: they are the instruments (two-stage least
+squares; Soderstrom and Stoica, Instrumental Variable Methods for System Identification, 1983). Errors: the jackknife over
+hops, each left out in turn.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.signal import butter, lfilter
+from scipy.stats import t
+
+from .errors import Failed
+
+TICK_MS = 10  # of the outer loop: the steps that ten divides
+MOTORS_MS = 1  # later the inner loop gives the motors what the outer one wants
+ACC_HZ = 30.0  # the firmware's filter of the accelerometer, two poles at 1 kHz
+SUPPLY_GAIN = 0.01  # a millisecond, of the firmware's low-pass of the battery's voltage
+SUPPLY_POWER = 2.25  # of thrust over voltage at hover, by the firmware's map of the Crazyflie's propellers
+GAP_MS = 50  # rows further apart are a gap, and SETTLE_MS after it are left out
+SETTLE_MS = 400
+LEAST_ROWS = 500
+SET_LAGS_MS = range(-20, 300, 20)  # heights set before and after: a command follows its set point within that
+LAG_S, DELAY_S = (0.01, 0.3), (-0.02, 0.06)  # where they are looked for; less than none is noise
+ERROR_MAX_S = 0.02  # what is less certain is no measurement
+
+
+@dataclass(frozen=True)
+class Rows:
+    step: np.ndarray  # of the millisecond, from any start
+    thrust_N: np.ndarray
+    acc_mps2: np.ndarray  # specific force along the thrust
+    set_m: np.ndarray
+    battery_V: np.ndarray
+    hop: np.ndarray  # number of the hop that a row belongs to
+
+
+def rows_of(packets: list[tuple[float, ...]]) -> Rows:
+    """Of packets in the order of Rows; what is no number, or came twice, is left out."""
+    of = np.array(packets, dtype=float).reshape(-1, 6)
+    of = of[np.isfinite(of).all(axis=1)]
+    of = of[np.diff(of[:, 0], prepend=-1.0) > 0]
+    return Rows(of[:, 0].astype(int), *of[:, 1:5].T, of[:, 5].astype(int))
+
+
+@dataclass(frozen=True)
+class Told:
+    value: float
+    error: float  # within it in 19 of 20
+
+
+@dataclass(frozen=True)
+class Actuator:
+    lag_s: Told
+    delay_s: Told
+    mass_kg: Told  # that this thrust would move
+
+
+def _low_pass(gain: float, v: np.ndarray) -> np.ndarray:
+    return lfilter([gain], [1.0, gain - 1.0], v - v[0]) + v[0]
+
+
+class _Model:
+    def __init__(self, rows: Rows) -> None:
+        start = (rows.step[0] - 1) // TICK_MS * TICK_MS
+        ticks = (rows.step - 1) // TICK_MS * TICK_MS - start  # in which each thrust was commanded
+        self._ms = np.arange(rows.step[-1] - start + 1)
+        self._at = rows.step - start
+        commanded_N = np.interp(np.arange(0, self._ms[-1] + 1, TICK_MS), ticks, rows.thrust_N)
+        battery_V = np.interp(self._ms, self._at, rows.battery_V)
+        supplied = (battery_V / _low_pass(SUPPLY_GAIN, battery_V)) ** SUPPLY_POWER
+        self._thrust_N = np.repeat(commanded_N, TICK_MS)[: len(self._ms)] * supplied
+        self._acc = butter(2, ACC_HZ, fs=1000.0)
+
+        late = np.diff(rows.step, prepend=rows.step[0] - GAP_MS - 1) > GAP_MS
+        settled = rows.step[np.maximum.accumulate(np.where(late, np.arange(len(late)), 0))] + SETTLE_MS
+        self.good = rows.step > settled
+        self._rows = rows
+        self.fixed = np.column_stack([np.ones(len(rows.step)), self._at / 1000.0])
+        heights_m = [np.interp(rows.step - lag, rows.step, rows.set_m) for lag in SET_LAGS_MS]
+        self.instruments = np.column_stack([self.fixed, *heights_m])
+
+    def columns(self, lag_s: float, delay_s: float) -> np.ndarray:
+        late_N = np.interp(self._ms - MOTORS_MS - 1000.0 * delay_s, self._ms, self._thrust_N)
+        acts_N = _low_pass(-np.expm1(-0.001 / lag_s), late_N) - late_N[0]
+        return np.column_stack([lfilter(*self._acc, acts_N)[self._at], self.fixed])
+
+    def fit(self, use: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Lag, delay, and the mass that the thrust would move."""
+        onto = np.linalg.qr(self.instruments[use])[0].T
+        acc = onto @ self._rows.acc_mps2[use]
+
+        def solved(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            columns = onto @ self.columns(*at)[use]
+            gain = np.linalg.lstsq(columns, acc, rcond=None)[0]
+            return gain, columns @ gain - acc
+
+        low, high = zip(LAG_S, DELAY_S)
+        found = least_squares(lambda at: solved(at)[1], start, bounds=(low, high), x_scale=(0.02, 0.005)).x
+        return np.array([*found, 1.0 / solved(found)[0][0]])
+
+
+def identify(rows: Rows) -> Actuator:
+    """Failed: too few rows, or they tell nothing."""
+    if len(rows.step) < LEAST_ROWS:
+        raise Failed(f"{len(rows.step)} rows came; {LEAST_ROWS} and more tell the motors' lag")
+    model = _Model(rows)
+    whole = model.fit(model.good, np.array([0.08, 0.005]))
+    hops = np.unique(rows.hop[model.good])
+    without = np.array([model.fit(model.good & (rows.hop != hop), whole[:2]) for hop in hops])
+    spread = np.sqrt((len(hops) - 1) * np.mean((without - without.mean(0)) ** 2, axis=0)) * t.ppf(0.975, len(hops) - 1)
+    lag_s, delay_s, mass_kg = (Told(float(value), float(error)) for value, error in zip(whole, spread))
+    if not max(lag_s.error, delay_s.error) < ERROR_MAX_S or not LAG_S[0] < lag_s.value < LAG_S[1]:
+        raise Failed(
+            f"the motors' lag is not to be told: {1000 * lag_s.value:.0f} +- {1000 * lag_s.error:.0f} ms, "
+            f"delay {1000 * delay_s.value:.0f} +- {1000 * delay_s.error:.0f} ms; up to {1000 * ERROR_MAX_S:g} ms is good"
+        )
+    return Actuator(lag_s, delay_s, mass_kg)
