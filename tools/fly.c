@@ -34,7 +34,10 @@ typedef struct {
   bool seed_said;
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path, *replay, *params_to, *usd, *usd_config;
-  const char *commands, *scene, *storage;
+  const char *commands, *scene, *storage, *summary;
+  bool merge; // of the files that are named where else a scenario is
+  char **file;
+  int files;
   bool list, logs, params, markdown, help, rate_said;
   bool version;
   made_t made, each; // each: of one of many flights, but for its seed
@@ -66,20 +69,35 @@ static done_t take_vehicle(order_t *o, const char *path, why_t *why) {
   return controller_read(path, NULL, &o->vehicle, &flown_by, why);
 }
 
+// Where a file's name goes; a null pointer: the option names none.
+static const char **path_of(order_t *o, int option) {
+  switch (option) {
+  case 'R': return &o->replay;
+  case 'C': return &o->commands;
+  case 'x': return &o->scene;
+  case 'X': return &o->storage;
+  case 'T': return &o->params_to;
+  case 'u': return &o->usd;
+  case 'U': return &o->usd_config;
+  case 'l': return &o->log;
+  case 'j': return &o->json;
+  case 'M': return &o->summary;
+  default: return NULL;
+  }
+}
+
 static done_t take_option(order_t *o, int option, const char *text, why_t *why) {
   double count;
+  const char **const path = path_of(o, option);
+  if (path) {
+    *path = text;
+    return DONE;
+  }
   switch (option) {
   case 'c': return request_take_controller(&o->request, &o->kind, text, why);
   case 'w': o->request.thesis_law = true; return DONE;
   case 's': return request_take_set(&o->request, text, why);
   case 'S': return request_take_sets(&o->request, text, why);
-  case 'R': o->replay = text; return DONE;
-  case 'C': o->commands = text; return DONE;
-  case 'x': o->scene = text; return DONE;
-  case 'X': o->storage = text; return DONE;
-  case 'T': o->params_to = text; return DONE;
-  case 'u': o->usd = text; return DONE;
-  case 'U': o->usd_config = text; return DONE;
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
@@ -95,9 +113,8 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
     TRY(take_count("--seeds", text, 1.0, SEEDS_MAX, &count, why));
     o->seeds = (int)count;
     return DONE;
-  case 'l': o->log = text; return DONE;
   case 'r': o->rate_said = true; return request_take_log_rate(&o->request, text, why);
-  case 'j': o->json = text; return DONE;
+  case 'g': o->merge = true; return DONE;
   case 'L': o->list = true; return DONE;
   case 'G': o->logs = true; return DONE;
   case 'P': return take_params(o, text, why);
@@ -112,12 +129,22 @@ static bool many(const order_t *o) {
 }
 
 static done_t check_many(const order_t *o, why_t *why) {
+  if (!many(o) && o->summary) return error_set(why, "--summary: allowed with --from and --to, or --merge");
   if (!many(o)) return DONE;
   if (!(o->from <= o->to)) return error_set(why, "--from, --to: both are needed, and --from <= --to");
   if (o->seeds > 0) return error_set(why, "--seeds: allowed is either that or --from and --to");
   if (o->seed_said) return error_set(why, "--seed: allowed is either that or --from and --to");
   if (o->log) return error_set(why, "--log: one flight can be written; leave out --from and --to");
   if (o->usd) return error_set(why, "--usd: one flight can be written; leave out --from and --to");
+  return DONE;
+}
+
+// Nothing is flown: the words are files.
+static done_t take_merge(order_t *o, const char *given, int argc, char **argv, why_t *why) {
+  if (strspn(given, "gM") != strlen(given)) return error_set(why, "--merge: allowed with it is --summary");
+  if (optind == argc) return error_set(why, "--merge: files are needed, as fly --summary writes them");
+  o->file = argv + optind;
+  o->files = argc - optind;
   return DONE;
 }
 
@@ -143,7 +170,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
       {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
       {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
       {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"logs", 0, 0, 'G'},
-      {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'}, {"version", 0, 0, 'V'}, {0},
+      {"summary", 1, 0, 'M'}, {"merge", 0, 0, 'g'}, {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'}, {"version", 0, 0, 'V'}, {0},
   };
   // clang-format on
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
@@ -155,9 +182,10 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     if (option == '?') return option_refuse(options, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
     if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
-    if (!strchr("ftjlT", option)) made_option(&o->each, options[at].name, optarg);
+    if (!strchr("ftjlTM", option)) made_option(&o->each, options[at].name, optarg);
   }
   if (o->list || o->logs || o->params || o->help || o->version) return DONE;
+  if (o->merge) return take_merge(o, given, argc, argv, why);
   TRY(check_commands(o, given, argv[optind], why));
   if (o->commands || (o->replay && optind == argc)) return DONE;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
@@ -177,7 +205,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 
 typedef struct { // what is written beside what is printed
   whole_files_t files;
-  FILE *log, *json, *params, *usd;
+  FILE *log, *json, *params, *usd, *summary;
 } output_t;
 
 static done_t open_output(const order_t *o, output_t *out, why_t *why) {
@@ -185,10 +213,12 @@ static done_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->json, &out->json, why));
   TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
   TRY(whole_files_open(&out->files, o->usd, &out->usd, why));
+  TRY(whole_files_open(&out->files, o->summary, &out->summary, why));
   TRY(whole_files_spare(&out->files, o->usd_config, why));
   TRY(whole_files_spare(&out->files, o->commands, why));
   TRY(whole_files_spare(&out->files, o->scene, why));
   TRY(whole_files_spare(&out->files, o->storage, why));
+  for (int i = 0; i < o->files; i++) TRY(whole_files_spare(&out->files, o->file[i], why));
   return whole_files_spare(&out->files, o->vehicle_path, why);
 }
 
@@ -249,19 +279,41 @@ static done_t fly_with_deck(order_t *o, output_t *out, why_t *why) {
   return DONE;
 }
 
+static done_t tell_summary(const summary_t *s, const output_t *out, why_t *why) {
+  summary_print(s, stdout);
+  return out->summary ? summary_write(s, out->summary, why) : DONE;
+}
+
 static done_t fly_many(order_t *o, output_t *out, why_t *why) {
+  summary_t summary = {0};
+  if (o->summary) TRY(summary_make(&summary, o->each.command, o->each.by, why));
   const many_t m = {
       .scenario = o->scenario,
       .request = &o->request,
       .from = (uint64_t)o->from,
       .to = (uint64_t)o->to,
-      .text = stdout,
+      .text = o->summary ? NULL : stdout,
       .json = out->json,
-      .progress = isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO),
+      .summary = o->summary ? &summary : NULL,
+      .progress = isatty(STDERR_FILENO) && (o->summary || !isatty(STDOUT_FILENO)),
       .not_finite = &o->not_finite,
       .made = &o->each,
   };
-  return many_fly(&m, why);
+  done_t status = many_fly(&m, why);
+  if (status == DONE && o->summary) status = tell_summary(&summary, out, why);
+  summary_free(&summary);
+  return status;
+}
+
+static done_t merge(const order_t *o, const output_t *out, why_t *why) {
+  summary_t *const all = calloc(SUMMARY_CELLS_MAX, sizeof *all);
+  int n = 0;
+  done_t status = all ? DONE : error_failed(why, "out of memory");
+  for (int i = 0; i < o->files && status == DONE; i++) status = summary_gather(all, &n, o->file[i], why);
+  for (int i = 0; i < n && status == DONE; i++) status = tell_summary(&all[i], out, why);
+  for (int i = 0; i < n; i++) summary_free(&all[i]);
+  free(all);
+  return status;
 }
 
 #define AFTER_S 1.0 // flown on, after the last packet
@@ -295,9 +347,10 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->params) catalogue_params(order->markdown);
   if (order->help || order->version || order->list || order->logs || order->params) return DONE;
   if (order->replay) return replay_report(order->replay, &order->request, why);
-  if (!order->scenario && !order->commands) return DONE;
+  if (!order->scenario && !order->commands && !order->merge) return DONE;
   if (order->seeds == 0) order->seeds = 1;
   TRY(open_output(order, out, why));
+  if (order->merge) return merge(order, out, why);
   if (order->commands) return fly_commands(order, out, why);
   if (out->usd) return fly_with_deck(order, out, why);
   return many(order) ? fly_many(order, out, why) : fly(order, out, why);

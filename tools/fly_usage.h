@@ -4,6 +4,7 @@
 
 static const char USAGE[] =
     "usage: fly SCENARIO [options]\n"
+    "       fly --merge FILE... [--summary FILE]\n"
     "       fly --commands FILE [--scene FILE.toml] [--storage FILE] [options]\n"
     "  --controller NAME        who flies; see --list\n"
     "  --thesis-law             the thesis's law and gains in place of those that ship\n"
@@ -20,6 +21,10 @@ static const char USAGE[] =
     "  --seeds N                flies N times, with seeds that count up (1)\n"
     "  --from A --to B          flies seeds A to B on all processors, a line each; --json then gets JSON "
     "lines\n"
+    "  --summary FILE           with --from and --to: what they came to, in place of a line each; one line "
+    "of "
+    "JSON\n"
+    "  --merge FILE...          in place of a scenario: joins summaries, as one run would have written them\n"
     "  --integrator NAME        sundials, rk4 or reference (sundials)\n"
     "  --log FILE.csv           writes the flight with Crazyflie log names (one seed only)\n"
     "  --log-rate HZ            100; in six degrees of freedom also 500, or 1000: every call of the app, for "

@@ -8,7 +8,8 @@ typedef struct {
   done_t status;
   why_t why;
   char text[160];
-  char *json; // null: not asked for
+  char *json;    // null: not asked for
+  cJSON *result; // likewise
   bool finite;
 } line_t;
 
@@ -65,16 +66,22 @@ static line_t fly(const many_t *m, uint64_t seed) {
     line.json = cJSON_PrintUnformatted(result.json);
     if (!line.json) line.status = error_failed(&line.why, "out of memory");
   }
+  if (m->summary) {
+    line.result = result.json;
+    result.json = NULL;
+  }
   result_free(&result);
   return line;
 }
 
-static void write_line(const many_t *m, const line_t *line, uint64_t done) {
-  fprintf(m->text, "%s\n", line->text);
+static done_t take(const many_t *m, const line_t *line, uint64_t done, why_t *why) {
+  if (m->text) fprintf(m->text, "%s\n", line->text);
   if (line->json) fprintf(m->json, "%s\n", line->json);
+  *m->not_finite += !line->finite;
   if (m->progress)
     fprintf(stderr, "\r%llu of %llu flights", (unsigned long long)done,
             (unsigned long long)(m->to - m->from + 1));
+  return m->summary ? summary_add(m->summary, m->from + done - 1, line->result, why) : DONE;
 }
 
 // The first failure, in the order of the seeds, ends what is written.
@@ -87,13 +94,13 @@ done_t many_fly(const many_t *m, why_t *why) {
     line_t line = fly(m, m->from + (uint64_t)i);
 #pragma omp ordered
     if (status == DONE && line.status == DONE) {
-      write_line(m, &line, (uint64_t)i + 1);
-      *m->not_finite += !line.finite;
+      status = take(m, &line, (uint64_t)i + 1, why);
     } else if (status == DONE) {
       status = line.status;
       *why = line.why;
     }
     free(line.json);
+    cJSON_Delete(line.result);
   }
   if (m->progress) fputc('\n', stderr);
   return status;

@@ -3,20 +3,22 @@
 // Seeds from..to, in their order. As text: `seed 3 contacts 9 gap_mm 4.08 tilt_deg 6.6 finite`. As JSON
 // lines: what --json writes of one flight, without its run time but with the command that flies it alone, and
 // `seed`, `min_gap_mm` and, in six degrees of freedom, `tilt_max_deg` of the whole flight. The lines of 1..10
-// are those of 1..5 and 6..10 one after the other, at one date (made.h). One process uses all processors that
-// OpenMP gives it (OMP_NUM_THREADS).
+// are those of 1..5 and 6..10 one after the other, at one date (made.h). A summary takes no line a flight
+// (summary.h). One process uses all processors that OpenMP gives it (OMP_NUM_THREADS).
 #ifndef SIM_FLIGHT_MANY_H
 #define SIM_FLIGHT_MANY_H
 
 #include "base/made.h"
 #include "flight/scenario.h"
+#include "flight/summary.h"
 #include <stdio.h>
 
 typedef struct {
   const scenario_t *scenario;
   const request_t *request; // its seed is not used
   uint64_t from, to;
-  FILE *text, *json;  // json: a null pointer for none
+  FILE *text, *json;  // null pointers for none
+  summary_t *summary; // gets every flight; a null pointer for none
   const made_t *made; // how one flight is made, but for its seed
   bool progress;      // a line on standard error, for people
   int *not_finite;    // gets how many flights did not stay finite

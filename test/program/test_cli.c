@@ -158,6 +158,21 @@ TEST(fly_writes_the_same_lines_however_the_work_was_cut) {
   CHECK(program_run("test $(wc -l <$S/cut_0) = 6", STREAM_OUTPUT, text[0], sizeof text[0]) == 0);
 }
 
+TEST(fly_merges_summaries_to_what_one_run_writes) {
+  char text[12000], merged[12000];
+  const char *const fly = "fly close-flight --integrator rk4 --noise flown";
+  char line[400];
+  snprintf(line, sizeof line,
+           "%s --from 1 --to 2 --summary $S/a >/dev/null && %s --from 3 --to 5 --summary $S/b >/dev/null && "
+           "%s --from 1 --to 5 --summary $S/ab",
+           fly, fly, fly);
+  CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text, "fly --integrator rk4 --noise flown close-flight\n  flights 5, touched ") == text);
+  CHECK(program_run("fly --merge $S/b $S/a --summary $S/joined && cmp $S/joined $S/ab", STREAM_OUTPUT, merged,
+                    sizeof merged) == 0);
+  CHECK_TEXT(merged, text);
+}
+
 TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
   char text[4000];
   CHECK(program_run("fly learning-flight --integrator rk4 --log $S/six.csv", STREAM_OUTPUT, text,

@@ -18,7 +18,15 @@ static const struct {
      "--usd-config, --replay, "
      "--effect, --commands, --scene, --storage, --vehicle, --noise, --seed, --seeds, --integrator, --from, "
      "--to, --log, --log-rate, --json, "
-     "--list, --logs, --params, --help, --version\n"},
+     "--list, --logs, --summary, --merge, --params, --help, --version\n"},
+    {"fly close-flight --summary $S/x", "fly: --summary: allowed with --from and --to, or --merge\n"},
+    {"fly --merge", "fly: --merge: files are needed, as fly --summary writes them\n"},
+    {"fly --merge --seed 3 README.md", "fly: --merge: allowed with it is --summary\n"},
+    {"fly --merge README.md", "fly: README.md:1: no summary; allowed is what fly --summary wrote\n"},
+    {"echo >$S/none; fly --merge $S/none", "fly: none:1: no summary; allowed is what fly --summary wrote\n"},
+    {"fly --merge no/such", "fly: no/such: cannot be opened: No such file or directory\n"},
+    {"cp README.md $S/both; fly --merge $S/both --summary $S/both",
+     "fly: both: to be read and to be written; allowed: one of them\n"},
     {"fly test-flight --scene README.md", "fly: --scene, --storage: allowed with --commands FILE\n"},
     {"fly test-flight --commands README.md",
      "fly: --commands: no scenario is flown; leave out test-flight\n"},
