@@ -18,6 +18,7 @@ typedef struct {
   int *taken;    // by candidate: how often it was taken in
   bool *never;   // by candidate: it is out of question
   bool *echo;    // by candidate: something like it is there, at one place, time or state only
+  bool *broken;  // by candidate: what it promised as another's stand-in was not kept
   bool *alike;   // by candidate: room
   model_t timed; // the model with what measured rotor speeds say
 } select_t;
@@ -50,6 +51,26 @@ static bool add_best(select_t *t) {
   *choice = choice_with(choice, which);
   t->taken[which]++;
   return true;
+}
+
+// One for another, where that explains more. -1: none; else which it is now.
+static int swap_one(select_t *t) {
+  choice_t *const choice = &t->round.choice;
+  double best = score_left(&t->round.score, choice, NULL) - 2.0;
+  choice_t better = {.n = -1};
+  for (int i = 0; i < choice->n; i++) {
+    const choice_t rest = choice_without(choice, choice->of[i]);
+    for (int k = 0; k < t->round.c->n; k++) {
+      if (choice_has(choice, k) || t->broken[k]) continue;
+      const double left = try_with(t, &rest, k);
+      if (!(left < best)) continue;
+      best = left;
+      better = choice_with(&rest, k);
+    }
+  }
+  if (better.n < 1) return -1;
+  *choice = better;
+  return better.of[better.n - 1];
 }
 
 // Takes out what no longer passes beside the others.
@@ -112,9 +133,45 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   return DONE;
 }
 
+static done_t left_by(const select_t *t, const chosen_t *chosen, const color_t color[CHANNELS], double *left,
+                      why_t *why) {
+  model_t m;
+  TRY(chosen_model(chosen, t->round.base, &m, why));
+  return whiten_left(t->round.s, &m, color, left, why);
+}
+
+// A swap is promised by straight lines about the one that goes: a lag that is taken out along its line leaves
+// what no vehicle does, and a delay may fit that better. It stays if the models themselves, both replayed,
+// keep the promise, and is not tried again if they do not.
+static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
+  round_t *const r = &t->round;
+  const choice_t choice = r->choice;
+  const chosen_t chosen = r->chosen;
+  color_t color[CHANNELS];
+  double before, after;
+  memcpy(color, r->gram.color, sizeof color);
+  const int now = swap_one(t);
+  *swapped = now >= 0;
+  if (!*swapped) return DONE;
+  TRY(left_by(t, &chosen, color, &before, why));
+  TRY(settle(t, why));
+  TRY(left_by(t, &r->chosen, color, &after, why));
+  if (after < before) {
+    t->taken[now]++;
+    return DONE;
+  }
+  t->broken[now] = true;
+  r->choice = choice;
+  r->chosen = chosen;
+  return reopen(t, why);
+}
+
 static done_t step_until_still(select_t *t, why_t *why) {
   for (int round = 0; round < ROUNDS; round++) {
-    bool changed = prune_one(t) || add_best(t);
+    bool swapped = false, changed = prune_one(t);
+    if (!changed) TRY(try_swap(t, &swapped, why));
+    if (swapped) continue;
+    changed = changed || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
     TRY(settle(t, why));
@@ -149,6 +206,7 @@ static done_t search(select_t *t, why_t *why) {
   t->round.strict = true;
   memset(t->taken, 0, (size_t)t->round.c->n * sizeof *t->taken);
   memset(t->echo, 0, (size_t)t->round.c->n * sizeof *t->echo);
+  memset(t->broken, 0, (size_t)t->round.c->n * sizeof *t->broken);
   TRY(reopen(t, why));
   for (bool dropped = true; dropped;) {
     TRY(step_until_still(t, why));
@@ -208,9 +266,9 @@ static done_t find_choice(select_t *t, found_t *found, why_t *why) {
 done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,
                       found_t *found, why_t *why) {
   const size_t n = (size_t)c->n + 1;
-  bool *const room = calloc(3 * n, sizeof *room);
+  bool *const room = calloc(4 * n, sizeof *room);
   select_t t = {.taken = calloc(n, sizeof(int)), .never = room};
-  if (room) t.echo = room + n, t.alike = room + 2 * n;
+  if (room) t.echo = room + n, t.alike = room + 2 * n, t.broken = room + 3 * n;
   t.round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t.never};
   for (int i = 0; room && i < c->n; i++) t.never[i] = c->candidate[i].barred;
   done_t status = found_make(found, c, why);

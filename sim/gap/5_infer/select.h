@@ -8,10 +8,9 @@
 // A lag or delay below 5 ms, or below one period of the log, is what feedback alone looks like, or streams
 // that are not aligned: it is taken into the model, and not named. A name that others could stand for is
 // told with them (family.h). The best one enters, what is named is estimated anew about its present values,
-// and what no longer passes beside the others goes; until nothing changes. None is swapped for another: a
-// straight line about the one that goes promises more than the model keeps. Of what is left then, a name that
-// the rows speak against, beside the others and what feedback makes of all of them together (evidence.h),
-// goes out for good, the worst first.
+// what no longer passes beside the others goes, and one is swapped for another where both models, replayed,
+// say so; until nothing changes. Of what is left then, a name that the rows speak against, beside the others
+// and what feedback makes of all of them together (evidence.h), goes out for good, the worst first.
 #ifndef SIM_GAP_5_INFER_SELECT_H
 #define SIM_GAP_5_INFER_SELECT_H
 
