@@ -124,3 +124,18 @@ TEST(gap_keeps_no_name_that_grows_a_channel_of_the_held_out_recorded_flight) {
   }
   close(c);
 }
+
+// More mass explains most of it first, and leaves twice as much along x: one name is swapped for another.
+TEST(gap_names_thrust_and_drag_of_the_recorded_brushless_vehicle) {
+  if (!test_data_dir()) SKIP("no measured data");
+  case_t *c = calloc(1, sizeof *c);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_brushless", &c->vehicle, &why));
+  c->vehicle.mass_kg = 0.037; // as it flew
+  read_all(
+      c, "tools/columns/imrc.toml",
+      (const char *[]){"brushless/flight00.csv", "brushless/flight12.csv", NULL, "brushless/flight22.csv"});
+  run(c, 2);
+  CHECK(named(c, "thrust_scale") && named(c, "rotor_drag") && !named(c, "mass"));
+  close(c);
+}
