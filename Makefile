@@ -69,7 +69,7 @@ help:  ## what can be made
 	@echo '  Times are rough, of two idle cores, once built; building takes a minute, on a bare machine ten with the packages.'
 	@echo '  O=DIR puts all that is made into DIR (out); OPT, SANITIZE, CC, CXX: other flags and compilers build anew.'
 
-.PHONY: help debug fast fresh demo desk flights touches robust passing bound recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf test-desk mutants coverage outside
+.PHONY: help debug fast fresh demo desk flights touches robust passing by-height bound recorded example-seeds mass-flights slot faults exam test check fuzz bench lint arrows format clean sanitize clang setup setup-lint docs force pictures compile_commands firmware cload pil seeded add-effect tests-built report setup-pil setup-cf test-cf test-desk mutants coverage outside
 
 # --- packages ---------------------------------------------------------------------------------------
 
@@ -192,6 +192,9 @@ robust: $(O)/fly  ## the law that ships at 20 mm where one or two things of the 
 
 passing: $(O)/fly  ## learning without a learning flight, and pushing against a ceiling, 1,000 flights each; 10 min
 	@$(DOC) show passing pushes
+
+by-height: $(O)/bound $(O)/fly  ## the law by the flight code's own height, 100 flights each, beside the estimator's and the bound; minutes
+	@$(DOC) show by-height
 
 bound: $(O)/bound $(O)/fly  ## the least height error that any controller could have, and what is flown as a ratio to it; minutes
 	@$(DOC) show bound

@@ -32,6 +32,7 @@ status_t flight_tune(flight_t *f, const flight_param_t *p) {
   TRY(lpf2_tune(&f->att_filter, p->att_cutoff_Hz, 1.0f / INNER_S));
   f->outer.coef.period_s = OUTER_S;
   TRY(outer_take(&f->outer, p));
+  f->height_share = thrust_lag_share(OUTER_S, p->height.tau_s);
   f->att_lag_share = thrust_lag_share(INNER_S, p->motor_tau_s);
   f->att_lag_s = p->motor_tau_s + lpf2_delay_s(p->att_cutoff_Hz);
   return ST_OK;
@@ -73,6 +74,45 @@ static pos_setpoint_t position_wanted(const flight_in_t *in) {
   return (pos_setpoint_t){pos, vel, sp->acc_w_mps2};
 }
 
+static APART void fly_by_height(flight_t *f, const flight_in_t *in, outer_in_t *x) {
+  const flight_param_t *p = &f->outer.param;
+  const float climb_mps = x->vel_w_mps.z - f->outer.bias.vel_off_mps.z;
+  height_fly(&f->height, &p->height, &p->pos, x->pos_w_m.z, climb_mps, &f->height_fly);
+  // Where a velocity is wanted there is no error of the height.
+  if (in->setpoint.z == AXIS_POSITION) x->setpoint.pos_w_m.z -= f->height_fly.more_m;
+  outer_fly_by(&f->outer, &f->height_fly);
+}
+
+// Who switches it off in flight has it fade out, too.
+static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
+  const flight_param_t *p = &f->outer.param;
+  const bool by = f->outer.started && (p->height.own != 0 || f->height.share > 0.0f), was = f->by_height;
+  f->by_height = by;
+  if (!by) {
+    if (was) {
+      height_init(&f->height);
+      outer_fly_by_estimate(&f->outer);
+    }
+    return;
+  }
+  // After missed calls nobody knows what was commanded.
+  if (in->step - f->height_last != 10) height_lose(&f->height);
+  f->height_last = in->step;
+  height_in_t *const x = &f->height_in;
+  x->acc_b_mps2 = in->acc_b_mps2;
+  x->q_wb = quat_unit(in->q_wb);
+  x->thrust_N = mixer_thrust_N(in->force_N);
+  x->mass_kg = p->pos.mass_kg;
+  x->z_m = in->pos_w_m.z;
+  x->climb_mps = in->vel_w_mps.z - f->outer.bias.vel_off_mps.z;
+  x->at = f->outer.out.at;
+  x->zc_m = f->outer.out.zc_m;
+  x->ceiling_z_m = f->outer.out.ceiling_z_m;
+  x->down_m = raw->down_m; // of no use but here
+  x->bias_mps2 = f->outer.bias.bias_mps2.z;
+  height_step(&f->height, &p->height, f->height_share, x);
+}
+
 static APART void run_outer(flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) {
     outer_rest(&f->outer);
@@ -91,6 +131,7 @@ static APART void run_outer(flight_t *f, const flight_in_t *in) {
   x->range_age_s = f->range_age_s;
   x->setpoint = position_wanted(in);
   f->range_waits = false;
+  if (f->by_height) fly_by_height(f, in, x);
   f->out.outer = *outer_step(&f->outer, x);
 }
 
@@ -183,13 +224,15 @@ static void run_blind(flight_t *f, float thrust_N) {
   f->out.motors = mixer_of(&f->outer.param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
 }
 
-static void run(flight_t *f, const flight_in_t *in) {
+static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   if (in->range_new) {
     f->range_waits = true;
     f->range_m = in->range_m;
     f->range_age_s = in->range_age_s;
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
+  if (f->due == FLIGHT_OUTER) return; // most often; and it costs the most
+  if (f->due & FLIGHT_HEIGHT) run_height(f, in, raw);
   // From what is wrong nothing is learned; least of all from an acceleration that was made up.
   const bool learns = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
   if ((f->due & FLIGHT_LEARN) && learns) outer_learn(&f->outer);
@@ -206,9 +249,9 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
   to->q_wb = from->q_wb;
   memcpy(to->force_N, from->force_N, sizeof to->force_N);
   to->range_new = from->range_new;
+  to->no_lesson = from->no_lesson;
   to->range_m = from->range_m;
   to->range_age_s = from->range_age_s;
-  to->no_lesson = from->no_lesson;
   to->setpoint = from->setpoint;
 }
 
@@ -223,7 +266,7 @@ const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {
   const status_t judged = check_in(in, (f->guard.now & GUARD_NOT_A_NUMBER) == 0);
   count(f, judged);
   if (judged == ST_OK)
-    run(f, in);
+    run(f, in, raw);
   else if (f->guard.action == GUARD_HAND_OVER)
     run_blind(f, in->setpoint.thrust_N);
   else if (f->due & FLIGHT_OUTER)

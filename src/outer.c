@@ -9,8 +9,22 @@
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
 
 // From the instant of the filtered signals until the thrust that is commanded now is there.
-static float lag_s(const flight_param_t *p, float period_s) {
-  return lpf2_delay_s(p->cutoff_Hz) + p->motor_tau_s / p->pos.quick + 0.5f * period_s;
+static float lag_s(const flight_param_t *p, float quick, float period_s) {
+  return lpf2_delay_s(p->cutoff_Hz) + p->motor_tau_s / quick + 0.5f * period_s;
+}
+
+void outer_fly_by(outer_t *f, const height_fly_t *by) {
+  f->law = by->law;
+  f->lag_s = lag_s(&f->param, by->law.quick, f->coef.period_s);
+  f->gap_min_m = f->param.gap_min_m + by->more_m;
+  f->less_mps = -by->more_mps;
+}
+
+void outer_fly_by_estimate(outer_t *f) {
+  f->law = f->param.pos;
+  f->lag_s = lag_s(&f->param, f->law.quick, f->coef.period_s);
+  f->gap_min_m = f->param.gap_min_m;
+  f->less_mps = 0.0f;
 }
 
 status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
@@ -23,7 +37,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   memset(f, 0, sizeof *f);
   f->coef = coef;
   f->param = *p;
-  f->lag_s = lag_s(p, period_s);
+  outer_fly_by_estimate(f);
   bias_tune(&f->bias_coef, &f->param.bias, period_s);
   f->out = (outer_out_t)AT_REST;
   ceiling_init(&f->ceiling, period_s);
@@ -34,7 +48,7 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
 status_t outer_take(outer_t *f, const flight_param_t *p) {
   TRY(sync_tune(&f->coef, p->cutoff_Hz, p->motor_tau_s, f->coef.period_s));
   f->param = *p;
-  f->lag_s = lag_s(p, f->coef.period_s);
+  outer_fly_by_estimate(f);
   bias_tune(&f->bias_coef, &f->param.bias, f->coef.period_s);
   return ST_OK;
 }
@@ -163,12 +177,12 @@ typedef struct {
 // acceleration: upwards no more than a set point that rests there asks for. Who asks for a height beyond
 // rests OUTER_CLIP_M below, as no one holds a limit to the millimetre.
 static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
-  const pos_indi_param_t *p = &f->param.pos;
+  const pos_indi_param_t *p = &f->law;
   const pos_setpoint_t *sp = &in->setpoint;
   wanted_t w = {.acc_mps2 = pos_indi_wanted_acc(p, sp, in->pos_w_m, vel_mps),
                 .climb_mps = sp->vel_w_mps.z + p->kp_z_per_s * (sp->pos_w_m.z - in->pos_w_m.z)};
   if (!f_finite(f->hold.ceiling_z_m)) return w;
-  const float limit_m = f->hold.ceiling_z_m - f->param.gap_min_m;
+  const float limit_m = f->hold.ceiling_z_m - f->gap_min_m;
   const float beyond_m = f_clamp(sp->pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
   const float climb_mps = p->kp_z_per_s * (limit_m - beyond_m - in->pos_w_m.z);
   const float most_mps2 = f_max(p->kd_z_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2);
@@ -192,15 +206,16 @@ static float most_N(const outer_t *f, float ratio, float climb_mps) {
 }
 
 static APART aim_t aim(const outer_t *f, const outer_in_t *in, const sync_out_t *x, float ratio) {
-  const v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
+  v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
+  vel.z -= f->less_mps; // of -0 the sign stays, too
   const wanted_t w = wanted(f, in, vel);
   return (aim_t){.error_mps2 = v3_sub(w.acc_mps2, x->acc_w_mps2),
-                 .dzc_m = pos_indi_nearing_m(&f->param.pos, vel.z, w.climb_mps, f->lag_s),
+                 .dzc_m = pos_indi_nearing_m(&f->law, vel.z, w.climb_mps, f->lag_s),
                  .most_N = most_N(f, ratio, vel.z)};
 }
 
 static APART pos_command_t fly(const outer_t *f, const sync_out_t *x, rbf_point_t at, const aim_t *to) {
-  const pos_indi_param_t *p = &f->param.pos;
+  const pos_indi_param_t *p = &f->law;
   pos_step_t step = pos_indi_step(p, x->q_wb, x->thrust_N, to->error_mps2, to->dzc_m, at);
   step.thrust_N = f_clamp(step.thrust_N, -f->param.step_max_N, to->most_N);
   return pos_indi_command(p, x->q_wb, x->thrust_N, step);

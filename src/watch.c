@@ -35,12 +35,13 @@ static unsigned one_of(flight_t *f, unsigned due) {
 
 static unsigned due_after(unsigned phase, unsigned ms) {
   static const uint8_t next[10] = {
-      [0] = FLIGHT_INNER, [2] = FLIGHT_INNER, [3] = FLIGHT_LEARN, [4] = FLIGHT_INNER,
-      [6] = FLIGHT_INNER, [7] = FLIGHT_SCRUB, [8] = FLIGHT_INNER, [9] = FLIGHT_OUTER,
+      [0] = FLIGHT_INNER, [1] = FLIGHT_HEIGHT, [2] = FLIGHT_INNER, [3] = FLIGHT_LEARN, [4] = FLIGHT_INNER,
+      [6] = FLIGHT_INNER, [7] = FLIGHT_SCRUB,  [8] = FLIGHT_INNER, [9] = FLIGHT_OUTER,
   };
   if (ms == 1) return next[phase]; // most calls by far
   return (passes(phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(phase, ms, 4) ? FLIGHT_LEARN : 0u) |
-         (passes(phase, ms, 8) ? FLIGHT_SCRUB : 0u) | FLIGHT_INNER; // a scrub where no loop runs
+         (passes(phase, ms, 2) ? FLIGHT_HEIGHT : 0u) | (passes(phase, ms, 8) ? FLIGHT_SCRUB : 0u) |
+         FLIGHT_INNER; // a scrub where no loop runs
 }
 
 bool watch_time(flight_t *f, uint32_t step) {

@@ -3,6 +3,7 @@
 //   1000 Hz  judge the inputs (guard.h), which may put another set point in the place of the pilot's
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
 //    100 Hz  the lesson of that step (step 4 of ten)
+//    100 Hz  a step of the height filter, where height.own asks for it (step 2 of ten)
 //    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
 //    two)
 //
@@ -15,6 +16,7 @@
 #include "flight/att_indi.h"
 #include "flight/by_hand.h"
 #include "flight/guard.h"
+#include "flight/height.h"
 #include "flight/mixer.h"
 #include "flight/outer.h"
 #include <stdint.h>
@@ -45,8 +47,10 @@ typedef struct {
   quat_t q_wb;
   float force_N[MOTORS]; // applied since the last call: the command after mixing and limits
   bool range_new;        // as outer_in_t
+  bool no_lesson;        // it does not fly: nothing is learned
   float range_m, range_age_s;
-  bool no_lesson; // it does not fly: nothing is learned
+  float down_m; // for height.own alone: downward range sensor, from the sensor to what is below, along the
+                // body's z axis; 0: no sample that was not there ten milliseconds ago
   flight_setpoint_t setpoint;
 } flight_in_t;
 
@@ -88,9 +92,16 @@ typedef struct {
   float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go;
                       // within twice BOUND_POS_M, and beyond BOUND_HEIGHT_OFF_M a reason to go down
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
+  // Last, so that the rest stays within reach of one instruction.
+  height_t height;
+  height_in_t height_in;
+  height_fly_t height_fly; // what the last outer loop flew by, if by_height
+  bool by_height;          // the law flies by it, or fades out
+  float height_share;      // of its motors, in one step
+  uint32_t height_last;    // count of its last step
 } flight_t;
 
-enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8 };
+enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8, FLIGHT_HEIGHT = 16 };
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.

@@ -11,6 +11,7 @@
 #define FLIGHT_OUTER_H
 
 #include "flight/ceiling.h"
+#include "flight/height.h"
 #include "flight/hold.h"
 #include "flight/learn.h"
 #include "flight/params.h"
@@ -53,7 +54,11 @@ typedef struct {
   flight_param_t param; // the last parameters that passed their checks
   sync_coef_t coef;
   bias_coef_t bias_coef; // of one period
-  float lag_s;           // pos_indi.h: of one law, at these parameters
+  // What the height is flown by: the parameters' and the estimator's, or by an own height.
+  pos_indi_param_t law;
+  float lag_s;     // pos_indi.h: of one law, at these parameters
+  float gap_min_m; // against the estimator's height
+  float less_mps;  // than the estimator's climb
   sync_t sync;
   sync_out_t signals; // of the last step
   bias_t bias;
@@ -86,6 +91,13 @@ MUST_CHECK status_t outer_take(outer_t *f, const flight_param_t *p);
 
 // One period. The result is f->out.
 const outer_out_t *outer_step(outer_t *f, const outer_in_t *in);
+
+// The next step's height and climb are by->more_m and by->more_mps more than in has them, with by's gains. A
+// height that is more is a set point that is less: that is the caller's to do. Until then, or outer_take().
+void outer_fly_by(outer_t *f, const height_fly_t *by);
+
+// The next step is flown by what in has, with the parameters' gains.
+void outer_fly_by_estimate(outer_t *f);
 
 // From now on the acceleration comes with this much more of bias along the world's z. What the observer can
 // hold is taken over without a bump, and is the result: 0 before the first step, or where no bias is looked

@@ -14,7 +14,8 @@
 #include "supervisor.h"
 #include "units.h"
 
-#define HAND_OVER_MS 1000.0f // from this controller to the stock one and back
+#define HAND_OVER_MS    1000.0f // from this controller to the stock one and back
+#define DOWN_SAME_POLLS 2       // more than the downward sensor's period
 
 void controllerOutOfTreeInit(void) {
   settings_start();
@@ -30,6 +31,16 @@ bool controllerOutOfTreeTest(void) {
   return flight_init(&GLUE.flight, &GLUE.flown) == ST_OK;
 }
 
+// Once in ten calls: the sensor measures forty times a second, without a time stamp. A value that stands for
+// longer than that is a sample each time.
+static void take_down(flight_in_t *in) {
+  const float mm = rangeGet(rangeDown);
+  const bool same = mm == GLUE.down_mm && GLUE.down_same < DOWN_SAME_POLLS;
+  in->down_m = same ? 0.0f : 0.001f * mm;
+  GLUE.down_same = same ? (uint8_t)(GLUE.down_same + 1) : 0;
+  GLUE.down_mm = mm;
+}
+
 static void take_range(flight_in_t *in, uint32_t step) {
   // Millimetres, whatever the firmware's header says.
   const range_up_sample_t sample = range_up_poll(&GLUE.range, rangeGet(rangeUp), step);
@@ -37,6 +48,15 @@ static void take_range(flight_in_t *in, uint32_t step) {
   if (!sample.is_new) return;
   in->range_m = sample.range_m;
   in->range_age_s = sample.age_s;
+}
+
+// In the call of ten in which the height filter steps, and no loop runs: for it, and for a person to read.
+static void take_rarely(flight_in_t *in, const setpoint_t *setpoint) {
+  GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
+  if (GLUE.flown.height.own != 0)
+    take_down(in);
+  else
+    in->down_m = 0.0f;
 }
 
 // Who may not fly gets no set point: that is the supervisor's, and lets no hand-over go. Else a vehicle that
@@ -59,8 +79,7 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
     for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
   take_range(in, step);
   if (is_pilots()) units_setpoint(&in->setpoint, setpoint);
-  // For a person to read: in a call of ten in which no loop runs.
-  if (GLUE.flight.phase == 1) GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
+  if (GLUE.flight.phase == 1) take_rarely(in, setpoint);
   in->no_lesson = !supervisorIsFlying();
 }
 

@@ -26,7 +26,7 @@ typedef struct {
   bool stale;         // estimate and set point are due to be written anew
   // As they were last written.
   uint8_t no_lesson, tunes_written;
-  float range_m, range_age_s;
+  float range_m, range_age_s, down_m;
   v3_t pos_w_m, vel_w_mps;
   quat_t q_wb;
   flight_setpoint_t setpoint;
@@ -58,6 +58,8 @@ typedef struct {
     int16_t roll, pitch, yaw;
   } stock; // what it commanded last
   range_up_t range;
+  float down_mm;     // of the downward range sensor, as last looked at
+  uint8_t down_same; // looks since that have shown the same
   flyable_t flyable;
   recording_t recorder;
   radio_t radio;

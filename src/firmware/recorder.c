@@ -19,8 +19,9 @@ static bool differs(const void *a, const void *b, size_t size) {
 static bool state_changed(const recording_t *r, const flight_in_t *in) {
   return DIFFERS(r->pos_w_m, in->pos_w_m) || DIFFERS(r->vel_w_mps, in->vel_w_mps) ||
          DIFFERS(r->q_wb, in->q_wb) || DIFFERS(r->range_m, in->range_m) ||
-         DIFFERS(r->range_age_s, in->range_age_s) || r->no_lesson != in->no_lesson ||
-         r->tunes_written != r->tunes || r->setpoint.vel_in_body != in->setpoint.vel_in_body;
+         DIFFERS(r->range_age_s, in->range_age_s) || DIFFERS(r->down_m, in->down_m) ||
+         r->no_lesson != in->no_lesson || r->tunes_written != r->tunes ||
+         r->setpoint.vel_in_body != in->setpoint.vel_in_body;
 }
 
 static void write_state(recording_t *r, const flight_in_t *in) {
@@ -29,6 +30,7 @@ static void write_state(recording_t *r, const flight_in_t *in) {
   r->q_wb = in->q_wb;
   r->range_m = in->range_m;
   r->range_age_s = in->range_age_s;
+  r->down_m = in->down_m;
   r->no_lesson = in->no_lesson;
   r->tunes_written = r->tunes;
   r->state++;

@@ -134,7 +134,7 @@ void settings_take(void) {
   const unsigned phase = GLUE.flight.phase; // of the call before
   // A bit that flipped in the parameters would stay for ever.
   if (phase == 5) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
-  if (!GLUE.ready || phase % 2 != 0) return; // now comes the outer loop, a lesson or a scrub
+  if (!GLUE.ready || phase % 2 != 0) return; // now comes no inner loop
   if (GLUE.commit_asked != 0) {              // in a tick of its own: both would be too much for one
     take_commit(GLUE.commit_asked);
     GLUE.commit = GLUE.commit_asked = 0;

@@ -46,6 +46,10 @@ PARAM_GROUP_START(guard)
 PARAMS_GUARD(ROW)
 PARAM_GROUP_STOP(guard)
 
+PARAM_GROUP_START(height)
+PARAMS_HEIGHT(ROW)
+PARAM_GROUP_STOP(height)
+
 // --- logs -------------------------------------------------------------------------------------------------
 
 #define F(name, field)   LOG_ADD(LOG_FLOAT, name, &glue_static.field)
@@ -102,6 +106,7 @@ F(f4, in.force_N[3])
 F(up, in.range_m)
 F(upAge, in.range_age_s)
 U8(upNew, in.range_new)
+F(down, in.down_m)
 U8(noLesson, in.no_lesson)
 LOG_GROUP_STOP(indiIn)
 

@@ -100,6 +100,7 @@ void pil_before(const pil_in_t *in) {
   pil_unpack(in, &setpoint, &sensors, &state);
   step = in->step;
   around.range_mm[rangeUp] = (uint16_t)in->range_mm;
+  around.range_mm[rangeDown] = (uint16_t)in->down_mm;
   around.battery_V = in->battery_V;
   for (int i = 0; i < 4; i++) around.duty[i] = (uint16_t)in->duty[i];
   around.flying = (in->flags & PIL_FLYING) != 0;

@@ -19,7 +19,7 @@ enum { PIL_NO_PARAM = -1, PIL_COMMIT = -2 };
 
 // Only words of 32 bits: enumerations have another size on the target.
 typedef struct {
-  uint32_t step, flags, range_mm, in_body;
+  uint32_t step, flags, range_mm, down_mm, in_body;
   int32_t param; // row of params_table that is written before the call, PIL_COMMIT, or PIL_NO_PARAM
   float value;
   float battery_V;

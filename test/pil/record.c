@@ -3,8 +3,9 @@
 //
 // The trace: a learning flight and a flight with weights, both as the app ships but for the time that they
 // stay close (ceil.blindMax), a flight as it ships to the letter, that retreats, and flights whose inputs,
-// parameters and time are spoiled.
+// parameters and time are spoiled; and with the height filter one that is not spoiled and one that is.
 #include "controller.h"
+#include "range.h"
 #include "pilots/param_spec.h"
 #include "pil/pil.h"
 #include "pilots/pilot_flight.h"
@@ -46,6 +47,7 @@ static void spoil_inputs(recorder_t *r, pil_in_t *in) {
   r->burst--;
   float *const word = r->field < 19 ? in->acc + r->field : in->sp_att + (r->field - 19);
   if (r->field == 0 && (r->odd & 1)) in->range_mm = r->odd & 0xffff;
+  if (r->field == 1 && (r->odd & 1)) in->down_mm = r->odd & 0xffff;
   memcpy(word, &r->odd, sizeof *word);
 }
 
@@ -112,7 +114,9 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
                 const state_t *state, uint32_t step) {
   recorder_t *const r = context;
   stand_in_t *const around = &r->pilot.vehicle.around;
-  pil_in_t in = {.param = PIL_NO_PARAM, .range_mm = around->range_mm[4], .battery_V = around->battery_V};
+  pil_in_t in = {
+      .param = PIL_NO_PARAM, .range_mm = around->range_mm[rangeUp], .battery_V = around->battery_V};
+  in.down_mm = around->range_mm[rangeDown];
   for (int i = 0; i < 4; i++) in.duty[i] = around->duty[i];
   in.flags = (r->first ? PIL_START : 0u) | (around->flying ? PIL_FLYING : 0u) |
              (around->motors_allowed ? PIL_ALLOWED : 0u) | (around->can_fly ? PIL_CAN_FLY : 0u);
@@ -138,7 +142,7 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
   if (r->from) ask(r, control);
 }
 
-static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, uint64_t seed) {
+static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, uint64_t seed, bool own) {
   setup_t setup;
   why_t why;
   record_t record = {0};
@@ -153,6 +157,7 @@ static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, 
   setup.plan.below_estimate = false; // who watches is not asked
   if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
+  setup.flight.height.own = own;
   setup.plan.seed = seed;
   setup.plan.integrate = INTEGRATE_RK4;
   setup.plan.end_s = end_s;
@@ -170,19 +175,21 @@ static int fly_trace(recorder_t *r) {
     fly_kind_t kind;
     float blind_s; // 0: as shipped
     double end_s;
-    bool inputs, params, time;
-  } row[] = {{FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, false, false, false},
-             {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false},
-             {FLY_INDI_RBF, 0.0f, 50.0, false, false, false},
-             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, false, true, false},
-             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, false, false},
-             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, true, true, true},
-             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, true, true}};
+    bool inputs, params, time, own; // own: by height.own
+  } row[] = {{FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, false, false, false, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false, false},
+             {FLY_INDI_RBF, 0.0f, 50.0, false, false, false, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, false, true, false, false},
+             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, false, false, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 25.0, true, true, true, false},
+             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, true, true, false},
+             {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false, true},
+             {FLY_INDI_LIVE, SETUP_BLIND_S, 25.0, true, true, true, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     r->inputs = row[i].inputs;
     r->params = row[i].params;
     r->time = row[i].time;
-    if (fly_one(r, row[i].kind, row[i].blind_s, row[i].end_s, 1 + i) != 0) return 1;
+    if (fly_one(r, row[i].kind, row[i].blind_s, row[i].end_s, 1 + i, row[i].own) != 0) return 1;
   }
   return 0;
 }
@@ -199,7 +206,7 @@ int main(int argc, char **argv) {
     fprintf(stderr, "record: %s: cannot be opened\n", argv[argc - 1]);
     return 2;
   }
-  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, 1) : fly_trace(&r);
+  const int failed = r.from ? fly_one(&r, FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, 1, false) : fly_trace(&r);
   if (r.from) printf("%ld differ\n", r.differ);
   if (r.from) fclose(r.from);
   return fclose(r.to) == 0 && r.differ == 0 ? failed : 1;

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import bound
+import by_height
 import demo
 import desk
 import flights
@@ -132,6 +133,7 @@ RECIPES = {
     "laws": Recipe(laws.laws),
     "touches": Recipe(flights.touches),
     "bound": Recipe(bound.bound),
+    "by-height": Recipe(by_height.by_height),
     "passing": Recipe(passing.passing),
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),

@@ -94,3 +94,18 @@ TEST(outer_started_again_is_as_one_that_never_flew) {
   CHECK(differ == 0);
   CHECK(rig3_faults(&used) == rig3_faults(&first));
 }
+
+TEST(outer_by_the_estimators_own_height_and_gains_is_the_same_to_the_bit) {
+  flight_param_t p;
+  rig3_t v;
+  outer_t f = rig3_in_flight(&p, &v), twin = f;
+  const height_fly_t by = {.law = p.pos};
+  int differ = 0;
+  for (int k = 0; k < 300; k++) {
+    const outer_in_t in = rig3_sense(&v, (v3_t){0, 0, k < 150 ? 0.96f : 0.9f});
+    const outer_out_t want = *outer_step(&f, &in), out = (outer_fly_by(&twin, &by), *outer_step(&twin, &in));
+    if (!rig3_same_out(&out, &want)) differ++;
+    rig3_move(&v, &want);
+  }
+  CHECK(differ == 0);
+}

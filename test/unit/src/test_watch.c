@@ -95,7 +95,7 @@ static unsigned due_in(unsigned phase, unsigned ms) {
   for (unsigned at = phase + 1; at <= phase + ms; at++) {
     due |= at % 2 == 1 ? (unsigned)FLIGHT_INNER : 0u;
     due |= at % 10 == 0 ? (unsigned)FLIGHT_OUTER : at % 10 == 4 ? (unsigned)FLIGHT_LEARN : 0u;
-    due |= at % 10 == 8 ? (unsigned)FLIGHT_SCRUB : 0u;
+    due |= at % 10 == 2 ? (unsigned)FLIGHT_HEIGHT : at % 10 == 8 ? (unsigned)FLIGHT_SCRUB : 0u;
   }
   return due;
 }
@@ -112,15 +112,15 @@ TEST(watch_makes_due_whatever_fell_into_the_pause) {
 }
 
 TEST(watch_runs_one_loop_a_call_and_lets_the_others_wait) {
-  enum { O = FLIGHT_OUTER, L = FLIGHT_LEARN, S = FLIGHT_SCRUB, I = FLIGHT_INNER };
+  enum { O = FLIGHT_OUTER, L = FLIGHT_LEARN, H = FLIGHT_HEIGHT, S = FLIGHT_SCRUB, I = FLIGHT_INNER };
   static const struct {
     unsigned phase, waiting, due,
-        left; // the call after phase 1 has no loop of its own, after 0 the inner one
-  } row[] = {{1, O | L | S, O, L | S},
-             {1, L | S, L, S},
-             {1, S, S, 0},
-             {1, O | S, O, S},
-             {1, 0, 0, 0},
+        left; // the call after phase 5 has no loop of its own, after 0 the inner one
+  } row[] = {{5, O | L | S, O, L | S},
+             {5, L | S, L, S},
+             {5, S, S, 0},
+             {5, O | S, O, S},
+             {5, 0, 0, 0},
              {0, O | L | S, I, O | L | S},
              {0, L, I, L},
              {0, 0, I, 0},
@@ -143,7 +143,8 @@ TEST(watch_lets_no_loop_wait_for_more_than_three_calls) {
     CHECK(watch_time(&f, f.step_last + 2)); // each costs the inner loop
     f.step_last += 2;
     const bool all = call == 4;
-    CHECK(f.due == (all ? FLIGHT_INNER | FLIGHT_OUTER | FLIGHT_LEARN | FLIGHT_SCRUB : FLIGHT_INNER));
+    CHECK(f.due ==
+          (all ? FLIGHT_INNER | FLIGHT_OUTER | FLIGHT_LEARN | FLIGHT_HEIGHT | FLIGHT_SCRUB : FLIGHT_INNER));
     if (all) CHECK(f.waiting == 0);
   }
 }

@@ -1,0 +1,154 @@
+// test_height.c - the height filter: what it follows, when it gives up, and that neither is a step.
+#include "flight/height.h"
+#include "flight/params.h"
+#include "flight/thrust.h"
+#include "rig/splitmix.h"
+#include "rig/test.h"
+
+#include <math.h>
+
+#define MASS_KG 0.0329f
+#define FIT_S   3.0 // until it has settled and fades in
+
+// A point that moves up and down by 3 mm in free air, told without noise but where a row says.
+typedef struct {
+  flight_param_t p;
+  height_t h;
+  height_fly_t fly;
+  float share, down_m, acc_more_mps2, acc_shake_mps2, z_more_m, thrust, more_last_m, kd_last_per_s;
+  double step_m, step_per_s; // the largest change of what is flown, in a step: height; gain
+  bool lost, frozen;
+  int k;
+} point_t;
+
+static double z_at(double t_s) {
+  return 0.4 + 0.003 * sin(2.0 * t_s);
+}
+
+static void start(point_t *w) {
+  *w = (point_t){.thrust = 1.0f};
+  params_default(&w->p);
+  w->p.height.own = 1;
+  w->p.height.delay_s = 0.0f;
+  w->share = thrust_lag_share(HEIGHT_S, w->p.height.tau_s);
+  height_init(&w->h);
+}
+
+static void step(point_t *w) {
+  const double t_s = 0.01 * w->k;
+  // The sensors' delays, and the command that makes the motors give what the motion needs.
+  const double felt_mps2 = -4.0 * 0.003 * sin(2.0 * (t_s - 0.0075));
+  const double tau_s = (double)w->p.height.tau_s, ahead_s = tau_s + (double)HEIGHT_COMMAND_S - 0.005;
+  const double sent_mps2 = -4.0 * 0.003 * sin(2.0 * (t_s + ahead_s));
+  const float seen_m = (float)z_at(t_s - (double)HEIGHT_DOWN_AGE_S) + 1e-5f * (float)(w->k % 7);
+  if (!w->frozen) w->down_m = seen_m;
+  const height_in_t in = {
+      .acc_b_mps2 = {0.0f, 0.0f,
+                     GRAVITY_MPS2 + (float)felt_mps2 + w->acc_more_mps2 +
+                         (w->k % 2 ? w->acc_shake_mps2 : -w->acc_shake_mps2)},
+      .q_wb = {.w = 1.0f},
+      .thrust_N = w->thrust * MASS_KG * (GRAVITY_MPS2 + (float)sent_mps2),
+      .mass_kg = MASS_KG,
+      .z_m = (float)z_at(t_s) + 0.002f, // the estimator's zero is another
+      .climb_mps = (float)(0.006 * cos(2.0 * t_s)),
+      .at = {.ratio = 1.0f},
+      .ceiling_z_m = NAN,
+      .down_m = w->lost || w->k % 3 != 0 ? 0.0f : w->down_m + w->z_more_m,
+  };
+  height_step(&w->h, &w->p.height, w->share, &in);
+  height_fly(&w->h, &w->p.height, &w->p.pos, in.z_m, in.climb_mps, &w->fly);
+  if (w->k > 0) w->step_m = fmax(w->step_m, fabs((double)(w->fly.more_m - w->more_last_m)));
+  if (w->k > 0) w->step_per_s = fmax(w->step_per_s, fabs((double)(w->fly.law.kd_z_per_s - w->kd_last_per_s)));
+  w->more_last_m = w->fly.more_m;
+  w->kd_last_per_s = w->fly.law.kd_z_per_s;
+  w->k++;
+}
+
+static void fly_for(point_t *w, double s) {
+  for (int n = (int)(100.0 * s); n > 0; n--) step(w);
+}
+
+TEST(height_follows_a_known_motion) {
+  static point_t w;
+  start(&w);
+  fly_for(&w, 10.0);
+  CHECK(w.h.share == 1.0f);
+  double worst_m = 0.0, worst_mps = 0.0;
+  for (int n = 0; n < 400; n++) {
+    step(&w);
+    const double t_s = 0.01 * (w.k - 1);
+    worst_m = fmax(worst_m, fabs((double)w.h.x[HEIGHT_H] - z_at(t_s)));
+    worst_mps = fmax(worst_mps, fabs((double)w.h.x[HEIGHT_W] - 0.006 * cos(2.0 * t_s)));
+  }
+  CHECK(worst_m < 3e-4 && worst_mps < 1e-3);
+  CHECK_NEAR(w.h.off_m, 0.002, 3e-4);
+}
+
+// What goes wrong for a while, and that it is flown by again when it is over.
+TEST(height_falls_back_without_a_step_and_comes_back) {
+  static const struct {
+    const char *what;
+    float acc_more_mps2, acc_shake_mps2, z_more_m, thrust;
+    bool lost, frozen;
+  } row[] = {{"a contact", -1.8f, 0.0f, 0.0f, 1.0f, false, false},
+             {"a jump of the range", 0.0f, 0.0f, 0.1f, 1.0f, false, false},
+             {"a lost sensor", 0.0f, 0.0f, 0.0f, 1.0f, true, false},
+             {"a frozen sensor", 0.0f, 0.0f, 0.0f, 1.0f, false, true},
+             {"an acceleration that no model has", 0.0f, 0.5f, 0.0f, 1.0f, false, false},
+             {"a thrust map that is 15 % wrong", 0.0f, 0.0f, 0.0f, 1.15f, false, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    static point_t w;
+    start(&w);
+    fly_for(&w, FIT_S);
+    CHECK(w.h.share == 1.0f);
+    w.step_m = w.step_per_s = 0.0;
+    w.acc_more_mps2 = row[i].acc_more_mps2;
+    w.acc_shake_mps2 = row[i].acc_shake_mps2;
+    w.z_more_m = row[i].z_more_m;
+    w.thrust = row[i].thrust;
+    w.lost = row[i].lost;
+    w.frozen = row[i].frozen;
+    bool fell = false;
+    for (int n = 0; n < 80; n++) {
+      step(&w);
+      fell = fell || w.h.share == 0.0f;
+    }
+    CHECK(fell);
+    CHECK(w.step_m < 2.5e-3);
+    CHECK(w.step_per_s < 0.05 * 4.0 && w.fly.law.kd_z_per_s == w.p.pos.kd_z_per_s); // of 12 to 8
+    w.acc_more_mps2 = w.acc_shake_mps2 = w.z_more_m = 0.0f;
+    w.thrust = 1.0f;
+    w.lost = w.frozen = false;
+    fly_for(&w, FIT_S);
+    CHECK(w.h.share == 1.0f);
+  }
+}
+
+TEST(height_stays_within_bounds_under_whatever_it_is_told) {
+  static const float odd[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e30f, 0.0f, 1e-40f};
+  splitmix_t r = {7};
+  static point_t w;
+  start(&w);
+  for (int k = 0; k < 200000; k++) {
+    height_in_t in = {.acc_b_mps2 = {0.0f, 0.0f, (float)(9.81 + splitmix_normal(&r, 0.5))},
+                      .q_wb = {.w = 1.0f},
+                      .thrust_N = 0.32f,
+                      .mass_kg = MASS_KG,
+                      .z_m = 0.4f,
+                      .at = {.ratio = 1.1f, .slope_per_m = -6.0f},
+                      .zc_m = 0.02f,
+                      .ceiling_z_m = 0.42f,
+                      .down_m = k % 3 == 0 ? 0.4f : 0.0f};
+    float *const at[] = {&in.acc_b_mps2.z, &in.thrust_N, &in.z_m,        &in.climb_mps,
+                         &in.down_m,       &in.q_wb.w,   &in.ceiling_z_m};
+    const uint64_t bits = splitmix_bits(&r);
+    if (bits % 20 == 0) *at[(bits >> 8) % 7] = odd[(bits >> 16) % 7];
+    height_step(&w.h, &w.p.height, w.share, &in);
+    height_fly(&w.h, &w.p.height, &w.p.pos, 0.4f, 0.0f, &w.fly);
+    bool good = fabsf(w.fly.more_m) <= HEIGHT_APART_M && fabsf(w.fly.more_mps) <= HEIGHT_APART_MPS &&
+                w.h.share >= 0.0f && w.h.share <= 1.0f;
+    for (int i = 0; i < HEIGHT_N; i++) good = good && f_finite(w.h.x[i]) && w.h.P[i][i] >= 0.0f;
+    if (!CHECK(good)) return;
+  }
+}
