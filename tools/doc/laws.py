@@ -5,8 +5,8 @@ import math
 
 import run
 
-FLIGHTS = 200
-FROM = 60001
+FLIGHTS = 1000
+FROM = 86001
 LAWS = {
     "law that ships": "--controller indi-rbf",
     "its gains, no ceiling term": "--controller indi",

@@ -138,7 +138,7 @@ RECIPES = {
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 102001, 200)),
-    "users": Recipe(says("exam", "users", 101001, 240)),
+    "users": Recipe(says("exam", "users", 105001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),
