@@ -137,7 +137,7 @@ RECIPES = {
     "passing": Recipe(passing.passing),
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
-    "exam": Recipe(says("exam", 102001, 200)),
+    "exam": Recipe(says("exam", 106001, 200)),
     "users": Recipe(says("exam", "users", 105001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
