@@ -82,7 +82,7 @@ def target() -> None:
 
 def outside() -> None:
     """Only the table: what each set was stands in out/flown_outside."""
-    said = program("make", "outside", "SEED=9127", "SETS=40")
+    said = program("make", "outside", "SEED=11243", "SETS=40")
     if said.startswith("skipped"):
         raise run.Left(said.strip())
     print(said[said.index("\nseed ") + 1:], end="")
