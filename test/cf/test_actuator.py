@@ -89,13 +89,24 @@ class Lag(unittest.TestCase):
     def test_what_tells_nothing_is_refused(self) -> None:
         rows = flown(0.08, 0.004)
         still = [(*row[:3], 0.0, *row[4:]) for row in rows]
+        steady = [(row[0], 0.3, *row[2:]) for row in rows]
+        turned = [(row[0], -row[1], *row[2:]) for row in rows]
         for what, left, says in (
             ("none", [], "0 rows came"),
             ("few", rows[:400], "400 rows came"),
+            ("in bursts", [row for i, row in enumerate(rows) if i % 8 < 3], "0 hops came without gaps"),
+            ("no battery", [(*row[:4], 0.0, row[5]) for row in rows], "0 rows came"),
             ("no hop", still, "not to be told"),
+            ("one thrust", steady, "not to be told"),
+            ("thrust downwards", turned, "not to be told"),
         ):
             with self.subTest(what=what), self.assertRaisesRegex(Failed, says):
                 actuator.identify(actuator.rows_of(left))
+
+    def test_what_lies_beyond_where_it_is_looked_for_is_refused(self) -> None:
+        for lag_s, delay_s in ((0.08, 0.08), (0.08, 0.1), (0.35, 0.004), (0.005, 0.004)):
+            with self.subTest(lag_s=lag_s, delay_s=delay_s), self.assertRaisesRegex(Failed, "not to be told"):
+                actuator.identify(actuator.rows_of(flown(lag_s, delay_s)))
 
 
 if __name__ == "__main__":

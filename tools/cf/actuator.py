@@ -30,6 +30,8 @@ SETTLE_MS = 400
 LEAST_ROWS = 500
 SET_LAGS_MS = range(-20, 300, 20)  # heights set before and after: a command follows its set point within that
 LAG_S, DELAY_S = (0.01, 0.3), (-0.02, 0.06)  # where they are looked for; less than none is noise
+EDGE = 0.02  # of those widths: what is found so near to an end lies beyond it
+LEAST_HOPS, HOP_ROWS = 6, 40  # that are left, with a quarter of their rows: fewer do not tell how they scatter
 ERROR_MAX_S = 0.02  # what is less certain is no measurement
 
 
@@ -46,7 +48,7 @@ class Rows:
 def rows_of(packets: list[tuple[float, ...]]) -> Rows:
     """Of packets in the order of Rows; what is no number, or came twice, is left out."""
     of = np.array(packets, dtype=float).reshape(-1, 6)
-    of = of[np.isfinite(of).all(axis=1)]
+    of = of[np.isfinite(of).all(axis=1) & (of[:, 4] > 0.0)]
     of = of[np.diff(of[:, 0], prepend=-1.0) > 0]
     return Rows(of[:, 0].astype(int), *of[:, 1:5].T, of[:, 5].astype(int))
 
@@ -108,19 +110,39 @@ class _Model:
         return np.array([*found, 1.0 / solved(found)[0][0]])
 
 
+def _within(value: float, least: float, most: float) -> bool:
+    edge = EDGE * (most - least)
+    return least + edge < value < most - edge
+
+
+def _is_told(lag_s: Told, delay_s: Told, mass_kg: Told) -> bool:
+    inside = _within(lag_s.value, *LAG_S) and _within(delay_s.value, *DELAY_S)
+    sure = 0.0 < lag_s.error < ERROR_MAX_S and 0.0 < delay_s.error < ERROR_MAX_S
+    return inside and sure and 0.0 <= mass_kg.error < 0.5 * mass_kg.value
+
+
 def identify(rows: Rows) -> Actuator:
     """Failed: too few rows, or they tell nothing."""
     if len(rows.step) < LEAST_ROWS:
         raise Failed(f"{len(rows.step)} rows came; {LEAST_ROWS} and more tell the motors' lag")
     model = _Model(rows)
-    whole = model.fit(model.good, np.array([0.08, 0.005]))
-    hops = np.unique(rows.hop[model.good])
-    without = np.array([model.fit(model.good & (rows.hop != hop), whole[:2]) for hop in hops])
-    spread = np.sqrt((len(hops) - 1) * np.mean((without - without.mean(0)) ** 2, axis=0)) * t.ppf(0.975, len(hops) - 1)
+    hops, of_each = np.unique(rows.hop[model.good], return_counts=True)
+    hops = hops[of_each >= HOP_ROWS]
+    if len(hops) < LEAST_HOPS:
+        raise Failed(f"{len(hops)} hops came without gaps; {LEAST_HOPS} and more tell the motors' lag")
+    good = model.good & np.isin(rows.hop, hops)
+    try:
+        with np.errstate(all="ignore"):  # a thrust that does not move makes a mass that is no number
+            whole = model.fit(good, np.array([0.08, 0.005]))
+            without = np.array([model.fit(good & (rows.hop != hop), whole[:2]) for hop in hops])
+            spread = np.std(without, axis=0) * np.sqrt(len(hops) - 1) * t.ppf(0.975, len(hops) - 1)
+    except (np.linalg.LinAlgError, ValueError) as why:
+        raise Failed(f"the motors' lag is not to be told: {why}") from None
     lag_s, delay_s, mass_kg = (Told(float(value), float(error)) for value, error in zip(whole, spread))
-    if not max(lag_s.error, delay_s.error) < ERROR_MAX_S or not LAG_S[0] < lag_s.value < LAG_S[1]:
+    if not _is_told(lag_s, delay_s, mass_kg):
         raise Failed(
             f"the motors' lag is not to be told: {1000 * lag_s.value:.0f} +- {1000 * lag_s.error:.0f} ms, "
-            f"delay {1000 * delay_s.value:.0f} +- {1000 * delay_s.error:.0f} ms; up to {1000 * ERROR_MAX_S:g} ms is good"
+            f"delay {1000 * delay_s.value:.0f} +- {1000 * delay_s.error:.0f} ms, {1000 * mass_kg.value:.0f} g; "
+            f"up to +- {1000 * ERROR_MAX_S:g} ms, from {1000 * LAG_S[0]:g} to {1000 * LAG_S[1]:g} ms is good"
         )
     return Actuator(lag_s, delay_s, mass_kg)
