@@ -22,6 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #define SEEDS_MAX 10000
 
@@ -38,6 +39,7 @@ typedef struct {
   bool merge; // of the files that are named where else a scenario is
   char **file;
   int files;
+  uLong crc; // of the files that say what is flown; 0: none
   bool list, logs, params, markdown, help, rate_said;
   bool version;
   made_t made, each; // each: of one of many flights, but for its seed
@@ -61,11 +63,22 @@ static done_t take_params(order_t *o, const char *form, why_t *why) {
   return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
+// What is flown is not the file's name, but what stands in it.
+static done_t sign(order_t *o, const char *path, why_t *why) {
+  FILE *file;
+  unsigned char text[4096];
+  TRY(stream_open(&file, path, why));
+  for (size_t n; (n = fread(text, 1, sizeof text, file)) > 0;) o->crc = crc32(o->crc, text, (uInt)n);
+  fclose(file);
+  return DONE;
+}
+
 static done_t take_vehicle(order_t *o, const char *path, why_t *why) {
   flown_by_t flown_by; // nobody flies it; a wrong one is told
   o->vehicle_path = path;
   o->request.vehicle = &o->vehicle;
   TRY(model_read(path, &o->vehicle, why));
+  TRY(sign(o, path, why));
   return controller_read(path, NULL, &o->vehicle, &flown_by, why);
 }
 
@@ -97,7 +110,7 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   case 'c': return request_take_controller(&o->request, &o->kind, text, why);
   case 'w': o->request.thesis_law = true; return DONE;
   case 's': return request_take_set(&o->request, text, why);
-  case 'S': return request_take_sets(&o->request, text, why);
+  case 'S': TRY(request_take_sets(&o->request, text, why)); return sign(o, text, why);
   case 'e': return request_take_effect(&o->request, text, why);
   case 'n': return request_take_noise(&o->request, text, why);
   case 'i': return request_take_integrator(&o->request, text, why);
@@ -187,6 +200,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   if (o->list || o->logs || o->params || o->help || o->version) return DONE;
   if (o->merge) return take_merge(o, given, argc, argv, why);
   TRY(check_commands(o, given, argv[optind], why));
+  if (o->replay && o->summary) return error_set(why, "--summary: nothing is flown by --replay; leave it out");
   if (o->commands || (o->replay && optind == argc)) return DONE;
   if (o->replay) return error_set(why, "--replay: no scenario is flown; leave out %s", argv[optind]);
   if (optind + 1 != argc) return error_set(why, "one scenario is needed; fly --list shows them");
@@ -284,9 +298,22 @@ static done_t tell_summary(const summary_t *s, const output_t *out, why_t *why) 
   return out->summary ? summary_write(s, out->summary, why) : DONE;
 }
 
+// The command alone, and what stands in the files that it names.
+static done_t open_summary(const order_t *o, summary_t *s, why_t *why) {
+  char files[40] = "";
+  if (o->crc) snprintf(files, sizeof files, " # files %08lx", o->crc);
+  const size_t room = strlen(o->each.command) + sizeof files;
+  char *const cell = malloc(room);
+  if (!cell) return error_failed(why, "out of memory");
+  snprintf(cell, room, "%s%s", o->each.command, files);
+  const done_t status = summary_make(s, cell, o->each.by, why);
+  free(cell);
+  return status;
+}
+
 static done_t fly_many(order_t *o, output_t *out, why_t *why) {
   summary_t summary = {0};
-  if (o->summary) TRY(summary_make(&summary, o->each.command, o->each.by, why));
+  if (o->summary) TRY(open_summary(o, &summary, why));
   const many_t m = {
       .scenario = o->scenario,
       .request = &o->request,
@@ -305,12 +332,15 @@ static done_t fly_many(order_t *o, output_t *out, why_t *why) {
   return status;
 }
 
-static done_t merge(const order_t *o, const output_t *out, why_t *why) {
+static done_t merge(order_t *o, const output_t *out, why_t *why) {
   summary_t *const all = calloc(SUMMARY_CELLS_MAX, sizeof *all);
   int n = 0;
   done_t status = all ? DONE : error_failed(why, "out of memory");
   for (int i = 0; i < o->files && status == DONE; i++) status = summary_gather(all, &n, o->file[i], why);
-  for (int i = 0; i < n && status == DONE; i++) status = tell_summary(&all[i], out, why);
+  for (int i = 0; i < n && status == DONE; i++) {
+    o->not_finite += all[i].not_finite > INT_MAX / 2 ? 1 : (int)all[i].not_finite;
+    status = tell_summary(&all[i], out, why);
+  }
   for (int i = 0; i < n; i++) summary_free(&all[i]);
   free(all);
   return status;

@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP   0x1p-20 // of a sum, in the number's unit: a million flights are off by less than 1e-6
-#define LIMIT  0x1p+20 // a number beyond counts as this: the sum of a million million has room
-#define LOWEST (-10)   // octave: what is nearer to zero than 2^-10 counts as zero
+#define LOWEST (-10) // octave: what is nearer to zero than 2^-10 counts as zero
 
 // --- bins -------------------------------------------------------------------------------------------------
 
@@ -46,7 +44,7 @@ double summary_quantile(const measure_t *m, double share) {
 }
 
 double summary_mean(const measure_t *m) {
-  return m->flights > 0 ? (double)m->sum * STEP / (double)m->flights : (double)NAN;
+  return m->flights > 0 ? (double)m->sum * SUMMARY_STEP / (double)m->flights : (double)NAN;
 }
 
 // --- seeds ------------------------------------------------------------------------------------------------
@@ -102,9 +100,9 @@ static done_t add_number(summary_t *s, const char *name, double x, why_t *why) {
   measure_t *const m = measure_of(s, name);
   if (!m) return error_failed(why, "out of memory");
   if (isnan(x)) return DONE;
-  const double within = fmin(fmax(x, -LIMIT), LIMIT);
+  const double within = fmin(fmax(x, -SUMMARY_LIMIT), SUMMARY_LIMIT);
   m->flights++;
-  m->sum += llround(within / STEP);
+  m->sum += llround(within / SUMMARY_STEP);
   m->least = fmin(m->least, within);
   m->most = fmax(m->most, within);
   m->in[bin_of(within)]++;
@@ -159,6 +157,16 @@ done_t summary_add(summary_t *s, uint64_t seed, const cJSON *result, why_t *why)
   return add_segments(s, cJSON_GetObjectItem(result, "segments"), why);
 }
 
+static bool sums_fit(const summary_t *s, const summary_t *more) {
+  int64_t sum;
+  for (int i = 0; i < more->n_measure; i++)
+    for (int k = 0; k < s->n_measure; k++)
+      if (strcmp(s->measure[k].name, more->measure[i].name) == 0 &&
+          __builtin_add_overflow(s->measure[k].sum, more->measure[i].sum, &sum))
+        return false;
+  return true;
+}
+
 done_t summary_join(summary_t *s, const summary_t *more, why_t *why) {
   if (strcmp(s->by, more->by) != 0)
     return error_set(why, "%s: flown by %s, and by %s elsewhere; allowed: the same version", s->cell,
@@ -168,6 +176,7 @@ done_t summary_join(summary_t *s, const summary_t *more, why_t *why) {
       return error_set(why, "%s: of the seeds %llu to %llu some are there twice; allowed: each flight once",
                        s->cell, (unsigned long long)more->seeds[i].from,
                        (unsigned long long)more->seeds[i].to);
+  if (!sums_fit(s, more)) return error_set(why, "%s: more than a sum holds", s->cell);
   for (int i = 0; i < more->n_seeds; i++) TRY(seeds_add(s, more->seeds[i], why));
   s->flights += more->flights;
   s->touched += more->touched;

@@ -2,9 +2,10 @@
 //
 // A cell is one command but for its seeds: `fly close-flight --controller indi --noise real`. Of each number
 // that a flight's result has (result.h), of a segment or of the whole flight: how many flights have it, mean,
-// least, most, and any quantile to 1.6 %. Counts are whole, sums are whole steps of 2^-20 of the number's
-// unit, and quantiles are those of bins, so that two summaries join to what one run would have said, to the
-// byte, however the seeds were handed out. Which seeds are in it is known: none counts twice.
+// least, most, and any quantile to 1.6 % (between 2^-10 and 2^20 in size). Counts are whole, sums are whole
+// steps of 2^-20 of the number's unit, and quantiles are those of bins, so that two summaries join to what
+// one run would have said, to the byte, however the seeds were handed out. Which seeds are in it is known:
+// none counts twice.
 //
 // A file is JSON lines, one a cell, at most SUMMARY_CELLS_MAX.
 #ifndef SIM_FLIGHT_SUMMARY_H
@@ -17,12 +18,15 @@
 
 // Bins: 32 of equal width in every octave of 2^-10 to 2^20 of either sign, one for what is nearer to zero;
 // what is beyond counts in the last one.
-#define SUMMARY_OCTAVES (30)
+#define SUMMARY_OCTAVES 30
 #define SUMMARY_FINE    32
 #define SUMMARY_SIDE    (SUMMARY_OCTAVES * SUMMARY_FINE)
 #define SUMMARY_BINS    (2 * SUMMARY_SIDE + 1)
 
-#define SUMMARY_CELLS_MAX 1000
+#define SUMMARY_CELLS_MAX 1000 // a megabyte each
+
+#define SUMMARY_STEP  0x1p-20 // of a sum, in the number's unit: a mean is off by less than 1e-6
+#define SUMMARY_LIMIT 0x1p+20 // a number beyond counts as this: the sum of eight million has room
 
 typedef struct {
   char name[48];            // "03.rms_mm": of the third segment; "all.contacts": of the flight
@@ -69,8 +73,8 @@ MUST_CHECK done_t summary_read(summary_t *s, const char *line, why_t *why);
 // For people: the cell, its flights, and a row for each number.
 void summary_print(const summary_t *s, FILE *out);
 
-// Reads the cells of a file into all[0..*n): those that are there already are joined. BAD_INPUT, with file
-// and line: as summary_read and summary_join, or there are too many cells.
+// Reads the cells of a file into all[0..*n), by name: those that are there already are joined. BAD_INPUT,
+// with file and line: as summary_read and summary_join, or there are too many cells.
 MUST_CHECK done_t summary_gather(summary_t *all, int *n, const char *path, why_t *why);
 
 #endif

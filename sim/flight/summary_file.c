@@ -4,10 +4,12 @@
 
 #include "base/stream.h"
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 
 #define WHOLE_MOST 9007199254740992.0 // 2^53: larger whole numbers are not exact in JSON
 
@@ -94,8 +96,18 @@ static bool two(const cJSON *pair, double least, double most, int64_t value[2]) 
 static bool take_sum(const cJSON *item, int64_t *sum) {
   if (!cJSON_IsString(item)) return false;
   char *end;
+  errno = 0;
   *sum = strtoll(item->valuestring, &end, 10);
-  return end != item->valuestring && *end == '\0' && !isspace((unsigned char)item->valuestring[0]);
+  return end != item->valuestring && *end == '\0' && errno == 0 &&
+         !isspace((unsigned char)item->valuestring[0]);
+}
+
+// A sum of so many numbers lies between so often the least and so often the most, each rounded to a step.
+static bool adds_up(const measure_t *m) {
+  const double of = (double)m->flights, room = 0.5 * of + 1.0;
+  return m->least <= m->most && fabs(m->least) <= SUMMARY_LIMIT && fabs(m->most) <= SUMMARY_LIMIT &&
+         (double)m->sum >= of * m->least / SUMMARY_STEP - room &&
+         (double)m->sum <= of * m->most / SUMMARY_STEP + room;
 }
 
 static bool take_measure(const cJSON *o, int64_t flights, measure_t *m) {
@@ -107,7 +119,8 @@ static bool take_measure(const cJSON *o, int64_t flights, measure_t *m) {
   if (!take_sum(cJSON_GetObjectItemCaseSensitive(o, "sum"), &m->sum)) return false;
   int64_t binned = 0, before = -SUMMARY_SIDE - 1, at[2];
   cJSON_ArrayForEach(pair, cJSON_GetObjectItemCaseSensitive(o, "bins")) {
-    if (!two(pair, -SUMMARY_SIDE, SUMMARY_SIDE, at) || at[0] <= before || at[1] < 1) return false;
+    if (!two(pair, -SUMMARY_SIDE, SUMMARY_SIDE, at) || at[0] <= before || at[1] < 1 || at[1] > flights)
+      return false;
     m->in[SUMMARY_SIDE + at[0]] = at[1];
     binned += at[1];
     before = at[0];
@@ -118,7 +131,7 @@ static bool take_measure(const cJSON *o, int64_t flights, measure_t *m) {
   if (!cJSON_IsNumber(least) || !cJSON_IsNumber(most)) return false;
   m->least = least->valuedouble;
   m->most = most->valuedouble;
-  return m->least <= m->most;
+  return adds_up(m);
 }
 
 static bool take_measures(const cJSON *o, summary_t *s) {
@@ -156,7 +169,7 @@ static bool take_all(const cJSON *o, summary_t *s) {
 }
 
 done_t summary_read(summary_t *s, const char *line, why_t *why) {
-  cJSON *const o = cJSON_Parse(line);
+  cJSON *const o = cJSON_ParseWithOpts(line, NULL, true); // nothing stands behind it
   const cJSON *const cell = cJSON_GetObjectItemCaseSensitive(o, "cell"), *const by =
                                                                              cJSON_GetObjectItemCaseSensitive(
                                                                                  o, "by");
@@ -191,6 +204,10 @@ static done_t gather_one(summary_t *all, int *n, const char *line, why_t *why) {
   return status;
 }
 
+static int by_cell(const void *a, const void *b) {
+  return strcmp(((const summary_t *)a)->cell, ((const summary_t *)b)->cell);
+}
+
 done_t summary_gather(summary_t *all, int *n, const char *path, why_t *why) {
   FILE *file;
   char *line = NULL;
@@ -198,15 +215,17 @@ done_t summary_gather(summary_t *all, int *n, const char *path, why_t *why) {
   TRY(stream_open(&file, path, why));
   done_t status = DONE;
   int number = 0;
-  while (status == DONE && getline(&line, &room, file) >= 0) {
+  for (ssize_t length; status == DONE && (length = getline(&line, &room, file)) >= 0;) {
     why_t own;
     number++;
-    status = gather_one(all, n, line, &own);
+    status = strlen(line) == (size_t)length ? gather_one(all, n, line, &own)
+                                            : error_set(&own, "no text; allowed is what fly --summary wrote");
     if (status == BAD_INPUT) error_set(why, "%s:%d: %.400s", path, number, own.text);
     if (status == FAILED) *why = own;
   }
   if (status == DONE && number == 0)
     status = error_set(why, "%s: empty; allowed is what fly --summary wrote", path);
+  qsort(all, (size_t)*n, sizeof *all, by_cell);
   free(line);
   fclose(file);
   return status;

@@ -173,6 +173,21 @@ TEST(fly_merges_summaries_to_what_one_run_writes) {
   CHECK_TEXT(merged, text);
 }
 
+// A vehicle file that changed is another plant; and cells stand in one order, whatever that of the files.
+TEST(fly_keeps_summaries_of_different_files_apart) {
+  char text[12000];
+  CHECK(
+      program_run("cp sim/vehicle/vehicles/cf21_legacy.toml $S/v.toml && "
+                  "fly test-flight --integrator rk4 --vehicle $S/v.toml --from 1 --to 1 --summary $S/one && "
+                  "sed -i 's/^motor_tau_s = 0.08/motor_tau_s = 0.09/' $S/v.toml && "
+                  "fly test-flight --integrator rk4 --vehicle $S/v.toml --from 2 --to 2 --summary $S/other",
+                  STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(program_run(
+            "fly --merge $S/one $S/other --summary $S/ab && fly --merge $S/other $S/one --summary $S/ba && "
+            "cmp $S/ab $S/ba && test $(wc -l <$S/ab) = 2",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+}
+
 TEST(learn_reads_what_fly_writes_of_six_degrees_of_freedom) {
   char text[4000];
   CHECK(program_run("fly learning-flight --integrator rk4 --log $S/six.csv", STREAM_OUTPUT, text,

@@ -20,6 +20,7 @@ static const struct {
      "--to, --log, --log-rate, --json, "
      "--list, --logs, --summary, --merge, --params, --help, --version\n"},
     {"fly close-flight --summary $S/x", "fly: --summary: allowed with --from and --to, or --merge\n"},
+    {"fly --replay README.md --summary $S/x", "fly: --summary: nothing is flown by --replay; leave it out\n"},
     {"fly --merge", "fly: --merge: files are needed, as fly --summary writes them\n"},
     {"fly --merge --seed 3 README.md", "fly: --merge: allowed with it is --summary\n"},
     {"fly --merge README.md", "fly: README.md:1: no summary; allowed is what fly --summary wrote\n"},

@@ -184,6 +184,11 @@ TEST(summary_refuses_a_line_that_does_not_add_up) {
       {"\"sum\":\"", "\"sum\":\"x", "does not add up"},
       {"\"bins\":[[", "\"bins\":[[-99999,1],[", "does not add up"},
       {"\"least\":", "\"leest\":", "does not add up"},
+      {"\"sum\":\"0\"", "\"sum\":\"99999999999999999999\"", "does not add up"},
+      {"\"sum\":\"0\"", "\"sum\":\"5000\"", "does not add up"},
+      {"\"least\":", "\"least\":-1e300,\"l\":", "does not add up"},
+      {"\"most\":", "\"most\":1e999,\"m\":", "does not add up"},
+      {"]}\n", "]}{\"fly_summary\":1}\n", "no summary"},
   };
   summary_t s;
   why_t why;
