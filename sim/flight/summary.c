@@ -121,7 +121,8 @@ static done_t add_segments(summary_t *s, const cJSON *segments, why_t *why) {
     cJSON_ArrayForEach(cell, row) {
       if (!cJSON_IsNumber(cell) && !cJSON_IsNull(cell)) continue; // its label
       char name[sizeof s->measure->name];
-      snprintf(name, sizeof name, "%02d.%s", segment, cell->string);
+      if (snprintf(name, sizeof name, "%02d.%s", segment, cell->string) >= (int)sizeof name)
+        return error_failed(why, "a number's name is too long for a summary");
       TRY(add_number(s, name, number(cell), why));
     }
   }

@@ -1,6 +1,7 @@
 // summary.h - what many flights of one command came to, in a line that does not grow with their number.
 //
-// A cell is one command but for its seeds: `fly close-flight --controller indi --noise real`. Of each number
+// A cell is one command but for its seeds: `fly close-flight --controller indi --noise real`, its options in
+// the order given, as a later one overrides an earlier one. Of each number
 // that a flight's result has (result.h), of a segment or of the whole flight: how many flights have it, mean,
 // least, most, and any quantile to 1.6 % (between 2^-10 and 2^20 in size). Counts are whole, sums are whole
 // steps of 2^-20 of the number's unit, and quantiles are those of bins, so that two summaries join to what
@@ -52,11 +53,12 @@ typedef struct {
 MUST_CHECK done_t summary_make(summary_t *s, const char *cell, const char *by, why_t *why);
 void summary_free(summary_t *s);
 
-// One flight more, and its result. BAD_INPUT: its seed is in it. FAILED: no memory.
+// One flight more, and its result. BAD_INPUT: its seed is in it. FAILED: no memory, or a number's name is too
+// long for a measure's.
 MUST_CHECK done_t summary_add(summary_t *s, uint64_t seed, const cJSON *result, why_t *why);
 
-// All of another one's flights more. BAD_INPUT: another version flew, or a seed is in both; nothing is added
-// then. FAILED: no memory.
+// All of another one's flights more. BAD_INPUT: another version flew (a `+` behind it, files that were changed
+// and not committed, does not tell which), or a seed is in both; nothing is added then. FAILED: no memory.
 MUST_CHECK done_t summary_join(summary_t *s, const summary_t *more, why_t *why);
 
 // The middle of the bin in which so much of the flights lie below, within least and most. share: 0 to 1. NaN

@@ -230,3 +230,37 @@ TEST(summary_file_keeps_cells_apart) {
   free(first);
   free(second);
 }
+
+TEST(summary_takes_no_number_whose_name_it_cannot_hold) {
+  summary_t s;
+  why_t why;
+  open_summary(&s, 1, 2);
+  cJSON *const result = result_of(3);
+  cJSON_AddNumberToObject(cJSON_GetArrayItem(cJSON_GetObjectItem(result, "segments"), 0),
+                          "a_name_of_forty_five_letters_and_three_before", 1.0);
+  CHECK_STATUS(FAILED, summary_add(&s, 3, result, &why));
+  CHECK_TEXT(why.text, "a number's name is too long for a summary");
+  cJSON_Delete(result);
+  summary_free(&s);
+}
+
+TEST(summary_file_of_a_thousand_cells_is_the_largest) {
+  static const char form[] = "{\"fly_summary\":1,\"cell\":\"fly %d\",\"by\":\"fly 1\",\"flights\":0,"
+                             "\"touched\":0,\"not_finite\":0,\"seeds\":[],\"measures\":[]}\n";
+  enum { LINE = 160, MOST = SUMMARY_CELLS_MAX };
+  summary_t *const all = calloc(MOST, sizeof *all);
+  char *const text = malloc((MOST + 1) * LINE);
+  CHECK(all && text);
+  if (!all || !text) return;
+  why_t why;
+  int n = 0, length = 0;
+  for (int i = 0; i < MOST; i++) length += snprintf(text + length, LINE, form, i);
+  CHECK_OK(summary_gather(all, &n, scratch_file("most", text, -1), &why));
+  CHECK(n == MOST);
+  snprintf(text + length, LINE, form, MOST);
+  CHECK_STATUS(BAD_INPUT, summary_gather(all, &n, scratch_file("beyond", text, -1), &why));
+  CHECK_TEXT(scratch_short(why.text), "beyond:1001: more than 1000 cells");
+  for (int i = 0; i < n; i++) summary_free(&all[i]);
+  free(all);
+  free(text);
+}
