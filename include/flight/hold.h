@@ -8,8 +8,10 @@
 //   always, HOLD_NOT                    z + zc
 //
 // A latched height keeps the estimate's error of that instant, 0.8 mm (the sensor's 3 mm times 0.229); the
-// mean of 200 has 0.2 mm of the noise left. While it climbs, a sample whose age is not known to 10 ms is
-// wrong by a tenth of that in speed: it does not count then.
+// mean of 70 has 0.3 mm of the noise left. While it climbs, a sample whose age is not known to 10 ms is
+// wrong by a tenth of that in speed: it does not count then. A range sensor may be wrong by 1 % of what it
+// says: what was seen from 20 cm is to be forgotten when it is seen from 6 cm (at `flown`, 20 mm below the
+// ceiling, each flight's own mean error is 1.9 mm; 2.1 mm with 200, and no less with 30).
 //
 // What is held may have become wrong: another room, a beam, a hole in the ceiling. Samples that put it
 // elsewhere by more than HOLD_MARGIN_M for HOLD_AGAINST_S make it start afresh, or forgotten where the
@@ -22,7 +24,7 @@
 
 #define HOLD_BEYOND_M     0.20f
 #define HOLD_SAMPLES      10
-#define HOLD_MEAN_SAMPLES 200    // 20 s: longer than a hover wanders, shorter than a battery sags
+#define HOLD_MEAN_SAMPLES 70     // 7 s: longer than a hover wanders, and soon of what is seen from near
 #define HOLD_SLOW_MPS     0.05f  // 0.5 mm in 10 ms
 #define HOLD_NOISE_M      0.012f // four standard deviations of a sample
 #define HOLD_MARGIN_M     0.05f

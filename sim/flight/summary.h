@@ -57,8 +57,9 @@ void summary_free(summary_t *s);
 // long for a measure's.
 MUST_CHECK done_t summary_add(summary_t *s, uint64_t seed, const cJSON *result, why_t *why);
 
-// All of another one's flights more. BAD_INPUT: another version flew (a `+` behind it, files that were changed
-// and not committed, does not tell which), or a seed is in both; nothing is added then. FAILED: no memory.
+// All of another one's flights more. BAD_INPUT: another version flew (a `+` behind it, files that were
+// changed and not committed, does not tell which), or a seed is in both; nothing is added then. FAILED: no
+// memory.
 MUST_CHECK done_t summary_join(summary_t *s, const summary_t *more, why_t *why);
 
 // The middle of the bin in which so much of the flights lie below, within least and most. share: 0 to 1. NaN

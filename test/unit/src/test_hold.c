@@ -167,8 +167,7 @@ TEST(hold_goes_on_with_the_mean_of_samples_that_come_slowly) {
       {"sinking faster", HOLD_MEAN, -0.06f, 0.003f, 30, 1.0},
       {"as far off as noise brings it", HOLD_MEAN, 0.0f, 0.0115f, 1, 1.0 + 0.0115 / 11.0},
       {"farther off", HOLD_MEAN, 0.0f, 0.0125f, 30, 1.0},
-      {"after 200 at a rate of one in 200", HOLD_MEAN, 0.0f, 0.003f, 590,
-       1.003 - 0.003 * 10.0 / 200.0 * 0.1413},
+      {"after 70 at a rate of one in 70", HOLD_MEAN, 0.0f, 0.003f, 130, 1.003 - 0.003 * 10.0 / 70.0 * 0.3653},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
