@@ -186,16 +186,16 @@ typedef struct {
 #define PARAMS_HEIGHT(X)                                                                                     \
   X(height, own, PARAM_INT, height.own, "", 0, 0, 1,                                                         \
     "the law flies by: 0 the estimator's height and climb, 1 an own filter's while it fits")                 \
-  X(height, tauMot, PARAM_FLOAT, height.tau_s, "s", 0.095f, 0.001f, 0.5f,                                    \
+  X(height, tauMot, PARAM_FLOAT, height.tau_s, "s", 0.075f, 0.001f, 0.5f,                                    \
     "own filter: first-order lag of the motors")                                                             \
-  X(height, delay, PARAM_FLOAT, height.delay_s, "s", 0.008f, 0.0f, 0.0145f,                                  \
+  X(height, delay, PARAM_FLOAT, height.delay_s, "s", 0.006f, 0.0f, 0.0145f,                                  \
     "own filter: delay of the command on its way to the motors")                                             \
-  X(height, walk, PARAM_FLOAT, height.walk_mps2, "m/s2/rt s", 0.1f, 0.01f, 3.0f,                             \
+  X(height, walk, PARAM_FLOAT, height.walk_mps2, "m/s2/rt s", 0.07f, 0.01f, 3.0f,                            \
     "own filter: how fast the disturbing force changes")                                                     \
   X(height, kp, PARAM_FLOAT, height.kp_per_s, "1/s", 5.0f, 0.05f, 20.0f, "by the own filter: indiPos.kpz")   \
-  X(height, kd, PARAM_FLOAT, height.kd_per_s, "1/s", 12.0f, 0.1f, 50.0f, "by the own filter: indiPos.kdz")   \
-  X(height, quick, PARAM_FLOAT, height.quick, "", 2.1f, 0.5f, 4.0f, "by the own filter: indiPos.quick")      \
-  X(height, catch, PARAM_FLOAT, height.catch_s, "s", 0.1f, 0.0f, 1.0f, "by the own filter: ceil.catch")
+  X(height, kd, PARAM_FLOAT, height.kd_per_s, "1/s", 8.0f, 0.1f, 50.0f, "by the own filter: indiPos.kdz")    \
+  X(height, quick, PARAM_FLOAT, height.quick, "", 3.2f, 0.5f, 4.0f, "by the own filter: indiPos.quick")      \
+  X(height, catch, PARAM_FLOAT, height.catch_s, "s", 0.08f, 0.0f, 1.0f, "by the own filter: ceil.catch")
 
 #define FLIGHT_PARAMS(X)                                                                                     \
   PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X) PARAMS_GUARD(X) PARAMS_HEIGHT(X)

@@ -6,7 +6,7 @@ import math
 import run
 
 FLIGHTS = 1000
-FROM = 86001
+FROM = 88001
 LAWS = {
     "law that ships": "--controller indi-rbf",
     "its gains, no ceiling term": "--controller indi",
