@@ -128,6 +128,8 @@ def fly(vehicle: Vehicle | DryVehicle, asked: argparse.Namespace) -> None:
     plan = Plan(getattr(asked, "gaps", ()), getattr(asked, "hold", identify.HOVER_S), asked.battery)
     file = None if asked.dry_run else asked.log
     if asked.command == "identify":
+        if not asked.dry_run:
+            identify.libraries()
         rows = identify.hop_rows(vehicle, plan, file)
         if not asked.dry_run:
             identify.tell(vehicle, rows)

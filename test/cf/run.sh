@@ -3,6 +3,7 @@
 # cflib. Where it cannot be had, those that need none.
 cd "$(dirname "$0")/../.." || exit 1
 export PYTHONDONTWRITEBYTECODE=1
+export OPENBLAS_NUM_THREADS=1 # its threads wait for each other thirty times longer than these small fits take
 which='test_*.py'
 if tools/setup.sh $1 && tools/cf/venv.sh; then
   python=${O:-out}/cf/bin/python

@@ -49,13 +49,20 @@ class Flights(AtTheDesk):
         vehicle.write_text(slow)
         with desk("--vehicle", vehicle) as self.uri:
             self.cf("params", "set", "ceil.shadow=0")
-            said = self.cf("identify")
+            said = self.cf("identify", "--log", self.folder / "hops.csv")
         lag_ms, lag_error_ms, delay_ms, delay_error_ms = map(float, re.findall(r"([\d.-]+) \+- ([\d.]+) ms", said)[0] +
                                                              re.findall(r"([\d.-]+) \+- ([\d.]+) ms", said)[1])
         self.assertLess(lag_error_ms, 6.0)
         self.assertAlmostEqual(lag_ms, 110.0, delta=2 * lag_error_ms)
         self.assertAlmostEqual(delay_ms, 0.0, delta=2.0 + delay_error_ms)
         self.assertIn(f"cf params set indiPos.tauMot={lag_ms / 1000:.3f}", said)
+        self.assertIn(f"cf params set height.tauMot={lag_ms / 1000:.3f} height.delay=0.00", said)
+        with open(self.folder / "hops.csv", encoding="utf-8") as file:
+            kept = [row for row in csv.DictReader(file) if row["indiIn.step"] != "nan"]
+        steps = [float(row["indiIn.step"]) for row in kept]
+        self.assertGreater(len(set(steps)), 1500)  # a hundred a second, for as long as it hops
+        self.assertGreater(len({row["indiIn.az"] for row in kept}), 1000)
+        self.assertGreater(len({row["indiSet.z"] for row in kept}), 2)
 
     def test_the_space_bar_stops_the_motors_and_it_falls(self) -> None:
         self.cf("params", "set", "ceil.shadow=0")

@@ -1,8 +1,10 @@
 """The learning flight and the test flight over the link, when all goes well or was asked for wrongly."""
 
 import math
+import sys
 import time
 import unittest
+import unittest.mock
 
 from fake_vehicle import LEARNED
 from rig import WEIGHTS, OverTheLink
@@ -13,6 +15,12 @@ class Identify(OverTheLink):
         self.refused(1, "rows came; 500 and more tell the motors' lag", "identify")
         self.assertEqual(self.flown(), ["take off"] + 25 * ["go to"] + ["land", "stop"])
         self.assertEqual(self.gaps_mm(), [200] + 12 * [225, 200])
+
+    def test_a_library_that_is_missing_is_said_before_it_flies(self) -> None:
+        with unittest.mock.patch.dict("sys.modules", {"scipy.optimize": None, "cf.actuator": None}):
+            sys.modules.pop("cf.actuator")
+            self.refused(1, "scipy.optimize is missing: make setup-cf", "identify")
+        self.assertEqual(self.flown(), [])
 
     def test_what_the_app_commands_has_to_be_flown(self) -> None:
         self.vehicle.param["ceil.shadow"] = 1

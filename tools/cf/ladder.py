@@ -39,16 +39,17 @@ def changed(vehicle: Craft, values: dict[str, float]):
 
 
 @contextmanager
-def recorded(vehicle: Craft, file: Path | None):
-    """Everything that the cfclient configurations name, into a file."""
+def recorded(vehicle: Craft, file: Path | None, *of_caller: blocks.Block):
+    """Everything that the cfclient configurations name, into a file, and what the caller streams: what it gets is to be
+    called with those packets."""
     if not file:
-        yield
+        yield lambda *_: None
         return
     chosen = blocks.read(CONFIGS / "flying") + blocks.read(CONFIGS / "learning")
-    record, streams, whole = Record("--log", file, chosen), [], True
+    record, streams, whole = Record("--log", file, [*chosen, *of_caller]), [], True
     try:
         streams += [vehicle.stream(block, record.take) for block in chosen]
-        yield
+        yield record.take
     except LinkLost:
         whole = False
         raise
