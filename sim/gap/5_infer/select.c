@@ -142,7 +142,8 @@ static done_t left_by(const select_t *t, const chosen_t *chosen, const color_t c
 
 // A swap is promised by straight lines about the one that goes: a lag that is taken out along its line leaves
 // what no vehicle does, and a delay may fit that better. It stays if the models themselves, both replayed,
-// keep the promise, and is not tried again if they do not.
+// keep the promise, and is not tried again if they do not, in nobody's place: the line that promised too much
+// is its own.
 static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   round_t *const r = &t->round;
   const choice_t choice = r->choice;
