@@ -3,30 +3,37 @@
 
 #include "flight/bounds.h"
 
-#define ACC_DELAY_STEPS 0.75f   // of the accelerometer's filter
-#define FADE            0.04f   // of the share, a step
-#define MEAN_ACC        0.04f   // a quarter of a second
-#define MEAN_DOWN       0.1f    // likewise
-#define CURVE_NEAR_M    0.005f  // so far the curve is a straight line
-#define RANGE_MAX_M     2.0f    // beyond, the range sensor's noise grows
-#define CONE_COS        0.9914f // of the downward sensor's view, 7.5 degrees
-#define CONE_SIN        0.1305f
-#define STATE_MAX       10.0f // of each part of the covariance; far more than it is after HEIGHT_SILENT
+// Each of these, and of the header's, moves a row of the_height_filters_numbers_are_what_it_does.
+#define ACC_DELAY_S  0.0075f // of the accelerometer's filter, see above
+#define FADE_S       0.25f  // from one height to the other: ten times the outer loop's tick and more, no step
+#define MEAN_S       0.25f  // of the mean squares: a knock passes, a contact does not
+#define DOWN_S       0.025f // from a range sample to the next
+#define CURVE_NEAR_M 0.005f // so far the curve is a straight line
+#define RANGE_MAX_M  2.0f   // beyond, the range sensor's noise grows
+#define CONE_COS     0.9914f // of the downward sensor's view, 7.5 degrees to a side
+#define CONE_SIN     0.1305f
+#define WILD_ROW     3 // one sample beyond belief is a speck, so many in a row are another floor
+// What the estimator may be wrong by, and what nobody knows yet: variances.
+#define BEGIN_H_VAR 1e-5f // 3 mm
+#define BEGIN_W_VAR 1e-3f // 3 cm/s
+#define BEGIN_D_VAR 0.25f // 0.5 m/s2: a thrust map that is 5 % wrong
+#define BEGIN_B_VAR 4e-3f // 0.06 m/s2: what a calibration on the floor leaves
 
 // From the estimator, with what it may be wrong by. What is known of the bias stays, and what is flown fades.
 static void begin(height_t *s, const height_in_t *in) {
   const float bias_mps2 = s->started ? s->x[HEIGHT_B] : in->bias_mps2;
-  *s = (height_t){.x = {in->z_m - s->off_m, in->climb_mps, 0.0f, f_bound(bias_mps2, HEIGHT_BIAS_MAX)},
-                  .P = {{1e-5f}, {0.0f, 1e-3f}, {0.0f, 0.0f, 0.25f}, {0.0f, 0.0f, 0.0f, 4e-3f}},
-                  .thrust_N = in->thrust_N,
-                  .sent_N = {in->thrust_N, in->thrust_N, in->thrust_N},
-                  .acc_odd = 1.0f,
-                  .down_odd = 1.0f,
-                  .share = s->share,
-                  .more_m = s->more_m,
-                  .more_mps = s->more_mps,
-                  .off_m = s->off_m,
-                  .started = true};
+  *s = (height_t){
+      .x = {in->z_m - s->off_m, in->climb_mps, 0.0f, f_bound(bias_mps2, HEIGHT_BIAS_MAX)},
+      .P = {{BEGIN_H_VAR}, {0.0f, BEGIN_W_VAR}, {0.0f, 0.0f, BEGIN_D_VAR}, {0.0f, 0.0f, 0.0f, BEGIN_B_VAR}},
+      .thrust_N = in->thrust_N,
+      .sent_N = {in->thrust_N, in->thrust_N, in->thrust_N},
+      .acc_odd = 1.0f,
+      .down_odd = 1.0f,
+      .share = s->share,
+      .more_m = s->more_m,
+      .more_mps = s->more_mps,
+      .off_m = s->off_m,
+      .started = true};
 }
 
 static bool usable(const height_in_t *in) {
@@ -94,7 +101,7 @@ static void take_acc(height_t *s, float e_mps2, float k_per_s2) {
     PH[i] = k_per_s2 * s->P[i][HEIGHT_H] + s->P[i][HEIGHT_D] + s->P[i][HEIGHT_B];
   const float var = k_per_s2 * PH[HEIGHT_H] + PH[HEIGHT_D] + PH[HEIGHT_B] + HEIGHT_ACC_VAR;
   const float odd = e_mps2 * e_mps2 / var;
-  s->acc_odd += MEAN_ACC * (f_min(odd, HEIGHT_WILD) - s->acc_odd);
+  s->acc_odd += HEIGHT_S / MEAN_S * (f_min(odd, HEIGHT_WILD) - s->acc_odd);
   take(s, PH, var, e_mps2);
 }
 
@@ -114,7 +121,7 @@ static void take_down(height_t *s, float down_m, float acc_mps2) {
   float PH[HEIGHT_N];
   for (int i = 0; i < HEIGHT_N; i++) PH[i] = s->P[i][HEIGHT_H];
   const float var = PH[HEIGHT_H] + HEIGHT_DOWN_VAR, odd = e_m * e_m / var;
-  s->down_odd += MEAN_DOWN * (f_min(odd, HEIGHT_WILD) - s->down_odd);
+  s->down_odd += DOWN_S / MEAN_S * (f_min(odd, HEIGHT_WILD) - s->down_odd);
   if (!(odd < HEIGHT_WILD)) {
     s->wild++;
     return;
@@ -131,21 +138,22 @@ static void follow(height_t *s, float z_m) {
 
 static bool is_state(const height_t *s) {
   for (int i = 0; i < HEIGHT_N; i++)
-    if (!(s->P[i][i] >= 0.0f && s->P[i][i] <= STATE_MAX)) return false;
+    if (!(s->P[i][i] >= 0.0f && f_finite(s->P[i][i]))) return false;
   return fabsf(s->x[HEIGHT_H]) <= 2.0f * BOUND_POS_M && fabsf(s->x[HEIGHT_W]) <= BOUND_VEL_MPS &&
          fabsf(s->x[HEIGHT_D]) <= HEIGHT_FORCE_MAX && fabsf(s->x[HEIGHT_B]) <= HEIGHT_BIAS_MAX &&
          fabsf(s->off_m) <= 2.0f * BOUND_POS_M && fabsf(s->thrust_N) <= BOUND_THRUST_N;
 }
 
 static bool fits(const height_t *s, const height_in_t *in) {
-  return s->acc_odd < HEIGHT_ODD && s->down_odd < HEIGHT_ODD && s->wild < 3 && s->silent < HEIGHT_SILENT &&
-         s->same < HEIGHT_SAME && fabsf(s->x[HEIGHT_H] + s->off_m - in->z_m) <= HEIGHT_APART_M &&
+  return s->acc_odd < HEIGHT_ODD && s->down_odd < HEIGHT_ODD && s->wild < WILD_ROW &&
+         s->silent < HEIGHT_SILENT && s->same < HEIGHT_SAME &&
+         fabsf(s->x[HEIGHT_H] + s->off_m - in->z_m) <= HEIGHT_APART_M &&
          fabsf(s->x[HEIGHT_W] - in->climb_mps) <= HEIGHT_APART_MPS;
 }
 
 void height_step(height_t *s, const height_param_t *p, float motor_share, const height_in_t *in) {
   const float to = s->fit >= HEIGHT_FIT ? 1.0f : 0.0f;
-  s->share += f_clamp(to - s->share, -FADE, FADE);
+  s->share += f_clamp(to - s->share, -HEIGHT_S / FADE_S, HEIGHT_S / FADE_S);
   if (!usable(in)) {
     height_lose(s);
     return;
@@ -156,7 +164,7 @@ void height_step(height_t *s, const height_param_t *p, float motor_share, const 
   const float k_per_s2 = ratio > 1.0f ? -GRAVITY_MPS2 * in->at.slope_per_m / ratio : 0.0f;
   const float acc_mps2 = ratio * s->thrust_N * up / in->mass_kg - GRAVITY_MPS2 + s->x[HEIGHT_D];
   const float e_mps2 = quat_to_world(in->q_wb, in->acc_b_mps2).z - GRAVITY_MPS2 - s->x[HEIGHT_B] -
-                       (acc_mps2 + ACC_DELAY_STEPS * (s->acc_mps2 - acc_mps2));
+                       (acc_mps2 + ACC_DELAY_S / HEIGHT_S * (s->acc_mps2 - acc_mps2));
   const float before_mps2 = s->x[HEIGHT_D];
   predict(s, p, acc_mps2, k_per_s2);
   take_acc(s, e_mps2, k_per_s2);

@@ -62,16 +62,16 @@ typedef struct {
 #define HEIGHT_DOWN_VAR   6.33e-6f // 2.5 mm and whole millimetres
 #define HEIGHT_BIAS_WALK  0.003f   // m/s2 per root second
 #define HEIGHT_CLIMB_WALK 0.007f   // m/s per root second: what lag and delay are wrong by
-#define HEIGHT_FORCE_MAX  1.2f // m/s2: map, mass and gusts together are less, a push against a ceiling more
-#define HEIGHT_BIAS_MAX   0.6f
-#define HEIGHT_ODD        4.0f
-#define HEIGHT_WILD       25.0f // five standard deviations
-#define HEIGHT_SILENT     10
-#define HEIGHT_SAME       10
-#define HEIGHT_FIT        50
-#define HEIGHT_OFF_STEPS  400
-#define HEIGHT_APART_M    0.015f
-#define HEIGHT_APART_MPS  0.15f
+#define HEIGHT_FORCE_MAX  1.2f   // m/s2: map, mass and gusts together are less, a push against a ceiling more
+#define HEIGHT_BIAS_MAX   0.6f   // m/s2: three times what one comes with
+#define HEIGHT_ODD        4.0f   // twice the expected size: no noise is, in the mean of a quarter of a second
+#define HEIGHT_WILD       25.0f  // five standard deviations
+#define HEIGHT_SILENT     10     // steps: four samples lost
+#define HEIGHT_SAME       10     // samples after the first: noise moves them sooner
+#define HEIGHT_FIT        50     // steps: twice the mean squares' time
+#define HEIGHT_OFF_STEPS  400    // 4 s: slower than the law, faster than the estimator drifts
+#define HEIGHT_APART_M    0.015f // five times what the estimator is wrong by; a floor that is another is more
+#define HEIGHT_APART_MPS  0.15f  // likewise of its climb
 
 typedef struct {
   v3_t acc_b_mps2;         // specific force: +9.81 on z at rest

@@ -1,4 +1,4 @@
 # The estimator's height comes back at once.
 # file: src/height.c
 # test: height
-s/^#define FADE .*/#define FADE 1.0f/
+s/^#define FADE_S .*/#define FADE_S HEIGHT_S/

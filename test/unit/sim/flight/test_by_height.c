@@ -41,8 +41,8 @@ TEST(by_height_15_mm_are_held_with_less_error_than_by_the_estimator) {
       for (int k = 0; own && k <= AT_15_MM; k++) CHECK(of(json, k, "contacts") == 0.0);
       cJSON_Delete(json);
     }
-  CHECK(sqrt(sum_mm2[1]) < 0.9 * sqrt(sum_mm2[0]));
-  CHECK(sqrt(sum_mm2[1]) < 1.7);
+  CHECK(sqrt(sum_mm2[1]) < 0.74 * sqrt(sum_mm2[0])); // by its climb alone 0.79
+  CHECK(sqrt(sum_mm2[1]) < 1.5);
 }
 
 TEST(by_height_a_push_against_the_ceiling_ends_as_without) {
