@@ -1,5 +1,4 @@
-// test_height_numbers.c - the height filter's numbers, each by what it does: half or double of one moves its
-// row.
+// test_height_numbers.c - the height filter's numbers, each by what it does; half or double moves its row.
 #include "flight/height.h"
 #include "flight/params.h"
 #include "rig/test.h"
@@ -324,7 +323,6 @@ static double leaning(rest_t *r) {
   return (double)(r->h.x[HEIGHT_H] - UP_COS) / (double)UP_SIN;
 }
 
-// What the first samples move.
 static double first_range(rest_t *r) {
   start(r);
   r->down_m = 0.401f;
@@ -355,44 +353,45 @@ static double first_bias(rest_t *r) {
   return (double)r->h.x[HEIGHT_B] / 0.1;
 }
 
+static const struct {
+  const char *what;
+  double (*of)(rest_t *);
+  double want, tol;
+} row[] = {
+    {"S: mm in five steps of 0.1 m/s", five_steps, 5.0, 0.1},
+    {"AHEAD_S: mm at 0.1 m/s", ahead, 0.8, 0.01},
+    {"COMMAND_S: of the newest command", command, 0.05, 0.001},
+    {"DOWN_AGE_S: mm at 0.1 m/s", range_age, 1.75, 0.02},
+    {"ACC_VAR: surprise of 0.078 m/s2", acc_odd, 0.632, 0.05},
+    {"DOWN_VAR: surprise of 2.5 mm", down_odd, 0.976, 0.1},
+    {"BIAS_WALK: m/s2 it is known to", bias_sd, 0.0062, 0.0006},
+    {"CLIMB_WALK: mm/s it is known to", climb_sd, 6.44, 0.6},
+    {"FORCE_MAX: m/s2 flown", force, 1.2, 0.02},
+    {"BIAS_MAX: m/s2 to begin with", bias_to_begin_with, 0.6, 0.1},
+    {"ODD: mean square flown", oddest, 4.0, 0.1},
+    {"WILD: standard deviations", wildest, 5.0, 0.1},
+    {"WILD_ROW: steps of them", wild_in_a_row, 7.0, 0.0},
+    {"SILENT: steps", silence, 10.0, 0.0},
+    {"SAME: samples", same, 11.0, 0.0},
+    {"FIT: steps until it is flown", until_flown, 51.0, 0.0},
+    {"FADE_S: s", fading_in, 0.24, 0.011},
+    {"OFF_STEPS: share followed in as many", other_zero, 0.632, 0.01},
+    {"APART_M: mm", apart, 16.0, 0.0},
+    {"APART_MPS: cm/s", climbs_apart, 15.0, 1.0},
+    {"ACC_DELAY_S: of a jump at once", at_once, 0.25, 0.011},
+    {"MEAN_S: of the accelerometer, s", mean_of_acc, 0.25, 0.03},
+    {"MEAN_S, DOWN_S: samples", mean_of_range, 10.0, 1.0},
+    {"CURVE_NEAR_M: mm", straight, 5.0, 0.1},
+    {"RANGE_MAX_M: m", highest, 2.0, 0.06},
+    {"CONE: a metre's share beyond", leaning, 0.107, 0.003},
+    {"BEGIN_H: mm of the first range's 1", first_range, 0.612, 0.01},
+    {"BEGIN_W: mm/s of two ranges' 1 mm", first_climb, 1.765, 0.1},
+    {"BEGIN_D: share of an acceleration left", first_force, 0.036, 0.001},
+    {"BEGIN_B: share of an acceleration", first_bias, 0.0152, 0.0005},
+};
+
 TEST(the_height_filters_numbers_are_what_it_does) {
-  static const struct {
-    const char *what;
-    double (*of)(rest_t *);
-    double want, tol;
-  } row[] = {
-      {"S: mm in five steps of 0.1 m/s", five_steps, 5.0, 0.1},
-      {"AHEAD_S: mm at 0.1 m/s", ahead, 0.8, 0.01},
-      {"COMMAND_S: of the newest command", command, 0.05, 0.001},
-      {"DOWN_AGE_S: mm at 0.1 m/s", range_age, 1.75, 0.02},
-      {"ACC_VAR: surprise of 0.078 m/s2", acc_odd, 0.632, 0.05},
-      {"DOWN_VAR: surprise of 2.5 mm", down_odd, 0.976, 0.1},
-      {"BIAS_WALK: m/s2 it is known to", bias_sd, 0.0062, 0.0006},
-      {"CLIMB_WALK: mm/s it is known to", climb_sd, 6.44, 0.6},
-      {"FORCE_MAX: m/s2 flown", force, 1.2, 0.02},
-      {"BIAS_MAX: m/s2 to begin with", bias_to_begin_with, 0.6, 0.1},
-      {"ODD: mean square flown", oddest, 4.0, 0.1},
-      {"WILD: standard deviations", wildest, 5.0, 0.1},
-      {"WILD_ROW: steps of them", wild_in_a_row, 7.0, 0.0},
-      {"SILENT: steps", silence, 10.0, 0.0},
-      {"SAME: samples", same, 11.0, 0.0},
-      {"FIT: steps until it is flown", until_flown, 51.0, 0.0},
-      {"FADE_S: s", fading_in, 0.24, 0.011},
-      {"OFF_STEPS: share followed in as many", other_zero, 0.632, 0.01},
-      {"APART_M: mm", apart, 16.0, 0.0},
-      {"APART_MPS: cm/s", climbs_apart, 15.0, 1.0},
-      {"ACC_DELAY_S: of a jump at once", at_once, 0.25, 0.011},
-      {"MEAN_S: of the accelerometer, s", mean_of_acc, 0.25, 0.03},
-      {"MEAN_S, DOWN_S: samples", mean_of_range, 10.0, 1.0},
-      {"CURVE_NEAR_M: mm", straight, 5.0, 0.1},
-      {"RANGE_MAX_M: m", highest, 2.0, 0.06},
-      {"CONE: a metre's share beyond", leaning, 0.107, 0.003},
-      {"BEGIN_H: mm of the first range's 1", first_range, 0.612, 0.01},
-      {"BEGIN_W: mm/s of two ranges' 1 mm", first_climb, 1.765, 0.1},
-      {"BEGIN_D: share of an acceleration left", first_force, 0.036, 0.001},
-      {"BEGIN_B: share of an acceleration", first_bias, 0.0152, 0.0005},
-  };
-  static rest_t r;
+  rest_t r;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     const double got = row[i].of(&r);
     ROW("%s", row[i].what);
