@@ -9,6 +9,8 @@ import unittest.mock
 from fake_vehicle import LEARNED
 from rig import WEIGHTS, OverTheLink
 
+import cf
+
 
 class Identify(OverTheLink):
     def test_rows_that_tell_nothing_are_said_after_it_has_landed(self) -> None:
@@ -17,8 +19,9 @@ class Identify(OverTheLink):
         self.assertEqual(self.gaps_mm(), [200] + 12 * [225, 200])
 
     def test_a_library_that_is_missing_is_said_before_it_flies(self) -> None:
-        with unittest.mock.patch.dict("sys.modules", {"scipy.optimize": None, "cf.actuator": None}):
-            sys.modules.pop("cf.actuator")
+        with unittest.mock.patch.dict("sys.modules", {"scipy.optimize": None}), unittest.mock.patch.dict(vars(cf)):
+            sys.modules.pop("cf.actuator", None)  # whoever imported it before, in both places
+            vars(cf).pop("actuator", None)
             self.refused(1, "scipy.optimize is missing: make setup-cf", "identify")
         self.assertEqual(self.flown(), [])
 
