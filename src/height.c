@@ -4,14 +4,14 @@
 #include "flight/bounds.h"
 
 // Each of these, and of the header's, moves a row of the_height_filters_numbers_are_what_it_does.
-#define ACC_DELAY_S  0.0075f // of the accelerometer's filter, see above
+#define ACC_DELAY_S  0.0075f // of the accelerometer's filter, as in the header
 #define FADE_S       0.25f  // from one height to the other: ten times the outer loop's tick and more, no step
 #define MEAN_S       0.25f  // of the mean squares: a knock passes, a contact does not
 #define DOWN_S       0.025f // from a range sample to the next
 #define CURVE_NEAR_M 0.005f // so far the curve is a straight line
 #define RANGE_MAX_M  2.0f   // beyond, the range sensor's noise grows
-#define CONE_COS     0.9914f // of the downward sensor's view, 7.5 degrees to a side
-#define CONE_SIN     0.1305f
+#define CONE_SIN     0.1305f // of the downward sensor's view, 7.5 degrees to a side
+#define CONE_COS     sqrtf(1.0f - CONE_SIN * CONE_SIN)
 #define WILD_ROW     3 // one sample beyond belief is a speck, so many in a row are another floor
 // What the estimator may be wrong by, and what nobody knows yet: variances.
 #define BEGIN_H_VAR 1e-5f // 3 mm
