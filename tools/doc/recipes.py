@@ -80,6 +80,13 @@ def target() -> None:
     print(said, end="")
 
 
+def counted() -> None:
+    python = OUT / "cf/bin/python"
+    if not python.is_file():
+        raise run.Left("make setup-cf was not run")
+    print(program("env", "OPENBLAS_NUM_THREADS=1", "PYTHONDONTWRITEBYTECODE=1", python, "test/cf/count_identify.py"), end="")
+
+
 def outside() -> None:
     """Only the table: what each set was stands in out/flown_outside."""
     said = program("make", "outside", "SEED=11243", "SETS=40")
@@ -113,6 +120,7 @@ def picture_of_diagnosis() -> None:
 RECIPES = {
     "params": Recipe(says("fly", "--params=markdown"), markdown=True),
     "logs": Recipe(says("fly", "--logs"), markdown=True),
+    "counted": Recipe(counted),
     "image": Recipe(image),
     "pil": Recipe(target),
     "hop": Recipe(lambda: print("```python", Path("tools/cf/hop.py").read_text() + "```", sep="\n"), markdown=True),

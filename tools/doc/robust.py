@@ -69,13 +69,16 @@ def robust() -> None:
         "own: --set height.own=1.\n"
     )
     print(f"{'off':34} rms mm   worst   error  nearest  touching     own   worst  touching")
+    all_of_them, all_own = [], []
     for cell in cells():
         run.progress(f"flying {', '.join(cell)}")
-        flown = fly(path, "close-flight", list(cell.values()))
-        own = fly(path, "close-flight", list(cell.values()), "--set", "height.own=1")
+        flown = [each["segments"][-1] for each in fly(path, "close-flight", list(cell.values()))]
+        own = [each["segments"][-1] for each in fly(path, "close-flight", list(cell.values()), "--set", "height.own=1")]
         run.progress()
-        name = ", ".join(cell) or "nothing"
-        print(row(name, [flight["segments"][-1] for flight in flown]) + own_row([flight["segments"][-1] for flight in own]))
+        print(row(", ".join(cell) or "nothing", flown) + own_row(own))
+        all_of_them += flown
+        all_own += own
+    print(row("all", all_of_them) + own_row(all_own))
     print("\nnearest-flight under a ceiling of Cheeseman and Bennett's, --effect " + ANOTHER)
     run.progress("flying another ceiling")
     flown = fly(path, "nearest-flight", [ANOTHER])
