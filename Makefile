@@ -193,7 +193,7 @@ robust: $(O)/fly  ## the law that ships at 20 mm where one or two things of the 
 passing: $(O)/fly  ## learning without a learning flight, and pushing against a ceiling, 1,000 flights each; 10 min
 	@$(DOC) show passing pushes
 
-by-height: $(O)/bound $(O)/fly  ## the law by the flight code's own height, 1,000 flights each, beside the estimator's and the bound; minutes
+by-height: $(O)/bound $(O)/fly  ## the law by the flight code's own height, 1,000 flights each, beside the estimator's and the bound; 10 min
 	@$(DOC) show by-height
 
 bound: $(O)/bound $(O)/fly  ## the least height error that any controller could have, and what is flown as a ratio to it; minutes

@@ -63,7 +63,7 @@ static done_t take_params(order_t *o, const char *form, why_t *why) {
   return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
-// What is flown is not the file's name, but what stands in it.
+// What is flown is what stands in the file, too, not its name alone.
 static done_t sign(order_t *o, const char *path, why_t *why) {
   FILE *file;
   unsigned char text[4096];
@@ -338,7 +338,7 @@ static done_t merge(order_t *o, const output_t *out, why_t *why) {
   done_t status = all ? DONE : error_failed(why, "out of memory");
   for (int i = 0; i < o->files && status == DONE; i++) status = summary_gather(all, &n, o->file[i], why);
   for (int i = 0; i < n && status == DONE; i++) {
-    o->not_finite += all[i].not_finite > INT_MAX / 2 ? 1 : (int)all[i].not_finite;
+    o->not_finite = (int)smaller(INT_MAX, o->not_finite + (double)all[i].not_finite);
     status = tell_summary(&all[i], out, why);
   }
   for (int i = 0; i < n; i++) summary_free(&all[i]);

@@ -52,8 +52,8 @@ def flown(lag_s: float, delay_s: float, gust_mps2: float = 0.0, sag: float = 0.0
 
 
 class Lag(unittest.TestCase):
-    def close(self, told: actuator.Told, truth: float, within: float) -> None:
-        self.assertLess(told.error, within)
+    def close(self, told: actuator.Told, truth: float, within: float, wider: float = 0.0) -> None:
+        self.assertLess(told.error, within + wider)
         self.assertAlmostEqual(told.value, truth, delta=within)
 
     def test_it_is_found_with_the_delay_and_the_mass(self) -> None:
@@ -61,7 +61,7 @@ class Lag(unittest.TestCase):
             with self.subTest(lag_s=lag_s, delay_s=delay_s):
                 of = actuator.identify(actuator.rows_of(flown(lag_s, delay_s)))
                 self.close(of.lag_s, lag_s, 0.003)
-                self.close(of.delay_s, delay_s, 0.003)
+                self.close(of.delay_s, delay_s, 0.002, actuator.WHEN_S)
                 self.close(of.mass_kg, MASS_KG, 0.0005)
 
     def test_the_intervals_hold_what_they_are_to_in_19_of_20(self) -> None:
@@ -71,7 +71,7 @@ class Lag(unittest.TestCase):
             of = actuator.identify(actuator.rows_of(flown(lag_s, delay_s, seed=seed)))
             held[0] += abs(of.lag_s.value - lag_s) <= of.lag_s.error
             held[1] += abs(of.delay_s.value - delay_s) <= of.delay_s.error
-        self.assertGreaterEqual(min(held), 13)  # fewer in one of 140 such tests, at 0.95 each
+        self.assertGreaterEqual(min(held), 13)  # fewer in one of 70 such tests, at 0.95 each
 
     def test_the_power_of_the_voltage_is_that_of_the_firmwares_map_at_hover(self) -> None:
         stock = (rig.ROOT / "sim" / "crazyflie" / "stock_units.c").read_text()
@@ -103,7 +103,7 @@ class Lag(unittest.TestCase):
             with self.subTest(what=what):
                 of = actuator.identify(actuator.rows_of(left))
                 self.close(of.lag_s, 0.08, 0.003)
-                self.close(of.delay_s, 0.004, 0.004)
+                self.close(of.delay_s, 0.004, 0.003, actuator.WHEN_S)
 
     def test_what_tells_nothing_is_refused(self) -> None:
         rows = flown(0.08, 0.004)

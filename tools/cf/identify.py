@@ -81,5 +81,8 @@ def tell(vehicle: Craft, rows: list[tuple[float, ...]]) -> None:
     say(f"the thrust moves {1000 * of.mass_kg.value:.1f} +- {1000 * of.mass_kg.error:.1f} g "
         f"(indiPos.mass is {1000 * vehicle.get('indiPos.mass'):.1f} g)")
     say(f"cf params set indiPos.tauMot={of.lag_s.value:.3f}    # is {vehicle.get('indiPos.tauMot'):g}")
-    delay_s = min(max(of.delay_s.value, 0.0), HEIGHT_DELAY_MAX_S)
-    say(f"cf params set height.tauMot={of.lag_s.value:.3f} height.delay={delay_s:.4f}    # of the own height filter")
+    delay_s = max(of.delay_s.value, 0.0)
+    if delay_s > HEIGHT_DELAY_MAX_S:
+        say(f"height.own 1 is not for this vehicle: height.delay goes to {1000 * HEIGHT_DELAY_MAX_S:g} ms")
+    else:
+        say(f"cf params set height.tauMot={of.lag_s.value:.3f} height.delay={delay_s:.4f}    # of the own height filter")

@@ -42,7 +42,7 @@ def rows(level: str, own: str, flights: list[dict], least: dict[int, float]) -> 
         worst = max(each["rms_mm"] for each in free)
         print(
             f"{level:6} {own:>5} {gap:6d}  {error:6.2f}  {all_mm:5.2f}  {worst:5.2f}  {about:6.2f}  {least[gap]:5.2f}"
-            f"  {about / least[gap]:5.1f}  {touching:4d} of {len(here)}"
+            f"  {about / least[gap]:5.2f}  {touching:4d} of {len(here)}"
         )
 
 

@@ -50,15 +50,18 @@ static void start(point_t *w) {
   params_default(&w->p);
   w->p.height.own = 1;
   w->p.height.delay_s = 0.0f;
+  // Whatever ships; every gain another than the estimator's.
+  w->p.height.kp_per_s = 5.0f, w->p.height.kd_per_s = 12.0f;
+  w->p.height.quick = 2.1f, w->p.height.catch_s = 0.1f;
   w->share = thrust_lag_share(HEIGHT_S, w->p.height.tau_s);
   height_init(&w->h);
 }
 
 static void step(point_t *w) {
   const double t_s = 0.01 * w->k;
-  // The sensors' delays; a command is seen HEIGHT_COMMAND_S late and holds for a step.
+  // The sensors' delays; a command is seen 9.5 ms late and holds for a step.
   const double up = cos(w->lean_rad), felt_mps2 = acc_at(w, t_s - 0.0075);
-  const double sent_mps2 = sent_at(w, t_s + (double)HEIGHT_COMMAND_S - 0.005);
+  const double sent_mps2 = sent_at(w, t_s + 0.0095 - 0.005);
   const float seen_m = (float)down_at(w, t_s - 0.0175) + 1e-5f * (float)(w->k % 7);
   if (!w->frozen) w->down_m = seen_m;
   const height_in_t in = {
@@ -150,12 +153,89 @@ TEST(height_falls_back_without_a_step_and_comes_back) {
     }
     CHECK(fell);
     CHECK(w.step_m < 2.5e-3);
-    CHECK(w.step_per_s < 0.05 * 4.0 && w.fly.law.kd_z_per_s == w.p.pos.kd_z_per_s); // of 12 to 8
+    CHECK(w.step_per_s > 0.0 && w.step_per_s < 0.05 * 4.0); // of 12 to 8
+    CHECK(w.fly.law.kp_z_per_s == w.p.pos.kp_z_per_s && w.fly.law.kd_z_per_s == w.p.pos.kd_z_per_s);
+    CHECK(w.fly.law.quick == w.p.pos.quick && w.fly.law.catch_s == w.p.pos.catch_s);
     w.acc_more_mps2 = w.acc_shake_mps2 = w.z_more_m = 0.0f;
     w.thrust = 1.0f;
     w.lost = w.frozen = false;
     fly_for(&w, FIT_S);
     CHECK(w.h.share == 1.0f);
+  }
+}
+
+// At rest 20 mm below a ceiling, nothing known of what came before but its covariance.
+static height_in_t below(height_t *h) {
+  const float T_N = MASS_KG * GRAVITY_MPS2 / 1.1f;
+  *h = (height_t){.x = {0.4f},
+                  .P = {{1e-5f}, {0.0f, 1e-3f}, {0.0f, 0.0f, 0.25f}, {0.0f, 0.0f, 0.0f, 4e-3f}},
+                  .thrust_N = T_N,
+                  .sent_N = {T_N, T_N, T_N},
+                  .acc_odd = 1.0f,
+                  .down_odd = 1.0f,
+                  .started = true};
+  return (height_in_t){.acc_b_mps2.z = GRAVITY_MPS2,
+                       .q_wb = {.w = 1.0f},
+                       .thrust_N = T_N,
+                       .mass_kg = MASS_KG,
+                       .z_m = 0.4f,
+                       .at = {.ratio = 1.1f, .slope_per_m = -6.0f},
+                       .zc_m = 0.02f,
+                       .ceiling_z_m = 0.42f};
+}
+
+// P <- F P F' + Q, K = P H / (H' P H + R), x += K e, P -= K H' P, as the header has it, in double.
+TEST(height_takes_the_ceilings_pull_into_its_covariance) {
+  static point_t w;
+  start(&w);
+  height_in_t in = below(&w.h);
+  const double k = 9.81 * 6.0 / 1.1, e = 0.05, walk = (double)w.p.height.walk_mps2;
+  const double F[4][4] = {{1.0, 0.01}, {0.01 * k, 1.0, 0.01}, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 1.0}};
+  const double P0[4] = {1e-5, 1e-3, 0.25, 4e-3}, H[4] = {k, 0.0, 1.0, 1.0};
+  const double Q[4] = {0.0, 0.01 * 0.007 * 0.007, 0.01 * walk * walk, 0.01 * 0.003 * 0.003};
+  double P[4][4], PH[4], var = 9.6e-3;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      P[i][j] = i == j ? Q[i] : 0.0;
+      for (int n = 0; n < 4; n++) P[i][j] += F[i][n] * P0[n] * F[j][n];
+    }
+  for (int i = 0; i < 4; i++) {
+    PH[i] = 0.0;
+    for (int j = 0; j < 4; j++) PH[i] += P[i][j] * H[j];
+    var += H[i] * PH[i];
+  }
+  in.acc_b_mps2.z += (float)e;
+  height_step(&w.h, &w.p.height, 1.0f, &in);
+  for (int i = 0; i < 4; i++) {
+    const double was = i == HEIGHT_H ? 0.4 : 0.0;
+    ROW("state %d", i);
+    CHECK_NEAR((double)w.h.x[i] - was, PH[i] / var * e, 1e-6 + 1e-4 * fabs(PH[i] / var * e));
+    for (int j = 0; j < 4; j++) {
+      const double want = P[i][j] - PH[i] * PH[j] / var;
+      CHECK_NEAR(w.h.P[i][j], want, 1e-8 + 1e-3 * fabs(want));
+    }
+  }
+}
+
+TEST(height_motors_follow_what_was_sent_before_the_delay) {
+  static const struct {
+    float delay_s;
+    double late; // in steps, of the newest command
+  } row[] = {{0.0f, 0.95}, {0.0005f, 1.0}, {0.006f, 1.55}, {0.0105f, 2.0}, {0.0145f, 2.4}};
+  static const float more_mN[] = {0.0f, 1.0f, 3.0f, -1.0f}; // the newest first
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    static point_t w;
+    start(&w);
+    height_in_t in = below(&w.h);
+    const float T_N = in.thrust_N;
+    for (int n = 0; n < 3; n++) w.h.sent_N[n] = T_N + 1e-3f * more_mN[n + 1];
+    w.p.height.delay_s = row[i].delay_s;
+    height_step(&w.h, &w.p.height, 1.0f, &in);
+    const int whole = (int)row[i].late;
+    const double want_mN =
+        (double)more_mN[whole] + (row[i].late - whole) * (double)(more_mN[whole + 1] - more_mN[whole]);
+    ROW("%g ms", 1e3 * (double)row[i].delay_s);
+    CHECK_NEAR(1e3 * (double)(w.h.thrust_N - T_N), want_mN, 2e-3);
   }
 }
 
