@@ -144,8 +144,7 @@ TEST(height_falls_back_without_a_step_and_comes_back) {
     w.acc_shake_mps2 = row[i].acc_shake_mps2;
     w.z_more_m = row[i].z_more_m;
     w.thrust = row[i].thrust;
-    w.lost = row[i].lost;
-    w.frozen = row[i].frozen;
+    w.lost = row[i].lost, w.frozen = row[i].frozen;
     bool fell = false;
     for (int n = 0; n < 80; n++) {
       step(&w);
