@@ -22,6 +22,7 @@ status_t flight_init(flight_t *f, const flight_param_t *p) {
   memset(f, 0, sizeof *f);
   f->out.q_ref = (quat_t){.w = 1.0f};
   TRY(outer_init(&f->outer, p, OUTER_S));
+  TRY(ground_init(&f->ground, &p->learn, &p->ground.fixed));
   f->out.outer = f->outer.out;
   f->yaw_rad = NAN;
   by_hand_init(&f->by_hand);
@@ -111,6 +112,32 @@ static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in
   x->down_m = raw->down_m; // of no use but here
   x->bias_mps2 = f->outer.bias.bias_mps2.z;
   height_step(&f->height, &p->height, f->height_share, x);
+}
+
+// From what is wrong nothing is learned; least of all from an acceleration that was made up.
+static bool may_learn(const flight_t *f) {
+  return f->guard.now == 0 && !f->guard.acc_lost && !f->in.no_lesson;
+}
+
+// Of the height that the last outer loop had, for the next one.
+static APART void run_ground(flight_t *f) {
+  const flight_param_t *const p = &f->outer.param;
+  outer_t *const o = &f->outer;
+  if (p->ground.mode == CURVE_OFF || !o->started) {
+    if (f->ground.known) o->ground = (outer_ground_t){.excess = 0.0f};
+    ground_rest(&f->ground);
+    return;
+  }
+  const bool above = o->sample.known && o->sample.zc_m <= p->learn.far_m;
+  // A jump that was taken out of the height is the ground's: a table that the vehicle flies over.
+  const ground_in_t x = {.height_m = o->height_last_m + f->height_off_m - p->ground_zero_m,
+                         .sample = may_learn(f) && o->missed == 0 ? &o->sample : NULL,
+                         .excess = o->out.at.ratio - 1.0f - o->ground.excess,
+                         .shared = above && p->curve.mode == CURVE_LIVE};
+  rbf_point_t at;
+  count(f, ground_step(&f->ground, &p->ground, &p->learn, &o->coef.filter, &x, &at));
+  o->ground = (outer_ground_t){.excess = f_max(at.ratio - 1.0f, -0.5f * p->curve.ratio_min),
+                               .pull_per_s2 = -GRAVITY_MPS2 * at.slope_per_m};
 }
 
 static APART void run_outer(flight_t *f, const flight_in_t *in) {
@@ -233,9 +260,8 @@ static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   if (f->due == FLIGHT_OUTER) return; // most often; and it costs the most
   if (f->due & FLIGHT_HEIGHT) run_height(f, in, raw);
-  // From what is wrong nothing is learned; least of all from an acceleration that was made up.
-  const bool learns = f->guard.now == 0 && !f->guard.acc_lost && !in->no_lesson;
-  if ((f->due & FLIGHT_LEARN) && learns) outer_learn(&f->outer);
+  if ((f->due & FLIGHT_LEARN) && may_learn(f) && !f->ground.turn) outer_learn(&f->outer);
+  if (f->due & FLIGHT_GROUND) run_ground(f);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 

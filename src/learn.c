@@ -29,14 +29,14 @@ static bool usable(const learn_param_t *p, const learn_sample_t *x) {
          x->force_N <= p->y_max * x->thrust_N && x->thrust_N <= FLT_MAX;
 }
 
-status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample) {
+status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample, float excess) {
   if (!usable(p, sample)) {
     s->refused++;
     return ST_SAMPLE_REFUSED;
   }
   float basis[RBF_N];
   rbf_basis(sample->zc_m, basis);
-  const float y = sample->force_N / sample->thrust_N;
+  const float y = sample->force_N / sample->thrust_N - excess;
   TRY(rls_update(&s->rls, &p->rls, basis, y));
   s->y = y;
   return ST_OK;

@@ -157,11 +157,12 @@ static APART void observe(outer_t *f, const sync_out_t *x) {
 void outer_learn(outer_t *f) {
   if (!f->sample_new || f->param.curve.mode != CURVE_LIVE) return;
   f->sample_new = false;
-  count(f, learn_update(&f->learn, &f->param.learn, &f->sample));
+  count(f, learn_update(&f->learn, &f->param.learn, &f->sample, f->ground.excess));
 }
 
 void outer_rest(outer_t *f) {
   f->started = f->at_limit = f->sample_new = false;
+  f->ground = (outer_ground_t){.excess = 0.0f};
   f->carrying_s = 0.0f;
   ceiling_init(&f->ceiling, f->coef.period_s);
   hold_init(&f->hold);
@@ -208,7 +209,8 @@ static float most_N(const outer_t *f, float ratio, float climb_mps) {
 static APART aim_t aim(const outer_t *f, const outer_in_t *in, const sync_out_t *x, float ratio) {
   v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
   vel.z -= f->less_mps; // of -0 the sign stays, too
-  const wanted_t w = wanted(f, in, vel);
+  wanted_t w = wanted(f, in, vel);
+  w.acc_mps2.z += f->ground.pull_per_s2 * (f->lag_s * vel.z); // it will be gone
   return (aim_t){.error_mps2 = v3_sub(w.acc_mps2, x->acc_w_mps2),
                  .dzc_m = pos_indi_nearing_m(&f->law, vel.z, w.climb_mps, f->lag_s),
                  .most_N = most_N(f, ratio, vel.z)};
@@ -238,7 +240,8 @@ const outer_out_t *outer_step(outer_t *f, const outer_in_t *in) {
   count(f, find_bias(f, in, x->acc_now_w_mps2));
   x->acc_w_mps2 = v3_sub(x->acc_w_mps2, f->bias.bias_mps2);
   f->missed = 0;
-  const rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
+  rbf_point_t at = curve_at(&f->param.curve, &f->learn.rls.theta, f->ceiling.known, f->ceiling.zc_m);
+  at.ratio += f->ground.excess;
   observe(f, x);
   const aim_t to = aim(f, in, x, at.ratio);
   const pos_command_t command = fly(f, x, at, &to);

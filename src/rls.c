@@ -47,9 +47,13 @@ static bool is_covariance(const rls_t *s, float p0, float aPa) {
   return aPa >= 0.0f && aPa <= FLT_MAX;
 }
 
-status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t *start) {
+status_t rls_check(const rls_param_t *p, const rbf_weights_t *start) {
   TRY(param_check(p));
-  if (!in_box(start)) return ST_BAD_INPUT;
+  return in_box(start) ? ST_OK : ST_BAD_INPUT;
+}
+
+status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t *start) {
+  TRY(rls_check(p, start));
   s->theta = *start;
   s->count = 0;
   restart(s, p->p0);

@@ -8,7 +8,7 @@
 
 // test: watch_takes_a_long_pause_for_a_short_one_and_time_that_runs_backwards_for_a_millisecond
 #define MS_MAX 50 // a longer pause is taken for this long: what is known of before is old
-// test: watch_lets_no_loop_wait_for_more_than_three_calls
+// test: watch_lets_loops_that_wait_for_more_than_three_calls_run_beside_the_inner_one_in_turn
 #define WAIT_MAX 3 // calls: of two, one has no loop
 // test: watch_counts_the_time_of_the_inner_loop_up_to_a_second
 #define INNER_MS_MAX 1000 // nobody flies on after so long
@@ -18,25 +18,35 @@ static bool passes(unsigned from, unsigned ms, unsigned at) {
   return (at > from && at <= to) || at + 10 <= to;
 }
 
-// A call costs no more than one loop, also after missed calls: the others wait for one that has none, unless
-// none comes.
+// Of those that wait the one after the last that was chosen here, so that none waits for ever.
+static unsigned next_of(flight_t *f, unsigned others) {
+  const unsigned after = others & ~(2u * f->pressed - 1u),
+                 from = f->pressed != 0 && after != 0 ? after : others;
+  f->pressed = from & (0u - from);
+  return f->pressed;
+}
+
+// A call costs no more than one loop, also after missed calls: the others wait for one that has none. Where
+// none comes, each call has the inner loop and one of them. The ground's curve is in no hurry: where it would
+// not be alone it is left out.
 static unsigned one_of(flight_t *f, unsigned due) {
-  f->waited = f->waiting != 0 ? f->waited + 1 : 0;
+  f->waited = f->waiting == 0 ? 0 : f->waited < WAIT_MAX ? f->waited + 1 : WAIT_MAX + 1;
   due |= f->waiting;
-  unsigned now = due;
-  if (f->waited <= WAIT_MAX)
-    now = due & FLIGHT_INNER   ? FLIGHT_INNER
-          : due & FLIGHT_OUTER ? FLIGHT_OUTER
-          : due & FLIGHT_LEARN ? FLIGHT_LEARN
-                               : due;
+  if (due != FLIGHT_GROUND) due &= ~(unsigned)FLIGHT_GROUND;
+  const unsigned others = due & ~(unsigned)FLIGHT_INNER;
+  unsigned now = due & FLIGHT_INNER   ? FLIGHT_INNER
+                 : due & FLIGHT_OUTER ? FLIGHT_OUTER
+                 : due & FLIGHT_LEARN ? FLIGHT_LEARN
+                                      : due;
+  if (f->waited > WAIT_MAX) now = (due & FLIGHT_INNER) | next_of(f, others);
   f->waiting = due & ~now;
   return now;
 }
 
 static unsigned due_after(unsigned phase, unsigned ms) {
   static const uint8_t next[10] = {
-      [0] = FLIGHT_INNER, [1] = FLIGHT_HEIGHT, [2] = FLIGHT_INNER, [3] = FLIGHT_LEARN, [4] = FLIGHT_INNER,
-      [6] = FLIGHT_INNER, [7] = FLIGHT_SCRUB,  [8] = FLIGHT_INNER, [9] = FLIGHT_OUTER,
+      [0] = FLIGHT_INNER,  [1] = FLIGHT_HEIGHT, [2] = FLIGHT_INNER, [3] = FLIGHT_LEARN, [4] = FLIGHT_INNER,
+      [5] = FLIGHT_GROUND, [6] = FLIGHT_INNER,  [7] = FLIGHT_SCRUB, [8] = FLIGHT_INNER, [9] = FLIGHT_OUTER,
   };
   if (ms == 1) return next[phase]; // most calls by far
   return (passes(phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(phase, ms, 4) ? FLIGHT_LEARN : 0u) |

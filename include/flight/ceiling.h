@@ -38,12 +38,12 @@ typedef struct {
   float blind_s;  // time since the last sample that was taken in
   float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
+  bool tilt_known;
+  int newest;                      // index into both
+  float rival_m;                   // mean of the samples that contradict the estimate, moved along with it
+  int rivals;                      // how many of them in a row
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs
   float ups[CEILING_HISTORY];      // ring: cosine of the tilt at those ticks, as ceiling_tilt gave it
-  bool tilt_known;
-  int newest;    // index into both
-  float rival_m; // mean of the samples that contradict the estimate, moved along with it
-  int rivals;    // how many of them in a row
 } ceiling_t;
 
 // No ceiling in sight. period_s: time between two calls of ceiling_predict, > 0.

@@ -4,6 +4,7 @@
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
 //    100 Hz  the lesson of that step (step 4 of ten)
 //    100 Hz  a step of the height filter, where height.own asks for it (step 2 of ten)
+//    100 Hz  the ground's curve and its lesson, where ground.mode asks for them (step 6 of ten)
 //    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
 //    two)
 //
@@ -15,6 +16,7 @@
 
 #include "flight/att_indi.h"
 #include "flight/by_hand.h"
+#include "flight/ground.h"
 #include "flight/guard.h"
 #include "flight/height.h"
 #include "flight/mixer.h"
@@ -85,6 +87,7 @@ typedef struct {
   unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
   unsigned waiting;   // due, but put off
   unsigned waited;    // calls since something waits
+  unsigned pressed;   // the loop that was chosen last where no call came that had none
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
@@ -99,9 +102,17 @@ typedef struct {
   bool by_height;          // the law flies by it, or fades out
   float height_share;      // of its motors, in one step
   uint32_t height_last;    // count of its last step
+  ground_t ground;
 } flight_t;
 
-enum { FLIGHT_OUTER = 1, FLIGHT_LEARN = 2, FLIGHT_INNER = 4, FLIGHT_SCRUB = 8, FLIGHT_HEIGHT = 16 };
+enum {
+  FLIGHT_OUTER = 1,
+  FLIGHT_LEARN = 2,
+  FLIGHT_INNER = 4,
+  FLIGHT_SCRUB = 8,
+  FLIGHT_HEIGHT = 16,
+  FLIGHT_GROUND = 32
+};
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.

@@ -2,7 +2,8 @@
 //
 //   y = (m x specific force along the thrust) / (thrust that the motors give in free air)    (thesis 5.2)
 //
-// Both, and the distance, have passed the same filter. y is 1 in free air, whatever the vehicle does.
+// Both, and the distance, have passed the same filter. y is 1 in free air, whatever the vehicle does. Between
+// two surfaces what the other one gives is taken off (ground.h).
 #ifndef FLIGHT_LEARN_H
 #define FLIGHT_LEARN_H
 
@@ -46,6 +47,8 @@ MUST_CHECK status_t learn_init(learn_t *s, const learn_param_t *p, const rbf_wei
 
 // ST_OK: learned from. ST_SAMPLE_REFUSED: it may not be (see learn_param_t), or is not finite; weights and
 // covariance are the same to the bit. ST_BAD_PARAM, ST_BAD_INPUT, ST_SINGULAR: as rls_update.
-MUST_CHECK status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample);
+// excess: of the ratio, what another surface gives there; 0: there is none.
+MUST_CHECK status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample,
+                                 float excess);
 
 #endif

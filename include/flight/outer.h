@@ -37,7 +37,7 @@ typedef struct {
   float thrust_N; // of all motors together
   float zc_m;     // ceiling distance; has a meaning only while zc_known
   bool zc_known;
-  rbf_point_t at;    // the curve's value and slope that were used
+  rbf_point_t at;    // value, the ground's share with it, and slope of the ceiling's curve that were used
   float ceiling_z_m; // height of the ceiling (hold.h, latched where ceil.hold says so); NaN: none known
 } outer_out_t;
 
@@ -50,8 +50,13 @@ typedef struct {
 #define FLOOR_SHARE      0.5f   // of the weight that something else than the rotors carries: a floor
 #define OUTER_MISSED_MAX 1000   // ticks; nobody flies on after so many
 
+// What the ground makes of the thrust ratio (ground.h); all 0 where nobody looks.
 typedef struct {
-  flight_param_t param; // the last parameters that passed their checks
+  float excess;      // rho_ground - 1; with the smallest ratio that ceil.ratioMin allows still positive
+  float pull_per_s2; // what the thrust of a hover loses of it per height climbed: -g d rho_ground / d h
+} outer_ground_t;
+
+typedef struct {
   sync_coef_t coef;
   bias_coef_t bias_coef; // of one period
   // What the height is flown by: the parameters' and the estimator's, or by an own height.
@@ -62,18 +67,21 @@ typedef struct {
   sync_t sync;
   sync_out_t signals; // of the last step
   bias_t bias;
-  ceiling_t ceiling;
   hold_t hold;
-  learn_t learn;
   float height_last_m;
   float range_last_m, range_height_m; // the last range that was another one, and the height it came at
   float carrying_s;                   // time since the rotors began to carry
   bool started, at_limit;
   learn_sample_t sample; // what the last step has for the learner
   bool sample_new;       // it has not been learned from yet
+  outer_ground_t ground;
   outer_out_t out;
   unsigned faults[ST_COUNT]; // how often each status came up
   unsigned missed;           // ticks since the last good input
+  // The large ones last, so that the rest stays within reach of one instruction.
+  flight_param_t param; // the last parameters that passed their checks
+  ceiling_t ceiling;
+  learn_t learn;
 } outer_t;
 
 // A controller that has not seen a sample yet; it starts bumplessly from the first one. period_s: 0.001..0.1.

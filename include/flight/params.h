@@ -27,6 +27,8 @@ typedef struct {
   float motor_tau_s; // first-order lag of the motors
   ceiling_param_t ceiling;
   curve_param_t curve;
+  curve_param_t ground; // the same over the ground; distances are heights of the feet
+  float ground_zero_m;  // the estimator's height where the feet stand
   learn_param_t learn;
   bias_param_t bias;
   float step_max_N;    // bound of the thrust wanted minus what the motors give now
@@ -152,6 +154,27 @@ typedef struct {
   X(ceil, w6, PARAM_FLOAT, curve.fixed.w[5], "", -0.30407099f, -5.0f, 5.0f, "weight of the bell at 60 mm")   \
   X(ceil, w7, PARAM_FLOAT, curve.fixed.w[6], "", -0.37406497f, -5.0f, 5.0f, "weight of the bell at 100 mm")
 
+// Off as shipped. Weights: flat; they are for a lesson. Theory: the fountain of four rotors reaches farther
+// than a ceiling's pull.
+#define PARAMS_GROUND(X)                                                                                     \
+  X(ground, mode, PARAM_INT, ground.mode, "", 0, 0, 3,                                                       \
+    "0 off, 1 fixed weights, 2 live weights, 3 theory 1 + ca exp(-cb h)")                                    \
+  X(ground, ca, PARAM_FLOAT, ground.ca, "", 0.1f, 0.0f, 5.0f, "theory: excess thrust ratio of who stands")   \
+  X(ground, cb, PARAM_FLOAT, ground.cb_per_m, "1/m", 30.0f, 1.0f, 1000.0f, "theory: decay with the height")  \
+  X(ground, zOn, PARAM_FLOAT, ground.on_m, "m", 0.1f, 0.0f, 0.5f, "the curve acts lower than this")          \
+  X(ground, zero, PARAM_FLOAT, ground_zero_m, "m", 0.0f, -10.0f, 10.0f,                                      \
+    "the estimator's height where the feet stand")                                                           \
+  X(ground, clip, PARAM_INT, ground.clip, "", 1, 0, 1, "1: slope <= 0 and ratio >= 1")                       \
+  X(ground, ratioMin, PARAM_FLOAT, ground.ratio_min, "", 0.5f, 0.1f, 1.0f, "smallest thrust ratio believed") \
+  X(ground, ratioMax, PARAM_FLOAT, ground.ratio_max, "", 2.0f, 1.0f, 5.0f, "largest thrust ratio believed")  \
+  X(ground, w1, PARAM_FLOAT, ground.fixed.w[0], "", 1.0f, -5.0f, 5.0f, "constant of the curve")              \
+  X(ground, w2, PARAM_FLOAT, ground.fixed.w[1], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 0 mm")         \
+  X(ground, w3, PARAM_FLOAT, ground.fixed.w[2], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 5 mm")         \
+  X(ground, w4, PARAM_FLOAT, ground.fixed.w[3], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 15 mm")        \
+  X(ground, w5, PARAM_FLOAT, ground.fixed.w[4], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 30 mm")        \
+  X(ground, w6, PARAM_FLOAT, ground.fixed.w[5], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 60 mm")        \
+  X(ground, w7, PARAM_FLOAT, ground.fixed.w[6], "", 0.0f, -5.0f, 5.0f, "weight of the bell at 100 mm")
+
 #define PARAMS_RLS(X)                                                                                        \
   X(rls, form, PARAM_INT, learn.rls.form, "", 1, 0, 1,                                                       \
     "0 as the thesis prints it, 1 with a random walk of the weights")                                        \
@@ -198,7 +221,8 @@ typedef struct {
   X(height, catch, PARAM_FLOAT, height.catch_s, "s", 0.08f, 0.0f, 1.0f, "by the own filter: ceil.catch")
 
 #define FLIGHT_PARAMS(X)                                                                                     \
-  PARAMS_INDIPOS(X) PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_RLS(X) PARAMS_GUARD(X) PARAMS_HEIGHT(X)
+  PARAMS_INDIPOS(X)                                                                                          \
+  PARAMS_INDIATT(X) PARAMS_CEIL(X) PARAMS_GROUND(X) PARAMS_RLS(X) PARAMS_GUARD(X) PARAMS_HEIGHT(X)
 
 typedef enum { PARAM_FLOAT, PARAM_INT } param_type_t;
 

@@ -38,8 +38,12 @@ typedef struct {
 
 #define RLS_WEIGHT_MAX 5.0f
 
+// Whether that can be started from. ST_BAD_PARAM: a parameter out of range. ST_BAD_INPUT: a weight not within
+// +-RLS_WEIGHT_MAX.
+MUST_CHECK status_t rls_check(const rls_param_t *p, const rbf_weights_t *start);
+
 // Starts at the weights `start` with P = p0 I.
-// ST_BAD_PARAM: a parameter out of range. ST_BAD_INPUT: a weight not within +-RLS_WEIGHT_MAX.
+// ST_BAD_PARAM, ST_BAD_INPUT: as rls_check; *s is kept.
 MUST_CHECK status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t *start);
 
 // One sample: y measured where the regressor is a (0..1 each, rbf_basis).

@@ -26,7 +26,7 @@ int training_of(const record_t *record, const setup_t *setup, double far_m, trai
     learn_sample_t sample = learn_sample(&sync, &x, p->pos.mass_kg);
     sample.known = !isnan(s->thoughts.zc_m);
     sample.zc_m = sync_distance_m(&sync, &coef, sample.known, sample.known ? (float)s->thoughts.zc_m : 0.0f);
-    if (learn_update(&learn, &rules, &sample) != ST_OK) continue;
+    if (learn_update(&learn, &rules, &sample, 0.0f) != ST_OK) continue;
     training[n++] = (training_t){.t_s = s->t_s, .zc_m = (double)sample.zc_m, .y = (double)learn.y};
   }
   return n;

@@ -169,7 +169,7 @@ double learn_mass_kg(const learn_mass_t *sum) {
 static void teach(const learn_job_t *job, const view_t *view, void *into) {
   // What may not teach is counted by the learner; nothing else is wrong with a checked set of parameters.
   learn_t *const learn = into;
-  if (learn_update(learn, &job->param.learn, &view->sample) != ST_OK || !job->points) return;
+  if (learn_update(learn, &job->param.learn, &view->sample, 0.0f) != ST_OK || !job->points) return;
   fprintf(job->points, "%.5f,%.5f\n", (double)view->sample.zc_m, (double)learn->y);
 }
 

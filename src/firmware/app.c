@@ -77,7 +77,8 @@ static reported_t report_changes(reported_t was) {
   const reported_t is = now();
   if (is.shadow != was.shadow) report_who_flies(is.shadow);
   if (is.mixed && !was.mixed)
-    DEBUG_PRINT("WEIGHTS REFUSED: ceil.w1..w7 are not one set (ceil.wSum). The last good ones fly\n");
+    DEBUG_PRINT(
+        "WEIGHTS REFUSED: w1..w7 of ceil and ground are not one set (ceil.wSum). The last good ones fly\n");
   if (is.not_flyable != was.not_flyable) report_flyable(is.not_flyable);
   if (is.latched != was.latched) DEBUG_PRINT("Guard: reasons 0x%x\n", is.latched);
   if (is.refused != was.refused)

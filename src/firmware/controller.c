@@ -141,6 +141,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
   if (grounded && GLUE.flight.guard.action != GUARD_HAND_OVER) // that one only a pilot lets go
     GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
   (void)flight_step(&GLUE.flight, &GLUE.in);
+  settings_mend();
   GLUE.learning = settings_learning();
   if (grounded)
     units_command(control, (const float[MOTORS]){0.0f, 0.0f, 0.0f, 0.0f});

@@ -9,7 +9,7 @@
 #include "flight/flyable.h"
 #include "range_up.h"
 
-#define PUT_BACK_WORDS 3 // of 32 rows each
+#define PUT_BACK_WORDS 4 // of 32 rows each
 
 // Of radio.c.
 typedef struct {
@@ -33,12 +33,9 @@ typedef struct {
 } recording_t;
 
 typedef struct {
-  flight_param_t tuned; // as the parameters are written, one by one and at any time
-  flight_param_t flown; // the last set that passed its checks as a whole; its weights are the committed ones
-  flight_param_t candidate; // a set that has passed them and waits for the next tick, if `ready`
-  uint8_t shadow;           // ceil.shadow: 1: the stock controller flies, this one computes and logs
-  uint8_t commit;           // ceil.commit: COMMIT_*, 0 when done
-  uint8_t commit_asked;     // what of it belongs to the candidate
+  uint8_t shadow;       // ceil.shadow: 1: the stock controller flies, this one computes and logs
+  uint8_t commit;       // ceil.commit: COMMIT_*, 0 when done
+  uint8_t commit_asked; // what of it belongs to the candidate
   volatile uint8_t ready;
   uint8_t notifying;     // the client is being notified: what is written now is no write of its
   uint8_t weights_mixed; // at the start the stored weights did not belong together
@@ -52,8 +49,9 @@ typedef struct {
   uint32_t sets_refused;             // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
-  bool could_fly;    // in the last call
-  float stock_share; // of the stock controller in what is commanded: 0, 1, or on the way
+  bool ground_starts; // its learner, with the committed weights, in a tick to come
+  bool could_fly;     // in the last call
+  float stock_share;  // of the stock controller in what is commanded: 0, 1, or on the way
   struct {
     int16_t roll, pitch, yaw;
   } stock; // what it commanded last
@@ -65,6 +63,10 @@ typedef struct {
   radio_t radio;
   flight_in_t in;
   flight_t flight;
+  // Last, so that the rest stays within reach of one instruction.
+  flight_param_t tuned; // as the parameters are written, one by one and at any time
+  flight_param_t flown; // the last set that passed its checks as a whole; its weights are the committed ones
+  flight_param_t candidate; // a set that has passed them and waits for the next tick, if `ready`
 } glue_t;
 
 enum { COMMIT_TYPED = 1, COMMIT_LEARNED = 2 };
@@ -76,7 +78,8 @@ enum { NOT_FLOWN_RATES = 1, NOT_FLOWN_QUAT = 2, NOT_FLOWN_TURN = 4 };
 // does). A vehicle on which nothing else was set flies the stock controller.
 #define APP_PARAMS(X)                                                                                        \
   X(commit, PARAM_UINT8, commit, 0, 2,                                                                       \
-    "1 takes ceil.w1..w7 at once, 2 the learned rls.w1..w7; refused while learning; 0 when done")            \
+    "1 takes the weights w1..w7 of ceil and ground at once, 2 the learned ones; refused while learning; 0 "  \
+    "when done")                                                                                             \
   X(shadow, PARAM_UINT8 | PARAM_PERSISTENT, shadow, 1, 1,                                                    \
     "1: the stock controller flies, this one computes and logs")
 

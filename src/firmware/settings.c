@@ -7,9 +7,15 @@
 
 // --- weights that belong together -------------------------------------------------------------------------
 
+// Both curves'.
+static void put_weights(flight_param_t *to, const flight_param_t *from) {
+  to->curve.fixed = from->curve.fixed;
+  to->ground.fixed = from->ground.fixed;
+}
+
 // Each step can be undone, so that one bit more or less always makes another sum.
-static uint32_t mix(const rbf_weights_t *weights) {
-  uint32_t sum = 0, bits;
+static uint32_t mix(const rbf_weights_t *weights, uint32_t sum) {
+  uint32_t bits;
   for (int i = 0; i < RBF_N; i++) {
     memcpy(&bits, &weights->w[i], sizeof bits);
     sum = (sum ^ bits) * 0x85ebca6bu; // odd, its bits spread
@@ -18,13 +24,22 @@ static uint32_t mix(const rbf_weights_t *weights) {
   return sum;
 }
 
-bool settings_is_weight(const param_row_t *row) {
-  const size_t first = offsetof(flight_param_t, curve.fixed);
+// The two begin otherwise: they are not to be told apart by their order alone.
+static uint32_t sum_of(const flight_param_t *p) {
+  return mix(&p->curve.fixed, 0u) ^ mix(&p->ground.fixed, 1u);
+}
+
+static bool is_in(const param_row_t *row, size_t first) {
   return row->offset >= first && row->offset < first + sizeof(rbf_weights_t);
 }
 
+bool settings_is_weight(const param_row_t *row) {
+  return is_in(row, offsetof(flight_param_t, curve.fixed)) ||
+         is_in(row, offsetof(flight_param_t, ground.fixed));
+}
+
 static void make_sum(void) {
-  GLUE.weights_sum = GLUE.sum_flown = mix(&GLUE.flown.curve.fixed) ^ GLUE.sum_default;
+  GLUE.weights_sum = GLUE.sum_flown = sum_of(&GLUE.flown) ^ GLUE.sum_default;
 }
 
 // --- judging ----------------------------------------------------------------------------------------------
@@ -46,11 +61,11 @@ static void mend(void) {
 
 // A set that passes waits for the next tick, and a commit with it: never one that was written after the
 // check.
-static bool offer(const rbf_weights_t *weights) {
+static bool offer(const flight_param_t *weights_from) {
   GLUE.ready = 0; // a tick may come at any time
   atomic_signal_fence(memory_order_seq_cst);
   GLUE.candidate = GLUE.tuned;
-  GLUE.candidate.curve.fixed = *weights;
+  put_weights(&GLUE.candidate, weights_from);
   GLUE.commit_asked = GLUE.commit;
   if (params_check(&GLUE.candidate) != ST_OK) return false;
   atomic_signal_fence(memory_order_seq_cst);
@@ -58,8 +73,8 @@ static bool offer(const rbf_weights_t *weights) {
   return true;
 }
 
-static bool judge(const rbf_weights_t *weights) {
-  if (offer(weights)) return true;
+static bool judge(const flight_param_t *weights_from) {
+  if (offer(weights_from)) return true;
   GLUE.sets_refused++;
   mend();
   return false;
@@ -68,10 +83,10 @@ static bool judge(const rbf_weights_t *weights) {
 void settings_touched(void) {
   if (GLUE.shadow > 1) GLUE.shadow = 1;
   GLUE.weights_sum = GLUE.sum_flown; // the app's alone to make
-  if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned.curve.fixed : &GLUE.flown.curve.fixed)) return;
+  if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned : &GLUE.flown)) return;
   if (GLUE.commit != 0) GLUE.commits_refused++;
   GLUE.commit = 0;
-  (void)!offer(&GLUE.flown.curve.fixed); // what was written before, and did not fly yet
+  (void)!offer(&GLUE.flown); // what was written before, and did not fly yet
 }
 
 // --- start ------------------------------------------------------------------------------------------------
@@ -82,7 +97,7 @@ static void put_weights_back(void) {
     const param_row_t *const row = &params_table[i];
     if (settings_is_weight(row) && params_get(&GLUE.tuned, row) != params_get(&GLUE.flown, row)) note(i);
   }
-  GLUE.tuned.curve.fixed = GLUE.flown.curve.fixed;
+  put_weights(&GLUE.tuned, &GLUE.flown);
 }
 
 void settings_start(void) {
@@ -90,12 +105,12 @@ void settings_start(void) {
   GLUE.commit = 0;
   if (!GLUE.started) {
     params_default(&GLUE.flown);
-    GLUE.sum_default = mix(&GLUE.flown.curve.fixed);
+    GLUE.sum_default = sum_of(&GLUE.flown);
   }
   GLUE.started = 1;
-  GLUE.weights_mixed = !asked && (mix(&GLUE.tuned.curve.fixed) ^ GLUE.sum_default) != GLUE.weights_sum;
+  GLUE.weights_mixed = !asked && (sum_of(&GLUE.tuned) ^ GLUE.sum_default) != GLUE.weights_sum;
   if (GLUE.weights_mixed) put_weights_back();
-  if (!judge(&GLUE.tuned.curve.fixed) && !offer(&GLUE.tuned.curve.fixed)) GLUE.tuned = GLUE.flown;
+  if (!judge(&GLUE.tuned) && !offer(&GLUE.tuned)) GLUE.tuned = GLUE.flown;
   if (GLUE.ready) GLUE.flown = GLUE.candidate;
   GLUE.ready = 0;
   make_sum();
@@ -105,16 +120,23 @@ void settings_start(void) {
 // --- flying -----------------------------------------------------------------------------------------------
 
 bool settings_learning(void) {
-  return GLUE.flown.curve.mode == CURVE_LIVE && !GLUE.in.no_lesson && GLUE.in.setpoint.z != AXIS_OFF;
+  const bool live = GLUE.flown.curve.mode == CURVE_LIVE || GLUE.flown.ground.mode == CURVE_LIVE;
+  return live && !GLUE.in.no_lesson && GLUE.in.setpoint.z != AXIS_OFF;
 }
 
-// The candidate's weights: what was typed in, or what was learned.
+// The candidate's weights: what was typed in, or what was learned. Of both curves or of none.
 static bool commit(unsigned which) {
   learn_t *const learn = &GLUE.flight.outer.learn;
+  flight_param_t *const set = &GLUE.candidate;
   if (settings_learning() || (which != COMMIT_TYPED && which != COMMIT_LEARNED)) return false;
-  if (which == COMMIT_LEARNED) GLUE.candidate.curve.fixed = learn->rls.theta;
-  if (learn_init(learn, &GLUE.candidate.learn, &GLUE.candidate.curve.fixed) != ST_OK) return false;
-  GLUE.tuned.curve.fixed = GLUE.candidate.curve.fixed;
+  if (which == COMMIT_LEARNED) {
+    set->curve.fixed = learn->rls.theta;
+    set->ground.fixed = GLUE.flight.ground.learn.rls.theta;
+  }
+  if (rls_check(&set->learn.rls, &set->ground.fixed) != ST_OK) return false;
+  if (learn_init(learn, &set->learn, &set->curve.fixed) != ST_OK) return false;
+  GLUE.ground_starts = true;
+  put_weights(&GLUE.tuned, set);
   return true;
 }
 
@@ -122,20 +144,26 @@ static void take_commit(unsigned which) {
   if (commit(which)) {
     GLUE.commits++;
     GLUE.recorder.tunes++;
-    GLUE.flown.curve.fixed = GLUE.candidate.curve.fixed; // also where another write makes another candidate
+    put_weights(&GLUE.flown, &GLUE.candidate); // also where another write makes another candidate
     make_sum();
   } else {
     GLUE.commits_refused++;
-    GLUE.candidate.curve.fixed = GLUE.flown.curve.fixed;
+    put_weights(&GLUE.candidate, &GLUE.flown);
   }
 }
 
 void settings_take(void) {
   const unsigned phase = GLUE.flight.phase; // of the call before
-  // A bit that flipped in the parameters would stay for ever.
-  if (phase == 5) (void)!flight_tune(&GLUE.flight, &GLUE.flown);
-  if (!GLUE.ready || phase % 2 != 0) return; // now comes no inner loop
-  if (GLUE.commit_asked != 0) {              // in a tick of its own: both would be too much for one
+  // Now comes the inner loop, the cheapest, and after missed calls no other with it.
+  if (phase % 2 != 0 || GLUE.flight.waiting != 0) return;
+  // Each in a tick of its own: together they would be too much for one.
+  if (GLUE.ground_starts) {
+    GLUE.ground_starts = false;
+    (void)!learn_init(&GLUE.flight.ground.learn, &GLUE.flown.learn, &GLUE.flown.ground.fixed); // was checked
+    return;
+  }
+  if (!GLUE.ready) return;
+  if (GLUE.commit_asked != 0) {
     take_commit(GLUE.commit_asked);
     GLUE.commit = GLUE.commit_asked = 0;
     return;
@@ -144,4 +172,10 @@ void settings_take(void) {
   GLUE.flown = GLUE.candidate;
   GLUE.recorder.tunes++;
   (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+}
+
+void settings_mend(void) {
+  const flight_t *const f = &GLUE.flight;
+  if (f->phase == 6 && (f->due & ~(unsigned)FLIGHT_GROUND) == 0)
+    (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }

@@ -2,10 +2,11 @@
 //
 // The parameters are the fields of GLUE.tuned. After every write the set is checked, in the parameter task;
 // one that passes is flown as a whole from the next tick on. One that fails is counted, the last good one
-// flies on, and what is out of its range gets its old value back. The weights ceil.w1..w7 wait for
-// ceil.commit:
-//   1  takes ceil.w1..w7 at once
-//   2  copies the learned rls.w1..w7 into them, and takes those; refused while learning
+// flies on, and what is out of its range gets its old value back. The weights of both curves, w1..w7 of ceil
+// and of ground, are one set and wait for ceil.commit:
+//   1  takes them at once
+//   2  copies the learned ones into them (the logs rls.w1..w7, ground.w1..w7), and takes those; refused while
+//      learning
 // Either way learning goes on from there.
 //
 // A client stores parameters one by one, and may be interrupted. So a commit also makes ceil.wSum of the
@@ -25,7 +26,11 @@ void settings_start(void);
 // Once a tick, before anything else; acts in every second one.
 void settings_take(void);
 
-// One of ceil.w1..w7.
+// Once a tick, after flight_step: a bit that flipped in the parameters would stay for ever. Acts in the one
+// of ten in which no loop runs but the ground's.
+void settings_mend(void);
+
+// One of w1..w7 of ceil or ground.
 bool settings_is_weight(const param_row_t *row);
 
 // The curve may be learning now.

@@ -21,6 +21,7 @@ from fake_vehicle import FakeVehicle
 from cf.vehicle import Vehicle
 
 WEIGHTS = [f"ceil.w{i}" for i in range(1, 8)]
+FLAT = {f"ground.w{i}": float(i == 1) for i in range(1, 8)}  # of the same set, as shipped
 HAS_APP = (TREE / "src" / "firmware").is_dir()
 NAMES = declared.read(TREE) if HAS_APP else declared.Declared((), ())
 

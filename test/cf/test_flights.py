@@ -7,7 +7,7 @@ import unittest
 import unittest.mock
 
 from fake_vehicle import LEARNED
-from rig import WEIGHTS, OverTheLink
+from rig import FLAT, WEIGHTS, OverTheLink
 
 import cf
 
@@ -37,7 +37,7 @@ class Learn(OverTheLink):
         self.assertEqual(ran.status, 0, ran.err)
         self.assertEqual(self.flown(), ["take off"] + 6 * ["go to"] + ["land", "stop"])
         self.assertEqual(self.gaps_mm(), [200, 100, 80, 60, 40, 20])
-        self.assertEqual(self.vehicle.stored, dict(zip(WEIGHTS, LEARNED)) | {"ceil.wSum": 1002})
+        self.assertEqual(self.vehicle.stored, dict(zip(WEIGHTS, LEARNED)) | FLAT | {"ceil.wSum": 1002})
         self.assertEqual(list(self.vehicle.stored)[-1], "ceil.wSum")  # until then the vehicle refuses them as a set
         self.assertEqual([self.vehicle.param[name] for name in WEIGHTS], list(LEARNED))
         self.assertIn("ceil.w1 = 1.25\n", ran.out)
@@ -76,7 +76,7 @@ class Learn(OverTheLink):
         ran = self.cf("learn")
         self.assertEqual(self.gaps_mm(), [200, 100, 80, 60])
         self.assertIn("stops at 6 cm", ran.out)
-        self.assertEqual(len(self.vehicle.stored), 8)
+        self.assertEqual(len(self.vehicle.stored), 15)
 
     def test_a_keep_out_beyond_the_flight_is_refused(self) -> None:
         self.vehicle.param["ceil.min"] = 0.2

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define GROUND_M 0.3f // of a made-up floor: the ladder's gaps of 20 to 4 cm are over it, up to 15 cm
+
 typedef struct {
   FILE *to, *from; // from: where answers come from, or null
   random_t *random;
@@ -158,6 +160,10 @@ static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, 
   if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
   setup.flight.height.own = own;
+  if (own) {
+    setup.flight.ground.mode = CURVE_LIVE;
+    setup.flight.ground_zero_m = GROUND_M;
+  }
   setup.plan.seed = seed;
   setup.plan.integrate = INTEGRATE_RK4;
   setup.plan.end_s = end_s;
@@ -175,7 +181,7 @@ static int fly_trace(recorder_t *r) {
     fly_kind_t kind;
     float blind_s; // 0: as shipped
     double end_s;
-    bool inputs, params, time, own; // own: by height.own
+    bool inputs, params, time, own; // own: by height.own, and learning over a ground
   } row[] = {{FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, false, false, false, false},
              {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false, false},
              {FLY_INDI_RBF, 0.0f, 50.0, false, false, false, false},

@@ -117,7 +117,7 @@ TEST(flight_counts_to_the_end_and_stops) {
   flight_step(&f, &let_go);
   f.outer.missed = UINT_MAX - 3; // flipped bits
   f.inner_ms = INT_MAX;
-  f.waited = UINT_MAX - 1;
+  f.waited = UINT_MAX;
   for (int k = 0; k < 100; k++) {
     ms += 33;
     const flight_in_t in = hovering(ms);

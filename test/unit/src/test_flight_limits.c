@@ -154,6 +154,7 @@ TEST(flight_runs_its_loops_in_milliseconds_of_their_own) {
                            (step % 10 == 4 && step > first ? (unsigned)FLIGHT_LEARN : 0u) |
                            (step % 10 == 2 && step > first ? (unsigned)FLIGHT_HEIGHT : 0u) |
                            (step % 10 == 8 && step > first ? (unsigned)FLIGHT_SCRUB : 0u) |
+                           (step % 10 == 6 && step > first ? (unsigned)FLIGHT_GROUND : 0u) |
                            (step % 2 == 1 || step == first ? (unsigned)FLIGHT_INNER : 0u);
       CHECK(f.due == due);
       f.step_last = step; // as the guard does when it has read the time

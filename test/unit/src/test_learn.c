@@ -40,7 +40,7 @@ TEST(learner_begins_without_a_sample_whatever_was_there) {
 static bool is_learned_from(const learn_sample_t *x) {
   learn_t s = fresh();
   const learn_t before = s;
-  const status_t status = learn_update(&s, &P, x);
+  const status_t status = learn_update(&s, &P, x, 0.0f);
   if (status == ST_OK) {
     CHECK(s.rls.count == 1 && s.refused == 0);
     CHECK(memcmp(&s.rls.theta, &before.rls.theta, sizeof s.rls.theta) != 0);
@@ -150,7 +150,7 @@ TEST(learn_teaches_the_ratio_of_force_to_thrust_at_the_distance) {
     learn_sample_t x = GOOD;
     x.zc_m = 0.02f + 0.0004f * (float)k;
     x.force_N = x.thrust_N * (1.0f + 0.44f * (0.1f - x.zc_m));
-    CHECK_OK(learn_update(&s, &P, &x));
+    CHECK_OK(learn_update(&s, &P, &x, 0.0f));
     float a[RBF_N];
     rbf_basis(x.zc_m, a);
     CHECK_OK(rls_update(&direct, &P.rls, a, x.force_N / x.thrust_N));
@@ -164,7 +164,7 @@ TEST(learn_hands_on_what_rls_says) {
   learn_param_t bad = P;
   bad.rls.lambda = NAN;
   const learn_t before = s;
-  CHECK_STATUS(ST_BAD_PARAM, learn_update(&s, &bad, &GOOD));
+  CHECK_STATUS(ST_BAD_PARAM, learn_update(&s, &bad, &GOOD, 0.0f));
   CHECK_STATUS(ST_BAD_PARAM, learn_init(&s, &bad, &FLAT));
   const rbf_weights_t wild = {{1, 0, NAN, 0, 0, 0, 0}};
   CHECK_STATUS(ST_BAD_INPUT, learn_init(&s, &P, &wild));

@@ -89,9 +89,10 @@ TEST(watch_takes_the_phase_from_the_counter_where_a_bit_of_it_flipped) {
 
 // --- loops ------------------------------------------------------------------------------------------------
 
-// All that falls into these milliseconds. After missed calls the inner loop is due in any case.
+// All that falls into these milliseconds. After missed calls the inner loop is due in any case, and the
+// ground's curve is not: it comes alone or not at all.
 static unsigned due_in(unsigned phase, unsigned ms) {
-  unsigned due = ms > 1 ? FLIGHT_INNER : 0;
+  unsigned due = ms > 1 ? FLIGHT_INNER : phase == 5 ? FLIGHT_GROUND : 0;
   for (unsigned at = phase + 1; at <= phase + ms; at++) {
     due |= at % 2 == 1 ? (unsigned)FLIGHT_INNER : 0u;
     due |= at % 10 == 0 ? (unsigned)FLIGHT_OUTER : at % 10 == 4 ? (unsigned)FLIGHT_LEARN : 0u;
@@ -115,12 +116,12 @@ TEST(watch_runs_one_loop_a_call_and_lets_the_others_wait) {
   enum { O = FLIGHT_OUTER, L = FLIGHT_LEARN, H = FLIGHT_HEIGHT, S = FLIGHT_SCRUB, I = FLIGHT_INNER };
   static const struct {
     unsigned phase, waiting, due,
-        left; // the call after phase 5 has no loop of its own, after 0 the inner one
+        left; // the call after phase 5 has the ground's alone, after 0 the inner one
   } row[] = {{5, O | L | S, O, L | S},
              {5, L | S, L, S},
              {5, S, S, 0},
              {5, O | S, O, S},
-             {5, 0, 0, 0},
+             {5, 0, FLIGHT_GROUND, 0},
              {0, O | L | S, I, O | L | S},
              {0, L, I, L},
              {0, 0, I, 0},
@@ -136,16 +137,32 @@ TEST(watch_runs_one_loop_a_call_and_lets_the_others_wait) {
   }
 }
 
-TEST(watch_lets_no_loop_wait_for_more_than_three_calls) {
+TEST(watch_lets_loops_that_wait_for_more_than_three_calls_run_beside_the_inner_one_in_turn) {
+  static const unsigned due[] = {
+      0, 0, 0, 0, FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_SCRUB, FLIGHT_HEIGHT, FLIGHT_OUTER};
   flight_t f = at_phase(8);
   for (int call = 0; call < 9; call++) {
     ROW("call %d", call);
     CHECK(watch_time(&f, f.step_last + 2)); // each costs the inner loop
     f.step_last += 2;
-    const bool all = call == 4;
-    CHECK(f.due ==
-          (all ? FLIGHT_INNER | FLIGHT_OUTER | FLIGHT_LEARN | FLIGHT_HEIGHT | FLIGHT_SCRUB : FLIGHT_INNER));
-    if (all) CHECK(f.waiting == 0);
+    CHECK(f.due == (FLIGHT_INNER | due[call]));
+  }
+}
+
+TEST(watch_runs_at_most_one_loop_beside_the_inner_one_and_each_of_them_however_late_calls_are) {
+  static const uint32_t late_ms[] = {2, 3, 5, 7, 9, 10, 13, 50};
+  for (size_t i = 0; i < sizeof late_ms / sizeof *late_ms; i++) {
+    ROW("a call every %u ms", (unsigned)late_ms[i]);
+    flight_t f = at_phase(0);
+    unsigned seen = 0;
+    for (int call = 0; call < 40; call++) {
+      CHECK(watch_time(&f, f.step_last + late_ms[i]));
+      f.step_last += late_ms[i];
+      const unsigned others = f.due & ~(unsigned)FLIGHT_INNER;
+      CHECK((others & (others - 1u)) == 0);
+      seen |= f.due;
+    }
+    CHECK(seen == (FLIGHT_INNER | FLIGHT_OUTER | FLIGHT_LEARN | FLIGHT_HEIGHT | FLIGHT_SCRUB));
   }
 }
 

@@ -58,7 +58,8 @@ TEST(app_tells_the_client_of_every_parameter_that_it_puts_back) {
       const double before = param(&w, row->name);
       w.notified = 0;
       type(&w, row->name, odd[k]);
-      const bool weight = strncmp(row->name, "ceil.w", 6) == 0; // judged when it is to be flown
+      const bool weight = strncmp(strchr(row->name, '.'), ".w", 2) == 0 &&
+                          strlen(strchr(row->name, '.')) == 3; // judged when it is to be flown
       if (weight) CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_TYPED));
       CHECK(w.shown == before && param(&w, row->name) == before);
       CHECK(w.notified == (weight ? 2 : 1)); // of that one alone, once, and that the commit is over
@@ -131,7 +132,7 @@ TEST(app_tells_the_client_when_a_commit_is_done_and_what_came_of_it) {
   w.param = sections_param("ceil.w4");
   w.notified = 0;
   CHECK(crazyflie_set(&w.flying.vehicle, "ceil.commit", COMMIT_LEARNED));
-  CHECK(w.shown == 0.125 && w.notified == RBF_N + 2);
+  CHECK(w.shown == 0.125 && w.notified == 2 * RBF_N + 2);
   // Refused in the tick: it learns.
   type(&w, "ceil.mode", CURVE_LIVE);
   app_fly(&w.flying, 3 * SUPERVISED_PERIOD_MS);

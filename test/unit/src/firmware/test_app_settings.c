@@ -2,6 +2,7 @@
 #include "rig/flying_app.h"
 #include "rig/test.h"
 
+#include <math.h>
 #include <string.h>
 
 static void start(flying_t *f) {
@@ -65,7 +66,7 @@ TEST(app_mends_a_flipped_bit_of_its_parameters_in_one_call_of_ten) {
     flight->outer.param.pos.kp_per_s = 1.5f;
     app_fly(&f, 1);
     CHECK(flown_kp(&f) == (at == 6 ? 0.5f : 1.5f));
-    CHECK((flight->due == 0) || at != 6); // in one of those in which no loop runs
+    CHECK(flight->due == FLIGHT_GROUND || at != 6); // in the one with the least to do
     app_fly(&f, 9);
     CHECK(flown_kp(&f) == 0.5f);
   }
@@ -73,24 +74,47 @@ TEST(app_mends_a_flipped_bit_of_its_parameters_in_one_call_of_ten) {
 
 // --- a commit ---------------------------------------------------------------------------------------------
 
-TEST(app_takes_a_commit_in_a_call_of_its_own_and_the_set_in_the_next_but_one) {
+TEST(app_takes_a_commit_in_two_calls_of_its_own_and_the_set_in_the_next_but_one) {
   static flying_t f;
   start(&f);
   const glue_t *const app = &f.vehicle.app;
   CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 2.0));
   CHECK(crazyflie_set(&f.vehicle, "ceil.w2", 0.25));
+  CHECK(crazyflie_set(&f.vehicle, "ground.w5", 0.125));
   CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_TYPED));
   const uint8_t tunes = app->recorder.tunes;
   for (int ms = 0; app->commits == 0 && ms < 2; ms++) app_fly(&f, 1);
   CHECK(app->commits == 1 && app->commit == 0 && app->commit_asked == 0);
   CHECK(app->recorder.tunes == tunes + 1);
-  CHECK(app->flown.curve.fixed.w[1] == 0.25f && flown_kp(&f) == 0.5f);
+  CHECK(app->flown.curve.fixed.w[1] == 0.25f && app->flown.ground.fixed.w[4] == 0.125f);
+  CHECK(app->flight.outer.learn.rls.theta.w[1] == 0.25f && app->flight.ground.learn.rls.theta.w[4] == 0.0f);
+  app_fly(&f, 2); // the second learner in a call of its own
+  CHECK(app->flight.ground.learn.rls.theta.w[4] == 0.125f && flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
   CHECK(flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
   CHECK(flown_kp(&f) == 2.0f && app->flight.outer.param.curve.fixed.w[1] == 0.25f);
+  CHECK(app->flight.outer.param.ground.fixed.w[4] == 0.125f);
   app_fly(&f, 20);
   CHECK(app->commits == 1 && app->recorder.tunes == tunes + 2);
+}
+
+TEST(app_commits_the_weights_of_both_curves_or_none) {
+  for (int wrong = 0; wrong < 3; wrong++) {
+    ROW("%s", wrong == 0 ? "both good" : wrong == 1 ? "the ceiling's no number" : "the ground's no number");
+    static flying_t f;
+    start(&f);
+    glue_t *const app = &f.vehicle.app;
+    const flight_param_t before = app->flown;
+    app->flight.outer.learn.rls.theta.w[1] = wrong == 1 ? NAN : 0.25f;
+    app->flight.ground.learn.rls.theta.w[1] = wrong == 2 ? NAN : 0.125f;
+    CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_LEARNED));
+    app_fly(&f, 20);
+    CHECK(app->commits == (wrong == 0) && app->commits_refused == (wrong != 0));
+    CHECK(app->flown.curve.fixed.w[1] == (wrong == 0 ? 0.25f : before.curve.fixed.w[1]));
+    CHECK(app->flown.ground.fixed.w[1] == (wrong == 0 ? 0.125f : before.ground.fixed.w[1]));
+    CHECK(memcmp(&app->tuned, &app->flown, sizeof app->flown) == 0);
+  }
 }
 
 TEST(app_forgets_a_commit_that_is_refused_before_any_tick) {

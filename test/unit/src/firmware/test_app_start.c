@@ -75,7 +75,7 @@ static const struct {
     {"a third", 0, 0x10, NOT_FLOWN_RATES | NOT_FLOWN_QUAT | NOT_FLOWN_TURN, false, false,
      "CEIL: REFUSED: rates of roll and pitch of a full state. The rest is flown\n"},
     {"selected anew", 0, 0, 0, true, false,
-     "CEIL: WEIGHTS REFUSED: ceil.w1..w7 are not one set (ceil.wSum). The last good ones fly\n"
+     "CEIL: WEIGHTS REFUSED: w1..w7 of ceil and ground are not one set (ceil.wSum). The last good ones fly\n"
      "CEIL: Guard: reasons 0x0\n"},
     {"mixed still", 0, 0, 0, true, false, ""},
     {"shadow", 0, 0, 0, true, true,

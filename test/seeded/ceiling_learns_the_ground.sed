@@ -1,0 +1,4 @@
+# What the ground gives is learned as the ceiling's.
+# file: src/outer.c
+# test: channel_
+s/&f->sample, f->ground\.excess)/\&f->sample, 0.0f)/
