@@ -190,8 +190,8 @@ touches: $(O)/fly  ## how often the thesis's flights touch the ceiling, 1,000 fl
 robust: $(O)/fly  ## the law that ships at 20 mm where one or two things of the plant are not as told, 100 flights each; 10 min
 	@$(DOC) show robust
 
-passing: $(O)/fly  ## learning without a learning flight, and pushing against a ceiling, 1,000 flights each; 10 min
-	@$(DOC) show passing pushes
+passing: $(O)/fly  ## learning without a learning flight and between floor and ceiling, and pushing against a ceiling; 10 min
+	@$(DOC) show passing channel pushes
 
 by-height: $(O)/bound $(O)/fly  ## the law by the flight code's own height, 1,000 flights each, beside the estimator's and the bound; 10 min
 	@$(DOC) show by-height

@@ -50,7 +50,8 @@ static const char USAGE[] =
     "  --surface NAME           ceiling or ground (ceiling)\n"
     "  --hold-out LOG.csv       not learned from; says what the curve explains (may be repeated)\n"
     "  --set group.name=VALUE   a parameter of the flight code; fly --params lists them (may be repeated).\n"
-    "                           Other than there: rls.q is 0, and near the ground ceil.w1..w7 are 1, 0, ...\n"
+    "                           Other than there: rls.q is 0, and near the ground ceil.w1..w7, from which it "
+    "learns, are 1, 0, ...\n"
     "  --points FILE.csv        writes every sample that taught: distance and measured thrust ratio\n"
     "  --json FILE              writes weights and residuals\n"
     "  --version                version and commit\n"
@@ -213,11 +214,12 @@ static void print_mN(double before_N, double after_N) {
 }
 
 static void print(const order_t *o, const lesson_t *r) {
+  const char *const group = o->surface == SURFACE_GROUND ? "ground" : "ceil";
   printf("# %u samples taught, %u were not allowed to; mass %.1f g (%s)\n", r->learn.rls.count,
          r->learn.refused, 1e3 * (double)r->job.param.pos.mass_kg, r->mass_from);
   for (int i = 0; i < o->n_log + o->n_held_out; i++)
     if (r->bad[i].n) printf("# %s\n", r->bad[i].first.text);
-  for (int i = 0; i < RBF_N; i++) printf("ceil.w%d = %.7g\n", i + 1, (double)r->learn.rls.theta.w[i]);
+  for (int i = 0; i < RBF_N; i++) printf("%s.w%d = %.7g\n", group, i + 1, (double)r->learn.rls.theta.w[i]);
   if (o->n_held_out == 0) return;
   printf("\nvertical force residual without -> with the curve, mN\n%20s  %18s  %8s  %s\n", "all, sd",
          "below 7 cm, rms", "bias", "held-out flight");

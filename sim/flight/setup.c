@@ -198,12 +198,14 @@ void setup_close_ladder(setup_t *setup) {
 // The parameters of one that flies are kept with what it did, and what ships beside them: every default, but
 // for what the controller's name stands for, the curve's mode, where it learns from nothing 1 + 0, and where
 // it has learned, what it learned.
-static done_t keep_params(fly_kind_t kind, const flight_param_t *flies, flown_t *flown, why_t *why) {
+static done_t keep_params(const setup_t *setup, const flight_param_t *flies, flown_t *flown, why_t *why) {
+  const fly_kind_t kind = setup->kind;
   flight_param_t *const shipped = &flown->shipped;
   params_default(shipped);
   shipped->curve.mode = (int32_t)mode_of[kind];
   if (kind == FLY_INDI_LIVE) shipped->curve.fixed = (rbf_weights_t){{1.0f}};
   if (kind == FLY_INDI_LEARNED) shipped->curve.fixed = flies->curve.fixed;
+  if (setup->floor_learned) shipped->ground.fixed = flies->ground.fixed;
   flown->record.param = malloc((size_t)params_count * sizeof(float));
   if (!flown->record.param) return error_failed(why, "out of memory");
   for (int i = 0; i < params_count; i++) flown->record.param[i] = params_get(flies, &params_table[i]);
@@ -229,7 +231,7 @@ static done_t fly_outer(const setup_t *setup, const flight_param_t *param, flown
     return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.1 to 45 Hz");
   TRY(loop_fly(&plan, &setup->model, &pilot, &flown->record, &flown->outcome, why));
   flown->weights = p.flight.learn.rls.theta;
-  return keep_params(setup->kind, &p.flight.param, flown, why);
+  return keep_params(setup, &p.flight.param, flown, why);
 }
 
 static done_t fly_app(const setup_t *setup, const flight_param_t *param, flown_t *flown, why_t *why) {
@@ -245,7 +247,8 @@ static done_t fly_app(const setup_t *setup, const flight_param_t *param, flown_t
   if (setup->request && setup->request->log && p.n_log < flown->record.n)
     return error_failed(why, "out of memory");
   flown->weights = p.flight->outer.learn.rls.theta;
-  return keep_params(setup->kind, &p.flight->outer.param, flown, why); // the app's own
+  flown->ground_weights = p.flight->ground.learn.rls.theta;
+  return keep_params(setup, &p.flight->outer.param, flown, why); // the app's own
 }
 
 static done_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {

@@ -56,6 +56,7 @@ typedef struct {
   model_t model;
   flight_param_t flight;
   rbf_weights_t learn_from; // what a learning flight starts with
+  bool floor_learned;       // flight.ground's weights are what a flight before has learned
   fly_kind_t kind;
   pid_param_t pid;
   stock_pid_param_t stock_pid;
@@ -94,7 +95,8 @@ typedef struct {
   outcome_t outcome;
   segment_t segment[WAYPOINTS_MAX];
   int n_segment;
-  rbf_weights_t weights;  // at the end of the flight, where the flight code flew
+  // At the end of the flight, where the flight code flew.
+  rbf_weights_t weights, ground_weights;
   flight_param_t shipped; // what ships with that controller: what record.param is held against
 } flown_t;
 

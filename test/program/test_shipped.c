@@ -31,6 +31,7 @@ static const struct {
     {"appendix-a", VERTICAL, false, false},
     {"bias-hover", " --set indiPos.biasPole=0", false, true},
     {"ceiling-gap", NOBODY, false, false},
+    {"channel", " --set ceil.min=0.01 --set ceil.blindMax=60 --set ground.mode=1", true, false},
     {"close-flight", CLOSE, false, false},
     {"closest-hover", VERTICAL, false, true},
     {"hand-held", NOBODY, false, false},
@@ -94,7 +95,8 @@ static void check(const char *scenario, const fly_kind_t *kind, const char *but,
 }
 
 TEST(scenarios_fly_what_ships_but_for_what_their_head_prints) {
-  static const char *const mode[] = {"ceil.mode", NULL}, *const learning[] = {"ceil.mode", "ceil.w", NULL};
+  static const char *const mode[] = {"ceil.mode", NULL}, *const learning[] = {"ceil.mode", "ceil.w",
+                                                                              "ground.w", NULL};
   CHECK((int)SCENARIOS == scenario_count);
   for (unsigned i = 0; i < SCENARIOS; i++) {
     ROW("%s", SCENARIO[i].scenario);

@@ -12,16 +12,18 @@ LEVELS = ["real", "flown"]  # of noise
 STARTS = ["flat", "half", "double"]
 
 
-def fly(name: str, scenario: str, level: str, *options: str) -> list[dict]:
+def fly(
+    name: str, scenario: str, level: str, *options: str, first: int = FIRST, count: int = FLIGHTS
+) -> list[dict]:
     run.progress(f"flying {scenario}, {level} {' '.join(options)}")
     path: Path = run.folder(name) / "all.jsonl"
-    flown = flights.fly_many(path, FLIGHTS, scenario, "--noise", level, *options, first=FIRST)
+    flown = flights.fly_many(path, count, scenario, "--noise", level, *options, first=first)
     run.progress()
     return flown
 
 
-def head(scenario: str) -> None:
-    print(f"fly {scenario} --noise LEVEL --integrator rk4 --from {FIRST} --to {FIRST + FLIGHTS - 1}\n")
+def head(scenario: str, first: int = FIRST, count: int = FLIGHTS) -> None:
+    print(f"fly {scenario} --noise LEVEL --integrator rk4 --from {first} --to {first + count - 1}\n")
 
 
 def at(flight: dict, start: str, gap_mm: int) -> dict:

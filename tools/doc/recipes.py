@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import bound
 import by_height
+import channel
 import demo
 import desk
 import flights
@@ -143,6 +144,7 @@ RECIPES = {
     "bound": Recipe(bound.bound),
     "by-height": Recipe(by_height.by_height),
     "passing": Recipe(passing.passing),
+    "channel": Recipe(channel.channel),
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 106001, 200)),
