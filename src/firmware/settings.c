@@ -24,7 +24,7 @@ static uint32_t mix(const rbf_weights_t *weights, uint32_t sum) {
   return sum;
 }
 
-// The two begin otherwise: they are not to be told apart by their order alone.
+// Each begins otherwise: two curves that change places make another sum.
 static uint32_t sum_of(const flight_param_t *p) {
   return mix(&p->curve.fixed, 0u) ^ mix(&p->ground.fixed, 1u);
 }
@@ -103,6 +103,7 @@ static void put_weights_back(void) {
 void settings_start(void) {
   const bool asked = GLUE.commit == COMMIT_TYPED;
   GLUE.commit = 0;
+  GLUE.ground_starts = false;
   if (!GLUE.started) {
     params_default(&GLUE.flown);
     GLUE.sum_default = sum_of(&GLUE.flown);
