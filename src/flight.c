@@ -124,7 +124,7 @@ static APART void run_ground(flight_t *f) {
   const flight_param_t *const p = &f->outer.param;
   outer_t *const o = &f->outer;
   if (p->ground.mode == CURVE_OFF || !o->started) {
-    if (f->ground.known) o->ground = (outer_ground_t){.excess = 0.0f};
+    o->ground = (outer_ground_t){.excess = 0.0f}; // a bit that flipped there would stay for ever
     ground_rest(&f->ground);
     return;
   }

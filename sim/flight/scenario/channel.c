@@ -71,7 +71,7 @@ static done_t learn_floor(setup_t setup, rbf_weights_t *learned, result_t *resul
 static done_t fly_channel(setup_t setup, const char *flight, curve_mode_t floor, const rbf_weights_t *learned,
                           result_t *result, why_t *why) {
   setup_ladder(&setup, gap_m, STEPS, HOLD_S);
-  setup.flight.ground.mode = floor;
+  setup.flight.ground.mode = (int32_t)floor;
   setup.flight.ground.fixed = *learned;
   setup.floor_learned = true;
   flown_t flown;

@@ -199,6 +199,7 @@ TEST(flight_learns_over_the_ground_and_flies_by_it_where_it_is_told_to) {
     CHECK((f.ground.learn.rls.count > 400) == row[i].learns);
     CHECK(f.ground.known == (row[i].mode != CURVE_OFF));
     f.outer.param.ground.mode = CURVE_OFF;
+    f.outer.ground.excess = 2.0f; // a flipped bit
     hover(&f, &p, &step, row[i].zero_m + 0.03f, 10);
     CHECK(f.outer.ground.excess == 0.0f && f.outer.ground.pull_per_s2 == 0.0f);
   }
