@@ -107,6 +107,7 @@ static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in
   x->z_m = in->pos_w_m.z;
   x->climb_mps = in->vel_w_mps.z - f->outer.bias.vel_off_mps.z;
   x->at = f->outer.out.at;
+  x->ground_excess = f->outer.ground.excess;
   x->zc_m = f->outer.out.zc_m;
   x->ceiling_z_m = f->outer.out.ceiling_z_m;
   x->down_m = raw->down_m; // of no use but here
@@ -119,25 +120,45 @@ static bool may_learn(const flight_t *f) {
   return f->guard.now == 0 && !f->guard.acc_lost && !f->in.no_lesson;
 }
 
+// One lesson a period. In what the ceiling learns from the ground's share must be known.
+static APART void run_lesson(flight_t *f) {
+  if (f->ground.turn)
+    count(f, ground_learn(&f->ground, &f->outer.param.learn));
+  else if (f->outer.param.ground.mode == CURVE_OFF || f->ground.known)
+    outer_learn(&f->outer);
+}
+
+static bool ground_may_learn(const flight_t *f) {
+  const outer_t *const o = &f->outer;
+  return may_learn(f) && o->missed == 0 && o->carrying_s >= o->param.learn_after_s && !outer_on_floor(o);
+}
+
+static outer_ground_t ground_share(const ground_t *g, const outer_t *o) {
+  const float most_per_s2 = GROUND_DAMPING * o->law.kd_z_per_s / o->lag_s;
+  const float pull_per_s2 = -GRAVITY_MPS2 * g->at.slope_per_m / o->out.at.ratio;
+  return (outer_ground_t){.excess = f_max(g->at.ratio - 1.0f, GROUND_LEAST),
+                          .pull_per_s2 = f_bound(pull_per_s2, most_per_s2),
+                          .lesson_excess = g->lesson_excess};
+}
+
 // Of the height that the last outer loop had, for the next one.
 static APART void run_ground(flight_t *f) {
   const flight_param_t *const p = &f->outer.param;
   outer_t *const o = &f->outer;
   if (p->ground.mode == CURVE_OFF || !o->started) {
-    o->ground = (outer_ground_t){.excess = 0.0f}; // a bit that flipped there would stay for ever
+    outer_lose_ground(o); // also a bit that flipped there: it would stay for ever
     ground_rest(&f->ground);
     return;
   }
-  const bool above = o->sample.known && o->sample.zc_m <= p->learn.far_m;
+  const float zc_m = o->sample.zc_m; // filtered
+  const rbf_point_t above = curve_at(&p->curve, &o->learn.rls.theta, o->ceiling.known, zc_m);
   // A jump that was taken out of the height is the ground's: a table that the vehicle flies over.
   const ground_in_t x = {.height_m = o->height_last_m + f->height_off_m - p->ground_zero_m,
-                         .sample = may_learn(f) && o->missed == 0 ? &o->sample : NULL,
-                         .excess = o->out.at.ratio - 1.0f - o->ground.excess,
-                         .shared = above && p->curve.mode == CURVE_LIVE};
-  rbf_point_t at;
-  count(f, ground_step(&f->ground, &p->ground, &p->learn, &o->coef.filter, &x, &at));
-  o->ground = (outer_ground_t){.excess = f_max(at.ratio - 1.0f, -0.5f * p->curve.ratio_min),
-                               .pull_per_s2 = -GRAVITY_MPS2 * at.slope_per_m};
+                         .sample = ground_may_learn(f) ? &o->sample : NULL,
+                         .excess = above.ratio - 1.0f,
+                         .shared = p->curve.mode == CURVE_LIVE && o->sample.known && zc_m <= p->learn.far_m};
+  ground_step(&f->ground, &p->ground, &p->learn, &o->coef.filter, &x);
+  o->ground = ground_share(&f->ground, o);
 }
 
 static APART void run_outer(flight_t *f, const flight_in_t *in) {
@@ -260,7 +281,7 @@ static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   if (f->due == FLIGHT_OUTER) return; // most often; and it costs the most
   if (f->due & FLIGHT_HEIGHT) run_height(f, in, raw);
-  if ((f->due & FLIGHT_LEARN) && may_learn(f) && !f->ground.turn) outer_learn(&f->outer);
+  if ((f->due & FLIGHT_LEARN) && may_learn(f)) run_lesson(f);
   if (f->due & FLIGHT_GROUND) run_ground(f);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }

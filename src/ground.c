@@ -11,28 +11,24 @@ void ground_rest(ground_t *g) {
   g->known = g->turn = false;
 }
 
-static status_t learn(ground_t *g, const learn_param_t *p, float distance_m, const ground_in_t *in) {
-  learn_sample_t sample = *in->sample;
-  sample.zc_m = distance_m;
-  sample.known = true;
-  sample.blind_s = 0.0f;
-  return learn_update(&g->learn, p, &sample, in->excess);
-}
-
-status_t ground_step(ground_t *g, const curve_param_t *c, const learn_param_t *p, const lpf2_coef_t *filter,
-                     const ground_in_t *in, rbf_point_t *at) {
-  status_t status = ST_OK;
+void ground_step(ground_t *g, const curve_param_t *c, const learn_param_t *p, const lpf2_coef_t *filter,
+                 const ground_in_t *in) {
   if (!g->known) lpf2_reset(&g->filter, in->height_m);
   g->known = true;
   g->height_m = in->height_m;
   const float filtered_m = lpf2_step(&g->filter, filter, in->height_m);
-  if (c->mode == CURVE_LIVE && in->sample) {
-    const bool near = filtered_m <= p->far_m;
-    if (g->turn || !in->shared) status = learn(g, p, filtered_m, in);
-    g->turn = near && in->shared && !g->turn;
-  } else {
-    g->turn = false;
-  }
-  *at = curve_at(c, &g->learn.rls.theta, true, in->height_m);
-  return status;
+  g->at = curve_at(c, &g->learn.rls.theta, true, in->height_m);
+  g->lesson_excess = curve_at(c, &g->learn.rls.theta, true, filtered_m).ratio - 1.0f;
+  const bool near = filtered_m >= p->near_m && filtered_m <= p->far_m;
+  g->turn = c->mode == CURVE_LIVE && in->sample && near && !(in->shared && g->turn);
+  if (!g->turn) return;
+  g->sample = *in->sample;
+  g->sample.zc_m = filtered_m;
+  g->sample.known = true;
+  g->sample.blind_s = 0.0f;
+  g->sample_excess = in->excess;
+}
+
+status_t ground_learn(ground_t *g, const learn_param_t *p) {
+  return g->turn ? learn_update(&g->learn, p, &g->sample, g->sample_excess) : ST_OK;
 }

@@ -55,9 +55,9 @@ static void turn_motors(height_t *s, float delay_s, float motor_share, float thr
 }
 
 // The thrust ratio where the vehicle will be. Where the curve does not fall it is no ceiling's (the fitted
-// bells rise again from 8 cm on).
+// bells rise again from 8 cm on), and what there is is the ground's.
 static float ratio_at(const height_t *s, const height_in_t *in) {
-  if (!(in->at.slope_per_m < 0.0f) || !f_finite(in->ceiling_z_m)) return 1.0f;
+  if (!(in->at.slope_per_m < 0.0f) || !f_finite(in->ceiling_z_m)) return 1.0f + in->ground_excess;
   const float zc_m = in->ceiling_z_m - (s->x[HEIGHT_H] + s->off_m + HEIGHT_S * s->x[HEIGHT_W]);
   return in->at.ratio + in->at.slope_per_m * f_bound(zc_m - in->zc_m, CURVE_NEAR_M);
 }

@@ -2,6 +2,7 @@
 #include "flight/learn.h"
 
 #include "flight/v3.h"
+#include <limits.h>
 
 status_t learn_init(learn_t *s, const learn_param_t *p, const rbf_weights_t *start) {
   TRY(rls_init(&s->rls, &p->rls, start));
@@ -31,7 +32,7 @@ static bool usable(const learn_param_t *p, const learn_sample_t *x) {
 
 status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample, float excess) {
   if (!usable(p, sample)) {
-    s->refused++;
+    if (s->refused < UINT_MAX) s->refused++;
     return ST_SAMPLE_REFUSED;
   }
   float basis[RBF_N];

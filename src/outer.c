@@ -157,12 +157,12 @@ static APART void observe(outer_t *f, const sync_out_t *x) {
 void outer_learn(outer_t *f) {
   if (!f->sample_new || f->param.curve.mode != CURVE_LIVE) return;
   f->sample_new = false;
-  count(f, learn_update(&f->learn, &f->param.learn, &f->sample, f->ground.excess));
+  count(f, learn_update(&f->learn, &f->param.learn, &f->sample, f->ground.lesson_excess));
 }
 
 void outer_rest(outer_t *f) {
   f->started = f->at_limit = f->sample_new = false;
-  f->ground = (outer_ground_t){.excess = 0.0f};
+  outer_lose_ground(f);
   f->carrying_s = 0.0f;
   ceiling_init(&f->ceiling, f->coef.period_s);
   hold_init(&f->hold);

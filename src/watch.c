@@ -54,6 +54,12 @@ static unsigned due_after(unsigned phase, unsigned ms) {
          FLIGHT_INNER; // a scrub where no loop runs
 }
 
+// It may not run for as long as calls are missed, and what it said is of where the vehicle was.
+static void lose_ground(flight_t *f) {
+  outer_lose_ground(&f->outer);
+  ground_rest(&f->ground);
+}
+
 bool watch_time(flight_t *f, uint32_t step) {
   if (!f->called) {
     f->called = true;
@@ -69,6 +75,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     if (since == 0) return false;
     const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
     f->due = one_of(f, due_after(f->phase, ms));
+    if (ms != 1) lose_ground(f);
     const unsigned to = f->phase + ms;
     // An outer period that was skipped altogether is known to the outer loop.
     if (to >= 20) outer_miss(&f->outer, to / 10 - 1);

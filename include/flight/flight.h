@@ -2,9 +2,9 @@
 //
 //   1000 Hz  judge the inputs (guard.h), which may put another set point in the place of the pilot's
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
-//    100 Hz  the lesson of that step (step 4 of ten)
+//    100 Hz  a lesson, of that step or over the ground (step 4 of ten)
 //    100 Hz  a step of the height filter, where height.own asks for it (step 2 of ten)
-//    100 Hz  the ground's curve and its lesson, where ground.mode asks for them (step 6 of ten)
+//    100 Hz  the ground's curve, where ground.mode asks for it (step 6 of ten)
 //    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
 //    two)
 //

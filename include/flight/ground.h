@@ -7,7 +7,8 @@
 //
 // The height is the estimator's: that of the flow deck is the distance downwards. A climb takes the vehicle
 // out of the effect, a spring that pulls back; what the law foretells of it is lag x climb (pos_indi.h), and
-// no `catch`, which is there for a spring that pushes.
+// no `catch`, which is there for a spring that pushes. What is foretold takes the spring's damping out, and
+// takes GROUND_DAMPING of the law's at most where the curve is wrong.
 //
 // Where both surfaces are near, the two learners take turns: each would explain the whole of what both see.
 #ifndef FLIGHT_GROUND_H
@@ -18,18 +19,27 @@
 #include "flight/lpf2.h"
 #include <stdbool.h>
 
+// test: flight_bounds_what_the_grounds_curve_does_whatever_its_weights_are
+#define GROUND_DAMPING 0.5f   // of the law's: half of it is left
+#define GROUND_LEAST   -0.05f // of the excess: half of the smallest ceil.ratioMin, so that no sum is 0
+
 typedef struct {
   learn_t learn;
   lpf2_t filter;  // of the height, as all signals of the outer loop have it
   float height_m; // of the feet above where they stand; has a meaning only while known
+  rbf_point_t at; // what the curve says there; the slope is over the height
   bool known;
-  bool turn; // the sample is the ground's
+  // Of the instant of what is learned from, at the filtered height.
+  float lesson_excess;   // what the curve says, ratio - 1
+  learn_sample_t sample; // what can be learned; zc_m is that height
+  float sample_excess;   // of its ratio, what the ceiling gives
+  bool turn;             // the next lesson is the ground's
 } ground_t;
 
 // What one period has for it.
 typedef struct {
   float height_m;               // of the feet above where they stand, as it came in
-  const learn_sample_t *sample; // of the same tick; null: nothing may be learned
+  const learn_sample_t *sample; // of the same tick, its distance of no use; null: nothing may be learned
   float excess;                 // what the ceiling gives at that sample: rho_ceiling - 1
   bool shared;                  // the ceiling's curve learns from such a sample, too
 } ground_in_t;
@@ -37,12 +47,15 @@ typedef struct {
 // Knows no height yet; the curve that is learned starts at `start`. ST_BAD_PARAM, ST_BAD_INPUT: as rls_init.
 MUST_CHECK status_t ground_init(ground_t *g, const learn_param_t *p, const rbf_weights_t *start);
 
-// One period, after the outer loop's. *at becomes what the curve says now: ratio 1, slope 0 where c->mode is
-// 0; the slope is over the height. ST_SAMPLE_REFUSED and the like: as learn_update; *at is good nevertheless.
-MUST_CHECK status_t ground_step(ground_t *g, const curve_param_t *c, const learn_param_t *p,
-                                const lpf2_coef_t *filter, const ground_in_t *in, rbf_point_t *at);
+// One period, after the outer loop's: looks at the curve, and keeps what can be learned.
+void ground_step(ground_t *g, const curve_param_t *c, const learn_param_t *p, const lpf2_coef_t *filter,
+                 const ground_in_t *in);
 
-// The height is not controlled, or not flown by: what was learned is kept.
+// Learns what was kept, if it is the ground's turn. A call of its own, in place of the ceiling's lesson: both
+// in one tick would be too much. Statuses as learn_update.
+MUST_CHECK status_t ground_learn(ground_t *g, const learn_param_t *p);
+
+// Nobody knows the height: it is not controlled, or calls were missed. What was learned is kept.
 void ground_rest(ground_t *g);
 
 #endif

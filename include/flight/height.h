@@ -78,7 +78,8 @@ typedef struct {
   quat_t q_wb;             // body to world, length 1
   float thrust_N, mass_kg; // what is applied now; > 0
   float z_m, climb_mps;    // the estimator's
-  rbf_point_t at;          // the curve at zc_m
+  rbf_point_t at;          // the curve at zc_m, the ground's share in its value
+  float ground_excess;     // that share
   float zc_m, ceiling_z_m; // NaN: none known
   float down_m;            // downward range sensor, along the body's z axis; 0: no new sample
   float bias_mps2;         // the accelerometer's along the world's z, to begin with

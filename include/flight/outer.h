@@ -52,8 +52,9 @@ typedef struct {
 
 // What the ground makes of the thrust ratio (ground.h); all 0 where nobody looks.
 typedef struct {
-  float excess;      // rho_ground - 1; with the smallest ratio that ceil.ratioMin allows still positive
-  float pull_per_s2; // what the thrust of a hover loses of it per height climbed: -g d rho_ground / d h
+  float excess;        // rho_ground - 1
+  float pull_per_s2;   // acceleration that a hover loses per height climbed: -g / rho d rho_ground / d h
+  float lesson_excess; // rho_ground - 1 at the instant of the signals that are learned from, a period ago
 } outer_ground_t;
 
 typedef struct {
@@ -124,6 +125,11 @@ static inline void outer_miss(outer_t *f, unsigned ticks) {
 // Something else than the rotors carries: a floor, a hand.
 static inline bool outer_on_floor(const outer_t *f) {
   return f->sample.force_N - f->sample.thrust_N > FLOOR_SHARE * f->sample.weight_N;
+}
+
+// Until its next step nobody knows what the ground gives.
+static inline void outer_lose_ground(outer_t *f) {
+  f->ground = (outer_ground_t){.excess = 0.0f};
 }
 
 // On the ground, or with the height not controlled: filters, thrust state and ceiling estimate start afresh

@@ -32,6 +32,14 @@ done_t scenario_check_ladder(const model_t *model, why_t *why) {
                    LADDER_FROM_M);
 }
 
+done_t scenario_check_learns(const setup_t *setup, const char *name, why_t *why) {
+  if (setup->flight.curve.mode == CURVE_LIVE) return DONE;
+  return error_set(why,
+                   "--controller, --set ceil.mode: nothing learns then; allowed in %s are neither, and "
+                   "ceil.mode=2",
+                   name);
+}
+
 done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
   *setup = (setup_t){
       .kind = kind,

@@ -39,4 +39,7 @@ MUST_CHECK done_t scenario_fly(const setup_t *setup, result_t *result, why_t *wh
 // BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
 MUST_CHECK done_t scenario_check_ladder(const model_t *model, why_t *why);
 
+// BAD_INPUT: what was asked for has the ceiling's curve learn nothing. name: the scenario's.
+MUST_CHECK done_t scenario_check_learns(const setup_t *setup, const char *name, why_t *why);
+
 #endif

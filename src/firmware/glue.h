@@ -9,7 +9,7 @@
 #include "flight/flyable.h"
 #include "range_up.h"
 
-#define PUT_BACK_WORDS 4 // of 32 rows each
+#define PUT_BACK_WORDS ((int)(sizeof(flight_param_t) / 4 + 31) / 32) // a bit for each row of four bytes
 
 // Of radio.c.
 typedef struct {

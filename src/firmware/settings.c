@@ -153,30 +153,31 @@ static void take_commit(unsigned which) {
   }
 }
 
-void settings_take(void) {
-  const unsigned phase = GLUE.flight.phase; // of the call before
-  // Now comes the inner loop, the cheapest, and after missed calls no other with it.
-  if (phase % 2 != 0 || GLUE.flight.waiting != 0) return;
-  // Each in a tick of its own: together they would be too much for one.
-  if (GLUE.ground_starts) {
-    GLUE.ground_starts = false;
-    (void)!learn_init(&GLUE.flight.ground.learn, &GLUE.flown.learn, &GLUE.flown.ground.fixed); // was checked
-    return;
-  }
-  if (!GLUE.ready) return;
-  if (GLUE.commit_asked != 0) {
+// Each in a tick of its own: together they would be too much for one.
+static void take(void) {
+  if (GLUE.ready && GLUE.commit_asked != 0) {
     take_commit(GLUE.commit_asked);
     GLUE.commit = GLUE.commit_asked = 0;
-    return;
+  } else if (GLUE.ready) {
+    GLUE.ready = 0;
+    GLUE.flown = GLUE.candidate;
+    GLUE.recorder.tunes++;
+    (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+  } else if (GLUE.ground_starts) { // by the set that came with the commit
+    GLUE.ground_starts = false;
+    (void)!learn_init(&GLUE.flight.ground.learn, &GLUE.flown.learn, &GLUE.flown.ground.fixed); // was checked
   }
-  GLUE.ready = 0;
-  GLUE.flown = GLUE.candidate;
-  GLUE.recorder.tunes++;
-  (void)!flight_tune(&GLUE.flight, &GLUE.flown);
+}
+
+void settings_take(void) {
+  const bool inner_is_next = GLUE.flight.phase % 2 == 0; // the cheapest, unless another waits
+  if (inner_is_next && GLUE.flight.waiting == 0) take();
 }
 
 void settings_mend(void) {
-  const flight_t *const f = &GLUE.flight;
-  if (f->phase == 6 && (f->due & ~(unsigned)FLIGHT_GROUND) == 0)
+  if (!(GLUE.flight.due & FLIGHT_SCRUB)) return;
+  if (GLUE.flight.waiting != 0 && (GLUE.ready || GLUE.ground_starts))
+    take();
+  else
     (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }

@@ -23,11 +23,13 @@
 // commit waits for this are taken.
 void settings_start(void);
 
-// Once a tick, before anything else; acts in every second one.
+// Once a tick, before anything else; acts in every second one, and in none while a loop waits after missed
+// calls.
 void settings_take(void);
 
-// Once a tick, after flight_step: a bit that flipped in the parameters would stay for ever. Acts in the one
-// of ten in which no loop runs but the ground's.
+// Once a tick, after flight_step; acts in the one in ten in which that mends what it makes of the parameters:
+// a bit that flipped in them would stay for ever. Where loops wait for as long as calls are late, a set or a
+// commit is taken here.
 void settings_mend(void);
 
 // One of w1..w7 of ceil or ground.

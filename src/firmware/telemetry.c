@@ -148,6 +148,7 @@ U8(setEnd, recorder.set)
 U8(tunes, recorder.tunes)
 LOG_GROUP_STOP(indiRec)
 
+// ratio has the ground's share in it (ground.excess), slope is the ceiling's alone.
 LOG_GROUP_START(ceil)
 F(zc, flight.out.outer.zc_m)
 U8(known, flight.out.outer.zc_known)

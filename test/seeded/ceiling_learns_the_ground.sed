@@ -1,4 +1,4 @@
 # What the ground gives is learned as the ceiling's.
 # file: src/outer.c
 # test: channel_
-s/&f->sample, f->ground\.excess)/\&f->sample, 0.0f)/
+s/&f->sample, f->ground\.lesson_excess)/\&f->sample, 0.0f)/

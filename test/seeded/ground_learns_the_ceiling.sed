@@ -1,4 +1,4 @@
 # What the ceiling gives is learned as the ground's.
 # file: src/ground.c
 # test: ground_
-s/in->excess);/0.0f);/
+s/= in->excess;/= 0.0f;/

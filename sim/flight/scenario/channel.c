@@ -91,10 +91,7 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup.flight.gap_min_m = 0.01f;
   setup.flight.guard.blind_max_s = SETUP_BLIND_S;
   TRY(setup_apply(&setup, request, why));
-  if (setup.flight.curve.mode != CURVE_LIVE)
-    return error_set(why,
-                     "--controller, --set ceil.mode: nothing learns then; allowed in channel are neither, "
-                     "and ceil.mode=2");
+  TRY(scenario_check_learns(&setup, "channel", why));
   if (setup.model.ceiling_m != CHANNEL_M)
     return error_set(why, "--vehicle: ceiling_m is %g m; allowed in channel is none, or %g",
                      setup.model.ceiling_m, CHANNEL_M);

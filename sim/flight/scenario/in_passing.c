@@ -65,10 +65,7 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
   setup.flight.gap_min_m = 0.01f;
   setup.flight.guard.blind_max_s = SETUP_BLIND_S;
   TRY(setup_apply(&setup, request, why));
-  if (setup.flight.curve.mode != CURVE_LIVE)
-    return error_set(why,
-                     "--controller, --set ceil.mode: nothing learns then; allowed in in-passing are neither, "
-                     "and ceil.mode=2");
+  TRY(scenario_check_learns(&setup, "in-passing", why));
   TRY(scenario_check_ladder(&setup.model, why));
   setup_ladder(&setup, gap_m, (int)(sizeof gap_m / sizeof *gap_m), HOLD_S);
   for (int i = 0; i < (int)(sizeof START / sizeof *START); i++) TRY(fly_from(setup, i, result, why));

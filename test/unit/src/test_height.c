@@ -17,7 +17,7 @@ typedef struct {
   flight_param_t p;
   height_t h;
   height_fly_t fly;
-  float share, down_m, acc_more_mps2, acc_shake_mps2, z_more_m, thrust, more_last_m, kd_last_per_s;
+  float share, down_m, acc_more_mps2, acc_shake_mps2, z_more_m, thrust, floor, more_last_m, kd_last_per_s;
   double step_m, step_per_s; // the largest change of what is flown, in a step: height; gain
   bool lost, frozen;
   int k;
@@ -69,11 +69,12 @@ static void step(point_t *w) {
                      (float)((9.81 + felt_mps2) / up) + w->acc_more_mps2 +
                          (w->k % 2 ? w->acc_shake_mps2 : -w->acc_shake_mps2)},
       .q_wb = {.w = (float)cos(0.5 * w->lean_rad), .x = (float)sin(0.5 * w->lean_rad)},
-      .thrust_N = w->thrust * MASS_KG * (float)((9.81 + sent_mps2) / up),
+      .thrust_N = w->thrust * MASS_KG * (float)((9.81 + sent_mps2) / up) / (1.0f + w->floor),
       .mass_kg = MASS_KG,
       .z_m = (float)z_at(w, t_s) + 0.002f, // the estimator's zero is another
       .climb_mps = (float)climb_at(w, t_s),
-      .at = {.ratio = 1.0f},
+      .at = {.ratio = 1.0f + w->floor},
+      .ground_excess = w->floor,
       .ceiling_z_m = NAN,
       .down_m = w->lost || w->k % 3 != 0 ? 0.0f : w->down_m + w->z_more_m,
   };
@@ -122,6 +123,19 @@ TEST(height_follows_a_known_motion) {
 }
 
 // What goes wrong for a while, and that it is flown by again when it is over.
+TEST(height_takes_what_the_ground_gives_for_no_disturbing_force) {
+  static const float excess[] = {0.0f, 0.05f, 0.1f};
+  for (int i = 0; i < 3; i++) {
+    ROW("the ground gives %g", (double)excess[i]);
+    static point_t w;
+    start(&w);
+    w.floor = excess[i];
+    fly_for(&w, 5.0);
+    CHECK_NEAR(w.h.x[HEIGHT_D], 0.0, 0.05); // half of what 0.01 makes
+    CHECK(w.h.share == 1.0f);
+  }
+}
+
 TEST(height_falls_back_without_a_step_and_comes_back) {
   static const struct {
     const char *what;

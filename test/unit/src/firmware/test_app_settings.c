@@ -65,8 +65,8 @@ TEST(app_mends_a_flipped_bit_of_its_parameters_in_one_call_of_ten) {
     while ((flight->phase + 1) % 10 != (unsigned)at) app_fly(&f, 1);
     flight->outer.param.pos.kp_per_s = 1.5f;
     app_fly(&f, 1);
-    CHECK(flown_kp(&f) == (at == 6 ? 0.5f : 1.5f));
-    CHECK(flight->due == FLIGHT_GROUND || at != 6); // in the one with the least to do
+    CHECK(flown_kp(&f) == (at == 8 ? 0.5f : 1.5f));
+    CHECK(flight->due == FLIGHT_SCRUB || at != 8); // in that in which the flight code mends what is its own
     app_fly(&f, 9);
     CHECK(flown_kp(&f) == 0.5f);
   }
@@ -74,7 +74,7 @@ TEST(app_mends_a_flipped_bit_of_its_parameters_in_one_call_of_ten) {
 
 // --- a commit ---------------------------------------------------------------------------------------------
 
-TEST(app_takes_a_commit_in_two_calls_of_its_own_and_the_set_in_the_next_but_one) {
+TEST(app_takes_a_commit_the_set_and_the_second_learners_start_each_in_a_call_of_its_own) {
   static flying_t f;
   start(&f);
   const glue_t *const app = &f.vehicle.app;
@@ -88,15 +88,36 @@ TEST(app_takes_a_commit_in_two_calls_of_its_own_and_the_set_in_the_next_but_one)
   CHECK(app->recorder.tunes == tunes + 1);
   CHECK(app->flown.curve.fixed.w[1] == 0.25f && app->flown.ground.fixed.w[4] == 0.125f);
   CHECK(app->flight.outer.learn.rls.theta.w[1] == 0.25f && app->flight.ground.learn.rls.theta.w[4] == 0.0f);
-  app_fly(&f, 2); // the second learner in a call of its own
-  CHECK(app->flight.ground.learn.rls.theta.w[4] == 0.125f && flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
   CHECK(flown_kp(&f) == 0.5f);
   app_fly(&f, 1);
   CHECK(flown_kp(&f) == 2.0f && app->flight.outer.param.curve.fixed.w[1] == 0.25f);
   CHECK(app->flight.outer.param.ground.fixed.w[4] == 0.125f);
+  CHECK(app->flight.ground.learn.rls.theta.w[4] == 0.0f);
+  app_fly(&f, 2);
+  CHECK(app->flight.ground.learn.rls.theta.w[4] == 0.125f);
   app_fly(&f, 20);
   CHECK(app->commits == 1 && app->recorder.tunes == tunes + 2);
+}
+
+TEST(app_takes_sets_and_commits_and_mends_bits_however_late_calls_are) {
+  for (uint32_t late_ms = 1; late_ms <= 12; late_ms++) {
+    ROW("a call every %u ms", (unsigned)late_ms);
+    static flying_t f;
+    start(&f);
+    glue_t *const app = &f.vehicle.app;
+    CHECK(crazyflie_set(&f.vehicle, "indiPos.kp", 2.0));
+    CHECK(crazyflie_set(&f.vehicle, "ground.w5", 0.125));
+    CHECK(crazyflie_set(&f.vehicle, "ceil.commit", COMMIT_TYPED));
+    for (int call = 0; call < 60; call++) {
+      app_fly(&f, 1);
+      f.rig.step += late_ms - 1;
+      if (call == 30) app->flight.outer.param.pos.kd_per_s = 1.5f; // a flipped bit
+    }
+    CHECK(app->commits == 1 && app->flown.ground.fixed.w[4] == 0.125f);
+    CHECK(app->flight.ground.learn.rls.theta.w[4] == 0.125f);
+    CHECK(flown_kp(&f) == 2.0f && app->flight.outer.param.pos.kd_per_s == app->flown.pos.kd_per_s);
+  }
 }
 
 TEST(app_commits_the_weights_of_both_curves_or_none) {
