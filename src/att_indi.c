@@ -5,6 +5,13 @@ void att_indi_reset(att_indi_t *s) {
   *s = (att_indi_t){.started = false};
 }
 
+bool att_indi_good(const att_indi_t *s) {
+  const v3_t now = s->torque_model_Nm, rate = s->rate_last_radps;
+  float sum = s->yaw_now_Nm + now.x + now.y + now.z + rate.x + rate.y + rate.z;
+  for (int i = 0; i < 3; i++) sum += lpf2_sum(&s->acc[i]) + lpf2_sum(&s->torque[i]);
+  return f_finite(sum);
+}
+
 // A rotation about z by half the heading's angle, from the half-angle formulas; of the two, the one that does
 // not cancel.
 static quat_t turned(sincos_t heading) {

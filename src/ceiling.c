@@ -7,26 +7,27 @@ void ceiling_init(ceiling_t *s, float period_s) {
   *s = (ceiling_t){.period_s = period_s};
 }
 
-static int ticks_ago(const ceiling_t *s, float age_s) {
-  return (int)f_clamp(age_s / s->period_s + 0.5f, 0.0f, (float)(CEILING_HISTORY - 1));
+static unsigned ticks_ago(const ceiling_t *s, float age_s) {
+  return (unsigned)f_clamp(age_s / s->period_s + 0.5f, 0.0f, (float)(CEILING_HISTORY - 1));
 }
 
-static int at(const ceiling_t *s, int ticks) {
-  return (s->newest + CEILING_HISTORY - ticks) % CEILING_HISTORY;
+// Within the ring whatever `newest` is: a flipped bit of it is one wrong tick and no foreign memory.
+static unsigned at(const ceiling_t *s, unsigned ticks) {
+  return (s->newest - ticks) % CEILING_HISTORY;
 }
 
 // What the vehicle climbed in the last age_s.
 static float climb_since_m(const ceiling_t *s, float age_s) {
-  const int ticks = ticks_ago(s, age_s);
+  const unsigned ticks = ticks_ago(s, age_s);
   float climb_m = 0.0f;
-  for (int i = 0; i < ticks; i++) climb_m += s->climbs_m[at(s, i)];
+  for (unsigned i = 0; i < ticks; i++) climb_m += s->climbs_m[at(s, i)];
   return climb_m;
 }
 
 void ceiling_tilt(ceiling_t *s, float up) {
   for (int i = 0; i < CEILING_HISTORY && !s->tilt_known; i++) s->ups[i] = up;
   s->tilt_known = true;
-  s->ups[s->newest] = up;
+  s->ups[at(s, 0)] = up;
 }
 
 float ceiling_up(const ceiling_t *s, float age_s) {
@@ -39,7 +40,7 @@ static void set(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
 }
 
 void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
-  const float up = s->ups[s->newest];
+  const float up = s->ups[at(s, 0)];
   s->newest = (s->newest + 1) % CEILING_HISTORY;
   s->climbs_m[s->newest] = climb_m;
   s->ups[s->newest] = up;

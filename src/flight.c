@@ -302,13 +302,24 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
   to->setpoint = from->setpoint;
 }
 
+// What would stay wrong for ever after a bit flipped in it: what only parameters make, the heading that is
+// held (it is found again from what is asked for), and filters that took up what is no number.
+static void scrub(flight_t *f) {
+  count(f, flight_tune(f, &f->outer.param));
+  outer_scrub(&f->outer);
+  f->yaw_rad = NAN;
+  if (!f_finite(f->heading_ref.sin + f->heading_ref.cos)) f->heading_known = false;
+  if (att_indi_good(&f->att)) return;
+  att_indi_reset(&f->att);
+  count(f, ST_BAD_STATE);
+}
+
 const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {
   if (!watch_time(f, raw->step)) return &f->out;
   flight_in_t *const in = &f->in;
   take(in, raw);
   watch_inputs(f, in);
-  // A bit that flipped in what only parameters make would stay for ever.
-  if (f->due & FLIGHT_SCRUB) count(f, flight_tune(f, &f->outer.param));
+  if (f->due & FLIGHT_SCRUB) scrub(f);
   if (f->guard.now & GUARD_SETPOINT) count(f, ST_BAD_SETPOINT);
   const status_t judged = check_in(in, (f->guard.now & GUARD_NOT_A_NUMBER) == 0);
   count(f, judged);

@@ -139,14 +139,18 @@ float outer_take_bias(outer_t *f, float more_mps2) {
   return taken_mps2;
 }
 
+void outer_scrub(outer_t *f) {
+  if (!f->started || sync_good(&f->sync)) return;
+  f->started = false;
+  count(f, ST_BAD_STATE);
+}
+
 // What can be learned from this tick; the learner decides whether it is.
 static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
   const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;
-  if (x->thrust_N < CARRYING_SHARE * weight_N)
-    f->carrying_s = 0.0f;
-  else if (f->carrying_s < 100.0f)
-    f->carrying_s += f->coef.period_s;
+  const bool carries = x->thrust_N >= CARRYING_SHARE * weight_N;
+  f->carrying_s = carries ? f_clamp(f->carrying_s + f->coef.period_s, 0.0f, OUTER_CARRYING_S) : 0.0f;
   f->sample = learn_sample(&f->sync, x, f->param.pos.mass_kg);
   f->sample.zc_m = sync_distance_m(&f->sync, &f->coef, known, f->ceiling.zc_m);
   f->sample.known = known && f->carrying_s >= f->param.learn_after_s;

@@ -28,6 +28,13 @@ void sync_start(sync_t *s, const sync_in_t *in) {
   thrust_reset(&s->thrust, in->thrust_N);
 }
 
+bool sync_good(const sync_t *s) {
+  float sum = lpf2_sum(&s->distance) + thrust_sum(&s->thrust);
+  for (int i = 0; i < 3; i++) sum += lpf2_sum(&s->acc_w[i]);
+  for (int i = 0; i < 4; i++) sum += lpf2_sum(&s->att[i]);
+  return f_finite(sum);
+}
+
 void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t *out) {
   const lpf2_coef_t *f = &c->filter;
   quat_t q = quat_unit(in->q_wb);

@@ -73,6 +73,10 @@ typedef struct {
 // Forgets everything; the next step starts from what it gets.
 void att_indi_reset(att_indi_t *s);
 
+// Whether its state is finite: a filter that took up what is no number (a flipped bit) gives nothing else for
+// ever.
+bool att_indi_good(const att_indi_t *s);
+
 // The wanted torque. lag_share: of the motors in one period (thrust_lag_share).
 v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *c, float lag_share,
                    float period_s, const att_indi_in_t *in);

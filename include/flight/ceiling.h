@@ -24,7 +24,8 @@ typedef struct {
   float far_m;   // > near_m   farther than this there is no ceiling
 } ceiling_param_t;
 
-#define CEILING_HISTORY     32    // ticks of climb that are remembered: the oldest sample that can be used
+// A power of two: ticks of climb that are remembered, and so the oldest sample that can be used.
+#define CEILING_HISTORY     32
 #define CEILING_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: below this it speaks another unit
 #define CEILING_RANGE_MAX_M 4.0f  // the sensor's range; 32.767 m is its word for "no echo"
 // A sample that is nearer by this is taken at once, one that is farther as a rival.
@@ -39,7 +40,7 @@ typedef struct {
   float seen_m;   // the last sample that was a distance: what it meant when it came
   float period_s; // of ceiling_predict
   bool tilt_known;
-  int newest;                      // index into both
+  unsigned newest;                 // index into both
   float rival_m;                   // mean of the samples that contradict the estimate, moved along with it
   int rivals;                      // how many of them in a row
   float climbs_m[CEILING_HISTORY]; // ring: the last climbs

@@ -31,6 +31,11 @@ static inline float lpf2_delay_s(float cutoff_Hz) {
 // As if the input had been `value` for ever.
 void lpf2_reset(lpf2_t *s, float value);
 
+// Finite as long as its state is.
+static inline float lpf2_sum(const lpf2_t *s) {
+  return s->x1 + s->x2 + s->y1 + s->y2;
+}
+
 // One sample in, one out. In the header: a call costs half as much as the filter.
 static ALWAYS_INLINE float lpf2_step(lpf2_t *s, const lpf2_coef_t *c, float x) {
   const float y = c->b0 * x + c->b1 * s->x1 + c->b2 * s->x2 - c->a1 * s->y1 - c->a2 * s->y2;

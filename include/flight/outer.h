@@ -48,6 +48,7 @@ typedef struct {
 #define OUTER_CLIP_M     0.006f // a height beyond ceil.min is flown so far below it
 #define OUTER_REPEATED_M 0.01f  // after a climb of so much the same range again is no measurement
 #define FLOOR_SHARE      0.5f   // of the weight that something else than the rotors carries: a floor
+#define OUTER_CARRYING_S 100.0f // longer than rls.after can ask for
 #define OUTER_MISSED_MAX 1000   // ticks; nobody flies on after so many
 
 // What the ground makes of the thrust ratio (ground.h); all 0 where nobody looks.
@@ -116,6 +117,10 @@ float outer_take_bias(outer_t *f, float more_mps2);
 // Teaches the curve what the last step measured, if it may (ceil.mode 2). A call of its own, so that it can
 // run in another tick than the step; without effect if there was no step since.
 void outer_learn(outer_t *f);
+
+// Between two steps: signals that are no numbers any more (a flipped bit) start afresh with the next one, and
+// are counted (ST_BAD_STATE).
+void outer_scrub(outer_t *f);
 
 // So many more periods without a step.
 static inline void outer_miss(outer_t *f, unsigned ticks) {

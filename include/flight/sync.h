@@ -41,6 +41,10 @@ MUST_CHECK status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s
 // As if this sample had been there for ever.
 void sync_start(sync_t *s, const sync_in_t *in);
 
+// Whether its state is finite: a filter that took up what is no number (a flipped bit) gives nothing else for
+// ever.
+bool sync_good(const sync_t *s);
+
 // One period.
 void sync_step(sync_t *s, const sync_coef_t *c, const sync_in_t *in, sync_out_t *out);
 

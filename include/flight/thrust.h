@@ -22,6 +22,11 @@ typedef struct {
 // All signals at thrust_N, long since free of limits.
 void thrust_reset(thrust_t *s, float thrust_N);
 
+// Finite as long as its state is.
+static inline float thrust_sum(const thrust_t *s) {
+  return lpf2_sum(&s->lpf) + s->model_N + s->since_limit_s;
+}
+
 // The share of a step that a first-order lag tau_s takes in during period_s; tau_s > 0.
 float thrust_lag_share(float period_s, float tau_s);
 

@@ -35,7 +35,7 @@ for trap in test/seeded/*"${1:-}"*.sed; do
   elif says "$word" >"$log" 2>&1; then
     said="MISSED: everything passes"
   else
-    by=$(sed -n 's/^FAILED //p' "$log" | head -1)
+    by=$(sed -n 's/^FAILED //p; s/: died (status.*//p' "$log" | head -1)
     [ "$word" != objects ] || by=$(grep -m1 '^pil:' "$log" || tail -1 "$log")
     [ "$word" != arrows ] || by=$(grep -m1 -E '^circle: |: includes ' "$log")
     said="caught by $by"

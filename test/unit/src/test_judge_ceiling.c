@@ -156,6 +156,28 @@ TEST(guard_has_no_usual_ratio_in_the_first_second_in_the_air) {
   CHECK_NEAR(g.carried_s, 10.0, 1e-3); // and no longer
 }
 
+TEST(guard_has_no_usual_ratio_where_a_bit_of_it_flipped) {
+  static const struct {
+    float usual, now, want;
+  } row[] = {{4.99f, 1.0f, 4.99f - 3.99f * 0.001f / 2.0f}, // as large as that it is believed
+             {5.01f, 1.0f, 1.0f},
+             {1.0f, 5.1f, 1.0f},
+             {NAN, 1.0f, 1.0f},
+             {1.0f, NAN, 1.0f},
+             {INFINITY, 1.0f, 1.0f},
+             {2e38f, 2e38f, 1.0f}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("usual %g, now %g", (double)row[i].usual, (double)row[i].now);
+    guard_t g = begun();
+    judge(&g, under(0.3f), 1500);
+    g.ratio_usual = row[i].usual;
+    g.ratio_now = row[i].now;
+    judge(&g, under(0.3f), 1);
+    CHECK_NEAR(g.ratio_usual, row[i].want, 1e-5);
+    CHECK(g.now == 0);
+  }
+}
+
 TEST(guard_finds_nothing_carried_too_much_where_nothing_is_carried) {
   static const float force_N[] = {0.0f, -0.1f};
   for (unsigned i = 0; i < sizeof force_N / sizeof *force_N; i++) {
