@@ -25,11 +25,11 @@
 #define BIAS_MPS2 0.5f // from here on it is a fault
 #define BIAS_KEPT 0.5f // of it: it is one until then
 // test: guard_finds_a_step_of_the_accelerometers_bias_as_the_mean_since_then
-#define BIAS_MAX_MPS2  3.0f // a third of g: more is no bias
-#define BIAS_STEP_MPS2 0.3f // five times the noise of the mean over BIAS_FAST_S
-#define BIAS_FAST_S    0.1f // a mean that follows
-#define BIAS_SLOW_S    1.0f // what is left by then is the outer loop's
-#define BIAS_MS        10   // the estimator's period
+#define BIAS_MAX_MPS2  3.0f  // a third of g: more is no bias
+#define BIAS_STEP_MPS2 0.3f  // nearly seven times the noise of the mean over BIAS_FAST_S
+#define BIAS_FAST_S    0.15f // a mean that follows; over 0.1 s its noise alone was a step once in 40 min
+#define BIAS_SLOW_S    1.0f  // what is left by then is the outer loop's
+#define BIAS_MS        10    // the estimator's period
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);

@@ -103,11 +103,11 @@ static const char *distance_2_cm(const case_t *c, const flown_fault_t *usual) {
 #define EVER FAULTS_EVER
 static const row_t rows[] = {
     {"0 nothing", 'A', 0.06, 0.1, 0.2, 0, 0, NULL, 0, 0, 100, NULL, NULL, 0, false, false},
-    {"1 NaN, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, nan_field, 0, 0, 99.5, NULL, weights_kept, 0, false,
+    {"1 NaN, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, nan_field, 0, 0, 100, NULL, weights_kept, 0, false,
      false},
     {"2 NaN beyond 60 ms", 'C', 0.06, 0.06, 0.5, 0, 0, nan_inertial, GUARD_NOT_A_NUMBER, 0.03, 100, NULL,
      weights_kept, 0, false, false},
-    {"3 Inf, 1e38, denormal, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, odd_field, 0, 0, 99.5, NULL, NULL, 0,
+    {"3 Inf, 1e38, denormal, 1 to 10 ms", 'A', 0.06, 0.001, 0.01, 0, 0, odd_field, 0, 0, 99.9, NULL, NULL, 0,
      false, false},
     {"6 accelerometer +- 0.6 to 1 m/s2", 'A', 0.06, EVER, EVER, 0.6, 1.0, acc_bias, GUARD_ACC_BIAS, 0.5, 100,
      NULL, steady_offset, 4, false, false},
@@ -117,7 +117,7 @@ static const row_t rows[] = {
      steady_offset, 4, false, true},
     {"7 accelerometer stuck 2 s", 'B', 0.06, 2, 2, 0, 0, acc_stuck, GUARD_ACC_FROZEN, 0.05, 100, NULL, NULL,
      0, false, false},
-    {"8 accelerometer clipped 100 ms", 'A', 0.06, 0.1, 0.1, 0, 0, acc_clipped, GUARD_ACC_CLIPPED, 0.03, 99.5,
+    {"8 accelerometer clipped 100 ms", 'A', 0.06, 0.1, 0.1, 0, 0, acc_clipped, GUARD_ACC_CLIPPED, 0.03, 100,
      NULL, weights_stay, 0, false, false},
     {"9 accelerometer noise x 5", 'A', 0.06, EVER, EVER, 0, 0, NULL, 0, 0, 97.5, worn_propeller, NULL, 0,
      false, false},

@@ -27,21 +27,21 @@ TEST(guard_finds_a_step_of_the_accelerometers_bias_as_the_mean_since_then) {
     int ms;
     double bias_mps2, since_s;
   } row[] = {
-      // By hand: the mean over 0.1 s, every 10 ms, passes 0.3 m/s2 in the fourth period.
-      {1.0f, 0.0f, 39, 0.0, 2.0},
-      {1.0f, 0.0f, 40, 0.4439, 0.11},
-      {1.0f, 0.0f, 49, 0.4439, 0.11},
-      {1.0f, 0.0f, 50, 0.49445, 0.12},
-      {-1.0f, 0.0f, 60, -0.53658, 0.13},
-      {1.2f, 0.2f, 100, 0.65244, 0.17},
-      {1.0f, 0.0f, 500, 0.9007, 0.57},
-      {1.0f, 0.0f, 960, 0.9441, 1.03}, // from a second on what is left is the outer loop's
-      {1.0f, 0.0f, 5000, 0.9441, 2.0},
-      {0.35f, 0.0f, 180, 0.0, 2.0},
-      {0.35f, 0.0f, 200, 0.33884, 0.12},
-      {100.0f, 0.0f, 20, 0.87, 0.11}, // no more than 3 m/s2 is believed
-      {-100.0f, 0.0f, 40, -1.64261, 0.11},
-      {100.0f, 0.0f, 5000, 2.9977, 2.0},
+      // By hand: the mean over 0.15 s, every 10 ms, passes 0.3 m/s2 in the sixth period.
+      {1.0f, 0.0f, 59, 0.0, 2.0},
+      {1.0f, 0.0f, 60, 0.40564, 0.16},
+      {1.0f, 0.0f, 69, 0.40564, 0.16},
+      {1.0f, 0.0f, 70, 0.44279, 0.17},
+      {-1.0f, 0.0f, 80, -0.47556, 0.18},
+      {1.2f, 0.2f, 100, 0.53077, 0.2},
+      {1.0f, 0.0f, 500, 0.8489, 0.6},
+      {1.0f, 0.0f, 960, 0.91085, 1.06}, // from a second on what is left is the outer loop's
+      {1.0f, 0.0f, 5000, 0.91085, 2.0},
+      {0.35f, 0.0f, 280, 0.0, 2.0},
+      {0.35f, 0.0f, 300, 0.3275, 0.17},
+      {100.0f, 0.0f, 20, 0.58667, 0.16}, // no more than 3 m/s2 is believed
+      {-100.0f, 0.0f, 40, -1.18933, 0.16},
+      {100.0f, 0.0f, 5000, 2.91553, 2.0},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g m/s2 for %d ms", (double)row[i].error_mps2, row[i].ms);
@@ -110,7 +110,7 @@ TEST(guard_takes_a_long_pause_for_no_more_than_one_whole_sample_of_the_bias) {
     float since_s;
     int ms;
     double share;
-  } row[] = {{2.0f, 200, 0.0}, {0.1f, 200, 1.0}, {0.5f, 200, 0.4}, {1.0f, 200, 0.0}, {0.01f, 10, 0.1}};
+  } row[] = {{2.0f, 200, 0.0}, {0.1f, 200, 1.0}, {0.5f, 200, 0.4}, {1.0f, 200, 0.0}, {0.01f, 10, 1.0 / 15.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g s after a step", (double)row[i].since_s);
     guard_t g = begun();
@@ -119,7 +119,7 @@ TEST(guard_takes_a_long_pause_for_no_more_than_one_whole_sample_of_the_bias) {
     in.ms = row[i].ms;
     g.bias_s = row[i].since_s;
     judge(&g, in, 1);
-    CHECK_NEAR(g.bias_fast_mps2, row[i].ms == 200 ? 0.2 : 0.02, 1e-5);
+    CHECK_NEAR(g.bias_fast_mps2, row[i].ms == 200 ? 0.2 : 0.2 / 15.0, 1e-5);
     CHECK_NEAR(g.bias_mps2, 0.2 * row[i].share, 1e-5);
   }
 }
@@ -159,7 +159,7 @@ TEST(guard_sees_no_bias_in_what_the_velocity_explains) {
   judge(&g, in, 3);
   CHECK(g.bias_fast_mps2 == 0.0f);
   judge(&g, in, 1);
-  CHECK_NEAR(g.bias_fast_mps2, 0.12 * 0.2, 1e-5);
+  CHECK_NEAR(g.bias_fast_mps2, 0.12 * 0.2 / 1.5, 1e-5);
   CHECK(g.window_ms == 0 && g.window_mps == 0.0f);
 }
 

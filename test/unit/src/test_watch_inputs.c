@@ -348,7 +348,7 @@ TEST(watch_looks_for_a_bias_beside_the_one_that_the_outer_loop_knows) {
   f.outer.bias.bias_mps2.z = 0.2f;
   in.acc_b_mps2.z += 0.25f;
   for (int ms = 0; ms < 10; ms++) (void)watch(&f, &in, 1);
-  CHECK_NEAR(f.guard.bias_fast_mps2, 0.1 * 0.05, 1e-4);
+  CHECK_NEAR(f.guard.bias_fast_mps2, 0.05 / 15.0, 1e-4);
 }
 
 TEST(watch_flies_the_last_velocity_where_one_is_lost) {
