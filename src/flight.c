@@ -304,10 +304,10 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
 
 // What would stay wrong for ever after a bit flipped in it: what only parameters make, the heading that is
 // held (it is found again from what is asked for), and filters that took up what is no number.
-static void scrub(flight_t *f) {
+static APART void scrub(flight_t *f) {
   count(f, flight_tune(f, &f->outer.param));
   outer_scrub(&f->outer);
-  f->yaw_rad = NAN;
+  if (f_finite(f->yaw_rad)) f->heading_ref = trig_sincos(f->yaw_rad);
   if (!f_finite(f->heading_ref.sin + f->heading_ref.cos)) f->heading_known = false;
   if (att_indi_good(&f->att)) return;
   att_indi_reset(&f->att);
