@@ -306,9 +306,11 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
 // held (it is found again from what is asked for), and filters that took up what is no number.
 static APART void scrub(flight_t *f) {
   count(f, flight_tune(f, &f->outer.param));
-  outer_scrub(&f->outer);
-  if (f_finite(f->yaw_rad)) f->heading_ref = trig_sincos(f->yaw_rad);
-  if (!f_finite(f->heading_ref.sin + f->heading_ref.cos)) f->heading_known = false;
+  outer_scrub(&f->outer, &f->outer_in);
+  if (f_finite(f->yaw_rad))
+    f->heading_ref = trig_sincos(f->yaw_rad);
+  else if (!f_finite(f->heading_ref.sin + f->heading_ref.cos))
+    f->heading_known = false;
   if (att_indi_good(&f->att)) return;
   att_indi_reset(&f->att);
   count(f, ST_BAD_STATE);

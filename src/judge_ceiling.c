@@ -23,7 +23,7 @@
 #define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near is not to become usual
 #define RATIO_FAST_S 2.0f // downwards
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
-#define RATIO_MOST 5.0f // no rotor at a ceiling gives as much
+#define RATIO_MOST 5.0f // the largest that ceil.ratioMax can be
 // test: guard_has_no_usual_ratio_in_the_first_second_in_the_air
 #define CARRIED_MOST_S 10.0f // long enough to know
 // test: guard_sums_up_what_range_samples_say_of_a_ceiling_that_is_too_near

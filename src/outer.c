@@ -139,10 +139,14 @@ float outer_take_bias(outer_t *f, float more_mps2) {
   return taken_mps2;
 }
 
-void outer_scrub(outer_t *f) {
-  if (!f->started || sync_good(&f->sync)) return;
-  f->started = false;
+static APART void start_signals(outer_t *f, const outer_in_t *in) {
+  const sync_in_t again = {in->acc_b_mps2, in->q_wb, in->thrust_N, f->at_limit};
+  sync_start(&f->sync, &again);
   count(f, ST_BAD_STATE);
+}
+
+void outer_scrub(outer_t *f, const outer_in_t *in) {
+  if (f->started && !sync_good(&f->sync)) start_signals(f, in);
 }
 
 // What can be learned from this tick; the learner decides whether it is.

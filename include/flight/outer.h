@@ -118,9 +118,9 @@ float outer_take_bias(outer_t *f, float more_mps2);
 // run in another tick than the step; without effect if there was no step since.
 void outer_learn(outer_t *f);
 
-// Between two steps: signals that are no numbers any more (a flipped bit) start afresh with the next one, and
-// are counted (ST_BAD_STATE).
-void outer_scrub(outer_t *f);
+// Between two steps: signals that are no numbers any more (a flipped bit) start afresh from the last step's
+// input, and are counted (ST_BAD_STATE). What else was learned in flight, as the bias, stays.
+void outer_scrub(outer_t *f, const outer_in_t *in);
 
 // So many more periods without a step.
 static inline void outer_miss(outer_t *f, unsigned ticks) {

@@ -22,7 +22,7 @@
 #define BITS 8
 #endif
 
-static flight_in_t hovering(uint32_t ms) {
+static flight_in_t hovering(uint32_t ms, yaw_mode_t yaw) {
   const float noise = 1e-3f * (float)(ms * 7919u % 13u), each_N = 0.25f * 0.032f * GRAVITY_MPS2;
   return (flight_in_t){
       .step = ms,
@@ -35,7 +35,8 @@ static flight_in_t hovering(uint32_t ms) {
       .range_m = CEILING_M + noise,
       .range_age_s = 0.07f,
       .down_m = ms % 100 == 0 ? FLOOR_M + noise : 0.0f,
-      .setpoint = {.x = AXIS_POSITION, .y = AXIS_POSITION, .z = AXIS_POSITION, .pos_w_m = {.z = FLOOR_M}},
+      .setpoint =
+          {.x = AXIS_POSITION, .y = AXIS_POSITION, .z = AXIS_POSITION, .pos_w_m = {.z = FLOOR_M}, .yaw = yaw},
   };
 }
 
@@ -49,17 +50,17 @@ static bool within(const flight_t *f) {
 
 // What is not as it should be afterwards; null: all is. A command that was there stands until the inner loop
 // runs, and the learner mends its own with the next lesson (rls_recovers_from_any_flipped_bit_of_p).
-static const char *with_flipped(const flight_t *before, size_t byte, int bit) {
+static const char *with_flipped(const flight_t *before, yaw_mode_t yaw, size_t byte, int bit) {
   static flight_t f; // too large for the stack of a test
   memcpy(&f, before, sizeof f);
   ((unsigned char *)&f)[byte] ^= (unsigned char)(1u << bit);
   for (uint32_t ms = 0; ms < AFTER_MS; ms++) {
-    const flight_in_t in = hovering(FLIES_MS + ms);
+    const flight_in_t in = hovering(FLIES_MS + ms, yaw);
     flight_step(&f, &in);
     if (ms >= 2 && !within(&f)) return "motors";
   }
-  const char *not = flight_not_finite(&f);
-  return not &&strstr(not, "learn.rls") ? NULL : not ;
+  const char *wrong = flight_not_finite(&f);
+  return wrong && strstr(wrong, "learn.rls") ? NULL : wrong;
 }
 
 // The app puts its own copy of the set back (settings.h).
@@ -72,7 +73,9 @@ TEST(flight_flies_on_with_any_bit_of_its_memory_flipped) {
   static const struct {
     const char *what;
     int32_t own, ground;
-  } row[] = {{"as shipped", 0, CURVE_OFF}, {"with all that it can", 1, CURVE_LIVE}};
+    yaw_mode_t yaw;
+  } row[] = {{"as shipped", 0, CURVE_OFF, YAW_ANGLE},
+             {"with all that it can, turning", 1, CURVE_LIVE, YAW_RATE}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     flight_param_t p;
     params_default(&p);
@@ -82,16 +85,16 @@ TEST(flight_flies_on_with_any_bit_of_its_memory_flipped) {
     static flight_t f;
     CHECK_OK(flight_init(&f, &p));
     for (uint32_t ms = 0; ms < FLIES_MS; ms++) {
-      const flight_in_t in = hovering(ms);
+      const flight_in_t in = hovering(ms, row[i].yaw);
       flight_step(&f, &in);
     }
     ROW("%s", row[i].what);
     CHECK(f.out.outer.zc_known && within(&f) && !flight_not_finite(&f));
     for (size_t byte = 0; byte < sizeof f; byte++)
       for (int bit = 0; bit < BITS && !is_param(byte); bit++) {
-        const char *not = with_flipped(&f, byte, bit);
-        if (!not ) continue;
-        ROW("%s: byte %zu, bit %d: %s", row[i].what, byte, bit, not );
+        const char *wrong = with_flipped(&f, row[i].yaw, byte, bit);
+        if (!wrong) continue;
+        ROW("%s: byte %zu, bit %d: %s", row[i].what, byte, bit, wrong);
         CHECK(false);
         return;
       }
