@@ -3,6 +3,8 @@
 
 #include "flight/v3.h"
 
+_Static_assert((CEILING_HISTORY & (CEILING_HISTORY - 1)) == 0, "at() wraps");
+
 void ceiling_init(ceiling_t *s, float period_s) {
   *s = (ceiling_t){.period_s = period_s};
 }
@@ -11,7 +13,8 @@ static unsigned ticks_ago(const ceiling_t *s, float age_s) {
   return (unsigned)f_clamp(age_s / s->period_s + 0.5f, 0.0f, (float)(CEILING_HISTORY - 1));
 }
 
-// Within the ring whatever `newest` is: a flipped bit of it is one wrong tick and no foreign memory.
+// Within the ring whatever `newest` is. Where a bit of it flipped, the climbs are those of other ticks until
+// the ring has gone round, and never foreign memory. Unsigned: ticks may be more than newest.
 static unsigned at(const ceiling_t *s, unsigned ticks) {
   return (s->newest - ticks) % CEILING_HISTORY;
 }
@@ -57,7 +60,7 @@ void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m,
 
 // Three samples in a row that agree overrule an estimate that the gate would keep for ever.
 static void take_rival(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
-  if (s->rivals > 0 && !(fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M)) s->rivals = 0;
+  if (!(s->rivals > 0 && fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M)) s->rivals = 0;
   s->rivals++;
   s->rival_m = s->rivals == 1 ? zc_m : s->rival_m + (zc_m - s->rival_m) / (float)s->rivals;
   if (s->rivals < CEILING_AGREE_COUNT) return;

@@ -302,8 +302,8 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
   to->setpoint = from->setpoint;
 }
 
-// What would stay wrong for ever after a bit flipped in it: what only parameters make, the heading that is
-// held (it is found again from what is asked for), and filters that took up what is no number.
+// What would stay wrong for long after a bit flipped in it: what only parameters make, the heading that is
+// held (of YAW_ANGLE; that of YAW_RATE where it is no number, from where the vehicle looks), and filters.
 static APART void scrub(flight_t *f) {
   count(f, flight_tune(f, &f->outer.param));
   outer_scrub(&f->outer, &f->outer_in);
@@ -311,9 +311,10 @@ static APART void scrub(flight_t *f) {
     f->heading_ref = trig_sincos(f->yaw_rad);
   else if (!f_finite(f->heading_ref.sin + f->heading_ref.cos))
     f->heading_known = false;
-  if (att_indi_good(&f->att)) return;
-  att_indi_reset(&f->att);
-  count(f, ST_BAD_STATE);
+  if (!att_indi_good(&f->att)) {
+    att_indi_reset(&f->att);
+    count(f, ST_BAD_STATE);
+  }
 }
 
 const flight_out_t *flight_step(flight_t *f, const flight_in_t *raw) {

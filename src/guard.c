@@ -30,7 +30,7 @@
 static const unsigned SENDS_DOWN = GUARD_REASONS(GOES_DOWN) 0u;
 
 void guard_init(guard_t *g) {
-  *g = (guard_t){.action = GUARD_FLY};
+  *g = (guard_t){.action = GUARD_FLY, .ratio_now = 1.0f, .ratio_usual = 1.0f};
 }
 
 void guard_rest(guard_t *g) {

@@ -42,6 +42,7 @@ void hold_sample(hold_t *s, const ceiling_t *c, float z_m, float climb_mps, int3
   const bool more = mode == HOLD_MEAN && fabsf(climb_mps) <= HOLD_SLOW_MPS &&
                     fabsf(seen_z_m - s->ceiling_z_m) <= HOLD_NOISE_M;
   if (!taken || (s->samples >= HOLD_SAMPLES && !more)) return;
+  if (s->samples < 0) s->samples = 0; // its sign flipped
   if (s->samples < HOLD_MEAN_SAMPLES) s->samples++;
   if (s->samples == 1) s->ceiling_z_m = seen_z_m;
   s->ceiling_z_m += (seen_z_m - s->ceiling_z_m) / (float)s->samples;

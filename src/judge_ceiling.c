@@ -23,7 +23,8 @@
 #define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near is not to become usual
 #define RATIO_FAST_S 2.0f // downwards
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
-#define RATIO_MOST 5.0f // the largest that ceil.ratioMax can be
+#define RATIO_LEAST 0.3f // so little carries no vehicle that its thrust map describes
+#define RATIO_MOST  5.0f // as params.h has it for ceil.ratioMax
 // test: guard_has_no_usual_ratio_in_the_first_second_in_the_air
 #define CARRIED_MOST_S 10.0f // long enough to know
 // test: guard_sums_up_what_range_samples_say_of_a_ceiling_that_is_too_near
@@ -100,12 +101,16 @@ static bool too_near(guard_t *g, const guard_in_t *in) {
   return g->nearer >= TOO_NEAR_SUM;
 }
 
+static bool can_be(float ratio) {
+  return fabsf(ratio - 0.5f * (RATIO_MOST + RATIO_LEAST)) <= 0.5f * (RATIO_MOST - RATIO_LEAST);
+}
+
 // The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. Against
 // what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down.
 static bool ratio(guard_t *g, const guard_in_t *in) {
   const float dt = 1e-3f * (float)in->ms;
   const float shown = in->force_N / f_max(in->thrust_now_N, CARRYING_SHARE * in->weight_N);
-  const bool known = g->ratio_now <= RATIO_MOST && g->ratio_usual <= RATIO_MOST; // else a bit flipped
+  const bool known = can_be(g->ratio_now) && can_be(g->ratio_usual); // else a bit flipped
   g->carried_s = in->carries && known ? f_clamp(g->carried_s + dt, 0.0f, CARRIED_MOST_S) : 0.0f;
   if (g->carried_s < RATIO_AFTER_S) {
     g->ratio_now = g->ratio_usual = shown;

@@ -30,6 +30,8 @@
 #define BIAS_FAST_S    0.15f // a mean that follows; over 0.1 s its noise alone was a step once in 40 min
 #define BIAS_SLOW_S    1.0f  // what is left by then is the outer loop's
 #define BIAS_MS        10    // the estimator's period
+// test: guard_finds_a_step_of_the_bias_after_a_bit_of_what_it_remembers_flipped
+#define REST_MAX_MPS2 (4.0f * BIAS_MAX_MPS2) // of an error and two biases, each within the largest, and more
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);
@@ -95,6 +97,11 @@ static bool tilt(guard_t *g, const guard_in_t *in, quat_t q_wb) {
 // Only steps of it are found here, as the mean since the step; what is left is the outer loop's.
 static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float dt) {
   const float rest = error_mps2 - g->bias_mps2 - in->bias_known_mps2;
+  if (!(fabsf(rest) <= REST_MAX_MPS2)) { // a bit flipped, of one of them
+    g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
+    return;
+  }
+  if (!(fabsf(g->bias_fast_mps2) <= REST_MAX_MPS2)) g->bias_fast_mps2 = 0.0f;
   g->bias_fast_mps2 += f_clamp(dt / BIAS_FAST_S, 0.0f, 1.0f) * (rest - g->bias_fast_mps2);
   if (fabsf(g->bias_fast_mps2) > BIAS_STEP_MPS2) {
     g->bias_mps2 += g->bias_fast_mps2;
@@ -114,6 +121,7 @@ static void begin_window(guard_t *g) {
 
 static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool kept = (g->now & GUARD_ACC_BIAS) != 0;
+  if (g->window_ms < 0) begin_window(g); // its sign flipped: it would not end in days
   if (g->acc_lost || g->acc_clip_ms > 0) {
     begin_window(g);
     return kept;

@@ -50,6 +50,7 @@ status_t outer_take(outer_t *f, const flight_param_t *p) {
   f->param = *p;
   outer_fly_by_estimate(f);
   bias_tune(&f->bias_coef, &f->param.bias, f->coef.period_s);
+  f->ceiling.period_s = f->coef.period_s;
   return ST_OK;
 }
 
@@ -85,12 +86,16 @@ static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signa
   f->started = true;
 }
 
+// test: outer_takes_a_last_height_that_is_none_for_no_reset
+#define CLIMB_MAX_M (6.0f * BOUND_POS_M) // the height is that of the input, less jumps of twice its bound
+
 // The climb since the last good input, `ticks` periods ago. A reset of the height estimate is no climb.
 static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   const float by_height_m = in->pos_w_m.z - f->height_last_m;
   const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
   f->height_last_m = in->pos_w_m.z;
   if (fabsf(by_height_m - by_velocity_m) <= BOUND_HEIGHT_JUMP_M * ticks) return by_height_m;
+  if (!(fabsf(by_height_m) <= CLIMB_MAX_M)) return by_velocity_m; // of the last height a bit flipped
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   f->hold.ceiling_z_m += by_height_m - by_velocity_m;

@@ -101,7 +101,8 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
   if (fabsf(z_m) <= BOUND_POS_M && fabsf(in->vel_w_mps.z) <= BOUND_VEL_MPS) {
     const float dz_m = z_m - f->height_m;
     const float most_m = BOUND_HEIGHT_JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
-    if (f->height_seen && fabsf(dz_m) > most_m) {
+    const bool jumped = f->height_seen && fabsf(dz_m) > most_m;
+    if (jumped && fabsf(f->height_m) <= BOUND_POS_M) { // else a bit of that flipped
       f->height_off_m = f_clamp(f->height_off_m + dz_m, -2.0f * BOUND_POS_M, 2.0f * BOUND_POS_M);
       f->guard.latched |= GUARD_HEIGHT_JUMP;
     }

@@ -73,8 +73,7 @@ typedef struct {
 // Forgets everything; the next step starts from what it gets.
 void att_indi_reset(att_indi_t *s);
 
-// Whether its state is finite: a filter that took up what is no number (a flipped bit) gives nothing else for
-// ever.
+// Whether its state is one that can be (lpf2_sum).
 bool att_indi_good(const att_indi_t *s);
 
 // The wanted torque. lag_share: of the motors in one period (thrust_lag_share).

@@ -24,7 +24,8 @@ typedef struct {
   float far_m;   // > near_m   farther than this there is no ceiling
 } ceiling_param_t;
 
-// A power of two: ticks of climb that are remembered, and so the oldest sample that can be used.
+// Ticks of climb that are remembered, and so the oldest sample that can be used. A power of two, or an index
+// that wraps below 0 would be another.
 #define CEILING_HISTORY     32
 #define CEILING_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: below this it speaks another unit
 #define CEILING_RANGE_MAX_M 4.0f  // the sensor's range; 32.767 m is its word for "no echo"

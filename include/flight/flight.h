@@ -5,6 +5,7 @@
 //    100 Hz  a lesson, of that step or over the ground (step 4 of ten)
 //    100 Hz  a step of the height filter, where height.own asks for it (step 2 of ten)
 //    100 Hz  the ground's curve, where ground.mode asks for it (step 6 of ten)
+//    100 Hz  mend what a flipped bit left (step 8 of ten)
 //    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
 //    two)
 //
@@ -84,7 +85,7 @@ typedef struct {
   bool called;                // once at least
   uint32_t step_last;
   unsigned phase;     // of the ten milliseconds, from the step counter
-  unsigned due;       // which loops this call runs: FLIGHT_OUTER, FLIGHT_LEARN, FLIGHT_INNER
+  unsigned due;       // which loops this call runs: FLIGHT_OUTER and the like
   unsigned waiting;   // due, but put off
   unsigned waited;    // calls since something waits
   unsigned pressed;   // the loop that was chosen last where no call came that had none

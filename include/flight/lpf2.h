@@ -31,7 +31,8 @@ static inline float lpf2_delay_s(float cutoff_Hz) {
 // As if the input had been `value` for ever.
 void lpf2_reset(lpf2_t *s, float value);
 
-// Finite as long as its state is.
+// Of its state; far out, or no number, where a bit of it flipped: from 1e30 a filter comes back late, from
+// NaN never.
 static inline float lpf2_sum(const lpf2_t *s) {
   return s->x1 + s->x2 + s->y1 + s->y2;
 }

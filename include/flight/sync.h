@@ -41,8 +41,7 @@ MUST_CHECK status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s
 // As if this sample had been there for ever.
 void sync_start(sync_t *s, const sync_in_t *in);
 
-// Whether its state is finite: a filter that took up what is no number (a flipped bit) gives nothing else for
-// ever.
+// Whether its state is one that can be (lpf2_sum).
 bool sync_good(const sync_t *s);
 
 // One period.

@@ -22,7 +22,7 @@ typedef struct {
 // All signals at thrust_N, long since free of limits.
 void thrust_reset(thrust_t *s, float thrust_N);
 
-// Finite as long as its state is.
+// Of its state, as lpf2_sum.
 static inline float thrust_sum(const thrust_t *s) {
   return lpf2_sum(&s->lpf) + s->model_N + s->since_limit_s;
 }

@@ -1,9 +1,12 @@
 // test_att_indi_step.c - single steps of the inner loop: start, bound of the rates, memory of the yaw,
 // reference.
 #include "flight/att_indi.h"
+#include "flight/bounds.h"
 #include "flight/params.h"
 #include "rig/splitmix.h"
 #include "rig/test.h"
+
+#include <math.h>
 
 #define TICK_S 0.002f
 #define G2_S   0.029f
@@ -159,4 +162,31 @@ TEST(attitude_reference_points_the_thrust_and_the_nose) {
     CHECK_NEAR(level.x, cos(yaw), 1e-5);
     CHECK_NEAR(level.y, sin(yaw), 1e-5);
   }
+}
+
+TEST(inner_loop_knows_a_state_that_can_be) {
+  loop_t l = fresh(20.0f);
+  att_indi_in_t in = {.q_wb = {1, 0, 0, 0}, .q_ref = {1, 0, 0, 0}, .ratio = 1};
+  ROW("after the wildest rates that are taken");
+  for (int k = 0; k < 300; k++) {
+    const float to = k % 2 ? -BOUND_RATE_RADPS : BOUND_RATE_RADPS;
+    in.rate_b_radps = (v3_t){to, to, to};
+    (void)att_indi_step(&l.att, &l.param.att, &l.filter, 0.03f, TICK_S, &in);
+    CHECK(att_indi_good(&l.att));
+  }
+  static const struct {
+    float state;
+    bool good;
+  } row[] = {{0.9e6f, true}, {1.1e6f, false}, {-1.1e6f, false}, {1e30f, false}, {NAN, false}};
+  att_indi_t s;
+  float *const at[] = {
+      &s.acc[0].y1, &s.acc[2].x2, &s.torque[1].y1, &s.torque[2].x1, &s.torque_model_Nm.y,
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    for (unsigned k = 0; k < sizeof at / sizeof *at; k++) {
+      ROW("state %u is %g", k, (double)row[i].state);
+      att_indi_reset(&s);
+      *at[k] = row[i].state;
+      CHECK(att_indi_good(&s) == row[i].good);
+    }
 }

@@ -229,3 +229,17 @@ TEST(ceiling_counts_the_time_without_a_sample) {
   CHECK_OK(ceiling_correct(&s, &below_param, 0.3f, 0.0f));
   CHECK(s.blind_s == 0.0f);
 }
+
+TEST(ceiling_counts_rivals_from_0_where_the_sign_of_their_count_flipped) {
+  static const int rivals[] = {-1, -2, INT32_MIN};
+  for (unsigned i = 0; i < sizeof rivals / sizeof *rivals; i++) {
+    ROW("%d rivals", rivals[i]);
+    ceiling_t s = below_ceiling(0.10f);
+    s.rivals = rivals[i];
+    for (int k = 0; k < 3; k++) {
+      CHECK(s.zc_m == 0.10f);
+      CHECK_OK(ceiling_correct(&s, &below_param, 0.4f, 0.0f));
+    }
+    CHECK(s.zc_m == 0.4f && s.rivals == 0);
+  }
+}

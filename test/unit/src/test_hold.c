@@ -192,3 +192,15 @@ TEST(hold_of_a_mean_is_not_latched_anew_when_it_is_left_and_is_overruled_all_the
   for (int k = 0; k < 5; k++) look(&l, 0.0f, 0.25f, HOLD_MEAN);
   CHECK_NEAR(l.hold.ceiling_z_m, l.z_m + 0.25f, 2e-3);
 }
+
+TEST(hold_counts_on_from_0_where_the_sign_of_its_count_flipped) {
+  static const int32_t samples[] = {-1, -10, INT32_MIN};
+  for (unsigned i = 0; i < sizeof samples / sizeof *samples; i++) {
+    ROW("%d samples", (int)samples[i]);
+    look_t l = arrived(0.10f, HOLD_LATCHED);
+    l.hold.samples = samples[i];
+    look(&l, 0.0f, 0.12f, HOLD_LATCHED);
+    CHECK(l.hold.samples == 1);
+    CHECK_NEAR(l.hold.ceiling_z_m, l.z_m + 0.12f, 1e-5);
+  }
+}

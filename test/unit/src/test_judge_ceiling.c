@@ -162,6 +162,10 @@ TEST(guard_has_no_usual_ratio_where_a_bit_of_it_flipped) {
   } row[] = {{4.99f, 1.0f, 4.99f - 3.99f * 0.001f / 2.0f}, // as large as that it is believed
              {5.01f, 1.0f, 1.0f},
              {1.0f, 5.1f, 1.0f},
+             {0.31f, 1.0f, 0.31f + 0.69f * 0.001f / 5.0f},
+             {0.29f, 1.0f, 1.0f},
+             {1.0f, 0.29f, 1.0f},
+             {-1.0f, 1.0f, 1.0f},
              {NAN, 1.0f, 1.0f},
              {1.0f, NAN, 1.0f},
              {INFINITY, 1.0f, 1.0f},

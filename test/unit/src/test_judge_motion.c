@@ -105,6 +105,28 @@ TEST(guard_bounds_a_bias_that_is_none_and_forgets_one_that_is_no_number) {
   }
 }
 
+TEST(guard_finds_a_step_of_the_bias_after_a_bit_of_what_it_remembers_flipped) {
+  static const struct {
+    float fast_mps2, known_mps2;
+    int window_ms;
+  } row[] = {{0.0f, 0.0f, 0},  {12.1f, 0.0f, 0}, {-1e30f, 0.0f, 0}, {NAN, 0.0f, 0},
+             {0.0f, 15.2f, 0}, {0.0f, 1e30f, 0}, {0.0f, NAN, 0},    {0.0f, 0.0f, INT32_MIN}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("row %u", i);
+    guard_t g = begun();
+    guard_in_t in = resting();
+    g.bias_fast_mps2 = row[i].fast_mps2;
+    g.window_ms = row[i].window_ms;
+    in.bias_known_mps2 = row[i].known_mps2;
+    judge(&g, in, 30);
+    CHECK(g.bias_mps2 == 0.0f && g.bias_s >= JUDGE_SETTLED_S); // none is found for it
+    in.bias_known_mps2 = 0.0f;
+    in.acc_b_mps2.z += 1.0f;
+    judge(&g, in, 1000);
+    CHECK_NEAR(g.bias_mps2, 0.91, 0.01);
+  }
+}
+
 TEST(guard_takes_a_long_pause_for_no_more_than_one_whole_sample_of_the_bias) {
   static const struct {
     float since_s;

@@ -141,6 +141,24 @@ TEST(outer_finds_no_bias_in_a_climb_whose_inputs_were_bad_for_a_while) {
   }
 }
 
+TEST(outer_takes_a_last_height_that_is_none_for_no_reset) {
+  static const float height_m[] = {7e4f, -1e30f, INFINITY, NAN}; // a bit of it flipped
+  for (unsigned i = 0; i < sizeof height_m / sizeof *height_m; i++) {
+    ROW("%g m", (double)height_m[i]);
+    flight_param_t p;
+    rig3_t v;
+    outer_t f = rig3_in_flight(&p, &v);
+    const float held_m = f.hold.ceiling_z_m, zc_m = f.ceiling.zc_m;
+    const unsigned jumps = f.faults[ST_JUMP];
+    f.height_last_m = height_m[i];
+    outer_in_t in = rig3_sense(&v, (v3_t){0, 0, 0.94f});
+    in.range_new = false;
+    (void)rig3_step(&f, &p, &in);
+    CHECK(f.hold.ceiling_z_m == held_m && f.faults[ST_JUMP] == jumps);
+    CHECK_NEAR(f.ceiling.zc_m, zc_m - 0.01f * in.vel_w_mps.z, 1e-6);
+  }
+}
+
 TEST(outer_outputs_stay_in_their_limits_whatever_comes) {
   // G1 and G2 of the fault list: 20000 ticks of which most have something wrong.
   static const float odd[] = {NAN,   INFINITY, -INFINITY, 1e38f,   1e-45f, 0.0f,

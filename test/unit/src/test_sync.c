@@ -1,6 +1,9 @@
 // test_sync.c - signals through one and the same filter.
+#include "flight/bounds.h"
 #include "flight/sync.h"
 #include "rig/test.h"
+
+#include <math.h>
 
 #define PERIOD_S 0.01f
 
@@ -47,4 +50,47 @@ TEST(sync_starts_with_the_attitude_of_now_whatever_it_was_before) {
     ROW("step %d", k);
     CHECK(out.up_w.y == want.up_w.y && out.q_wb.w == want.q_wb.w);
   }
+}
+
+TEST(sync_knows_a_state_that_can_be) {
+  const sync_coef_t c = coef();
+  sync_in_t in = HOVER;
+  sync_t s;
+  sync_out_t out;
+  sync_start(&s, &in);
+  ROW("after the wildest inputs that are taken");
+  for (int k = 0; k < 300; k++) {
+    const float to = k / 20 % 2 ? -BOUND_ACC_MPS2 : BOUND_ACC_MPS2;
+    in.acc_b_mps2 = (v3_t){to, to, to};
+    in.q_wb = (quat_t){0.8804762f, -0.3279852f, 0.3279852f, 0.0f}; // the diagonal of the body stands upright
+    in.thrust_N = BOUND_THRUST_N;
+    sync_step(&s, &c, &in, &out);
+    (void)sync_distance_m(&s, &c, true, 4.0f);
+    CHECK(sync_good(&s));
+  }
+  static const struct {
+    float state;
+    bool good;
+  } row[] = {{1.9e4f, true}, {2.1e4f, false}, {-2.1e4f, false}, {1e30f, false}, {NAN, false}};
+  float *const at[] = {&s.acc_w[0].y1, &s.acc_w[2].x2,   &s.att[1].y1,     &s.att[3].x1,
+                       &s.distance.y2, &s.thrust.lpf.y1, &s.thrust.model_N};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
+    for (unsigned k = 0; k < sizeof at / sizeof *at; k++) {
+      ROW("state %u is %g", k, (double)row[i].state);
+      sync_start(&s, &HOVER);
+      s.distance_known = true;
+      lpf2_reset(&s.distance, 0.1f);
+      *at[k] = row[i].state;
+      CHECK(sync_good(&s) == row[i].good);
+    }
+}
+
+TEST(sync_does_not_judge_a_distance_that_is_out_of_sight) {
+  const sync_coef_t c = coef();
+  sync_t s;
+  sync_start(&s, &HOVER);
+  s.distance.y1 = NAN; // nothing would mend it
+  CHECK(sync_good(&s));
+  CHECK_NEAR(sync_distance_m(&s, &c, true, 0.3f), 0.3, 1e-6);
+  CHECK(sync_good(&s));
 }

@@ -219,3 +219,21 @@ TEST(watch_takes_no_height_for_a_jump_while_the_height_is_let_go) {
     CHECK(seen.pos_w_m.z == (float)k && f.guard.latched == 0u);
   }
 }
+
+TEST(watch_takes_a_height_that_is_none_for_no_jump) {
+  static const float height_m[] = {1.1e4f, -1e30f, INFINITY, NAN}; // a bit of it flipped
+  for (unsigned i = 0; i < sizeof height_m / sizeof *height_m; i++) {
+    ROW("%g m", (double)height_m[i]);
+    flight_t f = fresh();
+    flight_in_t in = {
+        .step = 1000, .acc_b_mps2 = {.z = GRAVITY_MPS2}, .pos_w_m = {.z = 1.0f}, .q_wb = {.w = 1.0f}};
+    in.setpoint.z = AXIS_POSITION;
+    for (int k = 0; k < 2; k++, in.step++) {
+      CHECK(watch_time(&f, in.step));
+      flight_in_t now = in;
+      watch_inputs(&f, &now);
+      if (k == 0) f.height_m = height_m[i];
+    }
+    CHECK(f.height_off_m == 0.0f && !(f.guard.latched & GUARD_HEIGHT_JUMP) && f.height_m == 1.0f);
+  }
+}
