@@ -71,7 +71,9 @@ status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float 
   const float aPa = dot(a, Pa);
   if (!is_covariance(s, p->p0, aPa) || !in_box(&s->theta)) {
     restart(s, p->p0);
-    for (int i = 0; i < RBF_N; i++) s->theta.w[i] = f_bound(s->theta.w[i], RLS_WEIGHT_MAX);
+    // Its bound would be no better guess: weights are a few tenths.
+    for (int i = 0; i < RBF_N; i++)
+      if (!(fabsf(s->theta.w[i]) <= RLS_WEIGHT_MAX)) s->theta.w[i] = 0.0f;
     return ST_SINGULAR;
   }
   const float inv_s = 1.0f / (aPa + p->lambda);

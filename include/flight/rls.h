@@ -49,8 +49,8 @@ MUST_CHECK status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t
 // One sample: y measured where the regressor is a (0..1 each, rbf_basis).
 // ST_BAD_INPUT: a or y not finite, or the weights would leave their box; nothing has changed.
 // ST_BAD_PARAM: a parameter out of range; nothing has changed.
-// ST_SINGULAR: P was no covariance any more (a flipped bit); it starts again from p0 I, theta is kept; a
-// weight that was out of its box, too, is brought back to it (NaN to 0).
+// ST_SINGULAR: P was no covariance any more, or a weight out of its box (a flipped bit): P starts again from
+// p0 I, such a weight from 0; the others are kept.
 MUST_CHECK status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float y);
 
 #endif
