@@ -12,6 +12,7 @@
 #define FAULTS_EVER      1e3
 #define FAULTS_HOVER_S   1.5 // fault-free hover before any fault
 #define FAULTS_ERRORS    1100
+#define FAULTS_FIRST_MS  50 // five ticks of the outer loop: later, what the vehicle does comes back
 
 typedef struct row row_t;
 
@@ -28,6 +29,7 @@ typedef struct {
   double tilt_cut_deg;                // when the motors stopped; -1: not
   double yaw_late_deg;                // likewise
   double wanted_N, step_max_N;        // wanted thrust and its largest change in 10 ms, within 1 s
+  float first_N[FAULTS_FIRST_MS];     // wanted thrust, in each millisecond from the onset on
   double ahead_N;                     // most of what is wanted beyond what the motors give, within 1 s
   double pulse_N, smooth_N;           // most that the mean over 50 ms went above hover while it lasts
   double zc_error_m;                  // largest error of the distance from 0.5 s on, while it is known

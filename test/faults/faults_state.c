@@ -97,9 +97,13 @@ static void for_ten_minutes(case_t *c) {
 
 // --- criteria of their own --------------------------------------------------------------------------------
 
-// What the fault adds: noise alone makes steps of 6 to 13 % of hover thrust.
+// What the fault adds to the thrust in the same millisecond of the same flight: the noise, which alone makes
+// steps of 6 to 13 % of hover, is the same in both. The most of 1,000 flights is 1.7 %.
 static const char *adds_no_step(const case_t *c, const flown_fault_t *usual) {
-  return c->seen.step_max_N > usual->step_max_N + 0.05 * usual->hover_N ? "step" : NULL;
+  double most_N = 0.0;
+  for (int ms = 0; ms < FAULTS_FIRST_MS; ms++)
+    most_N = fmax(most_N, fabs((double)c->seen.first_N[ms] - (double)usual->first_N[ms]));
+  return most_N > 0.02 * usual->hover_N ? "step" : NULL;
 }
 static const char *gap_40_mm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;

@@ -82,6 +82,8 @@ static void thrust(case_t *c, const body_t *truth, double since_s) {
   const double given_N = (double)c->pilot.flight->outer.sync.thrust.model_N;
   if (since_s >= 0.0 && since_s < 1.0 && c->pilot.flight->outer.started)
     s->ahead_N = fmax(s->ahead_N, fabs(wanted_N - given_N));
+  const int ms = (int)floor(1e3 * since_s + 0.5);
+  if (ms >= 0 && ms < FAULTS_FIRST_MS) s->first_N[ms] = (float)wanted_N;
   s->wanted_N = wanted_N;
   s->smooth_N += (told_N - s->smooth_N) / (c->t_s < 0.5 ? 1.0 : 50.0);
   for (int i = 0; i < ROTORS; i++) {
