@@ -120,6 +120,8 @@ void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown
 // Mean and root mean square of the gap's error, from the time on at which the flight has to have recovered.
 double faults_mean_m(const case_t *c, const flown_fault_t *f);
 double faults_rms_m(const case_t *c, const flown_fault_t *f);
+// The most by which the wanted thrust differs from the usual flight's in the first FAULTS_FIRST_MS.
+double faults_added_N(const flown_fault_t *f, const flown_fault_t *usual);
 
 // Changes to the model and the vehicle, for the table.
 void faults_set_fx(case_t *c, const char *name, int p, double value);

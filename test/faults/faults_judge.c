@@ -25,6 +25,13 @@ double faults_rms_m(const case_t *c, const flown_fault_t *f) {
   return sqrt(sum_m2 / fmax(1.0, f->n - from));
 }
 
+double faults_added_N(const flown_fault_t *f, const flown_fault_t *usual) {
+  double most_N = 0.0;
+  for (int ms = 0; ms < FAULTS_FIRST_MS; ms++)
+    most_N = fmax(most_N, fabs((double)f->first_N[ms] - (double)usual->first_N[ms]));
+  return most_N;
+}
+
 const char *faults_judge(const case_t *c, const flown_fault_t *usual) {
   const row_t *row = c->row;
   const flown_fault_t *s = &c->seen;
@@ -53,6 +60,8 @@ void faults_tell(const case_t *c, uint64_t seed, const char *failed, const flown
   printf("      latched %x after %.3f s, action %d; tilt %.1f, later %.1f deg; yaw %.1f deg\n",
          c->pilot.flight->guard.latched, s->seen_s, (int)c->pilot.flight->guard.action, s->tilt_max_deg,
          s->tilt_late_deg, s->yaw_late_deg);
-  printf("      step %.3f N (usually %.3f), pulse %.3f N, distance wrong by %.1f mm, weights by %.3f\n",
-         s->step_max_N, usual->step_max_N, s->pulse_N, 1e3 * s->zc_error_m, s->weight_change);
+  printf("      step %.3f N (usually %.3f), at once %.3f N, pulse %.3f N, distance wrong by %.1f mm, weights "
+         "by %.3f\n",
+         s->step_max_N, usual->step_max_N, faults_added_N(s, usual), s->pulse_N, 1e3 * s->zc_error_m,
+         s->weight_change);
 }
