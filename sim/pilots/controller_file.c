@@ -9,9 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GAIN_MAX  1e5
-#define OVERHEAD  1.10 // of the firmware's limits of speed
-#define CLIMB_MIN 0.5  // its least limit of climb
+#define GAIN_MAX    1e5
+#define RATE_MIN_HZ 10.0
+#define RATE_MAX_HZ 10000.0
+#define OVERHEAD    1.10 // of the firmware's limits of speed
+#define CLIMB_MIN   0.5  // its least limit of climb
 
 // --- the firmware's PID -----------------------------------------------------------------------------------
 
@@ -135,6 +137,15 @@ static done_t read_indi(toml_t t, flown_by_t *to, why_t *why) {
   return DONE;
 }
 
+static done_t read_other(toml_t t, flown_by_t *to, why_t *why) {
+  static const char *const keys[] = {"kind", "rate_Hz", NULL};
+  flown_by_t by = {.kind = FLOWN_BY_OTHER};
+  TRY(toml_only(t, keys, why));
+  TRY(toml_double(t, "rate_Hz", RATE_MIN_HZ, RATE_MAX_HZ, &by.rate_Hz, why));
+  *to = by;
+  return DONE;
+}
+
 static done_t read_table(toml_t root, const model_t *m, flown_by_t *by, why_t *why) {
   char kind[32];
   toml_t t;
@@ -143,9 +154,10 @@ static done_t read_table(toml_t root, const model_t *m, flown_by_t *by, why_t *w
   TRY(toml_string(t, "kind", kind, sizeof kind, why));
   if (strcmp(kind, "stock-pid") == 0) return read_pid(t, m, by, why);
   if (strcmp(kind, "indi") == 0) return read_indi(t, by, why);
+  if (strcmp(kind, "other") == 0) return read_other(t, by, why);
   char hint[NEAREST_HINT];
-  static const char *const kinds[] = {"stock-pid", "indi", NULL};
-  return toml_refuse(t, "kind", why, "unknown kind `%s`%s; allowed: stock-pid, indi", kind,
+  static const char *const kinds[] = {"stock-pid", "indi", "other", NULL};
+  return toml_refuse(t, "kind", why, "unknown kind `%s`%s; allowed: stock-pid, indi, other", kind,
                      nearest_of(kind, kinds, hint));
 }
 

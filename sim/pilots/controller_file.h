@@ -11,6 +11,9 @@
 //   kind = "indi"           this project's flight code; parameters under their names (indiPos.cutoff = 8), at
 //                           their defaults where they are left out, but for indiPos.mass and indiPos.tauMot,
 //                           which are then those of the vehicle file
+//
+//   kind = "other"          of which no more is said than how often it commands the motors
+//   rate_Hz = 100           each command holds until the next
 #ifndef SIM_PILOTS_CONTROLLER_FILE_H
 #define SIM_PILOTS_CONTROLLER_FILE_H
 

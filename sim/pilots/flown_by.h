@@ -5,7 +5,7 @@
 
 #include "crazyflie/stock_pid.h"
 
-typedef enum { FLOWN_BY_UNKNOWN, FLOWN_BY_STOCK_PID, FLOWN_BY_INDI } flown_by_kind_t;
+typedef enum { FLOWN_BY_UNKNOWN, FLOWN_BY_OTHER, FLOWN_BY_STOCK_PID, FLOWN_BY_INDI } flown_by_kind_t;
 
 #define FLOWN_BY_SETS 32
 
@@ -16,6 +16,7 @@ typedef struct {
 
 typedef struct {
   flown_by_kind_t kind;
+  double rate_Hz;        // FLOWN_BY_OTHER: how often it commands the motors
   stock_pid_param_t pid; // FLOWN_BY_STOCK_PID; of its power thrust_max_N alone: what 65535 stands for
   int n_set;             // FLOWN_BY_INDI: what differs from the flight code's defaults
   flown_by_set_t set[FLOWN_BY_SETS];

@@ -23,6 +23,7 @@ typedef struct {
   int n_block, *half; // of each block: which half-flight it belongs to; those of a lone flight interleave
   int n_half;
   bool excluded[CHANNELS]; // excluded.h
+  double command_Hz;       // how often the motors were commanded; 0: nobody said
 } set_t;
 
 static inline const rows_t *set_rows(const set_t *s, int channel) {

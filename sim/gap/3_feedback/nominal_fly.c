@@ -114,12 +114,19 @@ static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth) {
 
 // --- the flight -------------------------------------------------------------------------------------------
 
+// motor_N: keeps what was commanded last, where no new command is due.
 static void steer(nominal_flight_t *f, double step_s, const grid_point_t *seen, double motor_N[ROTORS]) {
   const grid_point_t *track = &f->g->point[f->at];
-  if (f->known)
+  if (f->known) {
     known_steer(f->known, step_s, track, seen, motor_N);
-  else
-    pilot_steer(f, step_s, track, seen, motor_N);
+    return;
+  }
+  const double period_s = fmax(pilot_period_s(f), step_s);
+  if (f->due_s < 0.5 * step_s) {
+    pilot_steer(f, period_s, track, seen, motor_N);
+    f->due_s += period_s;
+  }
+  f->due_s -= step_s;
 }
 
 // On the track, hovering, with a fresh pilot.
@@ -139,7 +146,7 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
 }
 
 static done_t find_pilot(nominal_flight_t *f, why_t *why) {
-  if (!f->w->flown_by || f->w->flown_by->kind == FLOWN_BY_UNKNOWN) return DONE;
+  if (!f->w->flown_by || f->w->flown_by->kind <= FLOWN_BY_OTHER) return DONE;
   const grid_point_t truth = is(f), seen = see(f, &truth);
   return known_open(&f->known, f, &seen, why);
 }
@@ -157,7 +164,7 @@ static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
 // On the track as it is now; what it does is its own again a while later.
 static done_t put(nominal_flight_t *f, double t_s, why_t *why) {
   const model_t *m = f->body.model;
-  f->down_s = 0.0;
+  f->down_s = f->due_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
   f->body.integrate = NULL;
@@ -181,7 +188,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
   const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
   const double step_s = log_s / inner;
-  double motor_N[ROTORS];
+  double motor_N[ROTORS] = {0.0};
   f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);
   f->vel_keeps = decay_of(&f->w->slow_vel_mps, step_s);
   f->angle_keeps = decay_of(&f->w->slow_angle_rad, step_s);

@@ -87,8 +87,15 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
        d3_add(turn, d3_scale(lead, d3_sub(turn, f->turn_slow_radps2))), motor_N);
 }
 
+double pilot_period_s(const nominal_flight_t *f) {
+  const flown_by_t *const by = f->w->flown_by;
+  return by && by->rate_Hz > 0.0 ? 1.0 / by->rate_Hz : 0.0;
+}
+
+// A command that holds is half its period late.
 void pilot_tame(nominal_flight_t *f) {
-  const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * f->body.plant.delay_s);
+  const double late_s = f->body.plant.delay_s + 0.5 * pilot_period_s(f);
+  const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * late_s);
   closed_loop_t *const w = &f->own;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);

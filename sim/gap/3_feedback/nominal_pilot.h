@@ -24,6 +24,7 @@ typedef struct {
   double lift_trim;                           // thrust over weight that holds it
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
+  double due_s; // until the next command
   unsigned long seed;
   decay_t pos_keeps, vel_keeps, angle_keeps; // of what lasts, over a step
   double down_s, masked_to_s;                // in contact since it was put on its track; of the log
@@ -34,6 +35,9 @@ typedef struct {
 // Commands that bring the vehicle, as it is seen, to its track.
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]);
+
+// Between two commands, where that is known of who flew; else 0: it commands whenever it is asked.
+double pilot_period_s(const nominal_flight_t *f);
 
 // Gains that do not ring with the body's lag.
 void pilot_tame(nominal_flight_t *f);

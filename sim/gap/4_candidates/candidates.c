@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
+#define JITTER      0.98  // of the rate of a log that has every command
 
 // --- the list ---------------------------------------------------------------------------------------------
 
@@ -16,7 +17,7 @@ static double slowest_Hz(const set_t *s) {
 }
 
 bool candidates_slow(const set_t *s) {
-  return slowest_Hz(s) < COMMANDS_HZ;
+  return slowest_Hz(s) < (s->command_Hz > 0.0 ? JITTER * s->command_Hz : COMMANDS_HZ);
 }
 
 double candidates_least(const fx_t *fx, const set_t *s) {

@@ -79,6 +79,49 @@ TEST(gap_nominal_flights_by_the_log_s_controller_feed_noise_back_as_it_does) {
   }
 }
 
+// Samples in which all motors keep the command that they had.
+static double share_held(const gap_flight_t *f) {
+  int held = 0;
+  for (int i = 1; i < f->n; i++) {
+    bool same = true;
+    for (int k = SIG_M1; k <= SIG_M4; k++) same = same && f->v[k][i] == f->v[k][i - 1];
+    held += same;
+  }
+  return (double)held / (f->n - 1);
+}
+
+TEST(gap_nominal_flights_hold_each_command_as_long_as_the_vehicle_file_s_controller_does) {
+  rig_t r;
+  why_t why = {""};
+  if (!CHECK_OK(rig_make(&r, true, &why))) return;
+  for (int each = 1; each <= 4; each *= 2) {
+    ROW("a command in %d samples", each);
+    gap_flight_t flown;
+    const flown_by_t by = {.kind = FLOWN_BY_OTHER, .rate_Hz = r.flight.rate_Hz / each};
+    r.loop.flown_by = &by;
+    if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) continue;
+    CHECK_NEAR(share_held(&flown), 1.0 - 1.0 / each, 0.01);
+    gap_flight_free(&flown);
+  }
+  set_free(&r.set);
+  gap_flight_free(&r.flight);
+}
+
+TEST(gap_takes_a_log_as_quick_if_it_has_every_command_of_the_vehicle_file_s_controller) {
+  static const struct {
+    double rate_Hz, command_Hz;
+    bool slow;
+  } row[] = {{500.0, 0.0, false},  {100.0, 0.0, true},  {100.0, 100.0, false},
+             {99.0, 100.0, false}, {90.0, 100.0, true}, {250.0, 500.0, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_flight_t flight = {.rate_Hz = row[i].rate_Hz};
+    grid_t grid = {.flight = &flight};
+    const set_t s = {.grid = &grid, .n_grid = 1, .command_Hz = row[i].command_Hz};
+    ROW("%g Hz of %g Hz", row[i].rate_Hz, row[i].command_Hz);
+    CHECK(candidates_slow(&s) == row[i].slow);
+  }
+}
+
 TEST(gap_flies_nominal_flights_by_the_vehicle_file_s_controller_and_keeps_it) {
   char text[6000];
   CHECK(gap_logs_fly("own", 3, NULL));

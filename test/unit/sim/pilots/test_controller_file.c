@@ -54,12 +54,20 @@ TEST(controller_of_a_vehicle_file_may_be_the_flight_code) {
   CHECK_NEAR(by.set[0].value, 9.0, 0.0);
 }
 
+TEST(controller_of_a_vehicle_file_may_be_known_by_its_rate_alone) {
+  flown_by_t by;
+  why_t why = {""};
+  CHECK_OK(read_file(scratch_file("v.toml", VEHICLE "kind = \"other\"\nrate_Hz = 100\n", -1), &by, &why));
+  CHECK(by.kind == FLOWN_BY_OTHER);
+  CHECK_NEAR(by.rate_Hz, 100.0, 0.0);
+}
+
 TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
   static const struct {
     const char *what, *text, *want;
   } row[] = {
       {"no kind", "", "v.toml:7: kind: missing; allowed: a text in quotes"},
-      {"kind", "kind = \"lqr\"\n", "v.toml:8: kind: unknown kind `lqr`; allowed: stock-pid, indi"},
+      {"kind", "kind = \"lqr\"\n", "v.toml:8: kind: unknown kind `lqr`; allowed: stock-pid, indi, other"},
       {"group", "kind = \"stock-pid\"\nposCtl.xKp = 1\n",
        "v.toml:9: posCtl: unknown key; allowed: kind, full_scale_N, posCtlPid, velCtlPid, pid_attitude, "
        "pid_rate"},
@@ -80,6 +88,11 @@ TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
       {"range", "kind = \"indi\"\nindiPos.mass = 99\n",
        "v.toml:9: mass: 99 is out of range; allowed: 0.01 to 2"},
       {"fraction", "kind = \"indi\"\nceil.mode = 0.5\n", "v.toml:9: mode: 0.5; allowed: a whole number"},
+      {"no rate", "kind = \"other\"\n", "v.toml:7: rate_Hz: missing; allowed: a number"},
+      {"rate", "kind = \"other\"\nrate_Hz = 1\n",
+       "v.toml:9: rate_Hz: 1 is out of range; allowed: 10 to 10000"},
+      {"gains of another", "kind = \"other\"\nrate_Hz = 100\npid_rate.roll_kp = 1\n",
+       "v.toml:10: pid_rate: unknown key; allowed: kind, rate_Hz"},
       {"together", "kind = \"indi\"\nceil.floor = 0.2\n",
        "v.toml:8: kind: parameters that contradict each other; allowed: what fly --set takes together"},
   };
