@@ -66,6 +66,12 @@ kf_Ns2 = {k_eta:.6g}
 inertia_kgm2 = 0.0 # rotorpy's rotors have none
 """
 
+CONTROLLER = """
+[controller]
+kind = "other"
+rate_Hz = {rate} # rotorpy commands once in a step of the simulation
+"""
+
 EFFECT = """
 [[effect]]
 name = "{name}"
@@ -82,7 +88,7 @@ def vehicle_text(v: Vehicle) -> str:
     for name, key in (("rotor_drag", "k_d"), ("climb_inflow", "k_z")):
         if p[key] > 0.0:
             text += EFFECT.format(name=name, k=p[key])
-    return text
+    return text + CONTROLLER.format(rate=v.rate_Hz)
 
 
 def log_text(v: Vehicle, rows: list[list[float]]) -> str:
