@@ -65,15 +65,13 @@ class Wishes:
         told[:, 0], told[:, 1] = there * math.cos(angle), there * math.sin(angle)
 
     def top(self, t, span, told):
-        """Under the ceiling where there is one, else on the spot."""
-        if self.v.ceiling_m is None:
-            return
-        gap = self.v.radius_m * (1.2 + self.r.uniform(0, 0.8) + 2.5 * np.sin(math.pi * t / span) ** 2)
-        told[:, 2] = self.v.ceiling_m - gap
+        """A hold under the ceiling where there is one, else on the spot. What lies between is met on the way."""
+        if self.v.ceiling_m is not None:
+            told[:, 2] = self.v.ceiling_m - self.v.radius_m * (1.2 + self.r.uniform(0, 0.8))
 
     def bottom(self, t, span, told):
-        gap = self.v.radius_m * (1.2 + self.r.uniform(0, 0.8) + 3 * np.sin(math.pi * t / span) ** 2)
-        told[:, 2] = gap
+        """A hold over the floor: a wish that went up and down here was smoothed to four rotor radii."""
+        told[:, 2] = self.v.radius_m * (1.2 + self.r.uniform(0, 0.8))
 
     # --- what rotorpy asks
 
