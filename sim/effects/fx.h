@@ -175,8 +175,7 @@ enum {
   FX_NEEDS_VOLTAGE = 1 << 4,  // of the battery
   FX_NEEDS_VELOCITY = 1 << 5,
   FX_NEEDS_ATTITUDE = 1 << 6,
-  FX_NEEDS_ACCELERATION = 1 << 8, // logged, not made of the velocity
-  FX_NEEDS_QUICK_LOG = 1 << 7,    // commands as often as attitude control gives them
+  FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
@@ -202,6 +201,9 @@ typedef struct {
   // Control that cancels a disturbance looks like this effect: the first look, which finds out how much
   // disturbance there is, leaves it out.
   bool only_beside_nominal;
+  // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
+  // misses some looks like it.
+  bool scales_turning;
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none

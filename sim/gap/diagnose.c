@@ -2,6 +2,7 @@
 #include "gap/diagnose.h"
 
 #include "gap/2_predict/excluded.h"
+#include "gap/5_infer/both_ways.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/contact.h"
 #include "gap/5_infer/loop_fit.h"
@@ -153,17 +154,36 @@ static bool bar_refuted(diagnosis_t *d) {
     const named_t *const named = &d->found.named[i];
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
     candidate_t *const c = &d->candidates.candidate[named->candidate];
-    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], named->confirm};
+    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], named->confirm, false};
     refuted = c->barred = true;
   }
   return refuted;
+}
+
+// Of a log that misses commands no scale is told that these could have made.
+static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
+  *barred = false;
+  if (!candidates_slow(&d->fit)) return DONE;
+  for (int i = 0; i < d->found.n; i++) {
+    const named_t *const named = &d->found.named[i];
+    candidate_t *const c = &d->candidates.candidate[named->candidate];
+    if (!c->use.fx->scales_turning || d->n_refuted >= NAMED_MAX) continue;
+    bool stands;
+    TRY(both_ways(&d->fit, job->model, &d->found.chosen, named, &stands, why));
+    if (stands) continue;
+    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], {.answer = CONFIRM_NOT_TRIED}, true};
+    *barred = c->barred = true;
+  }
+  return DONE;
 }
 
 static done_t find_what_stands(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   for (;;) {
     TRY(find_and_verify(job, d, why));
     TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
-    if (!bar_refuted(d)) return DONE;
+    bool too_slow;
+    TRY(bar_too_slow(job, d, &too_slow, why));
+    if (!bar_refuted(d) && !too_slow) return DONE;
     found_free(&d->found);
   }
 }

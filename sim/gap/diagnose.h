@@ -13,11 +13,13 @@ typedef struct {
   void (*progress)(const char *what); // is told what begins; may be null
 } diagnose_job_t;
 
-// A name that feedback made: least squares see it, the set points as instruments do not.
+// A name that feedback made: least squares see it, the set points as instruments do not. Or one that commands
+// made of which the log has too few.
 typedef struct {
   const fx_t *fx;
   double value; // the first of its numbers
   confirm_t by_set_points;
+  bool too_slow;
 } refuted_t;
 
 typedef struct {

@@ -42,8 +42,6 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
       {FX_NEEDS_VELOCITY, g->has_velocity, "the log has no velocity"},
       {FX_NEEDS_ACCELERATION, g->has_force && !g->acceleration_made, "the log has no acceleration"},
       {FX_NEEDS_ATTITUDE, g->has_attitude, "the log has no attitude"},
-      {FX_NEEDS_QUICK_LOG, !candidates_slow(s),
-       "the log is too slow: what commands did between two samples looks like it"},
   };
   if (fx->n_size == 0) return "it has no numbers that could be estimated";
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++)

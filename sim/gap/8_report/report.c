@@ -23,7 +23,10 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
     if (d->withdrawn.name[i].fx == fx)
       return "the fitted flights show it, and the held-out ones contradict it";
   for (int i = 0; i < d->n_refuted; i++)
-    if (d->refuted[i].fx == fx) return "feedback makes it: the set points as instruments do not show it";
+    if (d->refuted[i].fx == fx)
+      return d->refuted[i].too_slow
+                 ? "the log is too slow: what commands did between two samples looks like it"
+                 : "feedback makes it: the set points as instruments do not show it";
   if (!d->nominal_flew)
     return "the model could not be flown along these tracks: what feedback alone would show is not known";
   return NULL;

@@ -1,0 +1,22 @@
+// both_ways.h - whether a scale of the turning is there, or commands that the log misses look like it.
+//
+// J (1 + k) turns by 1 / (1 + k) of what is predicted with J. A log with fewer rows than attitude control
+// gives commands predicts the turning with an error, and least squares of measured by predicted then give too
+// small a slope: 1 + k too large. Of predicted by measured they give 1 + k itself, or too little where what
+// is measured has an error, too. The truth lies between the two (Frisch 1934, bounds of a line with errors in
+// both).
+#ifndef SIM_GAP_5_INFER_BOTH_WAYS_H
+#define SIM_GAP_5_INFER_BOTH_WAYS_H
+
+#include "gap/5_infer/found.h"
+
+// The part of k, of least squares, that the other way bears out; 0 where one of the two says nothing beyond
+// two standard errors. i: rows of one axis, predicted with J.
+double both_ways_agree(const increments_t *i, double k, double stderr_);
+
+// named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways
+// say that k is not 0, by two standard errors. FAILED: no memory. BAD_INPUT: too many effects.
+MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named,
+                            bool *stands, why_t *why);
+
+#endif
