@@ -6,6 +6,7 @@
 #include "logs/log_sanity.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
@@ -90,6 +91,15 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
     }
 }
 
+// What would fit instead, as the end of a message: another unit, or the other sign of one of the two.
+static void what_fits(const log_rows_t *rows, signal_id_t column, const slope_t *s, char text[COLUMNS_HINT]) {
+  const double b = s->mg / s->gg, size = fabs(b);
+  if (b * b * s->gg <= 0.5 * s->mm) return;
+  if (b > 0.0) columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
+  if (b < 0.0 && size >= SLOPE_MIN && size <= SLOPE_MAX)
+    snprintf(text, COLUMNS_HINT, "; the other sign of one of both would fit (scale = -1 in a columns file)");
+}
+
 static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
   slope_t slope[3] = {0};
   slopes(f, drive, slope);
@@ -101,8 +111,7 @@ static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const d
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
     if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;
     char text[COLUMNS_HINT] = "";
-    if (b > 0.0 && b * b * s->gg > 0.5 * s->mm)
-      columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
+    what_fits(rows, column, s, text);
     return table_refuse(
         &rows->table, 0, rows->at[column], why,
         "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",

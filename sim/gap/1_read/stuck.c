@@ -30,6 +30,9 @@ static const group_t GROUP[] = {
 // A simulator without a battery logs the same voltage for ever: its user knows, and says it.
 #define NO_BATTERY " (without a battery: vbat = {value = ..., unit = \"V\"} in a columns file)"
 
+// ... and one without noise may hover exactly, so that a sensor says nothing but zero.
+#define NO_NOISE " (a simulator without noise: let it begin beside its set point)"
+
 #define N_GROUP ((int)(sizeof GROUP / sizeof *GROUP))
 
 // Streams that come at a rate of their own.
@@ -120,6 +123,11 @@ static bool moved(const raw_t *raw, const model_t *vehicle, int from, int i) {
          (climb_mps && fabs(climb_mps[i] - climb_mps[from]) > MOVES);
 }
 
+static const char *unless_simulated(signal_id_t signal, double value) {
+  if (signal == SIG_VBAT) return NO_BATTERY;
+  return signal >= SIG_AX && signal <= SIG_GZ && value == 0.0 ? NO_NOISE : "";
+}
+
 static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_t *g, why_t *why) {
   int from = 0, whole = 0;
   double others_s = HUGE_VAL; // when they began to move
@@ -144,7 +152,7 @@ static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_
     return table_refuse(&rows->table, raw->line[from], rows->at[g->first], why,
                         "stands at %.6g %s for %.2f s and longer in flight; is the sensor stuck?%s",
                         raw->v[g->first][i], columns_si(&rows->columns, g->first), span_s,
-                        g->first == SIG_VBAT ? NO_BATTERY : "");
+                        unless_simulated(g->first, raw->v[g->first][i]));
   }
   const bool sensor = g->first >= SIG_AX && g->first <= SIG_GZ;
   if (!sensor || whole < raw->n - 1 || raw->n < RUN_ROWS) return DONE;
