@@ -127,8 +127,8 @@ done_t usd_config_check(const char *path, const usd_config_t *config, why_t *why
                        number_shown(e->name, shown));
     for (int k = 0; k < e->n; k++)
       if (!sections_log(e->variable[k]))
-        return error_set(why, "%s:%d: %s: the app has no such log", path, e->at[k],
-                         number_shown(e->variable[k], shown));
+        return error_set(why, "%s:%d: %s: the app has no such log; allowed: those of fly --logs", path,
+                         e->at[k], number_shown(e->variable[k], shown));
   }
   return DONE;
 }
