@@ -32,6 +32,27 @@ TEST(logs_page_has_a_vehicle_of_another_simulator) {
   CHECK(m.frame_told && m.map.kind == THRUST_MAP_SPEED);
 }
 
+TEST(logs_page_has_the_vehicle_of_crazyflow) {
+  char text[2000];
+  model_t m;
+  why_t why = {""};
+  CHECK(block_of("name = \"crazyflow cf2x_L250\"\n", text, sizeof text));
+  CHECK_OK(model_read_text("crazyflow.toml", text, &m, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK(m.frame_told && m.map.kind == THRUST_MAP_SPEED);
+}
+
+// Its commands are means that acted before their row.
+TEST(logs_page_has_columns_of_crazyflow) {
+  columns_t c;
+  why_t why = {""};
+  CHECK_OK(columns_read("tools/columns/crazyflow.toml", &c, &why));
+  CHECK_TEXT(why.text, "");
+  CHECK(c.acc == ACC_WORLD && c.motors == MOTORS_RADPS && !c.rows_are_means);
+  CHECK_NEAR(c.of[SIG_M1].late_s, 0.01, 1e-12);
+  CHECK(c.of[SIG_AX].optional && !c.of[SIG_QW].optional);
+}
+
 // rotorpy calls its columns so, and its user writes nothing.
 TEST(logs_page_has_columns_of_another_simulator) {
   columns_t c;
