@@ -129,10 +129,8 @@ void flight_csv_values(double t_s, double v[FC_COLUMNS]) {
 
 columns_t flight_csv_columns(void) {
   columns_t c = columns_crazyflie();
-  for (int i = 0; i < SIG_COLUMNS; i++) {
-    c.of[i].late_s = 0.0;
-    c.of[i].late_said = true;
-  }
+  for (int i = 0; i < SIG_COLUMNS; i++) c.of[i].late_s = 0.0;
+  c.of[SIG_RANGE].late_said = c.of[SIG_RANGE_DOWN].late_said = true;
   return c;
 }
 

@@ -120,7 +120,14 @@ static done_t tell_late(raw_t *raw, const stream_t *s, const double shift_s[SIG_
   return DONE;
 }
 
-static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_t *why) {
+// What the columns file says stands: feedback of noise can look like a stream that is late.
+static bool is_said(const columns_t *c, signals_t moved) {
+  for (int i = 0; i < SIG_COUNT; i++)
+    if ((moved & SIGNAL_BIT(i)) && c->of[i].late_said) return true;
+  return false;
+}
+
+static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, double shift_s[SIG_COUNT], why_t *why) {
   const stream_t stream[] = {
       {"attitude", "gyro", ATTITUDE | GYRO, ATTITUDE, gap_skew_attitude},
       {"velocity", "accelerometer", ATTITUDE | FORCE | PLACE, PLACE, gap_skew_velocity},
@@ -130,7 +137,7 @@ static done_t align(gap_flight_t *f, raw_t *raw, double shift_s[SIG_COUNT], why_
     const stream_t *const s = &stream[k];
     skew_t told;
     const signals_t need = k == 0 ? s->need : s->need & ~SIGNALS(SIG_X, SIG_Z);
-    if (!logged(raw, need)) continue;
+    if (!logged(raw, need) || is_said(c, s->moved)) continue;
     TRY(tell_late(raw, s, shift_s, &told, why));
     const bool sure = isfinite(told.stderr_s) && fabs(told.late_s) > SKEW_SURE * told.stderr_s;
     const bool small = fabs(told.late_s) <= SKEW_MAX_S;
@@ -231,7 +238,7 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
         "values",
         slow);
-  TRY(align(f, raw, shift_s, why));
+  TRY(align(f, raw, &rows->columns, shift_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
     return table_refuse(&rows->table, 0, -1, why,

@@ -80,6 +80,25 @@ TEST(gap_takes_out_the_lateness_of_commands) {
   }
 }
 
+// What the file says of a stream stands, in time too; of the other one nothing is said.
+TEST(gap_does_not_move_a_stream_of_which_the_columns_file_says_how_late_it_is) {
+  static const double late_s = 0.005;
+  const flight_csv_t made = {.dt_ms = 2.0, .rows = 10000, .late_att_s = late_s, .late_vel_s = late_s};
+  for (int said = 0; said < 3; said++) {
+    ROW("%s", (const char *const[]){"nothing said", "of the attitude", "of the velocity"}[said]);
+    columns_t columns = flight_csv_columns();
+    if (said) columns.of[said == 1 ? SIG_QY : SIG_VX].late_said = true;
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(read_by(&columns, &f, &made, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK(said == 1 ? f.attitude_late_s == 0.0 : f.attitude_late_s > 0.5 * late_s);
+    if (said == 2) CHECK(f.velocity_late_s == 0.0);
+    if (said == 0) CHECK(f.velocity_late_s > 0.5 * late_s);
+    gap_flight_free(&f);
+  }
+}
+
 // Attitude and place that the columns file says are late are not late beyond that.
 TEST(gap_takes_out_the_lateness_of_the_estimate) {
   static const double late_s = 0.06; // more than could be mended
