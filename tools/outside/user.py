@@ -5,22 +5,22 @@ from pathlib import Path
 from draw import Vehicle
 from flights import HEAD
 
-COLUMNS = """# Of a table that rotorpy makes of a simulation, with the battery and two range sensors beside it.
+COLUMNS = """# Of a table that rotorpy makes of a simulation, with the battery and two range sensors beside it: a row is of one instant.
 rest_height_m = {rest:.6g}
 acceleration = "body"
 
 [columns]
 time = {{column = "time", unit = "s"}}
-x = {{column = "mocap_x", unit = "m"}}
-y = {{column = "mocap_y", unit = "m"}}
-z = {{column = "mocap_z", unit = "m"}}
-vx = {{column = "mocap_xdot", unit = "m/s"}}
-vy = {{column = "mocap_ydot", unit = "m/s"}}
-vz = {{column = "mocap_zdot", unit = "m/s"}}
-qw = {{column = "mocap_qw", unit = "1"}}
-qx = {{column = "mocap_qx", unit = "1"}}
-qy = {{column = "mocap_qy", unit = "1"}}
-qz = {{column = "mocap_qz", unit = "1"}}
+x = {{column = "mocap_x", unit = "m", late_ms = 0}}
+y = {{column = "mocap_y", unit = "m", late_ms = 0}}
+z = {{column = "mocap_z", unit = "m", late_ms = 0}}
+vx = {{column = "mocap_xdot", unit = "m/s", late_ms = 0}}
+vy = {{column = "mocap_ydot", unit = "m/s", late_ms = 0}}
+vz = {{column = "mocap_zdot", unit = "m/s", late_ms = 0}}
+qw = {{column = "mocap_qw", unit = "1", late_ms = 0}}
+qx = {{column = "mocap_qx", unit = "1", late_ms = 0}}
+qy = {{column = "mocap_qy", unit = "1", late_ms = 0}}
+qz = {{column = "mocap_qz", unit = "1", late_ms = 0}}
 ax = {{column = "ax", unit = "m/s2"}}
 ay = {{column = "ay", unit = "m/s2"}}
 az = {{column = "az", unit = "m/s2"}}
