@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include "gap/6_extend/extend.h"
 
-#include "gap/5_infer/p_value.h"
+#include "gap/6_extend/p_value.h"
 #include "vehicle/model_file.h"
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "base/by_size.h"
 #include "gap/2_predict/lines.h"
-#include "gap/5_infer/p_value.h"
+#include "gap/6_extend/p_value.h"
 #include "gap/study.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>

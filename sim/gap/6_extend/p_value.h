@@ -1,6 +1,6 @@
 // p_value.h - a probability as all outputs give it: below 1e-16 nothing is left of it but that.
-#ifndef SIM_GAP_5_INFER_P_VALUE_H
-#define SIM_GAP_5_INFER_P_VALUE_H
+#ifndef SIM_GAP_6_EXTEND_P_VALUE_H
+#define SIM_GAP_6_EXTEND_P_VALUE_H
 
 #include <math.h>
 #include <stdio.h>
