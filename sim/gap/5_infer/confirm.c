@@ -79,8 +79,7 @@ static void shift(const grid_t *log, const grid_t *quiet, int first, int lag, co
 }
 
 static double **instrument(confirming_t *t, int channel, int column, int lag) {
-  const int group = channel < CH_FORCES ? 0 : channel < CH_SMOOTH ? 1 : 2;
-  return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + LAGS * group + lag];
+  return &t->table.x[channel][t->names.columns + INSTRUMENTS * column + LAGS * group_of(channel) + lag];
 }
 
 static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, replay_room_t *r,

@@ -60,14 +60,13 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
 // The rows of one half-flight: the blocks of it are no other's.
 static bool add_half(gram_t *g, const rows_t *r, int ch, int half, const white_t *w) {
   const size_t room = (size_t)(g->size * g->size);
-  const int group = ch < CH_FORCES ? 0 : ch < CH_SMOOTH ? 1 : 2;
   const double **from = malloc(((size_t)w->n + 1) * sizeof(double *));
   for (int i = 0, end; from && i < r->n; i = end) {
     for (end = i; end < r->n && r->block[end] == r->block[i];) end++;
     if (g->half[r->block[i]] != half) continue;
     for (int k = 0; k < w->n; k++) from[k] = w->x[k] + i;
     lsq_add_products(end - i, w->n, from, w->column, g->size, g->block + (size_t)r->block[i] * room,
-                     g->by_group[group] + (size_t)half * room);
+                     g->by_group[group_of(ch)] + (size_t)half * room);
   }
   free(from);
   return from != NULL;

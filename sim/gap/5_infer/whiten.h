@@ -8,14 +8,19 @@
 #include "gap/2_predict/color.h"
 #include "gap/4_candidates/candidates.h"
 
-#define GROUPS 3
+// Channels of one kind: what is right in one of them is not wrong in another.
+enum { GROUP_FORCES, GROUP_TURNING, GROUP_RANGE, GROUPS };
+
+static inline int group_of(int channel) {
+  return channel < CH_FORCES ? GROUP_FORCES : channel < CH_SMOOTH ? GROUP_TURNING : GROUP_RANGE;
+}
 
 typedef struct {
   int size, n_block, n_half; // size: columns + 1
   int rows;                  // white ones, of all channels
   const int *half;           // of each block (the set's)
   double *block, *by_half, *total;
-  double *by_group[GROUPS]; // of all half-flights, one matrix each: forces, turning, range
+  double *by_group[GROUPS]; // of all half-flights, one matrix each
   color_t color[CHANNELS];
 } gram_t;
 
