@@ -109,7 +109,7 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
     const double left = score_left(&r->score, &with, NULL);
     keep(list, &n, &(rival_t){round_fx(r, i), (without - left) / left_before, left});
   }
-  for (named->n_rival = 0; named->n_rival < n && named->n_rival < RIVAL_MAX; named->n_rival++) {
+  for (named->n_rival = 0; named->n_rival < n; named->n_rival++) {
     named->rival[named->n_rival] = list[named->n_rival].fx;
     named->rival_share[named->n_rival] = list[named->n_rival].share;
   }

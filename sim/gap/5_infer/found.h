@@ -5,8 +5,6 @@
 #include "gap/5_infer/round.h"
 #include "gap/5_infer/timing.h"
 
-#define RIVAL_MAX 12
-
 #define CONFIRM_F 10.0 // of the first stage, at least (Staiger and Stock 1997)
 
 // What the reference trajectory as an instrument says of a name (confirm.h).
@@ -34,8 +32,8 @@ typedef struct {
   double probability;         // that it, or a rival that is told, is there (evidence.h); NaN: not computed
   double share;               // of the sum of squares that the original model leaves and the effect explains
   int n_rival;                // family.h
-  const fx_t *rival[RIVAL_MAX];
-  double rival_share[RIVAL_MAX]; // what each would explain in its place
+  const fx_t *rival[FX_TABLE_MAX];
+  double rival_share[FX_TABLE_MAX]; // what each would explain in its place
   confirm_t confirm;
 } named_t;
 

@@ -243,7 +243,7 @@ static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
   if (r->nominal && found->n) TRY(evidence_make(&e, r, why));
   for (int i = 0; i < found->n; i++) {
     named_t *const named = &found->named[i];
-    const fx_t *fx[RIVAL_MAX + 1] = {round_fx(r, named->candidate)};
+    const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
     for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
     named->probability = e.n && choice_has(&r->choice, named->candidate)
                              ? evidence_of(&e, r->c, named->n_rival + 1, fx)

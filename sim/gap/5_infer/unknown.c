@@ -169,7 +169,7 @@ static void look_everywhere(const look_t *l, scan_t *scan, bool world) {
     if (look == LOOK_FLOOR) windows_on_floor(l, each);
     if (look == LOOK_PULSE) in_time_pulses(l, each);
     if (look == LOOK_LINE) in_time_lines(l, each);
-    for (int ch = 0; ch < (world ? UNKNOWN_LEVEL : CHANNELS); ch++) {
+    for (int ch = 0; ch < (world ? CH_FZ : CHANNELS); ch++) {
       cell_t *const to = &scan->cell[unknown_cell(ch, look, world)];
       *to = each[ch];
       to->world = world;
@@ -180,7 +180,7 @@ static void look_everywhere(const look_t *l, scan_t *scan, bool world) {
 static void look_at_world(const look_t *body, const color_t *color, lines_t *turned, scan_t *scan) {
   look_t l = *body;
   color_t level[CHANNELS] = {{.used = false}};
-  for (int ch = 0; ch < UNKNOWN_LEVEL; ch++) level[ch] = color[ch];
+  for (int ch = 0; ch < CH_FZ; ch++) level[ch] = color[ch];
   turn_by_heading(l.s, 1.0, body->residual[CH_FX], body->residual[CH_FY], turned->r[CH_FX], turned->r[CH_FY]);
   l.residual = turned->r;
   l.color = level;
@@ -254,7 +254,7 @@ static int rank_of(int along) {
 // Of one force: the lateral one has other names along the body's axes and along the world's.
 static bool of_one_force(const cell_t *a, const cell_t *b) {
   return a->world == b->world ? a->channel == b->channel
-                              : a->channel < UNKNOWN_LEVEL && b->channel < UNKNOWN_LEVEL;
+                              : a->channel < CH_FZ && b->channel < CH_FZ;
 }
 
 static bool goes_before(const cell_t *a, const cell_t *b) {

@@ -39,8 +39,8 @@ MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int coordinate
 
 enum { LOOK_FLOOR = COORDINATES, LOOK_PULSE, LOOK_LINE, UNKNOWN_LOOKS }; // those before: along a coordinate
 
-#define UNKNOWN_LEVEL 2 // channels that are looked at in the world's axes, too
-#define UNKNOWN_CELLS ((CHANNELS + UNKNOWN_LEVEL) * UNKNOWN_LOOKS)
+// Each channel, and the lateral force (the channels before CH_FZ) in the world's axes, too.
+#define UNKNOWN_CELLS ((CHANNELS + CH_FZ) * UNKNOWN_LOOKS)
 
 // The largest cell of each channel and look.
 typedef struct {
