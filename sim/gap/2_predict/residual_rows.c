@@ -5,9 +5,8 @@
 #include "base/pair.h"
 #include <math.h>
 
-#define SMOOTH_HZ 8.0
-#define TINY      1e-140
-#define PAIRS     (CH_SMOOTH / 2)
+#define TINY  1e-140
+#define PAIRS (CH_SMOOTH / 2)
 
 // --- the filter -------------------------------------------------------------------------------------------
 
@@ -23,7 +22,7 @@ static inline pair_t not_tiny(pair_t y) {
 static inline void smooth(const grid_t *g, int pairs, double *v) {
   pair_t x1[PAIRS] = {{0.0}}, x2[PAIRS] = {{0.0}}, y1[PAIRS] = {{0.0}}, y2[PAIRS] = {{0.0}};
   lowpass_t f;
-  lowpass_init(&f, fmin(SMOOTH_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
+  lowpass_init(&f, fmin(RESIDUAL_SMOOTH_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
   for (int way = 1; way >= -1; way -= 2) {
     const int rest = way > 0 ? MARK_FIRST : MARK_LAST;
     for (int j = way > 0 ? 0 : g->n - 1; j >= 0 && j < g->n; j += way) {

@@ -8,11 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define ABOUT_S 1.0 // what lasts as long is how the vehicle flies about: longer pulses are windows of time,
+                    // slower lines repeat places and speeds, and with it estimators and pilots have begun
+
 // --- pulses -----------------------------------------------------------------------------------------------
 
-#define SHORTEST 2  // rows of a pulse: what the rows' filter leaves of one
-#define LONGEST  16 // longer ones are windows of time
-#define SETTLED  25 // rows of a flight or after a gap: estimators and pilots begin there
+#define SHORTEST 2 // rows of a pulse: what the rows' filter leaves of one
 
 // White weights of a pulse of so many rows, from its first row on: those of the rows between are all alike.
 typedef struct {
@@ -40,7 +41,7 @@ typedef struct {
 static bool unbroken(const rows_t *r, int from, int rows, int *good_to, int *began) {
   if (*good_to < from) *good_to = *began = from;
   while (*good_to < r->n && *good_to < from + rows + 2 && color_reaches(r, *good_to)) ++*good_to;
-  return *good_to >= from + rows + 2 && from >= *began + SETTLED;
+  return *good_to >= from + rows + 2 && from - *began >= ABOUT_S * RESIDUAL_HZ;
 }
 
 // Of statistics at successive rows: what pulses of one size explain, at all peaks of the largest's sign that
@@ -90,7 +91,7 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
   const pulses_t w = {&l->s->smooth, l->room, l->room + l->s->smooth.n};
   color_whiten(c, w.r, l->residual[ch], l->room);
-  for (int rows = SHORTEST; rows <= LONGEST; rows *= 2) {
+  for (int rows = SHORTEST; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
     const pulse_t p = pulse_of(c, rows);
     double largest, alike, scatter;
     int at = 0;
@@ -116,11 +117,10 @@ void in_time_pulses(const look_t *l, cell_t cell[CHANNELS]) {
 
 // --- lines ------------------------------------------------------------------------------------------------
 
-#define STRETCH_S 16.0 // a line is a sixteenth of a hertz wide
-#define LINES     128  // to 8 Hz, where the rows' filter ends
-#define LOWEST    16   // 1 Hz: slower is how the vehicle flies about, which repeats places and speeds
-#define OWN       2    // lines either side that the stretch's taper spreads one over
-#define BESIDE    12   // lines either side that it is compared with
+#define STRETCH_S 16 // a line is a sixteenth of a hertz wide
+#define LINES     (STRETCH_S * RESIDUAL_SMOOTH_HZ)
+#define OWN       2  // lines either side that the stretch's taper spreads one over
+#define BESIDE    12 // lines either side that it is compared with
 
 typedef struct {
   double power[LINES + 1];
@@ -199,7 +199,7 @@ static void lines_in(const look_t *l, int ch, cell_t *cell) {
   const spectrum_t white = spectrum_of(l, l->room, LINES);
   int best = 0;
   double largest = cell->statistic;
-  for (int k = LOWEST; white.stretches && k <= LINES - OWN; k++) {
+  for (int k = (int)(STRETCH_S / ABOUT_S); white.stretches && k <= LINES - OWN; k++) {
     const double statistic = sqrt(white.power[k] / beside(&white, k));
     if (statistic > largest) largest = statistic, best = k;
   }
@@ -212,8 +212,8 @@ static void lines_in(const look_t *l, int ch, cell_t *cell) {
                    .along = NOWHERE,
                    .coordinate = "frequency",
                    .unit = "Hz",
-                   .from = (best - 1) / STRETCH_S,
-                   .to = (best + 1) / STRETCH_S,
+                   .from = (best - 1.0) / STRETCH_S,
+                   .to = (best + 1.0) / STRETCH_S,
                    .size = sqrt(4.0 * raw.power[best] / raw.stretches / (2.0 / 3.0 * rows)),
                    .statistic = largest,
                    .explained = 3.0 * white.power[best] / white.stretches * l->s->smooth.n / rows};
