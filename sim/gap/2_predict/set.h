@@ -5,8 +5,8 @@
 #include "gap/2_predict/grid.h"
 
 #define RESIDUAL_HZ        25.0
-#define RESIDUAL_SMOOTH_HZ 8    // cut-off of the rows' filter
-#define BLOCK_S     2.0 // what is taken to be independent
+#define RESIDUAL_SMOOTH_HZ 8   // cut-off of the rows' filter
+#define BLOCK_S            2.0 // what is taken to be independent
 
 // Rows of all flights, in order. Two lists: of the smooth channels, and of the range.
 typedef struct {

@@ -253,8 +253,7 @@ static int rank_of(int along) {
 
 // Of one force: the lateral one has other names along the body's axes and along the world's.
 static bool of_one_force(const cell_t *a, const cell_t *b) {
-  return a->world == b->world ? a->channel == b->channel
-                              : a->channel < CH_FZ && b->channel < CH_FZ;
+  return a->world == b->world ? a->channel == b->channel : a->channel < CH_FZ && b->channel < CH_FZ;
 }
 
 static bool goes_before(const cell_t *a, const cell_t *b) {
