@@ -4,7 +4,6 @@
 #include "gap/2_predict/excluded.h"
 #include "gap/5_infer/both_ways.h"
 #include "gap/5_infer/confirm.h"
-#include "gap/5_infer/contact.h"
 #include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/select.h"
 #include "gap/5_infer/shape.h"
@@ -197,8 +196,6 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "replaying the logs");
   TRY(take_flights(job, d, why));
   TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
-  TRY(contact_drop(&d->fit, &d->candidates, job->model, why));
-  TRY(contact_drop(&d->held, &d->candidates, job->model, why));
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");
