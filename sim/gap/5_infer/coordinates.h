@@ -5,6 +5,7 @@
 #include "gap/2_predict/grid.h"
 
 enum {
+  NOWHERE = -1, // along none of them
   COORDINATE_CEILING,
   COORDINATE_HEIGHT,
   COORDINATE_X,

@@ -25,8 +25,6 @@ typedef struct {
   double y_from_m, y_to_m;
 } cell_t;
 
-#define NOWHERE (-1)
-
 // What is looked at. color: of the residual after the cleaning of unknown.h, by channel; one that is not used
 // is not looked at. centred: a constant over all rows says nothing.
 typedef struct {
