@@ -6,8 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MOST 0.5 // of what a name gives: who gives less in its place is something else
-
 // --- what is left unexplained -----------------------------------------------------------------------------
 
 // By channel, the largest cell that no name explains, in standard errors beyond those of nominal flights: 0
@@ -81,7 +79,8 @@ static bool is_out(const round_t *r, bool measured, int i) {
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other)) return true;
-  return score_likeness(&r->score, &r->choice, own, other) > MOST && score_is_possible(&r->score, with) &&
+  return score_likeness(&r->score, &r->choice, own, other) > SCORE_MOST &&
+         score_is_possible(&r->score, with) &&
          score_is_rival(&r->score, &r->choice, with, unexplained_of(r, u, own, other));
 }
 
@@ -125,7 +124,7 @@ static bool looks_like(const round_t *r, const candidate_t *c, int k, int other)
   const double aa = G[column * (n + 1)], bb = G[other * (n + 1)], ab = G[column * n + other];
   const double size = c->typical[k] * c->typical[k] * aa;
   const double given = aa > 0.0 && bb > 0.0 ? ab * ab / (aa * bb) : 0.0; // correlation, squared
-  return size > SCORE_RIVAL_LEFT && given > MOST && size * (1.0 - given) < SCORE_RIVAL_LEFT;
+  return size > SCORE_RIVAL_LEFT && given > SCORE_MOST && size * (1.0 - given) < SCORE_RIVAL_LEFT;
 }
 
 static void join(int *alike, int n, int a, int b) {

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAME   0.997 // of what a number is multiplied by, that a rival could give
-#define ERRORS 2.0   // standard errors that hold what is sure
-
 done_t found_make(found_t *f, const candidates_t *c, why_t *why) {
   *f = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
                  .alike = calloc((size_t)c->columns + 1, sizeof(int)),
@@ -43,7 +40,7 @@ static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
   const fx_t *const fx = round_fx(r, named->candidate);
   score_nominal_rms(&r->score, last, rms);
   for (int k = 0; k < fx->n_size; k++) {
-    named->beside[k] = hypot(rms[k], candidates_least(fx, r->s) / ERRORS);
+    named->beside[k] = hypot(rms[k], candidates_least(fx, r->s) / SCORE_ERRORS);
     named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
   }
 }
@@ -110,16 +107,17 @@ static void sort_names(found_t *found, const round_t *r) {
 // Where what an effect is multiplied by is mostly the log's own noise (velocities in a hover), only a part of
 // it is found.
 
-#define MISSED 2.0 // errors by which an estimate may be too small
-
-// Another name stands for it so well that the two cannot be told apart until it is larger: the part of its
-// sum of squares that the other one cannot give must be SCORE_RIVAL_LEFT.
+// Another name stands for it but for what a right form leaves of it: the two cannot be told apart until it is
+// larger, and the part of its sum of squares that the other one cannot give is SCORE_RIVAL_LEFT.
 static double gain_of_rivals(const round_t *r, int candidate, int k) {
   double alike = 0.0;
   for (int i = 0; i < r->c->n; i++)
     if (round_may_stand_for(r, &r->choice, candidate, i))
       alike = fmax(alike, score_alike(&r->score, r->c->candidate[candidate].first + k, i));
-  return alike < SAME ? 0.0 : alike < 1.0 ? SCORE_RIVAL_LEFT / (1.0 - alike) : HUGE_VAL;
+  const double apart = 1.0 - alike;
+  return apart > CANDIDATES_MISFIT * CANDIDATES_MISFIT ? 0.0
+         : apart > 0.0                                 ? SCORE_RIVAL_LEFT / apart
+                                                       : HUGE_VAL;
 }
 
 // In parts of what is typical.
@@ -130,7 +128,7 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
   int column[COLUMN_MAX];
   const double blocks = fmax(r->gram.n_block - choice_columns(r->c, with, column), 2.0);
   const double wald = sqrt(c->n * lsq_f_quantile(SELECT_ALPHA / r->c->n, c->n, blocks));
-  const double nominal = SELECT_NOMINAL * sqrt(c->n);
+  const double nominal = score_nominal_bound(&r->score, c->n) * sqrt(c->n);
   double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX], unit[FX_SIZE_MAX], least = 0.0;
   if (!(v.stderr_[0] > 0.0)) return 0.0; // no residual depends on it
   score_nominal_rms(&r->score, with, rms);
@@ -142,7 +140,7 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
     double need = fmax(fmax(wald * v.stderr_[k], nominal * rms[k]), fmax(gain[k], rival));
     need = fmax(need, fmax(SELECT_LEAST * typical, c->use.fx->size[k].least));
     const double kept = r->nominal ? r->nominal->kept[c->first + k] : 1.0;
-    least = fmax(least, (need + MISSED * error) / (kept * typical));
+    least = kept > 0.0 ? fmax(least, (need + SCORE_ERRORS * error) / (kept * typical)) : HUGE_VAL;
   }
   return least;
 }

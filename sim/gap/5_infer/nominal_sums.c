@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KEPT_LEAST 0.02
-
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
 static done_t find_kept(double *kept, const set_t *s, const design_t *seen, const design_t *is,
                         const color_t color[CHANNELS], why_t *why) {
@@ -24,7 +22,7 @@ static done_t find_kept(double *kept, const set_t *s, const design_t *seen, cons
       for (int i = 0; i < r->n; i++) xx += x[i] * x[i];
       for (int i = 0; is->x[ch][k] && i < r->n; i++) xy += x[i] * y[i];
     }
-    if (xx > 0.0) kept[k] = fmin(fmax(xy / xx, KEPT_LEAST), 1.0);
+    if (xx > 0.0) kept[k] = fmin(fmax(xy / xx, 0.0), 1.0);
   }
   free(x);
   return DONE;

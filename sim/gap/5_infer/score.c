@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HARM 0.01 // of the sum of squares of a group of channels
-#define FAR  10.0 // times the typical size: what the ridge takes to be possible
+#define FAR 10.0 // times the typical size: what the ridge takes to be possible
 
 done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
   *j = (score_t){
@@ -104,7 +103,7 @@ bool score_harms(const score_t *j, const choice_t *without, const choice_t *with
   double before[GROUPS], after[GROUPS];
   if (!left_by_group(j, without, before) || !left_by_group(j, with, after)) return true;
   for (int i = 0; i < GROUPS; i++)
-    if (after[i] > before[i] * (1.0 + HARM) + 10.0) return true;
+    if (after[i] > before[i] * (1.0 + SELECT_GAIN) + 10.0) return true;
   return false;
 }
 
@@ -127,7 +126,7 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
     squares += less * less;
   }
   free(a);
-  return sum > SELECT_SURE * sqrt(squares);
+  return sum >= sqrt(squares);
 }
 
 // The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
@@ -213,6 +212,10 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
+double score_nominal_bound(const score_t *j, int n) {
+  return sqrt(lsq_f_quantile(SELECT_ALPHA, n, j->nominal && j->nominal->n ? j->nominal->n : NOMINAL_FLIGHTS));
+}
+
 // Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
 static bool can_be(const candidate_t *c, int k, double value, double margin) {
   const fx_size_t *size = &c->use.fx->size[k];
@@ -226,7 +229,7 @@ bool score_is_possible(const score_t *j, const choice_t *choice) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   const verdict_t v = score_last(j, choice);
   for (int k = 0; k < c->n; k++)
-    if (!can_be(c, k, v.value[k], 2.0 * v.stderr_[k])) return false;
+    if (!can_be(c, k, v.value[k], SCORE_ERRORS * v.stderr_[k])) return false;
   return true;
 }
 
@@ -238,7 +241,8 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
-  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > SELECT_NOMINAL;
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&
+         v->over_nominal > score_nominal_bound(j, c->n);
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

@@ -65,13 +65,30 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     const int of = along_x(&g, row[i].effect, 200.0);
     for (int k = 1; k < g.candidate[of].n; k++) gap_rows_white(&g, gap_rows_column(&g, of, k, CH_FY + k - 1));
     gap_rows_add(&g, of, 0, row[i].size);
-    const double rms = row[i].nominal, found[] = {rms, rms, rms, -rms, -rms, -rms};
-    if (rms != 0.0) gap_rows_nominal(&g, rms > 0.0 ? 2 : 0, 1e6, found);
+    const double rms = row[i].nominal;
+    const int flights = rms > 0.0 ? NOMINAL_FLIGHTS : 0;
+    double found[NOMINAL_FLIGHTS * FX_SIZE_MAX];
+    for (int k = 0; k < NOMINAL_FLIGHTS * FX_SIZE_MAX; k++) found[k] = k / g.candidate[of].n % 2 ? -rms : rms;
+    if (rms != 0.0) gap_rows_nominal(&g, flights, 1e6, found);
     gap_rows_open(&g, 0, NULL);
     const choice_t with = choice_with(&NONE, of);
     const verdict_t v = score_last(&g.round.score, &with);
     CHECK(score_allows(&g.round.score, &with, &v) == row[i].enters);
     gap_rows_free(&g);
+  }
+}
+
+// Of a few nominal flights the rms is not known well: so much more is asked for.
+TEST(gap_score_asks_for_more_where_few_nominal_flights_could_be_flown) {
+  static const struct {
+    int flights, numbers;
+    double bound; // root of the F distribution's upper hundredth, of a table
+  } row[] = {{10, 1, 3.169}, {10, 3, 2.560}, {3, 1, 5.841}, {2, 1, 9.925}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    const nominal_t nominal = {.n = row[i].flights};
+    const score_t score = {.nominal = &nominal};
+    ROW("%d flights, %d numbers", row[i].flights, row[i].numbers);
+    CHECK_NEAR(score_nominal_bound(&score, row[i].numbers), row[i].bound, 2e-3);
   }
 }
 
