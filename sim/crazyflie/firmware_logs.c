@@ -51,32 +51,31 @@ static void look_at_target(stock_logs_t *l, const setpoint_t *sp) {
   TAKE(l->posCtl, targetVX, targetVY, targetVZ, sp->velocity);
   l->ctrltarget_roll = sp->attitude.roll;
   l->ctrltarget_pitch = sp->attitude.pitch;
-  l->ctrltarget_yaw = sp->attitude.yaw;
+  l->ctrltarget_yaw = sp->attitudeRate.yaw; // as the firmware has it
 }
 
-// In the app's mode the firmware's own commands are those of the motors, told apart.
-static void look_at_command(stock_logs_t *l, const firmware_t *f) {
-  const control_t *const c = &f->vehicle.control;
-  const stock_pid_t *const pid = &f->vehicle.stock;
-  if (c->controlMode == controlModeLegacy) {
-    l->controller_cmd_roll = c->roll, l->controller_cmd_pitch = c->pitch, l->controller_cmd_yaw = c->yaw;
-    l->controller_cmd_thrust = c->thrust;
-  } else {
-    const float *const n = c->normalizedForces, k = (float)STOCK_FULL;
-    l->controller_cmd_roll = 0.5f * k * (-n[0] - n[1] + n[2] + n[3]);
-    l->controller_cmd_pitch = 0.5f * k * (n[0] - n[1] - n[2] + n[3]);
-    l->controller_cmd_yaw = 0.25f * k * (n[0] - n[1] + n[2] - n[3]);
-    l->controller_cmd_thrust = 0.25f * k * (n[0] + n[1] + n[2] + n[3]);
-  }
-  l->stabilizer_thrust = l->controller_actuatorThrust = l->controller_cmd_thrust;
-  l->controller_ctr_yaw = (int16_t)l->controller_cmd_yaw;
+// What the stock PID had last: while another one flies it stands still.
+static void look_at_stock(stock_logs_t *l, const stock_pid_t *pid) {
+  const stock_command_t *const c = &pid->command;
+  l->controller_cmd_roll = (float)c->roll, l->controller_cmd_pitch = (float)c->pitch;
+  l->controller_cmd_yaw = (float)c->yaw, l->controller_cmd_thrust = (float)c->thrust;
+  l->controller_actuatorThrust = (float)pid->wanted.thrust;
   l->controller_roll = (float)pid->wanted.roll_deg;
   l->controller_pitch = (float)pid->wanted.pitch_deg;
   l->controller_yaw = (float)pid->yaw_deg;
-  const Axis3f gyro = f->vehicle.sensors.gyro;
-  const float k = (float)RAD_PER_DEG;
-  l->controller_r_roll = k * gyro.x, l->controller_r_pitch = -k * gyro.y, l->controller_r_yaw = k * gyro.z;
-  l->controller_accelz = (float)G_MPS2 * f->vehicle.sensors.acc.z;
+  l->controller_rollRate = (float)pid->rate_dps[0];
+  l->controller_pitchRate = (float)pid->rate_dps[1];
+  l->controller_yawRate = (float)pid->rate_dps[2];
+  l->controller_r_roll = (float)(RAD_PER_DEG * pid->gyro_dps.x);
+  l->controller_r_pitch = (float)(-RAD_PER_DEG * pid->gyro_dps.y);
+  l->controller_r_yaw = (float)(RAD_PER_DEG * pid->gyro_dps.z);
+  l->controller_accelz = (float)pid->acc_z_g;
+}
+
+// Logged whoever flies: in the app's mode they are motor 3's share, and half the bits of motor 2's.
+static void look_at_command(stock_logs_t *l, const control_t *c) {
+  l->stabilizer_thrust = c->thrust;
+  l->controller_ctr_yaw = c->yaw;
 }
 
 static void look_at_motors(stock_logs_t *l, const stand_in_t *around) {
@@ -100,7 +99,7 @@ static void look_at_supervisor(stock_logs_t *l, const firmware_t *f) {
   const supervised_t *const s = &f->vehicle.supervised;
   const Axis3f a = f->vehicle.sensors.acc;
   l->sys_canfly = supervised_can_fly(s), l->sys_isFlying = supervised_flies(s);
-  l->sys_isTumbled = s->tumbled, l->sys_armed = s->armed;
+  l->sys_isTumbled = s->tumbled;
   l->supervisor_info = firmware_info(f);
   l->supervisor_accNorm = sqrtf(a.x * a.x + a.y * a.y + a.z * a.z);
 }
@@ -115,7 +114,8 @@ void firmware_look(firmware_t *f) {
   stock_logs_t *const l = &f->logs;
   look_at_estimate(l, f);
   look_at_target(l, &f->vehicle.setpoint);
-  look_at_command(l, f);
+  look_at_command(l, &f->vehicle.control);
+  look_at_stock(l, &f->vehicle.stock);
   look_at_motors(l, &f->vehicle.around);
   look_at_battery(l, f);
   look_at_supervisor(l, f);

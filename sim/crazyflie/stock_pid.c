@@ -2,6 +2,7 @@
 #include "crazyflie/stock_pid.h"
 
 #include "base/clip.h"
+#include "base/constants.h"
 
 #define COMMAND_MAX 32767.0
 
@@ -65,10 +66,10 @@ static void hold_attitude(stock_pid_t *s, const pilot_setpoint_t *set, const sto
   const double rate_dps[3] = {view->gyro_dps.x, -view->gyro_dps.y, view->gyro_dps.z};
   double command[3];
   for (int i = 0; i < 3; i++) {
-    const double wanted_dps = pid_block_step(&s->attitude[i], &s->param.attitude[i], STOCK_ATTITUDE_HZ,
-                                             wanted_deg[i], angle_deg[i], i == 2);
-    command[i] = trunc(saturated(
-        pid_block_step(&s->rate[i], &s->param.rate[i], STOCK_ATTITUDE_HZ, wanted_dps, rate_dps[i], false)));
+    s->rate_dps[i] = pid_block_step(&s->attitude[i], &s->param.attitude[i], STOCK_ATTITUDE_HZ, wanted_deg[i],
+                                    angle_deg[i], i == 2);
+    command[i] = trunc(saturated(pid_block_step(&s->rate[i], &s->param.rate[i], STOCK_ATTITUDE_HZ,
+                                                s->rate_dps[i], rate_dps[i], false)));
   }
   s->command.roll = command[0];
   s->command.pitch = command[1];
@@ -86,6 +87,8 @@ const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot_in_t *in) {
     if (in->set.mode[2] == PILOT_OFF)
       s->wanted.thrust = STOCK_FULL * in->set.thrust_N / (PILOT_MOTORS * s->param.power.thrust_max_N);
     hold_attitude(s, &in->set, &view);
+    s->gyro_dps = view.gyro_dps;
+    s->acc_z_g = in->acc_b_mps2.z / G_MPS2;
   }
   s->command.thrust = s->wanted.thrust;
   if (s->command.thrust == 0.0) {

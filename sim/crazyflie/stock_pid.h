@@ -28,6 +28,9 @@ typedef struct {
   pid_block_t attitude[3], rate[3];
   stock_position_out_t wanted; // roll, pitch, thrust
   double yaw_deg;              // wanted
+  double rate_dps[3];          // wanted: roll, pitch, yaw
+  d3_t gyro_dps;               // body, and
+  double acc_z_g;              // this, as they were then: for the firmware's logs
   pilot_setpoint_t last;       // its modes
   stock_command_t command;
   stock_power_t power;

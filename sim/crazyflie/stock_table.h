@@ -11,6 +11,7 @@
 
 #define STOCK_U8  PARAM_UINT8
 #define STOCK_U16 PARAM_UINT16
+#define STOCK_U32 PARAM_UINT32
 #define STOCK_F   PARAM_FLOAT
 #define STOCK_RO  PARAM_RONLY
 #define STOCK_P   PARAM_PERSISTENT
@@ -37,7 +38,7 @@
   X(deck, bcBuzzer, uint8_t, STOCK_U8 | STOCK_RO, 0)                                                         \
   X(deck, bcAI, uint8_t, STOCK_U8 | STOCK_RO, 0)                                                             \
   X(deck, bcUSD, uint8_t, STOCK_U8 | STOCK_RO, 0)                                                            \
-  X(firmware, revision0, uint32_t, PARAM_UINT32 | STOCK_RO, 0x2a18fc29)                                      \
+  X(firmware, revision0, uint32_t, STOCK_U32 | STOCK_RO, 0x2a18fc29)                                         \
   X(firmware, revision1, uint16_t, STOCK_U16 | STOCK_RO, 0)                                                  \
   X(firmware, modified, uint8_t, STOCK_U8 | STOCK_RO, 0)                                                     \
   X(imu_sensors, BMP3XX, uint8_t, STOCK_U8 | STOCK_RO, 0)                                                    \
@@ -68,13 +69,35 @@
   X(kalman, initialZ, float, STOCK_F, 0)                                                                     \
   X(kalman, initialYaw, float, STOCK_F, 0)                                                                   \
   X(motorPowerSet, enable, uint8_t, STOCK_U8, 0)                                                             \
-  X(pm, lowVoltage, float, STOCK_F, 3.2f)                                                                    \
-  X(pm, criticalLowVoltage, float, STOCK_F, 3.0f)                                                            \
+  X(pm, lowVoltage, float, STOCK_F | STOCK_P, 3.2f)                                                          \
+  X(pm, criticalLowVoltage, float, STOCK_F | STOCK_P, 3.0f)                                                  \
   X(led, bitmask, uint8_t, STOCK_U8, 0)                                                                      \
   X(ring, effect, uint8_t, STOCK_U8 | STOCK_P, 6)                                                            \
+  X(ring, neffect, uint32_t, STOCK_U32 | STOCK_RO, 18)                                                       \
+  X(ring, solidRed, uint8_t, STOCK_U8, 20)                                                                   \
+  X(ring, solidGreen, uint8_t, STOCK_U8, 20)                                                                 \
+  X(ring, solidBlue, uint8_t, STOCK_U8, 20)                                                                  \
   X(ring, headlightEnable, uint8_t, STOCK_U8, 0)                                                             \
-  X(sound, effect, uint8_t, STOCK_U8, 0)                                                                     \
+  X(ring, emptyCharge, float, STOCK_F, 3.1f)                                                                 \
+  X(ring, fullCharge, float, STOCK_F, 4.2f)                                                                  \
+  X(ring, fadeColor, uint32_t, STOCK_U32, 0)                                                                 \
+  X(ring, fadeTime, float, STOCK_F, 0.5f)                                                                    \
+  X(activeMarker, front, uint8_t, STOCK_U8 | STOCK_P, 1)                                                     \
+  X(activeMarker, back, uint8_t, STOCK_U8 | STOCK_P, 3)                                                      \
+  X(activeMarker, left, uint8_t, STOCK_U8 | STOCK_P, 4)                                                      \
+  X(activeMarker, right, uint8_t, STOCK_U8 | STOCK_P, 2)                                                     \
+  X(activeMarker, mode, uint8_t, STOCK_U8 | STOCK_P, 3)                                                      \
+  X(activeMarker, poll, uint8_t, STOCK_U8, 0)                                                                \
+  X(sound, effect, uint8_t, STOCK_U8 | STOCK_P, 0)                                                           \
   X(system, selftestPassed, int8_t, PARAM_INT8 | STOCK_RO, 1)                                                \
+  X(system, taskDump, uint8_t, STOCK_U8, 0)                                                                  \
+  X(system, assertInfo, uint8_t, STOCK_U8, 0)                                                                \
+  X(system, storageStats, uint8_t, STOCK_U8, 0)                                                              \
+  X(health, startPropTest, uint8_t, STOCK_U8, 0)                                                             \
+  X(health, startBatTest, uint8_t, STOCK_U8, 0)                                                              \
+  X(cpu, flash, uint16_t, STOCK_U16 | STOCK_RO, 1024)                                                        \
+  X(velCtlPid, vxKFF, float, STOCK_F | STOCK_P, 0)                                                           \
+  X(velCtlPid, vyKFF, float, STOCK_F | STOCK_P, 0)                                                           \
   STOCK_GAINS(X, pid_attitude, roll_, kp, ki, kd)                                                            \
   STOCK_GAINS(X, pid_attitude, pitch_, kp, ki, kd)                                                           \
   STOCK_GAINS(X, pid_attitude, yaw_, kp, ki, kd)                                                             \
@@ -135,7 +158,6 @@
   X(sys, canfly, uint8_t, LOG_UINT8)                                                                         \
   X(sys, isFlying, uint8_t, LOG_UINT8)                                                                       \
   X(sys, isTumbled, uint8_t, LOG_UINT8)                                                                      \
-  X(sys, armed, uint8_t, LOG_UINT8)                                                                          \
   X(supervisor, info, uint16_t, LOG_UINT16)                                                                  \
   STOCK_FLOAT(X, supervisor, accNorm)                                                                        \
   STOCK_RANGE(X, front)                                                                                      \

@@ -20,6 +20,20 @@ class Connected(AtTheDesk):
             self.assertGreater(sum(map(len, connected.cf.param.toc.toc.values())), 150)
             self.assertIn("rls", connected.cf.log.toc.toc)
 
+    def test_what_the_library_s_examples_and_the_client_s_buttons_set_is_there(self) -> None:
+        # Without effect here; of decks as well, since every image has their drivers.
+        written = {"ring.effect": 7, "ring.solidRed": 100, "ring.fadeTime": 1.0, "ring.fadeColor": 0xA00000}
+        written |= {"activeMarker.back": 30, "led.bitmask": 255, "health.startPropTest": 1, "system.taskDump": 1}
+        written |= {"system.storageStats": 1, "velCtlPid.vxKFF": 0.5, "sound.effect": 1}
+        with self.flown() as connected:
+            param = connected.cf.param
+            for name, value in written.items():
+                param.set_value(name, value)
+            time.sleep(0.5)
+            self.assertEqual({name: float(param.get_value(name)) for name in written}, written)
+            for name in ("ring.effect", "activeMarker.back", "sound.effect", "pm.lowVoltage"):
+                self.assertTrue(param.toc.get_element_by_complete_name(name).is_persistent(), name)
+
     def test_a_parameter_is_set_or_put_back_and_the_client_told(self) -> None:
         with self.flown() as connected:
             param = connected.cf.param

@@ -94,6 +94,33 @@ TEST(what_a_person_does_at_the_desk_is_felt) {
   desk_end(d);
 }
 
+// They are what the firmware has in memory, and mean other things while the app flies (src/firmware/README.md).
+TEST(the_firmware_s_logs_of_commands_are_those_of_the_vehicle) {
+  drone_t *const d = desk_drone(3.0, NULL, NULL);
+  const control_t *const control = &d->firmware.vehicle.control;
+  desk_pass(d, 1.0);
+  desk_climb(d, 0.6f);
+  desk_pass(d, 4.0);
+  const double units = desk_log(d, "stabilizer.thrust");
+  CHECK(units > 2e4 && units < 6e4);
+  CHECK_NEAR(desk_log(d, "controller.cmd_thrust"), units, 2000.0);
+  CHECK_NEAR(desk_log(d, "controller.accelz"), 1.0, 0.3); // g
+  CHECK(desk_log(d, "controller.rollRate") != 0.0);
+  desk_set(d, "ceil.shadow", 0);
+  desk_pass(d, 3.0);
+  CHECK_NEAR(desk_log(d, "stabilizer.thrust"), (double)control->normalizedForces[2], 0.0);
+  CHECK(control->normalizedForces[2] > 0.2f && control->normalizedForces[2] < 1.0f);
+  static const char *const stand[] = {"controller.cmd_thrust", "controller.cmd_roll", "controller.rollRate",
+                                      "controller.r_pitch",    "controller.accelz",   "controller.yaw"};
+  for (unsigned i = 0; i < sizeof stand / sizeof *stand; i++) {
+    ROW("%s", stand[i]);
+    const double had = desk_log(d, stand[i]);
+    desk_pass(d, 0.1);
+    CHECK_NEAR(desk_log(d, stand[i]), had, 0.0);
+  }
+  desk_end(d);
+}
+
 static bool is_told(drone_t *d, const char *name, double value) {
   const int i = firmware_param_find(&d->firmware, name), type = firmware_param_row(&d->firmware, i).type;
   uint8_t bytes[4];
