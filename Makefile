@@ -230,8 +230,9 @@ exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, diagnosed and marked 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"
 
-check: test test-cf test-desk sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
+check: test test-desk sanitize clang  ## the long tests, also with sanitizers and clang, and the seeded traps; an hour
 	@TEST_LONG=1 $(TESTS)
+	+@TEST_LONG=1 $(MAKE) test-cf W=
 	@STORM_TICKS=10000000 $(O)/sanitize/bin/tests test_storm
 	+@test/seeded/seeded.sh
 	+@$(MAKE) mutants N=40 SEED=$(or $(SEED),1) W=
