@@ -10,7 +10,6 @@
 #define EMPTY_V        3.0 // battery level: 0 of 10
 #define FULL_V         4.1
 #define LOW_BATTERY_MS 5000 // so long below pm.lowVoltage
-#define RANGE_FREE_MM  4000 // sideways there is nothing
 
 #define TAKE(to, a, b, c, from)                                                                              \
   do {                                                                                                       \
@@ -105,9 +104,10 @@ static void look_at_supervisor(stock_logs_t *l, const firmware_t *f) {
 }
 
 static void look_at_ranges(stock_logs_t *l, const firmware_t *f) {
-  l->range_up = f->vehicle.around.range_mm[rangeUp];
-  l->range_front = l->range_back = l->range_left = l->range_right = RANGE_FREE_MM;
-  l->range_zrange = f->vehicle.around.range_mm[rangeDown];
+  const uint16_t *const mm = f->vehicle.around.range_mm;
+  l->range_front = mm[rangeFront], l->range_back = mm[rangeBack];
+  l->range_left = mm[rangeLeft], l->range_right = mm[rangeRight];
+  l->range_up = mm[rangeUp], l->range_zrange = mm[rangeDown];
 }
 
 void firmware_look(firmware_t *f) {

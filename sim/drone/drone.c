@@ -3,6 +3,7 @@
 
 #include "crazyflie/sections.h"
 #include "crazyflie/values.h"
+#include "drone/beside.h"
 #include "pilots/pilot_outer.h"
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@
 #define ROWS      100  // samples kept before they are written: a second's
 #define FOREVER_S 1e7
 #define TICK_MS   2
+#define BESIDE_MS 100 // as the firmware asks its sensors
 
 uint32_t drone_now_ms(const drone_t *d) {
   return d->now_ms;
@@ -109,6 +111,14 @@ static void look(drone_t *d) {
   }
 }
 
+// rangeFront .. rangeRight
+static void look_beside(drone_t *d) {
+  if (d->on_ms % BESIDE_MS != 0) return;
+  const double *const y = loop_body(d->loop)->y;
+  beside_look(d3_of(y + RIGID_POS_M), dq_of(y + RIGID_Q_WB), loop_model(d->loop)->wall_y_m, d->params.hand,
+              d->firmware.vehicle.around.range_mm);
+}
+
 // A rise of kalman.resetEstimation: back to where the estimate starts, as the firmware does.
 static void reset_estimate(drone_t *d) {
   const stock_params_t *const p = &d->firmware.params;
@@ -137,6 +147,7 @@ static done_t tick(drone_t *d, why_t *why) {
   if (!d->finite) return DONE;
   follow(d);
   reset_estimate(d);
+  look_beside(d);
   d->on_ms += TICK_MS;
   bool is_sample;
   d->finite = loop_tick(d->loop, &d->seen, &is_sample) == FLIGHT_FLIES;

@@ -11,6 +11,7 @@
 #define DESK_PARAMS(X)                                                                                       \
   X(ceiling, float, PARAM_FLOAT, 1.5, 0.15, 10, false, "m", "height of the ceiling; 10: none")               \
   X(cover, uint8_t, PARAM_UINT8, 0, 0, 1, true, "", "cover the upward range sensor")                         \
+  X(hand, uint8_t, PARAM_UINT8, 0, 0, 4, false, "", "hand 10 cm off: 1 front, 2 back, 3 left, 4 right")      \
   X(windX, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along x")                                    \
   X(windY, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push along y")                                    \
   X(windZ, float, PARAM_FLOAT, 0, -100, 100, false, "mN", "push upwards")                                    \

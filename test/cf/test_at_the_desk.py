@@ -102,6 +102,25 @@ class Flying(AtTheDesk):
             time.sleep(0.5)
             self.assertAlmostEqual(ranger.up, 0.04, delta=0.01)
 
+    def test_a_hand_beside_it_pushes_it_away(self) -> None:
+        # As the library's example multiranger_push does, for a side each.
+        with self.flown() as connected, Multiranger(connected) as ranger, MotionCommander(connected) as commander:
+            for hand, side, axis, sign in ((1, "front", "x", -1), (3, "left", "y", -1)):
+                self.assertIsNone(getattr(ranger, side))
+                before = self.logged(connected, 0.0, f"desk.{axis}")[0][f"desk.{axis}"]
+                connected.cf.param.set_value("desk.hand", hand)
+                until_s = time.monotonic() + 1.5
+                while time.monotonic() < until_s:
+                    close = (getattr(ranger, side) or 1.0) < 0.2
+                    away = sign * 0.4 * close
+                    commander.start_linear_motion(away * (axis == "x"), away * (axis == "y"), 0)
+                    time.sleep(0.1)
+                connected.cf.param.set_value("desk.hand", 0)
+                commander.stop()
+                time.sleep(0.5)
+                after = self.logged(connected, 0.0, f"desk.{axis}")[0][f"desk.{axis}"]
+                self.assertGreater(sign * (after - before), 0.25)
+
 
 class Lossy(AtTheDesk):
     def test_with_packets_lost_it_flies_on_and_time_does_not_run_ahead(self) -> None:

@@ -94,7 +94,8 @@ TEST(what_a_person_does_at_the_desk_is_felt) {
   desk_end(d);
 }
 
-// They are what the firmware has in memory, and mean other things while the app flies (src/firmware/README.md).
+// They are what the firmware has in memory, and mean other things while the app flies
+// (src/firmware/README.md).
 TEST(the_firmware_s_logs_of_commands_are_those_of_the_vehicle) {
   drone_t *const d = desk_drone(3.0, NULL, NULL);
   const control_t *const control = &d->firmware.vehicle.control;
