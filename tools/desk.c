@@ -66,7 +66,8 @@ static done_t take_number(const char *option, const char *text, double min, doub
 
 static done_t take_link(order_t *o, const char *text, why_t *why) {
   char copy[128], shown[NUMBER_SHOWN], *rest = copy;
-  if (strlen(text) >= sizeof copy) return error_set(why, "--link: allowed is loss=SHARE,delay=SECONDS");
+  if (text[strspn(text, ",")] == '\0' || strlen(text) >= sizeof copy)
+    return error_set(why, "--link: allowed is loss=SHARE,delay=SECONDS");
   strcpy(copy, text);
   for (char *word; (word = strtok_r(rest, ",", &rest)) != NULL;) {
     if (strncmp(word, "loss=", 5) == 0)

@@ -1,9 +1,10 @@
 """The stock library flies what is at the desk: parameters, logs, its own commanders."""
 
+import os
 import time
 import unittest
 
-from desk_rig import AtTheDesk
+from desk_rig import AtTheDesk, cflib
 
 try:
     from cflib.crazyflie.mem import MemoryElement, Poly4D
@@ -12,6 +13,10 @@ try:
     from cflib.utils.multiranger import Multiranger
 except ImportError:
     pass  # skipped by the rig
+if cflib:
+    from desk_rig import Crazyflie, SyncCrazyflie
+
+LOGGED_S = 60.0 if os.environ.get("TEST_LONG") else 5.0
 
 
 class Connected(AtTheDesk):
@@ -34,6 +39,15 @@ class Connected(AtTheDesk):
             for name in ("ring.effect", "activeMarker.back", "sound.effect", "pm.lowVoltage"):
                 self.assertTrue(param.toc.get_element_by_complete_name(name).is_persistent(), name)
 
+    def test_a_client_that_has_never_seen_it_is_fully_connected_within_a_second(self) -> None:
+        took_s = []
+        for i in range(3):
+            began_s = time.monotonic()
+            with SyncCrazyflie(self.uri, cf=Crazyflie(rw_cache=str(self.folder / f"{i}"))) as connected:
+                connected.wait_for_params()
+                took_s.append(time.monotonic() - began_s)
+        self.assertLess(min(took_s), 1.0)
+
     def test_a_parameter_is_set_or_put_back_and_the_client_told(self) -> None:
         with self.flown() as connected:
             param = connected.cf.param
@@ -47,7 +61,7 @@ class Connected(AtTheDesk):
 
     def test_a_block_of_100_Hz_loses_nothing(self) -> None:
         with self.flown() as connected:
-            rows = self.logged(connected, 5.0, "acc.z", "stateEstimate.z", "range.up", "rls.w1", period_ms=10)
+            rows = self.logged(connected, LOGGED_S, "acc.z", "stateEstimate.z", "range.up", "rls.w1", period_ms=10)
         steps_ms = {after["ms"] - before["ms"] for before, after in zip(rows, rows[1:])}
         self.assertEqual(steps_ms, {10})
 

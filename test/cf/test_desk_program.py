@@ -80,6 +80,8 @@ class Program(unittest.TestCase):
             ("--address 192.0.2.1: this machine has no such address", "--address", "192.0.2.1", "--page", 0),
             ("--speed 0: allowed", "--speed", 0),
             ("--speed x=1: allowed", "--speed", "x=1"),
+            ("--link: allowed is loss=SHARE,delay=SECONDS", "--link", ""),
+            ("--link: allowed is loss=SHARE,delay=SECONDS", "--link", 200 * "loss=0,"),
             ("--link los=1: allowed is loss=SHARE,delay=SECONDS", "--link", "los=1"),
             ("--link loss=2: allowed is a number from 0 to 0.9", "--link", "loss=2"),
             ("--link delay=: allowed is a number from 0 to 1", "--link", "loss=0.1,delay="),
