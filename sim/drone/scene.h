@@ -7,7 +7,7 @@
 //   seed = 1
 //   ceiling_m = 1.5             10: none
 //   floor_rise_x = 0.0, floor_rise_y = 0.0   tangents
-//   wall_y_m = 1.0              a wall in the plane of this y that can be touched
+//   wall_y_m = 1.0              a wall in the plane of this y that can be touched and is seen
 //   battery = 1.0               charge at the start, 0 to 1
 //   [[effect]]                  as many as are wanted; what begins later says so itself (mass: start)
 //   is = "mass:add=0.003,start=20"
