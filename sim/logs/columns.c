@@ -58,7 +58,8 @@ static const struct {
     [SIG_SET_VX] = {"set_vx", KIND_SPEED, -1e4, 1e4, "ctrltarget.vx", "m/s"},
     [SIG_SET_VY] = {"set_vy", KIND_SPEED, -1e4, 1e4, "ctrltarget.vy", "m/s"},
     [SIG_SET_VZ] = {"set_vz", KIND_SPEED, -1e4, 1e4, "ctrltarget.vz", "m/s"},
-    [SIG_SET_YAW] = {"set_yaw", KIND_ANGLE, -1e3, 1e3, "ctrltarget.yaw", "deg"},
+    // The firmware's ctrltarget.yaw is the rate that is asked for, not the angle.
+    [SIG_SET_YAW] = {"set_yaw", KIND_ANGLE, -1e3, 1e3, "", "deg"},
 };
 
 // What a motor command may be instead, and its bounds then.

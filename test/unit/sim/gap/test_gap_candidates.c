@@ -54,7 +54,7 @@ static void attitude(log_t *l) {
   l->grid.has_attitude = false;
 }
 static void quickness(log_t *l) {
-  l->flight.rate_Hz = 100.0;
+  l->flight.rate_Hz = 50.0;
 }
 static void force_and_turning(log_t *l) {
   l->grid.has_force = l->grid.has_rates = false;
@@ -75,7 +75,7 @@ TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
       {"voltage", voltage, " battery_sag"},
       {"velocity", speed, " body_drag climb_inflow flapping rotor_drag sidewall translational_lift"},
       {"attitude", attitude, " wind"},
-      {"a quick log", quickness, " inertia"},
+      {"a quick log", quickness, ""},
       {"force and turning", force_and_turning,
        " accel_bias battery_sag body_drag ceiling ceiling_rpm cg_offset climb_inflow delay flapping ground "
        "gyroscopic imu_misalignment inertia mass motor_damage motor_lag rotor_drag sidewall thrust_curve "

@@ -85,7 +85,7 @@ TEST(set_points_are_columns_of_a_crazyflie_s_log) {
   CHECK_OK(log_rows_next(&rows, &row, &more, &why));
   CHECK_NEAR(row.v[SIG_SET_Z], 0.4, 1e-12);
   CHECK_NEAR(row.v[SIG_SET_VX], -1.0, 1e-12);
-  CHECK_NEAR(row.v[SIG_SET_YAW], 1.5707963, 1e-6);
+  CHECK(isnan(row.v[SIG_SET_YAW])); // the firmware's is a rate
   CHECK(isnan(row.v[SIG_SET_X]));
   log_rows_close(&rows);
 }
