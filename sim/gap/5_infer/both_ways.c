@@ -1,9 +1,8 @@
 // both_ways.c - measured by predicted, and predicted by measured.
 #include "gap/5_infer/both_ways.h"
 
+#include <math.h>
 #include <stdlib.h>
-
-#define ERRORS 2.0 // standard errors
 
 // Rows of all channels: what was measured, and what a model leaves.
 typedef struct {
@@ -23,10 +22,11 @@ static bool open_rows(rows_of_both_t *r, const set_t *s) {
 }
 
 double both_ways_agree(const increments_t *i, double k, double stderr_) {
-  // Errors of what is predicted make it larger, never smaller.
-  if (k < 0.0) return k < -ERRORS * stderr_ ? k : 0.0;
-  const double least = i->yy > 0.0 ? i->yp / i->yy - 1.0 : 0.0;
-  return least > ERRORS * stderr_ ? least : 0.0;
+  if (!(i->yp > 0.0)) return 0.0;
+  const double forward = i->pp / i->yp - 1.0, reverse = i->yp / i->yy - 1.0;
+  const double nearest = k > 0.0 ? reverse : forward, error = hypot(stderr_, 0.5 * (forward - reverse));
+  const bool beyond = nearest * k > 0.0 && fabs(nearest) > SCORE_ERRORS * error;
+  return beyond && fabs(k) > fabs(nearest) - SCORE_ERRORS * error ? nearest : 0.0;
 }
 
 done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named, bool *stands,

@@ -10,12 +10,13 @@
 
 #include "gap/5_infer/found.h"
 
-// The part of k, of least squares, that the other way bears out; 0 where one of the two says nothing beyond
-// two standard errors. i: rows of one axis, predicted with J.
+// Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
+// Returns the end that is nearer to 0 where it is beyond two of both errors, and k not within it; else 0. i:
+// rows of one axis, predicted with J. k, stderr_: of least squares.
 double both_ways_agree(const increments_t *i, double k, double stderr_);
 
 // named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways
-// say that k is not 0, by two standard errors. FAILED: no memory. BAD_INPUT: too many effects.
+// say that k is not 0. FAILED: no memory. BAD_INPUT: too many effects.
 MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named,
                             bool *stands, why_t *why);
 

@@ -38,6 +38,7 @@ TEST(gap_takes_for_inertia_only_what_measured_by_predicted_and_predicted_by_meas
       {"the same, a gyro's noise", 0.5, 0.0, 0.2, true},
       {"the same, some commands missed", 0.5, 0.7, 0.2, true},
       {"a third less", -0.33, 0.0, 0.2, true},
+      {"the same, as much missed as told", 0.5, 1.5, 0.0, false}, // 0.5 to 2
       {"nothing", 0.0, 0.0, 0.0, false},
       {"nothing, a gyro's noise", 0.0, 0.0, 0.3, false},
       {"nothing, half of the commands missed", 0.0, 0.7, 0.0, false},
@@ -58,5 +59,6 @@ TEST(gap_takes_no_inertia_within_two_standard_errors) {
   const increments_t s = rows_of(0.5, 0.0, 0.0, 1, &k);
   CHECK(both_ways_agree(&s, k, 0.24) > 0.0);
   CHECK(both_ways_agree(&s, k, 0.26) == 0.0);
+  CHECK(both_ways_agree(&s, 0.2, 0.05) == 0.0); // the rows themselves say 0.5
   CHECK(both_ways_agree(&(increments_t){0}, 0.5, 0.05) == 0.0);
 }
