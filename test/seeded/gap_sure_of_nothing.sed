@@ -1,4 +1,4 @@
 # What every half-flight shows alike is taken for ups and downs.
-# file: sim/gap/5_infer/score.c
+# file: sim/gap/5_infer/score.h
 # test: gap_score_is_not_sure
-s/sum >= sqrt(squares)/sum >= 3.0 * sqrt(squares)/
+s/^#define SELECT_SURE  0\.9/#define SELECT_SURE 3.0/

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR 10.0 // times the typical size: what the ridge takes to be possible
+#define HARM 0.01 // of the sum of squares of a group of channels
+#define FAR  10.0 // times the typical size: what the ridge takes to be possible
 
 done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
   *j = (score_t){
@@ -103,7 +104,7 @@ bool score_harms(const score_t *j, const choice_t *without, const choice_t *with
   double before[GROUPS], after[GROUPS];
   if (!left_by_group(j, without, before) || !left_by_group(j, with, after)) return true;
   for (int i = 0; i < GROUPS; i++)
-    if (after[i] > before[i] * (1.0 + SELECT_GAIN) + 10.0) return true;
+    if (after[i] > before[i] * (1.0 + HARM) + 10.0) return true;
   return false;
 }
 
@@ -126,7 +127,7 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
     squares += less * less;
   }
   free(a);
-  return sum >= sqrt(squares);
+  return sum > SELECT_SURE * sqrt(squares);
 }
 
 // The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
@@ -212,8 +213,8 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
-double score_nominal_bound(const score_t *j, int n) {
-  return sqrt(lsq_f_quantile(SELECT_ALPHA, n, j->nominal && j->nominal->n ? j->nominal->n : NOMINAL_FLIGHTS));
+double score_nominal_bound(const score_t *j) {
+  return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, j->nominal && j->nominal->n ? j->nominal->n : NOMINAL_FLIGHTS));
 }
 
 // Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
@@ -241,8 +242,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
-  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&
-         v->over_nominal > score_nominal_bound(j, c->n);
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > score_nominal_bound(j);
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

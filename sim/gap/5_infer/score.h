@@ -6,8 +6,9 @@
 
 // What a candidate needs to enter (select.h).
 #define SELECT_ALPHA 0.01
-#define SELECT_GAIN  0.004 // of the sum of squares; so much of one kind of channels is harm
-#define SELECT_LEAST 0.12  // of what is typical: smaller ones are not named
+#define SELECT_GAIN  0.004
+#define SELECT_SURE  0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
+#define SELECT_LEAST 0.12 // of what is typical: smaller ones are not named
 
 #define SCORE_ERRORS 2.0 // standard errors that hold what is sure
 #define SCORE_MOST   0.5 // of what a name gives: what gives less in its place is something else
@@ -47,8 +48,7 @@ bool score_harms(const score_t *j, const choice_t *without, const choice_t *with
 // Sum of squares left where it was fitted.
 double score_fitted(const score_t *j, const choice_t *choice);
 
-// The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there:
-// it is no less than the root of the sum of its squares, which one half-flight alone gives.
+// The gain from one choice to another, summed over half-flights, stands out from its own ups and downs there.
 bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *better);
 
 // The other choice does as well, within two standard errors: it leaves D more, and D <= SCORE_RIVAL_SPAN d
@@ -79,9 +79,9 @@ verdict_t score_last(const score_t *j, const choice_t *choice);
 // It may be in the choice: gates (a), (b), (c).
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
 
-// So many times its rms on nominal flights a candidate of n numbers must be: of so few flights' normal errors
-// SELECT_ALPHA are larger.
-double score_nominal_bound(const score_t *j, int n);
+// So many times its rms on nominal flights a candidate must be: of so few flights' normal errors SELECT_ALPHA
+// are larger. Of several numbers as of one: in a flight they err together.
+double score_nominal_bound(const score_t *j);
 
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
 bool score_is_possible(const score_t *j, const choice_t *choice);
