@@ -22,11 +22,10 @@ static bool open_rows(rows_of_both_t *r, const set_t *s) {
 }
 
 double both_ways_agree(const increments_t *i, double k, double stderr_) {
-  if (!(i->yp > 0.0)) return 0.0;
+  if (!(k > 0.0 && i->yp > 0.0)) return 0.0;
   const double forward = i->pp / i->yp - 1.0, reverse = i->yp / i->yy - 1.0;
-  const double nearest = k > 0.0 ? reverse : forward, error = hypot(stderr_, 0.5 * (forward - reverse));
-  const bool beyond = nearest * k > 0.0 && fabs(nearest) > SCORE_ERRORS * error;
-  return beyond && fabs(k) > fabs(nearest) - SCORE_ERRORS * error ? nearest : 0.0;
+  const double error = hypot(stderr_, 0.5 * (forward - reverse));
+  return reverse > SCORE_ERRORS * error && k > reverse - SCORE_ERRORS * error ? reverse : 0.0;
 }
 
 done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named, bool *stands,

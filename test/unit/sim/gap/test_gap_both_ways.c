@@ -37,7 +37,7 @@ TEST(gap_takes_for_inertia_only_what_measured_by_predicted_and_predicted_by_meas
       {"half as much again", 0.5, 0.0, 0.0, true},
       {"the same, a gyro's noise", 0.5, 0.0, 0.2, true},
       {"the same, some commands missed", 0.5, 0.7, 0.2, true},
-      {"a third less", -0.33, 0.0, 0.2, true},
+      {"a third less: so does noise that is fed back", -0.33, 0.0, 0.0, false},
       {"the same, as much missed as told", 0.5, 1.5, 0.0, false}, // 0.5 to 2
       {"nothing", 0.0, 0.0, 0.0, false},
       {"nothing, a gyro's noise", 0.0, 0.0, 0.3, false},
