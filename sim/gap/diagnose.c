@@ -33,6 +33,7 @@ static done_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why
   const bool apart = job->held && job->held->n > 0;
   TRY(cut_flights(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
   TRY(excluded_find(&d->fit, job->model, why));
+  TRY(windows_keep(&d->fit, job->model, why));
   TRY(cut_flights(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
   memcpy(d->held.excluded, d->fit.excluded, sizeof d->held.excluded);
   d->fit.command_Hz = d->held.command_Hz = job->flown_by ? job->flown_by->rate_Hz : 0.0;

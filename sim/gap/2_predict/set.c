@@ -133,5 +133,6 @@ void set_free(set_t *s) {
   rows_free(&s->smooth);
   rows_free(&s->range);
   free(s->half);
+  free(s->cuts);
   *s = (set_t){.n_grid = 0};
 }

@@ -25,6 +25,7 @@ typedef struct {
   int n_half;
   bool excluded[CHANNELS]; // excluded.h
   double command_Hz;       // how often the motors were commanded; 0: nobody said
+  struct cuts *cuts;       // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;
 
 static inline const rows_t *set_rows(const set_t *s, int channel) {

@@ -47,6 +47,7 @@ static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, 
   along_t a;
   closed_loop_t any;
   done_t status = nominal_along(&a, s, m, loop, seed, why);
+  if (status == DONE) status = windows_keep(&a.seen, m, why);
   if (status == DONE) status = read_off(&any, left, &a.seen, m, loop->flown_by, why);
   along_free(&a);
   return status;

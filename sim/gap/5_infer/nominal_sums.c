@@ -110,6 +110,7 @@ static done_t one(part_t *p, int i, const nominal_job_t *job, why_t *why) {
   p->flown = flown.n;
   p->lost = s->n_grid - flown.n;
   if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
+  if (status == DONE) status = windows_keep(&own, job->base, why);
   memcpy(own.excluded, s->excluded, sizeof own.excluded);
   if (status == DONE) status = take_sums(p, &own, is, job, why);
   set_free(&own);

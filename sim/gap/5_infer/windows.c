@@ -3,6 +3,7 @@
 
 #include "base/nth.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define FINE     36                   // bins of equal width: a layer may be thin
@@ -48,12 +49,61 @@ static const rows_t *rows_of(const set_t *s, int list) {
   return list ? &s->range : &s->smooth;
 }
 
-static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
-                    double *room, int *bin, double *edge) {
+static bool find_bins(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
+                      double *room, int *bin, double *edge) {
   const rows_t *r = rows_of(s, list);
   if (r->n < ROWS * bins) return false;
   for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
   return cut_bins(room, r->n, bins, cut, room + r->n, bin, edge);
+}
+
+// --- kept -------------------------------------------------------------------------------------------------
+
+static const int KEPT_BINS[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = FINE};
+
+typedef struct {
+  bool there;
+  double edge[FINE + 1];
+  unsigned char *bin;
+} kept_t;
+
+struct cuts {
+  kept_t of[COORDINATES][2][CUTS];
+  unsigned char room[];
+};
+
+done_t windows_keep(set_t *s, const model_t *m, why_t *why) {
+  const lag_t lag = model_lag(m, 0.0); // the thrust is a coordinate: as the model's first replay has it
+  for (int i = 0; i < s->n_grid; i++)
+    if (!grid_motors(&s->grid[i], &lag, m->frame.motor_delay_s)) return error_failed(why, "out of memory");
+  const size_t rows = (size_t)s->smooth.n + (size_t)s->range.n, most = set_most_rows(s);
+  s->cuts = malloc(sizeof *s->cuts + COORDINATES * CUTS * rows);
+  double *const room = malloc(2 * most * sizeof(double));
+  int *const bin = malloc(most * sizeof(int));
+  unsigned char *to = s->cuts ? s->cuts->room : NULL;
+  for (int i = 0; s->cuts && room && bin && i < COORDINATES * 2 * CUTS; i++) {
+    const int list = i / CUTS % 2, n = rows_of(s, list)->n;
+    kept_t *const k = &s->cuts->of[i / CUTS / 2][list][i % CUTS];
+    k->there =
+        find_bins(s, m, i / CUTS / 2, list, KEPT_BINS[i % CUTS], (cut_t)(i % CUTS), room, bin, k->edge);
+    k->bin = to;
+    for (int r = 0; k->there && r < n; r++) to[r] = (unsigned char)bin[r];
+    to += n;
+  }
+  const bool good = s->cuts && room && bin;
+  free(room);
+  free(bin);
+  return good ? DONE : error_failed(why, "out of memory");
+}
+
+static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
+                    double *room, int *bin, double *edge) {
+  if (!s->cuts || bins != KEPT_BINS[cut])
+    return find_bins(s, m, coordinate, list, bins, cut, room, bin, edge);
+  const kept_t *const k = &s->cuts->of[coordinate][list][cut];
+  for (int i = 0; k->there && i < rows_of(s, list)->n; i++) bin[i] = k->bin[i];
+  memcpy(edge, k->edge, ((size_t)bins + 1) * sizeof(double));
+  return k->there;
 }
 
 bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {

@@ -37,6 +37,10 @@ typedef struct {
   int *bin;     // three times as many
 } look_t;
 
+// Keeps the bins of all rows along all coordinates: every look at any residual of the set wants the same.
+// Without it they are found anew each time. FAILED: no memory.
+MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
+
 // Each puts in place of cell[channel] what has a larger statistic.
 void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]);
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]);
