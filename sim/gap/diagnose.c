@@ -64,7 +64,7 @@ static done_t fly_with(const diagnose_job_t *job, diagnosis_t *d, const chosen_t
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   model_t m;
-  done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &first, why);
+  done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
   const chosen_t chosen = first.chosen;
   d->rounds = first.rounds;
   found_free(&first);
@@ -84,7 +84,7 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
 }
 
 static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *why) {
-  TRY(select_effects(&d->candidates, &d->fit, m, &d->nominal, &d->found, why));
+  TRY(select_effects(&d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
   d->rounds += d->found.rounds;
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, refined, why));
   candidates_reshape(&d->candidates, &d->found.chosen);
@@ -197,6 +197,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "replaying the logs");
   TRY(take_flights(job, d, why));
   TRY(candidates_make(&d->candidates, job->model, &d->fit, why));
+  TRY(timing_find(&d->timing, &d->candidates, &d->fit, job->model, why));
   tell(job, "flying what feedback alone would show");
   TRY(fly_nominal(job, d, why));
   tell(job, "looking for missing effects");

@@ -217,9 +217,8 @@ static done_t search(select_t *t, why_t *why) {
 }
 
 // A lag or a delay that is there for sure: which of the two it is stays so.
-static done_t take_timing(select_t *t, timing_t *timing, why_t *why) {
+static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   round_t *const r = &t->round;
-  TRY(timing_find(timing, r->c, r->s, r->given, why));
   const int candidate = timing->candidate;
   for (int i = 0; i < r->c->n; i++)
     if (round_fx(r, i)->class == FX_TIMING)
@@ -253,19 +252,18 @@ static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
   return DONE;
 }
 
-static done_t find_choice(select_t *t, found_t *found, why_t *why) {
-  timing_t timing;
-  TRY(take_timing(t, &timing, why));
+static done_t find_choice(select_t *t, const timing_t *timing, found_t *found, why_t *why) {
+  TRY(take_timing(t, timing, why));
   TRY(round_open(&t->round, why));
   TRY(search(t, why));
   memcpy(found->echo, t->echo, (size_t)t->round.c->n * sizeof *t->echo);
-  found_describe(found, &t->round, &timing);
-  TRY(family_find(&t->round, timing.measured, found, why));
+  found_describe(found, &t->round, timing);
+  TRY(family_find(&t->round, timing->measured, found, why));
   return tell_probabilities(&t->round, found, why);
 }
 
 done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,
-                      found_t *found, why_t *why) {
+                      const timing_t *timing, found_t *found, why_t *why) {
   const size_t n = (size_t)c->n + 1;
   bool *const room = calloc(4 * n, sizeof *room);
   select_t t = {.taken = calloc(n, sizeof(int)), .never = room};
@@ -274,7 +272,7 @@ done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, con
   for (int i = 0; room && i < c->n; i++) t.never[i] = c->candidate[i].barred;
   done_t status = found_make(found, c, why);
   if (status == DONE)
-    status = t.taken && room ? find_choice(&t, found, why) : error_failed(why, "out of memory");
+    status = t.taken && room ? find_choice(&t, timing, found, why) : error_failed(why, "out of memory");
   round_close(&t.round);
   free(t.taken);
   free(room);

@@ -16,9 +16,10 @@
 
 #include "gap/5_infer/found.h"
 
-// nominal: a null pointer for a first look; with n 0 where none could be flown. FAILED: no memory. Free what
-// is found, also on an error.
+// nominal: a null pointer for a first look; with n 0 where none could be flown. timing: of this set and
+// model. FAILED: no memory. Free what is found, also on an error.
 MUST_CHECK done_t select_effects(const candidates_t *c, set_t *s, const model_t *model,
-                                 const nominal_t *nominal, found_t *found, why_t *why);
+                                 const nominal_t *nominal, const timing_t *timing, found_t *found,
+                                 why_t *why);
 
 #endif
