@@ -85,16 +85,18 @@ MUST_CHECK done_t column_differentiate(grid_t *g, const path_t *now, const fx_us
 typedef struct {
   int columns;
   double **x[CHANNELS];
-  double *room;
+  chosen_t about; // about whose numbers the columns of those that are not chosen were formed
+  bool *chosen;   // by candidate: its column was formed as that of a chosen one
 } design_t;
 
 // Of all candidates, about the numbers of those that are chosen. FAILED: no memory.
 MUST_CHECK done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c,
                               const chosen_t *chosen, why_t *why);
-// The columns of the chosen alone about other numbers, and the residual; the other columns stay as they are.
-// FAILED: no memory; then it is empty.
+// The columns of the chosen about other numbers, and the residual. The other columns stay as they are; with
+// `all` those of candidates that are chosen no more are formed anew, and all where what is chosen has moved
+// by so much that it changes them. FAILED: no memory; then it is empty.
 MUST_CHECK done_t design_renew(design_t *t, set_t *s, const model_t *base, const candidates_t *c,
-                               const chosen_t *chosen, why_t *why);
+                               const chosen_t *chosen, bool all, why_t *why);
 void design_free(design_t *t);
 
 // Adds to the residual so many times what the straight line says that the chosen candidates do.

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define STAYS 0.05 // of what is typical of a chosen number: by less it does not change others' columns
+
 done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                             double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
   fx_use_t more = *use;
@@ -42,7 +44,7 @@ typedef struct {
   const candidates_t *c;
   const chosen_t *chosen;
   const model_t *base;
-  bool chosen_only;
+  const bool *wanted; // by candidate
 } asked_t;
 
 // The effect that a candidate is another shape of, if that one is chosen.
@@ -55,8 +57,7 @@ static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
 
 // The column starts from the model without `dropped`.
 static bool is_asked(const asked_t *a, int candidate, const fx_t *dropped) {
-  if (a->chosen_only && !chosen_use(a->chosen, candidate)) return false;
-  return chosen_otherwise(a, candidate) == dropped;
+  return a->wanted[candidate] && chosen_otherwise(a, candidate) == dropped;
 }
 
 // The columns of one flight that start from one model.
@@ -138,12 +139,18 @@ static done_t fill_from(design_t *t, set_t *s, int flight, const model_t *m, con
   return status;
 }
 
+static bool any_is_asked(const asked_t *a, const fx_t *dropped) {
+  bool any = false;
+  for (int i = 0; i < a->c->n; i++) any = any || is_asked(a, i, dropped);
+  return any;
+}
+
 static done_t fill_flight(design_t *t, set_t *s, int flight, const model_t *now, const asked_t *a,
                           flight_lines_t *l, const lines_t *predicted, why_t *why) {
   TRY(fill_from(t, s, flight, now, NULL, a, l, predicted, why));
-  for (int i = 0; i < a->chosen->n && !a->chosen_only; i++) {
+  for (int i = 0; i < a->chosen->n; i++) {
     const fx_t *const fx = a->chosen->use[i].fx;
-    if (fx_variants(fx) < 2 || a->c->candidate[a->chosen->of[i]].in_file) continue;
+    if (a->c->candidate[a->chosen->of[i]].in_file || !any_is_asked(a, fx)) continue;
     model_t m = *now;
     model_drop_fx(&m, fx);
     TRY(fill_from(t, s, flight, &m, fx, a, l, NULL, why));
@@ -164,7 +171,9 @@ void design_add_chosen(design_t *t, const set_t *s, const candidates_t *c, const
   }
 }
 
-static bool design_room(design_t *t, const set_t *s) {
+static bool design_room(design_t *t, const set_t *s, const candidates_t *c) {
+  t->chosen = calloc((size_t)c->n + 1, sizeof(bool));
+  if (!t->chosen) return false;
   for (int ch = 0; ch < CHANNELS; ch++) {
     t->x[ch] = calloc((size_t)t->columns + 1, sizeof(double *));
     if (!t->x[ch]) return false;
@@ -191,37 +200,82 @@ static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, l
   return DONE;
 }
 
+// Into columns that are empty: those of some candidates, and the residual.
 static done_t fill_design(design_t *t, set_t *s, const asked_t *a, why_t *why) {
   flight_lines_t l = {.room = NULL};
   lines_t predicted = {.r = {NULL}};
   const done_t status = fill(t, s, a, &l, &predicted, why);
   free(l.room);
   lines_free(&predicted);
+  for (int i = 0; i < a->c->n; i++)
+    if (a->wanted[i]) t->chosen[i] = chosen_use(a->chosen, i) != NULL;
   if (status != DONE) design_free(t);
   return status;
 }
 
+static bool *wanted_room(const candidates_t *c, bool wanted) {
+  bool *const room = malloc(((size_t)c->n + 1) * sizeof(bool));
+  for (int i = 0; room && i < c->n; i++) room[i] = wanted;
+  return room;
+}
+
 done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
                    why_t *why) {
-  *t = (design_t){.columns = c->columns};
-  if (!design_room(t, s)) {
+  *t = (design_t){.columns = c->columns, .about = *chosen};
+  bool *const all = wanted_room(c, true);
+  if (!all || !design_room(t, s, c)) {
+    free(all);
     design_free(t);
     return error_failed(why, "out of memory");
   }
-  return fill_design(t, s, &(asked_t){c, chosen, base, false}, why);
+  const done_t status = fill_design(t, s, &(asked_t){c, chosen, base, all}, why);
+  free(all);
+  return status;
+}
+
+// A force that adds to others leaves their columns as they are; what changes the vehicle, its thrust or what
+// it measures does not.
+static bool only_adds(const fx_t *fx) {
+  return fx->load && !fx->excess && !fx->tick && !fx->sense;
+}
+
+// From one choice to another, but for what only adds: a number by more than `STAYS`, or a shape.
+static bool moved(const candidates_t *c, const chosen_t *from, const chosen_t *to) {
+  for (int i = 0; i < from->n; i++) {
+    const fx_use_t *const a = &from->use[i], *const b = chosen_use(to, from->of[i]);
+    const candidate_t *const own = &c->candidate[from->of[i]];
+    if (only_adds(a->fx)) continue;
+    if (a->fx->n_shape && b && a->p[a->fx->shape_param] != b->p[a->fx->shape_param]) return true;
+    for (int k = 0; k < own->n; k++)
+      if (fabs(fx_use_size(a, k) - (b ? fx_use_size(b, k) : 0.0)) > STAYS * own->typical[k]) return true;
+  }
+  return false;
+}
+
+static void empty_columns(design_t *t, const candidate_t *own) {
+  for (int k = own->first; k < own->first + own->n; k++)
+    for (int ch = 0; ch < CHANNELS; ch++) {
+      free(t->x[ch][k]);
+      t->x[ch][k] = NULL;
+    }
 }
 
 done_t design_renew(design_t *t, set_t *s, const model_t *base, const candidates_t *c, const chosen_t *chosen,
-                    why_t *why) {
-  for (int i = 0; i < chosen->n; i++) {
-    const candidate_t *const own = &c->candidate[chosen->of[i]];
-    for (int k = own->first; k < own->first + own->n; k++)
-      for (int ch = 0; ch < CHANNELS; ch++) {
-        free(t->x[ch][k]);
-        t->x[ch][k] = NULL;
-      }
+                    bool all, why_t *why) {
+  const bool far = all && (moved(c, &t->about, chosen) || moved(c, chosen, &t->about));
+  bool *const wanted = wanted_room(c, far);
+  if (!wanted) {
+    design_free(t);
+    return error_failed(why, "out of memory");
   }
-  return fill_design(t, s, &(asked_t){c, chosen, base, true}, why);
+  for (int i = 0; i < c->n; i++) {
+    wanted[i] = far || chosen_use(chosen, i) || (all && t->chosen[i]);
+    if (wanted[i]) empty_columns(t, &c->candidate[i]);
+  }
+  if (far) t->about = *chosen;
+  const done_t status = fill_design(t, s, &(asked_t){c, chosen, base, wanted}, why);
+  free(wanted);
+  return status;
 }
 
 void design_free(design_t *t) {
@@ -230,4 +284,6 @@ void design_free(design_t *t) {
     free(t->x[ch]);
     t->x[ch] = NULL;
   }
+  free(t->chosen);
+  t->chosen = NULL;
 }

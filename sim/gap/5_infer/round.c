@@ -20,17 +20,31 @@ static explained_t known_of(const round_t *r, int column[COLUMN_MAX], double b[C
   return (explained_t){choice_columns(r->c, &r->choice, column), column, b, false};
 }
 
-done_t round_open(round_t *r, why_t *why) {
+static done_t closed_on_error(round_t *r, done_t status) {
+  if (status != DONE) round_close(r);
+  return status;
+}
+
+static done_t make_products(round_t *r, why_t *why) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const explained_t known = known_of(r, column, b);
   r->rounds++;
-  TRY(design_make(&r->table, r->s, r->base, r->c, &r->chosen, why));
-  done_t status = score_make(&r->score, r->c, &r->gram, r->nominal, why);
-  if (status == DONE)
-    status = gram_make(&r->gram, r->s, &r->table, &known, r->strict ? NULL : r->score.color_ridge, why);
-  if (status != DONE) round_close(r);
-  return status;
+  return gram_make(&r->gram, r->s, &r->table, &known, r->strict ? NULL : r->score.color_ridge, why);
+}
+
+done_t round_open(round_t *r, why_t *why) {
+  done_t status = design_make(&r->table, r->s, r->base, r->c, &r->chosen, why);
+  if (status == DONE) status = score_make(&r->score, r->c, &r->gram, r->nominal, why);
+  if (status == DONE) status = make_products(r, why);
+  return closed_on_error(r, status);
+}
+
+done_t round_complete(round_t *r, why_t *why) {
+  gram_free(&r->gram);
+  done_t status = design_renew(&r->table, r->s, r->base, r->c, &r->chosen, true, why);
+  if (status == DONE) status = make_products(r, why);
+  return closed_on_error(r, status);
 }
 
 done_t round_renew(round_t *r, why_t *why) {
@@ -39,12 +53,12 @@ done_t round_renew(round_t *r, why_t *why) {
   const explained_t known = known_of(r, column, b);
   bool *const some = calloc((size_t)r->c->columns + 1, sizeof(bool));
   for (int i = 0; some && i < known.n; i++) some[column[i]] = true;
-  done_t status = some ? design_renew(&r->table, r->s, r->base, r->c, &r->chosen, why)
+  done_t status = some ? design_renew(&r->table, r->s, r->base, r->c, &r->chosen, false, why)
                        : error_failed(why, "out of memory");
-  if (status == DONE) status = gram_renew(&r->gram, r->s, &r->table, r->strict ? &known : NULL, some, why);
+  if (status == DONE)
+    status = gram_renew(&r->gram, r->s, &r->table, r->strict ? &known : NULL, some, why);
   free(some);
-  if (status != DONE) round_close(r);
-  return status;
+  return closed_on_error(r, status);
 }
 
 static double possible(const candidate_t *c, int k, double value) {

@@ -27,6 +27,8 @@ MUST_CHECK done_t round_open(round_t *r, why_t *why);
 // The same of the choice alone, by which its numbers are estimated: nothing else may be asked then. Unless
 // strict, the colours stay. FAILED: no memory; then it is closed.
 MUST_CHECK done_t round_renew(round_t *r, why_t *why);
+// As round_open, once it is open: the columns that this changes.
+MUST_CHECK done_t round_complete(round_t *r, why_t *why);
 void round_close(round_t *r);
 
 // Brings the numbers of the choice by this share of the way to what is estimated now. Returns the largest

@@ -92,11 +92,6 @@ static bool prune_one(select_t *t) {
   return false;
 }
 
-static done_t reopen(select_t *t, why_t *why) {
-  round_close(&t->round);
-  return round_open(&t->round, why);
-}
-
 // Straight lines about the last values, until these stay; by half where they only go to and fro. On the way
 // only the columns of the choice are formed anew. With all of them the colours may be a little others: then
 // once more.
@@ -111,11 +106,11 @@ static done_t settle(select_t *t, why_t *why) {
     last = change < stays ? HUGE_VAL : change;
     all = change < stays;
     if (all)
-      TRY(reopen(t, why));
+      TRY(round_complete(&t->round, why));
     else
       TRY(round_renew(&t->round, why));
   }
-  return all ? DONE : reopen(t, why);
+  return all ? DONE : round_complete(&t->round, why);
 }
 
 static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
@@ -164,7 +159,7 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   t->broken[now] = true;
   r->choice = choice;
   r->chosen = chosen;
-  return reopen(t, why);
+  return round_complete(r, why);
 }
 
 static done_t step_until_still(select_t *t, why_t *why) {
@@ -208,7 +203,7 @@ static done_t search(select_t *t, why_t *why) {
   memset(t->taken, 0, (size_t)t->round.c->n * sizeof *t->taken);
   memset(t->echo, 0, (size_t)t->round.c->n * sizeof *t->echo);
   memset(t->broken, 0, (size_t)t->round.c->n * sizeof *t->broken);
-  TRY(reopen(t, why));
+  TRY(round_complete(&t->round, why));
   for (bool dropped = true; dropped;) {
     TRY(step_until_still(t, why));
     TRY(drop_doubtful(t, &dropped, why));
