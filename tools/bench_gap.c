@@ -14,7 +14,7 @@
 #define RUNS    3
 #define RATE    500.0
 #define LONG_S  120.0
-#define SHORT_S 15.0
+#define SHORT_S 30.0 // in 15 s nothing is named, in more two: no measure of growth
 #define ROUNDS  12
 #define ROUND_S (LONG_S / ROUNDS)
 #define START_S 5.0 // it flies, and is where it was told to be
