@@ -5,7 +5,8 @@ from pathlib import Path
 from draw import Vehicle
 from flights import HEAD
 
-COLUMNS = """# Of a table that rotorpy makes of a simulation, with the battery and two range sensors beside it: a row is of one instant.
+COLUMNS = """# Of a table that rotorpy makes of a simulation, with the battery and two range sensors beside it.
+# A row is of one instant.
 rest_height_m = {rest:.6g}
 acceleration = "body"
 

@@ -55,8 +55,7 @@ done_t round_renew(round_t *r, why_t *why) {
   for (int i = 0; some && i < known.n; i++) some[column[i]] = true;
   done_t status = some ? design_renew(&r->table, r->s, r->base, r->c, &r->chosen, false, why)
                        : error_failed(why, "out of memory");
-  if (status == DONE)
-    status = gram_renew(&r->gram, r->s, &r->table, r->strict ? &known : NULL, some, why);
+  if (status == DONE) status = gram_renew(&r->gram, r->s, &r->table, r->strict ? &known : NULL, some, why);
   free(some);
   return closed_on_error(r, status);
 }

@@ -62,48 +62,48 @@ TEST(controller_of_a_vehicle_file_may_be_known_by_its_rate_alone) {
   CHECK_NEAR(by.rate_Hz, 100.0, 0.0);
 }
 
+static const struct {
+  const char *what, *text, *want;
+} REFUSED[] = {
+    {"no kind", "", "v.toml:7: kind: missing; allowed: a text in quotes"},
+    {"kind", "kind = \"lqr\"\n", "v.toml:8: kind: unknown kind `lqr`; allowed: stock-pid, indi, other"},
+    {"group", "kind = \"stock-pid\"\nposCtl.xKp = 1\n",
+     "v.toml:9: posCtl: unknown key; allowed: kind, full_scale_N, posCtlPid, velCtlPid, pid_attitude, "
+     "pid_rate"},
+    {"gain", "kind = \"stock-pid\"\npid_rate.roll_kff = 1\n",
+     "v.toml:9: roll_kff: unknown key (did you mean roll_kp?); allowed: roll_kp, roll_ki, roll_kd, "
+     "pitch_kp, pitch_ki, pitch_kd, "
+     "yaw_kp, yaw_ki, yaw_kd"},
+    {"below 0", "kind = \"stock-pid\"\npid_rate.roll_kp = -1\n",
+     "v.toml:9: roll_kp: -1 is out of range; allowed: 0 to 100000"},
+    {"nan", "kind = \"stock-pid\"\nvelCtlPid.vzKi = nan\n",
+     "v.toml:9: vzKi: nan is out of range; allowed: 0 to 100000"},
+    {"no speed", "kind = \"stock-pid\"\nposCtlPid.xVelMax = 0\n",
+     "v.toml:9: xVelMax: 0; allowed: more than 0, to 100"},
+    {"a gain is a table", "kind = \"stock-pid\"\nposCtlPid = 1\n",
+     "v.toml:9: posCtlPid: wrong type; allowed: a table"},
+    {"parameter", "kind = \"indi\"\nindiPos.kq = 1\n",
+     "v.toml:9: kq: unknown parameter (did you mean indiPos.kp?); allowed: those of fly --params"},
+    {"range", "kind = \"indi\"\nindiPos.mass = 99\n",
+     "v.toml:9: mass: 99 is out of range; allowed: 0.01 to 2"},
+    {"fraction", "kind = \"indi\"\nceil.mode = 0.5\n", "v.toml:9: mode: 0.5; allowed: a whole number"},
+    {"no rate", "kind = \"other\"\n", "v.toml:7: rate_Hz: missing; allowed: a number"},
+    {"rate", "kind = \"other\"\nrate_Hz = 1\n", "v.toml:9: rate_Hz: 1 is out of range; allowed: 10 to 10000"},
+    {"gains of another", "kind = \"other\"\nrate_Hz = 100\npid_rate.roll_kp = 1\n",
+     "v.toml:10: pid_rate: unknown key; allowed: kind, rate_Hz"},
+    {"together", "kind = \"indi\"\nceil.floor = 0.2\n",
+     "v.toml:8: kind: parameters that contradict each other; allowed: what fly --set takes together"},
+};
+
 TEST(controller_of_a_vehicle_file_is_refused_with_line_and_key) {
-  static const struct {
-    const char *what, *text, *want;
-  } row[] = {
-      {"no kind", "", "v.toml:7: kind: missing; allowed: a text in quotes"},
-      {"kind", "kind = \"lqr\"\n", "v.toml:8: kind: unknown kind `lqr`; allowed: stock-pid, indi, other"},
-      {"group", "kind = \"stock-pid\"\nposCtl.xKp = 1\n",
-       "v.toml:9: posCtl: unknown key; allowed: kind, full_scale_N, posCtlPid, velCtlPid, pid_attitude, "
-       "pid_rate"},
-      {"gain", "kind = \"stock-pid\"\npid_rate.roll_kff = 1\n",
-       "v.toml:9: roll_kff: unknown key (did you mean roll_kp?); allowed: roll_kp, roll_ki, roll_kd, "
-       "pitch_kp, pitch_ki, pitch_kd, "
-       "yaw_kp, yaw_ki, yaw_kd"},
-      {"below 0", "kind = \"stock-pid\"\npid_rate.roll_kp = -1\n",
-       "v.toml:9: roll_kp: -1 is out of range; allowed: 0 to 100000"},
-      {"nan", "kind = \"stock-pid\"\nvelCtlPid.vzKi = nan\n",
-       "v.toml:9: vzKi: nan is out of range; allowed: 0 to 100000"},
-      {"no speed", "kind = \"stock-pid\"\nposCtlPid.xVelMax = 0\n",
-       "v.toml:9: xVelMax: 0; allowed: more than 0, to 100"},
-      {"a gain is a table", "kind = \"stock-pid\"\nposCtlPid = 1\n",
-       "v.toml:9: posCtlPid: wrong type; allowed: a table"},
-      {"parameter", "kind = \"indi\"\nindiPos.kq = 1\n",
-       "v.toml:9: kq: unknown parameter (did you mean indiPos.kp?); allowed: those of fly --params"},
-      {"range", "kind = \"indi\"\nindiPos.mass = 99\n",
-       "v.toml:9: mass: 99 is out of range; allowed: 0.01 to 2"},
-      {"fraction", "kind = \"indi\"\nceil.mode = 0.5\n", "v.toml:9: mode: 0.5; allowed: a whole number"},
-      {"no rate", "kind = \"other\"\n", "v.toml:7: rate_Hz: missing; allowed: a number"},
-      {"rate", "kind = \"other\"\nrate_Hz = 1\n",
-       "v.toml:9: rate_Hz: 1 is out of range; allowed: 10 to 10000"},
-      {"gains of another", "kind = \"other\"\nrate_Hz = 100\npid_rate.roll_kp = 1\n",
-       "v.toml:10: pid_rate: unknown key; allowed: kind, rate_Hz"},
-      {"together", "kind = \"indi\"\nceil.floor = 0.2\n",
-       "v.toml:8: kind: parameters that contradict each other; allowed: what fly --set takes together"},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof REFUSED / sizeof *REFUSED; i++) {
+    ROW("%s", REFUSED[i].what);
     char text[600];
     flown_by_t by;
     why_t why = {""};
-    snprintf(text, sizeof text, "%s%s", VEHICLE, row[i].text);
+    snprintf(text, sizeof text, "%s%s", VEHICLE, REFUSED[i].text);
     CHECK_STATUS(BAD_INPUT, read_file(scratch_file("v.toml", text, -1), &by, &why));
-    CHECK_TEXT(scratch_short(why.text), row[i].want);
+    CHECK_TEXT(scratch_short(why.text), REFUSED[i].want);
     CHECK(by.kind == FLOWN_BY_UNKNOWN);
   }
 }
