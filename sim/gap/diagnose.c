@@ -154,6 +154,7 @@ static bool bar_refuted(diagnosis_t *d) {
     const named_t *const named = &d->found.named[i];
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
     candidate_t *const c = &d->candidates.candidate[named->candidate];
+    if (c->barred) continue; // it is withdrawn already
     d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], named->confirm, false};
     refuted = c->barred = true;
   }

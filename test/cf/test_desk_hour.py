@@ -131,6 +131,7 @@ class Hour(unittest.TestCase):
         self.assertEqual({step_ms % PERIOD_MS for step_ms in steps_ms}, {0})
         self.assertGreater(min(steps_ms), 0)
         self.assertLess(flown_s, SPEED * (wall_s + 0.5))
+        self.assertGreater(flown_s, 0.9 * FLOWN_S)
         self.assertAlmostEqual(came, 1 - LOSS, delta=4 * math.sqrt(LOSS / len(rows)) + 0.005)
         flying = [int(info) >> 4 & 1 for _, _, _, info in rows]
         self.assertEqual(set(flying), {1})

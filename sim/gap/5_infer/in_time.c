@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ABOUT_S                                                                                              \
-  1.0 // what lasts as long is how the vehicle flies about: longer pulses are windows of time,
-      // slower lines repeat places and speeds, and with it estimators and pilots have begun
+// What lasts as long is how the vehicle flies about: longer pulses are windows of time, slower lines repeat
+// places and speeds, and with it estimators and pilots have begun.
+#define ABOUT_S 1.0
 
 // --- pulses -----------------------------------------------------------------------------------------------
 

@@ -37,8 +37,8 @@ typedef struct {
   int *bin;     // three times as many
 } look_t;
 
-// Keeps the bins of all rows along all coordinates: every look at any residual of the set wants the same.
-// Without it they are found anew each time. FAILED: no memory.
+// Keeps the bins of all rows along all coordinates, the thrust that of this model, whatever model a look is
+// given. Without it they are found anew each time. FAILED: no memory.
 MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
 
 // Each puts in place of cell[channel] what has a larger statistic.

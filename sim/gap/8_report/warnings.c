@@ -95,18 +95,18 @@ static void warn_of_withdrawn(report_t *r) {
     const refuted_t *const f = &d->refuted[i];
     const fx_size_t *const size = &f->fx->size[0];
     const char *const unit = f->fx->param[size->param].unit;
-    if (f->too_slow)
-      warn(
-          r,
-          "%s is withdrawn: what commands did between two rows of so slow a log could look like it (measured "
-          "turning by predicted says %.2g, predicted by measured does not)",
-          f->fx->name, f->value);
-    else
+    if (f->too_slow) {
       warn(r,
-           "%s is withdrawn: the rows show %.3g %s, but by the set points as instrument it is %.3g +- %.2g "
-           "%s: "
-           "feedback makes it",
-           f->fx->name, f->value, unit, f->by_set_points.value[0], f->by_set_points.stderr_[0], unit);
+           "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
+           "fed back, looks like it; measured turning by predicted and predicted by measured do not both "
+           "bear it out",
+           f->fx->name);
+      continue;
+    }
+    warn(r,
+         "%s is withdrawn: the rows show %.3g %s, but by the set points as instrument it is %.3g +- %.2g %s: "
+         "feedback makes it",
+         f->fx->name, f->value, unit, f->by_set_points.value[0], f->by_set_points.stderr_[0], unit);
   }
 }
 
