@@ -86,3 +86,18 @@ TEST(users_logs_are_not_given_a_name_that_feedback_made) {
     CHECK_TEXT(set.answer, row[i].answer); // was with delay
   }
 }
+
+// These logs miss most commands: what those did looks like an inertia; in one there is one.
+TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_commands_made) {
+  static const struct {
+    unsigned long seed;
+    const char *answer;
+  } row[] = {{24450, "climb_inflow"}, {24231, "inertia"}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    users_set_t set;
+    why_t why;
+    ROW("%lu", row[i].seed);
+    if (!CHECK_OK(users_one(USERS_HABITS, row[i].seed, &set, &why))) return;
+    CHECK_TEXT(set.answer, row[i].answer);
+  }
+}

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define STAYS                                                                                                \
-  0.05 // of what is typical of a chosen number: what it changes by less in others' columns is left
+// Of what is typical of a chosen number: what it changes by less in others' columns is left.
+#define STAYS 0.05
 
 done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                             double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
