@@ -164,7 +164,7 @@ typedef struct {
   fx_grows_t grows; // its nominal number and its step
 } fx_size_t;
 
-typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_class_t; // of one class, one at most is named
+typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_group_t; // of one group, one at most is named
 
 // What the vehicle file and the log must say before the workflow looks for an effect.
 enum {
@@ -195,7 +195,7 @@ typedef struct {
   const char *over[2], *in;
   fx_apart_t apart[FX_APART_MAX]; // ends where there is no rival
   int needs;                      // FX_NEEDS_*
-  fx_class_t class;
+  fx_group_t group;
   bool lags;      // FX_TIMING: it slows the motors down; else it moves their commands in time
   bool in_height; // a range sensor that has it gives it to an estimate of the height, too
   // Control that cancels a disturbance looks like this effect: the first look, which finds out how much

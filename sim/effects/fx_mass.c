@@ -17,7 +17,7 @@ const fx_t fx_mass = {
     .apart = {{"thrust_scale",
                "attitude doublets, logged at 500 Hz: a thrust scale changes moments too, a mass does not"},
               {"accel_bias", "throttle steps of 20 %: a bias stays, what a mass does grows with the thrust"}},
-    .class = FX_WEIGHT,
+    .group = FX_WEIGHT,
     .n_size = 1,
     .size = {{0, 1e-4, 0, 0.0, FX_BY_MASS}},
     .n_param = 3,

@@ -14,7 +14,7 @@ const fx_t fx_motor_lag = {
     .over = {"thrust"},
     .apart = {{"delay", "sharp throttle and attitude doublets, logged at 500 Hz"},
               {"inertia", "slow and fast attitude doublets: lag hurts the fast ones alone"}},
-    .class = FX_TIMING,
+    .group = FX_TIMING,
     .lags = true,
     .n_size = 1,
     .size = {{0, 0.03, 0, 5e-3, FX_SAME}},

@@ -14,7 +14,7 @@ const fx_t fx_thrust_scale = {
     .apart = {{"accel_bias", "throttle steps of 20 %: a bias stays, a scale grows with the thrust"},
               {"thrust_curve", "long climbs and descents with a wide range of throttle"},
               {"inertia", "throttle steps without turning, then attitude doublets"}},
-    .class = FX_WEIGHT,
+    .group = FX_WEIGHT,
     .n_size = 1,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}},
     .kind_param = 1,

@@ -93,7 +93,7 @@ static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *
 
 // What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none.
 static double bent_by(const fx_use_t *use) {
-  if (use && use->fx->class == FX_TIMING) return fx_use_size(use, 0);
+  if (use && use->fx->group == FX_TIMING) return fx_use_size(use, 0);
   return use && fx_use_has_shape(use) ? use->p[use->fx->shape_param] : (double)NAN;
 }
 

@@ -20,7 +20,7 @@ exam_kind_t exam_kind(int i) {
 // The classes of which one at most is named: either name is right.
 static bool same(const char *a, const char *b) {
   const fx_t *x = fx_find(a), *y = fx_find(b);
-  return x && y && (x == y || (x->class != FX_ALONE && x->class == y->class));
+  return x && y && (x == y || (x->group != FX_ALONE && x->group == y->group));
 }
 
 static done_t hide(exam_set_t *set, random_t *r, model_t *truth, why_t *why) {

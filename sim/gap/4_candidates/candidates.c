@@ -85,7 +85,7 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   const fx_t *const fx = own->fx;
   // Of other forms the first number is no factor of what the effect does.
   if (own->form && !own->form->needs_points && own->form != curve_find(fx->form_initial)) return;
-  if (fx->class == FX_TIMING) return;
+  if (fx->group == FX_TIMING) return;
   add(c, fx, m, 0);
   candidate_t *const to = &c->candidate[c->n - 1];
   to->use = *own;

@@ -67,12 +67,12 @@ typedef struct {
 
 // Mass and thrust scale differ in turning alone.
 static bool only_turning_tells(const round_t *r, int a, int b) {
-  return round_fx(r, a)->class == FX_WEIGHT && round_fx(r, b)->class == FX_WEIGHT && candidates_slow(r->s);
+  return round_fx(r, a)->group == FX_WEIGHT && round_fx(r, b)->group == FX_WEIGHT && candidates_slow(r->s);
 }
 
 // Selection settles on a lag or on a delay and asks no more; what the two do is nevertheless alike.
 static bool is_out(const round_t *r, bool measured, int i) {
-  return r->never[i] && (measured || round_fx(r, i)->class != FX_TIMING);
+  return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
 }
 
 // with: the choice with the other one as its last.

@@ -55,7 +55,7 @@ static void find_named(found_t *found, const round_t *r) {
     const verdict_t v = score_last(&r->score, &last);
     const fx_t *fx = round_fx(r, candidate);
     if (fabs(v.value[0]) < candidates_least(fx, r->s)) {
-      if (fx->class != FX_TIMING) continue; // a sensor's time, not the commands'
+      if (fx->group != FX_TIMING) continue; // a sensor's time, not the commands'
       found->aligned = fx;
       found->aligned_s = v.value[0];
       continue;

@@ -110,7 +110,7 @@ bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
   const fx_t *fx = round_fx(r, candidate);
   for (int i = 0; i < choice->n; i++) {
     const fx_t *other = round_fx(r, choice->of[i]);
-    if (other == fx || (fx->class != FX_ALONE && other->class == fx->class)) return false;
+    if (other == fx || (fx->group != FX_ALONE && other->group == fx->group)) return false;
   }
   return choice->n < NAMED_MAX;
 }
@@ -118,6 +118,6 @@ bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
 // Another class: of lag and delay, or of mass and thrust scale, either is right.
 bool round_may_stand_for(const round_t *r, const choice_t *rest, int own, int other) {
   const fx_t *const a = round_fx(r, own), *const b = round_fx(r, other);
-  return a != b && (a->class == FX_ALONE || a->class != b->class) && !r->never[other] &&
+  return a != b && (a->group == FX_ALONE || a->group != b->group) && !r->never[other] &&
          round_fits(r, rest, other);
 }

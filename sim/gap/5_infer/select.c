@@ -216,7 +216,7 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   round_t *const r = &t->round;
   const int candidate = timing->candidate;
   for (int i = 0; i < r->c->n; i++)
-    if (round_fx(r, i)->class == FX_TIMING)
+    if (round_fx(r, i)->group == FX_TIMING)
       t->never[i] = t->never[i] || timing->measured || (candidate >= 0 && i != candidate);
   if (candidate < 0) return DONE;
   if (!timing->measured) {

@@ -39,7 +39,7 @@ static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const mo
   TRY(unlike_rows(s, m, measured, left, &none, why));
   best = none - BETTER;
   for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].use.fx->class == FX_TIMING && k < N_TRY; k++) {
+    for (int k = 0; c->candidate[i].use.fx->group == FX_TIMING && k < N_TRY; k++) {
       model_t with = *m;
       fx_use_t use = c->candidate[i].use;
       double now;
@@ -138,7 +138,7 @@ static done_t read_speeds(timing_t *found, const candidates_t *c, set_t *set, co
   found->measured = true;
   for (int i = 0; i < c->n; i++) {
     const fx_t *fx = c->candidate[i].use.fx;
-    if (fx->class != FX_TIMING) continue;
+    if (fx->group != FX_TIMING) continue;
     s.lag = fx->lags;
     s.extra_s = 0.0;
     double value = least_in(&s, s.lag ? -0.9 * m->motor_tau_s : 0.0, s.lag ? 0.25 : 0.06);

@@ -9,8 +9,8 @@
 
 static bool rivals_a_name(const report_t *r, const fx_t *fx) {
   const model_t *const m = &r->study->diagnosis.extended;
-  for (int i = 0; i < m->n_fx && fx->class != FX_ALONE; i++)
-    if (m->fx[i].fx->class == fx->class) return true;
+  for (int i = 0; i < m->n_fx && fx->group != FX_ALONE; i++)
+    if (m->fx[i].fx->group == fx->group) return true;
   return false;
 }
 

@@ -54,7 +54,7 @@ static void say_steady(const finding_t *f, double mean, char text[REPORT_TEXT]) 
 void report_say(finding_t *f, const double *effect, int rows) {
   const amount_t a = amount_of(effect, rows);
   const double late_s = fx_use_size(f->use, 0);
-  if (f->fx->class == FX_TIMING)
+  if (f->fx->group == FX_TIMING)
     snprintf(f->says, REPORT_TEXT, "commands act %.2g +- %.1g ms %s", 1e3 * fabs(late_s),
              1e3 * f->named->stderr_[0], late_s < 0.0 ? "earlier" : "later");
   else if (a.mean * a.mean > 0.5 * a.rms * a.rms) // most of it is steady

@@ -162,8 +162,8 @@ TEST(an_effect_on_timing_says_whether_it_lags) {
     fx_plant_t plant = {.motor_tau_s = 0.05};
     const fx_tick_t tick = {.t_s = 0.0};
     ROW("%s", fx->name);
-    CHECK(!fx->lags || fx->class == FX_TIMING);
-    if (fx->class != FX_TIMING) continue;
+    CHECK(!fx->lags || fx->group == FX_TIMING);
+    if (fx->group != FX_TIMING) continue;
     const fx_use_t use = fx_use(fx);
     fx->tick(&use, &tick, &plant);
     CHECK((plant.motor_tau_s > 0.05) == fx->lags && (plant.delay_s > 0.0) == !fx->lags);
