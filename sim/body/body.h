@@ -7,9 +7,8 @@
 #ifndef SIM_BODY_BODY_H
 #define SIM_BODY_BODY_H
 
+#include "body/forces.h"
 #include "plant/integrate.h"
-#include "plant/rigid.h"
-#include "plant/touch.h"
 #include "vehicle/model.h"
 #include <stdint.h>
 
@@ -27,15 +26,6 @@ typedef struct {
   bool vertical_only;      // all but height, climb and thrust stand still
   bool held;               // as by body_hold()
 } body_start_t;
-
-// All that the derivative at a state needs besides the commands.
-typedef struct {
-  axes_t axes;
-  double ratio[ROTORS], speed_radps[ROTORS]; // speed: as it would be in free air
-  double turning[ROTORS];                    // what that is multiplied by
-  bool loaded;                               // else load is not set: nothing acts but the rotors
-  load_t load;
-} body_look_t;
 
 typedef struct {
   const model_t *model; // owned by the caller; must outlive the body and must not change
@@ -120,6 +110,9 @@ void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body
 // dydt at state y, with what acts there or without having looked.
 void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
+
+// How far the rotors are from ceiling and ground.
+fx_places_t body_places(const body_t *b);
 
 // Places rotors and points of contact around a centre of mass that lies at cg, seen from the vehicle file's.
 void body_place(body_t *b, d3_t cg);

@@ -1,0 +1,125 @@
+// forces.h - what acts on a vehicle at a state: rotors, surroundings, effects, contact. Header only: one
+// vehicle is moved by it, and eight at a time.
+//
+// It takes what it needs by acting_t and knows nothing of ticks, so that all numbers in it may be those of
+// eight vehicles (base/lane.hpp): no branch on a number that where() can do without.
+#ifndef SIM_BODY_FORCES_H
+#define SIM_BODY_FORCES_H
+
+#include "base/pair.h"
+#include "effects/fx.h"
+#include "plant/rigid.h"
+#include "plant/touch.h"
+#include <math.h>
+#include <stdbool.h>
+
+// All that the derivative at a state needs besides the commands.
+typedef struct {
+  axes_t axes;
+  double ratio[ROTORS], speed_radps[ROTORS]; // speed: as it would be in free air
+  double turning[ROTORS];                    // what that is multiplied by
+  load_t load;
+  bool loaded; // else load is not set: nothing acts but the rotors
+} body_look_t;
+
+// The vehicle, as it is in this tick.
+typedef struct {
+  const rigid_t *rigid;
+  const touch_t *touch;
+  const fx_plant_t *plant;
+  const fx_use_t *const *excess, *const *load; // effects with those hooks
+  int n_excess, n_load;
+  int excess_of;        // SURFACE_* that they have to do with
+  bool ticks;           // an effect changes the plant at ticks
+  const d3_t *push_w_N; // acts on the centre of mass besides; null: nothing does
+} acting_t;
+
+// How far each rotor is from the place of the centre of mass, along a direction in body axes.
+static inline pair_t forces_along(const rigid_t *r, int i, d3_t to) {
+  return to.x * pair_of(r->rotor_x_m + i) + to.y * pair_of(r->rotor_y_m + i) +
+         to.z * pair_of(r->rotor_z_m + i);
+}
+
+#define SURFACES (SURFACE_CEILING | SURFACE_GROUND)
+
+// How far the rotors are from the ceiling, and from the ground if it is asked for; pos_w_m: of the centre of
+// mass.
+static inline fx_places_t forces_places(const acting_t *f, int surfaces, d3_t pos_w_m, const axes_t *axes) {
+  const d3_t up = axes_up_b(axes);
+  const rigid_t *r = f->rigid;
+  const touch_t *t = f->touch;
+  const pair_t zero = pair_both(0.0), nowhere = pair_both(HUGE_VAL);
+  fx_places_t at;
+  at.radius_m = t->disc_radius_m;
+  for (int i = 0; i < ROTORS; i += 2) {
+    pair_put(at.ceiling_gap_m + i, pair_max(t->ceiling_m - (pos_w_m.z + forces_along(r, i, up)), zero));
+    pair_put(at.ground_gap_m + i, nowhere);
+  }
+  if (!(surfaces & SURFACE_GROUND)) return at;
+  const d3_t floor_up = axes_to_body(axes, t->floor_up_w);
+  const double above_m = touch_above_floor_m(t, pos_w_m);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(at.ground_gap_m + i, pair_max(above_m + forces_along(r, i, floor_up), zero));
+  return at;
+}
+
+// What the surroundings multiply each rotor's thrust by.
+static inline void forces_surfaces(const acting_t *f, const double *y, const axes_t *axes,
+                                   double ratio[ROTORS]) {
+  for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
+  if (f->n_excess == 0) return;
+  const fx_places_t at = forces_places(f, f->excess_of, d3_of(y + RIGID_POS_M), axes);
+  for (int k = 0; k < f->n_excess; k++) fx_add_excess(f->excess[k], &at, ratio);
+}
+
+static inline void forces_speeds(const acting_t *f, const double *y, body_look_t *look) {
+  rigid_rotor_radps(f->rigid, y + RIGID_THRUST_N, look->speed_radps);
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(look->turning + i, inflow_turning(pair_of(look->ratio + i), pair_of(f->rigid->faster + i)));
+}
+
+// Written in place: who takes it copied waits for each of these stores.
+static inline void forces_motion(const acting_t *f, const double *y, const body_look_t *look,
+                                 fx_motion_t *motion) {
+  const axes_t *const axes = &look->axes;
+  motion->pos_w_m = d3_of(y + RIGID_POS_M);
+  motion->air_b_mps = axes_to_body(axes, d3_sub(d3_of(y + RIGID_VEL_MPS), f->plant->air_w_mps));
+  motion->rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
+  motion->axes = axes;
+  motion->hub_b_m = f->touch->disc;
+  motion->spin = f->rigid->spin;
+  for (int i = 0; i < ROTORS; i += 2)
+    pair_put(motion->rotor_radps + i, pair_of(look->turning + i) * pair_of(look->speed_radps + i));
+}
+
+// Out of line: most vehicles have no such effect.
+static void forces_effects(const acting_t *f, const double *y, body_look_t *look) {
+  fx_motion_t motion;
+  forces_motion(f, y, look, &motion);
+  for (int k = 0; k < f->n_load; k++) f->load[k]->fx->load(f->load[k], &motion, &look->load);
+}
+
+// What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
+static inline void forces_look(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
+  look->axes = axes_of(dq_of(y + RIGID_Q_WB));
+  forces_surfaces(f, y, &look->axes, look->ratio);
+  forces_speeds(f, y, look);
+  look->loaded = f->ticks || f->n_load > 0 || f->push_w_N || surfaces;
+  if (!look->loaded) return;
+  look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  if (f->ticks) look->load = (load_t){axes_to_body(&look->axes, f->plant->force_w_N), f->plant->moment_b_Nm};
+  if (f->push_w_N) load_add(&look->load, axes_to_body(&look->axes, *f->push_w_N), (d3_t){0.0, 0.0, 0.0});
+  if (f->n_load > 0) forces_effects(f, y, look);
+  if (!surfaces) return;
+  const int near = surfaces & touch_near(f->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);
+  if (near) touch_load(f->touch, near, y, &look->axes, &look->load);
+}
+
+// dydt at state y, with what acts there.
+static inline void forces_derivative(const acting_t *f, const double *y, const body_look_t *look,
+                                     double *dydt) {
+  rigid_derivative(f->rigid, y, &look->axes, look->speed_radps, look->ratio, look->turning,
+                   look->loaded ? &look->load : NULL, dydt);
+}
+
+#endif
