@@ -3,12 +3,14 @@
 #ifndef SIM_BASE_LARGER_H
 #define SIM_BASE_LARGER_H
 
+#include "base/where.h"
+
 // Of zeros of either sign, the second.
 static inline double larger(double a, double b) {
-  return a > b || b != b ? a : b;
+  return where(a > b || b != b, a, b);
 }
 static inline double smaller(double a, double b) {
-  return a < b || b != b ? a : b;
+  return where(a < b || b != b, a, b);
 }
 
 #endif

@@ -30,6 +30,10 @@ static inline double pair_sum(pair_t a) {
 static inline pair_t pair_where(pair_bits_t holds, pair_t a, pair_t b) {
   return (pair_t)((holds & (pair_bits_t)a) | (~holds & (pair_bits_t)b));
 }
+// 2^n of whole numbers n, -1022..1023, that are in the lowest bits of a.
+static inline pair_t pair_exp2_of_bits(pair_t a) {
+  return (pair_t)(((pair_bits_t)a + 1023) << 52);
+}
 static inline bool pair_any(pair_bits_t holds) {
   return (holds[0] | holds[1]) != 0;
 }

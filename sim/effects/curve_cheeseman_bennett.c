@@ -6,7 +6,7 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   (void)points;
   const double k = radius_m / (4.0 * distance_m);
   const double denominator = 1.0 - k * k;
-  return denominator > 1.0 / p[0] ? 1.0 / denominator : p[0]; // k is infinite at contact
+  return where(denominator > 1.0 / p[0], 1.0 / denominator, p[0]); // k is infinite at contact
 }
 
 const curve_t curve_cheeseman_bennett = {

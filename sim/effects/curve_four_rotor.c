@@ -10,7 +10,7 @@
 #include <math.h>
 
 static double image(double z_m, double apart2_m2) {
-  return isfinite(z_m) ? z_m / pow(apart2_m2 + 4.0 * z_m * z_m, 1.5) : 0.0;
+  return where(isfinite(z_m), z_m / pow(apart2_m2 + 4.0 * z_m * z_m, 1.5), 0.0);
 }
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
@@ -19,7 +19,7 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   const double k = radius_m / (4.0 * z);
   const double denominator =
       1.0 - k * k - R2 * image(z, d2) - 0.5 * R2 * image(z, 2.0 * d2) - 2.0 * R2 * p[2] * image(z, b2);
-  return denominator > 1.0 / p[3] ? 1.0 / denominator : p[3];
+  return where(denominator > 1.0 / p[3], 1.0 / denominator, p[3]);
 }
 
 const curve_t curve_four_rotor = {

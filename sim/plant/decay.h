@@ -17,8 +17,8 @@ static inline pair_t decay(double a, double k, pair_t d) {
   const double to_integer = 0x1.8p52; // added, it leaves an integer in the lowest bits
   const pair_t n_and_more = d * (-0x1.71547652b82fep+0 * k) + to_integer, n = n_and_more - to_integer;
   const pair_t x = d * -k;
-  const pair_t r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40;   // ln 2 in two parts
-  const pair_t scale = (pair_t)(((pair_bits_t)n_and_more + 1023) << 52) * a; // 2^n
+  const pair_t r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40; // ln 2 in two parts
+  const pair_t scale = pair_exp2_of_bits(n_and_more) * a;
   const pair_t r2 = r * r, r4 = r2 * r2;
   const pair_t q01 = 0x1.0000000000001p-1 + r * 0x1.5555555555556p-3,
                q23 = 0x1.5555555553d63p-5 + r * 0x1.11111111109b3p-7,
@@ -27,7 +27,7 @@ static inline pair_t decay(double a, double k, pair_t d) {
                q89 = 0x1.289185613a3d6p-22 + r * 0x1.af38a9b0ec855p-26;
   const pair_t q = (q01 + r2 * q23) + r4 * ((q45 + r2 * q67) + r4 * q89);
   const pair_t result = (scale + scale * r) + scale * r2 * q;
-  return (pair_t)((pair_bits_t)result & (x > -DECAY_FAR));
+  return pair_where(x > pair_both(-DECAY_FAR), result, pair_both(0.0));
 }
 
 #endif

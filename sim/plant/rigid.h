@@ -50,14 +50,14 @@ typedef struct {
   double rotor_inertia_kgm2;   // >= 0   of propeller and motor about the axis
   double motor_tau_s;          // >= 0   below LAG_LEAST_S: none, the thrust is set with the command
   double motor_down_over_up;   // >= 0   what the lag is multiplied by while the thrust falls; 0: 1
-  bool lag_in_speed;           // else in thrust
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
   double torque_scale[ROTORS]; // what the torque is multiplied by besides
   double faster[ROTORS];       // by what share it turns faster, beside what its inflow does
-  double command_N[ROTORS];    // held
   double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf; // set by rigid_tune
+  d3_t per_inertia;                                                   // set by rigid_tune
+  double command_N[ROTORS];                                           // held
+  bool lag_in_speed;                                                  // else in thrust
   bool plain_lag;     // set by rigid_tune: in thrust, and the same up and down
-  d3_t per_inertia;   // set by rigid_tune
   bool vertical_only; // all but height, climb and thrust stand still
   bool held;          // all but the thrust stands still
 } rigid_t;
