@@ -10,7 +10,7 @@ B   = $(O)/release
 OPT = -O3
 
 # What demo and test need, so that there is one list to install, once.
-PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libnlopt-dev zlib1g-dev libmicrohttpd-dev gnuplot-nox python3
+PACKAGES      = g++ libsundials-dev libeigen3-dev libtomlplusplus-dev libcsv-dev libcjson-dev libboost-math-dev libboost-context-dev libnlopt-dev zlib1g-dev libmicrohttpd-dev gnuplot-nox python3
 # What some goals need besides.
 LINT_PACKAGES = clang clang-format libclang-rt-14-dev cppcheck
 LINT_GOALS    = lint arrows pictures format clang fuzz check mutants coverage setup-lint
@@ -30,7 +30,7 @@ OMP_LIB = -lgomp
 else
 OMP     = -Wno-unknown-pragmas -Wno-source-uses-openmp
 endif
-LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
+LIBS  = $(OMP_LIB) -lsundials_arkode -lsundials_nvecserial -lnlopt -lboost_context -ltomlplusplus -lcsv -lz -lcjson -lstdc++ -lm
 DESK_LIBS = -lmicrohttpd
 
 # Every source of some folders.
@@ -124,6 +124,10 @@ $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazy
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 # The exam's second plant sees nothing of the first.
 $(B)/test/exam/other/%.o: SEES = -Itest
+# Eight vehicles side by side: C compiled as C++, and with what lane_possible() has asked the processor for.
+$(B)/sim/body/lanes.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES)
+$(B)/sim/body/lanes.o: $(O)/gen/lanes_table.inc
+LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
 # They fly many vehicles at once, or form many columns.
 $(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP)
 
@@ -140,6 +144,8 @@ $(B)/gen/%.o: $(O)/gen/%.c $(B)/flags | setup
 
 $(O)/gen/%_table.c: $(force_tables) | setup
 	@tools/table.sh $* $@
+$(O)/gen/lanes_table.inc: $(force_tables) | setup
+	@tools/table.sh lanes $@
 $(O)/gen/version.c: $(force_tables)
 	@tools/version.sh $@
 $(O)/gen/page.c: sim/desk/page.html tools/page.py | setup

@@ -51,11 +51,29 @@ tests() {
   echo "const int test_count = (int)(sizeof test_table / sizeof *test_table);"
 }
 
+# The sources themselves, each in a namespace, with the tables as above: for eight vehicles at a time.
+lanes() {
+  for path in sim/effects/curve_*.c sim/effects/fx_*.c; do
+    echo "namespace in_$(basename "$path" .c) {"
+    echo "#include \"effects/$(basename "$path")\""
+    echo "}"
+  done
+  for kind in fx curve; do
+    echo "const ${kind}_t *const ${kind}_in_lanes[] = {"
+    for path in sim/effects/${kind}_*.c; do
+      name=$(basename "$path" .c)
+      echo "    &in_$name::$name,"
+    done
+    echo "};"
+  done
+}
+
 case $kind in
 fx) of fx_t effects/fx.h sim/effects ;;
 curve) of curve_t effects/fx.h sim/effects ;;
 scenario) of scenario_t flight/scenario.h sim/flight/scenario ;;
 vehicle) vehicles ;;
+lanes) lanes ;;
 test) tests ;;
 *) echo "table.sh: unknown kind $kind" >&2; exit 2 ;;
 esac >"$new"

@@ -2,6 +2,7 @@
 #include "body/body.h"
 
 #include "base/constants.h"
+#include "base/turns.h"
 #include "plant/rigid.h"
 #include <math.h>
 #include <string.h>
@@ -111,6 +112,8 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;
   b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
+  b->kind = kind;
+  b->step_s = step_s;
   const ode_t ode = {.n = RIGID_N, .derivative = derivative, .context = b, .step_s = step_s};
   const done_t status = integrate_open(&b->integrate, kind, &ode);
   if (status != DONE) body_close(b);
@@ -187,17 +190,29 @@ static void take_commands(body_t *b) {
   b->look_is_y = false;
 }
 
-static void tick(body_t *b, double span_s) {
+void body_tick_begin(body_t *b) {
   if (b->n_tick > 0) {
-    body_effects(b, span_s);
+    body_effects(b, b->span_s);
     b->look_is_y = false;
   }
-  delay_commands(b, span_s);
+  delay_commands(b, b->span_s);
   if (b->rigid.motor_tau_s < LAG_LEAST_S) take_commands(b);
+}
+
+void body_tick_alone(body_t *b) {
+  const double span_s = b->span_s;
   const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
   for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
   rigid_normalise(b->y);
   look_now(b);
+}
+
+bool body_is_clear(const body_t *b) {
+  return !(b->span_s > CHUNK_S) && !surfaces_within(b, b->span_s);
+}
+
+void body_tick_end(body_t *b) {
+  const double span_s = b->span_s;
   b->broken = b->broken || !isfinite(b->y[RIGID_POS_M + 2]) || !isfinite(b->y[RIGID_Q_WB]);
   b->charge = battery_discharge(&b->model->battery, b->charge, b->current_A, span_s);
   double left[ROTORS];
@@ -212,7 +227,14 @@ void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
     const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
     b->command_N[i] = command < max_N ? command : max_N;
   }
-  tick(b, span_s);
+  b->span_s = span_s;
+  if (turns_inside()) {
+    turns_wait(b); // moved with others (abreast.c)
+    return;
+  }
+  body_tick_begin(b);
+  body_tick_alone(b);
+  body_tick_end(b);
 }
 
 // --- looking ----------------------------------------------------------------------------------------------

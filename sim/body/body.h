@@ -42,6 +42,8 @@ typedef struct {
   bool pushed; // by push_w_N
   d3_t push_w_N;
   integrate_t *integrate;
+  integrate_kind_t kind;
+  double step_s, span_s; // of the integrator, and of the last tick
   random_t *random;
   fx_plant_t plant; // what the effects made of the model for this tick
   double memory[FX_MAX][FX_MEMORY];
@@ -94,6 +96,15 @@ double body_rest_z_m(const model_t *model);
 double body_rotor_z_m(const model_t *model);
 
 void body_close(body_t *b);
+
+// --- the inside: a tick in three parts (body.c, abreast.c) ----------------------------------------------
+
+void body_tick_begin(body_t *b); // commands and effects
+void body_tick_alone(body_t *b); // from y to the next, and a look at what acts there
+void body_tick_end(body_t *b);   // battery and time
+
+// Whether nothing can be touched in this tick.
+bool body_is_clear(const body_t *b);
 
 // --- the inside: what acts (body_forces.c) ---------------------------------------------------------------
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include <stdbool.h>
 
-#define ODE_MAX 32 // largest number of states
+#define ODE_MAX 136 // largest number of states: eight vehicles
 
 typedef enum {
   INTEGRATE_SUNDIALS,  // ERKStep, fixed step, classic four-stage table: the one to fly with

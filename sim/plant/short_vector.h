@@ -6,7 +6,7 @@
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_nvector.h>
 
-#define SHORT_VECTOR_MAX 32
+#define SHORT_VECTOR_MAX 136
 
 // n numbers, all 0. Null: n > SHORT_VECTOR_MAX, or no memory. N_VDestroy frees it; its clones have the same
 // operations.

@@ -1,0 +1,235 @@
+// lane.hpp - numbers of eight vehicles side by side, and C compiled for them: after this header a `double` is
+// eight. To be included by one source alone, first and outside of every namespace; what follows it belongs
+// into a namespace of its own, so that nothing of it meets the same names for one vehicle.
+//
+// Each lane gets the bits that it would get alone: the same operations in the same order, nothing fused.
+// Where code branches on a number, the lanes may part. Those that are fewer leave: `lanes_in` says who is
+// still in, what the others compute from there on is of no use, and the caller moves them one by one. So any
+// C is right in lanes; what parts them often is slow, and says where() in place of `? :` (base/where.h).
+// Needs AVX2 (-mavx2).
+#ifndef SIM_BASE_LANE_HPP
+#define SIM_BASE_LANE_HPP
+
+#include "base/lane.h"
+
+// All that knows a plain double.
+#include <immintrin.h>
+#include <limits.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The places of headers of which lanes have their own: see below.
+#define SIM_BASE_PAIR_H
+#define SIM_BASE_WHERE_H
+
+namespace {
+
+#define LANE inline __attribute__((always_inline))
+
+typedef double number_t; // of one vehicle
+
+// Lanes 0 to 7 that took part in every branch so far.
+thread_local unsigned lanes_in = 0;
+
+// A comparison. As a condition it is what most lanes say; the others leave.
+struct truth_t {
+  __m256d lo, hi; // all bits of a lane, or none
+  LANE unsigned bits() const {
+    return (unsigned)_mm256_movemask_pd(lo) | (unsigned)_mm256_movemask_pd(hi) << 4;
+  }
+  LANE operator bool() const {
+    const unsigned say = bits() & lanes_in;
+    if (say == 0 || say == lanes_in) return say != 0;
+    const bool most = 2 * __builtin_popcount(say) >= __builtin_popcount(lanes_in);
+    lanes_in = most ? say : lanes_in & ~say;
+    return most;
+  }
+};
+LANE truth_t operator&&(truth_t a, truth_t b) {
+  return {_mm256_and_pd(a.lo, b.lo), _mm256_and_pd(a.hi, b.hi)};
+}
+LANE truth_t operator||(truth_t a, truth_t b) {
+  return {_mm256_or_pd(a.lo, b.lo), _mm256_or_pd(a.hi, b.hi)};
+}
+LANE truth_t operator!(truth_t a) {
+  const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
+  return {_mm256_xor_pd(a.lo, all), _mm256_xor_pd(a.hi, all)};
+}
+
+struct lane_t {
+  __m256d lo, hi;
+  lane_t() = default;
+  LANE lane_t(__m256d l, __m256d h) : lo(l), hi(h) {}
+  constexpr LANE lane_t(number_t a) : lo{a, a, a, a}, hi{a, a, a, a} {}
+  // A whole number of it: that of the first lane; those that have another leave.
+  explicit operator int() const;
+};
+
+#define LANE_OPERATOR(sign, does)                                                                            \
+  LANE lane_t operator sign(lane_t a, lane_t b) {                                                            \
+    return {does(a.lo, b.lo), does(a.hi, b.hi)};                                                             \
+  }                                                                                                          \
+  LANE lane_t &operator sign##=(lane_t &a, lane_t b) {                                                       \
+    return a = a sign b;                                                                                     \
+  }
+LANE_OPERATOR(+, _mm256_add_pd)
+LANE_OPERATOR(-, _mm256_sub_pd)
+LANE_OPERATOR(*, _mm256_mul_pd)
+LANE_OPERATOR(/, _mm256_div_pd)
+
+#define LANE_COMPARISON(sign, kind)                                                                          \
+  LANE truth_t operator sign(lane_t a, lane_t b) {                                                           \
+    return {_mm256_cmp_pd(a.lo, b.lo, kind), _mm256_cmp_pd(a.hi, b.hi, kind)};                               \
+  }
+LANE_COMPARISON(<, _CMP_LT_OQ)
+LANE_COMPARISON(<=, _CMP_LE_OQ)
+LANE_COMPARISON(>, _CMP_GT_OQ)
+LANE_COMPARISON(>=, _CMP_GE_OQ)
+LANE_COMPARISON(==, _CMP_EQ_OQ)
+LANE_COMPARISON(!=, _CMP_NEQ_UQ)
+
+LANE lane_t lane_of(const number_t *p) {
+  return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+}
+LANE void lane_put(number_t *p, lane_t a) {
+  _mm256_storeu_pd(p, a.lo);
+  _mm256_storeu_pd(p + 4, a.hi);
+}
+
+LANE lane_t operator-(lane_t a) {
+  const __m256d sign = _mm256_set1_pd(-0.0);
+  return {_mm256_xor_pd(a.lo, sign), _mm256_xor_pd(a.hi, sign)};
+}
+
+// a where a comparison holds, elsewhere b.
+LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
+  return {_mm256_blendv_pd(b.lo, a.lo, holds.lo), _mm256_blendv_pd(b.hi, a.hi, holds.hi)};
+}
+
+// --- the C library's -----------------------------------------------------------------------------------
+
+LANE lane_t sqrt(lane_t a) {
+  return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)};
+}
+LANE lane_t fabs(lane_t a) {
+  const __m256d sign = _mm256_set1_pd(-0.0);
+  return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
+}
+
+// One by one, by the library itself.
+template <typename f_t> LANE lane_t each(f_t f, lane_t a, lane_t b) {
+  number_t x[LANES], y[LANES];
+  memcpy(x, &a, sizeof x);
+  memcpy(y, &b, sizeof y);
+  for (int i = 0; i < LANES; i++) x[i] = f(x[i], y[i]);
+  memcpy(&a, x, sizeof x);
+  return a;
+}
+#define LANE_FUNCTION(name)                                                                                  \
+  LANE lane_t name(lane_t a) {                                                                               \
+    return each([](number_t x, number_t) { return ::name(x); }, a, a);                                       \
+  }
+#define LANE_FUNCTION_OF_TWO(name)                                                                           \
+  LANE lane_t name(lane_t a, lane_t b) {                                                                     \
+    return each([](number_t x, number_t y) { return ::name(x, y); }, a, b);                                  \
+  }
+LANE_FUNCTION(sin)
+LANE_FUNCTION(cos)
+LANE_FUNCTION(exp)
+LANE_FUNCTION(log)
+LANE_FUNCTION_OF_TWO(pow)
+LANE_FUNCTION_OF_TWO(hypot)
+LANE_FUNCTION_OF_TWO(fmin)
+LANE_FUNCTION_OF_TWO(fmax)
+
+LANE truth_t isfinite(lane_t a) {
+  return fabs(a) < lane_t(HUGE_VAL);
+}
+
+inline lane_t::operator int() const {
+  number_t x[LANES];
+  memcpy(x, this, sizeof x);
+  const int first = (int)x[__builtin_ctz(lanes_in | 1u << LANES) % LANES];
+  for (int i = 0; i < LANES; i++)
+    if ((int)x[i] != first) lanes_in &= ~(1u << i);
+  return first;
+}
+
+// --- base/pair.h: two numbers of every lane ---------------------------------------------------------------
+
+struct pair_truth_t {
+  truth_t a[2];
+};
+struct pair_t {
+  lane_t a[2];
+  LANE lane_t operator[](int i) const { return a[i]; }
+};
+#define LANE_PAIR(sign)                                                                                      \
+  LANE pair_t operator sign(pair_t x, pair_t y) {                                                            \
+    return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
+  }                                                                                                          \
+  LANE pair_t operator sign(lane_t x, pair_t y) {                                                            \
+    return {{x sign y.a[0], x sign y.a[1]}};                                                                 \
+  }                                                                                                          \
+  LANE pair_t operator sign(pair_t x, lane_t y) {                                                            \
+    return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
+  }                                                                                                          \
+  LANE pair_t &operator sign##=(pair_t &x, pair_t y) {                                                       \
+    return x = x sign y;                                                                                     \
+  }
+LANE_PAIR(+)
+LANE_PAIR(-)
+LANE_PAIR(*)
+LANE_PAIR(/)
+LANE pair_truth_t operator<(pair_t x, pair_t y) {
+  return {{x.a[0] < y.a[0], x.a[1] < y.a[1]}};
+}
+LANE pair_truth_t operator>(pair_t x, pair_t y) {
+  return {{x.a[0] > y.a[0], x.a[1] > y.a[1]}};
+}
+
+LANE pair_t pair_of(const lane_t *p) {
+  return {{p[0], p[1]}};
+}
+LANE void pair_put(lane_t *p, pair_t x) {
+  p[0] = x.a[0];
+  p[1] = x.a[1];
+}
+LANE pair_t pair_both(lane_t x) {
+  return {{x, x}};
+}
+LANE lane_t pair_sum(pair_t x) {
+  return x.a[0] + x.a[1];
+}
+LANE pair_t pair_where(pair_truth_t holds, pair_t x, pair_t y) {
+  return {{where(holds.a[0], x.a[0], y.a[0]), where(holds.a[1], x.a[1], y.a[1])}};
+}
+LANE pair_t pair_min(pair_t x, pair_t y) {
+  return pair_where(x < y, x, y);
+}
+LANE pair_t pair_max(pair_t x, pair_t y) {
+  return pair_where(x > y, x, y);
+}
+LANE pair_t pair_sqrt(pair_t x) {
+  return {{sqrt(x.a[0]), sqrt(x.a[1])}};
+}
+// 2^n, of a whole number n that is in the lowest bits of x; 0 where keep does not hold.
+LANE lane_t exp2_of_bits(lane_t x) {
+  const __m256i bias = _mm256_set1_epi64x(1023);
+  return {_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.lo), bias), 52)),
+          _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.hi), bias), 52))};
+}
+LANE pair_t pair_exp2_of_bits(pair_t x) {
+  return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
+}
+
+} // namespace
+
+#define double lane_t
+
+#endif

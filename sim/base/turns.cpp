@@ -1,0 +1,83 @@
+// turns.cpp - jobs that run by turns in one thread, each on a stack of its own.
+#include "base/turns.h"
+
+#include <alloca.h>
+#include <boost/context/fiber.hpp>
+#include <boost/context/protected_fixedsize_stack.hpp>
+#include <new>
+#include <utility>
+
+namespace {
+
+using boost::context::fiber;
+
+constexpr std::size_t stack_bytes = 1 << 20; // as a thread's; what is not touched takes no memory
+
+constexpr std::size_t shift_bytes = 4096 / LANES + 64;
+
+struct place_t {
+  fiber job, back;
+  void *what = nullptr;
+};
+
+thread_local place_t *here = nullptr;
+
+void resume(place_t &p) {
+  p.what = nullptr;
+  here = &p;
+  p.job = std::move(p.job).resume();
+  here = nullptr;
+}
+
+// The next job in an empty place; some end before they have waited once.
+void fill(const turns_t &t, place_t &p, int n, int &next) {
+  while (!p.job && next < n) {
+    const int i = next++;
+    try {
+      p.job = fiber(std::allocator_arg, boost::context::protected_fixedsize_stack(stack_bytes),
+                    [&t, &p, i](fiber &&back) {
+                      p.back = std::move(back);
+                      // Stacks begin at pages: without a shift all of them want the same lines of the cache.
+                      *static_cast<volatile char *>(alloca(1 + (std::size_t)(i % LANES) * shift_bytes)) = 0;
+                      t.job(t.context, i);
+                      return std::move(p.back);
+                    });
+    } catch (const std::bad_alloc &) {
+      t.job(t.context, i);
+      continue;
+    }
+    resume(p);
+  }
+}
+
+} // namespace
+
+void turns_run(const turns_t *t, int n) {
+  if (here) {
+    for (int i = 0; i < n; i++) t->job(t->context, i);
+    return;
+  }
+  place_t place[LANES];
+  int next = 0;
+  for (bool any = true; any;) {
+    void *what[LANES];
+    any = false;
+    for (int k = 0; k < LANES; k++) {
+      if (place[k].job) resume(place[k]);
+      fill(*t, place[k], n, next);
+      what[k] = place[k].job ? place[k].what : nullptr;
+      any = any || what[k];
+    }
+    if (any) t->meet(t->meet_context, what);
+  }
+}
+
+bool turns_inside(void) {
+  return here != nullptr;
+}
+
+void turns_wait(void *what) {
+  place_t &p = *here;
+  p.what = what;
+  p.back = std::move(p.back).resume();
+}

@@ -1,0 +1,89 @@
+// test_abreast.c - vehicles that are moved side by side: the bits of each are those that it has alone.
+#include "base/lane.h"
+#include "body/abreast.h"
+#include "body/body.h"
+#include "rig/vehicle6.h"
+#include <string.h>
+
+#define FLIGHTS 11 // more than are moved at once
+#define TICKS   400
+
+typedef struct {
+  const model_t *model;
+  integrate_kind_t kind;
+  double climb_N; // above hover: who climbs touches the ceiling
+  double y[FLIGHTS][RIGID_N], charge[FLIGHTS];
+  int contacts;
+} flights_t;
+
+// Each from its own place, tilted, with its own commands and gusts, and for its own time.
+static void fly(void *self, int i) {
+  flights_t *const f = self;
+  const body_start_t start = {.pos_w_m = {0.1 * i, 0.0, 0.3 + 0.01 * i},
+                              .vel_w_mps = {0.4 - 0.1 * i, 0.05 * i, 0.0},
+                              .rate_b_radps = {0.1 * i, -0.2, 0.05 * i},
+                              .thrust_N = {0.08, 0.08, 0.08, 0.08},
+                              .seed = 7 + (uint64_t)i};
+  body_t b;
+  if (!CHECK_OK(body_open(&b, f->model, f->kind, 0.002, &start))) return;
+  for (int k = 0; k < TICKS - 10 * i; k++) {
+    const double more = WEIGHT_N / ROTORS + f->climb_N + 1e-3 * ((k / 20 + i) % 3 - 1);
+    const double command_N[ROTORS] = {more, more + 1e-4 * i, more, more - 1e-4};
+    body_tick(&b, command_N, 0.002);
+  }
+  memcpy(f->y[i], b.y, sizeof f->y[i]);
+  f->charge[i] = b.charge;
+  f->contacts += b.ceiling_contacts;
+  body_close(&b);
+}
+
+static long same_bits(const model_t *m, double climb_N, int *contacts) {
+  long together = 0;
+  *contacts = 0;
+  for (int kind = INTEGRATE_SUNDIALS; kind <= INTEGRATE_RK4; kind++) {
+    flights_t alone = {.model = m, .kind = (integrate_kind_t)kind, .climb_N = climb_N}, beside = alone;
+    for (int i = 0; i < FLIGHTS; i++) fly(&alone, i);
+    together += abreast(FLIGHTS, fly, &beside);
+    CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
+    CHECK(memcmp(alone.charge, beside.charge, sizeof alone.charge) == 0);
+    CHECK(alone.contacts == beside.contacts);
+    *contacts += beside.contacts;
+  }
+  return together;
+}
+
+// No list: whoever adds an effect finds it flown here.
+TEST(abreast_every_effect_has_the_bits_that_it_has_alone) {
+  for (int i = 0; i < fx_count; i++) {
+    ROW("%s", fx_table[i]->name);
+    model_t m = vehicle6(0.6);
+    const fx_use_t use = fx_use(fx_table[i]);
+    why_t why;
+    int contacts;
+    if (!CHECK_OK(model_add_fx(&m, &use, &why))) continue;
+    const long together = same_bits(&m, 0.0, &contacts);
+    if (lane_possible()) CHECK(together > FLIGHTS * TICKS);
+  }
+}
+
+TEST(abreast_every_curve_has_the_bits_that_it_has_alone) {
+  for (int i = 0; i < curve_count; i++) {
+    ROW("%s", curve_table[i]->name);
+    const bool ceiling = curve_table[i]->surfaces & SURFACE_CEILING;
+    model_t m = vehicle6(0.6);
+    fx_use_t use = fx_use(fx_find(ceiling ? "ceiling" : "ground"));
+    why_t why;
+    int contacts;
+    fx_use_form(&use, curve_table[i]);
+    if (!CHECK_OK(model_add_fx(&m, &use, &why))) continue;
+    (void)same_bits(&m, 0.0, &contacts);
+  }
+}
+
+TEST(abreast_who_touches_is_moved_alone_and_has_the_same_bits) {
+  const model_t m = vehicle6(0.5);
+  int contacts;
+  const long together = same_bits(&m, 0.02, &contacts);
+  CHECK(contacts > 0);
+  if (lane_possible()) CHECK(together > 0);
+}
