@@ -3,6 +3,7 @@
 #include "base/cpu_time.h"
 #include "base/made.h"
 #include "bench_gap.h"
+#include "body/abreast.h"
 #include "body/body.h"
 #include "flight/scenario.h"
 #include "flight/setup.h"
@@ -143,6 +144,55 @@ static done_t bench_loop(why_t *why) {
   return DONE;
 }
 
+#define ABREAST 16 // flights, of seeds that count up
+
+typedef struct {
+  setup_t setup[ABREAST];
+  done_t status;
+  why_t why;
+} abreast_flights_t;
+
+static void fly_one(void *self, int i) {
+  abreast_flights_t *const f = self;
+  flown_t flown;
+  why_t why;
+  const done_t status = setup_fly(&f->setup[i], &flown, &why);
+  if (status == DONE) flown_free(&flown);
+  if (status == DONE || f->status != DONE) return;
+  f->status = status;
+  f->why = why;
+}
+
+// The same loop, of flights that one core flies side by side, beside the same flights one after the other.
+static done_t bench_abreast(why_t *why) {
+  static const loop_row_t rows[] = {
+      {"SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, FLY_INDI_RBF, false},
+      {"Runge-Kutta by hand 2 ms", INTEGRATE_RK4, FLY_INDI_RBF, false},
+  };
+  for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    abreast_flights_t f = {.status = DONE};
+    for (int k = 0; k < ABREAST; k++) {
+      TRY(loop_setup(&rows[i], &f.setup[k], why));
+      f.setup[k].plan.seed = 1 + (uint64_t)k;
+    }
+    const double flown_s = ABREAST * f.setup[0].plan.end_s;
+    double one = 0.0, side = 0.0;
+    for (int run = 0; run < RUNS; run++) {
+      double t_s = cpu_time_s();
+      for (int k = 0; k < ABREAST; k++) fly_one(&f, k);
+      one = fmax(one, cpu_time_factor(flown_s, t_s));
+      t_s = cpu_time_s();
+      (void)abreast(ABREAST, fly_one, &f);
+      side = fmax(side, cpu_time_factor(flown_s, t_s));
+    }
+    *why = f.why;
+    if (f.status != DONE) return f.status;
+    printf("  eight side by side, %-38s %7.0f x real time (%.2f of one by one, best of %d)\n", rows[i].what,
+           side, side / one, RUNS);
+  }
+  return DONE;
+}
+
 int main(int argc, char **argv) {
   static const row_t rows[] = {
       {"closed loop, learning, noise, SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, 1},
@@ -157,7 +207,8 @@ int main(int argc, char **argv) {
   }
   if (argc == 2 && strcmp(argv[1], "loop") == 0) {
     why_t line;
-    return error_exit("bench", bench_loop(&line), &line);
+    const done_t flown = bench_loop(&line);
+    return error_exit("bench", flown == DONE ? bench_abreast(&line) : flown, &line);
   }
   if (argc > 1) {
     why_t line;
@@ -175,6 +226,7 @@ int main(int argc, char **argv) {
   why_t why;
   done_t status = bench_six(&why);
   if (status == DONE) status = bench_loop(&why);
+  if (status == DONE) status = bench_abreast(&why);
   if (status == DONE) status = bench_gap(&why);
   return error_exit("bench", status, &why);
 }

@@ -1,8 +1,13 @@
 // many.c - many flights of one scenario, one line each.
 #include "flight/many.h"
 
+#include "base/lane.h"
+#include "body/abreast.h"
 #include <math.h>
 #include <stdlib.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 typedef struct {
   done_t status;
@@ -84,23 +89,50 @@ static done_t take(const many_t *m, const line_t *line, uint64_t done, why_t *wh
   return m->summary ? summary_add(m->summary, m->from + done - 1, line->result, why) : DONE;
 }
 
+// Flights that are flown side by side: no more than leave every processor some.
+static int side_by_side(long n) {
+#ifdef _OPENMP
+  const long each = (n + omp_get_max_threads() - 1) / omp_get_max_threads();
+#else
+  const long each = n;
+#endif
+  return each < LANES ? (int)each : LANES;
+}
+
+typedef struct {
+  const many_t *m;
+  uint64_t from;
+  line_t line[LANES];
+} group_t;
+
+static void fly_one(void *self, int i) {
+  group_t *const g = self;
+  g->line[i] = fly(g->m, g->from + (uint64_t)i);
+}
+
 // The first failure, in the order of the seeds, ends what is written.
 done_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
   done_t status = DONE; // touched in the ordered part alone; so is the count
+  const int side = side_by_side(n);
   *m->not_finite = 0;
 #pragma omp parallel for ordered schedule(dynamic, 1)
-  for (long i = 0; i < n; i++) {
-    line_t line = fly(m, m->from + (uint64_t)i);
+  for (long first = 0; first < n; first += side) {
+    const int of = (int)(n - first < side ? n - first : side);
+    group_t g = {.m = m, .from = m->from + (uint64_t)first};
+    (void)abreast(of, fly_one, &g);
 #pragma omp ordered
-    if (status == DONE && line.status == DONE) {
-      status = take(m, &line, (uint64_t)i + 1, why);
-    } else if (status == DONE) {
-      status = line.status;
-      *why = line.why;
+    for (int i = 0; i < of; i++) {
+      line_t *const line = &g.line[i];
+      if (status == DONE && line->status == DONE) {
+        status = take(m, line, (uint64_t)(first + i) + 1, why);
+      } else if (status == DONE) {
+        status = line->status;
+        *why = line->why;
+      }
+      free(line->json);
+      cJSON_Delete(line->result);
     }
-    free(line.json);
-    cJSON_Delete(line.result);
   }
   if (m->progress) fputc('\n', stderr);
   return status;
