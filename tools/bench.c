@@ -106,15 +106,16 @@ typedef struct {
 } loop_row_t;
 
 // The complete loop: body, real sensors, estimator and the whole flight code, in the thesis's test flight.
-static done_t loop_setup(const loop_row_t *row, setup_t *setup, why_t *why) {
+// The request must outlive the setup.
+static done_t loop_setup(const loop_row_t *row, request_t *request, setup_t *setup, why_t *why) {
   static const double gap_m[] = {0.20, 0.09, 0.05, 0.03};
-  request_t request = {.integrate = row->integrate, .seed = 1};
+  *request = (request_t){.integrate = row->integrate, .seed = 1};
   if (row->faults) {
-    request.noise = noise_find("flown");
-    request.effect[request.n_effect++] = fx_use(fx_find("motor_damage"));
+    request->noise = noise_find("flown");
+    request->effect[request->n_effect++] = fx_use(fx_find("motor_damage"));
   }
   TRY(setup_thesis(setup, row->kind, why));
-  TRY(setup_apply(setup, &request, why));
+  TRY(setup_apply(setup, request, why));
   setup->flight.guard.blind_max_s = SETUP_BLIND_S;
   setup_ladder(setup, gap_m, 4, 10.0);
   if (row->faults) setup->plan.edit = fail_range;
@@ -129,8 +130,9 @@ static done_t bench_loop(why_t *why) {
       {"and with faults", INTEGRATE_RK4, FLY_INDI_LIVE, true},
   };
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    request_t request;
     setup_t setup;
-    TRY(loop_setup(&rows[i], &setup, why));
+    TRY(loop_setup(&rows[i], &request, &setup, why));
     double best = 0.0;
     for (int run = 0; run < RUNS; run++) {
       flown_t flown;
@@ -170,9 +172,10 @@ static done_t bench_abreast(why_t *why) {
       {"Runge-Kutta by hand 2 ms", INTEGRATE_RK4, FLY_INDI_RBF, false},
   };
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    request_t request;
     abreast_flights_t f = {.status = DONE};
     for (int k = 0; k < ABREAST; k++) {
-      TRY(loop_setup(&rows[i], &f.setup[k], why));
+      TRY(loop_setup(&rows[i], &request, &f.setup[k], why));
       f.setup[k].plan.seed = 1 + (uint64_t)k;
     }
     const double flown_s = ABREAST * f.setup[0].plan.end_s;
