@@ -9,7 +9,7 @@
 #define TICKS   400
 
 typedef struct {
-  const model_t *model;
+  const model_t *model, *other; // other: every third flight's
   integrate_kind_t kind;
   double climb_N; // above hover: who climbs touches the ceiling
   double y[FLIGHTS][RIGID_N], charge[FLIGHTS];
@@ -25,7 +25,7 @@ static void fly(void *self, int i) {
                               .thrust_N = {0.08, 0.08, 0.08, 0.08},
                               .seed = 7 + (uint64_t)i};
   body_t b;
-  if (!CHECK_OK(body_open(&b, f->model, f->kind, 0.002, &start))) return;
+  if (!CHECK_OK(body_open(&b, i % 3 == 1 ? f->other : f->model, f->kind, 0.002, &start))) return;
   for (int k = 0; k < TICKS - 10 * i; k++) {
     const double more = WEIGHT_N / ROTORS + f->climb_N + 1e-3 * ((k / 20 + i) % 3 - 1);
     const double command_N[ROTORS] = {more, more + 1e-4 * i, more, more - 1e-4};
@@ -37,11 +37,12 @@ static void fly(void *self, int i) {
   body_close(&b);
 }
 
-static long same_bits(const model_t *m, double climb_N, int *contacts) {
+static long same_bits_of(const model_t *m, const model_t *other, double climb_N, int *contacts) {
   long together = 0;
   *contacts = 0;
   for (int kind = INTEGRATE_SUNDIALS; kind <= INTEGRATE_RK4; kind++) {
-    flights_t alone = {.model = m, .kind = (integrate_kind_t)kind, .climb_N = climb_N}, beside = alone;
+    flights_t alone = {.model = m, .other = other, .kind = (integrate_kind_t)kind, .climb_N = climb_N},
+              beside = alone;
     for (int i = 0; i < FLIGHTS; i++) fly(&alone, i);
     together += abreast(FLIGHTS, fly, &beside);
     CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
@@ -50,6 +51,10 @@ static long same_bits(const model_t *m, double climb_N, int *contacts) {
     *contacts += beside.contacts;
   }
   return together;
+}
+
+static long same_bits(const model_t *m, double climb_N, int *contacts) {
+  return same_bits_of(m, m, climb_N, contacts);
 }
 
 // No list: whoever adds an effect finds it flown here.
@@ -78,6 +83,19 @@ TEST(abreast_every_curve_has_the_bits_that_it_has_alone) {
     if (!CHECK_OK(model_add_fx(&m, &use, &why))) continue;
     (void)same_bits(&m, 0.0, &contacts);
   }
+}
+
+// At a branch on a number of their own: here on where the ceiling's distance is taken.
+TEST(abreast_who_parts_from_the_others_is_moved_alone_and_has_the_same_bits) {
+  model_t m = vehicle6(0.6), other = m;
+  fx_use_t use = fx_use(fx_find("ceiling"));
+  why_t why;
+  int contacts;
+  CHECK_OK(model_add_fx(&m, &use, &why));
+  use.p[fx_use_kind(&use)] = 0.0;
+  CHECK_OK(model_add_fx(&other, &use, &why));
+  const long together = same_bits_of(&m, &other, 0.0, &contacts);
+  if (lane_possible()) CHECK(together > FLIGHTS * TICKS);
 }
 
 TEST(abreast_who_touches_is_moved_alone_and_has_the_same_bits) {
