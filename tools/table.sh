@@ -8,9 +8,14 @@ mkdir -p "$(dirname "$file")"
 new=$(mktemp)
 trap 'rm -f "$new"' EXIT
 
+# names KIND FOLDER: every `const KIND_t KIND_NAME` defined there, in one order on every machine.
+names() {
+  sed -nE "s/^const $1_t ($1_[a-z0-9_]+) = .*/\1/p" "$2"/*.c | LC_ALL=C sort
+}
+
 # of TYPE HEADER FOLDER: an array of pointers to every `const TYPE KIND_NAME` defined in FOLDER.
 of() {
-  names=$(sed -nE "s/^const $1 (${kind}_[a-z0-9_]+) = .*/\1/p" "$3"/*.c | sort)
+  names=$(names "$kind" "$3")
   echo "#include \"$2\""
   for name in $names; do echo "extern const $1 $name;"; done
   echo "const $1 *const ${kind}_table[] = {"
@@ -60,9 +65,8 @@ lanes() {
   done
   for kind in fx curve; do
     echo "const ${kind}_t *const ${kind}_in_lanes[] = {"
-    for path in sim/effects/${kind}_*.c; do
-      name=$(basename "$path" .c)
-      echo "    &in_$name::$name,"
+    for name in $(names $kind sim/effects); do
+      echo "    &in_$(basename "$(grep -lE "^const ${kind}_t $name = " sim/effects/*.c)" .c)::$name,"
     done
     echo "};"
   done

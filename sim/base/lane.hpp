@@ -4,8 +4,8 @@
 //
 // Each lane gets the bits that it would get alone: the same operations in the same order, nothing fused.
 // Where code branches on a number, the lanes may part. Those that are fewer leave: `lanes_in` says who is
-// still in, what the others compute from there on is of no use, and the caller moves them one by one. So any
-// C is right in lanes; what parts them often is slow, and says where() in place of `? :` (base/where.h).
+// still in, what the others compute from there on is of no use, and the caller moves them one by one. So what
+// compiles is right; what parts them often is slow, and says where() in place of `? :` (base/where.h).
 // Needs AVX2 (-mavx2).
 #ifndef SIM_BASE_LANE_HPP
 #define SIM_BASE_LANE_HPP
@@ -140,15 +140,39 @@ template <typename f_t> LANE lane_t each(f_t f, lane_t a, lane_t b) {
   }
 LANE_FUNCTION(sin)
 LANE_FUNCTION(cos)
+LANE_FUNCTION(tan)
+LANE_FUNCTION(asin)
+LANE_FUNCTION(acos)
+LANE_FUNCTION(atan)
+LANE_FUNCTION(sinh)
+LANE_FUNCTION(cosh)
+LANE_FUNCTION(tanh)
 LANE_FUNCTION(exp)
+LANE_FUNCTION(exp2)
+LANE_FUNCTION(expm1)
 LANE_FUNCTION(log)
+LANE_FUNCTION(log2)
+LANE_FUNCTION(log10)
+LANE_FUNCTION(log1p)
+LANE_FUNCTION(cbrt)
+LANE_FUNCTION(erf)
+LANE_FUNCTION(floor)
+LANE_FUNCTION(ceil)
+LANE_FUNCTION(round)
+LANE_FUNCTION(trunc)
 LANE_FUNCTION_OF_TWO(pow)
 LANE_FUNCTION_OF_TWO(hypot)
+LANE_FUNCTION_OF_TWO(atan2)
+LANE_FUNCTION_OF_TWO(fmod)
+LANE_FUNCTION_OF_TWO(copysign)
 LANE_FUNCTION_OF_TWO(fmin)
 LANE_FUNCTION_OF_TWO(fmax)
 
 LANE truth_t isfinite(lane_t a) {
   return fabs(a) < lane_t(HUGE_VAL);
+}
+LANE truth_t isnan(lane_t a) {
+  return a != a;
 }
 
 inline lane_t::operator int() const {
@@ -218,7 +242,7 @@ LANE pair_t pair_max(pair_t x, pair_t y) {
 LANE pair_t pair_sqrt(pair_t x) {
   return {{sqrt(x.a[0]), sqrt(x.a[1])}};
 }
-// 2^n, of a whole number n that is in the lowest bits of x; 0 where keep does not hold.
+// 2^n, of a whole number n that is in the lowest bits of x.
 LANE lane_t exp2_of_bits(lane_t x) {
   const __m256i bias = _mm256_set1_epi64x(1023);
   return {_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.lo), bias), 52)),
