@@ -37,15 +37,32 @@ typedef struct {
 
 // --- who may be moved together ----------------------------------------------------------------------------
 
-static bool has_points(const body_t *b) {
-  for (int k = 0; k < b->n_excess; k++)
-    if (b->excess[k]->form && b->excess[k]->form->needs_points) return true;
-  return false;
+static int at(const void *const *table, int n, const void *one) {
+  for (int i = 0; i < n; i++)
+    if (table[i] == one) return i;
+  return -1;
+}
+static int at_fx(const fx_use_t *use) {
+  return at((const void *const *)fx_table, fx_count, use->fx);
+}
+static int at_form(const fx_use_t *use) {
+  return at((const void *const *)curve_table, curve_count, use->form);
+}
+
+// Effects that the tables hold, without points.
+static bool knows_effects(const body_t *b) {
+  for (int k = 0; k < b->n_excess; k++) {
+    const fx_use_t *const use = b->excess[k];
+    if (at_fx(use) < 0 || (use->form && (at_form(use) < 0 || use->form->needs_points))) return false;
+  }
+  for (int k = 0; k < b->n_load; k++)
+    if (at_fx(b->load[k]) < 0) return false;
+  return true;
 }
 
 static bool fits(const body_t *b) {
   return !b->broken && b->kind != INTEGRATE_REFERENCE && !b->rigid.vertical_only && !b->rigid.held &&
-         !b->on_floor && !b->on_ceiling && !has_points(b) && body_is_clear(b);
+         !b->on_floor && !b->on_ceiling && knows_effects(b) && body_is_clear(b);
 }
 
 static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int n) {
@@ -62,15 +79,6 @@ static bool alike(const body_t *a, const body_t *b) {
          same_effects(a->excess, b->excess, a->n_excess) && same_effects(a->load, b->load, a->n_load);
 }
 
-static int at(const void *const *table, int n, const void *one) {
-  for (int i = 0; i < n; i++)
-    if (table[i] == one) return i;
-  return -1;
-}
-static int at_fx(const fx_use_t *use) {
-  return at((const void *const *)fx_table, fx_count, use->fx);
-}
-
 static lanes_alike_t alike_of(const body_t *b) {
   lanes_alike_t a = {.lag_in_speed = b->rigid.lag_in_speed,
                      .plain_lag = b->rigid.plain_lag,
@@ -83,7 +91,7 @@ static lanes_alike_t alike_of(const body_t *b) {
                      .n_load = b->n_load};
   for (int k = 0; k < b->n_excess; k++) {
     a.excess[k] = at_fx(b->excess[k]);
-    a.excess_form[k] = at((const void *const *)curve_table, curve_count, b->excess[k]->form);
+    a.excess_form[k] = at_form(b->excess[k]);
   }
   for (int k = 0; k < b->n_load; k++) a.load[k] = at_fx(b->load[k]);
   return a;
@@ -162,9 +170,6 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
   return moved;
 }
 
-// Five take as long together as one by one, fewer longer: what is computed is computed for eight.
-#define FEWEST 6
-
 static unsigned alike_in(body_t *const *b, const body_t **first) {
   unsigned in = 0;
   int n = 0;
@@ -175,7 +180,7 @@ static unsigned alike_in(body_t *const *b, const body_t **first) {
     in |= 1u << k;
     n++;
   }
-  return n < FEWEST ? 0 : in;
+  return n < ABREAST_FEWEST ? 0 : in;
 }
 
 static void move_all(void *self, void *const what[LANES]) {
@@ -192,7 +197,8 @@ static void move_all(void *self, void *const what[LANES]) {
 }
 
 long abreast(int n, void (*flight)(void *context, int i), void *context) {
-  abreast_t a = {.lanes = n > 1 && lane_possible() ? lanes_open() : NULL};
+  static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS};
+  abreast_t a = {.lanes = n > 1 && lane_possible() ? lanes_open(&numbers) : NULL};
   const turns_t turns = {.job = flight, .meet = move_all, .context = context, .meet_context = &a};
   if (a.lanes)
     turns_run(&turns, n);

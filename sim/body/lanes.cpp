@@ -15,6 +15,12 @@ inline double random_normal(random_t *) {
   lanes_in = 0;
   return 0.0;
 }
+inline double random_uniform(random_t *r, double, double) {
+  return random_normal(r);
+}
+inline void random_triangles(random_t *r, int n, double *out) {
+  for (int i = 0; i < n; i++) out[i] = random_normal(r);
+}
 
 #include "body/forces.h"
 #include "plant/rigid.c"
@@ -47,8 +53,15 @@ struct lanes {
   lanes_at_t at;
 };
 
-lanes_t *lanes_open() {
-  lanes_t *const l = new (std::nothrow) lanes_t();
+// A flag between the numbers of a struct would shift those behind it.
+static bool same_order(const lanes_numbers_t *n) {
+  const std::size_t one = sizeof(lane_t);
+  return n->rigid * one == offsetof(rigid_t, lag_in_speed) && n->touch * one == sizeof(touch_t) &&
+         n->plant * one == sizeof(fx_plant_t) && n->look * one == offsetof(body_look_t, loaded);
+}
+
+lanes_t *lanes_open(const lanes_numbers_t *numbers_of_one) {
+  lanes_t *const l = same_order(numbers_of_one) ? new (std::nothrow) lanes_t() : nullptr;
   if (!l) return nullptr;
   l->at = {numbers(&l->rigid), numbers(&l->touch), numbers(&l->plant), numbers(&l->push_w_N), {}, {},
            numbers(l->y),      numbers(&l->look)};
@@ -106,7 +119,7 @@ bool lanes_end(lanes_t *l) {
 
 #else // nobody asks for more (lane_possible)
 
-lanes_t *lanes_open() {
+lanes_t *lanes_open(const lanes_numbers_t *) {
   return nullptr;
 }
 void lanes_close(lanes_t *) {}

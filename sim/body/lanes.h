@@ -6,6 +6,7 @@
 
 #include "base/lane.h"
 #include <stdbool.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,8 +31,13 @@ typedef struct {
   int excess_form[LANES_EFFECTS];                 // in curve_table; -1: none
 } lanes_alike_t;
 
-// Null: no memory.
-lanes_t *lanes_open(void);
+// How many numbers each struct begins with for one vehicle; of touch and plant that is all.
+typedef struct {
+  size_t rigid, touch, plant, look;
+} lanes_numbers_t;
+
+// Null: no memory, or a struct whose numbers do not lie one behind the other.
+lanes_t *lanes_open(const lanes_numbers_t *numbers);
 void lanes_close(lanes_t *l);
 
 const lanes_at_t *lanes_at(const lanes_t *l);

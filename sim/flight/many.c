@@ -98,7 +98,7 @@ static int side_by_side(integrate_kind_t kind, long n) {
 #else
   const long each = n;
 #endif
-  return each < LANES ? (int)each : LANES;
+  return each < ABREAST_FEWEST ? 1 : each < LANES ? (int)each : LANES;
 }
 
 typedef struct {

@@ -35,6 +35,27 @@ static void meet(void *self, void *const what[LANES]) {
   if (n > c->most) c->most = n;
 }
 
+static void wait_for_nothing(void *self, int i) {
+  int *const ran = self;
+  (void)i;
+  ++*ran;
+}
+
+static void job_with_jobs(void *self, int i) {
+  const turns_t inner = {.job = wait_for_nothing, .context = self};
+  const bool inside = turns_inside();
+  turns_run(&inner, 3);
+  CHECK(inside && turns_inside() && i < 4);
+}
+
+TEST(turns_within_turns_run_one_after_the_other) {
+  int ran = 0;
+  const turns_t turns = {.job = job_with_jobs, .meet = meet, .context = &ran};
+  turns_run(&turns, 4);
+  CHECK(ran == 12);
+  CHECK(!turns_inside());
+}
+
 TEST(turns_let_every_job_wait_as_often_as_it_wants_and_run_to_its_end) {
   count_t c = {.most = 0};
   const turns_t turns = {.job = job, .meet = meet, .context = &c, .meet_context = &c};

@@ -14,7 +14,10 @@
 typedef struct {
   const model_t *model, *other; // other: every third flight's
   integrate_kind_t kind;
-  double climb_N; // above hover: who climbs touches the ceiling
+  double climb_N;      // above hover: who climbs touches the ceiling
+  bool pushed;         // each by a force of its own
+  double other_step_s; // of the integrator, of every third; 0: as all
+  bool held, vertical; // every third
   double y[FLIGHTS][RIGID_N], charge[FLIGHTS];
   int contacts;
 } flights_t;
@@ -22,16 +25,21 @@ typedef struct {
 // Each from its own place, tilted, with its own commands and gusts, and for its own time.
 static void fly(void *self, int i) {
   flights_t *const f = self;
+  const bool other = i % 3 == 1;
   const body_start_t start = {.pos_w_m = {0.1 * i, 0.0, 0.3 + 0.01 * i},
                               .vel_w_mps = {0.4 - 0.1 * i, 0.05 * i, 0.0},
                               .rate_b_radps = {0.1 * i, -0.2, 0.05 * i},
                               .thrust_N = {0.08, 0.08, 0.08, 0.08},
-                              .seed = 7 + (uint64_t)i};
+                              .seed = 7 + (uint64_t)i,
+                              .held = f->held && other,
+                              .vertical_only = f->vertical && other};
+  const double step_s = other && f->other_step_s > 0.0 ? f->other_step_s : 0.002;
   body_t b;
-  if (!CHECK_OK(body_open(&b, i % 3 == 1 ? f->other : f->model, f->kind, 0.002, &start))) return;
+  if (!CHECK_OK(body_open(&b, other ? f->other : f->model, f->kind, step_s, &start))) return;
   for (int k = 0; k < TICKS - 10 * i; k++) {
     const double more = WEIGHT_N / ROTORS + f->climb_N + 1e-3 * ((k / 20 + i) % 3 - 1);
     const double command_N[ROTORS] = {more, more + 1e-4 * i, more, more - 1e-4};
+    if (f->pushed && k % 50 == 0) body_push(&b, d3(1e-3 * (k % 3), 1e-3 * i, -1e-3));
     body_tick(&b, command_N, 0.002);
   }
   memcpy(f->y[i], b.y, sizeof f->y[i]);
@@ -40,12 +48,12 @@ static void fly(void *self, int i) {
   body_close(&b);
 }
 
-static long same_bits_of(const model_t *m, const model_t *other, double climb_N, int *contacts) {
+static long same_bits_as(const flights_t *as, int *contacts) {
   long together = 0;
   *contacts = 0;
   for (int kind = INTEGRATE_SUNDIALS; kind <= INTEGRATE_RK4; kind++) {
-    flights_t alone = {.model = m, .other = other, .kind = (integrate_kind_t)kind, .climb_N = climb_N},
-              beside = alone;
+    flights_t alone = *as, beside = *as;
+    alone.kind = beside.kind = (integrate_kind_t)kind;
     for (int i = 0; i < FLIGHTS; i++) fly(&alone, i);
     together += abreast(FLIGHTS, fly, &beside);
     CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
@@ -56,6 +64,10 @@ static long same_bits_of(const model_t *m, const model_t *other, double climb_N,
   return together;
 }
 
+static long same_bits_of(const model_t *m, const model_t *other, double climb_N, int *contacts) {
+  const flights_t as = {.model = m, .other = other, .climb_N = climb_N};
+  return same_bits_as(&as, contacts);
+}
 static long same_bits(const model_t *m, double climb_N, int *contacts) {
   return same_bits_of(m, m, climb_N, contacts);
 }
@@ -107,6 +119,68 @@ TEST(abreast_who_touches_is_moved_alone_and_has_the_same_bits) {
   const long together = same_bits(&m, 0.02, &contacts);
   CHECK(contacts > 0);
   if (lane_possible()) CHECK(together > 0);
+}
+
+static model_t with_effects(const char *const name[3]) {
+  model_t m = vehicle6(0.6);
+  why_t why;
+  for (int k = 0; k < 3 && name[k]; k++) {
+    const fx_use_t use = fx_use(fx_find(name[k]));
+    CHECK_OK(model_add_fx(&m, &use, &why));
+  }
+  return m;
+}
+
+TEST(abreast_neighbours_that_differ_have_their_own_bits) {
+  static const struct {
+    const char *what, *model[3], *other[3];
+    bool pushed, held, vertical;
+    double other_step_s;
+  } rows[] = {
+      {.what = "three loads", .model = {"rotor_drag", "body_drag", "flapping"}},
+      {.what = "two excesses", .model = {"ceiling", "ground"}},
+      {.what = "other loads", .model = {"rotor_drag"}, .other = {"body_drag"}},
+      {.what = "other excess", .model = {"ceiling"}, .other = {"ground"}},
+      {.what = "one without", .model = {"ceiling", "rotor_drag"}, .other = {"rotor_drag"}},
+      {.what = "one ticks", .model = {"rotor_drag"}, .other = {"rotor_drag", "wind"}},
+      {.what = "pushed", .model = {"rotor_drag"}, .pushed = true},
+      {.what = "held", .model = {"rotor_drag"}, .held = true},
+      {.what = "on the vertical axis", .model = {"rotor_drag"}, .vertical = true},
+      {.what = "a finer step", .model = {"ceiling"}, .other_step_s = 0.001},
+  };
+  for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    ROW("%s", rows[i].what);
+    int contacts;
+    const model_t m = with_effects(rows[i].model);
+    const model_t other = rows[i].other[0] ? with_effects(rows[i].other) : m;
+    const flights_t as = {.model = &m,
+                          .other = &other,
+                          .pushed = rows[i].pushed,
+                          .held = rows[i].held,
+                          .vertical = rows[i].vertical,
+                          .other_step_s = rows[i].other_step_s};
+    (void)same_bits_as(&as, &contacts);
+  }
+}
+
+TEST(abreast_who_lags_otherwise_has_its_own_bits) {
+  model_t m = vehicle6(0.6), other = m;
+  other.lag_in_speed = true;
+  int contacts;
+  (void)same_bits_of(&m, &other, 0.0, &contacts);
+}
+
+TEST(abreast_measured_points_have_the_bits_that_they_have_alone) {
+  model_t m = vehicle6(0.6), other = m;
+  fx_use_t use = fx_use(fx_find("ceiling"));
+  why_t why;
+  int contacts;
+  fx_use_form(&use, curve_find("table"));
+  use.points = (curve_points_t){.n = 3, .x = {0.0, 5.0, 30.0}, .ratio = {1.4, 1.1, 1.0}};
+  CHECK_OK(model_add_fx(&m, &use, &why));
+  use.points.ratio[1] = 1.2;
+  CHECK_OK(model_add_fx(&other, &use, &why));
+  (void)same_bits_of(&m, &other, 0.0, &contacts);
 }
 
 TEST(abreast_so_few_that_it_costs_are_moved_alone) {

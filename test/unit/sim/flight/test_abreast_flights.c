@@ -1,5 +1,6 @@
 // test_abreast_flights.c - whole flights side by side: each comes to what it comes to alone, to the last
 // digit.
+#include "base/lane.h"
 #include "body/abreast.h"
 #include "flight/scenario.h"
 #include "rig/test.h"
@@ -34,10 +35,12 @@ static bool same(const char *a, const char *b) {
 }
 
 // How many flights were not refused.
-static int compare(const scenario_t *scenario, const noise_t *noise, fly_kind_t kind, int seeds) {
+static int compare(const scenario_t *scenario, const noise_t *noise, fly_kind_t kind, int seeds,
+                   bool must_be_together) {
   flights_t alone = {.scenario = scenario, .noise = noise, .kind = kind}, beside = alone;
   for (int i = 0; i < seeds; i++) fly(&alone, i);
-  (void)abreast(seeds, fly, &beside);
+  const long together = abreast(seeds, fly, &beside);
+  if (lane_possible() && must_be_together) CHECK(together > 0);
   int flown = 0;
   for (int i = 0; i < seeds; i++) {
     ROW("%s, %s, %s, seed %d", scenario->name, fly_name[kind], noise->name, i + 1);
@@ -52,15 +55,15 @@ static int compare(const scenario_t *scenario, const noise_t *noise, fly_kind_t 
 // Two with their own controller, or with TEST_LONG=1 every scenario with every controller.
 TEST(abreast_flights_come_to_what_they_come_to_alone) {
   if (!test_long()) {
-    CHECK(compare(scenario_find("test-flight"), noise_find("real"), FLY_INDI_RBF, 6) == 6);
-    CHECK(compare(scenario_find("touch-and-go"), noise_find("flown"), FLY_INDI_RBF, 6) == 6);
+    CHECK(compare(scenario_find("test-flight"), noise_find("real"), FLY_INDI_RBF, 8, true) == 8);
+    CHECK(compare(scenario_find("touch-and-go"), noise_find("flown"), FLY_INDI_RBF, 8, true) == 8);
     return;
   }
   int flown = 0;
   for (int k = 0; k < scenario_count; k++)
     for (int kind = 0; kind < FLY_COUNT; kind++) {
-      flown += compare(scenario_table[k], noise_find("real"), (fly_kind_t)kind, SEEDS);
-      flown += compare(scenario_table[k], noise_find("flown"), (fly_kind_t)kind, SEEDS);
+      flown += compare(scenario_table[k], noise_find("real"), (fly_kind_t)kind, SEEDS, false);
+      flown += compare(scenario_table[k], noise_find("flown"), (fly_kind_t)kind, SEEDS, false);
     }
   CHECK(flown > scenario_count * SEEDS);
 }
