@@ -1,5 +1,5 @@
 #!/bin/sh
-# table.sh KIND FILE - writes the table of all effects, curves, scenarios, vehicles or tests that the tree holds.
+# table.sh KIND FILE - writes the table of all effects, curves, scenarios, vehicles or tests that the tree holds, or a text as C.
 #
 # A new file, or a new TEST(), is in the table without being listed anywhere. FILE is touched only when it changes.
 set -eu
@@ -35,6 +35,14 @@ vehicles() {
   done
   echo "};"
   echo "const int vehicle_count = (int)(sizeof vehicle_table / sizeof *vehicle_table);"
+}
+
+# The style of gap's page as a C string.
+style() {
+  echo "extern const char style_text[];"
+  echo "const char style_text[] ="
+  sed -E 's/\\/\\\\/g; s/"/\\"/g; s/.*/    "&\\n"/' sim/gap/8_report/page.css
+  echo "    ;"
 }
 
 # A test whose name is not of small letters, digits and _ would compile and never run.
@@ -77,6 +85,7 @@ fx) of fx_t effects/fx.h sim/effects ;;
 curve) of curve_t effects/fx.h sim/effects ;;
 scenario) of scenario_t flight/scenario.h sim/flight/scenario ;;
 vehicle) vehicles ;;
+style) style ;;
 lanes) lanes ;;
 test) tests ;;
 *) echo "table.sh: unknown kind $kind" >&2; exit 2 ;;

@@ -2,31 +2,26 @@
 #include "gap/8_report/report.h"
 
 #include <math.h>
-#include <string.h>
 
 static void advise_use(report_t *r) {
   if (r->n_finding == 0)
-    snprintf(r->advice[0], REPORT_TEXT, "use: the vehicle file as it is; these flights add nothing to it");
+    note(&r->to_do, "use: the vehicle file as it is; these flights add nothing to it");
   else
-    snprintf(r->advice[0], REPORT_TEXT,
-             "use: model.toml, in the folder of --out (fly --vehicle model.toml): %s with "
-             "the %s named",
-             study_vehicle(r->study), r->n_finding > 1 ? "effects" : "effect");
+    note(&r->to_do,
+         "use: model.toml, in the folder of --out (fly --vehicle model.toml): %s with the %s named",
+         study_vehicle(r->study), r->n_finding > 1 ? "effects" : "effect");
 }
 
 static void advise_add(report_t *r) {
   if (r->ceiling_suspected && isfinite(r->ceiling_seen_m))
-    snprintf(r->advice[1], REPORT_TEXT,
-             "add: ceiling_m = %.2f to the vehicle file if that is the ceiling, and run this again",
-             r->ceiling_seen_m);
+    note(&r->to_do, "add: ceiling_m = %.2f to the vehicle file if that is the ceiling, and run this again",
+         r->ceiling_seen_m);
   else if (r->ceiling_suspected)
-    snprintf(r->advice[1], REPORT_TEXT,
-             "add: ceiling_m to the vehicle file, if there was a ceiling, and run this again");
+    note(&r->to_do, "add: ceiling_m to the vehicle file, if there was a ceiling, and run this again");
   else if (!r->study->order.vehicle)
-    snprintf(r->advice[1], REPORT_TEXT,
-             "add: a vehicle file of your own (--vehicle); the built-in one was taken");
+    note(&r->to_do, "add: a vehicle file of your own (--vehicle); the built-in one was taken");
   else
-    snprintf(r->advice[1], REPORT_TEXT, "add: nothing more to the vehicle file");
+    note(&r->to_do, "add: nothing more to the vehicle file");
 }
 
 // First what tells the members of a family apart, the largest first; then what shows best what has no name;
@@ -34,23 +29,21 @@ static void advise_add(report_t *r) {
 static void advise_fly(report_t *r) {
   for (int i = 0; i < r->n_finding; i++)
     if (r->finding[i].named->n_rival) {
-      snprintf(r->advice[2], REPORT_TEXT, "fly: %.280s", r->finding[i].fly);
+      note(&r->to_do, "fly: %.280s", r->finding[i].fly);
       return;
     }
-  const cell_t *const c = &r->study->diagnosis.left.cell;
   if (r->study->diagnosis.unknown) {
     char where[REPORT_PLACE];
-    snprintf(r->advice[2], REPORT_TEXT, "fly: the same again with more time at %.200s, and as much beside it",
-             report_place(c, where));
+    note(&r->to_do, "fly: the same again with more time at %s, and as much beside it",
+         report_place(&r->study->diagnosis.left.cell, where));
     return;
   }
   for (int i = 0; i < r->n_untested; i++)
-    if (!r->untested[i].obstacle && !r->untested[i].testable) {
-      snprintf(r->advice[2], REPORT_TEXT, "fly: %.200s, for %s", r->untested[i].fx->fly,
-               r->untested[i].fx->name);
+    if (r->untested[i].flyable) {
+      note(&r->to_do, "fly: %.200s, for %s", r->untested[i].fx->fly, r->untested[i].fx->name);
       return;
     }
-  snprintf(r->advice[2], REPORT_TEXT, "fly: nothing more for the effects that are known");
+  note(&r->to_do, "fly: nothing more for the effects that are known");
 }
 
 void report_advise(report_t *r) {

@@ -1,14 +1,9 @@
 // evidence.c - where each named effect shows in the held-out flights, and how well.
 #include "gap/8_report/report.h"
 
-#include "gap/2_predict/lines.h"
-#include "gap/5_infer/unknown.h"
-#include <math.h>
 #include <string.h>
 
 #define MATTERS_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
-
-// --- named effects ----------------------------------------------------------------------------------------
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
 static done_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
@@ -62,22 +57,23 @@ static bool is_wanted(const fx_t *fx, int coordinate) {
 // Of the coordinates that an effect depends on the one that tells most of it; else time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
-  const int channel = channel_of(r, f->fx->in, effect), time = COORDINATE_TIME;
+  const int channel = channel_of(r, f->fx->in, effect);
+  profile_t *const p = &f->profile;
   double most = -1.0;
-  for (int k = 0; k <= COORDINATES; k++) {
-    const bool last = k == COORDINATES;
-    profile_t p = {.channel = channel, .coordinate = last ? time : k};
-    if (last ? most >= 0.0 : !is_wanted(f->fx, k)) continue;
-    const interval_t span = report_where(r, &p, effect[channel]);
-    const double told = report_explained(r, &p, effect[channel]);
-    if (!last && !(told > most)) continue;
+  int best = COORDINATE_TIME;
+  for (int k = 0; k < COORDINATES; k++) {
+    const profile_t over = {.channel = channel, .coordinate = k};
+    const double told = is_wanted(f->fx, k) ? report_explained(r, &over, effect[channel]) : -1.0;
+    if (!(told > most)) continue;
     most = told;
-    report_profile(r, effect[channel], variance[channel], &span, &p);
-    f->profile = p, f->where = span;
+    best = k;
   }
+  *p = (profile_t){.channel = channel, .coordinate = best};
+  f->where = report_where(r, p, effect[channel]);
+  report_profile(r, effect[channel], variance[channel], &f->where, p);
   f->matters = f->fx->surface ? (interval_t){0.0, MATTERS_M} : f->where;
-  f->before = report_rms(r, &f->profile, &f->matters, r->before.r[channel]);
-  f->after = report_rms(r, &f->profile, &f->matters, r->after.r[channel]);
+  f->before = report_rms(r, p, &f->matters, r->before.r[channel]);
+  f->after = report_rms(r, p, &f->matters, r->after.r[channel]);
 }
 
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
@@ -86,18 +82,12 @@ void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
   snprintf(text, REPORT_TEXT, "%s%s%s", both ? both : fx->fly, same ? "" : "; then ", same ? "" : rival->fly);
 }
 
-static void find_flight(finding_t *f) {
-  if (f->named->n_rival)
-    report_apart(f->fx, f->named->rival[0], f->fly);
-  else
-    snprintf(f->fly, sizeof f->fly, "%s", f->fx->fly);
-}
-
 static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   f->fx = found_use(&d->found, f->named)->fx;
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);
+  report_take_numbers(f);
   lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
   done_t status = lines_make(&effect, held, why);
   if (status == DONE) status = lines_make(&variance, held, why);
@@ -108,7 +98,8 @@ static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   lines_free(&effect);
   lines_free(&variance);
   lines_free(&room);
-  find_flight(f);
+  report_apart(f->fx, f->named->n_rival ? f->named->rival[0] : f->fx, f->fly);
+  f->standing = report_standing(r, f);
   return status;
 }
 

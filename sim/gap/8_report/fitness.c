@@ -2,23 +2,14 @@
 // the vehicle file lacks.
 #include "gap/8_report/report.h"
 
-#include "gap/5_infer/unknown.h"
+#include "base/constants.h"
+#include "base/text.h"
 #include <math.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
-#define DEGREES (180.0 / 3.14159265358979323846)
+#define DEGREES (180.0 / PI)
+#define OUTSIDE 0.05 // of the rows, on each side of what is told of a coordinate
 
-static void add(char text[REPORT_LONG], const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add(char text[REPORT_LONG], const char *format, ...) {
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, REPORT_LONG - used, format, args);
-  va_end(args);
-}
+#define add(text, ...) text_add(text, REPORT_LONG, __VA_ARGS__)
 
 // --- what was flown ---------------------------------------------------------------------------------------
 
@@ -42,22 +33,6 @@ static void tell_logs(const report_t *r, char text[REPORT_LONG]) {
       add(text, "%s %s", without++ ? "," : n ? "; none of" : " none of", gap_channel[ch]);
 }
 
-// The middle 90 % of a coordinate; false: it is not there.
-static bool span_of(const report_t *r, int coordinate, double *v, interval_t *span) {
-  const set_t *const fit = &r->study->diagnosis.fit;
-  const rows_t *const rows = &fit->smooth;
-  int n = 0;
-  for (int i = 0; i < rows->n; i++) {
-    const double x =
-        coordinate_of(coordinate, &fit->grid[rows->flight[i]], &r->study->vehicle, rows->point[i]);
-    if (!isnan(x)) v[n++] = x;
-  }
-  if (n == 0) return false;
-  qsort(v, (size_t)n, sizeof *v, by_size);
-  *span = (interval_t){v[n / 20], v[n - 1 - n / 20]};
-  return true;
-}
-
 // The widest arc that the nose went over in one flight, at most a full turn.
 static double heading_deg(const set_t *s) {
   double most = -1.0;
@@ -77,14 +52,15 @@ static double heading_deg(const set_t *s) {
   return fmin(most, 360.0);
 }
 
-static void tell_motion(const report_t *r, double *room, char text[REPORT_LONG]) {
-  interval_t span;
+static void tell_motion(const report_t *r, char text[REPORT_LONG]) {
+  const set_t *const fit = &r->study->diagnosis.fit;
   for (int i = 0; i < COORDINATES; i++) {
-    if (i == COORDINATE_TIME || !span_of(r, i, room, &span)) continue;
+    const interval_t span = report_span(fit, &fit->smooth, &r->study->vehicle, i, OUTSIDE);
+    if (i == COORDINATE_TIME || isnan(span.from)) continue;
     add(text, "%s%s %.3g to %.3g %s", text[0] ? ", " : "", coordinate_name(i), span.from, span.to,
         coordinate_unit(i));
   }
-  const double turned = heading_deg(&r->study->diagnosis.fit);
+  const double turned = heading_deg(fit);
   if (turned >= 0.0) add(text, "%sheading over %.0f degrees", text[0] ? ", " : "", turned);
 }
 
@@ -93,10 +69,7 @@ static void tell_motion(const report_t *r, double *room, char text[REPORT_LONG])
 static void tell_shown(const report_t *r, char text[REPORT_LONG]) {
   int n = 0;
   for (int i = 0; i < r->n_finding; i++) add(text, "%s%s", n++ ? ", " : "", r->finding[i].fx->name);
-  for (int i = 0; i < r->n_untested; i++) {
-    const untested_t *const u = &r->untested[i];
-    if (!u->obstacle && u->testable) add(text, "%s%s", n++ ? ", " : "", u->fx->name);
-  }
+  for (int i = 0; i < r->n_shown; i++) add(text, "%s%s", n++ ? ", " : "", r->shown[i].fx->name);
   if (n == 0) add(text, "no effect of typical size");
 }
 
@@ -130,42 +103,37 @@ static void tell_alike(const report_t *r, char text[REPORT_LONG]) {
 
 // --- a ceiling that the vehicle file lacks ----------------------------------------------------------------
 
+// Of where an upward range sensor sees something, of the samples from a range on; and of their ranges.
 typedef struct {
-  double n, sum, squares;
-} sums_t;
+  double n, at, at_squares, range, range_squares;
+} seen_t;
 
-static void add_sample(sums_t *s, double v) {
-  s->n += 1.0;
-  s->sum += v;
-  s->squares += v * v;
-}
-
-// Sums of where an upward range sensor sees something, of the samples from this range on; their ranges.
-static void add_ranges(const report_t *r, double from_m, sums_t *at, sums_t *range) {
+static seen_t seen_from(const report_t *r, double from_m) {
   const set_t *const s = &r->study->diagnosis.fit;
   const double sensor_m = body_rest_z_m(&r->study->vehicle) + body_rotor_z_m(&r->study->vehicle);
+  seen_t sum = {.n = 0.0};
   for (int f = 0; f < s->n_grid; f++) {
     const gap_flight_t *const flight = s->grid[f].flight;
     for (int i = 0; flight->range_up_m && flight->v[SIG_Z] && i < flight->n; i++) {
       const double range_m = flight->range_up_m[i], at_m = flight->v[SIG_Z][i] + sensor_m + range_m;
       if (!isfinite(at_m) || range_m < from_m) continue;
-      add_sample(at, at_m);
-      add_sample(range, range_m);
+      sum.n += 1.0;
+      sum.at += at_m, sum.at_squares += at_m * at_m;
+      sum.range += range_m, sum.range_squares += range_m * range_m;
     }
   }
+  return sum;
 }
 
 // By the farther half of the samples: near its floor a sensor reads too much. NaN: nothing, or nothing that
 // stays.
 static double seen_ceiling_m(const report_t *r) {
-  sums_t at = {0.0, 0.0, 0.0}, range = at, far_at = at, far_range = at;
-  add_ranges(r, 0.0, &at, &range);
-  if (!(at.n > 0.0)) return (double)NAN;
-  add_ranges(r, range.sum / range.n, &far_at, &far_range);
-  const double mean = far_at.sum / far_at.n, spread = far_at.squares / far_at.n - mean * mean;
+  const seen_t all = seen_from(r, 0.0);
+  if (!(all.n > 0.0)) return (double)NAN;
+  const seen_t far = seen_from(r, all.range / all.n);
+  const double mean = far.at / far.n, spread = far.at_squares / far.n - mean * mean;
   // A ceiling stays where it is while the range changes.
-  return spread < far_range.squares / far_range.n - pow(far_range.sum / far_range.n, 2.0) ? mean
-                                                                                          : (double)NAN;
+  return spread < far.range_squares / far.n - pow(far.range / far.n, 2.0) ? mean : (double)NAN;
 }
 
 static done_t look_for_ceiling(report_t *r, why_t *why) {
@@ -179,34 +147,29 @@ static done_t look_for_ceiling(report_t *r, why_t *why) {
   TRY(unknown_along(&d->fit, &d->extended, height, d->residual, color, &cell, why));
   if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last))
     return DONE;
-  const double at_m = seen_ceiling_m(r);
+  const double at_m = r->ceiling_seen_m = seen_ceiling_m(r);
+  char seen[REPORT_TEXT] = "";
   r->ceiling_suspected = true;
-  add(r->fitness[r->n_fitness++],
-      "ceiling: lift grows by %.2g m/s2 towards the greatest heights, %.3g to %.3g m, and the vehicle file "
-      "has no "
-      "ceiling_m",
-      cell.size, cell.from, cell.to);
-  if (isfinite(at_m)) {
-    r->ceiling_seen_m = at_m;
-    add(r->fitness[r->n_fitness - 1], "; the range sensor sees something at %.2f m", at_m);
-  }
+  if (isfinite(at_m)) snprintf(seen, sizeof seen, "; the range sensor sees something at %.2f m", at_m);
+  note(&r->fitness,
+       "ceiling: lift grows by %.2g m/s2 towards the greatest heights, %.3g to %.3g m, and the vehicle file "
+       "has no ceiling_m%s",
+       cell.size, cell.from, cell.to, seen);
   return DONE;
 }
 
 done_t report_take_fitness(report_t *r, why_t *why) {
-  static const char *const head[] = {"flights: ", "flown: ", "of typical size they would show, by name: ",
-                                     "not told apart at typical size: "};
-  double *const room = malloc(set_most_rows(&r->study->diagnosis.fit) * sizeof(double));
-  if (!room) return error_failed(why, "out of memory");
-  r->ceiling_seen_m = (double)NAN;
-  for (int i = 0; i < 4; i++) {
+  static const struct {
+    const char *head;
+    void (*tell)(const report_t *r, char text[REPORT_LONG]);
+  } part[] = {{"flights: ", tell_logs},
+              {"flown: ", tell_motion},
+              {"of typical size they would show, by name: ", tell_shown},
+              {"not told apart at typical size: ", tell_alike}};
+  for (unsigned i = 0; i < sizeof part / sizeof *part; i++) {
     char text[REPORT_LONG] = "";
-    if (i == 0) tell_logs(r, text);
-    if (i == 1) tell_motion(r, room, text);
-    if (i == 2) tell_shown(r, text);
-    if (i == 3) tell_alike(r, text);
-    if (text[0]) add(r->fitness[r->n_fitness++], "%s%s", head[i], text);
+    part[i].tell(r, text);
+    if (text[0]) note(&r->fitness, "%s%s", part[i].head, text);
   }
-  free(room);
   return look_for_ceiling(r, why);
 }

@@ -1,45 +1,28 @@
 // names_in_words.c - the page's part on what is missing: each name in words, and what has none.
 #include "gap/8_report/page.h"
 
-#include "gap/5_infer/unknown.h"
 #include <math.h>
 
 #define SURE 0.999 // of a probability: no exam is long enough to tell more
 
-static void parameters(const finding_t *f, FILE *out) {
-  int n;
-  const fx_param_t *const param = fx_use_params(f->use, &n);
+static void numbers(const finding_t *f, FILE *out) {
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>standard error<th>unit</tr>\n", out);
-  for (int k = 0; k < f->fx->n_size; k++) {
-    const fx_param_t *const p = &param[f->fx->size[k].param];
-    page_text(out, "<tr><td>", p->name, "");
-    fprintf(out, "<td class=n>%.4g<td class=n>%.2g", fx_use_size(f->use, k), f->named->stderr_[k]);
-    page_text(out, "<td>", p->unit, "</tr>\n");
-  }
-  if (fx_use_has_shape(f->use)) {
-    const double v = f->use->p[f->fx->shape_param], error = f->named->shape_stderr;
-    page_text(out, "<tr><td>", param[f->fx->shape_param].name, "");
-    if (error > 0.0)
-      fprintf(out, "<td class=n>%.4g<td class=n>%.2g", v, error);
+  for (int k = 0; k < f->n_number; k++) {
+    const number_t *const n = &f->number[k];
+    fprintf(out, "<tr><td>%s<td class=n>%.4g<td class=n>", n->param->name, n->value);
+    if (n->no_stderr)
+      fputs(n->no_stderr, out);
     else
-      fprintf(out, "<td class=n>%.4g<td class=n>%s", v,
-              isnan(error) ? "not known" : "the best of those tried");
-    page_text(out, "<td>", param[f->fx->shape_param].unit, "</tr>\n");
-  }
-  if (f->fx->n_kind) {
-    page_text(out, "<tr><td>", param[fx_use_kind(f->use)].name, "");
-    fprintf(out, "<td class=n>%g<td class=n>the better of those tried<td></tr>\n",
-            f->use->p[fx_use_kind(f->use)]);
+      fprintf(out, "%.2g", n->stderr_);
+    fprintf(out, "<td>%s</tr>\n", report_unit(n));
   }
   fputs("</table>\n", out);
 }
 
 static void share_row(const char *name, double share, double most, const char *style, FILE *out) {
-  page_text(out, "<tr><td>", name, "");
-  fprintf(out,
-          "<td class=n>%.3g %%<td style=\"width:60%%\"><span class=\"bar %s\" "
-          "style=\"width:%.1f%%\"></span></tr>\n",
-          100.0 * share, style, 100.0 * fmin(fmax(share / most, 0.0), 1.0));
+  fprintf(out, "<tr><td>%s<td class=n>%.3g %%<td style=\"width:60%%\">", name, 100.0 * share);
+  page_bar(out, style, fmin(fmax(share / most, 0.0), 1.0));
+  fputs("</tr>\n", out);
 }
 
 static void rivals(const finding_t *f, FILE *out) {
@@ -66,9 +49,8 @@ static void rivals(const finding_t *f, FILE *out) {
 
 void page_finding(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
-  char p[P_TEXT], words[REPORT_TEXT];
-  report_family(f, " or ", words);
-  page_text(out, "<section><h2>", words, "</h2>");
+  char p[P_TEXT];
+  page_text(out, "<section><h2>", f->family, "</h2>");
   page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
   page_text(out, "<p><b>", standing_name[f->standing], "</b>: ");
   page_text(out, "", f->says, ". ");
@@ -90,8 +72,8 @@ void page_finding(const finding_t *f, FILE *out) {
             gap_unit[f->profile.channel]);
   }
   fputs("</p>\n", out);
-  parameters(f, out);
-  if (report_confirm(f, words)) page_text(out, "<p>", words, ".</p>\n");
+  numbers(f, out);
+  if (f->instrument[0]) page_text(out, "<p>", f->instrument, ".</p>\n");
   fputs("<figure>", out);
   picture_curve(f, out);
   fputs("<figcaption>What the effect adds, on flights that were not used to find "

@@ -1,43 +1,21 @@
-// page.c - report.html: one page that needs nothing else, no script, no font, no address.
-#include "gap/8_report/report.h"
-
+// page.c - report.html: one page that needs nothing else, no script, no font, no address. Its style:
+// page.css.
 #include "gap/8_report/page.h"
+
 #include "gap/8_report/svg.h"
 #include <math.h>
-#include <string.h>
 
-static const char HEAD[] =
-    "<!doctype html>\n<html lang=en><head><meta charset=utf-8>"
-    "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n<title>gap: what is "
-    "missing</title>\n<style>\n"
-    "body{font:16px/1.5 system-ui,sans-serif;color:#1e293b;background:#f8fafc;margin:0}\n"
-    "main{max-width:900px;margin:0 auto;padding:32px 20px 64px}\n"
-    "h1{font-size:30px;line-height:1.2;margin:0 0 6px}h2{font-size:20px;margin:0 0 4px}p{margin:6px 0}\n"
-    "section{background:#fff;border:1px solid #e2e8f0;border-radius:10px;padding:20px 24px;margin:18px 0}\n"
-    ".quiet,figcaption{color:#64748b;font-size:14px}figure{margin:16px 0 4px}svg{display:block;width:100%}\n"
-    "table{border-collapse:collapse;width:100%;font-size:15px;margin:8px 0}"
-    "th{text-align:left;font-weight:600;color:#64748b;font-size:13px}"
-    "td,th{padding:5px 10px 5px 0;border-bottom:1px solid #eef2f7;vertical-align:top}"
-    "td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}\n"
-    ".bar{display:block;height:9px;border-radius:2px;margin:2px 0}"
-    ".bar.before{background:#ea7a3a}.bar.after{background:#0f8a7e}.bar.floor{background:#cbd5e1}\n"
-    "svg text{font:11px system-ui,sans-serif;fill:#475569}svg .axis{fill:#1e293b}"
-    ".grid{stroke:#eef2f7}.zero{stroke:#94a3b8}\n"
-    "svg path{fill:none;stroke-width:1.8;stroke-linejoin:round}svg path.thin{stroke-width:1}"
-    "path.before{stroke:#ea7a3a}path.after{stroke:#0f8a7e}path.track{stroke:#1e293b;stroke-width:2.6}\n"
-    ".before-dot{fill:#ea7a3a}.after-dot{fill:#0f8a7e}.seen{fill:#1e293b}"
-    "path.band,rect.band{fill:#0f8a7e;fill-opacity:.18;stroke:none}rect.mark{fill:#fde68a;fill-opacity:.45}\n"
-    "code{font-size:14px;overflow-wrap:anywhere}li,td{overflow-wrap:break-word}td.n{white-space:nowrap}td.n."
-    "quiet{white-space:normal}ul{padding-left:20px;margin:6px 0}\n"
-    "@media(max-width:600px){main{padding:16px 10px 40px}section{padding:14px 12px;margin:12px "
-    "0}h1{font-size:23px}"
-    "figure{margin:12px 0 "
-    "4px;overflow-x:auto}svg text{font-size:15px}td,th{padding-right:7px}table{font-size:14px}"
-    ".wide td:last-child,.wide th:last-child,.wide th:nth-child(2),.wide td:nth-child(2),.wide "
-    ".bars{display:none}}\n"
-    "@media print{body{background:#fff}section{break-inside:avoid}}\n"
-    "</style></head><body><main>\n";
+extern const char style_text[];
+
 static const char FOOT[] = "</main></body></html>\n";
+
+static void head(FILE *out) {
+  fprintf(out,
+          "<!doctype html>\n<html lang=en><head><meta charset=utf-8>"
+          "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
+          "<title>gap: what is missing</title>\n<style>\n%s</style></head><body><main>\n",
+          style_text);
+}
 
 void page_text(FILE *out, const char *before, const char *plain, const char *after) {
   fputs(before, out);
@@ -45,18 +23,18 @@ void page_text(FILE *out, const char *before, const char *plain, const char *aft
   fputs(after, out);
 }
 
+void page_bar(FILE *out, const char *style, double share) {
+  fprintf(out, "<span class=\"bar %s\" style=\"width:%.1f%%\"></span>", style, 100.0 * share);
+}
+
 // --- the verdict ------------------------------------------------------------------------------------------
 
 static void headline(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   fputs("<h1>", out);
-  for (int i = 0; i < r->n_finding; i++) {
-    char family[REPORT_TEXT];
-    report_family(&r->finding[i], " or ", family);
-    page_text(out, i ? "; " : "Missing: ", family, "");
-  }
+  for (int i = 0; i < r->n_finding; i++) page_text(out, i ? "; " : "Missing: ", r->finding[i].family, "");
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
-  if (!r->n_finding) fputs(report_headline(r), out);
+  if (!r->n_finding) report_headline(r, NULL, out);
   page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
   if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");
@@ -64,10 +42,17 @@ static void headline(const report_t *r, FILE *out) {
   fputs("</p>\n", out);
 }
 
-static void list(const char *title, const char *line, size_t bytes, int n, FILE *out) {
+static void list(const char *title, const notes_t *notes, FILE *out) {
   page_text(out, "<section><h2>", title, "</h2><ul>\n");
-  for (int i = 0; i < n; i++) page_text(out, "<li>", line + (size_t)i * bytes, "</li>\n");
+  for (int i = 0; i < notes->n; i++) page_text(out, "<li>", notes->line[i], "</li>\n");
   fputs("</ul></section>\n", out);
+}
+
+static void share_row(const char *name, double share, double most, const char *style, const char *channel,
+                      FILE *out) {
+  fprintf(out, "<tr><td>%s<td class=n>%.3g %%<td style=\"width:45%%\">", name, 100.0 * share);
+  page_bar(out, style, fmax(share, 0.0) / most);
+  fprintf(out, "<td>%s</tr>\n", channel);
 }
 
 // The names at a glance, and what they leave.
@@ -80,29 +65,20 @@ static void overview(const report_t *r, FILE *out) {
         out);
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
-    page_text(out, "<tr><td>", f->fx->name, "");
-    fprintf(out,
-            "<td class=n>%.3g %%<td style=\"width:45%%\"><span class=\"bar after\" style=\"width:%.1f%%\">"
-            "</span><td>%s</tr>\n",
-            100.0 * f->named->share, 100.0 * fmax(f->named->share, 0.0) / most,
-            gap_channel[f->profile.channel]);
+    share_row(f->fx->name, f->named->share, most, "after", gap_channel[f->profile.channel], out);
   }
-  fprintf(out,
-          "<tr><td>left<td class=n>%.3g %%<td style=\"width:45%%\"><span class=\"bar before\" "
-          "style=\"width:%.1f%%\"></span><td></tr>\n</table></section>\n",
-          100.0 * report_left(r), 100.0 * report_left(r) / most);
+  share_row("left", report_left(r), most, "before", "", out);
+  fputs("</table></section>\n", out);
 }
 
 // --- held-out flights -------------------------------------------------------------------------------------
 
 static void bars(const gap_part_t *p, bool floor, FILE *out) {
   const double most = fmax(fmax(p->before, p->after), fmax(p->floor, 1e-12));
-  fprintf(out,
-          "<td style=\"width:45%%\"><span class=\"bar before\" style=\"width:%.1f%%\"></span>"
-          "<span class=\"bar after\" style=\"width:%.1f%%\"></span>",
-          100.0 * p->before / most, 100.0 * p->after / most);
-  if (floor)
-    fprintf(out, "<span class=\"bar floor\" style=\"width:%.1f%%\"></span>", 100.0 * p->floor / most);
+  fputs("<td style=\"width:45%\">", out);
+  page_bar(out, "before", p->before / most);
+  page_bar(out, "after", p->after / most);
+  if (floor) page_bar(out, "floor", p->floor / most);
 }
 
 static int widest(const report_t *r) {
@@ -166,29 +142,18 @@ static void untested(const report_t *r, FILE *out) {
   fputs(
       "<section><h2>What these flights cannot tell</h2>\n<table><tr><th>effect<th>why<th>what to fly</tr>\n",
       out);
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass)
-      fputs("</table><h2>What they would have shown</h2><table><tr><th>effect<th>smallest size<th></tr>\n",
-            out);
-    for (int i = 0; i < r->n_untested; i++) {
-      const untested_t *const u = &r->untested[i];
-      char why[REPORT_TEXT];
-      if ((!u->obstacle && u->testable) != (pass == 1)) continue;
-      report_why(u, why);
-      page_text(out, "<tr><td>", u->fx->name, "");
-      if (pass) snprintf(why, sizeof why, "%s %.2g %s", u->param->name, u->seen_from, u->param->unit);
-      page_text(out, "<td>", why, "");
-      page_text(out, "<td>", pass ? "" : u->fx->fly, "</tr>\n");
-    }
+  for (int i = 0; i < r->n_untested; i++) {
+    const untested_t *const u = &r->untested[i];
+    page_text(out, "<tr><td>", u->fx->name, "");
+    page_text(out, "<td>", u->why, "");
+    page_text(out, "<td>", u->fx->fly, "</tr>\n");
+  }
+  fputs("</table><h2>What they would have shown</h2><table><tr><th>effect<th>smallest size<th></tr>\n", out);
+  for (int i = 0; i < r->n_shown; i++) {
+    const shown_t *const s = &r->shown[i];
+    fprintf(out, "<tr><td>%s<td>%s %.2g %s<td></tr>\n", s->fx->name, s->param->name, s->from, s->param->unit);
   }
   fputs("</table></section>\n", out);
-}
-
-static void warnings(const report_t *r, FILE *out) {
-  if (!r->n_warning) return;
-  fputs("<section><h2>Notes</h2><ul>\n", out);
-  for (int i = 0; i < r->n_warning; i++) page_text(out, "<li>", r->warning[i], "</li>\n");
-  fputs("</ul></section>\n", out);
 }
 
 static void made(const study_order_t *o, const char *rows, FILE *out) {
@@ -216,23 +181,23 @@ static void foot(const study_t *s, FILE *out) {
 }
 
 void report_page(const report_t *r, FILE *out) {
-  fputs(HEAD, out);
+  head(out);
   headline(r, out);
-  list("What to do now", &r->advice[0][0], sizeof r->advice[0], REPORT_ADVICE, out);
-  list("Are these flights fit for the question?", &r->fitness[0][0], sizeof r->fitness[0], r->n_fitness, out);
+  list("What to do now", &r->to_do, out);
+  list("Are these flights fit for the question?", &r->fitness, out);
   overview(r, out);
   for (int i = 0; i < r->n_finding; i++) page_finding(&r->finding[i], out);
   page_unknown(r, out);
   if (report_has_residual(r)) held_out(r, out);
   again(&r->study->resimulation, out);
   untested(r, out);
-  warnings(r, out);
+  if (r->warnings.n) list("Notes", &r->warnings, out);
   foot(r->study, out);
   fputs(FOOT, out);
 }
 
 void report_page_refused(const char *line, const study_order_t *order, FILE *out) {
-  fputs(HEAD, out);
+  head(out);
   page_text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
   made(order, "", out);
   fputs(FOOT, out);

@@ -7,6 +7,9 @@
 // Writes `plain` escaped, between two pieces of HTML.
 void page_text(FILE *out, const char *before, const char *plain, const char *after);
 
+// A bar of a style (page.css), so much of the room that there is.
+void page_bar(FILE *out, const char *style, double share);
+
 // A named effect: numbers, pictures, rivals.
 void page_finding(const finding_t *f, FILE *out);
 // What is left where it is largest; nothing if that is chance and something is named.

@@ -2,7 +2,6 @@
 #include "gap/8_report/page.h"
 
 #include "base/by_size.h"
-#include "gap/5_infer/unknown.h"
 #include "gap/8_report/svg.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // profile.c - held-out rows over a coordinate.
 #include "gap/8_report/report.h"
 
-#include "gap/5_infer/unknown.h"
+#include "base/by_size.h"
+#include "base/nth.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define BIN_ROWS_MIN 6    // of a range
 #define OUTSIDE      0.01 // of the rows, on each side, that no range reaches to
@@ -22,26 +22,20 @@ static double at(const report_t *r, int channel, int coordinate, int row) {
   return coordinate_of(coordinate, &s->grid[rows->flight[row]], &r->study->vehicle, rows->point[row]);
 }
 
-typedef struct {
-  double x, square;
-} mark_t;
-
-static int by_x(const void *a, const void *b) {
-  const double x = ((const mark_t *)a)->x, y = ((const mark_t *)b)->x;
-  return (x > y) - (x < y);
-}
-
-// The rows' coordinates, ascending; the caller frees. Null: no memory, or nothing there.
-static mark_t *sorted(const report_t *r, int channel, int coordinate, const double *effect, int *n) {
-  const rows_t *const rows = set_rows(&r->study->diagnosis.held, channel);
-  mark_t *const mark = malloc(((size_t)rows->n + 1) * sizeof *mark);
-  *n = 0;
-  for (int i = 0; mark && i < rows->n; i++) {
-    const double x = at(r, channel, coordinate, i);
-    if (!isnan(x)) mark[(*n)++] = (mark_t){x, effect ? effect[i] * effect[i] : 0.0};
+interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int coordinate, double outside) {
+  double *const x = malloc(((size_t)rows->n + 1) * sizeof *x);
+  int n = 0;
+  for (int i = 0; x && i < rows->n; i++) {
+    x[n] = coordinate_of(coordinate, &s->grid[rows->flight[i]], m, rows->point[i]);
+    n += !isnan(x[n]);
   }
-  if (mark && *n) qsort(mark, (size_t)*n, sizeof *mark, by_x);
-  return mark;
+  interval_t span = {(double)NAN, (double)NAN};
+  if (n) {
+    const int least = (int)(outside * n);
+    span = (interval_t){nth_smallest(x, n, least), nth_smallest(x, n, n - 1 - least)};
+  }
+  free(x);
+  return span;
 }
 
 static void add_row(profile_t *p, int bin, const report_t *r, int i, double effect, double variance) {
@@ -69,11 +63,9 @@ static void close_bins(profile_t *p) {
 
 // What a picture spans: all rows but the outermost, or what matters and about as much beside it.
 static interval_t span_of(const report_t *r, const profile_t *p, const interval_t *near) {
-  int n;
-  mark_t *const mark = sorted(r, p->channel, p->coordinate, NULL, &n);
-  interval_t s = {0.0, 0.0};
-  if (n) s = (interval_t){mark[(int)(OUTSIDE * n)].x, mark[n - 1 - (int)(OUTSIDE * n)].x};
-  free(mark);
+  const set_t *const held = &r->study->diagnosis.held;
+  const interval_t s =
+      report_span(held, set_rows(held, p->channel), &r->study->vehicle, p->coordinate, OUTSIDE);
   if (!near || 3.0 * (near->to - near->from) > s.to - s.from) return s;
   const double wide = fmax(near->to - near->from, 0.05 * (s.to - s.from));
   return (interval_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
@@ -95,21 +87,33 @@ void report_profile(const report_t *r, const double *effect, const double *varia
 
 // --- which coordinate -------------------------------------------------------------------------------------
 
-// Where the middle 90 % of what the effect does lie.
+typedef struct {
+  double x, square;
+} mark_t;
+
+static int by_x(const void *a, const void *b) {
+  return by_size(&((const mark_t *)a)->x, &((const mark_t *)b)->x);
+}
+
 interval_t report_where(const report_t *r, const profile_t *p, const double *effect) {
-  int n;
+  const rows_t *const rows = set_rows(&r->study->diagnosis.held, p->channel);
+  mark_t *const mark = malloc(((size_t)rows->n + 1) * sizeof *mark);
+  interval_t where = {0.0, 0.0};
   double all = 0.0, sum = 0.0;
-  mark_t *const mark = sorted(r, p->channel, p->coordinate, effect, &n);
-  for (int i = 0; i < n; i++) all += mark[i].square;
-  interval_t where = n ? (interval_t){mark[0].x, mark[0].x} : (interval_t){0.0, 0.0};
-  bool begun = false;
-  for (int i = 0; i < n; i++) {
-    sum += mark[i].square;
-    if (!begun && sum >= TAIL * all) where.from = mark[i].x, begun = true;
-    if (sum <= (1.0 - TAIL) * all) where.to = mark[i].x;
+  int n = 0, first = 0, last = 0;
+  for (int i = 0; mark && i < rows->n; i++) {
+    const double x = at(r, p->channel, p->coordinate, i);
+    if (!isnan(x)) mark[n++] = (mark_t){x, effect[i] * effect[i]};
   }
+  if (n) qsort(mark, (size_t)n, sizeof *mark, by_x);
+  for (int i = 0; i < n; i++) all += mark[i].square;
+  for (int i = 0; i < n; i++) {
+    if (sum < TAIL * all) first = i;
+    sum += mark[i].square;
+    if (sum <= (1.0 - TAIL) * all) last = i;
+  }
+  if (n) where = (interval_t){mark[first].x, mark[first > last ? first : last].x};
   free(mark);
-  where.to = fmax(where.from, where.to);
   return where;
 }
 

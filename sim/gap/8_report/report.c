@@ -1,9 +1,17 @@
 // report.c - what is to be said of a study.
 #include "gap/8_report/report.h"
 
+#include "base/text.h"
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stdarg.h>
+
+void note(notes_t *notes, const char *format, ...) {
+  if (notes->n == REPORT_NOTES) return;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(notes->line[notes->n++], REPORT_LONG, format, args);
+  va_end(args);
+}
 
 // --- what could have been seen ----------------------------------------------------------------------------
 
@@ -32,42 +40,49 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   return NULL;
 }
 
-static void find_untested(report_t *r) {
+// An effect that could be looked for, as this candidate: seen from `least` times its typical size on.
+static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, double least) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  for (int i = 0; i < fx_count && r->n_untested < FX_TABLE_MAX; i++) {
-    untested_t u = {.fx = fx_table[i]};
-    if (model_fx(&d->extended, u.fx)) continue;
+  int n;
+  const fx_param_t *const size = &fx_use_params(&c->use, &n)[fx->size[0].param];
+  const double typical = c->typical[0], from = fmax(least * typical, candidates_least(fx, &d->fit));
+  if (from < typical) {
+    r->shown[r->n_shown++] = (shown_t){fx, size, from};
+    return;
+  }
+  untested_t *const u = &r->untested[r->n_untested++];
+  *u = (untested_t){.fx = fx, .flyable = true};
+  if (d->found.echo[c - d->candidates.candidate])
+    text_add(u->why, REPORT_TEXT, "something like it is there, at one place, time or state only");
+  else if (!(from <= size->max))
+    text_add(u->why, REPORT_TEXT, "next to nothing in the residuals of these flights depends on it alone");
+  else
+    text_add(u->why, REPORT_TEXT,
+             "in these flights it would have been seen from %s %.2g%s%s on; typical is %.2g", size->name,
+             from, text_gap(size->unit), size->unit, typical);
+}
+
+static void take_others(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < fx_count && i < FX_TABLE_MAX; i++) {
+    const fx_t *const fx = fx_table[i];
+    if (model_fx(&d->extended, fx)) continue;
     const candidate_t *c;
-    int n;
-    const double least = found_least(&d->found, &d->candidates, u.fx, &c);
-    u.obstacle = obstacle_of(r, u.fx);
-    if (!u.obstacle && !c) {
-      if (rivals_a_name(r, u.fx)) continue;
-      u.obstacle = "it shows in none of the residuals that can be formed from these logs";
+    const double least = found_least(&d->found, &d->candidates, fx, &c);
+    const char *obstacle = obstacle_of(r, fx);
+    if (!obstacle && !c && rivals_a_name(r, fx)) continue;
+    if (!obstacle && !c) obstacle = "it shows in none of the residuals that can be formed from these logs";
+    if (!obstacle) {
+      take_looked_for(r, fx, c, least);
+      continue;
     }
-    if (!u.obstacle) {
-      u.param = &fx_use_params(&c->use, &n)[u.fx->size[0].param];
-      u.typical = c->typical[0];
-      u.seen_from = fmax(least * u.typical, candidates_least(u.fx, &d->fit));
-      u.testable = u.seen_from < u.typical;
-      u.echo = d->found.echo[c - d->candidates.candidate];
-    }
-    r->untested[r->n_untested++] = u;
+    untested_t *const u = &r->untested[r->n_untested++];
+    *u = (untested_t){.fx = fx};
+    text_add(u->why, REPORT_TEXT, "%s", obstacle);
   }
 }
 
-void report_why(const untested_t *u, char text[REPORT_TEXT]) {
-  if (u->obstacle)
-    snprintf(text, REPORT_TEXT, "%s", u->obstacle);
-  else if (u->echo)
-    snprintf(text, REPORT_TEXT, "something like it is there, at one place, time or state only");
-  else if (!(u->seen_from <= u->param->max))
-    snprintf(text, REPORT_TEXT, "next to nothing in the residuals of these flights depends on it alone");
-  else
-    snprintf(text, REPORT_TEXT,
-             "in these flights it would have been seen from %s %.2g%s%s on; typical is %.2g", u->param->name,
-             u->seen_from, u->param->unit[0] ? " " : "", u->param->unit, u->typical);
-}
+// --- what several outputs say -----------------------------------------------------------------------------
 
 const char *report_length(double m, char text[REPORT_LENGTH]) {
   if (fabs(m) < 1.0)
@@ -88,23 +103,28 @@ bool report_can_tell(const report_t *r) {
   return (d->nominal_flew || d->found.n > 0) && report_has_residual(r);
 }
 
-const char *report_headline(const report_t *r) {
-  if (r->study->diagnosis.unknown) return "Something is missing that cannot be named";
-  if (!report_can_tell(r)) return "These flights cannot tell what is missing";
-  if (report_adequacy_of_all(r) == LEFT_MORE)
-    return "Nothing can be named, and more is left than noise and feedback leave";
-  return "Nothing is missing that these flights could show";
+void report_headline(const report_t *r, const char *vehicle, FILE *out) {
+  const char *const in = vehicle ? " in " : "", *const what = vehicle ? vehicle : "";
+  if (r->study->diagnosis.unknown)
+    fprintf(out, "Something is missing%s%s that cannot be named", in, what);
+  else if (!report_can_tell(r))
+    fprintf(out, "These flights cannot tell what is missing%s%s", in, what);
+  else if (report_adequacy_of_all(r) == LEFT_MORE)
+    fprintf(out,
+            "Nothing can be named that is missing%s%s, and more is left than noise and feedback leave (see "
+            "the notes)",
+            in, what);
+  else
+    fprintf(out, "Nothing is missing%s%s that these flights could show", in, what);
 }
 
 // --- the whole --------------------------------------------------------------------------------------------
 
 done_t report_make(report_t *r, study_t *study, why_t *why) {
   const diagnosis_t *const d = &study->diagnosis;
-  *r = (report_t){.study = study};
-  r->verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none";
+  *r = (report_t){.study = study, .verdict = d->found.n ? "named" : d->unknown ? "unknown" : "none"};
   TRY(report_take_evidence(r, study, why));
-  find_untested(r);
-  for (int i = 0; i < r->n_finding; i++) r->finding[i].standing = report_standing(r, &r->finding[i]);
+  take_others(r);
   TRY(report_take_fitness(r, why));
   report_warn(r);
   report_advise(r);

@@ -1,20 +1,18 @@
-// report.h - what a study found, in words, as verdict.json, and as report.html.
+// report.h - what a study found: gathered once, and told in words, as verdict.json and as report.html.
 #ifndef SIM_GAP_8_REPORT_REPORT_H
 #define SIM_GAP_8_REPORT_REPORT_H
 
-#include "base/by_size.h"
 #include "gap/2_predict/lines.h"
 #include "gap/6_extend/p_value.h"
 #include "gap/study.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 
-#define REPORT_BINS     24
-#define REPORT_TEXT     320
-#define REPORT_LONG     1000
-#define REPORT_WARNINGS 64
-#define REPORT_ADVICE   3
-#define REPORT_FITNESS  5
+#define REPORT_BINS    24
+#define REPORT_TEXT    320
+#define REPORT_LONG    1000
+#define REPORT_NOTES   64
+#define REPORT_NUMBERS (FX_SIZE_MAX + 2)
 
 // Where an effect does most of what it does; a picture shows that and what is beside it.
 typedef struct {
@@ -40,63 +38,102 @@ extern const char *const standing_name[];
 typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
 extern const char *const left_name[];
 
+// One number of a name: a size, then its shape and its kind, if it has them.
+typedef struct {
+  const fx_param_t *param;
+  double value, stderr_;
+  const char *no_stderr; // why it has none; null: it has
+  double in_file;        // as the vehicle file has it; NaN: it has it not
+  double by_instrument;  // as the set points say; only of sizes, where they were tried
+} number_t;
+
+// A choice among a few has no unit for people.
+static inline const char *report_unit(const number_t *k) {
+  return k->no_stderr && fx_is_number(k->param) ? "" : k->param->unit;
+}
+
 // One named effect.
 typedef struct {
   const named_t *named;
   const fx_use_t *use;     // as the new model has it
   const fx_use_t *in_file; // as the vehicle file has it; null: it has it not. named->value is the difference
   const fx_t *fx;
+  int n_number;
+  number_t number[REPORT_NUMBERS];
   interval_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares
   profile_t profile;
   // Where it matters, over the same coordinate and channel: closer than 7 cm for a surface, else `where`.
   interval_t matters;
-  double before, after;   // rms of the held-out rows there
-  char fly[REPORT_TEXT];  // what would tell it from its rivals, or show it better
-  char says[REPORT_TEXT]; // what it does: "lift is short by 0.79 +- 0.02 m/s2, 8 % of g"
-  standing_t standing;
+  double before, after;         // rms of the held-out rows there
+  standing_t standing;          // how sure the name is
+  char family[REPORT_TEXT];     // the name and its rivals: "mass, thrust_scale or accel_bias"
+  char fly[REPORT_TEXT];        // what would tell it from its rivals, or show it better
+  char says[REPORT_TEXT];       // what it does: "lift is short by 0.79 +- 0.02 m/s2, 8 % of g"
+  char instrument[REPORT_TEXT]; // what the set points as the instrument say of it; empty: not tried
 } finding_t;
 
-// What an effect that was not named would have needed.
+// An effect that these flights cannot tell.
 typedef struct {
   const fx_t *fx;
-  const fx_param_t *param;   // of its size; null: it could not be looked for
-  double seen_from, typical; // of param: the smallest size that would have been seen, and what is typical
-  const char *obstacle;      // null: none
-  bool echo;                 // something like it is there, at one place, time or state only
-  bool testable;             // its typical size would have been seen
+  char why[REPORT_TEXT];
+  bool flyable; // other flights could
 } untested_t;
+
+// An effect that these flights would have shown at its typical size, and from which size on.
+typedef struct {
+  const fx_t *fx;
+  const fx_param_t *param;
+  double from;
+} shown_t;
+
+// Sentences for people.
+typedef struct {
+  int n;
+  char line[REPORT_NOTES][REPORT_LONG];
+} notes_t;
 
 typedef struct {
   const study_t *study;
   const char *verdict; // "named", "none", "unknown"
-  int n_finding;
+  int n_finding, n_untested, n_shown;
   finding_t finding[NAMED_MAX];
-  int n_untested;
   untested_t untested[FX_TABLE_MAX];
-  int n_warning;
-  char warning[REPORT_WARNINGS][REPORT_TEXT];
-  profile_t left;        // over the coordinate of the largest cell of what is left
-  lines_t before, after; // held-out rows
-  // Are these flights fit for the question: a line each.
-  int n_fitness;
-  char fitness[REPORT_FITNESS][REPORT_LONG];
+  shown_t shown[FX_TABLE_MAX];
+  notes_t fitness, to_do, warnings; // are these flights fit for the question; use, add, fly; all else
+  profile_t left;                   // over the coordinate of the largest cell of what is left
+  lines_t before, after;            // held-out rows
   bool ceiling_suspected; // lift grows towards the greatest heights, and the vehicle file has no ceiling
   double ceiling_seen_m;  // by an upward range sensor; NaN: it was not
-  char advice[REPORT_ADVICE][REPORT_TEXT]; // what to do now: use, add, fly
 } report_t;
 
 // Works out what is to be said. FAILED: no memory. Free it, also on an error.
 MUST_CHECK done_t report_make(report_t *r, study_t *study, why_t *why);
 void report_free(report_t *r);
 
+// --- parts of it ------------------------------------------------------------------------------------------
+
+// Where each name shows in the held-out flights, its numbers, how sure it is. FAILED: no memory.
+MUST_CHECK done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
+// FAILED: no memory.
+MUST_CHECK done_t report_take_fitness(report_t *r, why_t *why);
+void report_warn(report_t *r);
+void report_advise(report_t *r);
+
+// One sentence more, while there is room.
+void note(notes_t *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+// Writes f->says. effect: what it adds to the rows of the profile's channel.
+void report_say(finding_t *f, const double *effect, int rows);
+// Writes f->number, f->family and f->instrument.
+void report_take_numbers(finding_t *f);
+standing_t report_standing(const report_t *r, const finding_t *f);
+
+// The coordinate of these rows without the outermost, so much of them on each side; 0 to 0: it is not there.
+interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int coordinate, double outside);
 // A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
 // near: null, or the part that matters.
 void report_profile(const report_t *r, const double *effect, const double *variance, const interval_t *near,
                     profile_t *p);
-
-// Where a cell is: "height 0.4 to 0.6 m". Returns text.
-#define REPORT_PLACE 96
-const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
 // Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
 // how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
 interval_t report_where(const report_t *r, const profile_t *p, const double *effect);
@@ -104,43 +141,30 @@ double report_explained(const report_t *r, const profile_t *p, const double *eff
 // Rms of a residual in a range of the profile's coordinate, in its channel; 0 without a row there.
 double report_rms(const report_t *r, const profile_t *p, const interval_t *span, const double *residual);
 
-// What to fly so that an effect could be tested, and why it could not, in words.
-void report_why(const untested_t *u, char text[REPORT_TEXT]);
+// --- what several outputs say -----------------------------------------------------------------------------
 
 // What to fly to tell the two apart; pairs of which neither says it: what shows each.
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
-
-// Writes f->says. effect: what it adds to the rows of the profile's channel.
-void report_say(finding_t *f, const double *effect, int rows);
-// The part of the original model's white sum of squares that the extended one leaves, of the fitted flights.
-double report_left(const report_t *r);
-// The name and its rivals, `last` before the last of them: "mass, thrust_scale or accel_bias".
-void report_family(const finding_t *f, const char *last, char text[REPORT_TEXT]);
-standing_t report_standing(const report_t *r, const finding_t *f);
+// Where a cell is: "height 0.4 to 0.6 m". Returns text.
+#define REPORT_PLACE 96
+const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
+// "12.3 mm", or in metres from 1 m on. Returns text.
+#define REPORT_LENGTH 24
+const char *report_length(double m, char text[REPORT_LENGTH]);
+// The answer where nothing is named; vehicle: what nothing is missing in, null: not said.
+void report_headline(const report_t *r, const char *vehicle, FILE *out);
 
 extern const char *const report_feedback[]; // by confirm_answer_t
-// What the reference as the instrument says of a name, in words; false: it was not tried.
-bool report_confirm(const finding_t *f, char text[REPORT_TEXT]);
-
+// The part of the original model's white sum of squares that the extended one leaves, of the fitted flights.
+double report_left(const report_t *r);
 // Some residual can be formed.
 bool report_has_residual(const report_t *r);
 // ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
 left_over_t report_adequacy(const report_t *r, int channel);
 left_over_t report_adequacy_of_all(const report_t *r); // the worst
-// What the page says at its top where nothing is named.
-const char *report_headline(const report_t *r);
 
-// Parts of it: where each name shows in the held-out flights; what is to be known beside the verdict. FAILED:
-// no memory.
-MUST_CHECK done_t report_take_evidence(report_t *r, study_t *study, why_t *why);
-MUST_CHECK done_t report_take_fitness(report_t *r, why_t *why);
-void report_warn(report_t *r);
-void report_advise(report_t *r);
-
-// "12.3 mm", or in metres from 1 m on.
-#define REPORT_LENGTH 24
-const char *report_length(double m, char text[REPORT_LENGTH]);
+// --- the outputs ------------------------------------------------------------------------------------------
 
 // verdict.json: {"verdict", "effects", "unknown", "gap", "resimulation", "not_testable", "warnings"}; an
 // effect has "matters" besides: {"channel", "unit", "from", "to", "before", "after"}, as finding_t. A null

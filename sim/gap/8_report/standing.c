@@ -3,24 +3,8 @@
 #include "gap/8_report/report.h"
 
 #include <math.h>
-#include <string.h>
 
 // --- what it does -----------------------------------------------------------------------------------------
-
-// All rows of one channel of the held-out flights.
-typedef struct {
-  double mean, rms;
-} amount_t;
-
-static amount_t amount_of(const double *v, int n) {
-  amount_t a = {0.0, 0.0};
-  for (int i = 0; i < n; i++) {
-    a.mean += v[i] / n;
-    a.rms += v[i] * v[i] / n;
-  }
-  a.rms = sqrt(a.rms);
-  return a;
-}
 
 // Of the number that is known worst, in parts of it; what has several may have some that are 0.
 static double relative_error(const finding_t *f) {
@@ -52,25 +36,21 @@ static void say_steady(const finding_t *f, double mean, char text[REPORT_TEXT]) 
 }
 
 void report_say(finding_t *f, const double *effect, int rows) {
-  const amount_t a = amount_of(effect, rows);
+  double mean = 0.0, rms = 0.0;
+  for (int i = 0; i < rows; i++) {
+    mean += effect[i] / rows;
+    rms += effect[i] * effect[i] / rows;
+  }
+  rms = sqrt(rms);
   const double late_s = fx_use_size(f->use, 0);
   if (f->fx->group == FX_TIMING)
     snprintf(f->says, REPORT_TEXT, "commands act %.2g +- %.1g ms %s", 1e3 * fabs(late_s),
              1e3 * f->named->stderr_[0], late_s < 0.0 ? "earlier" : "later");
-  else if (a.mean * a.mean > 0.5 * a.rms * a.rms) // most of it is steady
-    say_steady(f, a.mean, f->says);
+  else if (mean * mean > 0.5 * rms * rms) // most of it is steady
+    say_steady(f, mean, f->says);
   else
-    snprintf(f->says, REPORT_TEXT, "%s changes by %.2g +- %.1g %s rms", gap_channel[f->profile.channel],
-             a.rms, a.rms * relative_error(f), gap_unit[f->profile.channel]);
-}
-
-void report_family(const finding_t *f, const char *last, char text[REPORT_TEXT]) {
-  snprintf(text, REPORT_TEXT, "%s", f->fx->name);
-  for (int i = 0; i < f->named->n_rival; i++) {
-    const size_t used = strlen(text);
-    snprintf(text + used, REPORT_TEXT - used, "%s%s", i + 1 < f->named->n_rival ? ", " : last,
-             f->named->rival[i]->name);
-  }
+    snprintf(f->says, REPORT_TEXT, "%s changes by %.2g +- %.1g %s rms", gap_channel[f->profile.channel], rms,
+             rms * relative_error(f), gap_unit[f->profile.channel]);
 }
 
 // --- how sure ---------------------------------------------------------------------------------------------

@@ -2,23 +2,12 @@
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
-
-#include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 #define LIFT_MIN 1.1 // thrust over weight
 #define LIFT_MAX 12.0
 
-static void warn(report_t *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void warn(report_t *r, const char *format, ...) {
-  if (r->n_warning == REPORT_WARNINGS) return;
-  va_list args;
-  va_start(args, format);
-  vsnprintf(r->warning[r->n_warning++], REPORT_TEXT, format, args);
-  va_end(args);
-}
+#define warn(r, ...) note(&(r)->warnings, __VA_ARGS__)
 
 static const char *base_name(const char *path) {
   const char *const slash = strrchr(path, '/');

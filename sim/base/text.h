@@ -1,0 +1,15 @@
+// text.h - words for people, cut where they have no room.
+#ifndef SIM_BASE_TEXT_H
+#define SIM_BASE_TEXT_H
+
+#include <stddef.h>
+
+// Writes behind what stands in the text.
+void text_add(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+// What stands between a number and its unit: nothing where it has none.
+static inline const char *text_gap(const char *unit) {
+  return unit[0] ? " " : "";
+}
+
+#endif
