@@ -6,6 +6,7 @@
 #ifndef SIM_GAP_2_PREDICT_RESIDUAL_H
 #define SIM_GAP_2_PREDICT_RESIDUAL_H
 
+#include "gap/2_predict/lines.h"
 #include "gap/2_predict/predict.h"
 #include "gap/2_predict/set.h"
 
@@ -25,6 +26,12 @@ bool residual_has(const set_t *s, int channel);
 
 // Residual of a model, by row: r[channel], rows of that channel. FAILED: no memory.
 MUST_CHECK done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
+
+// The same into lines that are made for it. Free them, also on an error.
+MUST_CHECK static inline done_t residual_lines(set_t *s, const model_t *m, lines_t *l, why_t *why) {
+  TRY(lines_make(l, s, why));
+  return residual_of(s, m, l->r, why);
+}
 
 // How alike what was measured and what was predicted are from row to row: what is slow does not count, and a
 // scale shows as one. Sums of squares and products of the two's increments over n rows that follow one

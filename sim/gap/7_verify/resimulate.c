@@ -17,11 +17,11 @@ typedef struct {
   const model_t *pilots; // whose mass and rotors the pilot reckons with: the same for every model
   const closed_loop_t *loop;
   body_t body;
-} again_t;
+} flight_again_t;
 
 // --- the pilot ------------------------------------------------------------------------------------------
 
-static void correct(const again_t *a, const grid_point_t *track, double motor_N[ROTORS]) {
+static void correct(const flight_again_t *a, const grid_point_t *track, double motor_N[ROTORS]) {
   const frame_t *f = &a->pilots->frame;
   const closed_loop_t *w = a->loop;
   const double *y = a->body.y;
@@ -48,7 +48,7 @@ static void correct(const again_t *a, const grid_point_t *track, double motor_N[
 
 // --- the flight -----------------------------------------------------------------------------------------
 
-static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
+static done_t put(flight_again_t *a, const model_t *m, int j, why_t *why) {
   const grid_point_t *p = &a->g->point[j];
   body_start_t start = {.pos_w_m = p->pos_w_m,
                         .vel_w_mps = p->vel_w_mps,
@@ -63,7 +63,7 @@ static done_t put(again_t *a, const model_t *m, int j, why_t *why) {
 }
 
 // One point's samples.
-static void fly_point(again_t *a, int j, int first_sample) {
+static void fly_point(flight_again_t *a, int j, int first_sample) {
   const grid_t *g = a->g;
   const double log_s = g->period_s / g->every;
   const int inner = (int)fmax(1.0, round(log_s / PILOT_STEP_S));
@@ -77,12 +77,6 @@ static void fly_point(again_t *a, int j, int first_sample) {
     }
 }
 
-typedef struct {
-  double squares, height_squares;
-  long points;
-  int lost;
-} miss_t;
-
 // The sample with which a point begins: points leave out what a segment's end cuts off.
 static int sample_of(const grid_t *g, int j) {
   const double log_s = g->period_s / g->every;
@@ -90,46 +84,53 @@ static int sample_of(const grid_t *g, int j) {
   return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
 }
 
-static done_t fly_again(again_t *a, const model_t *m, miss_t *tally, double *const at_m[3], why_t *why) {
+// Adds squares and their number to the tally. off_m: null where the flight is not drawn.
+static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, double *const off_m[3],
+                        long *points, why_t *why) {
   const grid_t *g = a->g;
   bool flying = false;
   for (int j = 0; j < g->n; j++) {
     const grid_point_t *p = &g->point[j];
     const bool go_on = flying && p->ok && p->segment == g->point[j - 1].segment;
-    for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = (double)NAN;
+    for (int k = 0; k < 3 && off_m; k++) off_m[k][j] = (double)NAN;
     flying = p->ok;
     if (!p->ok) continue;
     if (!go_on) TRY(put(a, m, j, why));
-    const double *pos = a->body.y + RIGID_POS_M;
-    double far_m = d3_norm(d3_sub(d3_of(pos), p->pos_w_m));
-    const double off_z_m = fmin(fabs(pos[2] - p->pos_w_m.z), RESIMULATE_LOST_M); // NaN: lost
+    d3_t off = d3_sub(d3_of(a->body.y + RIGID_POS_M), p->pos_w_m);
+    double far_m = d3_norm(off);
+    const double off_z_m = fmin(fabs(off.z), RESIMULATE_LOST_M); // NaN: lost
     if (a->body.broken || !(far_m <= RESIMULATE_LOST_M)) {
       far_m = RESIMULATE_LOST_M;
       tally->lost++;
       TRY(put(a, m, j, why));
+      off = d3_sub(d3_of(a->body.y + RIGID_POS_M), p->pos_w_m);
     }
-    tally->squares += far_m * far_m;
-    tally->height_squares += off_z_m * off_z_m;
-    tally->points++;
-    for (int k = 0; k < 3 && at_m; k++) at_m[k][j] = pos[k];
+    tally->rms_m += far_m * far_m;
+    tally->height_m += off_z_m * off_z_m;
+    ++*points;
+    if (off_m) off_m[0][j] = off.x, off_m[1][j] = off.y, off_m[2][j] = off.z;
     fly_point(a, j, sample_of(g, j));
   }
   return DONE;
 }
 
+// *flew: something did.
 static done_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const closed_loop_t *loop,
-                      miss_t *tally, double *const at_m[3], why_t *why) {
-  *tally = (miss_t){.squares = 0.0};
-  done_t status = DONE;
-  for (int f = 0; f < held->n_grid && status == DONE; f++) {
-    again_t *const a = calloc(1, sizeof *a);
+                      again_t *to, bool *flew, why_t *why) {
+  long points = 0;
+  for (int f = 0; f < held->n_grid; f++) {
+    flight_again_t *const a = calloc(1, sizeof *a);
     if (!a) return error_failed(why, "out of memory");
     a->g = &held->grid[f], a->pilots = pilots, a->loop = loop;
-    status = fly_again(a, m, tally, f == 0 ? at_m : NULL, why);
+    const done_t status = fly_again(a, m, to, f == 0 ? to->off_m : NULL, &points, why);
     if (a->body.integrate) body_close(&a->body);
     free(a);
+    TRY(status);
   }
-  return status;
+  *flew = points > 0;
+  to->rms_m = sqrt(to->rms_m / (double)points);
+  to->height_m = sqrt(to->height_m / (double)points);
+  return DONE;
 }
 
 static const char *obstacle(const set_t *held, const model_t *m) {
@@ -144,46 +145,31 @@ static const char *obstacle(const set_t *held, const model_t *m) {
 }
 
 static bool take_room(resimulation_t *r, const grid_t *g) {
+  const size_t n = (size_t)g->n + 1;
   r->n = g->n;
-  bool good = (r->t_s = calloc((size_t)g->n + 1, sizeof(double))) != NULL;
-  for (int k = 0; k < 3; k++) {
-    good = (r->measured_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
-    good = (r->before_at_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
-    good = (r->after_at_m[k] = calloc((size_t)g->n + 1, sizeof(double))) && good;
+  r->t_s = calloc(7 * n, sizeof(double));
+  for (size_t k = 0; k < 3 && r->t_s; k++) {
+    r->before.off_m[k] = r->t_s + (1 + k) * n;
+    r->after.off_m[k] = r->t_s + (4 + k) * n;
   }
-  for (int j = 0; good && j < g->n; j++) {
-    r->t_s[j] = g->point[j].t_s - g->point[0].t_s;
-    d3_t at = g->point[j].pos_w_m;
-    if (!g->point[j].ok) at = d3((double)NAN, (double)NAN, (double)NAN);
-    r->measured_m[0][j] = at.x, r->measured_m[1][j] = at.y, r->measured_m[2][j] = at.z;
-  }
-  return good;
+  for (int j = 0; r->t_s && j < g->n; j++) r->t_s[j] = g->point[j].t_s - g->point[0].t_s;
+  return r->t_s != NULL;
 }
 
 done_t resimulate(const set_t *held, const model_t *before, const model_t *after, const closed_loop_t *loop,
                   resimulation_t *r, why_t *why) {
-  miss_t b, a;
+  bool old_flew, new_flew;
   *r = (resimulation_t){.why_not = obstacle(held, before)};
   if (r->why_not) return DONE;
   if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
-  TRY(fly_all(held, before, before, loop, &b, r->before_at_m, why));
-  TRY(fly_all(held, after, before, loop, &a, r->after_at_m, why));
+  TRY(fly_all(held, before, before, loop, &r->before, &old_flew, why));
+  TRY(fly_all(held, after, before, loop, &r->after, &new_flew, why));
+  r->flew = old_flew && new_flew;
   r->why_not = "the vehicle does not fly";
-  if (b.points == 0 || a.points == 0) return DONE;
-  r->flew = true;
-  r->before_m = sqrt(b.squares / (double)b.points), r->after_m = sqrt(a.squares / (double)a.points);
-  r->before_height_m = sqrt(b.height_squares / (double)b.points);
-  r->after_height_m = sqrt(a.height_squares / (double)a.points);
-  r->lost_before = b.lost, r->lost_after = a.lost;
   return DONE;
 }
 
 void resimulation_free(resimulation_t *r) {
   free(r->t_s);
-  for (int k = 0; k < 3; k++) {
-    free(r->measured_m[k]);
-    free(r->before_at_m[k]);
-    free(r->after_at_m[k]);
-  }
   *r = (resimulation_t){.flew = false};
 }

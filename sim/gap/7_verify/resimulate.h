@@ -10,15 +10,19 @@
 
 #include "gap/3_feedback/nominal.h"
 
-// Places over the points of the first held-out flight; NaN where nothing flies.
+// How far from the measured track one model flies.
+typedef struct {
+  double rms_m, height_m; // all held-out flights; in height alone
+  int lost;               // times that it was more than RESIMULATE_LOST_M away and was put back
+  double *off_m[3]; // x, y, height over the points of the first held-out flight; NaN where nothing flies
+} again_t;
+
 typedef struct {
   bool flew; // false: see why_not
   const char *why_not;
-  double before_m, after_m;               // rms distance from the measured track, all held-out flights
-  double before_height_m, after_height_m; // in height alone
-  int lost_before, lost_after; // times that the vehicle was more than RESIMULATE_LOST_M away and was put back
+  again_t before, after;
   int n;
-  double *t_s, *measured_m[3], *before_at_m[3], *after_at_m[3];
+  double *t_s; // of the points; all of them are one piece of memory
 } resimulation_t;
 
 #define RESIMULATE_LOST_M 2.0

@@ -1,36 +1,34 @@
 // verify.c - flights that were not fitted to, before and after; and names that they contradict.
 #include "gap/7_verify/verify.h"
 
-#include "gap/2_predict/lines.h"
 #include <math.h>
 
-static void spread(const double *v, int n, double *rms, double *sd) {
-  double sum = 0.0, squares = 0.0;
-  for (int i = 0; i < n; i++) {
-    sum += v[i];
-    squares += v[i] * v[i];
-  }
-  *rms = n ? sqrt(squares / n) : 0.0;
-  *sd = n ? sqrt(fmax(squares / n - sum * sum / n / n, 0.0)) : 0.0;
+static double rms_of(const double *v, int n) {
+  double squares = 0.0;
+  for (int i = 0; i < n; i++) squares += v[i] * v[i];
+  return n ? sqrt(squares / n) : 0.0;
+}
+
+// The channel's rows are enough to judge what is left of them.
+static color_t color_of(const set_t *s, int channel, const lines_t *left) {
+  return residual_has(s, channel) ? color_fit(set_rows(s, channel), left->r[channel])
+                                  : (color_t){.used = false};
 }
 
 done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
                    held_t *held, why_t *why) {
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
-  done_t status = lines_make(&b, s, why);
-  if (status == DONE) status = lines_make(&a, s, why);
-  if (status == DONE) status = residual_of(s, before, b.r, why);
-  if (status == DONE) status = residual_of(s, after, a.r, why);
+  done_t status = residual_lines(s, before, &b, why);
+  if (status == DONE) status = residual_lines(s, after, &a, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];
     const rows_t *rows = set_rows(s, ch);
-    const color_t color = residual_has(s, ch) ? color_fit(rows, a.r[ch]) : (color_t){.used = false};
-    p->used = color.used;
-    p->floor = nominal->floor[ch];
+    const color_t color = color_of(s, ch, &a);
+    *p = (gap_part_t){.used = color.used, .floor = nominal->floor[ch]};
     if (!p->used) continue;
-    spread(b.r[ch], rows->n, &p->before, &p->before_sd);
-    spread(a.r[ch], rows->n, &p->after, &p->after_sd);
+    p->before = rms_of(b.r[ch], rows->n);
+    p->after = rms_of(a.r[ch], rows->n);
     held->left_before += color_left(rows, &color, b.r[ch]);
     held->left_after += color_left(rows, &color, a.r[ch]);
   }
@@ -40,12 +38,6 @@ done_t verify_held(set_t *s, const model_t *before, const model_t *after, const 
 }
 
 // --- names that held-out flights contradict ---------------------------------------------------------------
-
-static double rms_of(const double *v, int n) {
-  double squares = 0.0;
-  for (int i = 0; i < n; i++) squares += v[i] * v[i];
-  return n ? sqrt(squares / n) : 0.0;
-}
 
 // The model with all names but one; below 0: with all.
 static done_t model_without(const verify_job_t *d, int candidate, model_t *m, why_t *why) {
@@ -57,15 +49,11 @@ static done_t model_without(const verify_job_t *d, int candidate, model_t *m, wh
 // What that model leaves of every channel; 0 where the rows are too few.
 static done_t measure(const verify_job_t *d, int without, double rms[CHANNELS], why_t *why) {
   model_t m;
-  lines_t l = {.r = {NULL}};
+  lines_t l;
   TRY(model_without(d, without, &m, why));
-  done_t status = lines_make(&l, d->held, why);
-  if (status == DONE) status = residual_of(d->held, &m, l.r, why);
-  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
-    const rows_t *const rows = set_rows(d->held, ch);
-    const bool used = residual_has(d->held, ch) && color_fit(rows, l.r[ch]).used;
-    rms[ch] = used ? rms_of(l.r[ch], rows->n) : 0.0;
-  }
+  const done_t status = residual_lines(d->held, &m, &l, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
+    rms[ch] = color_of(d->held, ch, &l).used ? rms_of(l.r[ch], set_rows(d->held, ch)->n) : 0.0;
   lines_free(&l);
   return status;
 }
@@ -81,10 +69,8 @@ static double balance(const double with[CHANNELS], const double without[CHANNELS
 // l: what the name adds to each row of a set.
 static done_t contribution(set_t *s, const model_t *with, const model_t *without, lines_t *l, why_t *why) {
   lines_t left = {.r = {NULL}};
-  TRY(lines_make(l, s, why));
-  done_t status = lines_make(&left, s, why);
-  if (status == DONE) status = residual_of(s, without, l->r, why);
-  if (status == DONE) status = residual_of(s, with, left.r, why);
+  done_t status = residual_lines(s, without, l, why);
+  if (status == DONE) status = residual_lines(s, with, &left, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) l->r[ch][i] -= left.r[ch][i];
   lines_free(&left);

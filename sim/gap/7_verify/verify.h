@@ -8,7 +8,6 @@
 typedef struct {
   bool used;
   double before, after, floor; // rms of rows
-  double before_sd, after_sd;
 } gap_part_t;
 
 // Held-out flights, all together.

@@ -1,31 +1,40 @@
 // evidence.c - where each named effect shows in the held-out flights, and how well.
 #include "gap/8_report/report.h"
 
+#include <math.h>
 #include <string.h>
 
 #define MATTERS_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
-static done_t effect_lines(const report_t *r, set_t *held, const finding_t *f, double *effect[CHANNELS],
-                           double *variance[CHANNELS], double *room[CHANNELS], why_t *why) {
+typedef struct {
+  lines_t effect, variance;
+} adds_t;
+
+static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, int k, lines_t *variance,
+                           why_t *why) {
+  model_t m = r->study->diagnosis.extended;
+  fx_use_t more = *f->use;
+  lines_t left;
+  more.p[f->fx->size[k].param] += f->named->stderr_[k];
+  TRY(model_add_fx(&m, &more, why));
+  const done_t status = residual_lines(held, &m, &left, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
+    for (int i = 0; i < set_rows(held, ch)->n; i++)
+      variance->r[ch][i] += pow(left.r[ch][i] - r->after.r[ch][i], 2);
+  lines_free(&left);
+  return status;
+}
+
+static done_t find_adds(const report_t *r, set_t *held, const finding_t *f, adds_t *adds, why_t *why) {
   model_t m = r->study->diagnosis.extended;
   model_drop_fx(&m, f->fx);
   if (f->in_file) TRY(model_add_fx(&m, f->in_file, why));
-  TRY(residual_of(held, &m, effect, why));
+  TRY(residual_lines(held, &m, &adds->effect, why));
+  TRY(lines_make(&adds->variance, held, why));
   for (int ch = 0; ch < CHANNELS; ch++)
-    for (int i = 0; i < set_rows(held, ch)->n; i++) effect[ch][i] -= r->after.r[ch][i];
-  for (int k = 0; k < f->fx->n_size; k++) {
-    m = r->study->diagnosis.extended;
-    fx_use_t more = *f->use;
-    more.p[f->fx->size[k].param] += f->named->stderr_[k];
-    TRY(model_add_fx(&m, &more, why));
-    TRY(residual_of(held, &m, room, why));
-    for (int ch = 0; ch < CHANNELS; ch++)
-      for (int i = 0; i < set_rows(held, ch)->n; i++) {
-        const double step = room[ch][i] - r->after.r[ch][i];
-        variance[ch][i] += step * step;
-      }
-  }
+    for (int i = 0; i < set_rows(held, ch)->n; i++) adds->effect.r[ch][i] -= r->after.r[ch][i];
+  for (int k = 0; k < f->fx->n_size; k++) TRY(add_variance(r, held, f, k, &adds->variance, why));
   return DONE;
 }
 
@@ -88,16 +97,12 @@ static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);
   report_take_numbers(f);
-  lines_t effect, variance = {.r = {NULL}}, room = {.r = {NULL}};
-  done_t status = lines_make(&effect, held, why);
-  if (status == DONE) status = lines_make(&variance, held, why);
-  if (status == DONE) status = lines_make(&room, held, why);
-  if (status == DONE) status = effect_lines(r, held, f, effect.r, variance.r, room.r, why);
-  if (status == DONE) find_place(r, f, effect.r, variance.r);
-  if (status == DONE) report_say(f, effect.r[f->profile.channel], set_rows(held, f->profile.channel)->n);
-  lines_free(&effect);
-  lines_free(&variance);
-  lines_free(&room);
+  adds_t adds = {.effect = {{NULL}}};
+  const done_t status = find_adds(r, held, f, &adds, why);
+  if (status == DONE) find_place(r, f, adds.effect.r, adds.variance.r);
+  if (status == DONE) report_say(f, adds.effect.r[f->profile.channel], set_rows(held, f->profile.channel)->n);
+  lines_free(&adds.effect);
+  lines_free(&adds.variance);
   report_apart(f->fx, f->named->n_rival ? f->named->rival[0] : f->fx, f->fly);
   f->standing = report_standing(r, f);
   return status;
@@ -114,10 +119,8 @@ static void order_by_share(report_t *r, const found_t *found) {
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
-  TRY(lines_make(&r->before, &d->held, why));
-  TRY(lines_make(&r->after, &d->held, why));
-  TRY(residual_of(&d->held, &study->vehicle, r->before.r, why));
-  TRY(residual_of(&d->held, &d->extended, r->after.r, why));
+  TRY(residual_lines(&d->held, &study->vehicle, &r->before, why));
+  TRY(residual_lines(&d->held, &d->extended, &r->after, why));
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));

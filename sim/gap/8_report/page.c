@@ -130,8 +130,8 @@ static void again(const resimulation_t *a, FILE *out) {
       "<section><h2>Flown again in closed loop</h2>\n<p>The logged commands, and a pilot who corrects what "
       "leaves the measured track: %s rms away with the old model, %s with the new one; in height %s and "
       "%s.</p>\n<figure>",
-      report_length(a->before_m, before), report_length(a->after_m, after),
-      report_length(a->before_height_m, low), report_length(a->after_height_m, high));
+      report_length(a->before.rms_m, before), report_length(a->after.rms_m, after),
+      report_length(a->before.height_m, low), report_length(a->after.height_m, high));
   picture_track(a, out);
   fputs("<figcaption>The first held-out flight</figcaption></figure></section>\n", out);
 }

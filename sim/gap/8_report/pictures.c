@@ -93,12 +93,10 @@ void picture_time(const report_t *r, int channel, FILE *out) {
   free(t);
 }
 
-static double far(const resimulation_t *a, double *const at_m[3], int axis) {
+static double squares(const double *v, int n) {
   double sum = 0.0;
-  for (int j = 0; j < a->n; j++) {
-    const double off = at_m[axis][j] - a->measured_m[axis][j];
-    if (isfinite(off)) sum += off * off;
-  }
+  for (int i = 0; i < n; i++)
+    if (isfinite(v[i])) sum += v[i] * v[i];
   return sum;
 }
 
@@ -107,8 +105,9 @@ static int axis_of(const resimulation_t *a) {
   int better = -1, worst = 2;
   double most = 0.0;
   for (int k = 2; k >= 0; k--) {
-    const double before = far(a, a->before_at_m, k), gain = before - far(a, a->after_at_m, k);
-    if (before > far(a, a->before_at_m, worst)) worst = k;
+    const double before = squares(a->before.off_m[k], a->n);
+    const double gain = before - squares(a->after.off_m[k], a->n);
+    if (before > squares(a->before.off_m[worst], a->n)) worst = k;
     if (!(gain > most)) continue;
     most = gain;
     better = k;
@@ -116,27 +115,14 @@ static int axis_of(const resimulation_t *a) {
   return better < 0 ? worst : better;
 }
 
-// How far the two models are from the measured track.
-static void draw_errors(const resimulation_t *a, double *const off[2], const char *label, FILE *out) {
-  chart_t c = svg_frame(out);
-  svg_hold(&c, a->n, a->t_s, off[0]);
-  svg_hold(&c, a->n, a->t_s, off[1]);
-  svg_open(&c, "The held-out flight, flown again", "time, s", label);
-  svg_line(&c, a->n, a->t_s, off[0], "before thin", "old model");
-  svg_line(&c, a->n, a->t_s, off[1], "after thin", "new model");
-  svg_close(&c);
-}
-
 void picture_track(const resimulation_t *a, FILE *out) {
   static const char *const NAME[] = {"error in x, m", "error in y, m", "error in height, m"};
   const int axis = axis_of(a);
-  double *const off[2] = {malloc(((size_t)a->n + 1) * sizeof(double)),
-                          malloc(((size_t)a->n + 1) * sizeof(double))};
-  for (int j = 0; off[0] && off[1] && j < a->n; j++) {
-    off[0][j] = a->before_at_m[axis][j] - a->measured_m[axis][j];
-    off[1][j] = a->after_at_m[axis][j] - a->measured_m[axis][j];
-  }
-  if (off[0] && off[1]) draw_errors(a, off, NAME[axis], out);
-  free(off[0]);
-  free(off[1]);
+  chart_t c = svg_frame(out);
+  svg_hold(&c, a->n, a->t_s, a->before.off_m[axis]);
+  svg_hold(&c, a->n, a->t_s, a->after.off_m[axis]);
+  svg_open(&c, "The held-out flight, flown again", "time, s", NAME[axis]);
+  svg_line(&c, a->n, a->t_s, a->before.off_m[axis], "before thin", "old model");
+  svg_line(&c, a->n, a->t_s, a->after.off_m[axis], "after thin", "new model");
+  svg_close(&c);
 }

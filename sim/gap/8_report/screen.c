@@ -80,8 +80,8 @@ static void print_gap(const report_t *r, FILE *out) {
   char before[REPORT_LENGTH], after[REPORT_LENGTH], low[REPORT_LENGTH], high[REPORT_LENGTH];
   if (a->flew)
     fprintf(out, "flown again in closed loop: %s -> %s rms from the measured track; in height %s -> %s\n",
-            report_length(a->before_m, before), report_length(a->after_m, after),
-            report_length(a->before_height_m, low), report_length(a->after_height_m, high));
+            report_length(a->before.rms_m, before), report_length(a->after.rms_m, after),
+            report_length(a->before.height_m, low), report_length(a->after.height_m, high));
 }
 
 static void print_untested(const report_t *r, FILE *out) {

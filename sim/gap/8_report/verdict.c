@@ -141,8 +141,8 @@ static void add_resimulation(cJSON *root, const resimulation_t *a) {
     return;
   }
   cJSON *const o = cJSON_AddObjectToObject(root, "resimulation");
-  add(o, {"unit", .text = "m"}, {"before", .number = a->before_m}, {"after", .number = a->after_m},
-      {"height_before", .number = a->before_height_m}, {"height_after", .number = a->after_height_m});
+  add(o, {"unit", .text = "m"}, {"before", .number = a->before.rms_m}, {"after", .number = a->after.rms_m},
+      {"height_before", .number = a->before.height_m}, {"height_after", .number = a->after.height_m});
 }
 
 static void add_others(cJSON *root, const report_t *r) {

@@ -122,12 +122,12 @@ static void warn_of_diagnosis(report_t *r) {
          1e3 * d->found.aligned_s, 1e3 * candidates_least(d->found.aligned, &d->fit));
   const resimulation_t *const again = &r->study->resimulation;
   if (!again->flew) warn(r, "the held-out flight is not flown again: %s", again->why_not);
-  if (again->lost_before || again->lost_after)
+  if (again->before.lost || again->after.lost)
     warn(r,
          "flown again, the vehicle was put back when it was more than %.0f m off the measured track; times "
          "with the old "
          "model: %d, with the new one: %d",
-         RESIMULATE_LOST_M, again->lost_before, again->lost_after);
+         RESIMULATE_LOST_M, again->before.lost, again->after.lost);
 }
 
 // The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias

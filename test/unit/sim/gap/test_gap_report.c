@@ -57,15 +57,14 @@ static const struct {
 };
 
 static char *track_of(const double before[3], const double after[3]) {
-  static double t_s[N], line[9][N];
+  static double t_s[N], line[6][N];
   resimulation_t a = {.flew = true, .n = N, .t_s = t_s};
   for (int k = 0; k < 3; k++) {
-    a.measured_m[k] = line[k], a.before_at_m[k] = line[3 + k], a.after_at_m[k] = line[6 + k];
+    a.before.off_m[k] = line[k], a.after.off_m[k] = line[3 + k];
     for (int j = 0; j < N; j++) {
       t_s[j] = 0.1 * j;
-      line[k][j] = 0.01 * j;
-      line[3 + k][j] = line[k][j] + before[k];
-      line[6 + k][j] = line[k][j] + after[k];
+      line[k][j] = before[k];
+      line[3 + k][j] = after[k];
     }
   }
   char *text = NULL;
