@@ -65,6 +65,11 @@ static inline dq_t dq_mul(dq_t a, dq_t b) {
                 a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
+// The other way round, of a q of unit length.
+static inline dq_t dq_inverse(dq_t q) {
+  return (dq_t){q.w, -q.x, -q.y, -q.z};
+}
+
 // q of unit length.
 static inline axes_t axes_of(dq_t q) {
   const double x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
@@ -113,7 +118,7 @@ static inline d3_t dq_to_world(dq_t q_wb, d3_t v_b) {
   return d3_add(v_b, d3_add(d3_scale(q_wb.w, t), d3_cross(u, t)));
 }
 static inline d3_t dq_to_body(dq_t q_wb, d3_t v_w) {
-  return dq_to_world((dq_t){q_wb.w, -q_wb.x, -q_wb.y, -q_wb.z}, v_w);
+  return dq_to_world(dq_inverse(q_wb), v_w);
 }
 
 #endif

@@ -87,6 +87,7 @@ typedef enum {
 
 typedef uint64_t signals_t;
 #define SIGNAL_BIT(signal) ((signals_t)1 << (signal))
+#define SIGNALS(from, to)  ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
 
 typedef enum { ACC_BODY, ACC_WORLD, ACC_WORLD_WITH_GRAVITY } acc_frame_t;
 typedef enum { MOTORS_PWM, MOTORS_RADPS, MOTORS_N } motors_t;

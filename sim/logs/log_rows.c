@@ -6,10 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GAP            ((double)NAN)
-#define BITS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
+#define GAP ((double)NAN)
 
-static const signals_t QUATERNION = BITS(SIG_QW, SIG_QZ);
+static const signals_t QUATERNION = SIGNALS(SIG_QW, SIG_QZ);
 static const signals_t TILT = SIGNAL_BIT(SIG_ROLL) | SIGNAL_BIT(SIG_PITCH);
 
 static bool has(const log_rows_t *r, signals_t bits) {
@@ -45,7 +44,7 @@ static done_t bind(log_rows_t *r, why_t *why) {
 // What rows deliver beyond what stands in the log.
 static done_t derive(log_rows_t *r, why_t *why) {
   if (has(r, TILT)) r->has |= QUATERNION;
-  if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~BITS(SIG_AX, SIG_AZ);
+  if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~SIGNALS(SIG_AX, SIG_AZ);
   log_motors_init(&r->motors, &r->columns, &r->vehicle, &r->has, r->lacks);
   if (!r->lacks[0] || r->care == LOG_MEND) return DONE;
   return table_refuse(&r->table, 0, strncmp(r->lacks, "column", 6) == 0 ? -1 : r->at[SIG_M1], why, "%s",

@@ -26,22 +26,21 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row) {
   for (int i = SIG_M1; i <= SIG_M4; i++) s->command_max = v[i] > s->command_max ? v[i] : s->command_max;
 }
 
-// A mean over the flight that is out of its bounds, with the unit that would bring it there.
-static done_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
-                     double max, why_t *why) {
+done_t log_refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
+                  double max, why_t *why) {
   char hint[COLUMNS_HINT];
-  columns_hint(&rows->columns, i, value, min, max, hint);
+  const char *const si = columns_si(&rows->columns, i);
   return table_refuse(&rows->table, 0, rows->at[i], why,
-                      "%s %.3g %s over the whole flight; allowed: %g to %g %s%s", what, value,
-                      columns_si(&rows->columns, i), min, max, columns_si(&rows->columns, i), hint);
+                      "%s %.3g %s over the whole flight; allowed: %.4g to %.4g %s%s", what, value, si, min,
+                      max, si, columns_hint(&rows->columns, i, value, min, max, hint));
 }
 
 static done_t check_acc(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   if (s->acc_rows < ENOUGH) return DONE;
   const double acc_mps2 = s->acc_sum_mps2 / (double)s->acc_rows;
   if (acc_mps2 >= LOG_ACC_MIN * G_MPS2 && acc_mps2 <= LOG_ACC_MAX * G_MPS2) return DONE;
-  return refuse(rows, SIG_AZ, "mean |acceleration|", acc_mps2, LOG_ACC_MIN * G_MPS2, LOG_ACC_MAX * G_MPS2,
-                why);
+  return log_refuse(rows, SIG_AZ, "mean |acceleration|", acc_mps2, LOG_ACC_MIN * G_MPS2, LOG_ACC_MAX * G_MPS2,
+                    why);
 }
 
 static done_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
@@ -58,11 +57,11 @@ static done_t check_climb(const log_sanity_t *s, const log_rows_t *rows, why_t *
 done_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why) {
   const double apart_s = s->rows > 1 ? (s->last_s - s->first_s) / (double)(s->rows - 1) : 0.01;
   if (!(apart_s >= 1e-4 && apart_s <= LOG_GAP_S))
-    return refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, LOG_GAP_S, why);
+    return log_refuse(rows, SIG_TIME, "rows are apart by", apart_s, 1e-4, LOG_GAP_S, why);
   TRY(check_acc(s, rows, why));
   TRY(check_climb(s, rows, why));
   const bool commands = rows->at[SIG_M1] >= 0 && rows->columns.motors == MOTORS_PWM;
   if (commands && s->rows >= ENOUGH && s->command_max > 0.0 && s->command_max <= 100.0)
-    return refuse(rows, SIG_M1, "the largest motor command is", s->command_max, 1000.0, 65536.0, why);
+    return log_refuse(rows, SIG_M1, "the largest motor command is", s->command_max, 1000.0, 65536.0, why);
   return DONE;
 }

@@ -25,4 +25,9 @@ void log_sanity_add(log_sanity_t *s, const log_row_t *row);
 // BAD_INPUT: names the column, what it reads, what is allowed and the unit that would fit.
 MUST_CHECK done_t log_sanity_check(const log_sanity_t *s, const log_rows_t *rows, why_t *why);
 
+// A number of the whole flight that is out of its bounds, with the unit that would bring it there. Returns
+// BAD_INPUT.
+done_t log_refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
+                  double max, why_t *why);
+
 #endif

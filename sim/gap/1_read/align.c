@@ -13,54 +13,34 @@
 #define IMPACT_MPS2 8.0  // it touches something: too short for the log's rate
 #define SMOOTH_S    0.02 // the force's ends are means over this: propellers shake the accelerometer
 
-typedef struct {
-  double n, e, g, d, ed, eg, gg, gd, dd;
-} products_of_turns_t;
-
-static bool turn(const gap_flight_t *f, int i, int m, window_t *w) {
-  const int j = i + m;
-  double *const *v = f->v;
-  const double a[4] = {v[SIG_QW][i], -v[SIG_QX][i], -v[SIG_QY][i], -v[SIG_QZ][i]};
-  const double b[4] = {v[SIG_QW][j], v[SIG_QX][j], v[SIG_QY][j], v[SIG_QZ][j]};
-  const double turned[4] = {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-                            a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-                            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-                            a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-  const double sine = sqrt(turned[1] * turned[1] + turned[2] * turned[2] + turned[3] * turned[3]);
-  const double angle = 2.0 * atan2(sine, fabs(turned[0]));
-  double all = angle;
+// What three columns drive over a window, by the trapezoidal rule.
+static void drive(const gap_flight_t *f, signal_id_t first, int i, int j, window_t *w) {
   for (int k = 0; k < 3; k++) {
-    const double *const rate = v[SIG_GX + k];
-    w->moved[k] = (sine > 1e-9 ? angle / sine : 2.0) * copysign(1.0, turned[0]) * turned[1 + k];
+    const double *const rate = f->v[(int)first + k];
     w->driven[k] = -0.5 * (rate[i] + rate[j]);
     for (int s = i; s <= j; s++) w->driven[k] += rate[s];
     w->driven[k] /= f->rate_Hz;
     w->ends[k] = rate[j] - rate[i];
-    all += w->driven[k];
   }
-  return isfinite(all);
 }
 
-// Acceleration in the world.
-static void acceleration(const gap_flight_t *f, int i, double a_w[3]) {
-  double *const *v = f->v;
-  const double w = v[SIG_QW][i], x = v[SIG_QX][i], y = v[SIG_QY][i], z = v[SIG_QZ][i];
-  const double a[3] = {v[SIG_AX][i], v[SIG_AY][i], v[SIG_AZ][i]};
-  const double t[3] = {y * a[2] - z * a[1] + w * a[0], z * a[0] - x * a[2] + w * a[1],
-                       x * a[1] - y * a[0] + w * a[2]};
-  a_w[0] = a[0] + 2.0 * (y * t[2] - z * t[1]);
-  a_w[1] = a[1] + 2.0 * (z * t[0] - x * t[2]);
-  a_w[2] = a[2] + 2.0 * (x * t[1] - y * t[0]) - G_MPS2;
+static bool turn(const gap_flight_t *f, int i, int j, window_t *w) {
+  const dq_t turned = dq_mul(dq_inverse(attitude_at(f->v, i)), attitude_at(f->v, j));
+  const d3_t axis = d3(turned.x, turned.y, turned.z);
+  const double sine = d3_norm(axis), angle = 2.0 * atan2(sine, fabs(turned.w));
+  d3_put(w->moved, d3_scale((sine > 1e-9 ? angle / sine : 2.0) * copysign(1.0, turned.w), axis));
+  drive(f, SIG_GX, i, j, w);
+  return true;
 }
 
-static bool push(const gap_flight_t *f, int i, int m, window_t *w) {
-  const int j = i + m, side = (int)(0.5 * SMOOTH_S * f->rate_Hz);
-  double all = 0.0;
+static bool push(const gap_flight_t *f, int i, int j, window_t *w) {
+  const int side = (int)(0.5 * SMOOTH_S * f->rate_Hz);
   *w = (window_t){0};
   if (i < side || j + side >= f->n || f->segment[i - side] != f->segment[j + side]) return false;
   for (int s = i - side; s <= j + side; s++) {
     double a_w[3];
-    acceleration(f, s, a_w);
+    d3_put(a_w, dq_to_world(attitude_at(f->v, s), vector_at(f->v, SIG_AX, s)));
+    a_w[2] -= G_MPS2;
     for (int k = 0; k < 3; k++) {
       if (!(fabs(a_w[k]) < IMPACT_MPS2)) return false;
       if (s >= i && s <= j) w->driven[k] += (s == i || s == j ? 0.5 : 1.0) * a_w[k] / f->rate_Hz;
@@ -68,36 +48,40 @@ static bool push(const gap_flight_t *f, int i, int m, window_t *w) {
       if (s <= i + side) w->ends[k] -= a_w[k] / (2 * side + 1);
     }
   }
-  for (int k = 0; k < 3; k++) {
-    w->moved[k] = f->v[SIG_VX + k][j] - f->v[SIG_VX + k][i];
-    all += w->moved[k] + w->driven[k] + w->ends[k];
-  }
-  return isfinite(all);
+  d3_put(w->moved, d3_sub(vector_at(f->v, SIG_VX, j), vector_at(f->v, SIG_VX, i)));
+  return true;
 }
 
-static bool go(const gap_flight_t *f, int i, int m, window_t *w) {
-  const int j = i + m;
-  double all = 0.0;
-  for (int k = 0; k < 3; k++) {
-    const double *const speed = f->v[SIG_VX + k];
-    w->moved[k] = f->v[SIG_X + k][j] - f->v[SIG_X + k][i];
-    w->driven[k] = -0.5 * (speed[i] + speed[j]);
-    for (int s = i; s <= j; s++) w->driven[k] += speed[s];
-    w->driven[k] /= f->rate_Hz;
-    w->ends[k] = speed[j] - speed[i];
-    all += w->moved[k] + w->driven[k];
-  }
-  return isfinite(all);
+static bool go(const gap_flight_t *f, int i, int j, window_t *w) {
+  d3_put(w->moved, d3_sub(vector_at(f->v, SIG_X, j), vector_at(f->v, SIG_X, i)));
+  drive(f, SIG_VX, i, j, w);
+  return true;
 }
 
-const drive_t GAP_TURN = {"the attitude turns", "the gyro", SIG_GX, 0.1, 0.01, turn};
-const drive_t GAP_PUSH = {"the velocity changes", "the acceleration", SIG_AX, 0.2, 0.1, push};
-const drive_t GAP_GO = {"the position moves", "the velocity", SIG_VX, 0.3, 0.02, go};
+const drive_t GAP_TURN = {"attitude", "turns", "gyro", ATTITUDE | GYRO, ATTITUDE, SIG_GX, 0, 0.1, 0.01, turn};
+const drive_t GAP_PUSH = {
+    "velocity", "changes", "accelerometer", VELOCITY | FORCE | ATTITUDE, PLACE | VELOCITY, SIG_AX, 2, 0.2,
+    0.1,        push};
+const drive_t GAP_GO = {"position", "moves", "velocity", PLACE | VELOCITY, 0, SIG_VX, 0, 0.3, 0.02, go};
 
 int gap_drive_samples(const gap_flight_t *f, const drive_t *drive) {
   const int m = (int)(drive->span_s * f->rate_Hz + 0.5);
   return m < 2 ? 2 : m;
 }
+
+bool gap_drive_window(const gap_flight_t *f, const drive_t *drive, int i, window_t *w) {
+  const int j = i + gap_drive_samples(f, drive);
+  double all = 0.0;
+  if (f->segment[i] != f->segment[j] || !drive->at(f, i, j, w)) return false;
+  for (int k = 0; k < 3; k++) all += w->moved[k] + w->driven[k] + w->ends[k];
+  return isfinite(all);
+}
+
+// --- how late ---------------------------------------------------------------------------------------------
+
+typedef struct {
+  double n, e, g, d, ed, eg, gg, gd, dd;
+} products_of_turns_t;
 
 // tau of one part, and how much it knows (the sum of squares that tells it).
 static double late_of(const products_of_turns_t s[3], int from, double *weight) {
@@ -117,12 +101,12 @@ static double late_of(const products_of_turns_t s[3], int from, double *weight) 
   return -(ed * gg - eg * gd) / det;
 }
 
-static skew_t skew_of(const gap_flight_t *f, const drive_t *drive, int from) {
+skew_t gap_skew(const gap_flight_t *f, const drive_t *drive) {
   const int m = gap_drive_samples(f, drive), step = m / 4 > 0 ? m / 4 : 1;
   products_of_turns_t sums[PARTS][3] = {0};
   for (int i = 0; i + m < f->n; i += step) {
     window_t w;
-    if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
+    if (!gap_drive_window(f, drive, i, &w)) continue;
     for (int k = 0; k < 3; k++) {
       products_of_turns_t *const s = &sums[(long)PARTS * i / f->n][k];
       const double e = w.moved[k] - w.driven[k], g = w.driven[k], d = w.ends[k];
@@ -134,7 +118,7 @@ static skew_t skew_of(const gap_flight_t *f, const drive_t *drive, int from) {
   double late[PARTS], weight[PARTS], sum = 0.0, mean = 0.0, scatter = 0.0;
   int parts = 0;
   for (int p = 0; p < PARTS; p++) {
-    late[p] = late_of(sums[p], from, &weight[p]);
+    late[p] = late_of(sums[p], drive->axis, &weight[p]);
     sum += weight[p];
     mean += weight[p] * late[p];
     parts += weight[p] > 0.0;
@@ -143,12 +127,4 @@ static skew_t skew_of(const gap_flight_t *f, const drive_t *drive, int from) {
   mean /= sum;
   for (int p = 0; p < PARTS; p++) scatter += pow(weight[p] / sum * (late[p] - mean), 2);
   return (skew_t){mean, sqrt(scatter * parts / (parts - 1))};
-}
-
-skew_t gap_skew_attitude(const gap_flight_t *f) {
-  return skew_of(f, &GAP_TURN, 0);
-}
-
-skew_t gap_skew_velocity(const gap_flight_t *f) {
-  return skew_of(f, &GAP_PUSH, 2);
 }

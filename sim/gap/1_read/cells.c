@@ -37,10 +37,10 @@ static done_t refuse_holes(const raw_t *raw, const log_rows_t *rows, signal_id_t
   for (int i = 0; i < raw->n; i++) {
     if (isnan(v[i])) continue;
     const double more = last < 0 ? 0.0 : (raw->t_s[i] - raw->t_s[last]) / usual_s - 1.0;
-    const int holes = (int)fmin(fmax(floor(more + 0.4), 0.0), i - last - 1);
-    if (last >= 0 && holes > 0 && line == 0) line = raw->line[last + 1];
-    if (last >= 0) lost += holes;
-    due += 1 + (last >= 0 ? holes : 0);
+    const int holes = last < 0 ? 0 : (int)fmin(fmax(floor(more + 0.4), 0.0), i - last - 1);
+    if (holes > 0 && line == 0) line = raw->line[last + 1];
+    lost += holes;
+    due += 1 + holes;
     last = i;
   }
   if (lost <= LOG_CELLS_LOST * due) return DONE;
@@ -63,21 +63,16 @@ static done_t refuse_some_motors(const log_rows_t *rows, why_t *why) {
 
 // Commands that are there and cannot be told in newton, where nothing else says what the motors did.
 static done_t refuse_no_newton(const log_rows_t *rows, why_t *why) {
-  const signals_t speeds = SIGNAL_BIT(SIG_W1) | SIGNAL_BIT(SIG_W2) | SIGNAL_BIT(SIG_W3) | SIGNAL_BIT(SIG_W4);
-  if (!rows->lacks[0] || (rows->has & speeds) == speeds) return DONE;
+  if (!rows->lacks[0] || (rows->has & SPEEDS) == SPEEDS) return DONE;
   const bool other = strncmp(rows->lacks, "column", 6) == 0; // than the commands' own
   return table_refuse(&rows->table, 1, other ? -1 : rows->at[SIG_M1], why, "%s", rows->lacks);
 }
 
-static void note_bad(gap_flight_t *f, const log_rows_t *rows) {
+static void note_rows(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows) {
+  char damage[480];
   why_t first;
   f->cells_bad = log_rows_bad(rows, &first);
   if (f->cells_bad) gap_note(f, "%.190s", first.text);
-}
-
-static void note_rows(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows) {
-  char damage[480];
-  note_bad(f, rows);
   if (rows->missing) gap_note(f, "%ld cells are empty or nan", rows->missing);
   if (rows->clipped)
     gap_note(f, "%ld motor commands below 0 or above full are taken as 0 or full", rows->clipped);

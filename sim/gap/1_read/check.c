@@ -20,45 +20,24 @@
 #define SHARE_MIN   0.65 // of the other motors' mean: the commands of another unit, or half of them
 #define SHARE_MAX   1.5
 
-static bool has(const gap_flight_t *f, signal_id_t first, int n) {
-  for (int k = 0; k < n; k++)
-    if (!f->v[(int)first + k]) return false;
-  return true;
-}
-
-static done_t refuse(const log_rows_t *rows, signal_id_t i, const char *what, double value, double min,
-                     double max, why_t *why) {
-  char text[COLUMNS_HINT];
-  const char *const si = columns_si(&rows->columns, i);
-  return table_refuse(&rows->table, 0, rows->at[i], why,
-                      "%s %.3g %s over the whole flight; allowed: %.4g to %.4g %s%s", what, value, si, min,
-                      max, si, columns_hint(&rows->columns, i, value, min, max, text));
-}
-
-static double size(double *const v[3], int i) {
-  return sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-}
-
 static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   double sum = 0.0, up = 0.0;
   int n = 0, n_up = 0;
-  if (!has(f, SIG_AX, 3)) return DONE;
+  if (!has(f->v, FORCE)) return DONE;
   for (int i = 0; i < f->n; i++) {
-    const double acc_mps2 = size(&f->v[SIG_AX], i);
-    if (isnan(acc_mps2)) continue;
-    sum += acc_mps2;
+    const d3_t acc = vector_at(f->v, SIG_AX, i);
+    const double size = d3_norm(acc);
+    if (isnan(size)) continue;
+    sum += size;
     n++;
-    if (!has(f, SIG_QW, 4)) continue;
-    const double w = f->v[SIG_QW][i], x = f->v[SIG_QX][i], y = f->v[SIG_QY][i], z = f->v[SIG_QZ][i];
-    const double up_mps2 = 2.0 * (x * z - w * y) * f->v[SIG_AX][i] + 2.0 * (y * z + w * x) * f->v[SIG_AY][i] +
-                           (1.0 - 2.0 * (x * x + y * y)) * f->v[SIG_AZ][i];
+    const double up_mps2 = has(f->v, ATTITUDE) ? dq_to_world(attitude_at(f->v, i), acc).z : (double)NAN;
     if (isnan(up_mps2)) continue;
     up += up_mps2;
     n_up++;
   }
   if (n >= MEAN_OF && !(sum / n >= LOG_ACC_MIN * G_MPS2 && sum / n <= LOG_ACC_MAX * G_MPS2))
-    return refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, LOG_ACC_MIN * G_MPS2, LOG_ACC_MAX * G_MPS2,
-                  why);
+    return log_refuse(rows, SIG_AZ, "mean |acceleration|", sum / n, LOG_ACC_MIN * G_MPS2,
+                      LOG_ACC_MAX * G_MPS2, why);
   if (n_up >= MEAN_OF && f->n > 2.0 * f->rate_Hz && !(up / n_up >= 0.6 * G_MPS2 && up / n_up <= 1.4 * G_MPS2))
     return table_refuse(&rows->table, 0, rows->at[SIG_AZ], why,
                         "turned by the attitude, the mean specific force upwards is %.3g m/s2 over the whole "
@@ -78,7 +57,7 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i + m < f->n; i += m) {
       window_t w;
-      if (f->segment[i] != f->segment[i + m] || !drive->at(f, i, m, &w)) continue;
+      if (!gap_drive_window(f, drive, i, &w)) continue;
       n += pass == 0;
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.
@@ -112,10 +91,10 @@ static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const d
     if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;
     char text[COLUMNS_HINT] = "";
     what_fits(rows, column, s, text);
-    return table_refuse(
-        &rows->table, 0, rows->at[column], why,
-        "%s %.3g times as far along axis %c as %s says over the whole flight; allowed: 0.33 to 3%s",
-        drive->moves, b, 'x' + k, drive->by, text);
+    return table_refuse(&rows->table, 0, rows->at[column], why,
+                        "the %s %s %.3g times as far along axis %c as the %s says over the whole flight; "
+                        "allowed: 0.33 to 3%s",
+                        drive->what, drive->moves, b, 'x' + k, drive->by, text);
   }
   return DONE;
 }
@@ -131,18 +110,22 @@ static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_
   }
   return n < MEAN_OF || most_m >= RANGE_M
              ? DONE
-             : refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
+             : log_refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
 }
 
-// Mean of thrust over what holds the vehicle up, while it flies. lift_N: thrust at sample i.
-static double lift_ratio(const gap_flight_t *f, const model_t *vehicle,
-                         double (*lift_N)(const gap_flight_t *, const model_t *, int)) {
+// Thrust by the rotors' speeds, or by the commands.
+static double lift_N(const gap_flight_t *f, const model_t *vehicle, bool by_speeds, int i) {
+  return by_speeds ? thrust_of_speeds_N(f->v, vehicle, i) : f->v[SIG_THRUST][i];
+}
+
+// Mean of thrust over what holds the vehicle up, while it flies.
+static double lift_ratio(const gap_flight_t *f, const model_t *vehicle, bool by_speeds) {
   double most_N = 0.0, sum = 0.0;
   int n = 0;
-  for (int i = 0; i < f->n; i++) most_N = fmax(most_N, lift_N(f, vehicle, i));
+  for (int i = 0; i < f->n; i++) most_N = fmax(most_N, lift_N(f, vehicle, by_speeds, i));
   for (int i = 0; i < f->n; i++) {
-    const double thrust_N = lift_N(f, vehicle, i);
-    const double acc_mps2 = has(f, SIG_AX, 3) ? size(&f->v[SIG_AX], i) : G_MPS2;
+    const double thrust_N = lift_N(f, vehicle, by_speeds, i);
+    const double acc_mps2 = has(f->v, FORCE) ? d3_norm(vector_at(f->v, SIG_AX, i)) : G_MPS2;
     if (!(thrust_N > FLIES_AT * most_N) || !(acc_mps2 > 0.2 * G_MPS2)) continue;
     sum += thrust_N / (vehicle->mass_kg * acc_mps2);
     n++;
@@ -150,20 +133,9 @@ static double lift_ratio(const gap_flight_t *f, const model_t *vehicle,
   return n >= MEAN_OF ? sum / n : (double)NAN;
 }
 
-static double by_command_N(const gap_flight_t *f, const model_t *vehicle, int i) {
-  (void)vehicle;
-  return f->v[SIG_THRUST][i];
-}
-
-static double by_speed_N(const gap_flight_t *f, const model_t *vehicle, int i) {
-  double sum = 0.0;
-  for (int k = 0; k < 4; k++) sum += f->v[SIG_W1 + k][i] * f->v[SIG_W1 + k][i];
-  return vehicle->frame.kf_Ns2 * sum;
-}
-
 static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   char text[COLUMNS_HINT];
-  const double ratio = lift_ratio(f, &rows->vehicle, by_speed_N);
+  const double ratio = lift_ratio(f, &rows->vehicle, true);
   if (!(ratio < 0.2 || ratio > 5.0)) return DONE;
   return table_refuse(
       &rows->table, 0, rows->at[SIG_W1], why,
@@ -172,16 +144,17 @@ static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t 
       columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
 }
 
+static double sum_of_motors(const gap_flight_t *f, signal_id_t first, int i) {
+  return f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+}
+
 // One motor's share of what the four do while it flies; no trim of a vehicle that flies is so lopsided.
 static done_t check_shares(const gap_flight_t *f, const log_rows_t *rows, signal_id_t first, why_t *why) {
   double most = 0.0, sum[ROTORS] = {0.0}, all = 0.0;
   int n = 0;
+  for (int i = 0; i < f->n; i++) most = fmax(most, sum_of_motors(f, first, i));
   for (int i = 0; i < f->n; i++) {
-    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
-    most = fmax(most, now);
-  }
-  for (int i = 0; i < f->n; i++) {
-    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+    const double now = sum_of_motors(f, first, i);
     if (!(now > FLIES_AT * most)) continue;
     for (int k = 0; k < ROTORS; k++) sum[k] += f->v[(int)first + k][i];
     all += now;
@@ -200,13 +173,13 @@ static done_t check_shares(const gap_flight_t *f, const log_rows_t *rows, signal
 static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   const bool each = rows->at[SIG_M1] >= 0, pwm = each && rows->columns.motors == MOTORS_PWM;
   double most = 0.0;
-  for (int k = 0; k < 4 && pwm && has(f, SIG_M1, 4); k++)
+  for (int k = 0; k < 4 && pwm && has(f->v, COMMANDS); k++)
     for (int i = 0; i < f->n; i++) most = fmax(most, f->v[SIG_M1 + k][i]);
   if (most > 0.0 && most <= 100.0)
-    return refuse(rows, SIG_M1, "the largest motor command is", most, 1000.0, 65536.0, why);
-  if (each && has(f, SIG_M1, ROTORS)) TRY(check_shares(f, rows, SIG_M1, why));
-  if (!has(f, SIG_THRUST, 1)) return DONE;
-  const double ratio = lift_ratio(f, &rows->vehicle, by_command_N);
+    return log_refuse(rows, SIG_M1, "the largest motor command is", most, 1000.0, 65536.0, why);
+  if (each && has(f->v, COMMANDS)) TRY(check_shares(f, rows, SIG_M1, why));
+  if (!f->v[SIG_THRUST]) return DONE;
+  const double ratio = lift_ratio(f, &rows->vehicle, false);
   if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return DONE;
   return table_refuse(
       &rows->table, 0, rows->at[each ? SIG_M1 : SIG_THRUST], why,
@@ -235,15 +208,15 @@ static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t
 }
 
 done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  static const drive_t *const drives[] = {&GAP_TURN, &GAP_GO, &GAP_PUSH};
   TRY(check_acceleration(f, rows, why));
-  if (has(f, SIG_QW, 4) && has(f, SIG_GX, 3)) TRY(check_drive(f, rows, &GAP_TURN, why));
-  if (has(f, SIG_X, 3) && has(f, SIG_VX, 3)) TRY(check_drive(f, rows, &GAP_GO, why));
-  if (has(f, SIG_VX, 3) && has(f, SIG_AX, 3) && has(f, SIG_QW, 4)) TRY(check_drive(f, rows, &GAP_PUSH, why));
-  if (has(f, SIG_Z, 1) && isfinite(rows->vehicle.ceiling_m)) TRY(check_ceiling(f, rows, why));
+  for (int i = 0; i < 3; i++)
+    if (has(f->v, drives[i]->need)) TRY(check_drive(f, rows, drives[i], why));
+  if (f->v[SIG_Z] && isfinite(rows->vehicle.ceiling_m)) TRY(check_ceiling(f, rows, why));
   TRY(check_range(f, rows, SIG_RANGE, why));
   TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
   TRY(check_commands(f, rows, why));
-  if (!has(f, SIG_W1, ROTORS)) return DONE;
+  if (!has(f->v, SPEEDS)) return DONE;
   TRY(check_shares(f, rows, SIG_W1, why));
   return check_speeds(f, rows, why);
 }

@@ -13,14 +13,8 @@
 #define SKEW_ROUNDS  3
 #define RANGE_SELDOM 0.7 // of the rows have a new sample: the sensor has a period of its own
 
-#define SIGNALS(from, to) ((SIGNAL_BIT((to) + 1) - 1u) & ~(SIGNAL_BIT(from) - 1u))
-
-#define ATTITUDE_BITS SIGNALS(SIG_QW, SIG_QZ)
-static const signals_t ATTITUDE = ATTITUDE_BITS, PLACE = SIGNALS(SIG_X, SIG_VZ);
-static const signals_t GYRO = SIGNALS(SIG_GX, SIG_GZ), FORCE = SIGNALS(SIG_AX, SIG_AZ);
 // Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
-static const signals_t WHOLE[] = {ATTITUDE_BITS, SIGNALS(SIG_M1, SIG_M4), SIGNALS(SIG_F1, SIG_F4),
-                                  SIGNALS(SIG_W1, SIG_W4)};
+static const signals_t WHOLE[] = {ATTITUDE, COMMANDS, SIGNALS(SIG_F1, SIG_F4), SPEEDS};
 
 void gap_flight_free(gap_flight_t *f) {
   for (int i = 0; i < SIG_COUNT; i++) free(f->v[i]);
@@ -46,21 +40,16 @@ static bool all_gaps(const raw_t *raw, const double *v) {
   return true;
 }
 
-static bool logged(const raw_t *raw, signals_t signals) {
-  for (int i = 0; i < SIG_COUNT; i++)
-    if ((signals & SIGNAL_BIT(i)) && !raw->v[i]) return false;
-  return true;
-}
-
 // Drops the group unless all of it is there, and says what its others wait for.
 static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
+  const bool whole = has(raw->v, group);
   const char *lacks = NULL, *there = NULL;
   for (int i = 0; i < SIG_COUNT; i++) {
     if (!(group & SIGNAL_BIT(i))) continue;
     const char *const name = i < SIG_COLUMNS ? columns_name((signal_id_t)i) : NULL;
     if (raw->v[i] && !there) there = name;
     if (!raw->v[i] && !lacks) lacks = name;
-    if (!logged(raw, group)) raw_drop(raw, (signal_id_t)i);
+    if (!whole) raw_drop(raw, (signal_id_t)i);
   }
   if (!there || !lacks) return;
   gap_note(f, "no %s: %s and the others beside it are not used", lacks, there);
@@ -82,8 +71,10 @@ static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why
                         "no signal of a flight; allowed: columns of --columns FILE");
   for (unsigned k = 0; k < sizeof WHOLE / sizeof *WHOLE; k++) drop_part(f, raw, WHOLE[k]);
   const double rest_m = rows->columns.rest_height_m;
-  for (int i = 0; raw->v[SIG_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_Z][i] -= rest_m;
-  for (int i = 0; raw->v[SIG_SET_Z] && isfinite(rest_m) && i < raw->n; i++) raw->v[SIG_SET_Z][i] -= rest_m;
+  for (int k = 0; k < 2 && isfinite(rest_m); k++) {
+    double *const z_m = raw->v[k ? SIG_SET_Z : SIG_Z];
+    for (int i = 0; z_m && i < raw->n; i++) z_m[i] -= rest_m;
+  }
   return DONE;
 }
 
@@ -94,23 +85,17 @@ static void add_shift(double shift_s[SIG_COUNT], signals_t signals, double late_
     if (signals & SIGNAL_BIT(i)) shift_s[i] += late_s;
 }
 
-typedef struct {
-  const char *what, *driver;
-  signals_t need, moved;
-  skew_t (*skew)(const gap_flight_t *f);
-} stream_t;
-
 // How late the stream is beyond shift_s, by rounds: each looks at what the one before has left.
-static done_t tell_late(raw_t *raw, const stream_t *s, const double shift_s[SIG_COUNT], skew_t *told,
+static done_t tell_late(raw_t *raw, const drive_t *stream, const double shift_s[SIG_COUNT], skew_t *told,
                         why_t *why) {
   *told = (skew_t){0.0, HUGE_VAL};
   for (int round = 0; round < SKEW_ROUNDS; round++) {
     gap_flight_t part = {0};
     double moved_s[SIG_COUNT];
     memcpy(moved_s, shift_s, sizeof moved_s);
-    add_shift(moved_s, s->moved, told->late_s);
-    const done_t status = gap_grid(&part, raw, s->need, moved_s, SKEW_SPAN_S, false, why);
-    const skew_t rest = status == DONE ? s->skew(&part) : *told;
+    add_shift(moved_s, stream->late, told->late_s);
+    const done_t status = gap_grid(&part, raw, stream->need, moved_s, SKEW_SPAN_S, false, why);
+    const skew_t rest = status == DONE ? gap_skew(&part, stream) : *told;
     gap_flight_free(&part);
     TRY(status);
     told->late_s += rest.late_s;
@@ -127,30 +112,22 @@ static bool is_said(const columns_t *c, signals_t moved) {
   return false;
 }
 
-static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, double shift_s[SIG_COUNT], why_t *why) {
-  const stream_t stream[] = {
-      {"attitude", "gyro", ATTITUDE | GYRO, ATTITUDE, gap_skew_attitude},
-      {"velocity", "accelerometer", ATTITUDE | FORCE | PLACE, PLACE, gap_skew_velocity},
-  };
-  double *const late_s[] = {&f->attitude_late_s, &f->velocity_late_s};
-  for (int k = 0; k < 2; k++) {
-    const stream_t *const s = &stream[k];
-    skew_t told;
-    const signals_t need = k == 0 ? s->need : s->need & ~SIGNALS(SIG_X, SIG_Z);
-    if (!logged(raw, need) || is_said(c, s->moved)) continue;
-    TRY(tell_late(raw, s, shift_s, &told, why));
-    const bool sure = isfinite(told.stderr_s) && fabs(told.late_s) > SKEW_SURE * told.stderr_s;
-    const bool small = fabs(told.late_s) <= SKEW_MAX_S;
-    const bool mend = sure && small && fabs(told.late_s) >= SKEW_MIN_S;
-    if (sure && !small)
-      gap_note(f, "the %s seems %.0f ms late against the %s: more than can be mended", s->what,
-               1e3 * told.late_s, s->driver);
-    if (mend)
-      gap_note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", s->what,
-               1e3 * told.late_s, 1e3 * told.stderr_s, s->driver);
-    *late_s[k] = mend ? told.late_s : 0.0;
-    add_shift(shift_s, s->moved, *late_s[k]);
-  }
+// Moves the stream by what it is late.
+static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive_t *stream,
+                    double shift_s[SIG_COUNT], double *late_s, why_t *why) {
+  skew_t told;
+  if (!has(raw->v, stream->need) || is_said(c, stream->late)) return DONE;
+  TRY(tell_late(raw, stream, shift_s, &told, why));
+  const double size_s = fabs(told.late_s);
+  if (!isfinite(told.stderr_s) || !(size_s > SKEW_SURE * told.stderr_s)) return DONE;
+  if (!(size_s <= SKEW_MAX_S))
+    gap_note(f, "the %s seems %.0f ms late against the %s: more than can be mended", stream->what,
+             1e3 * told.late_s, stream->by);
+  if (!(size_s >= SKEW_MIN_S && size_s <= SKEW_MAX_S)) return DONE;
+  gap_note(f, "the %s was %.1f +- %.1f ms late against the %s; it is moved by as much", stream->what,
+           1e3 * told.late_s, 1e3 * told.stderr_s, stream->by);
+  *late_s = told.late_s;
+  add_shift(shift_s, stream->late, told.late_s);
   return DONE;
 }
 
@@ -162,24 +139,20 @@ static void note_missing(gap_flight_t *f) {
     signals_t need;
     const char *what, *cost;
   } row[] = {
-      {SIGNALS(SIG_AX, SIG_AZ), "acceleration",
+      {FORCE, "acceleration",
        f->v[SIG_VX] && f->v[SIG_QW]
            ? "that of the velocity stands in for it; its own errors are not looked for"
            : "no force is compared"},
-      {SIGNALS(SIG_GX, SIG_GZ), "rates", "no moment is compared"},
-      {ATTITUDE_BITS, "attitude", "neither wind nor anything else in the world's axes is looked for"},
-      {SIGNALS(SIG_VX, SIG_VZ), "velocity",
+      {GYRO, "rates", "no moment is compared"},
+      {ATTITUDE, "attitude", "neither wind nor anything else in the world's axes is looked for"},
+      {VELOCITY, "velocity",
        f->v[SIG_X] ? "that of the place stands in for it"
                    : "no drag, flapping, inflow and translational lift are looked for"},
-      {SIGNALS(SIG_X, SIG_Z), "place", "no ceiling, ground and wall are looked for"},
+      {PLACE, "place", "no ceiling, ground and wall are looked for"},
       {SIGNAL_BIT(SIG_VBAT), "voltage", "battery_sag is not looked for"},
   };
-  for (unsigned k = 0; k < sizeof row / sizeof *row; k++) {
-    bool all = true;
-    for (int i = 0; i < SIG_COUNT; i++)
-      if (row[k].need & SIGNAL_BIT(i)) all = all && f->v[i];
-    if (!all) gap_note(f, "without %s %s", row[k].what, row[k].cost);
-  }
+  for (unsigned k = 0; k < sizeof row / sizeof *row; k++)
+    if (!has(f->v, row[k].need)) gap_note(f, "without %s %s", row[k].what, row[k].cost);
 }
 
 static void note_samples(gap_flight_t *f) {
@@ -238,7 +211,8 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
         "values",
         slow);
-  TRY(align(f, raw, &rows->columns, shift_s, why));
+  TRY(align(f, raw, &rows->columns, &GAP_TURN, shift_s, &f->attitude_late_s, why));
+  TRY(align(f, raw, &rows->columns, &GAP_PUSH, shift_s, &f->velocity_late_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
     return table_refuse(&rows->table, 0, -1, why,

@@ -2,8 +2,39 @@
 #ifndef SIM_GAP_1_READ_READ_H
 #define SIM_GAP_1_READ_READ_H
 
+#include "base/d3.h"
 #include "gap/1_read/flight.h"
 #include "logs/log_rows.h"
+
+#define PLACE    SIGNALS(SIG_X, SIG_Z)
+#define VELOCITY SIGNALS(SIG_VX, SIG_VZ)
+#define ATTITUDE SIGNALS(SIG_QW, SIG_QZ)
+#define GYRO     SIGNALS(SIG_GX, SIG_GZ)
+#define FORCE    SIGNALS(SIG_AX, SIG_AZ)
+#define COMMANDS SIGNALS(SIG_M1, SIG_M4)
+#define SPEEDS   SIGNALS(SIG_W1, SIG_W4)
+
+// All of these signals are there.
+static inline bool has(double *const v[SIG_COUNT], signals_t signals) {
+  for (int i = 0; i < SIG_COUNT; i++)
+    if ((signals & SIGNAL_BIT(i)) && !v[i]) return false;
+  return true;
+}
+
+// Three signals that follow one another, at sample i; and the attitude.
+static inline d3_t vector_at(double *const v[SIG_COUNT], signal_id_t first, int i) {
+  return d3(v[first][i], v[first + 1][i], v[first + 2][i]);
+}
+static inline dq_t attitude_at(double *const v[SIG_COUNT], int i) {
+  return (dq_t){v[SIG_QW][i], v[SIG_QX][i], v[SIG_QY][i], v[SIG_QZ][i]};
+}
+
+// Thrust of all rotors at these speeds.
+static inline double thrust_of_speeds_N(double *const v[SIG_COUNT], const model_t *vehicle, int i) {
+  double sum = 0.0;
+  for (int k = SIG_W1; k <= SIG_W4; k++) sum += v[k][i] * v[k][i];
+  return vehicle->frame.kf_Ns2 * sum;
+}
 
 // The log's rows as they came, but for what is merged: column by column.
 typedef struct {
@@ -47,33 +78,35 @@ MUST_CHECK done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why);
 MUST_CHECK done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
                            double limit_s, bool drop, why_t *why);
 
-// How far two streams are apart in time.
-typedef struct {
-  double late_s, stderr_s; // stderr_s infinite: cannot be told
-} skew_t;
-
-skew_t gap_skew_attitude(const gap_flight_t *f); // against the gyro
-skew_t gap_skew_velocity(const gap_flight_t *f); // against the accelerometer
-
-// BAD_INPUT: signals contradict physics or each other over the whole flight.
-MUST_CHECK done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
-
-// What a stream moved over a window of samples, and what the one that drives it says.
+// A stream, what drives it, and a window of samples in which both say how far it moved.
 typedef struct {
   double moved[3], driven[3];
   double ends[3]; // of the driving signal: last minus first
 } window_t;
 
 typedef struct {
-  const char *moves, *by;                                       // in words
-  signal_id_t driver;                                           // the first of its three columns
-  double span_s, least;                                         // a window's length; what is a movement
-  bool (*at)(const gap_flight_t *f, int i, int m, window_t *w); // false: not all there
+  const char *what, *moves, *by; // in words
+  signals_t need, late;          // without which nothing is told; what is late where the stream is
+  signal_id_t driver;            // the first of its three columns
+  int axis;                      // the first that tells how late
+  double span_s, least;          // a window's length; what is a movement
+  bool (*at)(const gap_flight_t *f, int i, int j, window_t *w); // false: not all there
 } drive_t;
 
 extern const drive_t GAP_TURN, GAP_PUSH, GAP_GO; // attitude by gyro, velocity by force, position by velocity
 
-// Samples of a window.
+// Samples of a window; and the one that begins with sample i. False: a gap is in it.
 int gap_drive_samples(const gap_flight_t *f, const drive_t *drive);
+bool gap_drive_window(const gap_flight_t *f, const drive_t *drive, int i, window_t *w);
+
+// How far a stream is behind what drives it.
+typedef struct {
+  double late_s, stderr_s; // stderr_s infinite: cannot be told
+} skew_t;
+
+skew_t gap_skew(const gap_flight_t *f, const drive_t *drive);
+
+// BAD_INPUT: signals contradict physics or each other over the whole flight.
+MUST_CHECK done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
 
 #endif

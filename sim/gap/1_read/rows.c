@@ -25,7 +25,7 @@ typedef struct {
   long line;
 } early_t;
 
-static const signals_t RANGES = SIGNAL_BIT(SIG_RANGE) | SIGNAL_BIT(SIG_RANGE_DOWN);
+static const signals_t RANGES = SIGNALS(SIG_RANGE, SIG_RANGE_DOWN);
 
 void raw_drop(raw_t *raw, signal_id_t signal) {
   free(raw->v[signal]);
@@ -135,16 +135,12 @@ typedef struct {
   bin_t bin;
 } row_reader_t;
 
-static done_t take_row(row_reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
-  if (r->n < FIRST) {
-    r->n++;
-    return DONE;
-  }
-  if (raw->thin == 0) {
-    TRY(tell_rate(raw, r->early, r->n, rows, why));
-    for (int i = 0; i < r->n; i++) TRY(bin_add(&r->bin, raw, &r->early[i], rows->has, why));
-  }
-  return bin_add(&r->bin, raw, &r->early[FIRST], rows->has, why);
+// The rate is told, once, and the rows that waited for it are taken.
+static done_t begin(row_reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
+  if (raw->thin > 0) return DONE;
+  TRY(tell_rate(raw, r->early, r->n, rows, why));
+  for (int i = 0; i < r->n; i++) TRY(bin_add(&r->bin, raw, &r->early[i], rows->has, why));
+  return DONE;
 }
 
 static done_t read_all(row_reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut, why_t *why) {
@@ -159,12 +155,14 @@ static done_t read_all(row_reader_t *r, raw_t *raw, log_rows_t *rows, bool *cut,
     *cut = e != r->early && e->row.v[SIG_TIME] - r->early[0].row.v[SIG_TIME] > GAP_FLIGHT_S;
     if (*cut) break;
     raw->rows++;
-    TRY(take_row(r, raw, rows, why));
+    if (r->n < FIRST) {
+      r->n++;
+      continue;
+    }
+    TRY(begin(r, raw, rows, why));
+    TRY(bin_add(&r->bin, raw, e, rows->has, why));
   }
-  if (raw->thin == 0) {
-    TRY(tell_rate(raw, r->early, r->n, rows, why));
-    for (int i = 0; i < r->n; i++) TRY(bin_add(&r->bin, raw, &r->early[i], rows->has, why));
-  }
+  TRY(begin(r, raw, rows, why));
   return bin_close(&r->bin, raw, rows->has, why);
 }
 

@@ -43,9 +43,7 @@ static const struct {
 #define STREAMS ((int)(sizeof STREAM / sizeof *STREAM))
 
 static bool logged(const raw_t *raw, signal_id_t first, int n) {
-  for (int k = 0; k < n; k++)
-    if (!raw->v[(int)first + k]) return false;
-  return true;
+  return has(raw->v, SIGNALS(first, (int)first + n - 1));
 }
 
 static bool same(const raw_t *raw, signal_id_t first, int n, int i) {
@@ -102,16 +100,11 @@ done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
 static int flies(const raw_t *raw, const model_t *vehicle, int i) {
   const double weight_N = vehicle->mass_kg * G_MPS2;
   if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > GAP_CARRIED * weight_N;
-  if (!logged(raw, SIG_W1, 4)) return -1;
-  double sum = 0.0;
-  for (int k = 0; k < 4; k++) sum += raw->v[SIG_W1 + k][i] * raw->v[SIG_W1 + k][i];
-  return vehicle->frame.kf_Ns2 * sum > GAP_CARRIED * weight_N;
+  return has(raw->v, SPEEDS) ? thrust_of_speeds_N(raw->v, vehicle, i) > GAP_CARRIED * weight_N : -1;
 }
 
 static double speed_mps(const raw_t *raw, int i) {
-  if (!logged(raw, SIG_VX, 3)) return 0.0;
-  const double x = raw->v[SIG_VX][i], y = raw->v[SIG_VY][i], z = raw->v[SIG_VZ][i];
-  const double speed = sqrt(x * x + y * y + z * z);
+  const double speed = has(raw->v, VELOCITY) ? d3_norm(vector_at(raw->v, SIG_VX, i)) : 0.0;
   return isfinite(speed) ? speed : 0.0;
 }
 

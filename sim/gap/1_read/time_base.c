@@ -18,10 +18,7 @@ typedef struct {
 } stretch_t;
 
 static const signals_t LINEAR =
-    SIGNAL_BIT(SIG_M1) | SIGNAL_BIT(SIG_M2) | SIGNAL_BIT(SIG_M3) | SIGNAL_BIT(SIG_M4) | SIGNAL_BIT(SIG_F1) |
-    SIGNAL_BIT(SIG_F2) | SIGNAL_BIT(SIG_F3) | SIGNAL_BIT(SIG_F4) | SIGNAL_BIT(SIG_THRUST) |
-    SIGNAL_BIT(SIG_VBAT) | SIGNAL_BIT(SIG_SET_X) | SIGNAL_BIT(SIG_SET_Y) | SIGNAL_BIT(SIG_SET_Z) |
-    SIGNAL_BIT(SIG_SET_VX) | SIGNAL_BIT(SIG_SET_VY) | SIGNAL_BIT(SIG_SET_VZ) | SIGNAL_BIT(SIG_SET_YAW);
+    COMMANDS | SIGNALS(SIG_F1, SIG_F4) | SIGNALS(SIG_THRUST, SIG_VBAT) | SIGNALS(SIG_SET_X, SIG_SET_YAW);
 
 // The mean distance of rows, gaps left out; no shorter than that of GAP_RATE_HZ.
 static double grid_period(const raw_t *raw) {

@@ -118,12 +118,12 @@ static const struct {
     {"acceleration in m/s2",
      {10.0, 1, 1, 1, 9.81, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 96.2 m/s2 over the whole flight; allowed: 4.905 to "
-     "30.411 m/s2; the unit "
+     "30.41 m/s2; the unit "
      "m/s2 would fit (factor 0.1019)"},
     {"gravity taken out",
      {10.0, 1, 1, 1, 0.01, 200, 0, 0, 0},
      "f.csv:201: column acc.z: mean |acceleration| 0.0981 m/s2 over the whole flight; allowed: 4.905 to "
-     "30.411 m/s2"},
+     "30.41 m/s2"},
     {"z too small",
      {10.0, 1, 1e-3, 1, 1, 200, 0, 0, 0},
      "f.csv:201: column stateEstimate.z: moves 0.001 times as far as column stateEstimate.vz says over the "
