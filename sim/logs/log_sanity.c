@@ -3,7 +3,6 @@
 
 #include "base/constants.h"
 #include <math.h>
-#include <stdio.h>
 
 #define ENOUGH 50 // rows from which a mean says something
 

@@ -4,7 +4,6 @@
 #include "base/by_size.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define FIRST       512  // rows from which the rate is told
 #define BUNCH       0.25 // rows closer than this share of the median distance came late, together

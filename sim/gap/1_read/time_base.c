@@ -17,6 +17,11 @@ typedef struct {
   double start_s;
 } stretch_t;
 
+// Of the uniform time base: margin_s: at both ends of a segment, where signals that are moved have nothing.
+typedef struct {
+  double period_s, margin_s, end_s;
+} steps_t;
+
 static const signals_t LINEAR =
     COMMANDS | SIGNALS(SIG_F1, SIG_F4) | SIGNALS(SIG_THRUST, SIG_VBAT) | SIGNALS(SIG_SET_X, SIG_SET_YAW);
 
@@ -35,18 +40,18 @@ static double grid_period(const raw_t *raw) {
 }
 
 // The next run of rows without a gap that splits; false: none is left.
-static bool next_segment(const raw_t *raw, double period_s, double margin_s, double end_s, stretch_t *s) {
+static bool next_segment(const raw_t *raw, const steps_t *g, stretch_t *s) {
   const double split_s = fmax(SPLIT_PERIODS * raw->period_s * raw->thin, SPLIT_S);
   s->at += s->n;
   s->first = s->last + 1;
-  if (s->first >= raw->n || raw->t_s[s->first] > end_s) return false;
+  if (s->first >= raw->n || raw->t_s[s->first] > g->end_s) return false;
   s->last = s->first;
   while (s->last + 1 < raw->n && raw->t_s[s->last + 1] - raw->t_s[s->last] <= split_s &&
-         raw->t_s[s->last + 1] <= end_s)
+         raw->t_s[s->last + 1] <= g->end_s)
     s->last++;
-  s->start_s = raw->t_s[s->first] + margin_s;
-  const double span_s = raw->t_s[s->last] - margin_s - s->start_s;
-  s->n = span_s < 0.0 ? 0 : (int)(span_s / period_s + 1e-6) + 1;
+  s->start_s = raw->t_s[s->first] + g->margin_s;
+  const double span_s = raw->t_s[s->last] - g->margin_s - s->start_s;
+  s->n = span_s < 0.0 ? 0 : (int)(span_s / g->period_s + 1e-6) + 1;
   return true;
 }
 
@@ -143,17 +148,13 @@ static void unit_quaternions(gap_flight_t *f) {
   }
 }
 
-typedef struct {
-  double period_s, margin_s, end_s;
-} steps_t;
-
 static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const steps_t *g, int signal, double shift_s,
                           why_t *why) {
   double *const out = f->v[signal] = malloc(((size_t)f->n + 1) * sizeof(double));
   if (!out) return error_failed(why, "out of memory");
   const double instants = floor(shift_s / g->period_s + 1e-6);
   if (is_range(signal)) f->range_late_s[signal - SIG_RANGE] = fmax(shift_s - instants * g->period_s, 0.0);
-  for (stretch_t s = {.last = -1}; next_segment(raw, g->period_s, g->margin_s, g->end_s, &s);) {
+  for (stretch_t s = {.last = -1}; next_segment(raw, g, &s);) {
     if (is_range(signal))
       place(raw, raw->v[signal], &s, g->period_s, instants, out + s.at);
     else
@@ -171,14 +172,14 @@ done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_
   g.margin_s = g.period_s * ceil(g.margin_s / g.period_s - 1e-6);
   int number = 0;
   f->n = 0;
-  for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);) f->n = s.at + s.n;
+  for (stretch_t s = {.last = -1}; next_segment(raw, &g, &s);) f->n = s.at + s.n;
   f->rate_Hz = 1.0 / g.period_s;
   const size_t n = (size_t)f->n + 1;
   f->t_s = malloc(n * sizeof(double));
   f->segment = malloc(n * sizeof(int));
   f->saturated = calloc(n, sizeof(bool));
   if (!f->t_s || !f->segment || !f->saturated) return error_failed(why, "out of memory");
-  for (stretch_t s = {.last = -1}; next_segment(raw, g.period_s, g.margin_s, g.end_s, &s);)
+  for (stretch_t s = {.last = -1}; next_segment(raw, &g, &s);)
     if (s.n > 0) mark(f, raw, &s, number++, g.period_s, shift_s[SIG_THRUST]);
   for (int i = SIG_X; i < SIG_COUNT; i++) {
     if (!raw->v[i] || !(want & SIGNAL_BIT(i))) continue;

@@ -13,6 +13,11 @@ static void write_list(FILE *out, const char *key, const double *v, int n) {
   fputs("]\n", out);
 }
 
+static void write_points(FILE *out, const curve_points_t *points) {
+  write_list(out, "distance_over_radius", points->x, points->n);
+  write_list(out, "ratio", points->ratio, points->n);
+}
+
 // --- effects that the file has with other numbers ---------------------------------------------------------
 
 static bool is_named(const extend_job_t *job, const fx_t *fx) {
@@ -21,31 +26,32 @@ static bool is_named(const extend_job_t *job, const fx_t *fx) {
   return false;
 }
 
-static bool is_table(const char *line) {
-  return line[strspn(line, " \t")] == '[';
+static const char *next_line(const char *line) {
+  const char *const end = strchr(line, '\n');
+  return end ? end + 1 : line + strlen(line);
+}
+
+static const char *after_blanks(const char *line) {
+  return line + strspn(line, " \t");
 }
 
 // The end of a table that begins at `line`: where the next one does.
 static const char *table_end(const char *line) {
-  do {
-    const char *const next = strchr(line, '\n');
-    line = next ? next + 1 : line + strlen(line);
-  } while (*line && !is_table(line));
+  do line = next_line(line);
+  while (*line && *after_blanks(line) != '[');
   return line;
 }
 
 // A table's `name = "..."` is of an effect that was named.
 static bool is_of_a_name(const extend_job_t *job, const char *from, const char *to) {
-  for (const char *line = from; line < to;) {
-    const char *const key = line + strspn(line, " \t");
+  for (const char *line = from; line < to; line = next_line(line)) {
+    const char *const key = after_blanks(line);
     const char *const quote = strncmp(key, "name", 4) == 0 ? strpbrk(key, "\"'\n") : NULL;
     const size_t length = quote && *quote != '\n' ? strcspn(quote + 1, "\"'\n") : 0;
     char name[32] = "";
     if (length < sizeof name) memcpy(name, quote ? quote + 1 : "", length);
     const fx_t *const fx = length ? fx_find(name) : NULL;
     if (fx) return is_named(job, fx);
-    const char *const next = strchr(line, '\n');
-    line = next ? next + 1 : to;
   }
   return false;
 }
@@ -57,9 +63,8 @@ static char *without_names(const extend_job_t *job) {
   FILE *const kept = open_memstream(&text, &size);
   if (!kept) return NULL;
   for (const char *line = job->text; *line;) {
-    const char *const start = line + strspn(line, " \t"), *const next = strchr(line, '\n');
-    const bool effect = strncmp(start, "[[effect]]", 10) == 0;
-    const char *const end = effect ? table_end(line) : next ? next + 1 : line + strlen(line);
+    const bool effect = strncmp(after_blanks(line), "[[effect]]", 10) == 0;
+    const char *const end = effect ? table_end(line) : next_line(line);
     if (!effect || !is_of_a_name(job, line, end)) fwrite(line, 1, (size_t)(end - line), kept);
     line = end;
   }
@@ -70,17 +75,15 @@ static char *without_names(const extend_job_t *job) {
 static void write_text(const extend_job_t *job, const char *text, FILE *out) {
   const fx_use_t *fx = job->model->fx, *const end = fx + job->model->n_fx;
   for (const char *line = text, *next; *line; line = next) {
-    next = strchr(line, '\n');
-    next = next ? next + 1 : line + strlen(line);
-    const char *const key = line + strspn(line, " \t");
-    const bool file = strncmp(key, "file", 4) == 0 && key[4 + strspn(key + 4, " \t")] == '=';
+    next = next_line(line);
+    const char *const key = after_blanks(line);
+    const bool file = strncmp(key, "file", 4) == 0 && *after_blanks(key + 4) == '=';
     while (file && fx < end && (fx->points.n == 0 || is_named(job, fx->fx))) fx++;
     if (file && fx < end) {
       fprintf(out, "# was: ");
       fwrite(line, 1, strcspn(line, "\r\n"), out);
       fputc('\n', out);
-      write_list(out, "distance_over_radius", fx->points.x, fx->points.n);
-      write_list(out, "ratio", fx->points.ratio, fx->points.n);
+      write_points(out, &fx->points);
       fx++;
     } else
       fwrite(line, 1, (size_t)(next - line), out);
@@ -89,44 +92,41 @@ static void write_text(const extend_job_t *job, const char *text, FILE *out) {
 
 // --- the names --------------------------------------------------------------------------------------------
 
-static const char *unit_in_words(const char *unit) {
-  return unit[0] ? unit : "without unit";
+// Where a number comes from.
+static void write_source(const extend_job_t *job, const fx_use_t *use, const named_t *named, int param,
+                         FILE *out) {
+  const fx_use_t *const in_file = model_fx(job->model, use->fx);
+  const bool shape = use->fx->n_shape && use->fx->shape_param == param;
+  for (int k = 0; k < use->fx->n_size; k++) {
+    if (use->fx->size[k].param != param) continue;
+    fprintf(out, "estimated, +- %.2g (standard error)", named->stderr_[k]);
+    if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
+    return;
+  }
+  if (shape && named->shape_stderr > 0.0)
+    fprintf(out, "estimated, +- %.2g (standard error)", named->shape_stderr);
+  else
+    fputs(!shape                       ? "as the effect has it, not estimated"
+          : isnan(named->shape_stderr) ? "estimated, standard error not known"
+                                       : "the best of the shapes that were tried",
+          out);
 }
 
 static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
-  const fx_use_t whole = effect_whole(job->model, found_use(job->found, named)), *const use = &whole;
-  const fx_t *const fx = use->fx;
-  const fx_use_t *const in_file = model_fx(job->model, fx);
+  const fx_use_t use = effect_whole(job->model, found_use(job->found, named));
   int n;
   char p[P_TEXT];
-  const fx_param_t *param = fx_use_params(use, &n);
+  const fx_param_t *param = fx_use_params(&use, &n);
   fprintf(out,
           "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
-          job->logs, p_words(named->p, p), 100.0 * named->share, fx->name);
-  if (use->form) fprintf(out, "form = \"%s\"\n", use->form->name);
-  if (use->points.n) write_list(out, "distance_over_radius", use->points.x, use->points.n);
-  if (use->points.n) write_list(out, "ratio", use->points.ratio, use->points.n);
+          job->logs, p_words(named->p, p), 100.0 * named->share, use.fx->name);
+  if (use.form) fprintf(out, "form = \"%s\"\n", use.form->name);
+  if (use.points.n) write_points(out, &use.points);
   for (int i = 0; i < n; i++) {
-    fprintf(out, "%s = %.9g", param[i].name, use->p[i]);
-    const bool shape = fx->n_shape && fx->shape_param == i;
-    bool estimated = false;
-    for (int k = 0; k < fx->n_size; k++) {
-      if (fx->size[k].param != i) continue;
-      fprintf(out, " # %s, estimated, +- %.2g (standard error)", unit_in_words(param[i].unit),
-              named->stderr_[k]);
-      if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
-      fputc('\n', out);
-      estimated = true;
-    }
-    if (estimated) continue;
-    if (shape && named->shape_stderr > 0.0)
-      fprintf(out, " # %s, estimated, +- %.2g (standard error)\n", unit_in_words(param[i].unit),
-              named->shape_stderr);
-    else
-      fprintf(out, " # %s, %s\n", unit_in_words(param[i].unit),
-              !shape                       ? "as the effect has it, not estimated"
-              : isnan(named->shape_stderr) ? "estimated, standard error not known"
-                                           : "the best of the shapes that were tried");
+    const char *const unit = param[i].unit[0] ? param[i].unit : "without unit";
+    fprintf(out, "%s = %.9g # %s, ", param[i].name, use.p[i], unit);
+    write_source(job, &use, named, i, out);
+    fputc('\n', out);
   }
 }
 

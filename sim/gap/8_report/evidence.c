@@ -1,10 +1,161 @@
 // evidence.c - where each named effect shows in the held-out flights, and how well.
 #include "gap/8_report/report.h"
 
+#include "base/by_size.h"
+#include "base/nth.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define MATTERS_M 0.07 // farther from a ceiling its effect is below 5 % (thesis)
+#define MATTERS_M    0.07 // farther from a ceiling its effect is below 5 % (thesis)
+#define BIN_ROWS_MIN 6    // of a range
+#define OUTSIDE      0.01 // of the rows, on each side, that no range reaches to
+#define TAIL         0.05 // of the sum of squares on each side of `where`
+
+// --- held-out rows over a coordinate ----------------------------------------------------------------------
+
+interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int coordinate, double outside) {
+  double *const x = malloc(((size_t)rows->n + 1) * sizeof *x);
+  int n = 0;
+  for (int i = 0; x && i < rows->n; i++) {
+    x[n] = coordinate_of(coordinate, &s->grid[rows->flight[i]], m, rows->point[i]);
+    n += !isnan(x[n]);
+  }
+  interval_t span = {(double)NAN, (double)NAN};
+  if (n) {
+    const int least = (int)(outside * n);
+    span = (interval_t){nth_smallest(x, n, least), nth_smallest(x, n, n - 1 - least)};
+  }
+  free(x);
+  return span;
+}
+
+// The profile's coordinate of a held-out row; NaN: it is not there.
+static double at(const report_t *r, const profile_t *p, int row) {
+  const set_t *const s = &r->study->diagnosis.held;
+  const rows_t *const rows = set_rows(s, p->channel);
+  return coordinate_of(p->coordinate, &s->grid[rows->flight[row]], &r->study->vehicle, rows->point[row]);
+}
+
+static int rows_of(const report_t *r, const profile_t *p) {
+  return set_rows(&r->study->diagnosis.held, p->channel)->n;
+}
+
+static void add_row(profile_t *p, int bin, const report_t *r, int i, double effect, double variance) {
+  p->x[bin] += at(r, p, i);
+  p->before[bin] += r->before.r[p->channel][i];
+  p->after[bin] += r->after.r[p->channel][i];
+  p->effect[bin] += effect;
+  p->low[bin] += sqrt(variance);
+  p->rows[bin] += 1.0;
+}
+
+// Sums become means; what has too few rows goes.
+static void close_bins(profile_t *p) {
+  p->n = 0;
+  for (int k = 0; k < REPORT_BINS; k++) {
+    const double n = p->rows[k];
+    if (n < BIN_ROWS_MIN) continue;
+    const int to = p->n++;
+    const double effect = p->effect[k] / n, wide = p->low[k] / n;
+    p->x[to] = p->x[k] / n, p->rows[to] = n;
+    p->before[to] = p->before[k] / n, p->after[to] = p->after[k] / n;
+    p->effect[to] = effect, p->low[to] = effect - wide, p->high[to] = effect + wide;
+  }
+}
+
+// What a picture spans: all rows but the outermost, or what matters and about as much beside it.
+static interval_t span_of(const report_t *r, const profile_t *p, const interval_t *near) {
+  const set_t *const held = &r->study->diagnosis.held;
+  const interval_t s =
+      report_span(held, set_rows(held, p->channel), &r->study->vehicle, p->coordinate, OUTSIDE);
+  if (!near || 3.0 * (near->to - near->from) > s.to - s.from) return s;
+  const double wide = fmax(near->to - near->from, 0.05 * (s.to - s.from));
+  return (interval_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
+}
+
+// A profile of held-out rows over its coordinate. effect: rows of what it adds, with their variance, or null.
+// near: null, or the part that matters.
+static void fill_profile(const report_t *r, const double *effect, const double *variance,
+                         const interval_t *near, profile_t *p) {
+  *p = (profile_t){.channel = p->channel, .coordinate = p->coordinate};
+  const interval_t s = span_of(r, p, near);
+  for (int i = 0; i < rows_of(r, p) && s.to > s.from; i++) {
+    const double x = at(r, p, i);
+    if (!(x >= s.from && x <= s.to)) continue;
+    const int bin = (int)fmin(REPORT_BINS - 1, floor(REPORT_BINS * (x - s.from) / (s.to - s.from)));
+    add_row(p, bin, r, i, effect ? effect[i] : 0.0, variance ? variance[i] : 0.0);
+  }
+  close_bins(p);
+}
+
+// --- which coordinate -------------------------------------------------------------------------------------
+
+typedef struct {
+  double x, square;
+} mark_t;
+
+static int by_x(const void *a, const void *b) {
+  return by_size(&((const mark_t *)a)->x, &((const mark_t *)b)->x);
+}
+
+// Where the middle 90 % of the effect's sum of squares lie.
+static interval_t where_most(const report_t *r, const profile_t *p, const double *effect) {
+  mark_t *const mark = malloc(((size_t)rows_of(r, p) + 1) * sizeof *mark);
+  interval_t where = {0.0, 0.0};
+  double all = 0.0, sum = 0.0;
+  int n = 0, first = 0, last = 0;
+  for (int i = 0; mark && i < rows_of(r, p); i++) {
+    const double x = at(r, p, i);
+    if (!isnan(x)) mark[n++] = (mark_t){x, effect[i] * effect[i]};
+  }
+  if (n) qsort(mark, (size_t)n, sizeof *mark, by_x);
+  for (int i = 0; i < n; i++) all += mark[i].square;
+  for (int i = 0; i < n; i++) {
+    if (sum < TAIL * all) first = i;
+    sum += mark[i].square;
+    if (sum <= (1.0 - TAIL) * all) last = i;
+  }
+  if (n) where = (interval_t){mark[first].x, mark[first > last ? first : last].x};
+  free(mark);
+  return where;
+}
+
+static double square_correlation(const double *sum, double n) {
+  const double xx = sum[2] - sum[0] * sum[0] / n, yy = sum[3] - sum[1] * sum[1] / n;
+  const double xy = sum[4] - sum[0] * sum[1] / n;
+  return xx > 0.0 && yy > 1e-12 * sum[3] ? xy * xy / (xx * yy) : 0.0;
+}
+
+// How much of the effect a line in the coordinate, or in its size, tells, 0..1; -1: the coordinate is not
+// there.
+static double explained(const report_t *r, const profile_t *p, const double *effect) {
+  double sum[2][5] = {{0.0}}, n = 0.0;
+  for (int i = 0; i < rows_of(r, p); i++) {
+    const double x = at(r, p, i), y = effect[i];
+    if (isnan(x)) continue;
+    n += 1.0;
+    for (int k = 0; k < 2; k++) {
+      const double own = k ? fabs(x) : x, add[5] = {own, y, own * own, y * y, own * y};
+      for (int q = 0; q < 5; q++) sum[k][q] += add[q];
+    }
+  }
+  return n > 0.0 ? fmax(square_correlation(sum[0], n), square_correlation(sum[1], n)) : -1.0;
+}
+
+// Of a residual in a range; 0 without a row there.
+static double rms_in(const report_t *r, const profile_t *p, const interval_t *span, const double *residual) {
+  double sum = 0.0, n = 0.0;
+  for (int i = 0; i < rows_of(r, p); i++) {
+    const double x = at(r, p, i);
+    if (!(x >= span->from && x <= span->to)) continue;
+    sum += residual[i] * residual[i];
+    n += 1.0;
+  }
+  return n > 0.0 ? sqrt(sum / n) : 0.0;
+}
+
+// --- named effects ----------------------------------------------------------------------------------------
 
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
 typedef struct {
@@ -72,17 +223,17 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
   int best = COORDINATE_TIME;
   for (int k = 0; k < COORDINATES; k++) {
     const profile_t over = {.channel = channel, .coordinate = k};
-    const double told = is_wanted(f->fx, k) ? report_explained(r, &over, effect[channel]) : -1.0;
+    const double told = is_wanted(f->fx, k) ? explained(r, &over, effect[channel]) : -1.0;
     if (!(told > most)) continue;
     most = told;
     best = k;
   }
   *p = (profile_t){.channel = channel, .coordinate = best};
-  f->where = report_where(r, p, effect[channel]);
-  report_profile(r, effect[channel], variance[channel], &f->where, p);
+  f->where = where_most(r, p, effect[channel]);
+  fill_profile(r, effect[channel], variance[channel], &f->where, p);
   f->matters = f->fx->surface ? (interval_t){0.0, MATTERS_M} : f->where;
-  f->before = report_rms(r, p, &f->matters, r->before.r[channel]);
-  f->after = report_rms(r, p, &f->matters, r->after.r[channel]);
+  f->before = rms_in(r, p, &f->matters, r->before.r[channel]);
+  f->after = rms_in(r, p, &f->matters, r->after.r[channel]);
 }
 
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
@@ -126,6 +277,6 @@ done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));
   r->left = (profile_t){.channel = d->left.cell.channel, .coordinate = d->left.cell.along};
   if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE)
-    report_profile(r, NULL, NULL, NULL, &r->left);
+    fill_profile(r, NULL, NULL, NULL, &r->left);
   return DONE;
 }

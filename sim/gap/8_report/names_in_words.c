@@ -42,38 +42,36 @@ static void rivals(const finding_t *f, FILE *out) {
   for (int i = 0; i < k->n_rival; i++) {
     char fly[REPORT_TEXT];
     report_apart(f->fx, k->rival[i], fly);
-    page_text(out, "<p>To tell it from ", k->rival[i]->name, ", fly: ");
-    page_text(out, "", fly, ".</p>\n");
+    html_text(out, "<p>To tell it from ", k->rival[i]->name, ", fly: ");
+    html_text(out, "", fly, ".</p>\n");
   }
 }
 
 void page_finding(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[P_TEXT];
-  page_text(out, "<section><h2>", f->family, "</h2>");
-  page_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
-  page_text(out, "<p><b>", standing_name[f->standing], "</b>: ");
-  page_text(out, "", f->says, ". ");
+  html_text(out, "<section><h2>", f->family, "</h2>");
+  html_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
+  html_text(out, "<p><b>", standing_name[f->standing], "</b>: ");
+  html_text(out, "", f->says, ". ");
   fprintf(out, "It explains %.3g %% of the gap", 100.0 * f->named->share);
-  if (f->standing != STANDS_AMBIGUOUS) page_text(out, " (", p_words(f->named->p, p), ")");
+  if (f->standing != STANDS_AMBIGUOUS) html_text(out, " (", p_words(f->named->p, p), ")");
   fputs(". ", out);
   if (isfinite(f->named->probability))
     fprintf(out, "That it%s is there has a probability of %s%.3g, if the library has what is missing. ",
             f->named->n_rival ? ", or one that would do as well," : "",
             f->named->probability > SURE ? "more than " : "", fmin(f->named->probability, SURE));
-  page_text(out, "It shows most in ", gap_channel[f->profile.channel], ", at ");
-  page_text(out, "", coordinate_name(coordinate), "");
-  fprintf(out, " %.3g to %.3g ", f->where.from, f->where.to);
-  page_text(out, "", coordinate_unit(coordinate), ".");
-  if (f->before > 0.0) {
-    fprintf(out, " On the held-out flights, at %.3g to %.3g ", f->matters.from, f->matters.to);
-    page_text(out, "", coordinate_unit(coordinate), "");
-    fprintf(out, ", the residual's rms is %.3g before and %.3g %s after.", f->before, f->after,
-            gap_unit[f->profile.channel]);
-  }
+  fprintf(out, "It shows most in %s, at %s %.3g to %.3g %s.", gap_channel[f->profile.channel],
+          coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
+  if (f->before > 0.0)
+    fprintf(
+        out,
+        " On the held-out flights, at %.3g to %.3g %s, the residual's rms is %.3g before and %.3g %s after.",
+        f->matters.from, f->matters.to, coordinate_unit(coordinate), f->before, f->after,
+        gap_unit[f->profile.channel]);
   fputs("</p>\n", out);
   numbers(f, out);
-  if (f->instrument[0]) page_text(out, "<p>", f->instrument, ".</p>\n");
+  if (f->instrument[0]) html_text(out, "<p>", f->instrument, ".</p>\n");
   fputs("<figure>", out);
   picture_curve(f, out);
   fputs("<figcaption>What the effect adds, on flights that were not used to find "
@@ -93,12 +91,10 @@ void page_unknown(const report_t *r, FILE *out) {
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
-  fprintf(out, "%+.3g +- %.1g %s in ", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel]);
-  page_text(out, "", gap_channel[c->channel], c->world ? " (the world's), at " : ", at ");
   char where[REPORT_PLACE];
-  page_text(out, "", report_place(c, where), "");
-  if (d->left.also.statistic > 0.0)
-    page_text(out, ", or at ", report_place(&d->left.also, where), " as well");
+  fprintf(out, "%+.3g +- %.1g %s in %s%s, at %s", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel],
+          gap_channel[c->channel], c->world ? " (the world's)" : "", report_place(c, where));
+  if (d->left.also.statistic > 0.0) fprintf(out, ", or at %s as well", report_place(&d->left.also, where));
   fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
           d->unknown ? "" : ": chance, or a right form with other numbers");
   if (c->along != NOWHERE) {

@@ -2,7 +2,6 @@
 // page.css.
 #include "gap/8_report/page.h"
 
-#include "gap/8_report/svg.h"
 #include <math.h>
 
 extern const char style_text[];
@@ -17,12 +16,6 @@ static void head(FILE *out) {
           style_text);
 }
 
-void page_text(FILE *out, const char *before, const char *plain, const char *after) {
-  fputs(before, out);
-  html_text(out, plain);
-  fputs(after, out);
-}
-
 void page_bar(FILE *out, const char *style, double share) {
   fprintf(out, "<span class=\"bar %s\" style=\"width:%.1f%%\"></span>", style, 100.0 * share);
 }
@@ -32,19 +25,19 @@ void page_bar(FILE *out, const char *style, double share) {
 static void headline(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   fputs("<h1>", out);
-  for (int i = 0; i < r->n_finding; i++) page_text(out, i ? "; " : "Missing: ", r->finding[i].family, "");
+  for (int i = 0; i < r->n_finding; i++) html_text(out, i ? "; " : "Missing: ", r->finding[i].family, "");
   if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
   if (!r->n_finding) report_headline(r, NULL, out);
-  page_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
+  html_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
   if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");
-  for (int i = 0; i < s->held.n; i++) page_text(out, i ? ", " : "", s->held.flight[i].name, "");
+  for (int i = 0; i < s->held.n; i++) html_text(out, i ? ", " : "", s->held.flight[i].name, "");
   fputs("</p>\n", out);
 }
 
 static void list(const char *title, const notes_t *notes, FILE *out) {
-  page_text(out, "<section><h2>", title, "</h2><ul>\n");
-  for (int i = 0; i < notes->n; i++) page_text(out, "<li>", notes->line[i], "</li>\n");
+  html_text(out, "<section><h2>", title, "</h2><ul>\n");
+  for (int i = 0; i < notes->n; i++) html_text(out, "<li>", notes->line[i], "</li>\n");
   fputs("</ul></section>\n", out);
 }
 
@@ -106,7 +99,7 @@ static void held_out(const report_t *r, FILE *out) {
     if (floor)
       fprintf(out, "<td class=n>%.3g", p->floor);
     else
-      page_text(out, "<td class=\"n quiet\">", left_name[left], "");
+      html_text(out, "<td class=\"n quiet\">", left_name[left], "");
     bars(p, floor, out);
     fputs("</tr>\n", out);
   }
@@ -144,9 +137,9 @@ static void untested(const report_t *r, FILE *out) {
       out);
   for (int i = 0; i < r->n_untested; i++) {
     const untested_t *const u = &r->untested[i];
-    page_text(out, "<tr><td>", u->fx->name, "");
-    page_text(out, "<td>", u->why, "");
-    page_text(out, "<td>", u->fx->fly, "</tr>\n");
+    html_text(out, "<tr><td>", u->fx->name, "");
+    html_text(out, "<td>", u->why, "");
+    html_text(out, "<td>", u->fx->fly, "</tr>\n");
   }
   fputs("</table><h2>What they would have shown</h2><table><tr><th>effect<th>smallest size<th></tr>\n", out);
   for (int i = 0; i < r->n_shown; i++) {
@@ -158,10 +151,10 @@ static void untested(const report_t *r, FILE *out) {
 
 static void made(const study_order_t *o, const char *rows, FILE *out) {
   if (!o->made) return;
-  page_text(out, "<footer class=quiet><p>", o->made->by, "");
-  page_text(out, ", ", o->made->date, "");
+  html_text(out, "<footer class=quiet><p>", o->made->by, "");
+  html_text(out, ", ", o->made->date, "");
   fprintf(out, ", seed %lu%s</p>\n", o->seed, rows);
-  page_text(out, "<p><code>", o->made->command ? o->made->command : "", "</code></p></footer>\n");
+  html_text(out, "<p><code>", o->made->command ? o->made->command : "", "</code></p></footer>\n");
 }
 
 static void foot(const study_t *s, FILE *out) {
@@ -173,7 +166,7 @@ static void foot(const study_t *s, FILE *out) {
   made(&s->order, text, out);
   fputs("<table class=quiet><tr><th>log<th class=n>rows<th class=n>Hz<th></tr>\n", out);
   for (int i = 0; i < s->fit.n + s->held.n; i++) {
-    page_text(out, "<tr><td>", s->flight[i].name, "");
+    html_text(out, "<tr><td>", s->flight[i].name, "");
     fprintf(out, "<td class=n>%ld<td class=n>%.4g<td>%s</tr>\n", s->flight[i].rows, s->flight[i].rate_Hz,
             i < s->fit.n ? "" : "held out");
   }
@@ -198,7 +191,7 @@ void report_page(const report_t *r, FILE *out) {
 
 void report_page_refused(const char *line, const study_order_t *order, FILE *out) {
   head(out);
-  page_text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
+  html_text(out, "<h1>Refused</h1><section><p>", line, "</p></section>\n");
   made(order, "", out);
   fputs(FOOT, out);
 }

@@ -3,9 +3,7 @@
 #define SIM_GAP_8_REPORT_PAGE_H
 
 #include "gap/8_report/report.h"
-
-// Writes `plain` escaped, between two pieces of HTML.
-void page_text(FILE *out, const char *before, const char *plain, const char *after);
+#include "gap/8_report/svg.h"
 
 // A bar of a style (page.css), so much of the room that there is.
 void page_bar(FILE *out, const char *style, double share);

@@ -84,6 +84,12 @@ static void take_others(report_t *r) {
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
+const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
+  const int n = snprintf(text, REPORT_PLACE, "%s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
+  if (c->is_patch) snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
+  return text;
+}
+
 const char *report_length(double m, char text[REPORT_LENGTH]) {
   if (fabs(m) < 1.0)
     snprintf(text, REPORT_LENGTH, "%.3g mm", 1e3 * m);

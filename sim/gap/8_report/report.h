@@ -130,16 +130,6 @@ standing_t report_standing(const report_t *r, const finding_t *f);
 
 // The coordinate of these rows without the outermost, so much of them on each side; 0 to 0: it is not there.
 interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int coordinate, double outside);
-// A profile of held-out rows over a coordinate. effect: rows of what it adds, with their variance, or null.
-// near: null, or the part that matters.
-void report_profile(const report_t *r, const double *effect, const double *variance, const interval_t *near,
-                    profile_t *p);
-// Over the profile's channel and coordinate: where the middle 90 % of the effect's sum of squares lie, and
-// how much of it a line in the coordinate, or in its size, tells (0..1; -1: the coordinate is not there).
-interval_t report_where(const report_t *r, const profile_t *p, const double *effect);
-double report_explained(const report_t *r, const profile_t *p, const double *effect);
-// Rms of a residual in a range of the profile's coordinate, in its channel; 0 without a row there.
-double report_rms(const report_t *r, const profile_t *p, const interval_t *span, const double *residual);
 
 // --- what several outputs say -----------------------------------------------------------------------------
 

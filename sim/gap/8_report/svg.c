@@ -13,7 +13,8 @@
 #define POINTS 900 // of a line; longer ones are drawn by the least and the most of each part
 #define TICKS  6
 
-void html_text(FILE *out, const char *text) {
+void html_text(FILE *out, const char *before, const char *text, const char *after) {
+  fputs(before, out);
   for (const unsigned char *c = (const unsigned char *)text; *c; c++) switch (*c) {
     case '&': fputs("&amp;", out); break;
     case '<': fputs("&lt;", out); break;
@@ -22,6 +23,7 @@ void html_text(FILE *out, const char *text) {
     case '\'': fputs("&#39;", out); break;
     default: fputc(*c < 0x20 || *c == 0x7f ? '?' : *c, out); // the page is UTF-8
     }
+  fputs(after, out);
 }
 
 chart_t svg_frame(FILE *out) {
@@ -79,15 +81,13 @@ void svg_open(chart_t *c, const char *title, const char *x_label, const char *y_
   round_outwards(&c->x_from, &c->x_to, false);
   round_outwards(&c->y_from, &c->y_to, true);
   fprintf(c->out, "<svg viewBox=\"0 0 %g %g\" role=img><title>", WIDE, HIGH);
-  html_text(c->out, title);
-  fputs("</title>\n", c->out);
+  html_text(c->out, "", title, "</title>\n");
   ticks(c);
   fprintf(c->out, "<text class=axis x=%g y=%g text-anchor=middle>", 0.5 * (LEFT + WIDE - RIGHT), HIGH - 8.0);
-  html_text(c->out, x_label);
-  fprintf(c->out, "</text><text class=axis transform=\"translate(14 %g) rotate(-90)\" text-anchor=middle>",
+  html_text(c->out, "", x_label, "</text>");
+  fprintf(c->out, "<text class=axis transform=\"translate(14 %g) rotate(-90)\" text-anchor=middle>",
           0.5 * (TOP + HIGH - BOTTOM));
-  html_text(c->out, y_label);
-  fputs("</text>\n", c->out);
+  html_text(c->out, "", y_label, "</text>\n");
 }
 
 void svg_close(chart_t *c) {
@@ -105,8 +105,7 @@ static void legend(chart_t *c, const char *style, const char *label, const char 
   else
     fprintf(c->out, "<rect class=\"%s\" x=%g y=10 width=22 height=12 />", style, x);
   fprintf(c->out, "<text x=%g y=20>", x + 28.0);
-  html_text(c->out, label);
-  fputs("</text>\n", c->out);
+  html_text(c->out, "", label, "</text>\n");
 }
 
 static void point(const chart_t *c, bool *pen, double x, double y) {

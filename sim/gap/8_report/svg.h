@@ -11,8 +11,8 @@ typedef struct {
   int n_label;
 } chart_t;
 
-// Writes text with &, <, > and quotes escaped; what is not text becomes `?`.
-void html_text(FILE *out, const char *text);
+// Writes text with &, <, > and quotes escaped, between two pieces of HTML; what is not text becomes `?`.
+void html_text(FILE *out, const char *before, const char *text, const char *after);
 
 // Makes an empty frame hold all finite values of y[0..n-1] (and x); start with svg_frame().
 chart_t svg_frame(FILE *out);
