@@ -100,10 +100,6 @@ static gap_flight_t part_of(const gap_flight_t *log, double span_s) {
   part.t_s += from;
   for (int i = 0; i < SIG_COUNT; i++)
     if (part.v[i]) part.v[i] += from;
-  for (int k = 0; k < 4; k++)
-    if (part.motor_speed_radps[k]) part.motor_speed_radps[k] += from;
-  if (part.range_up_m) part.range_up_m += from;
-  if (part.range_down_m) part.range_down_m += from;
   if (part.saturated) part.saturated += from;
   if (part.segment) part.segment += from;
   while (part.n > 1 && part.t_s[part.n - 1] - part.t_s[0] > span_s) part.n--;

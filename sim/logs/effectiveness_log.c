@@ -1,7 +1,6 @@
 // effectiveness_log.c - rates and commands from a log.
 #include "logs/effectiveness_log.h"
 
-
 const char *const effectiveness_names[COLUMNS] = {
     "tick",
     "controller.r_roll",

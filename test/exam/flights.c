@@ -93,7 +93,7 @@ static const signal_id_t TOLD[] = {SIG_SET_X,  SIG_SET_Y,  SIG_SET_Z,  SIG_SET_V
 static bool log_room(gap_flight_t *f, size_t n, bool told) {
   *f = (gap_flight_t){.motors_N = true, .rate_Hz = 1.0 / EXAM_TICK_S};
   bool good = (f->t_s = malloc(n * sizeof(double))) != NULL;
-  good = (f->range_up_m = f->v[SIG_RANGE] = malloc(n * sizeof(double))) && good;
+  good = (f->v[SIG_RANGE] = malloc(n * sizeof(double))) && good;
   for (unsigned i = 0; i < sizeof LOGGED / sizeof *LOGGED; i++)
     good = (f->v[LOGGED[i]] = malloc(n * sizeof(double))) && good;
   for (unsigned i = 0; told && i < N_TOLD; i++) good = (f->v[TOLD[i]] = malloc(n * sizeof(double))) && good;
@@ -118,7 +118,7 @@ static void write(gap_flight_t *f, const exam_t *e, const pilot_in_t *in, const 
                          set->yaw_rad};
   for (unsigned k = 0; k < N_TOLD && f->v[TOLD[k]]; k++) f->v[TOLD[k]][i] = told[k];
   f->t_s[i] = t_s;
-  f->range_up_m[i] = range_m;
+  f->v[SIG_RANGE][i] = range_m;
 }
 
 // --- the flight -------------------------------------------------------------------------------------------

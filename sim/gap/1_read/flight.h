@@ -23,20 +23,18 @@ typedef struct {
   // the argument of the vehicle's thrust map (0..65535, or rad/s). SIG_F*: newton of each motor in free air
   // as commanded, by the map, whatever the log's unit; null if the map or the voltage it needs is missing.
   // SIG_THRUST: of all together. SIG_VBAT: the last one known.
+  // SIG_RANGE..: fresh samples only, NaN between them.
   double *v[SIG_COUNT];
   // A row is the mean of everything over its period; else what is at its time, and its commands hold from
   // then on.
   bool rows_are_means;
   bool motors_N;                         // SIG_M*: newton
   char motor_column[4][COLUMN_NAME_MAX]; // the log's names of m1..m4; "": not logged
-  const char *motor_lacks;      // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
-  double *motor_speed_radps[4]; // measured rotor speeds (v[SIG_W1..]); null: not logged
-  double *range_up_m,
-      *range_down_m;      // fresh samples only, NaN between them (v[SIG_RANGE..]); null: not logged
-  double range_late_s[2]; // up, down: a sample was taken so long before its instant, less than a period
-  bool *saturated;        // a motor was at a limit (the sample is masked)
-  int *segment;           // 0, 1, 2..: a new one after every gap; filters start again
-  double rate_Hz;         // median sample rate
+  const char *motor_lacks; // one of m1..m4, w1..w4 that is missing beside others of its kind; null: none
+  double range_late_s[2];  // up, down: a sample was taken so long before its instant, less than a period
+  bool *saturated;         // a motor was at a limit (the sample is masked)
+  int *segment;            // 0, 1, 2..: a new one after every gap; filters start again
+  double rate_Hz;          // median sample rate
 
   // What the reader found and mended, for the report.
   double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see

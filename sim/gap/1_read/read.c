@@ -221,12 +221,6 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   return gap_check(f, rows, why);
 }
 
-static void name_ranges(gap_flight_t *f) {
-  for (int i = 0; i < 4; i++) f->motor_speed_radps[i] = f->v[SIG_W1 + i];
-  f->range_up_m = f->v[SIG_RANGE];
-  f->range_down_m = f->v[SIG_RANGE_DOWN];
-}
-
 done_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns, const model_t *vehicle,
                 why_t *why) {
   log_rows_t rows;
@@ -237,9 +231,6 @@ done_t gap_read(gap_flight_t *f, const char *path, const columns_t *columns, con
   const done_t status = make(f, &raw, &rows, why);
   raw_free(&raw);
   log_rows_close(&rows);
-  if (status == DONE)
-    name_ranges(f);
-  else
-    gap_flight_free(f);
+  if (status != DONE) gap_flight_free(f);
   return status;
 }

@@ -42,7 +42,7 @@ static bool has_commands(const gap_flight_t *f) {
 
 static bool has_speeds(const gap_flight_t *f) {
   for (int k = 0; k < ROTORS; k++)
-    if (!f->motor_speed_radps[k]) return false;
+    if (!f->v[SIG_W1 + k]) return false;
   return true;
 }
 
@@ -55,7 +55,7 @@ static done_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
     if (!g->command_N[k]) return error_failed(why, "out of memory");
     double last = 0.0;
     for (int i = 0; i < n; i++) {
-      const double speed = commands ? 0.0 : f->motor_speed_radps[k][g->from + i];
+      const double speed = commands ? 0.0 : f->v[SIG_W1 + k][g->from + i];
       const double now = commands ? newton(f, k, g->from + i) : m->frame.kf_Ns2 * speed * speed;
       g->command_N[k][i] = last = isfinite(now) ? now : last;
     }
@@ -76,7 +76,7 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
 }
 
 static void take_range(const grid_t *g, int from, grid_point_t *p) {
-  const double *range = g->range_up ? g->flight->range_up_m : g->flight->range_down_m;
+  const double *range = g->range_up ? g->flight->v[SIG_RANGE] : g->flight->v[SIG_RANGE_DOWN];
   p->range_m = (double)NAN;
   for (int i = from; range && i < from + g->every && isnan(p->range_m); i++)
     if (isfinite(range[i])) {
@@ -137,7 +137,7 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
 // Measured thrust of the point that comes next.
 static void take_speeds(grid_t *g, const model_t *m, int from) {
   for (int k = 0; k < ROTORS; k++) {
-    const double speed = mean(g->flight->motor_speed_radps[k], from, g->every);
+    const double speed = mean(g->flight->v[SIG_W1 + k], from, g->every);
     g->measured_N[k][g->n] = m->frame.kf_Ns2 * speed * speed;
   }
 }
@@ -209,7 +209,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   g->has_rates = has(f, SIG_GX, SIG_GZ);
   g->has_force = has(f, SIG_AX, SIG_AZ);
   g->has_vbat = f->v[SIG_VBAT] != NULL;
-  g->range_up = isfinite(m->ceiling_m) && f->range_up_m;
+  g->range_up = isfinite(m->ceiling_m) && f->v[SIG_RANGE];
   if (!has_commands(f) && !has_speeds(f))
     return error_set(why, "%s: neither motor commands nor rotor speeds; one of them is needed%s%s", f->name,
                      f->motor_lacks ? "; missing: " : "", f->motor_lacks ? f->motor_lacks : "");

@@ -18,9 +18,9 @@ bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n) {
   for (int i = SIG_X; i <= SIG_VBAT; i++)
     if (like->v[i] || (i >= SIG_M1 && i <= SIG_M4 && g->has_moments)) good = (log->v[i] = column(n)) && good;
   if (g->range_up)
-    good = (log->range_up_m = log->v[SIG_RANGE] = column(n)) && good;
-  else if (like->range_down_m)
-    good = (log->range_down_m = log->v[SIG_RANGE_DOWN] = column(n)) && good;
+    good = (log->v[SIG_RANGE] = column(n)) && good;
+  else if (like->v[SIG_RANGE_DOWN])
+    good = (log->v[SIG_RANGE_DOWN] = column(n)) && good;
   snprintf(log->name, sizeof log->name, "nominal flight");
   return good;
 }
@@ -50,6 +50,6 @@ void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const grid_
     sum_N += motor_N[k];
   }
   if (log->v[SIG_THRUST]) log->v[SIG_THRUST][i] = sum_N;
-  double *const range = log->range_up_m ? log->range_up_m : log->range_down_m;
+  double *const range = log->v[SIG_RANGE] ? log->v[SIG_RANGE] : log->v[SIG_RANGE_DOWN];
   if (range) range[i] = isfinite(f->g->point[f->at].range_m) ? p->range_m : (double)NAN;
 }

@@ -114,8 +114,8 @@ static seen_t seen_from(const report_t *r, double from_m) {
   seen_t sum = {.n = 0.0};
   for (int f = 0; f < s->n_grid; f++) {
     const gap_flight_t *const flight = s->grid[f].flight;
-    for (int i = 0; flight->range_up_m && flight->v[SIG_Z] && i < flight->n; i++) {
-      const double range_m = flight->range_up_m[i], at_m = flight->v[SIG_Z][i] + sensor_m + range_m;
+    for (int i = 0; flight->v[SIG_RANGE] && flight->v[SIG_Z] && i < flight->n; i++) {
+      const double range_m = flight->v[SIG_RANGE][i], at_m = flight->v[SIG_Z][i] + sensor_m + range_m;
       if (!isfinite(at_m) || range_m < from_m) continue;
       sum.n += 1.0;
       sum.at += at_m, sum.at_squares += at_m * at_m;

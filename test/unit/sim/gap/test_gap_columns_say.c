@@ -39,7 +39,7 @@ TEST(gap_takes_out_the_delays_that_the_columns_name) {
     if (!CHECK_NEAR(f.v[SIG_QX][k], v[FC_QX], 1e-6) ||
         !CHECK_NEAR(f.v[SIG_W3][k], then[FC_W3] * 0.1047198, 0.01))
       break;
-    if (isfinite(f.range_up_m[k])) CHECK_NEAR(f.range_up_m[k], 1e-3 * v[FC_RANGE], 1e-9);
+    if (isfinite(f.v[SIG_RANGE][k])) CHECK_NEAR(f.v[SIG_RANGE][k], 1e-3 * v[FC_RANGE], 1e-9);
   }
   gap_flight_free(&f);
 }
@@ -173,8 +173,8 @@ TEST(gap_takes_a_range_that_an_offset_makes_negative) {
   CHECK_TEXT(why.text, "");
   int n = 0, below = 0;
   for (int k = 0; k < f.n; k++) {
-    n += isfinite(f.range_up_m[k]);
-    below += f.range_up_m[k] < 0.0;
+    n += isfinite(f.v[SIG_RANGE][k]);
+    below += f.v[SIG_RANGE][k] < 0.0;
   }
   CHECK(n > 170 && below > 5);
   CHECK(f.cells_bad == 0);
@@ -187,7 +187,7 @@ static int samples_at(const gap_flight_t *f, double after_s) {
   for (int k = 0; k < f->n; k++) {
     double v[FC_COLUMNS];
     flight_csv_values(f->t_s[k] + after_s, v);
-    n += isfinite(f->range_up_m[k]) && fabs(f->range_up_m[k] - 1e-3 * v[FC_RANGE]) < 1e-9;
+    n += isfinite(f->v[SIG_RANGE][k]) && fabs(f->v[SIG_RANGE][k] - 1e-3 * v[FC_RANGE]) < 1e-9;
   }
   return n;
 }

@@ -60,7 +60,7 @@ static double apart(const gap_flight_t *a, const gap_flight_t *b, signal_id_t i)
 
 static int new_ranges(const gap_flight_t *f) {
   int n = 0;
-  for (int i = 0; f->range_up_m && i < f->n; i++) n += !isnan(f->range_up_m[i]);
+  for (int i = 0; f->v[SIG_RANGE] && i < f->n; i++) n += !isnan(f->v[SIG_RANGE][i]);
   return n;
 }
 

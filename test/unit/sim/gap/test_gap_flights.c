@@ -120,6 +120,6 @@ TEST(gap_finds_the_late_attitude_of_the_recorded_estimators) {
   CHECK_NEAR(f.attitude_late_s, 0.0021, 0.0005);
   // The file does not say how late the accelerometer's filter is: beside it the velocity may be early.
   CHECK_NEAR(f.velocity_late_s, 0.0, 0.004);
-  CHECK(f.motor_speed_radps[0] && f.v[SIG_F1] && f.range_up_m == NULL);
+  CHECK(f.v[SIG_W1] && f.v[SIG_F1] && f.v[SIG_RANGE] == NULL);
   gap_flight_free(&f);
 }

@@ -281,9 +281,9 @@ TEST(gap_takes_new_range_samples_alone) {
     CHECK_OK(
         read_made(&f, &(flight_csv_t){.column = FC_RANGE, .cell = row[i].cell, .every = row[i].every}, &why));
     int n = 0;
-    for (int k = 0; f.range_up_m && k < f.n; k++) n += isfinite(f.range_up_m[k]);
+    for (int k = 0; f.v[SIG_RANGE] && k < f.n; k++) n += isfinite(f.v[SIG_RANGE][k]);
     CHECK(n >= row[i].least && n <= row[i].most);
-    CHECK(f.range_down_m == NULL);
+    CHECK(f.v[SIG_RANGE_DOWN] == NULL);
     gap_flight_free(&f);
   }
 }
