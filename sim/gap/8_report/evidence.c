@@ -236,26 +236,18 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
   f->after = rms_in(r, p, &f->matters, r->after.r[channel]);
 }
 
-void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
-  const char *const both = fx_apart(fx, rival);
-  const bool same = both || strcmp(fx->fly, rival->fly) == 0;
-  snprintf(text, REPORT_TEXT, "%s%s%s", both ? both : fx->fly, same ? "" : "; then ", same ? "" : rival->fly);
-}
-
 static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   f->fx = found_use(&d->found, f->named)->fx;
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);
-  report_take_numbers(f);
   adds_t adds = {.effect = {{NULL}}};
   const done_t status = find_adds(r, held, f, &adds, why);
   if (status == DONE) find_place(r, f, adds.effect.r, adds.variance.r);
-  if (status == DONE) report_say(f, adds.effect.r[f->profile.channel], set_rows(held, f->profile.channel)->n);
+  const int channel = f->profile.channel;
+  if (status == DONE) report_describe(r, f, adds.effect.r[channel], set_rows(held, channel)->n);
   lines_free(&adds.effect);
   lines_free(&adds.variance);
-  report_apart(f->fx, f->named->n_rival ? f->named->rival[0] : f->fx, f->fly);
-  f->standing = report_standing(r, f);
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 void note(notes_t *notes, const char *format, ...) {
   if (notes->n == REPORT_NOTES) return;
@@ -84,6 +85,12 @@ static void take_others(report_t *r) {
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
+void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
+  const char *const both = fx_apart(fx, rival);
+  const bool same = both || strcmp(fx->fly, rival->fly) == 0;
+  snprintf(text, REPORT_TEXT, "%s%s%s", both ? both : fx->fly, same ? "" : "; then ", same ? "" : rival->fly);
+}
+
 const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
   const int n = snprintf(text, REPORT_PLACE, "%s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
   if (c->is_patch) snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
@@ -122,6 +129,34 @@ void report_headline(const report_t *r, const char *vehicle, FILE *out) {
             in, what);
   else
     fprintf(out, "Nothing is missing%s%s that these flights could show", in, what);
+}
+
+// --- how much is left -------------------------------------------------------------------------------------
+
+#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
+
+const char *const left_name[] = {"not known", "quieter than the model's noise", "noise", "more than noise"};
+
+left_over_t report_adequacy(const report_t *r, int channel) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const gap_part_t *const p = &d->held_out.channel[channel];
+  if (!p->used || !d->nominal_flew) return LEFT_UNKNOWN;
+  if (p->after > LEFT_OVER * p->floor) return LEFT_MORE;
+  return p->after < p->floor ? LEFT_QUIETER : LEFT_NOISE;
+}
+
+double report_left(const report_t *r) {
+  const found_t *const f = &r->study->diagnosis.found;
+  return f->left_before > 0.0 ? f->left / f->left_before : 1.0;
+}
+
+left_over_t report_adequacy_of_all(const report_t *r) {
+  left_over_t worst = LEFT_UNKNOWN;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const left_over_t one = report_adequacy(r, ch);
+    if (one > worst) worst = one;
+  }
+  return worst;
 }
 
 // --- the whole --------------------------------------------------------------------------------------------

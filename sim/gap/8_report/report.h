@@ -122,11 +122,8 @@ void report_advise(report_t *r);
 // One sentence more, while there is room.
 void note(notes_t *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// Writes f->says. effect: what it adds to the rows of the profile's channel.
-void report_say(finding_t *f, const double *effect, int rows);
-// Writes f->number, f->family and f->instrument.
-void report_take_numbers(finding_t *f);
-standing_t report_standing(const report_t *r, const finding_t *f);
+// What a finding says of itself. effect: what it adds to the rows of its profile's channel.
+void report_describe(const report_t *r, finding_t *f, const double *effect, int rows);
 
 // The coordinate of these rows without the outermost, so much of them on each side; 0 to 0: it is not there.
 interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int coordinate, double outside);
