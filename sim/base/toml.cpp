@@ -3,6 +3,7 @@
 #include "base/toml.h"
 
 #include "base/nearest.h"
+#include "base/text.h"
 
 #include <cmath>
 #include <cstdarg>
@@ -209,10 +210,8 @@ done_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
     for (const char *const *a = allowed; *a; a++) known = known || std::strcmp(*a, key) == 0;
     if (known) continue;
     char list[320] = "";
-    for (const char *const *a = allowed; *a; a++) {
-      const size_t used = std::strlen(list);
-      std::snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", *a);
-    }
+    for (const char *const *a = allowed; *a; a++)
+      text_add(list, sizeof list, "%s%s", a == allowed ? "" : ", ", *a);
     char hint[NEAREST_HINT];
     return toml_refuse(t, key, why, "unknown key%s; allowed: %s", nearest_of(key, allowed, hint), list);
   }

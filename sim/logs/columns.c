@@ -2,6 +2,7 @@
 #include "logs/columns.h"
 
 #include "base/constants.h"
+#include "base/text.h"
 #include "base/toml.h"
 #include "logs/units.h"
 #include <math.h>
@@ -110,9 +111,8 @@ const char *columns_hint(const columns_t *c, signal_id_t signal, double value, d
   for (int i = 0; now && (unit = unit_at(kind, i)) != NULL; i++) {
     const double factor = unit->si / now->si;
     if (!(value * factor >= min && value * factor <= max)) continue;
-    const size_t used = strlen(text);
-    snprintf(text + used, COLUMNS_HINT - used, "%s %s would fit (factor %.4g)", n++ ? ", or" : "; the unit",
-             unit->name, factor);
+    text_add(text, COLUMNS_HINT, "%s %s would fit (factor %.4g)", n++ ? ", or" : "; the unit", unit->name,
+             factor);
   }
   return text;
 }

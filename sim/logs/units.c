@@ -2,7 +2,7 @@
 #include "logs/units.h"
 
 #include "base/constants.h"
-#include <stdio.h>
+#include "base/text.h"
 #include <string.h>
 
 #define UNITS_MAX 6
@@ -36,8 +36,6 @@ const unit_t *unit_find(kind_t kind, const char *name) {
 
 void unit_list(kind_t kind, char *list, size_t size) {
   const unit_t *unit;
-  for (int i = 0; (unit = unit_at(kind, i)) != NULL; i++) {
-    const size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s", used ? ", " : "", unit->name);
-  }
+  for (int i = 0; (unit = unit_at(kind, i)) != NULL; i++)
+    text_add(list, size, "%s%s", list[0] ? ", " : "", unit->name);
 }

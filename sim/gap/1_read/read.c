@@ -2,7 +2,6 @@
 #include "gap/1_read/read.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,14 +21,6 @@ void gap_flight_free(gap_flight_t *f) {
   free(f->segment);
   free(f->saturated);
   *f = (gap_flight_t){0};
-}
-
-void gap_note(gap_flight_t *f, const char *format, ...) {
-  if (f->n_note == GAP_NOTES) return;
-  va_list args;
-  va_start(args, format);
-  vsnprintf(f->note[f->n_note++], GAP_NOTE_BYTES, format, args);
-  va_end(args);
 }
 
 // --- the rows ----------------------------------------------------------------------------------------------

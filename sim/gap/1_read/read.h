@@ -3,6 +3,7 @@
 #define SIM_GAP_1_READ_READ_H
 
 #include "base/d3.h"
+#include "base/text.h"
 #include "gap/1_read/flight.h"
 #include "logs/log_rows.h"
 
@@ -59,8 +60,8 @@ void raw_drop(raw_t *raw, signal_id_t signal);
 // a flight log.
 MUST_CHECK done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
 
-// One sentence more for the report, while there is room.
-void gap_note(gap_flight_t *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+// One sentence more for the report.
+#define gap_note(f, ...) text_line((f)->note, (f)->n_note, __VA_ARGS__)
 
 // Counts what is no use, and says it. BAD_INPUT: too much of a column, or only some of the motors' columns.
 MUST_CHECK done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why);

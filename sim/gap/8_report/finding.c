@@ -1,7 +1,6 @@
 // finding.c - what is told of a name: its numbers, what it does, how sure it is.
 #include "gap/8_report/report.h"
 
-#include "base/text.h"
 #include "gap/5_infer/confirm.h"
 #include <math.h>
 

@@ -3,7 +3,6 @@
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
-#include "base/text.h"
 #include <math.h>
 
 #define DEGREES (180.0 / PI)

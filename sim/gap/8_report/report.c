@@ -1,18 +1,8 @@
 // report.c - what is to be said of a study.
 #include "gap/8_report/report.h"
 
-#include "base/text.h"
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
-
-void note(notes_t *notes, const char *format, ...) {
-  if (notes->n == REPORT_NOTES) return;
-  va_list args;
-  va_start(args, format);
-  vsnprintf(notes->line[notes->n++], REPORT_LONG, format, args);
-  va_end(args);
-}
 
 // --- what could have been seen ----------------------------------------------------------------------------
 

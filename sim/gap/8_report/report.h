@@ -2,6 +2,7 @@
 #ifndef SIM_GAP_8_REPORT_REPORT_H
 #define SIM_GAP_8_REPORT_REPORT_H
 
+#include "base/text.h"
 #include "gap/2_predict/lines.h"
 #include "gap/6_extend/p_value.h"
 #include "gap/study.h"
@@ -119,8 +120,8 @@ MUST_CHECK done_t report_take_fitness(report_t *r, why_t *why);
 void report_warn(report_t *r);
 void report_advise(report_t *r);
 
-// One sentence more, while there is room.
-void note(notes_t *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+// One sentence more.
+#define note(notes, ...) text_line((notes)->line, (notes)->n, __VA_ARGS__)
 
 // What a finding says of itself. effect: what it adds to the rows of its profile's channel.
 void report_describe(const report_t *r, finding_t *f, const double *effect, int rows);

@@ -1,7 +1,6 @@
 // screen.c - the verdict in words: one screen of a terminal.
 #include "gap/8_report/report.h"
 
-#include "base/text.h"
 #include <math.h>
 #include <string.h>
 
