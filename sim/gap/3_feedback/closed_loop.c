@@ -1,5 +1,5 @@
 // closed_loop.c - how a flight was flown and measured.
-#include "gap/3_feedback/nominal.h"
+#include "gap/3_feedback/nominal_pilot.h"
 
 #include "base/lsq_blocks.h"
 #include "base/nth.h"
@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define VARIED 0.3 // of a gain: a fit from a log in closed loop knows it no better
+#define LEAD_MOST 0.5 // acts as so much more inertia; with more, lag and delay make a loop ring
+#define VARIED    0.3 // of a gain: a fit from a log in closed loop knows it no better
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
@@ -106,6 +107,44 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
       clamp(w->height_gain, 0.1 * w->climb_gain * w->climb_gain, 0.3 * w->climb_gain * w->climb_gain);
 }
 
+// --- lead: what makes commands noisy --------------------------------------------------------------------
+
+// What a motor command of one sample turns with, about an axis.
+static double turn_now(const grid_t *g, const model_t *m, int axis, int i) {
+  const frame_t *const f = &m->frame;
+  double moment_Nm = 0.0;
+  for (int k = 0; k < ROTORS; k++) {
+    const double arm_m[] = {f->rotor_y_m[k], -f->rotor_x_m[k], -f->rotor_spin[k] * f->torque_ratio_m};
+    moment_Nm += arm_m[axis] * g->command_N[k][i];
+  }
+  return moment_Nm / f->inertia_kgm2[axis];
+}
+
+// From call to call, a pilot gives -(P + d) n(0) + d n(1) of white noise n of the rates, P its rate gain and
+// d its lead over its period. Third differences of rows have (70 d^2 + 70 P d + 20 P^2) times its variance,
+// 20 of which are what noise_of() divides by; of rows that lie two calls or more apart 20 ((P + d)^2 + d^2).
+static double lead_of(double noise, double gyro, double gain, double calls_a_row) {
+  const double ratio = gyro > 0.0 ? noise / gyro : 0.0, share = calls_a_row < 1.5 ? 80.0 / 70.0 : 2.0;
+  const double more = gain * gain + share * (ratio * ratio - gain * gain);
+  return more > gain * gain ? 0.5 * (sqrt(more) - gain) : 0.0;
+}
+
+static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
+  const grid_t *const g = &s->grid[0];
+  const double row_s = g->period_s / g->every;
+  const double call_s =
+      w->flown_by && w->flown_by->rate_Hz > 0.0 ? 1.0 / w->flown_by->rate_Hz : NOMINAL_STEP_S;
+  double *const turn =
+      g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
+  for (int axis = 0; axis < 3 && turn; axis++) {
+    for (int i = 0; i < g->samples; i++) turn[g->from + i] = turn_now(g, m, axis, i);
+    const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
+    const double d = lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s);
+    w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST);
+  }
+  free(turn);
+}
+
 // --- disturbance ------------------------------------------------------------------------------------------
 
 // Variance and correlation over one row, about the mean; less what white noise of variance `noise` would make
@@ -168,7 +207,10 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   // Steps of the golden section fill both ranges evenly, and not together.
   const double turn = 1.0 + VARIED * (i ? 2.0 * fmod(0.618 * i, 1.0) - 1.0 : 0.0);
   const double place = 1.0 + VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
-  for (int k = 0; k < 3; k++) v.rate_gain[k] *= turn;
+  for (int k = 0; k < 3; k++) {
+    v.rate_gain[k] *= turn;
+    v.rate_lead[k] *= turn;
+  }
   v.tilt_gain *= turn * turn;
   v.climb_gain *= place;
   v.height_gain *= place * place;
@@ -190,6 +232,7 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   w.range_m = range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
   find_slow(&s->grid[0], &w);
   find_gains(s, m, &w);
+  find_lead(s, m, &w);
   find_disturbance(s, residual, &w);
   return w;
 }

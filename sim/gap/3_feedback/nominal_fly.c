@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP_S 0.002
 #define LOST_M 3.0 // so far off its track the vehicle is lost
 // What is lost is put back on the track. A known pilot is not a tamed one, and may end on the floor, where
 // the log's vehicle flew on.
@@ -135,7 +134,7 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
-  const done_t status = body_open(&f->body, m, INTEGRATE_RK4, model_step_s(m, STEP_S), &start);
+  const done_t status = body_open(&f->body, m, INTEGRATE_RK4, model_step_s(m, NOMINAL_STEP_S), &start);
   if (status == BAD_INPUT) return error_set(why, "%s: a model that cannot be flown", m->name);
   if (status != DONE) return error_failed(why, "out of memory");
   f->body.vbat_V = p->vbat_V;
@@ -186,7 +185,7 @@ static bool goes_on(const nominal_flight_t *f) {
 
 static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
-  const int inner = (int)fmax(1.0, round(log_s / STEP_S)), per_point = f->g->every;
+  const int inner = (int)fmax(1.0, round(log_s / NOMINAL_STEP_S)), per_point = f->g->every;
   const double step_s = log_s / inner;
   double motor_N[ROTORS] = {0.0};
   f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);

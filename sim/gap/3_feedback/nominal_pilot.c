@@ -64,6 +64,17 @@ static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, doubl
   for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 
+double pilot_motor_lead(double motor_tau_s) {
+  return fmax(motor_tau_s / QUICK_S - 1.0, 0.0);
+}
+
+// As it is seen from one command to the next.
+static d3_t rate_grows(nominal_flight_t *f, d3_t rate_radps, double step_s) {
+  const d3_t before = f->rate_before_radps;
+  f->rate_before_radps = rate_radps;
+  return isfinite(before.x) ? d3_scale(1.0 / step_s, d3_sub(rate_radps, before)) : d3(0.0, 0.0, 0.0);
+}
+
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]) {
   const closed_loop_t *w = f->w;
@@ -74,12 +85,12 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
                pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));
   const d3_t nose_b = axes_to_body(&axes, track_axes.x);
   const double yaw = atan2(nose_b.y, nose_b.x);
-  const d3_t rate = seen->rate_b_radps;
-  const d3_t turn =
-      d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x, w->tilt_gain * pitch - w->rate_gain[1] * rate.y,
-         w->rate_gain[2] * (YAW * yaw - rate.z));
+  const d3_t rate = seen->rate_b_radps, grows = rate_grows(f, rate, step_s);
+  const d3_t turn = d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x - w->rate_lead[0] * grows.x,
+                       w->tilt_gain * pitch - w->rate_gain[1] * rate.y - w->rate_lead[1] * grows.y,
+                       w->rate_gain[2] * (YAW * yaw - rate.z) - w->rate_lead[2] * grows.z);
   const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
-  const double tau_s = f->body.rigid.motor_tau_s, lead = fmax(tau_s / QUICK_S - 1.0, 0.0);
+  const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
   const double share = 1.0 - exp(-step_s / QUICK_S);
   f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
   f->load_slow += share * (load - f->load_slow);
@@ -110,6 +121,7 @@ void pilot_trim(nominal_flight_t *f) {
   body_t *const b = &f->body;
   double at[RIGID_N], rates[RIGID_N];
   f->lift_trim = f->load_slow = 1.0;
+  f->rate_before_radps.x = (double)NAN;
   for (int i = 0; i < 3; i++) {
     memcpy(at, b->y, sizeof at);
     at[RIGID_Q_WB] = 1.0;

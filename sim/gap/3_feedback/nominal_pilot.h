@@ -22,6 +22,7 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
+  d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
   double due_s; // until the next command
@@ -35,6 +36,9 @@ typedef struct {
 // Commands that bring the vehicle, as it is seen, to its track.
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]);
+
+// What a change of the wanted turning or thrust is commanded by more than it is, for motors that are slow.
+double pilot_motor_lead(double motor_tau_s);
 
 // Between two commands, where that is known of who flew; else 0: it commands whenever it is asked.
 double pilot_period_s(const nominal_flight_t *f);

@@ -264,14 +264,75 @@ TEST(gap_nominal_flights_shake_as_the_log_does) {
   }
 }
 
+// Every `every`-th row of a flight.
+static void thin(gap_flight_t *f, int every) {
+  const int n = f->n / every;
+  for (int i = 0; i < n; i++) {
+    f->t_s[i] = f->t_s[every * i];
+    for (int k = 0; k < SIG_COUNT; k++)
+      if (f->v[k]) f->v[k][i] = f->v[k][every * i];
+    if (f->segment) f->segment[i] = f->segment[every * i];
+    if (f->saturated) f->saturated[i] = f->saturated[every * i];
+  }
+  f->n = n;
+  f->rate_Hz /= every;
+}
+
+// The lead that is read off a log which a pilot with this one flew.
+static done_t lead_read(double lead[3], const rig_t *r, const closed_loop_t *flown_by, int every,
+                        why_t *why) {
+  gap_flight_t flight;
+  set_t set;
+  lines_t left;
+  TRY(nominal_fly(&r->set.grid[0], &r->vehicle, flown_by, 5, &flight, NULL, why));
+  thin(&flight, every);
+  TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, &r->vehicle, why));
+  TRY(lines_make(&left, &set, why));
+  TRY(residual_of(&set, &r->vehicle, left.r, why));
+  const closed_loop_t loop = closed_loop_of(&set, &r->vehicle, NULL, left.r);
+  memcpy(lead, loop.rate_lead, sizeof loop.rate_lead);
+  lines_free(&left);
+  set_free(&set);
+  gap_flight_free(&flight);
+  return DONE;
+}
+
+TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
+  static const struct {
+    const char *what;
+    double lead;
+    int every;
+  } row[] = {{"no lead", 0.0, 1},
+             {"some", 0.15, 1},
+             {"more", 0.3, 1},
+             {"some, every other command logged", 0.15, 2},
+             {"more, every other command logged", 0.3, 2}};
+  rig_t r;
+  why_t why = {""};
+  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    closed_loop_t loop = r.loop;
+    double lead[3] = {0.0};
+    ROW("%s", row[i].what);
+    for (int k = 0; k < 2; k++) loop.rate_lead[k] = row[i].lead;
+    if (!CHECK_OK(lead_read(lead, &r, &loop, row[i].every, &why))) return;
+    for (int k = 0; k < 2; k++) CHECK_NEAR(lead[k], row[i].lead, 0.1 * row[i].lead + 0.01);
+  }
+  rig_free(&r);
+}
+
 TEST(gap_nominal_pilots_are_varied_about_the_one_that_fits) {
-  const closed_loop_t fit = {
-      .rate_gain = {10.0, 12.0, 5.0}, .tilt_gain = 30.0, .climb_gain = 3.0, .height_gain = 2.0};
+  const closed_loop_t fit = {.rate_gain = {10.0, 12.0, 5.0},
+                             .rate_lead = {0.2},
+                             .tilt_gain = 30.0,
+                             .climb_gain = 3.0,
+                             .height_gain = 2.0};
   double low = HUGE_VAL, high = 0.0, together = 0.0;
   for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
     const closed_loop_t v = closed_loop_varied(&fit, i);
     const double turn = v.rate_gain[0] / fit.rate_gain[0], climb = v.climb_gain / fit.climb_gain;
     if (i == 0) CHECK(turn == 1.0 && climb == 1.0);
+    CHECK_NEAR(v.rate_lead[0], turn * fit.rate_lead[0], 1e-12);
     CHECK_NEAR(v.tilt_gain, turn * turn * fit.tilt_gain, 1e-9); // the damping stays
     low = fmin(low, turn), high = fmax(high, turn);
     together += (turn - 1.0) * (climb - 1.0) / NOMINAL_FLIGHTS / 0.03;
