@@ -130,19 +130,43 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
   return sum > SELECT_SURE * sqrt(squares);
 }
 
+// A sum of columns, squared.
+static double squared(const double *G, int size, int n, const int *column, const double *b) {
+  double sum = 0.0;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) sum += b[i] * b[k] * G[column[i] * size + column[k]];
+  return fmax(sum, 0.0);
+}
+
+// What is left of a nominal flight along a sum of columns, white, in standard errors: 1 where that is noise
+// alone. The rms of all.
+static double made_along(const score_t *j, int n, const int *column, const double *b) {
+  const int flights = j->nominal ? j->nominal->n : 0, size = j->g->size;
+  double sum = 0.0;
+  for (int f = 0; f < flights; f++) {
+    const double *const G = j->nominal->total + (size_t)f * (size_t)(size * size);
+    const double along = squared(G, size, n, column, b);
+    double left = 0.0;
+    for (int i = 0; i < n; i++) left += b[i] * G[column[i] * size + size - 1];
+    sum += along > 0.0 ? left * left / along / flights : 0.0;
+  }
+  return sqrt(sum);
+}
+
 // The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
-// d^2 with a standard error of 2 d. Something else of norm u that is in the rows moves D by 2 u d at most.
+// d^2 with a standard error of 2 d; of 2 d times what nominal flights have along it, if feedback makes more
+// than noise. Something else of norm u that is in the rows moves D by 2 u d at most.
 bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other, double unexplained) {
   const gram_t *g = j->g;
   int column[2 * COLUMN_MAX];
-  double b[2 * COLUMN_MAX], apart = 0.0;
+  double b[2 * COLUMN_MAX];
   const int n = choice_columns(j->c, own, column), m = choice_columns(j->c, other, column + n);
   const double left = lsq_solve_products(g->total, g->size, column, n, j->ridge, b, NULL);
   const double left_other = lsq_solve_products(g->total, g->size, column + n, m, j->ridge, b + n, NULL);
   for (int i = n; i < n + m; i++) b[i] = -b[i];
-  for (int i = 0; i < n + m; i++)
-    for (int k = 0; k < n + m; k++) apart += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
-  return left_other - left < (SCORE_RIVAL_SPAN + 2.0 * unexplained) * sqrt(fmax(apart, 0.0));
+  const double apart = sqrt(squared(g->total, g->size, n + m, column, b));
+  const double errors = fmax(SCORE_CLUSTER, made_along(j, n + m, column, b));
+  return left_other - left < 2.0 * (SCORE_ERRORS * errors + unexplained) * apart;
 }
 
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.

@@ -149,6 +149,39 @@ TEST(gap_score_tells_how_alike_two_effects_are) {
   gap_rows_free(&g);
 }
 
+// One effect pulls along x and, fourteen standard errors strong, along y; the other along x alone, as a
+// thrust scale and a mass do in force and turning.
+TEST(gap_score_takes_for_a_rival_what_only_feedback_could_tell_apart) {
+  static const struct {
+    const char *what;
+    double found; // of the one by each nominal flight, over what is typical
+    bool rival;
+  } row[] = {{"no nominal flights", 0.0, false},
+             {"feedback makes nothing there", 0.02, false},
+             {"feedback makes less there than tells them apart", 0.2, false},
+             {"feedback makes more", 0.8, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    double found[2 * NOMINAL_FLIGHTS];
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 12);
+    const int both = along_x(&g, "rotor_drag", 50.0), one = gap_rows_candidate(&g, "body_drag");
+    double *const y = gap_rows_column(&g, both, 0, CH_FY);
+    gap_rows_white(&g, y);
+    for (int k = 0; k < GAP_ROWS; k++) {
+      gap_rows_column(&g, one, 0, CH_FX)[k] = gap_rows_column(&g, both, 0, CH_FX)[k];
+      y[k] *= 14.0 / sqrt(GAP_ROWS);
+    }
+    gap_rows_add(&g, both, 0, 1.0);
+    for (int k = 0; k < 2 * NOMINAL_FLIGHTS; k++) found[k] = k % 2 ? 0.0 : row[i].found;
+    if (row[i].found > 0.0) gap_rows_nominal(&g, NOMINAL_FLIGHTS, 100.0, found);
+    gap_rows_open(&g, 1, &both);
+    const choice_t with = choice_with(&NONE, one);
+    CHECK(score_is_rival(&g.round.score, &g.round.choice, &with, 0.0) == row[i].rival);
+    gap_rows_free(&g);
+  }
+}
+
 // So much of a number takes so much from the sum of squares, to the digit.
 TEST(gap_score_s_least_size_is_the_one_that_takes_the_gain) {
   gap_rows_t g;
