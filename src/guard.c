@@ -81,6 +81,21 @@ static void find_airborne(guard_t *g, const guard_in_t *in) {
   g->airborne = in->carries || (g->airborne && g->floor_ms < LANDED_MS);
 }
 
+// Where it began while a velocity was asked for (NaN), any height is another one.
+static bool asks_for_another(const guard_t *g, const guard_in_t *in) {
+  if (!in->setpoint_good || !f_finite(in->asked_z_m)) return false;
+  return !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
+}
+
+static void begin_retreat(guard_t *g, const guard_in_t *in) {
+  g->action = GUARD_RETREAT;
+  g->retreat_ms = 0;
+  g->hold_w_m = in->pos_w_m;
+  g->hold_z_m = in->pos_w_m.z;
+  g->asked_at_m = in->asked_z_m;
+  g->unseen = (g->now & GUARD_RATIO) != 0;
+}
+
 static void decide(guard_t *g, const guard_in_t *in) {
   const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > (float)GUARD_NOT_A_NUMBER_ENDS_MS) ||
                     ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GUARD_GYRO_FROZEN_ENDS_MS) ||
@@ -94,21 +109,14 @@ static void decide(guard_t *g, const guard_in_t *in) {
   g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
   if (g->action == GUARD_RETREAT) {
     g->retreat_ms = judge_longer(g->retreat_ms, true, in->ms);
-    // Where it began while a velocity was asked for (NaN), any height is another one.
-    const bool other =
-        in->setpoint_good && f_finite(in->asked_z_m) && !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
-    if (g->quiet_ms > QUIET_MS && other) g->action = GUARD_FLY;
+    g->unseen = g->unseen || (g->now & GUARD_RATIO) != 0;
+    if (g->quiet_ms > QUIET_MS && asks_for_another(g, in)) g->action = GUARD_FLY;
     return;
   }
-  if (down && g->airborne) {
-    g->action = GUARD_RETREAT;
-    g->retreat_ms = 0;
-    g->hold_w_m = in->pos_w_m;
-    g->hold_z_m = in->pos_w_m.z;
-    g->asked_at_m = in->asked_z_m;
-  } else {
+  if (down && g->airborne)
+    begin_retreat(g, in);
+  else
     g->action = in->setpoint_good ? GUARD_FLY : GUARD_HOLD;
-  }
 }
 
 void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
@@ -141,7 +149,8 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
   // Not all at once: the thrust is not to drop by more than it has to.
   const float lowest_m =
       z_m - p->sink_mps / kp_per_s * f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
-  const float safe_m = f_finite(ceiling_z_m) ? ceiling_z_m - p->safe_gap_m : lowest_m;
+  const float under_m = g->unseen ? g->hold_z_m : ceiling_z_m; // it is no lower than where that was noticed
+  const float safe_m = f_finite(under_m) ? under_m - p->safe_gap_m : lowest_m;
   const float top_m = safe_m < g->hold_z_m ? safe_m : g->hold_z_m;
   return f_max(top_m, lowest_m);
 }

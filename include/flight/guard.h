@@ -2,7 +2,8 @@
 //
 //   fly        what the set point says
 //   hold       the last good set point (the new one is no number)
-//   retreat    down to guard.safeGap below the ceiling that was last known, or straight down where none was
+//   retreat    down to guard.safeGap below the ceiling that was last known, or straight down where none was;
+//              where the thrust contradicts the range (RATIO), below where that was noticed
 //   hand over  level, slightly below hover thrust, after guard.cutAfter nothing
 //
 // Near a ceiling the upward sensor is too slow to be the only witness (full thrust closes 5 cm in 110 ms, a
@@ -157,6 +158,7 @@ typedef struct {
   int floor_ms;     // that a floor carries
   int quiet_ms;     // without a reason to go down
   float asked_at_m; // the pilot's height when the retreat began
+  bool unseen;      // since then: the ceiling is nearer than the range says (RATIO)
 } guard_t;
 
 // Nothing is wrong, nothing known.

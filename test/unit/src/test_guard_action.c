@@ -41,6 +41,29 @@ TEST(guard_flies_on_after_a_retreat_when_all_is_well_and_another_height_is_asked
   }
 }
 
+static void carries_more(guard_in_t *in, float x, int ms) {
+  (void)ms, in->force_N *= x;
+}
+
+// Also where another reason began the retreat.
+TEST(guard_notices_while_it_goes_down_that_a_ceiling_is_unseen) {
+  for (int other = 0; other < 2; other++) {
+    ROW(other ? "for another reason" : "for that");
+    watched_t w = hovering_started(&HOVERING_FREE);
+    hovering_fly(&w, &HOVERING_FREE, height_off, 2.0f * (float)other, 300);
+    CHECK(w.g.action == (other ? GUARD_RETREAT : GUARD_FLY) && !w.g.unseen);
+    hovering_fly(&w, &HOVERING_FREE, carries_more, 1.3f, 300);
+    CHECK(w.g.action == GUARD_RETREAT && w.g.unseen);
+  }
+}
+
+TEST(guard_forgets_a_ceiling_unseen_when_the_next_retreat_begins) {
+  watched_t w = hovering_started(&HOVERING_FREE);
+  w.g.unseen = true; // of an earlier one, or a bit flipped
+  hovering_fly(&w, &HOVERING_FREE, height_off, 2.0f, 300);
+  CHECK(w.g.action == GUARD_RETREAT && !w.g.unseen);
+}
+
 TEST(guard_refuses_a_take_off_where_there_is_no_room) {
   static const struct {
     const char *what;
@@ -107,19 +130,23 @@ TEST(guard_goes_down_to_its_safe_gap_at_its_speed) {
     float hold_m, z_m, ceiling_m;
     int retreat_ms;
     float kp_per_s, want_m;
+    bool unseen;
   } row[] = {
-      {"at first where it is", 1.9f, 1.9f, 2.0f, 0, 1.0f, 1.9f},
-      {"half a speed", 1.9f, 1.9f, 2.0f, 150, 1.0f, 1.75f},
-      {"full speed", 1.9f, 1.9f, 2.0f, 300, 1.0f, 1.65f},
-      {"full speed of a law of twice the gain", 1.9f, 1.9f, 2.0f, 300, 2.0f, 1.75f},
-      {"full speed from higher", 2.2f, 2.2f, 2.0f, 500, 1.0f, 1.9f},
-      {"the safe gap", 1.9f, 1.7f, 2.0f, 500, 1.0f, 1.65f},
-      {"it was lower already", 1.2f, 1.2f, 2.0f, 500, 1.0f, 1.2f},
-      {"no ceiling known", 1.2f, 1.2f, NAN, 500, 1.0f, 0.9f},
+      {"at first where it is", 1.9f, 1.9f, 2.0f, 0, 1.0f, 1.9f, false},
+      {"half a speed", 1.9f, 1.9f, 2.0f, 150, 1.0f, 1.75f, false},
+      {"full speed", 1.9f, 1.9f, 2.0f, 300, 1.0f, 1.65f, false},
+      {"full speed of a law of twice the gain", 1.9f, 1.9f, 2.0f, 300, 2.0f, 1.75f, false},
+      {"full speed from higher", 2.2f, 2.2f, 2.0f, 500, 1.0f, 1.9f, false},
+      {"the safe gap", 1.9f, 1.7f, 2.0f, 500, 1.0f, 1.65f, false},
+      {"it was lower already", 1.2f, 1.2f, 2.0f, 500, 1.0f, 1.2f, false},
+      {"no ceiling known", 1.2f, 1.2f, NAN, 500, 1.0f, 0.9f, false},
+      {"a ceiling unseen: below where it is", 1.2f, 1.0f, 2.0f, 500, 1.0f, 0.85f, true},
+      {"a ceiling unseen: at its speed", 1.2f, 1.2f, 2.0f, 150, 1.0f, 1.05f, true},
+      {"a ceiling unseen, none known", 1.2f, 0.9f, NAN, 500, 1.0f, 0.85f, true},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
-    const guard_t g = {.hold_z_m = row[i].hold_m, .retreat_ms = row[i].retreat_ms};
+    const guard_t g = {.hold_z_m = row[i].hold_m, .retreat_ms = row[i].retreat_ms, .unseen = row[i].unseen};
     CHECK_NEAR(guard_retreat_z_m(&g, &p, row[i].z_m, row[i].ceiling_m, row[i].kp_per_s), row[i].want_m, 1e-6);
   }
 }
