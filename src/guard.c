@@ -81,9 +81,12 @@ static void find_airborne(guard_t *g, const guard_in_t *in) {
   g->airborne = in->carries || (g->airborne && g->floor_ms < LANDED_MS);
 }
 
-// Where it began while a velocity was asked for (NaN), any height is another one.
+// Where it began while a velocity was asked for (NaN), any height is another one. Below a ceiling that nobody
+// sees only one that needs no climb ends a retreat: the pilot who is told of more room than there is goes on
+// asking for more.
 static bool asks_for_another(const guard_t *g, const guard_in_t *in) {
   if (!in->setpoint_good || !f_finite(in->asked_z_m)) return false;
+  if (g->unseen && in->asked_z_m > in->pos_w_m.z) return false;
   return !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
 }
 

@@ -8,8 +8,9 @@
 //
 // Near a ceiling the upward sensor is too slow to be the only witness (full thrust closes 5 cm in 110 ms, a
 // sample comes every 100 ms), so that what flies the vehicle is judged every millisecond. A retreat lasts
-// until its reasons are gone for a second and the pilot asks for another height; a hand-over until the height
-// is no longer controlled. All reasons are latched for a log group, and the table says which are `now`, too.
+// until its reasons are gone for a second and the pilot asks for another height (after RATIO: one that needs
+// no climb); a hand-over until the height is no longer controlled. All reasons are latched for a log group,
+// and the table says which are `now`, too.
 #ifndef FLIGHT_GUARD_H
 #define FLIGHT_GUARD_H
 

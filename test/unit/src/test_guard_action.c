@@ -57,6 +57,36 @@ TEST(guard_notices_while_it_goes_down_that_a_ceiling_is_unseen) {
   }
 }
 
+// The ceiling is nearer than the range says, and the pilot goes by the range.
+TEST(guard_ends_a_retreat_from_a_ceiling_unseen_by_a_height_that_needs_no_climb) {
+  static const struct {
+    const char *what;
+    float first_off_m, ratio, off_m, climb_m;
+    guard_action_t want;
+  } row[] = {
+      {"thrust carries too much, up", 0.0f, 1.3f, 1.0f, 0.02f, GUARD_RETREAT},
+      {"thrust carries too much, down, but above it", 0.0f, 1.3f, -0.05f, 0.01f, GUARD_RETREAT},
+      {"thrust carries too much, down", 0.0f, 1.3f, -0.05f, -0.01f, GUARD_FLY},
+      {"the same while it goes down for another reason", 2.0f, 1.3f, 1.0f, 0.02f, GUARD_RETREAT},
+      {"another reason alone", 2.0f, 1.0f, 1.0f, 0.02f, GUARD_FLY},
+  };
+  const guard_param_t p = hovering_param();
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    watched_t w = hovering_started(&HOVERING_FREE);
+    hovering_fly(&w, &HOVERING_FREE, height_off, row[i].first_off_m, 300);
+    hovering_fly(&w, &HOVERING_FREE, carries_more, row[i].ratio, 300);
+    CHECK(w.g.action == GUARD_RETREAT);
+    CHECK(w.g.unseen == (row[i].ratio > 1.0f));
+    hovering_fly(&w, &HOVERING_FREE, NULL, 0.0f, 2000);
+    guard_in_t in = hovering(&HOVERING_FREE, w.ms);
+    in.asked_z_m += row[i].off_m;
+    in.pos_w_m.z = in.asked_z_m - row[i].climb_m;
+    guard_step(&w.g, &p, &in);
+    CHECK(w.g.action == row[i].want);
+  }
+}
+
 TEST(guard_forgets_a_ceiling_unseen_when_the_next_retreat_begins) {
   watched_t w = hovering_started(&HOVERING_FREE);
   w.g.unseen = true; // of an earlier one, or a bit flipped
