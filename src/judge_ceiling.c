@@ -106,9 +106,14 @@ static bool can_be(float ratio) {
 }
 
 // The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. Against
-// what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down.
+// what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down. What one sample
+// says stands until the next, where two memories of it agree: in one alone a bit flipped.
 static bool ratio(guard_t *g, const guard_in_t *in) {
-  const float dt = 1e-3f * (float)in->ms;
+  g->force_ms = judge_longer(g->force_ms, true, in->ms);
+  if (!in->force_new) return (g->now & GUARD_RATIO) != 0 && g->ratio_ms >= GUARD_RATIO_LASTS_MS;
+  const int ms = g->force_ms;
+  g->force_ms = 0;
+  const float dt = 1e-3f * (float)ms;
   const float shown = in->force_N / f_max(in->thrust_now_N, CARRYING_SHARE * in->weight_N);
   const bool known = can_be(g->ratio_now) && can_be(g->ratio_usual); // else a bit flipped
   g->carried_s = in->carries && known ? f_clamp(g->carried_s + dt, 0.0f, CARRIED_MOST_S) : 0.0f;
@@ -122,7 +127,7 @@ static bool ratio(guard_t *g, const guard_in_t *in) {
   g->ratio_usual += f_min(dt / over_s, 1.0f) * (now - g->ratio_usual);
   const bool high =
       now > RATIO_NEAR * g->ratio_usual && !g->acc_lost && in->zc_known && in->zc_m > RATIO_FAR_M;
-  g->ratio_ms = judge_longer(g->ratio_ms, high, in->ms);
+  g->ratio_ms = judge_longer(g->ratio_ms, high, ms);
   return g->ratio_ms >= GUARD_RATIO_LASTS_MS;
 }
 

@@ -142,6 +142,7 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->find_bias = f->outer.param.bias.pole_radps > 0.0f;
   g->force_N = o->sample.force_N;
   g->thrust_now_N = o->sample.thrust_N;
+  g->force_new = (f->due & FLIGHT_LEARN) != 0; // not in the outer loop's own call, which costs the most
   g->bias_known_mps2 = o->bias.bias_mps2.z;
   g->asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN;
   g->setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN;

@@ -42,7 +42,7 @@ typedef enum { GUARD_FLY, GUARD_HOLD, GUARD_RETREAT, GUARD_HAND_OVER } guard_act
   X( 4, ACC_BIAS,       0,  -1,   -1,  0, "the accelerometer contradicts the velocity")                               \
   X(18, HEIGHT_LOST,  250,   0,   -1,  0, "resets of the estimated height sum up to more than a metre")
 
-// judge_ceiling.c: of what is judged by range samples, FROZEN, ODD and TOO_NEAR, what one says stands until the next.
+// judge_ceiling.c: of what is judged by samples, FROZEN, ODD, TOO_NEAR and RATIO, what one says stands until the next.
 #define GUARD_OF_CEILING(X)                                                                                           \
   X( 6, RANGE_LOST,   250,   0,   -1,  0, "the range sensor is lost")                                                 \
   X( 9, BLIND,          0,   0,   -1,  0, "below the range sensor's floor for longer than ceil.blindMax")             \
@@ -102,6 +102,7 @@ typedef struct {
   float asked_z_m;    // the same without limits
   float height_off_m; // sum of the height's resets
   bool find_bias;     // the accelerometer's bias is looked for; else it is taken off as a fault only
+  bool force_new;     // the next two are of a period that is not judged yet
   // Along the thrust: what accelerates the mass, what the motors give in free air.
   float force_N, thrust_now_N;
   float bias_known_mps2; // what the outer loop takes off the vertical acceleration itself
@@ -150,6 +151,7 @@ typedef struct {
   int nearer; // what range samples say of it, summed up
   // RATIO
   float ratio_now, ratio_usual, carried_s; // what the thrust carries, and usually does; since it carries
+  int force_ms;                            // since a sample of both was judged
   int ratio_ms;
   // NOT_A_NUMBER, SETPOINT
   float bad_ms; // less a quarter of what was good since

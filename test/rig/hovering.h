@@ -40,6 +40,7 @@ static inline guard_in_t hovering(const hover_t *h, int ms) {
       .find_bias = true,
       .force_N = 0.33f * h->ratio,
       .thrust_now_N = 0.33f,
+      .force_new = true,
   };
 }
 

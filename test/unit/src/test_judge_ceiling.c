@@ -145,6 +145,24 @@ TEST(guard_takes_the_mean_ratio_of_a_tenth_of_a_second) {
   }
 }
 
+TEST(guard_judges_the_ratio_once_for_each_sample_of_it) {
+  guard_t g = begun();
+  judge(&g, under(0.3f), 1500);
+  guard_in_t fresh = under(0.3f), stale = under(0.3f);
+  fresh.force_N = stale.force_N = 0.33f * 1.5f;
+  stale.force_new = false;
+  for (int sample = 1; sample <= 4; sample++) { // to 1.15 and beyond, as one mean over 40 ms
+    judge(&g, stale, 9);
+    CHECK((g.now & GUARD_RATIO) == 0 && g.force_ms == 9);
+    judge(&g, fresh, 1);
+    CHECK(((g.now & GUARD_RATIO) != 0) == (sample == 4) && g.force_ms == 0);
+  }
+  judge(&g, stale, 500); // until the next one
+  CHECK((g.now & GUARD_RATIO) != 0);
+  judge(&g, under(0.3f), 1); // half a second later all that was is forgotten
+  CHECK((g.now & GUARD_RATIO) == 0 && g.ratio_now == 1.0f);
+}
+
 TEST(guard_has_no_usual_ratio_in_the_first_second_in_the_air) {
   guard_t g = begun();
   judge(&g, under(0.3f), 500);

@@ -38,6 +38,10 @@ TEST(watch_shows_the_guard_what_carries_and_what_weighs) {
   flight_t f = hovering(&in);
   f.outer.sample.force_N = 0.36f;
   f.outer.sample.thrust_N = 0.3f;
+  f.due = FLIGHT_OUTER; // a call that costs enough already
+  (void)watch(&f, &in, 1);
+  CHECK(f.guard.force_ms == 1);
+  f.due = FLIGHT_LEARN;
   (void)watch(&f, &in, 1);
   CHECK_NEAR(f.guard.ratio_usual, 1.2, 1e-6);
   CHECK(f.guard.airborne && f.guard.full_ms == 0);
