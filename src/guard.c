@@ -149,9 +149,9 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
 
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m,
                         float kp_per_s) {
-  // Not all at once: the thrust is not to drop by more than it has to.
-  const float lowest_m =
-      z_m - p->sink_mps / kp_per_s * f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
+  // Not all at once: the thrust is not to drop by more than it has to. From a ceiling unseen it has to.
+  const float speed = g->unseen ? 1.0f : f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
+  const float lowest_m = z_m - p->sink_mps / kp_per_s * speed;
   const float under_m = g->unseen ? g->hold_z_m : ceiling_z_m; // it is no lower than where that was noticed
   const float safe_m = f_finite(under_m) ? under_m - p->safe_gap_m : lowest_m;
   const float top_m = safe_m < g->hold_z_m ? safe_m : g->hold_z_m;

@@ -171,7 +171,7 @@ TEST(guard_goes_down_to_its_safe_gap_at_its_speed) {
       {"it was lower already", 1.2f, 1.2f, 2.0f, 500, 1.0f, 1.2f, false},
       {"no ceiling known", 1.2f, 1.2f, NAN, 500, 1.0f, 0.9f, false},
       {"a ceiling unseen: below where it is", 1.2f, 1.0f, 2.0f, 500, 1.0f, 0.85f, true},
-      {"a ceiling unseen: at its speed", 1.2f, 1.2f, 2.0f, 150, 1.0f, 1.05f, true},
+      {"a ceiling unseen: at full speed at once", 1.2f, 1.2f, 2.0f, 0, 1.0f, 0.9f, true},
       {"a ceiling unseen, none known", 1.2f, 0.9f, NAN, 500, 1.0f, 0.85f, true},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
