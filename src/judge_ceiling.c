@@ -22,6 +22,16 @@
 // test: guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed
 #define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near is not to become usual
 #define RATIO_FAST_S 2.0f // downwards
+// test: guard_takes_a_ratio_that_grows_with_the_height_risen_for_a_ceiling
+#define GROWTH_PER_M 80.0f  // as the curve of this rotor does: 1.8 over its radius (ceil.cb)
+#define GROWTH_LEAST 0.075f // of the ratio, more than usual: the curve gives it 22 mm below a ceiling
+#define GROWTH_FAR_M 0.06f  // where the curve gives a twentieth of that; nearer it explains what grows
+// test: guard_takes_no_jolt_for_a_ceiling
+#define GROWTH_MEAN_S 0.4f // a gust lasts for 0.3 s; in a climb at 0.1 m/s the curve grows 24-fold
+#define GROWTH_SHARE  0.8f // of the ratio's variance; what a load dropped or a gust shares by chance is less
+#define GROWTH_SEEN   2.5f // samples' worth of rise: 1 cm at the least, and no faster than 0.16 m/s
+// test: guard_forgets_a_growth_where_a_bit_of_it_flipped
+#define GROWTH_MOST 1e3f // of all sums: 40 samples of a ratio that is wrong by 5
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
 #define RATIO_LEAST 0.3f // so little carries no vehicle that its thrust map describes
 #define RATIO_MOST  5.0f // as params.h has it for ceil.ratioMax
@@ -105,6 +115,32 @@ static bool can_be(float ratio) {
   return fabsf(ratio - 0.5f * (RATIO_MOST + RATIO_LEAST)) <= 0.5f * (RATIO_MOST - RATIO_LEAST);
 }
 
+// One more sample. Where the vehicle rises by dz, every older one is farther below it: its share in what the
+// ceiling gives shrinks by exp(-dz GROWTH_PER_M). A sink is not followed, as shares would grow without bound.
+static void fit_growth(guard_growth_t *s, float more, float climb_m, float keep) {
+  if (!(fabsf(s->n + s->f + s->ff + s->y + s->fy + s->yy) <= GROWTH_MOST)) *s = (guard_growth_t){.n = 0.0f};
+  const float up = f_clamp(GROWTH_PER_M * climb_m, 0.0f, 0.5f);
+  const float share = keep * (1.0f - up + 0.5f * up * up); // of exp as much as is needed
+  s->ff = share * (1.0f - up + 0.5f * up * up) * s->ff + 1.0f;
+  s->fy = share * s->fy + more;
+  s->f = share * s->f + 1.0f;
+  s->n = keep * s->n + 1.0f;
+  s->y = keep * s->y + more;
+  s->yy = keep * s->yy + more * more;
+}
+
+// By least squares, over these samples: more than usual = const + a f, where f is the share of each as above,
+// 1 of this one. So a is what a ceiling gives here and now, told by how it grew. It is one where a, and the
+// fit here, are as large as near a ceiling, and where the fit explains what was seen. (The sums are n times
+// the squares about the means.)
+static bool grows(const guard_growth_t *s) {
+  const float ff = s->n * s->ff - s->f * s->f, fy = s->n * s->fy - s->f * s->y,
+              yy = s->n * s->yy - s->y * s->y;
+  const float here = s->y * ff + fy * (s->n - s->f); // times n ff
+  return ff >= GROWTH_SEEN * s->n && fy >= GROWTH_LEAST * ff && here >= GROWTH_LEAST * s->n * ff &&
+         fy * fy >= GROWTH_SHARE * ff * yy;
+}
+
 // The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. Against
 // what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down. What one sample
 // says stands until the next, where two memories of it agree: in one alone a bit flipped.
@@ -119,15 +155,17 @@ static bool ratio(guard_t *g, const guard_in_t *in) {
   g->carried_s = in->carries && known ? f_clamp(g->carried_s + dt, 0.0f, CARRIED_MOST_S) : 0.0f;
   if (g->carried_s < RATIO_AFTER_S) {
     g->ratio_now = g->ratio_usual = shown;
+    g->growth = (guard_growth_t){.n = 0.0f};
     return false;
   }
   g->ratio_now += f_min(dt / RATIO_MEAN_S, 1.0f) * (shown - g->ratio_now);
   const float now = g->ratio_now;
   const float over_s = now > g->ratio_usual ? RATIO_SLOW_S : RATIO_FAST_S;
   g->ratio_usual += f_min(dt / over_s, 1.0f) * (now - g->ratio_usual);
-  const bool high =
-      now > RATIO_NEAR * g->ratio_usual && !g->acc_lost && in->zc_known && in->zc_m > RATIO_FAR_M;
-  g->ratio_ms = judge_longer(g->ratio_ms, high, ms);
+  fit_growth(&g->growth, shown - g->ratio_usual, dt * g->vel_w_mps.z, 1.0f - f_min(dt / GROWTH_MEAN_S, 1.0f));
+  const bool high = now > RATIO_NEAR * g->ratio_usual && in->zc_known && in->zc_m > RATIO_FAR_M;
+  const bool near = grows(&g->growth) && !(in->zc_known && in->zc_m <= GROWTH_FAR_M);
+  g->ratio_ms = judge_longer(g->ratio_ms, (high || near) && !g->acc_lost, ms);
   return g->ratio_ms >= GUARD_RATIO_LASTS_MS;
 }
 

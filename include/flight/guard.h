@@ -108,6 +108,11 @@ typedef struct {
   float bias_known_mps2; // what the outer loop takes off the vertical acceleration itself
 } guard_in_t;
 
+// Sums for a fit of least squares (judge_ceiling.c): of 1, f, f f, y, f y, y y.
+typedef struct {
+  float n, f, ff, y, fy, yy;
+} guard_growth_t;
+
 typedef struct {
   unsigned now, latched; // guard_reason_t
   guard_action_t action;
@@ -152,6 +157,7 @@ typedef struct {
   // RATIO
   float ratio_now, ratio_usual, carried_s; // what the thrust carries, and usually does; since it carries
   int force_ms;                            // since a sample of both was judged
+  guard_growth_t growth;                   // of what it carries more than usual, with the height risen
   int ratio_ms;
   // NOT_A_NUMBER, SETPOINT
   float bad_ms; // less a quarter of what was good since
