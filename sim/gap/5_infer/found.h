@@ -47,7 +47,7 @@ typedef struct {
   double left, left_before; // white sums of squares, with and without what is named
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
   int *alike;    // by column: the first of those that these flights would not tell from it, or itself
-  bool *echo; // by candidate: something like it is there, at one place, time or state only: it was not tried
+  bool *echo; // by candidate: something like it is there, at one place or time only: it was not tried
 } found_t;
 
 // Nothing found yet. FAILED: no memory. Free it, also on an error.

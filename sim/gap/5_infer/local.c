@@ -1,16 +1,13 @@
-// local.c - is a name only what something at one place, time or state looks like?
+// local.c - does a name act everywhere, or does it stand for what lies at one place or time?
 #include "gap/5_infer/local.h"
 
+#include "base/lsq_blocks.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// --- an echo: something there explains more than the name does --------------------------------------------
-
-#define ECHO   1.3 // so much more than a name a cell must explain
-#define BEYOND 0.7 // or so much of it, though the name is there
-#define CELL   8.0 // standard errors
+// --- what a choice leaves ---------------------------------------------------------------------------------
 
 done_t local_left(const round_t *round, const choice_t *choice, double *left[CHANNELS], why_t *why) {
   int column[COLUMN_MAX];
@@ -28,59 +25,6 @@ done_t local_left(const round_t *round, const choice_t *choice, double *left[CHA
     }
   }
   return DONE;
-}
-
-static double white_squares(const rows_t *r, const color_t *c, const double *with, const double *without) {
-  double sum = 0.0;
-  for (int i = 2; i < r->n; i++) {
-    if (!color_reaches(r, i)) continue;
-    const double f = without[i] - with[i], f1 = without[i - 1] - with[i - 1],
-                 f2 = without[i - 2] - with[i - 2];
-    const double e = (f - c->a1 * f1 - c->a2 * f2) / c->sd;
-    sum += e * e;
-  }
-  return sum;
-}
-
-typedef struct {
-  double *without[CHANNELS], *with[CHANNELS]; // what is left
-} left_t;
-
-static done_t compare_cells(const round_t *round, int candidate, const left_t *l, bool *echo, why_t *why) {
-  const choice_t rest = choice_without(&round->choice, candidate);
-  const double gain = score_fitted(&round->score, &rest) - score_fitted(&round->score, &round->choice);
-  color_t color[CHANNELS], clean[CHANNELS]; // of the channels in which the name is seen
-  cell_t before, beside;
-  double own = 0.0;
-  TRY(unknown_colors(round->s, round->base, l->with, clean, why));
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const candidate_t *c = &round->c->candidate[candidate];
-    bool seen = false;
-    for (int k = 0; round->gram.color[ch].used && k < c->n; k++)
-      seen = seen || round->table.x[ch][c->first + k];
-    color[ch] = round->gram.color[ch];
-    color[ch].used = color[ch].used && seen;
-    clean[ch].used = clean[ch].used && seen;
-    if (clean[ch].used) own += white_squares(set_rows(round->s, ch), &clean[ch], l->with[ch], l->without[ch]);
-  }
-  TRY(unknown_largest(round->s, round->base, l->without, color, false, &before, why));
-  TRY(unknown_largest(round->s, round->base, l->with, clean, true, &beside, why));
-  const double first = before.statistic * before.statistic, left = beside.statistic * beside.statistic;
-  *echo = first > ECHO * gain + 20.0 || (beside.statistic > CELL && left > BEYOND * own);
-  return DONE;
-}
-
-done_t local_is_echo(const round_t *round, int candidate, bool *echo, why_t *why) {
-  const choice_t rest = choice_without(&round->choice, candidate);
-  left_t l = {.with = {NULL}};
-  done_t status = local_left(round, &rest, l.without, why);
-  if (status == DONE) status = local_left(round, &round->choice, l.with, why);
-  if (status == DONE) status = compare_cells(round, candidate, &l, echo, why);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    free(l.without[ch]);
-    free(l.with[ch]);
-  }
-  return status;
 }
 
 // --- what would look the same -----------------------------------------------------------------------------
@@ -103,24 +47,13 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
   return DONE;
 }
 
-// --- confined: it is needed in one part of the flights only ------------------------------------------------
+// --- the same, but only there -----------------------------------------------------------------------------
 //
 // What truly acts, acts wherever its regressor is excited. With the effect's fitted contribution f and what
-// the other names leave y, both white, the slope of y over f is 1 everywhere. Where it is near 0 outside of
-// a range of place, height or time, or inside of it more than twice, the name stands for something that lies
-// in that range.
-//
-// Nor is a name known that is excited at some time only, where a constant in every channel from then to then
-// does as well: something may have begun there, or gone.
-
-#define ABSENT       0.55 // a slope that is below this, two standard errors included
-#define STRONG       0.95 // a slope inside that is above this
-#define TWICE        2.0  // or: a slope inside above this, where outside it is below 1
-#define LEFT_OUTSIDE 0.05 // of the regressor's sum of squares must lie outside
-#define CLEAR        40.0 // less sum of squares by two slopes in place of one
-#define AS_WELL      0.9  // of what a name gives, that constants give
-#define BESIDE       3    // bins of time, at least, in which the name is not excited
-#define WIDER        1.5  // standard errors grow by this: white rows are not quite independent
+// the other names leave y, both white, one slope of y over f takes (f'y)^2 / f'f from the sum of squares. The
+// same slope, but only in a range of a place, of height or of time, or only outside of one, takes what these
+// sums give of that part alone. Where that is more, by more than chance makes of so many parts, something
+// lies there, and the name only looks like it.
 
 typedef struct {
   double ff[WINDOW_BINS], fy[WINDOW_BINS];
@@ -168,16 +101,16 @@ static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t 
   return DONE;
 }
 
-// in: the part in which the name is needed. Sums of f f and of f y.
-static bool absent(double ff_in, double fy_in, double ff_out, double fy_out) {
-  if (!(ff_out > LEFT_OUTSIDE * (ff_in + ff_out)) || !(ff_in > 0.0)) return false;
-  const double inside = fy_in / ff_in, outside = fy_out / ff_out, apart = inside - outside;
-  const bool none = outside + 2.0 * WIDER / sqrt(ff_out) < ABSENT && inside > STRONG;
-  return (none || (inside > TWICE && outside < 1.0)) &&
-         apart * apart * ff_in * ff_out / (ff_in + ff_out) > CLEAR * WIDER * WIDER;
+// Of a range and of what lies beside it, over all places: as many parts are tried.
+#define RANGES (WINDOW_BINS * (WINDOW_BINS + 1))
+
+// In the one part, of which these are the sums, and not in the other. That one must hold as much as a bin
+// does of what is excited everywhere: a right form with other numbers is wrong where it is hardly excited.
+static bool only_in(double ff, double fy, double all_ff, double all_fy, double chance) {
+  return ff > 0.0 && all_ff - ff > all_ff / WINDOW_BINS && fy * fy / ff - all_fy * all_fy / all_ff > chance;
 }
 
-static bool needed_in_a_part(const by_bin_t *s) {
+static bool in_a_part(const by_bin_t *s, double chance) {
   double ff = 0.0, fy = 0.0;
   for (int i = 0; i < WINDOW_BINS; i++) {
     ff += s->ff[i];
@@ -188,8 +121,7 @@ static bool needed_in_a_part(const by_bin_t *s) {
     for (int to = from; to < WINDOW_BINS; to++) {
       own_ff += s->ff[to];
       own_fy += s->fy[to];
-      if (absent(own_ff, own_fy, ff - own_ff, fy - own_fy) ||
-          absent(ff - own_ff, fy - own_fy, own_ff, own_fy))
+      if (only_in(own_ff, own_fy, ff, fy, chance) || only_in(ff - own_ff, fy - own_fy, ff, fy, chance))
         return true;
     }
   }
@@ -204,51 +136,12 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
     }
 }
 
-// Sums over bins of time: of the name's contribution, and of what constants in each channel would give.
-typedef struct {
-  double ff[WINDOW_BINS], fy, wy[CH_SMOOTH][WINDOW_BINS], ww[CH_SMOOTH][WINDOW_BINS];
-} times_t;
-
-static void add_times(const round_t *round, const parts_t *p, const int *bin, times_t *s) {
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    const rows_t *const r = &round->s->smooth;
-    const color_t *const c = &p->color[ch];
-    for (int i = 0; c->used && i < r->n; i++) {
-      if (!color_reaches(r, i)) continue;
-      const double w = (1.0 - c->a1 - c->a2) / c->sd; // a constant, white
-      s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
-      s->fy += p->f[ch][i] * p->y[ch][i];
-      s->wy[ch][bin[i]] += w * p->y[ch][i];
-      s->ww[ch][bin[i]] += w * w;
-    }
-  }
-}
-
-static double by_constants(const times_t *s, int from, int to) {
-  double sum = 0.0;
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    double wy = 0.0, ww = 0.0;
-    for (int i = from; i <= to; i++) {
-      wy += s->wy[ch][i];
-      ww += s->ww[ch][i];
-    }
-    if (ww > 0.0) sum += wy * wy / ww;
-  }
-  return sum;
-}
-
-static bool at_times(const times_t *s) {
-  double ff = 0.0;
-  for (int i = 0; i < WINDOW_BINS; i++) ff += s->ff[i];
-  for (int from = 0; ff > 0.0 && from < WINDOW_BINS; from++) {
-    double inside = 0.0;
-    for (int to = from; to < WINDOW_BINS && to - from < WINDOW_BINS - BESIDE; to++) {
-      inside += s->ff[to];
-      if (inside > (1.0 - LEFT_OUTSIDE) * ff && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
-        return true;
-    }
-  }
-  return false;
+// What one more number takes of white rows, in so many parts of all places.
+static double by_chance(const round_t *round) {
+  int places = 0;
+  for (int i = 0; i < COORDINATES; i++) places += coordinate_is_place(i);
+  return SCORE_CLUSTER * SCORE_CLUSTER *
+         lsq_f_quantile(SELECT_ALPHA / (places * RANGES), 1.0, fmax(round->gram.rows, 1));
 }
 
 done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *why) {
@@ -257,6 +150,7 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   double *const room = malloc(2 * rows * sizeof(double));
   int *const bin = malloc(rows * sizeof(int));
   done_t status = room && bin ? parts_make(&p, round, candidate, why) : error_failed(why, "out of memory");
+  const double chance = by_chance(round);
   *is = false;
   const fx_t *const fx = round_fx(round, candidate);
   const bool curve =
@@ -264,11 +158,9 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   for (int i = curve ? COORDINATES : 0; status == DONE && i < COORDINATES && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       by_bin_t s = {.ff = {0.0}};
-      times_t at = {.fy = 0.0};
       if (!windows_bins(round->s, round->base, i, list, room, bin)) continue;
       add_slopes(round, &p, list, bin, &s);
-      if (list == 0 && i == COORDINATE_TIME) add_times(round, &p, bin, &at);
-      *is = *is || needed_in_a_part(&s) || at_times(&at);
+      *is = *is || in_a_part(&s, chance);
     }
   free(p.room);
   free(room);

@@ -17,7 +17,7 @@ typedef struct {
   round_t round;
   int *taken;    // by candidate: how often it was taken in
   bool *never;   // by candidate: it is out of question
-  bool *echo;    // by candidate: something like it is there, at one place, time or state only
+  bool *echo;    // by candidate: something like it is there, at one place or time only
   bool *broken;  // by candidate: what it promised as another's stand-in was not kept
   bool *alike;   // by candidate: room
   model_t timed; // the model with what measured rotor speeds say
@@ -115,10 +115,9 @@ static done_t settle(select_t *t, why_t *why) {
 
 static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   *dropped = false;
-  for (int i = 0; i < t->round.choice.n && !*dropped; i++) {
+  for (int i = 0; t->round.strict && i < t->round.choice.n && !*dropped; i++) {
     const int candidate = t->round.choice.of[i];
-    TRY(local_is_echo(&t->round, candidate, dropped, why));
-    if (!*dropped && t->round.strict) TRY(local_is_confined(&t->round, candidate, dropped, why));
+    TRY(local_is_confined(&t->round, candidate, dropped, why));
     if (!*dropped) continue;
     TRY(local_alike(&t->round, candidate, t->alike, why));
     for (int k = 0; k < t->round.c->n; k++)
