@@ -29,8 +29,6 @@ done_t local_left(const round_t *round, const choice_t *choice, double *left[CHA
 
 // --- what would look the same -----------------------------------------------------------------------------
 
-#define ALIKE 0.25 // of a name's contribution, that another one could give
-
 // A bias has hardly a white row, yet it is what a wind becomes where nobody turns: plain means tell.
 done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why) {
   const double zero[COLUMN_MAX] = {0.0};
@@ -41,8 +39,8 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
   TRY(gram_make(&plain, round->s, &round->table, &known, NULL, why));
   score.g = &plain;
   for (int k = 0; k < round->c->n; k++)
-    alike[k] = score_likeness(&round->score, &round->choice, candidate, k) > ALIKE ||
-               score_likeness(&score, &round->choice, candidate, k) > ALIKE;
+    alike[k] = score_likeness(&round->score, &round->choice, candidate, k) > SCORE_MOST ||
+               score_likeness(&score, &round->choice, candidate, k) > SCORE_MOST;
   gram_free(&plain);
   return DONE;
 }
@@ -137,11 +135,11 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
 }
 
 // What one more number takes of white rows, in so many parts of all places.
-static double by_chance(const round_t *round) {
+static double by_chance(void) {
   int places = 0;
   for (int i = 0; i < COORDINATES; i++) places += coordinate_is_place(i);
-  return SCORE_CLUSTER * SCORE_CLUSTER *
-         lsq_f_quantile(SELECT_ALPHA / (places * RANGES), 1.0, fmax(round->gram.rows, 1));
+  const double errors = SCORE_CLUSTER * lsq_t_quantile(SELECT_ALPHA / 2.0 / (places * RANGES), HUGE_VAL);
+  return errors * errors;
 }
 
 done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *why) {
@@ -150,7 +148,7 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   double *const room = malloc(2 * rows * sizeof(double));
   int *const bin = malloc(rows * sizeof(int));
   done_t status = room && bin ? parts_make(&p, round, candidate, why) : error_failed(why, "out of memory");
-  const double chance = by_chance(round);
+  const double chance = by_chance();
   *is = false;
   const fx_t *const fx = round_fx(round, candidate);
   const bool curve =

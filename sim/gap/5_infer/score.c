@@ -237,8 +237,8 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
-double score_nominal_bound(const score_t *j) {
-  return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, j->nominal && j->nominal->n ? j->nominal->n : NOMINAL_FLIGHTS));
+double score_nominal_bound(int flights) {
+  return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, flights ? flights : NOMINAL_FLIGHTS));
 }
 
 // Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
@@ -266,7 +266,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
-  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > score_nominal_bound(j);
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > score_nominal_bound(j->nominal ? j->nominal->n : 0);
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

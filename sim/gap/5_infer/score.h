@@ -80,8 +80,8 @@ verdict_t score_last(const score_t *j, const choice_t *choice);
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
 
 // So many times its rms on nominal flights a candidate must be: of so few flights' normal errors SELECT_ALPHA
-// are larger. Of several numbers as of one: in a flight they err together.
-double score_nominal_bound(const score_t *j);
+// are larger. Of several numbers as of one: in a flight they err together. 0 flights: as of NOMINAL_FLIGHTS.
+double score_nominal_bound(int flights);
 
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
 bool score_is_possible(const score_t *j, const choice_t *choice);

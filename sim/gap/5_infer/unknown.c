@@ -1,7 +1,9 @@
 // unknown.c - what is left that no name explains.
 #include "gap/5_infer/unknown.h"
 
+#include "base/lsq_blocks.h"
 #include "gap/5_infer/in_time.h"
+#include "gap/5_infer/score.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -215,14 +217,16 @@ double unknown_in_windows(const scan_t *scan) {
 
 // --- what is beyond nominal flights -----------------------------------------------------------------------
 
-#define CHANCE 4.0 // standard errors: the largest of so many windows of noise alone
-#define LEAST  6.5 // errors, of chance or of a right form with other numbers: less is never told
-#define MARGIN 1.4 // over what is furthest out of the nominal flights
-#define TIE    0.8 // of what explains most, that explains as much
+#define TIE 0.8 // of what explains most, that explains as much
+
+// The largest statistic of all windows of a coordinate, where there is noise alone.
+static double of_noise(void) {
+  return lsq_t_quantile(SELECT_ALPHA / 2.0 / WINDOWS_TRIED, HUGE_VAL);
+}
 
 // What a look finds in nominal flights, but for one of them (none: < 0): rms, with one flight of noise alone.
 static double usual(const scan_t *nominal, int n, int but, int cell) {
-  double squares = CHANCE * CHANCE;
+  double squares = of_noise() * of_noise();
   int flights = 1;
   for (int i = 0; i < n; i++) {
     if (i == but) continue;
@@ -233,10 +237,10 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
 }
 
 // The bound of a cell with what a right form with other numbers leaves beside chance: an error of the model,
-// which nominal flights do not have.
+// which nominal flights do not have. Of the largest effect of its channel so much is told as would be named.
 static double bound_of(const cell_t *c, double chance, const double misfit[CHANNELS]) {
   const double share = c->size != 0.0 ? misfit[c->channel] * c->statistic / c->size : 0.0;
-  return hypot(chance, LEAST * share);
+  return hypot(chance, SELECT_LEAST / CANDIDATES_MISFIT * share);
 }
 
 // What a cell explains beyond what its bound would.
@@ -282,14 +286,14 @@ static void weigh_ties(const scan_t *log, judged_t *to) {
 
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to) {
-  double furthest = 1.0, most = -HUGE_VAL;
+  double furthest = score_nominal_bound(n), most = -HUGE_VAL;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
       furthest = fmax(furthest, nominal[i].cell[k].statistic / usual(nominal, n, i, k));
   *to = (judged_t){.found = false};
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     const cell_t *const c = &log->cell[k];
-    to->chance[k] = fmax(LEAST, MARGIN * furthest * usual(nominal, n, -1, k));
+    to->chance[k] = furthest * usual(nominal, n, -1, k);
     to->bound[k] = bound_of(c, to->chance[k], misfit);
     if (!(beyond(c, to->bound[k]) > most)) continue;
     most = beyond(c, to->bound[k]);

@@ -58,7 +58,7 @@ MUST_CHECK done_t unknown_scan(const set_t *s, const model_t *m, double *const r
 double unknown_in_windows(const scan_t *scan);
 
 typedef struct {
-  double chance[UNKNOWN_CELLS]; // of the statistics: nominal flights do not come near
+  double chance[UNKNOWN_CELLS]; // of the statistics: no nominal flight goes beyond
   double bound[UNKNOWN_CELLS];  // with what a right form with other numbers leaves
   cell_t cell;                  // of those that explain most beyond what their bound would: a place first
   double cell_bound;
@@ -67,7 +67,7 @@ typedef struct {
 } judged_t;
 
 // nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves, rms:
-// 6.5 times as much counts.
+// six times as much is as large as an effect that is named.
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
 

@@ -6,14 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FINE     36                   // bins of equal width: a layer may be thin
 #define STRIPS   8                    // of the floor, each way, to find a patch
 #define MOST     6                    // strips of a patch
 #define PARTS    16                   // of a strip, to fit a patch's ends: two rows or so, in 20 s of flight
 #define BINS_MAX (STRIPS * PARTS + 1) // of any cut; one for what lies beside
 #define ROWS     4                    // of a coordinate's bin, on the average, or nothing is said
 
-_Static_assert(STRIPS *STRIPS <= BINS_MAX && FINE <= BINS_MAX && WINDOW_BINS <= BINS_MAX,
+_Static_assert(STRIPS *STRIPS <= BINS_MAX && WINDOW_FINE <= BINS_MAX && WINDOW_BINS <= BINS_MAX,
                "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------
@@ -59,11 +58,11 @@ static bool find_bins(const set_t *s, const model_t *m, int coordinate, int list
 
 // --- kept -------------------------------------------------------------------------------------------------
 
-static const int KEPT_BINS[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = FINE};
+static const int KEPT_BINS[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = WINDOW_FINE};
 
 typedef struct {
   bool there;
-  double edge[FINE + 1];
+  double edge[WINDOW_FINE + 1];
   unsigned char *bin;
 } kept_t;
 
@@ -217,7 +216,7 @@ void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
   for (int i = 0; i < 2 * CUTS; i++) {
     const int list = i / CUTS;
     const cut_t cut = (cut_t)(i % CUTS);
-    const int bins = cut == BY_ROWS ? WINDOW_BINS : FINE;
+    const int bins = cut == BY_ROWS ? WINDOW_BINS : WINDOW_FINE;
     if (!bins_of(l->s, l->m, coordinate, list, bins, cut, l->room, l->bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
       if (!l->color[ch].used) continue;

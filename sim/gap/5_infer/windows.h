@@ -47,6 +47,14 @@ void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]);
 
 #define WINDOW_BINS 12
 
+// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and of
+// equal width, for a layer may be thin.
+enum {
+  WINDOW_FINE = 3 * WINDOW_BINS,
+  WINDOWS_TRIED =
+      WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
+};
+
 // The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
 // move.
 bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);

@@ -1,59 +1,60 @@
 // test_gap_unknown.c - what of an unknown effect is told: beyond nominal flights and beyond a misfit, and
 // which of those that explain as much.
-#include "gap/5_infer/unknown.h"
+#include "gap/5_infer/nominal_sums.h"
 #include "rig/test.h"
 
 #include <math.h>
 
 // Nominal flights in which one look finds much say nothing against another look.
 TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
-  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[5];
+  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[NOMINAL_FLIGHTS];
   const double misfit[CHANNELS] = {[CH_FZ] = 0.02};
   judged_t judged;
   const int shaken = unknown_cell(CH_WX, COORDINATE_VEL_Z, false),
             quiet = unknown_cell(CH_FZ, COORDINATE_HEIGHT, false);
-  for (int i = 0; i < 5; i++)
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
-      nominal[i].cell[k].statistic = k == shaken ? 40.0 + i : 3.0 + 0.2 * i;
+      nominal[i].cell[k].statistic = k == shaken ? 40.0 + 0.5 * i : 3.0 + 0.1 * i;
   for (int k = 0; k < UNKNOWN_CELLS; k++) log.cell[k] = (cell_t){.statistic = 3.5, .explained = 12.0};
   log.cell[shaken] = (cell_t){.channel = CH_WX, .statistic = 45.0, .explained = 2000.0};
-  unknown_judge(&log, nominal, 5, misfit, &judged);
+  unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
   CHECK(!judged.found);
   log.cell[quiet] = (cell_t){.channel = CH_FZ, .size = 0.5, .statistic = 12.0, .explained = 144.0};
-  unknown_judge(&log, nominal, 5, misfit, &judged);
+  unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
   CHECK(judged.found && judged.cell.channel == CH_FZ && judged.also.statistic == 0.0);
   // No size below what a right model leaves counts, however sure.
   log.cell[quiet].size = 0.02;
-  unknown_judge(&log, nominal, 5, misfit, &judged);
+  unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
   CHECK(!judged.found);
   log.cell[quiet].size = 0.5;
-  // As much as that in one of five nominal flights, and it is chance.
+  // As much as that in one of the nominal flights, and it is chance.
   nominal[3].cell[quiet].statistic = 12.0;
-  unknown_judge(&log, nominal, 5, misfit, &judged);
+  unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
   CHECK(!judged.found);
 }
 
 // In the nominal flights one look finds ten times what is usual: that bounds chance, and says nothing about
-// what a right form with other numbers leaves, of which six and a half times is enough.
+// what a right form with other numbers leaves, 0.02 of what is typical: of that size 0.12 is told, as of names.
+// Chance is the root of F(1, 10)'s upper hundredth, 3.17, times 42.
 TEST(gap_measures_a_misfit_by_itself_and_not_by_nominal_flights) {
   static const struct {
     double statistic, size;
     bool found;
-  } row[] = {{450.0, 0.2, true}, {450.0, 0.12, false}, {50.0, 2.0, false}, {450.0, 2.0, true}};
-  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[5];
+  } row[] = {{2000.0, 0.13, true}, {2000.0, 0.11, false}, {150.0, 2.0, true}, {120.0, 2.0, false}};
+  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[NOMINAL_FLIGHTS];
   const double misfit[CHANNELS] = {[CH_WX] = 0.02};
   const int look = unknown_cell(CH_WX, COORDINATE_VEL_Z, false);
   judged_t judged;
-  for (int i = 0; i < 5; i++)
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
-      nominal[i].cell[k].statistic = k == look ? 40.0 + i : 3.0 + 0.2 * i;
+      nominal[i].cell[k].statistic = k == look ? 40.0 + 0.5 * i : 3.0 + 0.1 * i;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("statistic %g, size %g", row[i].statistic, row[i].size);
     log.cell[look] = (cell_t){.channel = CH_WX,
                               .size = row[i].size,
                               .statistic = row[i].statistic,
                               .explained = row[i].statistic * row[i].statistic};
-    unknown_judge(&log, nominal, 5, misfit, &judged);
+    unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
     CHECK(judged.found == row[i].found);
   }
 }
@@ -101,8 +102,8 @@ static const struct {
 
 TEST(gap_tells_a_place_before_a_time_before_a_state) {
   const double misfit[CHANNELS] = {0.02, 0.02, 0.02, 0.02};
-  scan_t nominal[2] = {{.cell = {{.statistic = 0.0}}}};
-  for (int i = 0; i < 2; i++)
+  scan_t nominal[NOMINAL_FLIGHTS] = {{.cell = {{.statistic = 0.0}}}};
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++) nominal[i].cell[k].statistic = 3.0;
   for (unsigned i = 0; i < sizeof TIED / sizeof *TIED; i++) {
     ROW("%s", TIED[i].what);
@@ -118,7 +119,7 @@ TEST(gap_tells_a_place_before_a_time_before_a_state) {
                                                                         .statistic = sqrt(l->explained),
                                                                         .explained = l->explained};
     }
-    unknown_judge(&log, nominal, 2, misfit, &judged);
+    unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
     const lies_t *const first = &TIED[i].lies[TIED[i].first];
     CHECK(judged.found && judged.cell.along == first->along && judged.cell.world == first->world);
     CHECK((TIED[i].also < 0) == !(judged.also.statistic > 0.0));
@@ -128,12 +129,13 @@ TEST(gap_tells_a_place_before_a_time_before_a_state) {
 
 // A bound with a misfit is what is told of a cell.
 TEST(gap_tells_the_bound_that_it_holds_a_cell_against) {
-  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[2] = {{.cell = {{.statistic = 0.0}}}};
+  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[NOMINAL_FLIGHTS] = {{.cell = {{.statistic = 0.0}}}};
   const double misfit[CHANNELS] = {[CH_WX] = 0.02};
   judged_t judged;
   log.cell[unknown_cell(CH_WX, COORDINATE_VEL_Z, false)] = (cell_t){
       .channel = CH_WX, .along = COORDINATE_VEL_Z, .size = 0.1, .statistic = 50.0, .explained = 2500.0};
-  unknown_judge(&log, nominal, 2, misfit, &judged);
+  unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
   CHECK(!judged.found && judged.cell.channel == CH_WX);
-  CHECK_NEAR(judged.cell_bound, hypot(6.5, 6.5 * 10.0), 1e-9);
+  // Ten quiet flights, and noise alone in one: of 552 windows the normal distribution's 4.28.
+  CHECK_NEAR(judged.cell_bound, hypot(3.169 * 4.28 / sqrt(11.0), 0.12 / 0.1 * 50.0), 0.01);
 }

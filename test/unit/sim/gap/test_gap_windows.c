@@ -15,13 +15,14 @@ static void put(gap_rows_t *g, int channel, int from, int to, double size) {
   for (int i = from; i < to; i++) g->residual[channel][i] += size;
 }
 
-// Of all looks.
+// Of all looks, against flights in which none finds anything.
 static cell_t largest(gap_rows_t *g) {
+  static const scan_t calm[NOMINAL_FLIGHTS];
   scan_t scan;
   judged_t judged;
   why_t why;
   CHECK_OK(unknown_scan(&g->set, &g->model, g->residual, &scan, &why));
-  unknown_judge(&scan, NULL, 0, (const double[CHANNELS]){0.0}, &judged);
+  unknown_judge(&scan, calm, NOMINAL_FLIGHTS, (const double[CHANNELS]){0.0}, &judged);
   return judged.cell;
 }
 
@@ -224,16 +225,23 @@ TEST(gap_knows_a_name_that_acts_in_one_part_only) {
 TEST(gap_knows_which_names_are_alike) {
   gap_rows_t g;
   why_t why;
-  bool alike[3];
+  bool alike[5];
   gap_rows_make(&g, 36);
   const int of = drag(&g), twin = gap_rows_candidate(&g, "flapping"),
-            other = gap_rows_candidate(&g, "climb_inflow");
+            other = gap_rows_candidate(&g, "climb_inflow"), most = gap_rows_candidate(&g, "body_drag"),
+            little = gap_rows_candidate(&g, "translational_lift");
   memcpy(gap_rows_column(&g, twin, 0, CH_FX), gap_rows_column(&g, of, 0, CH_FX), GAP_ROWS * sizeof(double));
   gap_rows_white(&g, gap_rows_column(&g, other, 0, CH_FX));
+  // x and what is apart from it: of x these give 0.66 / (0.66 + 0.36) and 0.66 / (0.66 + 1.2).
+  for (int k = 0; k < GAP_ROWS; k++) {
+    const double x = gap_rows_column(&g, of, 0, CH_FX)[k], apart = k % 2 ? 1.0 : -1.0;
+    gap_rows_column(&g, most, 0, CH_FX)[k] = x + sqrt(0.36) * apart;
+    gap_rows_column(&g, little, 0, CH_FX)[k] = x + sqrt(1.2) * apart;
+  }
   gap_rows_add(&g, of, 0, 1.0);
   gap_rows_open(&g, 1, &of);
   CHECK_OK(local_alike(&g.round, of, alike, &why));
-  CHECK(alike[of] && alike[twin] && !alike[other]);
+  CHECK(alike[of] && alike[twin] && alike[most] && !alike[little] && !alike[other]);
   gap_rows_free(&g);
 }
 
