@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RARE   0.01 // one effect in a hundred is there
-#define BEAM   16
-#define BEHIND 25.0 // a set so far behind the best of all, in logarithms, leads nowhere
+#define RARE 0.01 // one effect in a hundred is there
+#define BEAM 16   // sets of each size that are extended
 
 static const double SCALE[] = {0.5, 1.0, 2.0, 4.0}; // of what is typical
 #define SCALES ((int)(sizeof SCALE / sizeof *SCALE))
@@ -96,7 +95,6 @@ static int by_log(const void *a, const void *b) {
 
 static void search(beam_t *b) {
   evidence_set_t *const set = b->e->set;
-  double best = 0.0;
   b->e->n = 1; // nothing
   for (int from = 0, to = 1, depth = 0; depth < EVIDENCE_DEPTH && to > from; depth++) {
     const int next = b->e->n;
@@ -107,9 +105,8 @@ static void search(beam_t *b) {
           keep(b, next, &with);
         }
     qsort(set + next, (size_t)(b->e->n - next), sizeof *set, by_log);
-    if (b->e->n > next) best = fmax(best, set[next].log);
     from = next;
-    for (to = from; to < b->e->n && to < from + BEAM && set[to].log > best - BEHIND;) to++;
+    to = b->e->n < from + BEAM ? b->e->n : from + BEAM;
   }
 }
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #define MISFIT_BESIDE 0.25 // the same, of what control makes of a disturbance (fx->only_beside_nominal)
-#define LATE          0.15 // of the least lag or delay that is named
 #define SPREADS       200  // sweeps
 
 typedef struct {
@@ -128,9 +127,8 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     const fx_t *const fx = c->candidate[i].use.fx;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
-      const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
       const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : CANDIDATES_MISFIT;
-      p->wide[column] += misfit * misfit + late * late;
+      p->wide[column] += misfit * misfit;
     }
   }
 }

@@ -8,14 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUNDS  16
-#define SETTLE  6
-#define TAKES   2           // what was taken out as often as this does not come back
-#define DOUBTED (TAKES + 1) // nor what the rows do not speak for enough
+#define SETTLE 6
 
 typedef struct {
   round_t round;
-  int *taken;    // by candidate: how often it was taken in
+  bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
   bool *never;   // by candidate: it is out of question
   bool *echo;    // by candidate: something like it is there, at one place or time only
   bool *broken;  // by candidate: what it promised as another's stand-in was not kept
@@ -26,7 +23,7 @@ typedef struct {
 // The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   const score_t *const score = &t->round.score;
-  if (t->never[candidate] || t->taken[candidate] >= TAKES || !round_fits(&t->round, rest, candidate))
+  if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate))
     return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = score_last(score, &with);
@@ -49,7 +46,7 @@ static bool add_best(select_t *t) {
   }
   if (which < 0) return false;
   *choice = choice_with(choice, which);
-  t->taken[which]++;
+  t->been[which] = true;
   return true;
 }
 
@@ -121,7 +118,7 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
     if (!*dropped) continue;
     TRY(local_alike(&t->round, candidate, t->alike, why));
     for (int k = 0; k < t->round.c->n; k++)
-      if (t->alike[k] || k == candidate) t->taken[k] = TAKES, t->echo[k] = true;
+      if (t->alike[k] || k == candidate) t->been[k] = t->echo[k] = true;
     t->round.choice = choice_without(&t->round.choice, candidate);
   }
   return DONE;
@@ -152,7 +149,7 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   TRY(settle(t, why));
   TRY(left_by(t, &r->chosen, color, &after, why));
   if (after < before) {
-    t->taken[now]++;
+    t->been[now] = true;
     return DONE;
   }
   t->broken[now] = true;
@@ -161,8 +158,9 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   return round_complete(r, why);
 }
 
+// It ends: nothing comes in twice.
 static done_t step_until_still(select_t *t, why_t *why) {
-  for (int round = 0; round < ROUNDS; round++) {
+  for (;;) {
     bool swapped = false, changed = prune_one(t);
     if (!changed) TRY(try_swap(t, &swapped, why));
     if (swapped) continue;
@@ -171,7 +169,6 @@ static done_t step_until_still(select_t *t, why_t *why) {
     if (!changed) return DONE;
     TRY(settle(t, why));
   }
-  return DONE;
 }
 
 // Takes out the name that the rows speak for least, where it is more likely not there than there: what
@@ -187,7 +184,7 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
     if (odds[i] < least) least = odds[i], worst = r->choice.of[i];
   if (worst < 0) return DONE;
   for (int k = 0; k < r->c->n; k++)
-    if (round_fx(r, k) == round_fx(r, worst)) t->taken[k] = DOUBTED;
+    if (round_fx(r, k) == round_fx(r, worst)) t->been[k] = true;
   r->choice = choice_without(&r->choice, worst);
   *dropped = true;
   return settle(t, why);
@@ -199,7 +196,7 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
 static done_t search(select_t *t, why_t *why) {
   TRY(step_until_still(t, why));
   t->round.strict = true;
-  memset(t->taken, 0, (size_t)t->round.c->n * sizeof *t->taken);
+  memset(t->been, 0, (size_t)t->round.c->n * sizeof *t->been);
   memset(t->echo, 0, (size_t)t->round.c->n * sizeof *t->echo);
   memset(t->broken, 0, (size_t)t->round.c->n * sizeof *t->broken);
   TRY(round_complete(&t->round, why));
@@ -259,16 +256,15 @@ static done_t find_choice(select_t *t, const timing_t *timing, found_t *found, w
 done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,
                       const timing_t *timing, found_t *found, why_t *why) {
   const size_t n = (size_t)c->n + 1;
-  bool *const room = calloc(4 * n, sizeof *room);
-  select_t t = {.taken = calloc(n, sizeof(int)), .never = room};
-  if (room) t.echo = room + n, t.alike = room + 2 * n, t.broken = room + 3 * n;
+  bool *const room = calloc(5 * n, sizeof *room);
+  select_t t = {.never = room};
+  if (room) t.echo = room + n, t.alike = room + 2 * n, t.broken = room + 3 * n, t.been = room + 4 * n;
   t.round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t.never};
   for (int i = 0; room && i < c->n; i++) t.never[i] = c->candidate[i].barred;
   done_t status = found_make(found, c, why);
   if (status == DONE)
-    status = t.taken && room ? find_choice(&t, timing, found, why) : error_failed(why, "out of memory");
+    status = room ? find_choice(&t, timing, found, why) : error_failed(why, "out of memory");
   round_close(&t.round);
-  free(t.taken);
   free(room);
   return status;
 }
