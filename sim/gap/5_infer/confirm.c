@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LAGS        3
-#define LAG_S       0.08            // from one to the next
-#define INSTRUMENTS (LAGS * GROUPS) // of a column: forces, turning and range have their own
+// The flight itself, and so much earlier and later as rows tell apart. Of a column forces, turning and range
+// have their own.
+enum { LAGS = 3, INSTRUMENTS = LAGS * GROUPS };
 
 typedef struct {
   candidates_t names; // those that are in the model alone
@@ -85,7 +85,7 @@ static double **instrument(confirming_t *t, int channel, int column, int lag) {
 static done_t put_instruments(confirming_t *t, int flight, grid_t *quiet, int first, replay_room_t *r,
                               int column, why_t *why) {
   const grid_t *g = &t->s->grid[flight];
-  const int step = (int)fmax(1.0, round(LAG_S / g->period_s));
+  const int step = (int)fmax(1.0, round(FILTER_ROWS / RESIDUAL_HZ / g->period_s));
   for (int l = 0; l < LAGS; l++) {
     double *row[CHANNELS] = {NULL};
     for (int ch = 0; ch < CHANNELS; ch++) {

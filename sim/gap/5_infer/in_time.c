@@ -4,17 +4,17 @@
 #include "base/constants.h"
 #include "base/nth.h"
 #include "base/pair.h"
+#include "gap/5_infer/whiten.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// What lasts as long is how the vehicle flies about: longer pulses are windows of time, slower lines repeat
-// places and speeds, and with it estimators and pilots have begun.
+// What lasts as long, in seconds, is how the vehicle flies about: longer pulses are windows of time, slower
+// lines repeat places and speeds, estimators and pilots have begun with it, and a hum wider than its inverse is
+// the colour of the noise.
 #define ABOUT_S 1.0
 
 // --- pulses -----------------------------------------------------------------------------------------------
-
-#define SHORTEST 2 // rows of a pulse: what the rows' filter leaves of one
 
 // White weights of a pulse of so many rows, from its first row on: those of the rows between are all alike.
 typedef struct {
@@ -92,7 +92,7 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
   const pulses_t w = {&l->s->smooth, l->room, l->room + l->s->smooth.n};
   color_whiten(c, w.r, l->residual[ch], l->room);
-  for (int rows = SHORTEST; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
+  for (int rows = FILTER_ROWS; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
     const pulse_t p = pulse_of(c, rows);
     double largest, alike, scatter;
     int at = 0;
@@ -118,10 +118,14 @@ void in_time_pulses(const look_t *l, cell_t cell[CHANNELS]) {
 
 // --- lines ------------------------------------------------------------------------------------------------
 
-#define STRETCH_S 16 // a line is a sixteenth of a hertz wide
-#define LINES     (STRETCH_S * RESIDUAL_SMOOTH_HZ)
-#define OWN       2  // lines either side that the stretch's taper spreads one over
-#define BESIDE    12 // lines either side that it is compared with
+#define STRETCH_S 16 // a line is a sixteenth of a hertz wide: a flight of 16 s holds no narrower one
+
+enum {
+  LINES = STRETCH_S * RESIDUAL_SMOOTH_HZ,
+  OWN = 2, // lines either side that Hann's taper spreads one over
+};
+// Lines either side that one is compared with, and the slowest one.
+static const int BESIDE = (int)(STRETCH_S / ABOUT_S);
 
 typedef struct {
   double power[LINES + 1];
@@ -187,7 +191,7 @@ static spectrum_t spectrum_of(const look_t *l, const double *v, int last) {
 }
 
 static double beside(const spectrum_t *p, int at) {
-  double power[2 * BESIDE];
+  double power[LINES];
   int n = 0;
   for (int k = at - BESIDE; k <= at + BESIDE; k++)
     if (k > 0 && k <= LINES && abs(k - at) > OWN) power[n++] = p->power[k];
@@ -200,7 +204,7 @@ static void lines_in(const look_t *l, int ch, cell_t *cell) {
   const spectrum_t white = spectrum_of(l, l->room, LINES);
   int best = 0;
   double largest = cell->statistic;
-  for (int k = (int)(STRETCH_S / ABOUT_S); white.stretches && k <= LINES - OWN; k++) {
+  for (int k = BESIDE; white.stretches && k <= LINES - OWN; k++) {
     const double statistic = sqrt(white.power[k] / beside(&white, k));
     if (statistic > largest) largest = statistic, best = k;
   }

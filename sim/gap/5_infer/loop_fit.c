@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define MORE 4.0 // times the disturbance that was read off, at most
-
 typedef struct {
   double of[CH_SMOOTH]; // mean squares of rows
 } squares_t;
@@ -70,7 +68,7 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     *disturbance(&calm, ch) = 0.0;
-    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch]) / MORE);
+    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch])); // it is no more than all of it
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};
@@ -84,9 +82,8 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
     return status[i];
   }
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    const double most = ch < CH_FORCES ? MORE : 1.0; // what turns it was read before control cancelled any
     const double by = times(none.of[ch], some.of[ch], log->of[ch]);
-    *disturbance(loop, ch) *= residual_has(s, ch) ? fmin(by, most) : 0.0;
+    *disturbance(loop, ch) *= residual_has(s, ch) ? fmin(by, 1.0) : 0.0;
   }
   // A disturbance of one channel shakes the others, too: none of them more than in the log.
   double share = 1.0;

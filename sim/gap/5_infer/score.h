@@ -13,7 +13,7 @@
 #define SCORE_ERRORS 2.0 // standard errors that hold what is sure
 #define SCORE_MOST   0.5 // of what a name gives: what gives less in its place is something else
 
-#define COLUMN_MAX (CHOSEN_MAX * FX_SIZE_MAX)
+enum { COLUMN_MAX = CHOSEN_MAX * FX_SIZE_MAX };
 
 // Candidates, by number.
 typedef struct {

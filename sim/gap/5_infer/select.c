@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SETTLE 6
-
 typedef struct {
   round_t round;
   bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
@@ -89,25 +87,27 @@ static bool prune_one(select_t *t) {
   return false;
 }
 
-// Straight lines about the last values, until these stay; by half where they only go to and fro. On the way
-// only the columns of the choice are formed anew. With all of them the colours may be a little others: then
-// once more.
+// Straight lines about the last values, until these stay; by half where they only go to and fro, and no more
+// where that brings them no nearer. On the way only the columns of the choice are formed anew. With all of
+// them the colours may be a little others: then once more, as long as that comes nearer, too.
 static done_t settle(select_t *t, why_t *why) {
   const double stays = 1e-3; // of what is typical
-  double last = HUGE_VAL, share = 1.0;
+  double last = HUGE_VAL, last_of_all = HUGE_VAL, share = 1.0;
   bool all = true; // columns
-  for (int i = 0; i < SETTLE; i++) {
+  for (;;) {
     const double change = round_take(&t->round, share);
+    const bool nearer = change < 0.7 * (all ? last_of_all : last);
     if (change < stays && all) return DONE;
-    if (change > 0.7 * last) share = 0.5;
-    last = change < stays ? HUGE_VAL : change;
+    if (!nearer && share < 1.0) return all ? DONE : round_complete(&t->round, why);
+    if (!nearer) share = 0.5;
+    if (all) last_of_all = change;
+    last = all ? HUGE_VAL : change;
     all = change < stays;
     if (all)
       TRY(round_complete(&t->round, why));
     else
       TRY(round_renew(&t->round, why));
   }
-  return all ? DONE : round_complete(&t->round, why);
 }
 
 static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {

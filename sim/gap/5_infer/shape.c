@@ -92,7 +92,6 @@ static done_t minimise(polish_t *p, double x[MOST], why_t *why) {
   nlopt_set_upper_bounds(opt, p->high);
   nlopt_set_initial_step(opt, step);
   nlopt_set_xtol_abs(opt, enough);
-  nlopt_set_maxeval(opt, SHAPE_TRIES);
   const nlopt_result result = nlopt_optimize(opt, x, &least);
   nlopt_destroy(opt);
   if ((result < 0 && result != NLOPT_ROUNDOFF_LIMITED) || !(least < before)) memcpy(x, start, sizeof start);

@@ -4,8 +4,6 @@
 
 #include "gap/5_infer/found.h"
 
-#define SHAPE_TRIES 100 // replays at most, for one name
-
 // Shape and size of each named effect together (NLopt's BOBYQA: bounded, without derivatives) where they
 // leave least of the fitted flights' white sum of squares, in the colours of the model as it was selected;
 // the shape stays between the neighbours of the one that was selected. Names, p and shares stay, and a shape

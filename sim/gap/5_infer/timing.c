@@ -3,9 +3,8 @@
 
 #include "base/lsq_blocks.h"
 #include "gap/2_predict/lines.h"
+#include "gap/5_infer/score.h"
 #include <math.h>
-
-#define BETTER 50.0 // twice the logarithm of the likelihood, at least
 
 // n log(1 - c^2), c: correlation from row to row of what was measured and what was predicted. A scale that is
 // wrong does not change it, nor does what is slow.
@@ -13,12 +12,22 @@ static double unlike(const increments_t *s) {
   return s->yy > 0.0 && s->pp > 0.0 ? s->n * log(fmax(1.0 - s->yp * s->yp / s->yy / s->pp, 1e-9)) : 0.0;
 }
 
+// What so many tries take of it by chance, where standard errors grow by this.
+static double by_chance(double grow, int tries) {
+  const double errors = grow * lsq_t_quantile(SELECT_ALPHA / 2.0 / tries, HUGE_VAL);
+  return errors * errors;
+}
+
 // --- by trying them on force and turning ------------------------------------------------------------------
 
-#define STRAIGHT_S 0.045 // shorter ones the straight line finds
+#define STRAIGHT_S 0.045 // shorter ones the straight line finds: half a period of the rows' filter, nearly
 
-static const double TRY_S[] = {0.005, 0.01, 0.015, 0.025, 0.035, 0.05, 0.065, 0.08, 0.1, 0.13, 0.16};
-#define N_TRY ((int)(sizeof TRY_S / sizeof *TRY_S))
+// Three octaves below it and two above, by half octaves.
+enum { KINDS = 2, TRIES_BELOW = 6, TRIES = 11 }; // a lag, and a delay
+
+static double tried_s(int k) {
+  return STRAIGHT_S * pow(2.0, 0.5 * (k - TRIES_BELOW));
+}
 
 static done_t unlike_rows(set_t *s, const model_t *m, const lines_t *measured, const lines_t *left,
                           double *sum, why_t *why) {
@@ -37,19 +46,19 @@ static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const mo
   double none, best;
   TRY(residual_measured(s, measured->r, why));
   TRY(unlike_rows(s, m, measured, left, &none, why));
-  best = none - BETTER;
+  best = none - by_chance(SCORE_CLUSTER, KINDS * TRIES);
   for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].use.fx->group == FX_TIMING && k < N_TRY; k++) {
+    for (int k = 0; c->candidate[i].use.fx->group == FX_TIMING && k < TRIES; k++) {
       model_t with = *m;
       fx_use_t use = c->candidate[i].use;
       double now;
-      fx_use_resize(&use, 0, TRY_S[k]);
+      fx_use_resize(&use, 0, tried_s(k));
       TRY(model_add_fx(&with, &use, why));
       TRY(unlike_rows(s, &with, measured, left, &now, why));
       if (!(now < best)) continue;
       best = now;
       found->candidate = i;
-      found->value_s = TRY_S[k];
+      found->value_s = tried_s(k);
     }
   if (found->value_s <= STRAIGHT_S) found->candidate = -1;
   return DONE;
@@ -57,17 +66,12 @@ static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const mo
 
 // --- by rotor speeds --------------------------------------------------------------------------------------
 
-#define PART        0.03 // of the likelihood's logarithm, at least
-#define POINTS_GROW 3.0  // standard errors grow by this: points follow each other closely
-#define HALVINGS    16
-#define EXTRA_S     2e-3
-#define EXTRA_MAX_S 9e-3
-
 typedef struct {
   set_t *s;
   const model_t *m;
   bool lag;       // else a delay
   double extra_s; // delay that a lag may have beside it: the way of a command through the vehicle
+  double least_s; // of the lags and delays that are named
   bool failed;
 } speeds_t;
 
@@ -98,12 +102,12 @@ static double unlike_speeds(speeds_t *s, double value) {
   return sum;
 }
 
-// The least of a curve with one valley.
+// The least of a curve with one valley, as well as a right form is known of what is named at least.
 static double least_in(speeds_t *s, double from, double to) {
   const double share = 0.381966;
   double a = from + share * (to - from), b = to - share * (to - from);
   double at_a = unlike_speeds(s, a), at_b = unlike_speeds(s, b);
-  for (int i = 0; i < HALVINGS; i++)
+  while (to - from > CANDIDATES_MISFIT * s->least_s)
     if (at_a < at_b) {
       to = b;
       b = a;
@@ -118,39 +122,60 @@ static double least_in(speeds_t *s, double from, double to) {
   return 0.5 * (from + to);
 }
 
+static double best_delay(speeds_t *s, double *left) {
+  s->lag = false;
+  s->extra_s = 0.0;
+  const double value = least_in(s, 0.0, 0.06);
+  *left = unlike_speeds(s, value);
+  return value;
+}
+
+// With no delay beside it, with half or with all of what is never named.
+static double best_lag(speeds_t *s, double *left) {
+  double best = 0.0, extra_s = 0.0;
+  s->lag = true;
+  *left = HUGE_VAL;
+  for (int half = 0; half <= 2; half++) {
+    s->extra_s = 0.5 * half * s->least_s;
+    const double value = least_in(s, -0.9 * s->m->motor_tau_s, 0.25), there = unlike_speeds(s, value);
+    if (!(there < *left)) continue;
+    *left = there;
+    best = value;
+    extra_s = s->extra_s;
+  }
+  s->extra_s = extra_s;
+  return best;
+}
+
 static bool all_measured(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     if (!s->grid[f].measured_N[ROTORS - 1]) return false;
   return s->n_grid > 0;
 }
 
+// Standard errors grow by this: points follow each other far closer than rows.
+static double grown(const set_t *s) {
+  return SCORE_CLUSTER / sqrt(fmin(RESIDUAL_HZ * s->grid[0].period_s, 1.0));
+}
+
 static timing_t measured_as(speeds_t *s, int candidate, double value, double none, double now) {
+  const double grow = grown(s->s);
   const double h = 0.1 * fabs(value);
   const double bend = (unlike_speeds(s, value + h) - 2.0 * now + unlike_speeds(s, value - h)) / (h * h);
-  const double p = lsq_f_above((none - now) / (POINTS_GROW * POINTS_GROW), 1.0, fmax(s->s->n_block - 1, 2.0));
-  return (timing_t){true, candidate, value, bend > 0.0 ? POINTS_GROW * sqrt(2.0 / bend) : fabs(value), p};
+  const double p = lsq_f_above((none - now) / (grow * grow), 1.0, fmax(s->s->n_block - 1, 2.0));
+  return (timing_t){true, candidate, value, bend > 0.0 ? grow * sqrt(2.0 / bend) : fabs(value), p};
 }
 
 static done_t read_speeds(timing_t *found, const candidates_t *c, set_t *set, const model_t *m, why_t *why) {
   speeds_t s = {.s = set, .m = m};
   const double none = unlike_speeds(&s, 0.0);
-  double least = none - fmax(BETTER, PART * fabs(none));
+  double least = none - by_chance(grown(set), KINDS);
   found->measured = true;
   for (int i = 0; i < c->n; i++) {
     const fx_t *fx = c->candidate[i].use.fx;
     if (fx->group != FX_TIMING) continue;
-    s.lag = fx->lags;
-    s.extra_s = 0.0;
-    double value = least_in(&s, s.lag ? -0.9 * m->motor_tau_s : 0.0, s.lag ? 0.25 : 0.06);
-    double now = unlike_speeds(&s, value);
-    for (double extra_s = EXTRA_S; s.lag && extra_s < EXTRA_MAX_S; extra_s += EXTRA_S) {
-      s.extra_s = extra_s;
-      const double other = least_in(&s, -0.9 * m->motor_tau_s, 0.25), there = unlike_speeds(&s, other);
-      if (there < now) {
-        now = there;
-        value = other;
-      }
-    }
+    s.least_s = candidates_least(fx, set);
+    double now, value = fx->lags ? best_lag(&s, &now) : best_delay(&s, &now);
     if (!(now < least)) continue;
     *found = measured_as(&s, i, value, none, now);
     least = now;

@@ -40,7 +40,7 @@ MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int coordinate
 enum { LOOK_FLOOR = COORDINATES, LOOK_PULSE, LOOK_LINE, UNKNOWN_LOOKS }; // those before: along a coordinate
 
 // Each channel, and the lateral force (the channels before CH_FZ) in the world's axes, too.
-#define UNKNOWN_CELLS ((CHANNELS + CH_FZ) * UNKNOWN_LOOKS)
+enum { UNKNOWN_CELLS = (CHANNELS + CH_FZ) * UNKNOWN_LOOKS };
 
 // The largest cell of each channel and look.
 typedef struct {

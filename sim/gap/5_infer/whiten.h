@@ -8,6 +8,9 @@
 #include "gap/2_predict/color.h"
 #include "gap/4_candidates/candidates.h"
 
+// Rows that one is spread over by their filter: half a period of its cut-off.
+enum { FILTER_ROWS = ((int)RESIDUAL_HZ + 2 * RESIDUAL_SMOOTH_HZ - 1) / (2 * RESIDUAL_SMOOTH_HZ) };
+
 // Channels of one kind: what is right in one of them is not wrong in another.
 enum { GROUP_FORCES, GROUP_TURNING, GROUP_RANGE, GROUPS };
 

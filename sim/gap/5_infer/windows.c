@@ -6,13 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STRIPS   8                    // of the floor, each way, to find a patch
-#define MOST     6                    // strips of a patch
-#define PARTS    16                   // of a strip, to fit a patch's ends: two rows or so, in 20 s of flight
-#define BINS_MAX (STRIPS * PARTS + 1) // of any cut; one for what lies beside
-#define ROWS     4                    // of a coordinate's bin, on the average, or nothing is said
+#define STRIPS 8  // of the floor, each way, to find a patch
+#define PARTS  16 // of a strip, to fit a patch's ends: of its rows in 20 s of flight, hardly more
 
-_Static_assert(STRIPS *STRIPS <= BINS_MAX && WINDOW_FINE <= BINS_MAX && WINDOW_BINS <= BINS_MAX,
+enum {
+  MOST = STRIPS / 2,             // strips of a patch: half, as of a coordinate
+  BINS_MAX = STRIPS * PARTS + 1, // of any cut; one for what lies beside
+  ROWS = 3,                      // of a bin, on the average, or nothing is said: as many make a white one
+};
+
+_Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX,
                "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------

@@ -96,6 +96,72 @@ TEST(gap_information_widens_by_misfit_and_by_slow_noise) {
   }
 }
 
+// Control makes of a disturbance what looks like an inertia: a quarter of what is typical is no information.
+// Nor is 0.15 of the 5 ms from which on a delay is named, beside two hundredths of what is typical.
+TEST(gap_information_holds_little_of_an_inertia_and_of_lateness) {
+  static const char *const name[] = {"inertia", "delay"};
+  for (int i = 0; i < 2; i++) {
+    gap_rows_t g;
+    why_t why;
+    information_t f;
+    ROW("%s", name[i]);
+    gap_rows_make(&g, 26);
+    const int of = along(&g, name[i], CH_WX, 2000.0);
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
+    const double sd = i ? hypot(0.02, 0.15 * 0.005 / g.candidate[of].typical[0]) : 0.25;
+    CHECK_NEAR(1.0 / sqrt(f.F[0]), sd, 0.05 * sd);
+    information_free(&f);
+    gap_rows_free(&g);
+  }
+}
+
+// One effect in a hundred is there, and is a half, once, twice or four times what is typical.
+TEST(gap_evidence_weighs_four_scales_and_how_rare_an_effect_is) {
+  gap_rows_t g;
+  why_t why;
+  evidence_t e;
+  information_t f;
+  gap_rows_make(&g, 27);
+  const int of = along(&g, "rotor_drag", CH_FX, 20.0), column = 0;
+  gap_rows_add(&g, of, 0, 3.0);
+  gap_rows_nominal(&g, 0, 0.0, NULL);
+  gap_rows_open(&g, 0, NULL);
+  if (!CHECK_OK(information_make(&f, &g.round, &why)) || !CHECK_OK(evidence_make(&e, &g.round, &why))) return;
+  double sum = 0.0;
+  for (double scale = 0.5; scale <= 4.0; scale *= 2.0) {
+    const double p = 1.0 / (scale * scale);
+    sum += exp(evidence_log(&f, 1, &column, &p, &(const bool){true})) / 4.0;
+  }
+  CHECK(e.n == 2 && e.set[0].n == 1);
+  CHECK_NEAR(e.set[0].log, log(sum) + log(0.01), 1e-6);
+  information_free(&f);
+  evidence_free(&e);
+  gap_rows_free(&g);
+}
+
+// Of nine effects there are 84 sets of three. Sixteen pairs are extended by seven each, and of what that makes
+// sixteen again.
+TEST(gap_evidence_extends_the_sixteen_best_sets_of_a_size) {
+  static const char *const name[] = {"rotor_drag", "flapping",    "climb_inflow", "translational_lift", "body_drag",
+                                     "mass",       "battery_sag", "thrust_curve", "imu_misalignment"};
+  gap_rows_t g;
+  why_t why;
+  evidence_t e;
+  int of_size[EVIDENCE_DEPTH + 1] = {0};
+  gap_rows_make(&g, 28);
+  for (int k = 0; k < 9; k++) (void)along(&g, name[k], CH_FX + k % 3, 20.0);
+  gap_rows_nominal(&g, 0, 0.0, NULL);
+  gap_rows_open(&g, 0, NULL);
+  if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
+  for (int i = 0; i < e.n; i++) of_size[e.set[i].n]++;
+  CHECK(of_size[1] == 9 && of_size[2] == 36);
+  CHECK_NEAR(of_size[3], 66, 4); // of ten pairs 55, of twenty-four more than 70
+  evidence_free(&e);
+  gap_rows_free(&g);
+}
+
 TEST(gap_evidence_finds_a_set_and_leaves_the_rest_out) {
   static const struct {
     const char *what;

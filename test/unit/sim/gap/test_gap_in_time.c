@@ -96,6 +96,7 @@ TEST(gap_finds_a_line_where_it_is_narrow_and_faster_than_the_flight) {
     CHECK((cell.statistic > 6.0) == row[i].found);
     if (row[i].found) CHECK(cell.from >= (row[i].from - 1.5) / 16.0 && cell.to <= (row[i].to + 1.5) / 16.0);
     if (row[i].found && row[i].from == row[i].to) CHECK_NEAR(cell.size, 0.2, 0.03);
+    if (row[i].found) CHECK_NEAR(cell.to - cell.from, 2.0 / 16.0, 1e-9);
     gap_rows_free(&g);
   }
 }

@@ -125,6 +125,16 @@ TEST(gap_finds_a_corner_a_pulse_and_a_shake) {
   }
 }
 
+// An edge's place among all rows, in sixteenths of the floor's eight strips.
+static double among_rows(const gap_rows_t *g, bool is_y, double edge) {
+  int below = 0;
+  for (int k = 0; k < GAP_ROWS; k++) {
+    const d3_t at = g->grid.point[k].pos_w_m;
+    below += (is_y ? at.y : at.x) < edge;
+  }
+  return 128.0 * below / GAP_ROWS;
+}
+
 // A few rows at one spot are no place, however large: a hover shows hundreds of spots.
 TEST(gap_patch_of_the_floor_is_no_narrower_than_a_strip) {
   gap_rows_t g;
@@ -146,6 +156,9 @@ TEST(gap_patch_of_the_floor_is_no_narrower_than_a_strip) {
     inside_y += at.y >= c->y_from_m && at.y <= c->y_to_m;
   }
   CHECK(inside_x >= GAP_ROWS / 8 - 1 && inside_y >= GAP_ROWS / 8 - 1);
+  const double edge[] = {among_rows(&g, false, c->from), among_rows(&g, false, c->to),
+                         among_rows(&g, true, c->y_from_m), among_rows(&g, true, c->y_to_m)};
+  for (int k = 0; k < 4; k++) CHECK_NEAR(edge[k], round(edge[k]), 0.13); // a row is 0.11
   gap_rows_free(&g);
 }
 
@@ -172,7 +185,7 @@ TEST(gap_bins_hold_equally_many_rows_each) {
   gap_rows_make(&g, 33);
   CHECK(windows_bins(&g.set, &g.model, COORDINATE_HEIGHT, 0, room, bin));
   for (int i = 0; i < GAP_ROWS; i++) count[bin[i]]++;
-  for (int k = 0; k < WINDOW_BINS; k++) CHECK_NEAR(count[k], GAP_ROWS / WINDOW_BINS, 2);
+  for (int k = 0; k < WINDOW_BINS; k++) CHECK_NEAR(count[k], 100, 2); // of 1200
   CHECK(!windows_bins(&g.set, &g.model, COORDINATE_Y, 0, room, bin));      // it does not move
   CHECK(!windows_bins(&g.set, &g.model, COORDINATE_HEIGHT, 1, room, bin)); // no row
   gap_rows_free(&g);
@@ -251,7 +264,7 @@ TEST(gap_finds_a_long_delay_by_trying_and_no_delay_where_there_is_none) {
   static const struct {
     const char *hidden;
     double s;
-  } row[] = {{NULL, 0.0}, {"delay", 0.01}, {"motor_lag", 0.08}};
+  } row[] = {{NULL, 0.0}, {"delay", 0.01}, {"motor_lag", 0.04}, {"motor_lag", 0.058}, {"motor_lag", 0.08}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     model_t base, truth;
     why_t why = {""};
@@ -278,7 +291,7 @@ TEST(gap_finds_a_long_delay_by_trying_and_no_delay_where_there_is_none) {
     CHECK((found.candidate >= 0) == (row[i].s > 0.045) && !found.measured);
     if (found.candidate >= 0) {
       CHECK_TEXT(c.candidate[found.candidate].use.fx->name, row[i].hidden);
-      CHECK_NEAR(found.value_s, row[i].s, 0.016);
+      CHECK_NEAR(found.value_s, row[i].s, 0.2 * row[i].s); // half of half an octave
     }
     candidates_free(&c);
     set_free(&set);
