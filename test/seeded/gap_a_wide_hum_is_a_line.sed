@@ -1,4 +1,4 @@
 # The colour of the noise is told as a line.
 # file: sim/gap/5_infer/in_time.c
 # test: gap_finds_a_line_where
-s/^#define BESIDE    12/#define BESIDE    24/
+s/^static const int BESIDE = (int)(STRETCH_S/static const int BESIDE = (int)(2 * STRETCH_S/

@@ -5,10 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RARE 0.01 // one effect in a hundred is there
-#define BEAM 16   // sets of each size that are extended
+// One effect in a hundred is there.
+#define RARE 0.01
+// Sets of each size that are extended: the right one is among the best, and alike ones fill a few places.
+#define BEAM 16
 
-static const double SCALE[] = {0.5, 1.0, 2.0, 4.0}; // of what is typical
+// Of what is typical, the spread of the priors: a name is told from an eighth on, and is rarely beyond four.
+static const double SCALE[] = {0.5, 1.0, 2.0, 4.0};
 #define SCALES ((int)(sizeof SCALE / sizeof *SCALE))
 
 typedef struct {

@@ -5,7 +5,8 @@
 #include "gap/5_infer/round.h"
 #include "gap/5_infer/timing.h"
 
-#define CONFIRM_F 10.0 // of the first stage, at least (Staiger and Stock 1997)
+// Of the first stage, at least: with less the instrument's own bias counts (Staiger and Stock 1997).
+#define CONFIRM_F 10.0
 
 // What the reference trajectory as an instrument says of a name (confirm.h).
 typedef enum { CONFIRM_NOT_TRIED, CONFIRM_WEAK, CONFIRM_NO, CONFIRM_YES } confirm_answer_t;
@@ -47,7 +48,7 @@ typedef struct {
   double left, left_before; // white sums of squares, with and without what is named
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
   int *alike;    // by column: the first of those that these flights would not tell from it, or itself
-  bool *echo; // by candidate: something like it is there, at one place or time only: it was not tried
+  bool *echo;    // by candidate: something like it is there, at one place or time only: it was not tried
 } found_t;
 
 // Nothing found yet. FAILED: no memory. Free it, also on an error.

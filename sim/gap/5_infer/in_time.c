@@ -10,8 +10,8 @@
 #include <string.h>
 
 // What lasts as long, in seconds, is how the vehicle flies about: longer pulses are windows of time, slower
-// lines repeat places and speeds, estimators and pilots have begun with it, and a hum wider than its inverse is
-// the colour of the noise.
+// lines repeat places and speeds, estimators and pilots have begun with it, and a hum wider than its inverse
+// is the colour of the noise.
 #define ABOUT_S 1.0
 
 // --- pulses -----------------------------------------------------------------------------------------------
@@ -118,7 +118,8 @@ void in_time_pulses(const look_t *l, cell_t cell[CHANNELS]) {
 
 // --- lines ------------------------------------------------------------------------------------------------
 
-#define STRETCH_S 16 // a line is a sixteenth of a hertz wide: a flight of 16 s holds no narrower one
+// A line is a sixteenth of a hertz wide: a flight of 16 s holds no narrower one.
+#define STRETCH_S 16
 
 enum {
   LINES = STRETCH_S * RESIDUAL_SMOOTH_HZ,

@@ -10,8 +10,8 @@
 // quarter of what is typical has been named where nothing was hidden.
 #define MISFIT_BESIDE 0.25
 
-// Of the least lag or delay that is named, in both of them: instruments are late by a part of it. Without it a
-// wrong drag beside a lag is as sure as a right one.
+// Of the least lag or delay that is named, in both of them: instruments are late by a part of it. Without it
+// a wrong drag beside a lag is as sure as a right one.
 #define LATE 0.15
 
 typedef struct {

@@ -99,8 +99,8 @@ static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t 
   return DONE;
 }
 
-// Of a range and of what lies beside it, over all places: as many parts are tried.
-#define RANGES (WINDOW_BINS * (WINDOW_BINS + 1))
+// Of a coordinate, and what lies beside each: as many parts are tried.
+enum { RANGES = WINDOW_BINS * (WINDOW_BINS + 1) };
 
 // In the one part, of which these are the sums, and not in the other. That one must hold as much as a bin
 // does of what is excited everywhere: a right form with other numbers is wrong where it is hardly excited.

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HARM 0.01 // of the sum of squares of a group of channels
-#define FAR  10.0 // times the typical size: what the ridge takes to be possible
+// Of the sum of squares of a group of channels, that a name may add to it: so much the others' errors move it.
+#define HARM 0.01
+// Times the typical size, that a number may be: the ridge keeps one back that a half-flight does not show.
+#define FAR 10.0
 
 done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
   *j = (score_t){
@@ -266,7 +268,8 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     if (!can_be(c, k, v->value[k], 0.0)) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
-  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > score_nominal_bound(j->nominal ? j->nominal->n : 0);
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&
+         v->over_nominal > score_nominal_bound(j->nominal ? j->nominal->n : 0);
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

@@ -5,13 +5,22 @@
 #include "gap/5_infer/nominal_sums.h"
 
 // What a candidate needs to enter (select.h).
+//
+// Chance, of whatever is told: one candidate, window, range or lag in a hundred, over all that are tried.
 #define SELECT_ALPHA 0.01
-#define SELECT_GAIN  0.004
-#define SELECT_SURE  0.9  // gain over the root of the sum of its squares: one half-flight alone gives 1
-#define SELECT_LEAST 0.12 // of what is typical: smaller ones are not named
+// Of the sum of squares that is left: of less the rest of the model is not known well enough.
+#define SELECT_GAIN 0.004
+// Gain over the root of the sum of its squares: one half-flight alone gives 1, and four that are alike 2.
+#define SELECT_SURE 0.9
+// Of what is typical: six times what a right form with other numbers leaves (CANDIDATES_MISFIT).
+#define SELECT_LEAST 0.12
 
-#define SCORE_ERRORS 2.0 // standard errors that hold what is sure
-#define SCORE_MOST   0.5 // of what a name gives: what gives less in its place is something else
+// Standard errors that hold what is sure: 95 in a hundred.
+#define SCORE_ERRORS 2.0
+// Of what a name gives: what gives less in its place is something else.
+#define SCORE_MOST 0.5
+// Standard errors of white sums grow by this: rows are not quite independent.
+#define SCORE_CLUSTER 1.5
 
 enum { COLUMN_MAX = CHOSEN_MAX * FX_SIZE_MAX };
 
@@ -53,7 +62,6 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
 
 // The other choice does as well, within two standard errors: it leaves D more, and D <= SCORE_RIVAL_SPAN d
 // where the two fits are d apart, white, because D has a standard error of 2 d.
-#define SCORE_CLUSTER    1.5 // standard errors grow by this: white rows are not quite independent
 #define SCORE_RIVAL_SPAN (SCORE_ERRORS * 2.0 * SCORE_CLUSTER)
 #define SCORE_RIVAL_LEFT (SCORE_RIVAL_SPAN * SCORE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
 // unexplained: what neither explains, in white standard errors; it may prefer the wrong one by 2 d so much.

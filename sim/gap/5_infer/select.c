@@ -21,8 +21,7 @@ typedef struct {
 // The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   const score_t *const score = &t->round.score;
-  if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate))
-    return HUGE_VAL;
+  if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate)) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = score_last(score, &with);
   if (!score_allows(score, &with, &v) || !score_is_sure(score, rest, &with) ||

@@ -20,13 +20,14 @@ static double by_chance(double grow, int tries) {
 
 // --- by trying them on force and turning ------------------------------------------------------------------
 
-#define STRAIGHT_S 0.045 // shorter ones the straight line finds: half a period of the rows' filter, nearly
+// Shorter ones the straight line finds: half a period of the rows' filter is 62 ms.
+#define STRAIGHT_S 0.045
 
-// Three octaves below it and two above, by half octaves.
-enum { KINDS = 2, TRIES_BELOW = 6, TRIES = 11 }; // a lag, and a delay
+// Three octaves below it and two above, by thirds: beside a coarser grid a lag looks better than a delay.
+enum { KINDS = 2, TRIES_BELOW = 9, TRIES = 16 }; // a lag, and a delay
 
 static double tried_s(int k) {
-  return STRAIGHT_S * pow(2.0, 0.5 * (k - TRIES_BELOW));
+  return STRAIGHT_S * pow(2.0, (k - TRIES_BELOW) / 3.0);
 }
 
 static done_t unlike_rows(set_t *s, const model_t *m, const lines_t *measured, const lines_t *left,

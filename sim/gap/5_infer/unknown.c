@@ -217,7 +217,9 @@ double unknown_in_windows(const scan_t *scan) {
 
 // --- what is beyond nominal flights -----------------------------------------------------------------------
 
-#define TIE 0.8 // of what explains most, that explains as much: windows end on bins
+// Of what explains most, that explains as much: a window ends on a bin, and may miss a fifth of what is
+// there.
+#define TIE 0.8
 
 // The largest statistic of all windows of a coordinate, where there is noise alone.
 static double of_noise(void) {

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STRIPS 8  // of the floor, each way, to find a patch
-#define PARTS  16 // of a strip, to fit a patch's ends: of its rows in 20 s of flight, hardly more
+// Of the floor, each way, as many rows in each, to find a patch: all 26^2 of them are tried in every flight.
+#define STRIPS 8
+// Of a strip, to fit a patch's ends: 20 s of flight hold four rows a part.
+#define PARTS 16
 
 enum {
   MOST = STRIPS / 2,             // strips of a patch: half, as of a coordinate
@@ -15,8 +17,7 @@ enum {
   ROWS = 3,                      // of a bin, on the average, or nothing is said: as many make a white one
 };
 
-_Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX,
-               "every cut has room");
+_Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX, "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------
 

@@ -45,14 +45,14 @@ MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
 void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]);
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]);
 
+// Bins of equally many rows that a coordinate is cut into: of a minute five seconds each.
 #define WINDOW_BINS 12
 
-// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and of
-// equal width, for a layer may be thin.
+// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and
+// of equal width, for a layer may be thin.
 enum {
   WINDOW_FINE = 3 * WINDOW_BINS,
-  WINDOWS_TRIED =
-      WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
+  WINDOWS_TRIED = WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
 };
 
 // The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not

@@ -126,6 +126,11 @@ TEST(gap_names_an_effect_of_which_the_vehicle_file_has_another_number) {
   }
 }
 
+// A bias of a tenth at most, as against that of least squares.
+TEST(gap_asks_of_an_instrument_what_staiger_and_stock_do) {
+  CHECK_NEAR(CONFIRM_F, 10.0, 0.0);
+}
+
 // Noise of the measured speed weakens the drag that depends on it; the set points know no such noise.
 TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
   static const flown_t how = {"rotor_drag:k=3e-6", true, false, true};

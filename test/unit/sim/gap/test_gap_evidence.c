@@ -141,11 +141,12 @@ TEST(gap_evidence_weighs_four_scales_and_how_rare_an_effect_is) {
   gap_rows_free(&g);
 }
 
-// Of nine effects there are 84 sets of three. Sixteen pairs are extended by seven each, and of what that makes
-// sixteen again.
+// Of nine effects there are 84 sets of three. Sixteen pairs are extended by seven each, and of what that
+// makes sixteen again.
 TEST(gap_evidence_extends_the_sixteen_best_sets_of_a_size) {
-  static const char *const name[] = {"rotor_drag", "flapping",    "climb_inflow", "translational_lift", "body_drag",
-                                     "mass",       "battery_sag", "thrust_curve", "imu_misalignment"};
+  static const char *const name[] = {"rotor_drag",         "flapping",     "climb_inflow",
+                                     "translational_lift", "body_drag",    "mass",
+                                     "battery_sag",        "thrust_curve", "imu_misalignment"};
   gap_rows_t g;
   why_t why;
   evidence_t e;

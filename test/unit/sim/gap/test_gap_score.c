@@ -90,8 +90,8 @@ TEST(gap_score_asks_for_more_where_few_nominal_flights_could_be_flown) {
   }
 }
 
-// Strong and then weak columns, by half-flight. What each gains with the number that the others have, over the
-// root of the sum of squares: 2 where all are alike, and else as told.
+// Strong and then weak columns, by half-flight. What each gains with the number that the others have, over
+// the root of the sum of squares: 2 where all are alike, and else as told.
 TEST(gap_score_is_not_sure_of_what_one_half_flight_alone_shows) {
   static const struct {
     const char *what;
@@ -249,9 +249,9 @@ TEST(gap_score_s_ridge_is_that_of_ten_times_what_is_typical) {
 }
 
 // Over what is typical, of a column that has so many standard errors there. Beside two of these: the Wald
-// test's bound, 3.9 of them for one of three candidates in 23 blocks; the gain, 0.004 of what 7200 rows leave;
-// what another one that gives all but 2e-4 of it could not, the root of 36 over these; and the least that is
-// named.
+// test's bound, 3.9 of them for one of three candidates in 23 blocks; the gain, 0.004 of what 7200 rows
+// leave; what another one that gives all but 2e-4 of it could not, the root of 36 over these; and the least
+// that is named.
 TEST(gap_tells_the_least_size_that_would_have_been_seen) {
   static const struct {
     const char *what;

@@ -34,8 +34,8 @@ TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
 }
 
 // In the nominal flights one look finds ten times what is usual: that bounds chance, and says nothing about
-// what a right form with other numbers leaves, 0.02 of what is typical: of that size 0.12 is told, as of names.
-// Chance is the root of F(1, 10)'s upper hundredth, 3.17, times 42.
+// what a right form with other numbers leaves, 0.02 of what is typical: of that size 0.12 is told, as of
+// names. Chance is the root of F(1, 10)'s upper hundredth, 3.17, times 42.
 TEST(gap_measures_a_misfit_by_itself_and_not_by_nominal_flights) {
   static const struct {
     double statistic, size;
