@@ -68,7 +68,7 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     *disturbance(&calm, ch) = 0.0;
-    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch])); // it is no more than all of it
+    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch])); // to begin with, all of it
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};
@@ -83,7 +83,9 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   }
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     const double by = times(none.of[ch], some.of[ch], log->of[ch]);
-    *disturbance(loop, ch) *= residual_has(s, ch) ? fmin(by, 1.0) : 0.0;
+    const double most = ch < CH_FORCES ? HUGE_VAL : 1.0; // what turns it was read before control cancelled it
+    if (isfinite(by)) *disturbance(loop, ch) *= fmin(by, most);
+    if (!residual_has(s, ch)) *disturbance(loop, ch) = 0.0;
   }
   // A disturbance of one channel shakes the others, too: none of them more than in the log.
   double share = 1.0;

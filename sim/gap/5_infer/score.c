@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of the sum of squares of a group of channels, that a name may add to it: so much the others' errors move it.
+// Of the sum of squares of a group of channels, that a name may add: so much the others' errors move it.
 #define HARM 0.01
 // Times the typical size, that a number may be: the ridge keeps one back that a half-flight does not show.
 #define FAR 10.0
