@@ -1,4 +1,4 @@
 # What feedback alone makes as much of is named.
 # file: sim/gap/5_infer/score.c
 # test: gap_score_lets_in
-s/> score_nominal_bound(/> 0.1 * score_nominal_bound(/
+s/> limits_nominal(/> 0.1 * limits_nominal(/

@@ -128,7 +128,7 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
   int column[COLUMN_MAX];
   const double blocks = fmax(r->gram.n_block - choice_columns(r->c, with, column), 2.0);
   const double wald = sqrt(c->n * lsq_f_quantile(SELECT_ALPHA / r->c->n, c->n, blocks));
-  const double nominal = score_nominal_bound(r->nominal ? r->nominal->n : 0) * sqrt(c->n);
+  const double nominal = limits_nominal(r->nominal ? r->nominal->n : 0) * sqrt(c->n);
   double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX], unit[FX_SIZE_MAX], least = 0.0;
   if (!(v.stderr_[0] > 0.0)) return 0.0; // no residual depends on it
   score_nominal_rms(&r->score, with, rms);

@@ -4,11 +4,8 @@
 #define SIM_GAP_5_INFER_NOMINAL_SUMS_H
 
 #include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/limits.h"
 #include "gap/5_infer/unknown.h"
-
-// Of the model along each track: with ten the bound of a name is 3.2 times their rms, with three 5.8, and
-// with more hardly less.
-#define NOMINAL_FLIGHTS 10
 
 // Sums of products of nominal flights, one matrix each, with the columns of the candidates.
 typedef struct {

@@ -239,10 +239,6 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
-double score_nominal_bound(int flights) {
-  return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, flights ? flights : NOMINAL_FLIGHTS));
-}
-
 // Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
 static bool can_be(const candidate_t *c, int k, double value, double margin) {
   const fx_size_t *size = &c->use.fx->size[k];
@@ -269,7 +265,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&
-         v->over_nominal > score_nominal_bound(j->nominal ? j->nominal->n : 0);
+         v->over_nominal > limits_nominal(j->nominal ? j->nominal->n : 0);
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

@@ -2,25 +2,8 @@
 #ifndef SIM_GAP_5_INFER_SCORE_H
 #define SIM_GAP_5_INFER_SCORE_H
 
+#include "gap/5_infer/limits.h"
 #include "gap/5_infer/nominal_sums.h"
-
-// What a candidate needs to enter (select.h).
-//
-// Chance, of whatever is told: one candidate, window, range or lag in a hundred, over all that are tried.
-#define SELECT_ALPHA 0.01
-// Of the sum of squares that is left: of less the rest of the model is not known well enough.
-#define SELECT_GAIN 0.004
-// Gain over the root of the sum of its squares: one half-flight alone gives 1, and four that are alike 2.
-#define SELECT_SURE 0.9
-// Of what is typical: six times what a right form with other numbers leaves (CANDIDATES_MISFIT).
-#define SELECT_LEAST 0.12
-
-// Standard errors that hold what is sure: 95 in a hundred.
-#define SCORE_ERRORS 2.0
-// Of what a name gives: what gives less in its place is something else.
-#define SCORE_MOST 0.5
-// Standard errors of white sums grow by this: rows are not quite independent.
-#define SCORE_CLUSTER 1.5
 
 enum { COLUMN_MAX = CHOSEN_MAX * FX_SIZE_MAX };
 
@@ -86,10 +69,6 @@ verdict_t score_last(const score_t *j, const choice_t *choice);
 
 // It may be in the choice: gates (a), (b), (c).
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
-
-// So many times its rms on nominal flights a candidate must be: of so few flights' normal errors SELECT_ALPHA
-// are larger. Of several numbers as of one: in a flight they err together. 0 flights: as of NOMINAL_FLIGHTS.
-double score_nominal_bound(int flights);
 
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
 bool score_is_possible(const score_t *j, const choice_t *choice);

@@ -3,7 +3,7 @@
 // To enter, a candidate needs
 //   (a) p < 0.01 over the number of candidates, of a cluster-robust Wald F over blocks of 2 s,
 //   (b) the sign that physics gives it, and a size of at least 0.12 of what is typical (and its own least
-//   one), (c) a coefficient above score_nominal_bound times its rms on nominal flights (nominal_sums.h), (d)
+//   one), (c) a coefficient above limits_nominal times its rms on nominal flights (nominal_sums.h), (d)
 //   a cross-validated gain of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
 // A lag or delay below 5 ms, or below one period of the log, is what feedback alone looks like, or streams
 // that are not aligned: it is taken into the model, and not named. A name that others could stand for is

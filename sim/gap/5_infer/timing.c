@@ -3,7 +3,7 @@
 
 #include "base/lsq_blocks.h"
 #include "gap/2_predict/lines.h"
-#include "gap/5_infer/score.h"
+#include "gap/5_infer/limits.h"
 #include <math.h>
 
 // n log(1 - c^2), c: correlation from row to row of what was measured and what was predicted. A scale that is

@@ -3,7 +3,7 @@
 
 #include "base/lsq_blocks.h"
 #include "gap/5_infer/in_time.h"
-#include "gap/5_infer/score.h"
+#include "gap/5_infer/limits.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -288,7 +288,7 @@ static void weigh_ties(const scan_t *log, judged_t *to) {
 
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to) {
-  double furthest = score_nominal_bound(n), most = -HUGE_VAL;
+  double furthest = limits_nominal(n), most = -HUGE_VAL;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
       furthest = fmax(furthest, nominal[i].cell[k].statistic / usual(nominal, n, i, k));

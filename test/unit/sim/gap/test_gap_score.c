@@ -86,7 +86,7 @@ TEST(gap_score_asks_for_more_where_few_nominal_flights_could_be_flown) {
   } row[] = {{10, 3.169}, {3, 5.841}, {2, 9.925}, {0, 3.169}}; // none: as of the ten that are flown
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%d flights", row[i].flights);
-    CHECK_NEAR(score_nominal_bound(row[i].flights), row[i].bound, 2e-3);
+    CHECK_NEAR(limits_nominal(row[i].flights), row[i].bound, 2e-3);
   }
 }
 
