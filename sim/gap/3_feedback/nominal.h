@@ -4,9 +4,9 @@
 //
 // The pilot is the one that the vehicle file names ([controller], nominal_known.h), else a cascade of
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
-// height; with as much lead on the rates as makes its commands as noisy as the log's. Noise and disturbance are those of the log: sensors by what two
-// successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by what the residual
-// has beyond that.
+// height; with as much lead on the rates as makes its commands as noisy as the log's. Noise and disturbance
+// are those of the log: sensors by what two successive samples differ by, disturbing force and moment
+// (first-order Gauss-Markov) by what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
@@ -19,8 +19,8 @@
 // How a flight was flown and measured.
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
-  double rate_lead[3];            // 1: the same per angular acceleration, as a pilot sees it from call to call
-  double climb_gain, height_gain; // 1/s, 1/s2
+  double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
+  double climb_gain, height_gain;                                                      // 1/s, 1/s2
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
