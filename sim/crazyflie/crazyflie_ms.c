@@ -1,0 +1,223 @@
+// crazyflie_ms.c - a millisecond of a Crazyflie on the host.
+#include "crazyflie.h"
+
+#include "base/clip.h"
+#include "base/constants.h"
+#include "base/pair.h"
+#include "controller.h"
+#include "plant/rotor.h"
+#include "range.h"
+#include "stand_in.h"
+#include <math.h>
+#include <string.h>
+
+#define RANGE_NONE_M 32.767f
+#define UNIT_MAX     65535.0
+
+#define TO_FIRMWARE(to, scale, from)                                                                         \
+  do {                                                                                                       \
+    (to).x = (float)((scale) * (from).x);                                                                    \
+    (to).y = (float)((scale) * (from).y);                                                                    \
+    (to).z = (float)((scale) * (from).z);                                                                    \
+  } while (0)
+
+// The angles cost more than all the rest, and in most milliseconds the estimate does not turn.
+static void take_attitude(crazyflie_t *c, dq_t q_wb) {
+  if (memcmp(&q_wb, &c->q_wb, sizeof q_wb) == 0) return;
+  c->q_wb = q_wb;
+  const stock_angles_t angles = stock_angles(q_wb);
+  c->state.attitude.roll = (float)angles.roll_deg;
+  c->state.attitude.pitch = (float)angles.pitch_deg;
+  c->state.attitude.yaw = (float)angles.yaw_deg;
+  TO_FIRMWARE(c->state.attitudeQuaternion, 1.0, q_wb);
+  c->state.attitudeQuaternion.w = (float)q_wb.w;
+}
+
+static void measure(crazyflie_t *c, const pilot_in_t *in) {
+  sensorData_t *const sensors = &c->sensors;
+  state_t *const state = &c->state;
+  TO_FIRMWARE(sensors->acc, 1.0 / G_MPS2, in->acc_b_mps2);
+  TO_FIRMWARE(sensors->gyro, DEG_PER_RAD, in->gyro_b_radps);
+  TO_FIRMWARE(state->position, 1.0, in->pos_w_m);
+  TO_FIRMWARE(state->velocity, 1.0, in->vel_w_mps);
+  take_attitude(c, in->q_wb);
+}
+
+static stab_mode_t mode_of(pilot_mode_t mode) {
+  return mode == PILOT_POSITION ? modeAbs : mode == PILOT_VELOCITY ? modeVelocity : modeDisable;
+}
+
+static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
+  const bool level = set->mode[0] == PILOT_OFF || set->mode[1] == PILOT_OFF;
+  setpoint_t sp = {
+      .mode = {.x = mode_of(set->mode[0]),
+               .y = mode_of(set->mode[1]),
+               .z = mode_of(set->mode[2]),
+               .roll = level ? modeAbs : modeDisable,
+               .pitch = level ? modeAbs : modeDisable,
+               .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
+      .velocity_body = set->vel_in_body,
+      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
+      .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
+      .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
+  };
+  TO_FIRMWARE(sp.position, 1.0, set->pos_w_m);
+  TO_FIRMWARE(sp.velocity, 1.0, set->vel_mps);
+  TO_FIRMWARE(sp.acceleration, 1.0, set->acc_w_mps2);
+  return sp;
+}
+
+// Most set points stand for seconds: the firmware's is made when another one is asked for.
+static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
+  if (!c->ordered || memcmp(set, &c->asked, sizeof *set) != 0) {
+    memcpy(&c->asked, set, sizeof *set);
+    c->setpoint = order(c, set);
+  }
+  c->setpoint.timestamp = c->around.clock_ms;
+}
+
+// The firmware cuts metres, a float, to whole millimetres in 16 bits.
+static void range(crazyflie_t *c, const pilot_in_t *in) {
+  if (in->down_new)
+    c->around.range_mm[rangeDown] = (uint16_t)fminf(fmaxf((float)in->down_m * 1000.0f, 0.0f), 65535.0f);
+  if (!in->range_new) return;
+  const float m = isnan(in->range_m) ? RANGE_NONE_M : (float)in->range_m;
+  c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
+}
+
+// The firmware's power distribution, in the two modes that the app and the stock controller command.
+static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
+  if (control->controlMode == controlModeLegacy) {
+    const stock_command_t command = {.roll = control->roll,
+                                     .pitch = control->pitch,
+                                     .yaw = control->yaw,
+                                     .thrust = (double)control->thrust};
+    stock_mix(&command, unit);
+    return;
+  }
+  for (int i = 0; i < PILOT_MOTORS; i++)
+    unit[i] = trunc(UNIT_MAX * clip((double)control->normalizedForces[i], 0.0, 1.0));
+}
+
+static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+  double unit[PILOT_MOTORS] = {0.0}, duty[PILOT_MOTORS];
+  if (c->around.motors_allowed) distribute(&c->control, unit);
+  if (c->compensates)
+    stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
+  else
+    memcpy(duty, unit, sizeof duty);
+  c->around.battery_V = (float)in->vbat_V;
+  for (int i = 0; i < PILOT_MOTORS; i += 2)
+    pair_put(motor_N + i,
+             rotor_command_pair_N(&c->map, pair_of(duty + i), in->vbat_V, c->firmware.thrust_max_N));
+  for (int i = 0; i < PILOT_MOTORS; i++) {
+    c->around.duty[i] = (uint16_t)duty[i];
+  }
+}
+
+// Whoever flew before has commanded this.
+static void take_over(crazyflie_t *c, const pilot_in_t *in) {
+  c->control.controlMode = controlModeForce;
+  bool flies = false;
+  for (int i = 0; i < PILOT_MOTORS; i++) {
+    c->control.normalizedForces[i] = (float)(in->applied_N[i] / c->firmware.thrust_max_N);
+    flies = flies || in->applied_N[i] > 0.0;
+  }
+  if (!c->command) c->supervised = supervised_begun(flies, c->around.clock_ms);
+  c->power.supply_V = in->vbat_V;
+  c->around.battery_V = (float)in->vbat_V;
+  c->called = true;
+}
+
+static bool acts(const stand_in_t *around) {
+  for (int i = 0; i < PILOT_MOTORS; i++)
+    if (around->duty[i] > 0) return true;
+  return false;
+}
+
+static void supervise(crazyflie_t *c) {
+  const Axis3f acc = c->sensors.acc;
+  const supervised_in_t in = {.now_ms = c->around.clock_ms,
+                              .motors = acts(&c->around),
+                              .acc_g = {acc.x, acc.y, acc.z},
+                              .setpoint_ms = c->setpoint.timestamp,
+                              .fed_ms = c->around.fed_ms,
+                              .stop = c->stop};
+  if (!supervised_update(&c->supervised, &c->supervised_by, &in)) return;
+  if (c->supervised.state == SUPERVISED_LOCKED) stand_in_print("SUP: Locked, reboot required\n");
+  if (c->supervised.state == SUPERVISED_CRASHED) stand_in_print("SUP: Crashed, recovery required\n");
+}
+
+// Whether it changed anything.
+static bool override(const supervised_t *s, setpoint_t *set) {
+  if (s->state == SUPERVISED_LEVEL_OUT) {
+    set->mode.x = set->mode.y = modeDisable;
+    set->mode.roll = set->mode.pitch = modeAbs;
+    set->mode.yaw = modeVelocity;
+    set->attitude.roll = set->attitude.pitch = 0.0f;
+    set->attitudeRate.yaw = 0.0f;
+    return true;
+  }
+  if (supervised_motors_run(s)) return false;
+  *set = (setpoint_t){.thrust = 0.0f};
+  return true;
+}
+
+static void fly(crazyflie_t *c, const pilot_in_t *in) {
+  c->now = in;
+  if (c->fly)
+    c->fly(c->fly_context, &c->control, &c->setpoint, &c->sensors, &c->state, in->step);
+  else
+    controllerOutOfTree(&c->control, &c->setpoint, &c->sensors, &c->state, in->step);
+}
+
+static pilot_mode_t pilot_mode(stab_mode_t mode) {
+  return mode == modeAbs ? PILOT_POSITION : mode == modeVelocity ? PILOT_VELOCITY : PILOT_OFF;
+}
+
+// The firmware's set point as the host's controllers take it: the way back of order().
+static pilot_setpoint_t as_pilot(const crazyflie_t *c, const setpoint_t *sp) {
+  const double k = RAD_PER_DEG;
+  const bool tilts = sp->mode.roll == modeAbs && sp->mode.pitch == modeAbs;
+  return (pilot_setpoint_t){
+      .mode = {pilot_mode(sp->mode.x), pilot_mode(sp->mode.y), pilot_mode(sp->mode.z)},
+      .pos_w_m = {(double)sp->position.x, (double)sp->position.y, (double)sp->position.z},
+      .vel_in_body = sp->velocity_body,
+      .vel_mps = {(double)sp->velocity.x, (double)sp->velocity.y, (double)sp->velocity.z},
+      .acc_w_mps2 = {(double)sp->acceleration.x, (double)sp->acceleration.y, (double)sp->acceleration.z},
+      .roll_rad = tilts ? k * (double)sp->attitude.roll : 0.0,
+      .pitch_up_rad = tilts ? k * (double)sp->attitude.pitch : 0.0,
+      .yaw_by_rate = sp->mode.yaw != modeAbs,
+      .yaw_rad = k * (double)sp->attitude.yaw,
+      .yaw_rate_radps = sp->mode.yaw == modeVelocity ? k * (double)sp->attitudeRate.yaw : 0.0,
+      .thrust_N = (double)sp->thrust * PILOT_MOTORS * c->firmware.thrust_max_N / UNIT_MAX,
+  };
+}
+
+void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+  stand_in = &c->around;
+  if (!c->called) take_over(c, in);
+  measure(c, in);
+  range(c, in);
+  if (c->command)
+    c->setpoint = c->command(c->command_context, &c->state, in->step);
+  else
+    take_order(c, &in->set);
+  const bool may = supervised_can_fly(&c->supervised);
+  if (!may) c->setpoint = (setpoint_t){.timestamp = 0};
+  if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
+  const bool overridden = override(&c->supervised, &c->setpoint);
+  c->ordered = !c->command && may && !overridden; // else it is made anew
+  c->around.can_fly = supervised_can_fly(&c->supervised);
+  c->around.flying = supervised_flies(&c->supervised);
+  c->around.motors_allowed = supervised_motors_run(&c->supervised);
+  if (c->command) {
+    pilot_in_t told = *in;
+    told.set = as_pilot(c, &c->setpoint);
+    fly(c, &told);
+  } else {
+    fly(c, in);
+  }
+  drive(c, in, motor_N);
+  c->around.clock_ms++;
+}
