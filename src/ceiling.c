@@ -53,7 +53,7 @@ void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
 }
 
 void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods) {
-  const int steps = periods < CEILING_HISTORY ? periods : CEILING_HISTORY; // more are not remembered
+  const int steps = EITHER(periods < CEILING_HISTORY, periods, CEILING_HISTORY); // more are not remembered
   for (int i = 0; i < steps; i++) ceiling_predict(s, p, climb_m / (float)steps);
   s->blind_s += (float)(periods - steps) * s->period_s;
 }

@@ -269,7 +269,8 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
 // Nothing to stay upright with: all motors alike.
 static void run_blind(flight_t *f, float thrust_N) {
   const float each_N = f_clamp(0.25f * thrust_N, 0.0f, f->outer.param.mixer.force_max_N);
-  f->out.motors = mixer_of(&f->outer.param.mixer, (const float[MOTORS]){each_N, each_N, each_N, each_N});
+  const float all_N[MOTORS] = {each_N, each_N, each_N, each_N};
+  f->out.motors = mixer_of(&f->outer.param.mixer, all_N);
 }
 
 static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {

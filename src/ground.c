@@ -30,5 +30,6 @@ void ground_step(ground_t *g, const curve_param_t *c, const learn_param_t *p, co
 }
 
 status_t ground_learn(ground_t *g, const learn_param_t *p) {
-  return g->turn ? learn_update(&g->learn, p, &g->sample, g->sample_excess) : ST_OK;
+  if (!g->turn) return ST_OK;
+  return learn_update(&g->learn, p, &g->sample, g->sample_excess);
 }

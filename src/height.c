@@ -25,6 +25,7 @@ static void begin(height_t *s, const height_in_t *in) {
   *s = (height_t){
       .x = {in->z_m - s->off_m, in->climb_mps, 0.0f, f_bound(bias_mps2, HEIGHT_BIAS_MAX)},
       .P = {{BEGIN_H_VAR}, {0.0f, BEGIN_W_VAR}, {0.0f, 0.0f, BEGIN_D_VAR}, {0.0f, 0.0f, 0.0f, BEGIN_B_VAR}},
+      .off_m = s->off_m,
       .thrust_N = in->thrust_N,
       .sent_N = {in->thrust_N, in->thrust_N, in->thrust_N},
       .acc_odd = 1.0f,
@@ -32,7 +33,6 @@ static void begin(height_t *s, const height_in_t *in) {
       .share = s->share,
       .more_m = s->more_m,
       .more_mps = s->more_mps,
-      .off_m = s->off_m,
       .started = true};
 }
 
@@ -113,7 +113,7 @@ static float slant(float up) {
 
 static void take_down(height_t *s, float down_m, float acc_mps2) {
   s->silent = 0;
-  s->same = down_m != s->down_last_m ? 0 : s->same < HEIGHT_SAME ? s->same + 1 : HEIGHT_SAME;
+  s->same = EITHER(down_m != s->down_last_m, 0, EITHER(s->same < HEIGHT_SAME, s->same + 1, HEIGHT_SAME));
   s->down_last_m = down_m;
   const float then_m =
       s->x[HEIGHT_H] - HEIGHT_DOWN_AGE_S * (s->x[HEIGHT_W] - 0.5f * HEIGHT_DOWN_AGE_S * acc_mps2);
@@ -173,7 +173,7 @@ void height_step(height_t *s, const height_param_t *p, float motor_share, const 
   s->acc_mps2 = acc_mps2 + s->x[HEIGHT_D] - before_mps2;
   follow(s, in->z_m);
   const bool state = is_state(s), good = state && fits(s, in) && p->own != 0;
-  s->fit = !good ? 0 : s->fit < HEIGHT_FIT ? s->fit + 1 : HEIGHT_FIT;
+  s->fit = EITHER(!good, 0, EITHER(s->fit < HEIGHT_FIT, s->fit + 1, HEIGHT_FIT));
   if (!state) s->off_m = 0.0f;
   if (!good) begin(s, in);
 }

@@ -105,7 +105,8 @@ static bool too_near(guard_t *g, const guard_in_t *in) {
   if (g->nearer < 0 || g->nearer > TOO_NEAR_MOST) g->nearer = 0; // a flipped bit
   if (in->range_new) {
     const int by = nearer(g, in);
-    g->nearer = by > 0 ? g->nearer + by : g->nearer > TOO_NEAR_LESS ? g->nearer - TOO_NEAR_LESS : 0;
+    g->nearer =
+        EITHER(by > 0, g->nearer + by, EITHER(g->nearer > TOO_NEAR_LESS, g->nearer - TOO_NEAR_LESS, 0));
     if (g->nearer > TOO_NEAR_MOST) g->nearer = TOO_NEAR_MOST;
   }
   return g->nearer >= TOO_NEAR_SUM;
@@ -160,7 +161,7 @@ static bool ratio(guard_t *g, const guard_in_t *in) {
   }
   g->ratio_now += f_min(dt / RATIO_MEAN_S, 1.0f) * (shown - g->ratio_now);
   const float now = g->ratio_now;
-  const float over_s = now > g->ratio_usual ? RATIO_SLOW_S : RATIO_FAST_S;
+  const float over_s = EITHER(now > g->ratio_usual, RATIO_SLOW_S, RATIO_FAST_S);
   g->ratio_usual += f_min(dt / over_s, 1.0f) * (now - g->ratio_usual);
   fit_growth(&g->growth, shown - g->ratio_usual, dt * g->vel_w_mps.z, 1.0f - f_min(dt / GROWTH_MEAN_S, 1.0f));
   const bool high = now > RATIO_NEAR * g->ratio_usual && in->zc_known && in->zc_m > RATIO_FAR_M;

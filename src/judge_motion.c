@@ -44,7 +44,7 @@ static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS);
   g->vel_raw = in->vel_w_mps;
   g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
-  g->impact_ms = v3_within(in->acc_b_mps2, IMPACT_MPS2) ? g->impact_ms - in->ms : IMPACT_MS;
+  g->impact_ms = EITHER(v3_within(in->acc_b_mps2, IMPACT_MPS2), g->impact_ms - in->ms, IMPACT_MS);
   if (g->impact_ms < 0) g->impact_ms = 0;
   g->vel_lost = (odd || g->vel_lost) && g->vel_calm_ms < GUARD_VELOCITY_GONE_MS && g->impact_ms == 0;
   g->vel_odd_ms = judge_longer(g->vel_odd_ms, g->vel_lost, in->ms);

@@ -30,7 +30,7 @@ static unsigned next_of(flight_t *f, unsigned others) {
 // none comes, each call has the inner loop and one of them. The ground's curve is in no hurry: where it would
 // not be alone it is left out.
 static unsigned one_of(flight_t *f, unsigned due) {
-  f->waited = f->waiting == 0 ? 0 : f->waited < WAIT_MAX ? f->waited + 1 : WAIT_MAX + 1;
+  f->waited = EITHER(f->waiting == 0, 0u, EITHER(f->waited < WAIT_MAX, f->waited + 1u, WAIT_MAX + 1u));
   due |= f->waiting;
   if (due != FLIGHT_GROUND) due &= ~(unsigned)FLIGHT_GROUND;
   const unsigned others = due & ~(unsigned)FLIGHT_INNER;
@@ -73,14 +73,15 @@ bool watch_time(flight_t *f, uint32_t step) {
     if (f->phase > 9) f->phase = f->step_last % 10; // a flipped bit
     if (since != 1) f->guard.latched |= GUARD_TIME;
     if (since == 0) return false;
-    const unsigned ms = since <= MS_MAX ? since : since < 0x80000000u ? MS_MAX : 1; // backwards: one
+    const unsigned ms =
+        EITHER(since <= MS_MAX, since, EITHER(since < 0x80000000u, MS_MAX, 1u)); // backwards: one
     f->due = one_of(f, due_after(f->phase, ms));
     if (ms != 1) lose_ground(f);
     const unsigned to = f->phase + ms;
     // An outer period that was skipped altogether is known to the outer loop.
     if (to >= 20) outer_miss(&f->outer, to / 10 - 1);
     f->phase = to % 10;
-    f->inner_ms = f->inner_ms < INNER_MS_MAX ? f->inner_ms + (int)ms : INNER_MS_MAX;
+    f->inner_ms = EITHER(f->inner_ms < INNER_MS_MAX, f->inner_ms + (int)ms, INNER_MS_MAX);
     f->step_last = step - ms; // so that the guard can read the time
   }
   return true;

@@ -12,8 +12,7 @@
 
 // The time for which something lasts, ms more now.
 static inline int judge_longer(int total_ms, bool lasts, int ms) {
-  if (!lasts) return 0;
-  return total_ms < JUDGE_MS_MAX - ms ? total_ms + ms : JUDGE_MS_MAX;
+  return EITHER(!lasts, 0, EITHER(total_ms < JUDGE_MS_MAX - ms, total_ms + ms, JUDGE_MS_MAX));
 }
 
 // The first plausible call.

@@ -124,7 +124,7 @@ void outer_scrub(outer_t *f, const outer_in_t *in);
 
 // So many more periods without a step.
 static inline void outer_miss(outer_t *f, unsigned ticks) {
-  f->missed = f->missed + ticks < OUTER_MISSED_MAX ? f->missed + ticks : OUTER_MISSED_MAX;
+  f->missed = EITHER(f->missed + ticks < OUTER_MISSED_MAX, f->missed + ticks, OUTER_MISSED_MAX);
 }
 
 // Something else than the rotors carries: a floor, a hand.

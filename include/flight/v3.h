@@ -19,6 +19,12 @@ typedef struct {
   float w, x, y, z;
 } quat_t;
 
+// a where it holds, else b. The simulator flies many vehicles at a time (sim/base/lane_c.hpp), and computes
+// both.
+#ifndef EITHER
+#define EITHER(holds, a, b) ((holds) ? (a) : (b))
+#endif
+
 // False for NaN and both infinities.
 static inline bool f_finite(float x) {
   return fabsf(x) <= FLT_MAX;
@@ -26,23 +32,22 @@ static inline bool f_finite(float x) {
 
 // x limited to lo..hi; NaN gives lo, so that lo must be a value that does no harm.
 static inline float f_clamp(float x, float lo, float hi) {
-  return !(x >= lo) ? lo : x > hi ? hi : x;
+  return EITHER(!(x >= lo), lo, EITHER(x > hi, hi, x));
 }
 
 // x limited to +-bound; NaN gives 0. For what is worst at a bound.
 static inline float f_bound(float x, float bound) {
-  if (fabsf(x) <= bound) return x;
-  return x > 0.0f ? bound : x < 0.0f ? -bound : 0.0f;
+  return EITHER(fabsf(x) <= bound, x, EITHER(x > 0.0f, bound, EITHER(x < 0.0f, -bound, 0.0f)));
 }
 
 // The larger one; NaN in x gives lo. (fmaxf is a libm call.)
 static inline float f_max(float x, float lo) {
-  return x > lo ? x : lo;
+  return EITHER(x > lo, x, lo);
 }
 
 // The smaller one; NaN in x gives hi.
 static inline float f_min(float x, float hi) {
-  return x < hi ? x : hi;
+  return EITHER(x < hi, x, hi);
 }
 
 // Every component within +-bound; NaN and infinities are not.

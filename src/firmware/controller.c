@@ -37,7 +37,7 @@ static void take_down(flight_in_t *in) {
   const float mm = rangeGet(rangeDown);
   const bool same = mm == GLUE.down_mm && GLUE.down_same < DOWN_SAME_POLLS;
   in->down_m = same ? 0.0f : 0.001f * mm;
-  GLUE.down_same = same ? (uint8_t)(GLUE.down_same + 1) : 0;
+  GLUE.down_same = (uint8_t)EITHER(same, GLUE.down_same + 1, 0);
   GLUE.down_mm = mm;
 }
 
@@ -111,7 +111,7 @@ static void run_stock(control_t *control, const setpoint_t *setpoint, const sens
 // It last flew long ago, or never: the heading that it turns by a rate, and its sums, are of then. No thrust
 // wanted makes it let go of both; in step 0 each of its loops runs.
 static void start_stock(control_t *control, const sensorData_t *sensors, const state_t *state) {
-  static const setpoint_t NOTHING;
+  static const setpoint_t NOTHING = {.thrust = 0.0f};
   run_stock(control, &NOTHING, sensors, state, 0);
 }
 

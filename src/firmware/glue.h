@@ -9,7 +9,7 @@
 #include "flight/flyable.h"
 #include "range_up.h"
 
-#define PUT_BACK_WORDS ((int)(sizeof(flight_param_t) / 4 + 31) / 32) // a bit for each row of four bytes
+enum { PUT_BACK_WORDS = (sizeof(flight_param_t) / sizeof(float) + 31) / 32 }; // a bit for each row
 
 // Of radio.c.
 typedef struct {
