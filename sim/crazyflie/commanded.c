@@ -95,7 +95,7 @@ static quaternion_t quat_of(uint32_t bits) {
     left -= part[i] * part[i];
   }
   part[largest] = sqrtf(fmaxf(left, 0.0f));
-  return (quaternion_t){.q0 = part[0], .q1 = part[1], .q2 = part[2], .q3 = part[3]};
+  return (quaternion_t){.x = part[0], .y = part[1], .z = part[2], .w = part[3]};
 }
 
 // Position, speed, acceleration in mm, the attitude, and mrad/s.

@@ -50,16 +50,16 @@ static stab_mode_t mode_of(pilot_mode_t mode) {
 static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
   const bool level = set->mode[0] == PILOT_OFF || set->mode[1] == PILOT_OFF;
   setpoint_t sp = {
+      .attitude = {.yaw = (float)(DEG_PER_RAD * set->yaw_rad)},
+      .attitudeRate = {.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f},
+      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
+      .velocity_body = set->vel_in_body,
       .mode = {.x = mode_of(set->mode[0]),
                .y = mode_of(set->mode[1]),
                .z = mode_of(set->mode[2]),
                .roll = level ? modeAbs : modeDisable,
                .pitch = level ? modeAbs : modeDisable,
                .yaw = set->yaw_by_rate ? modeVelocity : modeAbs},
-      .velocity_body = set->vel_in_body,
-      .thrust = (float)(UNIT_MAX * set->thrust_N / (PILOT_MOTORS * c->firmware.thrust_max_N)),
-      .attitude.yaw = (float)(DEG_PER_RAD * set->yaw_rad),
-      .attitudeRate.yaw = set->yaw_by_rate ? (float)(DEG_PER_RAD * set->yaw_rate_radps) : 0.0f,
   };
   TO_FIRMWARE(sp.position, 1.0, set->pos_w_m);
   TO_FIRMWARE(sp.velocity, 1.0, set->vel_mps);
@@ -88,10 +88,10 @@ static void range(crazyflie_t *c, const pilot_in_t *in) {
 // The firmware's power distribution, in the two modes that the app and the stock controller command.
 static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
   if (control->controlMode == controlModeLegacy) {
-    const stock_command_t command = {.roll = control->roll,
+    const stock_command_t command = {.thrust = (double)control->thrust,
+                                     .roll = control->roll,
                                      .pitch = control->pitch,
-                                     .yaw = control->yaw,
-                                     .thrust = (double)control->thrust};
+                                     .yaw = control->yaw};
     stock_mix(&command, unit);
     return;
   }

@@ -24,13 +24,8 @@ typedef struct {
 } attitude_t;
 
 // q0 is x, not w.
-typedef union {
-  struct {
-    float q0, q1, q2, q3;
-  };
-  struct {
-    float x, y, z, w;
-  };
+typedef struct {
+  float x, y, z, w;
 } quaternion_t;
 
 typedef struct sensorData_s {

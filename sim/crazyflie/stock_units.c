@@ -3,6 +3,7 @@
 
 #include "base/clip.h"
 #include "base/constants.h"
+#include "base/either.h"
 #include "base/pair.h"
 
 #define SUPPLY_START_V 4.2
@@ -105,7 +106,7 @@ static void near_V(const double c[4], const pair_t thrust_N[PAIRS], const pair_b
       goes_on[i] &= ~((step < near) & (-step < near));
     }
   for (int k = 0; k < PILOT_MOTORS; k++) {
-    const int i = k / 2;
+    const alike_t i = k / 2;
     if ((goes_on[i] | (asked[i] & ~known[i]))[k % 2]) v[i][k % 2] = cubic_V(c, thrust_N[i][k % 2]);
   }
 }

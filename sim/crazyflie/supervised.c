@@ -1,6 +1,8 @@
 // supervised.c - the firmware's supervisor.
 #include "supervised.h"
 
+#include "base/either.h"
+
 #include <math.h>
 
 #define FLYING_MS      2000 // so long after the last thrust it still flies
@@ -91,7 +93,7 @@ static bool tumbles(supervised_t *s, const supervised_in_t *in) {
 }
 
 static unsigned when(bool condition, unsigned bit) {
-  return condition ? bit : 0;
+  return EITHER(condition, bit, 0u);
 }
 
 static unsigned look(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in) {
@@ -124,7 +126,7 @@ static void enter(supervised_t *s, supervised_state_t state, uint32_t now_ms) {
 supervised_t supervised_begun(bool flies, uint32_t now_ms) {
   supervised_t s = {.state = SUPERVISED_BEGIN, .armed = true};
   enter(&s, flies ? SUPERVISED_FLYING : SUPERVISED_READY, now_ms);
-  if (flies) s.thrust_ms = now_ms > 0 ? now_ms : 1;
+  if (flies) s.thrust_ms = EITHER(now_ms > 0, now_ms, 1u);
   return s;
 }
 

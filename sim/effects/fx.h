@@ -5,6 +5,7 @@
 #ifndef SIM_EFFECTS_FX_H
 #define SIM_EFFECTS_FX_H
 
+#include "base/either.h"
 #include "base/pair.h"
 #include "base/random.h"
 #include "plant/rigid.h"
@@ -234,7 +235,7 @@ static inline void fx_push_hub(const fx_hub_t *hub, d3_t force_b_N, load_t *load
 
 // So many candidates is it.
 static inline int fx_variants(const fx_t *fx) {
-  return (fx->n_shape ? fx->n_shape : 1) * (fx->n_kind ? fx->n_kind : 1);
+  return EITHER(fx->n_shape > 0, fx->n_shape, 1) * EITHER(fx->n_kind > 0, fx->n_kind, 1);
 }
 
 extern const fx_t *const fx_table[];

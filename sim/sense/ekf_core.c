@@ -2,6 +2,7 @@
 #include "sense/ekf.h"
 
 #include "base/constants.h"
+#include "base/either.h"
 #include "base/larger.h"
 #include "base/pair.h"
 #include <math.h>
@@ -19,18 +20,18 @@ enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
 #define TURN_LEAST_RAD   1e-4               // smaller corrections of the attitude are lost
 
 static double at_most(double p) {
-  return p < VARIANCE_MAX ? p : VARIANCE_MAX; // NaN too
+  return where(p < VARIANCE_MAX, p, VARIANCE_MAX); // NaN too
 }
 
 // Of the diagonal.
 static double bounded(double p) {
   const double most = at_most(p);
-  return most > VARIANCE_MIN ? most : VARIANCE_MIN;
+  return where(most > VARIANCE_MIN, most, VARIANCE_MIN);
 }
 
 // A row of the variance, its diagonal and what is right of it; in pairs, so that one element left of it may
 // change, too.
-static inline void put_row(ekf_t *e, int i, const double row[EKF_ROW]) {
+static inline void put_row(ekf_t *e, alike_t i, const double row[EKF_ROW]) {
   const pair_t most = pair_both(VARIANCE_MAX);
   for (int j = i & ~1; j < EKF_ROW; j += 2) pair_put(e->P[i] + j, pair_min(pair_of(row + j), most));
   e->P[i][i] = bounded(e->P[i][i]);
@@ -44,11 +45,11 @@ static inline void whole_of(const ekf_t *e, double P[EKF_N][EKF_ROW]) {
   }
 }
 
-static d3_t part(const ekf_t *e, int at) {
+static d3_t part(const ekf_t *e, alike_t at) {
   return (d3_t){e->s[at], e->s[at + 1], e->s[at + 2]};
 }
 
-static void add(ekf_t *e, int at, d3_t v) {
+static void add(ekf_t *e, alike_t at, d3_t v) {
   e->s[at] += v.x;
   e->s[at + 1] += v.y;
   e->s[at + 2] += v.z;
@@ -93,7 +94,7 @@ typedef struct {
   _Alignas(16) double across[EKF_N][EKF_ROW];
 } slopes_t;
 
-static inline void slope(slopes_t *s, int i, int k, double value) {
+static inline void slope(slopes_t *s, alike_t i, alike_t k, double value) {
   s->A[i][k] = s->across[k][i] = value;
 }
 
@@ -116,7 +117,7 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
 
 // own + a M for a row a of the part POS, VEL or ATT: its columns from that part on, without a's blocks that
 // are 0. The estimator's time goes here.
-static inline void row_times(int part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
+static inline void row_times(alike_t part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
                              double *out) {
   for (int j = part & ~1; j < EKF_ROW; j += 2) {
     pair_t sum = part == POS ? pair_of(own + j) : pair_both(0.0);
@@ -125,7 +126,7 @@ static inline void row_times(int part, const double *own, const double *a, doubl
   }
 }
 
-static inline void spread_part(ekf_t *e, int part, slopes_t *s, double P[EKF_N][EKF_ROW]) {
+static inline void spread_part(ekf_t *e, alike_t part, slopes_t *s, double P[EKF_N][EKF_ROW]) {
   for (int i = part; i < part + 3; i++) {
     _Alignas(16) double half[EKF_ROW], own[EKF_ROW] = {0.0}, row[EKF_ROW];
     row_times(part, P[i], s->A[i], P, half);
@@ -166,12 +167,12 @@ void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   e->updated = true;
 }
 
-static double variance(const ekf_t *e, int i, int j) {
+static double variance(const ekf_t *e, alike_t i, alike_t j) {
   return i < j ? e->P[i][j] : e->P[j][i];
 }
 
 // One number measured: error = measured - h, its slope a to state i and b to state j.
-static void correct(ekf_t *e, int i, double a, int j, double b, double error, double sd) {
+static void correct(ekf_t *e, alike_t i, double a, alike_t j, double b, double error, double sd) {
   _Alignas(16) double Ph[EKF_ROW] = {0.0}, row[EKF_ROW];
   for (int k = 0; k < EKF_N; k++) Ph[k] = variance(e, k, i) * a + variance(e, k, j) * b;
   const double inverse = 1.0 / (a * Ph[i] + b * Ph[j] + sd * sd);

@@ -2,7 +2,9 @@
 #include "sense/imu.h"
 
 #include "base/clip.h"
+#include "base/either.h"
 #include "base/lowpass.h"
+#include <stddef.h>
 
 #define RATE_HZ 1000.0
 
@@ -57,18 +59,16 @@ static void settle(const imu_filter_t *f, imu_memory_t m[3], d3_t v) {
     m[i] = (imu_memory_t){.next = x[i] - f->b0 * x[i], .after = f->b0 * x[i] - f->a2 * x[i]};
 }
 
-imu_sample_t imu_step(imu_t *s, const imu_param_t *p, random_t *r, const truth_t *truth) {
+imu_sample_t imu_take(imu_t *s, const imu_param_t *p, const double *n, const truth_t *truth) {
   d3_t acc = read(truth->force_b_mps2, p->mount_rad, p->acc_scale, p->acc_bias_b_mps2);
   d3_t gyro = read(truth->rate_b_radps, p->mount_rad, p->gyro_scale, p->gyro_bias_b_radps);
-  if (r) {
-    double n[6];
-    random_triangles(r, 6, n);
+  if (n) {
     const bool on = truth->motors;
     const double raw_acc = 1.0 / s->acc.gain, raw_gyro = 1.0 / s->gyro.gain;
-    acc = shake(acc, n, raw_acc * (on ? p->acc_xy_mps2 : p->acc_rest_mps2),
-                raw_acc * (on ? p->acc_z_mps2 : p->acc_rest_mps2));
-    gyro = shake(gyro, n + 3, raw_gyro * (on ? p->gyro_xy_radps : p->gyro_rest_radps),
-                 raw_gyro * (on ? p->gyro_z_radps : p->gyro_rest_radps));
+    acc = shake(acc, n, raw_acc * EITHER(on, p->acc_xy_mps2, p->acc_rest_mps2),
+                raw_acc * EITHER(on, p->acc_z_mps2, p->acc_rest_mps2));
+    gyro = shake(gyro, n + 3, raw_gyro * EITHER(on, p->gyro_xy_radps, p->gyro_rest_radps),
+                 raw_gyro * EITHER(on, p->gyro_z_radps, p->gyro_rest_radps));
   }
   acc = clip_axes(acc, IMU_ACC_MAX_MPS2);
   gyro = clip_axes(gyro, IMU_GYRO_MAX_RADPS);
@@ -78,4 +78,10 @@ imu_sample_t imu_step(imu_t *s, const imu_param_t *p, random_t *r, const truth_t
     s->started = true;
   }
   return (imu_sample_t){filter_axes(&s->acc, s->memory, acc), filter_axes(&s->gyro, s->memory + 3, gyro)};
+}
+
+imu_sample_t imu_step(imu_t *s, const imu_param_t *p, random_t *r, const truth_t *truth) {
+  double drawn[IMU_DRAWN];
+  if (r) random_triangles(r, IMU_DRAWN, drawn);
+  return imu_take(s, p, r ? drawn : NULL, truth);
 }

@@ -56,4 +56,8 @@ void imu_init(imu_t *s);
 // One period of 1 ms. r: a null pointer for no noise.
 imu_sample_t imu_step(imu_t *s, const imu_param_t *p, random_t *r, const truth_t *truth);
 
+// The same with noise that was drawn before (random_triangles); a null pointer for none.
+#define IMU_DRAWN 6
+imu_sample_t imu_take(imu_t *s, const imu_param_t *p, const double *drawn, const truth_t *truth);
+
 #endif

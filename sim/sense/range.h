@@ -22,6 +22,7 @@
 #define RANGE_DOWN_MAX_M     4.0   // farther than this the downward sensor says RANGE_DOWN_NOTHING_M
 #define RANGE_DOWN_NOTHING_M 8.191 // the driver passes no status on: what is beyond reach is just far
 #define RANGE_FLOW_PERIOD_MS 10
+#define RANGE_ANY_PERIOD_MS  5                      // divides them all
 #define RANGE_COUNTS_PER_RAD (35.0 / 0.71674 / 0.1) // pixels over aperture, a tenth of a pixel a count
 #define RANGE_FLOW_NEAREST_M 0.02                   // nearer than this the flow grows no more
 
@@ -68,5 +69,17 @@ void range_init(range_t *s);
 
 // One period of 1 ms.
 range_sample_t range_step(range_t *s, const range_param_t *p, random_t *r, const truth_t *truth);
+
+// The same in two steps: what the period draws, whatever is seen, and what it makes of it. Of those sensors
+// that have nothing new the numbers have no meaning.
+typedef struct {
+  double up_age_ms, up_error_m;
+  double down; // of standard deviation 1
+  double flow_x, flow_y;
+} range_drawn_t;
+
+range_drawn_t range_draw(const range_t *s, const range_param_t *p, random_t *r);
+range_sample_t range_take(range_t *s, const range_param_t *p, const range_drawn_t *drawn,
+                          const truth_t *truth);
 
 #endif

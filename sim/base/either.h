@@ -1,0 +1,17 @@
+// either.h - one of two numbers, and one of a list, in code that is compiled for eight vehicles at a time,
+// too (base/lane_c.hpp): what takes the place of `? :` and [] where they depend on numbers. Header only.
+#ifndef SIM_BASE_EITHER_H
+#define SIM_BASE_EITHER_H
+
+// A whole number that is one and the same for all of them.
+typedef int alike_t;
+
+// a where it holds, else b; eight at a time both are computed.
+#ifndef EITHER // flight/v3.h has it, too
+#define EITHER(holds, a, b) ((holds) ? (a) : (b))
+#endif
+
+// Element i, which may be another one for each vehicle.
+#define PICK(list, i) ((list)[i])
+
+#endif
