@@ -8,11 +8,9 @@
 #define SIM_FLIGHT_LOOP_H
 
 #include "flight/drawn.h"
-#include "flight/over.h"
+#include "flight/loop_parts.h"
 #include "flight/plan.h"
 #include "flight/record.h"
-
-#define LOOP_TICK_S 0.002
 
 typedef struct {
   int contacts;           // with the ceiling
@@ -27,16 +25,10 @@ typedef struct {
 MUST_CHECK done_t loop_fly(const plan_t *plan, const model_t *model, const pilot_t *pilot, record_t *record,
                            outcome_t *outcome, why_t *why);
 
-// The same, tick by tick, for one who sets the pace. plan, model and pilot must outlive the loop. Errors as
-// loop_fly's; *loop is null then.
-typedef struct flight_loop flight_loop_t;
+// The same, tick by tick (flight/loop_parts.h), for one who sets the pace. plan, model and pilot must outlive
+// the loop. Errors as loop_fly's; *loop is null then.
 MUST_CHECK done_t loop_open(flight_loop_t **loop, const plan_t *plan, const model_t *model,
                             const pilot_t *pilot, drawn_t *drawn, why_t *why);
-
-// Sensors, estimator and pilot of a tick; FLIGHT_FLIES: then the vehicle is to be moved. *seen is set where a
-// sample is due, and good until the next call.
-flight_over_t loop_tick(flight_loop_t *loop, tick_t *seen, bool *is_sample);
-void loop_move(flight_loop_t *loop);
 
 // What flies: to be looked at, and between two ticks to be changed (numbers of effects that are on, the
 // ceiling with its surface, charge, pushes, the estimate).

@@ -1,0 +1,32 @@
+// senses.h - one millisecond of sensors and estimator, from what is true to what the pilot gets.
+//
+// What is drawn comes first, so that one vehicle and eight at a time take the same from there.
+#ifndef SIM_FLIGHT_SENSES_H
+#define SIM_FLIGHT_SENSES_H
+
+#include "crazyflie/pilot.h"
+#include "sense/ekf.h"
+#include "sense/mocap.h"
+#include "sense/noise.h"
+#include "sense/range.h"
+
+typedef struct {
+  imu_t imu;
+  range_t range;
+  ekf_in_t seen; // the pose is only there with motion capture
+  ekf_t ekf;
+  ekf_out_t estimate; // what was finished in the millisecond before
+} senses_t;
+
+typedef struct {
+  double imu[IMU_DRAWN];
+  range_drawn_t range;
+  bool by_mocap; // in place of the downward sensors
+  mocap_sample_t mocap;
+} senses_drawn_t;
+
+// in: sensors, estimate, and what of them is new.
+void senses_take(senses_t *s, const imu_param_t *imu, const range_param_t *range, const senses_drawn_t *drawn,
+                 const truth_t *truth, pilot_in_t *in);
+
+#endif
