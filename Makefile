@@ -42,7 +42,16 @@ DESK_SRC  := $(call sources,sim/desk)
 SIM_SRC   := $(filter-out $(DESK_SRC),$(call sources,src sim))
 objects    = $(patsubst %,$(B)/%.o,$(basename $(1)))
 TABLES     = $(patsubst %,$(B)/gen/%_table.o,fx curve scenario vehicle style) $(B)/gen/version.o
-SIM_OBJ    = $(call objects,$(SIM_SRC)) $(TABLES)
+SIM_OBJ    = $(call objects,$(SIM_SRC)) $(TABLES) $(LANES_OBJ)
+# What is compiled a second time, for eight vehicles at a time (sim/base/lane_c.hpp): flight code, sensors, estimator.
+LANES_SRC := $(filter-out src/params.c,$(wildcard src/*.c)) $(addprefix src/firmware/,battery_cap.c controller.c range_up.c recorder.c settings.c units.c) \
+  $(addprefix sim/,crazyflie/crazyflie_ms.c crazyflie/stand_in_vehicle.c crazyflie/stock_units.c crazyflie/supervised.c flight/senses.c base/lowpass.c \
+    plant/rotor.c plant/thrust_map.c sense/ekf.c sense/ekf_core.c sense/imu.c sense/range.c)
+LANES_H   := $(filter-out sim/base/lane%,$(shell find include src sim -name '*.h'))
+ifeq ($(shell uname -m),x86_64)
+LANES_OBJ  = $(patsubst %.c,$(B)/lanes/%.o,$(LANES_SRC))
+endif
+LANES_OBJ += $(B)/lanes/fields.o
 DESK_OBJ   = $(call objects,$(DESK_SRC)) $(B)/gen/page.o
 PROGRAMS   = fly learn effectiveness gap slot bench bound desk
 # What the tests run.
@@ -127,7 +136,27 @@ $(B)/test/exam/other/%.o: SEES = -Itest
 # Eight vehicles side by side: C compiled as C++, and with what lane_possible() has asked the processor for.
 $(B)/sim/body/lanes.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES)
 $(B)/sim/body/lanes.o: $(O)/gen/lanes_table.inc
-LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
+AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
+# Their sources go through tools/lanes.sed first, headers too.
+LANES_CPP  = $(CXX) -std=c++20 $(OPT) $(WARN) $(LANES_WARN) $(SANITIZE) -MMD -MP $(FLIGHT_FLAGS) -fno-math-errno $(AVX2)
+LANES_WARN = -Wno-extra -Wno-pedantic -Wno-shadow -Wno-conversion -Wno-missing-field-initializers -Wno-unused-function -Wno-c99-designator -Wno-return-type-c-linkage
+LANES_SEE  = $(patsubst %,-I$(O)/gen/lanes/%,include src src/firmware sim sim/crazyflie) -Isim
+LANES_SEEN = $(patsubst %,$(O)/gen/lanes/%,$(LANES_H))
+$(O)/gen/lanes/%: % tools/lanes.sed
+	@mkdir -p $(@D)
+	@sed -zEf tools/lanes.sed $< >$@
+$(B)/lanes/%.o: $(O)/gen/lanes/%.c $(B)/flags | $(LANES_SEEN) setup
+	@$(begin)
+	@mkdir -p $(@D)
+	@printf '%s\n' '#include "base/lane_c.hpp"' 'namespace lanes {' $(if $(filter src/firmware/%,$*),'#include "here.h"') '#include "$(abspath $<)"' '}' | \
+	 $(LANES_CPP) $(LANES_SEE) -MF $(@:.o=.d) -MT $@ -x c++ -o $@ -c -
+$(B)/lanes/fields.o: sim/flight/lanes_fields.cpp $(B)/flags | $(LANES_SEEN) setup
+	@$(begin)
+	@mkdir -p $(@D)
+	@$(LANES_CPP) -DLANE_FIELDS $(LANES_SEE) -c $< -o $@
+$(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: SEES = $(LANES_CPP:$(CXX)=) $(LANES_SEE)
+$(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: | $(LANES_SEEN)
+LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(AVX2)
 # They fly many vehicles at once, or form many columns.
 $(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP)
 

@@ -3,10 +3,10 @@
 #include "base/cpu_time.h"
 #include "base/made.h"
 #include "bench_gap.h"
-#include "body/abreast.h"
 #include "body/body.h"
 #include "flight/scenario.h"
 #include "flight/setup.h"
+#include "flight/together.h"
 #include "vehicle/model_file.h"
 
 #include <stdio.h>
@@ -185,7 +185,7 @@ static done_t bench_abreast(why_t *why) {
       for (int k = 0; k < ABREAST; k++) fly_one(&f, k);
       one = fmax(one, cpu_time_factor(flown_s, t_s));
       t_s = cpu_time_s();
-      (void)abreast(ABREAST, fly_one, &f);
+      (void)together(ABREAST, fly_one, &f);
       side = fmax(side, cpu_time_factor(flown_s, t_s));
     }
     *why = f.why;

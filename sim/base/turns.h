@@ -1,8 +1,5 @@
 // turns.h - jobs that run by turns in one thread, and wait for each other where they say so: what they wait
 // for is done for all of them at once. A job is any C function; its calls in between know nothing of it.
-//
-// Jobs change hands a thousand times in a simulated second: Boost's switch of stacks has no system call, of
-// which that of ucontext.h (crazyflie/task_switch.h, a few times a second) has two.
 #ifndef SIM_BASE_TURNS_H
 #define SIM_BASE_TURNS_H
 

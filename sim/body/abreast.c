@@ -1,10 +1,10 @@
 // abreast.c - vehicles that are moved eight at a time.
 #include "body/abreast.h"
 
-#include "base/turns.h"
 #include "body/body.h"
 #include "body/lanes.h"
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define NUMBER         sizeof(double)
@@ -20,20 +20,22 @@ _Static_assert(offsetof(rigid_t, lag_in_speed) == (RIGID_COMMAND + ROTORS) * NUM
                "numbers first, then flags");
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
 
-// The numbers of a lane as they were taken last: most stay from tick to tick.
+// Whose numbers a lane has, and until what change of them.
 typedef struct {
-  double rigid[RIGID_NUMBERS], touch[TOUCH_NUMBERS], plant[PLANT_NUMBERS], push_w_N[3];
-  double excess[FX_MAX][EFFECT_NUMBERS], load[FX_MAX][EFFECT_NUMBERS];
-} taken_t;
+  const body_t *body;
+  unsigned changed;
+  const body_t *asked; // whose effects were looked up last
+  bool knows;          // them all
+} has_t;
 
-typedef struct {
+struct abreast {
   lanes_t *lanes;
   integrate_t *integrate; // of the kind and step that moved last
   integrate_kind_t kind;
   double step_s;
   long together; // ticks of a vehicle
-  taken_t taken[LANES];
-} abreast_t;
+  has_t has[LANES];
+};
 
 // --- who may be moved together ----------------------------------------------------------------------------
 
@@ -60,9 +62,15 @@ static bool knows_effects(const body_t *b) {
   return true;
 }
 
-static bool fits(const body_t *b) {
+static bool knows(has_t *has, const body_t *b) {
+  if (has->asked != b) has->knows = knows_effects(b);
+  has->asked = b;
+  return has->knows;
+}
+
+static bool fits(has_t *has, const body_t *b) {
   return !b->broken && b->kind != INTEGRATE_REFERENCE && !b->rigid.vertical_only && !b->rigid.held &&
-         !b->on_floor && !b->on_ceiling && knows_effects(b) && body_is_clear(b);
+         !b->on_floor && !b->on_ceiling && knows(has, b) && body_is_clear(b);
 }
 
 static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int n) {
@@ -106,27 +114,21 @@ static void get(const double *from, double *to, int n, int lane) {
   for (int i = 0; i < n; i++) to[i] = from[LANES * i + lane];
 }
 
-// What is as it was taken last is there.
-static void take(double *to, double *taken, const void *from, int n, int lane) {
-  const size_t bytes = (size_t)n * sizeof *taken;
-  if (memcmp(taken, from, bytes) == 0) return;
-  memcpy(taken, from, bytes);
-  put(to, taken, n, lane);
-}
-
+// Between ticks that are moved together nothing changes but the commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = lanes_at(a->lanes);
-  taken_t *const was = &a->taken[lane];
-  take(to->rigid, was->rigid, &b->rigid, RIGID_NUMBERS, lane);
   put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
-  take(to->touch, was->touch, &b->touch, TOUCH_NUMBERS, lane);
-  take(to->plant, was->plant, &b->plant, PLANT_NUMBERS, lane);
-  take(to->push_w_N, was->push_w_N, &b->push_w_N, 3, lane);
-  for (int k = 0; k < b->n_excess; k++)
-    take(to->excess[k], was->excess[k], b->excess[k]->p, EFFECT_NUMBERS, lane);
-  for (int k = 0; k < b->n_load; k++) take(to->load[k], was->load[k], b->load[k]->p, EFFECT_NUMBERS, lane);
+  if (a->has[lane].body == b && a->has[lane].changed == b->changed) return;
+  put(to->rigid, (const double *)&b->rigid, RIGID_NUMBERS, lane);
+  put(to->touch, (const double *)&b->touch, TOUCH_NUMBERS, lane);
+  put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
+  put(to->push_w_N, (const double *)&b->push_w_N, 3, lane);
+  for (int k = 0; k < b->n_excess; k++) put(to->excess[k], b->excess[k]->p, EFFECT_NUMBERS, lane);
+  for (int k = 0; k < b->n_load; k++) put(to->load[k], b->load[k]->p, EFFECT_NUMBERS, lane);
   put(to->y, b->y, RIGID_N, lane);
   if (b->look_is_y) put(to->look, (const double *)&b->look, LOOK_NUMBERS, lane);
+  a->has[lane].body = b;
+  a->has[lane].changed = b->changed;
 }
 
 static void give_back(const abreast_t *a, int lane, body_t *b, bool loaded) {
@@ -170,12 +172,12 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
   return moved;
 }
 
-static unsigned alike_in(body_t *const *b, const body_t **first) {
+static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   unsigned in = 0;
   int n = 0;
   *first = NULL;
   for (int k = 0; k < LANES; k++) {
-    if (!b[k] || !fits(b[k]) || (*first && !alike(*first, b[k]))) continue;
+    if (!b[k] || !fits(&a->has[k], b[k]) || (*first && !alike(*first, b[k]))) continue;
     if (!*first) *first = b[k];
     in |= 1u << k;
     n++;
@@ -183,12 +185,11 @@ static unsigned alike_in(body_t *const *b, const body_t **first) {
   return n < ABREAST_FEWEST ? 0 : in;
 }
 
-static void move_all(void *self, void *const what[LANES]) {
-  body_t *b[LANES];
+void abreast_move(abreast_t *a, body_t *const b[LANES]) {
   const body_t *first;
   for (int k = 0; k < LANES; k++)
-    if ((b[k] = what[k])) body_tick_begin(b[k]);
-  const unsigned in = alike_in(b, &first), moved = in ? move_together(self, b, in, first) : 0;
+    if (b[k]) body_tick_begin(b[k]);
+  const unsigned in = alike_in(a, b, &first), moved = in ? move_together(a, b, in, first) : 0;
   for (int k = 0; k < LANES; k++) {
     if (!b[k]) continue;
     if (!(moved >> k & 1)) body_tick_alone(b[k]);
@@ -196,15 +197,30 @@ static void move_all(void *self, void *const what[LANES]) {
   }
 }
 
-long abreast(int n, void (*flight)(void *context, int i), void *context) {
+abreast_t *abreast_open(void) {
   static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS};
-  abreast_t a = {.lanes = n > 1 && lane_possible() ? lanes_open(&numbers) : NULL};
-  const turns_t turns = {.job = flight, .meet = move_all, .context = context, .meet_context = &a};
-  if (a.lanes)
-    turns_run(&turns, n);
-  else
-    for (int i = 0; i < n; i++) flight(context, i);
-  integrate_close(a.integrate);
-  lanes_close(a.lanes);
-  return a.together;
+  lanes_t *const lanes = lane_possible() ? lanes_open(&numbers) : NULL;
+  if (!lanes) return NULL;
+  abreast_t *const a = calloc(1, sizeof *a);
+  if (!a) {
+    lanes_close(lanes);
+    return NULL;
+  }
+  a->lanes = lanes;
+  return a;
+}
+
+long abreast_together(const abreast_t *a) {
+  return a->together;
+}
+
+void abreast_forget(abreast_t *a) {
+  memset(a->has, 0, sizeof a->has);
+}
+
+void abreast_close(abreast_t *a) {
+  if (!a) return;
+  integrate_close(a->integrate);
+  lanes_close(a->lanes);
+  free(a);
 }

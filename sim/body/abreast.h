@@ -1,19 +1,30 @@
-// abreast.h - many flights in one thread, whose vehicles are moved eight at a time. Each gets the bits that
-// it gets alone.
+// abreast.h - vehicles that are moved eight at a time. Each gets the bits that it gets alone.
 //
-// A flight is any function that calls body_tick(), whatever it does in between; where it calls, it waits for
-// the others. Those that are alike (effects that are on, lag, integrator, length of the tick) and away from
-// surfaces are moved together (body/lanes.h), the others one by one. Effects with measured points
-// (form=table), or that are in no table, always are.
+// Those that are alike (effects that are on, lag, integrator, length of the tick) and away from surfaces are
+// moved together (body/lanes.h), the others one by one. Effects with measured points (form=table), or that
+// are in no table, always are.
 #ifndef SIM_BODY_ABREAST_H
 #define SIM_BODY_ABREAST_H
 
-// Fewer are moved one by one: five take as long together (fly close-flight --from 1 --to 5, one thread), two
-// half as long again, for what is computed is computed for eight.
-#define ABREAST_FEWEST 6
+#include "base/lane.h"
+#include "body/body.h"
 
-// Calls flight(context, i), i from 0 to n-1; the calls overlap. Where the processor cannot do it, or there is
-// no memory, they come one after the other. Returns how many ticks of a vehicle were moved with others.
-long abreast(int n, void (*flight)(void *context, int i), void *context);
+// Fewer are moved one by one, for what is computed is computed for eight.
+#define ABREAST_FEWEST 4
+
+typedef struct abreast abreast_t;
+
+// Null: the processor cannot do it, or there is no memory.
+abreast_t *abreast_open(void);
+void abreast_close(abreast_t *a);
+
+// Other bodies come, or what was changed of these was not by body.h.
+void abreast_forget(abreast_t *a);
+
+// A tick of each that is no null pointer: body_command() was called.
+void abreast_move(abreast_t *a, body_t *const b[LANES]);
+
+// How many ticks of a vehicle were moved with others.
+long abreast_together(const abreast_t *a);
 
 #endif

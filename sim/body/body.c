@@ -2,7 +2,6 @@
 #include "body/body.h"
 
 #include "base/constants.h"
-#include "base/turns.h"
 #include "plant/rigid.h"
 #include <math.h>
 #include <string.h>
@@ -122,6 +121,7 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
 
 void body_hold(body_t *b, bool held) {
   b->rigid.held = held;
+  b->changed++;
   for (int i = 0; held && i < 3; i++) b->y[RIGID_VEL_MPS + i] = b->y[RIGID_RATE_RADPS + i] = 0.0;
   b->look_is_y = false;
   look_now(b);
@@ -129,6 +129,7 @@ void body_hold(body_t *b, bool held) {
 
 void body_push(body_t *b, d3_t force_w_N) {
   b->pushed = true;
+  b->changed++;
   b->push_w_N = force_w_N;
   b->look_is_y = false;
 }
@@ -188,18 +189,21 @@ static void delay_commands(body_t *b, double span_s) {
 static void take_commands(body_t *b) {
   memcpy(b->y + RIGID_THRUST_N, b->rigid.command_N, sizeof b->rigid.command_N);
   b->look_is_y = false;
+  b->changed++;
 }
 
 void body_tick_begin(body_t *b) {
   if (b->n_tick > 0) {
     body_effects(b, b->span_s);
     b->look_is_y = false;
+    b->changed++;
   }
   delay_commands(b, b->span_s);
   if (b->rigid.motor_tau_s < LAG_LEAST_S) take_commands(b);
 }
 
 void body_tick_alone(body_t *b) {
+  b->changed++;
   const double span_s = b->span_s;
   const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
   for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
@@ -221,17 +225,17 @@ void body_tick_end(body_t *b) {
   b->t_s += span_s;
 }
 
-void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
+void body_command(body_t *b, const double command_N[ROTORS], double span_s) {
   const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
   for (int i = 0; i < ROTORS; i++) {
     const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
     b->command_N[i] = command < max_N ? command : max_N;
   }
   b->span_s = span_s;
-  if (turns_inside()) {
-    turns_wait(b); // moved with others (abreast.c)
-    return;
-  }
+}
+
+void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
+  body_command(b, command_N, span_s);
   body_tick_begin(b);
   body_tick_alone(b);
   body_tick_end(b);

@@ -53,6 +53,7 @@ typedef struct {
   int surfaces;     // TOUCH_* that are near enough to look at
   body_look_t look; // at y, between ticks
   bool look_is_y;   // also at the integrator's next call
+  unsigned changed; // counts what was not done by those that move it with others (abreast.c)
   double queue_N[BODY_QUEUE][ROTORS];
   unsigned queued;
 } body_t;
@@ -97,9 +98,10 @@ double body_rotor_z_m(const model_t *model);
 
 void body_close(body_t *b);
 
-// --- the inside: a tick in three parts (body.c, abreast.c) ----------------------------------------------
+// --- the inside: a tick in parts (body.c, abreast.c) -----------------------------------------------------
 
-void body_tick_begin(body_t *b); // commands and effects
+void body_command(body_t *b, const double command_N[ROTORS], double span_s);
+void body_tick_begin(body_t *b); // delays and effects
 void body_tick_alone(body_t *b); // from y to the next, and a look at what acts there
 void body_tick_end(body_t *b);   // battery and time
 

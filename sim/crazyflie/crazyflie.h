@@ -12,7 +12,7 @@
 #include "firmware/glue.h"
 #include "vehicle/model.h"
 
-typedef struct {
+typedef struct crazyflie {
   glue_t app; // the app's state: to be looked at, and for faults to be put in
   stand_in_t around;
   // Plays controllerOutOfTree(); null: it itself. To look at the calls, or to have them answered elsewhere.

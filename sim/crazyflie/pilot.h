@@ -68,6 +68,11 @@ typedef struct {
   void (*reset)(void *state); // as after power-on; parameters stay
   // What it thinks, over what is there already; null: it cannot be asked.
   void (*tell)(const void *state, thoughts_t *thoughts);
+  // Who is nothing but crazyflie_ms() of this vehicle, and keeps its log: then with others
+  // (flight/together.h).
+  struct crazyflie *vehicle;                       // null: another
+  bool (*keeps)(const void *state, uint32_t step); // a row of this millisecond, at its end
+  void (*keep)(void *state);
 } pilot_t;
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "base/cpu_time.h"
 #include "base/larger.h"
+#include "flight/together.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,7 +12,8 @@
 
 static done_t run(flight_loop_t *f, record_t *record, outcome_t *outcome, why_t *why) {
   TRY(record_reserve(record, (int)(lround(f->plan->end_s / loop_tick_s(f)) / f->every) + 1, why));
-  return loop_run(f, record, &outcome->finite, why);
+  return together_waits(f) ? together_fly(f, record, &outcome->finite, why)
+                           : loop_run(f, record, &outcome->finite, why);
 }
 
 static body_start_t start_of(const flight_loop_t *f) {

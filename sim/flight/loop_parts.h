@@ -1,4 +1,5 @@
-// loop_parts.h - a flight tick by tick, for one who sets the pace.
+// loop_parts.h - a flight tick by tick: for one who sets the pace, and for those who fly several at once
+// (flight/together.h).
 #ifndef SIM_FLIGHT_LOOP_PARTS_H
 #define SIM_FLIGHT_LOOP_PARTS_H
 

@@ -2,7 +2,7 @@
 #include "flight/many.h"
 
 #include "base/lane.h"
-#include "body/abreast.h"
+#include "flight/together.h"
 #include <math.h>
 #include <stdlib.h>
 #ifdef _OPENMP
@@ -89,16 +89,14 @@ static done_t take(const many_t *m, const line_t *line, uint64_t done, why_t *wh
   return m->summary ? summary_add(m->summary, m->from + done - 1, line->result, why) : DONE;
 }
 
-// Flights that are flown side by side: no more than leave every processor some. It is SUNDIALS's own work
-// that they share; by hand there is nothing to gain (make bench).
-static int side_by_side(integrate_kind_t kind, long n) {
-  if (kind != INTEGRATE_SUNDIALS) return 1;
+// Flights that are flown side by side: no more than leave every processor some.
+static int side_by_side(long n) {
 #ifdef _OPENMP
   const long each = (n + omp_get_max_threads() - 1) / omp_get_max_threads();
 #else
   const long each = n;
 #endif
-  return each < ABREAST_FEWEST ? 1 : each < LANES ? (int)each : LANES;
+  return each < TOGETHER_FEWEST ? 1 : each < LANES ? (int)each : LANES;
 }
 
 typedef struct {
@@ -116,13 +114,13 @@ static void fly_one(void *self, int i) {
 done_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
   done_t status = DONE; // touched in the ordered part alone; so is the count
-  const int side = side_by_side(m->request->integrate, n);
+  const int side = side_by_side(n);
   *m->not_finite = 0;
 #pragma omp parallel for ordered schedule(dynamic, 1)
   for (long first = 0; first < n; first += side) {
     const int of = (int)(n - first < side ? n - first : side);
     group_t g = {.m = m, .from = m->from + (uint64_t)first};
-    (void)abreast(of, fly_one, &g);
+    (void)together(of, fly_one, &g);
 #pragma omp ordered
     for (int i = 0; i < of; i++) {
       line_t *const line = &g.line[i];

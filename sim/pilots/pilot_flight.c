@@ -26,9 +26,15 @@ static bool send(pilot_flight_t *p) {
   return known;
 }
 
-// At every call, or the second of so many as loop keeps its samples. Without memory the rows end.
-static void keep_log(pilot_flight_t *p, uint32_t step) {
-  if (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms != 1) return;
+// At every call, or the second of so many as loop keeps its samples.
+static bool keeps(const void *state, uint32_t step) {
+  const pilot_flight_t *const p = state;
+  return p->log_every_ms == 1 || (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms == 1);
+}
+
+// Without memory the rows end.
+static void keep(void *state) {
+  pilot_flight_t *const p = state;
   const int width = p->log_width;
   if (p->n_log == p->room_log) {
     const int room = p->room_log ? 2 * p->room_log : 1024;
@@ -45,7 +51,7 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
   pilot_flight_t *const p = state;
   if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
   crazyflie_ms(&p->vehicle, in, motor_N);
-  if (p->log_every_ms > 0) keep_log(p, in->step);
+  if (keeps(p, in->step)) keep(p);
 }
 
 static void reset(void *state) {
@@ -75,6 +81,12 @@ done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const m
   // As a pilot does who has seen enough of it in shadow.
   if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;
   crazyflie_start(&p->vehicle);
-  *pilot = (pilot_t){.state = p, .step = step, .reset = reset, .tell = tell};
+  *pilot = (pilot_t){.state = p,
+                     .step = step,
+                     .reset = reset,
+                     .tell = tell,
+                     .vehicle = &p->vehicle,
+                     .keeps = keeps,
+                     .keep = keep};
   return DONE;
 }

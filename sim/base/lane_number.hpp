@@ -1,0 +1,252 @@
+// lane_number.hpp - floats and doubles of eight vehicles, and the C library's functions of them: a part of
+// base/lane_c.hpp, which includes it.
+#ifndef SIM_BASE_LANE_NUMBER_HPP
+#define SIM_BASE_LANE_NUMBER_HPP
+
+namespace lanes {
+
+// --- numbers
+// -------------------------------------------------------------------------------------------------
+
+struct lane_double_t;
+
+struct lane_float_t {
+  floats_t v;
+  LANE_MADE(lane_float_t, LANE_32)
+  constexpr LANE lane_float_t(floats_t a) : v(a) {}
+  template <plain T> static constexpr LANE float of(T a) { return (float)a; }
+  template <plain T>
+  constexpr LANE lane_float_t(T a) : v{of(a), of(a), of(a), of(a), of(a), of(a), of(a), of(a)} {}
+  template <typename T> LANE lane_float_t(lane_small_t<T> a) : lane_float_t((lane_int_t)a) {}
+  LANE explicit lane_float_t(lane_int_t a) : v(__builtin_convertvector(a.all(), floats_t)) {}
+  LANE explicit lane_float_t(lane_unsigned_t a) : v(__builtin_convertvector(a.all(), floats_t)) {}
+  LANE explicit lane_float_t(lane_double_t a);
+  LANE explicit operator lane_int_t() const { return (words_t)_mm256_cvttps_epi32((__m256)v); }
+  LANE explicit operator lane_unsigned_t() const { return (words_t)_mm256_cvttps_epi32((__m256)v); } // < 2^31
+  template <typename T> LANE explicit operator lane_small_t<T>() const {
+    return lane_small_t<T>((lane_int_t) * this);
+  }
+};
+
+struct lane_double_t {
+  doubles_t lo, hi;
+  LANE_MADE(lane_double_t, LANE_64)
+  constexpr LANE lane_double_t(doubles_t l, doubles_t h) : lo(l), hi(h) {}
+  template <plain T> static constexpr LANE double of(T a) { return (double)a; }
+  template <plain T>
+  constexpr LANE lane_double_t(T a) : lo{of(a), of(a), of(a), of(a)}, hi{of(a), of(a), of(a), of(a)} {}
+  LANE explicit lane_double_t(lane_float_t a)
+      : lo((doubles_t)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a.v))),
+        hi((doubles_t)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)a.v, 1))) {}
+  template <bool A>
+  LANE lane_double_t(lane_whole_t<A> a) // below 2^31
+      : lo((doubles_t)_mm256_cvtepi32_pd(_mm256_castsi256_si128((__m256i)a.v))),
+        hi((doubles_t)_mm256_cvtepi32_pd(_mm256_extracti128_si256((__m256i)a.v, 1))) {}
+  LANE explicit operator lane_int_t() const {
+    return (words_t)_mm256_set_m128i(_mm256_cvttpd_epi32((__m256d)hi), _mm256_cvttpd_epi32((__m256d)lo));
+  }
+  LANE explicit operator lane_unsigned_t() const {
+    return lane_unsigned_t((lane_int_t) * this);
+  } // below 2^31
+  template <typename T> LANE explicit operator lane_small_t<T>() const {
+    return lane_small_t<T>((lane_int_t) * this);
+  }
+};
+LANE lane_float_t::lane_float_t(lane_double_t a)
+    : v((floats_t)_mm256_set_m128(_mm256_cvtpd_ps((__m256d)a.hi), _mm256_cvtpd_ps((__m256d)a.lo))) {}
+
+#define LANE_NUMBER(sign)                                                                                    \
+  LANE lane_float_t operator sign(lane_float_t a, lane_float_t b) {                                          \
+    return a.v sign b.v;                                                                                     \
+  }                                                                                                          \
+  LANE lane_float_t &operator sign##=(lane_float_t &a, lane_float_t b) {                                     \
+    return a = a sign b;                                                                                     \
+  }                                                                                                          \
+  LANE lane_double_t operator sign(lane_double_t a, lane_double_t b) {                                       \
+    return {a.lo sign b.lo, a.hi sign b.hi};                                                                 \
+  }                                                                                                          \
+  LANE lane_double_t &operator sign##=(lane_double_t &a, lane_double_t b) {                                  \
+    return a = a sign b;                                                                                     \
+  }
+LANE_NUMBER(+)
+LANE_NUMBER(-)
+LANE_NUMBER(*)
+LANE_NUMBER(/)
+// Whole ones beside plain doubles.
+#define LANE_MIXED(result, sign)                                                                             \
+  template <bool A> LANE result operator sign(plain_double a, lane_whole_t<A> b) {                           \
+    return lane_double_t(a) sign lane_double_t(b);                                                           \
+  }                                                                                                          \
+  template <bool A> LANE result operator sign(lane_whole_t<A> a, plain_double b) {                           \
+    return lane_double_t(a) sign lane_double_t(b);                                                           \
+  }
+#define LANE_COMPARED(sign)                                                                                  \
+  LANE lane_flag_t operator sign(lane_float_t a, lane_float_t b) {                                           \
+    return (words_t)(a.v sign b.v);                                                                          \
+  }                                                                                                          \
+  LANE lane_wide_flag_t operator sign(lane_double_t a, lane_double_t b) {                                    \
+    return {(longs_t)(a.lo sign b.lo), (longs_t)(a.hi sign b.hi)};                                           \
+  }
+LANE_COMPARED(<)
+LANE_COMPARED(<=)
+LANE_COMPARED(>)
+LANE_COMPARED(>=)
+LANE_COMPARED(==)
+LANE_COMPARED(!=)
+LANE_MIXED(lane_double_t, +)
+LANE_MIXED(lane_double_t, -)
+LANE_MIXED(lane_double_t, *)
+LANE_MIXED(lane_double_t, /)
+LANE lane_float_t operator-(lane_float_t a) {
+  return -a.v;
+}
+LANE lane_double_t operator-(lane_double_t a) {
+  return {-a.lo, -a.hi};
+}
+LANE lane_flag_t operator!(lane_float_t a) {
+  return a == 0.0f;
+}
+
+// a where it holds, elsewhere b. Both are computed.
+LANE lane_float_t either(lane_flag_t holds, lane_float_t a, lane_float_t b) {
+  return (floats_t)_mm256_blendv_ps((__m256)b.v, (__m256)a.v, (__m256)holds.v);
+}
+LANE lane_double_t either(lane_wide_flag_t holds, lane_double_t a, lane_double_t b) {
+  return {(doubles_t)_mm256_blendv_pd((__m256d)b.lo, (__m256d)a.lo, (__m256d)holds.lo),
+          (doubles_t)_mm256_blendv_pd((__m256d)b.hi, (__m256d)a.hi, (__m256d)holds.hi)};
+}
+LANE lane_double_t either(lane_flag_t holds, lane_double_t a, lane_double_t b) {
+  return either(wide(holds), a, b);
+}
+LANE lane_flag_t either(lane_flag_t holds, lane_flag_t a, lane_flag_t b) {
+  return (holds.v & a.v) | (~holds.v & b.v);
+}
+template <bool A, bool B>
+LANE lane_whole_t<A && B> either(lane_flag_t holds, lane_whole_t<A> a, lane_whole_t<B> b) {
+  return (holds.v & a.v) | (~holds.v & b.v);
+}
+LANE lane_float_t lanes_of(plain_float a) {
+  return a;
+}
+LANE lane_double_t lanes_of(plain_double a) {
+  return a;
+}
+LANE lane_int_t lanes_of(plain_int a) {
+  return a;
+}
+LANE lane_unsigned_t lanes_of(plain_unsigned a) {
+  return a;
+}
+template <typename T>
+requires(!plain<T>) LANE T lanes_of(T a) {
+  return a;
+}
+// Element i of a list, of each lane its own.
+template <typename T, bool A> LANE T lanes_pick(const T *list, lane_whole_t<A> i) {
+  typedef std::conditional_t<sizeof(T) == 64, plain_double, uint32_t> one_t;
+  alignas(32) one_t of[LANES];
+  alignas(32) uint32_t at[LANES];
+  memcpy(at, &i, sizeof at);
+  for (int k = 0; k < LANES; k++)
+    memcpy(&of[k], (const char *)&list[at[k]] + (size_t)k * sizeof of[k], sizeof of[k]);
+  T t;
+  memcpy(&t, of, sizeof t);
+  return t;
+}
+#define PICK(list, i)       lanes_pick(list, i)
+#define EITHER(holds, a, b) either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
+
+template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_double_t b) {
+  return either(holds, a, b);
+}
+
+// --- the C library's
+// -----------------------------------------------------------------------------------------
+
+LANE lane_float_t sqrtf(lane_float_t a) {
+  return (floats_t)_mm256_sqrt_ps((__m256)a.v);
+}
+LANE lane_float_t fabsf(lane_float_t a) {
+  return (floats_t)((words_t)a.v & INT32_MAX);
+}
+LANE lane_double_t sqrt(lane_double_t a) {
+  return {(doubles_t)_mm256_sqrt_pd((__m256d)a.lo), (doubles_t)_mm256_sqrt_pd((__m256d)a.hi)};
+}
+LANE lane_double_t fabs(lane_double_t a) {
+  return {(doubles_t)((longs_t)a.lo & INT64_MAX), (doubles_t)((longs_t)a.hi & INT64_MAX)};
+}
+template <int how> LANE lane_double_t lanes_round(lane_double_t a) {
+  return {(doubles_t)_mm256_round_pd((__m256d)a.lo, how), (doubles_t)_mm256_round_pd((__m256d)a.hi, how)};
+}
+LANE lane_double_t trunc(lane_double_t a) {
+  return lanes_round<_MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC>(a);
+}
+LANE lane_double_t floor(lane_double_t a) {
+  return lanes_round<_MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC>(a);
+}
+LANE lane_double_t ceil(lane_double_t a) {
+  return lanes_round<_MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC>(a);
+}
+LANE lane_double_t nearbyint(lane_double_t a) {
+  return lanes_round<_MM_FROUND_CUR_DIRECTION | _MM_FROUND_NO_EXC>(a);
+}
+
+// One by one, by the library itself.
+template <typename one_t, typename all_t, typename F> LANE all_t lanes_each(F f, all_t a, all_t b) {
+  alignas(32) one_t x[LANES], y[LANES];
+  memcpy(x, &a, sizeof x);
+  memcpy(y, &b, sizeof y);
+  for (int i = 0; i < LANES; i++) x[i] = f(x[i], y[i]);
+  memcpy(&a, x, sizeof x);
+  return a;
+}
+#define LANE_FUNCTION(name)                                                                                  \
+  LANE lane_double_t name(lane_double_t a) {                                                                 \
+    return lanes_each<double>([](double x, double) { return ::name(x); }, a, a);                             \
+  }
+#define LANE_FUNCTION_OF_TWO(name, one_t, all_t)                                                             \
+  LANE all_t name(all_t a, all_t b) {                                                                        \
+    return lanes_each<one_t>([](one_t x, one_t y) { return ::name(x, y); }, a, b);                           \
+  }
+LANE_FUNCTION(sin)
+LANE_FUNCTION(cos)
+LANE_FUNCTION(tan)
+LANE_FUNCTION(asin)
+LANE_FUNCTION(acos)
+LANE_FUNCTION(atan)
+LANE_FUNCTION(sinh)
+LANE_FUNCTION(cosh)
+LANE_FUNCTION(tanh)
+LANE_FUNCTION(exp)
+LANE_FUNCTION(exp2)
+LANE_FUNCTION(expm1)
+LANE_FUNCTION(log)
+LANE_FUNCTION(log2)
+LANE_FUNCTION(log10)
+LANE_FUNCTION(log1p)
+LANE_FUNCTION(cbrt)
+LANE_FUNCTION(erf)
+LANE_FUNCTION(round)
+LANE_FUNCTION_OF_TWO(pow, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(hypot, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(atan2, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(fmod, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(remainder, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(copysign, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(fmin, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(fmax, double, lane_double_t)
+LANE_FUNCTION_OF_TWO(fminf, float, lane_float_t)
+LANE_FUNCTION_OF_TWO(fmaxf, float, lane_float_t)
+
+#undef isfinite
+#undef isnan
+LANE lane_wide_flag_t isfinite(lane_double_t a) {
+  return fabs(a) < lane_double_t(HUGE_VAL);
+}
+LANE lane_wide_flag_t isnan(lane_double_t a) {
+  return a != a;
+}
+
+} // namespace lanes
+
+#endif

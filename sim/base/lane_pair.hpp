@@ -1,0 +1,104 @@
+// lane_pair.hpp - base/pair.h of eight vehicles: two numbers of each. A part of base/lane_c.hpp, which
+// includes it.
+#ifndef SIM_BASE_LANE_PAIR_HPP
+#define SIM_BASE_LANE_PAIR_HPP
+
+namespace lanes {
+
+// --------------------------------------------------------------------
+
+struct pair_bits_t {
+  lane_wide_flag_t a[2];
+  LANE lane_wide_flag_t operator[](int i) const { return a[i]; }
+};
+struct pair_t {
+  lane_double_t a[2];
+  LANE lane_double_t operator[](int i) const { return a[i]; }
+  LANE lane_double_t &operator[](int i) { return a[i]; }
+};
+#define LANE_PAIR(sign)                                                                                      \
+  LANE pair_t operator sign(pair_t x, pair_t y) {                                                            \
+    return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
+  }                                                                                                          \
+  LANE pair_t operator sign(lane_double_t x, pair_t y) {                                                     \
+    return {{x sign y.a[0], x sign y.a[1]}};                                                                 \
+  }                                                                                                          \
+  LANE pair_t operator sign(pair_t x, lane_double_t y) {                                                     \
+    return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
+  }                                                                                                          \
+  LANE pair_t &operator sign##=(pair_t &x, pair_t y) {                                                       \
+    return x = x sign y;                                                                                     \
+  }
+LANE_PAIR(+)
+LANE_PAIR(-)
+LANE_PAIR(*)
+LANE_PAIR(/)
+LANE pair_t operator-(pair_t x) {
+  return {{-x.a[0], -x.a[1]}};
+}
+#define LANE_PAIR_COMPARED(sign)                                                                             \
+  LANE pair_bits_t operator sign(pair_t x, pair_t y) {                                                       \
+    return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
+  }                                                                                                          \
+  LANE pair_bits_t operator sign(pair_t x, lane_double_t y) {                                                \
+    return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
+  }
+LANE_PAIR_COMPARED(<)
+LANE_PAIR_COMPARED(>)
+LANE_PAIR_COMPARED(>=)
+LANE_PAIR_COMPARED(!=)
+LANE pair_bits_t operator&(pair_bits_t x, pair_bits_t y) {
+  return {{x.a[0] && y.a[0], x.a[1] && y.a[1]}};
+}
+LANE pair_bits_t operator|(pair_bits_t x, pair_bits_t y) {
+  return {{x.a[0] || y.a[0], x.a[1] || y.a[1]}};
+}
+LANE pair_bits_t operator~(pair_bits_t x) {
+  return {{!x.a[0], !x.a[1]}};
+}
+LANE pair_bits_t &operator&=(pair_bits_t &x, pair_bits_t y) {
+  return x = x & y;
+}
+// In any lane: who has come to the end goes on, and nothing more changes for it.
+LANE bool pair_any(pair_bits_t x) {
+  return ((x.a[0].bits() | x.a[1].bits()) & lanes_in) != 0;
+}
+LANE pair_t pair_of(const lane_double_t *p) {
+  return {{p[0], p[1]}};
+}
+LANE void pair_put(lane_double_t *p, pair_t x) {
+  p[0] = x.a[0];
+  p[1] = x.a[1];
+}
+LANE pair_t pair_both(lane_double_t x) {
+  return {{x, x}};
+}
+LANE lane_double_t pair_sum(pair_t x) {
+  return x.a[0] + x.a[1];
+}
+LANE pair_t pair_where(pair_bits_t holds, pair_t x, pair_t y) {
+  return {{either(holds.a[0], x.a[0], y.a[0]), either(holds.a[1], x.a[1], y.a[1])}};
+}
+LANE pair_t pair_min(pair_t x, pair_t y) {
+  return pair_where(x < y, x, y);
+}
+LANE pair_t pair_max(pair_t x, pair_t y) {
+  return pair_where(x > y, x, y);
+}
+LANE pair_t pair_sqrt(pair_t x) {
+  return {{sqrt(x.a[0]), sqrt(x.a[1])}};
+}
+LANE pair_t pair_trunc(pair_t x) {
+  return {{trunc(x.a[0]), trunc(x.a[1])}};
+}
+// 2^n, of a whole number n that is in the lowest bits of x.
+LANE lane_double_t exp2_of_bits(lane_double_t x) {
+  return {(doubles_t)(((longs_t)x.lo + 1023) << 52), (doubles_t)(((longs_t)x.hi + 1023) << 52)};
+}
+LANE pair_t pair_exp2_of_bits(pair_t x) {
+  return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
+}
+
+} // namespace lanes
+
+#endif

@@ -1,0 +1,196 @@
+// lanes_state.cpp - milliseconds of eight flights.
+#include "flight/lanes_state.h"
+#ifdef __AVX2__
+#include <new>
+
+#include "base/lane_c.hpp"
+
+namespace lanes {
+
+#include "crazyflie/crazyflie.h"
+#include "flight/lanes_blocks.h"
+
+constinit thread_local stand_in_t *stand_in = nullptr;
+
+// What comes so seldom that each does it alone.
+void stand_in_print(const char *, ...) {
+  lanes_in = 0;
+}
+void controllerPid(control_t *, const setpoint_t *, const sensorData_t *, const state_t *,
+                   const stabilizerStep_t) {
+  lanes_in = 0;
+}
+status_t params_check(const flight_param_t *) {
+  lanes_in = 0;
+  return ST_OK;
+}
+void params_default(flight_param_t *) {
+  lanes_in = 0;
+}
+float params_get(const flight_param_t *, const param_row_t *) {
+  lanes_in = 0;
+  return 0.0f;
+}
+status_t params_set(flight_param_t *, const param_row_t *, float) {
+  lanes_in = 0;
+  return ST_OK;
+}
+const param_row_t params_table[] = {{}};
+const int params_count = 0;
+
+// All that a millisecond changes, and what it takes.
+struct state_of_eight {
+  crazyflie_t vehicle;
+  senses_t senses;
+  imu_param_t imu_param;
+  range_param_t range_param;
+  senses_drawn_t drawn;
+  truth_t truth;
+  pilot_in_t in;
+  lanes_motors_t motors;
+};
+
+} // namespace lanes
+
+#undef float
+#undef double
+#undef int
+#undef unsigned
+#undef bool
+
+// To copy all takes as long as to fly it: it is done once in so many milliseconds, and who parts does them
+// again from there.
+#define SINCE 16
+
+struct lanes_state {
+  lanes::state_of_eight now, before;
+  // What came in in each: to sensors and estimator, and to the Crazyflie.
+  lanes::senses_drawn_t drawn[SINCE];
+  lanes::truth_t truth[SINCE];
+  lanes::pilot_in_t in[SINCE];
+  int senses, vehicle; // milliseconds since
+};
+
+using lanes::state_of_eight;
+
+lanes_state_t *lanes_state_open(void) {
+  lanes_state *const s = new (std::nothrow) lanes_state;
+  if (!s) return nullptr;
+  memset(static_cast<void *>(s), 0, sizeof *s);
+  s->now.vehicle.around.app = &s->now.vehicle.app;
+  return s;
+}
+void lanes_state_close(lanes_state_t *s) {
+  delete s;
+}
+
+#define BLOCK(name, type, where)                                                                             \
+  case lanes::LANES_##name: return &of->where;
+static void *block(state_of_eight *of, int i) {
+  switch (i) {
+    LANES_BLOCKS(BLOCK)
+  default: return nullptr;
+  }
+}
+void *lanes_block(lanes_state_t *s, int i) {
+  return block(&s->now, i);
+}
+const void *lanes_block_before(const lanes_state_t *s, int i) {
+  return block(const_cast<state_of_eight *>(&s->before), i);
+}
+
+// Parameters change between milliseconds alone (pilot_t.vehicle), and what was printed is nobody's number.
+static void keep_app(const lanes::glue_t *from, lanes::glue_t *to) {
+  memcpy((void *)to, from, offsetof(lanes::glue_t, tuned));
+}
+static void keep_around(const lanes::stand_in_t *from, lanes::stand_in_t *to) {
+  memcpy((void *)to, from, offsetof(lanes::stand_in_t, console));
+}
+
+#define KEEP(name, type, where) memcpy((void *)&s->before.where, &s->now.where, sizeof s->now.where);
+
+// But for what it remembers: who does it again writes the same place anew.
+static void keep_range(const lanes::range_t *from, lanes::range_t *to) {
+  to->tick = from->tick;
+  memcpy((void *)&to->up_mm, &from->up_mm, sizeof *to - offsetof(lanes::range_t, up_mm));
+}
+
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in) {
+  state_of_eight *const now = &s->now;
+  if (s->senses == SINCE) {
+    LANES_BLOCKS_OF_SENSES(KEEP)
+    keep_range(&now->senses.range, &s->before.senses.range);
+    s->senses = 0;
+  }
+  memcpy((void *)&s->drawn[s->senses], &now->drawn, sizeof now->drawn);
+  memcpy((void *)&s->truth[s->senses++], &now->truth, sizeof now->truth);
+  lanes::lanes_in = in;
+  lanes::senses_take(&now->senses, &now->imu_param, &now->range_param, &now->drawn, &now->truth, &now->in);
+  return lanes::lanes_in;
+}
+
+unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
+  state_of_eight *const now = &s->now;
+  if (s->vehicle == SINCE) {
+    keep_app(&now->vehicle.app, &s->before.vehicle.app);
+    keep_around(&now->vehicle.around, &s->before.vehicle.around);
+    LANES_BLOCKS_OF_VEHICLE(KEEP)
+    s->vehicle = 0;
+  }
+  memcpy((void *)&s->in[s->vehicle++], &now->in, sizeof now->in);
+  // What control_t holds for other modes shares its place with the forces, and lies in no lane.
+  lanes::lanes_in =
+      in & (now->vehicle.control.controlMode == lanes::controlModeForce || !now->vehicle.called).bits();
+  if (!lanes::lanes_in) return 0;
+  lanes::crazyflie_ms(&now->vehicle, &now->in, now->motors.N);
+  return lanes::lanes_in;
+}
+
+lanes_since_t lanes_senses_since(const lanes_state_t *s) {
+  return {s->senses, sizeof s->drawn[0], s->drawn, sizeof s->truth[0], s->truth};
+}
+lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
+  return {s->vehicle, sizeof s->in[0], s->in, 0, nullptr};
+}
+void lanes_begin_anew(lanes_state_t *s) {
+  s->senses = s->vehicle = SINCE;
+}
+
+unsigned lanes_range_new(const lanes_state_t *s) {
+  return s->now.in.range_new.bits();
+}
+void lanes_step(lanes_state_t *s) {
+  s->now.in.step++;
+}
+
+#else // nobody asks for more (lane_possible)
+
+lanes_state_t *lanes_state_open(void) {
+  return nullptr;
+}
+void lanes_state_close(lanes_state_t *) {}
+unsigned lanes_senses_ms(lanes_state_t *, unsigned) {
+  return 0;
+}
+unsigned lanes_vehicle_ms(lanes_state_t *, unsigned) {
+  return 0;
+}
+unsigned lanes_range_new(const lanes_state_t *) {
+  return 0;
+}
+void lanes_step(lanes_state_t *) {}
+void *lanes_block(lanes_state_t *, int) {
+  return nullptr;
+}
+const void *lanes_block_before(const lanes_state_t *, int) {
+  return nullptr;
+}
+lanes_since_t lanes_senses_since(const lanes_state_t *) {
+  return {};
+}
+lanes_since_t lanes_vehicle_since(const lanes_state_t *) {
+  return {};
+}
+void lanes_begin_anew(lanes_state_t *) {}
+
+#endif

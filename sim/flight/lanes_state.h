@@ -1,0 +1,57 @@
+// lanes_state.h - the sensors, the estimator and the Crazyflie of eight flights, in lanes: their
+// milliseconds, and the way of their numbers in and out.
+#ifndef SIM_FLIGHT_LANES_STATE_H
+#define SIM_FLIGHT_LANES_STATE_H
+
+#include "base/lane.h"
+#include "base/lane_fields.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lanes_state lanes_state_t;
+
+// Null: no memory.
+lanes_state_t *lanes_state_open(void);
+void lanes_state_close(lanes_state_t *s);
+
+// A millisecond of sensors and estimator, and of the Crazyflie, of the lanes `in` (a bit each). Those that
+// are returned have passed it; the others parted, and are to do it alone from what they were before.
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in);
+unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
+
+// What is new of the upward range sensor since the last millisecond, a bit each.
+unsigned lanes_range_new(const lanes_state_t *s);
+// All have called their pilot.
+void lanes_step(lanes_state_t *s);
+
+// Where a block (lanes_blocks.h) lies, and where it lay some milliseconds ago.
+void *lanes_block(lanes_state_t *s, int block);
+const void *lanes_block_before(const lanes_state_t *s, int block);
+
+// What came in since: so many blocks of so many bytes, of what was drawn and what was true, or of pilot_in_t.
+typedef struct {
+  int ms;
+  size_t bytes;
+  const void *first;
+  size_t other_bytes;
+  const void *other;
+} lanes_since_t;
+lanes_since_t lanes_senses_since(const lanes_state_t *s);
+lanes_since_t lanes_vehicle_since(const lanes_state_t *s);
+
+// All numbers were put in anew.
+void lanes_begin_anew(lanes_state_t *s);
+
+// lanes_fields.cpp: how many numbers a block has, and where each lies.
+int lanes_fields_of_one(int block, lane_field_t *to, int room, size_t *size);
+int lanes_fields_of_eight(int block, lane_field_t *to, int room, size_t *size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
