@@ -11,7 +11,7 @@ typedef struct {
   double number;
 } field_t;
 
-#define add(o, ...) add_fields(o, (const field_t[]){__VA_ARGS__, {NULL}})
+#define add(o, ...) add_fields(o, (const field_t[]){__VA_ARGS__, {.key = NULL}})
 
 static void add_fields(cJSON *o, const field_t *p) {
   for (; p->key; p++)
@@ -37,7 +37,7 @@ static void add_notes(cJSON *root, const char *key, const notes_t *notes) {
 
 static cJSON *add_number(cJSON *all, const fx_param_t *param, double value, double error) {
   cJSON *const o = cJSON_AddObjectToObject(all, param->name);
-  add(o, {"value", .number = value}, {"stderr", .number = error});
+  add(o, {.key = "value", .number = value}, {.key = "stderr", .number = error});
   return o;
 }
 
@@ -57,15 +57,15 @@ static void add_instrument(cJSON *effect, const finding_t *f) {
   if (a->answer == CONFIRM_NOT_TRIED) return;
   const bool weak = a->answer == CONFIRM_WEAK;
   cJSON *const o = cJSON_AddObjectToObject(effect, "instrument");
-  add(o, {"answer", .text = report_feedback[a->answer]}, {"F", .number = a->F});
+  add(o, {.key = "answer", .text = report_feedback[a->answer]}, {.key = "F", .number = a->F});
   cJSON *const all = cJSON_AddObjectToObject(o, "parameters");
   for (int k = 0; k < f->fx->n_size && !weak; k++) {
     const number_t *const n = &f->number[k];
     cJSON_AddStringToObject(add_number(all, n->param, n->by_instrument, a->stderr_[k]), "unit",
                             n->param->unit);
   }
-  add(o, {"p", .number = weak ? (double)NAN : p_value(a->p)},
-      {"p_apart", .number = weak ? (double)NAN : p_value(a->p_apart)});
+  add(o, {.key = "p", .number = weak ? (double)NAN : p_value(a->p)},
+      {.key = "p_apart", .number = weak ? (double)NAN : p_value(a->p_apart)});
   cJSON_AddBoolToObject(o, "apart", a->apart);
 }
 
@@ -74,9 +74,10 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON *const o = add_object(list);
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
-  add(o, {"p", .number = p_value(f->named->p)}, {"probability", .number = f->named->probability},
-      {"standing", .text = standing_name[f->standing]}, {"says", .text = f->says},
-      {"share", .number = f->named->share});
+  add(o, {.key = "p", .number = p_value(f->named->p)},
+      {.key = "probability", .number = f->named->probability},
+      {.key = "standing", .text = standing_name[f->standing]}, {.key = "says", .text = f->says},
+      {.key = "share", .number = f->named->share});
   cJSON *const family = cJSON_AddArrayToObject(o, "family");
   cJSON *const rivals = cJSON_AddArrayToObject(o, "rivals");
   add_text(family, f->fx->name);
@@ -85,12 +86,13 @@ static void add_effect(cJSON *list, const finding_t *f) {
     add_text(rivals, f->named->rival[i]->name);
   }
   cJSON *const where = cJSON_AddObjectToObject(o, "where");
-  add(where, {"coordinate", .text = coordinate_name(coordinate)}, {"from", .number = f->where.from},
-      {"to", .number = f->where.to}, {"unit", .text = coordinate_unit(coordinate)});
+  add(where, {.key = "coordinate", .text = coordinate_name(coordinate)},
+      {.key = "from", .number = f->where.from}, {.key = "to", .number = f->where.to},
+      {.key = "unit", .text = coordinate_unit(coordinate)});
   cJSON *const matters = cJSON_AddObjectToObject(o, "matters");
-  add(matters, {"channel", .text = gap_channel[channel]}, {"unit", .text = gap_unit[channel]},
-      {"from", .number = f->matters.from}, {"to", .number = f->matters.to}, {"before", .number = f->before},
-      {"after", .number = f->after});
+  add(matters, {.key = "channel", .text = gap_channel[channel]}, {.key = "unit", .text = gap_unit[channel]},
+      {.key = "from", .number = f->matters.from}, {.key = "to", .number = f->matters.to},
+      {.key = "before", .number = f->before}, {.key = "after", .number = f->after});
   cJSON_AddStringToObject(o, "fly", f->fly);
   add_instrument(o, f);
 }
@@ -98,10 +100,11 @@ static void add_effect(cJSON *list, const finding_t *f) {
 // --- what has no name, what is left, what could not be seen -----------------------------------------------
 
 static void add_place(cJSON *o, const cell_t *c) {
-  add(o, {"channel", .text = gap_channel[c->channel]}, {"axes", .text = c->world ? "world" : "body"},
-      {"coordinate", .text = c->coordinate}, {"from", .number = c->from}, {"to", .number = c->to});
+  add(o, {.key = "channel", .text = gap_channel[c->channel]},
+      {.key = "axes", .text = c->world ? "world" : "body"}, {.key = "coordinate", .text = c->coordinate},
+      {.key = "from", .number = c->from}, {.key = "to", .number = c->to});
   if (!c->is_patch) return;
-  add(o, {"y_from", .number = c->y_from_m}, {"y_to", .number = c->y_to_m});
+  add(o, {.key = "y_from", .number = c->y_from_m}, {.key = "y_to", .number = c->y_to_m});
 }
 
 static void add_unknown(cJSON *root, const diagnosis_t *d) {
@@ -112,7 +115,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   const cell_t *const c = &d->left.cell;
   cJSON *const o = cJSON_AddObjectToObject(root, "unknown");
   add_place(o, c);
-  add(o, {"size", .number = c->size}, {"stderr", .number = fabs(c->size) / c->statistic});
+  add(o, {.key = "size", .number = c->size}, {.key = "stderr", .number = fabs(c->size) / c->statistic});
   if (d->left.also.statistic > 0.0) add_place(cJSON_AddObjectToObject(o, "also"), &d->left.also);
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[c->channel]);
@@ -126,10 +129,10 @@ static void add_gap(cJSON *root, const report_t *r) {
     const gap_part_t *const p = &s->diagnosis.held_out.channel[ch];
     if (!p->used) continue;
     cJSON *const o = add_object(list);
-    add(o, {"channel", .text = gap_channel[ch]}, {"unit", .text = gap_unit[ch]},
-        {"before", .number = p->before}, {"after", .number = p->after},
-        {"floor", .number = s->diagnosis.nominal_flew ? p->floor : (double)NAN},
-        {"adequacy", .text = left_name[report_adequacy(r, ch)]});
+    add(o, {.key = "channel", .text = gap_channel[ch]}, {.key = "unit", .text = gap_unit[ch]},
+        {.key = "before", .number = p->before}, {.key = "after", .number = p->after},
+        {.key = "floor", .number = s->diagnosis.nominal_flew ? p->floor : (double)NAN},
+        {.key = "adequacy", .text = left_name[report_adequacy(r, ch)]});
     cJSON *const names = cJSON_AddArrayToObject(o, "held_out");
     for (int i = 0; i < held->n; i++) add_text(names, held->flight[i].name);
   }
@@ -141,22 +144,24 @@ static void add_resimulation(cJSON *root, const resimulation_t *a) {
     return;
   }
   cJSON *const o = cJSON_AddObjectToObject(root, "resimulation");
-  add(o, {"unit", .text = "m"}, {"before", .number = a->before.rms_m}, {"after", .number = a->after.rms_m},
-      {"height_before", .number = a->before.height_m}, {"height_after", .number = a->after.height_m});
+  add(o, {.key = "unit", .text = "m"}, {.key = "before", .number = a->before.rms_m},
+      {.key = "after", .number = a->after.rms_m}, {.key = "height_before", .number = a->before.height_m},
+      {.key = "height_after", .number = a->after.height_m});
 }
 
 static void add_others(cJSON *root, const report_t *r) {
   cJSON *const untested = cJSON_AddArrayToObject(root, "not_testable");
   for (int i = 0; i < r->n_untested; i++) {
     cJSON *const o = add_object(untested);
-    add(o, {"effect", .text = r->untested[i].fx->name}, {"why", .text = r->untested[i].why},
-        {"fly", .text = r->untested[i].fx->fly});
+    add(o, {.key = "effect", .text = r->untested[i].fx->name}, {.key = "why", .text = r->untested[i].why},
+        {.key = "fly", .text = r->untested[i].fx->fly});
   }
   cJSON *const shown = cJSON_AddArrayToObject(root, "would_show");
   for (int i = 0; i < r->n_shown; i++) {
     cJSON *const o = add_object(shown);
-    add(o, {"effect", .text = r->shown[i].fx->name}, {"parameter", .text = r->shown[i].param->name},
-        {"from", .number = r->shown[i].from}, {"unit", .text = r->shown[i].param->unit});
+    add(o, {.key = "effect", .text = r->shown[i].fx->name},
+        {.key = "parameter", .text = r->shown[i].param->name}, {.key = "from", .number = r->shown[i].from},
+        {.key = "unit", .text = r->shown[i].param->unit});
   }
 }
 
@@ -169,8 +174,8 @@ static void add_made(cJSON *root, const study_t *s) {
   cJSON *const logs = cJSON_AddArrayToObject(cJSON_GetObjectItem(root, "made"), "logs");
   for (int i = 0; i < s->fit.n + s->held.n; i++) {
     cJSON *const o = add_object(logs);
-    add(o, {"file", .text = s->flight[i].name}, {"rows", .number = (double)s->flight[i].rows},
-        {"samples", .number = s->flight[i].n}, {"rate_Hz", .number = s->flight[i].rate_Hz});
+    add(o, {.key = "file", .text = s->flight[i].name}, {.key = "rows", .number = (double)s->flight[i].rows},
+        {.key = "samples", .number = s->flight[i].n}, {.key = "rate_Hz", .number = s->flight[i].rate_Hz});
     cJSON_AddBoolToObject(o, "held_out", i >= s->fit.n);
   }
 }
