@@ -33,4 +33,9 @@ static inline double limits_nominal(int flights) {
   return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, flights ? flights : NOMINAL_FLIGHTS));
 }
 
+// Standard errors that noise alone exceeds, either way, in one of so many tries, with that chance.
+static inline double limits_noise(int tries) {
+  return lsq_t_quantile(SELECT_ALPHA / 2.0 / tries, HUGE_VAL);
+}
+
 #endif

@@ -1,7 +1,7 @@
 // local.c - does a name act everywhere, or does it stand for what lies at one place or time?
 #include "gap/5_infer/local.h"
 
-#include "base/lsq_blocks.h"
+#include "gap/5_infer/limits.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
@@ -138,7 +138,7 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
 static double by_chance(void) {
   int places = 0;
   for (int i = 0; i < COORDINATES; i++) places += coordinate_is_place(i);
-  const double errors = SCORE_CLUSTER * lsq_t_quantile(SELECT_ALPHA / 2.0 / (places * RANGES), HUGE_VAL);
+  const double errors = SCORE_CLUSTER * limits_noise(places * RANGES);
   return errors * errors;
 }
 

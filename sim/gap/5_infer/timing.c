@@ -14,7 +14,7 @@ static double unlike(const increments_t *s) {
 
 // What so many tries take of it by chance, where standard errors grow by this.
 static double by_chance(double grow, int tries) {
-  const double errors = grow * lsq_t_quantile(SELECT_ALPHA / 2.0 / tries, HUGE_VAL);
+  const double errors = grow * limits_noise(tries);
   return errors * errors;
 }
 

@@ -1,7 +1,6 @@
 // unknown.c - what is left that no name explains.
 #include "gap/5_infer/unknown.h"
 
-#include "base/lsq_blocks.h"
 #include "gap/5_infer/in_time.h"
 #include "gap/5_infer/limits.h"
 #include <math.h>
@@ -223,7 +222,7 @@ double unknown_in_windows(const scan_t *scan) {
 
 // The largest statistic of all windows of a coordinate, where there is noise alone.
 static double of_noise(void) {
-  return lsq_t_quantile(SELECT_ALPHA / 2.0 / WINDOWS_TRIED, HUGE_VAL);
+  return limits_noise(WINDOWS_TRIED);
 }
 
 // What a look finds in nominal flights, but for one of them (none: < 0): rms, with one flight of noise alone.
