@@ -44,7 +44,8 @@ double score_fitted(const score_t *j, const choice_t *choice);
 bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *better);
 
 // The other choice does as well, within two standard errors: it leaves D more, and D <= SCORE_RIVAL_SPAN d
-// where the two fits are d apart, white, because D has a standard error of 2 d.
+// where the two fits are d apart, white, because D has a standard error of 2 d; more where nominal flights
+// have more than noise along what the fits differ by (score.c).
 #define SCORE_RIVAL_SPAN (SCORE_ERRORS * 2.0 * SCORE_CLUSTER)
 #define SCORE_RIVAL_LEFT (SCORE_RIVAL_SPAN * SCORE_RIVAL_SPAN) // a fit that lacks D is sqrt(D) apart
 // unexplained: what neither explains, in white standard errors; it may prefer the wrong one by 2 d so much.

@@ -220,7 +220,7 @@ void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
   for (int i = 0; i < 2 * CUTS; i++) {
     const int list = i / CUTS;
     const cut_t cut = (cut_t)(i % CUTS);
-    const int bins = cut == BY_ROWS ? WINDOW_BINS : WINDOW_FINE;
+    const int bins = KEPT_BINS[cut];
     if (!bins_of(l->s, l->m, coordinate, list, bins, cut, l->room, l->bin, edge)) continue;
     for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
       if (!l->color[ch].used) continue;

@@ -44,7 +44,7 @@ static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, d
   untested_t *const u = &r->untested[r->n_untested++];
   *u = (untested_t){.fx = fx, .flyable = true};
   if (d->found.echo[c - d->candidates.candidate])
-    text_add(u->why, REPORT_TEXT, "something like it is there, at one place, time or state only");
+    text_add(u->why, REPORT_TEXT, "something like it is there, at one place or time only");
   else if (!(from <= size->max))
     text_add(u->why, REPORT_TEXT, "next to nothing in the residuals of these flights depends on it alone");
   else
