@@ -131,9 +131,10 @@ static double lead_of(double noise, double gyro, double gain, double calls_a_row
 
 static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   const grid_t *const g = &s->grid[0];
-  const double row_s = g->period_s / g->every;
+  const double row_s = g->period_s / g->every, step_s = row_s / nominal_steps(row_s);
+  // As the nominal pilot will be called: once a step at most.
   const double call_s =
-      w->flown_by && w->flown_by->rate_Hz > 0.0 ? 1.0 / w->flown_by->rate_Hz : NOMINAL_STEP_S;
+      w->flown_by && w->flown_by->rate_Hz > 0.0 ? fmax(1.0 / w->flown_by->rate_Hz, step_s) : step_s;
   double *const turn =
       g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
   for (int axis = 0; axis < 3 && turn; axis++) {

@@ -13,8 +13,14 @@
 #include "gap/2_predict/residual.h"
 #include "gap/3_feedback/slow_errors.h"
 #include "pilots/flown_by.h"
+#include <math.h>
 
-#define NOMINAL_STEP_S 0.002 // at most between two commands, where nobody says how often they came
+#define NOMINAL_STEP_S 0.002 // of a flight, about: a sample of the log has a whole number of them
+
+// Of one sample.
+static inline int nominal_steps(double sample_s) {
+  return (int)fmax(1.0, round(sample_s / NOMINAL_STEP_S));
+}
 
 // How a flight was flown and measured.
 typedef struct {

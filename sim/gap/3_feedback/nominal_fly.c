@@ -185,7 +185,7 @@ static bool goes_on(const nominal_flight_t *f) {
 
 static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every;
-  const int inner = (int)fmax(1.0, round(log_s / NOMINAL_STEP_S)), per_point = f->g->every;
+  const int inner = nominal_steps(log_s), per_point = f->g->every;
   const double step_s = log_s / inner;
   double motor_N[ROTORS] = {0.0};
   f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);

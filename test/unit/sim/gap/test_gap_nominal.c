@@ -280,7 +280,8 @@ static void thin(gap_flight_t *f, int every) {
 
 // The lead that is read off a log which a pilot with this one flew.
 static done_t lead_read(double lead[3], const rig_t *r, const closed_loop_t *flown_by, int every,
-                        why_t *why) {
+                        double told_Hz, why_t *why) {
+  const flown_by_t by = {.rate_Hz = told_Hz};
   gap_flight_t flight;
   set_t set;
   lines_t left;
@@ -289,7 +290,7 @@ static done_t lead_read(double lead[3], const rig_t *r, const closed_loop_t *flo
   TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, &r->vehicle, why));
   TRY(lines_make(&left, &set, why));
   TRY(residual_of(&set, &r->vehicle, left.r, why));
-  const closed_loop_t loop = closed_loop_of(&set, &r->vehicle, NULL, left.r);
+  const closed_loop_t loop = closed_loop_of(&set, &r->vehicle, told_Hz > 0.0 ? &by : NULL, left.r);
   memcpy(lead, loop.rate_lead, sizeof loop.rate_lead);
   lines_free(&left);
   set_free(&set);
@@ -302,11 +303,14 @@ TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
     const char *what;
     double lead;
     int every;
-  } row[] = {{"no lead", 0.0, 1},
-             {"some", 0.15, 1},
-             {"more", 0.3, 1},
-             {"some, every other command logged", 0.15, 2},
-             {"more, every other command logged", 0.3, 2}};
+    double told_Hz; // of its commands; 0: not told
+  } row[] = {{"no lead", 0.0, 1, 0.0},
+             {"some", 0.15, 1, 0.0},
+             {"more", 0.3, 1, 0.0},
+             {"some, every other command logged", 0.15, 2, 0.0},
+             {"more, every other command logged", 0.3, 2, 0.0},
+             {"some, of 500 commands a second", 0.15, 2, 500.0},
+             {"some, of more commands a second than a flight has steps", 0.15, 1, 1000.0}};
   rig_t r;
   why_t why = {""};
   if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
@@ -315,7 +319,7 @@ TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
     double lead[3] = {0.0};
     ROW("%s", row[i].what);
     for (int k = 0; k < 2; k++) loop.rate_lead[k] = row[i].lead;
-    if (!CHECK_OK(lead_read(lead, &r, &loop, row[i].every, &why))) return;
+    if (!CHECK_OK(lead_read(lead, &r, &loop, row[i].every, row[i].told_Hz, &why))) return;
     for (int k = 0; k < 2; k++) CHECK_NEAR(lead[k], row[i].lead, 0.1 * row[i].lead + 0.01);
   }
   rig_free(&r);
