@@ -97,7 +97,7 @@ static done_t settle(select_t *t, why_t *why) {
     const double change = round_take(&t->round, share);
     const bool nearer = change < 0.7 * (all ? last_of_all : last);
     if (change < stays && all) return DONE;
-    if (!nearer && share < 1.0) return all ? DONE : round_complete(&t->round, why);
+    if (!nearer && share < 1.0) return round_complete(&t->round, why);
     if (!nearer) share = 0.5;
     if (all) last_of_all = change;
     last = all ? HUGE_VAL : change;
