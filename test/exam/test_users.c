@@ -92,7 +92,7 @@ TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_command
   static const struct {
     unsigned long seed;
     const char *answer;
-  } row[] = {{24450, "climb_inflow"}, {24231, "inertia"}};
+  } row[] = {{24450, "climb_inflow"}, {24533, "inertia+thrust_scale"}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     users_set_t set;
     why_t why;

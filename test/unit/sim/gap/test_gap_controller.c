@@ -73,7 +73,11 @@ TEST(gap_nominal_flights_by_the_log_s_controller_feed_noise_back_as_it_does) {
     const double real_N = restless_N(&r.flight), known_N = nominal_restless_N(&r, row[i].kind),
                  fitted_N = nominal_restless_N(&r, FLOWN_BY_UNKNOWN);
     CHECK_NEAR(known_N / real_N, 1.0, 0.3); // its noise and its disturbance are estimates
-    CHECK(fabs(fitted_N - real_N) > fabs(known_N - real_N));
+    // One that is fitted has a lead as a PID has, and no filter as the flight code has.
+    if (row[i].indi)
+      CHECK(fabs(fitted_N - real_N) > fabs(known_N - real_N));
+    else
+      CHECK_NEAR(fitted_N / real_N, 1.0, 0.3);
     set_free(&r.set);
     gap_flight_free(&r.flight);
   }

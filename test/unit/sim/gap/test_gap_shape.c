@@ -41,7 +41,7 @@ static void add(tally_t *t, double decay_per_radius, uint64_t seed) {
 TEST(gap_finds_a_ceilings_decay_between_those_that_it_tries) {
   static const double decay[] = {0.45, 0.8};
   tally_t t = {0};
-  for (int i = 0; i < (test_long() ? 60 : 4); i++) add(&t, decay[i % 2], share_seed(70) + 10u * (unsigned)i);
+  for (int i = 0; i < (test_long() ? 60 : 8); i++) add(&t, decay[i % 2], share_seed(70) + 10u * (unsigned)i);
   CHECK_SHARE(t.named, t.sets, 0.6);
   CHECK_SHARE(t.nothing_else, t.sets, 0.95);
   CHECK_SHARE(t.size_near, t.named, 0.95);
