@@ -123,18 +123,23 @@ static double turn_now(const grid_t *g, const model_t *m, int axis, int i) {
 // From call to call, a pilot gives -(P + d) n(0) + d n(1) of white noise n of the rates, P its rate gain and
 // d its lead over its period. Third differences of rows have (70 d^2 + 70 P d + 20 P^2) times its variance,
 // 20 of which are what noise_of() divides by; of rows that lie two calls or more apart 20 ((P + d)^2 + d^2).
+#define CALLS_APART 1.5 // in a row: between one and two
+
 static double lead_of(double noise, double gyro, double gain, double calls_a_row) {
-  const double ratio = gyro > 0.0 ? noise / gyro : 0.0, share = calls_a_row < 1.5 ? 80.0 / 70.0 : 2.0;
+  const double ratio = gyro > 0.0 ? noise / gyro : 0.0, share = calls_a_row < CALLS_APART ? 80.0 / 70.0 : 2.0;
   const double more = gain * gain + share * (ratio * ratio - gain * gain);
   return more > gain * gain ? 0.5 * (sqrt(more) - gain) : 0.0;
 }
 
+// Where it is told that every command is in the log, none is missed, and of slow rows the third differences
+// are motion: no lead.
 static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   const grid_t *const g = &s->grid[0];
   const double row_s = g->period_s / g->every, step_s = row_s / nominal_steps(row_s);
+  const double told_Hz = w->flown_by ? w->flown_by->rate_Hz : 0.0;
+  if (told_Hz > 0.0 && told_Hz * row_s < CALLS_APART) return;
   // As the nominal pilot will be called: once a step at most.
-  const double call_s =
-      w->flown_by && w->flown_by->rate_Hz > 0.0 ? fmax(1.0 / w->flown_by->rate_Hz, step_s) : step_s;
+  const double call_s = told_Hz > 0.0 ? fmax(1.0 / told_Hz, step_s) : step_s;
   double *const turn =
       g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
   for (int axis = 0; axis < 3 && turn; axis++) {
@@ -210,7 +215,7 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   const double place = 1.0 + VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
   for (int k = 0; k < 3; k++) {
     v.rate_gain[k] *= turn;
-    v.rate_lead[k] *= turn;
+    v.rate_lead[k] = fmin(turn * v.rate_lead[k], LEAD_MOST);
   }
   v.tilt_gain *= turn * turn;
   v.climb_gain *= place;
