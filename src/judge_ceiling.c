@@ -31,7 +31,7 @@
 #define GROWTH_SHARE  0.8f // of the ratio's variance; what a load dropped or a gust shares by chance is less
 #define GROWTH_SEEN   2.5f // samples' worth of rise: 1 cm at the least, and no faster than 0.16 m/s
 // test: guard_forgets_a_growth_where_a_bit_of_it_flipped
-#define GROWTH_MOST 1e3f // of all sums: 40 samples of a ratio that is wrong by 5
+#define GROWTH_MOST 1e3f // of all sums together: 40 samples of a ratio that is wrong by 3.5
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
 #define RATIO_LEAST 0.3f // so little carries no vehicle that its thrust map describes
 #define RATIO_MOST  5.0f // as params.h has it for ceil.ratioMax
