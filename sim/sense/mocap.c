@@ -4,7 +4,10 @@
 #include <math.h>
 
 static mocap_sample_t take(const mocap_param_t *p, random_t *r, const truth_t *truth) {
-  const d3_t n = {random_normal(r), random_normal(r), random_normal(r)};
+  d3_t n;
+  n.x = random_normal(r);
+  n.y = random_normal(r);
+  n.z = random_normal(r);
   const double x = p->tilt_rad[0] + p->sd_rad * random_normal(r);
   const double y = p->tilt_rad[1] + p->sd_rad * random_normal(r), z = p->sd_rad * random_normal(r);
   const dq_t turn = dq_unit((dq_t){1.0, 0.5 * x, 0.5 * y, 0.5 * z});

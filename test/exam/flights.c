@@ -45,8 +45,13 @@ typedef struct {
 static double normal(const exam_t *e, double sd) {
   return sd * random_normal(e->random);
 }
+// One after the other: in which order a call's arguments are drawn is the compiler's to choose.
 static d3_t normal3(const exam_t *e, double sd) {
-  return d3(normal(e, sd), normal(e, sd), normal(e, sd));
+  d3_t n;
+  n.z = normal(e, sd);
+  n.y = normal(e, sd);
+  n.x = normal(e, sd);
+  return n;
 }
 
 // Estimates err together for some 30 ms.
