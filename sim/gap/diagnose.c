@@ -105,12 +105,20 @@ static bool moved(const chosen_t *a, const chosen_t *b) {
   return false;
 }
 
+// What was flown and is not found again: the first look took noise for it, and that hides what is there.
+static bool gone(const chosen_t *flown, const chosen_t *found) {
+  for (int i = 0; i < flown->n; i++)
+    if (!chosen_use(found, flown->of[i])) return true;
+  return false;
+}
+
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
 // names. What feedback makes is flown anew where the flown model was another one.
 static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   bool refined;
   TRY(look_once(d, job->model, &refined, why));
-  const bool other = moved(&d->found.chosen, &d->flown) || moved(&d->flown, &d->found.chosen);
+  const chosen_t *const flown = &d->flown, *const found = &d->found.chosen;
+  const bool other = moved(found, flown) || moved(flown, found) || gone(flown, found);
   if (!refined && !other) return DONE;
   if (other) TRY(fly_with(job, d, &d->found.chosen, why));
   TRY(shapes_alone(&d->candidates, &d->fit, job->model, &d->found, why));
