@@ -116,6 +116,12 @@ void candidates_free(candidates_t *c) {
   *c = (candidates_t){.n = 0};
 }
 
+int candidates_of(const candidates_t *c, const fx_t *fx) {
+  int n = 0;
+  for (int i = 0; i < c->n; i++) n += c->candidate[i].use.fx == fx;
+  return n;
+}
+
 bool candidate_is_numbered(const candidate_t *c) {
   int n;
   const fx_t *const fx = c->use.fx;

@@ -40,6 +40,9 @@ typedef struct {
   fx_use_t use[CHOSEN_MAX];
 } chosen_t;
 
+// As how many candidates an effect is tried: its shapes and kinds.
+int candidates_of(const candidates_t *c, const fx_t *fx);
+
 // Why an effect cannot be looked for in these logs at all; a null pointer: it can.
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s);
 

@@ -122,11 +122,7 @@ static void share_out(evidence_t *e) {
 
 static void take_priors(beam_t *b) {
   const candidates_t *const c = b->r->c;
-  for (int i = 0; i < c->n; i++) {
-    int shapes = 0;
-    for (int k = 0; k < c->n; k++) shapes += c->candidate[k].use.fx == c->candidate[i].use.fx;
-    b->prior[i] = log(RARE / shapes);
-  }
+  for (int i = 0; i < c->n; i++) b->prior[i] = log(RARE / candidates_of(c, c->candidate[i].use.fx));
 }
 
 static done_t open_beam(beam_t *b, const round_t *r, why_t *why) {

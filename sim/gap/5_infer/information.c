@@ -126,6 +126,8 @@ static void spread(parts_t *p, const double *wanted) {
   free(come);
 }
 
+// An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a ground
+// would hide what one does.
 static void widen(parts_t *p, const double *nominal, const double *blocks) {
   const candidates_t *const c = p->r->c;
   double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
@@ -135,11 +137,11 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
   free(wanted);
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
+    const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : CANDIDATES_MISFIT;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
-      const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : CANDIDATES_MISFIT;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += misfit * misfit + late * late;
+      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late;
     }
   }
 }

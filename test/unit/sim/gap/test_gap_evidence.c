@@ -96,6 +96,28 @@ TEST(gap_information_widens_by_misfit_and_by_slow_noise) {
   }
 }
 
+// Two hundredths of what is typical, as one form or as five of which each could stand for the others.
+TEST(gap_information_knows_one_misfit_of_an_effect_however_many_its_forms) {
+  for (int forms = 1; forms <= 5; forms += 4) {
+    gap_rows_t g;
+    why_t why;
+    information_t f;
+    ROW("%d", forms);
+    gap_rows_make(&g, 29);
+    const int first = along(&g, "ground", CH_FZ, 2000.0);
+    for (int k = 1; k < forms; k++) {
+      double *const x = gap_rows_column(&g, gap_rows_candidate(&g, "ground"), 0, CH_FZ);
+      for (int i = 0; i < GAP_ROWS; i++) x[i] = gap_rows_column(&g, first, 0, CH_FZ)[i];
+    }
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
+    CHECK_NEAR(1.0 / sqrt(f.F[0]), 0.02, 0.001);
+    information_free(&f);
+    gap_rows_free(&g);
+  }
+}
+
 // Control makes of a disturbance what looks like an inertia: a quarter of what is typical is no information.
 // Nor is 0.15 of the 5 ms from which on a delay is named, beside two hundredths of what is typical.
 TEST(gap_information_holds_little_of_an_inertia_and_of_lateness) {
