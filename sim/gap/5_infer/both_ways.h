@@ -13,7 +13,8 @@
 // Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
 // Returns the end that is nearer to 0 where it is beyond two of both errors, and k not within it; else 0. A k
 // below 0 is never borne out: a gyro's noise that is fed back makes commands that seem to turn the vehicle
-// more than they do. i: rows of one axis, predicted with J. k, stderr_: of least squares.
+// more than they do. i: rows of one axis, predicted with J. k, stderr_: of least squares alone, without what
+// nominal flights find of k.
 double both_ways_agree(const increments_t *i, double k, double stderr_);
 
 // named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways

@@ -126,8 +126,8 @@ static void spread(parts_t *p, const double *wanted) {
   free(come);
 }
 
-// An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a ground
-// would hide what one does.
+// An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a
+// ground would hide what one does.
 static void widen(parts_t *p, const double *nominal, const double *blocks) {
   const candidates_t *const c = p->r->c;
   double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
