@@ -30,6 +30,7 @@ static void begin(height_t *s, const height_in_t *in) {
       .sent_N = {in->thrust_N, in->thrust_N, in->thrust_N},
       .acc_odd = 1.0f,
       .down_odd = 1.0f,
+      .wait = s->wait,
       .share = s->share,
       .more_m = s->more_m,
       .more_mps = s->more_mps,
@@ -151,8 +152,25 @@ static bool fits(const height_t *s, const height_in_t *in) {
          fabsf(s->x[HEIGHT_W] - in->climb_mps) <= HEIGHT_APART_MPS;
 }
 
+static bool is_flown(const height_t *s) {
+  return s->fit >= s->wait;
+}
+
+// A bit of wait may have flipped.
+static int within(int wait) {
+  return EITHER(wait < HEIGHT_FIT, HEIGHT_FIT, EITHER(wait > HEIGHT_FIT_MAX, HEIGHT_FIT_MAX, wait));
+}
+
+// One more step that fits, or one that does not.
+static void judge(height_t *s, bool good) {
+  s->wait = within(s->wait);
+  if (s->fit >= HEIGHT_TRUST * s->wait) s->fit = s->wait = within(s->wait / 2);
+  if (!good && is_flown(s)) s->wait = within(2 * s->wait);
+  s->fit = EITHER(good, s->fit + 1, 0);
+}
+
 void height_step(height_t *s, const height_param_t *p, float motor_share, const height_in_t *in) {
-  const float to = s->fit >= HEIGHT_FIT ? 1.0f : 0.0f;
+  const float to = is_flown(s) ? 1.0f : 0.0f;
   s->share += f_clamp(to - s->share, -HEIGHT_S / FADE_S, HEIGHT_S / FADE_S);
   if (!usable(in)) {
     height_lose(s);
@@ -173,14 +191,14 @@ void height_step(height_t *s, const height_param_t *p, float motor_share, const 
   s->acc_mps2 = acc_mps2 + s->x[HEIGHT_D] - before_mps2;
   follow(s, in->z_m);
   const bool state = is_state(s), good = state && fits(s, in) && p->own != 0;
-  s->fit = EITHER(!good, 0, EITHER(s->fit < HEIGHT_FIT, s->fit + 1, HEIGHT_FIT));
+  judge(s, good);
   if (!state) s->off_m = 0.0f;
   if (!good) begin(s, in);
 }
 
 void height_fly(height_t *s, const height_param_t *p, const pos_indi_param_t *law, float z_m, float climb_mps,
                 height_fly_t *fly) {
-  if (s->fit >= HEIGHT_FIT) {
+  if (is_flown(s)) {
     const float h_m =
         s->x[HEIGHT_H] + HEIGHT_AHEAD_S * (s->x[HEIGHT_W] + 0.5f * HEIGHT_AHEAD_S * s->acc_mps2);
     s->more_m = f_bound(h_m + s->off_m - z_m, HEIGHT_APART_M);

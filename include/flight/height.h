@@ -35,6 +35,10 @@
 // HEIGHT_APART_M. Else the last difference from the estimator fades out, in a quarter of a second, and with
 // it the gains go back to those of the estimator's height; the filter starts afresh from the estimator. When
 // it has fitted for HEIGHT_FIT steps it fades in. So neither is a step.
+//
+// A lag or a delay that is not what it was told is so for good: what flew by it and had to hand back would do
+// so again and again, and each time two laws meet. So each time it waits twice as long, up to HEIGHT_FIT_MAX,
+// and half as long after HEIGHT_TRUST times as long that it was flown and fitted.
 #ifndef FLIGHT_HEIGHT_H
 #define FLIGHT_HEIGHT_H
 
@@ -69,6 +73,8 @@ typedef struct {
 #define HEIGHT_SILENT     10     // steps: four samples lost
 #define HEIGHT_SAME       10     // samples after the first: noise moves them sooner
 #define HEIGHT_FIT        50     // steps: twice the mean squares' time
+#define HEIGHT_FIT_MAX    1600   // steps: 16 s, so that who flies for a minute has seldom two laws that meet
+#define HEIGHT_TRUST      8      // longer than what has a wrong lag flies before it hands back
 #define HEIGHT_OFF_STEPS  400    // 4 s: slower than the law, faster than the estimator drifts
 #define HEIGHT_APART_M    0.015f // five times what the estimator is wrong by; a floor that is another is more
 #define HEIGHT_APART_MPS  0.15f  // likewise of its climb
@@ -98,7 +104,8 @@ typedef struct {
   float acc_odd, down_odd;     // mean squares of e over its expected size; 1 where all fits
   float down_last_m;
   int same, silent, wild; // samples alike; steps without one; samples in a row that are not believed
-  int fit;                // steps since something did not fit, up to HEIGHT_FIT
+  int fit;                // steps since something did not fit, up to HEIGHT_TRUST times wait
+  int wait;               // steps that it has to have fitted to be flown
   float share;            // of this filter in what is flown
   float more_m, more_mps; // than the estimator's
   bool started;
@@ -112,7 +119,7 @@ typedef struct {
 
 // Nothing known: what is flown is the estimator's.
 static inline void height_init(height_t *s) {
-  *s = (height_t){.started = false};
+  *s = (height_t){.wait = HEIGHT_FIT};
 }
 
 // Nothing of the last steps is known any more; what is flown fades out.

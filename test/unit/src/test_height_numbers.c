@@ -213,6 +213,35 @@ static double fading_in(rest_t *r) {
   return 0.01 * n;
 }
 
+// Handed back so often, it is flown again after so many steps.
+static int waits(rest_t *r, int times) {
+  settle(r);
+  int n = 0;
+  for (; times > 0; times--) {
+    r->in.climb_mps = 1.0f;
+    step(r);
+    r->in.climb_mps = 0.0f;
+    rest_for(r, 30); // faded out
+    for (n = 30; n < 3000 && !(r->h.share > 0.0f); n++) step(r);
+  }
+  return n;
+}
+
+static double longer(rest_t *r) {
+  return (double)waits(r, 2) / waits(r, 1);
+}
+
+static double longest(rest_t *r) {
+  return waits(r, 7);
+}
+
+static double trusted(rest_t *r) {
+  const int wait = waits(r, 2) - 1;
+  int n = wait;
+  for (; n < 5000 && r->h.wait >= wait - 1; n++) step(r);
+  return (double)n / wait;
+}
+
 static double other_zero(rest_t *r) {
   settle(r);
   const float before_m = r->h.off_m;
@@ -369,6 +398,9 @@ static const struct {
     {"SILENT: steps", silence, 10.0, 0.0},
     {"SAME: samples", same, 11.0, 0.0},
     {"FIT: steps until it is flown", until_flown, 51.0, 0.0},
+    {"FIT: times so long after each time that it did not", longer, 2.0, 0.02},
+    {"FIT_MAX: steps at most", longest, 1602.0, 1.0},
+    {"TRUST: times so long as it waits", trusted, 8.0, 0.1},
     {"FADE_S: s", fading_in, 0.24, 0.011},
     {"OFF_STEPS: share followed in as many", other_zero, 0.632, 0.01},
     {"APART_M: mm", apart, 16.0, 0.0},
