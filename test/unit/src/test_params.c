@@ -68,7 +68,7 @@ static const struct {
     {"ceil.cb", "1/m", 80},
     {"ceil.law", "", 1},
     {"ceil.kz", "s", 0.3f},
-    {"ceil.catch", "s", 0.09f},
+    {"ceil.catch", "s", 0.08f},
     {"ceil.hold", "", 2},
     {"ceil.push", "N", 0.05f},
     {"ceil.zOn", "m", 0.1f},
