@@ -228,8 +228,8 @@ static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thr
 // What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
 static float ceiling_Nms(const flight_t *f, float thrust_N) {
   const float slope_per_m = f->out.outer.at.slope_per_m, arm_m = f->outer.param.mixer.arm_m;
-  if (slope_per_m == 0.0f) return 0.0f; // most of a flight
-  return f->outer.param.tilt_share * thrust_N * slope_per_m * arm_m * arm_m * f->att_lag_s;
+  const float all_Nms = f->outer.param.tilt_share * thrust_N * slope_per_m * arm_m * arm_m * f->att_lag_s;
+  return EITHER(slope_per_m == 0.0f, 0.0f, all_Nms); // 0 most of a flight
 }
 
 static APART void run_inner(flight_t *f, const flight_in_t *in) {

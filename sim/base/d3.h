@@ -4,6 +4,7 @@
 #ifndef SIM_BASE_D3_H
 #define SIM_BASE_D3_H
 
+#include "base/where.h"
 #include <math.h>
 
 typedef struct {
@@ -100,7 +101,7 @@ static inline dq_t dq_unit(dq_t q) {
 
 // The rotation by the vector v, as long as its angle in rad.
 static inline dq_t dq_turn(d3_t v) {
-  const double angle = sqrt(d3_dot(v, v)), k = angle > 1e-9 ? sin(0.5 * angle) / angle : 0.5;
+  const double angle = sqrt(d3_dot(v, v)), k = where(angle > 1e-9, sin(0.5 * angle) / angle, 0.5);
   return (dq_t){cos(0.5 * angle), k * v.x, k * v.y, k * v.z};
 }
 

@@ -11,6 +11,10 @@ typedef int alike_t;
 #define EITHER(holds, a, b) ((holds) ? (a) : (b))
 #endif
 
+// Whether it holds for any of them: what is begun for one is computed for all, and EITHER says for whom it
+// counts.
+#define ANY(holds) (holds)
+
 // Element i, which may be another one for each vehicle.
 #define PICK(list, i) ((list)[i])
 

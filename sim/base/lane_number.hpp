@@ -154,6 +154,7 @@ template <typename T, bool A> LANE T lanes_pick(const T *list, lane_whole_t<A> i
   return t;
 }
 #define PICK(list, i)       lanes_pick(list, i)
+#define ANY(holds)          ((lane_flag_t(holds).bits() & lanes_in) != 0)
 #define EITHER(holds, a, b) either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
 
 template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_double_t b) {

@@ -219,7 +219,7 @@ void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb) {
 }
 
 // The variance of the attitude, and what it has to do with the rest, after the body was turned by v.
-static void turn_variance(ekf_t *e, d3_t v) {
+static void turn_variance(ekf_t *e, d3_t v, bool turns) {
   double turn[3][3], with_rest[EKF_N][3];
   turn_matrix(d3_scale(0.5, v), turn);
   for (int i = 0; i < EKF_N; i++)
@@ -227,22 +227,28 @@ static void turn_variance(ekf_t *e, d3_t v) {
       with_rest[i][j] = variance(e, i, ATT) * turn[j][0] + variance(e, i, ATT + 1) * turn[j][1] +
                         variance(e, i, ATT + 2) * turn[j][2];
   for (int i = 0; i < ATT; i++)
-    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = with_rest[i][j];
+    for (int j = 0; j < 3; j++) e->P[i][ATT + j] = EITHER(turns, with_rest[i][j], e->P[i][ATT + j]);
   for (int i = 0; i < 3; i++)
     for (int j = i; j < 3; j++) {
       const double p = turn[i][0] * with_rest[ATT][j] + turn[i][1] * with_rest[ATT + 1][j] +
                        turn[i][2] * with_rest[ATT + 2][j];
-      e->P[ATT + i][ATT + j] = i == j ? bounded(p) : at_most(p);
+      e->P[ATT + i][ATT + j] = EITHER(turns, i == j ? bounded(p) : at_most(p), e->P[ATT + i][ATT + j]);
     }
+}
+
+// Those that turn.
+static void turn_attitude(ekf_t *e, d3_t v, bool turns) {
+  const dq_t was = e->q, q = dq_unit(dq_mul(was, dq_turn(v)));
+  e->q = (dq_t){EITHER(turns, q.w, was.w), EITHER(turns, q.x, was.x), EITHER(turns, q.y, was.y),
+                EITHER(turns, q.z, was.z)};
+  turn_variance(e, v, turns);
 }
 
 void ekf_core_finish(ekf_t *e) {
   if (!e->updated) return;
   const d3_t d = part(e, ATT);
-  if (fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD) {
-    e->q = dq_unit(dq_mul(e->q, dq_turn(d)));
-    turn_variance(e, d);
-  }
+  const bool turns = fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD;
+  if (ANY(turns)) turn_attitude(e, d, turns);
   e->s[ATT] = e->s[ATT + 1] = e->s[ATT + 2] = 0.0;
   ekf_core_rotation(e);
   e->updated = false;
