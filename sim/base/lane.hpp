@@ -111,6 +111,18 @@ LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
   return {_mm256_blendv_pd(b.lo, a.lo, holds.lo), _mm256_blendv_pd(b.hi, a.hi, holds.hi)};
 }
 
+LANE lane_t whole_part(lane_t a) {
+  constexpr int how = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
+  return {_mm256_round_pd(a.lo, how), _mm256_round_pd(a.hi, how)};
+}
+// Who is not in may have any i.
+LANE lane_t element_at(const lane_t *list, lane_t i) {
+  number_t x[LANES], at[LANES];
+  memcpy(at, &i, sizeof at);
+  for (int k = 0; k < LANES; k++) x[k] = lanes_in >> k & 1 ? ((const number_t *)&list[(int)at[k]])[k] : 0.0;
+  return lane_of(x);
+}
+
 // --- the C library's -----------------------------------------------------------------------------------
 
 LANE lane_t sqrt(lane_t a) {

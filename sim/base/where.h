@@ -10,4 +10,14 @@ static inline double where(bool holds, double a, double b) {
   return holds ? a : b;
 }
 
+// A number below 2^31 without what is behind its point.
+static inline double whole_part(double x) {
+  return (int)x;
+}
+
+// Element i, a whole number, which may be another one for each vehicle.
+static inline double element_at(const double *list, double i) {
+  return list[(int)i];
+}
+
 #endif

@@ -1,8 +1,6 @@
 // abreast.c - vehicles that are moved eight at a time.
 #include "body/abreast.h"
 
-#include "body/body.h"
-#include "body/lanes.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,10 +12,13 @@
 #define PLANT_NUMBERS  (sizeof(fx_plant_t) / NUMBER)
 #define LOOK_NUMBERS   (offsetof(body_look_t, loaded) / NUMBER)
 #define EFFECT_NUMBERS FX_PARAM_MAX
+#define BATTERY        (offsetof(battery_param_t, n) / NUMBER)
+#define FROM_NUMBERS   (sizeof(sensed_from_t) / NUMBER)
 
 _Static_assert(LANES_EFFECTS == FX_MAX, "every effect has its place");
 _Static_assert(offsetof(rigid_t, lag_in_speed) == (RIGID_COMMAND + ROTORS) * NUMBER,
                "numbers first, then flags");
+_Static_assert((int)RIGID_N == LANES_CHARGE, "charge, current and voltage lie behind y");
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
 
 // Whose numbers a lane has, and until what change of them.
@@ -35,6 +36,9 @@ struct abreast {
   double step_s;
   long together; // ticks of a vehicle
   has_t has[LANES];
+  unsigned moved;  // by the last tick
+  unsigned ahead;  // of these, those whose body_t lags behind
+  bool now_loaded; // as theirs are
 };
 
 // --- who may be moved together ----------------------------------------------------------------------------
@@ -59,6 +63,8 @@ static bool knows_effects(const body_t *b) {
   }
   for (int k = 0; k < b->n_load; k++)
     if (at_fx(b->load[k]) < 0) return false;
+  for (int k = 0; k < b->model->n_fx; k++)
+    if (b->model->fx[k].fx->sense && at_fx(&b->model->fx[k]) < 0) return false;
   return true;
 }
 
@@ -68,9 +74,10 @@ static bool knows(has_t *has, const body_t *b) {
   return has->knows;
 }
 
-static bool fits(has_t *has, const body_t *b) {
+// Whether those that are in lanes already are clear of surfaces, they say themselves.
+static bool fits(abreast_t *a, int k, const body_t *b) {
   return !b->broken && b->kind != INTEGRATE_REFERENCE && !b->rigid.vertical_only && !b->rigid.held &&
-         !b->on_floor && !b->on_ceiling && knows(has, b) && body_is_clear(b);
+         !b->on_floor && !b->on_ceiling && knows(&a->has[k], b) && (a->ahead >> k & 1 || body_is_clear(b));
 }
 
 static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int n) {
@@ -79,11 +86,26 @@ static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int
   return true;
 }
 
+// Those with an effect on sensors; how many.
+static int senses_of(const model_t *m, const fx_use_t *sense[FX_MAX]) {
+  int n = 0;
+  for (int k = 0; k < m->n_fx; k++)
+    if (m->fx[k].fx->sense) sense[n++] = &m->fx[k];
+  return n;
+}
+
+static bool same_senses(const model_t *a, const model_t *b) {
+  const fx_use_t *of_a[FX_MAX], *of_b[FX_MAX];
+  const int n = senses_of(a, of_a);
+  return n == senses_of(b, of_b) && same_effects(of_a, of_b, n);
+}
+
 static bool alike(const body_t *a, const body_t *b) {
   return a->span_s == b->span_s && a->kind == b->kind && a->step_s == b->step_s &&
          a->rigid.lag_in_speed == b->rigid.lag_in_speed && a->rigid.plain_lag == b->rigid.plain_lag &&
          a->look_is_y == b->look_is_y && a->look.loaded == b->look.loaded && a->pushed == b->pushed &&
-         (a->n_tick > 0) == (b->n_tick > 0) && a->n_excess == b->n_excess && a->n_load == b->n_load &&
+         (a->n_tick > 0) == (b->n_tick > 0) && a->model->battery.n == b->model->battery.n &&
+         same_senses(a->model, b->model) && a->n_excess == b->n_excess && a->n_load == b->n_load &&
          same_effects(a->excess, b->excess, a->n_excess) && same_effects(a->load, b->load, a->n_load);
 }
 
@@ -96,7 +118,12 @@ static lanes_alike_t alike_of(const body_t *b) {
                      .loaded = b->look.loaded,
                      .excess_of = b->excess_of,
                      .n_excess = b->n_excess,
-                     .n_load = b->n_load};
+                     .n_load = b->n_load,
+                     .n_open_V = b->model->battery.n,
+                     .span_s = b->span_s};
+  const fx_use_t *sense[FX_MAX];
+  a.n_sense = senses_of(b->model, sense);
+  for (int k = 0; k < a.n_sense; k++) a.sense[k] = at_fx(sense[k]);
   for (int k = 0; k < b->n_excess; k++) {
     a.excess[k] = at_fx(b->excess[k]);
     a.excess_form[k] = at_form(b->excess[k]);
@@ -114,6 +141,16 @@ static void get(const double *from, double *to, int n, int lane) {
   for (int i = 0; i < n; i++) to[i] = from[LANES * i + lane];
 }
 
+static void take_model(const lanes_at_t *to, int lane, const model_t *m) {
+  const fx_use_t *sense[FX_MAX];
+  const int n = senses_of(m, sense);
+  for (int k = 0; k < n; k++) put(to->sense[k], sense[k]->p, EFFECT_NUMBERS, lane);
+  put(to->battery, (const double *)&m->battery, BATTERY, lane);
+  put(to->open_V, m->battery.open_V, BATTERY_TABLE_MAX, lane);
+  const sensed_from_t from = body_sensed_from(m);
+  put(to->sensed_from, (const double *)&from, FROM_NUMBERS, lane);
+}
+
 // Between ticks that are moved together nothing changes but the commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = lanes_at(a->lanes);
@@ -125,18 +162,38 @@ static void take_all(abreast_t *a, int lane, const body_t *b) {
   put(to->push_w_N, (const double *)&b->push_w_N, 3, lane);
   for (int k = 0; k < b->n_excess; k++) put(to->excess[k], b->excess[k]->p, EFFECT_NUMBERS, lane);
   for (int k = 0; k < b->n_load; k++) put(to->load[k], b->load[k]->p, EFFECT_NUMBERS, lane);
-  put(to->y, b->y, RIGID_N, lane);
+  if (a->has[lane].body != b) take_model(to, lane, b->model);
+  put(to->now, b->y, RIGID_N, lane);
+  const double battery[] = {b->charge, b->current_A, b->vbat_V};
+  put(to->now + LANES * LANES_CHARGE, battery, 3, lane);
   if (b->look_is_y) put(to->look, (const double *)&b->look, LOOK_NUMBERS, lane);
   a->has[lane].body = b;
   a->has[lane].changed = b->changed;
 }
 
-static void give_back(const abreast_t *a, int lane, body_t *b, bool loaded) {
+static void give_now(const double *now, int lane, body_t *b) {
+  double battery[3];
+  get(now, b->y, RIGID_N, lane);
+  get(now + LANES * LANES_CHARGE, battery, 3, lane);
+  b->charge = battery[0];
+  b->current_A = battery[1];
+  b->vbat_V = battery[2];
+}
+
+void abreast_settle(abreast_t *a, int k, body_t *b) {
+  if (!(a->ahead >> k & 1)) return;
+  a->ahead &= ~(1u << k);
   const lanes_at_t *const from = lanes_at(a->lanes);
-  get(from->y, b->y, RIGID_N, lane);
-  get(from->look, (double *)&b->look, LOOK_NUMBERS, lane);
-  b->look.loaded = loaded;
-  b->look_is_y = true;
+  give_now(from->now, k, b);
+  get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
+  b->look.loaded = a->now_loaded;
+}
+
+// Who has to do the tick alone after all is where it was.
+static void give_before(abreast_t *a, int lane, body_t *b) {
+  a->ahead &= ~(1u << lane);
+  give_now(lanes_at(a->lanes)->before, lane, b);
+  body_look(b, TOUCH_FLOOR | TOUCH_CEILING | TOUCH_WALL, b->y, &b->look);
 }
 
 // --- a tick -----------------------------------------------------------------------------------------------
@@ -153,23 +210,19 @@ static bool integrator_for(abreast_t *a, const body_t *b) {
 }
 
 // Moves those of `in`, which are alike. Returns those that were moved.
-static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first) {
-  if (!integrator_for(a, first)) return 0;
+static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
+                              lanes_seen_t *seen) {
   const lanes_alike_t alike = alike_of(first);
   lanes_set(a->lanes, &alike);
   for (int k = 0; k < LANES; k++)
     if (in >> k & 1) take_all(a, k, b[k]);
   bool event;
   lanes_begin(in);
-  if (!isfinite(integrate_to(a->integrate, lanes_at(a->lanes)->y, first->span_s, &event))) return 0;
-  const bool loaded = lanes_end(a->lanes);
-  const unsigned moved = lanes_left();
-  for (int k = 0; k < LANES; k++)
-    if (moved >> k & 1) {
-      give_back(a, k, b[k], loaded);
-      a->together++;
-    }
-  return moved;
+  if (!lanes_begin_clear(a->lanes) ||
+      !isfinite(integrate_to(a->integrate, lanes_at(a->lanes)->now, first->span_s, &event)))
+    return 0;
+  a->now_loaded = lanes_end(a->lanes, seen);
+  return lanes_left();
 }
 
 static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
@@ -177,7 +230,7 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   int n = 0;
   *first = NULL;
   for (int k = 0; k < LANES; k++) {
-    if (!b[k] || !fits(&a->has[k], b[k]) || (*first && !alike(*first, b[k]))) continue;
+    if (!b[k] || !fits(a, k, b[k]) || (*first && !alike(*first, b[k]))) continue;
     if (!*first) *first = b[k];
     in |= 1u << k;
     n++;
@@ -185,20 +238,61 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   return n < ABREAST_FEWEST ? 0 : in;
 }
 
-void abreast_move(abreast_t *a, body_t *const b[LANES]) {
+// Those of a tick that were moved with others: what is done for each body besides.
+static void end_together(abreast_t *a, int k, body_t *b, double *vbat_V) {
+  const double *const now = lanes_at(a->lanes)->now;
+  b->broken = !isfinite(now[LANES * (RIGID_POS_M + 2) + k]) || !isfinite(now[LANES * RIGID_Q_WB + k]);
+  b->t_s += b->span_s;
+  b->look_is_y = true;
+  *vbat_V = now[LANES * LANES_VBAT_V + k];
+  a->ahead |= 1u << k;
+  a->together++;
+}
+
+// In lanes or not, from where it was.
+static void end_alone(abreast_t *a, int k, body_t *b) {
+  if (a->ahead >> k & 1) give_before(a, k, b);
+  body_tick_alone(b);
+  body_tick_end(b);
+}
+
+// Effects at ticks, and rotors without a lag, look at the body and change it.
+static void begin_tick(abreast_t *a, int k, body_t *b) {
+  if (b->n_tick > 0 || b->rigid.motor_tau_s < LAG_LEAST_S) abreast_settle(a, k, b);
+  body_tick_begin(b);
+}
+
+unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, double vbat_V[LANES]) {
   const body_t *first;
   for (int k = 0; k < LANES; k++)
-    if (b[k]) body_tick_begin(b[k]);
-  const unsigned in = alike_in(a, b, &first), moved = in ? move_together(a, b, in, first) : 0;
+    if (b[k]) begin_tick(a, k, b[k]);
+  const unsigned in = alike_in(a, b, &first);
+  if (in && integrator_for(a, first)) {
+    a->moved = move_together(a, b, in, first, seen);
+  } else {
+    a->moved = 0;
+    for (int k = 0; k < LANES; k++)
+      if (b[k]) abreast_settle(a, k, b[k]);
+  }
   for (int k = 0; k < LANES; k++) {
     if (!b[k]) continue;
-    if (!(moved >> k & 1)) body_tick_alone(b[k]);
-    body_tick_end(b[k]);
+    if (a->moved >> k & 1)
+      end_together(a, k, b[k], &vbat_V[k]);
+    else
+      end_alone(a, k, b[k]);
   }
+  return a->moved;
+}
+
+unsigned abreast_sense(abreast_t *a, lanes_truth_t *truth) {
+  lanes_begin(a->moved);
+  if (a->moved) lanes_sense(a->lanes, truth);
+  return lanes_left();
 }
 
 abreast_t *abreast_open(void) {
-  static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS};
+  static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS,
+                                          BATTERY};
   lanes_t *const lanes = lane_possible() ? lanes_open(&numbers) : NULL;
   if (!lanes) return NULL;
   abreast_t *const a = calloc(1, sizeof *a);
@@ -216,6 +310,7 @@ long abreast_together(const abreast_t *a) {
 
 void abreast_forget(abreast_t *a) {
   memset(a->has, 0, sizeof a->has);
+  a->moved = a->ahead = 0;
 }
 
 void abreast_close(abreast_t *a) {

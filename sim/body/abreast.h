@@ -8,6 +8,7 @@
 
 #include "base/lane.h"
 #include "body/body.h"
+#include "body/lanes.h"
 
 // Fewer are moved one by one, for what is computed is computed for eight.
 #define ABREAST_FEWEST 4
@@ -21,8 +22,16 @@ void abreast_close(abreast_t *a);
 // Other bodies come, or what was changed of these was not by body.h.
 void abreast_forget(abreast_t *a);
 
-// A tick of each that is no null pointer: body_command() was called.
-void abreast_move(abreast_t *a, body_t *const b[LANES]);
+// A tick of each that is no null pointer: body_command() was called, and nothing else. Those that are
+// returned (a bit each) were moved together, and are where *seen says; their body_t lags behind, but for
+// commands, time and `broken`, until somebody asks for it.
+unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, double vbat_V[LANES]);
+
+// Before who was moved with others is looked at, or changed, or moved by somebody else.
+void abreast_settle(abreast_t *a, int k, body_t *b);
+
+// What is true before the next tick, of those that are returned: some of those that the last one moved.
+unsigned abreast_sense(abreast_t *a, lanes_truth_t *truth);
 
 // How many ticks of a vehicle were moved with others.
 long abreast_together(const abreast_t *a);

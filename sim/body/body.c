@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CHUNK_S  0.01 // a longer tick looks for surfaces in between
-#define MARGIN_M 2e-3 // how much nearer than by its speed a vehicle may come in a chunk
+#define CHUNK_S 0.01 // a longer tick looks for surfaces in between
 
 double body_rest_z_m(const model_t *model) {
   return model->frame.cg_above_feet_m;
@@ -156,20 +155,9 @@ static void watch_contacts(body_t *b) {
   b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
 }
 
-// The surfaces that may be touched within span_s.
-static int surfaces_within(const body_t *b, double span_s) {
-  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
-  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS);
-  const d3_t vel = d3_of(b->y + RIGID_VEL_MPS);
-  const bool level = b->touch.floor_up_w.z == 1.0 && !isfinite(b->touch.wall_y_m);
-  const double speed = (level ? fabs(vel.z) : d3_norm(vel)) +
-                       b->touch.beside_m * (fabs(rate.x) + fabs(rate.y) + (level ? 0.0 : fabs(rate.z)));
-  return touch_near(&b->touch, d3_of(b->y + RIGID_POS_M), &axes, MARGIN_M + speed * span_s);
-}
-
 static void advance(body_t *b, double span_s) {
   bool event;
-  b->surfaces = surfaces_within(b, span_s);
+  b->surfaces = body_near(b, span_s);
   const int parts = b->surfaces ? (int)ceil(span_s / TOUCH_STEP_S - 1e-9) : 1;
   for (int i = 0; i < parts && !b->broken; i++) {
     b->broken = !isfinite(integrate_to(b->integrate, b->y, span_s / parts, &event));
@@ -212,7 +200,7 @@ void body_tick_alone(body_t *b) {
 }
 
 bool body_is_clear(const body_t *b) {
-  return !(b->span_s > CHUNK_S) && !surfaces_within(b, b->span_s);
+  return !(b->span_s > CHUNK_S) && !body_near(b, b->span_s);
 }
 
 void body_tick_end(body_t *b) {
@@ -243,37 +231,8 @@ void body_tick(body_t *b, const double command_N[ROTORS], double span_s) {
 
 // --- looking ----------------------------------------------------------------------------------------------
 
-static void derivative_now(const body_t *b, double dydt[RIGID_N]) {
-  body_derivative_seen(b, b->y, &b->look, dydt);
-}
-
-d3_t body_specific_force_b_mps2(const body_t *b) {
-  double dydt[RIGID_N];
-  derivative_now(b, dydt);
-  const d3_t rate = d3_of(b->y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
-  const d3_t imu = d3_sub(d3_of(b->model->frame.imu_m), b->plant.cg_b_m);
-  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, G_MPS2));
-  return d3_add(axes_to_body(&b->look.axes, acc_w),
-                d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
-}
-
-static double rotor_z_m(const body_t *b, int i) {
-  const rigid_t *r = &b->rigid;
-  return b->y[RIGID_POS_M + 2] +
-         d3_dot(axes_up_b(&b->look.axes), d3(r->rotor_x_m[i], r->rotor_y_m[i], r->rotor_z_m[i]));
-}
-
-double body_ceiling_gap_m(const body_t *b, int rotor) {
-  const double gap_m = b->touch.ceiling_m - rotor_z_m(b, rotor);
-  return gap_m > 0.0 ? gap_m : 0.0;
-}
-
 double body_thrust_ratio(const body_t *b, int rotor) {
   return b->look.ratio[rotor];
-}
-
-void body_current_left(const body_t *b, double left[ROTORS]) {
-  for (int i = 0; i < ROTORS; i += 2) pair_put(left + i, inflow_torque(pair_of(b->look.turning + i)));
 }
 
 double body_rotor_radps(const body_t *b, int rotor) {

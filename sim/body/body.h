@@ -72,8 +72,14 @@ void body_tick(body_t *b, const double command_N[ROTORS], double span_s);
 // Specific force at the accelerometer, body axes: what a perfect one reads, +g along z at rest.
 d3_t body_specific_force_b_mps2(const body_t *b);
 
+// What perfect sensors read that have the model's effects on sensors: accelerometer and upward range in
+// `above`, downward range in `below`.
+void body_sensed(const body_t *b, fx_sensed_t *above, fx_sensed_t *below);
+
 double body_ceiling_gap_m(const body_t *b, int rotor); // rotor's centre to ceiling, >= 0; HUGE_VAL: none
+double body_gap_m(const body_t *b);                    // of the rotor that is nearest
 double body_thrust_ratio(const body_t *b, int rotor);  // what the surroundings multiply the thrust by
+double body_rotors_N(const body_t *b);                 // of all of them, in free air
 double body_rotor_radps(const body_t *b, int rotor);   // its speed
 // What is left of each rotor's current, and of its torque, of those in free air at the same command.
 void body_current_left(const body_t *b, double left[ROTORS]);
@@ -109,6 +115,11 @@ void body_tick_end(body_t *b);   // battery and time
 bool body_is_clear(const body_t *b);
 
 // --- the inside: what acts (body_forces.c) ---------------------------------------------------------------
+
+// The surfaces (TOUCH_*) that may be touched within span_s.
+int body_near(const body_t *b, double span_s);
+
+sensed_from_t body_sensed_from(const model_t *m);
 
 // What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
 void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look);

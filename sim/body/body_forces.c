@@ -55,3 +55,44 @@ fx_places_t body_places(const body_t *b) {
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   return forces_places(&f, SURFACES, d3_of(b->y + RIGID_POS_M), &axes);
 }
+
+int body_near(const body_t *b, double span_s) {
+  const acting_t f = forces_of(b);
+  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  return forces_near(&f, b->y, &axes, span_s);
+}
+
+double body_ceiling_gap_m(const body_t *b, int rotor) {
+  const acting_t f = forces_of(b);
+  return forces_ceiling_gap_m(&f, b->y, &b->look.axes, rotor);
+}
+
+double body_rotors_N(const body_t *b) {
+  return forces_rotors_N(b->y);
+}
+
+double body_gap_m(const body_t *b) {
+  const acting_t f = forces_of(b);
+  return forces_gap_m(&f, b->y, &b->look.axes);
+}
+
+void body_current_left(const body_t *b, double left[ROTORS]) {
+  forces_current_left(&b->look, left);
+}
+
+d3_t body_specific_force_b_mps2(const body_t *b) {
+  const acting_t f = forces_of(b);
+  return forces_specific_b_mps2(&f, b->y, &b->look, d3_of(b->model->frame.imu_m));
+}
+
+sensed_from_t body_sensed_from(const model_t *m) {
+  return (sensed_from_t){d3_of(m->frame.imu_m), body_rotor_z_m(m), body_rest_z_m(m)};
+}
+
+void body_sensed(const body_t *b, fx_sensed_t *above, fx_sensed_t *below) {
+  const acting_t f = forces_of(b);
+  const sensed_from_t from = body_sensed_from(b->model);
+  forces_sensed(&f, b->y, &b->look, &from, above, below);
+  model_sense(b->model, above);
+  model_sense(b->model, below);
+}

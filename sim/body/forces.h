@@ -6,12 +6,17 @@
 #ifndef SIM_BODY_FORCES_H
 #define SIM_BODY_FORCES_H
 
+#include "base/larger.h"
 #include "base/pair.h"
 #include "effects/fx.h"
 #include "plant/rigid.h"
 #include "plant/touch.h"
 #include <math.h>
 #include <stdbool.h>
+
+#define FORCES_MARGIN_M 2e-3  // how much nearer than by its speed a vehicle may come in a tick
+#define FORCES_FAR_M    0.3   // of the centre of mass
+#define FORCES_IDLE_N   0.002 // of one rotor: below, it stands
 
 // All that the derivative at a state needs besides the commands.
 typedef struct {
@@ -120,6 +125,85 @@ static inline void forces_derivative(const acting_t *f, const double *y, const b
                                      double *dydt) {
   rigid_derivative(f->rigid, y, &look->axes, look->speed_radps, look->ratio, look->turning,
                    look->loaded ? &look->load : NULL, dydt);
+}
+
+// --- looking ---------------------------------------------------------------------------------------------
+
+// The surfaces that may be touched within span_s.
+static inline int forces_near(const acting_t *f, const double *y, const axes_t *axes, double span_s) {
+  const touch_t *const t = f->touch;
+  const d3_t rate = d3_of(y + RIGID_RATE_RADPS), vel = d3_of(y + RIGID_VEL_MPS);
+  const bool level = t->floor_up_w.z == 1.0 && !isfinite(t->wall_y_m);
+  const double speed = (level ? fabs(vel.z) : d3_norm(vel)) +
+                       t->beside_m * (fabs(rate.x) + fabs(rate.y) + (level ? 0.0 : fabs(rate.z)));
+  return touch_near(t, d3_of(y + RIGID_POS_M), axes, FORCES_MARGIN_M + speed * span_s);
+}
+
+static inline double forces_rotor_z_m(const acting_t *f, const double *y, const axes_t *axes, int rotor) {
+  const rigid_t *const r = f->rigid;
+  return y[RIGID_POS_M + 2] +
+         d3_dot(axes_up_b(axes), d3(r->rotor_x_m[rotor], r->rotor_y_m[rotor], r->rotor_z_m[rotor]));
+}
+
+// Rotor's centre to ceiling, >= 0; HUGE_VAL: there is none.
+static inline double forces_ceiling_gap_m(const acting_t *f, const double *y, const axes_t *axes, int rotor) {
+  const double gap_m = f->touch->ceiling_m - forces_rotor_z_m(f, y, axes, rotor);
+  return where(gap_m > 0.0, gap_m, 0.0);
+}
+
+// Of the rotor that is nearest; far from the ceiling that of the first is near enough.
+static inline double forces_gap_m(const acting_t *f, const double *y, const axes_t *axes) {
+  const double first_m = forces_ceiling_gap_m(f, y, axes, 0);
+  double gap_m = first_m;
+  for (int i = 1; i < ROTORS; i++) {
+    const double other_m = forces_ceiling_gap_m(f, y, axes, i);
+    gap_m = where(other_m < gap_m, other_m, gap_m);
+  }
+  return where(f->touch->ceiling_m - y[RIGID_POS_M + 2] > FORCES_FAR_M, first_m, gap_m);
+}
+
+static inline double forces_rotors_N(const double *y) {
+  double sum_N = 0.0;
+  for (int i = 0; i < ROTORS; i++) sum_N += y[RIGID_THRUST_N + i];
+  return sum_N;
+}
+
+// What is left of each rotor's current.
+static inline void forces_current_left(const body_look_t *look, double left[ROTORS]) {
+  for (int i = 0; i < ROTORS; i += 2) pair_put(left + i, inflow_torque(pair_of(look->turning + i)));
+}
+
+// What perfect sensors need to know of the vehicle file besides; heights over its centre of mass.
+typedef struct {
+  d3_t imu_m;
+  double rotor_z_m, rest_z_m;
+} sensed_from_t;
+
+// Specific force at the accelerometer, body axes.
+static inline d3_t forces_specific_b_mps2(const acting_t *f, const double *y, const body_look_t *look,
+                                          d3_t imu_m) {
+  double dydt[RIGID_N];
+  forces_derivative(f, y, look, dydt);
+  const d3_t rate = d3_of(y + RIGID_RATE_RADPS), turn = d3_of(dydt + RIGID_RATE_RADPS);
+  const d3_t imu = d3_sub(imu_m, f->plant->cg_b_m);
+  const d3_t acc_w = d3_add(d3_of(dydt + RIGID_VEL_MPS), d3(0.0, 0.0, G_MPS2));
+  return d3_add(axes_to_body(&look->axes, acc_w),
+                d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
+}
+
+// What they read, before the effects on sensors. Both range sensors lie in the rotors' plane and at the feet,
+// near enough, on the axis.
+static inline void forces_sensed(const acting_t *f, const double *y, const body_look_t *look,
+                                 const sensed_from_t *from, fx_sensed_t *above, fx_sensed_t *below) {
+  const axes_t *const axes = &look->axes;
+  const d3_t floor_up_w = f->touch->floor_up_w, pos_w_m = d3_of(y + RIGID_POS_M);
+  const double up = larger(axes_up_b(axes).z, 1e-3), floor_up = larger(d3_dot(axes->z, floor_up_w), 1e-3);
+  above->acc_b_mps2 = forces_specific_b_mps2(f, y, look, from->imu_m);
+  above->range_m = (f->touch->ceiling_m - y[RIGID_POS_M + 2] - from->rotor_z_m) / up;
+  above->range_rate_mps = -(y[RIGID_VEL_MPS + 2] / up);
+  below->acc_b_mps2 = d3(0.0, 0.0, 0.0);
+  below->range_m = (touch_above_floor_m(f->touch, pos_w_m) - from->rest_z_m) / floor_up;
+  below->range_rate_mps = d3_dot(floor_up_w, d3_of(y + RIGID_VEL_MPS)) / floor_up;
 }
 
 #endif

@@ -19,21 +19,41 @@ typedef struct lanes lanes_t;
 // Where the numbers of a struct of one vehicle go, in its order; the other members stand in lanes_alike_t.
 typedef struct {
   double *rigid, *touch, *plant, *push_w_N;
-  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS]; // p of each effect
-  double *y, *look;
+  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS]; // p of each effect
+  double *battery, *open_V;                                                   // before and behind its `n`
+  double *sensed_from;
+  double *now, *before; // y, charge, current, voltage: at the tick's end, and at its begin
+  double *look;
 } lanes_at_t;
+
+enum { LANES_CHARGE = 17, LANES_CURRENT_A, LANES_VBAT_V, LANES_NOW }; // behind y
+
+// What is known of each at the end of a tick.
+typedef struct {
+  double rotors_N[LANES], gap_m[LANES];
+} lanes_seen_t;
+
+// What is true at a tick's begin: place, velocity, attitude, rates, specific force, upward and downward
+// range, in this order (sense/truth.h).
+#define LANES_TRUTH 18
+typedef struct {
+  double number[LANES_TRUTH][LANES];
+  unsigned motors;  // whether they turn, a bit each
+  double up[LANES]; // cosine of the tilt
+} lanes_truth_t;
 
 // What is one and the same for all of them.
 typedef struct {
   bool lag_in_speed, plain_lag, ticks, pushed, looked, loaded; // looked: `look` is of y
-  int excess_of, n_excess, n_load;
-  int excess[LANES_EFFECTS], load[LANES_EFFECTS]; // in fx_table
-  int excess_form[LANES_EFFECTS];                 // in curve_table; -1: none
+  int excess_of, n_excess, n_load, n_sense, n_open_V;
+  int excess[LANES_EFFECTS], load[LANES_EFFECTS], sense[LANES_EFFECTS]; // in fx_table
+  int excess_form[LANES_EFFECTS];                                       // in curve_table; -1: none
+  double span_s;
 } lanes_alike_t;
 
 // How many numbers each struct begins with for one vehicle; of touch and plant that is all.
 typedef struct {
-  size_t rigid, touch, plant, look;
+  size_t rigid, touch, plant, look, battery;
 } lanes_numbers_t;
 
 // Null: no memory, or a struct whose numbers do not lie one behind the other.
@@ -48,12 +68,18 @@ void lanes_set(lanes_t *l, const lanes_alike_t *alike);
 void lanes_begin(unsigned in);
 unsigned lanes_left(void);
 
+// Whether nothing can be touched in this tick. It begins: what is now is what was before.
+bool lanes_begin_clear(lanes_t *l);
+
 // For the integrator: dydt at state y, both RIGID_N * LANES. context: lanes_t.
 void lanes_derivative(void *context, const double *y, double *dydt);
 
-// The quaternions in `y` are brought back to unit length, and what acts there is looked at. Whether
-// look.loaded.
-bool lanes_end(lanes_t *l);
+// The quaternions in `now` are brought back to unit length, and what acts there is looked at; battery.
+// Whether look.loaded.
+bool lanes_end(lanes_t *l, lanes_seen_t *seen);
+
+// Before the next tick: what perfect sensors with their effects read.
+void lanes_sense(lanes_t *l, lanes_truth_t *truth);
 
 #ifdef __cplusplus
 }

@@ -37,7 +37,7 @@ static void add_place(cJSON *to, const drone_t *d, double beside_m) {
   add(to, "radius_m", b->model->rotor_radius_m);
   add(to, "floor_m", pos_m[2] - touch_above_floor_m(&b->touch, d3_of(y + RIGID_POS_M)));
   add(to, "ceiling_m", b->touch.ceiling_m);
-  add(to, "gap_m", record_gap_m(b));
+  add(to, "gap_m", body_gap_m(b));
   double ratio[ROTORS], motor[ROTORS];
   for (int i = 0; i < ROTORS; i++) {
     ratio[i] = body_thrust_ratio(b, i);

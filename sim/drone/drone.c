@@ -102,7 +102,7 @@ static void look(drone_t *d) {
   d->logs.x = (float)b->y[RIGID_POS_M];
   d->logs.y = (float)b->y[RIGID_POS_M + 1];
   d->logs.z = (float)b->y[RIGID_POS_M + 2];
-  d->logs.gap = (float)record_gap_m(b);
+  d->logs.gap = (float)body_gap_m(b);
   d->logs.ratio = (float)body_thrust_ratio(b, 0);
   d->logs.contacts = (uint32_t)b->ceiling_contacts;
   for (int i = 0; i < 6; i++) {

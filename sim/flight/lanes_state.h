@@ -25,6 +25,9 @@ unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
 
 // What is new of the upward range sensor since the last millisecond, a bit each.
 unsigned lanes_range_new(const lanes_state_t *s);
+// What is true of all of them: so many rows of 8 numbers in the order of truth_t, and whether their motors
+// turn, a bit each.
+void lanes_take_truth(lanes_state_t *s, const double *numbers, unsigned motors);
 // All have called their pilot.
 void lanes_step(lanes_state_t *s);
 

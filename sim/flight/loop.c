@@ -67,7 +67,7 @@ static done_t begin(flight_loop_t *f, why_t *why) {
     ekf_place(&f->senses.ekf, d3_add(start.pos_w_m, rest), start.vel_w_mps, dq_of(f->body.y + RIGID_Q_WB));
   }
   for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = start.thrust_N[i];
-  loop_look_at_rotors(f);
+  f->in.rotors_N = body_rotors_N(&f->body);
   f->in.vbat_V = f->body.vbat_V;
   f->pilot->reset(f->pilot->state);
   return DONE;

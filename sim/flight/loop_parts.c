@@ -5,36 +5,20 @@
 #include "base/larger.h"
 #include <math.h>
 
-#define IDLE_N 0.002 // of one motor: below, it stands
-
 double loop_tick_s(const flight_loop_t *f) {
   return f->plan->vertical_only ? f->plan->period_s : LOOP_TICK_S;
 }
 
 static truth_t truth_of(const flight_loop_t *f) {
-  const body_t *b = &f->body;
-  const double *y = b->y;
-  const dq_t q = dq_of(y + RIGID_Q_WB);
-  const axes_t axes = axes_of(q);
-  const double up = larger(axes_up_b(&axes).z, 1e-3);
+  const double *const y = f->body.y;
   bool motors = false;
-  for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > IDLE_N;
-  const double climb_mps = y[RIGID_VEL_MPS + 2] / up;
-  const d3_t floor_up_w = b->touch.floor_up_w, pos_w_m = d3_of(y + RIGID_POS_M);
-  const double floor_up = larger(d3_dot(axes.z, floor_up_w), 1e-3);
-  // Both range sensors lie in the rotors' plane and at the feet, near enough, on the axis.
-  fx_sensed_t above = {.acc_b_mps2 = body_specific_force_b_mps2(b),
-                       .range_m = (f->model->ceiling_m - y[RIGID_POS_M + 2] - body_rotor_z_m(f->model)) / up,
-                       .range_rate_mps = -climb_mps};
-  fx_sensed_t below = {.range_m =
-                           (touch_above_floor_m(&b->touch, pos_w_m) - body_rest_z_m(f->model)) / floor_up,
-                       .range_rate_mps = d3_dot(floor_up_w, d3_of(y + RIGID_VEL_MPS)) / floor_up};
-  model_sense(f->model, &above);
-  model_sense(f->model, &below);
+  for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > FORCES_IDLE_N;
+  fx_sensed_t above, below;
+  body_sensed(&f->body, &above, &below);
   return (truth_t){
       .pos_w_m = d3_of(y + RIGID_POS_M),
       .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
-      .q_wb = q,
+      .q_wb = dq_of(y + RIGID_Q_WB),
       .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
       .force_b_mps2 = above.acc_b_mps2,
       .up_m = above.range_m,
@@ -83,17 +67,21 @@ static void sense_vertical(flight_loop_t *f, const truth_t *truth) {
       (ekf_out_t){.pos_w_m = f->in.pos_w_m, .vel_w_mps = f->in.vel_w_mps, .q_wb = f->in.q_wb};
 }
 
-// The estimator's zero is the height at rest; the plan's heights are of the rotors' plane.
-static void order(flight_loop_t *f, double t_s) {
+// The estimator's zero is the height at rest; the plan's heights are of the rotors' plane. Whether it is
+// another order.
+static bool order(flight_loop_t *f, double t_s) {
   const plan_t *plan = f->plan;
   while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
   const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
-  const bool on = t_s >= plan->take_off_s;
-  for (int i = 0; i < 3; i++) f->in.set.mode[i] = on ? PILOT_POSITION : PILOT_OFF;
+  const pilot_mode_t mode = t_s >= plan->take_off_s ? PILOT_POSITION : PILOT_OFF;
   const bool thought = plan->below_estimate && isfinite(f->ceiling_z_m);
   const double down_m = thought ? f->model->ceiling_m - f->ceiling_z_m : rest_m;
-  f->in.set.pos_w_m = (d3_t){0.0, 0.0, plan->way[f->way].setpoint_m - down_m};
-  f->in.set.thrust_N = 0.0;
+  const double z_m = plan->way[f->way].setpoint_m - down_m;
+  pilot_setpoint_t *const set = &f->in.set;
+  if (set->mode[2] == mode && set->pos_w_m.z == z_m) return false;
+  for (int i = 0; i < 3; i++) set->mode[i] = mode;
+  set->pos_w_m = (d3_t){0.0, 0.0, z_m};
+  return true;
 }
 
 void loop_pilot(flight_loop_t *f) {
@@ -136,17 +124,12 @@ tick_t loop_look(flight_loop_t *f) {
   return tick;
 }
 
-void loop_look_at_rotors(flight_loop_t *f) {
-  f->in.rotors_N = 0.0;
-  for (int i = 0; i < PILOT_MOTORS; i++) f->in.rotors_N += f->body.y[RIGID_THRUST_N + i];
-}
-
 // What the next tick knows of this one.
-void loop_moved(flight_loop_t *f) {
+void loop_moved(flight_loop_t *f, double rotors_N, double vbat_V, double gap_m) {
   for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
-  loop_look_at_rotors(f);
-  f->in.vbat_V = f->body.vbat_V;
-  f->gap_min_m = smaller(f->gap_min_m, record_gap_m(&f->body));
+  f->in.rotors_N = rotors_N;
+  f->in.vbat_V = vbat_V;
+  f->gap_min_m = smaller(f->gap_min_m, gap_m);
 }
 
 static void move(flight_loop_t *f, double tick_s) {
@@ -156,19 +139,22 @@ static void move(flight_loop_t *f, double tick_s) {
     body_push(&f->body, d3(0.0, 0.0, f->model->mass_kg * gust_mps2));
   }
   body_tick(&f->body, f->motor_N, tick_s);
-  loop_moved(f);
+  loop_moved(f, body_rotors_N(&f->body), f->body.vbat_V, body_gap_m(&f->body));
 }
 
-flight_over_t loop_tick_begin(flight_loop_t *f) {
+flight_over_t loop_tick_order(flight_loop_t *f) {
   const double tick_s = loop_tick_s(f), t_s = (double)f->tick * tick_s;
   const flight_over_t over = flight_over(f->plan, tick_s, f->tick, &f->body, f->motor_N);
   if (over != FLIGHT_FLIES) return over;
-  order(f, t_s);
+  f->ordered = order(f, t_s);
   if (f->body.rigid.held && t_s >= f->plan->held_s) body_hold(&f->body, false);
+  return FLIGHT_FLIES;
+}
+
+void loop_see_truth(flight_loop_t *f) {
   f->truth = truth_of(f);
   const axes_t axes = axes_of(f->truth.q_wb);
   f->up_min = smaller(f->up_min, axes_up_b(&axes).z);
-  return FLIGHT_FLIES;
 }
 
 bool loop_is_sample(const flight_loop_t *f) {
@@ -177,8 +163,9 @@ bool loop_is_sample(const flight_loop_t *f) {
 
 flight_over_t loop_tick(flight_loop_t *f, tick_t *seen, bool *is_sample) {
   *is_sample = false;
-  const flight_over_t over = loop_tick_begin(f);
+  const flight_over_t over = loop_tick_order(f);
   if (over != FLIGHT_FLIES) return over;
+  loop_see_truth(f);
   const int calls = f->plan->vertical_only ? 1 : 2;
   for (int i = 0; i < calls; i++) call_pilot(f);
   *is_sample = loop_is_sample(f);

@@ -23,6 +23,7 @@ typedef struct flight_loop {
   mocap_t mocap;
   vertical_t vertical;
   pilot_in_t in;
+  bool ordered; // in.set is another in this tick
   double motor_N[PILOT_MOTORS];
   double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
   bool range_new;
@@ -43,9 +44,10 @@ void loop_move(flight_loop_t *loop);
 
 double loop_tick_s(const flight_loop_t *f);
 
-// Set points, and what is true at a tick's start; FLIGHT_FLIES: then two milliseconds come, each with its
+// Set points, and what is true at a tick's start. FLIGHT_FLIES: then two milliseconds come, each with its
 // noise, what was seen upwards in it, and the pilot.
-flight_over_t loop_tick_begin(flight_loop_t *f);
+flight_over_t loop_tick_order(flight_loop_t *f);
+void loop_see_truth(flight_loop_t *f);
 void loop_draw(flight_loop_t *f, const truth_t *truth, senses_drawn_t *drawn);
 void loop_note_range(flight_loop_t *f);
 void loop_pilot(flight_loop_t *f);
@@ -54,9 +56,8 @@ void loop_pilot(flight_loop_t *f);
 bool loop_is_sample(const flight_loop_t *f);
 tick_t loop_look(flight_loop_t *f);
 
-// When the body has moved; what the rotors give is known before, too.
-void loop_look_at_rotors(flight_loop_t *f);
-void loop_moved(flight_loop_t *f);
+// When the body has moved: what its rotors give, its battery's voltage, and how near it is to the ceiling.
+void loop_moved(flight_loop_t *f, double rotors_N, double vbat_V, double gap_m);
 
 // All of it, alone.
 MUST_CHECK done_t loop_run(flight_loop_t *f, record_t *record, bool *finite, why_t *why);

@@ -9,19 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR_M        0.3 // of the centre of mass
 #define APP_LOGS_MAX 256
-
-// Far from the ceiling that of the first is near enough.
-double record_gap_m(const body_t *b) {
-  if (b->model->ceiling_m - b->y[RIGID_POS_M + 2] > FAR_M) return body_ceiling_gap_m(b, 0);
-  double gap_m = body_ceiling_gap_m(b, 0);
-  for (int i = 1; i < ROTORS; i++) {
-    const double other_m = body_ceiling_gap_m(b, i);
-    if (other_m < gap_m) gap_m = other_m;
-  }
-  return gap_m;
-}
 
 // What the mixer of the firmware must have been given: the inverse of its plus and minus, roll and pitch
 // halved.
@@ -36,7 +24,7 @@ static void take_command(sample_t *s, double full_N) {
 static sample_t sample_of(const tick_t *t) {
   const body_t *b = t->body;
   const axes_t axes = axes_of(t->truth->q_wb);
-  const double gap_m = record_gap_m(b);
+  const double gap_m = body_gap_m(b);
   sample_t s = {
       .t_s = t->t_s,
       .setpoint_m = t->setpoint_m,

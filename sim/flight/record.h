@@ -60,9 +60,6 @@ typedef struct {
   double range_m;             // the newest
 } tick_t;
 
-// Distance of the rotor that is nearest to the ceiling.
-double record_gap_m(const body_t *b);
-
 // Makes room for so many samples in all: what is known beforehand need not be moved while it grows. FAILED:
 // no memory; nothing has changed.
 MUST_CHECK done_t record_reserve(record_t *r, int room, why_t *why);

@@ -1,6 +1,7 @@
 // together.c - flights eight at a time.
 #include "flight/together.h"
 
+#include "base/larger.h"
 #include "base/turns.h"
 #include "body/abreast.h"
 #include "crazyflie/crazyflie.h"
@@ -29,9 +30,8 @@ typedef struct {
   parts_t part;
   abreast_t *bodies;
   job_t *job[LANES];
-  unsigned fly;                // lanes in which a flight is, a bit each
-  unsigned vehicle;            // of these, those whose pilot is in lanes, too
-  pilot_setpoint_t set[LANES]; // as it was put in last
+  unsigned fly;     // lanes in which a flight is, a bit each
+  unsigned vehicle; // of these, those whose pilot is in lanes, too
   long together;
 } group_t;
 
@@ -58,6 +58,11 @@ static void get_part(group_t *g, const weave_t *part, int k, void *one) {
 }
 static void get_part_before(group_t *g, const weave_t *part, int k, void *one) {
   weave_get(part, lanes_block_before(g->state, part->block), k, one);
+}
+
+// The body's own numbers.
+static void settle(group_t *g, int k) {
+  abreast_settle(g->bodies, k, &g->job[k]->f->body);
 }
 
 #define PART(block, type, from, to) weave_part(block, offsetof(type, from), offsetof(type, to))
@@ -123,7 +128,6 @@ static void put_flight(group_t *g, int k, flight_loop_t *f) {
   put(g, LANES_imu_param, k, &f->noise.imu);
   put(g, LANES_range_param, k, &f->noise.range);
   put(g, LANES_in, k, &f->in);
-  g->set[k] = f->in.set;
   lanes_motors_t motors;
   memcpy(motors.N, f->motor_N, sizeof motors.N);
   put(g, LANES_motors, k, &motors);
@@ -214,6 +218,7 @@ static void pilots(group_t *g, uint32_t step) {
   EACH(k, g->fly & ~g->vehicle) {
     flight_loop_t *const f = g->job[k]->f;
     get(g, LANES_in, k, &f->in);
+    if (f->plan->edit) settle(g, k);
     loop_pilot(f);
   }
   lanes_step(g->state);
@@ -225,6 +230,7 @@ static void pilots(group_t *g, uint32_t step) {
 static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   job_t *const job = g->job[k];
   flight_loop_t *const f = job->f;
+  settle(g, k);
   all_of_senses(g, get, k, &f->senses);
   get(g, LANES_range, k, &f->senses.range);
   get(g, LANES_in, k, &f->in);
@@ -238,18 +244,34 @@ static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   g->vehicle &= g->fly;
 }
 
+// What is true, of those whose bodies are in lanes. Numbers of eight lie in one way everywhere.
+static unsigned see_truth(group_t *g) {
+  lanes_truth_t truth;
+  const unsigned seen = abreast_sense(g->bodies, &truth) & g->fly;
+  if (!seen) return 0;
+  lanes_take_truth(g->state, truth.number[0], truth.motors);
+  EACH(k, seen) {
+    flight_loop_t *const f = g->job[k]->f;
+    f->up_min = smaller(f->up_min, truth.up[k]);
+    if (f->plan->mocap.period_s > 0.0) get(g, LANES_truth, k, &f->truth);
+  }
+  return seen;
+}
+
 static void begin_tick(group_t *g) {
   EACH(k, g->fly) {
+    const flight_over_t over = loop_tick_order(g->job[k]->f);
+    if (over != FLIGHT_FLIES) retire(g, k, DONE, over);
+  }
+  const unsigned seen = see_truth(g);
+  EACH(k, g->fly) {
     flight_loop_t *const f = g->job[k]->f;
-    const flight_over_t over = loop_tick_begin(f);
-    if (over != FLIGHT_FLIES) {
-      retire(g, k, DONE, over);
-      continue;
+    if (!(seen >> k & 1)) {
+      settle(g, k);
+      loop_see_truth(f);
+      put(g, LANES_truth, k, &f->truth);
     }
-    put(g, LANES_truth, k, &f->truth);
-    if (memcmp(&g->set[k], &f->in.set, sizeof f->in.set) == 0) continue;
-    memcpy(&g->set[k], &f->in.set, sizeof f->in.set);
-    put_part(g, &g->part.set, k, &f->in);
+    if (f->ordered) put_part(g, &g->part.set, k, &f->in);
   }
 }
 
@@ -258,6 +280,8 @@ static void sample(group_t *g) {
     job_t *const job = g->job[k];
     flight_loop_t *const f = job->f;
     if (!loop_is_sample(f)) continue;
+    settle(g, k);
+    get(g, LANES_truth, k, &f->truth);
     get(g, LANES_in, k, &f->in);
     get(g, LANES_estimate, k, &f->senses.estimate);
     if (g->vehicle >> k & 1) {
@@ -279,10 +303,15 @@ static void move(group_t *g) {
     bodies[k] = &f->body;
     body_command(&f->body, f->motor_N, LOOP_TICK_S);
   }
-  abreast_move(g->bodies, bodies);
+  lanes_seen_t seen;
+  double vbat_V[LANES];
+  const unsigned moved = abreast_move(g->bodies, bodies, &seen, vbat_V);
   EACH(k, g->fly) {
     flight_loop_t *const f = g->job[k]->f;
-    loop_moved(f);
+    if (moved >> k & 1)
+      loop_moved(f, seen.rotors_N[k], vbat_V[k], seen.gap_m[k]);
+    else
+      loop_moved(f, body_rotors_N(&f->body), f->body.vbat_V, body_gap_m(&f->body));
     put_part(g, &g->part.moved, k, &f->in);
     f->tick++;
   }

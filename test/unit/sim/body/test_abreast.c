@@ -64,6 +64,29 @@ static void fly(flights_t *f, int i) {
   end(f, i, &b);
 }
 
+// What is said of who moved with others is what its body says; who is pushed next is settled before.
+static void see(abreast_t *a, int i, bool moved, const lanes_seen_t *seen, double vbat_V, body_t *b) {
+  abreast_settle(a, i, b);
+  if (!moved) return;
+  CHECK(body_rotors_N(b) == seen->rotors_N[i] && body_gap_m(b) == seen->gap_m[i] && b->vbat_V == vbat_V);
+}
+
+// What is true, likewise.
+static void sense(abreast_t *a, int n, body_t *body) {
+  lanes_truth_t truth;
+  const unsigned sensed = abreast_sense(a, &truth);
+  for (int i = 0; i < n; i++) {
+    if (!(sensed >> i & 1)) continue;
+    fx_sensed_t above, below;
+    abreast_settle(a, i, &body[i]);
+    body_sensed(&body[i], &above, &below);
+    const double want[] = {above.acc_b_mps2.x, above.acc_b_mps2.y, above.acc_b_mps2.z, above.range_m,
+                           below.range_m};
+    for (int k = 0; k < LANES_TRUTH; k++)
+      CHECK(truth.number[k][i] == (k < RIGID_THRUST_N ? body[i].y[k] : want[k - RIGID_THRUST_N]));
+  }
+}
+
 // first to first + n - 1, side by side.
 static void fly_beside(flights_t *f, abreast_t *a, int first, int n) {
   static body_t body[LANES];
@@ -78,9 +101,16 @@ static void fly_beside(flights_t *f, abreast_t *a, int first, int n) {
         moves[i] = &body[i];
         left++;
       }
-    abreast_move(a, moves);
+    lanes_seen_t seen;
+    double vbat_V[LANES];
+    const unsigned moved = abreast_move(a, moves, &seen, vbat_V);
+    if (k % 3 == 0) sense(a, n, body);
+    for (int i = 0; i < n && (f->pushed || k % 2); i++) see(a, i, moved >> i & 1, &seen, vbat_V[i], &body[i]);
   }
-  for (int i = 0; i < n; i++) end(f, first + i, &body[i]);
+  for (int i = 0; i < n; i++) {
+    abreast_settle(a, i, &body[i]);
+    end(f, first + i, &body[i]);
+  }
 }
 
 static long all_beside(flights_t *f, int n) {
