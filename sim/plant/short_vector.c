@@ -6,6 +6,7 @@
 #include <nvector/nvector_serial.h>
 
 #define TERMS_MAX 16 // the state and the stages of the longest table, 13
+#define PAIRS     4  // at a time
 
 // All vectors of one integrator are of one length. Arguments may be one and the same vector: element by
 // element that does no harm.
@@ -29,16 +30,23 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
   for (sunindextype i = 0; i < n; i++) out[i] = a * p[i] + b * q[i];
 }
 
-// Of the elements i and i + 1; alone: there is no other.
-static inline pair_t sum_at(int terms, const realtype *factor, const realtype *const *in, sunindextype i,
-                            bool alone) {
-  pair_t sum = pair_both(0.0);
-  for (int k = 0; k < terms; k++) sum += factor[k] * (alone ? pair_both(in[k][i]) : pair_of(in[k] + i));
+// Of so many pairs of elements from i on: all of them in registers, whatever the terms are.
+static inline void sum_pairs(int pairs, int terms, const realtype *factor, const realtype *const *in,
+                             sunindextype i, realtype *out) {
+  pair_t sum[PAIRS];
+  for (int p = 0; p < pairs; p++) sum[p] = pair_both(0.0);
+  for (int k = 0; k < terms; k++)
+    for (int p = 0; p < pairs; p++) sum[p] += factor[k] * pair_of(in[k] + i + 2 * p);
+  for (int p = 0; p < pairs; p++) pair_put(out + i + 2 * p, sum[p]);
+}
+
+static inline realtype sum_one(int terms, const realtype *factor, const realtype *const *in, sunindextype i) {
+  realtype sum = 0.0;
+  for (int k = 0; k < terms; k++) sum += factor[k] * in[k][i];
   return sum;
 }
 
-// c1 x1 + c2 x2 + ..., from left to right, in pairs. A term with factor 0 is left out: of a table's stages,
-// half are.
+// c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
 static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   const realtype *in[TERMS_MAX];
@@ -51,8 +59,9 @@ static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
     in[used++] = NV_DATA_S(x[k]);
   }
   sunindextype i = 0;
-  for (; i + 1 < n; i += 2) pair_put(out + i, sum_at(used, factor, in, i, false));
-  if (i < n) out[i] = sum_at(used, factor, in, i, true)[0];
+  for (; i + 2 * PAIRS <= n; i += 2 * PAIRS) sum_pairs(PAIRS, used, factor, in, i, out);
+  for (; i + 1 < n; i += 2) sum_pairs(1, used, factor, in, i, out);
+  if (i < n) out[i] = sum_one(used, factor, in, i);
   return 0;
 }
 
