@@ -8,6 +8,7 @@
 #define NUMBER         sizeof(double)
 #define RIGID_NUMBERS  (offsetof(rigid_t, command_N) / NUMBER) // those that stay, most of the time
 #define RIGID_COMMAND  RIGID_NUMBERS
+#define RIGID_SCALES   (offsetof(rigid_t, thrust_scale) / NUMBER) // thrust, torque, faster
 #define TOUCH_NUMBERS  (sizeof(touch_t) / NUMBER)
 #define PLANT_NUMBERS  (sizeof(fx_plant_t) / NUMBER)
 #define LOOK_NUMBERS   (offsetof(body_look_t, loaded) / NUMBER)
@@ -18,6 +19,7 @@
 _Static_assert(LANES_EFFECTS == FX_MAX, "every effect has its place");
 _Static_assert(offsetof(rigid_t, lag_in_speed) == (RIGID_COMMAND + ROTORS) * NUMBER,
                "numbers first, then flags");
+_Static_assert(offsetof(rigid_t, faster) == (RIGID_SCALES + 2 * ROTORS) * NUMBER, "scales lie side by side");
 _Static_assert((int)RIGID_N == LANES_CHARGE, "charge, current and voltage lie behind y");
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
 
@@ -151,10 +153,17 @@ static void take_model(const lanes_at_t *to, int lane, const model_t *m) {
   put(to->sensed_from, (const double *)&from, FROM_NUMBERS, lane);
 }
 
-// Between ticks that are moved together nothing changes but the commands.
+// What effects at ticks change at every one of them.
+static void take_plant(const lanes_at_t *to, int lane, const body_t *b) {
+  put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
+  put(to->rigid + LANES * RIGID_SCALES, (const double *)&b->rigid + RIGID_SCALES, 3 * ROTORS, lane);
+}
+
+// Between ticks that are moved together nothing changes but that, and the commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = lanes_at(a->lanes);
   put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
+  if (b->n_tick > 0) take_plant(to, lane, b);
   if (a->has[lane].body == b && a->has[lane].changed == b->changed) return;
   put(to->rigid, (const double *)&b->rigid, RIGID_NUMBERS, lane);
   put(to->touch, (const double *)&b->touch, TOUCH_NUMBERS, lane);

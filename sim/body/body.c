@@ -184,7 +184,6 @@ void body_tick_begin(body_t *b) {
   if (b->n_tick > 0) {
     body_effects(b, b->span_s);
     b->look_is_y = false;
-    b->changed++;
   }
   delay_commands(b, b->span_s);
   if (b->rigid.motor_tau_s < LAG_LEAST_S) take_commands(b);

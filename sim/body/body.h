@@ -53,7 +53,9 @@ typedef struct {
   int surfaces;     // TOUCH_* that are near enough to look at
   body_look_t look; // at y, between ticks
   bool look_is_y;   // also at the integrator's next call
-  unsigned changed; // counts what was not done by those that move it with others (abreast.c)
+  // Counts what was not done by those that move it with others (abreast.c), but for what effects do at each
+  // tick: `plant`, and of `rigid` the scales of the rotors.
+  unsigned changed;
   double queue_N[BODY_QUEUE][ROTORS];
   unsigned queued;
 } body_t;

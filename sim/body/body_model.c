@@ -39,16 +39,17 @@ fx_plant_t body_untouched(const model_t *m) {
                       .delay_s = m->frame.motor_delay_s};
 }
 
-// Divisions only where something has changed.
-static void take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
+// Divisions only where something has changed; whether it has.
+static bool take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
   const d3_t was = r->inertia_kgm2;
   if (r->mass_kg == plant->mass_kg && r->motor_tau_s == plant->motor_tau_s && was.x == J_kgm2.x &&
       was.y == J_kgm2.y && was.z == J_kgm2.z)
-    return;
+    return false;
   r->inertia_kgm2 = J_kgm2;
   r->mass_kg = plant->mass_kg;
   r->motor_tau_s = plant->motor_tau_s;
   rigid_tune(r);
+  return true;
 }
 
 void body_effects(body_t *b, double span_s) {
@@ -70,9 +71,11 @@ void body_effects(body_t *b, double span_s) {
     if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
   }
   const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
-  take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));
+  b->changed += take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));
   memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
   memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
   memcpy(b->rigid.faster, b->plant.faster, sizeof b->rigid.faster);
-  if (d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0) body_place(b, b->plant.cg_b_m);
+  if (!(d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0)) return;
+  body_place(b, b->plant.cg_b_m);
+  b->changed++;
 }
