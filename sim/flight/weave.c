@@ -139,3 +139,53 @@ void weave_get(const weave_t *w, const void *eight, int lane, void *one) {
     get_run(r, (const char *)eight + r->eight + (size_t)lane * lane_bytes(r->kind), (char *)one + r->one);
   }
 }
+
+// --- of all eight ------------------------------------------------------------------------------------------
+
+static inline void cell(bool put, size_t bytes, char *lane, char *one) {
+  put ? memcpy(lane, one, bytes) : memcpy(one, lane, bytes);
+}
+
+// Numbers that are as wide in lanes as they are alone; a row of them at a time.
+static inline void rows(bool put, size_t bytes, int n, char *eight, char *const one[LANES]) {
+  char *const a = one[0], *const b = one[1], *const c = one[2], *const d = one[3], *const e = one[4],
+              *const f = one[5], *const g = one[6], *const h = one[7];
+  for (size_t at = 0; at < (size_t)n * bytes; at += bytes, eight += LANES * bytes) {
+    cell(put, bytes, eight, a + at);
+    cell(put, bytes, eight + bytes, b + at);
+    cell(put, bytes, eight + 2 * bytes, c + at);
+    cell(put, bytes, eight + 3 * bytes, d + at);
+    cell(put, bytes, eight + 4 * bytes, e + at);
+    cell(put, bytes, eight + 5 * bytes, f + at);
+    cell(put, bytes, eight + 6 * bytes, g + at);
+    cell(put, bytes, eight + 7 * bytes, h + at);
+  }
+}
+
+void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]) {
+  for (int i = 0; i < w->n; i++) {
+    const weave_run_t *const r = &w->run[i];
+    char *const to = (char *)eight + r->eight, *from[LANES];
+    for (int k = 0; k < LANES; k++) from[k] = (char *)one[k] + r->one;
+    if (r->kind == LANE_64)
+      rows(true, 8, r->n, to, from);
+    else if (r->kind == LANE_32)
+      rows(true, 4, r->n, to, from);
+    else
+      for (int k = 0; k < LANES; k++) put_run(r, to + (size_t)k * lane_bytes(r->kind), from[k]);
+  }
+}
+
+void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]) {
+  for (int i = 0; i < w->n; i++) {
+    const weave_run_t *const r = &w->run[i];
+    char *const from = (char *)eight + r->eight, *to[LANES];
+    for (int k = 0; k < LANES; k++) to[k] = (char *)one[k] + r->one;
+    if (r->kind == LANE_64)
+      rows(false, 8, r->n, from, to);
+    else if (r->kind == LANE_32)
+      rows(false, 4, r->n, from, to);
+    else
+      for (int k = 0; k < LANES; k++) get_run(r, from + (size_t)k * lane_bytes(r->kind), to[k]);
+  }
+}

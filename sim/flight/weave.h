@@ -29,4 +29,8 @@ weave_t weave_part(int block, size_t from, size_t to);
 void weave_put(const weave_t *w, void *eight, int lane, const void *one);
 void weave_get(const weave_t *w, const void *eight, int lane, void *one);
 
+// The same of all eight flights, for less than half.
+void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]);
+void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]);
+
 #endif

@@ -1,4 +1,4 @@
 # Who parts does its milliseconds again from what they made of it, in place of what was before.
-# file: sim/flight/together.c
+# file: sim/flight/woven.c
 # test: together
-s/get_part_before(g, &g->part.now, k, &c->app);/(void)g;/
+s/get_part_before(w, &w->now, k, &c->app);/(void)w;/
