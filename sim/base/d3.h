@@ -45,6 +45,8 @@ static inline d3_t d3_cross(d3_t a, d3_t b) {
 static inline double d3_norm(d3_t a) {
   return sqrt(d3_dot(a, a));
 }
+#define D3_WHERE(holds, a, b)                                                                                \
+  d3(where(holds, (a).x, (b).x), where(holds, (a).y, (b).y), where(holds, (a).z, (b).z))
 static inline d3_t d3_of(const double *p) {
   return d3(p[0], p[1], p[2]);
 }

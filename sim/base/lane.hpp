@@ -111,6 +111,9 @@ LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
   return {_mm256_blendv_pd(b.lo, a.lo, holds.lo), _mm256_blendv_pd(b.hi, a.hi, holds.hi)};
 }
 
+LANE bool any_of(truth_t holds) {
+  return (holds.bits() & lanes_in) != 0;
+}
 LANE lane_t whole_part(lane_t a) {
   constexpr int how = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
   return {_mm256_round_pd(a.lo, how), _mm256_round_pd(a.hi, how)};

@@ -10,6 +10,11 @@ static inline double where(bool holds, double a, double b) {
   return holds ? a : b;
 }
 
+// Whether it holds for any of the vehicles that are computed here.
+static inline bool any_of(bool holds) {
+  return holds;
+}
+
 // A number below 2^31 without what is behind its point.
 static inline double whole_part(double x) {
   return (int)x;

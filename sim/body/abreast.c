@@ -76,10 +76,9 @@ static bool knows(has_t *has, const body_t *b) {
   return has->knows;
 }
 
-// Whether those that are in lanes already are clear of surfaces, they say themselves.
-static bool fits(abreast_t *a, int k, const body_t *b) {
+static bool fits(has_t *has, const body_t *b) {
   return !b->broken && b->kind != INTEGRATE_REFERENCE && !b->rigid.vertical_only && !b->rigid.held &&
-         !b->on_floor && !b->on_ceiling && knows(&a->has[k], b) && (a->ahead >> k & 1 || body_is_clear(b));
+         !(b->span_s > BODY_CHUNK_S) && knows(has, b);
 }
 
 static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int n) {
@@ -218,20 +217,59 @@ static bool integrator_for(abreast_t *a, const body_t *b) {
   return integrate_open(&a->integrate, a->kind, &ode) == DONE;
 }
 
+// What becomes of contacts in a tick, of each.
+typedef struct {
+  bool on_floor, on_ceiling;
+  int floor, ceiling; // begun
+} contacts_t;
+
+static void watch(lanes_t *l, bool near, contacts_t touch[LANES]) {
+  bool any = near;
+  for (int k = 0; k < LANES; k++) any = any || touch[k].on_floor || touch[k].on_ceiling;
+  if (!any) return;
+  lanes_gap_t gap;
+  lanes_gap(l, &gap);
+  for (int k = 0; k < LANES; k++) {
+    contacts_t *const t = &touch[k];
+    if (!near && !t->on_floor && !t->on_ceiling) continue;
+    t->floor += body_touched(&t->on_floor, gap.floor_m[k]);
+    t->ceiling += body_touched(&t->on_ceiling, gap.ceiling_m[k]);
+  }
+}
+
+static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
+  const int surfaces = lanes_tick(a->lanes), parts = body_parts(surfaces, span_s);
+  bool event;
+  for (int i = 0; i < parts; i++) {
+    if (!isfinite(integrate_to(a->integrate, lanes_at(a->lanes)->now, span_s / parts, &event))) return false;
+    watch(a->lanes, surfaces != 0, touch);
+  }
+  return true;
+}
+
 // Moves those of `in`, which are alike. Returns those that were moved.
 static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
                               lanes_seen_t *seen) {
   const lanes_alike_t alike = alike_of(first);
+  contacts_t touch[LANES] = {{.floor = 0}};
   lanes_set(a->lanes, &alike);
-  for (int k = 0; k < LANES; k++)
-    if (in >> k & 1) take_all(a, k, b[k]);
-  bool event;
+  for (int k = 0; k < LANES; k++) {
+    if (!(in >> k & 1)) continue;
+    take_all(a, k, b[k]);
+    touch[k] = (contacts_t){.on_floor = b[k]->on_floor, .on_ceiling = b[k]->on_ceiling};
+  }
   lanes_begin(in);
-  if (!lanes_begin_clear(a->lanes) ||
-      !isfinite(integrate_to(a->integrate, lanes_at(a->lanes)->now, first->span_s, &event)))
-    return 0;
+  if (!advance(a, first->span_s, touch)) return 0;
   a->now_loaded = lanes_end(a->lanes, seen);
-  return lanes_left();
+  const unsigned moved = lanes_left();
+  for (int k = 0; k < LANES; k++) {
+    if (!(moved >> k & 1)) continue;
+    b[k]->on_floor = touch[k].on_floor;
+    b[k]->on_ceiling = touch[k].on_ceiling;
+    b[k]->floor_contacts += touch[k].floor;
+    b[k]->ceiling_contacts += touch[k].ceiling;
+  }
+  return moved;
 }
 
 static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
@@ -239,7 +277,7 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   int n = 0;
   *first = NULL;
   for (int k = 0; k < LANES; k++) {
-    if (!b[k] || !fits(a, k, b[k]) || (*first && !alike(*first, b[k]))) continue;
+    if (!b[k] || !fits(&a->has[k], b[k]) || (*first && !alike(*first, b[k]))) continue;
     if (!*first) *first = b[k];
     in |= 1u << k;
     n++;

@@ -1,6 +1,6 @@
 // abreast.h - vehicles that are moved eight at a time. Each gets the bits that it gets alone.
 //
-// Those that are alike (effects that are on, lag, integrator, length of the tick) and away from surfaces are
+// Those that are alike (effects that are on, lag, integrator, length of the tick, surfaces that are near) are
 // moved together (body/lanes.h), the others one by one. Effects with measured points (form=table), or that
 // are in no table, always are.
 #ifndef SIM_BODY_ABREAST_H

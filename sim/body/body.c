@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#define CHUNK_S 0.01 // a longer tick looks for surfaces in between
-
 double body_rest_z_m(const model_t *model) {
   return model->frame.cg_above_feet_m;
 }
@@ -142,7 +140,7 @@ void body_close(body_t *b) {
 
 // --- a tick ---------------------------------------------------------------------------------------------
 
-static int touched(bool *on, double gap_m) {
+int body_touched(bool *on, double gap_m) {
   const bool was = *on;
   *on = gap_m <= 0.0 || (was && gap_m < BODY_RELEASE_M);
   return *on && !was;
@@ -151,14 +149,18 @@ static int touched(bool *on, double gap_m) {
 static void watch_contacts(body_t *b) {
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
   const touch_gap_t gap = touch_gap(&b->touch, d3_of(b->y + RIGID_POS_M), &axes);
-  b->floor_contacts += touched(&b->on_floor, gap.floor_m);
-  b->ceiling_contacts += touched(&b->on_ceiling, gap.ceiling_m);
+  b->floor_contacts += body_touched(&b->on_floor, gap.floor_m);
+  b->ceiling_contacts += body_touched(&b->on_ceiling, gap.ceiling_m);
+}
+
+int body_parts(int surfaces, double span_s) {
+  return surfaces ? (int)ceil(span_s / TOUCH_STEP_S - 1e-9) : 1;
 }
 
 static void advance(body_t *b, double span_s) {
   bool event;
   b->surfaces = body_near(b, span_s);
-  const int parts = b->surfaces ? (int)ceil(span_s / TOUCH_STEP_S - 1e-9) : 1;
+  const int parts = body_parts(b->surfaces, span_s);
   for (int i = 0; i < parts && !b->broken; i++) {
     b->broken = !isfinite(integrate_to(b->integrate, b->y, span_s / parts, &event));
     if (b->surfaces || b->on_floor || b->on_ceiling) watch_contacts(b);
@@ -192,14 +194,10 @@ void body_tick_begin(body_t *b) {
 void body_tick_alone(body_t *b) {
   b->changed++;
   const double span_s = b->span_s;
-  const int chunks = span_s > CHUNK_S ? (int)ceil(span_s / CHUNK_S - 1e-9) : 1;
+  const int chunks = span_s > BODY_CHUNK_S ? (int)ceil(span_s / BODY_CHUNK_S - 1e-9) : 1;
   for (int i = 0; i < chunks && !b->broken; i++) advance(b, span_s / chunks);
   rigid_normalise(b->y);
   look_now(b);
-}
-
-bool body_is_clear(const body_t *b) {
-  return !(b->span_s > CHUNK_S) && !body_near(b, b->span_s);
 }
 
 void body_tick_end(body_t *b) {

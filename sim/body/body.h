@@ -61,6 +61,7 @@ typedef struct {
 } body_t;
 
 #define BODY_RELEASE_M 1e-3
+#define BODY_CHUNK_S   0.01 // a longer tick looks for surfaces in between
 
 // step_s: of the integrator, > 0. BAD_INPUT: step_s, inertia, mass, lag or kf out of range. FAILED: no
 // memory. The body must not be moved in memory; close what was opened.
@@ -113,8 +114,10 @@ void body_tick_begin(body_t *b); // delays and effects
 void body_tick_alone(body_t *b); // from y to the next, and a look at what acts there
 void body_tick_end(body_t *b);   // battery and time
 
-// Whether nothing can be touched in this tick.
-bool body_is_clear(const body_t *b);
+// So many steps where these surfaces (TOUCH_*) are near; after each it is looked whether it touches one: 1
+// where it did not before.
+int body_parts(int surfaces, double span_s);
+int body_touched(bool *on, double gap_m);
 
 // --- the inside: what acts (body_forces.c) ---------------------------------------------------------------
 

@@ -60,6 +60,7 @@ struct lanes {
   body_look_t look;
   now_t now, before;
   number_t span_s;
+  int surfaces;
   bool looked;
   lanes_at_t at;
 };
@@ -130,16 +131,23 @@ void lanes_derivative(void *context, const number_t *y, number_t *dydt) {
   lanes_t *const l = static_cast<lanes_t *>(context);
   double at[RIGID_N], change[RIGID_N];
   for (int i = 0; i < RIGID_N; i++) at[i] = lane_of(y + LANES * i);
-  if (!l->looked) forces_look(&l->acting, 0, at, &l->look);
+  if (!l->looked) forces_look(&l->acting, l->surfaces, at, &l->look);
   l->looked = false;
   forces_derivative(&l->acting, at, &l->look, change);
   for (int i = 0; i < RIGID_N; i++) lane_put(dydt + LANES * i, change[i]);
 }
 
-bool lanes_begin_clear(lanes_t *l) {
+int lanes_tick(lanes_t *l) {
   l->before = l->now;
   const axes_t axes = axes_of(dq_of(l->now.y + RIGID_Q_WB));
-  return !forces_near(&l->acting, l->now.y, &axes, l->span_s);
+  return l->surfaces = forces_near(&l->acting, l->now.y, &axes, l->span_s);
+}
+
+void lanes_gap(lanes_t *l, lanes_gap_t *gap) {
+  const axes_t axes = axes_of(dq_of(l->now.y + RIGID_Q_WB));
+  const touch_gap_t is = touch_gap(&l->touch, d3_of(l->now.y + RIGID_POS_M), &axes);
+  lane_put(gap->floor_m, is.floor_m);
+  lane_put(gap->ceiling_m, is.ceiling_m);
 }
 
 bool lanes_end(lanes_t *l, lanes_seen_t *seen) {
@@ -192,9 +200,10 @@ unsigned lanes_left() {
   return 0;
 }
 void lanes_derivative(void *, const double *, double *) {}
-bool lanes_begin_clear(lanes_t *) {
-  return false;
+int lanes_tick(lanes_t *) {
+  return 0;
 }
+void lanes_gap(lanes_t *, lanes_gap_t *) {}
 bool lanes_end(lanes_t *, lanes_seen_t *) {
   return false;
 }

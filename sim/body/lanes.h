@@ -68,8 +68,14 @@ void lanes_set(lanes_t *l, const lanes_alike_t *alike);
 void lanes_begin(unsigned in);
 unsigned lanes_left(void);
 
-// Whether nothing can be touched in this tick. It begins: what is now is what was before.
-bool lanes_begin_clear(lanes_t *l);
+// A tick begins: what is now is what was before. The surfaces (TOUCH_*) that may be touched in it.
+int lanes_tick(lanes_t *l);
+
+// How far the point that is nearest is from floor and ceiling, now.
+typedef struct {
+  double floor_m[LANES], ceiling_m[LANES];
+} lanes_gap_t;
+void lanes_gap(lanes_t *l, lanes_gap_t *gap);
 
 // For the integrator: dydt at state y, both RIGID_N * LANES. context: lanes_t.
 void lanes_derivative(void *context, const double *y, double *dydt);

@@ -1,6 +1,8 @@
 // touch.c - contact of feet, body and blades with floor, ceiling and wall.
 #include "plant/touch.h"
 
+#include "base/where.h"
+
 enum { FEET, TOPS, DISCS, GROUPS };
 
 static const d3_t *group_of(const touch_t *t, int g) {
@@ -42,14 +44,14 @@ static side_t ceiling_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
 }
 
 static side_t wall_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
-  const double side = t->wall_y_m < 0.0 ? -1.0 : 1.0;
+  const double side = where(t->wall_y_m < 0.0, -1.0, 1.0);
   return (side_t){axes_to_body(axes, d3(0.0, side, 0.0)), side * (t->wall_y_m - pos_w_m.y)};
 }
 
 // Whether a point may be nearer to it than margin_m.
 static bool is_near(const touch_t *t, side_t side, double margin_m) {
   const d3_t to = side.towards_b;
-  const double along_m = to.z > 0.0 ? to.z * t->above_m : -to.z * t->below_m;
+  const double along_m = where(to.z > 0.0, to.z * t->above_m, -to.z * t->below_m);
   return side.room_m < along_m + t->beside_m * (fabs(to.x) + fabs(to.y)) + margin_m;
 }
 
@@ -77,7 +79,7 @@ static double left_m(const touch_t *t, side_t side) {
   for (int g = 0; g < GROUPS; g++)
     for (int i = 0; i < 4; i++) {
       const double at_m = d3_dot(side.towards_b, point_of(t, g, i, side.towards_b, reach_m));
-      most_m = at_m > most_m ? at_m : most_m;
+      most_m = where(at_m > most_m, at_m, most_m);
     }
   return side.room_m - most_m;
 }
@@ -87,36 +89,45 @@ touch_gap_t touch_gap(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
                        left_m(t, wall_of(t, pos_w_m, axes))};
 }
 
-// One point, depth_m inside a surface whose normal (out of the surface) is n.
-static void push(const touch_t *t, d3_t point, double depth_m, d3_t n, d3_t vel_b, d3_t rate_b,
-                 load_t *load) {
-  const d3_t vel = d3_add(vel_b, d3_cross(rate_b, point));
-  const double out_mps = d3_dot(vel, n);
-  const double soft = depth_m < TOUCH_SOFT_M ? depth_m / TOUCH_SOFT_M : 1.0;
+// The surface that presses, and how the body moves.
+typedef struct {
+  d3_t n, vel_b, rate_b; // n: out of the surface
+} press_t;
+
+// One point, depth_m inside the surface where that is above 0.
+static void push(const touch_t *t, const press_t *p, d3_t point, double depth_m, load_t *load) {
+  const d3_t vel = d3_add(p->vel_b, d3_cross(p->rate_b, point));
+  const double out_mps = d3_dot(vel, p->n);
+  const double soft = where(depth_m < TOUCH_SOFT_M, depth_m / TOUCH_SOFT_M, 1.0);
   const double normal_N = t->spring_Npm * depth_m - t->damper_Nspm * soft * out_mps;
-  if (!(normal_N > 0.0)) return;
-  const d3_t along = d3_add_scaled(vel, -out_mps, n);
+  if (!any_of(depth_m > 0.0 && normal_N > 0.0)) return;
+  const d3_t along = d3_add_scaled(vel, -out_mps, p->n);
   const double speed = d3_norm(along), slip_N = TOUCH_FRICTION * normal_N;
-  const double grip = t->grip_Nspm * speed > slip_N ? slip_N / speed : t->grip_Nspm;
-  const d3_t force = d3_sub(d3_scale(normal_N, n), d3_scale(grip, along));
-  load_add(load, force, d3_cross(point, force));
+  const double grip = where(t->grip_Nspm * speed > slip_N, slip_N / speed, t->grip_Nspm);
+  const d3_t force = d3_sub(d3_scale(normal_N, p->n), d3_scale(grip, along));
+  load_t pushed = *load;
+  load_add(&pushed, force, d3_cross(point, force));
+  load->force_b_N = D3_WHERE(depth_m > 0.0 && normal_N > 0.0, pushed.force_b_N, load->force_b_N);
+  load->moment_b_Nm = D3_WHERE(depth_m > 0.0 && normal_N > 0.0, pushed.moment_b_Nm, load->moment_b_Nm);
 }
 
 // No point of the group lies more than this towards the surface.
 static double bound_m(const touch_t *t, int g, d3_t to) {
-  return to.z * (to.z > 0.0 ? t->highest_m[g] : t->lowest_m[g]) + t->beside_m * (fabs(to.x) + fabs(to.y));
+  return to.z * where(to.z > 0.0, t->highest_m[g], t->lowest_m[g]) + t->beside_m * (fabs(to.x) + fabs(to.y));
 }
 
 static void press(const touch_t *t, side_t side, const double y[RIGID_N], const axes_t *axes, load_t *load) {
-  const d3_t to = side.towards_b, rate_b = d3_of(y + RIGID_RATE_RADPS);
-  const d3_t vel_b = axes_to_body(axes, d3_of(y + RIGID_VEL_MPS));
+  const d3_t to = side.towards_b;
+  const press_t p = {d3_scale(-1.0, to), axes_to_body(axes, d3_of(y + RIGID_VEL_MPS)),
+                     d3_of(y + RIGID_RATE_RADPS)};
   const double reach_m = disc_reach_m(t, to);
   for (int g = 0; g < GROUPS; g++) {
-    if (bound_m(t, g, to) <= side.room_m) continue;
+    const double bound = bound_m(t, g, to);
+    if (!any_of(bound > side.room_m)) continue;
     for (int i = 0; i < 4; i++) {
       const d3_t point = point_of(t, g, i, to, reach_m);
-      const double depth_m = d3_dot(to, point) - side.room_m;
-      if (depth_m > 0.0) push(t, point, depth_m, d3_scale(-1.0, to), vel_b, rate_b, load);
+      const double depth_m = where(bound > side.room_m, d3_dot(to, point) - side.room_m, -1.0);
+      if (any_of(depth_m > 0.0)) push(t, &p, point, depth_m, load);
     }
   }
 }

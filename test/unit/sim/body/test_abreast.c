@@ -190,7 +190,7 @@ TEST(abreast_who_parts_from_the_others_is_moved_alone_and_has_the_same_bits) {
   if (lane_possible()) CHECK(together > MOST);
 }
 
-TEST(abreast_who_touches_is_moved_alone_and_has_the_same_bits) {
+TEST(abreast_who_touches_has_the_bits_that_it_has_alone) {
   const model_t m = vehicle6(0.5);
   int contacts;
   const long together = same_bits(&m, 0.02, &contacts);
