@@ -51,7 +51,7 @@ LANES_H   := $(filter-out sim/base/lane%,$(shell find include src sim -name '*.h
 ifeq ($(shell uname -m),x86_64)
 LANES_OBJ  = $(patsubst %.c,$(B)/lanes/%.o,$(LANES_SRC))
 endif
-LANES_OBJ += $(B)/lanes/fields.o
+LANES_OBJ += $(B)/lanes/fields.o $(B)/sim/body/lanes_512.o
 DESK_OBJ   = $(call objects,$(DESK_SRC)) $(B)/gen/page.o
 PROGRAMS   = fly learn effectiveness gap slot bench bound desk
 # What the tests run.
@@ -135,7 +135,12 @@ $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
 $(B)/test/exam/other/%.o: SEES = -Itest
 # Eight vehicles side by side: C compiled as C++, and with what lane_possible() has asked the processor for.
 $(B)/sim/body/lanes.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES)
-$(B)/sim/body/lanes.o: $(O)/gen/lanes_table.inc
+$(B)/sim/body/lanes.o $(B)/sim/body/lanes_512.o: $(O)/gen/lanes_table.inc
+# Once more with registers twice as wide, where the processor has them (lane_bits() of base/lane.h).
+$(B)/sim/body/lanes_512.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES) -DLANES_512 $(AVX512)
+$(B)/sim/body/lanes_512.o: sim/body/lanes.cpp $(B)/flags | setup
+	$(compile)
+AVX512 = $(if $(AVX2),-mavx512f -mprefer-vector-width=512)
 AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
 # Their sources go through tools/lanes.sed first, headers too.
 LANES_CPP  = $(CXX) -std=c++20 $(OPT) $(WARN) $(LANES_WARN) $(SANITIZE) -MMD -MP $(FLIGHT_FLAGS) -fno-math-errno $(AVX2)

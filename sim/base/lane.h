@@ -15,4 +15,13 @@ static inline bool lane_possible(void) {
 #endif
 }
 
+// The widest registers that it has for them; 0: none.
+static inline int lane_bits(void) {
+#ifdef __x86_64__
+  return !lane_possible() ? 0 : __builtin_cpu_supports("avx512f") ? 512 : 256;
+#else
+  return 0;
+#endif
+}
+
 #endif

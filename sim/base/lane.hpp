@@ -6,7 +6,7 @@
 // Where code branches on a number, the lanes may part. Those that are fewer leave: `lanes_in` says who is
 // still in, what the others compute from there on is of no use, and the caller moves them one by one. So what
 // compiles is right; what parts them often is slow, and says where() in place of `? :` (base/where.h).
-// Needs AVX2 (-mavx2).
+// Needs AVX2 (-mavx2); with AVX-512 (-mavx512f) eight numbers are one register, not two.
 #ifndef SIM_BASE_LANE_HPP
 #define SIM_BASE_LANE_HPP
 
@@ -36,87 +36,37 @@ typedef double number_t; // of one vehicle
 // Lanes 0 to 7 that took part in every branch so far.
 thread_local unsigned lanes_in = 0;
 
-// A comparison. As a condition it is what most lanes say; the others leave.
-struct truth_t {
-  __m256d lo, hi; // all bits of a lane, or none
-  LANE unsigned bits() const {
-    return (unsigned)_mm256_movemask_pd(lo) | (unsigned)_mm256_movemask_pd(hi) << 4;
-  }
-  LANE operator bool() const {
-    const unsigned say = bits() & lanes_in;
-    if (say == 0 || say == lanes_in) return say != 0;
-    const bool most = 2 * __builtin_popcount(say) >= __builtin_popcount(lanes_in);
-    lanes_in = most ? say : lanes_in & ~say;
-    return most;
-  }
-};
-LANE truth_t operator&&(truth_t a, truth_t b) {
-  return {_mm256_and_pd(a.lo, b.lo), _mm256_and_pd(a.hi, b.hi)};
-}
-LANE truth_t operator||(truth_t a, truth_t b) {
-  return {_mm256_or_pd(a.lo, b.lo), _mm256_or_pd(a.hi, b.hi)};
-}
-LANE truth_t operator!(truth_t a) {
-  const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
-  return {_mm256_xor_pd(a.lo, all), _mm256_xor_pd(a.hi, all)};
+// As a condition a comparison is what most lanes say; the others leave.
+LANE bool vote(unsigned of_lanes) {
+  const unsigned say = of_lanes & lanes_in;
+  if (say == 0 || say == lanes_in) return say != 0;
+  const bool most = 2 * __builtin_popcount(say) >= __builtin_popcount(lanes_in);
+  lanes_in = most ? say : lanes_in & ~say;
+  return most;
 }
 
-struct lane_t {
-  __m256d lo, hi;
-  lane_t() = default;
-  LANE lane_t(__m256d l, __m256d h) : lo(l), hi(h) {}
-  constexpr LANE lane_t(number_t a) : lo{a, a, a, a}, hi{a, a, a, a} {}
-  // A whole number of it: that of the first lane; those that have another leave.
-  explicit operator int() const;
-};
+// What of them a processor has instructions for.
+#ifdef __AVX512F__
+#include "base/lane_512.hpp"
+#else
+#include "base/lane_256.hpp"
+#endif
 
-#define LANE_OPERATOR(sign, does)                                                                            \
-  LANE lane_t operator sign(lane_t a, lane_t b) {                                                            \
-    return {does(a.lo, b.lo), does(a.hi, b.hi)};                                                             \
-  }                                                                                                          \
-  LANE lane_t &operator sign##=(lane_t &a, lane_t b) {                                                       \
-    return a = a sign b;                                                                                     \
-  }
-LANE_OPERATOR(+, _mm256_add_pd)
-LANE_OPERATOR(-, _mm256_sub_pd)
-LANE_OPERATOR(*, _mm256_mul_pd)
-LANE_OPERATOR(/, _mm256_div_pd)
-
-#define LANE_COMPARISON(sign, kind)                                                                          \
-  LANE truth_t operator sign(lane_t a, lane_t b) {                                                           \
-    return {_mm256_cmp_pd(a.lo, b.lo, kind), _mm256_cmp_pd(a.hi, b.hi, kind)};                               \
-  }
-LANE_COMPARISON(<, _CMP_LT_OQ)
-LANE_COMPARISON(<=, _CMP_LE_OQ)
-LANE_COMPARISON(>, _CMP_GT_OQ)
-LANE_COMPARISON(>=, _CMP_GE_OQ)
-LANE_COMPARISON(==, _CMP_EQ_OQ)
-LANE_COMPARISON(!=, _CMP_NEQ_UQ)
-
-LANE lane_t lane_of(const number_t *p) {
-  return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+LANE lane_t &operator+=(lane_t &a, lane_t b) {
+  return a = a + b;
 }
-LANE void lane_put(number_t *p, lane_t a) {
-  _mm256_storeu_pd(p, a.lo);
-  _mm256_storeu_pd(p + 4, a.hi);
+LANE lane_t &operator-=(lane_t &a, lane_t b) {
+  return a = a - b;
 }
-
-LANE lane_t operator-(lane_t a) {
-  const __m256d sign = _mm256_set1_pd(-0.0);
-  return {_mm256_xor_pd(a.lo, sign), _mm256_xor_pd(a.hi, sign)};
+LANE lane_t &operator*=(lane_t &a, lane_t b) {
+  return a = a * b;
 }
-
-// a where a comparison holds, elsewhere b.
-LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
-  return {_mm256_blendv_pd(b.lo, a.lo, holds.lo), _mm256_blendv_pd(b.hi, a.hi, holds.hi)};
+LANE lane_t &operator/=(lane_t &a, lane_t b) {
+  return a = a / b;
 }
 
 LANE bool any_of(truth_t holds) {
   return (holds.bits() & lanes_in) != 0;
-}
-LANE lane_t whole_part(lane_t a) {
-  constexpr int how = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
-  return {_mm256_round_pd(a.lo, how), _mm256_round_pd(a.hi, how)};
 }
 // Who is not in may have any i.
 LANE lane_t element_at(const lane_t *list, lane_t i) {
@@ -127,14 +77,6 @@ LANE lane_t element_at(const lane_t *list, lane_t i) {
 }
 
 // --- the C library's -----------------------------------------------------------------------------------
-
-LANE lane_t sqrt(lane_t a) {
-  return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)};
-}
-LANE lane_t fabs(lane_t a) {
-  const __m256d sign = _mm256_set1_pd(-0.0);
-  return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
-}
 
 // One by one, by the library itself.
 template <typename f_t> LANE lane_t each(f_t f, lane_t a, lane_t b) {
@@ -256,12 +198,6 @@ LANE pair_t pair_max(pair_t x, pair_t y) {
 }
 LANE pair_t pair_sqrt(pair_t x) {
   return {{sqrt(x.a[0]), sqrt(x.a[1])}};
-}
-// 2^n, of a whole number n that is in the lowest bits of x.
-LANE lane_t exp2_of_bits(lane_t x) {
-  const __m256i bias = _mm256_set1_epi64x(1023);
-  return {_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.lo), bias), 52)),
-          _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.hi), bias), 52))};
 }
 LANE pair_t pair_exp2_of_bits(pair_t x) {
   return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};

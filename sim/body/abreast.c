@@ -32,6 +32,7 @@ typedef struct {
 } has_t;
 
 struct abreast {
+  const lanes_door_t *door;
   lanes_t *lanes;
   integrate_t *integrate; // of the kind and step that moved last
   integrate_kind_t kind;
@@ -160,7 +161,7 @@ static void take_plant(const lanes_at_t *to, int lane, const body_t *b) {
 
 // Between ticks that are moved together nothing changes but that, and the commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
-  const lanes_at_t *const to = lanes_at(a->lanes);
+  const lanes_at_t *const to = a->door->at(a->lanes);
   put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
   if (b->n_tick > 0) take_plant(to, lane, b);
   if (a->has[lane].body == b && a->has[lane].changed == b->changed) return;
@@ -191,7 +192,7 @@ static void give_now(const double *now, int lane, body_t *b) {
 void abreast_settle(abreast_t *a, int k, body_t *b) {
   if (!(a->ahead >> k & 1)) return;
   a->ahead &= ~(1u << k);
-  const lanes_at_t *const from = lanes_at(a->lanes);
+  const lanes_at_t *const from = a->door->at(a->lanes);
   give_now(from->now, k, b);
   get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
   b->look.loaded = a->now_loaded;
@@ -200,7 +201,7 @@ void abreast_settle(abreast_t *a, int k, body_t *b) {
 // Who has to do the tick alone after all is where it was.
 static void give_before(abreast_t *a, int lane, body_t *b) {
   a->ahead &= ~(1u << lane);
-  give_now(lanes_at(a->lanes)->before, lane, b);
+  give_now(a->door->at(a->lanes)->before, lane, b);
   body_look(b, TOUCH_FLOOR | TOUCH_CEILING | TOUCH_WALL, b->y, &b->look);
 }
 
@@ -213,7 +214,7 @@ static bool integrator_for(abreast_t *a, const body_t *b) {
   a->kind = b->kind;
   a->step_s = b->step_s;
   const ode_t ode = {
-      .n = RIGID_N * LANES, .derivative = lanes_derivative, .context = a->lanes, .step_s = a->step_s};
+      .n = RIGID_N * LANES, .derivative = a->door->derivative, .context = a->lanes, .step_s = a->step_s};
   return integrate_open(&a->integrate, a->kind, &ode) == DONE;
 }
 
@@ -223,12 +224,12 @@ typedef struct {
   int floor, ceiling; // begun
 } contacts_t;
 
-static void watch(lanes_t *l, bool near, contacts_t touch[LANES]) {
+static void watch(const abreast_t *a, bool near, contacts_t touch[LANES]) {
   bool any = near;
   for (int k = 0; k < LANES; k++) any = any || touch[k].on_floor || touch[k].on_ceiling;
   if (!any) return;
   lanes_gap_t gap;
-  lanes_gap(l, &gap);
+  a->door->gap(a->lanes, &gap);
   for (int k = 0; k < LANES; k++) {
     contacts_t *const t = &touch[k];
     if (!near && !t->on_floor && !t->on_ceiling) continue;
@@ -238,11 +239,12 @@ static void watch(lanes_t *l, bool near, contacts_t touch[LANES]) {
 }
 
 static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
-  const int surfaces = lanes_tick(a->lanes), parts = body_parts(surfaces, span_s);
+  const int surfaces = a->door->tick(a->lanes), parts = body_parts(surfaces, span_s);
   bool event;
   for (int i = 0; i < parts; i++) {
-    if (!isfinite(integrate_to(a->integrate, lanes_at(a->lanes)->now, span_s / parts, &event))) return false;
-    watch(a->lanes, surfaces != 0, touch);
+    if (!isfinite(integrate_to(a->integrate, a->door->at(a->lanes)->now, span_s / parts, &event)))
+      return false;
+    watch(a, surfaces != 0, touch);
   }
   return true;
 }
@@ -252,16 +254,16 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
                               lanes_seen_t *seen) {
   const lanes_alike_t alike = alike_of(first);
   contacts_t touch[LANES] = {{.floor = 0}};
-  lanes_set(a->lanes, &alike);
+  a->door->set(a->lanes, &alike);
   for (int k = 0; k < LANES; k++) {
     if (!(in >> k & 1)) continue;
     take_all(a, k, b[k]);
     touch[k] = (contacts_t){.on_floor = b[k]->on_floor, .on_ceiling = b[k]->on_ceiling};
   }
-  lanes_begin(in);
+  a->door->begin(in);
   if (!advance(a, first->span_s, touch)) return 0;
-  a->now_loaded = lanes_end(a->lanes, seen);
-  const unsigned moved = lanes_left();
+  a->now_loaded = a->door->end(a->lanes, seen);
+  const unsigned moved = a->door->left();
   for (int k = 0; k < LANES; k++) {
     if (!(moved >> k & 1)) continue;
     b[k]->on_floor = touch[k].on_floor;
@@ -287,7 +289,7 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
 
 // Those of a tick that were moved with others: what is done for each body besides.
 static void end_together(abreast_t *a, int k, body_t *b, double *vbat_V) {
-  const double *const now = lanes_at(a->lanes)->now;
+  const double *const now = a->door->at(a->lanes)->now;
   b->broken = !isfinite(now[LANES * (RIGID_POS_M + 2) + k]) || !isfinite(now[LANES * RIGID_Q_WB + k]);
   b->t_s += b->span_s;
   b->look_is_y = true;
@@ -332,23 +334,22 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
 }
 
 unsigned abreast_sense(abreast_t *a, lanes_truth_t *truth) {
-  lanes_begin(a->moved);
-  if (a->moved) lanes_sense(a->lanes, truth);
-  return lanes_left();
+  a->door->begin(a->moved);
+  if (a->moved) a->door->sense(a->lanes, truth);
+  return a->door->left();
 }
 
-abreast_t *abreast_open(void) {
+abreast_t *abreast_open(int bits) {
   static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS,
                                           BATTERY};
-  lanes_t *const lanes = lane_possible() ? lanes_open(&numbers) : NULL;
-  if (!lanes) return NULL;
+  if (bits == 0) return NULL;
   abreast_t *const a = calloc(1, sizeof *a);
-  if (!a) {
-    lanes_close(lanes);
-    return NULL;
-  }
-  a->lanes = lanes;
-  return a;
+  if (!a) return NULL;
+  a->door = bits == 512 ? &lanes_door_512 : &lanes_door_256;
+  a->lanes = a->door->open(&numbers);
+  if (a->lanes) return a;
+  free(a);
+  return NULL;
 }
 
 long abreast_together(const abreast_t *a) {
@@ -363,6 +364,6 @@ void abreast_forget(abreast_t *a) {
 void abreast_close(abreast_t *a) {
   if (!a) return;
   integrate_close(a->integrate);
-  lanes_close(a->lanes);
+  a->door->close(a->lanes);
   free(a);
 }

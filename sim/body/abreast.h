@@ -15,8 +15,8 @@
 
 typedef struct abreast abreast_t;
 
-// Null: the processor cannot do it, or there is no memory.
-abreast_t *abreast_open(void);
+// bits: of the registers, 256 or, as lane_bits() has it, more. Null: bits is 0, or there is no memory.
+abreast_t *abreast_open(int bits);
 void abreast_close(abreast_t *a);
 
 // Other bodies come, or what was changed of these was not by body.h.

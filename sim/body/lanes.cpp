@@ -73,7 +73,7 @@ static bool same_order(const lanes_numbers_t *n) {
          n->battery * one == offsetof(battery_param_t, n);
 }
 
-lanes_t *lanes_open(const lanes_numbers_t *numbers_of_one) {
+static lanes_t *open(const lanes_numbers_t *numbers_of_one) {
   lanes_t *const l = same_order(numbers_of_one) ? new (std::nothrow) lanes_t() : nullptr;
   if (!l) return nullptr;
   l->at = {.rigid = numbers(&l->rigid),
@@ -96,15 +96,15 @@ lanes_t *lanes_open(const lanes_numbers_t *numbers_of_one) {
   return l;
 }
 
-void lanes_close(lanes_t *l) {
+static void close(lanes_t *l) {
   delete l;
 }
 
-const lanes_at_t *lanes_at(const lanes_t *l) {
+static const lanes_at_t *at(const lanes_t *l) {
   return &l->at;
 }
 
-void lanes_set(lanes_t *l, const lanes_alike_t *a) {
+static void set(lanes_t *l, const lanes_alike_t *a) {
   l->rigid.lag_in_speed = a->lag_in_speed;
   l->rigid.plain_lag = a->plain_lag;
   l->looked = a->looked;
@@ -120,14 +120,14 @@ void lanes_set(lanes_t *l, const lanes_alike_t *a) {
                a->n_excess, a->n_load, a->excess_of, a->ticks,     a->pushed ? &l->push_w_N : nullptr};
 }
 
-void lanes_begin(unsigned in) {
+static void begin(unsigned in) {
   lanes_in = in;
 }
-unsigned lanes_left() {
+static unsigned left() {
   return lanes_in;
 }
 
-void lanes_derivative(void *context, const number_t *y, number_t *dydt) {
+static void derivative(void *context, const number_t *y, number_t *dydt) {
   lanes_t *const l = static_cast<lanes_t *>(context);
   double at[RIGID_N], change[RIGID_N];
   for (int i = 0; i < RIGID_N; i++) at[i] = lane_of(y + LANES * i);
@@ -137,20 +137,20 @@ void lanes_derivative(void *context, const number_t *y, number_t *dydt) {
   for (int i = 0; i < RIGID_N; i++) lane_put(dydt + LANES * i, change[i]);
 }
 
-int lanes_tick(lanes_t *l) {
+static int tick(lanes_t *l) {
   l->before = l->now;
   const axes_t axes = axes_of(dq_of(l->now.y + RIGID_Q_WB));
   return l->surfaces = forces_near(&l->acting, l->now.y, &axes, l->span_s);
 }
 
-void lanes_gap(lanes_t *l, lanes_gap_t *gap) {
+static void gap(lanes_t *l, lanes_gap_t *to) {
   const axes_t axes = axes_of(dq_of(l->now.y + RIGID_Q_WB));
   const touch_gap_t is = touch_gap(&l->touch, d3_of(l->now.y + RIGID_POS_M), &axes);
-  lane_put(gap->floor_m, is.floor_m);
-  lane_put(gap->ceiling_m, is.ceiling_m);
+  lane_put(to->floor_m, is.floor_m);
+  lane_put(to->ceiling_m, is.ceiling_m);
 }
 
-bool lanes_end(lanes_t *l, lanes_seen_t *seen) {
+static bool end(lanes_t *l, lanes_seen_t *seen) {
   now_t *const now = &l->now;
   const double *const thrust_N = now->y + RIGID_THRUST_N;
   rigid_normalise(now->y);
@@ -171,7 +171,7 @@ static unsigned turn(const double *thrust_N) {
   return any;
 }
 
-void lanes_sense(lanes_t *l, lanes_truth_t *truth) {
+static void sense(lanes_t *l, lanes_truth_t *truth) {
   fx_sensed_t above, below;
   const double *const y = l->now.y;
   forces_sensed(&l->acting, y, &l->look, &l->from, &above, &below);
@@ -185,28 +185,15 @@ void lanes_sense(lanes_t *l, lanes_truth_t *truth) {
   lane_put(truth->up, axes_up_b(&l->look.axes).z);
 }
 
+#define DOOR                                                                                                 \
+  { open, close, at, set, begin, left, tick, derivative, gap, end, sense }
 #else // nobody asks for more (lane_possible)
+#define DOOR                                                                                                 \
+  {}
+#endif
 
-lanes_t *lanes_open(const lanes_numbers_t *) {
-  return nullptr;
-}
-void lanes_close(lanes_t *) {}
-const lanes_at_t *lanes_at(const lanes_t *) {
-  return nullptr;
-}
-void lanes_set(lanes_t *, const lanes_alike_t *) {}
-void lanes_begin(unsigned) {}
-unsigned lanes_left() {
-  return 0;
-}
-void lanes_derivative(void *, const double *, double *) {}
-int lanes_tick(lanes_t *) {
-  return 0;
-}
-void lanes_gap(lanes_t *, lanes_gap_t *) {}
-bool lanes_end(lanes_t *, lanes_seen_t *) {
-  return false;
-}
-void lanes_sense(lanes_t *, lanes_truth_t *) {}
-
+#ifdef LANES_512
+const lanes_door_t lanes_door_512 = DOOR;
+#else
+const lanes_door_t lanes_door_256 = DOOR;
 #endif

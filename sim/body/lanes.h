@@ -56,36 +56,35 @@ typedef struct {
   size_t rigid, touch, plant, look, battery;
 } lanes_numbers_t;
 
-// Null: no memory, or a struct whose numbers do not lie one behind the other.
-lanes_t *lanes_open(const lanes_numbers_t *numbers);
-void lanes_close(lanes_t *l);
-
-const lanes_at_t *lanes_at(const lanes_t *l);
-void lanes_set(lanes_t *l, const lanes_alike_t *alike);
-
-// From here on the lanes `in` (a bit each) count. What of them had to leave since lanes_begin, because they
-// differ too much from the others, is to be moved alone: those that are still in.
-void lanes_begin(unsigned in);
-unsigned lanes_left(void);
-
-// A tick begins: what is now is what was before. The surfaces (TOUCH_*) that may be touched in it.
-int lanes_tick(lanes_t *l);
-
 // How far the point that is nearest is from floor and ceiling, now.
 typedef struct {
   double floor_m[LANES], ceiling_m[LANES];
 } lanes_gap_t;
-void lanes_gap(lanes_t *l, lanes_gap_t *gap);
 
-// For the integrator: dydt at state y, both RIGID_N * LANES. context: lanes_t.
-void lanes_derivative(void *context, const double *y, double *dydt);
+typedef struct {
+  // Null: no memory, or a struct whose numbers do not lie one behind the other.
+  lanes_t *(*open)(const lanes_numbers_t *numbers);
+  void (*close)(lanes_t *l);
+  const lanes_at_t *(*at)(const lanes_t *l);
+  void (*set)(lanes_t *l, const lanes_alike_t *alike);
+  // From here on the lanes `in` (a bit each) count. What of them had to leave since begin(), because they
+  // differ too much from the others, is to be moved alone: those that are still in.
+  void (*begin)(unsigned in);
+  unsigned (*left)(void);
+  // A tick begins: what is now is what was before. The surfaces (TOUCH_*) that may be touched in it.
+  int (*tick)(lanes_t *l);
+  // For the integrator: dydt at state y, both RIGID_N * LANES. context: lanes_t.
+  void (*derivative)(void *context, const double *y, double *dydt);
+  void (*gap)(lanes_t *l, lanes_gap_t *gap);
+  // The quaternions in `now` are brought back to unit length, and what acts there is looked at; battery.
+  // Whether look.loaded.
+  bool (*end)(lanes_t *l, lanes_seen_t *seen);
+  // Before the next tick: what perfect sensors with their effects read.
+  void (*sense)(lanes_t *l, lanes_truth_t *truth);
+} lanes_door_t;
 
-// The quaternions in `now` are brought back to unit length, and what acts there is looked at; battery.
-// Whether look.loaded.
-bool lanes_end(lanes_t *l, lanes_seen_t *seen);
-
-// Before the next tick: what perfect sensors with their effects read.
-void lanes_sense(lanes_t *l, lanes_truth_t *truth);
+// By registers of so many bits (lane_bits() of base/lane.h); the same bits come out.
+extern const lanes_door_t lanes_door_256, lanes_door_512;
 
 #ifdef __cplusplus
 }

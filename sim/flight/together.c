@@ -259,7 +259,7 @@ done_t together_fly(flight_loop_t *f, record_t *record, bool *finite, why_t *why
 
 long together(int n, void (*flight)(void *context, int i), void *context) {
   group_t g = {.bodies = NULL};
-  if (n >= TOGETHER_FEWEST && !turns_inside() && woven_open(&g.woven)) g.bodies = abreast_open();
+  if (n >= TOGETHER_FEWEST && !turns_inside() && woven_open(&g.woven)) g.bodies = abreast_open(lane_bits());
   const turns_t turns = {.job = flight, .meet = fly_all, .context = context, .meet_context = &g};
   if (g.bodies)
     turns_run(&turns, n);

@@ -14,6 +14,7 @@
 typedef struct {
   const model_t *model, *other; // other: every third flight's
   integrate_kind_t kind;
+  int bits;            // of the registers
   double climb_N;      // above hover: who climbs touches the ceiling
   bool pushed;         // each by a force of its own
   double other_step_s; // of the integrator, of every third; 0: as all
@@ -114,7 +115,7 @@ static void fly_beside(flights_t *f, abreast_t *a, int first, int n) {
 }
 
 static long all_beside(flights_t *f, int n) {
-  abreast_t *const a = abreast_open();
+  abreast_t *const a = abreast_open(f->bits);
   if (!a) {
     for (int i = 0; i < n; i++) fly(f, i);
     return 0;
@@ -125,6 +126,21 @@ static long all_beside(flights_t *f, int n) {
   return together;
 }
 
+// Each by all registers that the processor has; together: by the widest.
+static long beside_as(const flights_t *as, const flights_t *alone, int *contacts) {
+  long together = 0;
+  for (int bits = lane_possible() ? 256 : 0; bits <= lane_bits(); bits = bits ? 2 * bits : 1) {
+    flights_t beside = *as;
+    beside.bits = bits;
+    together = all_beside(&beside, FLIGHTS);
+    CHECK(memcmp(alone->y, beside.y, sizeof alone->y) == 0);
+    CHECK(memcmp(alone->charge, beside.charge, sizeof alone->charge) == 0);
+    CHECK(alone->contacts == beside.contacts);
+    *contacts += beside.contacts;
+  }
+  return together;
+}
+
 static long same_bits_as(const flights_t *as, int *contacts) {
   long together = 0;
   *contacts = 0;
@@ -132,11 +148,7 @@ static long same_bits_as(const flights_t *as, int *contacts) {
     flights_t alone = *as, beside = *as;
     alone.kind = beside.kind = (integrate_kind_t)kind;
     for (int i = 0; i < FLIGHTS; i++) fly(&alone, i);
-    together += all_beside(&beside, FLIGHTS);
-    CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
-    CHECK(memcmp(alone.charge, beside.charge, sizeof alone.charge) == 0);
-    CHECK(alone.contacts == beside.contacts);
-    *contacts += beside.contacts;
+    together += beside_as(&beside, &alone, contacts);
   }
   return together;
 }
@@ -264,7 +276,7 @@ TEST(abreast_so_few_that_it_costs_are_moved_alone) {
   const model_t m = vehicle6(0.6);
   for (int n = 1; n <= LANES; n++) {
     ROW("%d", n);
-    flights_t f = {.model = &m, .other = &m, .kind = INTEGRATE_SUNDIALS};
+    flights_t f = {.model = &m, .other = &m, .kind = INTEGRATE_SUNDIALS, .bits = lane_bits()};
     const long together = all_beside(&f, n);
     CHECK((together > 0) == (lane_possible() && n >= ABREAST_FEWEST));
   }
