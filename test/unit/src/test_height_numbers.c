@@ -1,76 +1,29 @@
 // test_height_numbers.c - the height filter's numbers, each by what it does; half or double moves its row.
 #include "flight/height.h"
-#include "flight/params.h"
+#include "rig/height_rest.h"
 #include "rig/test.h"
 
 #include <math.h>
 
-#define MASS_KG  0.0329f
 #define LEAN_COS 0.98480775f // by 10 degrees
 #define LEAN_SIN 0.17364818f
 
-// At rest in free air. A row changes what it is told, before or between the steps.
-typedef struct {
-  flight_param_t p;
-  height_t h;
-  height_in_t in;
-  float share, down_m; // of the motors; each third step
-  float shake_m;       // of every other range sample
-  float shake_mps2;    // of every other accelerometer's sample
-  bool silent;
-  int k;
-} rest_t;
-
-static void start(rest_t *r) {
-  *r = (rest_t){.share = 1.0f, .down_m = 0.4f};
-  params_default(&r->p);
-  r->p.height.own = 1;
-  r->p.height.delay_s = 0.0f;
-  r->p.height.walk_mps2 = 0.1f; // whatever ships
-  r->in = (height_in_t){.acc_b_mps2.z = GRAVITY_MPS2,
-                        .q_wb = {.w = 1.0f},
-                        .thrust_N = MASS_KG * GRAVITY_MPS2,
-                        .mass_kg = MASS_KG,
-                        .z_m = 0.4f,
-                        .at = {.ratio = 1.0f},
-                        .ceiling_z_m = NAN};
-  height_init(&r->h);
-}
-
-static void step(rest_t *r) {
-  height_in_t in = r->in;
-  in.acc_b_mps2.z += r->k % 2 ? r->shake_mps2 : -r->shake_mps2;
-  const float shake_m = r->k % 2 ? r->shake_m : -r->shake_m;
-  in.down_m = r->silent || r->k % 3 ? 0.0f : r->down_m + shake_m + 1e-5f * (float)(r->k % 2);
-  height_step(&r->h, &r->p.height, r->share, &in);
-  r->k++;
-}
-
-static void rest_for(rest_t *r, int steps) {
-  for (; steps > 0; steps--) step(r);
-}
-
-static void settle(rest_t *r) {
-  start(r);
-  rest_for(r, 600);
-}
-
-static double fitting(rest_t *r, int most) {
+static double fitting(height_rest_t *r, int most) {
   int n = 0;
-  for (; n < most && r->h.fit > 0; n++) step(r);
+  for (; n < most && r->h.fit > 0; n++) height_rest_step(r);
   return n;
 }
 
-static double five_steps(rest_t *r) {
-  start(r);
+static double five_steps(height_rest_t *r) {
+  height_rest_start(r);
   r->in.climb_mps = 0.1f;
   r->silent = true;
-  rest_for(r, 5);
+  height_rest_for(r, 5);
   return 1e3 * ((double)r->h.x[HEIGHT_H] - 0.4);
 }
 
-static double ahead(rest_t *r) {
-  settle(r);
+static double ahead(height_rest_t *r) {
+  height_rest_settle(r);
   r->h.x[HEIGHT_W] = 0.1f;
   r->h.x[HEIGHT_H] = 0.4f;
   r->h.off_m = r->h.acc_mps2 = 0.0f;
@@ -79,15 +32,15 @@ static double ahead(rest_t *r) {
   return 1e3 * (double)fly.more_m;
 }
 
-static double command(rest_t *r) {
-  settle(r);
+static double command(height_rest_t *r) {
+  height_rest_settle(r);
   r->in.thrust_N *= 2.0f;
-  step(r);
-  return (double)(r->h.thrust_N / (MASS_KG * GRAVITY_MPS2)) - 1.0;
+  height_rest_step(r);
+  return (double)(r->h.thrust_N / (HEIGHT_REST_KG * GRAVITY_MPS2)) - 1.0;
 }
 
-static double range_age(rest_t *r) {
-  settle(r);
+static double range_age(height_rest_t *r) {
+  height_rest_settle(r);
   r->h.x[HEIGHT_W] = r->in.climb_mps = 0.1f;
   r->h.wild = 0;
   r->k = 0;
@@ -95,101 +48,101 @@ static double range_age(rest_t *r) {
   r->h.P[HEIGHT_H][HEIGHT_H] = 1e3f; // the sample is all that is known
   for (int i = 1; i < HEIGHT_N; i++) r->h.P[i][HEIGHT_H] = r->h.P[HEIGHT_H][i] = 0.0f;
   r->down_m = h_m;
-  step(r);
+  height_rest_step(r);
   return 1e3 * (double)(r->h.x[HEIGHT_H] - h_m);
 }
 
-static double acc_odd(rest_t *r) {
-  settle(r);
+static double acc_odd(height_rest_t *r) {
+  height_rest_settle(r);
   r->shake_mps2 = 0.078f;
-  rest_for(r, 300);
+  height_rest_for(r, 300);
   return (double)r->h.acc_odd;
 }
 
-static double down_odd(rest_t *r) {
-  settle(r);
+static double down_odd(height_rest_t *r) {
+  height_rest_settle(r);
   r->shake_m = 0.0025f;
-  rest_for(r, 900);
+  height_rest_for(r, 900);
   return (double)r->h.down_odd;
 }
 
-static double bias_sd(rest_t *r) {
-  start(r);
-  rest_for(r, 30000);
+static double bias_sd(height_rest_t *r) {
+  height_rest_start(r);
+  height_rest_for(r, 30000);
   return sqrt((double)r->h.P[HEIGHT_B][HEIGHT_B]);
 }
 
-static double climb_sd(rest_t *r) {
-  settle(r);
+static double climb_sd(height_rest_t *r) {
+  height_rest_settle(r);
   return 1e3 * sqrt((double)r->h.P[HEIGHT_W][HEIGHT_W]);
 }
 
 // A force that grows, and the vehicle stays where it is.
-static double force(rest_t *r) {
-  settle(r);
+static double force(height_rest_t *r) {
+  height_rest_settle(r);
   double most = 0.0;
   for (int n = 0; n < 3000 && r->h.fit > 0; n++) {
-    r->in.thrust_N -= MASS_KG * 0.001f;
+    r->in.thrust_N -= HEIGHT_REST_KG * 0.001f;
     most = fmax(most, (double)r->h.x[HEIGHT_D]);
-    step(r);
+    height_rest_step(r);
   }
   return most;
 }
 
-static double bias_to_begin_with(rest_t *r) {
-  start(r);
+static double bias_to_begin_with(height_rest_t *r) {
+  height_rest_start(r);
   r->in.bias_mps2 = 5.0f;
   r->in.acc_b_mps2.z += 5.0f;
-  step(r);
+  height_rest_step(r);
   return (double)r->h.x[HEIGHT_B];
 }
 
-static double oddest(rest_t *r) {
-  settle(r);
+static double oddest(height_rest_t *r) {
+  height_rest_settle(r);
   double most = 0.0;
   for (int n = 0; n < 4000 && r->h.fit > 0; n++) {
     most = fmax(most, (double)r->h.acc_odd);
     r->shake_mps2 += 2e-4f;
-    step(r);
+    height_rest_step(r);
   }
   return most;
 }
 
 // The largest jump of one sample that is believed, in its standard deviations.
-static double wildest(rest_t *r) {
+static double wildest(height_rest_t *r) {
   for (int tenth_mm = 1; tenth_mm < 1000; tenth_mm++) {
-    settle(r);
+    height_rest_settle(r);
     r->k = 0;
     const double var = (double)(r->h.P[HEIGHT_H][HEIGHT_H] + HEIGHT_DOWN_VAR);
     r->down_m += 1e-4f * (float)tenth_mm;
-    step(r);
+    height_rest_step(r);
     if (r->h.wild > 0) return 1e-4 * tenth_mm / sqrt(var);
   }
   return 0.0;
 }
 
-static double wild_in_a_row(rest_t *r) {
-  settle(r);
+static double wild_in_a_row(height_rest_t *r) {
+  height_rest_settle(r);
   r->k = 0;
   r->down_m += 0.02f;
   r->h.down_odd = 0.0f;
   int n = 0;
   for (; n < 60 && r->h.fit > 0; n++) {
-    step(r);
+    height_rest_step(r);
     if (r->h.down_odd > 1.0f) r->h.down_odd = 0.0f; // the mean is another row's
   }
   return n;
 }
 
-static double silence(rest_t *r) {
-  settle(r);
+static double silence(height_rest_t *r) {
+  height_rest_settle(r);
   r->h.silent = 0;
   r->silent = true;
   return fitting(r, 100);
 }
 
-static double same(rest_t *r) {
-  settle(r);
+static double same(height_rest_t *r) {
+  height_rest_settle(r);
   int n = 0;
   for (r->h.same = 0; n < 100 && r->h.fit > 0; n++) {
     height_in_t in = r->in;
@@ -199,88 +152,88 @@ static double same(rest_t *r) {
   return n;
 }
 
-static double until_flown(rest_t *r) {
-  start(r);
+static double until_flown(height_rest_t *r) {
+  height_rest_start(r);
   int n = 0;
-  for (; n < 500 && !(r->h.share > 0.0f); n++) step(r);
+  for (; n < 500 && !(r->h.share > 0.0f); n++) height_rest_step(r);
   return n;
 }
 
-static double fading_in(rest_t *r) {
+static double fading_in(height_rest_t *r) {
   until_flown(r);
   int n = 0;
-  for (; n < 500 && r->h.share < 1.0f; n++) step(r);
+  for (; n < 500 && r->h.share < 1.0f; n++) height_rest_step(r);
   return 0.01 * n;
 }
 
 // Handed back so often, it is flown again after so many steps.
-static int waits(rest_t *r, int times) {
-  settle(r);
+static int waits(height_rest_t *r, int times) {
+  height_rest_settle(r);
   int n = 0;
   for (; times > 0; times--) {
     r->in.climb_mps = 1.0f;
-    step(r);
+    height_rest_step(r);
     r->in.climb_mps = 0.0f;
-    rest_for(r, 30); // faded out
-    for (n = 30; n < 3000 && !(r->h.share > 0.0f); n++) step(r);
+    height_rest_for(r, 30); // faded out
+    for (n = 30; n < 3000 && !(r->h.share > 0.0f); n++) height_rest_step(r);
   }
   return n;
 }
 
-static double longer(rest_t *r) {
+static double longer(height_rest_t *r) {
   return (double)waits(r, 2) / waits(r, 1);
 }
 
-static double longest(rest_t *r) {
+static double longest(height_rest_t *r) {
   return waits(r, 7);
 }
 
-static double trusted(rest_t *r) {
+static double trusted(height_rest_t *r) {
   const int wait = waits(r, 2) - 1;
   int n = wait;
-  for (; n < 5000 && r->h.wait >= wait - 1; n++) step(r);
+  for (; n < 5000 && r->h.wait >= wait - 1; n++) height_rest_step(r);
   return (double)n / wait;
 }
 
-static double other_zero(rest_t *r) {
-  settle(r);
+static double other_zero(height_rest_t *r) {
+  height_rest_settle(r);
   const float before_m = r->h.off_m;
   r->in.z_m += 0.002f;
-  rest_for(r, 400);
+  height_rest_for(r, 400);
   return (double)(r->h.off_m - before_m) / 0.002;
 }
 
-static double apart(rest_t *r) {
+static double apart(height_rest_t *r) {
   for (int mm = 1; mm < 100; mm++) {
-    settle(r);
+    height_rest_settle(r);
     r->in.z_m += 1e-3f * (float)mm;
-    step(r);
+    height_rest_step(r);
     if (r->h.fit == 0) return mm;
   }
   return 0.0;
 }
 
-static double climbs_apart(rest_t *r) {
+static double climbs_apart(height_rest_t *r) {
   for (int cmps = 1; cmps < 100; cmps++) {
-    settle(r);
+    height_rest_settle(r);
     r->in.climb_mps += 0.01f * (float)cmps;
-    step(r);
+    height_rest_step(r);
     if (r->h.fit == 0) return cmps;
   }
   return 0.0;
 }
 
 // What the accelerometer is expected to show at once of a thrust that jumps: no surprise leaves the bias.
-static double at_once(rest_t *r) {
+static double at_once(height_rest_t *r) {
   double least = 1.0, of = 0.0;
   for (int percent = 0; percent <= 100; percent++) {
-    settle(r);
-    for (int i = 0; i < 3; i++) r->h.sent_N[i] += MASS_KG; // 1 m/s2 more
-    r->in.thrust_N += MASS_KG;
+    height_rest_settle(r);
+    for (int i = 0; i < 3; i++) r->h.sent_N[i] += HEIGHT_REST_KG; // 1 m/s2 more
+    r->in.thrust_N += HEIGHT_REST_KG;
     r->in.acc_b_mps2.z += 0.01f * (float)percent;
     r->k = 1;
     const float b_mps2 = r->h.x[HEIGHT_B];
-    step(r);
+    height_rest_step(r);
     const double more = fabs((double)(r->h.x[HEIGHT_B] - b_mps2));
     if (more < least) {
       least = more;
@@ -290,96 +243,96 @@ static double at_once(rest_t *r) {
   return of;
 }
 
-static double mean_of_acc(rest_t *r) {
-  settle(r);
+static double mean_of_acc(height_rest_t *r) {
+  height_rest_settle(r);
   r->shake_mps2 = 0.1f;
   const int most = 500;
-  rest_for(r, most);
+  height_rest_for(r, most);
   const float all = r->h.acc_odd;
-  settle(r);
+  height_rest_settle(r);
   r->shake_mps2 = 0.1f;
   int n = 0;
-  for (; n < most && r->h.acc_odd < 0.632f * all; n++) step(r);
+  for (; n < most && r->h.acc_odd < 0.632f * all; n++) height_rest_step(r);
   return 0.01 * n;
 }
 
-static double mean_of_range(rest_t *r) {
-  settle(r);
+static double mean_of_range(height_rest_t *r) {
+  height_rest_settle(r);
   r->shake_m = 0.004f;
-  rest_for(r, 900);
+  height_rest_for(r, 900);
   const float all = r->h.down_odd;
-  settle(r);
+  height_rest_settle(r);
   r->shake_m = 0.004f;
   int n = 0;
-  for (; n < 900 && r->h.down_odd < 0.632f * all; n++) step(r);
+  for (; n < 900 && r->h.down_odd < 0.632f * all; n++) height_rest_step(r);
   return n / 3.0;
 }
 
 // 20 mm from where the curve was looked up; what its slope of -6 per metre is made to be at most.
-static double straight(rest_t *r) {
-  start(r);
+static double straight(height_rest_t *r) {
+  height_rest_start(r);
   r->in.at = (rbf_point_t){.ratio = 1.0f, .slope_per_m = -6.0f};
   r->in.ceiling_z_m = 0.42f;
   r->in.zc_m = 0.04f;
-  step(r);
+  height_rest_step(r);
   return 1e3 * (double)((r->h.acc_mps2 - r->h.x[HEIGHT_D]) / GRAVITY_MPS2) / 6.0;
 }
 
-static double highest(rest_t *r) {
+static double highest(height_rest_t *r) {
   int dm = 5;
   for (; dm < 100; dm++) {
-    start(r);
+    height_rest_start(r);
     r->in.z_m = r->down_m = 0.1f * (float)dm - 0.05f;
-    rest_for(r, 100);
+    height_rest_for(r, 100);
     if (r->h.fit == 0) break;
   }
   return 0.1 * (dm - 1);
 }
 
 // Leaning by 10 degrees, 2.5 beyond the cone, 0.4 m of range: what the filter takes for the height.
-static double leaning(rest_t *r) {
-  start(r);
+static double leaning(height_rest_t *r) {
+  height_rest_start(r);
   r->in.q_wb = (quat_t){.w = 0.9961947f, .x = 0.08715574f};
   r->in.acc_b_mps2.z = GRAVITY_MPS2 / LEAN_COS;
   r->in.thrust_N /= LEAN_COS;
   r->in.z_m = 0.99904823f * r->down_m; // cos 2.5 degrees
-  rest_for(r, 600);
+  height_rest_for(r, 600);
   return ((double)((r->in.z_m - r->h.off_m) / r->down_m) - (double)LEAN_COS) / (double)LEAN_SIN;
 }
 
-static double first_range(rest_t *r) {
-  start(r);
+static double first_range(height_rest_t *r) {
+  height_rest_start(r);
   r->down_m = 0.401f;
-  step(r);
+  height_rest_step(r);
   return 1e3 * (double)(r->h.x[HEIGHT_H] - 0.4f);
 }
 
-static double first_climb(rest_t *r) {
-  start(r);
+static double first_climb(height_rest_t *r) {
+  height_rest_start(r);
   r->down_m = 0.401f;
-  rest_for(r, 4);
+  height_rest_for(r, 4);
   return 1e3 * (double)r->h.x[HEIGHT_W];
 }
 
-static double first_force(rest_t *r) {
-  start(r);
+static double first_force(height_rest_t *r) {
+  height_rest_start(r);
   r->in.acc_b_mps2.z += 0.1f;
   r->silent = true;
-  step(r);
+  height_rest_step(r);
   return (0.1 - (double)(r->h.x[HEIGHT_D] + r->h.x[HEIGHT_B])) / 0.1;
 }
 
-static double first_bias(rest_t *r) {
-  start(r);
+static double first_bias(height_rest_t *r) {
+  height_rest_start(r);
   r->in.acc_b_mps2.z += 0.1f;
   r->silent = true;
-  step(r);
+  height_rest_step(r);
   return (double)r->h.x[HEIGHT_B] / 0.1;
 }
 
 static const struct {
   const char *what;
-  double (*of)(rest_t *);
+  double (*of)(height_rest_t *);
   double want, tol;
 } row[] = {
     {"S: mm in five steps of 0.1 m/s", five_steps, 5.0, 0.1},
@@ -418,7 +371,7 @@ static const struct {
 };
 
 TEST(the_height_filters_numbers_are_what_it_does) {
-  rest_t r;
+  height_rest_t r;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     const double got = row[i].of(&r);
     ROW("%s", row[i].what);
