@@ -5,6 +5,7 @@
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <new>
+#include <sanitizer/asan_interface.h>
 #include <utility>
 
 namespace {
@@ -15,6 +16,17 @@ constexpr std::size_t stack_bytes =
     1 << 20; // the deepest flight takes a tenth; what is not touched takes no memory
 
 constexpr std::size_t shift_bytes = 4096 / LANES + 64;
+
+// A stack's outermost frames never return: what the address sanitizer has marked around them would be taken
+// for an overflow of whatever lies there next.
+using guarded_t = boost::context::protected_fixedsize_stack;
+struct own_stack_t : guarded_t {
+  using guarded_t::guarded_t;
+  void deallocate(boost::context::stack_context &s) noexcept {
+    ASAN_UNPOISON_MEMORY_REGION(static_cast<char *>(s.sp) - s.size, s.size);
+    guarded_t::deallocate(s);
+  }
+};
 
 struct place_t {
   fiber job, back;
@@ -35,14 +47,13 @@ void fill(const turns_t &t, place_t &p, int n, int &next) {
   while (!p.job && next < n) {
     const int i = next++;
     try {
-      p.job = fiber(std::allocator_arg, boost::context::protected_fixedsize_stack(stack_bytes),
-                    [&t, &p, i](fiber &&back) {
-                      p.back = std::move(back);
-                      // Stacks begin at pages: without a shift all of them want the same lines of the cache.
-                      *static_cast<volatile char *>(alloca(1 + (std::size_t)(i % LANES) * shift_bytes)) = 0;
-                      t.job(t.context, i);
-                      return std::move(p.back);
-                    });
+      p.job = fiber(std::allocator_arg, own_stack_t(stack_bytes), [&t, &p, i](fiber &&back) {
+        p.back = std::move(back);
+        // Stacks begin at pages: without a shift all of them want the same lines of the cache.
+        *static_cast<volatile char *>(alloca(1 + (std::size_t)(i % LANES) * shift_bytes)) = 0;
+        t.job(t.context, i);
+        return std::move(p.back);
+      });
     } catch (const std::bad_alloc &) {
       t.job(t.context, i);
       continue;
