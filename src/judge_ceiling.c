@@ -31,7 +31,8 @@
 #define GROWTH_SHARE  0.8f // of the ratio's variance; what a load dropped or a gust shares by chance is less
 #define GROWTH_SEEN   2.5f // samples' worth of rise: 1 cm at the least, and no faster than 0.16 m/s
 // test: guard_forgets_a_growth_where_a_bit_of_it_flipped
-#define GROWTH_MOST 1e3f // of all sums together: 40 samples of a ratio that is wrong by 3.5
+#define GROWTH_MOST  1e3f // of all sums together: 40 samples of a ratio that is wrong by 3.5
+#define GROWTH_ROUND 1.0f // of fy^2 below: rounding makes a hundredth of it, the least ceiling 56
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
 #define RATIO_LEAST 0.3f // so little carries no vehicle that its thrust map describes
 #define RATIO_MOST  5.0f // as params.h has it for ceil.ratioMax
@@ -119,7 +120,6 @@ static bool can_be(float ratio) {
 // One more sample. Where the vehicle rises by dz, every older one is farther below it: its share in what the
 // ceiling gives shrinks by exp(-dz GROWTH_PER_M). A sink is not followed, as shares would grow without bound.
 static void fit_growth(guard_growth_t *s, float more, float climb_m, float keep) {
-  if (!(fabsf(s->n + s->f + s->ff + s->y + s->fy + s->yy) <= GROWTH_MOST)) *s = (guard_growth_t){.n = 0.0f};
   const float up = f_clamp(GROWTH_PER_M * climb_m, 0.0f, 0.5f);
   const float share = keep * (1.0f - up + 0.5f * up * up); // of exp as much as is needed
   s->ff = share * (1.0f - up + 0.5f * up * up) * s->ff + 1.0f;
@@ -133,13 +133,17 @@ static void fit_growth(guard_growth_t *s, float more, float climb_m, float keep)
 // By least squares, over these samples: more than usual = const + a f, where f is the share of each as above,
 // 1 of this one. So a is what a ceiling gives here and now, told by how it grew. It is one where a, and the
 // fit here, are as large as near a ceiling, and where the fit explains what was seen. (The sums are n times
-// the squares about the means.)
-static bool grows(const guard_growth_t *s) {
+// the squares about the means.) No fit explains more than there is: where it does a bit flipped, and all is
+// forgotten.
+static bool grows(guard_growth_t *s) {
   const float ff = s->n * s->ff - s->f * s->f, fy = s->n * s->fy - s->f * s->y,
               yy = s->n * s->yy - s->y * s->y;
   const float here = s->y * ff + fy * (s->n - s->f); // times n ff
-  return ff >= GROWTH_SEEN * s->n && fy >= GROWTH_LEAST * ff && here >= GROWTH_LEAST * s->n * ff &&
-         fy * fy >= GROWTH_SHARE * ff * yy;
+  const bool possible =
+      fabsf(s->n + s->f + s->ff + s->y + s->fy + s->yy) <= GROWTH_MOST && fy * fy <= ff * yy + GROWTH_ROUND;
+  if (!possible) *s = (guard_growth_t){.n = 0.0f};
+  return possible && ff >= GROWTH_SEEN * s->n && fy >= GROWTH_LEAST * ff &&
+         here >= GROWTH_LEAST * s->n * ff && fy * fy >= GROWTH_SHARE * ff * yy;
 }
 
 // The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. Against

@@ -112,6 +112,26 @@ TEST(guard_forgets_a_growth_where_a_bit_of_it_flipped) {
                           &c.g.growth.y, &c.g.growth.fy, &c.g.growth.yy};
     *sum[i % 6] = odd[i / 6];
     sample(&c, 0.3f, 0.0f, NULL);
-    CHECK(c.g.growth.n == 1.0f && c.g.growth.ff == 1.0f && (c.g.now & GUARD_RATIO) == 0);
+    CHECK(c.g.growth.n == 0.0f && c.g.growth.ff == 0.0f && (c.g.now & GUARD_RATIO) == 0);
+  }
+}
+
+// As above, but of a size that sums have: no fit explains more of the ratio than there is.
+TEST(guard_takes_no_flipped_sum_for_a_ceiling) {
+  static const float more[] = {-500.0f, -50.0f, -5.0f, 5.0f, 50.0f, 500.0f};
+  for (unsigned i = 0; i < 6 * sizeof more / sizeof *more; i++) {
+    ROW("sum %u, %g more", i % 6, (double)more[i / 6]);
+    climb_t c = begun(1.5f);
+    c.speed_mps = 0.1f;
+    for (int k = 0; k < 100; k++) sample(&c, 0.3f, k % 2 ? 0.02f : -0.02f, NULL);
+    float *const sum[] = {&c.g.growth.n, &c.g.growth.f,  &c.g.growth.ff,
+                          &c.g.growth.y, &c.g.growth.fy, &c.g.growth.yy};
+    *sum[i % 6] += more[i / 6];
+    unsigned said = 0;
+    for (int k = 0; k < 200; k++) {
+      sample(&c, 0.3f, k % 2 ? 0.02f : -0.02f, NULL);
+      said |= c.g.now;
+    }
+    CHECK((said & GUARD_RATIO) == 0);
   }
 }
