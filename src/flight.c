@@ -26,6 +26,7 @@ status_t flight_init(flight_t *f, const flight_param_t *p) {
   f->out.outer = f->outer.out;
   f->yaw_rad = NAN;
   by_hand_init(&f->by_hand);
+  height_init(&f->height);
   return flight_tune(f, p);
 }
 

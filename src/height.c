@@ -152,13 +152,13 @@ static bool fits(const height_t *s, const height_in_t *in) {
          fabsf(s->x[HEIGHT_W] - in->climb_mps) <= HEIGHT_APART_MPS;
 }
 
-static bool is_flown(const height_t *s) {
-  return s->fit >= s->wait;
-}
-
 // A bit of wait may have flipped.
 static int within(int wait) {
   return EITHER(wait < HEIGHT_FIT, HEIGHT_FIT, EITHER(wait > HEIGHT_FIT_MAX, HEIGHT_FIT_MAX, wait));
+}
+
+static bool is_flown(const height_t *s) {
+  return s->fit >= within(s->wait);
 }
 
 // One more step that fits, or one that does not.
@@ -171,7 +171,8 @@ static void judge(height_t *s, bool good) {
 
 void height_step(height_t *s, const height_param_t *p, float motor_share, const height_in_t *in) {
   const float to = is_flown(s) ? 1.0f : 0.0f;
-  s->share += f_clamp(to - s->share, -HEIGHT_S / FADE_S, HEIGHT_S / FADE_S);
+  const float share = s->share + f_clamp(to - s->share, -HEIGHT_S / FADE_S, HEIGHT_S / FADE_S);
+  s->share = f_clamp(share, 0.0f, 1.0f); // a bit of it may have flipped, too
   if (!usable(in)) {
     height_lose(s);
     return;

@@ -34,11 +34,12 @@
 // alike for HEIGHT_SAME samples, a disturbing force that is none of contact, and the estimator within
 // HEIGHT_APART_M. Else the last difference from the estimator fades out, in a quarter of a second, and with
 // it the gains go back to those of the estimator's height; the filter starts afresh from the estimator. When
-// it has fitted for HEIGHT_FIT steps it fades in. So neither is a step.
+// it has fitted for `wait` steps, HEIGHT_FIT at first, it fades in. So neither is a step.
 //
 // A lag or a delay that is not what it was told is so for good: what flew by it and had to hand back would do
-// so again and again, and each time two laws meet. So each time it waits twice as long, up to HEIGHT_FIT_MAX,
-// and half as long after HEIGHT_TRUST times as long that it was flown and fitted.
+// so again and again, and each time two laws meet. So each time that what was flown did not fit, whatever it
+// was, it waits twice as long, up to HEIGHT_FIT_MAX; half as long when it has fitted for HEIGHT_TRUST waits,
+// the first of them not flown. Missed calls and inputs that are none say nothing against it: wait stays.
 #ifndef FLIGHT_HEIGHT_H
 #define FLIGHT_HEIGHT_H
 
@@ -74,7 +75,7 @@ typedef struct {
 #define HEIGHT_SAME       10     // samples after the first: noise moves them sooner
 #define HEIGHT_FIT        50     // steps: twice the mean squares' time
 #define HEIGHT_FIT_MAX    1600   // steps: 16 s, so that who flies for a minute has seldom two laws that meet
-#define HEIGHT_TRUST      8      // longer than what has a wrong lag flies before it hands back
+#define HEIGHT_TRUST      8      // waits: in the corners 12 of 4,300 flights touched without, with it none
 #define HEIGHT_OFF_STEPS  400    // 4 s: slower than the law, faster than the estimator drifts
 #define HEIGHT_APART_M    0.015f // five times what the estimator is wrong by; a floor that is another is more
 #define HEIGHT_APART_MPS  0.15f  // likewise of its climb
@@ -122,7 +123,7 @@ static inline void height_init(height_t *s) {
   *s = (height_t){.wait = HEIGHT_FIT};
 }
 
-// Nothing of the last steps is known any more; what is flown fades out.
+// Nothing of the last steps is known any more; what is flown fades out. wait stays.
 static inline void height_lose(height_t *s) {
   s->started = false;
   s->fit = 0;

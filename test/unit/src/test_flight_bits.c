@@ -36,7 +36,7 @@ static flight_in_t hovering(uint32_t ms, yaw_mode_t yaw) {
       .range_new = ms % 100 == 0,
       .range_m = CEILING_M + noise,
       .range_age_s = 0.07f,
-      .down_m = ms % 100 == 0 ? FLOOR_M + noise : 0.0f,
+      .down_m = ms % 20 == 2 ? FLOOR_M + 0.1f * noise : 0.0f, // in the height's own millisecond
       .setpoint =
           {.x = AXIS_POSITION, .y = AXIS_POSITION, .z = AXIS_POSITION, .pos_w_m = {.z = FLOOR_M}, .yaw = yaw},
   };
@@ -118,6 +118,7 @@ TEST(flight_flies_on_with_any_bit_of_its_memory_flipped) {
     }
     ROW("%s", row[i].what);
     CHECK(f.out.outer.zc_known && within(&f) && !flight_not_finite(&f));
+    CHECK(f.height.share == (float)row[i].own);
     static flight_t without;
     without = f;
     for (uint32_t ms = 0; ms < AFTER_MS; ms++) {
