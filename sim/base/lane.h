@@ -6,6 +6,14 @@
 
 #define LANES 8
 
+// Of the C library what eight numbers call one by one (lane.hpp, lane_c.hpp): of one number and of two.
+// clang-format off
+#define LANE_LIBRARY(X) \
+  X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(exp) X(exp2) X(expm1) \
+  X(log) X(log2) X(log10) X(log1p) X(cbrt) X(erf) X(round)
+#define LANE_LIBRARY_OF_TWO(X) X(pow) X(hypot) X(atan2) X(fmod) X(copysign) X(fmin) X(fmax)
+// clang-format on
+
 // Whether this processor has what lane.hpp needs.
 static inline bool lane_possible(void) {
 #ifdef __x86_64__

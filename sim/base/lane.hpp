@@ -95,35 +95,11 @@ template <typename f_t> LANE lane_t each(f_t f, lane_t a, lane_t b) {
   LANE lane_t name(lane_t a, lane_t b) {                                                                     \
     return each([](number_t x, number_t y) { return ::name(x, y); }, a, b);                                  \
   }
-LANE_FUNCTION(sin)
-LANE_FUNCTION(cos)
-LANE_FUNCTION(tan)
-LANE_FUNCTION(asin)
-LANE_FUNCTION(acos)
-LANE_FUNCTION(atan)
-LANE_FUNCTION(sinh)
-LANE_FUNCTION(cosh)
-LANE_FUNCTION(tanh)
-LANE_FUNCTION(exp)
-LANE_FUNCTION(exp2)
-LANE_FUNCTION(expm1)
-LANE_FUNCTION(log)
-LANE_FUNCTION(log2)
-LANE_FUNCTION(log10)
-LANE_FUNCTION(log1p)
-LANE_FUNCTION(cbrt)
-LANE_FUNCTION(erf)
+LANE_LIBRARY(LANE_FUNCTION)
 LANE_FUNCTION(floor)
 LANE_FUNCTION(ceil)
-LANE_FUNCTION(round)
 LANE_FUNCTION(trunc)
-LANE_FUNCTION_OF_TWO(pow)
-LANE_FUNCTION_OF_TWO(hypot)
-LANE_FUNCTION_OF_TWO(atan2)
-LANE_FUNCTION_OF_TWO(fmod)
-LANE_FUNCTION_OF_TWO(copysign)
-LANE_FUNCTION_OF_TWO(fmin)
-LANE_FUNCTION_OF_TWO(fmax)
+LANE_LIBRARY_OF_TWO(LANE_FUNCTION_OF_TWO)
 
 LANE truth_t isfinite(lane_t a) {
   return fabs(a) < lane_t(HUGE_VAL);
@@ -141,67 +117,9 @@ inline lane_t::operator int() const {
   return first;
 }
 
-// --- base/pair.h: two numbers of every lane ---------------------------------------------------------------
-
-struct pair_truth_t {
-  truth_t a[2];
-};
-struct pair_t {
-  lane_t a[2];
-  LANE lane_t operator[](int i) const { return a[i]; }
-};
-#define LANE_PAIR(sign)                                                                                      \
-  LANE pair_t operator sign(pair_t x, pair_t y) {                                                            \
-    return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
-  }                                                                                                          \
-  LANE pair_t operator sign(lane_t x, pair_t y) {                                                            \
-    return {{x sign y.a[0], x sign y.a[1]}};                                                                 \
-  }                                                                                                          \
-  LANE pair_t operator sign(pair_t x, lane_t y) {                                                            \
-    return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
-  }                                                                                                          \
-  LANE pair_t &operator sign##=(pair_t &x, pair_t y) {                                                       \
-    return x = x sign y;                                                                                     \
-  }
-LANE_PAIR(+)
-LANE_PAIR(-)
-LANE_PAIR(*)
-LANE_PAIR(/)
-LANE pair_truth_t operator<(pair_t x, pair_t y) {
-  return {{x.a[0] < y.a[0], x.a[1] < y.a[1]}};
-}
-LANE pair_truth_t operator>(pair_t x, pair_t y) {
-  return {{x.a[0] > y.a[0], x.a[1] > y.a[1]}};
-}
-
-LANE pair_t pair_of(const lane_t *p) {
-  return {{p[0], p[1]}};
-}
-LANE void pair_put(lane_t *p, pair_t x) {
-  p[0] = x.a[0];
-  p[1] = x.a[1];
-}
-LANE pair_t pair_both(lane_t x) {
-  return {{x, x}};
-}
-LANE lane_t pair_sum(pair_t x) {
-  return x.a[0] + x.a[1];
-}
-LANE pair_t pair_where(pair_truth_t holds, pair_t x, pair_t y) {
-  return {{where(holds.a[0], x.a[0], y.a[0]), where(holds.a[1], x.a[1], y.a[1])}};
-}
-LANE pair_t pair_min(pair_t x, pair_t y) {
-  return pair_where(x < y, x, y);
-}
-LANE pair_t pair_max(pair_t x, pair_t y) {
-  return pair_where(x > y, x, y);
-}
-LANE pair_t pair_sqrt(pair_t x) {
-  return {{sqrt(x.a[0]), sqrt(x.a[1])}};
-}
-LANE pair_t pair_exp2_of_bits(pair_t x) {
-  return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
-}
+typedef lane_t pair_number_t;
+typedef truth_t pair_flag_t;
+#include "base/lane_pair.hpp"
 
 } // namespace
 

@@ -75,10 +75,13 @@ concept plain_whole = std::is_integral_v<T> || std::is_enum_v<T>;
 // clang-format off
 #include "base/lane_whole.hpp"
 #include "base/lane_number.hpp"
-#include "base/lane_pair.hpp"
 // clang-format on
 
 namespace lanes {
+
+typedef lane_double_t pair_number_t;
+typedef lane_wide_flag_t pair_flag_t;
+#include "base/lane_pair.hpp"
 
 // What C has and C++ not, or otherwise.
 typedef lane_int_t int32_t;

@@ -161,8 +161,12 @@ template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_do
   return either(holds, a, b);
 }
 
-// --- the C library's
-// -----------------------------------------------------------------------------------------
+// 2^n, of a whole number n that is in the lowest bits of x.
+LANE lane_double_t exp2_of_bits(lane_double_t x) {
+  return {(doubles_t)(((longs_t)x.lo + 1023) << 52), (doubles_t)(((longs_t)x.hi + 1023) << 52)};
+}
+
+// --- the C library's -----------------------------------------------------------------------------------
 
 LANE lane_float_t sqrtf(lane_float_t a) {
   return (floats_t)_mm256_sqrt_ps((__m256)a.v);
@@ -209,33 +213,10 @@ template <typename one_t, typename all_t, typename F> LANE all_t lanes_each(F f,
   LANE all_t name(all_t a, all_t b) {                                                                        \
     return lanes_each<one_t>([](one_t x, one_t y) { return ::name(x, y); }, a, b);                           \
   }
-LANE_FUNCTION(sin)
-LANE_FUNCTION(cos)
-LANE_FUNCTION(tan)
-LANE_FUNCTION(asin)
-LANE_FUNCTION(acos)
-LANE_FUNCTION(atan)
-LANE_FUNCTION(sinh)
-LANE_FUNCTION(cosh)
-LANE_FUNCTION(tanh)
-LANE_FUNCTION(exp)
-LANE_FUNCTION(exp2)
-LANE_FUNCTION(expm1)
-LANE_FUNCTION(log)
-LANE_FUNCTION(log2)
-LANE_FUNCTION(log10)
-LANE_FUNCTION(log1p)
-LANE_FUNCTION(cbrt)
-LANE_FUNCTION(erf)
-LANE_FUNCTION(round)
-LANE_FUNCTION_OF_TWO(pow, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(hypot, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(atan2, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(fmod, double, lane_double_t)
+LANE_LIBRARY(LANE_FUNCTION)
+#define LANE_FUNCTION_OF_TWO_DOUBLES(name) LANE_FUNCTION_OF_TWO(name, double, lane_double_t)
+LANE_LIBRARY_OF_TWO(LANE_FUNCTION_OF_TWO_DOUBLES)
 LANE_FUNCTION_OF_TWO(remainder, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(copysign, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(fmin, double, lane_double_t)
-LANE_FUNCTION_OF_TWO(fmax, double, lane_double_t)
 LANE_FUNCTION_OF_TWO(fminf, float, lane_float_t)
 LANE_FUNCTION_OF_TWO(fmaxf, float, lane_float_t)
 

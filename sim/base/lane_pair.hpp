@@ -1,29 +1,26 @@
-// lane_pair.hpp - base/pair.h of eight vehicles: two numbers of each. A part of base/lane_c.hpp, which
-// includes it.
+// lane_pair.hpp - base/pair.h of eight vehicles: two numbers of each. A part of base/lane.hpp and of
+// base/lane_c.hpp, which include it inside of their namespace and say what eight numbers (pair_number_t) and
+// eight answers (pair_flag_t) are.
 #ifndef SIM_BASE_LANE_PAIR_HPP
 #define SIM_BASE_LANE_PAIR_HPP
 
-namespace lanes {
-
-// --------------------------------------------------------------------
-
 struct pair_bits_t {
-  lane_wide_flag_t a[2];
-  LANE lane_wide_flag_t operator[](int i) const { return a[i]; }
+  pair_flag_t a[2];
+  LANE pair_flag_t operator[](int i) const { return a[i]; }
 };
 struct pair_t {
-  lane_double_t a[2];
-  LANE lane_double_t operator[](int i) const { return a[i]; }
-  LANE lane_double_t &operator[](int i) { return a[i]; }
+  pair_number_t a[2];
+  LANE pair_number_t operator[](int i) const { return a[i]; }
+  LANE pair_number_t &operator[](int i) { return a[i]; }
 };
 #define LANE_PAIR(sign)                                                                                      \
   LANE pair_t operator sign(pair_t x, pair_t y) {                                                            \
     return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
   }                                                                                                          \
-  LANE pair_t operator sign(lane_double_t x, pair_t y) {                                                     \
+  LANE pair_t operator sign(pair_number_t x, pair_t y) {                                                     \
     return {{x sign y.a[0], x sign y.a[1]}};                                                                 \
   }                                                                                                          \
-  LANE pair_t operator sign(pair_t x, lane_double_t y) {                                                     \
+  LANE pair_t operator sign(pair_t x, pair_number_t y) {                                                     \
     return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
   }                                                                                                          \
   LANE pair_t &operator sign##=(pair_t &x, pair_t y) {                                                       \
@@ -40,7 +37,7 @@ LANE pair_t operator-(pair_t x) {
   LANE pair_bits_t operator sign(pair_t x, pair_t y) {                                                       \
     return {{x.a[0] sign y.a[0], x.a[1] sign y.a[1]}};                                                       \
   }                                                                                                          \
-  LANE pair_bits_t operator sign(pair_t x, lane_double_t y) {                                                \
+  LANE pair_bits_t operator sign(pair_t x, pair_number_t y) {                                                \
     return {{x.a[0] sign y, x.a[1] sign y}};                                                                 \
   }
 LANE_PAIR_COMPARED(<)
@@ -63,21 +60,21 @@ LANE pair_bits_t &operator&=(pair_bits_t &x, pair_bits_t y) {
 LANE bool pair_any(pair_bits_t x) {
   return ((x.a[0].bits() | x.a[1].bits()) & lanes_in) != 0;
 }
-LANE pair_t pair_of(const lane_double_t *p) {
+LANE pair_t pair_of(const pair_number_t *p) {
   return {{p[0], p[1]}};
 }
-LANE void pair_put(lane_double_t *p, pair_t x) {
+LANE void pair_put(pair_number_t *p, pair_t x) {
   p[0] = x.a[0];
   p[1] = x.a[1];
 }
-LANE pair_t pair_both(lane_double_t x) {
+LANE pair_t pair_both(pair_number_t x) {
   return {{x, x}};
 }
-LANE lane_double_t pair_sum(pair_t x) {
+LANE pair_number_t pair_sum(pair_t x) {
   return x.a[0] + x.a[1];
 }
 LANE pair_t pair_where(pair_bits_t holds, pair_t x, pair_t y) {
-  return {{either(holds.a[0], x.a[0], y.a[0]), either(holds.a[1], x.a[1], y.a[1])}};
+  return {{where(holds.a[0], x.a[0], y.a[0]), where(holds.a[1], x.a[1], y.a[1])}};
 }
 LANE pair_t pair_min(pair_t x, pair_t y) {
   return pair_where(x < y, x, y);
@@ -91,14 +88,8 @@ LANE pair_t pair_sqrt(pair_t x) {
 LANE pair_t pair_trunc(pair_t x) {
   return {{trunc(x.a[0]), trunc(x.a[1])}};
 }
-// 2^n, of a whole number n that is in the lowest bits of x.
-LANE lane_double_t exp2_of_bits(lane_double_t x) {
-  return {(doubles_t)(((longs_t)x.lo + 1023) << 52), (doubles_t)(((longs_t)x.hi + 1023) << 52)};
-}
 LANE pair_t pair_exp2_of_bits(pair_t x) {
   return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
 }
-
-} // namespace lanes
 
 #endif
