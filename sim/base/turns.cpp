@@ -29,6 +29,7 @@ struct own_stack_t : guarded_t {
 };
 
 struct place_t {
+  const turns_t *turns = nullptr;
   fiber job, back;
   void *what = nullptr;
 };
@@ -70,6 +71,7 @@ void turns_run(const turns_t *t, int n) {
     return;
   }
   place_t place[LANES];
+  for (place_t &p : place) p.turns = t;
   int next = 0;
   for (bool any = true; any;) {
     void *what[LANES];
@@ -86,6 +88,10 @@ void turns_run(const turns_t *t, int n) {
 
 bool turns_inside(void) {
   return here != nullptr;
+}
+
+bool turns_meet_at(void (*meet)(void *, void *const[LANES])) {
+  return here != nullptr && here->turns->meet == meet;
 }
 
 void turns_wait(void *what) {

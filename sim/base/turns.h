@@ -24,6 +24,8 @@ void turns_run(const turns_t *turns, int n);
 
 // Whether the caller is part of such a job, and may wait. Another thread that a job starts is not.
 bool turns_inside(void);
+// Whether it is part of one that meets there.
+bool turns_meet_at(void (*meet)(void *meet_context, void *const what[LANES]));
 void turns_wait(void *what);
 
 #ifdef __cplusplus

@@ -361,6 +361,10 @@ void abreast_forget(abreast_t *a) {
   a->moved = a->ahead = 0;
 }
 
+void abreast_forget_one(abreast_t *a, int k) {
+  a->has[k] = (has_t){.body = NULL};
+}
+
 void abreast_close(abreast_t *a) {
   if (!a) return;
   integrate_close(a->integrate);

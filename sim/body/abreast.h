@@ -21,6 +21,7 @@ void abreast_close(abreast_t *a);
 
 // Other bodies come, or what was changed of these was not by body.h.
 void abreast_forget(abreast_t *a);
+void abreast_forget_one(abreast_t *a, int k); // of lane k alone; it is settled
 
 // A tick of each that is no null pointer: body_command() was called, and nothing else. Those that are
 // returned (a bit each) were moved together, and are where *seen says; their body_t lags behind, but for

@@ -248,7 +248,7 @@ static void fly_all(void *self, void *const what[LANES]) {
 }
 
 bool together_waits(const flight_loop_t *f) {
-  return turns_inside() && !f->plan->vertical_only && f->tick == 0;
+  return turns_meet_at(fly_all) && !f->plan->vertical_only && f->tick == 0;
 }
 
 done_t together_fly(flight_loop_t *f, record_t *record, bool *finite, why_t *why) {

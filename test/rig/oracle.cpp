@@ -47,3 +47,9 @@ void oracle_uniform(uint64_t seed, int n, double *out) {
   std::mt19937_64 bits(seed);
   for (int i = 0; i < n; i++) out[i] = std::uniform_real_distribution<double>(0.0, 1.0)(bits);
 }
+
+void oracle_normal(uint64_t seed, int n, double *out) {
+  std::mt19937_64 bits(seed);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < n; i++) out[i] = normal(bits);
+}

@@ -15,6 +15,8 @@ void oracle_eigenvalues(const double A[ORACLE_N][ORACLE_N], double values[ORACLE
 
 // n numbers from 0 to 1 of std::mt19937_64.
 void oracle_uniform(uint64_t seed, int n, double *out);
+// The same of normal ones.
+void oracle_normal(uint64_t seed, int n, double *out);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 // nominal_fly.c - the model in closed loop along a log's track.
 #include "gap/3_feedback/nominal_known.h"
 
-#include "body/body.h"
+#include "body/side_by_side.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,10 +17,11 @@
 // Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
   const double *p = use->p;
-  double *const m = t->memory;
+  double *const m = t->memory, normal[6];
+  random_normals(t->random, 6, normal);
   for (int k = 0; k < 2; k++) {
     const double keep = m[6] > 0.0 ? exp(-t->span_s / p[6 + k]) : 0.0, fresh = sqrt(1.0 - keep * keep);
-    for (int i = 3 * k; i < 3 * k + 3; i++) m[i] = keep * m[i] + p[i] * fresh * random_normal(t->random);
+    for (int i = 3 * k; i < 3 * k + 3; i++) m[i] = keep * m[i] + p[i] * fresh * normal[i];
   }
   m[6] = 1.0;
   plant->force_w_N = d3_add(plant->force_w_N, d3_of(m));
@@ -43,11 +44,12 @@ static done_t disturbed(const model_t *m, const closed_loop_t *w, model_t *out, 
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-static double noisy(const nominal_flight_t *f, double v, double sd) {
-  return v + sd * random_normal(f->random);
-}
-static d3_t noisy3(const nominal_flight_t *f, d3_t v, const double sd[3]) {
-  return d3(noisy(f, v.x, sd[0]), noisy(f, v.y, sd[1]), noisy(f, v.z, sd[2]));
+#define LASTS 9  // normal numbers of a step, for errors that last
+#define SEEN  17 // of what is seen once
+
+// The last axis takes the first number.
+static d3_t noisy3(d3_t v, const double sd[3], const double normal[3]) {
+  return d3(v.x + sd[0] * normal[2], v.y + sd[1] * normal[1], v.z + sd[2] * normal[0]);
 }
 
 static fx_sensed_t sensed(const nominal_flight_t *f) {
@@ -72,17 +74,15 @@ static decay_t decay_of(const slow_t *slow, double step_s) {
   return d;
 }
 
-static d3_t drifted(const nominal_flight_t *f, d3_t off, const decay_t *d) {
-  const double was[3] = {off.x, off.y, off.z};
-  double now[3];
-  for (int i = 0; i < 3; i++) now[i] = noisy(f, d->keep[i] * was[i], d->fresh[i]);
-  return d3_of(now);
+static d3_t drifted(d3_t off, const decay_t *d, const double normal[3]) {
+  return d3(d->keep[0] * off.x + d->fresh[0] * normal[0], d->keep[1] * off.y + d->fresh[1] * normal[1],
+            d->keep[2] * off.z + d->fresh[2] * normal[2]);
 }
 
-static void drift(nominal_flight_t *f) {
-  f->pos_off_m = drifted(f, f->pos_off_m, &f->pos_keeps);
-  f->vel_off_mps = drifted(f, f->vel_off_mps, &f->vel_keeps);
-  f->angle_off_rad = drifted(f, f->angle_off_rad, &f->angle_keeps);
+static void drift(nominal_flight_t *f, const double normal[LASTS]) {
+  f->pos_off_m = drifted(f->pos_off_m, &f->pos_keeps, normal);
+  f->vel_off_mps = drifted(f->vel_off_mps, &f->vel_keeps, normal + 3);
+  f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, normal + 6);
 }
 
 static grid_point_t is(const nominal_flight_t *f) {
@@ -97,18 +97,18 @@ static grid_point_t is(const nominal_flight_t *f) {
                         .vbat_V = b->vbat_V};
 }
 
-static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth) {
+static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth, const double normal[SEEN]) {
   const closed_loop_t *w = f->w;
   const double any[3] = {w->angle_rad, w->angle_rad, w->angle_rad};
-  const d3_t angle = d3_scale(0.5, noisy3(f, f->angle_off_rad, any));
+  const d3_t angle = d3_scale(0.5, noisy3(f->angle_off_rad, any, normal));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  return (grid_point_t){.pos_w_m = noisy3(f, d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m),
-                        .vel_w_mps = noisy3(f, d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps),
+  return (grid_point_t){.pos_w_m = noisy3(d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m, normal + 3),
+                        .vel_w_mps = noisy3(d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps, normal + 6),
                         .q_wb = dq_mul(truth->q_wb, wrong),
-                        .rate_b_radps = noisy3(f, truth->rate_b_radps, w->gyro_radps),
-                        .acc_b_mps2 = noisy3(f, truth->acc_b_mps2, w->acc_mps2),
-                        .range_m = noisy(f, truth->range_m, w->range_m),
-                        .vbat_V = noisy(f, truth->vbat_V, w->vbat_V)};
+                        .rate_b_radps = noisy3(truth->rate_b_radps, w->gyro_radps, normal + 9),
+                        .acc_b_mps2 = noisy3(truth->acc_b_mps2, w->acc_mps2, normal + 12),
+                        .range_m = truth->range_m + w->range_m * normal[16],
+                        .vbat_V = truth->vbat_V + w->vbat_V * normal[15]};
 }
 
 // --- the flight -------------------------------------------------------------------------------------------
@@ -146,7 +146,9 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
 
 static done_t find_pilot(nominal_flight_t *f, why_t *why) {
   if (!f->w->flown_by || f->w->flown_by->kind <= FLOWN_BY_OTHER) return DONE;
-  const grid_point_t truth = is(f), seen = see(f, &truth);
+  double normal[SEEN];
+  random_normals(f->random, SEEN, normal);
+  const grid_point_t truth = is(f), seen = see(f, &truth, normal);
   return known_open(&f->known, f, &seen, why);
 }
 
@@ -199,13 +201,15 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
     for (int i = 0; i < per_point; i++) {
       const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {
-        drift(f);
+        double normal[LASTS + SEEN];
+        random_normals(f->random, LASTS + SEEN, normal);
+        drift(f, normal);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        const grid_point_t truth = is(f), seen = see(f, &truth);
+        const grid_point_t truth = is(f), seen = see(f, &truth, normal + LASTS);
         steer(f, step_s, &seen, motor_N);
         if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
         if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
-        body_tick(&f->body, motor_N, step_s);
+        side_by_side_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
       const bool lost = f->body.broken || (f->g->has_position && d3_norm(off) > LOST_M);

@@ -1,9 +1,13 @@
 // nominal_sums.c - what the workflow sees in flights in which nothing is hidden.
 #include "gap/5_infer/nominal_sums.h"
 
+#include "body/side_by_side.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
 static done_t find_kept(double *kept, const set_t *s, const design_t *seen, const design_t *is,
@@ -57,10 +61,13 @@ static void find_misfit(double misfit[CHANNELS], const set_t *s, const design_t 
     }
 }
 
-// What one of the flights gives: they are flown side by side.
+// What one of the flights gives: number i of NOMINAL_FLIGHTS along each of the set's tracks.
 typedef struct {
+  const nominal_job_t *job;
+  int i;
   done_t status;
   why_t why;
+  gap_flights_t seen, is; // is: without errors; both have room for all tracks
   int flown, lost;
   double *total; // into those of all
   scan_t *scan;
@@ -96,46 +103,70 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
   return status;
 }
 
-// Flight number i of NOMINAL_FLIGHTS along each of the set's tracks.
-static done_t one(part_t *p, int i, const nominal_job_t *job, why_t *why) {
-  const set_t *s = job->set;
-  const closed_loop_t loop = closed_loop_varied(job->loop, i);
-  const size_t flights = (size_t)s->n_grid;
-  gap_flights_t flown = {.flight = calloc(2 * flights, sizeof(gap_flight_t))}, truth = {.n = 0};
-  gap_flights_t *const is = p->first ? &truth : NULL;
+static void fly(void *parts, int k) {
+  part_t *const p = (part_t *)parts + k;
+  const nominal_job_t *const job = p->job;
+  const closed_loop_t loop = closed_loop_varied(job->loop, p->i);
+  const size_t flights = (size_t)job->set->n_grid;
+  p->seen = (gap_flights_t){.flight = calloc(2 * flights, sizeof(gap_flight_t))};
+  p->is = (gap_flights_t){.flight = p->seen.flight ? p->seen.flight + flights : NULL};
+  p->status = p->seen.flight
+                  ? nominal_flights(&p->seen, p->first ? &p->is : NULL, job->set, &job->flown, &loop,
+                                    job->seed + (unsigned long)p->i, &p->why)
+                  : error_failed(&p->why, "out of memory");
+  p->flown = p->seen.n;
+  p->lost = job->set->n_grid - p->seen.n;
+}
+
+static done_t sum_up(part_t *p, why_t *why) {
+  const set_t *const s = p->job->set;
   set_t own = {.n_grid = 0};
-  if (!flown.flight) return error_failed(why, "out of memory");
-  truth.flight = flown.flight + flights;
-  done_t status = nominal_flights(&flown, is, s, &job->flown, &loop, job->seed + (unsigned long)i, why);
-  p->flown = flown.n;
-  p->lost = s->n_grid - flown.n;
-  if (status == DONE) status = nominal_set(&own, &flown, job->base, why);
-  if (status == DONE) status = windows_keep(&own, job->base, why);
+  done_t status = nominal_set(&own, &p->seen, p->job->base, why);
+  if (status == DONE) status = windows_keep(&own, p->job->base, why);
   memcpy(own.excluded, s->excluded, sizeof own.excluded);
-  if (status == DONE) status = take_sums(p, &own, is, job, why);
+  if (status == DONE) status = take_sums(p, &own, p->first ? &p->is : NULL, p->job, why);
   set_free(&own);
-  for (size_t f = 0; f < 2 * flights; f++) gap_flight_free(&flown.flight[f]);
-  free(flown.flight);
   return status;
 }
 
-static void fly_part(part_t *p, int i, const nominal_job_t *job) {
-  p->status = one(p, i, job, &p->why);
+// Flown side by side, then each by itself.
+static void do_parts(part_t *part, int n) {
+  (void)side_by_side(n, fly, part);
+  for (int k = 0; k < n; k++) {
+    part_t *const p = &part[k];
+    if (p->status == DONE) p->status = sum_up(p, &p->why);
+    for (int f = 0; p->seen.flight && f < 2 * p->job->set->n_grid; f++) gap_flight_free(&p->seen.flight[f]);
+    free(p->seen.flight);
+  }
+}
+
+static int threads(void) {
+#ifdef _OPENMP
+  return omp_in_parallel() ? 1 : omp_get_max_threads();
+#else
+  return 1;
+#endif
 }
 
 // What errors make of a size is told by the first flight that could be flown.
 static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
   const size_t room = (size_t)(n->size * n->size);
+  const int share = side_by_side_share(NOMINAL_FLIGHTS, threads());
   for (int i = 0; i < NOMINAL_FLIGHTS; i++)
-    part[i] =
-        (part_t){.total = n->total + (size_t)i * room, .scan = &n->scan[i], .kept = n->kept, .first = i == 0};
+    part[i] = (part_t){.job = job,
+                       .i = i,
+                       .total = n->total + (size_t)i * room,
+                       .scan = &n->scan[i],
+                       .kept = n->kept,
+                       .first = i == 0};
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < NOMINAL_FLIGHTS; i++) fly_part(&part[i], i, job);
+  for (int i = 0; i < NOMINAL_FLIGHTS; i += share)
+    do_parts(&part[i], i + share < NOMINAL_FLIGHTS ? share : NOMINAL_FLIGHTS - i);
   int first = 0;
   while (first < NOMINAL_FLIGHTS && part[first].status == BAD_INPUT) first++;
   if (first == 0 || first == NOMINAL_FLIGHTS) return;
   part[first].first = true;
-  fly_part(&part[first], first, job);
+  do_parts(&part[first], 1);
 }
 
 // In their order, those that could be flown.

@@ -1,6 +1,8 @@
 // test_gap_nominal.c - nominal flights: errors axis by axis, tracks with holes, flights that cannot be flown,
 // and the disturbance of the log.
+#include "base/lane.h"
 #include "base/random.h"
+#include "body/side_by_side.h"
 #include "exam/flights.h"
 #include "gap/2_predict/lines.h"
 #include "gap/5_infer/loop_fit.h"
@@ -136,6 +138,41 @@ static void spoil_by_a_gap(rig_t *r) {
     f->v[SIG_X][i] += 2.0;
     f->segment[i] = 1;
   }
+}
+
+#define BESIDE 5
+
+typedef struct {
+  const rig_t *rig;
+  gap_flight_t flown[BESIDE];
+} beside_t;
+
+static void fly_beside(void *self, int i) {
+  beside_t *const b = self;
+  const closed_loop_t loop = closed_loop_varied(&b->rig->loop, i);
+  why_t why;
+  CHECK_OK(nominal_fly(&b->rig->set.grid[0], &b->rig->vehicle, &loop, 5 + (unsigned long)i, &b->flown[i],
+                       NULL, &why));
+}
+
+TEST(gap_nominal_flights_side_by_side_have_the_bits_that_each_has_alone) {
+  rig_t r;
+  why_t why;
+  if (!CHECK_OK(rig_make(&r, spoil_by_a_gap, &why))) return;
+  beside_t alone = {.rig = &r}, beside = {.rig = &r};
+  for (int i = 0; i < BESIDE; i++) fly_beside(&alone, i);
+  const long together = side_by_side(BESIDE, fly_beside, &beside);
+  if (lane_possible()) CHECK(together > (long)alone.flown[0].n * BESIDE / 2);
+  for (int i = 0; i < BESIDE; i++) {
+    gap_flight_t *const a = &alone.flown[i], *const b = &beside.flown[i];
+    ROW("flight %d", i);
+    if (CHECK(a->n == b->n && a->n > 0))
+      for (int k = 0; k < SIG_COUNT; k++)
+        if (a->v[k]) CHECK(memcmp(a->v[k], b->v[k], (size_t)a->n * sizeof(double)) == 0);
+    gap_flight_free(a);
+    gap_flight_free(b);
+  }
+  rig_free(&r);
 }
 
 TEST(gap_nominal_flight_goes_on_where_the_log_does_after_a_gap) {

@@ -3,6 +3,7 @@
 #include "rig/test.h"
 #include "sense/kalman_z.h"
 #include "sense/vertical.h"
+#include <string.h>
 
 TEST(kalman_gains_are_those_of_the_prototype) {
   kalman_z_t k;
@@ -56,6 +57,27 @@ TEST(noise_comes_from_the_generator_of_the_library_number_for_number) {
     for (int i = 0; i < 2000; i++) same += random_uniform(r, 0.0, 1.0) == want[i];
     ROW("seed %d", k);
     CHECK(same == 2000);
+    random_close(r);
+  }
+}
+
+// One by one and many at once, odd and even, so that the second one of a pair is left over, and not.
+TEST(normal_noise_is_that_of_the_library_number_for_number_alone_and_many_at_once) {
+  enum { ALL = 20000, MOST = 70 };
+  static double want[ALL + MOST], got[ALL + MOST];
+  static const uint64_t seeds[] = {0, 1, 5489, UINT64_MAX};
+  for (int k = 0; k < 4; k++) {
+    oracle_normal(seeds[k], ALL, want);
+    random_t *r = random_open(seeds[k]);
+    for (int i = 0, many = 0; i < ALL; many = (many + 1) % MOST) {
+      if (many == 1)
+        got[i] = random_normal(r);
+      else
+        random_normals(r, many, got + i);
+      i += many;
+    }
+    ROW("seed %d", k);
+    CHECK(memcmp(got, want, ALL * sizeof *want) == 0);
     random_close(r);
   }
 }

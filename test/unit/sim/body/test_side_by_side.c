@@ -1,0 +1,67 @@
+// test_side_by_side.c - jobs that move a body each: every one gets the bits that it gets alone.
+#include "base/lane.h"
+#include "body/side_by_side.h"
+#include "rig/vehicle6.h"
+#include <string.h>
+
+#define JOBS  11  // more than are moved at once
+#define TICKS 300 // of the first; each has 7 fewer than the one before
+
+typedef struct {
+  model_t model;
+  double y[JOBS][RIGID_N], charge[JOBS];
+} jobs_t;
+
+static bool begin(const jobs_t *j, int i, int part, body_t *b) {
+  const body_start_t start = {.pos_w_m = {0.1 * i, 0.0, 0.3 + 0.01 * i + 0.1 * part},
+                              .vel_w_mps = {0.4 - 0.1 * i, 0.0, 0.0},
+                              .rate_b_radps = {0.1 * i, -0.2, 0.0},
+                              .thrust_N = {0.08, 0.08, 0.08, 0.08},
+                              .seed = 7 + (uint64_t)i};
+  return CHECK_OK(body_open(b, &j->model, INTEGRATE_RK4, TICK_S, &start));
+}
+
+// Twice at the same address, with commands that follow what is seen of the body.
+static void fly(void *self, int i) {
+  jobs_t *const j = self;
+  body_t b;
+  for (int part = 0; part < 2; part++) {
+    if (!begin(j, i, part, &b)) return;
+    b.y[RIGID_VEL_MPS + 1] = 0.01 * part; // before the first tick anything may be changed
+    for (int k = 0; k < TICKS - 7 * i; k++) {
+      const double one = WEIGHT_N / ROTORS - 0.02 * b.y[RIGID_VEL_MPS + 2];
+      const double command_N[ROTORS] = {one, one + 1e-4 * i, one, one - 1e-4};
+      b.vbat_V = 3.5 + 1e-3 * k;
+      side_by_side_tick(&b, command_N, TICK_S);
+    }
+    memcpy(j->y[i], b.y, sizeof b.y);
+    j->charge[i] = b.charge;
+    body_close(&b);
+  }
+}
+
+TEST(side_by_side_each_has_the_bits_that_it_has_alone) {
+  static const char *const effect[] = {"ceiling", "wind", "battery_sag"};
+  for (unsigned e = 0; e < sizeof effect / sizeof *effect; e++) {
+    ROW("%s", effect[e]);
+    static jobs_t alone, beside;
+    alone.model = vehicle6(0.6);
+    (void)vehicle6_add(&alone.model, effect[e]);
+    beside.model = alone.model;
+    for (int i = 0; i < JOBS; i++) fly(&alone, i);
+    const long together = side_by_side(JOBS, fly, &beside);
+    CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
+    CHECK(memcmp(alone.charge, beside.charge, sizeof alone.charge) == 0);
+    if (lane_possible()) CHECK(together > JOBS * TICKS);
+  }
+}
+
+TEST(side_by_side_a_call_does_no_more_than_leave_every_thread_some) {
+  static const struct {
+    int n, threads, share;
+  } rows[] = {{10, 1, 8}, {10, 2, 5}, {10, 3, 4}, {10, 4, 1}, {3, 1, 1}, {1, 8, 1}, {40, 2, 8}};
+  for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    ROW("%d jobs, %d threads", rows[i].n, rows[i].threads);
+    CHECK(side_by_side_share(rows[i].n, rows[i].threads) == rows[i].share);
+  }
+}
