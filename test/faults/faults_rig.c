@@ -36,11 +36,11 @@ static void fault(void *context, const body_t *truth, pilot_in_t *in) {
   c->t_s += PILOT_PERIOD_S;
 }
 
-// FNV-1a over what the motors are told.
+// FNV-1a over what the motors are told, number by number; what a product loses above comes back below.
 static uint64_t mixed(uint64_t bits, const double motor_N[PILOT_MOTORS]) {
-  unsigned char raw[PILOT_MOTORS * sizeof *motor_N];
+  uint64_t raw[PILOT_MOTORS];
   memcpy(raw, motor_N, sizeof raw);
-  for (size_t i = 0; i < sizeof raw; i++) bits = (bits ^ raw[i]) * 1099511628211u;
+  for (int i = 0; i < PILOT_MOTORS; i++) bits = ((bits ^ raw[i]) * 1099511628211u) ^ raw[i] >> 32;
   return bits;
 }
 

@@ -57,11 +57,11 @@ static void motion(case_t *c, const body_t *truth, double since_s) {
 
 static void attitude(case_t *c, const body_t *truth, double since_s) {
   flown_fault_t *s = &c->seen;
+  if (since_s < 0.0) return;
   const axes_t axes = axes_of(dq_of(truth->y + RIGID_Q_WB));
   const dq_t q = dq_of(truth->y + RIGID_Q_WB);
   const double tilt_deg = DEG * acos(fmax(-1.0, fmin(1.0, axes_up_b(&axes).z)));
   const double yaw_deg = DEG * atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
-  if (since_s < 0.0) return;
   s->tilt_max_deg = fmax(s->tilt_max_deg, tilt_deg);
   if (since_s > 2.0) s->tilt_late_deg = fmax(s->tilt_late_deg, tilt_deg);
   if (since_s > 2.0) s->yaw_late_deg = fmax(s->yaw_late_deg, fabs(yaw_deg));

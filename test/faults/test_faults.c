@@ -14,7 +14,9 @@
 //
 // and what the row asks for besides. FAULTS_TABLE=1 prints the table (`make faults`), 2 tells of the flights
 // that did not keep it, 3 of all; FAULTS_SEEDS=N flies so many, FAULTS_ROW=BEGINNING only such rows.
+#include "base/lane.h"
 #include "faults/faults.h"
+#include "flight/together.h"
 #include "rig/share.h"
 #include "rig/test.h"
 
@@ -74,17 +76,28 @@ static void add(tally_t *t, const char *failed, const flown_fault_t *seen) {
   t->times[i]++;
 }
 
-static void fly_seed(const row_t *const rows[], int n, uint64_t seed, tally_t tally[], const char *tell) {
+// The rows, each flown with seeds from `first` on.
+typedef struct {
+  const row_t *const *rows;
+  int n;
+  uint64_t first;
+  tally_t *tally;
+  const char *tell;
+} seeds_t;
+
+static void fly_seed(void *self, int i) {
+  const seeds_t *const s = self;
+  const uint64_t seed = s->first + (uint64_t)i;
   case_t *c = malloc(sizeof *c);
   usual_t *u = calloc(1, sizeof *u);
-  for (int k = 0; k < n; k++) {
-    const flown_fault_t usual = usual_of(u, c, rows[k], seed);
-    faults_fly(c, rows[k], seed, false);
+  for (int k = 0; k < s->n; k++) {
+    const flown_fault_t usual = usual_of(u, c, s->rows[k], seed);
+    faults_fly(c, s->rows[k], seed, false);
     const char *failed = faults_judge(c, &usual);
 #pragma omp critical
     {
-      add(&tally[k], failed, &c->seen);
-      if (tell && (tell[0] == '3' || (failed && tell[0] == '2')))
+      add(&s->tally[k], failed, &c->seen);
+      if (s->tell && (s->tell[0] == '3' || (failed && s->tell[0] == '2')))
         faults_tell(c, seed, failed ? failed : "kept", &usual);
     }
   }
@@ -111,7 +124,10 @@ TEST(faults_of_the_list_end_as_they_should) {
   tally_t tally[ROWS_MAX];
   for (int k = 0; k < n; k++) tally[k] = (tally_t){.gap_m = HUGE_VAL};
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < seeds; i++) fly_seed(rows, n, share_seed(FIRST_SEED) + (uint64_t)i, tally, tell);
+  for (int i = 0; i < seeds; i += LANES) {
+    seeds_t some = {rows, n, share_seed(FIRST_SEED) + (uint64_t)i, tally, tell};
+    (void)together(seeds - i < LANES ? seeds - i : LANES, fly_seed, &some);
+  }
   if (tell) printf("%-38s %5s  %6s  %8s  %s\n", "", "kept", "touch", "nearest", "not kept");
   for (int k = 0; k < n; k++) {
     if (tell) print(rows[k], &tally[k], seeds);
