@@ -20,16 +20,12 @@ public:
 
   uint64_t operator()() {
     if (next == N) turn();
-    uint64_t x = state[next++];
-    x ^= x >> 29 & 0x5555555555555555u;
-    x ^= x << 17 & 0x71d67fffeda60000u;
-    x ^= x << 37 & 0xfff7eee000000000u;
-    return x ^ x >> 43;
+    return out[next++];
   }
 
 private:
   static constexpr unsigned N = 312, AHEAD = 156;
-  std::array<uint64_t, N> state;
+  std::array<uint64_t, N> state, out;
   unsigned next = N;
 
   static uint64_t mixed(uint64_t high, uint64_t low, uint64_t ahead) {
@@ -37,19 +33,27 @@ private:
     return ahead ^ x >> 1 ^ (0xb5026f5aa96619e9u & -(low & 1));
   }
 
+  static uint64_t tempered(uint64_t x) {
+    x ^= x >> 29 & 0x5555555555555555u;
+    x ^= x << 17 & 0x71d67fffeda60000u;
+    x ^= x << 37 & 0xfff7eee000000000u;
+    return x ^ x >> 43;
+  }
+
+  // All that come next, at once: two of them side by side.
   void turn() {
     for (unsigned i = 0; i < N - AHEAD; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD]);
     for (unsigned i = N - AHEAD; i < N - 1; i++)
       state[i] = mixed(state[i], state[i + 1], state[i + AHEAD - N]);
     state[N - 1] = mixed(state[N - 1], state[0], state[AHEAD - 1]);
+    for (unsigned i = 0; i < N; i++) out[i] = tempered(state[i]);
     next = 0;
   }
 };
 
 // In [0, 1), as the library has it. A processor without AVX-512 makes a double of 64 bits by a branch that is
 // taken half of the time; of either half it is exact without one, so that the sum alone is rounded.
-double canonical(twister &bits) {
-  const uint64_t b = bits();
+inline double canonical(uint64_t b) {
   const double all = 0x1p32 * static_cast<double>(static_cast<int64_t>(b >> 32)) +
                      static_cast<double>(static_cast<int64_t>(b & 0xffffffffu));
   return std::min(0x1p-64 * all, 1.0 - 0x1p-53);
@@ -70,8 +74,8 @@ struct noise_source {
   int pairs(int wanted, double *out) {
     double x[TOGETHER], y[TOGETHER], square[TOGETHER];
     for (int k = 0; k < wanted;) {
-      x[k] = 2.0 * canonical(bits) - 1.0;
-      y[k] = 2.0 * canonical(bits) - 1.0;
+      x[k] = 2.0 * canonical(bits()) - 1.0;
+      y[k] = 2.0 * canonical(bits()) - 1.0;
       square[k] = x[k] * x[k] + y[k] * y[k];
       k += static_cast<int>(square[k] <= 1.0) & static_cast<int>(square[k] != 0.0);
     }
@@ -119,7 +123,7 @@ void random_triangles(random_t *r, int n, double *out) {
   }
 }
 double random_uniform(random_t *r, double lo, double hi) {
-  return canonical(r->bits) * (hi - lo) + lo;
+  return canonical(r->bits()) * (hi - lo) + lo;
 }
 void random_close(random_t *r) {
   delete r;

@@ -83,7 +83,7 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
   if (!model_is_good(model)) return BAD_INPUT;
   const frame_t *f = &model->frame;
   b->model = model;
-  b->plant = body_untouched(model);
+  b->plant = b->untouched = body_untouched(model);
   b->rigid = (rigid_t){.mass_kg = model->mass_kg,
                        .inertia_kgm2 = d3_of(f->inertia_kgm2),
                        .torque_ratio_m = f->torque_ratio_m,

@@ -55,7 +55,7 @@ static bool take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
 void body_effects(body_t *b, double span_s) {
   const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
-  b->plant = body_untouched(m);
+  b->plant = b->untouched;
   fx_place_t place[ROTORS];
   const fx_places_t at = body_places(b);
   for (int i = 0; i < ROTORS; i++)

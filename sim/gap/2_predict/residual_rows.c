@@ -11,10 +11,10 @@
 // --- the filter -------------------------------------------------------------------------------------------
 
 // A number that is almost nothing is nothing: what dies away in the filter would end where processors are
-// slow.
+// slow. One comparison: of two, joined, a compiler for SSE2 makes a way through four other registers.
 static inline pair_t not_tiny(pair_t y) {
-  const pair_bits_t is = (y > TINY) | (y < -TINY);
-  return (pair_t)(is & (pair_bits_t)y);
+  const pair_t size = (pair_t)((pair_bits_t)y & INT64_MAX);
+  return (pair_t)((size > TINY) & (pair_bits_t)y);
 }
 
 // Forwards and backwards; every segment starts at rest. v: 2 * pairs numbers of every point, all at once: one
