@@ -132,6 +132,10 @@ void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look
 // SURFACE_* whose distance the excess of an effect asks for.
 int body_surfaces_of(const fx_use_t *use);
 
+// The same where all but the load is there already: from the same state, and the rotors where they are. No
+// surface is near.
+void body_look_load(const body_t *b, const double *y, body_look_t *look);
+
 // Adds what one effect more does to the rotors and the body, after those of the model; not what it does at
 // the beginning of a tick.
 void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look);

@@ -23,6 +23,11 @@ void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look
   forces_look(&f, surfaces, y, look);
 }
 
+void body_look_load(const body_t *b, const double *y, body_look_t *look) {
+  const acting_t f = forces_of(b);
+  forces_load(&f, 0, y, look);
+}
+
 void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look) {
   const acting_t f = forces_of(b);
   if (more->fx->excess) {

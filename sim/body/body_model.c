@@ -52,23 +52,30 @@ static bool take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
   return true;
 }
 
+static void place_rotors(const body_t *b, fx_place_t place[ROTORS]) {
+  const fx_places_t at = body_places(b);
+  for (int i = 0; i < ROTORS; i++)
+    place[i] = (fx_place_t){at.ceiling_gap_m[i], at.ground_gap_m[i], at.radius_m};
+}
+
 void body_effects(body_t *b, double span_s) {
   const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
   b->plant = b->untouched;
-  fx_place_t place[ROTORS];
-  const fx_places_t at = body_places(b);
-  for (int i = 0; i < ROTORS; i++)
-    place[i] = (fx_place_t){at.ceiling_gap_m[i], at.ground_gap_m[i], at.radius_m};
   for (int k = 0; k < m->n_fx; k++) {
+    const fx_t *const fx = m->fx[k].fx;
+    if (!fx->tick) continue;
+    fx_place_t place[ROTORS];
+    const bool placed = fx->needs & FX_NEEDS_POSITION;
+    if (placed) place_rotors(b, place);
     const fx_tick_t tick = {.t_s = b->t_s,
                             .span_s = span_s,
                             .vbat_V = b->vbat_V,
                             .thrust_N = b->y + RIGID_THRUST_N,
-                            .place = place,
+                            .place = placed ? place : NULL,
                             .random = b->random,
                             .memory = b->memory[k]};
-    if (m->fx[k].fx->tick) m->fx[k].fx->tick(&m->fx[k], &tick, &b->plant);
+    fx->tick(&m->fx[k], &tick, &b->plant);
   }
   const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
   b->changed += take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));

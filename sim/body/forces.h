@@ -104,11 +104,8 @@ static void forces_effects(const acting_t *f, const double *y, body_look_t *look
   for (int k = 0; k < f->n_load; k++) f->load[k]->fx->load(f->load[k], &motion, &look->load);
 }
 
-// What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
-static inline void forces_look(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
-  look->axes = axes_of(dq_of(y + RIGID_Q_WB));
-  forces_surfaces(f, y, &look->axes, look->ratio);
-  forces_speeds(f, y, look);
+// What acts on the body besides the rotors. surfaces: as below.
+static inline void forces_load(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
   look->loaded = f->ticks || f->n_load > 0 || f->push_w_N || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
@@ -118,6 +115,14 @@ static inline void forces_look(const acting_t *f, int surfaces, const double *y,
   if (!surfaces) return;
   const int near = surfaces & touch_near(f->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);
   if (near) touch_load(f->touch, near, y, &look->axes, &look->load);
+}
+
+// What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
+static inline void forces_look(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
+  look->axes = axes_of(dq_of(y + RIGID_Q_WB));
+  forces_surfaces(f, y, &look->axes, look->ratio);
+  forces_speeds(f, y, look);
+  forces_load(f, surfaces, y, look);
 }
 
 // dydt at state y, with what acts there.

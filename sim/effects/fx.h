@@ -132,7 +132,7 @@ typedef struct {
   double t_s, span_s;
   double vbat_V;           // at the terminals
   const double *thrust_N;  // of each rotor, in free air
-  const fx_place_t *place; // of each rotor
+  const fx_place_t *place; // of each rotor; a null pointer where the effect has no FX_NEEDS_POSITION
   random_t *random;        // the vehicle's own
   double *memory;          // FX_MEMORY numbers of this effect, 0 at the start
 } fx_tick_t;

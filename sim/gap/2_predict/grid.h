@@ -66,6 +66,8 @@ void grid_free(grid_t *g);
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
 // memory.
 const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s);
+// Whether two such are the same.
+bool grid_same_motors(const lag_t *a, double a_delay_s, const lag_t *b, double b_delay_s);
 
 // The same grid for one thread beside others: motor histories that are new are the copy's own. Meanwhile the
 // grid must not change.

@@ -103,9 +103,12 @@ static void average(const grid_t *g, const history_t *h, lagged_t *m) {
   }
 }
 
+bool grid_same_motors(const lag_t *a, double a_delay_s, const lag_t *b, double b_delay_s) {
+  return a->up_s == b->up_s && a->down_s == b->down_s && a->in_speed == b->in_speed && a_delay_s == b_delay_s;
+}
+
 static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
-  return m->thrust_N[0] && m->lag.up_s == lag->up_s && m->lag.down_s == lag->down_s &&
-         m->lag.in_speed == lag->in_speed && m->delay_s == delay_s;
+  return m->thrust_N[0] && grid_same_motors(&m->lag, m->delay_s, lag, delay_s);
 }
 
 // The next one to be filled. The first stays: it is of the model alone, and what is asked for again and

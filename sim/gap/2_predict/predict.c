@@ -3,6 +3,7 @@
 
 #include "body/body.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,14 +29,16 @@ static void place_motors(body_t *b, const lagged_t *motors, int j) {
 
 // The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
 // is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
-static fx_sensed_t in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, const axes_t *axes) {
+static void in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, const axes_t *axes,
+                     fx_sensed_t *sight) {
   const double up = fmax(axes_up_b(axes).z, 0.1);
   const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
   const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);
   const double below_m = z_m - body_rest_z_m(m);
   const double side = g->range_up ? -1.0 : 1.0;
-  return (fx_sensed_t){.range_m = (g->range_up ? above_m : below_m) / up,
-                       .range_rate_mps = side * p->vel_w_mps.z / up};
+  sight->acc_b_mps2 = d3(0.0, 0.0, 0.0);
+  sight->range_m = (g->range_up ? above_m : below_m) / up;
+  sight->range_rate_mps = side * p->vel_w_mps.z / up;
 }
 
 // From `sight` on.
@@ -69,12 +72,45 @@ static void keep(path_t *path, const body_t *b, passed_t *at, int j) {
   path->at[j] = *at;
 }
 
-static done_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS], why_t *why) {
+// Axes, rotors and surroundings; part by part, for a copy of the whole waits for itself.
+static void take_look(const body_look_t *from, body_look_t *to) {
+  to->axes = from->axes;
+  memcpy(to->ratio, from->ratio, sizeof to->ratio);
+  memcpy(to->speed_radps, from->speed_radps, sizeof to->speed_radps);
+  memcpy(to->turning, from->turning, sizeof to->turning);
+}
+
+// Where the rotors are, and what they turn faster by.
+static bool same_rotors(const rigid_t *a, const rigid_t *b) {
+  _Static_assert(offsetof(rigid_t, spin) == offsetof(rigid_t, rotor_x_m) + 3 * sizeof a->rotor_x_m,
+                 "x, y and z lie one behind the other");
+  return memcmp(a->rotor_x_m, b->rotor_x_m, 3 * sizeof a->rotor_x_m) == 0 &&
+         memcmp(a->faster, b->faster, sizeof a->faster) == 0;
+}
+
+// What acts at a point; known: a replay of a model that differs in what changes the vehicle for a tick, with the
+// same motors, or null.
+static void look_at(const body_t *b, const grid_t *g, const path_t *known, int j, passed_t *at) {
+  const passed_t *const was = known ? &known->at[j] : NULL;
+  if (was && same_rotors(&b->rigid, &known->rigid[was->rigid])) {
+    take_look(&was->look, &at->look);
+    body_look_load(b, b->y, &at->look);
+    at->sight = was->sight;
+    return;
+  }
+  body_look(b, 0, b->y, &at->look);
+  in_sight(g, b->model, &g->point[j], &at->look.axes, &at->sight);
+}
+
+static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, double *const out[CHANNELS],
+                  why_t *why) {
   place_body(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
   const lag_t lag = rigid_lag(&b->rigid);
   const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
   if (!motors) return error_failed(why, "out of memory");
+  if (path) path->lag = lag, path->delay_s = b->plant.delay_s;
+  if (known && !grid_same_motors(&known->lag, known->delay_s, &lag, b->plant.delay_s)) known = NULL;
   const double start_s = g->point[0].t_s;
   for (int j = 0; j < g->n; j++) {
     passed_t at;
@@ -83,8 +119,7 @@ static done_t run(grid_t *g, body_t *b, path_t *path, double *const out[CHANNELS
     place_motors(b, motors, j);
     if (b->n_tick > 0) body_effects(b, g->period_s);
     b->rigid.plain_lag = true; // effects may have tuned it anew
-    body_look(b, 0, b->y, &at.look);
-    at.sight = in_sight(g, b->model, &g->point[j], &at.look.axes);
+    look_at(b, g, known, j, &at);
     predict(b, &at);
     if (path) keep(path, b, &at, j);
     put(&at.sensed, at.turn_radps2, j, out);
@@ -98,18 +133,18 @@ static done_t open_body(body_t *b, const grid_t *g, const model_t *m, why_t *why
   return error_failed(why, "%s: a model that cannot be replayed", m->name);
 }
 
-static done_t replay_into(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],
-                          why_t *why) {
+static done_t replay_into(grid_t *g, const model_t *m, const path_t *known, path_t *path,
+                          double *const out[CHANNELS], why_t *why) {
   body_t b;
   if (g->n == 0) return DONE;
   TRY(open_body(&b, g, m, why));
-  const done_t status = run(g, &b, path, out, why);
+  const done_t status = run(g, &b, known, path, out, why);
   body_close(&b);
   return status;
 }
 
 done_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why) {
-  return replay_into(g, m, NULL, out, why);
+  return replay_into(g, m, NULL, NULL, out, why);
 }
 
 // --- one effect more --------------------------------------------------------------------------------------
@@ -118,7 +153,7 @@ done_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[
   const size_t n = (size_t)g->n + 1;
   *path = (path_t){.model = m, .at = malloc(n * sizeof(passed_t)), .rigid = malloc(n * sizeof(rigid_t))};
   if (!path->at || !path->rigid) return error_failed(why, "out of memory");
-  return replay_into(g, m, path, out, why);
+  return replay_into(g, m, NULL, path, out, why);
 }
 
 void path_free(path_t *path) {
@@ -136,10 +171,15 @@ static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t
   const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
   if (!motors) return error_failed(why, "out of memory");
   for (int j = 0, rigid = -1; j < g->n; j++) {
-    passed_t at = path->at[j];
+    passed_t at;
+    const passed_t *const was = &path->at[j];
+    take_look(&was->look, &at.look);
+    at.look.load = was->look.load;
+    at.look.loaded = was->look.loaded;
+    at.sight = was->sight;
     place_body(b, &g->point[j]);
-    if (at.rigid != rigid) b->rigid = path->rigid[rigid = at.rigid];
-    b->plant.air_w_mps = at.air_w_mps;
+    if (was->rigid != rigid) b->rigid = path->rigid[rigid = was->rigid];
+    b->plant.air_w_mps = was->air_w_mps;
     place_motors(b, motors, j);
     body_look_more(b, more, b->y, &at.look);
     predict(b, &at);
@@ -158,18 +198,19 @@ static void run_sensed(const grid_t *g, const path_t *path, const fx_use_t *more
   }
 }
 
-// The other ones: effects of both kinds, or that change the vehicle for a tick.
-static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
-                       why_t *why) {
-  model_t m = *path->model;
-  TRY(model_add_fx(&m, more, why));
-  return replay(g, &m, out, why);
-}
-
 static bool has(const model_t *m, const fx_t *fx) {
   for (int i = 0; i < m->n_fx; i++)
     if (m->fx[i].fx == fx) return true;
   return false;
+}
+
+// The other ones: effects of both kinds, or that change the vehicle for a tick.
+static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
+                       why_t *why) {
+  model_t m = *path->model;
+  const bool changes = !more->fx->load && !more->fx->excess && !more->fx->sense && !has(&m, more->fx);
+  TRY(model_add_fx(&m, more, why));
+  return replay_into(g, &m, changes ? path : NULL, NULL, out, why);
 }
 
 done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],

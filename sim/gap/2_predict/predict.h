@@ -23,6 +23,8 @@ typedef struct {
   passed_t *at;
   rigid_t *rigid; // without commands; as many as differ from the one before
   int n_rigid;
+  lag_t lag; // that the motors had, with this delay
+  double delay_s;
 } path_t;
 
 // As replay(), and keeps it. Free it, also on an error.
