@@ -45,19 +45,23 @@ static hold_t hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool me
   return (hold_t){mean_N, (end_N - now_N) * rate_Hz, end};
 }
 
-// A command was there long enough at the start of a segment.
+// A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold waits
+// for the one before.
 static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);
-  for (int k = 0; k < ROTORS; k++) {
-    double now = 0.0;
-    for (int i = 0; i < g->samples; i++) {
+  const double rate_Hz = g->flight->rate_Hz;
+  const bool means = g->flight->rows_are_means;
+  double now[ROTORS] = {0.0};
+  for (int i = 0; i < g->samples; i++) {
+    const bool starts = i == 0 || (segment && segment[i] != segment[i - 1]);
+    for (int k = 0; k < ROTORS; k++) {
       const double command_N = g->command_N[k][i];
-      if (i == 0 || (segment && segment[i] != segment[i - 1])) now = lag_follows(lag, command_N);
-      const hold_t row = hold(lag, &left, g->flight->rate_Hz, g->flight->rows_are_means, now, command_N);
+      if (starts) now[k] = lag_follows(lag, command_N);
+      const hold_t row = hold(lag, &left, rate_Hz, means, now[k], command_N);
       h->thrust_N[i][k] = row.thrust_N;
       h->rise_Nps[i][k] = row.rise_Nps;
-      now = row.end;
+      now[k] = row.end;
     }
   }
 }

@@ -182,12 +182,13 @@ static bool best_window(const products_t *p, bool centred, int bins, int shortes
   bool better = false;
   for (int from = 0; from < bins; from++) {
     inside_t w = {0.0, 0.0, 0.0};
-    memset(column, 0, sizeof column);
-    for (int to = from; to < bins && to < from + longest; to++) {
+    const int end = from + longest < bins ? from + longest : bins;
+    for (int k = from; k < end; k++) column[k] = 0.0;
+    for (int to = from; to < end; to++) {
       w.y += p->y[to];
       w.cross += p->D[to][p->bins];
       w.own += 2.0 * column[to] + p->D[to][to];
-      for (int k = to + 1; k < bins; k++) column[k] += p->D[to][k];
+      for (int k = to + 1; k < end; k++) column[k] += p->D[to][k];
       if (to - from + 1 < shortest || !judge(p, centred, &w, &size, &statistic) ||
           statistic <= best->statistic)
         continue;
