@@ -133,11 +133,17 @@ typedef struct {
   int stretches;
 } spectrum_t;
 
-// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once: one alone would wait
-// for itself.
+// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once, and two of these: one
+// alone would wait for itself.
 typedef struct {
   pair_t x, y, c, s;
 } turning_t;
+
+static inline void turn_on(turning_t *t) {
+  const pair_t next = t->c * t->x - t->s * t->y;
+  t->y = t->s * t->x + t->c * t->y;
+  t->x = next;
+}
 
 static double put_row(turning_t *t, int which, double t_s, double span_s, double v) {
   const double turn = 2.0 * PI * t_s / STRETCH_S, taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / span_s);
@@ -148,22 +154,36 @@ static double put_row(turning_t *t, int which, double t_s, double span_s, double
   return taper * taper;
 }
 
-// A stretch of rows of one flight, tapered (Hann) by time; lines 0 to last.
+// A stretch of rows of one flight.
+typedef struct {
+  const look_t *l;
+  const double *v;
+  int from, to;
+  double start_s, span_s;
+} stretch_t;
+
+// Two rows from i on; behind the end there are none, and weigh nothing.
+static turning_t two_rows(const stretch_t *s, int i, double *weights) {
+  turning_t t = {pair_both(0.0), pair_both(0.0), pair_both(0.0), pair_both(0.0)};
+  for (int which = 0; which < 2 && i + which < s->to; which++)
+    *weights += put_row(&t, which, time_s(s->l, i + which) - s->start_s, s->span_s, s->v[i + which]);
+  return t;
+}
+
+// Tapered (Hann) by time; lines 0 to last.
 static void add_stretch(const look_t *l, const double *v, int from, int to, int last, spectrum_t *sum) {
   pair_t re[LINES + 1], im[LINES + 1];
   double weights = 0.0;
   for (int k = 0; k <= last; k++) re[k] = im[k] = pair_both(0.0);
   const double start_s = time_s(l, from), span_s = time_s(l, to - 1) - start_s;
-  for (int i = from; i < to; i += 2) {
-    turning_t t = {pair_both(0.0), pair_both(0.0), pair_both(0.0), pair_both(0.0)};
-    for (int which = 0; which < 2 && i + which < to; which++)
-      weights += put_row(&t, which, time_s(l, i + which) - start_s, span_s, v[i + which]);
+  const stretch_t s = {l, v, from, to, start_s, span_s};
+  for (int i = from; i < to; i += 4) {
+    turning_t t = two_rows(&s, i, &weights), u = two_rows(&s, i + 2, &weights);
     for (int k = 0; k <= last; k++) {
-      re[k] += t.x;
-      im[k] += t.y;
-      const pair_t next = t.c * t.x - t.s * t.y;
-      t.y = t.s * t.x + t.c * t.y;
-      t.x = next;
+      re[k] = re[k] + t.x + u.x;
+      im[k] = im[k] + t.y + u.y;
+      turn_on(&t);
+      turn_on(&u);
     }
   }
   for (int k = 0; k <= last; k++) {

@@ -122,6 +122,29 @@ typedef struct {
   double D[BINS_MAX + 1][BINS_MAX + 1], y[BINS_MAX + 1];
 } products_t;
 
+// Of a row and the two before it in their bins.
+static void add_row(products_t *p, const double weight[3], double constant, double white, const int *bin) {
+  for (int a = 0; a < 3; a++) {
+    const int k = bin[-a];
+    p->y[k] += weight[a] * white;
+    p->D[k][p->bins] += weight[a] * constant;
+    for (int b = 0; b < 3; b++) p->D[k][bin[-b]] += weight[a] * weight[b];
+  }
+}
+
+// The same where all three are in one, as most are: each number is fetched and put back once.
+static void add_row_of_one(products_t *p, const double weight[3], double constant, double white, int k) {
+  double y = p->y[k], cross = p->D[k][p->bins], own = p->D[k][k];
+  for (int a = 0; a < 3; a++) {
+    y += weight[a] * white;
+    cross += weight[a] * constant;
+    for (int b = 0; b < 3; b++) own += weight[a] * weight[b];
+  }
+  p->y[k] = y;
+  p->D[k][p->bins] = cross;
+  p->D[k][k] = own;
+}
+
 static void add_products(products_t *p, int bins, const rows_t *r, const color_t *c, const double *v,
                          const int *bin) {
   const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
@@ -132,12 +155,10 @@ static void add_products(products_t *p, int bins, const rows_t *r, const color_t
   for (int i = 2; i < r->n; i++) {
     if (!color_reaches(r, i)) continue;
     const double white = weight[0] * v[i] + weight[1] * v[i - 1] + weight[2] * v[i - 2];
-    for (int a = 0; a < 3; a++) {
-      const int k = bin[i - a];
-      p->y[k] += weight[a] * white;
-      p->D[k][bins] += weight[a] * constant;
-      for (int b = 0; b < 3; b++) p->D[k][bin[i - b]] += weight[a] * weight[b];
-    }
+    if (bin[i] == bin[i - 1] && bin[i] == bin[i - 2])
+      add_row_of_one(p, weight, constant, white, bin[i]);
+    else
+      add_row(p, weight, constant, white, bin + i);
     p->y[bins] += constant * white;
     p->D[bins][bins] += constant * constant;
   }
