@@ -93,6 +93,42 @@ static void block_scores(const parts_t *p, double *squares) {
   }
 }
 
+// What sweeps of spread() need again and again, of n numbers and n x n; sums go over lines, all their numbers
+// at once.
+typedef struct {
+  int n;
+  const double *D;
+  double *square, *relative; // A_ki^2 at [i][k]; A_ki^2 over what white noise has at k, at [k][i]
+  double *up, *come, *down;  // of what is wanted; of what comes of D, in each place and for each D
+} sweeps_t;
+
+static bool sweeps_make(sweeps_t *s, const parts_t *p, const double *wanted) {
+  const int n = p->n;
+  double *const room = calloc(2 * (size_t)(n * n) + 3 * (size_t)n + 1, sizeof(double));
+  if (!room) return false;
+  *s = (sweeps_t){
+      n, p->wide, room, room + n * n, room + 2 * n * n, room + 2 * n * n + n, room + 2 * n * n + 2 * n};
+  for (int k = 0; k < n; k++) {
+    const double weight = p->A[k * (n + 1)] > 0.0 ? 1.0 / p->A[k * (n + 1)] : 0.0;
+    for (int i = 0; i < n; i++) {
+      const double square = p->A[k * n + i] * p->A[k * n + i];
+      s->square[i * n + k] = square;
+      s->relative[k * n + i] = square * weight * weight;
+      s->up[i] += s->relative[k * n + i] * wanted[k];
+    }
+  }
+  return true;
+}
+
+static void sweeps_add(sweeps_t *s) {
+  const int n = s->n;
+  for (int i = 0; i < n; i++) s->come[i] = s->down[i] = 0.0;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) s->come[k] += s->square[i * n + k] * s->D[i];
+  for (int k = 0; k < n; k++)
+    for (int i = 0; i < n; i++) s->down[i] += s->relative[k * n + i] * s->come[k];
+}
+
 // D >= 0 such that A D A has the diagonal that is wanted, as well as can be: least squares by sweeps that
 // keep every number's sign and always come nearer (De Pierro 1987), until none moves by a hundredth of itself
 // and of what a misfit adds. Relative to what white noise has there.
@@ -101,29 +137,19 @@ static void spread(parts_t *p, const double *wanted) {
   double *const D = p->wide;
   for (int k = 0; k < n; k++)
     D[k] = wanted[k] > 0.0 ? wanted[k] / (p->A[k * (n + 1)] * p->A[k * (n + 1)]) : 0.0;
-  double *const come = calloc(2 * (size_t)n, sizeof(double)), *const weight = come ? come + n : NULL;
-  if (!come) return; // D alone is too wide, not wrong
-  for (int k = 0; k < n; k++) weight[k] = p->A[k * (n + 1)] > 0.0 ? 1.0 / p->A[k * (n + 1)] : 0.0;
+  sweeps_t s;
+  if (!sweeps_make(&s, p, wanted)) return; // D alone is too wide, not wrong
   for (double moved = HUGE_VAL; moved > 0.01;) {
+    sweeps_add(&s);
     moved = 0.0;
-    for (int k = 0; k < n; k++) {
-      come[k] = 0.0;
-      for (int i = 0; i < n; i++) come[k] += p->A[k * n + i] * p->A[k * n + i] * D[i];
-    }
     for (int i = 0; i < n; i++) {
-      double up = 0.0, down = 0.0;
-      for (int k = 0; k < n; k++) {
-        const double m = p->A[k * n + i] * p->A[k * n + i] * weight[k] * weight[k];
-        up += m * wanted[k];
-        down += m * come[k];
-      }
-      if (!(down > 0.0)) continue;
-      const double now = D[i] * up / down;
+      if (!(s.down[i] > 0.0)) continue;
+      const double now = D[i] * s.up[i] / s.down[i];
       moved = fmax(moved, fabs(now - D[i]) / (D[i] + CANDIDATES_MISFIT * CANDIDATES_MISFIT));
       D[i] = now;
     }
   }
-  free(come);
+  free(s.square);
 }
 
 // An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a
