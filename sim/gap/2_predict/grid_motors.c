@@ -45,8 +45,8 @@ static hold_t hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool me
   return (hold_t){mean_N, (end_N - now_N) * rate_Hz, end};
 }
 
-// A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold waits
-// for the one before.
+// A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold
+// waits for the one before.
 static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);

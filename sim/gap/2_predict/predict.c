@@ -3,7 +3,6 @@
 
 #include "body/body.h"
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,14 +81,15 @@ static void take_look(const body_look_t *from, body_look_t *to) {
 
 // Where the rotors are, and what they turn faster by.
 static bool same_rotors(const rigid_t *a, const rigid_t *b) {
-  _Static_assert(offsetof(rigid_t, spin) == offsetof(rigid_t, rotor_x_m) + 3 * sizeof a->rotor_x_m,
-                 "x, y and z lie one behind the other");
-  return memcmp(a->rotor_x_m, b->rotor_x_m, 3 * sizeof a->rotor_x_m) == 0 &&
-         memcmp(a->faster, b->faster, sizeof a->faster) == 0;
+  bool same = true;
+  for (int i = 0; i < ROTORS; i++)
+    same = same && a->rotor_x_m[i] == b->rotor_x_m[i] && a->rotor_y_m[i] == b->rotor_y_m[i] &&
+           a->rotor_z_m[i] == b->rotor_z_m[i] && a->faster[i] == b->faster[i];
+  return same;
 }
 
-// What acts at a point; known: a replay of a model that differs in what changes the vehicle for a tick, with the
-// same motors, or null.
+// What acts at a point; known: a replay of a model that differs in what changes the vehicle for a tick, with
+// the same motors, or null.
 static void look_at(const body_t *b, const grid_t *g, const path_t *known, int j, passed_t *at) {
   const passed_t *const was = known ? &known->at[j] : NULL;
   if (was && same_rotors(&b->rigid, &known->rigid[was->rigid])) {

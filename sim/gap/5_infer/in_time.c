@@ -133,8 +133,8 @@ typedef struct {
   int stretches;
 } spectrum_t;
 
-// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once, and two of these: one
-// alone would wait for itself.
+// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once, and two of these:
+// one alone would wait for itself.
 typedef struct {
   pair_t x, y, c, s;
 } turning_t;

@@ -110,10 +110,9 @@ static void fly(void *parts, int k) {
   const size_t flights = (size_t)job->set->n_grid;
   p->seen = (gap_flights_t){.flight = calloc(2 * flights, sizeof(gap_flight_t))};
   p->is = (gap_flights_t){.flight = p->seen.flight ? p->seen.flight + flights : NULL};
-  p->status = p->seen.flight
-                  ? nominal_flights(&p->seen, p->first ? &p->is : NULL, job->set, &job->flown, &loop,
-                                    job->seed + (unsigned long)p->i, &p->why)
-                  : error_failed(&p->why, "out of memory");
+  p->status = p->seen.flight ? nominal_flights(&p->seen, p->first ? &p->is : NULL, job->set, &job->flown,
+                                               &loop, job->seed + (unsigned long)p->i, &p->why)
+                             : error_failed(&p->why, "out of memory");
   p->flown = p->seen.n;
   p->lost = job->set->n_grid - p->seen.n;
 }
