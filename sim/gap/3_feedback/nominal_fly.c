@@ -198,6 +198,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
       first = f->at;
       TRY(put(f, f->g->point[first].t_s, why));
     }
+    if (!f->known) pilot_look_ahead(f);
     for (int i = 0; i < per_point; i++) {
       const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {

@@ -28,12 +28,16 @@ static d3_t track_acc(const nominal_flight_t *f) {
   return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
 }
 
+void pilot_look_ahead(nominal_flight_t *f) {
+  f->bent_mps2 = track_acc(f);
+}
+
 static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, const grid_point_t *seen) {
   const d3_t off = d3_sub(track->pos_w_m, seen->pos_w_m), slip = d3_sub(track->vel_w_mps, seen->vel_w_mps);
   const closed_loop_t *w = f->w;
   const bool place = f->g->has_position;
   const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
-  const d3_t feed = track_acc(f);
+  const d3_t feed = f->bent_mps2;
   return d3(fmax(-6.0, fmin(6.0, feed.x + x + f->push * slip.x)),
             fmax(-6.0, fmin(6.0, feed.y + y + f->push * slip.y)),
             fmax(-5.0, fmin(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));

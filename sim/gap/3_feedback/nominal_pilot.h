@@ -22,6 +22,7 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
+  d3_t bent_mps2;                             // acceleration of the track at this point
   d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow;
@@ -32,6 +33,9 @@ typedef struct {
   int puts;                                  // how often it was put back
   struct known *known; // who flew, where the vehicle file says so (nominal_known.h); else null
 } nominal_flight_t;
+
+// At a new point of the track, before anything is commanded there.
+void pilot_look_ahead(nominal_flight_t *f);
 
 // Commands that bring the vehicle, as it is seen, to its track.
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
