@@ -14,27 +14,27 @@
 #define MOVED      0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
 #define TRIAL_SEED 1000 // other draws than the flights that count
 
-static done_t cut_flights(set_t *s, const gap_flights_t *flights, double from, double to, const model_t *m,
-                          why_t *why) {
+static done_t cut_flights(set_t *s, const gap_flights_t *flights, const model_t *m, why_t *why) {
   grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
   done_t status = DONE;
-  for (int i = 0; i < flights->n && status == DONE; i++) {
-    const int n = flights->flight[i].n;
-    status = grid_make(&grid[i], &flights->flight[i], (int)(from * n), (int)(to * n), m, why);
-  }
+  for (int i = 0; i < flights->n && status == DONE; i++)
+    status = grid_make(&grid[i], &flights->flight[i], 0, flights->flight[i].n, m, why);
   if (status == DONE) return set_make(s, grid, flights->n, why);
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
   return status;
 }
 
+static bool held_apart(const diagnose_job_t *job) {
+  return job->held && job->held->n > 0;
+}
+
 static done_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
-  const bool apart = job->held && job->held->n > 0;
-  TRY(cut_flights(&d->fit, job->fit, 0.0, apart ? 1.0 : 2.0 / 3.0, job->model, why));
+  TRY(cut_flights(&d->fit, job->fit, job->model, why));
   TRY(excluded_find(&d->fit, job->model, why));
   TRY(windows_keep(&d->fit, job->model, why));
-  TRY(cut_flights(&d->held, apart ? job->held : job->fit, apart ? 0.0 : 2.0 / 3.0, 1.0, job->model, why));
+  TRY(cut_flights(&d->held, held_apart(job) ? job->held : job->fit, job->model, why));
   memcpy(d->held.excluded, d->fit.excluded, sizeof d->held.excluded);
   d->fit.command_Hz = d->held.command_Hz = job->flown_by ? job->flown_by->rate_Hz : 0.0;
   return DONE;
@@ -143,16 +143,21 @@ static bool bar_kinds(diagnosis_t *d) {
   return barred;
 }
 
+static verify_job_t held_out(const diagnose_job_t *job, diagnosis_t *d) {
+  return (verify_job_t){&d->held, job->model, &d->loop, &d->found, &d->turns};
+}
+
 static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
-  TRY(find_names(job, d, why));
-  const verify_job_t names = {&d->held, job->model, &d->loop, &d->found};
-  TRY(verify_names(&names, &d->withdrawn, why));
-  while (bar_kinds(d)) {
-    found_free(&d->found);
+  const verify_job_t names = held_out(job, d);
+  for (bool again = false;; again = true) {
+    if (again) found_free(&d->found);
     TRY(find_names(job, d, why));
+    d->turns = (turns_t){1, {d->found.chosen}};
+    if (!held_apart(job))
+      TRY(turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
     TRY(verify_names(&names, &d->withdrawn, why));
+    if (!bar_kinds(d)) return DONE;
   }
-  return DONE;
 }
 
 // A name that the set points refute is out of question: what it explained is looked at without it.
@@ -214,7 +219,8 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(d, why));
-  return verify_held(&d->held, job->model, &d->extended, &d->nominal, &d->held_out, why);
+  const verify_job_t names = held_out(job, d);
+  return verify_held(&names, &d->nominal, &d->held_out, why);
 }
 
 void diagnosis_free(diagnosis_t *d) {

@@ -116,7 +116,7 @@ done_t study_make(study_t *s, const study_order_t *order, why_t *why) {
   TRY(diagnose(&job, &s->diagnosis, why));
   tell(s, "flying the held-out flight again");
   const diagnosis_t *d = &s->diagnosis;
-  return resimulate(&d->held, &s->vehicle, &d->extended, &d->loop, &s->resimulation, why);
+  return resimulate(&d->held, &s->vehicle, &d->turns, &d->loop, &s->resimulation, why);
 }
 
 void study_free(study_t *s) {

@@ -20,8 +20,8 @@ typedef struct {
   void (*progress)(const char *what); // may be null
 } study_order_t;
 
-// Nothing said about what is held out: of three flights or more the last third of the flights, else the last
-// third of each flight's time.
+// Nothing said about what is held out: of three flights or more the last third of the flights, else stretches
+// of each flight by turns (turns.h).
 typedef struct {
   study_order_t order;
   model_t vehicle;
@@ -30,7 +30,7 @@ typedef struct {
   columns_t columns;
   gap_flight_t *flight; // those to fit to, then the held-out ones
   gap_flights_t fit, held;
-  bool by_time; // the last third of each flight's time is held out; `held` is empty
+  bool by_time; // every flight is fitted and held out by turns; `held` is empty
   diagnosis_t diagnosis;
   resimulation_t resimulation;
 } study_t;

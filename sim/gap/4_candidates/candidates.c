@@ -171,6 +171,27 @@ void chosen_drop(chosen_t *chosen, int candidate) {
   }
 }
 
+done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all, const chosen_t *chosen,
+                         why_t *why) {
+  *own = *chosen;
+  *names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t))};
+  if (!names->candidate) return error_failed(why, "out of memory");
+  for (int i = 0; i < chosen->n; i++) {
+    candidate_t *const to = &names->candidate[names->n];
+    *to = all->candidate[chosen->of[i]];
+    to->first = names->columns;
+    own->of[i] = names->n++;
+    names->columns += to->n;
+  }
+  return DONE;
+}
+
+double candidate_possible(const candidate_t *c, int k, double value) {
+  int n;
+  const fx_param_t *param = &fx_use_params(&c->use, &n)[c->use.fx->size[k].param];
+  return fmin(fmax(value, c->least[k]), param->max);
+}
+
 fx_use_t effect_whole(const model_t *base, const fx_use_t *use) {
   fx_use_t whole = *use;
   const fx_use_t *const own = model_fx(base, use->fx);

@@ -70,6 +70,14 @@ bool candidate_is_numbered(const candidate_t *c);
 // The candidates get the shapes of those that are chosen.
 void candidates_reshape(candidates_t *c, const chosen_t *chosen);
 
+// Those that are chosen alone, each with columns of its own, in their order; own: the same choice by their
+// numbers there. Free them. FAILED: no memory.
+MUST_CHECK done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all,
+                                    const chosen_t *chosen, why_t *why);
+
+// Number k of a candidate, or the nearest to it that the effect can have.
+double candidate_possible(const candidate_t *c, int k, double value);
+
 // An effect with its whole numbers: what the file has of it (base) and the differences.
 fx_use_t effect_whole(const model_t *base, const fx_use_t *use);
 

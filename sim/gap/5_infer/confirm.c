@@ -232,16 +232,7 @@ static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why)
 
 static done_t take_names(confirming_t *t, const candidates_t *c, const chosen_t *chosen, why_t *why) {
   t->of = chosen->of;
-  t->chosen = *chosen;
-  t->names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t))};
-  if (!t->names.candidate) return error_failed(why, "out of memory");
-  for (int i = 0; i < chosen->n; i++) {
-    candidate_t *const to = &t->names.candidate[t->names.n];
-    *to = c->candidate[chosen->of[i]];
-    to->first = t->names.columns;
-    t->chosen.of[i] = t->names.n++;
-    t->names.columns += to->n;
-  }
+  TRY(candidates_chosen(&t->names, &t->chosen, c, chosen, why));
   return chosen_model(chosen, t->base, &t->now, why);
 }
 
@@ -263,6 +254,6 @@ done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const
   if (status == DONE && flew) status = ask_instruments(&t, found, why);
   if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
   design_free(&t.table);
-  free(t.names.candidate);
+  candidates_free(&t.names);
   return status;
 }

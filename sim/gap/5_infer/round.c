@@ -60,12 +60,6 @@ done_t round_renew(round_t *r, why_t *why) {
   return closed_on_error(r, status);
 }
 
-static double possible(const candidate_t *c, int k, double value) {
-  int n;
-  const fx_param_t *param = &fx_use_params(&c->use, &n)[c->use.fx->size[k].param];
-  return fmin(fmax(value, c->least[k]), param->max);
-}
-
 double round_take(round_t *r, double share) {
   double b[COLUMN_MAX], most = 0.0;
   int n = 0;
@@ -76,7 +70,7 @@ double round_take(round_t *r, double share) {
     const candidate_t *const c = &r->c->candidate[r->choice.of[i]];
     fx_use_t *const use = chosen_take(&r->chosen, r->c, r->choice.of[i]);
     for (int k = 0; k < c->n; k++) {
-      const double value = fx_use_size(use, k), way = possible(c, k, b[n++]) - value;
+      const double value = fx_use_size(use, k), way = candidate_possible(c, k, b[n++]) - value;
       most = fmax(most, fabs(way) / c->typical[k]);
       fx_use_resize(use, k, value + share * way);
     }

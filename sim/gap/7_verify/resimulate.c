@@ -16,6 +16,7 @@ typedef struct {
   const grid_t *g;
   const model_t *pilots; // whose mass and rotors the pilot reckons with: the same for every model
   const closed_loop_t *loop;
+  int turn; // whose points count; below 0: all
   body_t body;
 } flight_again_t;
 
@@ -84,7 +85,8 @@ static int sample_of(const grid_t *g, int j) {
   return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
 }
 
-// Adds squares and their number to the tally. off_m: null where the flight is not drawn.
+// Adds squares and their number to the tally, of the points whose turn it is. off_m: null where the flight is
+// not drawn.
 static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, double *const off_m[3],
                         long *points, why_t *why) {
   const grid_t *g = a->g;
@@ -92,7 +94,8 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
   for (int j = 0; j < g->n; j++) {
     const grid_point_t *p = &g->point[j];
     const bool go_on = flying && p->ok && p->segment == g->point[j - 1].segment;
-    for (int k = 0; k < 3 && off_m; k++) off_m[k][j] = (double)NAN;
+    const bool counts = a->turn < 0 || turns_at(g, j) == a->turn;
+    for (int k = 0; k < 3 && off_m && counts; k++) off_m[k][j] = (double)NAN;
     flying = p->ok;
     if (!p->ok) continue;
     if (!go_on) TRY(put(a, m, j, why));
@@ -101,28 +104,33 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
     const double off_z_m = fmin(fabs(off.z), RESIMULATE_LOST_M); // NaN: lost
     if (a->body.broken || !(far_m <= RESIMULATE_LOST_M)) {
       far_m = RESIMULATE_LOST_M;
-      tally->lost++;
+      tally->lost += counts;
       TRY(put(a, m, j, why));
       off = d3_sub(d3_of(a->body.y + RIGID_POS_M), p->pos_w_m);
     }
+    fly_point(a, j, sample_of(g, j));
+    if (!counts) continue;
     tally->rms_m += far_m * far_m;
     tally->height_m += off_z_m * off_z_m;
     ++*points;
     if (off_m) off_m[0][j] = off.x, off_m[1][j] = off.y, off_m[2][j] = off.z;
-    fly_point(a, j, sample_of(g, j));
   }
   return DONE;
 }
 
-// *flew: something did.
-static done_t fly_all(const set_t *held, const model_t *m, const model_t *pilots, const closed_loop_t *loop,
-                      again_t *to, bool *flew, why_t *why) {
+// turns: what the pilots' model has beside. *flew: something did.
+static done_t fly_all(const set_t *held, const turns_t *turns, const model_t *pilots,
+                      const closed_loop_t *loop, again_t *to, bool *flew, why_t *why) {
   long points = 0;
-  for (int f = 0; f < held->n_grid; f++) {
+  for (int i = 0; i < held->n_grid * turns->n; i++) {
+    const int f = i / turns->n, turn = i % turns->n;
+    model_t m;
+    TRY(chosen_model(&turns->of[turn], pilots, &m, why));
     flight_again_t *const a = calloc(1, sizeof *a);
     if (!a) return error_failed(why, "out of memory");
     a->g = &held->grid[f], a->pilots = pilots, a->loop = loop;
-    const done_t status = fly_again(a, m, to, f == 0 ? to->off_m : NULL, &points, why);
+    a->turn = turns->n > 1 ? turn : -1;
+    const done_t status = fly_again(a, &m, to, f == 0 ? to->off_m : NULL, &points, why);
     if (a->body.integrate) body_close(&a->body);
     free(a);
     TRY(status);
@@ -156,13 +164,14 @@ static bool take_room(resimulation_t *r, const grid_t *g) {
   return r->t_s != NULL;
 }
 
-done_t resimulate(const set_t *held, const model_t *before, const model_t *after, const closed_loop_t *loop,
+done_t resimulate(const set_t *held, const model_t *before, const turns_t *after, const closed_loop_t *loop,
                   resimulation_t *r, why_t *why) {
+  static const turns_t none = {.n = 1};
   bool old_flew, new_flew;
   *r = (resimulation_t){.why_not = obstacle(held, before)};
   if (r->why_not) return DONE;
   if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
-  TRY(fly_all(held, before, before, loop, &r->before, &old_flew, why));
+  TRY(fly_all(held, &none, before, loop, &r->before, &old_flew, why));
   TRY(fly_all(held, after, before, loop, &r->after, &new_flew, why));
   r->flew = old_flew && new_flew;
   r->why_not = "the vehicle does not fly";

@@ -9,6 +9,7 @@
 #define SIM_GAP_7_VERIFY_RESIMULATE_H
 
 #include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/turns.h"
 
 // How far from the measured track one model flies.
 typedef struct {
@@ -27,8 +28,9 @@ typedef struct {
 
 #define RESIMULATE_LOST_M 2.0
 
-// FAILED: no memory. Free it, also on an error.
-MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const model_t *after,
+// after: what the model has then, by turns: each flies all of a flight, and its own stretches count. FAILED:
+// no memory. Free it, also on an error.
+MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const turns_t *after,
                              const closed_loop_t *loop, resimulation_t *r, why_t *why);
 void resimulation_free(resimulation_t *r);
 

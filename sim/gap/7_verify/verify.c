@@ -15,12 +15,44 @@ static color_t color_of(const set_t *s, int channel, const lines_t *left) {
                                   : (color_t){.used = false};
 }
 
-done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
-                   held_t *held, why_t *why) {
+// A row whose turn it is.
+static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) {
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *const r = set_rows(s, ch);
+    for (int i = 0; i < r->n; i++)
+      if (turns_at(&s->grid[r->flight[i]], r->point[i]) == turn) l->r[ch][i] = own->r[ch][i];
+  }
+}
+
+// candidate: without it; below 0: with all names.
+static done_t lines_without(set_t *s, const model_t *base, const turns_t *turns, int candidate, lines_t *l,
+                            why_t *why) {
+  done_t status = turns->n > 1 ? lines_make(l, s, why) : DONE;
+  if (turns->n == 1) *l = (lines_t){.r = {NULL}};
+  for (int k = 0; k < turns->n && status == DONE; k++) {
+    chosen_t with = turns->of[k];
+    model_t m;
+    lines_t own = {.r = {NULL}};
+    chosen_drop(&with, candidate);
+    TRY(chosen_model(&with, base, &m, why));
+    if (turns->n == 1) return residual_lines(s, &m, l, why);
+    status = residual_lines(s, &m, &own, why);
+    if (status == DONE) take_turn(l, &own, s, k);
+    lines_free(&own);
+  }
+  return status;
+}
+
+done_t verify_lines(set_t *held, const model_t *base, const turns_t *turns, lines_t *l, why_t *why) {
+  return lines_without(held, base, turns, -1, l, why);
+}
+
+done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why) {
+  set_t *const s = job->held;
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
-  done_t status = residual_lines(s, before, &b, why);
-  if (status == DONE) status = residual_lines(s, after, &a, why);
+  done_t status = residual_lines(s, job->base, &b, why);
+  if (status == DONE) status = verify_lines(s, job->base, job->turns, &a, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];
     const rows_t *rows = set_rows(s, ch);
@@ -48,10 +80,8 @@ static done_t model_without(const verify_job_t *d, int candidate, model_t *m, wh
 
 // What that model leaves of every channel; 0 where the rows are too few.
 static done_t measure(const verify_job_t *d, int without, double rms[CHANNELS], why_t *why) {
-  model_t m;
   lines_t l;
-  TRY(model_without(d, without, &m, why));
-  const done_t status = residual_lines(d->held, &m, &l, why);
+  const done_t status = lines_without(d->held, d->base, d->turns, without, &l, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     rms[ch] = color_of(d->held, ch, &l).used ? rms_of(l.r[ch], set_rows(d->held, ch)->n) : 0.0;
   lines_free(&l);
@@ -150,7 +180,7 @@ done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *w
   while (d->found->n > 0) {
     TRY(find_worst(d, &worst, &withdrawn->name[withdrawn->n], why));
     if (worst < 0) return DONE;
-    withdrawn->n++;
+    turns_drop(d->turns, withdrawn->name[withdrawn->n++].candidate);
     found_withdraw(d->found, worst);
   }
   return DONE;

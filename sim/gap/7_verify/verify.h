@@ -3,6 +3,7 @@
 #define SIM_GAP_7_VERIFY_VERIFY_H
 
 #include "gap/3_feedback/nominal.h"
+#include "gap/5_infer/turns.h"
 #include "gap/5_infer/found.h"
 
 typedef struct {
@@ -29,10 +30,6 @@ typedef struct {
   withdrawn_t name[NAMED_MAX];
 } withdrawn_list_t;
 
-// FAILED: no memory.
-MUST_CHECK done_t verify_held(set_t *s, const model_t *before, const model_t *after, const nominal_t *nominal,
-                              held_t *held, why_t *why);
-
 // What a name may grow the held-out rms of any channel by, beside the other names, where it does not shrink
 // the others by twice that (in logarithms). Not counted is what the errors of what multiplies the name, as
 // velocities, make of a right one where the vehicle hardly moves: flights of the model along the held-out
@@ -45,7 +42,16 @@ typedef struct {
   const model_t *base; // without what was found
   const closed_loop_t *loop;
   found_t *found;
+  turns_t *turns; // its numbers for each held-out row
 } verify_job_t;
+
+// What the model leaves of every held-out row, with what was found. FAILED: no memory. Free it, also on an
+// error.
+MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const turns_t *turns, lines_t *l,
+                               why_t *why);
+
+// FAILED: no memory.
+MUST_CHECK done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why);
 
 // Withdraws the names that grow one by more, the worst first: they are no longer found. The
 // others keep their values: what these flights alone had would else go into them. FAILED: no memory.

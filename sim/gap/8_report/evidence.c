@@ -160,9 +160,10 @@ static double rms_in(const report_t *r, const profile_t *p, const interval_t *sp
 // What the effect adds to each channel, and its variance by the standard errors of its sizes.
 typedef struct {
   lines_t effect, variance;
+  const lines_t *now; // what the model with all names leaves
 } adds_t;
 
-static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, int k, lines_t *variance,
+static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, int k, adds_t *adds,
                            why_t *why) {
   model_t m = r->study->diagnosis.extended;
   fx_use_t more = *f->use;
@@ -172,7 +173,7 @@ static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, i
   const done_t status = residual_lines(held, &m, &left, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++)
-      variance->r[ch][i] += pow(left.r[ch][i] - r->after.r[ch][i], 2);
+      adds->variance.r[ch][i] += pow(left.r[ch][i] - adds->now->r[ch][i], 2);
   lines_free(&left);
   return status;
 }
@@ -184,8 +185,8 @@ static done_t find_adds(const report_t *r, set_t *held, const finding_t *f, adds
   TRY(residual_lines(held, &m, &adds->effect, why));
   TRY(lines_make(&adds->variance, held, why));
   for (int ch = 0; ch < CHANNELS; ch++)
-    for (int i = 0; i < set_rows(held, ch)->n; i++) adds->effect.r[ch][i] -= r->after.r[ch][i];
-  for (int k = 0; k < f->fx->n_size; k++) TRY(add_variance(r, held, f, k, &adds->variance, why));
+    for (int i = 0; i < set_rows(held, ch)->n; i++) adds->effect.r[ch][i] -= adds->now->r[ch][i];
+  for (int k = 0; k < f->fx->n_size; k++) TRY(add_variance(r, held, f, k, adds, why));
   return DONE;
 }
 
@@ -236,12 +237,12 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
   f->after = rms_in(r, p, &f->matters, r->after.r[channel]);
 }
 
-static done_t find_one(report_t *r, set_t *held, finding_t *f, why_t *why) {
+static done_t find_one(report_t *r, set_t *held, const lines_t *now, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   f->fx = found_use(&d->found, f->named)->fx;
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);
-  adds_t adds = {.effect = {{NULL}}};
+  adds_t adds = {.now = now};
   const done_t status = find_adds(r, held, f, &adds, why);
   if (status == DONE) find_place(r, f, adds.effect.r, adds.variance.r);
   const int channel = f->profile.channel;
@@ -263,10 +264,15 @@ static void order_by_share(report_t *r, const found_t *found) {
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
   TRY(residual_lines(&d->held, &study->vehicle, &r->before, why));
-  TRY(residual_lines(&d->held, &d->extended, &r->after, why));
+  TRY(verify_lines(&d->held, &study->vehicle, &d->turns, &r->after, why));
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);
-  for (int i = 0; i < r->n_finding; i++) TRY(find_one(r, &d->held, &r->finding[i], why));
+  lines_t now = {.r = {NULL}};
+  done_t status = residual_lines(&d->held, &d->extended, &now, why);
+  for (int i = 0; i < r->n_finding && status == DONE; i++)
+    status = find_one(r, &d->held, &now, &r->finding[i], why);
+  lines_free(&now);
+  TRY(status);
   r->left = (profile_t){.channel = d->left.cell.channel, .coordinate = d->left.cell.along};
   if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE)
     fill_profile(r, NULL, NULL, NULL, &r->left);

@@ -30,7 +30,8 @@ static void headline(const report_t *r, FILE *out) {
   if (!r->n_finding) report_headline(r, NULL, out);
   html_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");
-  if (s->by_time) fprintf(out, "the last third of %s", s->fit.n > 1 ? "each flight" : "the flight");
+  if (s->by_time)
+    fprintf(out, "stretches of 2 s of %s, by turns", s->fit.n > 1 ? "each flight" : "the flight");
   for (int i = 0; i < s->held.n; i++) html_text(out, i ? ", " : "", s->held.flight[i].name, "");
   fputs("</p>\n", out);
 }

@@ -60,7 +60,7 @@ static void print_gap(const report_t *r, FILE *out) {
   if (!report_has_residual(r)) return;
   fprintf(out, "\nheld out: ");
   if (s->by_time)
-    fprintf(out, "the last third of %s\n", s->fit.n > 1 ? "each flight" : "the flight");
+    fprintf(out, "stretches of 2 s of %s, by turns\n", s->fit.n > 1 ? "each flight" : "the flight");
   else
     fprintf(out, "%d of %d flights\n", s->held.n, s->held.n + s->fit.n);
   fprintf(out, "  %-9s %-7s %9s %9s %9s\n", "residual", "rms in", "before", "after", "floor");
