@@ -161,11 +161,27 @@ static double choice_log(const beam_t *b, const choice_t *choice, int without) {
   return s.log;
 }
 
+// With its member number i in any form: those that it is tried in share one prior, and flights in which they
+// look alike do not ask which it is.
+static double any_form_log(const beam_t *b, const choice_t *choice, int i) {
+  const candidates_t *const c = b->r->c;
+  double best = choice_log(b, choice, -1), sum = 1.0;
+  for (int k = 0; k < c->n; k++) {
+    choice_t other = *choice;
+    if (k == choice->of[i] || b->r->never[k] || round_fx(b->r, k) != round_fx(b->r, choice->of[i])) continue;
+    other.of[i] = k;
+    const double log_k = choice_log(b, &other, -1);
+    sum = log_k > best ? sum * exp(best - log_k) + 1.0 : sum + exp(log_k - best);
+    best = fmax(best, log_k);
+  }
+  return best + log(sum);
+}
+
 done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why) {
   beam_t b;
   TRY(open_beam(&b, r, why));
-  const double all = choice_log(&b, &r->choice, -1);
-  for (int i = 0; i < r->choice.n; i++) odds[i] = all - choice_log(&b, &r->choice, i);
+  for (int i = 0; i < r->choice.n; i++)
+    odds[i] = any_form_log(&b, &r->choice, i) - choice_log(&b, &r->choice, i);
   close_beam(&b);
   return DONE;
 }

@@ -35,8 +35,8 @@ typedef struct {
 MUST_CHECK done_t evidence_make(evidence_t *e, const round_t *r, why_t *why);
 void evidence_free(evidence_t *e);
 
-// By how much (logarithm) a choice is more likely with its member number i than without it, beside the
-// others. FAILED: no memory.
+// By how much (logarithm) a choice is more likely with its member number i, in any form, than without it,
+// beside the others. FAILED: no memory.
 MUST_CHECK done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why);
 
 // The probability that one of these effects is there, in any shape.

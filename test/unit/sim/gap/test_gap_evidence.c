@@ -241,6 +241,30 @@ TEST(gap_evidence_of_alike_effects_is_shared) {
   gap_rows_free(&g);
 }
 
+// Flights in which five forms of an effect look alike say as much for it as if it had one.
+TEST(gap_evidence_speaks_for_an_effect_in_any_of_its_forms) {
+  double by_forms[2];
+  for (int many = 0; many < 2; many++) {
+    gap_rows_t g;
+    why_t why;
+    double odds[NAMED_MAX];
+    gap_rows_make(&g, 31);
+    const int first = along(&g, "ground", CH_FZ, 20.0);
+    gap_rows_add(&g, first, 0, 0.5);
+    for (int k = 0; k < 4 * many; k++) {
+      double *const x = gap_rows_column(&g, gap_rows_candidate(&g, "ground"), 0, CH_FZ);
+      for (int i = 0; i < GAP_ROWS; i++) x[i] = gap_rows_column(&g, first, 0, CH_FZ)[i];
+    }
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 1, &first);
+    if (!CHECK_OK(evidence_odds(&g.round, odds, &why))) return;
+    by_forms[many] = odds[0];
+    gap_rows_free(&g);
+  }
+  CHECK(by_forms[0] > 10.0);
+  CHECK_NEAR(by_forms[1], by_forms[0], 0.1); // one form alone would have a fifth of the prior, 1.6 less
+}
+
 TEST(gap_evidence_is_never_more_than_sure) {
   candidate_t candidate = {.use.fx = fx_find("rotor_drag")};
   const candidates_t c = {.n = 1, .candidate = &candidate};
