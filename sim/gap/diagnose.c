@@ -152,9 +152,9 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   for (bool again = false;; again = true) {
     if (again) found_free(&d->found);
     TRY(find_names(job, d, why));
-    d->turns = (turns_t){1, {d->found.chosen}};
+    d->turns = (by_turns_t){1, {d->found.chosen}};
     if (!held_apart(job))
-      TRY(turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
+      TRY(by_turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
     TRY(verify_names(&names, &d->withdrawn, why));
     if (!bar_kinds(d)) return DONE;
   }

@@ -6,7 +6,7 @@
 #include "gap/7_verify/verify.h"
 
 typedef struct {
-  const gap_flights_t *fit, *held; // held: none: each by turns (turns.h)
+  const gap_flights_t *fit, *held; // held: none: each by turns (by_turns.h)
   const model_t *model;
   const flown_by_t *flown_by; // null: nobody knows
   unsigned long seed;
@@ -33,7 +33,7 @@ typedef struct {
   withdrawn_list_t withdrawn;
   int n_refuted;
   refuted_t refuted[NAMED_MAX];
-  turns_t turns; // by which numbers the held-out rows are judged
+  by_turns_t turns; // by which numbers the held-out rows are judged
   model_t extended;
   closed_loop_t loop;
   timing_t timing;   // of the fitted flights

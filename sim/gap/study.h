@@ -21,7 +21,7 @@ typedef struct {
 } study_order_t;
 
 // Nothing said about what is held out: of three flights or more the last third of the flights, else stretches
-// of each flight by turns (turns.h).
+// of each flight by turns (by_turns.h).
 typedef struct {
   study_order_t order;
   model_t vehicle;

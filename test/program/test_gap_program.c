@@ -166,6 +166,47 @@ TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   cJSON_Delete(v);
 }
 
+// Rows of a log within some seconds, or without them.
+static const char *rows_of(double from_s, double to_s, bool without) {
+  static char line[200];
+  snprintf(line, sizeof line, "awk -F, 'NR == 1 || %s($1 >= %.0f && $1 < %.0f)' $S/n1.csv >$S/part.csv; ",
+           without ? "!" : "", 1e3 * from_s, 1e3 * to_s);
+  return line;
+}
+
+TEST(gap_cannot_tell_by_a_flight_too_short_for_each_turn_to_be_held_out) {
+  static const struct {
+    double length_s;
+    bool tells;
+  } row[] = {{3.0, false}, {5.5, false}, {8.0, true}};
+  CHECK(gap_logs_fly("n", 2, NULL));
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g s", row[i].length_s);
+    char line[600], text[4000];
+    snprintf(line, sizeof line, "%s%s$S/part.csv", rows_of(6.0, 6.0 + row[i].length_s, false), GAP);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    CHECK((strstr(text, "These flights cannot tell what is missing") == NULL) == row[i].tells);
+    CHECK(!strstr(text, "more is left than noise and feedback leave"));
+  }
+}
+
+// What is flown again takes the commands of the same time: behind a gap those of later would lift and sink.
+TEST(gap_flies_again_behind_a_gap_in_time_as_before_it) {
+  double off_m[2];
+  CHECK(gap_logs_fly("n", 2, NULL));
+  for (int i = 0; i < 2; i++) {
+    ROW("%s", i ? "3.1 s missing" : "whole");
+    char line[600], text[4000];
+    snprintf(line, sizeof line, "%s%s--json $S/part.json $S/part.csv", rows_of(8.0, i ? 11.1 : 8.0, true),
+             GAP);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    cJSON *const v = verdict_read("part.json");
+    off_m[i] = verdict_number(cJSON_GetObjectItem(v, "resimulation"), "height_after");
+    cJSON_Delete(v);
+  }
+  CHECK_NEAR(off_m[1], off_m[0], 0.2 * off_m[0]);
+}
+
 TEST(gap_lists_what_missing_rates_leave_untested) {
   char text[4000];
   CHECK(gap_logs_fly("r", 1, NULL));

@@ -49,14 +49,31 @@ static void correct(const flight_again_t *a, const grid_point_t *track, double m
 
 // --- the flight -----------------------------------------------------------------------------------------
 
+// The sample with which a point begins, by its time: points leave out what a segment's end cuts off, samples
+// what a gap in time does.
+static int sample_of(const grid_t *g, int j) {
+  const double log_s = g->period_s / g->every, from_s = g->point[j].t_s - 0.5 * g->every * log_s;
+  const double *const t_s = g->flight->t_s + g->from;
+  int low = 0, high = g->samples - g->every;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (t_s[middle] < from_s)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
 static done_t put(flight_again_t *a, const model_t *m, int j, why_t *why) {
   const grid_point_t *p = &a->g->point[j];
+  const int first = sample_of(a->g, j);
   body_start_t start = {.pos_w_m = p->pos_w_m,
                         .vel_w_mps = p->vel_w_mps,
                         .q_wb = p->q_wb,
                         .rate_b_radps = p->rate_b_radps,
                         .seed = 1};
-  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][j * a->g->every];
+  for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = a->g->command_N[k][first];
   if (a->body.integrate) body_close(&a->body);
   a->body.integrate = NULL;
   if (body_open(&a->body, m, INTEGRATE_RK4, model_step_s(m, PILOT_STEP_S), &start) == DONE) return DONE;
@@ -78,13 +95,6 @@ static void fly_point(flight_again_t *a, int j, int first_sample) {
     }
 }
 
-// The sample with which a point begins: points leave out what a segment's end cuts off.
-static int sample_of(const grid_t *g, int j) {
-  const double log_s = g->period_s / g->every;
-  const int i = (int)lround((g->point[j].t_s - g->flight->t_s[g->from]) / log_s - 0.5 * (g->every - 1));
-  return i < 0 ? 0 : i + g->every > g->samples ? g->samples - g->every : i;
-}
-
 // Adds squares and their number to the tally, of the points whose turn it is. off_m: null where the flight is
 // not drawn.
 static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, double *const off_m[3],
@@ -94,7 +104,7 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
   for (int j = 0; j < g->n; j++) {
     const grid_point_t *p = &g->point[j];
     const bool go_on = flying && p->ok && p->segment == g->point[j - 1].segment;
-    const bool counts = a->turn < 0 || turns_at(g, j) == a->turn;
+    const bool counts = a->turn < 0 || by_turns_at(g, j) == a->turn;
     for (int k = 0; k < 3 && off_m && counts; k++) off_m[k][j] = (double)NAN;
     flying = p->ok;
     if (!p->ok) continue;
@@ -119,7 +129,7 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
 }
 
 // turns: what the pilots' model has beside. *flew: something did.
-static done_t fly_all(const set_t *held, const turns_t *turns, const model_t *pilots,
+static done_t fly_all(const set_t *held, const by_turns_t *turns, const model_t *pilots,
                       const closed_loop_t *loop, again_t *to, bool *flew, why_t *why) {
   long points = 0;
   for (int i = 0; i < held->n_grid * turns->n; i++) {
@@ -164,9 +174,9 @@ static bool take_room(resimulation_t *r, const grid_t *g) {
   return r->t_s != NULL;
 }
 
-done_t resimulate(const set_t *held, const model_t *before, const turns_t *after, const closed_loop_t *loop,
-                  resimulation_t *r, why_t *why) {
-  static const turns_t none = {.n = 1};
+done_t resimulate(const set_t *held, const model_t *before, const by_turns_t *after,
+                  const closed_loop_t *loop, resimulation_t *r, why_t *why) {
+  static const by_turns_t none = {.n = 1};
   bool old_flew, new_flew;
   *r = (resimulation_t){.why_not = obstacle(held, before)};
   if (r->why_not) return DONE;

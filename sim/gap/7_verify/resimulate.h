@@ -9,7 +9,7 @@
 #define SIM_GAP_7_VERIFY_RESIMULATE_H
 
 #include "gap/3_feedback/nominal.h"
-#include "gap/5_infer/turns.h"
+#include "gap/5_infer/by_turns.h"
 
 // How far from the measured track one model flies.
 typedef struct {
@@ -30,7 +30,7 @@ typedef struct {
 
 // after: what the model has then, by turns: each flies all of a flight, and its own stretches count. FAILED:
 // no memory. Free it, also on an error.
-MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const turns_t *after,
+MUST_CHECK done_t resimulate(const set_t *held, const model_t *before, const by_turns_t *after,
                              const closed_loop_t *loop, resimulation_t *r, why_t *why);
 void resimulation_free(resimulation_t *r);
 

@@ -15,35 +15,36 @@ static color_t color_of(const set_t *s, int channel, const lines_t *left) {
                                   : (color_t){.used = false};
 }
 
-// A row whose turn it is.
+#define ALL_TURNS (-1)
+
+// The rows whose turn it is.
 static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     const rows_t *const r = set_rows(s, ch);
     for (int i = 0; i < r->n; i++)
-      if (turns_at(&s->grid[r->flight[i]], r->point[i]) == turn) l->r[ch][i] = own->r[ch][i];
+      if (turn == ALL_TURNS || by_turns_at(&s->grid[r->flight[i]], r->point[i]) == turn)
+        l->r[ch][i] = own->r[ch][i];
   }
 }
 
 // candidate: without it; below 0: with all names.
-static done_t lines_without(set_t *s, const model_t *base, const turns_t *turns, int candidate, lines_t *l,
+static done_t lines_without(set_t *s, const model_t *base, const by_turns_t *turns, int candidate, lines_t *l,
                             why_t *why) {
-  done_t status = turns->n > 1 ? lines_make(l, s, why) : DONE;
-  if (turns->n == 1) *l = (lines_t){.r = {NULL}};
+  done_t status = lines_make(l, s, why);
   for (int k = 0; k < turns->n && status == DONE; k++) {
     chosen_t with = turns->of[k];
     model_t m;
     lines_t own = {.r = {NULL}};
     chosen_drop(&with, candidate);
-    TRY(chosen_model(&with, base, &m, why));
-    if (turns->n == 1) return residual_lines(s, &m, l, why);
-    status = residual_lines(s, &m, &own, why);
-    if (status == DONE) take_turn(l, &own, s, k);
+    status = chosen_model(&with, base, &m, why);
+    if (status == DONE) status = residual_lines(s, &m, &own, why);
+    if (status == DONE) take_turn(l, &own, s, turns->n > 1 ? k : ALL_TURNS);
     lines_free(&own);
   }
   return status;
 }
 
-done_t verify_lines(set_t *held, const model_t *base, const turns_t *turns, lines_t *l, why_t *why) {
+done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l, why_t *why) {
   return lines_without(held, base, turns, -1, l, why);
 }
 
@@ -51,13 +52,14 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
   set_t *const s = job->held;
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
+  const bool judged = job->turns->n == 1 || by_turns_cover(s);
   done_t status = residual_lines(s, job->base, &b, why);
   if (status == DONE) status = verify_lines(s, job->base, job->turns, &a, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];
     const rows_t *rows = set_rows(s, ch);
     const color_t color = color_of(s, ch, &a);
-    *p = (gap_part_t){.used = color.used, .floor = nominal->floor[ch]};
+    *p = (gap_part_t){.used = judged && color.used, .floor = nominal->floor[ch]};
     if (!p->used) continue;
     p->before = rms_of(b.r[ch], rows->n);
     p->after = rms_of(a.r[ch], rows->n);
@@ -180,7 +182,7 @@ done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *w
   while (d->found->n > 0) {
     TRY(find_worst(d, &worst, &withdrawn->name[withdrawn->n], why));
     if (worst < 0) return DONE;
-    turns_drop(d->turns, withdrawn->name[withdrawn->n++].candidate);
+    by_turns_drop(d->turns, withdrawn->name[withdrawn->n++].candidate);
     found_withdraw(d->found, worst);
   }
   return DONE;

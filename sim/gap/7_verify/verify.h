@@ -3,7 +3,7 @@
 #define SIM_GAP_7_VERIFY_VERIFY_H
 
 #include "gap/3_feedback/nominal.h"
-#include "gap/5_infer/turns.h"
+#include "gap/5_infer/by_turns.h"
 #include "gap/5_infer/found.h"
 
 typedef struct {
@@ -42,12 +42,12 @@ typedef struct {
   const model_t *base; // without what was found
   const closed_loop_t *loop;
   found_t *found;
-  turns_t *turns; // its numbers for each held-out row
+  by_turns_t *turns; // its numbers for each held-out row
 } verify_job_t;
 
 // What the model leaves of every held-out row, with what was found. FAILED: no memory. Free it, also on an
 // error.
-MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const turns_t *turns, lines_t *l,
+MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
                                why_t *why);
 
 // FAILED: no memory.

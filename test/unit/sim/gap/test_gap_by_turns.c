@@ -14,7 +14,7 @@ TEST(gap_turns_are_taken_every_two_seconds) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("at %g s", row[i].at_s);
     grid_point_t point[2] = {{.t_s = 30.0}, {.t_s = 30.0 + row[i].at_s}};
-    CHECK(turns_at(&(grid_t){.n = 2, .point = point}, 1) == row[i].turn);
+    CHECK(by_turns_at(&(grid_t){.n = 2, .point = point}, 1) == row[i].turn);
   }
 }
 
@@ -37,7 +37,7 @@ TEST(gap_turns_do_not_know_what_they_are_held_against) {
   chosen_t own = {.n = 2, .of = {0, 1}, .use = {g.candidate[mass].use, g.candidate[scale].use}};
   for (int k = 0; k < TURNS; k++) {
     ROW("turn %d", k);
-    CHECK_OK(turns_estimate(&g.round.score, turn, k, &own, &why));
+    CHECK_OK(by_turns_estimate(&g.round.score, turn, k, &own, &why));
     // Four standard errors of 800 rows; a column's slopes that differ are noise, too.
     CHECK_NEAR(fx_use_size(&own.use[0], 0) / g.candidate[mass].typical[0], others[k], 0.2);
     const double seen_once = fx_use_size(&own.use[1], 0) / g.candidate[scale].typical[0];

@@ -1,7 +1,8 @@
-// turns.c - numbers of what is chosen, by turn.
-#include "gap/5_infer/turns.h"
+// by_turns.c - numbers of what is chosen, by turn.
+#include "gap/5_infer/by_turns.h"
 
 #include "base/lsq_blocks.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,16 +13,25 @@ typedef struct {
   gram_t gram;
   score_t score;
   int *turn; // of each block
-} turning_t;
+} fitting_t;
 
 static void find_turns(const set_t *s, int *turn) {
   for (int list = 0; list < 2; list++) {
     const rows_t *const r = list ? &s->range : &s->smooth;
-    for (int i = 0; i < r->n; i++) turn[r->block[i]] = turns_at(&s->grid[r->flight[i]], r->point[i]);
+    for (int i = 0; i < r->n; i++) turn[r->block[i]] = by_turns_at(&s->grid[r->flight[i]], r->point[i]);
   }
 }
 
-done_t turns_estimate(const score_t *j, const int *turn, int held_out, chosen_t *own, why_t *why) {
+bool by_turns_cover(const set_t *s) {
+  double longest_s = 0.0;
+  for (int i = 0; i < s->n_grid; i++) {
+    const grid_t *const g = &s->grid[i];
+    if (g->n) longest_s = fmax(longest_s, g->point[g->n - 1].t_s - g->point[0].t_s);
+  }
+  return longest_s >= TURNS * BLOCK_S;
+}
+
+done_t by_turns_estimate(const score_t *j, const int *turn, int held_out, chosen_t *own, why_t *why) {
   const gram_t *const g = j->g;
   const size_t n = (size_t)(g->size * g->size);
   int column[COLUMN_MAX];
@@ -41,7 +51,7 @@ done_t turns_estimate(const score_t *j, const int *turn, int held_out, chosen_t 
   return DONE;
 }
 
-static done_t take_sums(turning_t *t, set_t *s, const model_t *base, why_t *why) {
+static done_t take_sums(fitting_t *t, set_t *s, const model_t *base, why_t *why) {
   int column[COLUMN_MAX];
   double value[COLUMN_MAX];
   for (int i = 0; i < t->names.n; i++)
@@ -59,13 +69,13 @@ static done_t take_sums(turning_t *t, set_t *s, const model_t *base, why_t *why)
   return score_make(&t->score, &t->names, &t->gram, NULL, why);
 }
 
-done_t turns_make(turns_t *t, const candidates_t *c, set_t *s, const model_t *base, const chosen_t *chosen,
-                  const timing_t *timing, why_t *why) {
-  turning_t by = {.turn = NULL};
+done_t by_turns_make(by_turns_t *t, const candidates_t *c, set_t *s, const model_t *base,
+                     const chosen_t *chosen, const timing_t *timing, why_t *why) {
+  fitting_t by = {.turn = NULL};
   chosen_t rest = *chosen;
   model_t timed = *base;
   const fx_use_t *const measured = timing->measured ? chosen_use(chosen, timing->candidate) : NULL;
-  *t = (turns_t){.n = TURNS};
+  *t = (by_turns_t){.n = TURNS};
   for (int k = 0; k < TURNS; k++) t->of[k] = *chosen;
   if (measured) {
     TRY(model_add_fx(&timed, measured, why));
@@ -75,7 +85,7 @@ done_t turns_make(turns_t *t, const candidates_t *c, set_t *s, const model_t *ba
   done_t status = candidates_chosen(&by.names, &by.own, c, &rest, why);
   if (status == DONE) status = take_sums(&by, s, &timed, why);
   for (int k = 0; k < TURNS && status == DONE; k++) {
-    status = turns_estimate(&by.score, by.turn, k, &by.own, why);
+    status = by_turns_estimate(&by.score, by.turn, k, &by.own, why);
     for (int i = 0; i < rest.n; i++) *chosen_take(&t->of[k], c, rest.of[i]) = by.own.use[i];
   }
   score_free(&by.score);
@@ -86,6 +96,6 @@ done_t turns_make(turns_t *t, const candidates_t *c, set_t *s, const model_t *ba
   return status;
 }
 
-void turns_drop(turns_t *t, int candidate) {
+void by_turns_drop(by_turns_t *t, int candidate) {
   for (int k = 0; k < t->n; k++) chosen_drop(&t->of[k], candidate);
 }
