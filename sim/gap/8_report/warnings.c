@@ -102,8 +102,11 @@ static void warn_of_withdrawn(report_t *r) {
 static void warn_of_diagnosis(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   if (!report_has_residual(r))
-    warn(r, "no residual can be formed: these logs have neither acceleration nor rates beside commands that "
-            "explain them");
+    warn(r, r->study->by_time && !by_turns_cover(&d->held)
+                ? "nothing is held out: these flights are shorter than three stretches of 2 s"
+                : "no residual can be formed: these logs have neither acceleration nor rates beside commands "
+                  "that "
+                  "explain them");
   if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
     warn(r, "the held-out flights speak against what is named: all channels together they are explained no "
             "better than before");
