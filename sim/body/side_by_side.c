@@ -20,7 +20,8 @@ static void move(void *self, void *const what[LANES]) {
     const tick_t *const tick = what[k];
     if (!tick) continue;
     b[k] = tick->body;
-    if (b[k]->t_s == 0.0) abreast_forget_one(a, k); // another one may have been at the same address
+    if (b[k]->t_s == 0.0)
+      abreast_forget_one(a, k); // opened anew, not moved yet: another one may have been there
     body_command(b[k], tick->command_N, tick->span_s);
   }
   (void)abreast_move(a, b, &seen, vbat_V);

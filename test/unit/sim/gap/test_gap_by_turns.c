@@ -1,4 +1,4 @@
-// test_gap_turns.c - stretches of a flight that are held out by turns.
+// test_gap_by_turns.c - stretches of a flight that are held out by turns.
 #include "exam/flights.h"
 #include "gap/diagnose.h"
 #include "rig/gap_rows.h"
