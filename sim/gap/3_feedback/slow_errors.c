@@ -65,10 +65,10 @@ static d3_t up_rate(const grid_point_t *p) {
 }
 
 static d3_t position(const grid_point_t *p) {
-  return p->pos_w_m;
+  return p->seen_w_m;
 }
 static d3_t velocity(const grid_point_t *p) {
-  return p->vel_w_mps;
+  return p->seen_w_mps;
 }
 
 typedef d3_t (*look_t)(const grid_point_t *p);

@@ -29,7 +29,7 @@ static grid_t still_but_for_errors(grid_point_t *point, const double sd[3], doub
       slow[i] = keep * slow[i] + sd[i] * sqrt(1.0 - keep * keep) * random_normal(random);
       at[i] = slow[i] + white * random_normal(random);
     }
-    point[j].pos_w_m = d3_of(at);
+    point[j].seen_w_m = d3_of(at);
   }
   random_close(random);
   return (grid_t){
@@ -291,7 +291,7 @@ TEST(gap_nominal_flights_shake_as_the_log_does) {
     double log[CHANNELS], came[CHANNELS];
     ROW("%s", row[i].what);
     if (!CHECK_OK(rig_make(&r, row[i].spoil, &why))) return;
-    if (!CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 9, &why))) return;
+    if (!CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 11, &why))) return;
     if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, &loop, 77, &why))) return;
     rms_of(&r.set, &r.vehicle, log);
     rms_of(&a.seen, &r.vehicle, came);

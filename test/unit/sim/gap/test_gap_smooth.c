@@ -1,0 +1,142 @@
+// test_gap_smooth.c - places and velocities of a log, without what of their errors lasts for a moment.
+#include "base/random.h"
+#include "gap/2_predict/grid.h"
+#include "rig/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define POINTS   3000 // a minute
+#define PERIOD_S 0.02
+#define TURN     2.0 // rad/s, on a circle of half a metre
+#define RADIUS_M 0.5
+
+// On the circle, level, and seen as it is.
+static grid_point_t on_circle(double t_s) {
+  const double a = TURN * t_s, v = TURN * RADIUS_M;
+  const d3_t pos = d3(RADIUS_M * cos(a), RADIUS_M * sin(a), 1.0), vel = d3(-v * sin(a), v * cos(a), 0.0);
+  return (grid_point_t){.t_s = t_s,
+                        .ok = true,
+                        .pos_w_m = pos,
+                        .vel_w_mps = vel,
+                        .seen_w_m = pos,
+                        .seen_w_mps = vel,
+                        .q_wb = {.w = 1.0},
+                        .acc_b_mps2 = d3(-TURN * v * cos(a), -TURN * v * sin(a), G_MPS2)};
+}
+
+static grid_t circle(void) {
+  grid_t g = {.period_s = PERIOD_S,
+              .n = POINTS,
+              .point = calloc(POINTS, sizeof(grid_point_t)),
+              .has_position = true,
+              .has_velocity = true,
+              .has_attitude = true,
+              .has_force = true};
+  if (!g.point) abort();
+  for (int j = 0; j < POINTS; j++) g.point[j] = on_circle(PERIOD_S * j);
+  return g;
+}
+
+static void see_as_logged(grid_t *g) {
+  for (int j = 0; j < g->n; j++) {
+    g->point[j].pos_w_m = g->point[j].seen_w_m;
+    g->point[j].vel_w_mps = g->point[j].seen_w_mps;
+  }
+}
+
+static d3_t off_place(const grid_point_t *p) {
+  return d3_sub(p->pos_w_m, on_circle(p->t_s).pos_w_m);
+}
+static d3_t off_velocity(const grid_point_t *p) {
+  return d3_sub(p->vel_w_mps, on_circle(p->t_s).vel_w_mps);
+}
+
+static double rms(const grid_t *g, d3_t (*off)(const grid_point_t *p)) {
+  double sum = 0.0;
+  for (int j = 0; j < g->n; j++) sum += pow(d3_norm(off(&g->point[j])), 2.0);
+  return sqrt(sum / g->n / 3.0);
+}
+
+// As estimates err: together for tau_s.
+static d3_t drifted(random_t *r, d3_t off, double sd, double tau_s) {
+  const double keep = exp(-PERIOD_S / tau_s), fresh = sd * sqrt(1.0 - keep * keep);
+  return d3_add(d3_scale(keep, off),
+                d3_scale(fresh, d3(random_normal(r), random_normal(r), random_normal(r))));
+}
+
+TEST(gap_takes_errors_of_a_moment_out_of_places_and_velocities) {
+  static const struct {
+    double pos_m, vel_mps, tau_s, left_m, left_mps; // sd as logged, and what may be left of it
+  } row[] = {
+      {0.008, 0.0, 0.03, 0.0033, 1e-4},   {0.008, 0.0, 0.06, 0.0045, 1e-4}, {0.0, 0.03, 0.03, 0.0012, 0.013},
+      {0.008, 0.03, 0.03, 0.0036, 0.013}, {0.0, 0.0, 0.03, 2e-5, 1e-4},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g m, %g m/s for %g s", row[i].pos_m, row[i].vel_mps, row[i].tau_s);
+    why_t why;
+    grid_t g = circle();
+    random_t *const r = random_open(7 + i);
+    if (!r) abort();
+    d3_t place = {0.0, 0.0, 0.0}, speed = place;
+    for (int j = 0; j < g.n; j++) {
+      place = drifted(r, place, row[i].pos_m, row[i].tau_s);
+      speed = drifted(r, speed, row[i].vel_mps, row[i].tau_s);
+      g.point[j].seen_w_m = d3_add(g.point[j].seen_w_m, place);
+      g.point[j].seen_w_mps = d3_add(g.point[j].seen_w_mps, speed);
+    }
+    see_as_logged(&g);
+    if (row[i].pos_m > 0.0) CHECK(rms(&g, off_place) > 0.8 * row[i].pos_m);
+    CHECK_OK(grid_smooth(&g, &why));
+    CHECK(rms(&g, off_place) < row[i].left_m);
+    CHECK(rms(&g, off_velocity) < row[i].left_mps);
+    random_close(r);
+    free(g.point);
+  }
+}
+
+// A rate with a constant error moves what it carries forwards from before as far as backwards from after.
+TEST(gap_smooths_by_rates_that_are_wrong_by_a_constant) {
+  why_t why;
+  grid_t g = circle();
+  for (int j = 0; j < g.n; j++) {
+    g.point[j].seen_w_mps = d3_add(g.point[j].seen_w_mps, d3(0.3, 0.0, -0.2));
+    g.point[j].acc_b_mps2 = d3_add(g.point[j].acc_b_mps2, d3(0.2, 0.1, 0.5));
+  }
+  see_as_logged(&g);
+  CHECK_OK(grid_smooth(&g, &why));
+  CHECK(rms(&g, off_place) < 1e-3);
+  CHECK_NEAR(g.point[POINTS / 2].vel_w_mps.z, -0.2, 1e-3); // the error itself is no error of a moment
+  free(g.point);
+}
+
+// What is not good may be anything; after a gap in time the vehicle is elsewhere.
+TEST(gap_smooths_nothing_over_a_gap) {
+  why_t why;
+  grid_t g = circle();
+  for (int j = 0; j < g.n; j++) {
+    g.point[j].segment = j >= 1000;
+    g.point[j].ok = j < 2000 || j >= 2100;
+    if (j >= 1000) g.point[j].seen_w_m.x += 5.0;
+    if (!g.point[j].ok) g.point[j].seen_w_m.x = (double)NAN;
+  }
+  see_as_logged(&g);
+  CHECK_OK(grid_smooth(&g, &why));
+  CHECK(isnan(g.point[2050].pos_w_m.x));
+  for (int j = 0; j < g.n; j++)
+    if (g.point[j].ok)
+      CHECK_NEAR(g.point[j].pos_w_m.x - on_circle(g.point[j].t_s).pos_w_m.x, j < 1000 ? 0.0 : 5.0, 1e-3);
+  free(g.point);
+}
+
+// Of a velocity that was made of the places themselves there is nothing to learn.
+TEST(gap_leaves_a_place_without_a_logged_velocity_as_it_is) {
+  why_t why;
+  grid_t g = circle();
+  g.velocity_made = true;
+  g.point[50].pos_w_m.x += 0.1;
+  g.point[50].seen_w_m.x += 0.1;
+  CHECK_OK(grid_smooth(&g, &why));
+  CHECK(g.point[50].pos_w_m.x == g.point[50].seen_w_m.x);
+  free(g.point);
+}
