@@ -2,6 +2,7 @@
 #include "gap/5_infer/found.h"
 
 #include "base/lsq_blocks.h"
+#include "gap/5_infer/bend.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +38,11 @@ void found_withdraw(found_t *f, int i) {
 // of the instruments themselves as is never named.
 static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
   double rms[FX_SIZE_MAX];
+  bend_t bend;
   const fx_t *const fx = round_fx(r, named->candidate);
   score_nominal_rms(&r->score, last, rms);
+  if (bend_nominal(&r->score, last, named->value, &bend)) memcpy(rms, bend.size, sizeof rms);
+  named->shape_beside = bend.shape;
   for (int k = 0; k < fx->n_size; k++) {
     named->beside[k] = hypot(rms[k], candidates_least(fx, r->s) / SCORE_ERRORS);
     named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);

@@ -25,10 +25,12 @@ typedef struct {
   int candidate;
   double value[FX_SIZE_MAX];
   // The regression's own standard error (robust, blocks of 2 s), and beside it the number's rms error on
-  // nominal flights, bias and all, and half the least lag or delay that is named.
+  // nominal flights, bias and all, with its shape estimated, too, and half the least lag or delay that is
+  // named.
   double stderr_[FX_SIZE_MAX];
   double beside[FX_SIZE_MAX]; // of stderr_, what is not the regression's own
   double shape_stderr;        // of its shape (shape.h); NaN or 0: not known
+  double shape_beside;        // of it, rms over the shape, what nominal flights show (bend.h)
   double p;                   // of the Wald test, all its numbers together
   double probability;         // that it, or a rival that is told, is there (evidence.h); NaN: not computed
   double share;               // of the sum of squares that the original model leaves and the effect explains

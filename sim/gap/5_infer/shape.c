@@ -131,7 +131,8 @@ static void take_errors(polish_t *p, const double x[MOST], named_t *named) {
     named->stderr_[k] = hypot(own * p->unit[i] * sqrt(inverse[i * (n + 1)]), named->beside[k]);
     robust = fmax(robust, own);
   }
-  named->shape_stderr = robust * p->unit[SHAPE] * sqrt(inverse[0]);
+  named->shape_stderr =
+      hypot(robust * p->unit[SHAPE] * sqrt(inverse[0]), x[SHAPE] * p->unit[SHAPE] * named->shape_beside);
 }
 
 static done_t polish(polish_t *p, named_t *named, why_t *why) {

@@ -1,0 +1,20 @@
+// bend.h - a shape and its size, estimated together: what nominal flights make of both.
+//
+// Errors of the logged height make a ground effect look smaller and flatter than it is: of a decay of 48 1/m
+// and errors of 8 mm a tenth is lost where the decay is known, a third to a half where it is estimated, too.
+#ifndef SIM_GAP_5_INFER_BEND_H
+#define SIM_GAP_5_INFER_BEND_H
+
+#include "gap/5_infer/score.h"
+
+typedef struct {
+  double size[FX_SIZE_MAX]; // rms, in the sizes' units, bias and all
+  double shape;             // rms over the shape, 1
+} bend_t;
+
+// Of the last candidate of a choice, whose sizes are `value`; the slope over its shape is that of the
+// parabola through its columns at the neighbouring shapes, in the logarithm. false: it has none, or nothing
+// was flown.
+bool bend_nominal(const score_t *j, const choice_t *choice, const double value[FX_SIZE_MAX], bend_t *bend);
+
+#endif
