@@ -61,6 +61,20 @@ static double typical_of(const fx_use_t *use, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
+// Of a curve over the distance to a surface, whose shapes are decays: at so many radii all of typical size do
+// the same. Else a slow decay of typical size would do at a metre what nothing does, and a quick one nothing.
+#define TYPICAL_RADII 1.0
+
+static double as_strong(const fx_use_t *use, double radius_m) {
+  const double gap_m = TYPICAL_RADII * radius_m;
+  const fx_place_t place = {gap_m, gap_m, radius_m};
+  fx_use_t typical = fx_use(use->fx), here = *use;
+  const int size = use->fx->size[0].param;
+  if (!use->fx->excess || !fx_use_has_shape(use)) return 1.0;
+  here.p[size] = typical.p[size];
+  return use->fx->excess(&typical, &place) / use->fx->excess(&here, &place);
+}
+
 static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
@@ -74,6 +88,8 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) 
   }
   if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
   if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[variant % fx->n_shape];
+  const double strong = as_strong(&to->use, m->rotor_radius_m);
+  for (int k = 0; k < fx->n_size; k++) to->typical[k] *= strong;
   if (fx->n_kind) to->use.p[fx_use_kind(&to->use)] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
   c->columns += to->n;
 }

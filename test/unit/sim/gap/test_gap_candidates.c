@@ -154,6 +154,28 @@ TEST(what_is_typical_of_a_number_accelerates_a_large_vehicle_as_it_does_a_crazyf
   }
 }
 
+// At a metre a decay of 0.2 per radius would else do twenty times what is typical.
+TEST(gap_takes_decays_of_typical_size_as_equally_strong_one_radius_off) {
+  candidates_t c;
+  why_t why;
+  log_t l;
+  log_make(&l);
+  CHECK_OK(candidates_make(&c, &l.model, &l.set, &why));
+  const double radius_m = l.model.rotor_radius_m;
+  const fx_place_t near = {radius_m, radius_m, radius_m};
+  int decays = 0;
+  for (int i = 0; i < c.n; i++) {
+    fx_use_t use = c.candidate[i].use, typical = fx_use(use.fx);
+    if (!use.fx->excess) continue;
+    ROW("%s %g", use.fx->name, use.p[1]);
+    use.p[0] = c.candidate[i].typical[0];
+    CHECK_NEAR(use.fx->excess(&use, &near), typical.fx->excess(&typical, &near), 1e-9);
+    decays++;
+  }
+  CHECK(decays == 24); // six of each kind of ceiling and ground
+  candidates_free(&c);
+}
+
 TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
   log_t l;
   candidates_t c;
