@@ -213,10 +213,16 @@ int main(int argc, char **argv) {
     const done_t flown = bench_loop(&line);
     return error_exit("bench", flown == DONE ? bench_abreast(&line) : flown, &line);
   }
+  if (argc == 2 && strcmp(argv[1], "gap") == 0) {
+    why_t line;
+    const done_t diagnosed = bench_gap(&line);
+    return error_exit("bench", diagnosed, &line);
+  }
   if (argc > 1) {
     why_t line;
-    return error_exit("bench",
-                      error_set(&line, "%s: allowed: bench, bench loop, or bench --version", argv[1]), &line);
+    return error_exit(
+        "bench", error_set(&line, "%s: allowed: bench, bench loop, bench gap, or bench --version", argv[1]),
+        &line);
   }
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     why_t why;

@@ -223,6 +223,14 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   return v;
 }
 
+void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m,
+                        double *const residual[CHANNELS]) {
+  const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
+  const range_told_t *const told = s->grid[0].range_up ? &m->range_up : &m->range_down;
+  w->range_m = range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
+  find_disturbance(s, residual, w);
+}
+
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]) {
   closed_loop_t w = {.flown_by = by};
@@ -233,12 +241,9 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   noise3(s, SIG_X, w.pos_m);
   w.angle_rad = 2.0 * larger_noise(s, SIG_QX, SIG_QY);
   w.vbat_V = noise_of(&s->grid[0], f->v[SIG_VBAT]);
-  const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
-  const range_told_t *const told = s->grid[0].range_up ? &m->range_up : &m->range_down;
-  w.range_m = range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
   find_slow(&s->grid[0], &w);
   find_gains(s, m, &w);
   find_lead(s, m, &w);
-  find_disturbance(s, residual, &w);
+  closed_loop_shaken(&w, s, m, residual);
   return w;
 }

@@ -19,22 +19,28 @@ static double mean_squares(const double *v, int n, bool about_mean) {
   return n ? (squares - (about_mean ? sum * sum / n : 0.0)) / n : 0.0;
 }
 
-// Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
-// flights are to show: they are read before the cleaning, with their mean.
+// Mean squares of what a model leaves. Disturbing moments are large and slow on real vehicles; control cancels
+// them, which is what the nominal flights are to show: they are read before the cleaning, with their mean.
+// loop: how the flights were flown, or null.
+static done_t read_rows(closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
+                        const flown_by_t *by, const lines_t *l, why_t *why) {
+  for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, false);
+  if (loop) *loop = closed_loop_of(s, m, by, l->r);
+  TRY(unknown_clean(s, m, l->r, why));
+  for (int ch = 0; ch < CH_FORCES; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, true);
+  if (!loop) return DONE;
+  const closed_loop_t raw = *loop;
+  closed_loop_shaken(loop, s, m, l->r);
+  memcpy(loop->turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
+  loop->turn_tau_s = raw.turn_tau_s;
+  return DONE;
+}
+
 static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
                        why_t *why) {
   lines_t l = {.r = {NULL}};
-  done_t status = lines_make(&l, s, why);
-  if (status == DONE) status = residual_of(s, m, l.r, why);
-  if (status == DONE) {
-    const closed_loop_t raw = closed_loop_of(s, m, by, l.r);
-    for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l.r[ch], s->smooth.n, false);
-    status = unknown_clean(s, m, l.r, why);
-    for (int ch = 0; ch < CH_FORCES; ch++) left->of[ch] = mean_squares(l.r[ch], s->smooth.n, true);
-    *loop = closed_loop_of(s, m, by, l.r);
-    memcpy(loop->turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
-    loop->turn_tau_s = raw.turn_tau_s;
-  }
+  done_t status = residual_lines(s, m, &l, why);
+  if (status == DONE) status = read_rows(loop, left, s, m, by, &l, why);
   lines_free(&l);
   return status;
 }
@@ -43,10 +49,9 @@ static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const mod
 static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
   along_t a;
-  closed_loop_t any;
   done_t status = nominal_along(&a, s, m, loop, seed, why);
   if (status == DONE) status = windows_keep(&a.seen, m, why);
-  if (status == DONE) status = read_off(&any, left, &a.seen, m, loop->flown_by, why);
+  if (status == DONE) status = read_off(NULL, left, &a.seen, m, loop->flown_by, why);
   along_free(&a);
   return status;
 }
