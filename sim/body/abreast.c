@@ -1,26 +1,11 @@
 // abreast.c - vehicles that are moved eight at a time.
 #include "body/abreast.h"
 
+#include "body/lanes_of.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define NUMBER         sizeof(double)
-#define RIGID_NUMBERS  (offsetof(rigid_t, command_N) / NUMBER) // those that stay, most of the time
-#define RIGID_COMMAND  RIGID_NUMBERS
-#define RIGID_SCALES   (offsetof(rigid_t, thrust_scale) / NUMBER) // thrust, torque, faster
-#define TOUCH_NUMBERS  (sizeof(touch_t) / NUMBER)
-#define PLANT_NUMBERS  (sizeof(fx_plant_t) / NUMBER)
-#define LOOK_NUMBERS   (offsetof(body_look_t, loaded) / NUMBER)
-#define EFFECT_NUMBERS FX_PARAM_MAX
-#define BATTERY        (offsetof(battery_param_t, n) / NUMBER)
-#define FROM_NUMBERS   (sizeof(sensed_from_t) / NUMBER)
-
-_Static_assert(LANES_EFFECTS == FX_MAX, "every effect has its place");
-_Static_assert(offsetof(rigid_t, lag_in_speed) == (RIGID_COMMAND + ROTORS) * NUMBER,
-               "numbers first, then flags");
-_Static_assert(offsetof(rigid_t, faster) == (RIGID_SCALES + 2 * ROTORS) * NUMBER, "scales lie side by side");
-_Static_assert((int)RIGID_N == LANES_CHARGE, "charge, current and voltage lie behind y");
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
 
 // Whose numbers a lane has, and until what change of them.
@@ -46,33 +31,8 @@ struct abreast {
 
 // --- who may be moved together ----------------------------------------------------------------------------
 
-static int at(const void *const *table, int n, const void *one) {
-  for (int i = 0; i < n; i++)
-    if (table[i] == one) return i;
-  return -1;
-}
-static int at_fx(const fx_use_t *use) {
-  return at((const void *const *)fx_table, fx_count, use->fx);
-}
-static int at_form(const fx_use_t *use) {
-  return at((const void *const *)curve_table, curve_count, use->form);
-}
-
-// Effects that the tables hold, without points.
-static bool knows_effects(const body_t *b) {
-  for (int k = 0; k < b->n_excess; k++) {
-    const fx_use_t *const use = b->excess[k];
-    if (at_fx(use) < 0 || (use->form && (at_form(use) < 0 || use->form->needs_points))) return false;
-  }
-  for (int k = 0; k < b->n_load; k++)
-    if (at_fx(b->load[k]) < 0) return false;
-  for (int k = 0; k < b->model->n_fx; k++)
-    if (b->model->fx[k].fx->sense && at_fx(&b->model->fx[k]) < 0) return false;
-  return true;
-}
-
 static bool knows(has_t *has, const body_t *b) {
-  if (has->asked != b) has->knows = knows_effects(b);
+  if (has->asked != b) has->knows = lanes_know(b);
   has->asked = b;
   return has->knows;
 }
@@ -88,18 +48,10 @@ static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int
   return true;
 }
 
-// Those with an effect on sensors; how many.
-static int senses_of(const model_t *m, const fx_use_t *sense[FX_MAX]) {
-  int n = 0;
-  for (int k = 0; k < m->n_fx; k++)
-    if (m->fx[k].fx->sense) sense[n++] = &m->fx[k];
-  return n;
-}
-
 static bool same_senses(const model_t *a, const model_t *b) {
   const fx_use_t *of_a[FX_MAX], *of_b[FX_MAX];
-  const int n = senses_of(a, of_a);
-  return n == senses_of(b, of_b) && same_effects(of_a, of_b, n);
+  const int n = lanes_senses(a, of_a);
+  return n == lanes_senses(b, of_b) && same_effects(of_a, of_b, n);
 }
 
 static bool alike(const body_t *a, const body_t *b) {
@@ -111,79 +63,38 @@ static bool alike(const body_t *a, const body_t *b) {
          same_effects(a->excess, b->excess, a->n_excess) && same_effects(a->load, b->load, a->n_load);
 }
 
-static lanes_alike_t alike_of(const body_t *b) {
-  lanes_alike_t a = {.lag_in_speed = b->rigid.lag_in_speed,
-                     .plain_lag = b->rigid.plain_lag,
-                     .ticks = b->n_tick > 0,
-                     .pushed = b->pushed,
-                     .looked = b->look_is_y,
-                     .loaded = b->look.loaded,
-                     .excess_of = b->excess_of,
-                     .n_excess = b->n_excess,
-                     .n_load = b->n_load,
-                     .n_open_V = b->model->battery.n,
-                     .span_s = b->span_s};
-  const fx_use_t *sense[FX_MAX];
-  a.n_sense = senses_of(b->model, sense);
-  for (int k = 0; k < a.n_sense; k++) a.sense[k] = at_fx(sense[k]);
-  for (int k = 0; k < b->n_excess; k++) {
-    a.excess[k] = at_fx(b->excess[k]);
-    a.excess_form[k] = at_form(b->excess[k]);
-  }
-  for (int k = 0; k < b->n_load; k++) a.load[k] = at_fx(b->load[k]);
-  return a;
-}
-
 // --- numbers to their lane and back -----------------------------------------------------------------------
-
-static void put(double *to, const double *from, int n, int lane) {
-  for (int i = 0; i < n; i++) to[LANES * i + lane] = from[i];
-}
-static void get(const double *from, double *to, int n, int lane) {
-  for (int i = 0; i < n; i++) to[i] = from[LANES * i + lane];
-}
-
-static void take_model(const lanes_at_t *to, int lane, const model_t *m) {
-  const fx_use_t *sense[FX_MAX];
-  const int n = senses_of(m, sense);
-  for (int k = 0; k < n; k++) put(to->sense[k], sense[k]->p, EFFECT_NUMBERS, lane);
-  put(to->battery, (const double *)&m->battery, BATTERY, lane);
-  put(to->open_V, m->battery.open_V, BATTERY_TABLE_MAX, lane);
-  const sensed_from_t from = body_sensed_from(m);
-  put(to->sensed_from, (const double *)&from, FROM_NUMBERS, lane);
-}
 
 // What effects at ticks change at every one of them.
 static void take_plant(const lanes_at_t *to, int lane, const body_t *b) {
-  put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
-  put(to->rigid + LANES * RIGID_SCALES, (const double *)&b->rigid + RIGID_SCALES, 3 * ROTORS, lane);
+  lanes_put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
+  lanes_put(to->rigid + LANES * RIGID_SCALES, (const double *)&b->rigid + RIGID_SCALES, 3 * ROTORS, lane);
 }
 
 // Between ticks that are moved together nothing changes but that, and the commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = a->door->at(a->lanes);
-  put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
+  lanes_put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
   if (b->n_tick > 0) take_plant(to, lane, b);
   if (a->has[lane].body == b && a->has[lane].changed == b->changed) return;
-  put(to->rigid, (const double *)&b->rigid, RIGID_NUMBERS, lane);
-  put(to->touch, (const double *)&b->touch, TOUCH_NUMBERS, lane);
-  put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
-  put(to->push_w_N, (const double *)&b->push_w_N, 3, lane);
-  for (int k = 0; k < b->n_excess; k++) put(to->excess[k], b->excess[k]->p, EFFECT_NUMBERS, lane);
-  for (int k = 0; k < b->n_load; k++) put(to->load[k], b->load[k]->p, EFFECT_NUMBERS, lane);
-  if (a->has[lane].body != b) take_model(to, lane, b->model);
-  put(to->now, b->y, RIGID_N, lane);
+  lanes_put(to->rigid, (const double *)&b->rigid, RIGID_NUMBERS, lane);
+  lanes_put(to->touch, (const double *)&b->touch, TOUCH_NUMBERS, lane);
+  lanes_put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
+  lanes_put(to->push_w_N, (const double *)&b->push_w_N, 3, lane);
+  lanes_take_effects(to, lane, b);
+  if (a->has[lane].body != b) lanes_take_model(to, lane, b->model);
+  lanes_put(to->now, b->y, RIGID_N, lane);
   const double battery[] = {b->charge, b->current_A, b->vbat_V};
-  put(to->now + LANES * LANES_CHARGE, battery, 3, lane);
-  if (b->look_is_y) put(to->look, (const double *)&b->look, LOOK_NUMBERS, lane);
+  lanes_put(to->now + LANES * LANES_CHARGE, battery, 3, lane);
+  if (b->look_is_y) lanes_put(to->look, (const double *)&b->look, LOOK_NUMBERS, lane);
   a->has[lane].body = b;
   a->has[lane].changed = b->changed;
 }
 
 static void give_now(const double *now, int lane, body_t *b) {
   double battery[3];
-  get(now, b->y, RIGID_N, lane);
-  get(now + LANES * LANES_CHARGE, battery, 3, lane);
+  lanes_get(now, b->y, RIGID_N, lane);
+  lanes_get(now + LANES * LANES_CHARGE, battery, 3, lane);
   b->charge = battery[0];
   b->current_A = battery[1];
   b->vbat_V = battery[2];
@@ -194,7 +105,7 @@ void abreast_settle(abreast_t *a, int k, body_t *b) {
   a->ahead &= ~(1u << k);
   const lanes_at_t *const from = a->door->at(a->lanes);
   give_now(from->now, k, b);
-  get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
+  lanes_get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
   b->look.loaded = a->now_loaded;
 }
 
@@ -252,7 +163,7 @@ static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
 // Moves those of `in`, which are alike. Returns those that were moved.
 static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
                               lanes_seen_t *seen) {
-  const lanes_alike_t alike = alike_of(first);
+  const lanes_alike_t alike = lanes_alike(first);
   contacts_t touch[LANES] = {{.floor = 0}};
   a->door->set(a->lanes, &alike);
   for (int k = 0; k < LANES; k++) {
@@ -340,13 +251,11 @@ unsigned abreast_sense(abreast_t *a, lanes_truth_t *truth) {
 }
 
 abreast_t *abreast_open(int bits) {
-  static const lanes_numbers_t numbers = {RIGID_NUMBERS + ROTORS, TOUCH_NUMBERS, PLANT_NUMBERS, LOOK_NUMBERS,
-                                          BATTERY};
   if (bits == 0) return NULL;
   abreast_t *const a = calloc(1, sizeof *a);
   if (!a) return NULL;
-  a->door = bits == 512 ? &lanes_door_512 : &lanes_door_256;
-  a->lanes = a->door->open(&numbers);
+  a->door = lanes_door(bits);
+  a->lanes = lanes_open(a->door);
   if (a->lanes) return a;
   free(a);
   return NULL;

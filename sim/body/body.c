@@ -44,7 +44,7 @@ static void collect_effects(body_t *b) {
       b->excess_of |= body_surfaces_of(use);
     }
     if (use->fx->load) b->load[b->n_load++] = use;
-    b->n_tick += use->fx->tick != NULL;
+    if (use->fx->tick) b->tick[b->n_tick++] = use;
   }
 }
 

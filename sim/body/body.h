@@ -47,7 +47,7 @@ typedef struct {
   random_t *random;
   fx_plant_t untouched, plant; // the model's numbers, and what the effects made of them for this tick
   double memory[FX_MAX][FX_MEMORY];
-  const fx_use_t *excess[FX_MAX], *load[FX_MAX];
+  const fx_use_t *excess[FX_MAX], *load[FX_MAX], *tick[FX_MAX];
   int n_excess, n_load, n_tick;
   int excess_of;    // SURFACE_* that they have to do with
   int surfaces;     // TOUCH_* that are near enough to look at
@@ -144,8 +144,8 @@ void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body
 void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
 
-// How far the rotors are from ceiling and ground.
-fx_places_t body_places(const body_t *b);
+// Specific force at the centre of mass, body axes, and how the turning grows.
+d3_t body_pull_b_mps2(const body_t *b, const double *y, const body_look_t *look, d3_t *turn_radps2);
 
 // Places rotors and points of contact around a centre of mass that lies at cg, seen from the vehicle file's.
 void body_place(body_t *b, d3_t cg);

@@ -30,17 +30,7 @@ void body_look_load(const body_t *b, const double *y, body_look_t *look) {
 
 void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body_look_t *look) {
   const acting_t f = forces_of(b);
-  if (more->fx->excess) {
-    const fx_places_t at = forces_places(&f, body_surfaces_of(more), d3_of(y + RIGID_POS_M), &look->axes);
-    fx_add_excess(more, &at, look->ratio);
-    forces_speeds(&f, y, look);
-  }
-  if (!more->fx->load) return;
-  if (!look->loaded) look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  look->loaded = true;
-  fx_motion_t motion;
-  forces_motion(&f, y, look, &motion);
-  more->fx->load(more, &motion, &look->load);
+  forces_look_more(&f, more, y, look);
 }
 
 void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
@@ -55,10 +45,9 @@ void body_derivative(const body_t *b, int surfaces, const double *y, double *dyd
   forces_derivative(&f, y, &look, dydt);
 }
 
-fx_places_t body_places(const body_t *b) {
+d3_t body_pull_b_mps2(const body_t *b, const double *y, const body_look_t *look, d3_t *turn_radps2) {
   const acting_t f = forces_of(b);
-  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
-  return forces_places(&f, SURFACES, d3_of(b->y + RIGID_POS_M), &axes);
+  return forces_pull_b_mps2(&f, y, look, turn_radps2);
 }
 
 int body_near(const body_t *b, double span_s) {

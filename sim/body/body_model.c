@@ -39,49 +39,20 @@ fx_plant_t body_untouched(const model_t *m) {
                       .delay_s = m->frame.motor_delay_s};
 }
 
-// Divisions only where something has changed; whether it has.
-static bool take_inertia(rigid_t *r, const fx_plant_t *plant, d3_t J_kgm2) {
-  const d3_t was = r->inertia_kgm2;
-  if (r->mass_kg == plant->mass_kg && r->motor_tau_s == plant->motor_tau_s && was.x == J_kgm2.x &&
-      was.y == J_kgm2.y && was.z == J_kgm2.z)
-    return false;
-  r->inertia_kgm2 = J_kgm2;
-  r->mass_kg = plant->mass_kg;
-  r->motor_tau_s = plant->motor_tau_s;
-  rigid_tune(r);
-  return true;
-}
-
-static void place_rotors(const body_t *b, fx_place_t place[ROTORS]) {
-  const fx_places_t at = body_places(b);
-  for (int i = 0; i < ROTORS; i++)
-    place[i] = (fx_place_t){at.ceiling_gap_m[i], at.ground_gap_m[i], at.radius_m};
-}
-
 void body_effects(body_t *b, double span_s) {
-  const model_t *m = b->model;
   const d3_t cg_before = b->plant.cg_b_m;
-  b->plant = b->untouched;
-  for (int k = 0; k < m->n_fx; k++) {
-    const fx_t *const fx = m->fx[k].fx;
-    if (!fx->tick) continue;
-    fx_place_t place[ROTORS];
-    const bool placed = fx->needs & FX_NEEDS_POSITION;
-    if (placed) place_rotors(b, place);
-    const fx_tick_t tick = {.t_s = b->t_s,
-                            .span_s = span_s,
-                            .vbat_V = b->vbat_V,
-                            .thrust_N = b->y + RIGID_THRUST_N,
-                            .place = placed ? place : NULL,
-                            .random = b->random,
-                            .memory = b->memory[k]};
-    fx->tick(&m->fx[k], &tick, &b->plant);
-  }
-  const d3_t J = d3_of(m->frame.inertia_kgm2), grown = b->plant.inertia_scale;
-  b->changed += take_inertia(&b->rigid, &b->plant, d3(J.x * grown.x, J.y * grown.y, J.z * grown.z));
-  memcpy(b->rigid.thrust_scale, b->plant.thrust_scale, sizeof b->rigid.thrust_scale);
-  memcpy(b->rigid.torque_scale, b->plant.torque_scale, sizeof b->rigid.torque_scale);
-  memcpy(b->rigid.faster, b->plant.faster, sizeof b->rigid.faster);
+  const acting_t f = {.rigid = &b->rigid, .touch = &b->touch};
+  const forces_tick_t tick = {.use = b->tick,
+                              .n = b->n_tick,
+                              .untouched = &b->untouched,
+                              .inertia_kgm2 = d3_of(b->model->frame.inertia_kgm2),
+                              .t_s = b->t_s,
+                              .span_s = span_s,
+                              .vbat_V = b->vbat_V,
+                              .random = b->random,
+                              .memory = b->memory};
+  forces_plant(&f, &tick, b->y, &b->plant);
+  b->changed += forces_take_plant(&b->plant, tick.inertia_kgm2, &b->rigid);
   if (!(d3_norm(d3_sub(b->plant.cg_b_m, cg_before)) > 0.0)) return;
   body_place(b, b->plant.cg_b_m);
   b->changed++;

@@ -125,11 +125,89 @@ static inline void forces_look(const acting_t *f, int surfaces, const double *y,
   forces_load(f, surfaces, y, look);
 }
 
+// Adds what one effect more does to the rotors and the body.
+static inline void forces_look_more(const acting_t *f, const fx_use_t *more, const double *y,
+                                    body_look_t *look) {
+  if (more->fx->excess) {
+    const int surfaces = more->fx->surface ? more->fx->surface : SURFACES;
+    const fx_places_t at = forces_places(f, surfaces, d3_of(y + RIGID_POS_M), &look->axes);
+    fx_add_excess(more, &at, look->ratio);
+    forces_speeds(f, y, look);
+  }
+  if (!more->fx->load) return;
+  if (!look->loaded) look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  look->loaded = true;
+  fx_motion_t motion;
+  forces_motion(f, y, look, &motion);
+  more->fx->load(more, &motion, &look->load);
+}
+
 // dydt at state y, with what acts there.
 static inline void forces_derivative(const acting_t *f, const double *y, const body_look_t *look,
                                      double *dydt) {
   rigid_derivative(f->rigid, y, &look->axes, look->speed_radps, look->ratio, look->turning,
                    look->loaded ? &look->load : NULL, dydt);
+}
+
+// Specific force at the centre of mass, body axes, and how the turning grows.
+static inline d3_t forces_pull_b_mps2(const acting_t *f, const double *y, const body_look_t *look,
+                                      d3_t *turn_radps2) {
+  double dydt[RIGID_N];
+  forces_derivative(f, y, look, dydt);
+  *turn_radps2 = d3_of(dydt + RIGID_RATE_RADPS);
+  return axes_to_body(&look->axes,
+                      d3(dydt[RIGID_VEL_MPS], dydt[RIGID_VEL_MPS + 1], dydt[RIGID_VEL_MPS + 2] + G_MPS2));
+}
+
+// --- effects at the beginning of a tick ------------------------------------------------------------------
+
+typedef struct {
+  const fx_use_t *const *use; // those with that hook
+  int n;
+  const fx_plant_t *untouched; // the model's numbers
+  d3_t inertia_kgm2;           // the same
+  double t_s, span_s, vbat_V;
+  random_t *random;
+  double (*memory)[FX_MEMORY]; // of each
+} forces_tick_t;
+
+// What they make of the vehicle.
+static inline void forces_plant(const acting_t *f, const forces_tick_t *t, const double *y,
+                                fx_plant_t *plant) {
+  *plant = *t->untouched;
+  for (int k = 0; k < t->n; k++) {
+    const fx_t *const fx = t->use[k]->fx;
+    fx_place_t place[ROTORS];
+    const bool placed = fx->needs & FX_NEEDS_POSITION;
+    if (placed) {
+      const axes_t axes = axes_of(dq_of(y + RIGID_Q_WB));
+      const fx_places_t all = forces_places(f, SURFACES, d3_of(y + RIGID_POS_M), &axes);
+      for (int i = 0; i < ROTORS; i++)
+        place[i] = (fx_place_t){all.ceiling_gap_m[i], all.ground_gap_m[i], all.radius_m};
+    }
+    const fx_tick_t tick = {t->t_s, t->span_s, t->vbat_V, y + RIGID_THRUST_N, placed ? place : NULL,
+                            t->random, t->memory[k]};
+    fx->tick(t->use[k], &tick, plant);
+  }
+}
+
+// Divisions only where something has changed; whether it has.
+static inline bool forces_take_plant(const fx_plant_t *plant, d3_t inertia_kgm2, rigid_t *r) {
+  const d3_t was = r->inertia_kgm2, grown = plant->inertia_scale;
+  const d3_t J = d3(inertia_kgm2.x * grown.x, inertia_kgm2.y * grown.y, inertia_kgm2.z * grown.z);
+  const bool other = any_of(r->mass_kg != plant->mass_kg) || any_of(r->motor_tau_s != plant->motor_tau_s) ||
+                     any_of(was.x != J.x) || any_of(was.y != J.y) || any_of(was.z != J.z);
+  for (int i = 0; i < ROTORS; i++) {
+    r->thrust_scale[i] = plant->thrust_scale[i];
+    r->torque_scale[i] = plant->torque_scale[i];
+    r->faster[i] = plant->faster[i];
+  }
+  if (!other) return false;
+  r->inertia_kgm2 = J;
+  r->mass_kg = plant->mass_kg;
+  r->motor_tau_s = plant->motor_tau_s;
+  rigid_tune(r);
+  return true;
 }
 
 // --- looking ---------------------------------------------------------------------------------------------

@@ -38,6 +38,15 @@ void take_use(fx_use_t *use, int fx, int form) {
   use->form = form < 0 ? nullptr : curve_in_lanes[form];
 }
 
+// Of eight instants, what is found once.
+struct kept_t {
+  double y[RIGID_N], command_N[ROTORS], vbat_V, t_s;
+  body_look_t look;
+  double faster[ROTORS];
+  fx_sensed_t sight, sensed;
+  d3_t turn_radps2;
+};
+
 // What moves on.
 struct now_t {
   double y[RIGID_N], charge, current_A, vbat_V;
@@ -51,9 +60,13 @@ struct lanes {
   touch_t touch;
   fx_plant_t plant;
   d3_t push_w_N;
-  fx_use_t excess[FX_MAX], load[FX_MAX], sense[FX_MAX];
-  const fx_use_t *excess_at[FX_MAX], *load_at[FX_MAX];
-  int n_sense;
+  fx_use_t excess[FX_MAX], load[FX_MAX], sense[FX_MAX], tick[FX_MAX], more;
+  const fx_use_t *excess_at[FX_MAX], *load_at[FX_MAX], *tick_at[FX_MAX];
+  int n_sense, n_tick;
+  fx_plant_t untouched;
+  d3_t inertia_kgm2;
+  double memory[FX_MAX][FX_MEMORY];
+  kept_t instant;
   battery_param_t battery;
   sensed_from_t from;
   acting_t acting;
@@ -80,6 +93,8 @@ static lanes_t *open(const lanes_numbers_t *numbers_of_one) {
            .touch = numbers(&l->touch),
            .plant = numbers(&l->plant),
            .push_w_N = numbers(&l->push_w_N),
+           .untouched = numbers(&l->untouched),
+           .inertia = numbers(&l->inertia_kgm2),
            .battery = numbers(&l->battery),
            .open_V = numbers(l->battery.open_V),
            .sensed_from = numbers(&l->from),
@@ -90,6 +105,8 @@ static lanes_t *open(const lanes_numbers_t *numbers_of_one) {
     l->at.excess[k] = numbers(l->excess[k].p);
     l->at.load[k] = numbers(l->load[k].p);
     l->at.sense[k] = numbers(l->sense[k].p);
+    l->at.tick[k] = numbers(l->tick[k].p);
+    l->tick_at[k] = &l->tick[k];
     l->excess_at[k] = &l->excess[k];
     l->load_at[k] = &l->load[k];
   }
@@ -112,7 +129,11 @@ static void set(lanes_t *l, const lanes_alike_t *a) {
   for (int k = 0; k < a->n_excess; k++) take_use(&l->excess[k], a->excess[k], a->excess_form[k]);
   for (int k = 0; k < a->n_load; k++) take_use(&l->load[k], a->load[k], -1);
   for (int k = 0; k < a->n_sense; k++) take_use(&l->sense[k], a->sense[k], -1);
+  for (int k = 0; k < a->n_tick; k++) take_use(&l->tick[k], a->tick[k], -1);
   l->n_sense = a->n_sense;
+  l->n_tick = a->n_tick;
+  for (int k = 0; k < a->n_tick; k++)
+    for (int m = 0; m < FX_MEMORY; m++) l->memory[k][m] = 0.0;
   l->battery.n = a->n_open_V;
   l->span_s = a->span_s;
   l->acting =
@@ -185,8 +206,103 @@ static void sense(lanes_t *l, lanes_truth_t *truth) {
   lane_put(truth->up, axes_up_b(&l->look.axes).z);
 }
 
+// --- instants ----------------------------------------------------------------------------------------------
+
+// Who would need numbers of the instant before, or has its rotors elsewhere, leaves.
+static void act_at_ticks(lanes_t *l) {
+  kept_t *const i = &l->instant;
+  const d3_t cg = l->plant.cg_b_m;
+  const forces_tick_t tick = {l->tick_at, l->n_tick, &l->untouched, l->inertia_kgm2, i->t_s, l->span_s,
+                              i->vbat_V,  nullptr,   l->memory};
+  forces_plant(&l->acting, &tick, i->y, &l->plant);
+  forces_take_plant(&l->plant, l->inertia_kgm2, &l->rigid);
+  l->rigid.plain_lag = true; // they may have tuned it anew
+  unsigned other = (d3_norm(d3_sub(l->plant.cg_b_m, cg)) > 0.0).bits();
+  for (int k = 0; k < l->n_tick; k++)
+    for (int m = 0; m < FX_MEMORY; m++) other |= (l->memory[k][m] != 0.0).bits();
+  lanes_in &= ~other;
+}
+
+static void take_instants(lanes_t *l) {
+  for (int i = 0; i < ROTORS; i++) l->rigid.command_N[i] = l->instant.command_N[i];
+  if (l->n_tick > 0) act_at_ticks(l);
+}
+
+static void keep_faster(lanes_t *l) {
+  for (int i = 0; i < ROTORS; i++) l->instant.faster[i] = l->rigid.faster[i];
+}
+
+static void look(lanes_t *l, const lanes_instants_t *from, number_t up[LANES]) {
+  kept_t *const i = &l->instant;
+  for (int k = 0; k < RIGID_N; k++) i->y[k] = lane_of(from->y[k]);
+  for (int k = 0; k < ROTORS; k++) i->command_N[k] = lane_of(from->command_N[k]);
+  i->vbat_V = lane_of(from->vbat_V);
+  i->t_s = lane_of(from->t_s);
+  take_instants(l);
+  keep_faster(l);
+  forces_look(&l->acting, 0, i->y, &i->look);
+  lane_put(up, axes_up_b(&i->look.axes).z);
+}
+
+static void look_again(lanes_t *l, const void *kept, bool moved) {
+  kept_t *const i = &l->instant;
+  *i = *static_cast<const kept_t *>(kept);
+  take_instants(l);
+  for (int k = 0; k < ROTORS; k++) moved = moved || any_of(l->rigid.faster[k] != i->faster[k]);
+  keep_faster(l);
+  if (moved)
+    forces_look(&l->acting, 0, i->y, &i->look);
+  else
+    forces_load(&l->acting, 0, i->y, &i->look);
+}
+
+static void put_readings(const fx_sensed_t *sensed, d3_t turn, lanes_readings_t *to) {
+  const d3_t force = sensed->acc_b_mps2;
+  const double all[LANES_READINGS] = {force.x, force.y, force.z, turn.x, turn.y, turn.z, sensed->range_m};
+  for (int k = 0; k < LANES_READINGS; k++) lane_put(to->of[k], all[k]);
+}
+
+static void read_instants(lanes_t *l, const body_look_t *look, kept_t *i, lanes_readings_t *to) {
+  i->sensed = i->sight;
+  i->sensed.acc_b_mps2 = forces_pull_b_mps2(&l->acting, i->y, look, &i->turn_radps2);
+  for (int k = 0; k < l->n_sense; k++) l->sense[k].fx->sense(&l->sense[k], &i->sensed);
+  put_readings(&i->sensed, i->turn_radps2, to);
+}
+
+static void read(lanes_t *l, const lanes_sight_t *sight, lanes_readings_t *to) {
+  kept_t *const i = &l->instant;
+  if (sight) i->sight = {d3(0.0, 0.0, 0.0), lane_of(sight->range_m), lane_of(sight->range_rate_mps)};
+  read_instants(l, &i->look, i, to);
+}
+
+static std::size_t kept_bytes() {
+  return sizeof(kept_t);
+}
+
+static void keep(const lanes_t *l, void *kept) {
+  *static_cast<kept_t *>(kept) = l->instant;
+}
+
+static void read_more(lanes_t *l, const lanes_effect_t *more, const void *kept, lanes_readings_t *to) {
+  kept_t *const i = &l->instant;
+  *i = *static_cast<const kept_t *>(kept);
+  take_use(&l->more, more->fx, more->form);
+  for (int k = 0; k < FX_PARAM_MAX; k++) l->more.p[k] = more->p[k];
+  if (l->more.fx->sense) {
+    l->more.fx->sense(&l->more, &i->sensed);
+    put_readings(&i->sensed, i->turn_radps2, to);
+    return;
+  }
+  take_instants(l);
+  forces_look_more(&l->acting, &l->more, i->y, &i->look);
+  read_instants(l, &i->look, i, to);
+}
+
 #define DOOR                                                                                                 \
-  { open, close, at, set, begin, left, tick, derivative, gap, end, sense }
+  {                                                                                                          \
+    open, close, at, set, begin, left, tick, derivative, gap, end, sense, look, read, kept_bytes, keep,      \
+        look_again, read_more                                                                                \
+  }
 #else // nobody asks for more (lane_possible)
 #define DOOR                                                                                                 \
   {}

@@ -13,13 +13,15 @@ extern "C" {
 #endif
 
 #define LANES_EFFECTS 16 // FX_MAX
+#define LANES_PARAMS  8  // FX_PARAM_MAX
 
 typedef struct lanes lanes_t;
 
 // Where the numbers of a struct of one vehicle go, in its order; the other members stand in lanes_alike_t.
 typedef struct {
   double *rigid, *touch, *plant, *push_w_N;
-  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS]; // p of each effect
+  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS], *tick[LANES_EFFECTS]; // p of each
+  double *untouched, *inertia; // what effects at ticks begin with: a plant, and the vehicle file's inertia
   double *battery, *open_V;                                                   // before and behind its `n`
   double *sensed_from;
   double *now, *before; // y, charge, current, voltage: at the tick's end, and at its begin
@@ -45,8 +47,8 @@ typedef struct {
 // What is one and the same for all of them.
 typedef struct {
   bool lag_in_speed, plain_lag, ticks, pushed, looked, loaded; // looked: `look` is of y
-  int excess_of, n_excess, n_load, n_sense, n_open_V;
-  int excess[LANES_EFFECTS], load[LANES_EFFECTS], sense[LANES_EFFECTS]; // in fx_table
+  int excess_of, n_excess, n_load, n_sense, n_tick, n_open_V; // n_tick: 0 where bodies act at ticks themselves
+  int excess[LANES_EFFECTS], load[LANES_EFFECTS], sense[LANES_EFFECTS], tick[LANES_EFFECTS]; // in fx_table
   int excess_form[LANES_EFFECTS];                                       // in curve_table; -1: none
   double span_s;
 } lanes_alike_t;
@@ -60,6 +62,28 @@ typedef struct {
 typedef struct {
   double floor_m[LANES], ceiling_m[LANES];
 } lanes_gap_t;
+
+// --- instants (body/points.h) -----------------------------------------------------------------------------
+
+// Eight of them.
+typedef struct {
+  double y[LANES_CHARGE][LANES], command_N[4][LANES], vbat_V[LANES], t_s[LANES];
+} lanes_instants_t;
+
+// What a range sensor has in sight, and what perfect sensors read: specific force, turning, range.
+typedef struct {
+  double range_m[LANES], range_rate_mps[LANES];
+} lanes_sight_t;
+#define LANES_READINGS 7
+typedef struct {
+  double of[LANES_READINGS][LANES];
+} lanes_readings_t;
+
+// One effect more: its numbers in fx_table and curve_table (-1: no form), and p.
+typedef struct {
+  int fx, form;
+  double p[LANES_PARAMS];
+} lanes_effect_t;
 
 typedef struct {
   // Null: no memory, or a struct whose numbers do not lie one behind the other.
@@ -81,6 +105,18 @@ typedef struct {
   bool (*end)(lanes_t *l, lanes_seen_t *seen);
   // Before the next tick: what perfect sensors with their effects read.
   void (*sense)(lanes_t *l, lanes_truth_t *truth);
+  // What acts at instants, and the cosines of the tilt there. No surface is near.
+  void (*look)(lanes_t *l, const lanes_instants_t *at, double up[LANES]);
+  // What is read there. sight: of look(); null: of look_again().
+  void (*read)(lanes_t *l, const lanes_sight_t *sight, lanes_readings_t *to);
+  // Keeps both: so many bytes.
+  size_t (*kept_bytes)(void);
+  void (*keep)(const lanes_t *l, void *kept);
+  // As look(), of a vehicle with other effects at ticks than the one of which it was kept; the motors did the
+  // same. moved: its rotors are elsewhere.
+  void (*look_again)(lanes_t *l, const void *kept, bool moved);
+  // What is read with an effect more that adds to load or excess, or that acts on sensors.
+  void (*read_more)(lanes_t *l, const lanes_effect_t *more, const void *kept, lanes_readings_t *to);
 } lanes_door_t;
 
 // By registers of so many bits (lane_bits() of base/lane.h); the same bits come out.

@@ -4,7 +4,7 @@
 
 static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
   const double below_m = use->p[0] - sensed->range_m;
-  if (below_m > 0.0) sensed->range_m += use->p[1] * below_m;
+  sensed->range_m = where(below_m > 0.0, sensed->range_m + use->p[1] * below_m, sensed->range_m);
 }
 
 const fx_t fx_tof_floor = {

@@ -1,7 +1,7 @@
 // grid.c - a part of a flight on a coarser grid.
 #include "gap/2_predict/grid.h"
 
-#include "body/body.h"
+#include "body/points.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -240,6 +240,7 @@ void grid_free(grid_t *g) {
   for (int i = 0; i < GRID_MOTORS; i++) {
     free(g->motors[i].thrust_N[0]);
   }
+  points_close(g->eight);
   free(g->point);
   free(g->mark);
   *g = (grid_t){.n = 0};

@@ -56,6 +56,7 @@ typedef struct {
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];
   int motors_used;
+  struct points *eight; // room to look at eight points side by side, of one thread; null: none yet
 } grid_t;
 
 // The samples from..to-1 of a flight. BAD_INPUT: what the log lacks makes it useless; FAILED: no

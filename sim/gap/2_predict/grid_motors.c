@@ -5,6 +5,7 @@
 #include "gap/2_predict/grid.h"
 
 #include "base/pair.h"
+#include "body/points.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -151,11 +152,13 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
 
 grid_t grid_lend(const grid_t *g) {
   grid_t lent = *g;
+  lent.eight = NULL;
   for (int i = 0; i < GRID_MOTORS; i++) lent.motors[i].lent = lent.motors[i].thrust_N[0] != NULL;
   return lent;
 }
 
 void grid_give_back(grid_t *lent) {
+  points_close(lent->eight);
   for (int i = 0; i < GRID_MOTORS; i++)
     if (!lent->motors[i].lent) free(lent->motors[i].thrust_N[0]);
 }

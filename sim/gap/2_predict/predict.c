@@ -1,14 +1,14 @@
 // predict.c - measured state and logged commands through the model, one derivative at a time.
 #include "gap/2_predict/predict.h"
 
-#include "body/body.h"
+#include "gap/2_predict/eight.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 // --- one point --------------------------------------------------------------------------------------------
 
-static void place_body(body_t *b, const grid_point_t *p) {
+void predict_place(body_t *b, const grid_point_t *p) {
   d3_put(b->y + RIGID_POS_M, p->pos_w_m);
   d3_put(b->y + RIGID_VEL_MPS, p->vel_w_mps);
   b->y[RIGID_Q_WB] = p->q_wb.w;
@@ -28,27 +28,28 @@ static void place_motors(body_t *b, const lagged_t *motors, int j) {
 
 // The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
 // is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
-static void in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, const axes_t *axes,
-                     fx_sensed_t *sight) {
-  const double up = fmax(axes_up_b(axes).z, 0.1);
+void predict_sight(const grid_t *g, const model_t *m, const grid_point_t *p, double up, double *range_m,
+                   double *rate_mps) {
+  const double least = fmax(up, 0.1);
   const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
   const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);
   const double below_m = z_m - body_rest_z_m(m);
   const double side = g->range_up ? -1.0 : 1.0;
+  *range_m = (g->range_up ? above_m : below_m) / least;
+  *rate_mps = side * p->vel_w_mps.z / least;
+}
+
+static void in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, const axes_t *axes,
+                     fx_sensed_t *sight) {
   sight->acc_b_mps2 = d3(0.0, 0.0, 0.0);
-  sight->range_m = (g->range_up ? above_m : below_m) / up;
-  sight->range_rate_mps = side * p->vel_w_mps.z / up;
+  predict_sight(g, m, p, axes_up_b(axes).z, &sight->range_m, &sight->range_rate_mps);
 }
 
 // From `sight` on.
 static void predict(const body_t *b, passed_t *at) {
-  double dydt[RIGID_N];
-  body_derivative_seen(b, b->y, &at->look, dydt);
-  const d3_t pull = d3(dydt[RIGID_VEL_MPS], dydt[RIGID_VEL_MPS + 1], dydt[RIGID_VEL_MPS + 2] + G_MPS2);
   at->sensed = at->sight;
-  at->sensed.acc_b_mps2 = axes_to_body(&at->look.axes, pull);
+  at->sensed.acc_b_mps2 = body_pull_b_mps2(b, b->y, &at->look, &at->turn_radps2);
   model_sense(b->model, &at->sensed);
-  at->turn_radps2 = d3_of(dydt + RIGID_RATE_RADPS);
 }
 
 static void put(const fx_sensed_t *sensed, d3_t turn_radps2, int j, double *const out[CHANNELS]) {
@@ -102,25 +103,51 @@ static void look_at(const body_t *b, const grid_t *g, const path_t *known, int j
   in_sight(g, b->model, &g->point[j], &at->look.axes, &at->sight);
 }
 
-static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, double *const out[CHANNELS],
-                  why_t *why) {
-  place_body(b, &g->point[0]);
+static void pass(body_t *b, const grid_t *g, const lagged_t *motors, const path_t *known, int j,
+                 passed_t *at) {
+  predict_place(b, &g->point[j]);
+  b->t_s = g->point[j].t_s - g->point[0].t_s;
+  place_motors(b, motors, j);
+  if (b->n_tick > 0) body_effects(b, g->period_s);
+  b->rigid.plain_lag = true; // effects may have tuned it anew
+  look_at(b, g, known, j, at);
+  predict(b, at);
+}
+
+static void pass_alone(body_t *b, const grid_t *g, const lagged_t *motors, int j,
+                       double *const out[CHANNELS]) {
+  passed_t at;
+  pass(b, g, motors, NULL, j, &at);
+  put(&at.sensed, at.turn_radps2, j, out);
+}
+
+// At the first point. Null: no memory.
+static const lagged_t *start(grid_t *g, body_t *b) {
+  predict_place(b, &g->point[0]);
   if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
   const lag_t lag = rigid_lag(&b->rigid);
-  const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
+  return grid_motors(g, &lag, b->plant.delay_s);
+}
+
+static bool same_motors(const path_t *known, const body_t *b) {
+  const lag_t lag = rigid_lag(&b->rigid);
+  return known && grid_same_motors(&known->lag, known->delay_s, &lag, b->plant.delay_s);
+}
+
+static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, double *const out[CHANNELS],
+                  why_t *why) {
+  const lagged_t *const motors = start(g, b);
   if (!motors) return error_failed(why, "out of memory");
-  if (path) path->lag = lag, path->delay_s = b->plant.delay_s;
-  if (known && !grid_same_motors(&known->lag, known->delay_s, &lag, b->plant.delay_s)) known = NULL;
-  const double start_s = g->point[0].t_s;
+  if (path) path->lag = rigid_lag(&b->rigid), path->delay_s = b->plant.delay_s;
+  if (!same_motors(known, b)) known = NULL;
+  if (path ? eight_keep(g, b, motors, path, out) : known && eight_again(g, b, known, out)) return DONE;
+  if (!path && eight_replay(g, b, motors, pass_alone, out)) return DONE;
+  if (path && !(path->at = malloc((size_t)g->n * sizeof(passed_t))))
+    return error_failed(why, "out of memory");
+  if (known && !known->at) known = NULL;
   for (int j = 0; j < g->n; j++) {
     passed_t at;
-    place_body(b, &g->point[j]);
-    b->t_s = g->point[j].t_s - start_s;
-    place_motors(b, motors, j);
-    if (b->n_tick > 0) body_effects(b, g->period_s);
-    b->rigid.plain_lag = true; // effects may have tuned it anew
-    look_at(b, g, known, j, &at);
-    predict(b, &at);
+    pass(b, g, motors, known, j, &at);
     if (path) keep(path, b, &at, j);
     put(&at.sensed, at.turn_radps2, j, out);
   }
@@ -151,25 +178,21 @@ done_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *w
 
 done_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS], why_t *why) {
   const size_t n = (size_t)g->n + 1;
-  *path = (path_t){.model = m, .at = malloc(n * sizeof(passed_t)), .rigid = malloc(n * sizeof(rigid_t))};
-  if (!path->at || !path->rigid) return error_failed(why, "out of memory");
+  *path = (path_t){.model = m, .rigid = malloc(n * sizeof(rigid_t))};
+  if (!path->rigid) return error_failed(why, "out of memory");
   return replay_into(g, m, NULL, path, out, why);
 }
 
 void path_free(path_t *path) {
   free(path->at);
   free(path->rigid);
+  free(path->kept);
   *path = (path_t){.at = NULL};
 }
 
 // What moves the vehicle.
-static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t *more,
-                        double *const out[CHANNELS], why_t *why) {
-  place_body(b, &g->point[0]);
-  if (b->n_tick > 0) body_effects(b, g->period_s);
-  const lag_t lag = rigid_lag(&b->rigid);
-  const lagged_t *motors = grid_motors(g, &lag, b->plant.delay_s);
-  if (!motors) return error_failed(why, "out of memory");
+static void run_moved(const grid_t *g, body_t *b, const path_t *path, const lagged_t *motors,
+                      const fx_use_t *more, double *const out[CHANNELS]) {
   for (int j = 0, rigid = -1; j < g->n; j++) {
     passed_t at;
     const passed_t *const was = &path->at[j];
@@ -177,7 +200,7 @@ static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t
     at.look.load = was->look.load;
     at.look.loaded = was->look.loaded;
     at.sight = was->sight;
-    place_body(b, &g->point[j]);
+    predict_place(b, &g->point[j]);
     if (was->rigid != rigid) b->rigid = path->rigid[rigid = was->rigid];
     b->plant.air_w_mps = was->air_w_mps;
     place_motors(b, motors, j);
@@ -185,7 +208,6 @@ static done_t run_moved(grid_t *g, body_t *b, const path_t *path, const fx_use_t
     predict(b, &at);
     put(&at.sensed, at.turn_radps2, j, out);
   }
-  return DONE;
 }
 
 // What only its sensors see.
@@ -213,20 +235,30 @@ static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, doub
   return replay_into(g, &m, changes ? path : NULL, NULL, out, why);
 }
 
+// Either of the two. False: not from what was kept.
+static bool run_more(grid_t *g, body_t *b, const path_t *path, const lagged_t *motors, const fx_use_t *more,
+                     double *const out[CHANNELS]) {
+  if (eight_more(g, b, path, more, out)) return true;
+  if (!path->at) return false;
+  if (more->fx->sense)
+    run_sensed(g, path, more, out);
+  else
+    run_moved(g, b, path, motors, more, out);
+  return true;
+}
+
 done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
                    why_t *why) {
   const fx_t *const fx = more->fx;
   const bool moves = fx->load || fx->excess, full = path->model->n_fx == FX_MAX;
   if (fx->tick || moves == (fx->sense != NULL) || full || has(path->model, fx))
     return run_anew(g, path, more, out, why);
-  if (!moves) {
-    run_sensed(g, path, more, out);
-    return DONE;
-  }
   body_t b;
   if (g->n == 0) return DONE;
   TRY(open_body(&b, g, path->model, why));
-  const done_t status = run_moved(g, &b, path, more, out, why);
+  const lagged_t *const motors = start(g, &b);
+  const bool done = motors && run_more(g, &b, path, motors, more, out);
   body_close(&b);
-  return status;
+  if (!motors) return error_failed(why, "out of memory");
+  return done ? DONE : run_anew(g, path, more, out, why);
 }

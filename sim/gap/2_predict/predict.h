@@ -25,6 +25,8 @@ typedef struct {
   int n_rigid;
   lag_t lag; // that the motors had, with this delay
   double delay_s;
+  char *kept; // in place of `at`, eight points at a time (eight.h), so many bytes each; else null
+  size_t kept_bytes;
 } path_t;
 
 // As replay(), and keeps it. Free it, also on an error.
