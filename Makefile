@@ -128,6 +128,8 @@ $(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
 $(B)/src/firmware/telemetry.o $(B)/src/firmware/recorder.o: SEES = $(SEES_OF_APP) $(if $(FAST),-fno-lto)
 SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
 $(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
+# Eight numbers at a time (base/wide.h): nothing fused, whichever compiler.
+$(B)/sim/base/lsq_products.o: SEES = -Isim $(FLIGHT_FLAGS)
 $(B)/sim/crazyflie/%.o $(B)/sim/link/%.o $(B)/sim/drone/%.o $(B)/sim/desk/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest
@@ -163,7 +165,7 @@ $(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: SEES = $(LANES_CPP
 $(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: | $(LANES_SEEN)
 LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(AVX2)
 # They fly many vehicles at once, or form many columns.
-$(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP)
+$(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP) $(FLIGHT_FLAGS)
 
 define compile
 @$(begin)

@@ -209,8 +209,7 @@ static void sense(lanes_t *l, lanes_truth_t *truth) {
 // --- instants ----------------------------------------------------------------------------------------------
 
 // Who would need numbers of the instant before, or has its rotors elsewhere, leaves.
-static void act_at_ticks(lanes_t *l) {
-  kept_t *const i = &l->instant;
+static void act_at_ticks(lanes_t *l, const kept_t *i) {
   const d3_t cg = l->plant.cg_b_m;
   const forces_tick_t tick = {l->tick_at, l->n_tick, &l->untouched, l->inertia_kgm2, i->t_s, l->span_s,
                               i->vbat_V,  nullptr,   l->memory};
@@ -223,13 +222,9 @@ static void act_at_ticks(lanes_t *l) {
   lanes_in &= ~other;
 }
 
-static void take_instants(lanes_t *l) {
-  for (int i = 0; i < ROTORS; i++) l->rigid.command_N[i] = l->instant.command_N[i];
-  if (l->n_tick > 0) act_at_ticks(l);
-}
-
-static void keep_faster(lanes_t *l) {
-  for (int i = 0; i < ROTORS; i++) l->instant.faster[i] = l->rigid.faster[i];
+static void take_instants(lanes_t *l, const kept_t *i) {
+  for (int k = 0; k < ROTORS; k++) l->rigid.command_N[k] = i->command_N[k];
+  if (l->n_tick > 0) act_at_ticks(l, i);
 }
 
 static void look(lanes_t *l, const lanes_instants_t *from, number_t up[LANES]) {
@@ -238,22 +233,10 @@ static void look(lanes_t *l, const lanes_instants_t *from, number_t up[LANES]) {
   for (int k = 0; k < ROTORS; k++) i->command_N[k] = lane_of(from->command_N[k]);
   i->vbat_V = lane_of(from->vbat_V);
   i->t_s = lane_of(from->t_s);
-  take_instants(l);
-  keep_faster(l);
+  take_instants(l, i);
+  for (int k = 0; k < ROTORS; k++) i->faster[k] = l->rigid.faster[k];
   forces_look(&l->acting, 0, i->y, &i->look);
   lane_put(up, axes_up_b(&i->look.axes).z);
-}
-
-static void look_again(lanes_t *l, const void *kept, bool moved) {
-  kept_t *const i = &l->instant;
-  *i = *static_cast<const kept_t *>(kept);
-  take_instants(l);
-  for (int k = 0; k < ROTORS; k++) moved = moved || any_of(l->rigid.faster[k] != i->faster[k]);
-  keep_faster(l);
-  if (moved)
-    forces_look(&l->acting, 0, i->y, &i->look);
-  else
-    forces_load(&l->acting, 0, i->y, &i->look);
 }
 
 static void put_readings(const fx_sensed_t *sensed, d3_t turn, lanes_readings_t *to) {
@@ -262,17 +245,37 @@ static void put_readings(const fx_sensed_t *sensed, d3_t turn, lanes_readings_t 
   for (int k = 0; k < LANES_READINGS; k++) lane_put(to->of[k], all[k]);
 }
 
-static void read_instants(lanes_t *l, const body_look_t *look, kept_t *i, lanes_readings_t *to) {
-  i->sensed = i->sight;
-  i->sensed.acc_b_mps2 = forces_pull_b_mps2(&l->acting, i->y, look, &i->turn_radps2);
-  for (int k = 0; k < l->n_sense; k++) l->sense[k].fx->sense(&l->sense[k], &i->sensed);
-  put_readings(&i->sensed, i->turn_radps2, to);
+struct read_t {
+  fx_sensed_t sensed;
+  d3_t turn_radps2;
+};
+
+static read_t read_instants(const lanes_t *l, const kept_t *i, const body_look_t *look, lanes_readings_t *to) {
+  read_t is = {i->sight, {0.0, 0.0, 0.0}};
+  is.sensed.acc_b_mps2 = forces_pull_b_mps2(&l->acting, i->y, look, &is.turn_radps2);
+  for (int k = 0; k < l->n_sense; k++) l->sense[k].fx->sense(&l->sense[k], &is.sensed);
+  put_readings(&is.sensed, is.turn_radps2, to);
+  return is;
 }
 
 static void read(lanes_t *l, const lanes_sight_t *sight, lanes_readings_t *to) {
   kept_t *const i = &l->instant;
-  if (sight) i->sight = {d3(0.0, 0.0, 0.0), lane_of(sight->range_m), lane_of(sight->range_rate_mps)};
-  read_instants(l, &i->look, i, to);
+  i->sight = {d3(0.0, 0.0, 0.0), lane_of(sight->range_m), lane_of(sight->range_rate_mps)};
+  const read_t is = read_instants(l, i, &i->look, to);
+  i->sensed = is.sensed;
+  i->turn_radps2 = is.turn_radps2;
+}
+
+static void read_again(lanes_t *l, const void *kept, bool moved, lanes_readings_t *to) {
+  const kept_t *const i = static_cast<const kept_t *>(kept);
+  take_instants(l, i);
+  for (int k = 0; k < ROTORS; k++) moved = moved || any_of(l->rigid.faster[k] != i->faster[k]);
+  body_look_t look = i->look;
+  if (moved)
+    forces_look(&l->acting, 0, i->y, &look);
+  else
+    forces_load(&l->acting, 0, i->y, &look);
+  (void)read_instants(l, i, &look, to);
 }
 
 static std::size_t kept_bytes() {
@@ -284,24 +287,25 @@ static void keep(const lanes_t *l, void *kept) {
 }
 
 static void read_more(lanes_t *l, const lanes_effect_t *more, const void *kept, lanes_readings_t *to) {
-  kept_t *const i = &l->instant;
-  *i = *static_cast<const kept_t *>(kept);
+  const kept_t *const i = static_cast<const kept_t *>(kept);
   take_use(&l->more, more->fx, more->form);
   for (int k = 0; k < FX_PARAM_MAX; k++) l->more.p[k] = more->p[k];
   if (l->more.fx->sense) {
-    l->more.fx->sense(&l->more, &i->sensed);
-    put_readings(&i->sensed, i->turn_radps2, to);
+    fx_sensed_t sensed = i->sensed;
+    l->more.fx->sense(&l->more, &sensed);
+    put_readings(&sensed, i->turn_radps2, to);
     return;
   }
-  take_instants(l);
-  forces_look_more(&l->acting, &l->more, i->y, &i->look);
-  read_instants(l, &i->look, i, to);
+  take_instants(l, i);
+  body_look_t look = i->look;
+  forces_look_more(&l->acting, &l->more, i->y, &look);
+  read_instants(l, i, &look, to);
 }
 
 #define DOOR                                                                                                 \
   {                                                                                                          \
     open, close, at, set, begin, left, tick, derivative, gap, end, sense, look, read, kept_bytes, keep,      \
-        look_again, read_more                                                                                \
+        read_again, read_more                                                                                \
   }
 #else // nobody asks for more (lane_possible)
 #define DOOR                                                                                                 \

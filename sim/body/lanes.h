@@ -107,14 +107,14 @@ typedef struct {
   void (*sense)(lanes_t *l, lanes_truth_t *truth);
   // What acts at instants, and the cosines of the tilt there. No surface is near.
   void (*look)(lanes_t *l, const lanes_instants_t *at, double up[LANES]);
-  // What is read there. sight: of look(); null: of look_again().
+  // What is read where look() has looked.
   void (*read)(lanes_t *l, const lanes_sight_t *sight, lanes_readings_t *to);
   // Keeps both: so many bytes.
   size_t (*kept_bytes)(void);
   void (*keep)(const lanes_t *l, void *kept);
-  // As look(), of a vehicle with other effects at ticks than the one of which it was kept; the motors did the
+  // Both, of a vehicle with other effects at ticks than the one of which it was kept; the motors did the
   // same. moved: its rotors are elsewhere.
-  void (*look_again)(lanes_t *l, const void *kept, bool moved);
+  void (*read_again)(lanes_t *l, const void *kept, bool moved, lanes_readings_t *to);
   // What is read with an effect more that adds to load or excess, or that acts on sensors.
   void (*read_more)(lanes_t *l, const lanes_effect_t *more, const void *kept, lanes_readings_t *to);
 } lanes_door_t;

@@ -7,6 +7,7 @@
 struct points {
   const lanes_door_t *door;
   lanes_t *lanes;
+  lanes_effect_t more;
 };
 
 points_t *points_open(void) {
@@ -57,8 +58,9 @@ bool points_of(points_t *p, const body_t *b, double span_s) {
   return true;
 }
 
-bool points_know(const fx_use_t *use) {
-  return lanes_know_effect(use);
+bool points_more(points_t *p, const fx_use_t *more) {
+  p->more = lanes_effect(more);
+  return lanes_know_effect(more);
 }
 
 size_t points_kept_bytes(const points_t *p) {
@@ -86,14 +88,12 @@ void points_keep(const points_t *p, void *kept) {
 
 unsigned points_read_again(points_t *p, const void *kept, bool moved, int n, lanes_readings_t *to) {
   begin(p, n);
-  p->door->look_again(p->lanes, kept, moved);
-  p->door->read(p->lanes, NULL, to);
+  p->door->read_again(p->lanes, kept, moved, to);
   return p->door->left();
 }
 
-unsigned points_read_more(points_t *p, const fx_use_t *more, const void *kept, int n, lanes_readings_t *to) {
-  const lanes_effect_t effect = lanes_effect(more);
+unsigned points_read_more(points_t *p, const void *kept, int n, lanes_readings_t *to) {
   begin(p, n);
-  p->door->read_more(p->lanes, &effect, kept, to);
+  p->door->read_more(p->lanes, &p->more, kept, to);
   return p->door->left();
 }

@@ -16,8 +16,8 @@ void points_close(points_t *p);
 // is done (plain_lag). False: an effect is always looked at alone (body/abreast.h).
 bool points_of(points_t *p, const body_t *b, double span_s);
 
-// An effect that is not always looked at alone.
-bool points_know(const fx_use_t *use);
+// One effect more that does not act at ticks. False: it is always looked at alone.
+bool points_more(points_t *p, const fx_use_t *more);
 
 // So many bytes are kept of eight instants, at places that are multiples of POINTS_ALIGN.
 #define POINTS_ALIGN 64
@@ -35,7 +35,7 @@ void points_keep(const points_t *p, void *kept);
 // Both at instants that were kept of a vehicle that differs in its effects at ticks alone; the motors did the
 // same. moved: its rotors are elsewhere.
 unsigned points_read_again(points_t *p, const void *kept, bool moved, int n, lanes_readings_t *to);
-// What is read with one effect more that does not act at ticks, at instants that were kept of this vehicle.
-unsigned points_read_more(points_t *p, const fx_use_t *more, const void *kept, int n, lanes_readings_t *to);
+// What is read with the one more, at instants that were kept of this vehicle.
+unsigned points_read_more(points_t *p, const void *kept, int n, lanes_readings_t *to);
 
 #endif

@@ -112,11 +112,11 @@ bool eight_again(grid_t *g, body_t *b, const path_t *path, double *const out[CHA
 }
 
 bool eight_more(grid_t *g, body_t *b, const path_t *path, const fx_use_t *more, double *const out[CHANNELS]) {
-  if (!path->kept || !open_eight(g, b) || !points_know(more)) return false;
+  if (!path->kept || !open_eight(g, b) || !points_more(g->eight, more)) return false;
   for (int from = 0; from < g->n; from += LANES) {
     lanes_readings_t read;
     const char *const kept = path->kept + (size_t)(from / LANES) * path->kept_bytes;
-    if (points_read_more(g->eight, more, kept, in_group(g, from), &read) != all_in(g, from)) return false;
+    if (points_read_more(g->eight, kept, in_group(g, from), &read) != all_in(g, from)) return false;
     put_group(g, from, &read, out);
   }
   return true;

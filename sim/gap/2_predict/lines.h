@@ -32,7 +32,7 @@ typedef struct {
 static inline bool flight_lines_make(flight_lines_t *l, const set_t *s) {
   size_t most = 1;
   for (int f = 0; f < s->n_grid; f++) most = s->grid[f].n > (int)most ? (size_t)s->grid[f].n : most;
-  l->room = calloc((2 * CHANNELS + CH_SMOOTH) * most, sizeof(double));
+  l->room = calloc((2 * CHANNELS + RESIDUAL_SCRATCH) * most, sizeof(double));
   for (size_t c = 0; c < CHANNELS && l->room; c++) {
     l->base[c] = l->room + c * most;
     l->with[c] = l->room + (CHANNELS + c) * most;

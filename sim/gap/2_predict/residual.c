@@ -15,7 +15,7 @@ done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
     const size_t n = (size_t)g->n + 1;
-    double *const room = malloc((CHANNELS + CH_SMOOTH) * n * sizeof(double)), *series[CHANNELS];
+    double *const room = calloc((CHANNELS + RESIDUAL_SCRATCH) * n, sizeof(double)), *series[CHANNELS];
     if (!room) return error_failed(why, "out of memory");
     for (size_t ch = 0; ch < CHANNELS; ch++) series[ch] = room + ch * n;
     for (int j = 0; j < g->n; j++) {

@@ -13,7 +13,8 @@
 typedef enum { SERIES_PREDICTED, SERIES_RATE } series_t; // values, or a rate whose derivative is wanted
 
 // One flight, channel by channel by point, to that flight's rows. row: a null pointer where a channel is not
-// wanted. scratch: CH_SMOOTH numbers per point of the flight's grid. Of a smooth channel's numbers, those
+// wanted. scratch: RESIDUAL_SCRATCH numbers per point of the flight's grid, 0
+// or what an earlier call left. Of a smooth channel's numbers, those
 // below 1e-140 become 0.
 void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
                    double *scratch, double *const row[CHANNELS]);

@@ -2,79 +2,134 @@
 #include "gap/2_predict/residual.h"
 
 #include "base/lowpass.h"
-#include "base/pair.h"
+#include "base/wide.h"
 #include <math.h>
 
-#define TINY  1e-140
-#define PAIRS (CH_SMOOTH / 2)
+#define TINY 1e-140
+
+_Static_assert(CH_SMOOTH <= WIDE && (int)RESIDUAL_SCRATCH == WIDE, "all channels of a point are filtered at once");
 
 // --- the filter -------------------------------------------------------------------------------------------
 
-// A number that is almost nothing is nothing: what dies away in the filter would end where processors are
-// slow. One comparison: of two, joined, a compiler for SSE2 makes a way through four other registers.
-static inline pair_t not_tiny(pair_t y) {
-  const pair_t size = (pair_t)((pair_bits_t)y & INT64_MAX);
-  return (pair_t)((size > TINY) & (pair_bits_t)y);
+// Points that are filtered between two looks at whether a number has become almost nothing.
+#define CHUNK 32
+
+typedef struct {
+  wide_t x1, x2, y1, y2;
+} rest_t;
+
+// From point j on, in place. A number that is almost nothing is nothing: what dies away in the filter would
+// end where processors are slow. tidy: it is made so; else whether one was met.
+WIDE_INLINE bool filter(const lowpass_t *f, const unsigned char *mark, int starts, int j, int n, int way,
+                        bool tidy, double *v, rest_t *s) {
+  wide_bits_t met = {0};
+  for (; n > 0; n--, j += way) {
+    wide_t x;
+    WIDE_LOAD(x, v + WIDE * j);
+    if (mark[j] & starts) s->x1 = s->x2 = s->y1 = s->y2 = x;
+    wide_t y = f->b * (x + 2.0 * s->x1 + s->x2) - f->a1 * s->y1 - f->a2 * s->y2;
+    const wide_bits_t size = (wide_bits_t)y & INT64_MAX, tiny = (wide_t)size <= TINY;
+    if (tidy)
+      y = (wide_t)(~tiny & (wide_bits_t)y);
+    else
+      met |= tiny & size;
+    s->x2 = s->x1, s->x1 = x;
+    s->y2 = s->y1, s->y1 = y;
+    WIDE_PUT(v + WIDE * j, y);
+  }
+  bool any = false;
+  for (int k = 0; k < WIDE; k++) any = any || met[k] != 0;
+  return any;
 }
 
-// Forwards and backwards; every segment starts at rest. v: 2 * pairs numbers of every point, all at once: one
+// Forwards and backwards; every segment starts at rest. v: so many numbers of every point, all at once: one
 // alone would wait for itself.
-static inline void smooth(const grid_t *g, int pairs, double *v) {
-  pair_t x1[PAIRS] = {{0.0}}, x2[PAIRS] = {{0.0}}, y1[PAIRS] = {{0.0}}, y2[PAIRS] = {{0.0}};
-  lowpass_t f;
-  lowpass_init(&f, fmin(RESIDUAL_SMOOTH_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
+WIDE_COPIES static void smooth(const lowpass_t *f, const unsigned char *mark, int n, double *v) {
+  double before[WIDE * CHUNK];
   for (int way = 1; way >= -1; way -= 2) {
-    const int rest = way > 0 ? MARK_FIRST : MARK_LAST;
-    for (int j = way > 0 ? 0 : g->n - 1; j >= 0 && j < g->n; j += way) {
-      double *const at = v + 2 * pairs * j;
-      const bool starts = g->mark[j] & rest;
-      for (int k = 0; k < pairs; k++) {
-        const pair_t x = pair_of(at + 2 * k);
-        if (starts) x1[k] = x2[k] = y1[k] = y2[k] = x;
-        const pair_t y = not_tiny(f.b * (x + 2.0 * x1[k] + x2[k]) - f.a1 * y1[k] - f.a2 * y2[k]);
-        x2[k] = x1[k], x1[k] = x;
-        y2[k] = y1[k], y1[k] = y;
-        pair_put(at + 2 * k, y);
-      }
+    const int starts = way > 0 ? MARK_FIRST : MARK_LAST;
+    rest_t s = {.x1 = {0.0}};
+    for (int done = 0; done < n; done += CHUNK) {
+      const int points = n - done < CHUNK ? n - done : CHUNK, j = way > 0 ? done : n - 1 - done;
+      double *const low = v + WIDE * (way > 0 ? j : j - points + 1);
+      const rest_t begin = s;
+      memcpy(before, low, (size_t)points * sizeof(wide_t));
+      if (!filter(f, mark, starts, j, points, way, false, v, &s)) continue;
+      memcpy(low, before, (size_t)points * sizeof(wide_t));
+      s = begin;
+      (void)filter(f, mark, starts, j, points, way, true, v, &s);
     }
   }
 }
 
-// With numbers that the compiler knows, everything stays in registers.
-static void smooth_all(const grid_t *g, int pairs, double *v) {
-  if (pairs == 1) smooth(g, 1, v);
-  if (pairs == 2) smooth(g, 2, v);
-  if (pairs == 3) smooth(g, 3, v);
-}
-
 // --- rows -------------------------------------------------------------------------------------------------
 
-static double differentiated(const grid_t *g, const double *v, int j) {
-  const double next = g->mark[j] & MARK_LAST ? v[j] : v[j + 1];
-  const double before = g->mark[j] & MARK_FIRST ? v[j] : v[j - 1];
-  return (next - before) / (2.0 * g->period_s);
+// Of a point with its neighbours, at the end of a segment itself in their place: itself; how fast it changes;
+// the mean over the way from the point before to the point after, which is what a difference of the two sees.
+typedef enum { TAKE_SELF, TAKE_CHANGE, TAKE_MEAN } take_t;
+
+WIDE_INLINE double taken(take_t what, double before, double here, double next, double span_s) {
+  return what == TAKE_SELF     ? here
+         : what == TAKE_CHANGE ? (next - before) / span_s
+                               : (before + 4.0 * here + next) / 6.0;
 }
 
-// The mean over the way from the point before to the point after: what a difference of the two sees.
-static double over_two(const grid_t *g, const double *v, int j) {
+// What is masked does not spill over through the filter: the last value stands in for it.
+WIDE_INLINE double take_one(const grid_t *g, take_t what, int is_free, const double *v, int j, double last) {
   const double next = g->mark[j] & MARK_LAST ? v[j] : v[j + 1];
   const double before = g->mark[j] & MARK_FIRST ? v[j] : v[j - 1];
-  return (before + 4.0 * v[j] + next) / 6.0;
+  const double x = taken(what, before, v[j], next, 2.0 * g->period_s);
+  return isfinite(x) && (g->mark[j] & is_free) ? x : last;
 }
 
-// One channel to every `apart`-th number of `to`. What is masked does not spill over through the filter: the
-// last value stands in for it.
-static void take(const grid_t *g, int channel, series_t kind, const double *series, double *to, int apart) {
-  const int is_free = channel < CH_FORCES ? MARK_FREE : MARK_TURN_FREE;
-  double last = 0.0;
-  for (int j = 0; j < g->n; j++) {
-    const bool plain = channel < CH_FORCES && (kind == SERIES_RATE || !g->acceleration_made);
-    const double x = plain                      ? series[j]
-                     : kind == SERIES_PREDICTED ? over_two(g, series, j)
-                                                : differentiated(g, series, j);
-    if (isfinite(x) && (g->mark[j] & is_free)) last = x;
-    to[apart * j] = last;
+// All points there, and none at the end of a segment.
+WIDE_INLINE bool all_plain(const unsigned char *mark, int is_free) {
+  uint64_t marks;
+  memcpy(&marks, mark, sizeof marks);
+  const uint64_t each = 0x0101010101010101u;
+  return (marks & each * (uint64_t)(is_free | MARK_FIRST | MARK_LAST)) == each * (uint64_t)is_free;
+}
+
+// The points from..to-1. last: as it was before them, then as it is behind.
+WIDE_INLINE void take_some(const grid_t *g, take_t what, int is_free, int from, int to, const double *v,
+                           double *out, double *last) {
+  for (int j = from; j < to;) {
+    if (j + WIDE <= to && all_plain(g->mark + j, is_free)) {
+      double x[WIDE], nothing = 0.0; // NaN where one of them is not finite
+      for (int k = 0; k < WIDE; k++)
+        x[k] = what == TAKE_SELF
+                   ? v[j + k]
+                   : taken(what, v[j + k - 1], v[j + k], v[j + k + 1], 2.0 * g->period_s);
+      for (int k = 0; k < WIDE; k++) nothing += 0.0 * x[k];
+      if (!isnan(nothing)) {
+        for (int k = 0; k < WIDE; k++) out[WIDE * (j + k)] = x[k];
+        *last = x[WIDE - 1];
+        j += WIDE;
+        continue;
+      }
+    }
+    const int end = j + WIDE < to ? j + WIDE : to;
+    for (; j < end; j++) out[WIDE * j] = *last = take_one(g, what, is_free, v, j, *last);
   }
+}
+
+// So many channels, each to every eighth number of `out`; a few points of all of them after the other, for
+// they lie side by side there.
+WIDE_COPIES static void take(const grid_t *g, series_t kind, int n, const int *channel,
+                             const double *const *series, double *out) {
+  double last[CH_SMOOTH] = {0.0};
+  for (int from = 0; from < g->n; from += CHUNK)
+    for (int i = 0; i < n; i++) {
+      const int to = from + CHUNK < g->n ? from + CHUNK : g->n;
+      const bool force = channel[i] < CH_FORCES;
+      const double *const v = series[channel[i]];
+      if (force && (kind == SERIES_RATE || !g->acceleration_made))
+        take_some(g, TAKE_SELF, MARK_FREE, from, to, v, out + i, &last[i]);
+      else if (kind == SERIES_PREDICTED)
+        take_some(g, TAKE_MEAN, force ? MARK_FREE : MARK_TURN_FREE, from, to, v, out + i, &last[i]);
+      else
+        take_some(g, TAKE_CHANGE, force ? MARK_FREE : MARK_TURN_FREE, from, to, v, out + i, &last[i]);
+    }
 }
 
 // Rows of a flight from every `apart`-th number.
@@ -89,10 +144,10 @@ void residual_rows(const set_t *s, int flight, series_t kind, const double *cons
   int n = 0, wanted[CH_SMOOTH];
   for (int ch = 0; ch < CH_SMOOTH; ch++)
     if (row[ch]) wanted[n++] = ch;
-  const int pairs = (n + 1) / 2;
-  for (int i = 0; i < n; i++) take(g, wanted[i], kind, series[wanted[i]], scratch + i, 2 * pairs);
-  for (int j = 0; n % 2 && j < g->n; j++) scratch[2 * pairs * j + n] = 0.0;
-  smooth_all(g, pairs, scratch);
-  for (int i = 0; i < n; i++) pick(&s->smooth, flight, scratch + i, 2 * pairs, row[wanted[i]]);
+  take(g, kind, n, wanted, series, scratch);
+  lowpass_t f;
+  lowpass_init(&f, fmin(RESIDUAL_SMOOTH_HZ, 0.4 / g->period_s), 1.0 / g->period_s, 0.0);
+  if (n) smooth(&f, g->mark, g->n, scratch);
+  for (int i = 0; i < n; i++) pick(&s->smooth, flight, scratch + i, WIDE, row[wanted[i]]);
   if (row[CH_RANGE]) pick(&s->range, flight, series[CH_RANGE], 1, row[CH_RANGE]);
 }

@@ -7,6 +7,7 @@
 #define RESIDUAL_HZ        25.0
 #define RESIDUAL_SMOOTH_HZ 8   // cut-off of the rows' filter
 #define BLOCK_S            2.0 // what is taken to be independent
+#define RESIDUAL_SCRATCH   8   // numbers of a point in the filter (base/wide.h)
 
 // Rows of all flights, in order. Two lists: of the smooth channels, and of the range.
 typedef struct {

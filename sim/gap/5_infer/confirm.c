@@ -59,7 +59,7 @@ typedef struct {
 } replay_room_t;
 
 static bool replay_room(replay_room_t *r, size_t n) {
-  r->room = calloc((3 * CHANNELS + CH_SMOOTH) * (n + 1), sizeof(double));
+  r->room = calloc((3 * CHANNELS + RESIDUAL_SCRATCH) * (n + 1), sizeof(double));
   for (size_t ch = 0; r->room && ch < CHANNELS; ch++) {
     r->base[ch] = r->room + ch * (n + 1);
     r->with[ch] = r->room + (CHANNELS + ch) * (n + 1);

@@ -1,0 +1,29 @@
+// wide.h - eight numbers at a time in plain C, by the widest registers that the processor has: inner loops
+// over many rows. +, -, * and / act on all eight; the results are those of one at a time, to the bit, where
+// nothing is fused (-ffp-contract=off). An extension of C that gcc and clang share. Header only.
+#ifndef SIM_BASE_WIDE_H
+#define SIM_BASE_WIDE_H
+
+#include <stdint.h>
+#include <string.h>
+
+#define WIDE 8
+
+typedef double wide_t __attribute__((vector_size(64)));
+typedef int64_t wide_bits_t __attribute__((vector_size(64)));
+
+// Before a function: it is compiled once more for AVX2 and for AVX-512, and which one is called is found out
+// when the program starts. What it calls has to be inline (WIDE_INLINE).
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                \
+    !defined(WIDE_ONE_COPY)
+#define WIDE_COPIES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define WIDE_COPIES
+#endif
+#define WIDE_INLINE static inline __attribute__((always_inline))
+
+// By name and not by value: how a wide number is handed to a function differs from processor to processor.
+#define WIDE_LOAD(to, p) memcpy(&(to), (p), sizeof(wide_t))
+#define WIDE_PUT(p, from) memcpy((p), &(from), sizeof(wide_t))
+
+#endif
