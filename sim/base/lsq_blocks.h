@@ -16,6 +16,10 @@ extern "C" {
 void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
                       double *also);
 
+// The same for many rows (lsq_products.c): each sum goes over them in their order, which Eigen's does not, by
+// the widest registers there are. False: no memory.
+bool lsq_sum_products(int rows, int n, const double *const *X, const int *column, int size, double *G);
+
 // The best b (n numbers) for the regressors column[0..n-1] of G, whose size is `size` (the last is
 // explained). ridge (a null pointer for none): is added to the diagonal, by regressor of G. inverse: n x n,
 // or null. Returns the sum of squares that is left (without the ridge's share).

@@ -92,7 +92,7 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
     p->floor[ch] = rows ? sqrt(sum / rows) : 0.0;
   }
   if (p->first) find_misfit(p->misfit, s, &t, job->c);
-  done_t status = gram_make(&g, s, &t, &nothing, NULL, why);
+  done_t status = gram_make_total(&g, s, &t, &nothing, why);
   if (status == DONE) {
     memcpy(p->total, g.total, (size_t)(g.size * g.size) * sizeof(double));
     if (p->first) status = find_errors(p->kept, s, &t, g.color, truth, job, why);

@@ -177,6 +177,28 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return error_failed(why, "out of memory");
 }
 
+static bool sum_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
+  white_t w;
+  const bool good = white_make(&w, s, t, ch, &g->color[ch], NULL) &&
+                    lsq_sum_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size,
+                                     g->total);
+  white_free(&w);
+  return good;
+}
+
+done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, why_t *why) {
+  *g = (gram_t){.size = t->columns + 1};
+  g->total = calloc((size_t)(g->size * g->size), sizeof(double));
+  bool good = g->total != NULL;
+  for (int ch = 0; ch < CHANNELS && good; ch++) {
+    good = fit_color(g, s, t, ch, known);
+    if (good && g->color[ch].used) good = sum_channel(g, s, t, ch);
+  }
+  if (good) return DONE;
+  gram_free(g);
+  return error_failed(why, "out of memory");
+}
+
 done_t gram_renew(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, const bool *some,
                   why_t *why) {
   return fill_total(g, s, t, known, some) ? DONE : error_failed(why, "out of memory");
