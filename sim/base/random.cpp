@@ -1,12 +1,79 @@
 // random.cpp - repeatable noise from the C++ library's distributions.
 #include "base/random.h"
 
+#include "base/wide.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <new>
 
 namespace {
+
+constexpr int TOGETHER = 16; // pairs whose logarithms are taken one behind the other
+
+using unsigned_wide_t = uint64_t __attribute__((vector_size(64)));
+
+// Whole numbers below 2^32 as doubles, exactly: they are put behind the point of 2^52.
+WIDE_INLINE void whole(const unsigned_wide_t &bits, wide_t &x) {
+  x = (wide_t)(bits | 0x4330000000000000u) - 0x1p52;
+}
+
+// 2 c - 1 of c in [0, 1), as the library has it. Of either half of 64 bits a double is exact, so that the sum
+// alone is rounded.
+WIDE_COPIES void units_of(const uint64_t *bits, int n, double *unit) {
+  for (int i = 0; i < n; i += WIDE) {
+    unsigned_wide_t b;
+    wide_t high, low;
+    WIDE_LOAD(b, bits + i);
+    whole(b >> 32, high);
+    whole(b & 0xffffffffu, low);
+    const wide_t c = 0x1p-64 * (0x1p32 * high + low), most = c - c + (1.0 - 0x1p-53);
+    const wide_t x = 2.0 * (c < most ? c : most) - 1.0;
+    WIDE_PUT(unit + i, x);
+  }
+}
+
+double canonical(uint64_t b) {
+  const double all =
+      0x1p32 * static_cast<double>(b >> 32) + static_cast<double>(static_cast<int64_t>(b & 0xffffffffu));
+  return std::min(0x1p-64 * all, 1.0 - 0x1p-53);
+}
+
+// y times, x times, side by side.
+WIDE_COPIES void stretch(int n, const double *log, const double *square, const double *x, const double *y,
+                         double *out) {
+  double times[TOGETHER];
+  for (int k = 0; k < n; k++) times[k] = std::sqrt(-2.0 * log[k] / square[k]);
+  for (int k = 0; k < n; k++) {
+    out[2 * k] = y[k] * times[k];
+    out[2 * k + 1] = x[k] * times[k];
+  }
+}
+
+constexpr int N = 312, AHEAD = 156; // of the twister
+
+WIDE_INLINE uint64_t mixed(uint64_t high, uint64_t low, uint64_t ahead) {
+  const uint64_t x = (high & 0xffffffff80000000u) | (low & 0x7fffffffu);
+  return ahead ^ x >> 1 ^ (0xb5026f5aa96619e9u & -(low & 1));
+}
+
+WIDE_INLINE uint64_t tempered(uint64_t x) {
+  x ^= x >> 29 & 0x5555555555555555u;
+  x ^= x << 17 & 0x71d67fffeda60000u;
+  x ^= x << 37 & 0xfff7eee000000000u;
+  return x ^ x >> 43;
+}
+
+// All that come next, at once, some of them side by side.
+WIDE_COPIES void turn_all(uint64_t *state) {
+  for (int i = 0; i < N - AHEAD; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD]);
+  for (int i = N - AHEAD; i < N - 1; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD - N]);
+  state[N - 1] = mixed(state[N - 1], state[0], state[AHEAD - 1]);
+}
+WIDE_COPIES void temper_all(const uint64_t *state, uint64_t *out) {
+  for (int i = 0; i < N; i++) out[i] = tempered(state[i]);
+}
 
 // std::mt19937_64, number for number. The library's has a branch for every number, which is taken half of the
 // time, and costs three times as much.
@@ -14,8 +81,8 @@ class twister {
 public:
   explicit twister(uint64_t seed) {
     state[0] = seed;
-    for (unsigned i = 1; i < N; i++)
-      state[i] = 6364136223846793005u * (state[i - 1] ^ state[i - 1] >> 62) + i;
+    for (int i = 1; i < N; i++)
+      state[i] = 6364136223846793005u * (state[i - 1] ^ state[i - 1] >> 62) + static_cast<uint64_t>(i);
   }
 
   uint64_t operator()() {
@@ -23,43 +90,41 @@ public:
     return out[next++];
   }
 
+  // The same as a number in [-1, 1).
+  double unit() {
+    if (next == N) turn();
+    if (!spread) spread_out();
+    return units[next++];
+  }
+
+  // So many of the next ones, all at hand; how many there are.
+  int at_hand() {
+    if (next == N) turn();
+    if (!spread) spread_out();
+    return N - next;
+  }
+  const double *first() const { return &units[next]; }
+  void take(int n) { next += n; }
+
 private:
-  static constexpr unsigned N = 312, AHEAD = 156;
   std::array<uint64_t, N> state, out;
-  unsigned next = N;
+  std::array<double, N> units;
+  int next = N;
+  bool spread = false; // units are those of out
 
-  static uint64_t mixed(uint64_t high, uint64_t low, uint64_t ahead) {
-    const uint64_t x = (high & 0xffffffff80000000u) | (low & 0x7fffffffu);
-    return ahead ^ x >> 1 ^ (0xb5026f5aa96619e9u & -(low & 1));
+  // All at once, side by side: who draws normal numbers draws many.
+  void spread_out() {
+    units_of(out.data(), N, units.data());
+    spread = true;
   }
 
-  static uint64_t tempered(uint64_t x) {
-    x ^= x >> 29 & 0x5555555555555555u;
-    x ^= x << 17 & 0x71d67fffeda60000u;
-    x ^= x << 37 & 0xfff7eee000000000u;
-    return x ^ x >> 43;
-  }
-
-  // All that come next, at once: two of them side by side.
   void turn() {
-    for (unsigned i = 0; i < N - AHEAD; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD]);
-    for (unsigned i = N - AHEAD; i < N - 1; i++)
-      state[i] = mixed(state[i], state[i + 1], state[i + AHEAD - N]);
-    state[N - 1] = mixed(state[N - 1], state[0], state[AHEAD - 1]);
-    for (unsigned i = 0; i < N; i++) out[i] = tempered(state[i]);
+    turn_all(state.data());
+    temper_all(state.data(), out.data());
     next = 0;
+    spread = false;
   }
 };
-
-// In [0, 1), as the library has it. A processor without AVX-512 makes a double of 64 bits by a branch that is
-// taken half of the time; of either half it is exact without one, so that the sum alone is rounded.
-inline double canonical(uint64_t b) {
-  const double all = 0x1p32 * static_cast<double>(static_cast<int64_t>(b >> 32)) +
-                     static_cast<double>(static_cast<int64_t>(b & 0xffffffffu));
-  return std::min(0x1p-64 * all, 1.0 - 0x1p-53);
-}
-
-constexpr int TOGETHER = 16; // pairs whose logarithms are taken one behind the other
 
 } // namespace
 
@@ -68,24 +133,30 @@ struct noise_source {
   twister bits;
   bool keeps = false; // the second one of a pair
   double kept = 0.0;
+  std::array<double, TOGETHER> x, y, square, logs; // of points, while they are drawn
 
   // Number for number those of std::normal_distribution (Marsaglia's polar method): each point in the unit
   // circle gives two. A point outside is drawn over, without a branch.
   int pairs(int wanted, double *out) {
-    double x[TOGETHER], y[TOGETHER], square[TOGETHER];
-    for (int k = 0; k < wanted;) {
-      x[k] = 2.0 * canonical(bits()) - 1.0;
-      y[k] = 2.0 * canonical(bits()) - 1.0;
-      square[k] = x[k] * x[k] + y[k] * y[k];
-      k += static_cast<int>(square[k] <= 1.0) & static_cast<int>(square[k] != 0.0);
+    int n_in = 0;
+    const auto draw = [&](double a, double b) {
+      x[n_in] = a;
+      y[n_in] = b;
+      square[n_in] = a * a + b * b;
+      n_in += static_cast<int>(square[n_in] <= 1.0) & static_cast<int>(square[n_in] != 0.0);
+    };
+    while (n_in < wanted) {
+      const int there = bits.at_hand() / 2;
+      const double *const unit = bits.first();
+      int n = 0;
+      for (; n < there && n_in < wanted; n++) draw(unit[2 * n], unit[2 * n + 1]);
+      bits.take(2 * n);
+      if (n > 0) continue;
+      const double a = bits.unit(), b = bits.unit(); // one of them is of the next turn
+      draw(a, b);
     }
-    double log[TOGETHER];
-    for (int k = 0; k < wanted; k++) log[k] = std::log(square[k]);
-    for (int k = 0; k < wanted; k++) {
-      const double times = std::sqrt(-2.0 * log[k] / square[k]);
-      out[2 * k] = y[k] * times;
-      out[2 * k + 1] = x[k] * times;
-    }
+    for (int k = 0; k < wanted; k++) logs[k] = std::log(square[k]);
+    stretch(wanted, logs.data(), square.data(), x.data(), y.data(), out);
     return 2 * wanted;
   }
 

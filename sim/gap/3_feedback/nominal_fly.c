@@ -14,13 +14,15 @@
 #define MASK_S  0.4 // until what it does is its own again
 #define PUT_S   3.0 // more often it cannot fly there
 
-// Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model.
+// Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model. What a step
+// leaves of them is a parameter, for all steps are alike.
 static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
   const double *p = use->p;
   double *const m = t->memory, normal[6];
   random_normals(t->random, 6, normal);
   for (int k = 0; k < 2; k++) {
-    const double keep = m[6] > 0.0 ? exp(-t->span_s / p[6 + k]) : 0.0, fresh = sqrt(1.0 - keep * keep);
+    const double kept = t->span_s > 0.0 ? p[6 + k] : 1.0;
+    const double keep = m[6] > 0.0 ? kept : 0.0, fresh = sqrt(1.0 - keep * keep);
     for (int i = 3 * k; i < 3 * k + 3; i++) m[i] = keep * m[i] + p[i] * fresh * normal[i];
   }
   m[6] = 1.0;
@@ -30,14 +32,14 @@ static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
 
 static const fx_t disturb = {.name = "disturbance", .n_param = FX_PARAM_MAX, .tick = tick};
 
-static done_t disturbed(const model_t *m, const closed_loop_t *w, model_t *out, why_t *why) {
+static done_t disturbed(const model_t *m, const closed_loop_t *w, double step_s, model_t *out, why_t *why) {
   fx_use_t use = {.fx = &disturb};
   for (int i = 0; i < 3; i++) {
     use.p[i] = m->mass_kg * w->force_mps2[i];
     use.p[3 + i] = m->frame.inertia_kgm2[i] * w->turn_radps2[i];
   }
-  use.p[6] = w->force_tau_s;
-  use.p[7] = w->turn_tau_s;
+  use.p[6] = exp(-step_s / w->force_tau_s);
+  use.p[7] = exp(-step_s / w->turn_tau_s);
   *out = *m;
   return model_add_fx(out, &use, why);
 }
@@ -185,10 +187,14 @@ static bool goes_on(const nominal_flight_t *f) {
   return f->at > f->from && f->g->point[f->at].segment != f->g->point[f->at - 1].segment;
 }
 
+static double step_of(const grid_t *g) {
+  const double log_s = g->period_s / g->every;
+  return log_s / nominal_steps(log_s);
+}
+
 static done_t fly(nominal_flight_t *f, why_t *why) {
-  const double log_s = f->g->period_s / f->g->every;
+  const double log_s = f->g->period_s / f->g->every, step_s = step_of(f->g);
   const int inner = nominal_steps(log_s), per_point = f->g->every;
-  const double step_s = log_s / inner;
   double motor_N[ROTORS] = {0.0};
   f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);
   f->vel_keeps = decay_of(&f->w->slow_vel_mps, step_s);
@@ -284,7 +290,7 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, un
   grid_t track = *g;
   *flight = (gap_flight_t){.n = 0};
   if (truth) *truth = (gap_flight_t){.n = 0};
-  TRY(disturbed(m, w, &with, why));
+  TRY(disturbed(m, w, step_of(g), &with, why));
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_set(why, "%s: it does not fly", g->flight->name);

@@ -79,6 +79,13 @@ static d3_t rate_grows(nominal_flight_t *f, d3_t rate_radps, double step_s) {
   return isfinite(before.x) ? d3_scale(1.0 / step_s, d3_sub(rate_radps, before)) : d3(0.0, 0.0, 0.0);
 }
 
+// All calls of a flight are as far apart.
+static double quick_share(nominal_flight_t *f, double step_s) {
+  if (f->call_s != step_s) f->quick = 1.0 - exp(-step_s / QUICK_S);
+  f->call_s = step_s;
+  return f->quick;
+}
+
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]) {
   const closed_loop_t *w = f->w;
@@ -95,7 +102,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
                        w->rate_gain[2] * (YAW * yaw - rate.z) - w->rate_lead[2] * grows.z);
   const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
-  const double share = 1.0 - exp(-step_s / QUICK_S);
+  const double share = quick_share(f, step_s);
   f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
   f->load_slow += share * (load - f->load_slow);
   hold(f, load + lead * (load - f->load_slow),
