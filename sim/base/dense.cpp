@@ -20,13 +20,6 @@ VectorXd dense_apply(const MatrixXd &A, const VectorXd &b) {
   return A * b;
 }
 
-MatrixXd dense_gram(const MatrixXd &A) {
-  MatrixXd products(A.cols(), A.cols());
-  products.triangularView<Eigen::Upper>() = A.transpose() * A;
-  products.triangularView<Eigen::StrictlyLower>() = products.transpose();
-  return products;
-}
-
 MatrixXd dense_scaled(const MatrixXd &A, const VectorXd &scale) {
   return scale.asDiagonal() * A * scale.asDiagonal();
 }

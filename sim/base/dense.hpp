@@ -12,9 +12,6 @@ using Eigen::VectorXd;
 MatrixXd dense_product(const MatrixXd &A, const MatrixXd &B);
 VectorXd dense_apply(const MatrixXd &A, const VectorXd &b);
 
-// A' A, symmetric to the bit.
-MatrixXd dense_gram(const MatrixXd &A);
-
 // diag(scale) A diag(scale)
 MatrixXd dense_scaled(const MatrixXd &A, const VectorXd &scale);
 

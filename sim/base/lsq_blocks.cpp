@@ -9,16 +9,6 @@
 using matrix_t = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using view_t = Eigen::Map<const matrix_t>;
 
-void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
-                      double *also) {
-  MatrixXd x(rows, n);
-  for (int j = 0; j < n; j++) x.col(j) = Eigen::Map<const VectorXd>(X[j], rows);
-  const MatrixXd products = dense_gram(x);
-  for (double *to : {G, also})
-    for (int i = 0; to && i < n; i++)
-      for (int j = 0; j < n; j++) to[column[i] * size + column[j]] += products(j, i);
-}
-
 static void take(const double *G, int size, const int *column, int n, MatrixXd &A, VectorXd &c) {
   const view_t all(G, size, size);
   A.resize(n, n);

@@ -1,4 +1,5 @@
-// lsq_blocks.h - least squares from sums of products (Eigen and Boost.Math behind a C header).
+// lsq_blocks.h - least squares from sums of products (Eigen and Boost.Math behind a C header, but for the
+// sums).
 //
 // A sum of products G has n + 1 rows and columns, row by row: those of the n regressors and, last, of what
 // they are to explain.
@@ -12,13 +13,10 @@ extern "C" {
 #endif
 
 // Adds the products of some columns. X: column number j starts at X[j], `rows` numbers; column[j]: which one
-// of G it is. also: gets them too, or null.
-void lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
+// of G it is. also: gets them too, or null. By the widest registers there are, with the same bits
+// (lsq_products.c). False: no memory.
+bool lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
                       double *also);
-
-// The same for many rows (lsq_products.c): each sum goes over them in their order, which Eigen's does not, by
-// the widest registers there are. False: no memory.
-bool lsq_sum_products(int rows, int n, const double *const *X, const int *column, int size, double *G);
 
 // The best b (n numbers) for the regressors column[0..n-1] of G, whose size is `size` (the last is
 // explained). ridge (a null pointer for none): is added to the diagonal, by regressor of G. inverse: n x n,

@@ -61,15 +61,16 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
 static bool add_half(gram_t *g, const rows_t *r, int ch, int half, const white_t *w) {
   const size_t room = (size_t)(g->size * g->size);
   const double **from = malloc(((size_t)w->n + 1) * sizeof(double *));
-  for (int i = 0, end; from && i < r->n; i = end) {
+  bool good = from != NULL;
+  for (int i = 0, end; good && i < r->n; i = end) {
     for (end = i; end < r->n && r->block[end] == r->block[i];) end++;
     if (g->half[r->block[i]] != half) continue;
     for (int k = 0; k < w->n; k++) from[k] = w->x[k] + i;
-    lsq_add_products(end - i, w->n, from, w->column, g->size, g->block + (size_t)r->block[i] * room,
-                     g->by_group[group_of(ch)] + (size_t)half * room);
+    good = lsq_add_products(end - i, w->n, from, w->column, g->size, g->block + (size_t)r->block[i] * room,
+                            g->by_group[group_of(ch)] + (size_t)half * room);
   }
   free(from);
-  return from != NULL;
+  return good;
 }
 
 static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
@@ -87,11 +88,11 @@ static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
 static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some,
                       double *total) {
   white_t w;
-  const bool made = white_make(&w, s, t, ch, &g->color[ch], some);
-  if (made)
-    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size, total, NULL);
+  const bool good = white_make(&w, s, t, ch, &g->color[ch], some) &&
+                    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size,
+                                     total, NULL);
   white_free(&w);
-  return made;
+  return good;
 }
 
 static void add_blocks(gram_t *g) {
@@ -177,22 +178,13 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return error_failed(why, "out of memory");
 }
 
-static bool sum_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
-  white_t w;
-  const bool good = white_make(&w, s, t, ch, &g->color[ch], NULL) &&
-                    lsq_sum_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size,
-                                     g->total);
-  white_free(&w);
-  return good;
-}
-
 done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, why_t *why) {
   *g = (gram_t){.size = t->columns + 1};
   g->total = calloc((size_t)(g->size * g->size), sizeof(double));
   bool good = g->total != NULL;
   for (int ch = 0; ch < CHANNELS && good; ch++) {
     good = fit_color(g, s, t, ch, known);
-    if (good && g->color[ch].used) good = sum_channel(g, s, t, ch);
+    if (good && g->color[ch].used) good = add_total(g, s, t, ch, NULL, g->total);
   }
   if (good) return DONE;
   gram_free(g);
