@@ -10,6 +10,8 @@
 #define WIDE 8
 
 typedef double wide_t __attribute__((vector_size(64)));
+typedef double four_t __attribute__((vector_size(32))); // of every rotor one
+typedef int64_t four_bits_t __attribute__((vector_size(32)));
 typedef int64_t wide_bits_t __attribute__((vector_size(64)));
 
 // Before a function: it is compiled once more for AVX2 and for AVX-512, and which one is called is found out

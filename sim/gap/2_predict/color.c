@@ -1,6 +1,7 @@
 // color.c - an autoregression of second order per channel.
 #include "gap/2_predict/color.h"
 
+#include "base/wide.h"
 #include <math.h>
 
 #define ROWS_MIN 40
@@ -39,10 +40,14 @@ color_t color_plain(const rows_t *r, const double *v) {
   return (color_t){.sd = r->n ? sqrt(squares / r->n) : 0.0, .used = c.used};
 }
 
+WIDE_COPIES static void whiten_all(double a1, double a2, double per_sd, int n, const double *v, double *out) {
+  for (int i = 2; i < n; i++) out[i] = per_sd * (v[i] - a1 * v[i - 1] - a2 * v[i - 2]);
+}
+
 void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
-  const double per_sd = 1.0 / c->sd;
+  whiten_all(c->a1, c->a2, 1.0 / c->sd, r->n, v, out);
   for (int i = 0; i < r->n; i++)
-    out[i] = color_reaches(r, i) ? per_sd * (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) : 0.0;
+    if (!color_reaches(r, i)) out[i] = 0.0;
 }
 
 double color_left(const rows_t *r, const color_t *c, const double *v) {

@@ -4,24 +4,16 @@
 // its own command acts (without a lag: with it); a row that is a mean has the mean over its hold.
 #include "gap/2_predict/grid.h"
 
-#include "base/pair.h"
+#include "base/wide.h"
 #include "body/points.h"
 #include <math.h>
 #include <stdlib.h>
 
-// One number of every rotor.
-typedef double forces_t[ROTORS];
-
-// By sample; they are wanted `shift` samples before.
+// By sample, of every rotor; they are wanted `shift` samples before.
 typedef struct {
-  forces_t *thrust_N, *rise_Nps;
+  four_t *thrust_N, *rise_Nps;
   double shift;
 } history_t;
-
-// A rotor and what it does in one row's hold.
-typedef struct {
-  double thrust_N, rise_Nps, end; // end: what follows, when the hold is over
-} hold_t;
 
 // What a hold leaves of a distance, while the rotor speeds up and while it slows down.
 typedef struct {
@@ -32,55 +24,73 @@ static keep_t keep_of(const lag_t *lag, double rate_Hz) {
   return (keep_t){exp(-1.0 / (rate_Hz * lag->up_s)), exp(-1.0 / (rate_Hz * lag->down_s))};
 }
 
-static hold_t hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean, double start,
-                   double command_N) {
-  const double to = lag_follows(lag, command_N), tau_s = lag_s(lag, start, to);
-  if (lag_is_none(lag)) return (hold_t){command_N, 0.0, to};
-  const double keep = to > start ? left->up : left->down, off = start - to;
-  const double end = to + keep * off, rise = (to - start) / tau_s;
-  const double now_N = lag_thrust_N(lag, start), end_N = lag_thrust_N(lag, end);
-  if (!mean) return (hold_t){now_N, lag->in_speed ? 2.0 * start * rise : rise, end};
+WIDE_INLINE void choose(const four_bits_t *holds, double a, double b, four_t *to) {
+  const four_t all_a = {a, a, a, a}, all_b = {b, b, b, b};
+  *to = (four_t)((*holds & (four_bits_t)all_a) | (~*holds & (four_bits_t)all_b));
+}
+
+// What every rotor does in one row's hold; now: what follows, before and then behind it.
+WIDE_INLINE void hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean, const four_t *command_N,
+                      four_t *now, four_t *thrust_N, four_t *rise_Nps) {
+  const bool in_speed = lag->in_speed;
+  const four_t start = *now;
+  four_t to = *command_N, tau_s, keep;
+  for (int k = 0; in_speed && k < ROTORS; k++) to[k] = lag_follows(lag, to[k]);
+  const four_bits_t speeds_up = to > start;
+  choose(&speeds_up, lag->up_s, lag->down_s, &tau_s);
+  choose(&speeds_up, left->up, left->down, &keep);
+  const four_t off = start - to, end = to + keep * off, rise = (to - start) / tau_s;
+  const four_t now_N = in_speed ? start * start : start, end_N = in_speed ? end * end : end;
+  *now = end;
+  if (!mean) {
+    *thrust_N = now_N;
+    *rise_Nps = in_speed ? 2.0 * start * rise : rise;
+    return;
+  }
   // Of to + off exp(-t / tau), and of its square.
-  const double once = tau_s * rate_Hz * (1.0 - keep), twice = 0.5 * tau_s * rate_Hz * (1.0 - keep * keep);
-  const double mean_N = lag->in_speed ? to * to + 2.0 * to * off * once + off * off * twice : to + off * once;
-  return (hold_t){mean_N, (end_N - now_N) * rate_Hz, end};
+  const four_t once = tau_s * rate_Hz * (1.0 - keep), twice = 0.5 * tau_s * rate_Hz * (1.0 - keep * keep);
+  *thrust_N = in_speed ? to * to + 2.0 * to * off * once + off * off * twice : to + off * once;
+  *rise_Nps = (end_N - now_N) * rate_Hz;
+}
+
+WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
+  const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  const keep_t left = keep_of(lag, g->flight->rate_Hz);
+  const double rate_Hz = g->flight->rate_Hz;
+  const bool none = lag_is_none(lag);
+  four_t now = {0.0};
+  for (int i = 0; i < g->samples; i++) {
+    const four_t command_N = {g->command_N[0][i], g->command_N[1][i], g->command_N[2][i], g->command_N[3][i]};
+    if (none) {
+      h->thrust_N[i] = command_N;
+      h->rise_Nps[i] = (four_t){0.0};
+      continue;
+    }
+    if (i == 0 || (segment && segment[i] != segment[i - 1]))
+      for (int k = 0; k < ROTORS; k++) now[k] = lag_follows(lag, command_N[k]);
+    hold(lag, &left, rate_Hz, mean, &command_N, &now, &h->thrust_N[i], &h->rise_Nps[i]);
+  }
 }
 
 // A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold
 // waits for the one before.
-static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
-  const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
-  const keep_t left = keep_of(lag, g->flight->rate_Hz);
-  const double rate_Hz = g->flight->rate_Hz;
-  const bool means = g->flight->rows_are_means;
-  double now[ROTORS] = {0.0};
-  for (int i = 0; i < g->samples; i++) {
-    const bool starts = i == 0 || (segment && segment[i] != segment[i - 1]);
-    for (int k = 0; k < ROTORS; k++) {
-      const double command_N = g->command_N[k][i];
-      if (starts) now[k] = lag_follows(lag, command_N);
-      const hold_t row = hold(lag, &left, rate_Hz, means, now[k], command_N);
-      h->thrust_N[i][k] = row.thrust_N;
-      h->rise_Nps[i][k] = row.rise_Nps;
-      now[k] = row.end;
-    }
-  }
-}
-
-static pair_t between(forces_t *v, int low, double share, int k) {
-  const pair_t a = pair_of(v[low] + 2 * k);
-  return share > 0.0 ? a + share * (pair_of(v[low + 1] + 2 * k) - a) : a;
+WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
+  if (g->flight->rows_are_means)
+    follow_all(g, lag, true, h);
+  else
+    follow_all(g, lag, false, h);
 }
 
 // Adds what the thrusts were at sample i - shift of the samples first..last, and how fast they rose.
-static void look_back(const history_t *h, int first, int last, int i, pair_t thrust_N[2],
-                      pair_t rise_Nps[2]) {
-  const double at = fmin(fmax((double)i - h->shift, (double)first), (double)last);
+WIDE_INLINE void look_back(const history_t *h, int first, int last, int i, four_t *thrust_N,
+                           four_t *rise_Nps) {
+  const double wanted = (double)i - h->shift, from = wanted > first ? wanted : first;
+  const double at = from < last ? from : last;
   const int low = (int)at;
-  for (int k = 0; k < 2; k++) {
-    thrust_N[k] += between(h->thrust_N, low, at - low, k);
-    rise_Nps[k] += between(h->rise_Nps, low, at - low, k);
-  }
+  const double share = at - low;
+  const four_t *const thrust = h->thrust_N + low, *const rise = h->rise_Nps + low;
+  *thrust_N += share > 0.0 ? thrust[0] + share * (thrust[1] - thrust[0]) : thrust[0];
+  *rise_Nps += share > 0.0 ? rise[0] + share * (rise[1] - rise[0]) : rise[0];
 }
 
 static int last_of_segment(const grid_t *g, int i) {
@@ -90,7 +100,7 @@ static int last_of_segment(const grid_t *g, int i) {
   return i;
 }
 
-static void average(const grid_t *g, const history_t *h, lagged_t *m) {
+WIDE_COPIES static void average(const grid_t *g, const history_t *h, lagged_t *m) {
   const gap_flight_t *f = g->flight;
   int i = 0, first = 0, last = last_of_segment(g, 0);
   for (int j = 0; j < g->n; j++) {
@@ -98,11 +108,11 @@ static void average(const grid_t *g, const history_t *h, lagged_t *m) {
     while (f->segment && f->segment[g->from + i] != f->segment[g->from + i + g->every - 1]) i++;
     if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
     if (i > last) last = last_of_segment(g, i);
-    pair_t thrust_N[2] = {{0.0, 0.0}, {0.0, 0.0}}, rise_Nps[2] = {{0.0, 0.0}, {0.0, 0.0}};
-    for (int k = i; k < i + g->every; k++) look_back(h, first, last, k, thrust_N, rise_Nps);
+    four_t thrust_N = {0.0}, rise_Nps = {0.0};
+    for (int k = i; k < i + g->every; k++) look_back(h, first, last, k, &thrust_N, &rise_Nps);
     for (int k = 0; k < ROTORS; k++) {
-      m->thrust_N[k][j] = thrust_N[k / 2][k % 2] / g->every;
-      m->rise_Nps[k][j] = rise_Nps[k / 2][k % 2] / g->every;
+      m->thrust_N[k][j] = thrust_N[k] / g->every;
+      m->rise_Nps[k][j] = rise_Nps[k] / g->every;
     }
     i += g->every;
   }
@@ -132,7 +142,7 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
   lagged_t *const m = place_of(g);
   const size_t n = (size_t)g->n;
   if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
-  forces_t *const room = malloc(2 * (size_t)g->samples * sizeof *room);
+  four_t *const room = aligned_alloc(sizeof(four_t), 2 * ((size_t)g->samples + 1) * sizeof *room);
   if (!m->thrust_N[0] || !room) {
     free(room);
     return NULL;
