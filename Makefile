@@ -127,9 +127,8 @@ $(B)/src/firmware/%.o: SEES = $(SEES_OF_APP)
 # Logs, parameters and events are listed in the linker's order: a program that is optimised as a whole would shuffle them.
 $(B)/src/firmware/telemetry.o $(B)/src/firmware/recorder.o: SEES = $(SEES_OF_APP) $(if $(FAST),-fno-lto)
 SEES_OF_APP = $(FLIGHT_FLAGS) -Iinclude -Isim/crazyflie -include here.h
-$(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim
-# Eight numbers at a time (base/wide.h): nothing fused, whichever compiler.
-$(B)/sim/base/lsq_products.o $(B)/sim/base/random.o: SEES = -Isim $(FLIGHT_FLAGS) -fno-math-errno
+$(foreach room,base plant effects vehicle body sense,$(B)/sim/$(room)/%.o): SEES = -Isim $(FLIGHT_FLAGS)
+$(B)/sim/base/random.o: SEES = -Isim $(FLIGHT_FLAGS) -fno-math-errno
 $(B)/sim/crazyflie/%.o $(B)/sim/link/%.o $(B)/sim/drone/%.o $(B)/sim/desk/%.o: SEES = -Iinclude -Isrc -Isim -Isim/crazyflie
 $(B)/test/unit/src/firmware/%.o: SEES = -Iinclude -Isrc -Isim -Itest -Isim/crazyflie
 $(B)/test/pil/%.o: SEES = -Iinclude -Isrc -Isim/crazyflie -Isim -Itest

@@ -1,6 +1,7 @@
 // integrate.c - SUNDIALS ERKStep, and a Runge-Kutta step by hand as its cross-check.
 #include "plant/integrate.h"
 
+#include "base/wide.h"
 #include "base/error.h"
 #include "plant/short_vector.h"
 #include <arkode/arkode_erkstep.h>
@@ -24,7 +25,7 @@ struct integrate {
 // --- by hand ------------------------------------------------------------------------------------------
 
 // next may be y.
-static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
+WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
   const int n = ode->n;
   double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
   ode->derivative(ode->context, y, k1);
