@@ -128,15 +128,10 @@ static done_t sum_up(part_t *p, why_t *why) {
   return status;
 }
 
-// Flown side by side, then each by itself.
-static void do_parts(part_t *part, int n) {
-  (void)side_by_side(n, fly, part);
-  for (int k = 0; k < n; k++) {
-    part_t *const p = &part[k];
-    if (p->status == DONE) p->status = sum_up(p, &p->why);
-    for (int f = 0; p->seen.flight && f < 2 * p->job->set->n_grid; f++) gap_flight_free(&p->seen.flight[f]);
-    free(p->seen.flight);
-  }
+static void end_part(part_t *p) {
+  if (p->status == DONE) p->status = sum_up(p, &p->why);
+  for (int f = 0; p->seen.flight && f < 2 * p->job->set->n_grid; f++) gap_flight_free(&p->seen.flight[f]);
+  free(p->seen.flight);
 }
 
 static int threads(void) {
@@ -147,7 +142,8 @@ static int threads(void) {
 #endif
 }
 
-// What errors make of a size is told by the first flight that could be flown.
+// Flown side by side, then each by itself. What errors make of a size is told by the first flight that could
+// be flown.
 static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
   const size_t room = (size_t)(n->size * n->size);
   const int share = side_by_side_share(NOMINAL_FLIGHTS, threads());
@@ -160,12 +156,15 @@ static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_jo
                        .first = i == 0};
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < NOMINAL_FLIGHTS; i += share)
-    do_parts(&part[i], i + share < NOMINAL_FLIGHTS ? share : NOMINAL_FLIGHTS - i);
+    (void)side_by_side(i + share < NOMINAL_FLIGHTS ? share : NOMINAL_FLIGHTS - i, fly, &part[i]);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++) end_part(&part[i]);
   int first = 0;
   while (first < NOMINAL_FLIGHTS && part[first].status == BAD_INPUT) first++;
   if (first == 0 || first == NOMINAL_FLIGHTS) return;
   part[first].first = true;
-  do_parts(&part[first], 1);
+  fly(part, first);
+  end_part(&part[first]);
 }
 
 // In their order, those that could be flown.
