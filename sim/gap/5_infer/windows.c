@@ -1,5 +1,5 @@
 // windows.c - in which part of a coordinate, or of the floor, a residual is largest.
-#include "gap/5_infer/windows.h"
+#include "gap/5_infer/windows_cut.h"
 
 #include "base/nth.h"
 #include "base/wide.h"
@@ -21,9 +21,6 @@ enum {
 _Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX, "every cut has room");
 
 // --- bins -------------------------------------------------------------------------------------------------
-
-// Bins of equally many rows each, or of equal width.
-typedef enum { BY_ROWS, BY_WIDTH, CUTS } cut_t;
 
 // The bin of every row, and the edges (bins + 1). False: the coordinate is not there or does not move.
 static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *parted, int *bin,
@@ -48,14 +45,10 @@ static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *pa
   return true;
 }
 
-// A list's rows: 0: smooth, 1: range.
-static const rows_t *rows_of(const set_t *s, int list) {
-  return list ? &s->range : &s->smooth;
-}
 
 static bool find_bins(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
                       double *room, int *bin, double *edge) {
-  const rows_t *r = rows_of(s, list);
+  const rows_t *r = windows_rows(s, list);
   if (r->n < ROWS * bins) return false;
   for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
   return cut_bins(room, r->n, bins, cut, room + r->n, bin, edge);
@@ -63,7 +56,7 @@ static bool find_bins(const set_t *s, const model_t *m, int coordinate, int list
 
 // --- kept -------------------------------------------------------------------------------------------------
 
-static const int KEPT_BINS[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = WINDOW_FINE};
+const int windows_cut_in[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = WINDOW_FINE};
 
 typedef struct {
   bool there;
@@ -86,10 +79,10 @@ done_t windows_keep(set_t *s, const model_t *m, why_t *why) {
   int *const bin = malloc(most * sizeof(int));
   unsigned char *to = s->cuts ? s->cuts->room : NULL;
   for (int i = 0; s->cuts && room && bin && i < COORDINATES * 2 * CUTS; i++) {
-    const int list = i / CUTS % 2, n = rows_of(s, list)->n;
+    const int list = i / CUTS % 2, n = windows_rows(s, list)->n;
     kept_t *const k = &s->cuts->of[i / CUTS / 2][list][i % CUTS];
     k->there =
-        find_bins(s, m, i / CUTS / 2, list, KEPT_BINS[i % CUTS], (cut_t)(i % CUTS), room, bin, k->edge);
+        find_bins(s, m, i / CUTS / 2, list, windows_cut_in[i % CUTS], (cut_t)(i % CUTS), room, bin, k->edge);
     k->bin = to;
     for (int r = 0; k->there && r < n; r++) to[r] = (unsigned char)bin[r];
     to += n;
@@ -100,19 +93,19 @@ done_t windows_keep(set_t *s, const model_t *m, why_t *why) {
   return good ? DONE : error_failed(why, "out of memory");
 }
 
-static bool bins_of(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
-                    double *room, int *bin, double *edge) {
-  if (!s->cuts || bins != KEPT_BINS[cut])
+bool windows_cut(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
+                 double *room, int *bin, double *edge) {
+  if (!s->cuts || bins != windows_cut_in[cut])
     return find_bins(s, m, coordinate, list, bins, cut, room, bin, edge);
   const kept_t *const k = &s->cuts->of[coordinate][list][cut];
-  for (int i = 0; k->there && i < rows_of(s, list)->n; i++) bin[i] = k->bin[i];
+  for (int i = 0; k->there && i < windows_rows(s, list)->n; i++) bin[i] = k->bin[i];
   memcpy(edge, k->edge, ((size_t)bins + 1) * sizeof(double));
   return k->there;
 }
 
 bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
   double edge[WINDOW_BINS + 1];
-  return bins_of(s, m, coordinate, list, WINDOW_BINS, BY_ROWS, room, bin, edge);
+  return windows_cut(s, m, coordinate, list, WINDOW_BINS, BY_ROWS, room, bin, edge);
 }
 
 // --- sums -------------------------------------------------------------------------------------------------
@@ -165,45 +158,29 @@ static void add_products(products_t *p, int bins, const rows_t *r, const color_t
   }
 }
 
-// Sums over the bins of a window.
-typedef struct {
-  double y, own, cross;
-} inside_t;
 
-static void take_in(inside_t *w, const products_t *p, int k, const int *before, int n) {
+static void take_in(window_sums_t *w, const products_t *p, int k, const int *before, int n) {
   w->y += p->y[k];
   w->cross += p->D[k][p->bins];
   w->own += p->D[k][k];
   for (int i = 0; i < n; i++) w->own += 2.0 * p->D[before[i]][k];
 }
 
-// The estimate and its distance from zero. False: no row tells it from a constant.
-static bool judge(const products_t *p, bool centred, const inside_t *w, double *size, double *statistic) {
-  const double all = p->D[p->bins][p->bins];
-  if (!(all > 0.0)) return false;
-  const double share = centred ? w->cross / all : 0.0;
-  const double y = w->y - share * p->y[p->bins], own = w->own - share * w->cross;
-  if (!(own > 1e-3 * w->own)) return false;
-  *size = y / own;
-  *statistic = fabs(y) / sqrt(own);
-  return true;
+static bool judge(const products_t *p, bool centred, const window_sums_t *w, double *size, double *statistic) {
+  const window_sums_t all = {p->y[p->bins], p->D[p->bins][p->bins], 0.0};
+  return windows_judge(&all, centred, w, size, statistic);
 }
 
 // Whether its statistic is surely below `best`, found without a division or a root: of nearly all windows it
 // is. per_all: 1 over the sum of squares of the constant, 0 where it is not asked for. The margins are a
 // thousand times the rounding.
-WIDE_INLINE bool is_below(const products_t *p, double per_all, const inside_t *w, double best) {
+WIDE_INLINE bool is_below(const products_t *p, double per_all, const window_sums_t *w, double best) {
   const double share = w->cross * per_all, taken = share * p->y[p->bins];
   const double y = fabs(w->y - taken) + 1e-12 * (fabs(w->y) + fabs(taken)), own = w->own - share * w->cross;
   return own > 2e-3 * w->own && y * y < (1.0 - 1e-9) * best * best * own;
 }
 
-// --- along one coordinate ---------------------------------------------------------------------------------
-
-typedef struct {
-  int from, to; // bins, both ends inside
-  double size, statistic;
-} window_t;
+// --- windows ---------------------------------------------------------------------------------
 
 // Of the first bins, windows of so many. False: none is better than *best.
 WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins, int shortest, int longest,
@@ -213,7 +190,7 @@ WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins,
   bool better = false;
   const double per_all = centred ? 1.0 / p->D[p->bins][p->bins] : 0.0;
   for (int from = 0; from < bins; from++) {
-    inside_t w = {0.0, 0.0, 0.0};
+    window_sums_t w = {0.0, 0.0, 0.0};
     const int end = from + longest < bins ? from + longest : bins;
     for (int k = from; k < end; k++) column[k] = 0.0;
     for (int to = from; to < end; to++) {
@@ -231,38 +208,6 @@ WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins,
   return better;
 }
 
-static void try_windows(const products_t *p, bool centred, int channel, int coordinate, const double *edge,
-                        cell_t *cell) {
-  window_t best = {.statistic = cell->statistic};
-  if (!best_window(p, centred, p->bins, 1, p->bins / 2, &best)) return;
-  *cell = (cell_t){.channel = channel,
-                   .along = coordinate,
-                   .coordinate = coordinate_name(coordinate),
-                   .unit = coordinate_unit(coordinate),
-                   .from = edge[best.from],
-                   .to = edge[best.to + 1],
-                   .size = best.size,
-                   .statistic = best.statistic,
-                   .explained = best.statistic * best.statistic,
-                   .last = best.to + 1 == p->bins};
-}
-
-void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
-  products_t p;
-  double edge[BINS_MAX + 1];
-  for (int i = 0; i < 2 * CUTS; i++) {
-    const int list = i / CUTS;
-    const cut_t cut = (cut_t)(i % CUTS);
-    const int bins = KEPT_BINS[cut];
-    if (!bins_of(l->s, l->m, coordinate, list, bins, cut, l->room, l->bin, edge)) continue;
-    for (int ch = list ? CH_RANGE : 0; ch < (list ? CHANNELS : CH_SMOOTH); ch++) {
-      if (!l->color[ch].used) continue;
-      add_products(&p, bins, rows_of(l->s, list), &l->color[ch], l->residual[ch], l->bin);
-      try_windows(&p, l->centred, ch, coordinate, edge, &cell[ch]);
-    }
-  }
-}
-
 // --- on the floor -----------------------------------------------------------------------------------------
 
 // Bins by rows each way; both ends are inside.
@@ -272,7 +217,7 @@ typedef struct {
 } patch_t;
 
 static void judge_patch(const products_t *p, bool centred, patch_t at, patch_t *best) {
-  inside_t w = {0.0, 0.0, 0.0};
+  window_sums_t w = {0.0, 0.0, 0.0};
   int in[BINS_MAX], n = 0;
   for (int x = at.x; x <= at.x_to; x++)
     for (int y = at.y; y <= at.y_to; y++) {
@@ -359,8 +304,8 @@ void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
   f.bin = f.y + n;
   f.parts = enough < PARTS ? enough : PARTS;
   const int bins = STRIPS * f.parts;
-  if (bins < 1 || !bins_of(l->s, l->m, COORDINATE_X, 0, bins, BY_ROWS, l->room, f.x, f.x_edge) ||
-      !bins_of(l->s, l->m, COORDINATE_Y, 0, bins, BY_ROWS, l->room, f.y, f.y_edge))
+  if (bins < 1 || !windows_cut(l->s, l->m, COORDINATE_X, 0, bins, BY_ROWS, l->room, f.x, f.x_edge) ||
+      !windows_cut(l->s, l->m, COORDINATE_Y, 0, bins, BY_ROWS, l->room, f.y, f.y_edge))
     return;
   for (int ch = 0; ch < CH_SMOOTH; ch++)
     if (l->color[ch].used) look_at_floor(&f, ch, &cell[ch]);

@@ -33,7 +33,7 @@ typedef struct {
   double *const *residual; // by channel and row
   const color_t *color;
   bool centred;
-  double *room; // twice as many numbers as rows
+  double *room; // ten times as many numbers as rows
   int *bin;     // three times as many
 } look_t;
 
