@@ -4,6 +4,7 @@
 #include "gap/2_predict/lines.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void measured(const grid_point_t *p, double at[CHANNELS]) {
   d3_put(at, p->acc_b_mps2);
@@ -11,7 +12,10 @@ static void measured(const grid_point_t *p, double at[CHANNELS]) {
   at[CH_RANGE] = p->range_m;
 }
 
-done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why) {
+done_t residual_keep_measured(set_t *s, why_t *why) {
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (!(s->measured[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double))))
+      return error_failed(why, "out of memory");
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
     const size_t n = (size_t)g->n + 1;
@@ -23,10 +27,15 @@ done_t residual_measured(const set_t *s, double *const row[CHANNELS], why_t *why
       measured(&g->point[j], at);
       for (int ch = 0; ch < CHANNELS; ch++) series[ch][j] = at[ch];
     }
-    residual_rows(s, f, SERIES_RATE, (const double *const *)series, room + CHANNELS * n, row);
+    residual_rows(s, f, SERIES_RATE, (const double *const *)series, room + CHANNELS * n, s->measured);
     free(room);
   }
   return DONE;
+}
+
+void residual_measured(const set_t *s, double *const row[CHANNELS]) {
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (row[ch]) memcpy(row[ch], s->measured[ch], (size_t)set_rows(s, ch)->n * sizeof(double));
 }
 
 bool residual_has(const set_t *s, int channel) {
@@ -42,7 +51,7 @@ bool residual_has(const set_t *s, int channel) {
 // As measured in r, less predicted.
 static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
                             double *const r[CHANNELS], why_t *why) {
-  TRY(residual_measured(s, r, why));
+  residual_measured(s, r);
   for (int f = 0; f < s->n_grid; f++) {
     TRY(replay(&s->grid[f], m, l->base, why));
     residual_rows(s, f, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);

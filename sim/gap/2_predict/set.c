@@ -1,5 +1,5 @@
 // set.c - which points of flights become rows.
-#include "gap/2_predict/set.h"
+#include "gap/2_predict/residual.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -116,7 +116,7 @@ done_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
     add_flight(s, i, good);
   }
   free(good);
-  if (s->smooth.n > 0) return DONE;
+  if (s->smooth.n > 0) return residual_keep_measured(s, why);
   return n ? no_rows(&grid[0], why) : error_set(why, "no flight");
 }
 
@@ -132,7 +132,22 @@ void set_free(set_t *s) {
   free(s->grid);
   rows_free(&s->smooth);
   rows_free(&s->range);
+  for (int ch = 0; ch < CHANNELS; ch++) free(s->measured[ch]);
   free(s->half);
   free(s->cuts);
   *s = (set_t){.n_grid = 0};
+}
+
+done_t set_lend(const set_t *s, set_t *lent, why_t *why) {
+  *lent = *s;
+  lent->grid = malloc(((size_t)s->n_grid + 1) * sizeof *lent->grid);
+  if (!lent->grid) return error_failed(why, "out of memory");
+  for (int i = 0; i < s->n_grid; i++) lent->grid[i] = grid_lend(&s->grid[i]);
+  return DONE;
+}
+
+void set_give_back(set_t *lent) {
+  for (int i = 0; lent->grid && i < lent->n_grid; i++) grid_give_back(&lent->grid[i]);
+  free(lent->grid);
+  lent->grid = NULL;
 }

@@ -26,6 +26,7 @@ typedef struct {
   int n_half;
   bool excluded[CHANNELS]; // excluded.h
   double command_Hz;       // how often the motors were commanded; 0: nobody said
+  double *measured[CHANNELS]; // by channel and row (residual.h)
   struct cuts *cuts;       // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;
 
@@ -41,6 +42,11 @@ static inline size_t set_most_rows(const set_t *s) {
 // Takes the grids over. BAD_INPUT: no row at all (says why); FAILED: no memory. *s can be freed then.
 MUST_CHECK done_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
 void set_free(set_t *s);
+
+// The same set for one thread beside others: its grids are lent (grid_lend). FAILED: no memory. Give it back,
+// also on an error.
+MUST_CHECK done_t set_lend(const set_t *s, set_t *lent, why_t *why);
+void set_give_back(set_t *lent);
 
 // The first row of a flight or of the next ones; rows are in the flights' order.
 static inline int rows_from(const rows_t *r, int flight) {

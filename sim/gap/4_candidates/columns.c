@@ -1,6 +1,7 @@
 // columns.c - the columns of the candidates.
 #include "gap/4_candidates/candidates.h"
 
+#include "base/wide.h"
 #include "gap/2_predict/lines.h"
 #include "gap/2_predict/predict.h"
 #include <math.h>
@@ -9,16 +10,20 @@
 // Of what is typical of a chosen number: what it changes by less in others' columns is left.
 #define STAYS 0.05
 
+// In place of `with`; 0 where it is no number.
+WIDE_COPIES static void differ(int n, const double *base, double step, double *with) {
+  for (int j = 0; j < n; j++) {
+    const double d = (with[j] - base[j]) / step;
+    with[j] = fabs(d) < HUGE_VAL ? d : 0.0;
+  }
+}
+
 done_t column_differentiate(grid_t *g, const path_t *now, const fx_use_t *use, int k, double step,
                             double *const base[CHANNELS], double *const with[CHANNELS], why_t *why) {
   fx_use_t more = *use;
   fx_use_resize(&more, k, fx_use_size(use, k) + step);
   TRY(replay_with(g, now, &more, with, why));
-  for (int ch = 0; ch < CHANNELS; ch++)
-    for (int j = 0; j < g->n; j++) {
-      const double d = (with[ch][j] - base[ch][j]) / step;
-      with[ch][j] = isfinite(d) ? d : 0.0;
-    }
+  for (int ch = 0; ch < CHANNELS; ch++) differ(g->n, base[ch], step, with[ch]);
   return DONE;
 }
 
@@ -193,7 +198,7 @@ static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, l
   TRY(lines_make(predicted, s, why));
   if (!flight_lines_make(l, s)) return error_failed(why, "out of memory");
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
-  TRY(residual_measured(s, r, why));
+  residual_measured(s, r);
   for (int f = 0; f < s->n_grid; f++) TRY(fill_flight(t, s, f, &now, a, l, predicted, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) r[ch][i] -= predicted->r[ch][i];

@@ -42,25 +42,67 @@ static done_t unlike_rows(set_t *s, const model_t *m, const lines_t *measured, c
   return DONE;
 }
 
+// Try number i of a candidate, or, below 0, the model as it is.
+static done_t try_one(const candidate_t *c, int i, set_t *s, const model_t *m, const lines_t *measured,
+                      const lines_t *left, double *sum, why_t *why) {
+  model_t with = *m;
+  if (i >= 0) {
+    fx_use_t use = c->use;
+    fx_use_resize(&use, 0, tried_s(i));
+    TRY(model_add_fx(&with, &use, why));
+  }
+  return unlike_rows(s, &with, measured, left, sum, why);
+}
+
+// All tries of one thread beside others.
+typedef struct {
+  set_t set;
+  lines_t left;
+  done_t status;
+  why_t why;
+} trying_t;
+
+static void begin_trying(trying_t *t, const set_t *s) {
+  t->left = (lines_t){.r = {NULL}};
+  t->status = set_lend(s, &t->set, &t->why);
+  if (t->status == DONE) t->status = lines_make(&t->left, s, &t->why);
+}
+
+static void end_trying(trying_t *t) {
+  set_give_back(&t->set);
+  lines_free(&t->left);
+}
+
+// sum: of every try.
+static done_t try_candidate(const candidate_t *c, const set_t *s, const model_t *m, const lines_t *measured,
+                            double sum[TRIES], why_t *why) {
+  done_t status = DONE;
+#pragma omp parallel
+  {
+    trying_t t;
+    begin_trying(&t, s);
+#pragma omp for schedule(dynamic, 1)
+    for (int k = 0; k < TRIES; k++)
+      if (t.status == DONE) t.status = try_one(c, k, &t.set, m, measured, &t.left, &sum[k], &t.why);
+#pragma omp critical(timing_failed)
+    if (t.status != DONE) status = t.status, *why = t.why;
+    end_trying(&t);
+  }
+  return status;
+}
+
 static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const model_t *m,
                       const lines_t *measured, const lines_t *left, why_t *why) {
-  double none, best;
-  TRY(residual_measured(s, measured->r, why));
-  TRY(unlike_rows(s, m, measured, left, &none, why));
+  double none, best, sum[TRIES];
+  residual_measured(s, measured->r);
+  TRY(try_one(NULL, -1, s, m, measured, left, &none, why));
   best = none - by_chance(SCORE_CLUSTER, KINDS * TRIES);
-  for (int i = 0; i < c->n; i++)
-    for (int k = 0; c->candidate[i].use.fx->group == FX_TIMING && k < TRIES; k++) {
-      model_t with = *m;
-      fx_use_t use = c->candidate[i].use;
-      double now;
-      fx_use_resize(&use, 0, tried_s(k));
-      TRY(model_add_fx(&with, &use, why));
-      TRY(unlike_rows(s, &with, measured, left, &now, why));
-      if (!(now < best)) continue;
-      best = now;
-      found->candidate = i;
-      found->value_s = tried_s(k);
-    }
+  for (int i = 0; i < c->n; i++) {
+    if (c->candidate[i].use.fx->group != FX_TIMING) continue;
+    TRY(try_candidate(&c->candidate[i], s, m, measured, sum, why));
+    for (int k = 0; k < TRIES; k++)
+      if (sum[k] < best) best = sum[k], found->candidate = i, found->value_s = tried_s(k);
+  }
   if (found->value_s <= STRAIGHT_S) found->candidate = -1;
   return DONE;
 }
