@@ -3,7 +3,7 @@
 
 #include "base/constants.h"
 #include "base/nth.h"
-#include "base/pair.h"
+#include "base/wide.h"
 #include "gap/5_infer/whiten.h"
 #include <math.h>
 #include <stdlib.h>
@@ -128,33 +128,26 @@ enum {
 // Lines either side that one is compared with, and the slowest one.
 static const int BESIDE = (int)(STRETCH_S / ABOUT_S);
 
+// Of all channels, side by side.
 typedef struct {
-  double power[LINES + 1];
+  wide_t power[LINES + 1];
   int stretches;
 } spectrum_t;
 
-// What a row has of lines 0, 1, ..: each is the one before, turned on. Two rows at once, and two of these:
-// one alone would wait for itself.
+// What a row has of lines 0, 1, ..: each is the one before, turned on; the turn is that of its time, in every
+// channel. Of one row alone each would wait for the one before.
 typedef struct {
-  pair_t x, y, c, s;
+  wide_t x, y;
+  double c, s;
 } turning_t;
 
-static inline void turn_on(turning_t *t) {
-  const pair_t next = t->c * t->x - t->s * t->y;
+WIDE_INLINE void turn_on(turning_t *t) {
+  const wide_t next = t->c * t->x - t->s * t->y;
   t->y = t->s * t->x + t->c * t->y;
   t->x = next;
 }
 
-static double put_row(turning_t *t, int which, double t_s, double span_s, double v) {
-  const double turn = 2.0 * PI * t_s / STRETCH_S, taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / span_s);
-  t->x[which] = taper * v;
-  t->y[which] = 0.0;
-  t->c[which] = cos(turn);
-  t->s[which] = sin(turn);
-  return taper * taper;
-}
-
-// A stretch of rows of one flight.
+// A stretch of rows of one flight; v: WIDE numbers a row.
 typedef struct {
   const look_t *l;
   const double *v;
@@ -162,32 +155,50 @@ typedef struct {
   double start_s, span_s;
 } stretch_t;
 
-// Two rows from i on; behind the end there are none, and weigh nothing.
-static turning_t two_rows(const stretch_t *s, int i, double *weights) {
-  turning_t t = {pair_both(0.0), pair_both(0.0), pair_both(0.0), pair_both(0.0)};
-  for (int which = 0; which < 2 && i + which < s->to; which++)
-    *weights += put_row(&t, which, time_s(s->l, i + which) - s->start_s, s->span_s, s->v[i + which]);
-  return t;
+// Row i; behind the end there is none, and weighs nothing.
+static void take_row(const stretch_t *s, int i, turning_t *t, double *weights) {
+  *t = (turning_t){.c = 0.0};
+  if (i >= s->to) return;
+  const double t_s = time_s(s->l, i) - s->start_s, turn = 2.0 * PI * t_s / STRETCH_S;
+  const double taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / s->span_s);
+  wide_t v;
+  WIDE_LOAD(v, s->v + WIDE * i);
+  t->x = taper * v;
+  t->c = cos(turn);
+  t->s = sin(turn);
+  *weights += taper * taper;
+}
+
+// Four rows' lines: two sums, of every other row each.
+WIDE_COPIES static void add_lines(turning_t row[4], int last, wide_t *re, wide_t *im) {
+  turning_t t = row[0], u = row[1], v = row[2], w = row[3];
+  for (int k = 0; k <= last; k++) {
+    wide_t *const a = re + 2 * k, *const b = im + 2 * k;
+    a[0] = a[0] + t.x + v.x;
+    a[1] = a[1] + u.x + w.x;
+    b[0] = b[0] + t.y + v.y;
+    b[1] = b[1] + u.y + w.y;
+    turn_on(&t);
+    turn_on(&u);
+    turn_on(&v);
+    turn_on(&w);
+  }
 }
 
 // Tapered (Hann) by time; lines 0 to last.
 static void add_stretch(const look_t *l, const double *v, int from, int to, int last, spectrum_t *sum) {
-  pair_t re[LINES + 1], im[LINES + 1];
+  wide_t re[2 * (LINES + 1)], im[2 * (LINES + 1)];
   double weights = 0.0;
-  for (int k = 0; k <= last; k++) re[k] = im[k] = pair_both(0.0);
+  for (int k = 0; k < 2 * (last + 1); k++) re[k] = im[k] = (wide_t){0.0};
   const double start_s = time_s(l, from), span_s = time_s(l, to - 1) - start_s;
   const stretch_t s = {l, v, from, to, start_s, span_s};
   for (int i = from; i < to; i += 4) {
-    turning_t t = two_rows(&s, i, &weights), u = two_rows(&s, i + 2, &weights);
-    for (int k = 0; k <= last; k++) {
-      re[k] = re[k] + t.x + u.x;
-      im[k] = im[k] + t.y + u.y;
-      turn_on(&t);
-      turn_on(&u);
-    }
+    turning_t row[4];
+    for (int k = 0; k < 4; k++) take_row(&s, i + k, &row[k], &weights);
+    add_lines(row, last, re, im);
   }
   for (int k = 0; k <= last; k++) {
-    const double x = pair_sum(re[k]), y = pair_sum(im[k]);
+    const wide_t x = re[2 * k] + re[2 * k + 1], y = im[2 * k] + im[2 * k + 1];
     sum->power[k] += (x * x + y * y) / weights;
   }
   sum->stretches++;
@@ -211,41 +222,64 @@ static spectrum_t spectrum_of(const look_t *l, const double *v, int last) {
   return sum;
 }
 
-static double beside(const spectrum_t *p, int at) {
+static double beside(const spectrum_t *p, int ch, int at) {
   double power[LINES];
   int n = 0;
   for (int k = at - BESIDE; k <= at + BESIDE; k++)
-    if (k > 0 && k <= LINES && abs(k - at) > OWN) power[n++] = p->power[k];
+    if (k > 0 && k <= LINES && abs(k - at) > OWN) power[n++] = p->power[k][ch];
   return nth_smallest(power, n, n / 2);
 }
 
-static void lines_in(const look_t *l, int ch, cell_t *cell) {
-  const color_t *const c = &l->color[ch];
-  color_whiten(c, &l->s->smooth, l->residual[ch], l->room);
-  const spectrum_t white = spectrum_of(l, l->room, LINES);
+// The line that stands out most, by more than `largest`; 0: none.
+static int best_line(const spectrum_t *white, int ch, double *largest) {
   int best = 0;
-  double largest = cell->statistic;
-  for (int k = BESIDE; white.stretches && k <= LINES - OWN; k++) {
-    const double statistic = sqrt(white.power[k] / beside(&white, k));
-    if (statistic > largest) largest = statistic, best = k;
+  for (int k = BESIDE; white->stretches && k <= LINES - OWN; k++) {
+    const double statistic = sqrt(white->power[k][ch] / beside(white, ch, k));
+    if (statistic > *largest) *largest = statistic, best = k;
   }
-  if (!best) return;
-  const spectrum_t raw = spectrum_of(l, l->residual[ch], best);
-  // Of a sine A sin, tapered: power A^2/4 (sum of the taper)^2 / (sum of its squares), 2/3 of the rows. It
-  // explains A^2/2 a row.
+  return best;
+}
+
+// Of a sine A sin, tapered: power A^2/4 (sum of the taper)^2 / (sum of its squares), 2/3 of the rows. It
+// explains A^2/2 a row.
+static cell_t line_of(const look_t *l, int ch, int line, const spectrum_t *white, const spectrum_t *raw,
+                      double statistic) {
   const double rows = STRETCH_S * RESIDUAL_HZ;
-  *cell = (cell_t){.channel = ch,
-                   .along = NOWHERE,
-                   .coordinate = "frequency",
-                   .unit = "Hz",
-                   .from = (best - 1.0) / STRETCH_S,
-                   .to = (best + 1.0) / STRETCH_S,
-                   .size = sqrt(4.0 * raw.power[best] / raw.stretches / (2.0 / 3.0 * rows)),
-                   .statistic = largest,
-                   .explained = 3.0 * white.power[best] / white.stretches * l->s->smooth.n / rows};
+  return (cell_t){.channel = ch,
+                  .along = NOWHERE,
+                  .coordinate = "frequency",
+                  .unit = "Hz",
+                  .from = (line - 1.0) / STRETCH_S,
+                  .to = (line + 1.0) / STRETCH_S,
+                  .size = sqrt(4.0 * raw->power[line][ch] / raw->stretches / (2.0 / 3.0 * rows)),
+                  .statistic = statistic,
+                  .explained = 3.0 * white->power[line][ch] / white->stretches * l->s->smooth.n / rows};
+}
+
+// The channels that are looked at, as they are or white, side by side.
+static const double *side_by_side_of(const look_t *l, bool white) {
+  const rows_t *const r = &l->s->smooth;
+  double *const all = l->room + 2 * set_most_rows(l->s);
+  for (int ch = 0; ch < WIDE; ch++) {
+    const bool used = ch < CH_SMOOTH && l->color[ch].used;
+    const double *const v = used && !white ? l->residual[ch] : l->room;
+    if (used && white) color_whiten(&l->color[ch], r, l->residual[ch], l->room);
+    for (int i = 0; i < r->n; i++) all[WIDE * i + ch] = used ? v[i] : 0.0;
+  }
+  return all;
 }
 
 void in_time_lines(const look_t *l, cell_t cell[CHANNELS]) {
+  int best[CH_SMOOTH] = {0}, last = 0;
+  double statistic[CH_SMOOTH];
+  const spectrum_t white = spectrum_of(l, side_by_side_of(l, true), LINES);
+  for (int ch = 0; ch < CH_SMOOTH; ch++) {
+    statistic[ch] = cell[ch].statistic;
+    if (l->color[ch].used) best[ch] = best_line(&white, ch, &statistic[ch]);
+    if (best[ch] > last) last = best[ch];
+  }
+  if (!last) return;
+  const spectrum_t raw = spectrum_of(l, side_by_side_of(l, false), last);
   for (int ch = 0; ch < CH_SMOOTH; ch++)
-    if (l->color[ch].used) lines_in(l, ch, &cell[ch]);
+    if (best[ch]) cell[ch] = line_of(l, ch, best[ch], &white, &raw, statistic[ch]);
 }

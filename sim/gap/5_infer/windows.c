@@ -29,9 +29,11 @@ static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *pa
     if (isnan(value[i])) return false;
     parted[i] = value[i];
   }
-  for (int k = 0, from = 0, at = 0; k <= bins; k++, from = at) {
-    at = (int)((double)k * (n - 1) / bins);
+  for (int k = 0, from = 0; k <= bins; k++) {
+    if (cut == BY_WIDTH && k > 1 && k < bins - 1) continue; // these follow from the others
+    const int at = (int)((double)k * (n - 1) / bins);
     edge[k] = nth_smallest(parted + from, n - from, at - from);
+    from = at;
   }
   if (!(edge[bins] - edge[0] > 1e-9)) return false;
   // Of equal width between the outermost of them: a row far out has no bin of its own.
