@@ -196,7 +196,7 @@ static done_t bench_abreast(why_t *why) {
   return DONE;
 }
 
-int main(int argc, char **argv) {
+static done_t one_by_one(why_t *why) {
   static const row_t rows[] = {
       {"closed loop, learning, noise, SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, 1},
       {"closed loop, learning, no noise, SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, 0},
@@ -204,38 +204,39 @@ int main(int argc, char **argv) {
       {"closed loop, learning, no noise, Runge-Kutta by hand 2 ms", INTEGRATE_RK4, 0},
       {"closed loop, learning, noise, SUNDIALS order 5 adaptive", INTEGRATE_REFERENCE, 1},
   };
-  if (argc == 2 && strcmp(argv[1], "--version") == 0) {
-    made_version("bench");
-    return 0;
-  }
-  if (argc == 2 && strcmp(argv[1], "loop") == 0) {
-    why_t line;
-    const done_t flown = bench_loop(&line);
-    return error_exit("bench", flown == DONE ? bench_abreast(&line) : flown, &line);
-  }
-  if (argc == 2 && strcmp(argv[1], "gap") == 0) {
-    why_t line;
-    const done_t diagnosed = bench_gap(&line);
-    return error_exit("bench", diagnosed, &line);
-  }
-  if (argc > 1) {
-    why_t line;
-    return error_exit(
-        "bench", error_set(&line, "%s: allowed: bench, bench loop, bench gap, or bench --version", argv[1]),
-        &line);
-  }
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
-    why_t why;
     double best;
-    const done_t status = factor(&rows[i], &best, &why);
-    if (status != DONE) return error_exit("bench", status, &why);
+    TRY(factor(&rows[i], &best, why));
     printf("%-60s %7.0f x real time (best of %d)\n", rows[i].what, best, RUNS);
     fflush(stdout);
   }
+  return DONE;
+}
+
+static done_t loops(why_t *why) {
+  TRY(bench_loop(why));
+  return bench_abreast(why);
+}
+
+static done_t all(why_t *why) {
+  TRY(one_by_one(why));
+  TRY(bench_six(why));
+  TRY(loops(why));
+  return bench_gap(why);
+}
+
+int main(int argc, char **argv) {
+  const char *const word = argc == 2 ? argv[1] : "";
   why_t why;
-  done_t status = bench_six(&why);
-  if (status == DONE) status = bench_loop(&why);
-  if (status == DONE) status = bench_abreast(&why);
-  if (status == DONE) status = bench_gap(&why);
-  return error_exit("bench", status, &why);
+  if (strcmp(word, "--version") == 0) {
+    made_version("bench");
+    return 0;
+  }
+  if (strcmp(word, "loop") == 0) return error_exit("bench", loops(&why), &why);
+  if (strcmp(word, "gap") == 0) return error_exit("bench", bench_gap(&why), &why);
+  if (argc > 1) {
+    const char *const allowed = "%s: allowed: bench, bench loop, bench gap, or bench --version";
+    return error_exit("bench", error_set(&why, allowed, argv[1]), &why);
+  }
+  return error_exit("bench", all(&why), &why);
 }

@@ -25,7 +25,7 @@ typedef int64_t wide_bits_t __attribute__((vector_size(64)));
 #define WIDE_INLINE static inline __attribute__((always_inline))
 
 // By name and not by value: how a wide number is handed to a function differs from processor to processor.
-#define WIDE_LOAD(to, p) memcpy(&(to), (p), sizeof(wide_t))
+#define WIDE_LOAD(to, p)  memcpy(&(to), (p), sizeof(wide_t))
 #define WIDE_PUT(p, from) memcpy((p), &(from), sizeof(wide_t))
 
 #endif

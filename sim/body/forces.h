@@ -185,7 +185,7 @@ static inline void forces_plant(const acting_t *f, const forces_tick_t *t, const
       for (int i = 0; i < ROTORS; i++)
         place[i] = (fx_place_t){all.ceiling_gap_m[i], all.ground_gap_m[i], all.radius_m};
     }
-    const fx_tick_t tick = {t->t_s, t->span_s, t->vbat_V, y + RIGID_THRUST_N, placed ? place : NULL,
+    const fx_tick_t tick = {t->t_s,    t->span_s,   t->vbat_V, y + RIGID_THRUST_N, placed ? place : NULL,
                             t->random, t->memory[k]};
     fx->tick(t->use[k], &tick, plant);
   }

@@ -211,8 +211,8 @@ static void sense(lanes_t *l, lanes_truth_t *truth) {
 // Who would need numbers of the instant before, or has its rotors elsewhere, leaves.
 static void act_at_ticks(lanes_t *l, const kept_t *i) {
   const d3_t cg = l->plant.cg_b_m;
-  const forces_tick_t tick = {l->tick_at, l->n_tick, &l->untouched, l->inertia_kgm2, i->t_s, l->span_s,
-                              i->vbat_V,  nullptr,   l->memory};
+  const forces_tick_t tick = {l->tick_at, l->n_tick, &l->untouched, l->inertia_kgm2, i->t_s,
+                              l->span_s,  i->vbat_V, nullptr,       l->memory};
   forces_plant(&l->acting, &tick, i->y, &l->plant);
   forces_take_plant(&l->plant, l->inertia_kgm2, &l->rigid);
   l->rigid.plain_lag = true; // they may have tuned it anew
@@ -250,7 +250,8 @@ struct read_t {
   d3_t turn_radps2;
 };
 
-static read_t read_instants(const lanes_t *l, const kept_t *i, const body_look_t *look, lanes_readings_t *to) {
+static read_t read_instants(const lanes_t *l, const kept_t *i, const body_look_t *look,
+                            lanes_readings_t *to) {
   read_t is = {i->sight, {0.0, 0.0, 0.0}};
   is.sensed.acc_b_mps2 = forces_pull_b_mps2(&l->acting, i->y, look, &is.turn_radps2);
   for (int k = 0; k < l->n_sense; k++) l->sense[k].fx->sense(&l->sense[k], &is.sensed);

@@ -20,9 +20,10 @@ typedef struct lanes lanes_t;
 // Where the numbers of a struct of one vehicle go, in its order; the other members stand in lanes_alike_t.
 typedef struct {
   double *rigid, *touch, *plant, *push_w_N;
-  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS], *tick[LANES_EFFECTS]; // p of each
+  double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS],
+      *tick[LANES_EFFECTS];    // p of each
   double *untouched, *inertia; // what effects at ticks begin with: a plant, and the vehicle file's inertia
-  double *battery, *open_V;                                                   // before and behind its `n`
+  double *battery, *open_V;    // before and behind its `n`
   double *sensed_from;
   double *now, *before; // y, charge, current, voltage: at the tick's end, and at its begin
   double *look;
@@ -47,9 +48,10 @@ typedef struct {
 // What is one and the same for all of them.
 typedef struct {
   bool lag_in_speed, plain_lag, ticks, pushed, looked, loaded; // looked: `look` is of y
-  int excess_of, n_excess, n_load, n_sense, n_tick, n_open_V; // n_tick: 0 where bodies act at ticks themselves
+  int excess_of, n_excess, n_load, n_sense, n_tick,
+      n_open_V; // n_tick: 0 where bodies act at ticks themselves
   int excess[LANES_EFFECTS], load[LANES_EFFECTS], sense[LANES_EFFECTS], tick[LANES_EFFECTS]; // in fx_table
-  int excess_form[LANES_EFFECTS];                                       // in curve_table; -1: none
+  int excess_form[LANES_EFFECTS]; // in curve_table; -1: none
   double span_s;
 } lanes_alike_t;
 

@@ -12,7 +12,8 @@ struct points {
 
 points_t *points_open(void) {
   const int bits = lane_bits();
-  points_t *const p = bits ? malloc(sizeof *p) : NULL;
+  if (!bits) return NULL;
+  points_t *const p = malloc(sizeof *p);
   if (!p) return NULL;
   p->door = lanes_door(bits);
   p->lanes = lanes_open(p->door);

@@ -4,6 +4,32 @@
 #include "body/points.h"
 #include <stdlib.h>
 
+// --- one point --------------------------------------------------------------------------------------------
+
+void predict_place(body_t *b, const grid_point_t *p) {
+  d3_put(b->y + RIGID_POS_M, p->pos_w_m);
+  d3_put(b->y + RIGID_VEL_MPS, p->vel_w_mps);
+  b->y[RIGID_Q_WB] = p->q_wb.w;
+  d3_put(b->y + RIGID_Q_WB + 1, d3(p->q_wb.x, p->q_wb.y, p->q_wb.z));
+  d3_put(b->y + RIGID_RATE_RADPS, p->rate_b_radps);
+  b->vbat_V = p->vbat_V;
+}
+
+// The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
+// is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
+void predict_sight(const grid_t *g, const model_t *m, const grid_point_t *p, double up, double *range_m,
+                   double *rate_mps) {
+  const double least = fmax(up, 0.1);
+  const double z_m = p->pos_w_m.z - p->vel_w_mps.z * p->range_before_s;
+  const double above_m = m->ceiling_m - z_m - body_rotor_z_m(m);
+  const double below_m = z_m - body_rest_z_m(m);
+  const double side = g->range_up ? -1.0 : 1.0;
+  *range_m = (g->range_up ? above_m : below_m) / least;
+  *rate_mps = side * p->vel_w_mps.z / least;
+}
+
+// --- eight ------------------------------------------------------------------------------------------------
+
 static bool open_eight(grid_t *g, const body_t *b) {
   if (!g->eight) g->eight = points_open();
   return g->eight && points_of(g->eight, b, g->period_s);

@@ -2,7 +2,7 @@
 #ifndef SIM_GAP_2_PREDICT_EIGHT_H
 #define SIM_GAP_2_PREDICT_EIGHT_H
 
-#include "gap/2_predict/predict.h"
+#include "gap/2_predict/path.h"
 
 // What range sensors see without effects; up: cosine of the tilt.
 void predict_sight(const grid_t *g, const model_t *m, const grid_point_t *p, double up, double *range_m,

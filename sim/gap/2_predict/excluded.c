@@ -32,7 +32,7 @@ static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, l
     r[ch] = room + ch * n;
   }
   for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
-  residual_measured(s, measured);
+  TRY(residual_measured(s, measured, why));
   for (unsigned i = 0; i < lags; i++) {
     model_t slower = *m;
     slower.motor_tau_s += MORE_TAU_S[i];

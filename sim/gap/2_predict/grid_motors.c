@@ -30,8 +30,8 @@ WIDE_INLINE void choose(const four_bits_t *holds, double a, double b, four_t *to
 }
 
 // What every rotor does in one row's hold; now: what follows, before and then behind it.
-WIDE_INLINE void hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean, const four_t *command_N,
-                      four_t *now, four_t *thrust_N, four_t *rise_Nps) {
+WIDE_INLINE void hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean,
+                      const four_t *command_N, four_t *now, four_t *thrust_N, four_t *rise_Nps) {
   const bool in_speed = lag->in_speed;
   const four_t start = *now;
   four_t to = *command_N, tau_s, keep;

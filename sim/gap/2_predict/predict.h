@@ -3,31 +3,11 @@
 #ifndef SIM_GAP_2_PREDICT_PREDICT_H
 #define SIM_GAP_2_PREDICT_PREDICT_H
 
-#include "gap/2_predict/grid.h"
+#include "gap/2_predict/path.h"
 
 // out[channel][point]: specific force and angular acceleration in body axes, and the range sensor's reading
 // (NaN where nothing is in sight), with the model's own effects. FAILED: no memory.
 MUST_CHECK done_t replay(grid_t *g, const model_t *m, double *const out[CHANNELS], why_t *why);
-
-// What a replay went through at a point.
-typedef struct {
-  body_look_t look;
-  fx_sensed_t sight, sensed; // before and after the model's effects on sensors; sight without a force
-  d3_t turn_radps2, air_w_mps;
-  int rigid; // which one it was
-} passed_t;
-
-// A replay, kept: with it, the same model with one effect more costs what that effect changes.
-typedef struct {
-  const model_t *model; // the caller's; must not change
-  passed_t *at;
-  rigid_t *rigid; // without commands; as many as differ from the one before
-  int n_rigid;
-  lag_t lag; // that the motors had, with this delay
-  double delay_s;
-  char *kept; // in place of `at`, eight points at a time (eight.h), so many bytes each; else null
-  size_t kept_bytes;
-} path_t;
 
 // As replay(), and keeps it. Free it, also on an error.
 MUST_CHECK done_t replay_keep(grid_t *g, const model_t *m, path_t *path, double *const out[CHANNELS],

@@ -12,9 +12,9 @@ static void measured(const grid_point_t *p, double at[CHANNELS]) {
   at[CH_RANGE] = p->range_m;
 }
 
-done_t residual_keep_measured(set_t *s, why_t *why) {
+static done_t keep_measured(set_t *s, why_t *why) {
   for (int ch = 0; ch < CHANNELS; ch++)
-    if (!(s->measured[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double))))
+    if (!s->measured[ch] && !(s->measured[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double))))
       return error_failed(why, "out of memory");
   for (int f = 0; f < s->n_grid; f++) {
     const grid_t *g = &s->grid[f];
@@ -33,9 +33,11 @@ done_t residual_keep_measured(set_t *s, why_t *why) {
   return DONE;
 }
 
-void residual_measured(const set_t *s, double *const row[CHANNELS]) {
+done_t residual_measured(set_t *s, double *const row[CHANNELS], why_t *why) {
+  if (!s->measured[CHANNELS - 1]) TRY(keep_measured(s, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     if (row[ch]) memcpy(row[ch], s->measured[ch], (size_t)set_rows(s, ch)->n * sizeof(double));
+  return DONE;
 }
 
 bool residual_has(const set_t *s, int channel) {
@@ -51,7 +53,7 @@ bool residual_has(const set_t *s, int channel) {
 // As measured in r, less predicted.
 static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
                             double *const r[CHANNELS], why_t *why) {
-  residual_measured(s, r);
+  TRY(residual_measured(s, r, why));
   for (int f = 0; f < s->n_grid; f++) {
     TRY(replay(&s->grid[f], m, l->base, why));
     residual_rows(s, f, SERIES_PREDICTED, (const double *const *)l->base, l->scratch, predicted->r);

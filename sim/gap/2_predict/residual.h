@@ -19,10 +19,8 @@ typedef enum { SERIES_PREDICTED, SERIES_RATE } series_t; // values, or a rate wh
 void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
                    double *scratch, double *const row[CHANNELS]);
 
-// What was measured, rows over all flights. Kept in the set when it is made. FAILED: no memory.
-MUST_CHECK done_t residual_keep_measured(set_t *s, why_t *why);
-// The same, of the channels for which there is room.
-void residual_measured(const set_t *s, double *const row[CHANNELS]);
+// What was measured, rows over all flights of the channels for which there is room. FAILED: no memory.
+MUST_CHECK done_t residual_measured(set_t *s, double *const row[CHANNELS], why_t *why);
 
 // The channel can be formed from these logs.
 bool residual_has(const set_t *s, int channel);

@@ -7,7 +7,8 @@
 
 #define TINY 1e-140
 
-_Static_assert(CH_SMOOTH <= WIDE && (int)RESIDUAL_SCRATCH == WIDE, "all channels of a point are filtered at once");
+_Static_assert(CH_SMOOTH <= WIDE && (int)RESIDUAL_SCRATCH == WIDE,
+               "all channels of a point are filtered at once");
 
 // --- the filter -------------------------------------------------------------------------------------------
 
@@ -97,9 +98,8 @@ WIDE_INLINE void take_some(const grid_t *g, take_t what, int is_free, int from, 
     if (j + WIDE <= to && all_plain(g->mark + j, is_free)) {
       double x[WIDE], nothing = 0.0; // NaN where one of them is not finite
       for (int k = 0; k < WIDE; k++)
-        x[k] = what == TAKE_SELF
-                   ? v[j + k]
-                   : taken(what, v[j + k - 1], v[j + k], v[j + k + 1], 2.0 * g->period_s);
+        x[k] = what == TAKE_SELF ? v[j + k]
+                                 : taken(what, v[j + k - 1], v[j + k], v[j + k + 1], 2.0 * g->period_s);
       for (int k = 0; k < WIDE; k++) nothing += 0.0 * x[k];
       if (!isnan(nothing)) {
         for (int k = 0; k < WIDE; k++) out[WIDE * (j + k)] = x[k];

@@ -24,10 +24,10 @@ typedef struct {
   rows_t smooth, range;
   int n_block, *half; // of each block: which half-flight it belongs to; those of a lone flight interleave
   int n_half;
-  bool excluded[CHANNELS]; // excluded.h
-  double command_Hz;       // how often the motors were commanded; 0: nobody said
-  double *measured[CHANNELS]; // by channel and row (residual.h)
-  struct cuts *cuts;       // where the rows lie, kept (5_infer/windows.h); one block, or null
+  bool excluded[CHANNELS];    // excluded.h
+  double command_Hz;          // how often the motors were commanded; 0: nobody said
+  double *measured[CHANNELS]; // by channel and row, kept from the first time on (residual.h), or null
+  struct cuts *cuts;          // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;
 
 static inline const rows_t *set_rows(const set_t *s, int channel) {
@@ -43,8 +43,8 @@ static inline size_t set_most_rows(const set_t *s) {
 MUST_CHECK done_t set_make(set_t *s, grid_t *grid, int n, why_t *why);
 void set_free(set_t *s);
 
-// The same set for one thread beside others: its grids are lent (grid_lend). FAILED: no memory. Give it back,
-// also on an error.
+// The same set for one thread beside others: its grids are lent (grid_lend), and what was measured is kept.
+// FAILED: no memory. Give it back, also on an error.
 MUST_CHECK done_t set_lend(const set_t *s, set_t *lent, why_t *why);
 void set_give_back(set_t *lent);
 

@@ -38,8 +38,7 @@ typedef struct {
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]);
 // Of these what the residual says anew, by another one of the same set: disturbance and noise of the range.
-void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m,
-                        double *const residual[CHANNELS]);
+void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m, double *const residual[CHANNELS]);
 
 // The same as another pilot could have flown it whose gains fit the log as well; number 0 is the fit itself.
 // Of a pilot that is known there is but one.

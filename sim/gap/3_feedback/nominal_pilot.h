@@ -25,8 +25,8 @@ typedef struct {
   d3_t bent_mps2;                             // acceleration of the track at this point
   d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
-  double load_slow, call_s, quick; // quick: the share of the way that they go from call to call
-  double due_s; // until the next command
+  double load_slow, call_s, quick;            // quick: the share of the way that they go from call to call
+  double due_s;                               // until the next command
   unsigned long seed;
   decay_t pos_keeps, vel_keeps, angle_keeps; // of what lasts, over a step
   double down_s, masked_to_s;                // in contact since it was put on its track; of the log

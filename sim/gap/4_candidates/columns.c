@@ -198,7 +198,7 @@ static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, l
   TRY(lines_make(predicted, s, why));
   if (!flight_lines_make(l, s)) return error_failed(why, "out of memory");
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
-  residual_measured(s, r);
+  TRY(residual_measured(s, r, why));
   for (int f = 0; f < s->n_grid; f++) TRY(fill_flight(t, s, f, &now, a, l, predicted, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) r[ch][i] -= predicted->r[ch][i];

@@ -42,8 +42,8 @@ done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const na
   TRY(chosen_model(&others, base, &m, why));
   rows_of_both_t r;
   if (!open_rows(&r, s)) return error_failed(why, "out of memory");
-  residual_measured(s, r.measured);
-  done_t status = residual_of(s, &m, r.left, why);
+  done_t status = residual_measured(s, r.measured, why);
+  if (status == DONE) status = residual_of(s, &m, r.left, why);
   *stands = false;
   for (int k = 0; k < 3 && status == DONE; k++) {
     const int ch = CH_WX + k;

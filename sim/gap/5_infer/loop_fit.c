@@ -19,9 +19,9 @@ static double mean_squares(const double *v, int n, bool about_mean) {
   return n ? (squares - (about_mean ? sum * sum / n : 0.0)) / n : 0.0;
 }
 
-// Mean squares of what a model leaves. Disturbing moments are large and slow on real vehicles; control cancels
-// them, which is what the nominal flights are to show: they are read before the cleaning, with their mean.
-// loop: how the flights were flown, or null.
+// Mean squares of what a model leaves. Disturbing moments are large and slow on real vehicles; control
+// cancels them, which is what the nominal flights are to show: they are read before the cleaning, with their
+// mean. loop: how the flights were flown, or null.
 static done_t read_rows(closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
                         const flown_by_t *by, const lines_t *l, why_t *why) {
   for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, false);

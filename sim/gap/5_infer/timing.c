@@ -94,7 +94,7 @@ static done_t try_candidate(const candidate_t *c, const set_t *s, const model_t 
 static done_t try_all(timing_t *found, const candidates_t *c, set_t *s, const model_t *m,
                       const lines_t *measured, const lines_t *left, why_t *why) {
   double none, best, sum[TRIES];
-  residual_measured(s, measured->r);
+  TRY(residual_measured(s, measured->r, why));
   TRY(try_one(NULL, -1, s, m, measured, left, &none, why));
   best = none - by_chance(SCORE_CLUSTER, KINDS * TRIES);
   for (int i = 0; i < c->n; i++) {

@@ -88,9 +88,9 @@ static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
 static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some,
                       double *total) {
   white_t w;
-  const bool good = white_make(&w, s, t, ch, &g->color[ch], some) &&
-                    lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size,
-                                     total, NULL);
+  const bool good =
+      white_make(&w, s, t, ch, &g->color[ch], some) &&
+      lsq_add_products(set_rows(s, ch)->n, w.n, (const double *const *)w.x, w.column, g->size, total, NULL);
   white_free(&w);
   return good;
 }

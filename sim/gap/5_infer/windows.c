@@ -1,7 +1,6 @@
 // windows.c - in which part of a coordinate, or of the floor, a residual is largest.
-#include "gap/5_infer/windows_cut.h"
+#include "gap/5_infer/windows.h"
 
-#include "base/nth.h"
 #include "base/wide.h"
 #include <math.h>
 #include <stdlib.h>
@@ -15,100 +14,9 @@
 enum {
   MOST = STRIPS / 2,             // strips of a patch: half, as of a coordinate
   BINS_MAX = STRIPS * PARTS + 1, // of any cut; one for what lies beside
-  ROWS = 3,                      // of a bin, on the average, or nothing is said: as many make a white one
 };
 
 _Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX, "every cut has room");
-
-// --- bins -------------------------------------------------------------------------------------------------
-
-// The bin of every row, and the edges (bins + 1). False: the coordinate is not there or does not move.
-static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *parted, int *bin,
-                     double *edge) {
-  for (int i = 0; i < n; i++) {
-    if (isnan(value[i])) return false;
-    parted[i] = value[i];
-  }
-  for (int k = 0, from = 0; k <= bins; k++) {
-    if (cut == BY_WIDTH && k > 1 && k < bins - 1) continue; // these follow from the others
-    const int at = (int)((double)k * (n - 1) / bins);
-    edge[k] = nth_smallest(parted + from, n - from, at - from);
-    from = at;
-  }
-  if (!(edge[bins] - edge[0] > 1e-9)) return false;
-  // Of equal width between the outermost of them: a row far out has no bin of its own.
-  const double low = edge[1], high = edge[bins - 1];
-  for (int k = 1; cut == BY_WIDTH && k < bins; k++) edge[k] = low + (k - 1) * (high - low) / (bins - 2);
-  for (int i = 0; i < n; i++) {
-    int k = 0;
-    while (k < bins - 1 && value[i] >= edge[k + 1]) k++;
-    bin[i] = k;
-  }
-  return true;
-}
-
-
-static bool find_bins(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
-                      double *room, int *bin, double *edge) {
-  const rows_t *r = windows_rows(s, list);
-  if (r->n < ROWS * bins) return false;
-  for (int i = 0; i < r->n; i++) room[i] = coordinate_of(coordinate, &s->grid[r->flight[i]], m, r->point[i]);
-  return cut_bins(room, r->n, bins, cut, room + r->n, bin, edge);
-}
-
-// --- kept -------------------------------------------------------------------------------------------------
-
-const int windows_cut_in[CUTS] = {[BY_ROWS] = WINDOW_BINS, [BY_WIDTH] = WINDOW_FINE};
-
-typedef struct {
-  bool there;
-  double edge[WINDOW_FINE + 1];
-  unsigned char *bin;
-} kept_t;
-
-struct cuts {
-  kept_t of[COORDINATES][2][CUTS];
-  unsigned char room[];
-};
-
-done_t windows_keep(set_t *s, const model_t *m, why_t *why) {
-  const lag_t lag = model_lag(m, 0.0); // the thrust is a coordinate: as the model's first replay has it
-  for (int i = 0; i < s->n_grid; i++)
-    if (!grid_motors(&s->grid[i], &lag, m->frame.motor_delay_s)) return error_failed(why, "out of memory");
-  const size_t rows = (size_t)s->smooth.n + (size_t)s->range.n, most = set_most_rows(s);
-  s->cuts = malloc(sizeof *s->cuts + COORDINATES * CUTS * rows);
-  double *const room = malloc(2 * most * sizeof(double));
-  int *const bin = malloc(most * sizeof(int));
-  unsigned char *to = s->cuts ? s->cuts->room : NULL;
-  for (int i = 0; s->cuts && room && bin && i < COORDINATES * 2 * CUTS; i++) {
-    const int list = i / CUTS % 2, n = windows_rows(s, list)->n;
-    kept_t *const k = &s->cuts->of[i / CUTS / 2][list][i % CUTS];
-    k->there =
-        find_bins(s, m, i / CUTS / 2, list, windows_cut_in[i % CUTS], (cut_t)(i % CUTS), room, bin, k->edge);
-    k->bin = to;
-    for (int r = 0; k->there && r < n; r++) to[r] = (unsigned char)bin[r];
-    to += n;
-  }
-  const bool good = s->cuts && room && bin;
-  free(room);
-  free(bin);
-  return good ? DONE : error_failed(why, "out of memory");
-}
-
-bool windows_cut(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
-                 double *room, int *bin, double *edge) {
-  if (!s->cuts || bins != windows_cut_in[cut])
-    return find_bins(s, m, coordinate, list, bins, cut, room, bin, edge);
-  const kept_t *const k = &s->cuts->of[coordinate][list][cut];
-  for (int i = 0; k->there && i < windows_rows(s, list)->n; i++) bin[i] = k->bin[i];
-  memcpy(edge, k->edge, ((size_t)bins + 1) * sizeof(double));
-  return k->there;
-}
-
-bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin) {
-  double edge[WINDOW_BINS + 1];
-  return windows_cut(s, m, coordinate, list, WINDOW_BINS, BY_ROWS, room, bin, edge);
-}
 
 // --- sums -------------------------------------------------------------------------------------------------
 
@@ -160,7 +68,6 @@ static void add_products(products_t *p, int bins, const rows_t *r, const color_t
   }
 }
 
-
 static void take_in(window_sums_t *w, const products_t *p, int k, const int *before, int n) {
   w->y += p->y[k];
   w->cross += p->D[k][p->bins];
@@ -168,7 +75,8 @@ static void take_in(window_sums_t *w, const products_t *p, int k, const int *bef
   for (int i = 0; i < n; i++) w->own += 2.0 * p->D[before[i]][k];
 }
 
-static bool judge(const products_t *p, bool centred, const window_sums_t *w, double *size, double *statistic) {
+static bool judge(const products_t *p, bool centred, const window_sums_t *w, double *size,
+                  double *statistic) {
   const window_sums_t all = {p->y[p->bins], p->D[p->bins][p->bins], 0.0};
   return windows_judge(&all, centred, w, size, statistic);
 }
@@ -186,7 +94,7 @@ WIDE_INLINE bool is_below(const products_t *p, double per_all, const window_sums
 
 // Of the first bins, windows of so many. False: none is better than *best.
 WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins, int shortest, int longest,
-                        window_t *best) {
+                                    window_t *best) {
   double size, statistic;
   double column[BINS_MAX + 1]; // of D: sums over the window's rows
   bool better = false;
@@ -298,7 +206,7 @@ static void look_at_floor(floor_t *f, int ch, cell_t *cell) {
 
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
   const int n = l->s->smooth.n;
-  const int enough = n / (ROWS * STRIPS);
+  const int enough = n / (WINDOW_ROWS * STRIPS);
   floor_t f;
   f.l = l;
   f.x = l->bin;

@@ -9,7 +9,7 @@
 #define SIM_GAP_5_INFER_WINDOWS_H
 
 #include "gap/2_predict/color.h"
-#include "gap/5_infer/coordinates.h"
+#include "gap/5_infer/windows_cut.h"
 
 typedef struct {
   int channel;
@@ -37,26 +37,8 @@ typedef struct {
   int *bin;     // three times as many
 } look_t;
 
-// Keeps the bins of all rows along all coordinates, the thrust that of this model, whatever model a look is
-// given. Without it they are found anew each time. FAILED: no memory.
-MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
-
 // Each puts in place of cell[channel] what has a larger statistic.
 void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]);
 void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]);
-
-// Bins of equally many rows that a coordinate is cut into: of a minute five seconds each.
-#define WINDOW_BINS 12
-
-// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and
-// of equal width, for a layer may be thin.
-enum {
-  WINDOW_FINE = 3 * WINDOW_BINS,
-  WINDOWS_TRIED = WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
-};
-
-// The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
-// move.
-bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);
 
 #endif

@@ -1,5 +1,5 @@
 // windows_along.c - in which part of a coordinate a residual is largest, of all channels side by side.
-#include "gap/5_infer/windows_cut.h"
+#include "gap/5_infer/windows.h"
 
 #include "base/wide.h"
 #include <math.h>
@@ -124,7 +124,7 @@ WIDE_COPIES static void best_windows(const products_t *p, bool centred, const wi
   const int bins = p->bins;
   const sums_t all = {p->y[bins], p->D[bins][bins], {0.0}};
   const wide_t per_all = (centred ? 1.0 : 0.0) / all.own;
-  wide_t known;
+  wide_t known = {0.0};
   for (int k = 0; k < WIDE; k++) known[k] = best[k].statistic;
   for (int from = 0; from < bins; from++) {
     sums_t w = {{0.0}, {0.0}, {0.0}};
@@ -187,7 +187,6 @@ void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
     for (int i = 0; i < n; i++)
       for (int k = 0; k < WIDE; k++)
         v[WIDE * i + k] = first + k < end && l->color[first + k].used ? l->residual[first + k][i] : 0.0;
-    for (int cut = 0; cut < CUTS; cut++)
-      try_windows(l, coordinate, (cut_t)cut, &w, first, end, v, cell);
+    for (int cut = 0; cut < CUTS; cut++) try_windows(l, coordinate, (cut_t)cut, &w, first, end, v, cell);
   }
 }

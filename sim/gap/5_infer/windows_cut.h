@@ -1,8 +1,31 @@
-// windows_cut.h - the bins of windows.h, and a window's estimate. Within sim/gap/5_infer only.
+// windows_cut.h - the bins that a coordinate is cut into, and the estimate in a window of them (windows.h).
 #ifndef SIM_GAP_5_INFER_WINDOWS_CUT_H
 #define SIM_GAP_5_INFER_WINDOWS_CUT_H
 
-#include "gap/5_infer/windows.h"
+#include "gap/2_predict/color.h"
+#include "gap/5_infer/coordinates.h"
+#include <math.h>
+
+// Bins of equally many rows that a coordinate is cut into: of a minute five seconds each.
+#define WINDOW_BINS 12
+
+// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and
+// of equal width, for a layer may be thin.
+enum {
+  WINDOW_FINE = 3 * WINDOW_BINS,
+  WINDOWS_TRIED = WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
+};
+
+// Rows of a bin, on the average, or nothing is said: as many make a white one.
+enum { WINDOW_ROWS = 3 };
+
+// Keeps the bins of all rows along all coordinates, the thrust that of this model, whatever model a look is
+// given. Without it they are found anew each time. FAILED: no memory.
+MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
+
+// The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
+// move.
+bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);
 
 // Bins of equally many rows each, or of equal width; so many along a coordinate.
 typedef enum { BY_ROWS, BY_WIDTH, CUTS } cut_t;
