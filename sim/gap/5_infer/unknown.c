@@ -111,7 +111,7 @@ done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[C
 // --- looks ------------------------------------------------------------------------------------------------
 
 static done_t open_look(look_t *l, why_t *why) {
-  l->room = malloc(10 * set_most_rows(l->s) * sizeof(double));
+  l->room = malloc(LOOK_ROOM * set_most_rows(l->s) * sizeof(double));
   l->bin = malloc(3 * set_most_rows(l->s) * sizeof(int));
   return l->room && l->bin ? DONE : error_failed(why, "out of memory");
 }

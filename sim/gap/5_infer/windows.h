@@ -25,6 +25,8 @@ typedef struct {
   double y_from_m, y_to_m;
 } cell_t;
 
+enum { LOOK_ROOM = 2 + 8 }; // 8: of all channels, side by side
+
 // What is looked at. color: of the residual after the cleaning of unknown.h, by channel; one that is not used
 // is not looked at. centred: a constant over all rows says nothing.
 typedef struct {
@@ -33,7 +35,7 @@ typedef struct {
   double *const *residual; // by channel and row
   const color_t *color;
   bool centred;
-  double *room; // ten times as many numbers as rows
+  double *room; // LOOK_ROOM times as many numbers as rows
   int *bin;     // three times as many
 } look_t;
 

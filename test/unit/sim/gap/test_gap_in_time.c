@@ -14,7 +14,7 @@
 // The largest pulse or line in the force along z, of rows without colour.
 static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[CHANNELS])) {
   color_t color[CHANNELS] = {[CH_FZ] = {.used = true, .sd = 1.0}};
-  double *const room = malloc(2 * GAP_ROWS * sizeof(double));
+  double *const room = malloc(LOOK_ROOM * set_most_rows(&g->set) * sizeof(double));
   cell_t cell[CHANNELS] = {{.statistic = 0.0}};
   const look_t l = {&g->set, &g->model, g->residual, color, true, room, NULL};
   if (CHECK(room)) in_time(&l, cell);

@@ -28,7 +28,7 @@ static set_t set_of(int flights, int points) {
 // Every wanted channel gets the same series.
 static void rows_of(const set_t *s, int flight, const double *series, double *const row[CHANNELS]) {
   const double *every[CHANNELS];
-  double *const scratch = malloc(CH_SMOOTH * POINTS * sizeof(double));
+  double *const scratch = calloc(RESIDUAL_SCRATCH * POINTS, sizeof(double));
   if (!scratch) abort();
   for (int ch = 0; ch < CHANNELS; ch++) every[ch] = series;
   residual_rows(s, flight, SERIES_PREDICTED, every, scratch, row);
