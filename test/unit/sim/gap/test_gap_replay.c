@@ -98,13 +98,16 @@ TEST(gap_replay_of_eight_points_has_the_bits_of_each_alone) {
   fx_use_form(&one, curve_find("table"));
   one.points = (curve_points_t){2, {0.0, 1e6}, {1.0, 1.0}};
   const int rows = sizeof row / sizeof *row;
-  for (int i = 0; i < fx_count + rows; i++) {
+  const int all = fx_count + rows;
+  for (int k = 0; k < 2 * all; k++) {
+    const int i = k % all;
     fx_use_t more = fx_use(i < fx_count ? fx_table[i] : fx_find(row[i - fx_count].name));
     if (i >= fx_count) more.p[row[i - fx_count].param] = row[i - fx_count].value;
     if (more.fx == one.fx) continue;
-    ROW("%s %d", more.fx->name, i);
-    model_t with = c->vehicle, alone = c->vehicle;
+    ROW("%s %d, lag in speed %d", more.fx->name, i, k >= all);
+    model_t with = c->vehicle, alone;
     why_t why;
+    with.lag_in_speed = k >= all;
     model_drop_fx(&with, one.fx);
     CHECK_OK(model_add_fx(&with, &more, &why));
     alone = with;
