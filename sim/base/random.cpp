@@ -3,7 +3,6 @@
 
 #include "base/wide.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -107,20 +106,20 @@ public:
   void take(int n) { next += n; }
 
 private:
-  std::array<uint64_t, N> state, out;
-  std::array<double, N> units;
+  uint64_t state[N], out[N];
+  double units[N];
   int next = N;
   bool spread = false; // units are those of out
 
   // All at once, side by side: who draws normal numbers draws many.
   void spread_out() {
-    units_of(out.data(), N, units.data());
+    units_of(out, N, units);
     spread = true;
   }
 
   void turn() {
-    turn_all(state.data());
-    temper_all(state.data(), out.data());
+    turn_all(state);
+    temper_all(state, out);
     next = 0;
     spread = false;
   }
@@ -133,7 +132,7 @@ struct noise_source {
   twister bits;
   bool keeps = false; // the second one of a pair
   double kept = 0.0;
-  std::array<double, TOGETHER> x, y, square, logs; // of points, while they are drawn
+  double x[TOGETHER], y[TOGETHER], square[TOGETHER], logs[TOGETHER]; // of points, while they are drawn
 
   // Number for number those of std::normal_distribution (Marsaglia's polar method): each point in the unit
   // circle gives two. A point outside is drawn over, without a branch.
@@ -156,7 +155,7 @@ struct noise_source {
       draw(a, b);
     }
     for (int k = 0; k < wanted; k++) logs[k] = std::log(square[k]);
-    stretch(wanted, logs.data(), square.data(), x.data(), y.data(), out);
+    stretch(wanted, logs, square, x, y, out);
     return 2 * wanted;
   }
 

@@ -15,9 +15,15 @@ typedef int64_t four_bits_t __attribute__((vector_size(32)));
 typedef int64_t wide_bits_t __attribute__((vector_size(64)));
 
 // Before a function: it is compiled once more for AVX2 and for AVX-512, and which one is called is found out
-// when the program starts. What it calls has to be inline (WIDE_INLINE).
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                \
-    !defined(WIDE_ONE_COPY)
+// when the program starts: too early for a sanitizer. What it calls has to be inline (WIDE_INLINE).
+#ifdef __has_feature // clang's
+#define WIDE_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WIDE_SANITIZED 1
+#else
+#define WIDE_SANITIZED 0
+#endif
+#if defined(__x86_64__) && !WIDE_SANITIZED
 #define WIDE_COPIES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define WIDE_COPIES

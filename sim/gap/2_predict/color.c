@@ -6,10 +6,6 @@
 
 #define ROWS_MIN 40
 
-bool color_reaches(const rows_t *r, int row) {
-  return row >= 2 && r->follows[row] && r->follows[row - 1];
-}
-
 // Normal equations of an autoregression of second order.
 color_t color_fit(const rows_t *r, const double *v) {
   double s11 = 0.0, s12 = 0.0, s22 = 0.0, s01 = 0.0, s02 = 0.0, s00 = 0.0;

@@ -15,7 +15,9 @@ color_t color_fit(const rows_t *r, const double *v);
 
 // The white rows of v, in place of out (as many as rows; 0 where a row has no two before it).
 void color_whiten(const color_t *color, const rows_t *r, const double *v, double *out);
-bool color_reaches(const rows_t *r, int row); // it has two before it
+static inline bool color_reaches(const rows_t *r, int row) { // it has two before it
+  return row >= 2 && r->follows[row] && r->follows[row - 1];
+}
 // Spread alone, no colour.
 color_t color_plain(const rows_t *r, const double *v);
 

@@ -51,7 +51,7 @@ static void add_flight(set_t *s, int flight, const bool *good) {
   const double start_s = g->n ? g->point[0].t_s : 0.0, end_s = g->n ? g->point[g->n - 1].t_s : 0.0;
   int last = -1000, last_range = -1;
   for (int j = 0; j < g->n; j++) {
-    const int block = s->n_block + (int)((g->point[j].t_s - start_s) / BLOCK_S);
+    const int block = s->n_block + set_block_of(g, j);
     s->half[block] = half_of(s, flight, g->point[j].t_s - start_s, end_s - start_s);
     if (good[j] && j >= last + step) {
       rows_add(&s->smooth, flight, j, block, j == last + step);
@@ -62,7 +62,7 @@ static void add_flight(set_t *s, int flight, const bool *good) {
              last_range >= 0 && g->point[j].t_s - g->point[last_range].t_s < 0.25);
     last_range = j;
   }
-  if (g->n) s->n_block += (int)((end_s - start_s) / BLOCK_S) + 1;
+  if (g->n) s->n_block += set_block_of(g, g->n - 1) + 1;
 }
 
 // Measured and predicted alike; turning is a difference over two points.
@@ -101,7 +101,7 @@ done_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {
     const size_t here = (size_t)grid[i].n;
     points += here;
     most = here > most ? here : most;
-    if (here) blocks += (size_t)((grid[i].point[here - 1].t_s - grid[i].point[0].t_s) / BLOCK_S) + 2;
+    if (here) blocks += (size_t)set_block_of(&grid[i], grid[i].n - 1) + 2;
   }
   bool *const good = malloc(most * sizeof(bool));
   s->half = calloc(blocks, sizeof(int));

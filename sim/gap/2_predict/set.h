@@ -30,6 +30,11 @@ typedef struct {
   struct cuts *cuts;          // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;
 
+// Which block of its flight a point lies in.
+static inline int set_block_of(const grid_t *g, int point) {
+  return (int)((g->point[point].t_s - g->point[0].t_s) / BLOCK_S);
+}
+
 static inline const rows_t *set_rows(const set_t *s, int channel) {
   return channel == CH_RANGE ? &s->range : &s->smooth;
 }

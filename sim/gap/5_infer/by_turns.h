@@ -21,7 +21,7 @@ typedef struct {
 
 // Whose turn it is to be held out.
 static inline int by_turns_at(const grid_t *g, int point) {
-  return (int)((g->point[point].t_s - g->point[0].t_s) / BLOCK_S) % TURNS;
+  return set_block_of(g, point) % TURNS;
 }
 
 // Whether every turn has a whole stretch, so that something is held out.

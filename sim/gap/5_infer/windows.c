@@ -16,56 +16,19 @@ enum {
   BINS_MAX = STRIPS * PARTS + 1, // of any cut; one for what lies beside
 };
 
+typedef double number_t;
+#define SUMS_BINS BINS_MAX
+#include "gap/5_infer/windows_sums.h"
+
 _Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX, "every cut has room");
 
 // --- sums -------------------------------------------------------------------------------------------------
 
-// Products of indicator columns with each other and with the residual, all white.
-typedef struct {
-  int bins; // after them: a constant
-  double D[BINS_MAX + 1][BINS_MAX + 1], y[BINS_MAX + 1];
-} products_t;
-
-// Of a row and the two before it in their bins.
-static void add_row(products_t *p, const double weight[3], double constant, double white, const int *bin) {
-  for (int a = 0; a < 3; a++) {
-    const int k = bin[-a];
-    p->y[k] += weight[a] * white;
-    p->D[k][p->bins] += weight[a] * constant;
-    for (int b = 0; b < 3; b++) p->D[k][bin[-b]] += weight[a] * weight[b];
-  }
-}
-
-// The same where all three are in one, as most are: each number is fetched and put back once.
-static void add_row_of_one(products_t *p, const double weight[3], double constant, double white, int k) {
-  double y = p->y[k], cross = p->D[k][p->bins], own = p->D[k][k];
-  for (int a = 0; a < 3; a++) {
-    y += weight[a] * white;
-    cross += weight[a] * constant;
-    for (int b = 0; b < 3; b++) own += weight[a] * weight[b];
-  }
-  p->y[k] = y;
-  p->D[k][p->bins] = cross;
-  p->D[k][k] = own;
-}
-
 static void add_products(products_t *p, int bins, const rows_t *r, const color_t *c, const double *v,
                          const int *bin) {
-  const double weight[3] = {1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd};
-  const double constant = weight[0] + weight[1] + weight[2];
-  p->bins = bins;
-  for (int k = 0; k <= bins; k++) memset(p->D[k], 0, ((size_t)bins + 1) * sizeof(double));
-  memset(p->y, 0, ((size_t)bins + 1) * sizeof(double));
-  for (int i = 2; i < r->n; i++) {
-    if (!color_reaches(r, i)) continue;
-    const double white = weight[0] * v[i] + weight[1] * v[i - 1] + weight[2] * v[i - 2];
-    if (bin[i] == bin[i - 1] && bin[i] == bin[i - 2])
-      add_row_of_one(p, weight, constant, white, bin[i]);
-    else
-      add_row(p, weight, constant, white, bin + i);
-    p->y[bins] += constant * white;
-    p->D[bins][bins] += constant * constant;
-  }
+  weights_t w = {{1.0 / c->sd, -c->a1 / c->sd, -c->a2 / c->sd}, 0.0, {{0.0}}, {0.0}};
+  weights_multiply(&w);
+  sums_of(p, bins, r, &w, v, bin);
 }
 
 static void take_in(window_sums_t *w, const products_t *p, int k, const int *before, int n) {

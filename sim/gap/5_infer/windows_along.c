@@ -4,18 +4,11 @@
 #include "base/wide.h"
 #include <math.h>
 
+typedef wide_t number_t;
+#define SUMS_BINS WINDOW_FINE
+#include "gap/5_infer/windows_sums.h"
+
 _Static_assert(CH_SMOOTH <= WIDE, "all channels of a list lie side by side");
-
-// Of a list's channels: products of indicator columns with each other and with the residual, all white.
-typedef struct {
-  int bins; // after them: a constant
-  wide_t D[WINDOW_FINE + 1][WINDOW_FINE + 1], y[WINDOW_FINE + 1];
-} products_t;
-
-// What a row and the two before it weigh, white, and what comes of it.
-typedef struct {
-  wide_t of[3], constant, pair[3][3], crossed[3];
-} weights_t;
 
 // Noughts for who is not looked at.
 static void weigh(const look_t *l, int first, int end, weights_t *w) {
@@ -28,56 +21,13 @@ static void weigh(const look_t *l, int first, int end, weights_t *w) {
     at[2][ch - first] = -c->a2 / c->sd;
   }
   for (int a = 0; a < 3; a++) WIDE_LOAD(w->of[a], at[a]);
-  w->constant = w->of[0] + w->of[1] + w->of[2];
-  for (int a = 0; a < 3; a++) {
-    w->crossed[a] = w->of[a] * w->constant;
-    for (int b = 0; b < 3; b++) w->pair[a][b] = w->of[a] * w->of[b];
-  }
-}
-
-// Of a row and the two before it in their bins.
-WIDE_INLINE void add_row(products_t *p, const weights_t *w, const wide_t *white, const int *bin) {
-  for (int a = 0; a < 3; a++) {
-    const int k = bin[-a];
-    p->y[k] += w->of[a] * *white;
-    p->D[k][p->bins] += w->crossed[a];
-    for (int b = 0; b < 3; b++) p->D[k][bin[-b]] += w->pair[a][b];
-  }
-}
-
-// The same where all three are in one, as most are: each number is fetched and put back once.
-WIDE_INLINE void add_row_of_one(products_t *p, const weights_t *w, const wide_t *white, int k) {
-  wide_t y = p->y[k], cross = p->D[k][p->bins], own = p->D[k][k];
-  for (int a = 0; a < 3; a++) {
-    y += w->of[a] * *white;
-    cross += w->crossed[a];
-    for (int b = 0; b < 3; b++) own += w->pair[a][b];
-  }
-  p->y[k] = y;
-  p->D[k][p->bins] = cross;
-  p->D[k][k] = own;
+  weights_multiply(w);
 }
 
 // v: the residual, WIDE numbers a row.
 WIDE_COPIES static void add_products(products_t *p, int bins, const rows_t *r, const weights_t *w,
                                      const double *v, const int *bin) {
-  p->bins = bins;
-  for (int k = 0; k <= bins; k++) memset(p->D[k], 0, ((size_t)bins + 1) * sizeof(wide_t));
-  memset(p->y, 0, ((size_t)bins + 1) * sizeof(wide_t));
-  for (int i = 2; i < r->n; i++) {
-    if (!r->follows[i] || !r->follows[i - 1]) continue;
-    wide_t here, before, two_before;
-    WIDE_LOAD(here, v + WIDE * i);
-    WIDE_LOAD(before, v + WIDE * (i - 1));
-    WIDE_LOAD(two_before, v + WIDE * (i - 2));
-    const wide_t white = w->of[0] * here + w->of[1] * before + w->of[2] * two_before;
-    if (bin[i] == bin[i - 1] && bin[i] == bin[i - 2])
-      add_row_of_one(p, w, &white, bin[i]);
-    else
-      add_row(p, w, &white, bin + i);
-    p->y[bins] += w->constant * white;
-    p->D[bins][bins] += w->constant * w->constant;
-  }
+  sums_of(p, bins, r, w, v, bin);
 }
 
 // --- windows ----------------------------------------------------------------------------------------------
