@@ -8,7 +8,8 @@
 
 namespace {
 
-// Random numbers come at ticks alone, which each vehicle does for itself.
+// Random numbers come at ticks alone, which each vehicle that flies does for itself; an instant that asks for
+// one is looked at alone.
 #define SIM_BASE_RANDOM_H
 struct random_t;
 inline double random_normal(random_t *) {

@@ -16,8 +16,8 @@ enum {
   BINS_MAX = STRIPS * PARTS + 1, // of any cut; one for what lies beside
 };
 
-typedef double number_t;
-#define SUMS_BINS BINS_MAX
+#define SUMS_NUMBER double
+#define SUMS_BINS   BINS_MAX
 #include "gap/5_infer/windows_sums.h"
 
 _Static_assert(STRIPS *STRIPS <= BINS_MAX && (int)WINDOW_FINE <= BINS_MAX, "every cut has room");

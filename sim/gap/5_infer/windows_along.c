@@ -4,8 +4,8 @@
 #include "base/wide.h"
 #include <math.h>
 
-typedef wide_t number_t;
-#define SUMS_BINS WINDOW_FINE
+#define SUMS_NUMBER wide_t
+#define SUMS_BINS   WINDOW_FINE
 #include "gap/5_infer/windows_sums.h"
 
 _Static_assert(CH_SMOOTH <= WIDE, "all channels of a list lie side by side");

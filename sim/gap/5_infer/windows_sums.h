@@ -1,11 +1,17 @@
 // windows_sums.h - products of indicator columns of bins with each other and with a residual, all white: of
-// one channel, or of several side by side. Included where number_t is defined, one number or WIDE of them,
-// and SUMS_BINS, the most that there are. Within sim/gap/5_infer only.
+// one channel, or of several side by side: SUMS_NUMBER, one number or WIDE of them, and SUMS_BINS, the most
+// that there are, are defined before. Within sim/gap/5_infer only.
 #ifndef SIM_GAP_5_INFER_WINDOWS_SUMS_H
 #define SIM_GAP_5_INFER_WINDOWS_SUMS_H
 
 #include "base/wide.h"
 #include "gap/2_predict/color.h"
+
+#ifndef SUMS_NUMBER
+#define SUMS_NUMBER double
+#define SUMS_BINS   1
+#endif
+typedef SUMS_NUMBER number_t;
 
 typedef struct {
   int bins; // after them: a constant
