@@ -23,6 +23,7 @@ inline void random_triangles(random_t *r, int n, double *out) {
   for (int i = 0; i < n; i++) out[i] = random_normal(r);
 }
 
+#define CURVE_POINTS_MAX 1 // an effect with measured points is in no lane
 #include "body/forces.h"
 #include "plant/battery.c"
 #include "plant/rigid.c"

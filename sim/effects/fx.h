@@ -45,10 +45,13 @@ static inline bool fx_is_number(const fx_param_t *p) {
 enum { SURFACE_CEILING = 1, SURFACE_GROUND = 2 };
 
 // Points of a measured curve, x ascending (form `table`).
+#ifndef CURVE_POINTS_MAX // where no curve has any (body/lanes.cpp)
+#define CURVE_POINTS_MAX FX_TABLE_MAX
+#endif
 typedef struct {
   int n;
-  double x[FX_TABLE_MAX];     // distance over rotor radius
-  double ratio[FX_TABLE_MAX]; // thrust ratio
+  double x[CURVE_POINTS_MAX];     // distance over rotor radius
+  double ratio[CURVE_POINTS_MAX]; // thrust ratio
 } curve_points_t;
 
 typedef struct {

@@ -4,6 +4,7 @@
 
 #include "gap/2_predict/set.h"
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
   double *r[CHANNELS];
@@ -32,12 +33,13 @@ typedef struct {
 static inline bool flight_lines_make(flight_lines_t *l, const set_t *s) {
   size_t most = 1;
   for (int f = 0; f < s->n_grid; f++) most = s->grid[f].n > (int)most ? (size_t)s->grid[f].n : most;
-  l->room = calloc((2 * CHANNELS + RESIDUAL_SCRATCH) * most, sizeof(double));
+  l->room = malloc((2 * CHANNELS + RESIDUAL_SCRATCH) * most * sizeof(double));
   for (size_t c = 0; c < CHANNELS && l->room; c++) {
     l->base[c] = l->room + c * most;
     l->with[c] = l->room + (CHANNELS + c) * most;
   }
   l->scratch = l->room ? l->room + 2 * CHANNELS * most : NULL;
+  if (l->room) memset(l->scratch, 0, RESIDUAL_SCRATCH * most * sizeof(double));
   return l->room != NULL;
 }
 
