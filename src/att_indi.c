@@ -95,9 +95,10 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
   const float x_kgm2 = p->quick * p->inertia_xx_kgm2, y_kgm2 = p->quick * p->inertia_yy_kgm2;
   v3_t step = {x_kgm2 * (nu.x - acc.x), y_kgm2 * (nu.y - acc.y),
                p->quick * p->inertia_zz_kgm2 * (nu.z - acc.z) + g * last_Nm};
-  if (in->ceiling_Nms < 0.0f) { // else there is nothing to add
-    step.x += ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x);
-    step.y += ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y);
+  const bool adds = in->ceiling_Nms < 0.0f; // else there is nothing to add
+  if (ANY(adds)) {
+    step.x = EITHER(adds, step.x + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x), step.x);
+    step.y = EITHER(adds, step.y + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y), step.y);
   }
   // What the rotors give now and the vehicle does not show.
   const v3_t held = {in->ratio * now.x - p->inertia_xx_kgm2 * acc.x,
@@ -105,10 +106,11 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
                      now.z + g * (now.z - s->yaw_now_Nm) - p->inertia_zz_kgm2 * acc.z};
   s->yaw_now_Nm = now.z;
   const float most = in->trim_Nm, most_yaw = in->trim_yaw_Nm;
-  if (!(fabsf(held.x) <= most && fabsf(held.y) <= most && fabsf(held.z) <= most_yaw)) {
-    step.x -= beyond_Nm(held.x, most);
-    step.y -= beyond_Nm(held.y, most);
-    step.z -= beyond_Nm(held.z, most_yaw);
+  const bool beyond = !(fabsf(held.x) <= most && fabsf(held.y) <= most && fabsf(held.z) <= most_yaw);
+  if (ANY(beyond)) {
+    step.x = EITHER(beyond, step.x - beyond_Nm(held.x, most), step.x);
+    step.y = EITHER(beyond, step.y - beyond_Nm(held.y, most), step.y);
+    step.z = EITHER(beyond, step.z - beyond_Nm(held.z, most_yaw), step.z);
   }
   return (v3_t){now.x + step.x / in->ratio, now.y + step.y / in->ratio, now.z + step.z / (1.0f + g)};
 }

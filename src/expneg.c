@@ -1,12 +1,14 @@
 // expneg.c - exp(-x) for x >= 0.
 #include "flight/expneg.h"
 
+#include "flight/v3.h"
 #include <stdint.h>
 #include <string.h>
 
 float expneg(float x) {
-  if (!(x > 0.0f)) return 1.0f;
-  if (x > 87.0f) return 0.0f;
+  const bool some = x > 0.0f, all = x > 87.0f;
+  if (!ANY(some)) return 1.0f;
+  if (!ANY(!all)) return 0.0f;
 
   const int n = (int)(x * 1.44269504f + 0.5f);
   // ln 2 in two parts: n times the first is exact, so that r keeps all its digits.
@@ -23,5 +25,5 @@ float expneg(float x) {
   const uint32_t bits = (uint32_t)(127 - n) << 23; // 2^-n, n <= 126
   float scale;
   memcpy(&scale, &bits, sizeof scale);
-  return exp_r * scale;
+  return EITHER(some, EITHER(all, 0.0f, exp_r * scale), 1.0f);
 }

@@ -60,28 +60,29 @@ static bool blind(const guard_param_t *p, const guard_in_t *in) {
 
 // A sample that is no distance, or that the vehicle's climb does not explain.
 static bool range_odd(const guard_t *g, const guard_in_t *in, bool distance) {
-  if (!in->range_new) return (g->now & GUARD_RANGE_ODD) != 0;
-  return !distance ||
-         (in->zc_known && in->range_m >= in->range_floor_m && fabsf(in->range_m - in->zc_m) > ODD_M);
+  const bool kept = (g->now & GUARD_RANGE_ODD) != 0;
+  const bool odd = !distance || (in->zc_known && in->range_m >= in->range_floor_m &&
+                                 fabsf(in->range_m - in->zc_m) > ODD_M);
+  return EITHER(in->range_new, odd, kept);
 }
 
 // The same value again and again while the height moves.
 static bool range_frozen(guard_t *g, const guard_in_t *in, bool distance) {
   const bool kept = (g->now & GUARD_RANGE_FROZEN) != 0;
   g->range_new_ms = judge_longer(g->range_new_ms, true, in->ms);
-  if (!in->range_new) return kept;
-  if (distance && in->range_m == g->range_last_m && in->range_m >= in->range_floor_m) {
-    if (g->range_same < RANGE_SAME) g->range_same++;
-    g->range_same_ms = judge_longer(g->range_same_ms, true, g->range_new_ms);
-    g->range_new_ms = 0;
-    const float moved_m = fabsf(in->pos_w_m.z - g->range_z_m);
-    return kept || (g->range_same >= RANGE_SAME && g->range_same_ms >= GUARD_RANGE_FROZEN_LASTS_MS &&
-                    moved_m > MOVED_M);
-  }
-  g->range_last_m = in->range_m;
-  g->range_z_m = in->pos_w_m.z;
-  g->range_same = g->range_same_ms = g->range_new_ms = 0;
-  return false;
+  if (!ANY(in->range_new)) return kept;
+  const bool is_new = in->range_new;
+  const bool same = distance && in->range_m == g->range_last_m && in->range_m >= in->range_floor_m;
+  const int times = EITHER(g->range_same < RANGE_SAME, g->range_same + 1, g->range_same);
+  const int same_ms = judge_longer(g->range_same_ms, true, g->range_new_ms);
+  const float moved_m = fabsf(in->pos_w_m.z - g->range_z_m);
+  const bool frozen = times >= RANGE_SAME && same_ms >= GUARD_RANGE_FROZEN_LASTS_MS && moved_m > MOVED_M;
+  g->range_same = EITHER(is_new, EITHER(same, times, 0), g->range_same);
+  g->range_same_ms = EITHER(is_new, EITHER(same, same_ms, 0), g->range_same_ms);
+  g->range_new_ms = EITHER(is_new, 0, g->range_new_ms);
+  g->range_last_m = EITHER(is_new && !same, in->range_m, g->range_last_m);
+  g->range_z_m = EITHER(is_new && !same, in->pos_w_m.z, g->range_z_m);
+  return EITHER(is_new, same && (kept || frozen), kept);
 }
 
 static bool saturated(guard_t *g, const guard_in_t *in) {
@@ -95,20 +96,20 @@ static bool saturated(guard_t *g, const guard_in_t *in) {
 static int nearer(const guard_t *g, const guard_in_t *in) {
   const float least_m = in->range_m + TOO_NEAR_M;
   const bool at_floor = in->range_m < in->range_floor_m;
-  if (!(in->range_m > 0.0f && in->range_m < VERY_NEAR_M && least_m < in->ceiling_z_m - in->setpoint_z_m))
-    return 0; // NaN: no ceiling or no height
-  if (g->bias_s < JUDGE_SETTLED_S && !at_floor) return 0;
-  if (!(least_m < in->ceiling_z_m - in->pos_w_m.z)) return 1;
-  return at_floor ? TOO_NEAR_FLOOR : TOO_NEAR_OTHER;
+  const bool says = in->range_m > 0.0f && in->range_m < VERY_NEAR_M &&
+                    least_m < in->ceiling_z_m - in->setpoint_z_m; // NaN: no ceiling or no height
+  const bool explained = !(least_m < in->ceiling_z_m - in->pos_w_m.z);
+  const bool jumped = g->bias_s < JUDGE_SETTLED_S && !at_floor;
+  return EITHER(!says || jumped, 0, EITHER(explained, 1, EITHER(at_floor, TOO_NEAR_FLOOR, TOO_NEAR_OTHER)));
 }
 
 static bool too_near(guard_t *g, const guard_in_t *in) {
   if (g->nearer < 0 || g->nearer > TOO_NEAR_MOST) g->nearer = 0; // a flipped bit
-  if (in->range_new) {
+  if (ANY(in->range_new)) {
     const int by = nearer(g, in);
-    g->nearer =
+    const int now =
         EITHER(by > 0, g->nearer + by, EITHER(g->nearer > TOO_NEAR_LESS, g->nearer - TOO_NEAR_LESS, 0));
-    if (g->nearer > TOO_NEAR_MOST) g->nearer = TOO_NEAR_MOST;
+    g->nearer = EITHER(in->range_new, EITHER(now > TOO_NEAR_MOST, TOO_NEAR_MOST, now), g->nearer);
   }
   return g->nearer >= TOO_NEAR_SUM;
 }

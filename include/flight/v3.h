@@ -24,6 +24,10 @@ typedef struct {
 #ifndef EITHER
 #define EITHER(holds, a, b) ((holds) ? (a) : (b))
 #endif
+// Whether it holds for any of them: what is begun for one is computed for all.
+#ifndef ANY
+#define ANY(holds) (holds)
+#endif
 
 // False for NaN and both infinities.
 static inline bool f_finite(float x) {

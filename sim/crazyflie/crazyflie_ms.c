@@ -3,6 +3,7 @@
 
 #include "base/clip.h"
 #include "base/constants.h"
+#include "base/either.h"
 #include "base/pair.h"
 #include "controller.h"
 #include "plant/rotor.h"
@@ -69,7 +70,7 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
 
 // Most set points stand for seconds: the firmware's is made when another one is asked for.
 static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
-  if (!c->ordered || memcmp(set, &c->asked, sizeof *set) != 0) {
+  if (ANY(!c->ordered) || memcmp(set, &c->asked, sizeof *set) != 0) {
     memcpy(&c->asked, set, sizeof *set);
     c->setpoint = order(c, set);
   }
@@ -77,12 +78,17 @@ static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
 }
 
 // The firmware cuts metres, a float, to whole millimetres in 16 bits.
+static uint16_t whole_mm(float m) {
+  return (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
+}
+
 static void range(crazyflie_t *c, const pilot_in_t *in) {
-  if (in->down_new)
-    c->around.range_mm[rangeDown] = (uint16_t)fminf(fmaxf((float)in->down_m * 1000.0f, 0.0f), 65535.0f);
-  if (!in->range_new) return;
-  const float m = isnan(in->range_m) ? RANGE_NONE_M : (float)in->range_m;
-  c->around.range_mm[rangeUp] = (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
+  uint16_t *const mm = c->around.range_mm;
+  if (ANY(in->down_new))
+    mm[rangeDown] = (uint16_t)EITHER(in->down_new, whole_mm((float)in->down_m), mm[rangeDown]);
+  if (!ANY(in->range_new)) return;
+  const float m = EITHER(isnan(in->range_m), RANGE_NONE_M, (float)in->range_m);
+  mm[rangeUp] = (uint16_t)EITHER(in->range_new, whole_mm(m), mm[rangeUp]);
 }
 
 // The firmware's power distribution, in the two modes that the app and the stock controller command.

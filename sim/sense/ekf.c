@@ -1,6 +1,7 @@
 // ekf.c - the estimator's rates: when what happens, and what comes out.
 #include "sense/ekf.h"
 
+#include "base/either.h"
 #include <math.h>
 
 #define PREDICT_MS   10
@@ -98,10 +99,7 @@ static void start_anew(ekf_t *e) {
 }
 
 void ekf_update(ekf_t *e, const ekf_in_t *in) {
-  if (in->motors)
-    e->flying_ms = FLIGHT_MS;
-  else if (e->flying_ms > 0)
-    e->flying_ms--;
+  e->flying_ms = EITHER(in->motors, FLIGHT_MS, EITHER(e->flying_ms > 0, e->flying_ms - 1, e->flying_ms));
   predict_if_due(e);
   e->noise_ms++;
   take(e, in);

@@ -45,9 +45,9 @@ static void take_range(flight_in_t *in, uint32_t step) {
   // Millimetres, whatever the firmware's header says.
   const range_up_sample_t sample = range_up_poll(&GLUE.range, rangeGet(rangeUp), step);
   in->range_new = sample.is_new;
-  if (!sample.is_new) return;
-  in->range_m = sample.range_m;
-  in->range_age_s = sample.age_s;
+  if (!ANY(sample.is_new)) return;
+  in->range_m = EITHER(sample.is_new, sample.range_m, in->range_m);
+  in->range_age_s = EITHER(sample.is_new, sample.age_s, in->range_age_s);
 }
 
 // In the call of ten in which the height filter steps, and no loop runs: for it, and for a person to read.
