@@ -1,6 +1,7 @@
 // weave.c - the numbers of a block of one flight into a lane, and back.
 #include "flight/weave.h"
 
+#include "base/rows.h"
 #include "flight/lanes_blocks.h"
 #include <pthread.h>
 #include <string.h>
@@ -22,6 +23,15 @@ static bool goes_on(const weave_run_t *r, const lane_field_t *one, const lane_fi
          eight->at == r->eight + (size_t)r->n * LANES * lane_bytes(r->kind);
 }
 
+// The first run that ends behind the begin of each word.
+static void find_words(weave_t *b) {
+  for (int i = b->n - 1; i >= 0; i--) {
+    const weave_run_t *const r = &b->run[i];
+    const size_t end = r->one + (size_t)r->n * width[r->kind];
+    for (size_t word = r->one / 8; word < WEAVE_WORDS && 8 * word < end; word++) b->run_of[word] = (uint8_t)i;
+  }
+}
+
 static bool collect(int block, size_t size) {
   static lane_field_t one[NUMBERS], eight[NUMBERS];
   weave_t *const b = &blocks[block];
@@ -39,6 +49,7 @@ static bool collect(int block, size_t size) {
     if (b->n == WEAVE_RUNS) return false;
     b->run[b->n++] = (weave_run_t){one[i].at, eight[i].at, 1, one[i].kind};
   }
+  find_words(b);
   return true;
 }
 
@@ -109,6 +120,30 @@ static void get_run(const weave_run_t *r, const char *restrict eight, char *rest
   }
 }
 
+// Of a struct of numbers few change: those are looked for 4 words at a time. A word lies in one run or,
+// where its numbers are small, in some that follow each other.
+static void put_word(const weave_t *w, void *eight, int lane, const void *is, size_t at) {
+  for (int i = w->run_of[at / 8]; i < w->n && w->run[i].one < at + 8; i++) {
+    const weave_run_t *const r = &w->run[i];
+    char *const to = (char *)eight + r->eight + (size_t)lane * lane_bytes(r->kind);
+    if (r->kind == LANE_64)
+      memcpy(to + (at - r->one) * LANES, (const char *)is + at, 8);
+    else
+      put_run(r, to, (const char *)is + r->one);
+  }
+}
+
+void weave_put_changed(const weave_t *w, void *eight, int lane, const void *was, const void *is,
+                       size_t bytes) {
+  for (size_t at = 0; at < bytes; at += ROWS_WORDS * 8) {
+    const size_t left = (bytes - at) / 8;
+    const int words = left < ROWS_WORDS ? (int)left : ROWS_WORDS;
+    for (unsigned differ = rows_differ(words, (const char *)was + at, (const char *)is + at); differ;
+         differ &= differ - 1)
+      put_word(w, eight, lane, is, at + 8 * (size_t)__builtin_ctz(differ));
+  }
+}
+
 weave_t weave_part(int block, size_t from, size_t to) {
   const weave_t *const all = &blocks[block];
   weave_t part = {.block = block};
@@ -142,35 +177,18 @@ void weave_get(const weave_t *w, const void *eight, int lane, void *one) {
 
 // --- of all eight ------------------------------------------------------------------------------------------
 
-static inline void cell(bool put, size_t bytes, char *lane, char *one) {
-  put ? memcpy(lane, one, bytes) : memcpy(one, lane, bytes);
-}
-
-// Numbers that are as wide in lanes as they are alone; a row of them at a time.
-static inline void rows(bool put, size_t bytes, int n, char *eight, char *const one[LANES]) {
-  char *const a = one[0], *const b = one[1], *const c = one[2], *const d = one[3], *const e = one[4],
-              *const f = one[5], *const g = one[6], *const h = one[7];
-  for (size_t at = 0; at < (size_t)n * bytes; at += bytes, eight += LANES * bytes) {
-    cell(put, bytes, eight, a + at);
-    cell(put, bytes, eight + bytes, b + at);
-    cell(put, bytes, eight + 2 * bytes, c + at);
-    cell(put, bytes, eight + 3 * bytes, d + at);
-    cell(put, bytes, eight + 4 * bytes, e + at);
-    cell(put, bytes, eight + 5 * bytes, f + at);
-    cell(put, bytes, eight + 6 * bytes, g + at);
-    cell(put, bytes, eight + 7 * bytes, h + at);
-  }
-}
-
 void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]) {
   for (int i = 0; i < w->n; i++) {
     const weave_run_t *const r = &w->run[i];
-    char *const to = (char *)eight + r->eight, *from[LANES];
-    for (int k = 0; k < LANES; k++) from[k] = (char *)one[k] + r->one;
+    char *const to = (char *)eight + r->eight;
+    const char *from[LANES];
+    for (int k = 0; k < LANES; k++) from[k] = (const char *)one[k] + r->one;
     if (r->kind == LANE_64)
-      rows(true, 8, r->n, to, from);
+      rows_put_64(r->n, to, from);
     else if (r->kind == LANE_32)
-      rows(true, 4, r->n, to, from);
+      rows_put_32(r->n, to, from);
+    else if (r->kind == LANE_FLAG)
+      rows_put_flags(r->n, to, from);
     else
       for (int k = 0; k < LANES; k++) put_run(r, to + (size_t)k * lane_bytes(r->kind), from[k]);
   }
@@ -179,12 +197,15 @@ void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]) 
 void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]) {
   for (int i = 0; i < w->n; i++) {
     const weave_run_t *const r = &w->run[i];
-    char *const from = (char *)eight + r->eight, *to[LANES];
+    const char *const from = (const char *)eight + r->eight;
+    char *to[LANES];
     for (int k = 0; k < LANES; k++) to[k] = (char *)one[k] + r->one;
     if (r->kind == LANE_64)
-      rows(false, 8, r->n, from, to);
+      rows_get_64(r->n, from, to);
     else if (r->kind == LANE_32)
-      rows(false, 4, r->n, from, to);
+      rows_get_32(r->n, from, to);
+    else if (r->kind == LANE_FLAG)
+      rows_get_flags(r->n, from, to);
     else
       for (int k = 0; k < LANES; k++) get_run(r, from + (size_t)k * lane_bytes(r->kind), to[k]);
   }
