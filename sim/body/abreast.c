@@ -1,20 +1,14 @@
 // abreast.c - vehicles that are moved eight at a time.
 #include "body/abreast.h"
 
+#include "base/rows.h"
+#include "body/alike.h"
 #include "body/lanes_of.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
-
-// Whose numbers a lane has, and until what change of them.
-typedef struct {
-  const body_t *body;
-  unsigned changed;
-  const body_t *asked; // whose effects were looked up last
-  bool knows;          // them all
-} has_t;
 
 struct abreast {
   const lanes_door_t *door;
@@ -24,43 +18,27 @@ struct abreast {
   double step_s;
   long together; // ticks of a vehicle
   has_t has[LANES];
-  unsigned moved;  // by the last tick
-  unsigned ahead;  // of these, those whose body_t lags behind
-  bool now_loaded; // as theirs are
+  unsigned moved;      // by the last tick
+  unsigned ahead;      // of these, those whose body_t lags behind
+  bool now_loaded;     // as theirs are
+  lanes_alike_t alike; // of
+  const body_t *first; // this one
+  unsigned first_changed;
 };
 
-// --- who may be moved together ----------------------------------------------------------------------------
-
-static bool knows(has_t *has, const body_t *b) {
-  if (has->asked != b) has->knows = lanes_know(b);
-  has->asked = b;
-  return has->knows;
-}
-
-static bool fits(has_t *has, const body_t *b) {
-  return !b->broken && b->kind != INTEGRATE_REFERENCE && !b->rigid.vertical_only && !b->rigid.held &&
-         !(b->span_s > BODY_CHUNK_S) && knows(has, b);
-}
-
-static bool same_effects(const fx_use_t *const *a, const fx_use_t *const *b, int n) {
-  for (int k = 0; k < n; k++)
-    if (a[k]->fx != b[k]->fx || a[k]->form != b[k]->form) return false;
-  return true;
-}
-
-static bool same_senses(const model_t *a, const model_t *b) {
-  const fx_use_t *of_a[FX_MAX], *of_b[FX_MAX];
-  const int n = lanes_senses(a, of_a);
-  return n == lanes_senses(b, of_b) && same_effects(of_a, of_b, n);
-}
-
-static bool alike(const body_t *a, const body_t *b) {
-  return a->span_s == b->span_s && a->kind == b->kind && a->step_s == b->step_s &&
-         a->rigid.lag_in_speed == b->rigid.lag_in_speed && a->rigid.plain_lag == b->rigid.plain_lag &&
-         a->look_is_y == b->look_is_y && a->look.loaded == b->look.loaded && a->pushed == b->pushed &&
-         (a->n_tick > 0) == (b->n_tick > 0) && a->model->battery.n == b->model->battery.n &&
-         same_senses(a->model, b->model) && a->n_excess == b->n_excess && a->n_load == b->n_load &&
-         same_effects(a->excess, b->excess, a->n_excess) && same_effects(a->load, b->load, a->n_load);
+// What is one and the same for those that are moved together; `b` is the first of them.
+static void set_alike(abreast_t *a, const body_t *b) {
+  lanes_alike_t *const to = &a->alike;
+  if (a->first != b || a->first_changed != b->changed || b->n_tick > 0) *to = lanes_alike(b);
+  a->first = b;
+  a->first_changed = b->changed;
+  to->lag_in_speed = b->rigid.lag_in_speed;
+  to->plain_lag = b->rigid.plain_lag;
+  to->pushed = b->pushed;
+  to->looked = b->look_is_y;
+  to->loaded = b->look.loaded;
+  to->span_s = b->span_s;
+  a->door->set(a->lanes, to);
 }
 
 // --- numbers to their lane and back -----------------------------------------------------------------------
@@ -107,6 +85,34 @@ void abreast_settle(abreast_t *a, int k, body_t *b) {
   give_now(from->now, k, b);
   lanes_get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
   b->look.loaded = a->now_loaded;
+}
+
+#define OF_EACH(name, of, something)                                                                         \
+  for (int k = 0; k < LANES; k++) name[k] = (of) >> k & 1 ? (char *)(something) : (char *)&nobody
+
+void abreast_settle_all(abreast_t *a, body_t *const b[LANES]) {
+  body_t nobody;
+  double battery[LANES][3] = {{0.0}};
+  char *one[LANES];
+  unsigned of = 0;
+  for (int k = 0; k < LANES; k++)
+    if (b[k]) of |= a->ahead & 1u << k;
+  if (!of) return;
+  const lanes_at_t *const from = a->door->at(a->lanes);
+  OF_EACH(one, of, b[k]->y);
+  rows_get_64(RIGID_N, (const char *)from->now, one);
+  OF_EACH(one, of, &b[k]->look);
+  rows_get_64(LOOK_NUMBERS, (const char *)from->look, one);
+  OF_EACH(one, of, battery[k]);
+  rows_get_64(3, (const char *)(from->now + LANES * LANES_CHARGE), one);
+  for (int k = 0; k < LANES; k++) {
+    if (!(of >> k & 1)) continue;
+    b[k]->charge = battery[k][0];
+    b[k]->current_A = battery[k][1];
+    b[k]->vbat_V = battery[k][2];
+    b[k]->look.loaded = a->now_loaded;
+  }
+  a->ahead &= ~of;
 }
 
 // Who has to do the tick alone after all is where it was.
@@ -163,9 +169,8 @@ static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
 // Moves those of `in`, which are alike. Returns those that were moved.
 static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
                               lanes_seen_t *seen) {
-  const lanes_alike_t alike = lanes_alike(first);
   contacts_t touch[LANES] = {{.floor = 0}};
-  a->door->set(a->lanes, &alike);
+  set_alike(a, first);
   for (int k = 0; k < LANES; k++) {
     if (!(in >> k & 1)) continue;
     take_all(a, k, b[k]);
@@ -190,7 +195,7 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   int n = 0;
   *first = NULL;
   for (int k = 0; k < LANES; k++) {
-    if (!b[k] || !fits(&a->has[k], b[k]) || (*first && !alike(*first, b[k]))) continue;
+    if (!b[k] || !alike_fits(&a->has[k], b[k]) || (*first && !alike(&a->has[k], *first, b[k]))) continue;
     if (!*first) *first = b[k];
     in |= 1u << k;
     n++;
@@ -267,11 +272,14 @@ long abreast_together(const abreast_t *a) {
 
 void abreast_forget(abreast_t *a) {
   memset(a->has, 0, sizeof a->has);
+  a->first = NULL;
   a->moved = a->ahead = 0;
 }
 
 void abreast_forget_one(abreast_t *a, int k) {
+  for (int i = 0; i < LANES; i++) a->has[i].like = NULL; // it may be the one
   a->has[k] = (has_t){.body = NULL};
+  a->first = NULL;
 }
 
 void abreast_close(abreast_t *a) {

@@ -30,6 +30,8 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
 
 // Before who was moved with others is looked at, or changed, or moved by somebody else.
 void abreast_settle(abreast_t *a, int k, body_t *b);
+// Those that are not null.
+void abreast_settle_all(abreast_t *a, body_t *const b[LANES]);
 
 // What is true before the next tick, of those that are returned: some of those that the last one moved.
 unsigned abreast_sense(abreast_t *a, lanes_truth_t *truth);
