@@ -1,6 +1,7 @@
 // random.cpp - repeatable noise from the C++ library's distributions.
 #include "base/random.h"
 
+#include "base/rows.h"
 #include "base/wide.h"
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,16 @@ public:
   const double *first() const { return &units[next]; }
   void take(int n) { next += n; }
 
+  // The next n; where they do not lie together, in `room`.
+  const uint64_t *words(int n, uint64_t *room) {
+    if (next + n > N) {
+      for (int i = 0; i < n; i++) room[i] = (*this)();
+      return room;
+    }
+    next += n;
+    return &out[next - n];
+  }
+
 private:
   uint64_t state[N], out[N];
   double units[N];
@@ -184,13 +195,31 @@ void random_normals(random_t *r, int n, double *out) {
   while (n - i > 1) i += r->pairs(std::min(TOGETHER, (n - i) / 2), out + i);
   if (i < n) out[i] = r->normal();
 }
-void random_triangles(random_t *r, int n, double *out) {
+// Two of 32 bits each.
+static inline double triangle(uint32_t b) {
   const double scale = 2.4494897427831781 / 0x10000; // sd of the sum: sqrt(2 / 12) of 2^16
+  return scale * (static_cast<int>((b & 0xffff) + (b >> 16)) - 0xffff);
+}
+void random_triangles(random_t *r, int n, double *out) {
   for (int i = 0; i + 1 < n; i += 2) {
     const uint64_t b = r->bits();
-    out[i] = scale * (static_cast<int>((b & 0xffff) + (b >> 16 & 0xffff)) - 0xffff);
-    out[i + 1] = scale * (static_cast<int>((b >> 32 & 0xffff) + (b >> 48)) - 0xffff);
+    out[i] = triangle(static_cast<uint32_t>(b));
+    out[i + 1] = triangle(static_cast<uint32_t>(b >> 32));
   }
+}
+void random_triangles_of_all(random_t *const r[LANES], int n, double *rows) {
+  constexpr int MOST = RANDOM_ROWS / 2;
+  uint64_t room[LANES][MOST] = {{0}}, words[MOST][LANES];
+  const char *at[LANES];
+  const int some = std::min(n / 2, MOST);
+  for (int k = 0; k < LANES; k++)
+    at[k] = reinterpret_cast<const char *>(r[k] ? r[k]->bits.words(some, room[k]) : room[k]);
+  rows_put_64(some, reinterpret_cast<char *>(words), at);
+  for (int i = 0; i < some; i++, rows += 2 * LANES)
+    for (int k = 0; k < LANES; k++) {
+      rows[k] = triangle(static_cast<uint32_t>(words[i][k]));
+      rows[LANES + k] = triangle(static_cast<uint32_t>(words[i][k] >> 32));
+    }
 }
 double random_uniform(random_t *r, double lo, double hi) {
   return canonical(r->bits()) * (hi - lo) + lo;

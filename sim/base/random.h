@@ -2,6 +2,7 @@
 #ifndef SIM_BASE_RANDOM_H
 #define SIM_BASE_RANDOM_H
 
+#include "base/lane.h"
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -20,6 +21,10 @@ void random_normals(random_t *r, int n, double *out);
 // beyond 2.45. Ten times as fast as normal ones; for noise that a filter averages afterwards, which makes it
 // normal.
 void random_triangles(random_t *r, int n, double *out);
+// The same of eight, number i of r[k] to rows[LANES * i + k]; of a null pointer nothing is drawn. At most
+// RANDOM_ROWS of each; only where lane_possible().
+#define RANDOM_ROWS 16
+void random_triangles_of_all(random_t *const r[LANES], int n, double *rows);
 // Evenly distributed over lo..hi.
 double random_uniform(random_t *r, double lo, double hi);
 void random_close(random_t *r);

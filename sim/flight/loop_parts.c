@@ -36,6 +36,10 @@ static mocap_sample_t see_by_mocap(flight_loop_t *f, const truth_t *truth) {
 
 void loop_draw(flight_loop_t *f, const truth_t *truth, senses_drawn_t *drawn) {
   random_triangles(f->random, IMU_DRAWN, drawn->imu);
+  loop_draw_more(f, truth, drawn);
+}
+
+void loop_draw_more(flight_loop_t *f, const truth_t *truth, senses_drawn_t *drawn) {
   drawn->range = range_draw(&f->senses.range, &f->noise.range, f->random);
   drawn->by_mocap = f->plan->mocap.period_s > 0.0;
   if (drawn->by_mocap) drawn->mocap = see_by_mocap(f, truth);

@@ -49,6 +49,7 @@ double loop_tick_s(const flight_loop_t *f);
 flight_over_t loop_tick_order(flight_loop_t *f);
 void loop_see_truth(flight_loop_t *f);
 void loop_draw(flight_loop_t *f, const truth_t *truth, senses_drawn_t *drawn);
+void loop_draw_more(flight_loop_t *f, const truth_t *truth, senses_drawn_t *drawn); // but imu's
 void loop_note_range(flight_loop_t *f);
 void loop_pilot(flight_loop_t *f);
 
