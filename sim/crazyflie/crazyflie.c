@@ -59,7 +59,12 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
   c->stock.param.power = c->firmware;
 }
 
+void crazyflie_home(crazyflie_t *c) {
+  if (c->bring_home) c->bring_home(c->home_context);
+}
+
 void crazyflie_start(crazyflie_t *c) {
+  crazyflie_home(c);
   stand_in = &c->around;
   memset(c->around.range_mm, 0, sizeof c->around.range_mm);
   c->around.can_fly = c->around.flying = c->around.motors_allowed = false;
@@ -86,6 +91,7 @@ static void *own(const crazyflie_t *c, const void *address) {
 bool crazyflie_set(crazyflie_t *c, const char *name, double value) {
   const section_param_t *const p = sections_param(name);
   if (!p) return false;
+  crazyflie_home(c);
   stand_in = &c->around;
   values_put(p->type, own(c, p->address), value);
   if (p->callback) p->callback();

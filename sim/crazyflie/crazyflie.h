@@ -40,6 +40,8 @@ typedef struct crazyflie {
   pilot_setpoint_t asked; // this one
   const pilot_in_t *now;  // during a call
   bool called;
+  void (*bring_home)(void *context); // null: its state is here
+  void *home_context;
 } crazyflie_t;
 
 // A vehicle that is off: its app's parameters are at their defaults. The firmware is the one that was built
@@ -49,6 +51,11 @@ void crazyflie_init(crazyflie_t *c, const model_t *model);
 // Switches it on, or the controller anew: as on the vehicle, all but parameters and their commits is fresh.
 // Who flies it by pilot_in_t has waited until it was armed, or took over in flight: the first call tells.
 void crazyflie_start(crazyflie_t *c);
+
+// Whoever stands between sensors and pilot (plan_t.edit) and looks at the vehicle's state, changes it, or has
+// the pilot called otherwise than once, says so first: it may fly with others (flight/together.h), and its
+// state be with theirs. The pilot's step() is then called for it alone. The calls below say so themselves.
+void crazyflie_home(crazyflie_t *c);
 
 // One millisecond: sensors, estimate and set point through the firmware's units, the supervisor, the app,
 // power distribution and battery compensation. Newton of each motor in free air, by the model's map at

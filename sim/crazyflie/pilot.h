@@ -9,6 +9,7 @@
 
 #include "base/d3.h"
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define PILOT_MOTORS   4
@@ -61,6 +62,17 @@ typedef struct {
   unsigned guard_now, guard_latched; // reasons of the guard (flight/guard.h)
 } thoughts_t;
 
+// Who stands around a vehicle: edits what it gets (plan_t.edit), and looks at it.
+typedef struct {
+  size_t from, to;
+} pilot_part_t;
+typedef struct {
+  const pilot_part_t *part; // of the app's state (glue_t), in bytes: what is looked at between milliseconds
+  int n;
+  // Behind each millisecond of the vehicle in which step() is not called; in: as it was edited.
+  void (*after)(void *state, const pilot_in_t *in, const double motor_N[PILOT_MOTORS]);
+} pilot_around_t;
+
 typedef struct {
   void *state;
   // Fills motor_N, m1..m4, each finite.
@@ -71,8 +83,9 @@ typedef struct {
   // Who is nothing but crazyflie_ms() of this vehicle, and keeps its log: then with others
   // (flight/together.h).
   struct crazyflie *vehicle;                       // null: another
-  bool (*keeps)(const void *state, uint32_t step); // a row of this millisecond, at its end
+  bool (*keeps)(const void *state, uint32_t step); // a row of this millisecond, at its end; null: never
   void (*keep)(void *state);
+  const pilot_around_t *around; // null: nobody stands there who looks at its state
 } pilot_t;
 
 #endif

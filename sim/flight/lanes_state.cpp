@@ -66,7 +66,8 @@ struct lanes_state {
   lanes::state_of_eight now, before;
   // What came in in each: to sensors and estimator, and to the Crazyflie.
   lanes::senses_drawn_t drawn[SINCE];
-  lanes::truth_t truth[SINCE];
+  lanes::truth_t truth[SINCE]; // of ticks
+  int truth_of[SINCE], truths;
   lanes::pilot_in_t in[SINCE];
   int senses, vehicle; // milliseconds since
 };
@@ -115,45 +116,70 @@ static void keep_range(const lanes::range_t *from, lanes::range_t *to) {
   memcpy((void *)&to->up_mm, &from->up_mm, sizeof *to - offsetof(lanes::range_t, up_mm));
 }
 
-unsigned lanes_senses_ms(lanes_state_t *s, unsigned in) {
+// Of what is the same as in the millisecond before a copy is there; but of range's noise, nobody asks for it.
+static void keep_told(lanes_state_t *s, unsigned what) {
+  const state_of_eight *const now = &s->now;
+  const int ms = s->senses++;
+  memcpy((void *)&s->drawn[ms], &now->drawn,
+         what & LANES_DRAWN_MORE ? sizeof now->drawn : offsetof(lanes::senses_drawn_t, range));
+  if (ms == 0) s->truths = 0;
+  if (ms == 0 || what & LANES_TRUTH_NEW)
+    memcpy((void *)&s->truth[s->truths++], &now->truth, sizeof now->truth);
+  s->truth_of[ms] = s->truths - 1;
+}
+
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what) {
   state_of_eight *const now = &s->now;
   if (s->senses == SINCE) {
     LANES_BLOCKS_OF_SENSES(KEEP)
     keep_range(&now->senses.range, &s->before.senses.range);
     s->senses = 0;
   }
-  memcpy((void *)&s->drawn[s->senses], &now->drawn, sizeof now->drawn);
-  memcpy((void *)&s->truth[s->senses++], &now->truth, sizeof now->truth);
+  keep_told(s, what);
   lanes::lanes_in = in;
   lanes::senses_take(&now->senses, &now->imu_param, &now->range_param, &now->drawn, &now->truth, &now->in);
   return lanes::lanes_in;
 }
 
-unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
-  state_of_eight *const now = &s->now;
+void *lanes_told(lanes_state_t *s) {
+  const state_of_eight *const now = &s->now;
   if (s->vehicle == SINCE) {
     keep_app(&now->vehicle.app, &s->before.vehicle.app);
     keep_around(&now->vehicle.around, &s->before.vehicle.around);
     LANES_BLOCKS_OF_VEHICLE(KEEP)
     s->vehicle = 0;
   }
-  memcpy((void *)&s->in[s->vehicle++], &now->in, sizeof now->in);
+  return memcpy((void *)&s->in[s->vehicle], &now->in, sizeof now->in);
+}
+
+unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
+  state_of_eight *const now = &s->now;
+  const lanes::pilot_in_t *const told = &s->in[s->vehicle++];
   // What control_t holds for other modes shares its place with the forces, and lies in no lane.
   lanes::lanes_in =
       in & (now->vehicle.control.controlMode == lanes::controlModeForce || !now->vehicle.called).bits();
   if (!lanes::lanes_in) return 0;
-  lanes::crazyflie_ms(&now->vehicle, &now->in, now->motors.N);
+  lanes::crazyflie_ms(&now->vehicle, told, now->motors.N);
   return lanes::lanes_in;
 }
 
 lanes_since_t lanes_senses_since(const lanes_state_t *s) {
-  return {s->senses, sizeof s->drawn[0], s->drawn, sizeof s->truth[0], s->truth};
+  return {s->senses, sizeof s->drawn[0], s->drawn, sizeof s->truth[0], s->truth, s->truth_of};
 }
 lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
-  return {s->vehicle, sizeof s->in[0], s->in, 0, nullptr};
+  return {s->vehicle, sizeof s->in[0], s->in, 0, nullptr, nullptr};
 }
 void lanes_begin_anew(lanes_state_t *s) {
+  memset((void *)s->drawn, 0, sizeof s->drawn); // nobody's by motion capture, for whom each is a copy
   s->senses = s->vehicle = SINCE;
+}
+bool lanes_senses_due(lanes_state_t *s, bool none) {
+  if (none) s->senses = SINCE;
+  return s->senses == SINCE;
+}
+bool lanes_vehicle_due(lanes_state_t *s, bool none) {
+  if (none) s->vehicle = SINCE;
+  return s->vehicle == SINCE;
 }
 
 void lanes_take_truth(lanes_state_t *s, const double *numbers, unsigned motors) {
@@ -175,8 +201,11 @@ lanes_state_t *lanes_state_open(void) {
   return nullptr;
 }
 void lanes_state_close(lanes_state_t *) {}
-unsigned lanes_senses_ms(lanes_state_t *, unsigned) {
+unsigned lanes_senses_ms(lanes_state_t *, unsigned, unsigned) {
   return 0;
+}
+void *lanes_told(lanes_state_t *) {
+  return nullptr;
 }
 unsigned lanes_vehicle_ms(lanes_state_t *, unsigned) {
   return 0;
@@ -199,5 +228,11 @@ lanes_since_t lanes_vehicle_since(const lanes_state_t *) {
   return {};
 }
 void lanes_begin_anew(lanes_state_t *) {}
+bool lanes_senses_due(lanes_state_t *, bool) {
+  return false;
+}
+bool lanes_vehicle_due(lanes_state_t *, bool) {
+  return false;
+}
 
 #endif

@@ -20,8 +20,13 @@ void lanes_state_close(lanes_state_t *s);
 
 // A millisecond of sensors and estimator, and of the Crazyflie, of the lanes `in` (a bit each). Those that
 // are returned have passed it; the others parted, and are to do it alone from what they were before.
-unsigned lanes_senses_ms(lanes_state_t *s, unsigned in);
+enum { LANES_DRAWN_MORE = 1, LANES_TRUTH_NEW = 2 }; // more than the inertial sensors' noise; of another tick
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what);
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
+
+// Before the latter, each time: what the Crazyflie of each is told in it, a copy of block `in` that may be
+// edited.
+void *lanes_told(lanes_state_t *s);
 
 // What is new of the upward range sensor since the last millisecond, a bit each.
 unsigned lanes_range_new(const lanes_state_t *s);
@@ -42,12 +47,17 @@ typedef struct {
   const void *first;
   size_t other_bytes;
   const void *other;
+  const int *other_of; // which of those is of each millisecond
 } lanes_since_t;
 lanes_since_t lanes_senses_since(const lanes_state_t *s);
 lanes_since_t lanes_vehicle_since(const lanes_state_t *s);
 
 // All numbers were put in anew.
 void lanes_begin_anew(lanes_state_t *s);
+// Whether the next millisecond of the senses, of the Crazyflie begins with a copy: numbers may be put in
+// anew. It does, if none is in lanes now.
+bool lanes_senses_due(lanes_state_t *s, bool none);
+bool lanes_vehicle_due(lanes_state_t *s, bool none);
 
 // lanes_fields.cpp: how many numbers a block has, and where each lies.
 int lanes_fields_of_one(int block, lane_field_t *to, int room, size_t *size);

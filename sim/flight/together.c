@@ -1,96 +1,12 @@
 // together.c - flights eight at a time.
 #include "flight/together.h"
 
+#include "base/heap.h"
 #include "base/larger.h"
 #include "base/turns.h"
-#include "body/abreast.h"
 #include "crazyflie/crazyflie.h"
+#include "flight/group.h"
 #include "flight/lanes_blocks.h"
-#include "flight/loop_parts.h"
-#include "flight/woven.h"
-#include <string.h>
-
-typedef struct {
-  flight_loop_t *f;
-  record_t *record;
-  bool *finite;
-  why_t *why;
-  done_t status;
-} job_t;
-
-typedef struct {
-  woven_t woven;
-  abreast_t *bodies;
-  job_t *job[LANES];
-  unsigned fly;     // lanes in which a flight is, a bit each
-  unsigned vehicle; // of these, those whose pilot is in lanes, too
-  long together;
-  union {
-    glue_t app;
-    flight_loop_t flight;
-  } nobody; // what is woven of lanes in which nobody is
-} group_t;
-
-// Of each lane in `of` the address of something of its flight, of the others that of nobody.
-#define OF_EACH(name, of, something)                                                                         \
-  void *name[LANES];                                                                                         \
-  for (int k = 0; k < LANES; k++) name[k] = (of) >> k & 1 ? (void *)(something) : (void *)&g->nobody
-
-#define EACH(k, of)                                                                                          \
-  for (int k = 0; k < LANES; k++)                                                                            \
-    if ((of) >> k & 1)
-
-// The body's own numbers.
-static void settle(group_t *g, int k) {
-  abreast_settle(g->bodies, k, &g->job[k]->f->body);
-}
-
-// --- a millisecond -----------------------------------------------------------------------------------------
-
-static void draw(group_t *g) {
-  senses_drawn_t drawn[LANES];
-  bool more = false;
-  EACH(k, g->fly) {
-    flight_loop_t *const f = g->job[k]->f;
-    loop_draw(f, &f->truth, &drawn[k]);
-    more = more || drawn[k].by_mocap || f->senses.range.tick % RANGE_ANY_PERIOD_MS == 0;
-    f->senses.range.tick++;
-  }
-  OF_EACH(drawn_of, g->fly, &drawn[k]);
-  woven_put_all(&g->woven, more ? weave_block(LANES_drawn) : &g->woven.noise_of_imu, drawn_of);
-}
-
-static void sense(group_t *g) {
-  draw(g);
-  const unsigned passed = lanes_senses_ms(g->woven.state, g->fly);
-  EACH(k, g->fly & ~passed) woven_sense_alone(&g->woven, k, g->job[k]->f);
-  EACH(k, lanes_range_new(g->woven.state) & g->fly) {
-    flight_loop_t *const f = g->job[k]->f;
-    woven_get(&g->woven, LANES_in, k, &f->in);
-    loop_note_range(f);
-  }
-}
-
-static void pilots(group_t *g, uint32_t step) {
-  if (g->vehicle) {
-    const unsigned passed = lanes_vehicle_ms(g->woven.state, g->vehicle);
-    EACH(k, g->vehicle & ~passed) woven_pilot_alone(&g->woven, k, g->job[k]->f);
-    g->together += __builtin_popcount(passed);
-  }
-  EACH(k, g->vehicle) {
-    const pilot_t *const p = g->job[k]->f->pilot;
-    if (!p->keeps(p->state, step)) continue;
-    woven_get(&g->woven, LANES_app, k, &p->vehicle->app);
-    p->keep(p->state);
-  }
-  EACH(k, g->fly & ~g->vehicle) {
-    flight_loop_t *const f = g->job[k]->f;
-    woven_get(&g->woven, LANES_in, k, &f->in);
-    if (f->plan->edit) settle(g, k);
-    loop_pilot(f);
-  }
-  lanes_step(g->woven.state);
-}
 
 // --- a tick ------------------------------------------------------------------------------------------------
 
@@ -98,13 +14,15 @@ static void pilots(group_t *g, uint32_t step) {
 static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   job_t *const job = g->job[k];
   flight_loop_t *const f = job->f;
-  settle(g, k);
-  woven_end_flight(&g->woven, k, f);
+  group_settle(g, 1u << k);
+  woven_get(&g->woven, LANES_in, k, &f->in);
+  if (g->sensed >> k & 1) woven_end_senses(&g->woven, k, f);
   if (g->vehicle >> k & 1) woven_end_vehicle(&g->woven, k, f->pilot->vehicle);
   job->status = status;
   *job->finite = over != FLIGHT_NOT_FINITE;
   g->fly &= ~(1u << k);
   g->vehicle &= g->fly;
+  g->sensed &= g->fly;
 }
 
 // What is true, of those whose bodies are in lanes. Numbers of eight lie in one way everywhere.
@@ -116,7 +34,8 @@ static unsigned see_truth(group_t *g) {
   EACH(k, seen) {
     flight_loop_t *const f = g->job[k]->f;
     f->up_min = smaller(f->up_min, truth.up[k]);
-    if (f->plan->mocap.period_s > 0.0) woven_get(&g->woven, LANES_truth, k, &f->truth);
+    if (f->plan->mocap.period_s > 0.0 || !(g->sensed >> k & 1))
+      woven_get(&g->woven, LANES_truth, k, &f->truth);
   }
   return seen;
 }
@@ -130,7 +49,7 @@ static void begin_tick(group_t *g) {
   EACH(k, g->fly) {
     flight_loop_t *const f = g->job[k]->f;
     if (!(seen >> k & 1)) {
-      settle(g, k);
+      group_settle(g, 1u << k);
       loop_see_truth(f);
       woven_put(&g->woven, LANES_truth, k, &f->truth);
     }
@@ -139,10 +58,10 @@ static void begin_tick(group_t *g) {
 }
 
 static void get_sample(group_t *g, unsigned of) {
-  EACH(k, of) settle(g, k);
+  group_settle(g, of);
   OF_EACH(truth, of, &g->job[k]->f->truth);
   OF_EACH(in, of, &g->job[k]->f->in);
-  OF_EACH(estimate, of, &g->job[k]->f->senses.estimate);
+  OF_EACH(estimate, of & g->sensed, &g->job[k]->f->senses.estimate);
   woven_get_all(&g->woven, weave_block(LANES_truth), truth);
   woven_get_all(&g->woven, &g->woven.felt, in);
   woven_get_all(&g->woven, weave_block(LANES_estimate), estimate);
@@ -194,19 +113,16 @@ static void take_motors(group_t *g) {
 
 // --- flights -----------------------------------------------------------------------------------------------
 
-// A pilot whose state nobody touches but the vehicle's millisecond.
-static bool is_vehicle(const flight_loop_t *f) {
-  const crazyflie_t *const c = f->pilot->vehicle;
-  return c && !f->plan->edit && !c->fly && !c->command && !c->around.event && c->app.shadow == 0;
-}
-
 static void begin(group_t *g) {
   int some = -1, pilot = -1;
-  g->fly = g->vehicle = 0;
+  g->fly = g->vehicle = g->out = g->edited = g->looked = 0;
+  g->around = NULL;
   for (int k = 0; k < LANES; k++) {
     if (!g->job[k]) continue;
     g->fly |= 1u << (some = k);
-    if (is_vehicle(g->job[k]->f)) g->vehicle |= 1u << (pilot = k);
+    g->apart_sensed[k] = APART_NEVER;
+    group_begin_vehicle(g, k);
+    if (g->vehicle >> k & 1) pilot = k;
   }
   // A lane in which there is none does as another does.
   for (int k = 0; k < LANES; k++) {
@@ -214,6 +130,7 @@ static void begin(group_t *g) {
     if (pilot >= 0)
       woven_begin_vehicle(&g->woven, k, g->job[g->vehicle >> k & 1 ? k : pilot]->f->pilot->vehicle);
   }
+  g->sensed = g->fly;
   lanes_begin_anew(g->woven.state);
   abreast_forget(g->bodies);
 }
@@ -224,8 +141,9 @@ static void fly_together(group_t *g) {
     begin_tick(g);
     if (g->fly == 0) return;
     for (int ms = 0; ms < 2; ms++) {
-      sense(g);
-      pilots(g, (uint32_t)(2 * g->job[__builtin_ctz(g->fly)]->f->tick + ms));
+      g->ms = (uint32_t)(2 * g->job[__builtin_ctz(g->fly)]->f->tick + ms);
+      group_sense(g);
+      group_pilots(g);
     }
     take_motors(g);
     sample(g);
@@ -261,6 +179,7 @@ long together(int n, void (*flight)(void *context, int i), void *context) {
   group_t g = {.bodies = NULL};
   if (n >= TOGETHER_FEWEST && !turns_inside() && woven_open(&g.woven)) g.bodies = abreast_open(lane_bits());
   const turns_t turns = {.job = flight, .meet = fly_all, .context = context, .meet_context = &g};
+  if (g.bodies) heap_keep();
   if (g.bodies)
     turns_run(&turns, n);
   else

@@ -17,6 +17,12 @@ static void get_before(woven_t *w, int block, int k, void *one) {
 void woven_put_part(woven_t *w, const weave_t *part, int k, const void *one) {
   weave_put(part, lanes_block(w->state, part->block), k, one);
 }
+void woven_get_part(woven_t *w, const weave_t *part, int k, void *one) {
+  weave_get(part, lanes_block(w->state, part->block), k, one);
+}
+double *woven_noise_of_imu(woven_t *w) {
+  return (double *)(void *)((char *)lanes_block(w->state, LANES_drawn) + w->noise_of_imu.run[0].eight);
+}
 void woven_put_all(woven_t *w, const weave_t *part, void *const one[LANES]) {
   weave_put_all(part, lanes_block(w->state, part->block), (const void *const *)one);
 }
@@ -30,6 +36,7 @@ static void get_part_before(woven_t *w, const weave_t *part, int k, void *one) {
 #define PART(block, type, from, to) weave_part(block, offsetof(type, from), offsetof(type, to))
 static void take_parts(woven_t *p) {
   p->noise_of_imu = PART(LANES_drawn, senses_drawn_t, imu, range);
+  p->drawn_more = weave_part(LANES_drawn, offsetof(senses_drawn_t, range), sizeof(senses_drawn_t));
   p->set = weave_part(LANES_in, offsetof(pilot_in_t, set), sizeof(pilot_in_t));
   p->felt = PART(LANES_in, pilot_in_t, gyro_b_radps, applied_N);
   p->moved = PART(LANES_in, pilot_in_t, applied_N, range_new);
@@ -39,6 +46,15 @@ static void take_parts(woven_t *p) {
   p->curve = PART(LANES_app, glue_t, flight.outer.out, flight.outer.faults);
   p->learned = PART(LANES_app, glue_t, flight.outer.learn, flight.att);
   p->guard = PART(LANES_app, glue_t, flight.guard, flight.guard.action);
+  p->ranges = PART(LANES_in, pilot_in_t, range_new, set);
+}
+
+void woven_look(woven_t *w, const pilot_around_t *around) {
+  w->looked = (weave_t){.block = LANES_app};
+  for (int i = 0; i < around->n; i++) {
+    const weave_t part = weave_part(LANES_app, around->part[i].from, around->part[i].to);
+    for (int k = 0; k < part.n && w->looked.n < WEAVE_RUNS; k++) w->looked.run[w->looked.n++] = part.run[k];
+  }
 }
 
 // What it remembers does not change but in the place that it writes anew.
@@ -80,15 +96,28 @@ static void all_of_senses(woven_t *w, way_t *way, int k, senses_t *s) {
   way(w, LANES_estimate, k, &s->estimate);
 }
 
-void woven_begin_flight(woven_t *w, int k, flight_loop_t *f) {
-  all_of_senses(w, woven_put, k, &f->senses);
-  woven_put(w, LANES_range, k, &f->senses.range);
-  woven_put(w, LANES_imu_param, k, &f->noise.imu);
-  woven_put(w, LANES_range_param, k, &f->noise.range);
-  woven_put(w, LANES_in, k, &f->in);
+static void put_motors(woven_t *w, int k, const flight_loop_t *f) {
   lanes_motors_t motors;
   memcpy(motors.N, f->motor_N, sizeof motors.N);
   woven_put(w, LANES_motors, k, &motors);
+}
+
+void woven_senses_back(woven_t *w, int k, flight_loop_t *f) {
+  all_of_senses(w, woven_put, k, &f->senses);
+  woven_put(w, LANES_range, k, &f->senses.range);
+}
+
+void woven_tell_sensed(woven_t *w, int k, const flight_loop_t *f) {
+  woven_put_part(w, &w->felt, k, &f->in);
+  woven_put_part(w, &w->ranges, k, &f->in);
+}
+
+void woven_begin_flight(woven_t *w, int k, flight_loop_t *f) {
+  woven_senses_back(w, k, f);
+  woven_put(w, LANES_imu_param, k, &f->noise.imu);
+  woven_put(w, LANES_range_param, k, &f->noise.range);
+  woven_put(w, LANES_in, k, &f->in);
+  put_motors(w, k, f);
 }
 
 void woven_begin_vehicle(woven_t *w, int k, crazyflie_t *c) {
@@ -97,10 +126,9 @@ void woven_begin_vehicle(woven_t *w, int k, crazyflie_t *c) {
   put_build(w, k, c);
 }
 
-void woven_end_flight(woven_t *w, int k, flight_loop_t *f) {
+void woven_end_senses(woven_t *w, int k, flight_loop_t *f) {
   all_of_senses(w, woven_get, k, &f->senses);
   woven_get(w, LANES_range, k, &f->senses.range);
-  woven_get(w, LANES_in, k, &f->in);
 }
 
 void woven_end_vehicle(woven_t *w, int k, crazyflie_t *c) {
@@ -120,6 +148,22 @@ void woven_close(woven_t *w) {
   w->state = NULL;
 }
 
+// --- somebody between sensors and pilot --------------------------------------------------------------------
+
+void woven_tell(void *told, int k, const pilot_in_t *was, const pilot_in_t *is) {
+  weave_put_changed(weave_block(LANES_in), told, k, was, is, sizeof *is);
+}
+
+void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f) {
+  woven_end_vehicle(w, k, f->pilot->vehicle);
+  woven_get(w, LANES_motors, k, f->motor_N);
+}
+
+void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f) {
+  woven_begin_vehicle(w, k, f->pilot->vehicle);
+  put_motors(w, k, f);
+}
+
 // --- who parted, alone -------------------------------------------------------------------------------------
 
 static const void *block_of(const void *first, size_t bytes, int i) {
@@ -135,12 +179,11 @@ void woven_sense_alone(woven_t *w, int k, flight_loop_t *f) {
   woven_get(w, LANES_in, k, &f->in);
   for (int ms = 0; ms < since.ms; ms++) {
     weave_get(weave_block(LANES_drawn), block_of(since.first, since.bytes, ms), k, &drawn);
-    weave_get(weave_block(LANES_truth), block_of(since.other, since.other_bytes, ms), k, &truth);
+    weave_get(weave_block(LANES_truth), block_of(since.other, since.other_bytes, since.other_of[ms]), k,
+              &truth);
     senses_take(&f->senses, &f->noise.imu, &f->noise.range, &drawn, &truth, &f->in);
   }
-  all_of_senses(w, woven_put, k, &f->senses);
-  woven_put(w, LANES_range, k, &f->senses.range);
-  woven_put(w, LANES_in, k, &f->in);
+  woven_tell_sensed(w, k, f);
 }
 
 void woven_pilot_alone(woven_t *w, int k, flight_loop_t *f) {
@@ -150,12 +193,8 @@ void woven_pilot_alone(woven_t *w, int k, flight_loop_t *f) {
   get_part_before(w, &w->now, k, &c->app);
   const lanes_since_t since = lanes_vehicle_since(w->state);
   for (int ms = 0; ms < since.ms; ms++) {
-    weave_get(weave_block(LANES_in), block_of(since.first, since.bytes, ms), k, &f->in);
-    crazyflie_ms(c, &f->in, f->motor_N);
+    pilot_in_t in = {0};
+    weave_get(weave_block(LANES_in), block_of(since.first, since.bytes, ms), k, &in);
+    crazyflie_ms(c, &in, f->motor_N);
   }
-  all_of_vehicle(w, woven_put, k, c);
-  woven_put(w, LANES_app, k, &c->app);
-  lanes_motors_t motors;
-  memcpy(motors.N, f->motor_N, sizeof motors.N);
-  woven_put(w, LANES_motors, k, &motors);
 }

@@ -1,0 +1,152 @@
+// group_pilots.c - the pilots of eight flights.
+#include "flight/group.h"
+
+#include "crazyflie/crazyflie.h"
+#include "flight/lanes_blocks.h"
+#include <string.h>
+
+void group_settle(group_t *g, unsigned of) {
+  body_t *bodies[LANES] = {NULL};
+  EACH(k, of) bodies[k] = &g->job[k]->f->body;
+  abreast_settle_all(g->bodies, bodies);
+}
+
+static pilot_t *pilot_of(const group_t *g, int k) {
+  return (pilot_t *)g->job[k]->f->pilot;
+}
+
+// --- in and out --------------------------------------------------------------------------------------------
+
+// A pilot whose state nobody touches but the vehicle's millisecond, or who says so (crazyflie_home). Of those
+// who look at it, one of a kind.
+static bool is_vehicle(const group_t *g, const flight_loop_t *f) {
+  const crazyflie_t *const c = f->pilot->vehicle;
+  const pilot_around_t *const around = f->pilot->around;
+  return c && !c->fly && !c->command && !c->around.event && c->app.shadow == 0 &&
+         (!around || !g->around || around == g->around);
+}
+
+void group_begin_vehicle(group_t *g, int k) {
+  const flight_loop_t *const f = g->job[k]->f;
+  if (!is_vehicle(g, f)) return;
+  g->vehicle |= 1u << k;
+  g->place[k] = (place_t){g, k};
+  g->apart[k] = APART_NEVER;
+  if (f->plan->edit || f->pilot->around) g->edited |= 1u << k;
+  if (!f->pilot->around) return;
+  g->looked |= 1u << k;
+  if (!g->around) woven_look(&g->woven, f->pilot->around);
+  g->around = f->pilot->around;
+}
+
+// Its state is its own until the next copy, or longer.
+static void leave(group_t *g, int k) {
+  g->vehicle &= ~(1u << k);
+  g->out |= 1u << k;
+}
+
+static void come_back(group_t *g) {
+  if (!g->out || !lanes_vehicle_due(g->woven.state, g->vehicle == 0)) return;
+  EACH(k, g->out & g->fly) {
+    if (!group_rested(&g->apart[k], g->ms)) continue;
+    woven_vehicle_back(&g->woven, k, g->job[k]->f);
+    g->vehicle |= 1u << k;
+  }
+  g->out &= ~g->vehicle;
+}
+
+static void keep(group_t *g, int k) {
+  const pilot_t *const p = pilot_of(g, k);
+  if (p->keeps && p->keeps(p->state, g->ms)) p->keep(p->state);
+}
+
+// Who differs from the others does the millisecond again, alone.
+static void part(group_t *g, int k) {
+  woven_pilot_alone(&g->woven, k, g->job[k]->f);
+  keep(g, k);
+  if (group_parts(&g->apart[k], g->ms))
+    leave(g, k);
+  else
+    woven_vehicle_back(&g->woven, k, g->job[k]->f);
+}
+
+// --- somebody between sensors and pilot --------------------------------------------------------------------
+
+// crazyflie_t.bring_home
+static void bring_home(void *context) {
+  const place_t *const at = context;
+  group_t *const g = at->g;
+  if (!(g->vehicle >> at->k & 1)) return;
+  woven_vehicle_home(&g->woven, at->k, g->job[at->k]->f);
+  g->apart[at->k].back_ms = g->ms;
+  leave(g, at->k);
+}
+
+// What somebody makes of a lane's pilot_in_t. Who brought the vehicle home has its pilot called for it.
+static void edit(group_t *g, void *told, int k) {
+  flight_loop_t *const f = g->job[k]->f;
+  crazyflie_t *const c = f->pilot->vehicle;
+  pilot_in_t *const in = &g->told[k];
+  memcpy(in, &f->in, offsetof(pilot_in_t, set)); // in two, which compilers do without a call
+  in->set = f->in.set;
+  c->bring_home = bring_home;
+  c->home_context = &g->place[k];
+  if (f->plan->edit) f->plan->edit(f->plan->edit_context, &f->body, in);
+  c->bring_home = NULL;
+  if (g->vehicle >> k & 1)
+    woven_tell(told, k, &f->in, in);
+  else
+    f->pilot->step(f->pilot->state, in, f->motor_N);
+  f->in.step++;
+}
+
+static void edit_all(group_t *g, void *told, unsigned of) {
+  group_settle(g, of);
+  OF_EACH(in, of, &g->job[k]->f->in);
+  woven_get_all(&g->woven, &g->woven.felt, in);
+  woven_get_all(&g->woven, &g->woven.ranges, in);
+  EACH(k, of) edit(g, told, k);
+}
+
+// Behind a millisecond of those that flew in lanes, and are still in or parted in it.
+static void look(group_t *g, unsigned of) {
+  const unsigned in = of & g->vehicle;
+  OF_EACH(app, in, &pilot_of(g, k)->vehicle->app);
+  OF_EACH(motor_N, in, g->job[k]->f->motor_N);
+  woven_get_all(&g->woven, &g->woven.looked, app);
+  woven_get_all(&g->woven, weave_block(LANES_motors), motor_N);
+  EACH(k, of) {
+    const flight_loop_t *const f = g->job[k]->f;
+    g->around->after(f->pilot->state, &g->told[k], f->motor_N);
+  }
+}
+
+// --- a millisecond -----------------------------------------------------------------------------------------
+
+static void fly_in_lanes(group_t *g) {
+  void *const told = lanes_told(g->woven.state);
+  if (g->edited & g->vehicle) edit_all(g, told, g->edited & g->vehicle);
+  const unsigned in = g->vehicle, passed = lanes_vehicle_ms(g->woven.state, in);
+  EACH(k, in & ~passed) part(g, k);
+  if (g->looked & in) look(g, g->looked & in);
+  g->together += __builtin_popcount(passed);
+  EACH(k, passed) {
+    const pilot_t *const p = pilot_of(g, k);
+    if (!p->keeps || !p->keeps(p->state, g->ms)) continue;
+    woven_get(&g->woven, LANES_app, k, &p->vehicle->app);
+    p->keep(p->state);
+  }
+}
+
+void group_pilots(group_t *g) {
+  come_back(g);
+  const unsigned alone = g->fly & ~g->vehicle;
+  if (g->vehicle) fly_in_lanes(g);
+  EACH(k, alone) {
+    flight_loop_t *const f = g->job[k]->f;
+    woven_get(&g->woven, LANES_in, k, &f->in);
+    if (f->plan->edit) group_settle(g, 1u << k);
+    loop_pilot(f);
+  }
+  lanes_step(g->woven.state);
+}
