@@ -72,7 +72,12 @@ typedef struct {
   bool memory_broken;                 // by the row, at the onset
   double last_N[ROTORS];
   uint32_t step_off;
-  rbf_weights_t weights;
+  rbf_weights_t weights, weights_before; // before the fault; this millisecond
+  // Of the last look (faults_watch.c).
+  rls_t learner;
+  bool learner_in_box, seen_tick, again;
+  double tick_s, nearest_m, told_N, up;
+  double tilt_cosine, late_cosine, yaw_sine, yaw_cosine; // of the largest angles
   flown_fault_t seen;
 } case_t;
 
@@ -122,6 +127,9 @@ double faults_mean_m(const case_t *c, const flown_fault_t *f);
 double faults_rms_m(const case_t *c, const flown_fault_t *f);
 // The most by which the wanted thrust differs from the usual flight's in the first FAULTS_FIRST_MS.
 double faults_added_N(const flown_fault_t *f, const flown_fault_t *usual);
+
+// Its pilot, to change what it remembers or is told of parameters, or to have it called otherwise than once.
+pilot_flight_t *faults_pilot(case_t *c);
 
 // Changes to the model and the vehicle, for the table.
 void faults_set_fx(case_t *c, const char *name, int p, double value);

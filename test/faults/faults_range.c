@@ -34,7 +34,7 @@ static void below_floor(case_t *c, pilot_in_t *in, double since_s) {
 }
 static void locked_out(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
-  if (since_s < 5e-4) c->pilot.flight->outer.ceiling.zc_m = 0.04f;
+  if (since_s < 5e-4) faults_pilot(c)->flight->outer.ceiling.zc_m = 0.04f;
 }
 // Up and down at 0.3 m/s, 10 to 40 cm below the ceiling, while samples come late, twice or not at all.
 static void late_samples(case_t *c, pilot_in_t *in, double since_s) {

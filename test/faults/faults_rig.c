@@ -4,6 +4,7 @@
 
 #include "rig/test.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,6 +34,7 @@ static void fault(void *context, const body_t *truth, pilot_in_t *in) {
   if (c->plan.in_flight) in->set.pos_w_m.z = flown_height_m(c, c->goal_m);
   if (active && c->row->edit && !c->usual) c->row->edit(c, in, since_s);
   in->step += c->step_off;
+  c->weights_before = c->pilot.flight->outer.learn.rls.theta;
   c->t_s += PILOT_PERIOD_S;
 }
 
@@ -44,20 +46,54 @@ static uint64_t mixed(uint64_t bits, const double motor_N[PILOT_MOTORS]) {
   return bits;
 }
 
-static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+// Behind each millisecond.
+static void after(void *state, const pilot_in_t *in, const double motor_N[PILOT_MOTORS]) {
   case_t *const c = state;
-  const rbf_weights_t before = c->pilot.flight->outer.learn.rls.theta;
-  if (!c->skip) c->inner.step(c->inner.state, in, motor_N);
-  if (c->twice) c->inner.step(c->inner.state, in, motor_N);
   if (c->with_shadow) {
     double shadow_N[PILOT_MOTORS];
     c->shadow_pilot.step(c->shadow_pilot.state, in, shadow_N);
     if (memcmp(shadow_N, motor_N, sizeof shadow_N) != 0) c->seen.shadow_differs = true;
   }
-  if (c->frozen_weights && memcmp(&before, &c->pilot.flight->outer.learn.rls.theta, sizeof before) != 0)
+  if (c->frozen_weights &&
+      memcmp(&c->weights_before, &c->pilot.flight->outer.learn.rls.theta, sizeof c->weights_before) != 0)
     c->seen.weights_moved = true;
   c->seen.bits = mixed(c->seen.bits, motor_N);
 }
+
+static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+  case_t *const c = state;
+  if (!c->skip) c->inner.step(c->inner.state, in, motor_N);
+  if (c->twice) c->inner.step(c->inner.state, in, motor_N);
+  after(state, in, motor_N);
+}
+
+pilot_flight_t *faults_pilot(case_t *c) {
+  crazyflie_home(&c->pilot.vehicle);
+  return &c->pilot;
+}
+
+// What is looked at of the app: here, by faults_watch() and by the rows.
+#define LOOKED(field)                                                                                        \
+  { offsetof(glue_t, flight.field), offsetof(glue_t, flight.field) + sizeof(((glue_t *)0)->flight.field) }
+static const pilot_part_t looked[] = {
+    LOOKED(outer.learn.rls.theta),
+    LOOKED(outer.learn.rls.P),
+    LOOKED(outer.sync.thrust.model_N),
+    LOOKED(outer.started),
+    LOOKED(outer.sample.thrust_N),
+    LOOKED(outer.param.pos.thrust_max_N),
+    LOOKED(outer.param.mixer.force_max_N),
+    LOOKED(out.motors.force_N),
+    LOOKED(out.motors.thrust_N),
+    LOOKED(out.outer.thrust_N),
+    LOOKED(out.outer.zc_m),
+    LOOKED(out.outer.zc_known),
+    LOOKED(out.outer.at.ratio),
+    LOOKED(guard.now),
+    LOOKED(guard.latched),
+    LOOKED(guard.action),
+};
+static const pilot_around_t around = {looked, sizeof looked / sizeof *looked, after};
 
 static void reset(void *state) {
   case_t *const c = state;
@@ -83,18 +119,26 @@ static void place(case_t *c) {
   c->seen.hover_N = ROTORS * c->plan.start.thrust_N[0];
 }
 
+// To read the vehicle's file for each flight costs 4 % of it.
+static setup_t thesis;
+static bool thesis_read;
+static void read_thesis(void) {
+  why_t why;
+  thesis_read = setup_thesis(&thesis, FLY_INDI, &why) == DONE;
+}
+
 // The parameters as they come, but for what is the vehicle's; learning goes on all the time.
 static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
-  why_t why;
-  setup_t setup;
-  if (setup_thesis(&setup, FLY_INDI, &why) != DONE) return false;
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  (void)pthread_once(&once, read_thesis);
+  if (!thesis_read) return false;
   draw(c, row, seed);
-  c->model = setup.model;
+  c->model = thesis.model;
   params_default(&c->param);
-  c->param.pos.mass_kg = setup.flight.pos.mass_kg;
-  c->param.motor_tau_s = setup.flight.motor_tau_s;
+  c->param.pos.mass_kg = thesis.flight.pos.mass_kg;
+  c->param.motor_tau_s = thesis.flight.motor_tau_s;
   c->param.curve.mode = CURVE_LIVE;
-  c->plan = setup.plan;
+  c->plan = thesis.plan;
   c->plan.seed = seed;
   c->plan.integrate = INTEGRATE_RK4;
   c->plan.end_s = FAULTS_END_S;
@@ -103,6 +147,7 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   c->plan.in_flight = true;
   if (row->begin && (!c->usual || row->same_bits)) row->begin(c);
   place(c);
+  c->plan.record_every = 1 << 30; // nobody reads it
   c->plan.edit = fault;
   c->plan.edit_context = c;
   return pilot_flight_init(&c->pilot, &c->param, &c->model, &c->inner) == DONE &&
@@ -110,12 +155,14 @@ static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
 }
 
 void faults_fly(case_t *c, const row_t *row, uint64_t seed, bool usual) {
-  *c = (case_t){.usual = usual, .seen = FAULTS_UNSEEN};
+  *c = (case_t){
+      .usual = usual, .seen = FAULTS_UNSEEN, .tilt_cosine = 1.0, .late_cosine = 1.0, .yaw_cosine = 1.0};
   if (!prepare(c, row, seed)) {
     c->seen.bad = true;
     return;
   }
-  const pilot_t pilot = {.state = c, .step = step, .reset = reset};
+  const pilot_t pilot = {
+      .state = c, .step = step, .reset = reset, .vehicle = &c->pilot.vehicle, .around = &around};
   why_t why;
   record_t record = {0};
   outcome_t outcome = {0};

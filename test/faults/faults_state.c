@@ -22,11 +22,11 @@ static void absurd_param(case_t *c, pilot_in_t *in, double since_s) {
   static const float bad[] = {NAN, INFINITY, 1e9f, -1e9f};
   if (since_s > 5e-4) return;
   const param_row_t *row = &params_table[c->pick % (unsigned)params_count];
-  memcpy((char *)&c->pilot.param + row->offset, &bad[(c->pick >> 8) % 4], sizeof(float));
+  memcpy((char *)&faults_pilot(c)->param + row->offset, &bad[(c->pick >> 8) % 4], sizeof(float));
 }
 static void bad_weights(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
-  if (since_s < 5e-4) c->pilot.param.curve.fixed.w[c->pick % 7] = c->pick & 16 ? NAN : 1e9f;
+  if (since_s < 5e-4) faults_pilot(c)->param.curve.fixed.w[c->pick % 7] = c->pick & 16 ? NAN : 1e9f;
 }
 // Written one by one, and the commit never comes.
 static void torn_weights(case_t *c, pilot_in_t *in, double since_s) {
@@ -41,7 +41,7 @@ static void broken_covariance(case_t *c, pilot_in_t *in, double since_s) {
   if (since_s > 5e-4) return;
   c->memory_broken = true;
   const unsigned i = c->pick % 7;
-  float(*P)[7] = c->pilot.flight->outer.learn.rls.P;
+  float(*P)[7] = faults_pilot(c)->flight->outer.learn.rls.P;
   if (c->pick & 128)
     P[i][(i + 1) % 7] += 1e-3f;
   else
@@ -50,10 +50,11 @@ static void broken_covariance(case_t *c, pilot_in_t *in, double since_s) {
 static void zero_curve(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4)
-    for (int i = 0; i < 7; i++) c->pilot.param.curve.fixed.w[i] = -5.0f;
+    for (int i = 0; i < 7; i++) faults_pilot(c)->param.curve.fixed.w[i] = -5.0f;
 }
 static void missed_calls(case_t *c, pilot_in_t *in, double since_s) {
   (void)in, (void)since_s;
+  (void)faults_pilot(c);
   c->skip = c->pick % 2 != 0;
   c->twice = !c->skip;
 }
@@ -77,14 +78,14 @@ static void bit_flip(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
-  unsigned char *const at = (unsigned char *)&c->pilot.flight->outer.learn.rls;
+  unsigned char *const at = (unsigned char *)&faults_pilot(c)->flight->outer.learn.rls;
   at[c->pick % sizeof(rls_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 static void any_bit_flip(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s > 5e-4) return;
   c->memory_broken = true;
-  unsigned char *const at = (unsigned char *)c->pilot.flight;
+  unsigned char *const at = (unsigned char *)faults_pilot(c)->flight;
   at[c->pick % sizeof(flight_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 

@@ -137,6 +137,47 @@ TEST(faults_of_the_list_end_as_they_should) {
   }
 }
 
+// --- the same, flown with others ---------------------------------------------------------------------------
+
+typedef struct {
+  const row_t *const *rows;
+  int n;
+  uint64_t seed;
+  flown_fault_t *seen;
+} mixed_t;
+
+static void fly_mixed(void *self, int i) {
+  const mixed_t *const m = self;
+  case_t *const c = malloc(sizeof *c);
+  faults_fly(c, m->rows[i % m->n], m->seed + (uint64_t)(i / m->n), false);
+  m->seen[i] = c->seen;
+  free(c);
+}
+
+static bool same_flight(const flown_fault_t *a, const flown_fault_t *b) {
+  return a->bits == b->bits && a->n == b->n && a->gap_min_m == b->gap_min_m && a->seen_s == b->seen_s &&
+         a->early == b->early && a->zc_error_m == b->zc_error_m && a->weight_change == b->weight_change &&
+         a->weights_moved == b->weights_moved && a->shadow_differs == b->shadow_differs && a->bad == b->bad &&
+         a->ratio_end == b->ratio_end && memcmp(a->error_m, b->error_m, sizeof a->error_m) == 0;
+}
+
+// One fault beside another, each at its time, so that they part; of many seeds, one and the same in all.
+TEST(faults_come_to_the_same_alone_and_beside_others) {
+  const row_t *rows[ROWS_MAX];
+  const int n = all_rows(rows), seeds = test_long() ? 64 : 1;
+  flown_fault_t *const alone = calloc((size_t)(2 * n * seeds), sizeof *alone), *const beside =
+                                                                                   alone + n * seeds;
+  for (int i = 0; i < n * seeds; i++) fly_mixed(&(mixed_t){rows, n, FIRST_SEED, alone}, i);
+  const long ms = together(n * seeds, fly_mixed, &(mixed_t){rows, n, FIRST_SEED, beside});
+  for (int i = 0; i < n * seeds; i++) {
+    ROW("%s, seed %d", rows[i % n]->name, (int)FIRST_SEED + i / n);
+    CHECK(same_flight(&alone[i], &beside[i]));
+  }
+  // A quarter of it in lanes, though some are down, others handed over, and each learns otherwise.
+  if (lane_possible()) CHECK(ms > (long)(250.0 * FAULTS_END_S) * n * seeds);
+  free(alone);
+}
+
 TEST(faults_of_ten_minutes_in_one_place_teach_nothing_wrong) {
   const int seeds = test_long() ? 20 : 2;
   const row_t *row = faults_of_patience().row;
