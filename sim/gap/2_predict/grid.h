@@ -68,7 +68,7 @@ void grid_free(grid_t *g);
 // Places and velocities without what of their errors lasts less than about a quarter of a second: each is
 // carried along by its logged rate, and the mean taken over the points about it (flight path reconstruction:
 // Mulder et al. 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is
-// estimated too small: of a ground effect a third to a half was lost in errors of 8 mm. FAILED: no memory.
+// estimated too small (5_infer/bend.h). FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no

@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-// On each side. Errors that last for 30 to 60 ms fall to a third in it; in half of it to a half, and in twice
-// as much the velocity's own errors begin to move the place (by 3 mm, of 0.03 m/s).
+// On each side. Errors that last for 30 to 60 ms fall to 0.35 to 0.45 in it, in half of it to 0.46 to 0.6; in
+// twice as much a velocity's own errors begin to move the place (by 3 mm, of 0.03 m/s, without
+// accelerations). gap_takes_errors_of_a_moment_out_of_places_and_velocities holds both.
 #define SMOOTH_S 0.25
 
 typedef d3_t (*look_t)(const grid_point_t *p);

@@ -62,7 +62,8 @@ static double typical_of(const fx_use_t *use, int k) {
 }
 
 // Of a curve over the distance to a surface, whose shapes are decays: at so many radii all of typical size do
-// the same. Else a slow decay of typical size would do at a metre what nothing does, and a quick one nothing.
+// the same. Else a slow decay of typical size would do far off what nothing does, and a quick one nothing.
+// gap_takes_decays_of_typical_size_as_equally_strong_one_radius_off holds it.
 #define TYPICAL_RADII 1.0
 
 static double as_strong(const fx_use_t *use, double radius_m) {

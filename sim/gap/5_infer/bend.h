@@ -1,7 +1,8 @@
 // bend.h - a shape and its size, estimated together: what nominal flights make of both.
 //
 // Errors of the logged height make a ground effect look smaller and flatter than it is: of a decay of 48 1/m
-// and errors of 8 mm a tenth is lost where the decay is known, a third to a half where it is estimated, too.
+// errors of 8 mm take a fifth where the decay is known, and a half where it is estimated, too. Whether there
+// is a name at all (score_allows) is judged with the shape known.
 #ifndef SIM_GAP_5_INFER_BEND_H
 #define SIM_GAP_5_INFER_BEND_H
 

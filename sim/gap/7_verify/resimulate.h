@@ -11,7 +11,7 @@
 #include "gap/3_feedback/nominal.h"
 #include "gap/5_infer/by_turns.h"
 
-// How far from the measured track one model flies.
+// How far from the measured track, without its errors of a moment (2_predict/smooth.c), one model flies.
 typedef struct {
   double rms_m, height_m; // all held-out flights; in height alone
   int lost;               // times that it was more than RESIMULATE_LOST_M away and was put back

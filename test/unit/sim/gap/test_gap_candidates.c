@@ -154,7 +154,7 @@ TEST(what_is_typical_of_a_number_accelerates_a_large_vehicle_as_it_does_a_crazyf
   }
 }
 
-// At a metre a decay of 0.2 per radius would else do twenty times what is typical.
+// Three radii off a decay of 0.2 per radius would else do a hundred times what one of 1.8 does.
 TEST(gap_takes_decays_of_typical_size_as_equally_strong_one_radius_off) {
   candidates_t c;
   why_t why;

@@ -155,11 +155,18 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
 }
 
 TEST(gap_says_of_a_hover_that_the_instrument_is_too_weak) {
-  static const flown_t how = {"inertia:kx=0.5,ky=0.5", true, false, false};
-  char name[32] = "";
-  const named_t n = first_name(&how, FIRST_SEED, name);
-  CHECK_TEXT(name, "inertia");
-  CHECK(n.confirm.answer == CONFIRM_WEAK && n.confirm.F < CONFIRM_F && !n.confirm.apart);
+  static const struct {
+    flown_t how;
+    const char *name;
+  } row[] = {{{"delay:add=0.01", true, false, false}, "delay"},
+             {{"inertia:kx=0.5,ky=0.5", true, false, false}, "inertia"}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    char name[32] = "";
+    ROW("%s", row[i].name);
+    const named_t n = first_name(&row[i].how, FIRST_SEED, name);
+    CHECK_TEXT(name, row[i].name);
+    CHECK(n.confirm.answer == CONFIRM_WEAK && n.confirm.F < CONFIRM_F && !n.confirm.apart);
+  }
 }
 
 // --- the program ----------------------------------------------------------------------------------------

@@ -59,6 +59,7 @@ TEST(set_points_make_a_track_of_nothing_that_was_measured) {
     // The way that 4 cos(0.1 j) m/s leads in steps of 10 ms.
     CHECK_NEAR(track.point[50].pos_w_m.x - track.point[20].pos_w_m.x, wave(50) - wave(20), 0.03);
     CHECK_NEAR(track.point[50].pos_w_m.y, 0.2, 1e-12);
+    CHECK_NEAR(track.point[50].seen_w_m.x, track.point[50].pos_w_m.x, 0.0); // what a pilot follows
     CHECK_NEAR(track.point[50].vbat_V, 3.95, 0.002);
     CHECK_NEAR(track.point[50].q_wb.w, 1.0, 1e-12);
     free(track.point);
