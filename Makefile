@@ -289,7 +289,7 @@ debug:  ## the programs and the tests, not optimised, for a debugger: out/debug/
 # The same bits: nothing is fused, and C++ stays as it is, for Eigen takes its sums in as many parts as a register holds.
 # Warnings are the other build's to give: this one's are of code that was inlined.
 fast: setup $(O)/fly  ## the programs for an x86-64-v3 (AVX2), optimised as a whole, to the same bits: out/fast/bin; minutes
-	+@$(MAKE) B=$(O)/fast FAST='-march=x86-64-v3 -ffp-contract=off -flto=auto -w' $(PROGRAMS:%=$(O)/fast/bin/%)
+	+@$(MAKE) B=$(O)/fast FAST='-march=x86-64-v3 -mno-fma -ffp-contract=off -flto=auto -w' $(PROGRAMS:%=$(O)/fast/bin/%)
 	@$(O)/fly learning-flight --log $(O)/fast/want.csv >$(O)/fast/want
 	@$(O)/fast/bin/fly learning-flight --log $(O)/fast/got.csv >$(O)/fast/got
 	@cmp $(O)/fast/want.csv $(O)/fast/got.csv

@@ -76,7 +76,7 @@ TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
     double least, most; // smallest size told, over typical
   } row[] = {
       {"ceiling", 52143, 1e3, HUGE_VAL},
-      {"tof_latency", 52070, 1.2, 2.03}, // 2.03 was hidden, and is named
+      {"tof_latency", 52070, 2.03, 8.0}, // 2.03 was hidden, and not named
       {"ground", 52047, 1e3, HUGE_VAL},
       {"flapping", 52076, 3.78, 16.0},
       {"motor_damage", 52012, 0.12, 0.31}, // named: a hover shows it well, and says so
@@ -92,17 +92,18 @@ TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
   }
 }
 
-// A ground effect over heights with errors of 8 mm, drags by velocities with errors of 3 cm/s in a hover.
+// A ground effect over heights with errors of 8 mm.
 TEST(numbers_hold_that_are_multiplied_by_the_logs_errors) {
   static const struct {
     const char *what;
     exam_kind_t kind;
     unsigned long seed;
   } row[] = {
-      {"ground", EXAM_ONE, 24078}, {"rotor_drag", EXAM_HOVER, 126168}, {"flapping", EXAM_HOVER, 126128},
-      {"ground", EXAM_TWO, 126010}, {"rotor_drag", EXAM_HOVER, 126078},
+      {"ground", EXAM_ONE, 24078},
+      {"ground", EXAM_TWO, 126010},
+      {"ground", EXAM_TWO, 126130},
   };
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s of set %lu", row[i].what, row[i].seed);
     exam_set_t set;
     why_t why;

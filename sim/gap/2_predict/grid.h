@@ -16,9 +16,10 @@ extern const char *const gap_channel[CHANNELS], *const gap_unit[CHANNELS];
 typedef struct {
   double t_s;
   int segment;
-  bool ok;                   // flying, nothing touched, no motor at a limit, every signal there
-  d3_t seen_w_m, seen_w_mps; // centre of mass, as logged; the floor is at 0
-  d3_t pos_w_m, vel_w_mps;   // the same, without errors that last for a moment only (smooth.c)
+  bool ok; // flying, nothing touched, no motor at a limit, every signal there
+  d3_t pos_w_m,
+      vel_w_mps; // centre of mass, the floor is at 0; the place without errors of a moment (smooth.c)
+  d3_t seen_w_m; // the place as it is logged
   dq_t q_wb;
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
@@ -65,10 +66,10 @@ MUST_CHECK done_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int
                             why_t *why);
 void grid_free(grid_t *g);
 
-// Places and velocities without what of their errors lasts less than about a quarter of a second: each is
-// carried along by its logged rate, and the mean taken over the points about it (flight path reconstruction:
-// Mulder et al. 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is
-// estimated too small (5_infer/bend.h). FAILED: no memory.
+// Places without what of their errors lasts less than about a quarter of a second: each is carried along by
+// the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.
+// 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is estimated too
+// small (5_infer/bend.h). FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no

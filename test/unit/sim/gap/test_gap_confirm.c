@@ -133,40 +133,29 @@ TEST(gap_asks_of_an_instrument_what_staiger_and_stock_do) {
 
 // Noise of the measured speed weakens the drag that depends on it; the set points know no such noise. What is
 // weakened leaves a rest that a first look, which does not know what noise makes, takes for a second effect.
-// Of the weaker drag a part is lost that its error holds.
 TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
   static const struct {
     flown_t how;
     double size;
-    bool apart;
-  } row[] = {{{"rotor_drag:k=3e-6", true, false, true}, 3e-6, false},
-             {{"rotor_drag:k=6e-6", true, false, true}, 6e-6, true}};
+  } row[] = {{{"rotor_drag:k=3e-6", true, false, true}, 3e-6},
+             {{"rotor_drag:k=6e-6", true, false, true}, 6e-6}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%g", row[i].size);
     char name[32] = "";
     const named_t n = first_name(&row[i].how, FIRST_SEED + 1000u * i, name);
     CHECK_TEXT(name, "rotor_drag");
-    CHECK(n.value[0] < 0.97 * row[i].size && n.value[0] > 0.8 * row[i].size);
-    CHECK(n.confirm.answer == CONFIRM_YES && n.confirm.p_apart < 0.01);
-    CHECK(n.confirm.apart == row[i].apart);
-    if (!row[i].apart) CHECK_NEAR(n.value[0], row[i].size, 2.0 * n.stderr_[0]);
+    CHECK(n.value[0] < 0.75 * row[i].size);
+    CHECK(n.confirm.answer == CONFIRM_YES && n.confirm.apart && n.confirm.p_apart < 0.01);
     CHECK_NEAR(n.confirm.value[0], row[i].size, 3.0 * n.confirm.stderr_[0]);
   }
 }
 
 TEST(gap_says_of_a_hover_that_the_instrument_is_too_weak) {
-  static const struct {
-    flown_t how;
-    const char *name;
-  } row[] = {{{"delay:add=0.01", true, false, false}, "delay"},
-             {{"inertia:kx=0.5,ky=0.5", true, false, false}, "inertia"}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    char name[32] = "";
-    ROW("%s", row[i].name);
-    const named_t n = first_name(&row[i].how, FIRST_SEED, name);
-    CHECK_TEXT(name, row[i].name);
-    CHECK(n.confirm.answer == CONFIRM_WEAK && n.confirm.F < CONFIRM_F && !n.confirm.apart);
-  }
+  static const flown_t how = {"delay:add=0.01", true, false, false};
+  char name[32] = "";
+  const named_t n = first_name(&how, FIRST_SEED, name);
+  CHECK_TEXT(name, "delay");
+  CHECK(n.confirm.answer == CONFIRM_WEAK && n.confirm.F < CONFIRM_F && !n.confirm.apart);
 }
 
 // --- the program ----------------------------------------------------------------------------------------
