@@ -9,27 +9,49 @@
 #define SWIFT     1.3  // rate gain times lag at most: the cascade rings beyond
 #define TILT_MAX  0.5
 #define AHEAD_S   0.1  // the track's acceleration is a difference over this on both sides
-#define BEND_SURE 2.0  // standard errors of it
+#define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0
 
-// How the track is bent, where that is more than errors of its velocity: in a hover those would shake the
-// vehicle.
+// Points on both sides of where the vehicle is, and the time between them; false: there are none, or a gap in
+// time lies between.
+static bool both_sides(const nominal_flight_t *f, int side, const grid_point_t *end[2], double *span_s) {
+  const int from = f->at - side, to = f->at + side;
+  if (from < f->from || to >= f->to) return false;
+  for (int i = 0; i < 2; i++) end[i] = &f->g->point[i ? to : from];
+  *span_s = end[1]->t_s - end[0]->t_s;
+  return *span_s <= 4.0 * AHEAD_S;
+}
+
+// Less what its errors could make of it, in a hover those would shake the vehicle.
+static d3_t beyond(d3_t v, double error) {
+  return d3_scale(fmax(1.0 - BEND_SURE * error / fmax(d3_norm(v), 1e-9), 0.0), v);
+}
+
+// How the track is bent.
 static d3_t track_acc(const nominal_flight_t *f) {
-  const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s)), from = f->at - side, to = f->at + side;
-  const grid_point_t *p = f->g->point;
-  if (!f->g->has_velocity || from < f->from || to >= f->to) return d3(0.0, 0.0, 0.0);
-  const double span_s = p[to].t_s - p[from].t_s;
-  if (span_s > 4.0 * AHEAD_S) return d3(0.0, 0.0, 0.0);
-  const d3_t acc = d3_scale(1.0 / span_s, d3_sub(p[to].vel_w_mps, p[from].vel_w_mps));
-  double error = 0.0;
-  for (int i = 0; i < 3; i++)
-    error = fmax(error, BEND_SURE * sqrt(2.0) * hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]) / span_s);
-  return d3_scale(fmax(1.0 - error / fmax(d3_norm(acc), 1e-9), 0.0), acc);
+  const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s));
+  const grid_point_t *end[2];
+  double span_s, error = 0.0;
+  if (!f->g->has_velocity || !both_sides(f, side, end, &span_s)) return d3(0.0, 0.0, 0.0);
+  for (int i = 0; i < 3; i++) error = fmax(error, hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]));
+  return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->vel_w_mps, end[0]->vel_w_mps)),
+                sqrt(2.0) * error / span_s);
+}
+
+// How its turning grows.
+static d3_t track_turn(const nominal_flight_t *f) {
+  const grid_point_t *end[2];
+  double span_s, error = 0.0;
+  if (!f->g->has_rates || !both_sides(f, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
+  for (int i = 0; i < 3; i++) error = fmax(error, f->w->gyro_radps[i]);
+  return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->rate_b_radps, end[0]->rate_b_radps)),
+                sqrt(2.0 / f->g->every) * error / span_s);
 }
 
 void pilot_look_ahead(nominal_flight_t *f) {
   f->bent_mps2 = track_acc(f);
+  f->bent_radps2 = track_turn(f);
 }
 
 static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, const grid_point_t *seen) {
@@ -97,9 +119,11 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const d3_t nose_b = axes_to_body(&axes, track_axes.x);
   const double yaw = atan2(nose_b.y, nose_b.x);
   const d3_t rate = seen->rate_b_radps, grows = rate_grows(f, rate, step_s);
-  const d3_t turn = d3(w->tilt_gain * roll - w->rate_gain[0] * rate.x - w->rate_lead[0] * grows.x,
-                       w->tilt_gain * pitch - w->rate_gain[1] * rate.y - w->rate_lead[1] * grows.y,
-                       w->rate_gain[2] * (YAW * yaw - rate.z) - w->rate_lead[2] * grows.z);
+  const d3_t off = f->g->has_rates ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
+  const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,
+                          w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
+                          w->rate_gain[2] * (YAW * yaw + off.z) - w->rate_lead[2] * grows.z);
+  const d3_t turn = d3_add(f->bent_radps2, steered);
   const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
   const double share = quick_share(f, step_s);

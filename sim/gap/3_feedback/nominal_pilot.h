@@ -22,7 +22,7 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
-  d3_t bent_mps2;                             // acceleration of the track at this point
+  d3_t bent_mps2, bent_radps2;                // acceleration of the track at this point, and of its turning
   d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow, call_s, quick;            // quick: the share of the way that they go from call to call

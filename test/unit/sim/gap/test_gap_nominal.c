@@ -284,6 +284,38 @@ static void thin(gap_flight_t *f, int every) {
 }
 
 // The lead that is read off a log which a pilot with this one flew.
+// Rms of the turning that was measured, about each axis.
+static void turning_of(set_t *s, double rms_radps2[3]) {
+  lines_t l = {.r = {NULL}};
+  why_t why = {""};
+  CHECK_OK(lines_make(&l, s, &why));
+  CHECK_OK(residual_measured(s, l.r, &why));
+  for (int k = 0; k < 3; k++) {
+    double sum = 0.0;
+    for (int i = 0; i < s->smooth.n; i++) sum += l.r[CH_WX + k][i] * l.r[CH_WX + k][i];
+    rms_radps2[k] = sqrt(sum / fmax(s->smooth.n, 1));
+  }
+  lines_free(&l);
+}
+
+// Gains that are read off few rows, or off a swift pilot, are too small by far: the vehicle turns with its
+// track all the same.
+TEST(gap_nominal_flights_turn_as_much_as_the_log_does) {
+  rig_t r;
+  why_t why = {""};
+  along_t a;
+  double log_radps2[3], came_radps2[3];
+  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
+  for (int k = 0; k < 2; k++) r.loop.rate_gain[k] = 8.0; // the least that is taken
+  r.loop.tilt_gain = 22.0;
+  if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, &r.loop, 77, &why))) return;
+  turning_of(&r.set, log_radps2);
+  turning_of(&a.seen, came_radps2);
+  for (int k = 0; k < 3; k++) CHECK_NEAR(came_radps2[k] / log_radps2[k], 1.0, 0.35);
+  along_free(&a);
+  rig_free(&r);
+}
+
 static done_t lead_read(double lead[3], const rig_t *r, const closed_loop_t *flown_by, int every,
                         double told_Hz, why_t *why) {
   const flown_by_t by = {.rate_Hz = told_Hz};
