@@ -208,12 +208,24 @@ void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_S
     rms[k] = j->nominal && !j->nominal->n
                  ? SELECT_LEAST * j->c->candidate[choice->of[choice->n - 1]].typical[k]
                  : 0.0;
-  for (int i = 0; j->nominal && i < j->nominal->n; i++) {
+  double made[FX_SIZE_MAX][NOMINAL_FLIGHTS];
+  const int flights = j->nominal ? j->nominal->n : 0;
+  for (int i = 0; i < flights; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
     lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, NULL);
-    for (int k = 0; k < own; k++) rms[k] += b[n - own + k] * b[n - own + k] / j->nominal->n;
+    for (int k = 0; k < own; k++) made[k][i] = b[n - own + k];
   }
-  for (int k = 0; k < own && j->nominal && j->nominal->n; k++) rms[k] = sqrt(rms[k]);
+  for (int k = 0; k < own && flights; k++) {
+    score_made(&j->c->candidate[choice->of[choice->n - 1]], k, made[k], flights);
+    for (int i = 0; i < flights; i++) rms[k] += made[k][i] * made[k][i] / flights;
+    rms[k] = sqrt(rms[k]);
+  }
+}
+
+void score_made(const candidate_t *c, int k, double *value, int flights) {
+  double mean = 0.0;
+  for (int i = 0; i < flights; i++) mean += value[i] / flights;
+  for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
 verdict_t score_last(const score_t *j, const choice_t *choice) {

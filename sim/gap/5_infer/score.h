@@ -78,6 +78,10 @@ bool score_is_possible(const score_t *j, const choice_t *choice);
 // feedback is taken to make as much as is never named; 0 for a first look.
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
+// Of what nominal flights make of size k of a candidate, what could be taken for it: of a size that can only
+// be positive a bias that makes it smaller could not (a height with errors does it to a ground effect).
+void score_made(const candidate_t *c, int k, double *value, int flights);
+
 // The size of each number of the last candidate that would take so much from the sum of squares; HUGE_VAL:
 // none would.
 void score_least_gain(const score_t *j, const choice_t *choice, double gain, double size[FX_SIZE_MAX]);

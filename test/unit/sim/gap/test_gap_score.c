@@ -278,3 +278,24 @@ TEST(gap_tells_the_least_size_that_would_have_been_seen) {
     gap_rows_free(&g);
   }
 }
+
+// A height with errors makes a ground effect too small in every nominal flight: no error that could be taken
+// for one.
+TEST(gap_score_takes_no_bias_against_a_size_for_what_could_be_one) {
+  static const struct {
+    const char *what;
+    double least, value[4], left[4];
+  } row[] = {
+      {"too small, of a size that is positive", 0.0, {-1.3, -0.9, -1.1, -0.7}, {-0.3, 0.1, -0.1, 0.3}},
+      {"too large", 0.0, {1.3, 0.9, 1.1, 0.7}, {1.3, 0.9, 1.1, 0.7}},
+      {"of a size of either sign", -5.0, {-1.3, -0.9, -1.1, -0.7}, {-1.3, -0.9, -1.1, -0.7}},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    const candidate_t c = {.least = {row[i].least}};
+    double value[4];
+    ROW("%s", row[i].what);
+    for (int k = 0; k < 4; k++) value[k] = row[i].value[k];
+    score_made(&c, 0, value, 4);
+    for (int k = 0; k < 4; k++) CHECK_NEAR(value[k], row[i].left[k], 1e-12);
+  }
+}
