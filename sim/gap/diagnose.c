@@ -14,12 +14,14 @@
 #define MOVED      0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
 #define TRIAL_SEED 1000 // other draws than the flights that count
 
-static done_t cut_flights(set_t *s, const gap_flights_t *flights, const model_t *m, why_t *why) {
+static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose_job_t *job, why_t *why) {
   grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
   done_t status = DONE;
-  for (int i = 0; i < flights->n && status == DONE; i++)
-    status = grid_make(&grid[i], &flights->flight[i], 0, flights->flight[i].n, m, why);
+  for (int i = 0; i < flights->n && status == DONE; i++) {
+    status = grid_make(&grid[i], &flights->flight[i], 0, flights->flight[i].n, job->model, why);
+    grid[i].command_Hz = job->flown_by ? job->flown_by->rate_Hz : 0.0;
+  }
   if (status == DONE) return set_make(s, grid, flights->n, why);
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
@@ -31,12 +33,11 @@ static bool held_apart(const diagnose_job_t *job) {
 }
 
 static done_t take_flights(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
-  TRY(cut_flights(&d->fit, job->fit, job->model, why));
+  TRY(cut_flights(&d->fit, job->fit, job, why));
   TRY(excluded_find(&d->fit, job->model, why));
   TRY(windows_keep(&d->fit, job->model, why));
-  TRY(cut_flights(&d->held, held_apart(job) ? job->held : job->fit, job->model, why));
+  TRY(cut_flights(&d->held, held_apart(job) ? job->held : job->fit, job, why));
   memcpy(d->held.excluded, d->fit.excluded, sizeof d->held.excluded);
-  d->fit.command_Hz = d->held.command_Hz = job->flown_by ? job->flown_by->rate_Hz : 0.0;
   return DONE;
 }
 

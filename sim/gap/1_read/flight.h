@@ -35,6 +35,7 @@ typedef struct {
   bool *saturated;         // a motor was at a limit (the sample is masked)
   int *segment;            // 0, 1, 2..: a new one after every gap; filters start again
   double rate_Hz;          // median sample rate
+  double command_Hz;       // how often the motors were commanded; 0: nobody said
 
   // What the reader found and mended, for the report.
   double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see

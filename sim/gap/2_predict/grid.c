@@ -203,6 +203,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   *g = (grid_t){.flight = f, .from = from, .samples = to - from};
   g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
   g->period_s = g->every / f->rate_Hz;
+  g->command_Hz = f->command_Hz;
   g->has_position = has(f, SIG_X, SIG_Z);
   g->has_velocity = has(f, SIG_VX, SIG_VZ);
   g->has_attitude = has(f, SIG_QW, SIG_QZ);
@@ -227,6 +228,13 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   for (int j = 0; j < g->n; j++) g->point[j].seen_w_m = g->point[j].pos_w_m;
   set_points_judge(g);
   return grid_smooth(g, why);
+}
+
+#define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
+#define JITTER      0.98  // of the rate of a log that has every command
+
+bool grid_is_slow(const grid_t *g) {
+  return g->flight->rate_Hz < (g->command_Hz > 0.0 ? JITTER * g->command_Hz : COMMANDS_HZ);
 }
 
 void grid_free(grid_t *g) {

@@ -48,6 +48,7 @@ typedef struct {
   const gap_flight_t *flight;
   int from, samples, every; // the first sample, how many, how many a point
   double period_s;          // of points
+  double command_Hz;        // how often the motors were commanded; 0: nobody said
   int n;
   grid_point_t *point;
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
@@ -65,6 +66,9 @@ typedef struct {
 MUST_CHECK done_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int to, const model_t *m,
                             why_t *why);
 void grid_free(grid_t *g);
+
+// Rows come more seldom than commands, and miss most of these.
+bool grid_is_slow(const grid_t *g);
 
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by
 // the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.

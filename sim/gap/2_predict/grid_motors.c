@@ -1,7 +1,9 @@
 // grid_motors.c - what the motors made of the commands.
 //
-// A command holds until the next row of the log. A row that is a sample has the thrust of its instant, before
-// its own command acts (without a lag: with it); a row that is a mean has the mean over its hold.
+// A command holds until the next row of the log; where rows miss commands, it goes on to the next one along a
+// line (of 500 a second one that holds for a row of 100 a second is 5 ms late). A row that is a sample has
+// the thrust of its instant, before its own command acts (without a lag: with it); a row that is a mean has
+// the mean over its hold.
 #include "gap/2_predict/grid.h"
 
 #include "base/wide.h"
@@ -29,17 +31,23 @@ WIDE_INLINE void choose(const four_bits_t *holds, double a, double b, four_t *to
   *to = (four_t)((*holds & (four_bits_t)all_a) | (~*holds & (four_bits_t)all_b));
 }
 
-// What every rotor does in one row's hold; now: what follows, before and then behind it.
-WIDE_INLINE void hold(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean,
-                      const four_t *command_N, four_t *now, four_t *thrust_N, four_t *rise_Nps) {
+// What every rotor does from one row to the next; of a mean the command holds. now: what follows, before and
+// then behind it.
+WIDE_INLINE void go_on(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean,
+                       const four_t *command_N, const four_t *next_N, four_t *now, four_t *thrust_N,
+                       four_t *rise_Nps) {
   const bool in_speed = lag->in_speed;
   const four_t start = *now;
-  four_t to = *command_N, tau_s, keep;
-  for (int k = 0; in_speed && k < ROTORS; k++) to[k] = lag_follows(lag, to[k]);
+  four_t to = *command_N, next = *next_N, tau_s, keep;
+  for (int k = 0; in_speed && k < ROTORS; k++) {
+    to[k] = lag_follows(lag, to[k]);
+    next[k] = lag_follows(lag, next[k]);
+  }
   const four_bits_t speeds_up = to > start;
   choose(&speeds_up, lag->up_s, lag->down_s, &tau_s);
   choose(&speeds_up, left->up, left->down, &keep);
-  const four_t off = start - to, end = to + keep * off, rise = (to - start) / tau_s;
+  const four_t off = start - to, behind = (next - to) * rate_Hz * tau_s; // a line is followed so far behind
+  const four_t end = next - behind + keep * (off + behind), rise = (to - start) / tau_s;
   const four_t now_N = in_speed ? start * start : start, end_N = in_speed ? end * end : end;
   *now = end;
   if (!mean) {
@@ -57,10 +65,14 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);
   const double rate_Hz = g->flight->rate_Hz;
-  const bool none = lag_is_none(lag);
+  const bool none = lag_is_none(lag), along = !mean && grid_is_slow(g);
   four_t now = {0.0};
   for (int i = 0; i < g->samples; i++) {
-    const four_t command_N = {g->command_N[0][i], g->command_N[1][i], g->command_N[2][i], g->command_N[3][i]};
+    const bool last = i + 1 == g->samples || (segment && segment[i] != segment[i + 1]);
+    double *const *const c = g->command_N;
+    const int j = i + (along && !last);
+    const four_t command_N = {c[0][i], c[1][i], c[2][i], c[3][i]};
+    const four_t next_N = {c[0][j], c[1][j], c[2][j], c[3][j]};
     if (none) {
       h->thrust_N[i] = command_N;
       h->rise_Nps[i] = (four_t){0.0};
@@ -68,7 +80,7 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
     }
     if (i == 0 || (segment && segment[i] != segment[i - 1]))
       for (int k = 0; k < ROTORS; k++) now[k] = lag_follows(lag, command_N[k]);
-    hold(lag, &left, rate_Hz, mean, &command_N, &now, &h->thrust_N[i], &h->rise_Nps[i]);
+    go_on(lag, &left, rate_Hz, mean, &command_N, &next_N, &now, &h->thrust_N[i], &h->rise_Nps[i]);
   }
 }
 

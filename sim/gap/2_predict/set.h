@@ -25,7 +25,6 @@ typedef struct {
   int n_block, *half; // of each block: which half-flight it belongs to; those of a lone flight interleave
   int n_half;
   bool excluded[CHANNELS];    // excluded.h
-  double command_Hz;          // how often the motors were commanded; 0: nobody said
   double *measured[CHANNELS]; // by channel and row, kept from the first time on (residual.h), or null
   struct cuts *cuts;          // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;

@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
-#define JITTER      0.98  // of the rate of a log that has every command
-
 // --- the list ---------------------------------------------------------------------------------------------
 
 static double slowest_Hz(const set_t *s) {
@@ -17,7 +14,9 @@ static double slowest_Hz(const set_t *s) {
 }
 
 bool candidates_slow(const set_t *s) {
-  return slowest_Hz(s) < (s->command_Hz > 0.0 ? JITTER * s->command_Hz : COMMANDS_HZ);
+  for (int f = 0; f < s->n_grid; f++)
+    if (grid_is_slow(&s->grid[f])) return true;
+  return false;
 }
 
 double candidates_least(const fx_t *fx, const set_t *s) {

@@ -119,8 +119,8 @@ TEST(gap_takes_a_log_as_quick_if_it_has_every_command_of_the_vehicle_file_s_cont
              {99.0, 100.0, false}, {90.0, 100.0, true}, {250.0, 500.0, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_flight_t flight = {.rate_Hz = row[i].rate_Hz};
-    grid_t grid = {.flight = &flight};
-    const set_t s = {.grid = &grid, .n_grid = 1, .command_Hz = row[i].command_Hz};
+    grid_t grid = {.flight = &flight, .command_Hz = row[i].command_Hz};
+    const set_t s = {.grid = &grid, .n_grid = 1};
     ROW("%g Hz of %g Hz", row[i].rate_Hz, row[i].command_Hz);
     CHECK(candidates_slow(&s) == row[i].slow);
   }

@@ -129,3 +129,35 @@ TEST(gap_replay_of_eight_points_has_the_bits_of_each_alone) {
   }
   drop(c);
 }
+
+// Rotors with a lag follow a wave that is commanded all the time and logged 50 times a second.
+TEST(gap_follows_commands_along_lines_where_rows_miss_them) {
+  static const struct {
+    const char *what;
+    double command_Hz, least, most; // rms error over the wave's amplitude
+  } row[] = {{"nobody said how often", 0.0, 0.0, 0.01},
+             {"500 a second", 500.0, 0.0, 0.01},
+             {"every command is there, and holds for 20 ms", 50.0, 0.05, 0.1}};
+  enum { N = 400 };
+  const double rate_Hz = 50.0, omega = 12.0, tau_s = 0.03;
+  static double command_N[N];
+  static grid_point_t point[N];
+  gap_flight_t flight = {.rate_Hz = rate_Hz};
+  for (int i = 0; i < N; i++) command_N[i] = 0.1 + 0.05 * sin(omega * i / rate_Hz);
+  for (unsigned k = 0; k < sizeof row / sizeof *row; k++) {
+    grid_t g = {.flight = &flight, .samples = N, .every = 1, .n = N, .point = point};
+    ROW("%s", row[k].what);
+    g.command_Hz = row[k].command_Hz;
+    for (int r = 0; r < ROTORS; r++) g.command_N[r] = command_N;
+    const lagged_t *const m = grid_motors(&g, &(lag_t){tau_s, tau_s, false}, 0.0);
+    double sum = 0.0;
+    CHECK(m != NULL);
+    for (int i = N / 2; m && i < N; i++) {
+      const double is = sin(omega * i / rate_Hz - atan(omega * tau_s)) / hypot(1.0, omega * tau_s);
+      const double error = (m->thrust_N[0][i] - 0.1) / 0.05 - is;
+      sum += error * error / (N - N / 2);
+    }
+    CHECK(sqrt(sum) >= row[k].least && sqrt(sum) <= row[k].most);
+    for (int i = 0; i < GRID_MOTORS; i++) free(g.motors[i].thrust_N[0]);
+  }
+}

@@ -75,6 +75,7 @@ static void replay_step(const kind_t *k, bool means, double delay_s, double thru
   grid_point_t point[ROWS] = {{.t_s = 0.0}};
   double command_N[ROWS];
   grid_t g = {.flight = &flight, .samples = ROWS, .every = 1, .period_s = ROW_S, .n = ROWS, .point = point};
+  g.command_Hz = 1.0 / ROW_S; // every command is there
   for (int i = 0; i < ROWS; i++) command_N[i] = i < STEP_AT ? 0.05 : 0.09;
   for (int r = 0; r < ROTORS; r++) g.command_N[r] = command_N;
   const lag_t lag = {k->tau_s, k->tau_s * k->down_over_up, k->in_speed};
