@@ -26,7 +26,9 @@ static inline int nominal_steps(double sample_s) {
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
-  double climb_gain, height_gain;                                                      // 1/s, 1/s2
+  double climb_gain, height_gain; // 1/s, 1/s2
+  double outer_s;                 // between two looks at place and speed; 0: at every call
+  bool unread;                    // rows miss commands: the gains of what turns it cannot be read off them
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time

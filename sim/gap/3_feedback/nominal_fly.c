@@ -117,7 +117,7 @@ static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth, co
 
 // motor_N: keeps what was commanded last, where no new command is due.
 static void steer(nominal_flight_t *f, double step_s, const grid_point_t *seen, double motor_N[ROTORS]) {
-  const grid_point_t *track = &f->g->point[f->at];
+  const grid_point_t *const track = &f->track;
   if (f->known) {
     known_steer(f->known, step_s, track, seen, motor_N);
     return;
@@ -167,7 +167,7 @@ static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
 // On the track as it is now; what it does is its own again a while later.
 static done_t put(nominal_flight_t *f, double t_s, why_t *why) {
   const model_t *m = f->body.model;
-  f->down_s = f->due_s = 0.0;
+  f->down_s = f->due_s = f->outer_due_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
   f->body.integrate = NULL;
@@ -204,7 +204,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
       first = f->at;
       TRY(put(f, f->g->point[first].t_s, why));
     }
-    if (!f->known) pilot_look_ahead(f);
+    pilot_look_ahead(f);
     for (int i = 0; i < per_point; i++) {
       const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {
@@ -213,6 +213,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
         drift(f, normal);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
         const grid_point_t truth = is(f), seen = see(f, &truth, normal + LASTS);
+        pilot_take_track(f, (i * inner + k) / (double)(per_point * inner));
         steer(f, step_s, &seen, motor_N);
         if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
         if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
@@ -223,8 +224,11 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
       if (lost || (f->known && is_down(f, log_s))) TRY(put_back(f, t_s, why));
     }
   }
-  f->log->rate_Hz = 1.0 / log_s;
-  if (f->truth) f->truth->rate_Hz = 1.0 / log_s;
+  gap_flight_t *const logs[] = {f->log, f->truth};
+  for (int i = 0; i < (f->truth ? 2 : 1); i++) {
+    logs[i]->rate_Hz = 1.0 / log_s;
+    logs[i]->command_Hz = f->g->command_Hz;
+  }
   return DONE;
 }
 

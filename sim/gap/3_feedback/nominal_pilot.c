@@ -13,10 +13,11 @@
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0
 
-// Points on both sides of where the vehicle is, and the time between them; false: there are none, or a gap in
-// time lies between.
-static bool both_sides(const nominal_flight_t *f, int side, const grid_point_t *end[2], double *span_s) {
-  const int from = f->at - side, to = f->at + side;
+// Points on both sides of one, and the time between them; false: there are none, or a gap in time lies
+// between.
+static bool both_sides(const nominal_flight_t *f, int at, int side, const grid_point_t *end[2],
+                       double *span_s) {
+  const int from = at - side, to = at + side;
   if (from < f->from || to >= f->to) return false;
   for (int i = 0; i < 2; i++) end[i] = &f->g->point[i ? to : from];
   *span_s = end[1]->t_s - end[0]->t_s;
@@ -29,29 +30,52 @@ static d3_t beyond(d3_t v, double error) {
 }
 
 // How the track is bent.
-static d3_t track_acc(const nominal_flight_t *f) {
+static d3_t track_acc(const nominal_flight_t *f, int at) {
   const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s));
   const grid_point_t *end[2];
   double span_s, error = 0.0;
-  if (!f->g->has_velocity || !both_sides(f, side, end, &span_s)) return d3(0.0, 0.0, 0.0);
+  if (!f->g->has_velocity || !both_sides(f, at, side, end, &span_s)) return d3(0.0, 0.0, 0.0);
   for (int i = 0; i < 3; i++) error = fmax(error, hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]));
   return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->vel_w_mps, end[0]->vel_w_mps)),
                 sqrt(2.0) * error / span_s);
 }
 
 // How its turning grows.
-static d3_t track_turn(const nominal_flight_t *f) {
+static d3_t track_turn(const nominal_flight_t *f, int at) {
   const grid_point_t *end[2];
   double span_s, error = 0.0;
-  if (!f->g->has_rates || !both_sides(f, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
+  if (!f->g->has_rates || !both_sides(f, at, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
   for (int i = 0; i < 3; i++) error = fmax(error, f->w->gyro_radps[i]);
   return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->rate_b_radps, end[0]->rate_b_radps)),
                 sqrt(2.0 / f->g->every) * error / span_s);
 }
 
 void pilot_look_ahead(nominal_flight_t *f) {
-  f->bent_mps2 = track_acc(f);
-  f->bent_radps2 = track_turn(f);
+  for (int i = 0; i < 2; i++) {
+    const int at = f->at + (i && pilot_goes_on(f));
+    f->bends_mps2[i] = track_acc(f, at);
+    f->bends_radps2[i] = track_turn(f, at);
+  }
+}
+
+bool pilot_goes_on(const nominal_flight_t *f) {
+  const grid_point_t *const p = f->g->point;
+  return f->at + 1 < f->to && p[f->at + 1].segment == p[f->at].segment;
+}
+
+static d3_t between(d3_t a, d3_t b, double share) {
+  return d3_add(a, d3_scale(share, d3_sub(b, a)));
+}
+
+void pilot_take_track(nominal_flight_t *f, double share) {
+  const grid_point_t *const a = &f->g->point[f->at], *const b = a + pilot_goes_on(f);
+  f->track = *a;
+  f->track.pos_w_m = between(a->pos_w_m, b->pos_w_m, share);
+  f->track.vel_w_mps = between(a->vel_w_mps, b->vel_w_mps, share);
+  f->track.rate_b_radps = between(a->rate_b_radps, b->rate_b_radps, share);
+  f->track.q_wb = dq_unit(dq_towards(a->q_wb, b->q_wb, share));
+  f->bent_mps2 = between(f->bends_mps2[0], f->bends_mps2[1], share);
+  f->bent_radps2 = between(f->bends_radps2[0], f->bends_radps2[1], share);
 }
 
 static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, const grid_point_t *seen) {
@@ -112,7 +136,12 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
                  double motor_N[ROTORS]) {
   const closed_loop_t *w = f->w;
   const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
-  const d3_t acc = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
+  if (f->outer_due_s < 0.5 * step_s) {
+    f->acc_mps2 = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
+    f->outer_due_s += w->outer_s;
+  }
+  f->outer_due_s = fmax(f->outer_due_s - step_s, 0.0);
+  const d3_t acc = f->acc_mps2;
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
   const double roll = fmax(-TILT_MAX, fmin(TILT_MAX, -pull_b.y)),
                pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));

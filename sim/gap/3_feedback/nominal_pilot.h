@@ -22,11 +22,14 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
-  d3_t bent_mps2, bent_radps2;                // acceleration of the track at this point, and of its turning
+  grid_point_t track;                         // where it is to be now
+  d3_t bent_mps2, bent_radps2;                // acceleration of the track there, and of its turning
+  d3_t bends_mps2[2], bends_radps2[2];        // at the point before and the one behind
   d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow, call_s, quick;            // quick: the share of the way that they go from call to call
-  double due_s;                               // until the next command
+  double due_s, outer_due_s;                  // until the next command, and the next look at place and speed
+  d3_t acc_mps2;                              // wanted since the last look, with what carries the weight
   unsigned long seed;
   decay_t pos_keeps, vel_keeps, angle_keeps; // of what lasts, over a step
   double down_s, masked_to_s;                // in contact since it was put on its track; of the log
@@ -36,6 +39,10 @@ typedef struct {
 
 // At a new point of the track, before anything is commanded there.
 void pilot_look_ahead(nominal_flight_t *f);
+// This share of the way to the next point, where no gap in time lies between: a pilot is told more often than
+// a point comes. What it is told by steps, it commands by steps, and a log of its commands misses none.
+void pilot_take_track(nominal_flight_t *f, double share);
+bool pilot_goes_on(const nominal_flight_t *f);
 
 // Commands that bring the vehicle, as it is seen, to its track.
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
