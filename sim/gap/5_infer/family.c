@@ -23,15 +23,11 @@ static double beyond_nominal(const round_t *r, double statistic) {
 
 static done_t measure_cells(const round_t *r, double *const left[CHANNELS], unexplained_t *u, why_t *why) {
   color_t color[CHANNELS];
+  cell_t cell[CHANNELS];
   TRY(unknown_colors(r->s, r->base, left, color, why));
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    color_t one[CHANNELS] = {{.used = false}};
-    cell_t cell;
-    if (!color[ch].used) continue;
-    one[ch] = color[ch];
-    TRY(unknown_largest(r->s, r->base, left, one, true, &cell, why));
-    u->errors[ch] = beyond_nominal(r, cell.statistic);
-  }
+  TRY(unknown_along(r->s, r->base, 0, COORDINATES, left, color, true, cell, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (color[ch].used) u->errors[ch] = beyond_nominal(r, cell[ch].statistic);
   return DONE;
 }
 

@@ -111,9 +111,11 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   }
 }
 
-void in_time_pulses(const look_t *l, cell_t cell[CHANNELS]) {
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
+void in_time_pulses(const look_t *l, cell_t cell[LOOKED]) {
+  for (int k = 0; k < LOOKED_SMOOTH; k++) {
+    const int ch = look_channel(0, k);
     if (l->color[ch].used) pulses_in(l, ch, &cell[ch]);
+  }
 }
 
 // --- lines ------------------------------------------------------------------------------------------------
@@ -222,19 +224,19 @@ static spectrum_t spectrum_of(const look_t *l, const double *v, int last) {
   return sum;
 }
 
-static double beside(const spectrum_t *p, int ch, int at) {
+static double beside(const spectrum_t *p, int lane, int at) {
   double power[LINES];
   int n = 0;
   for (int k = at - BESIDE; k <= at + BESIDE; k++)
-    if (k > 0 && k <= LINES && abs(k - at) > OWN) power[n++] = p->power[k][ch];
+    if (k > 0 && k <= LINES && abs(k - at) > OWN) power[n++] = p->power[k][lane];
   return nth_smallest(power, n, n / 2);
 }
 
 // The line that stands out most, by more than `largest`; 0: none.
-static int best_line(const spectrum_t *white, int ch, double *largest) {
+static int best_line(const spectrum_t *white, int lane, double *largest) {
   int best = 0;
   for (int k = BESIDE; white->stretches && k <= LINES - OWN; k++) {
-    const double statistic = sqrt(white->power[k][ch] / beside(white, ch, k));
+    const double statistic = sqrt(white->power[k][lane] / beside(white, lane, k));
     if (statistic > *largest) *largest = statistic, best = k;
   }
   return best;
@@ -242,44 +244,45 @@ static int best_line(const spectrum_t *white, int ch, double *largest) {
 
 // Of a sine A sin, tapered: power A^2/4 (sum of the taper)^2 / (sum of its squares), 2/3 of the rows. It
 // explains A^2/2 a row.
-static cell_t line_of(const look_t *l, int ch, int line, const spectrum_t *white, const spectrum_t *raw,
+static cell_t line_of(const look_t *l, int lane, int line, const spectrum_t *white, const spectrum_t *raw,
                       double statistic) {
   const double rows = STRETCH_S * RESIDUAL_HZ;
-  return (cell_t){.channel = ch,
+  return (cell_t){.channel = look_channel(0, lane),
                   .along = NOWHERE,
                   .coordinate = "frequency",
                   .unit = "Hz",
                   .from = (line - 1.0) / STRETCH_S,
                   .to = (line + 1.0) / STRETCH_S,
-                  .size = sqrt(4.0 * raw->power[line][ch] / raw->stretches / (2.0 / 3.0 * rows)),
+                  .size = sqrt(4.0 * raw->power[line][lane] / raw->stretches / (2.0 / 3.0 * rows)),
                   .statistic = statistic,
-                  .explained = 3.0 * white->power[line][ch] / white->stretches * l->s->smooth.n / rows};
+                  .explained = 3.0 * white->power[line][lane] / white->stretches * l->s->smooth.n / rows};
 }
 
 // The channels that are looked at, as they are or white, side by side.
 static const double *side_by_side_of(const look_t *l, bool white) {
   const rows_t *const r = &l->s->smooth;
   double *const all = l->room + 2 * set_most_rows(l->s);
-  for (int ch = 0; ch < WIDE; ch++) {
-    const bool used = ch < CH_SMOOTH && l->color[ch].used;
+  for (int k = 0; k < WIDE; k++) {
+    const int ch = look_channel(0, k);
+    const bool used = k < LOOKED_SMOOTH && l->color[ch].used;
     const double *const v = used && !white ? l->residual[ch] : l->room;
     if (used && white) color_whiten(&l->color[ch], r, l->residual[ch], l->room);
-    for (int i = 0; i < r->n; i++) all[WIDE * i + ch] = used ? v[i] : 0.0;
+    for (int i = 0; i < r->n; i++) all[WIDE * i + k] = used ? v[i] : 0.0;
   }
   return all;
 }
 
-void in_time_lines(const look_t *l, cell_t cell[CHANNELS]) {
-  int best[CH_SMOOTH] = {0}, last = 0;
-  double statistic[CH_SMOOTH];
+void in_time_lines(const look_t *l, cell_t cell[LOOKED]) {
+  int best[LOOKED_SMOOTH] = {0}, last = 0;
+  double statistic[LOOKED_SMOOTH];
   const spectrum_t white = spectrum_of(l, side_by_side_of(l, true), LINES);
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    statistic[ch] = cell[ch].statistic;
-    if (l->color[ch].used) best[ch] = best_line(&white, ch, &statistic[ch]);
-    if (best[ch] > last) last = best[ch];
+  for (int k = 0; k < LOOKED_SMOOTH; k++) {
+    statistic[k] = cell[look_channel(0, k)].statistic;
+    if (l->color[look_channel(0, k)].used) best[k] = best_line(&white, k, &statistic[k]);
+    if (best[k] > last) last = best[k];
   }
   if (!last) return;
   const spectrum_t raw = spectrum_of(l, side_by_side_of(l, false), last);
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
-    if (best[ch]) cell[ch] = line_of(l, ch, best[ch], &white, &raw, statistic[ch]);
+  for (int k = 0; k < LOOKED_SMOOTH; k++)
+    if (best[k]) cell[look_channel(0, k)] = line_of(l, k, best[k], &white, &raw, statistic[k]);
 }

@@ -9,10 +9,10 @@
 
 // A pulse: a constant from one time to another, 0.08 to 0.64 s, by generalised least squares. Statistic: over
 // what such constants scatter by (median) at all times of the flights. from, to: time of its flight.
-void in_time_pulses(const look_t *l, cell_t cell[CHANNELS]);
+void in_time_pulses(const look_t *l, cell_t cell[LOOKED]);
 
 // A line in the spectrum of the white residual, 1 to 8 Hz. Statistic: its amplitude over the median
 // amplitude of the frequencies beside it, means of the power over stretches of 16 s. from, to: frequency.
-void in_time_lines(const look_t *l, cell_t cell[CHANNELS]);
+void in_time_lines(const look_t *l, cell_t cell[LOOKED]);
 
 #endif

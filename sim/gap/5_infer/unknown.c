@@ -121,21 +121,14 @@ static void close_look(look_t *l) {
   free(l->bin);
 }
 
-static cell_t largest_of(const cell_t cell[CHANNELS]) {
-  const cell_t *most = &cell[0];
-  for (int ch = 1; ch < CHANNELS; ch++)
-    if (cell[ch].statistic > most->statistic) most = &cell[ch];
-  return *most;
-}
-
 // Coordinates are looked along side by side; of cells that are alike that of the first counts.
-static done_t look_along(const set_t *s, const model_t *m, int from, int to, double *const residual[CHANNELS],
-                         const color_t *color, bool centred, cell_t *cell, why_t *why) {
-  cell_t each[COORDINATES][CHANNELS] = {{{.statistic = 0.0}}};
+done_t unknown_along(const set_t *s, const model_t *m, int from, int to, double *const residual[CHANNELS],
+                     const color_t color[CHANNELS], bool centred, cell_t cell[CHANNELS], why_t *why) {
+  cell_t each[COORDINATES][LOOKED] = {{{.statistic = 0.0}}};
   bool good = true;
 #pragma omp parallel reduction(&& : good)
   {
-    look_t l = {s, m, residual, color, centred, NULL, NULL};
+    look_t l = look_of(s, m, residual, color, centred);
     why_t own;
     good = open_look(&l, &own) == DONE;
 #pragma omp for schedule(dynamic, 1)
@@ -143,65 +136,52 @@ static done_t look_along(const set_t *s, const model_t *m, int from, int to, dou
       if (l.room && l.bin) windows_along(&l, i, each[i]);
     close_look(&l);
   }
-  cell_t most[CHANNELS] = {{.statistic = 0.0}};
-  for (int i = from; i < to; i++)
-    for (int ch = 0; ch < CHANNELS; ch++)
-      if (each[i][ch].statistic > most[ch].statistic) most[ch] = each[i][ch];
-  *cell = largest_of(most);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    cell[ch] = (cell_t){.statistic = 0.0};
+    for (int i = from; i < to; i++)
+      if (each[i][ch].statistic > cell[ch].statistic) cell[ch] = each[i][ch];
+  }
   return good ? DONE : error_failed(why, "out of memory");
-}
-
-done_t unknown_along(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],
-                     const color_t *color, cell_t *cell, why_t *why) {
-  return look_along(s, m, coordinate, coordinate + 1, residual, color, true, cell, why);
-}
-
-done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                       const color_t *color, bool centred, cell_t *cell, why_t *why) {
-  return look_along(s, m, 0, COORDINATES, residual, color, centred, cell, why);
 }
 
 // --- all looks --------------------------------------------------------------------------------------------
 
-static void look_everywhere(const look_t *l, scan_t *scan, bool world) {
+static void look_everywhere(const look_t *l, scan_t *scan) {
   for (int look = 0; look < UNKNOWN_LOOKS; look++) {
-    cell_t each[CHANNELS] = {{.statistic = 0.0}};
+    cell_t each[LOOKED] = {{.statistic = 0.0}};
     if (look < COORDINATES) windows_along(l, look, each);
     if (look == LOOK_FLOOR) windows_on_floor(l, each);
     if (look == LOOK_PULSE) in_time_pulses(l, each);
     if (look == LOOK_LINE) in_time_lines(l, each);
-    for (int ch = 0; ch < (world ? CH_FZ : CHANNELS); ch++) {
-      cell_t *const to = &scan->cell[unknown_cell(ch, look, world)];
-      *to = each[ch];
-      to->world = world;
+    for (int ch = 0; ch < LOOKED; ch++) {
+      const bool world = ch >= CHANNELS;
+      each[ch].channel = world ? ch - CHANNELS : ch;
+      each[ch].world = world;
+      scan->cell[unknown_cell(each[ch].channel, look, world)] = each[ch];
     }
   }
 }
 
-static void look_at_world(const look_t *body, const color_t *color, lines_t *turned, scan_t *scan) {
-  look_t l = *body;
-  color_t level[CHANNELS] = {{.used = false}};
-  for (int ch = 0; ch < CH_FZ; ch++) level[ch] = color[ch];
-  turn_by_heading(l.s, 1.0, body->residual[CH_FX], body->residual[CH_FY], turned->r[CH_FX], turned->r[CH_FY]);
-  l.residual = turned->r;
-  l.color = level;
-  look_everywhere(&l, scan, true);
+static void add_world(look_t *l, const color_t *color, double *const turned[CHANNELS]) {
+  turn_by_heading(l->s, 1.0, l->residual[CH_FX], l->residual[CH_FY], turned[CH_FX], turned[CH_FY]);
+  for (int ch = 0; ch < CH_FZ; ch++) {
+    l->residual[CHANNELS + ch] = turned[ch];
+    l->color[CHANNELS + ch] = color[ch];
+  }
 }
 
 done_t unknown_scan(const set_t *s, const model_t *m, double *const residual[CHANNELS], scan_t *scan,
                     why_t *why) {
   color_t color[CHANNELS], world[CHANNELS];
-  lines_t turned = {.r = {NULL}};
-  look_t l = {s, m, residual, color, true, NULL, NULL};
+  lines_t turned;
   const bool level = has_lateral_force(s);
   *scan = (scan_t){.cell = {{.statistic = 0.0}}};
-  done_t status = find_colors(s, m, residual, color, level ? world : NULL, why);
+  TRY(find_colors(s, m, residual, color, level ? world : NULL, why));
+  look_t l = look_of(s, m, residual, color, true);
+  done_t status = lines_make(&turned, s, why);
   if (status == DONE) status = open_look(&l, why);
-  if (status == DONE) look_everywhere(&l, scan, false);
-  if (status == DONE && level) {
-    status = lines_make(&turned, s, why);
-    if (status == DONE) look_at_world(&l, world, &turned, scan);
-  }
+  if (status == DONE && level) add_world(&l, world, turned.r);
+  if (status == DONE) look_everywhere(&l, scan);
   close_look(&l);
   lines_free(&turned);
   return status;

@@ -24,16 +24,12 @@ MUST_CHECK done_t unknown_clean(const set_t *s, const model_t *m, double *const 
 MUST_CHECK done_t unknown_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                  color_t color[CHANNELS], why_t *why);
 
-// --- the largest cell, along coordinates, in the body's axes ----------------------------------------------
+// --- the largest cell of each channel, along coordinates, in the body's axes -------------------------------
 
-// color: of unknown_colors. residual: by channel and row. FAILED: no memory.
-MUST_CHECK done_t unknown_largest(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                  const color_t *color, bool centred, cell_t *cell, why_t *why);
-
-// The same along one coordinate.
-MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int coordinate,
-                                double *const residual[CHANNELS], const color_t *color, cell_t *cell,
-                                why_t *why);
+// Along those from..to-1. color: of unknown_colors. residual: by channel and row. FAILED: no memory.
+MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int from, int to,
+                                double *const residual[CHANNELS], const color_t color[CHANNELS], bool centred,
+                                cell_t cell[CHANNELS], why_t *why);
 
 // --- all looks --------------------------------------------------------------------------------------------
 

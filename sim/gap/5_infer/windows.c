@@ -167,7 +167,7 @@ static void look_at_floor(floor_t *f, int ch, cell_t *cell) {
   if (at.statistic > cell->statistic) *cell = cell_of(f, ch, &at);
 }
 
-void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
+void windows_on_floor(const look_t *l, cell_t cell[LOOKED]) {
   const int n = l->s->smooth.n;
   const int enough = n / (WINDOW_ROWS * STRIPS);
   floor_t f;
@@ -180,6 +180,8 @@ void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]) {
   if (bins < 1 || !windows_cut(l->s, l->m, COORDINATE_X, 0, bins, BY_ROWS, l->room, f.x, f.x_edge) ||
       !windows_cut(l->s, l->m, COORDINATE_Y, 0, bins, BY_ROWS, l->room, f.y, f.y_edge))
     return;
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
+  for (int k = 0; k < LOOKED_SMOOTH; k++) {
+    const int ch = look_channel(0, k);
     if (l->color[ch].used) look_at_floor(&f, ch, &cell[ch]);
+  }
 }

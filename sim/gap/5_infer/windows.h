@@ -25,22 +25,43 @@ typedef struct {
   double y_from_m, y_to_m;
 } cell_t;
 
-enum { LOOK_ROOM = 2 + 8 }; // 8: of all channels, side by side
+// Behind the channels the lateral force (those before CH_FZ) once more, in the world's axes.
+enum {
+  LOOKED = CHANNELS + CH_FZ,
+  LOOKED_SMOOTH = CH_SMOOTH + CH_FZ, // of the smooth rows, side by side
+  LOOK_ROOM = 2 + LOOKED_SMOOTH
+};
 
-// What is looked at. color: of the residual after the cleaning of unknown.h, by channel; one that is not used
-// is not looked at. centred: a constant over all rows says nothing.
+// Number k of those of a list of rows (0: smooth, 1: range).
+static inline int look_channel(int list, int k) {
+  return list ? CH_RANGE : k < CH_SMOOTH ? k : CHANNELS - CH_SMOOTH + k;
+}
+
+// What is looked at. color: of the residual after the cleaning of unknown.h; one that is not used is not
+// looked at. centred: a constant over all rows says nothing.
 typedef struct {
   const set_t *s;
   const model_t *m;
-  double *const *residual; // by channel and row
-  const color_t *color;
   bool centred;
   double *room; // LOOK_ROOM times as many numbers as rows
   int *bin;     // three times as many
+  const double *residual[LOOKED];
+  color_t color[LOOKED];
 } look_t;
 
-// Each puts in place of cell[channel] what has a larger statistic.
-void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]);
-void windows_on_floor(const look_t *l, cell_t cell[CHANNELS]);
+// Without room, and without the world's axes.
+static inline look_t look_of(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                             const color_t color[CHANNELS], bool centred) {
+  look_t l = {s, m, centred, .room = NULL};
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    l.residual[ch] = residual[ch];
+    l.color[ch] = color[ch];
+  }
+  return l;
+}
+
+// Each puts in place of cell[] of a channel what has a larger statistic.
+void windows_along(const look_t *l, int coordinate, cell_t cell[LOOKED]);
+void windows_on_floor(const look_t *l, cell_t cell[LOOKED]);
 
 #endif

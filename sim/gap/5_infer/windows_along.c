@@ -8,17 +8,17 @@
 #define SUMS_BINS   WINDOW_FINE
 #include "gap/5_infer/windows_sums.h"
 
-_Static_assert(CH_SMOOTH <= WIDE, "all channels of a list lie side by side");
+_Static_assert((int)LOOKED_SMOOTH <= WIDE, "all channels of a list lie side by side");
 
 // Noughts for who is not looked at.
-static void weigh(const look_t *l, int first, int end, weights_t *w) {
+static void weigh(const look_t *l, int list, int n, weights_t *w) {
   double at[3][WIDE] = {{0.0}};
-  for (int ch = first; ch < end; ch++) {
-    const color_t *const c = &l->color[ch];
+  for (int k = 0; k < n; k++) {
+    const color_t *const c = &l->color[look_channel(list, k)];
     if (!c->used) continue;
-    at[0][ch - first] = 1.0 / c->sd;
-    at[1][ch - first] = -c->a1 / c->sd;
-    at[2][ch - first] = -c->a2 / c->sd;
+    at[0][k] = 1.0 / c->sd;
+    at[1][k] = -c->a1 / c->sd;
+    at[2][k] = -c->a2 / c->sd;
   }
   for (int a = 0; a < 3; a++) WIDE_LOAD(w->of[a], at[a]);
   weights_multiply(w);
@@ -108,35 +108,38 @@ static cell_t cell_of(const window_t *w, int channel, int coordinate, int bins, 
                   .last = w->to + 1 == bins};
 }
 
-// The channels first..end-1, whose rows lie side by side in v.
-static void try_windows(const look_t *l, int coordinate, cut_t cut, const weights_t *w, int first, int end,
-                        const double *v, cell_t cell[CHANNELS]) {
+// So many channels of a list, whose rows lie side by side in v.
+static void try_windows(const look_t *l, int coordinate, cut_t cut, const weights_t *w, int list, int n,
+                        const double *v, cell_t cell[LOOKED]) {
   products_t p;
   double edge[WINDOW_FINE + 1];
   window_t best[WIDE] = {{.statistic = 0.0}};
   wide_bits_t looked = {0};
-  const int list = first == CH_RANGE, bins = windows_cut_in[cut];
+  const int bins = windows_cut_in[cut];
   if (!windows_cut(l->s, l->m, coordinate, list, bins, cut, l->room, l->bin, edge)) return;
-  for (int ch = first; ch < end; ch++) {
-    looked[ch - first] = l->color[ch].used ? -1 : 0;
-    best[ch - first].statistic = cell[ch].statistic;
+  for (int k = 0; k < n; k++) {
+    looked[k] = l->color[look_channel(list, k)].used ? -1 : 0;
+    best[k].statistic = cell[look_channel(list, k)].statistic;
   }
   add_products(&p, bins, windows_rows(l->s, list), w, v, l->bin);
   best_windows(&p, l->centred, &looked, best);
-  for (int ch = first; ch < end; ch++)
-    if (best[ch - first].statistic > cell[ch].statistic)
-      cell[ch] = cell_of(&best[ch - first], ch, coordinate, bins, edge);
+  for (int k = 0; k < n; k++) {
+    const int ch = look_channel(list, k);
+    if (best[k].statistic > cell[ch].statistic) cell[ch] = cell_of(&best[k], ch, coordinate, bins, edge);
+  }
 }
 
-void windows_along(const look_t *l, int coordinate, cell_t cell[CHANNELS]) {
+void windows_along(const look_t *l, int coordinate, cell_t cell[LOOKED]) {
   for (int list = 0; list < 2; list++) {
-    const int first = list ? CH_RANGE : 0, end = list ? CHANNELS : CH_SMOOTH, n = windows_rows(l->s, list)->n;
+    const int n = list ? 1 : LOOKED_SMOOTH;
     double *const v = l->room + 2 * set_most_rows(l->s);
     weights_t w;
-    weigh(l, first, end, &w);
-    for (int i = 0; i < n; i++)
-      for (int k = 0; k < WIDE; k++)
-        v[WIDE * i + k] = first + k < end && l->color[first + k].used ? l->residual[first + k][i] : 0.0;
-    for (int cut = 0; cut < CUTS; cut++) try_windows(l, coordinate, (cut_t)cut, &w, first, end, v, cell);
+    weigh(l, list, n, &w);
+    for (int i = 0; i < windows_rows(l->s, list)->n; i++)
+      for (int k = 0; k < WIDE; k++) {
+        const int ch = look_channel(list, k);
+        v[WIDE * i + k] = k < n && l->color[ch].used ? l->residual[ch][i] : 0.0;
+      }
+    for (int cut = 0; cut < CUTS; cut++) try_windows(l, coordinate, (cut_t)cut, &w, list, n, v, cell);
   }
 }

@@ -139,11 +139,11 @@ static done_t look_for_ceiling(report_t *r, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const int height = COORDINATE_HEIGHT;
   color_t color[CHANNELS];
-  cell_t cell;
+  cell_t of[CHANNELS];
   if (isfinite(r->study->vehicle.ceiling_m) || !d->nominal_flew || !residual_has(&d->fit, CH_FZ)) return DONE;
   TRY(unknown_colors(&d->fit, &d->extended, d->residual, color, why));
-  for (int ch = 0; ch < CHANNELS; ch++) color[ch].used = color[ch].used && ch == CH_FZ;
-  TRY(unknown_along(&d->fit, &d->extended, height, d->residual, color, &cell, why));
+  TRY(unknown_along(&d->fit, &d->extended, height, height + 1, d->residual, color, true, of, why));
+  const cell_t cell = of[CH_FZ];
   if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last))
     return DONE;
   const double at_m = r->ceiling_seen_m = seen_ceiling_m(r);

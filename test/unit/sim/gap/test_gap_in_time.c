@@ -12,13 +12,13 @@
 #define CALM  0.05 // of the rows' standard deviation: the noise of what is not added here
 
 // The largest pulse or line in the force along z, of rows without colour.
-static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[CHANNELS])) {
-  color_t color[CHANNELS] = {[CH_FZ] = {.used = true, .sd = 1.0}};
-  double *const room = malloc(LOOK_ROOM * set_most_rows(&g->set) * sizeof(double));
-  cell_t cell[CHANNELS] = {{.statistic = 0.0}};
-  const look_t l = {&g->set, &g->model, g->residual, color, true, room, NULL};
-  if (CHECK(room)) in_time(&l, cell);
-  free(room);
+static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[LOOKED])) {
+  const color_t color[CHANNELS] = {[CH_FZ] = {.used = true, .sd = 1.0}};
+  cell_t cell[LOOKED] = {{.statistic = 0.0}};
+  look_t l = look_of(&g->set, &g->model, g->residual, color, true);
+  l.room = malloc(LOOK_ROOM * set_most_rows(&g->set) * sizeof(double));
+  if (CHECK(l.room)) in_time(&l, cell);
+  free(l.room);
   return cell[CH_FZ];
 }
 
