@@ -68,43 +68,34 @@ double score_left(const score_t *j, const choice_t *choice, double *halves) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX], sum = 0.0;
   const int columns = choice_columns(j->c, choice, column);
-  double *const others = malloc(n * sizeof(double));
-  if (!others) return HUGE_VAL;
   for (int h = 0; h < g->n_half; h++) {
-    const double *own = g->by_half + (size_t)h * n;
-    for (size_t i = 0; i < n; i++) others[i] = g->total[i] - own[i];
-    lsq_solve_products(others, g->size, column, columns, j->ridge, b, NULL);
-    const double left = lsq_left(own, g->size, column, columns, b);
+    lsq_solve_products(g->others + (size_t)h * n, g->size, column, columns, j->ridge, b, NULL);
+    const double left = lsq_left(g->by_half + (size_t)h * n, g->size, column, columns, b);
     if (halves) halves[h] = left;
     sum += left;
   }
-  free(others);
   return sum;
 }
 
 // What a choice, fitted to the other half-flights, leaves of every group of channels.
-static bool left_by_group(const score_t *j, const choice_t *choice, double left[GROUPS]) {
+static void left_by_group(const score_t *j, const choice_t *choice, double left[GROUPS]) {
   const gram_t *g = j->g;
   const size_t n = (size_t)(g->size * g->size);
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int columns = choice_columns(j->c, choice, column);
-  double *const others = malloc(n * sizeof(double));
   for (int i = 0; i < GROUPS; i++) left[i] = 0.0;
-  for (int h = 0; others && h < g->n_half; h++) {
-    const double *own = g->by_half + (size_t)h * n;
-    for (size_t i = 0; i < n; i++) others[i] = g->total[i] - own[i];
-    lsq_solve_products(others, g->size, column, columns, j->ridge, b, NULL);
+  for (int h = 0; h < g->n_half; h++) {
+    lsq_solve_products(g->others + (size_t)h * n, g->size, column, columns, j->ridge, b, NULL);
     for (int i = 0; i < GROUPS; i++)
       left[i] += lsq_left(g->by_group[i] + (size_t)h * n, g->size, column, columns, b);
   }
-  free(others);
-  return others != NULL;
 }
 
 bool score_harms(const score_t *j, const choice_t *without, const choice_t *with) {
   double before[GROUPS], after[GROUPS];
-  if (!left_by_group(j, without, before) || !left_by_group(j, with, after)) return true;
+  left_by_group(j, without, before);
+  left_by_group(j, with, after);
   for (int i = 0; i < GROUPS; i++)
     if (after[i] > before[i] * (1.0 + HARM) + 10.0) return true;
   return false;

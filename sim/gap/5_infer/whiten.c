@@ -103,6 +103,7 @@ static void add_blocks(gram_t *g) {
       g->by_half[(size_t)g->half[b] * n + i] += v;
       g->total[i] += v;
     }
+  for (size_t i = 0; i < (size_t)g->n_half * n; i++) g->others[i] = g->total[i % n] - g->by_half[i];
 }
 
 static void empty(gram_t *g) {
@@ -165,7 +166,8 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
   *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
   const size_t room = (size_t)(g->size * g->size);
   g->block = calloc((size_t)g->n_block * room, sizeof(double));
-  g->by_half = calloc((size_t)g->n_half * room, sizeof(double));
+  g->by_half = calloc(2 * (size_t)g->n_half * room, sizeof(double));
+  g->others = g->by_half + (size_t)g->n_half * room;
   g->total = calloc(room, sizeof(double));
   bool good = g->block && g->by_half && g->total;
   for (int i = 0; i < GROUPS; i++) {

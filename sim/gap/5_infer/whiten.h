@@ -23,6 +23,7 @@ typedef struct {
   int rows;                  // white ones, of all channels
   const int *half;           // of each block (the set's)
   double *block, *by_half, *total;
+  double *others;           // by half-flight: of all the others
   double *by_group[GROUPS]; // of all half-flights, one matrix each
   color_t color[CHANNELS];
 } gram_t;
