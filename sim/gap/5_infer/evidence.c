@@ -100,13 +100,16 @@ static void search(beam_t *b) {
   evidence_set_t *const set = b->e->set;
   b->e->n = 1; // nothing
   for (int from = 0, to = 1, depth = 0; depth < EVIDENCE_DEPTH && to > from; depth++) {
-    const int next = b->e->n;
-    for (int i = from; i < to; i++)
-      for (int k = 0; k < b->r->c->n; k++)
-        if (may_join(b, &set[i], k)) {
-          const evidence_set_t with = extended(b, &set[i], k);
-          keep(b, next, &with);
-        }
+    const int next = b->e->n, n = b->r->c->n;
+#pragma omp parallel for schedule(dynamic, 8)
+    for (int q = 0; q < (to - from) * n; q++) {
+      const evidence_set_t *const s = &set[from + q / n];
+      set[next + q] = may_join(b, s, q % n) ? extended(b, s, q % n) : (evidence_set_t){.n = 0};
+    }
+    for (int q = 0; q < (to - from) * n; q++) {
+      const evidence_set_t with = set[next + q]; // where it is kept lies before
+      if (with.n > 0) keep(b, next, &with);
+    }
     qsort(set + next, (size_t)(b->e->n - next), sizeof *set, by_log);
     from = next;
     to = b->e->n < from + BEAM ? b->e->n : from + BEAM;
