@@ -226,10 +226,10 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-// A first look has no say; what measured rotor speeds show is no question to the rows.
+// What measured rotor speeds show is no question to the rows.
 static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
   evidence_t e = {.n = 0};
-  if (r->nominal && found->n) TRY(evidence_make(&e, r, why));
+  if (found->n) TRY(evidence_make(&e, r, why));
   for (int i = 0; i < found->n; i++) {
     named_t *const named = &found->named[i];
     const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
@@ -248,6 +248,7 @@ static done_t find_choice(select_t *t, const timing_t *timing, found_t *found, w
   TRY(search(t, why));
   memcpy(found->echo, t->echo, (size_t)t->round.c->n * sizeof *t->echo);
   found_describe(found, &t->round, timing);
+  if (!t->round.nominal) return DONE; // nobody asks a first look for rivals
   TRY(family_find(&t->round, timing->measured, found, why));
   return tell_probabilities(&t->round, found, why);
 }
