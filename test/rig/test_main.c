@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/times.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,11 +72,20 @@ typedef struct {
   int passed, failed, skipped;
 } tally_t;
 
+// Of processors, by this process and by the programs that it ran.
+static double used_s(void) {
+  struct tms t;
+  times(&t);
+  return (double)(t.tms_utime + t.tms_stime + t.tms_cutime + t.tms_cstime) / (double)sysconf(_SC_CLK_TCK);
+}
+
 static void run(const test_t *test, tally_t *sum) {
+  const double before_s = used_s();
   row[0] = '\0';
   failures = 0;
   skipped = NULL;
   test->run();
+  if (getenv("TIMES")) fprintf(stderr, "%7.2f s %s\n", used_s() - before_s, test->name);
   if (skipped && failures == 0) {
     printf("%s: skipped: %s\n", test->name, skipped);
     sum->skipped++;
