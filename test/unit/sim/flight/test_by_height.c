@@ -1,6 +1,7 @@
 // test_by_height.c - flights by the flight code's own height and climb (height.own): nearer to the ceiling
 // with less error, safe where it is touched, and nothing else while it is off.
 #include "flight/scenario.h"
+#include "flight/together.h"
 #include "rig/test.h"
 
 #include <math.h>
@@ -30,25 +31,41 @@ static double of(const cJSON *json, int segment, const char *key) {
 
 static const char *const OWN[] = {"height.own=1"};
 
+// Seeds from 1 on, eight at a time.
+typedef struct {
+  const char *scenario;
+  int own;
+  cJSON *json[SEEDS];
+} flights_t;
+
+static void fly_one(void *self, int i) {
+  flights_t *const f = self;
+  f->json[i] = fly(f->scenario, "real", OWN, f->own, 1 + (uint64_t)i);
+}
+
 TEST(by_height_15_mm_are_held_with_less_error_than_by_the_estimator) {
   double sum_mm2[2] = {0.0};
-  for (uint64_t seed = 1; seed <= SEEDS; seed++)
-    for (int own = 0; own <= 1; own++) {
-      cJSON *json = fly("nearest-flight", "real", OWN, own, seed);
-      ROW("seed %d, own %d", (int)seed, own);
-      CHECK_NEAR(of(json, AT_15_MM, "setpoint_m"), 0.485, 1e-9);
-      sum_mm2[own] += pow(of(json, AT_15_MM, "rms_mm"), 2.0) / SEEDS;
-      for (int k = 0; own && k <= AT_15_MM; k++) CHECK(of(json, k, "contacts") == 0.0);
-      cJSON_Delete(json);
+  for (int own = 0; own <= 1; own++) {
+    flights_t flown = {.scenario = "nearest-flight", .own = own};
+    (void)together(SEEDS, fly_one, &flown);
+    for (int i = 0; i < SEEDS; i++) {
+      ROW("seed %d, own %d", 1 + i, own);
+      CHECK_NEAR(of(flown.json[i], AT_15_MM, "setpoint_m"), 0.485, 1e-9);
+      sum_mm2[own] += pow(of(flown.json[i], AT_15_MM, "rms_mm"), 2.0) / SEEDS;
+      for (int k = 0; own && k <= AT_15_MM; k++) CHECK(of(flown.json[i], k, "contacts") == 0.0);
+      cJSON_Delete(flown.json[i]);
     }
+  }
   CHECK(sqrt(sum_mm2[1]) < 0.74 * sqrt(sum_mm2[0])); // by its climb alone 0.79
   CHECK(sqrt(sum_mm2[1]) < 1.5);
 }
 
 TEST(by_height_a_push_against_the_ceiling_ends_as_without) {
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    ROW("seed %d", (int)seed);
-    cJSON *json = fly("touch-and-go", "real", OWN, 1, seed);
+  flights_t flown = {.scenario = "touch-and-go", .own = 1};
+  (void)together(SEEDS, fly_one, &flown);
+  for (int k = 0; k < SEEDS; k++) {
+    cJSON *const json = flown.json[k];
+    ROW("seed %d", 1 + k);
     for (int i = 2; i < 8; i += 2) {
       CHECK(of(json, i, "contacts") > 0.0);
       CHECK(of(json, i + 1, "overshoot_mm") < 50.0);

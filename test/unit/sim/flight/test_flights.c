@@ -1,6 +1,8 @@
 // test_flights.c - the thesis's flights in six degrees of freedom at noise `real`, ten fixed seeds
 // (section 5.3, appendix C.3), by its own law and by the one that ships.
+#include "base/lane.h"
 #include "flight/scenario.h"
+#include "flight/together.h"
 #include "pilots/pilot_flight.h"
 #include "rig/rig6.h"
 #include "rig/share.h"
@@ -40,6 +42,27 @@ static cJSON *fly(const char *scenario, fly_kind_t kind, whose_t law, uint64_t s
   return fly_in(scenario, kind, law, "real", seed);
 }
 
+// Flights of seeds from 1 on, eight at a time: each gets the bits that it gets alone (test_together.c).
+typedef struct {
+  const char *scenario, *noise;
+  fly_kind_t kind;
+  whose_t law;
+  cJSON **json;
+} flights_t;
+
+static void fly_one(void *self, int i) {
+  const flights_t *const f = self;
+  f->json[i] = fly_in(f->scenario, f->kind, f->law, f->noise, 1 + (uint64_t)i);
+}
+
+// The close flights of a controller and law: what several tests look at is flown once.
+static cJSON *const *close_flights(fly_kind_t kind, whose_t law) {
+  static cJSON *flown[FLY_COUNT][2][SEEDS];
+  if (!flown[kind][law][0])
+    (void)together(SEEDS, fly_one, &(flights_t){"close-flight", "real", kind, law, flown[kind][law]});
+  return flown[kind][law];
+}
+
 static double of(const cJSON *json, const char *table, int row, const char *key) {
   const cJSON *cell = cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(json, table), row), key);
   return cJSON_IsNumber(cell) ? cell->valuedouble : (double)NAN;
@@ -48,13 +71,12 @@ static double of(const cJSON *json, const char *table, int row, const char *key)
 // Of ten close flights: how many touched the ceiling in segments first..last.
 static int touching(fly_kind_t kind, whose_t law, int first, int last) {
   int flights = 0;
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    cJSON *json = fly("close-flight", kind, law, seed);
+  for (int k = 0; k < SEEDS; k++) {
+    const cJSON *json = close_flights(kind, law)[k];
     CHECK(cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")));
     double contacts = 0.0;
     for (int i = first; i <= last; i++) contacts += of(json, "segments", i, "contacts");
     flights += contacts > 0.0;
-    cJSON_Delete(json);
   }
   return flights;
 }
@@ -86,12 +108,11 @@ typedef struct {
 static hover_t hovers(fly_kind_t kind, whose_t law, int segment) {
   hover_t h = {0};
   double sum_mm2 = 0.0;
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    cJSON *json = fly("close-flight", kind, law, seed);
+  for (int k = 0; k < SEEDS; k++) {
+    const cJSON *json = close_flights(kind, law)[k];
     h.error_mm += of(json, "segments", segment, "mean_error_mm") / SEEDS;
     h.tilt_deg = fmax(h.tilt_deg, of(json, "segments", segment, "tilt_max_deg"));
     sum_mm2 += pow(of(json, "segments", segment, "rms_mm"), 2.0);
-    cJSON_Delete(json);
   }
   h.rms_mm = sqrt(sum_mm2 / SEEDS);
   return h;
@@ -132,14 +153,15 @@ TEST(flights6_gains_of_the_law_that_ships_hold_2_cm_without_a_ceiling_term_too_a
 // touched bounces, and says nothing of how calm it was.
 static double free_sd_mm(fly_kind_t kind, int segment, int *flights) {
   double sum = 0.0;
+  cJSON *json[SEEDS] = {NULL};
+  (void)together(SEEDS, fly_one, &(flights_t){"test-flight", "real", kind, THESIS, json});
   *flights = 0;
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    cJSON *json = fly("test-flight", kind, THESIS, seed);
-    if (cJSON_GetObjectItem(json, "contacts")->valueint == 0) {
-      sum += of(json, "segments", segment, "sd_mm");
+  for (int k = 0; k < SEEDS; k++) {
+    if (cJSON_GetObjectItem(json[k], "contacts")->valueint == 0) {
+      sum += of(json[k], "segments", segment, "sd_mm");
       ++*flights;
     }
-    cJSON_Delete(json);
+    cJSON_Delete(json[k]);
   }
   return sum / *flights;
 }
@@ -268,13 +290,15 @@ TEST(flights6_vehicle_that_pushes_against_a_ceiling_is_released_and_caught) {
   } row[] = {{"real", 1.0}, {"flown", 0.97}};
   const fly_kind_t kind = FLY_INDI_RBF;
   for (unsigned k = 0; k < sizeof row / sizeof *row; k++) {
+    cJSON *json[5 * LANES] = {NULL};
+    const int flights = test_long() ? 5 * LANES : 2 * LANES;
     int caught = 0;
-    for (uint64_t seed = 1; seed <= 2 * SEEDS; seed++) {
-      cJSON *json = fly_in("touch-and-go", kind, SHIPPED, row[k].noise, seed);
-      caught += is_released_and_caught(json);
-      cJSON_Delete(json);
+    (void)together(flights, fly_one, &(flights_t){"touch-and-go", row[k].noise, kind, SHIPPED, json});
+    for (int i = 0; i < flights; i++) {
+      caught += is_released_and_caught(json[i]);
+      cJSON_Delete(json[i]);
     }
     ROW("%s", row[k].noise);
-    CHECK_SHARE(caught, 2 * SEEDS, row[k].promised);
+    CHECK_SHARE(caught, flights, row[k].promised);
   }
 }

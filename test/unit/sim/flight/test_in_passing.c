@@ -1,6 +1,7 @@
 // test_in_passing.c - learning without a learning flight: what was learned at 3 cm is flown by at 20 and 15
 // mm.
 #include "flight/scenario.h"
+#include "flight/together.h"
 #include "rig/share.h"
 #include "rig/test.h"
 
@@ -17,12 +18,22 @@ static double of(const cJSON *row, const char *key) {
   return cJSON_IsNumber(cell) ? cell->valuedouble : (double)NAN;
 }
 
-static bool fly(uint64_t seed, result_t *result) {
+static void fly_one(void *json, int i) {
   why_t why;
   request_t request = FAST;
-  request.seed = seed;
-  return CHECK_OK(result_init(result, &why)) &&
-         CHECK_OK(scenario_find("in-passing")->run(&request, result, &why));
+  result_t result;
+  request.seed = share_seed(1) + (uint64_t)i;
+  if (!CHECK_OK(result_init(&result, &why))) return;
+  CHECK_OK(scenario_find("in-passing")->run(&request, &result, &why));
+  ((cJSON **)json)[i] = cJSON_Duplicate(result.json, true);
+  result_free(&result);
+}
+
+// Flown eight at a time, and once for both tests.
+static cJSON *const *flights(void) {
+  static cJSON *json[SEEDS_LONG];
+  if (!json[0]) (void)together(test_long() ? SEEDS_LONG : SEEDS, fly_one, json);
+  return json;
 }
 
 // The segment at that set point of the flight from that start.
@@ -40,18 +51,14 @@ TEST(in_passing_no_start_touches_at_20_mm_and_few_do_at_15) {
   const int seeds = test_long() ? SEEDS_LONG : SEEDS;
   int touched_at_20[3] = {0}, free_at_15[3] = {0};
   for (int i = 0; i < seeds; i++) {
-    const uint64_t seed = share_seed(1) + (uint64_t)i;
-    result_t result;
-    if (!fly(seed, &result)) return;
+    const cJSON *const json = flights()[i];
     for (int k = 0; k < 3; k++) {
-      ROW("%s, seed %d", start[k], (int)seed);
-      const cJSON *at_20 = segment(result.json, start[k], 0.48),
-                  *at_15 = segment(result.json, start[k], 0.485);
+      ROW("%s, seed %d", start[k], (int)share_seed(1) + i);
+      const cJSON *at_20 = segment(json, start[k], 0.48), *at_15 = segment(json, start[k], 0.485);
       touched_at_20[k] += of(at_20, "contacts") > 0.0;
       free_at_15[k] += of(at_15, "contacts") == 0.0;
       CHECK(of(at_20, "rms_mm") < 4.0); // 2.0 on the mean
     }
-    result_free(&result);
   }
   for (int k = 0; k < 3; k++) {
     ROW("%s", start[k]);
@@ -61,19 +68,16 @@ TEST(in_passing_no_start_touches_at_20_mm_and_few_do_at_15) {
 }
 
 TEST(in_passing_every_start_learns_the_excess_where_it_has_been) {
-  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-    result_t result;
-    if (!fly(seed, &result)) return;
-    const cJSON *row, *rows = cJSON_GetObjectItem(result.json, "learned_at_3cm");
+  for (int i = 0; i < SEEDS; i++) {
+    const cJSON *row, *rows = cJSON_GetObjectItem(flights()[i], "learned_at_3cm");
     CHECK(cJSON_GetArraySize(rows) == 3);
     cJSON_ArrayForEach(row, rows) {
-      ROW("%s, seed %d", cJSON_GetObjectItem(row, "start")->valuestring, (int)seed);
+      ROW("%s, seed %d", cJSON_GetObjectItem(row, "start")->valuestring, (int)share_seed(1) + i);
       CHECK_NEAR(of(row, "there_3cm"), 0.44 * exp(-80.0 * 0.03), 1e-6);
       CHECK_NEAR(of(row, "there_15mm"), -80.0 * 0.44 * exp(-80.0 * 0.015), 1e-3);
       // It began 0.040 or 0.020 too low, or 0.040 too high.
       CHECK_NEAR(of(row, "excess_3cm"), of(row, "there_3cm"), 0.012);
     }
-    result_free(&result);
   }
 }
 

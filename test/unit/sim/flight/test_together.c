@@ -58,13 +58,14 @@ static bool same(const char *a, const char *b) {
 // How many flights were not refused.
 static int compare(const case_t *as, int seeds, long *together_ms) {
   flights_t alone = {.as = as}, beside = alone;
-  for (int i = 0; i < seeds; i++) fly(&alone, i);
+  const int step = test_long() ? 1 : 3; // of few, every third is flown alone, too
+  for (int i = 0; i < seeds; i += step) fly(&alone, i);
   *together_ms = together(seeds, fly, &beside);
   int flown = 0;
   for (int i = 0; i < seeds; i++) {
     ROW("%s, kind %d, %s, seed %d", as->scenario, (int)as->kind, as->noise, i + 1);
-    CHECK(same(alone.text[i], beside.text[i]));
-    flown += alone.text[i] != NULL;
+    if (i % step == 0) CHECK(same(alone.text[i], beside.text[i]));
+    flown += beside.text[i] != NULL;
     free(alone.text[i]);
     free(beside.text[i]);
   }

@@ -28,17 +28,18 @@ static double number(const cJSON *o, const char *key) {
   return cJSON_GetObjectItem(o, key)->valuedouble;
 }
 
-static bool fly(result_t *result) {
+// Flown once for both tests.
+static const cJSON *flown(void) {
+  static result_t result;
   why_t why;
   const request_t request = {.integrate = INTEGRATE_RK4};
-  return CHECK_OK(result_init(result, &why)) &&
-         CHECK_OK(scenario_find("pid-tables")->run(&request, result, &why));
+  if (!result.json && CHECK_OK(result_init(&result, &why)))
+    CHECK_OK(scenario_find("pid-tables")->run(&request, &result, &why));
+  return result.json;
 }
 
 TEST(pid_tables_touch_the_ceiling_where_the_thesis_says) {
-  result_t result;
-  if (!fly(&result)) return;
-  const cJSON *segments = cJSON_GetObjectItem(result.json, "segments");
+  const cJSON *segments = cJSON_GetObjectItem(flown(), "segments");
   CHECK(cJSON_GetArraySize(segments) == 16);
   for (int i = 0; i < 16; i++) {
     ROW("%s", rows[i].what);
@@ -49,15 +50,12 @@ TEST(pid_tables_touch_the_ceiling_where_the_thesis_says) {
     if (!isnan(rows[i].final_error_mm))
       CHECK_NEAR(number(s, "mean_error_mm"), rows[i].final_error_mm, 0.1 + 0.6 * rows[i].final_error_mm);
   }
-  result_free(&result);
 }
 
 TEST(discrete_pid_fails_when_its_derivative_filter_does) {
   // Forward Euler with N = 100 is unstable from 2/N = 20 ms on; the thesis's limit of 0.02 s is
   // that.
-  result_t result;
-  if (!fly(&result)) return;
-  const cJSON *discrete = cJSON_GetObjectItem(result.json, "discrete");
+  const cJSON *discrete = cJSON_GetObjectItem(flown(), "discrete");
   CHECK(cJSON_GetArraySize(discrete) == 32);
   for (int i = 0; i < 32; i++) {
     const cJSON *row = cJSON_GetArrayItem(discrete, i);
@@ -65,5 +63,4 @@ TEST(discrete_pid_fails_when_its_derivative_filter_does) {
     CHECK_NEAR(number(row, "period_s"), i < 16 ? 0.018 : 0.0202, 1e-12);
     CHECK((number(row, "contacts") > 0) == (i < 16 ? rows[i].touches_at_18_ms : true));
   }
-  result_free(&result);
 }
