@@ -22,7 +22,8 @@ static bool says_so(const gap_case_t *c, const fx_t *fx) {
 }
 
 TEST(gap_finds_every_effect_of_the_library_or_says_that_it_could_not) {
-  for (int i = 0; i < (test_long() ? fx_count : 8); i++) {
+  const int step = test_long() ? 1 : 6; // the other effects are hidden in the long form
+  for (int i = 0; i < fx_count; i += step) {
     const fx_t *const fx = fx_table[i];
     ROW("%s", fx->name);
     const gap_hidden_t hidden = {1, {fx_use(fx)}};
