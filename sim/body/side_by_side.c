@@ -1,6 +1,7 @@
 // side_by_side.c - jobs that move a body each.
 #include "body/side_by_side.h"
 
+#include "base/heap.h"
 #include "base/turns.h"
 #include "body/abreast.h"
 
@@ -37,6 +38,7 @@ int side_by_side_share(int n, int threads) {
 long side_by_side(int n, void (*job)(void *context, int i), void *context) {
   abreast_t *const a = n >= ABREAST_FEWEST && !turns_inside() ? abreast_open(lane_bits()) : NULL;
   const turns_t turns = {.job = job, .meet = move, .context = context, .meet_context = a};
+  if (a) heap_keep(); // a nominal flight's log is as large as a flight's record
   if (a)
     turns_run(&turns, n);
   else
