@@ -10,9 +10,10 @@
 #define SETS       18
 #define SETS_LONG  72
 
-// Of the first SETS those that are marked alone: effects that are large, forces outside the library, nothing,
-// a hover. The long form has all, fresh ones, and asks of each kind; so does SEED=N, whose sets nobody knows.
-static const int FEW[] = {3, 9, 15, 2, 4, 7, 11, 1, 5};
+// Of the first SETS those that are marked alone: effects that are large, forces outside the library, nothing.
+// The next test is about hovers. The long form has all, fresh ones, and asks of each kind; so does SEED=N,
+// whose sets nobody knows.
+static const int FEW[] = {3, 9, 15, 2, 4, 7, 1};
 
 // More sets outside the library than `make exam` has: with one or two of a kind a bound could not fail.
 static exam_kind_t kind_of(int i) {
@@ -63,7 +64,7 @@ TEST(the_workflow_names_what_an_exam_hides_and_nothing_else) {
   const int sets = test_long() ? SETS_LONG : few ? (int)(sizeof FEW / sizeof *FEW) : SETS;
   const marks_t m = sit(sets, few ? FEW : NULL);
   CHECK(m.flown == sets);
-  CHECK(m.large >= 1 && m.nothing >= 1 && m.strange >= 3 && m.hover >= 1);
+  CHECK(m.large >= 1 && m.nothing >= 1 && m.strange >= 3 && (few || m.hover >= 1));
   CHECK_SHARE(m.exact, m.large, 0.9);
   if (!few) CHECK_SHARE(m.nothing - m.alarms, m.nothing, 0.95);
   CHECK_SHARE(m.strange - m.wrong, m.strange, 0.95);
@@ -81,13 +82,11 @@ TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
     unsigned long seed;
     double least, most; // smallest size told, over typical
   } row[] = {
-      {"ceiling", 52143, 1e3, HUGE_VAL},
       {"tof_latency", 52070, 1.5, 8.0}, // 2.03 was hidden, and not named: from where on half are seen
-      {"ground", 52047, 1e3, HUGE_VAL},
-      {"flapping", 52076, 3.78, 16.0},
+      {"ceiling", 52143, 1e3, HUGE_VAL},   {"ground", 52047, 1e3, HUGE_VAL}, {"flapping", 52076, 3.78, 16.0},
       {"motor_damage", 52012, 0.12, 0.31}, // named: a hover shows it well, and says so
   };
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s", row[i].what);
     exam_set_t set;
     why_t why;

@@ -179,7 +179,7 @@ TEST(faults_come_to_the_same_alone_and_beside_others) {
 }
 
 TEST(faults_of_ten_minutes_in_one_place_teach_nothing_wrong) {
-  const int seeds = test_long() ? 20 : 2;
+  const int seeds = test_long() ? 20 : 1;
   const row_t *row = faults_of_patience().row;
   for (int i = 0; i < seeds; i++) {
     case_t *c = malloc(sizeof *c);

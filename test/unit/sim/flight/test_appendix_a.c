@@ -180,7 +180,7 @@ TEST(filter_decides_how_near_the_standard_controller_can_hover) {
 
 TEST(order_of_the_thesis_models_holds_over_random_gains) {
   random_t *random = random_open(20210729);
-  const int pairs = test_long() ? 60 : 16;
+  const int pairs = test_long() ? 60 : 10;
   int accepted = 0, ordered = 0;
   while (accepted < pairs) {
     const float kp = (float)random_uniform(random, 0.5, 4.0), kd = (float)random_uniform(random, 2.0, 14.0);

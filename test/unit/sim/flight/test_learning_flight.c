@@ -91,8 +91,9 @@ TEST(curve_learned_from_theory_can_be_flown_nearer_than_it_was_learned) {
     double ca, cb;
   } plant[] = {{"theory", 0.44, 1.8}, {"strong", 0.6, 1.8}, {"weak", 0.25, 1.8}, {"wide", 0.44, 1.35}};
   const rbf_weights_t theory = bells_golden_weights();
+  const uint64_t seeds = test_long() ? SEEDS : 3;
   for (unsigned i = 0; i < sizeof plant / sizeof *plant; i++) {
-    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
       ROW("%s plant, seed %d", plant[i].what, (int)seed);
       setup_t setup = learning_setup(&theory, plant[i].ca, plant[i].cb, seed);
       setup.flight.curve.clip = 1; // as shipped: the rising tail at 10 cm takes damping away

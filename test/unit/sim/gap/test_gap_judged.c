@@ -49,7 +49,7 @@ TEST(gap_keeps_a_name_that_a_hover_cannot_contradict) {
 TEST(gap_names_from_rates_alone) {
   char text[6000];
   const fx_use_t hidden = offset();
-  CHECK(gap_logs_fly("blind", 2, &hidden));
+  CHECK(gap_logs_fly("blind", 1, &hidden));
   CHECK(program_run(
             "grep -vE '^(x|y|z|v[xyz]|q[wxyz]|a[xyz]|range)\\b' tools/columns/fly.toml >$S/rates.toml; " GAP
             "$S/rates.toml $S/blind?.csv",
@@ -72,7 +72,7 @@ TEST(gap_makes_of_one_stream_what_the_log_lacks) {
     ROW("%s without %s", row[i].effect, row[i].lacks);
     fx_use_t hidden = fx_use(fx_find(row[i].effect));
     hidden.p[0] = row[i].size;
-    CHECK(gap_logs_fly("made", test_long() ? 3 : 2, &hidden));
+    CHECK(gap_logs_fly("made", test_long() ? 3 : 1, &hidden));
     snprintf(line, sizeof line,
              "grep -vE '^%s\\b' tools/columns/fly.toml >$S/made.toml; " GAP
              "$S/made.toml --out $S/made $S/made?.csv; grep -A1 accel_bias $S/made/verdict.json",

@@ -47,7 +47,7 @@ TEST(gap_takes_the_age_of_a_range_sample_for_no_effect) {
       {"$S/unsaid.toml", "Nothing is missing in ", "Missing in"}, // the vehicle file says it
   };
   char text[6000];
-  for (int i = 0; i < (test_long() ? 3 : 2); i++) fly_steps(i, 1 + (unsigned long)i);
+  for (int i = 0; i < (test_long() ? 3 : 1); i++) fly_steps(i, 1 + (unsigned long)i);
   CHECK(program_run("{ echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml; } >$S/age.toml && "
                     "sed 's/, late_ms = 70//' tools/columns/fly.toml >$S/unsaid.toml && "
                     "sed 's/, late_ms = 70/, late_ms = 0/' tools/columns/fly.toml >$S/young.toml",

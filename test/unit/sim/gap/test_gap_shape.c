@@ -42,7 +42,7 @@ TEST(gap_finds_a_ceilings_decay_between_those_that_it_tries) {
   static const double decay[] = {0.45, 0.8};
   const bool many = test_long();
   tally_t t = {0};
-  for (int i = 0; i < (many ? 60 : 4); i++)
+  for (int i = 0; i < (many ? 60 : 3); i++)
     add(&t, many ? 0.3 : 0.6, decay[i % 2], share_seed(70) + 10u * (unsigned)i);
   CHECK_SHARE(t.named, t.sets, many ? 0.6 : 0.95);
   CHECK_SHARE(t.nothing_else, t.sets, 0.95);

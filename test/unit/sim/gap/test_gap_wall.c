@@ -18,7 +18,7 @@ static fx_use_t wall(void) {
 TEST(gap_names_a_wall_where_the_vehicle_file_has_one) {
   char text[6000];
   const fx_use_t hidden = wall();
-  CHECK(gap_logs_fly("wall", 4, &hidden));
+  CHECK(gap_logs_fly("wall", test_long() ? 4 : 1, &hidden));
   CHECK(program_run("sed 's/^ceiling_m/wall_y_m = -1.5\\n&/' $S/room.toml >$S/walled.toml; gap --columns "
                     "tools/columns/fly.toml --vehicle $S/walled.toml $S/wall?.csv",
                     STREAM_OUTPUT, text, sizeof text) == 0);
