@@ -147,8 +147,8 @@ TEST(gap_tells_more_mass_as_mass_or_as_what_looks_like_it) {
   static const struct {
     const char *ceiling;
     int grams;
-  } row[] = {{"", 3}, {"ceiling_m = 0.5", 5}, {"ceiling_m = 0.5", 1}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+  } row[] = {{"ceiling_m = 0.5", 5}, {"", 3}, {"ceiling_m = 0.5", 1}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%d g more, %s", row[i].grams, row[i].ceiling);
     char line[500], text[4000];
     int told = 0;
