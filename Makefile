@@ -252,7 +252,7 @@ recorded: $(O)/gap  ## what the workflow finds in recorded flights (DATA=DIR); m
 slot: $(O)/slot  ## the hover in a gap, by form of the ceiling effect and weight (DATA=DIR: beside the real flights); a minute
 	@$(O)/slot "$(DATA)"
 
-test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/bound  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too); minutes
+test: $(B)/bin/tests $(O)/fly $(O)/gap $(O)/learn $(O)/effectiveness $(O)/bound  ## all tests (W=word: those whose file or name has it; DATA=DIR: real flights too; TIMES=1: and how long each took); a minute
 	@$(TESTS)
 
 faults: $(B)/bin/tests  ## faults and bad inputs, 1,000 flights each, and how often the flight ends as it should; 10 min
