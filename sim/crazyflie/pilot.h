@@ -82,8 +82,9 @@ typedef struct {
   void (*tell)(const void *state, thoughts_t *thoughts);
   // Who is nothing but crazyflie_ms() of this vehicle, and keeps its log: then with others
   // (flight/together.h).
-  struct crazyflie *vehicle;                       // null: another
-  bool (*keeps)(const void *state, uint32_t step); // a row of this millisecond, at its end; null: never
+  struct crazyflie *vehicle; // null: another
+  // A row of this millisecond, at its end; null: never. Who ever does keeps that of step 1.
+  bool (*keeps)(const void *state, uint32_t step);
   void (*keep)(void *state);
   const pilot_around_t *around; // null: nobody stands there who looks at its state
 } pilot_t;

@@ -35,9 +35,12 @@ struct group {
   unsigned vehicle; // of these, those whose pilot is in lanes, too
   unsigned out;     // those whose pilot will be, and flies by itself meanwhile
   unsigned edited;  // those with somebody between sensors and pilot
+  unsigned mocap;   // those that motion capture sees
+  unsigned keeps;   // those whose pilot keeps its log
   unsigned looked;  // and those at whose state somebody looks,
   const pilot_around_t *around; // this one
   uint32_t ms;
+  random_t *random[LANES]; // of those that fly
   apart_t apart[LANES], apart_sensed[LANES];
   place_t place[LANES];
   pilot_in_t told[LANES]; // edited

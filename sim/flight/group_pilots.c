@@ -32,6 +32,7 @@ void group_begin_vehicle(group_t *g, int k) {
   g->vehicle |= 1u << k;
   g->place[k] = (place_t){g, k};
   g->apart[k] = APART_NEVER;
+  if (f->pilot->keeps && f->pilot->keeps(f->pilot->state, 1)) g->keeps |= 1u << k; // who does keeps that one
   if (f->plan->edit || f->pilot->around) g->edited |= 1u << k;
   if (!f->pilot->around) return;
   g->looked |= 1u << k;
@@ -124,15 +125,16 @@ static void look(group_t *g, unsigned of) {
 // --- a millisecond -----------------------------------------------------------------------------------------
 
 static void fly_in_lanes(group_t *g) {
-  void *const told = lanes_told(g->woven.state);
-  if (g->edited & g->vehicle) edit_all(g, told, g->edited & g->vehicle);
+  const unsigned edited = g->edited & g->vehicle;
+  void *const told = lanes_told(g->woven.state, edited != 0);
+  if (edited) edit_all(g, told, edited);
   const unsigned in = g->vehicle, passed = lanes_vehicle_ms(g->woven.state, in);
   EACH(k, in & ~passed) part(g, k);
   if (g->looked & in) look(g, g->looked & in);
   g->together += __builtin_popcount(passed);
-  EACH(k, passed) {
+  EACH(k, passed & g->keeps) {
     const pilot_t *const p = pilot_of(g, k);
-    if (!p->keeps || !p->keeps(p->state, g->ms)) continue;
+    if (!p->keeps(p->state, g->ms)) continue;
     woven_get(&g->woven, LANES_app, k, &p->vehicle->app);
     p->keep(p->state);
   }

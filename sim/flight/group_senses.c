@@ -40,32 +40,17 @@ static void part(group_t *g, int k) {
 
 // --- a millisecond -----------------------------------------------------------------------------------------
 
-static bool draws_more(const flight_loop_t *f) {
-  return f->plan->mocap.period_s > 0.0 || f->senses.range.tick % RANGE_ANY_PERIOD_MS == 0;
-}
-
-// The inertial sensors' noise of all, in lanes.
-static void draw_imu(group_t *g) {
-  random_t *random[LANES] = {NULL};
-  EACH(k, g->fly) random[k] = g->job[k]->f->random;
-  random_triangles_of_all(random, IMU_DRAWN, woven_noise_of_imu(&g->woven));
-}
-
-// Whether more than that was drawn.
+// The inertial sensors' noise of all, in lanes. Whether more than that was drawn.
 static bool draw(group_t *g, senses_drawn_t drawn[LANES]) {
-  bool more = false;
-  draw_imu(g);
-  EACH(k, g->fly) {
+  random_triangles_of_all(g->random, IMU_DRAWN, woven_noise_of_imu(&g->woven));
+  const unsigned draws = g->ms % RANGE_ANY_PERIOD_MS == 0 ? g->fly : g->mocap & g->fly;
+  EACH(k, g->fly & ~draws) drawn[k].by_mocap = false;
+  if (!draws) return false;
+  EACH(k, draws) {
     flight_loop_t *const f = g->job[k]->f;
-    const bool draws = draws_more(f);
-    more = more || draws;
-    if (draws)
-      loop_draw_more(f, &f->truth, &drawn[k]);
-    else
-      drawn[k].by_mocap = false;
-    if (g->sensed >> k & 1) f->senses.range.tick++;
+    f->senses.range.tick = g->ms; // in lanes it lags behind
+    loop_draw_more(f, &f->truth, &drawn[k]);
   }
-  if (!more) return false;
   // Who is by itself, too: what is not drawn in each millisecond is its own when it comes back.
   OF_EACH(drawn_of, g->fly, &drawn[k]);
   woven_put_all(&g->woven, &g->woven.drawn_more, drawn_of);

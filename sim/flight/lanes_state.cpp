@@ -60,7 +60,7 @@ struct state_of_eight {
 
 // To copy all takes as long as to fly it: it is done once in so many milliseconds, and who parts does them
 // again from there.
-#define SINCE 16
+#define SINCE 32
 
 struct lanes_state {
   lanes::state_of_eight now, before;
@@ -69,7 +69,8 @@ struct lanes_state {
   lanes::truth_t truth[SINCE]; // of ticks
   int truth_of[SINCE], truths;
   lanes::pilot_in_t in[SINCE];
-  int senses, vehicle; // milliseconds since
+  unsigned set, set_of[SINCE]; // how many set points there were, and which of them each has; 0: none
+  int senses, vehicle;         // milliseconds since
 };
 
 using lanes::state_of_eight;
@@ -141,7 +142,11 @@ unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what) {
   return lanes::lanes_in;
 }
 
-void *lanes_told(lanes_state_t *s) {
+void lanes_set_new(lanes_state_t *s) {
+  s->set++;
+}
+
+void *lanes_told(lanes_state_t *s, bool edited) {
   const state_of_eight *const now = &s->now;
   if (s->vehicle == SINCE) {
     keep_app(&now->vehicle.app, &s->before.vehicle.app);
@@ -149,7 +154,11 @@ void *lanes_told(lanes_state_t *s) {
     LANES_BLOCKS_OF_VEHICLE(KEEP)
     s->vehicle = 0;
   }
-  return memcpy((void *)&s->in[s->vehicle], &now->in, sizeof now->in);
+  unsigned *const set = &s->set_of[s->vehicle]; // set points stand for seconds
+  lanes::pilot_in_t *const told = &s->in[s->vehicle];
+  memcpy((void *)told, &now->in, *set == s->set ? offsetof(lanes::pilot_in_t, set) : sizeof now->in);
+  *set = edited ? 0 : s->set;
+  return told;
 }
 
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
@@ -172,6 +181,8 @@ lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
 void lanes_begin_anew(lanes_state_t *s) {
   memset((void *)s->drawn, 0, sizeof s->drawn); // nobody's by motion capture, for whom each is a copy
   s->senses = s->vehicle = SINCE;
+  s->set = 1;
+  memset(s->set_of, 0, sizeof s->set_of);
 }
 bool lanes_senses_due(lanes_state_t *s, bool none) {
   if (none) s->senses = SINCE;
@@ -204,9 +215,10 @@ void lanes_state_close(lanes_state_t *) {}
 unsigned lanes_senses_ms(lanes_state_t *, unsigned, unsigned) {
   return 0;
 }
-void *lanes_told(lanes_state_t *) {
+void *lanes_told(lanes_state_t *, bool) {
   return nullptr;
 }
+void lanes_set_new(lanes_state_t *) {}
 unsigned lanes_vehicle_ms(lanes_state_t *, unsigned) {
   return 0;
 }

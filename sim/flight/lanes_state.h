@@ -25,8 +25,10 @@ unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what);
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
 
 // Before the latter, each time: what the Crazyflie of each is told in it, a copy of block `in` that may be
-// edited.
-void *lanes_told(lanes_state_t *s);
+// edited, if that is said here.
+void *lanes_told(lanes_state_t *s, bool edited);
+// A set point in block `in` is another one.
+void lanes_set_new(lanes_state_t *s);
 
 // What is new of the upward range sensor since the last millisecond, a bit each.
 unsigned lanes_range_new(const lanes_state_t *s);

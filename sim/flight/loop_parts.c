@@ -71,11 +71,20 @@ static void sense_vertical(flight_loop_t *f, const truth_t *truth) {
       (ekf_out_t){.pos_w_m = f->in.pos_w_m, .vel_w_mps = f->in.vel_w_mps, .q_wb = f->in.q_wb};
 }
 
+// When another is due at the earliest, unless the pilot thinks the ceiling elsewhere meanwhile.
+static double next_order_s(const flight_loop_t *f, double t_s) {
+  const plan_t *plan = f->plan;
+  const double way_s = f->way + 1 < plan->n_way ? plan->way[f->way + 1].at_s - 1e-9 : HUGE_VAL;
+  return t_s >= plan->take_off_s ? way_s : smaller(way_s, plan->take_off_s);
+}
+
 // The estimator's zero is the height at rest; the plan's heights are of the rotors' plane. Whether it is
 // another order.
 static bool order(flight_loop_t *f, double t_s) {
   const plan_t *plan = f->plan;
+  if (t_s < f->order_s) return false;
   while (f->way + 1 < plan->n_way && t_s >= plan->way[f->way + 1].at_s - 1e-9) f->way++;
+  f->order_s = next_order_s(f, t_s);
   const double rest_m = body_rest_z_m(f->model) + body_rotor_z_m(f->model);
   const pilot_mode_t mode = t_s >= plan->take_off_s ? PILOT_POSITION : PILOT_OFF;
   const bool thought = plan->below_estimate && isfinite(f->ceiling_z_m);
@@ -107,6 +116,7 @@ static void call_pilot(flight_loop_t *f) {
 tick_t loop_look(flight_loop_t *f) {
   f->thoughts = (thoughts_t){.zc_m = (double)NAN, .ceiling_z_m = (double)NAN, .ratio = 1.0, .y = (double)NAN};
   if (f->pilot->tell) f->pilot->tell(f->pilot->state, &f->thoughts);
+  if (f->plan->below_estimate) f->order_s = 0.0;
   f->ceiling_z_m = f->thoughts.ceiling_z_m;
   const tick_t tick = {
       .t_s = (double)f->tick * loop_tick_s(f),

@@ -28,6 +28,7 @@ typedef struct flight_loop {
   double up_min, gap_min_m, range_m; // up_min: smallest cosine of the tilt since the last sample
   bool range_new;
   int way;
+  double order_s;     // until then no other order is due
   double ceiling_z_m; // as the pilot thinks it, at the last sample
   long tick;
   int every; // ticks a sample

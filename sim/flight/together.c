@@ -21,6 +21,7 @@ static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   job->status = status;
   *job->finite = over != FLIGHT_NOT_FINITE;
   g->fly &= ~(1u << k);
+  g->random[k] = NULL;
   g->vehicle &= g->fly;
   g->sensed &= g->fly;
 }
@@ -53,7 +54,7 @@ static void begin_tick(group_t *g) {
       loop_see_truth(f);
       woven_put(&g->woven, LANES_truth, k, &f->truth);
     }
-    if (f->ordered) woven_put_part(&g->woven, &g->woven.set, k, &f->in);
+    if (f->ordered) woven_set(&g->woven, k, &f->in);
   }
 }
 
@@ -115,11 +116,14 @@ static void take_motors(group_t *g) {
 
 static void begin(group_t *g) {
   int some = -1, pilot = -1;
-  g->fly = g->vehicle = g->out = g->edited = g->looked = 0;
+  g->fly = g->vehicle = g->out = g->edited = g->mocap = g->keeps = g->looked = 0;
   g->around = NULL;
   for (int k = 0; k < LANES; k++) {
-    if (!g->job[k]) continue;
+    const flight_loop_t *const f = g->job[k] ? g->job[k]->f : NULL;
+    g->random[k] = f ? f->random : NULL;
+    if (!f) continue;
     g->fly |= 1u << (some = k);
+    if (f->plan->mocap.period_s > 0.0) g->mocap |= 1u << k;
     g->apart_sensed[k] = APART_NEVER;
     group_begin_vehicle(g, k);
     if (g->vehicle >> k & 1) pilot = k;

@@ -29,6 +29,10 @@ void woven_put_all(woven_t *w, const weave_t *part, void *const one[LANES]) {
 void woven_get_all(woven_t *w, const weave_t *part, void *const one[LANES]) {
   weave_get_all(part, lanes_block(w->state, part->block), one);
 }
+void woven_set(woven_t *w, int k, const pilot_in_t *in) {
+  woven_put_part(w, &w->set, k, in);
+  lanes_set_new(w->state);
+}
 static void get_part_before(woven_t *w, const weave_t *part, int k, void *one) {
   weave_get(part, lanes_block_before(w->state, part->block), k, one);
 }

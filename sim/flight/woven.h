@@ -41,6 +41,9 @@ double *woven_noise_of_imu(woven_t *w);
 void woven_put_all(woven_t *w, const weave_t *part, void *const one[LANES]);
 void woven_get_all(woven_t *w, const weave_t *part, void *const one[LANES]);
 
+// Another set point of that flight.
+void woven_set(woven_t *w, int k, const pilot_in_t *in);
+
 // Of what the vehicle of lane k is told in this millisecond (lanes_told), what was edited.
 void woven_tell(void *told, int k, const pilot_in_t *was, const pilot_in_t *is);
 // Its state comes here, and goes back after it was changed.
