@@ -49,9 +49,9 @@ LANES_SRC := $(filter-out src/params.c,$(wildcard src/*.c)) $(addprefix src/firm
     plant/rotor.c plant/thrust_map.c sense/ekf.c sense/ekf_core.c sense/imu.c sense/range.c)
 LANES_H   := $(filter-out sim/base/lane%,$(shell find include src sim -name '*.h'))
 ifeq ($(shell uname -m),x86_64)
-LANES_OBJ  = $(patsubst %.c,$(B)/lanes/%.o,$(LANES_SRC))
+LANES_OBJ  = $(foreach bits,lanes lanes_512,$(patsubst %.c,$(B)/$(bits)/%.o,$(LANES_SRC)))
 endif
-LANES_OBJ += $(B)/lanes/fields.o $(B)/sim/body/lanes_512.o
+LANES_OBJ += $(B)/lanes/fields.o $(B)/sim/body/lanes_512.o $(B)/sim/flight/lanes_ms_512.o
 DESK_OBJ   = $(call objects,$(DESK_SRC)) $(B)/gen/page.o
 PROGRAMS   = fly learn effectiveness gap slot bench bound desk
 # What the tests run.
@@ -142,6 +142,8 @@ $(B)/sim/body/lanes_512.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES) -DLA
 $(B)/sim/body/lanes_512.o: sim/body/lanes.cpp $(B)/flags | setup
 	$(compile)
 AVX512 = $(if $(AVX2),-mavx512f -mprefer-vector-width=512)
+# What is compiled by lane_c.hpp, too: registers of 256 bits, but twice as many, and masks.
+AVX512VL = $(if $(AVX2),-mavx512f -mavx512vl -mavx512dq -mavx512bw -mno-fma -DLANES_512 -Dlanes=lanes_512)
 AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
 # Their sources go through tools/lanes.sed first, headers too.
 LANES_CPP  = $(CXX) -std=c++20 $(OPT) $(WARN) $(LANES_WARN) $(SANITIZE) -MMD -MP $(FLIGHT_FLAGS) -fno-math-errno $(AVX2)
@@ -151,17 +153,26 @@ LANES_SEEN = $(patsubst %,$(O)/gen/lanes/%,$(LANES_H))
 $(O)/gen/lanes/%: % tools/lanes.sed
 	@mkdir -p $(@D)
 	@sed -zEf tools/lanes.sed $< >$@
+define compile_in_lanes
+@$(begin)
+@mkdir -p $(@D)
+@printf '%s\n' '#include "base/lane_c.hpp"' 'namespace lanes {' $(if $(filter src/firmware/%,$*),'#include "here.h"') '#include "$(abspath $<)"' '}' | \
+ $(LANES_CPP) $(MORE) $(LANES_SEE) -MF $(@:.o=.d) -MT $@ -x c++ -o $@ -c -
+endef
 $(B)/lanes/%.o: $(O)/gen/lanes/%.c $(B)/flags | $(LANES_SEEN) setup
-	@$(begin)
-	@mkdir -p $(@D)
-	@printf '%s\n' '#include "base/lane_c.hpp"' 'namespace lanes {' $(if $(filter src/firmware/%,$*),'#include "here.h"') '#include "$(abspath $<)"' '}' | \
-	 $(LANES_CPP) $(LANES_SEE) -MF $(@:.o=.d) -MT $@ -x c++ -o $@ -c -
+	$(compile_in_lanes)
+$(B)/lanes_512/%.o: MORE = $(AVX512VL)
+$(B)/lanes_512/%.o: $(O)/gen/lanes/%.c $(B)/flags | $(LANES_SEEN) setup
+	$(compile_in_lanes)
 $(B)/lanes/fields.o: sim/flight/lanes_fields.cpp $(B)/flags | $(LANES_SEEN) setup
 	@$(begin)
 	@mkdir -p $(@D)
 	@$(LANES_CPP) -DLANE_FIELDS $(LANES_SEE) -c $< -o $@
-$(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: SEES = $(LANES_CPP:$(CXX)=) $(LANES_SEE)
-$(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o: | $(LANES_SEEN)
+$(B)/sim/flight/lanes_%.o: SEES = $(LANES_CPP:$(CXX)=) $(LANES_SEE)
+$(B)/sim/flight/lanes_%_512.o: SEES = $(LANES_CPP:$(CXX)=) $(AVX512VL) $(LANES_SEE)
+$(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o $(B)/sim/flight/lanes_ms.o $(B)/sim/flight/lanes_ms_512.o: | $(LANES_SEEN)
+$(B)/sim/flight/lanes_ms_512.o: sim/flight/lanes_ms.cpp $(B)/flags | setup
+	$(compile)
 LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(AVX2)
 # They fly many vehicles at once, or form many columns.
 $(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP) $(FLIGHT_FLAGS)

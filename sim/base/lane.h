@@ -23,10 +23,20 @@ static inline bool lane_possible(void) {
 #endif
 }
 
+// And for lanes of AVX-512: all but the first processors with it.
+static inline bool lane_has_512(void) {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+#else
+  return false;
+#endif
+}
+
 // The widest registers that it has for them; 0: none.
 static inline int lane_bits(void) {
 #ifdef __x86_64__
-  return !lane_possible() ? 0 : __builtin_cpu_supports("avx512f") ? 512 : 256;
+  return !lane_possible() ? 0 : lane_has_512() ? 512 : 256;
 #else
   return 0;
 #endif

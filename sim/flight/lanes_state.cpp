@@ -1,56 +1,13 @@
 // lanes_state.cpp - milliseconds of eight flights.
 #include "flight/lanes_state.h"
+
+#include "flight/lanes_ms.h"
 #ifdef __AVX2__
 #include <new>
 
 #include "base/lane_c.hpp"
 
-namespace lanes {
-
-#include "crazyflie/crazyflie.h"
-#include "flight/lanes_blocks.h"
-
-constinit thread_local stand_in_t *stand_in = nullptr;
-
-// What comes so seldom that each does it alone.
-void stand_in_print(const char *, ...) {
-  lanes_in = 0;
-}
-void controllerPid(control_t *, const setpoint_t *, const sensorData_t *, const state_t *,
-                   const stabilizerStep_t) {
-  lanes_in = 0;
-}
-status_t params_check(const flight_param_t *) {
-  lanes_in = 0;
-  return ST_OK;
-}
-void params_default(flight_param_t *) {
-  lanes_in = 0;
-}
-float params_get(const flight_param_t *, const param_row_t *) {
-  lanes_in = 0;
-  return 0.0f;
-}
-status_t params_set(flight_param_t *, const param_row_t *, float) {
-  lanes_in = 0;
-  return ST_OK;
-}
-const param_row_t params_table[] = {{}};
-const int params_count = 0;
-
-// All that a millisecond changes, and what it takes.
-struct state_of_eight {
-  crazyflie_t vehicle;
-  senses_t senses;
-  imu_param_t imu_param;
-  range_param_t range_param;
-  senses_drawn_t drawn;
-  truth_t truth;
-  pilot_in_t in;
-  lanes_motors_t motors;
-};
-
-} // namespace lanes
+#include "flight/lanes_eight.hpp"
 
 #undef float
 #undef double
@@ -71,6 +28,7 @@ struct lanes_state {
   lanes::pilot_in_t in[SINCE];
   unsigned set, set_of[SINCE]; // how many set points there were, and which of them each has; 0: none
   int senses, vehicle;         // milliseconds since
+  const lanes_ms_t *ms;
 };
 
 using lanes::state_of_eight;
@@ -80,6 +38,7 @@ lanes_state_t *lanes_state_open(void) {
   if (!s) return nullptr;
   memset(static_cast<void *>(s), 0, sizeof *s);
   s->now.vehicle.around.app = &s->now.vehicle.app;
+  s->ms = lane_bits() == 512 ? &lanes_ms_512 : &lanes_ms_256;
   return s;
 }
 void lanes_state_close(lanes_state_t *s) {
@@ -137,9 +96,7 @@ unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what) {
     s->senses = 0;
   }
   keep_told(s, what);
-  lanes::lanes_in = in;
-  lanes::senses_take(&now->senses, &now->imu_param, &now->range_param, &now->drawn, &now->truth, &now->in);
-  return lanes::lanes_in;
+  return s->ms->senses(in, now);
 }
 
 void lanes_set_new(lanes_state_t *s) {
@@ -162,14 +119,7 @@ void *lanes_told(lanes_state_t *s, bool edited) {
 }
 
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
-  state_of_eight *const now = &s->now;
-  const lanes::pilot_in_t *const told = &s->in[s->vehicle++];
-  // What control_t holds for other modes shares its place with the forces, and lies in no lane.
-  lanes::lanes_in =
-      in & (now->vehicle.control.controlMode == lanes::controlModeForce || !now->vehicle.called).bits();
-  if (!lanes::lanes_in) return 0;
-  lanes::crazyflie_ms(&now->vehicle, told, now->motors.N);
-  return lanes::lanes_in;
+  return s->ms->vehicle(in, &s->now, &s->in[s->vehicle++]);
 }
 
 lanes_since_t lanes_senses_since(const lanes_state_t *s) {

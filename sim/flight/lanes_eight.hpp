@@ -1,0 +1,25 @@
+// lanes_eight.hpp - what of eight flights lies in lanes; after base/lane_c.hpp. It lies so for registers of
+// each width (flight/lanes_ms.cpp).
+#ifndef SIM_FLIGHT_LANES_EIGHT_HPP
+#define SIM_FLIGHT_LANES_EIGHT_HPP
+
+namespace lanes {
+
+#include "crazyflie/crazyflie.h"
+#include "flight/lanes_blocks.h"
+
+// All that a millisecond changes, and what it takes.
+struct state_of_eight {
+  crazyflie_t vehicle;
+  senses_t senses;
+  imu_param_t imu_param;
+  range_param_t range_param;
+  senses_drawn_t drawn;
+  truth_t truth;
+  pilot_in_t in;
+  lanes_motors_t motors;
+};
+
+} // namespace lanes
+
+#endif
