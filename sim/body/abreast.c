@@ -190,6 +190,18 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
   return moved;
 }
 
+// Whether all were moved together in the last tick, and nobody has done anything to them since but order.
+static bool as_before(const abreast_t *a, body_t *const *b) {
+  for (int k = 0; k < LANES; k++) {
+    const has_t *const has = &a->has[k];
+    if (!b[k] && !(a->moved >> k & 1)) continue;
+    if (!b[k] || !(a->moved >> k & 1) || has->body != b[k] || has->changed != b[k]->changed || b[k]->broken ||
+        b[k]->n_tick > 0 || b[k]->span_s != a->alike.span_s)
+      return false;
+  }
+  return a->moved != 0;
+}
+
 static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   unsigned in = 0;
   int n = 0;
@@ -231,7 +243,9 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
   const body_t *first;
   for (int k = 0; k < LANES; k++)
     if (b[k]) begin_tick(a, k, b[k]);
-  const unsigned in = alike_in(a, b, &first);
+  const bool again = as_before(a, b);
+  const unsigned in = again ? a->moved : alike_in(a, b, &first);
+  if (again) first = a->first;
   if (in && integrator_for(a, first)) {
     a->moved = move_together(a, b, in, first, seen);
   } else {

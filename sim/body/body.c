@@ -2,6 +2,7 @@
 #include "body/body.h"
 
 #include "base/constants.h"
+#include "base/pair.h"
 #include "plant/rigid.h"
 #include <math.h>
 #include <string.h>
@@ -170,8 +171,10 @@ static void advance(body_t *b, double span_s) {
 static void delay_commands(body_t *b, double span_s) {
   const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
   const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
-  memcpy(b->queue_N[b->queued % BODY_QUEUE], b->command_N, sizeof b->command_N);
-  memcpy(b->rigid.command_N, b->queue_N[(b->queued - ticks) % BODY_QUEUE], sizeof b->command_N);
+  double *const last_N = b->queue_N[b->queued % BODY_QUEUE];
+  const double *const due_N = b->queue_N[(b->queued - ticks) % BODY_QUEUE];
+  for (int i = 0; i < ROTORS; i += 2) pair_put(last_N + i, pair_of(b->command_N + i));
+  for (int i = 0; i < ROTORS; i += 2) pair_put(b->rigid.command_N + i, pair_of(due_N + i));
   b->queued++;
 }
 
@@ -211,11 +214,10 @@ void body_tick_end(body_t *b) {
 }
 
 void body_command(body_t *b, const double command_N[ROTORS], double span_s) {
-  const double min_N = b->model->thrust_min_N / ROTORS, max_N = b->model->thrust_max_N / ROTORS;
-  for (int i = 0; i < ROTORS; i++) {
-    const double command = command_N[i] > min_N ? command_N[i] : min_N; // NaN is the least
-    b->command_N[i] = command < max_N ? command : max_N;
-  }
+  const pair_t min_N = pair_both(b->model->thrust_min_N / ROTORS),
+               max_N = pair_both(b->model->thrust_max_N / ROTORS);
+  for (int i = 0; i < ROTORS; i += 2) // NaN is the least
+    pair_put(b->command_N + i, pair_min(pair_max(pair_of(command_N + i), min_N), max_N));
   b->span_s = span_s;
 }
 
