@@ -40,11 +40,13 @@ static d3_t track_acc(const nominal_flight_t *f, int at) {
                 sqrt(2.0) * error / span_s);
 }
 
-// How its turning grows.
+// How its turning grows, where gains are too small to follow it. Where they are not, the noise of the log's
+// rates would turn the vehicle besides: of a hover at 500 rows a second that hid what feedback makes of an
+// inertia.
 static d3_t track_turn(const nominal_flight_t *f, int at) {
   const grid_point_t *end[2];
   double span_s, error = 0.0;
-  if (!f->g->has_rates || !both_sides(f, at, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
+  if (!f->w->unread || !f->g->has_rates || !both_sides(f, at, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
   for (int i = 0; i < 3; i++) error = fmax(error, f->w->gyro_radps[i]);
   return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->rate_b_radps, end[0]->rate_b_radps)),
                 sqrt(2.0 / f->g->every) * error / span_s);
@@ -148,7 +150,8 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const d3_t nose_b = axes_to_body(&axes, track_axes.x);
   const double yaw = atan2(nose_b.y, nose_b.x);
   const d3_t rate = seen->rate_b_radps, grows = rate_grows(f, rate, step_s);
-  const d3_t off = f->g->has_rates ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
+  const bool turns = w->unread && f->g->has_rates;
+  const d3_t off = turns ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
   const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,
                           w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
                           w->rate_gain[2] * (YAW * yaw + off.z) - w->rate_lead[2] * grows.z);

@@ -336,6 +336,7 @@ TEST(gap_nominal_flights_turn_as_much_as_the_log_does) {
   if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
   for (int k = 0; k < 2; k++) r.loop.rate_gain[k] = 8.0; // the least that is taken
   r.loop.tilt_gain = 22.0;
+  r.loop.unread = true;
   if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, &r.loop, 77, &why))) return;
   turning_of(&r.set, log_radps2);
   turning_of(&a.seen, came_radps2);
