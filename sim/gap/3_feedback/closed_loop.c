@@ -13,8 +13,9 @@
 // Of rows that miss commands gains come out too small by three to ten times, whatever they are. Then every
 // other pilot is as swift as the Crazyflie's firmware, and looks at place and speed as seldom: what these ask
 // for is held between two looks, what turns the vehicle is not, and no one time of a row's command fits both.
-#define SWIFT_RADPS 25.0
-#define OUTER_S     0.01
+// gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
+#define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
+#define OUTER_S    0.01 // the position loop's period at 100 Hz
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
@@ -225,8 +226,8 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   }
   v.tilt_gain *= turn * turn;
   if (w->unread && i % 2) {
-    for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], turn * SWIFT_RADPS);
-    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * SWIFT_RADPS * SWIFT_RADPS * turn * turn);
+    for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], turn * SWIFT_GAIN);
+    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * SWIFT_GAIN * SWIFT_GAIN * turn * turn);
     v.outer_s = OUTER_S;
   }
   v.climb_gain *= place;
