@@ -191,26 +191,37 @@ void score_estimate(const score_t *j, const choice_t *choice, double *b, double 
   for (int i = 0; i < n * n; i++) V[i] *= few;
 }
 
-void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+// Of size k of a choice's last candidate, by nominal flight; returns how many.
+static int nominal_values(const score_t *j, const choice_t *choice,
+                          double value[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
-  for (int k = 0; k < own; k++)
-    rms[k] = j->nominal && !j->nominal->n
-                 ? SELECT_LEAST * j->c->candidate[choice->of[choice->n - 1]].typical[k]
-                 : 0.0;
-  double made[FX_SIZE_MAX][NOMINAL_FLIGHTS];
   const int flights = j->nominal ? j->nominal->n : 0;
   for (int i = 0; i < flights; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
     lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, NULL);
-    for (int k = 0; k < own; k++) made[k][i] = b[n - own + k];
+    for (int k = 0; k < own; k++) value[k][i] = b[n - own + k];
   }
-  for (int k = 0; k < own && flights; k++) {
-    score_made(&j->c->candidate[choice->of[choice->n - 1]], k, made[k], flights);
-    for (int i = 0; i < flights; i++) rms[k] += made[k][i] * made[k][i] / flights;
-    rms[k] = sqrt(rms[k]);
-  }
+  return flights;
+}
+
+static double rms_of(const double *value, int n) {
+  double sum = 0.0;
+  for (int i = 0; i < n; i++) sum += value[i] * value[i] / n;
+  return sqrt(sum);
+}
+
+// Where none could be flown.
+static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
+  return j->nominal ? SELECT_LEAST * c->typical[k] : 0.0;
+}
+
+void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+  const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
+  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS];
+  const int flights = nominal_values(j, choice, value);
+  for (int k = 0; k < own->n; k++) rms[k] = flights ? rms_of(value[k], flights) : taken_to_be(j, own, k);
 }
 
 void score_made(const candidate_t *c, int k, double *value, int flights) {
@@ -219,9 +230,22 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
   for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
+// Of what feedback makes of the last candidate's numbers, what could be taken for it.
+static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
+  const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
+  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
+  const int flights = nominal_values(j, choice, value);
+  for (int k = 0; k < own->n; k++) {
+    score_made(own, k, value[k], flights);
+    const double made = flights ? rms_of(value[k], flights) : taken_to_be(j, own, k);
+    sum += made > 0.0 ? size[k] * size[k] / (made * made) : 1e12;
+  }
+  return sqrt(sum / own->n);
+}
+
 verdict_t score_last(const score_t *j, const choice_t *choice) {
   verdict_t v = {.p = 1.0};
-  double b[COLUMN_MAX], V[COLUMN_MAX * COLUMN_MAX], own[FX_SIZE_MAX * FX_SIZE_MAX], rms[FX_SIZE_MAX];
+  double b[COLUMN_MAX], V[COLUMN_MAX * COLUMN_MAX], own[FX_SIZE_MAX * FX_SIZE_MAX];
   const int n_own = j->c->candidate[choice->of[choice->n - 1]].n;
   int column[COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column);
@@ -235,10 +259,7 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   }
   const double blocks = fmax(j->g->n_block - n, 2.0);
   v.p = lsq_f_above(lsq_wald(v.value, own, n_own) / n_own, n_own, blocks);
-  score_nominal_rms(j, choice, rms);
-  double sum = 0.0;
-  for (int i = 0; i < n_own; i++) sum += rms[i] > 0.0 ? v.value[i] * v.value[i] / (rms[i] * rms[i]) : 1e12;
-  v.over_nominal = sqrt(sum / n_own);
+  v.over_nominal = over_nominal(j, choice, v.value);
   return v;
 }
 

@@ -64,8 +64,8 @@ typedef struct {
   double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX], p, over_nominal;
 } verdict_t;
 
-// What the last candidate of the choice is worth in it. over_nominal: its size over its rms on nominal
-// flights.
+// What the last candidate of the choice is worth in it. over_nominal: its size over what could be taken for
+// it on nominal flights.
 verdict_t score_last(const score_t *j, const choice_t *choice);
 
 // It may be in the choice: gates (a), (b), (c).
@@ -78,8 +78,9 @@ bool score_is_possible(const score_t *j, const choice_t *choice);
 // feedback is taken to make as much as is never named; 0 for a first look.
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
-// Of what nominal flights make of size k of a candidate, what could be taken for it: of a size that can only
-// be positive a bias that makes it smaller could not (a height with errors does it to a ground effect).
+// Of what nominal flights make of size k of a candidate, what could be taken for it (gate (c)): of a size
+// that can only be positive a bias that makes it smaller could not (a height with errors does it to a ground
+// effect). Its number is wrong by it all the same: score_nominal_rms has it.
 void score_made(const candidate_t *c, int k, double *value, int flights);
 
 // The size of each number of the last candidate that would take so much from the sum of squares; HUGE_VAL:
