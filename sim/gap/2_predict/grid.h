@@ -67,7 +67,7 @@ MUST_CHECK done_t grid_make(grid_t *g, const gap_flight_t *flight, int from, int
                             why_t *why);
 void grid_free(grid_t *g);
 
-// Rows come more seldom than commands, and miss most of these.
+// Rows come more seldom than commands; those that are of one instant miss most of these, means hold them all.
 bool grid_is_slow(const grid_t *g);
 
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by

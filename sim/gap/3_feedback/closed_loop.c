@@ -10,12 +10,13 @@
 #define TILT_MOST 0.35 // of a rate gain squared: more overshoots
 #define LEAD_MOST 0.5  // acts as so much more inertia; with more, lag and delay make a loop ring
 #define VARIED    0.3  // of a gain: a fit from a log in closed loop knows it no better
-// Of rows that miss commands gains come out too small by three to ten times, whatever they are. Then every
-// other pilot is as swift as the Crazyflie's firmware, and looks at place and speed as seldom: what these ask
-// for is held between two looks, what turns the vehicle is not, and no one time of a row's command fits both.
+// Of rows that are fewer than commands gains come out too small by three to ten times, whatever they are.
+// Then every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c), and looks at
+// place and speed as seldom: what these ask for is held between two looks, what turns the vehicle is not, and
+// no one time of a row's command fits both. Its lead stays the one that was read with the smaller gain.
 // gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
-#define OUTER_S    0.01 // the position loop's period at 100 Hz
+#define OUTER_S    0.01 // of its position loop
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo

@@ -28,7 +28,7 @@ typedef struct {
   double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
-  bool unread;                    // rows miss commands: the gains of what turns it cannot be read off them
+  bool unread;                    // rows are fewer than commands: gains of what turns it cannot be read
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
@@ -42,7 +42,8 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
 // Of these what the residual says anew, by another one of the same set: disturbance and noise of the range.
 void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m, double *const residual[CHANNELS]);
 
-// The same as another pilot could have flown it whose gains fit the log as well; number 0 is the fit itself.
+// The same as another pilot could have flown it, whose gains fit the log as well, or where gains are unread,
+// odd ones, may be those of who flew; number 0 is the fit itself.
 // Of a pilot that is known there is but one.
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i);
 

@@ -21,7 +21,7 @@ static bool both_sides(const nominal_flight_t *f, int at, int side, const grid_p
   if (from < f->from || to >= f->to) return false;
   for (int i = 0; i < 2; i++) end[i] = &f->g->point[i ? to : from];
   *span_s = end[1]->t_s - end[0]->t_s;
-  return *span_s <= 4.0 * AHEAD_S;
+  return end[0]->segment == end[1]->segment;
 }
 
 // Less what its errors could make of it, in a hover those would shake the vehicle.
