@@ -4,6 +4,9 @@
 #include "base/heap.h"
 #include "base/turns.h"
 #include "body/abreast.h"
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 // What a job waits for.
 typedef struct {
@@ -46,6 +49,34 @@ long side_by_side(int n, void (*job)(void *context, int i), void *context) {
   const long together = a ? abreast_together(a) : 0;
   abreast_close(a);
   return together;
+}
+
+static int threads(void) {
+#ifdef _OPENMP
+  return omp_in_parallel() ? 1 : omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+typedef struct {
+  void (*job)(void *context, int i);
+  void *context;
+  int from;
+} part_t;
+
+static void one(void *part, int i) {
+  const part_t *const p = part;
+  p->job(p->context, p->from + i);
+}
+
+void side_by_side_shared(int n, void (*job)(void *context, int i), void *context) {
+  const int share = side_by_side_share(n, threads());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < n; i += share) {
+    part_t part = {job, context, i};
+    (void)side_by_side(i + share < n ? share : n - i, one, &part);
+  }
 }
 
 void side_by_side_tick(body_t *b, const double command_N[ROTORS], double span_s) {

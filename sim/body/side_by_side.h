@@ -12,6 +12,9 @@ int side_by_side_share(int n, int threads);
 // memory, they come one after the other. Returns how many ticks were done with others'.
 long side_by_side(int n, void (*job)(void *context, int i), void *context);
 
+// The same, shared out over the threads that there are.
+void side_by_side_shared(int n, void (*job)(void *context, int i), void *context);
+
 // As body_tick(). Between two ticks a job that changes of the body what body.h does not (`vbat_V` is what the
 // effects see, and may be changed) has its own bits no more; before the first it may.
 void side_by_side_tick(body_t *b, const double command_N[ROTORS], double span_s);

@@ -5,9 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 // What least squares find of a size, whose column holds errors: x x' / x x, both white.
 static done_t find_kept(double *kept, const set_t *s, const design_t *seen, const design_t *is,
@@ -134,19 +131,10 @@ static void end_part(part_t *p) {
   free(p->seen.flight);
 }
 
-static int threads(void) {
-#ifdef _OPENMP
-  return omp_in_parallel() ? 1 : omp_get_max_threads();
-#else
-  return 1;
-#endif
-}
-
 // Flown side by side, then each by itself. What errors make of a size is told by the first flight that could
 // be flown.
 static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
   const size_t room = (size_t)(n->size * n->size);
-  const int share = side_by_side_share(NOMINAL_FLIGHTS, threads());
   for (int i = 0; i < NOMINAL_FLIGHTS; i++)
     part[i] = (part_t){.job = job,
                        .i = i,
@@ -154,9 +142,7 @@ static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_jo
                        .scan = &n->scan[i],
                        .kept = n->kept,
                        .first = i == 0};
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < NOMINAL_FLIGHTS; i += share)
-    (void)side_by_side(i + share < NOMINAL_FLIGHTS ? share : NOMINAL_FLIGHTS - i, fly, &part[i]);
+  side_by_side_shared(NOMINAL_FLIGHTS, fly, part);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < NOMINAL_FLIGHTS; i++) end_part(&part[i]);
   int first = 0;
