@@ -39,33 +39,39 @@ TEST(gap_score_estimates_with_the_error_that_it_tells) {
   CHECK_NEAR(sqrt(off / told), 1.0, 0.25); // of 60 draws
 }
 
+static const struct {
+  const char *what, *effect;
+  // Over what is typical; nominal: rms, 0: no nominal flights, below 0: none could fly; has: the vehicle
+  // file.
+  double size, nominal, has;
+  bool enters;
+} LET_IN[] = {
+    {"a first look", "rotor_drag", 0.5, 0.0, 0.0, true},
+    {"smaller than is named", "rotor_drag", 0.1, 0.0, 0.0, false},
+    {"of the wrong sign", "rotor_drag", -0.5, 0.0, 0.0, false},
+    {"either sign", "mass", -0.5, 0.0, 0.0, true},
+    {"four times what feedback makes", "rotor_drag", 0.5, 0.125, 0.0, true},
+    {"twice what feedback makes", "rotor_drag", 0.5, 0.25, 0.0, false},
+    {"none could fly", "rotor_drag", 0.45, -1.0, 0.0, true},
+    {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, 0.0, false},
+    {"only beside nominal flights", "inertia", 0.5, 0.0, 0.0, false},
+    {"and there", "inertia", 0.5, 0.05, 0.0, true},
+    {"and none could fly", "inertia", 0.9, -1.0, 0.0, false},
+    {"none of what the file has", "rotor_drag", -0.99, 0.0, 1.0, true},
+    {"less than none by an error", "rotor_drag", -0.997, 0.0, 1.0, true},
+    {"less than none by five", "rotor_drag", -1.02, 0.0, 1.0, false},
+};
+
 TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) {
-  static const struct {
-    const char *what, *effect;
-    double size,
-        nominal; // over what is typical; nominal: rms, 0: no nominal flights, below 0: none could fly
-    bool enters;
-  } row[] = {
-      {"a first look", "rotor_drag", 0.5, 0.0, true},
-      {"smaller than is named", "rotor_drag", 0.1, 0.0, false},
-      {"of the wrong sign", "rotor_drag", -0.5, 0.0, false},
-      {"either sign", "mass", -0.5, 0.0, true},
-      {"four times what feedback makes", "rotor_drag", 0.5, 0.125, true},
-      {"twice what feedback makes", "rotor_drag", 0.5, 0.25, false},
-      {"none could fly", "rotor_drag", 0.45, -1.0, true},
-      {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, false},
-      {"only beside nominal flights", "inertia", 0.5, 0.0, false},
-      {"and there", "inertia", 0.5, 0.05, true},
-      {"and none could fly", "inertia", 0.9, -1.0, false},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+  for (unsigned i = 0; i < sizeof LET_IN / sizeof *LET_IN; i++) {
     gap_rows_t g;
-    ROW("%s", row[i].what);
+    ROW("%s", LET_IN[i].what);
     gap_rows_make(&g, 7);
-    const int of = along_x(&g, row[i].effect, 200.0);
+    const int of = along_x(&g, LET_IN[i].effect, 200.0);
+    g.candidate[of].least[0] -= LET_IN[i].has * g.candidate[of].typical[0];
     for (int k = 1; k < g.candidate[of].n; k++) gap_rows_white(&g, gap_rows_column(&g, of, k, CH_FY + k - 1));
-    gap_rows_add(&g, of, 0, row[i].size);
-    const double rms = row[i].nominal;
+    gap_rows_add(&g, of, 0, LET_IN[i].size);
+    const double rms = LET_IN[i].nominal;
     const int flights = rms > 0.0 ? NOMINAL_FLIGHTS : 0;
     double found[NOMINAL_FLIGHTS * FX_SIZE_MAX];
     for (int k = 0; k < NOMINAL_FLIGHTS * FX_SIZE_MAX; k++) found[k] = k / g.candidate[of].n % 2 ? -rms : rms;
@@ -73,7 +79,7 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     gap_rows_open(&g, 0, NULL);
     const choice_t with = choice_with(&NONE, of);
     const verdict_t v = score_last(&g.round.score, &with);
-    CHECK(score_allows(&g.round.score, &with, &v) == row[i].enters);
+    CHECK(score_allows(&g.round.score, &with, &v) == LET_IN[i].enters);
     gap_rows_free(&g);
   }
 }
