@@ -145,7 +145,8 @@ static void untested(const report_t *r, FILE *out) {
   fputs("</table><h2>What they would have shown</h2><table><tr><th>effect<th>smallest size<th></tr>\n", out);
   for (int i = 0; i < r->n_shown; i++) {
     const shown_t *const s = &r->shown[i];
-    fprintf(out, "<tr><td>%s<td>%s %.2g %s<td></tr>\n", s->fx->name, s->param->name, s->from, s->param->unit);
+    fprintf(out, "<tr><td>%s<td>%s %.2g %s%s<td></tr>\n", s->fx->name, s->param->name, s->from,
+            s->param->unit, s->in_file ? " more or less" : "");
   }
   fputs("</table></section>\n", out);
 }

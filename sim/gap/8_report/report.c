@@ -38,7 +38,7 @@ static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, d
   const fx_param_t *const size = &fx_use_params(&c->use, &n)[fx->size[0].param];
   const double typical = c->typical[0], from = fmax(least * typical, candidates_least(fx, &d->fit));
   if (from < typical) {
-    r->shown[r->n_shown++] = (shown_t){fx, size, from};
+    r->shown[r->n_shown++] = (shown_t){fx, size, from, model_fx(&r->study->vehicle, fx) != NULL};
     return;
   }
   untested_t *const u = &r->untested[r->n_untested++];
@@ -53,11 +53,18 @@ static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, d
              from, text_gap(size->unit), size->unit, typical);
 }
 
+static bool is_named(const diagnosis_t *d, const fx_t *fx) {
+  for (int i = 0; i < d->found.n; i++)
+    if (found_use(&d->found, &d->found.named[i])->fx == fx) return true;
+  return false;
+}
+
+// What the vehicle file has can be looked for, too: more of it, or less.
 static void take_others(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < fx_count && i < FX_TABLE_MAX; i++) {
     const fx_t *const fx = fx_table[i];
-    if (model_fx(&d->extended, fx)) continue;
+    if (is_named(d, fx)) continue;
     const candidate_t *c;
     const double least = found_least(&d->found, &d->candidates, fx, &c);
     const char *obstacle = obstacle_of(r, fx);

@@ -85,6 +85,7 @@ typedef struct {
   const fx_t *fx;
   const fx_param_t *param;
   double from;
+  bool in_file; // as a difference from what the vehicle file has
 } shown_t;
 
 // Sentences for people.

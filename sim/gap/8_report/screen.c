@@ -118,8 +118,9 @@ static void print_missing(const report_t *r, FILE *out) {
 static void print_shown(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_shown; i++) {
     const shown_t *const s = &r->shown[i];
-    fprintf(out, "%s%s %s %.2g%s%s", i ? ", " : "  They would have shown, from this size on: ", s->fx->name,
-            s->param->name, s->from, text_gap(s->param->unit), s->param->unit);
+    fprintf(out, "%s%s %s %.2g%s%s%s", i ? ", " : "  They would have shown, from this size on: ", s->fx->name,
+            s->param->name, s->from, text_gap(s->param->unit), s->param->unit,
+            s->in_file ? " more or less" : "");
   }
   if (r->n_shown) fputs(".\n", out);
 }
