@@ -10,10 +10,10 @@
 #define TILT_MOST 0.35 // of a rate gain squared: more overshoots
 #define LEAD_MOST 0.5  // acts as so much more inertia; with more, lag and delay make a loop ring
 #define VARIED    0.3  // of a gain: a fit from a log in closed loop knows it no better
-// Of rows that are fewer than commands gains come out too small by three to ten times, whatever they are.
-// Then every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c), and looks at
-// place and speed as seldom: what these ask for is held between two looks, what turns the vehicle is not, and
-// no one time of a row's command fits both. Its lead stays the one that was read with the smaller gain.
+// Where rows are fewer than commands no one time of a row's command fits what turns the vehicle and what is
+// held between two looks at place and speed, and of a manoeuvre too small a gain is found (swiftness.c). Then
+// every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c) at least, and looks
+// at place and speed as seldom. Its lead stays the one of the smaller gain.
 // gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // of its position loop
@@ -106,7 +106,7 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_solve(&roll, &w->rate_gain[0], &tilt[0]);
   two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
   two_solve(&climb, &w->climb_gain, &w->height_gain);
-  for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], 8.0, 40.0);
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, RATE_GAIN_MOST);
   w->rate_gain[2] = 5.0;
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), 0.1 * least * least, TILT_MOST * least * least);
@@ -157,6 +157,14 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
     w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST);
   }
   free(turn);
+}
+
+closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const model_t *m, double gain) {
+  closed_loop_t v = *w;
+  for (int i = 0; i < 2; i++) v.rate_gain[i] = fmax(w->rate_gain[i], gain);
+  v.tilt_gain = fmax(w->tilt_gain, TILT_MOST * gain * gain);
+  find_lead(s, m, &v);
+  return v;
 }
 
 // --- disturbance ------------------------------------------------------------------------------------------

@@ -9,8 +9,7 @@
 #define FLOWN_S    60.0 // of a flight, so much is flown
 #define POINTS_MIN 50   // a shorter flight tells nothing
 
-// A part of a grid that is short enough: its first points.
-static grid_t beginning(const grid_t *g) {
+grid_t nominal_part(const grid_t *g) {
   grid_t part = *g;
   const int most = (int)(FLOWN_S / g->period_s);
   int from = 0;
@@ -34,7 +33,7 @@ static void calm(closed_loop_t *w) {
 done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
                        const closed_loop_t *w, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
-    const grid_t part = beginning(&s->grid[f]);
+    const grid_t part = nominal_part(&s->grid[f]);
     if (part.n < POINTS_MIN) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
     closed_loop_t calmer = *w;

@@ -22,13 +22,17 @@ static inline int nominal_steps(double sample_s) {
   return (int)fmax(1.0, round(sample_s / NOMINAL_STEP_S));
 }
 
+// 1/s, of a vehicle that small; with less it falls over, with more its motors do not follow.
+#define RATE_GAIN_LEAST 8.0
+#define RATE_GAIN_MOST  40.0
+
 // How a flight was flown and measured.
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
-  bool unread;                    // rows are fewer than commands: gains of what turns it cannot be read
+  bool unread;                    // rows are fewer than commands: these say nothing of what turns it
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
@@ -41,6 +45,14 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
                              double *const residual[CHANNELS]);
 // Of these what the residual says anew, by another one of the same set: disturbance and noise of the range.
 void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m, double *const residual[CHANNELS]);
+
+// The same by a pilot that turns it with this rate gain at least, and commands as noisily.
+closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const model_t *m, double gain);
+
+// Turned with the gain with which the model turns as much as the log's vehicle, if that is more than was read
+// (swiftness.c); as it is where the log has no rates or the pilot is known. FAILED: no memory.
+MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, unsigned long seed,
+                                    why_t *why);
 
 // The same as another pilot could have flown it, whose gains fit the log as well, or where gains are unread,
 // odd ones, may be those of who flew; number 0 is the fit itself.
@@ -65,7 +77,10 @@ MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
-// One flight along each flight of a set that can be flown, the first 60 s of each. truth: the same flights
+// What is flown of a flight: its first 60 s. The points are the grid's own.
+grid_t nominal_part(const grid_t *g);
+
+// One flight along each flight of a set that can be flown, of each that part. truth: the same flights
 // without errors; may be null. Both lists have room. BAD_INPUT: none could be flown; FAILED: no memory.
 MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
                                   const closed_loop_t *loop, unsigned long seed, why_t *why);

@@ -40,9 +40,9 @@ static d3_t track_acc(const nominal_flight_t *f, int at) {
                 sqrt(2.0) * error / span_s);
 }
 
-// How its turning grows, where gains are too small to follow it. Where they can be read the loop itself turns
-// the vehicle: with the track's turning besides, less its noise or not, nominal flights of the example at 500
-// rows a second no longer show an inertia of a twentieth, which their logs show though none is hidden.
+// How its turning grows, where rows are fewer than commands. Elsewhere the loop itself turns the vehicle:
+// with the track's turning besides, less its noise or not, nominal flights of the example at 500 rows a
+// second no longer show an inertia of a twentieth, which their logs show though none is hidden.
 static d3_t track_turn(const nominal_flight_t *f, int at) {
   const grid_point_t *end[2];
   double span_s, error = 0.0;

@@ -69,6 +69,7 @@ static double times(double none, double some, double log) {
 
 static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
+  TRY(closed_loop_match(loop, s, m, seed, why));
   closed_loop_t calm = *loop;
   squares_t none, some;
   for (int ch = 0; ch < CH_SMOOTH; ch++) {

@@ -3,53 +3,16 @@
 #include "base/lane.h"
 #include "base/random.h"
 #include "body/side_by_side.h"
-#include "exam/flights.h"
 #include "gap/2_predict/lines.h"
 #include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/nominal_sums.h"
+#include "rig/gap_track.h"
 #include "rig/test.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-  model_t vehicle;
-  gap_flight_t flight[2];
-  set_t set;
-  closed_loop_t loop;
-} rig_t;
-
-// Two flights in which nothing is hidden, spoilt by the caller before they become points.
-static void spoil_nothing(rig_t *r) {
-  (void)r;
-}
-
-static done_t rig_make(rig_t *r, void (*spoil)(rig_t *r), why_t *why) {
-  grid_t *const grid = calloc(2, sizeof *grid);
-  lines_t left = {.r = {NULL}};
-  if (!grid) abort();
-  memset(r, 0, sizeof *r);
-  TRY(exam_vehicle(&r->vehicle, why));
-  for (int i = 0; i < 2; i++) {
-    const exam_flight_t job = {.truth = &r->vehicle, .seed = 22100 + (unsigned long)i};
-    TRY(exam_fly(&job, &r->flight[i], why));
-  }
-  spoil(r);
-  for (int i = 0; i < 2; i++) TRY(grid_make(&grid[i], &r->flight[i], 0, r->flight[i].n, &r->vehicle, why));
-  TRY(set_make(&r->set, grid, 2, why));
-  TRY(lines_make(&left, &r->set, why));
-  TRY(residual_of(&r->set, &r->vehicle, left.r, why));
-  r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, left.r);
-  lines_free(&left);
-  return DONE;
-}
-
-static void rig_free(rig_t *r) {
-  set_free(&r->set);
-  for (int i = 0; i < 2; i++) gap_flight_free(&r->flight[i]);
-}
-
-static void spoil_a_sample(rig_t *r) {
+static void spoil_a_sample(gap_track_t *r) {
   gap_flight_t *const f = &r->flight[0];
   for (int i = f->n / 2; i < f->n / 2 + 40; i++)
     f->v[SIG_X][i] = f->v[SIG_VZ][i] = f->v[SIG_QX][i] = (double)NAN;
@@ -57,10 +20,10 @@ static void spoil_a_sample(rig_t *r) {
 }
 
 TEST(gap_nominal_flight_is_not_poisoned_by_a_sample_that_is_not_there) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   gap_flight_t flown;
-  if (!CHECK_OK(rig_make(&r, spoil_a_sample, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_a_sample}, &why))) return;
   if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
   const grid_t *const g = &r.set.grid[0];
   int bad = 0, far = 0;
@@ -72,15 +35,15 @@ TEST(gap_nominal_flight_is_not_poisoned_by_a_sample_that_is_not_there) {
   CHECK(bad == 0);
   CHECK(far < flown.n / 50);
   gap_flight_free(&flown);
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 // Not the smoothed ones: the pilot saw no better.
 TEST(gap_nominal_pilots_follow_places_as_they_were_logged) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   gap_flight_t flown;
-  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
   const grid_t *const g = &r.set.grid[0];
   bool smoothed = false;
   for (int j = 0; j < g->n; j++) {
@@ -93,15 +56,15 @@ TEST(gap_nominal_pilots_follow_places_as_they_were_logged) {
   for (int i = 0; i < flown.n; i++) off_m += (flown.v[SIG_Y][i] - g->point[i / g->every].pos_w_m.y) / flown.n;
   CHECK_NEAR(off_m, 0.3, 0.1);
   gap_flight_free(&flown);
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 // A track that goes on by steps has its commands step with it, and a log of them misses none.
 TEST(gap_nominal_pilots_are_told_their_track_between_its_points) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   gap_flight_t flown;
-  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
   closed_loop_t calm = r.loop;
   memset(calm.gyro_radps, 0, sizeof calm.gyro_radps);
   memset(calm.force_mps2, 0, sizeof calm.force_mps2);
@@ -121,11 +84,11 @@ TEST(gap_nominal_pilots_are_told_their_track_between_its_points) {
   }
   CHECK(at < 2.0 * within);
   gap_flight_free(&flown);
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 // Five seconds are not there, and the log goes on two metres farther.
-static void spoil_by_a_gap(rig_t *r) {
+static void spoil_by_a_gap(gap_track_t *r) {
   gap_flight_t *const f = &r->flight[0];
   f->segment = f->segment ? f->segment : calloc((size_t)f->n, sizeof(int));
   if (!f->segment) abort();
@@ -139,7 +102,7 @@ static void spoil_by_a_gap(rig_t *r) {
 #define BESIDE 5
 
 typedef struct {
-  const rig_t *rig;
+  const gap_track_t *rig;
   gap_flight_t flown[BESIDE];
 } beside_t;
 
@@ -152,9 +115,9 @@ static void fly_beside(void *self, int i) {
 }
 
 TEST(gap_nominal_flights_side_by_side_have_the_bits_that_each_has_alone) {
-  rig_t r;
+  gap_track_t r;
   why_t why;
-  if (!CHECK_OK(rig_make(&r, spoil_by_a_gap, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_by_a_gap}, &why))) return;
   beside_t alone = {.rig = &r}, beside = {.rig = &r};
   for (int i = 0; i < BESIDE; i++) fly_beside(&alone, i);
   const long together = side_by_side(BESIDE, fly_beside, &beside);
@@ -168,14 +131,14 @@ TEST(gap_nominal_flights_side_by_side_have_the_bits_that_each_has_alone) {
     gap_flight_free(a);
     gap_flight_free(b);
   }
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 TEST(gap_nominal_flight_goes_on_where_the_log_does_after_a_gap) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   gap_flight_t flown;
-  if (!CHECK_OK(rig_make(&r, spoil_by_a_gap, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_by_a_gap}, &why))) return;
   if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
   const grid_t *const g = &r.set.grid[0];
   int at = 0, first = 0, far = 0;
@@ -191,17 +154,17 @@ TEST(gap_nominal_flight_goes_on_where_the_log_does_after_a_gap) {
   CHECK(far < flown.n / 50);
   CHECK(flown.saturated[at + 1] && !flown.saturated[at]); // not compared until what it does is its own
   gap_flight_free(&flown);
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 // Nothing flies that is 5 m away every other second.
 static void jump(gap_flight_t *f) {
   for (int i = 0; i < f->n; i++) f->v[SIG_X][i] += fmod(f->t_s[i], 2.0) < 1.0 ? 0.0 : 5.0;
 }
-static void spoil_one_track(rig_t *r) {
+static void spoil_one_track(gap_track_t *r) {
   jump(&r->flight[1]);
 }
-static void spoil_both_tracks(rig_t *r) {
+static void spoil_both_tracks(gap_track_t *r) {
   jump(&r->flight[0]);
   jump(&r->flight[1]);
 }
@@ -209,32 +172,32 @@ static void spoil_both_tracks(rig_t *r) {
 TEST(gap_nominal_flight_that_cannot_be_flown_costs_itself_alone) {
   static const struct {
     const char *what;
-    void (*spoil)(rig_t *r);
+    void (*spoil)(gap_track_t *r);
     done_t status;
     int flown;
-  } row[] = {{"both can", spoil_nothing, DONE, 2},
+  } row[] = {{"both can", NULL, DONE, 2},
              {"one cannot", spoil_one_track, DONE, 1},
              {"none can", spoil_both_tracks, BAD_INPUT, 0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    rig_t r;
+    gap_track_t r;
     why_t why = {""};
     gap_flight_t room[2];
     gap_flights_t flown = {.flight = room};
     ROW("%s", row[i].what);
-    if (!CHECK_OK(rig_make(&r, row[i].spoil, &why))) return;
+    if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = row[i].spoil}, &why))) return;
     CHECK_STATUS(row[i].status, nominal_flights(&flown, NULL, &r.set, &r.vehicle, &r.loop, 1, &why));
     CHECK(flown.n == row[i].flown);
     for (int k = 0; k < flown.n; k++) gap_flight_free(&room[k]);
-    rig_free(&r);
+    gap_track_free(&r);
   }
 }
 
 TEST(gap_counts_the_flights_that_cannot_be_flown) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   candidates_t c;
   nominal_t n;
-  if (!CHECK_OK(rig_make(&r, spoil_one_track, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_one_track}, &why))) return;
   if (!CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why))) return;
   const chosen_t none = {.n = 0};
   const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1};
@@ -243,7 +206,7 @@ TEST(gap_counts_the_flights_that_cannot_be_flown) {
   for (int k = 0; k < c.columns; k++) CHECK(n.kept[k] > 0.0 && n.kept[k] <= 1.0);
   nominal_free(&n);
   candidates_free(&c);
-  rig_free(&r);
+  gap_track_free(&r);
 }
 
 // --- the disturbance --------------------------------------------------------------------------------------
@@ -261,7 +224,7 @@ static void rms_of(set_t *s, const model_t *m, double rms[CHANNELS]) {
   lines_free(&l);
 }
 
-static void spoil_by_shaking(rig_t *r) {
+static void spoil_by_shaking(gap_track_t *r) {
   random_t *const random = random_open(3);
   for (int f = 0; f < 2; f++) {
     double off[3] = {0.0};
@@ -276,42 +239,27 @@ static void spoil_by_shaking(rig_t *r) {
 TEST(gap_nominal_flights_shake_as_the_log_does) {
   static const struct {
     const char *what;
-    void (*spoil)(rig_t *r);
+    void (*spoil)(gap_track_t *r);
     int channels; // an accelerometer that shakes shows in forces; a force of that size shakes what turns, too
-  } row[] = {{"as flown", spoil_nothing, CH_SMOOTH}, {"shaken", spoil_by_shaking, CH_FORCES}};
+  } row[] = {{"as flown", NULL, CH_SMOOTH}, {"shaken", spoil_by_shaking, CH_FORCES}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    rig_t r;
+    gap_track_t r;
     why_t why = {""};
     closed_loop_t loop;
     along_t a;
     double log[CHANNELS], came[CHANNELS];
     ROW("%s", row[i].what);
-    if (!CHECK_OK(rig_make(&r, row[i].spoil, &why))) return;
+    if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = row[i].spoil}, &why))) return;
     if (!CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 9, &why))) return;
     if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, &loop, 77, &why))) return;
     rms_of(&r.set, &r.vehicle, log);
     rms_of(&a.seen, &r.vehicle, came);
     for (int ch = 0; ch < row[i].channels; ch++) CHECK_NEAR(came[ch] / log[ch], 1.0, 0.25);
     along_free(&a);
-    rig_free(&r);
+    gap_track_free(&r);
   }
 }
 
-// Every `every`-th row of a flight.
-static void thin(gap_flight_t *f, int every) {
-  const int n = f->n / every;
-  for (int i = 0; i < n; i++) {
-    f->t_s[i] = f->t_s[every * i];
-    for (int k = 0; k < SIG_COUNT; k++)
-      if (f->v[k]) f->v[k][i] = f->v[k][every * i];
-    if (f->segment) f->segment[i] = f->segment[every * i];
-    if (f->saturated) f->saturated[i] = f->saturated[every * i];
-  }
-  f->n = n;
-  f->rate_Hz /= every;
-}
-
-// The lead that is read off a log which a pilot with this one flew.
 // Rms of the turning that was measured, about each axis.
 static void turning_of(set_t *s, double rms_radps2[3]) {
   lines_t l = {.r = {NULL}};
@@ -329,11 +277,11 @@ static void turning_of(set_t *s, double rms_radps2[3]) {
 // Gains that are read off few rows, or off a swift pilot, are too small by far: the vehicle turns with its
 // track all the same.
 TEST(gap_nominal_flights_turn_as_much_as_the_log_does) {
-  rig_t r;
+  gap_track_t r;
   why_t why = {""};
   along_t a;
   double log_radps2[3], came_radps2[3];
-  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
   for (int k = 0; k < 2; k++) r.loop.rate_gain[k] = 8.0; // the least that is taken
   r.loop.tilt_gain = 22.0;
   r.loop.unread = true;
@@ -342,54 +290,5 @@ TEST(gap_nominal_flights_turn_as_much_as_the_log_does) {
   turning_of(&a.seen, came_radps2);
   for (int k = 0; k < 3; k++) CHECK_NEAR(came_radps2[k] / log_radps2[k], 1.0, 0.35);
   along_free(&a);
-  rig_free(&r);
-}
-
-static done_t lead_read(double lead[3], const rig_t *r, const closed_loop_t *flown_by, int every,
-                        double told_Hz, why_t *why) {
-  const flown_by_t by = {.rate_Hz = told_Hz};
-  gap_flight_t flight;
-  set_t set;
-  lines_t left;
-  TRY(nominal_fly(&r->set.grid[0], &r->vehicle, flown_by, 5, &flight, NULL, why));
-  thin(&flight, every);
-  TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, &r->vehicle, why));
-  TRY(lines_make(&left, &set, why));
-  TRY(residual_of(&set, &r->vehicle, left.r, why));
-  const closed_loop_t loop = closed_loop_of(&set, &r->vehicle, told_Hz > 0.0 ? &by : NULL, left.r);
-  memcpy(lead, loop.rate_lead, sizeof loop.rate_lead);
-  lines_free(&left);
-  set_free(&set);
-  gap_flight_free(&flight);
-  return DONE;
-}
-
-TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
-  static const struct {
-    const char *what;
-    double flown, read;
-    int every;
-    double told_Hz; // of its commands; 0: not told
-  } row[] = {{"no lead", 0.0, 0.0, 1, 0.0},
-             {"some", 0.15, 0.15, 1, 0.0},
-             {"more", 0.3, 0.3, 1, 0.0},
-             {"the most", 0.45, 0.45, 1, 0.0},
-             {"more than is taken", 0.7, 0.5, 1, 0.0},
-             {"some, every other command logged", 0.15, 0.15, 2, 0.0},
-             {"more, every other command logged", 0.3, 0.3, 2, 0.0},
-             {"some, of 500 commands a second", 0.15, 0.15, 2, 500.0},
-             {"some, of more commands a second than a flight has steps", 0.15, 0.15, 1, 1000.0},
-             {"every command logged, as is told", 0.15, 0.0, 1, 500.0}};
-  rig_t r;
-  why_t why = {""};
-  if (!CHECK_OK(rig_make(&r, spoil_nothing, &why))) return;
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    closed_loop_t loop = r.loop;
-    double lead[3] = {0.0};
-    ROW("%s", row[i].what);
-    for (int k = 0; k < 2; k++) loop.rate_lead[k] = row[i].flown;
-    if (!CHECK_OK(lead_read(lead, &r, &loop, row[i].every, row[i].told_Hz, &why))) return;
-    for (int k = 0; k < 2; k++) CHECK_NEAR(lead[k], row[i].read, 0.1 * row[i].read + 0.01);
-  }
-  rig_free(&r);
+  gap_track_free(&r);
 }

@@ -1,0 +1,99 @@
+// swiftness.c - how swiftly a vehicle is turned, by how much it turns.
+//
+// Noise, errors of estimates and disturbance come back through who flies, and turn a hovering vehicle the
+// more the larger his gains are. Commands against rates do not say it of a controller that filters, or feeds
+// its own commands back: of the Crazyflie's INDI, which has 24 1/s, they read 8, and a pilot with 8 turns the
+// model a tenth as much as the log's vehicle, or falls over. In a manoeuvre the pilot that is tried follows
+// some of the log's turning besides, and too small a gain is found: what was read is taken where it is more.
+#include "gap/3_feedback/nominal.h"
+
+#include "body/side_by_side.h"
+#include <stdlib.h>
+
+// Gains that are tried side by side, a quarter apart or less, from what was read on.
+enum { TRIALS = 8 };
+
+typedef struct {
+  const closed_loop_t *loop;
+  const set_t *set;
+  const model_t *model;
+  unsigned long seed;
+  double log_radps;
+  double gain,
+      off; // off: logarithm of how much it turns over how much the log's does; NaN: it cannot be flown
+  gap_flights_t seen;
+  done_t status;
+  why_t why;
+} trial_t;
+
+// Rms of roll and pitch rates over what nominal flights fly of each flight; 0: there are none.
+static double turning_radps(const set_t *s) {
+  double sum = 0.0, n = 0.0;
+  for (int f = 0; f < s->n_grid; f++) {
+    const grid_t part = nominal_part(&s->grid[f]);
+    for (int j = 0; j < part.n; j++) {
+      const grid_point_t *const p = &part.point[j];
+      const double square = p->rate_b_radps.x * p->rate_b_radps.x + p->rate_b_radps.y * p->rate_b_radps.y;
+      if (!p->ok || !isfinite(square)) continue;
+      sum += 0.5 * square;
+      n += 1.0;
+    }
+  }
+  return n > 0.0 ? sqrt(sum / n) : 0.0;
+}
+
+static void fly(void *trials, int i) {
+  trial_t *const t = (trial_t *)trials + i;
+  closed_loop_t loop = closed_loop_turning(t->loop, t->set, t->model, t->gain);
+  loop.unread = false; // its gain alone turns it, and not the track
+  t->seen.flight = calloc((size_t)t->set->n_grid + 1, sizeof(gap_flight_t));
+  t->status = t->seen.flight ? nominal_flights(&t->seen, NULL, t->set, t->model, &loop, t->seed, &t->why)
+                             : error_failed(&t->why, "out of memory");
+}
+
+static void compare(trial_t *t) {
+  set_t own = {.n_grid = 0};
+  if (t->status == DONE) t->status = nominal_set(&own, &t->seen, t->model, &t->why);
+  t->off = t->status == DONE ? log(turning_radps(&own) / t->log_radps) : (double)NAN;
+  set_free(&own);
+  for (int f = 0; t->seen.flight && f < t->set->n_grid; f++) gap_flight_free(&t->seen.flight[f]);
+  free(t->seen.flight);
+}
+
+// Where it first turns as much as the log, between two gains; else the nearest one. 0: none could be flown.
+static double gain_of(const trial_t *t) {
+  double nearest = HUGE_VAL, gain = 0.0;
+  if (t[0].off >= 0.0) return t[0].gain;
+  for (int i = 0; i + 1 < TRIALS; i++)
+    if (t[i].off < 0.0 && t[i + 1].off >= 0.0)
+      return t[i].gain * pow(t[i + 1].gain / t[i].gain, t[i].off / (t[i].off - t[i + 1].off));
+  for (int i = 0; i < TRIALS; i++)
+    if (fabs(t[i].off) < nearest) nearest = fabs(t[i].off), gain = t[i].gain;
+  return gain;
+}
+
+done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, unsigned long seed, why_t *why) {
+  trial_t trial[TRIALS];
+  const bool known = w->flown_by && w->flown_by->kind > FLOWN_BY_OTHER;
+  const double log_radps = s->grid[0].has_rates ? turning_radps(s) : 0.0;
+  const double read = fmin(w->rate_gain[0], w->rate_gain[1]);
+  if (known || !(log_radps > 0.0) || !(read < RATE_GAIN_MOST)) return DONE;
+  for (int i = 0; i < TRIALS; i++)
+    trial[i] = (trial_t){.loop = w,
+                         .set = s,
+                         .model = m,
+                         .seed = seed,
+                         .log_radps = log_radps,
+                         .gain = read * pow(RATE_GAIN_MOST / read, i / (TRIALS - 1.0))};
+  side_by_side_shared(TRIALS, fly, trial);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < TRIALS; i++) compare(&trial[i]);
+  for (int i = 0; i < TRIALS; i++) {
+    if (trial[i].status != FAILED) continue;
+    *why = trial[i].why;
+    return FAILED;
+  }
+  const double gain = gain_of(trial);
+  if (gain > read) *w = closed_loop_turning(w, s, m, gain);
+  return DONE;
+}

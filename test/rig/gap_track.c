@@ -1,0 +1,32 @@
+// gap_track.c - see gap_track.h.
+#include "rig/gap_track.h"
+
+#include "gap/2_predict/lines.h"
+#include <stdlib.h>
+#include <string.h>
+
+done_t gap_track_make(gap_track_t *t, const gap_track_job_t *job, why_t *why) {
+  grid_t *const grid = calloc(2, sizeof *grid);
+  lines_t left = {.r = {NULL}};
+  if (!grid) abort();
+  memset(t, 0, sizeof *t);
+  TRY(exam_vehicle(&t->vehicle, why));
+  for (int i = 0; i < 2; i++) {
+    const exam_flight_t flown = {
+        .truth = &t->vehicle, .hover_only = job->hover, .indi = job->indi, .seed = 22100 + (unsigned long)i};
+    TRY(exam_fly(&flown, &t->flight[i], why));
+  }
+  if (job->spoil) job->spoil(t);
+  for (int i = 0; i < 2; i++) TRY(grid_make(&grid[i], &t->flight[i], 0, t->flight[i].n, &t->vehicle, why));
+  TRY(set_make(&t->set, grid, 2, why));
+  TRY(lines_make(&left, &t->set, why));
+  TRY(residual_of(&t->set, &t->vehicle, left.r, why));
+  t->loop = closed_loop_of(&t->set, &t->vehicle, NULL, left.r);
+  lines_free(&left);
+  return DONE;
+}
+
+void gap_track_free(gap_track_t *t) {
+  set_free(&t->set);
+  for (int i = 0; i < 2; i++) gap_flight_free(&t->flight[i]);
+}

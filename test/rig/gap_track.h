@@ -1,0 +1,25 @@
+// gap_track.h - two flights of the exam's vehicle in which nothing is hidden, as points, and who flew them as
+// the log tells it.
+#ifndef TEST_RIG_GAP_TRACK_H
+#define TEST_RIG_GAP_TRACK_H
+
+#include "exam/flights.h"
+#include "gap/3_feedback/nominal.h"
+
+typedef struct {
+  model_t vehicle;
+  gap_flight_t flight[2];
+  set_t set;
+  closed_loop_t loop;
+} gap_track_t;
+
+// How they are flown; spoil: changes the flights before they become points, or null.
+typedef struct {
+  bool indi, hover; // else by the firmware's PID, and manoeuvres
+  void (*spoil)(gap_track_t *t);
+} gap_track_job_t;
+
+done_t gap_track_make(gap_track_t *t, const gap_track_job_t *job, why_t *why);
+void gap_track_free(gap_track_t *t);
+
+#endif

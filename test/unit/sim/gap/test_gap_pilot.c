@@ -1,0 +1,96 @@
+// test_gap_pilot.c - what a log says of who flew it (3_feedback/nominal.h).
+#include "gap/2_predict/lines.h"
+#include "rig/gap_track.h"
+#include "rig/test.h"
+
+#include <string.h>
+
+// Every `every`-th row of a flight.
+static void thin(gap_flight_t *f, int every) {
+  const int n = f->n / every;
+  for (int i = 0; i < n; i++) {
+    f->t_s[i] = f->t_s[every * i];
+    for (int k = 0; k < SIG_COUNT; k++)
+      if (f->v[k]) f->v[k][i] = f->v[k][every * i];
+    if (f->segment) f->segment[i] = f->segment[every * i];
+    if (f->saturated) f->saturated[i] = f->saturated[every * i];
+  }
+  f->n = n;
+  f->rate_Hz /= every;
+}
+
+// The flight code turns it with 24 1/s. What a hovering vehicle turns is its pilot's doing; in a manoeuvre
+// the one that is tried follows some of it, and less is found.
+TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
+  static const struct {
+    const char *what;
+    bool hover, unread;
+    double read, least, most; // 1/s
+  } row[] = {{"a hover", true, false, 8.0, 17.0, 31.0},
+             {"manoeuvres", false, false, 8.0, 12.0, 26.0},
+             {"where the vehicle turns with its track besides", true, true, 8.0, 17.0, 31.0},
+             {"more than is found was read", true, false, 38.0, 38.0, 38.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_track_t r;
+    why_t why = {""};
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){true, row[i].hover, NULL}, &why))) return;
+    for (int k = 0; k < 2; k++) r.loop.rate_gain[k] = row[i].read;
+    r.loop.tilt_gain = 0.1 * row[i].read * row[i].read;
+    r.loop.unread = row[i].unread;
+    if (!CHECK_OK(closed_loop_match(&r.loop, &r.set, &r.vehicle, 9, &why))) return;
+    for (int k = 0; k < 2; k++)
+      CHECK(r.loop.rate_gain[k] >= row[i].least && r.loop.rate_gain[k] <= row[i].most);
+    gap_track_free(&r);
+  }
+}
+
+// The lead that is read off a log which a pilot with this one flew.
+static done_t lead_read(double lead[3], const gap_track_t *r, const closed_loop_t *flown_by, int every,
+                        double told_Hz, why_t *why) {
+  const flown_by_t by = {.rate_Hz = told_Hz};
+  gap_flight_t flight;
+  set_t set;
+  lines_t left;
+  TRY(nominal_fly(&r->set.grid[0], &r->vehicle, flown_by, 5, &flight, NULL, why));
+  thin(&flight, every);
+  TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, &r->vehicle, why));
+  TRY(lines_make(&left, &set, why));
+  TRY(residual_of(&set, &r->vehicle, left.r, why));
+  const closed_loop_t loop = closed_loop_of(&set, &r->vehicle, told_Hz > 0.0 ? &by : NULL, left.r);
+  memcpy(lead, loop.rate_lead, sizeof loop.rate_lead);
+  lines_free(&left);
+  set_free(&set);
+  gap_flight_free(&flight);
+  return DONE;
+}
+
+TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
+  static const struct {
+    const char *what;
+    double flown, read;
+    int every;
+    double told_Hz; // of its commands; 0: not told
+  } row[] = {{"no lead", 0.0, 0.0, 1, 0.0},
+             {"some", 0.15, 0.15, 1, 0.0},
+             {"more", 0.3, 0.3, 1, 0.0},
+             {"the most", 0.45, 0.45, 1, 0.0},
+             {"more than is taken", 0.7, 0.5, 1, 0.0},
+             {"some, every other command logged", 0.15, 0.15, 2, 0.0},
+             {"more, every other command logged", 0.3, 0.3, 2, 0.0},
+             {"some, of 500 commands a second", 0.15, 0.15, 2, 500.0},
+             {"some, of more commands a second than a flight has steps", 0.15, 0.15, 1, 1000.0},
+             {"every command logged, as is told", 0.15, 0.0, 1, 500.0}};
+  gap_track_t r;
+  why_t why = {""};
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    closed_loop_t loop = r.loop;
+    double lead[3] = {0.0};
+    ROW("%s", row[i].what);
+    for (int k = 0; k < 2; k++) loop.rate_lead[k] = row[i].flown;
+    if (!CHECK_OK(lead_read(lead, &r, &loop, row[i].every, row[i].told_Hz, &why))) return;
+    for (int k = 0; k < 2; k++) CHECK_NEAR(lead[k], row[i].read, 0.1 * row[i].read + 0.01);
+  }
+  gap_track_free(&r);
+}
