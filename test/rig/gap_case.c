@@ -4,6 +4,8 @@
 #include "rig/test.h"
 #include <stdlib.h>
 
+#define DRAWS 5
+
 fx_use_t gap_effect(const char *name, double p0, double p1) {
   fx_use_t use = fx_use(fx_find(name));
   use.p[0] = p0;
@@ -11,12 +13,23 @@ fx_use_t gap_effect(const char *name, double p0, double p1) {
   return use;
 }
 
+void gap_case_fly(exam_flight_t job, gap_flight_t *flight) {
+  why_t why = {""};
+  done_t flew = exam_fly(&job, flight, &why);
+  for (int k = 1; k < DRAWS && flew != DONE; k++) {
+    gap_flight_free(flight);
+    job.seed += 1000;
+    flew = exam_fly(&job, flight, &why);
+  }
+  CHECK_OK(flew);
+}
+
 static void fly(gap_case_t *c, int i, const gap_hidden_t *hidden, uint64_t seed) {
   model_t truth = c->given;
   why_t why;
   for (int k = 0; k < hidden->n; k++) CHECK_OK(model_add_fx(&truth, &hidden->use[k], &why));
   const exam_flight_t job = {.truth = &truth, .seed = seed + (unsigned long)i};
-  CHECK_OK(exam_fly(&job, &c->flight[i], &why));
+  gap_case_fly(job, &c->flight[i]);
 }
 
 gap_case_t *gap_case(const gap_hidden_t *fit, const gap_hidden_t *held) {

@@ -22,6 +22,9 @@ typedef struct {
 // An effect of sim/effects with its first parameters; the others are nominal.
 fx_use_t gap_effect(const char *name, double p0, double p1);
 
+// Flies one. A vehicle at the edge of what flies may crash by a bit, and is drawn again, from another seed.
+void gap_case_fly(exam_flight_t job, gap_flight_t *flight);
+
 // Flies and diagnoses; the held-out flight may hide something else.
 gap_case_t *gap_case(const gap_hidden_t *fit, const gap_hidden_t *held);
 // Flights of other seeds: this one and the next GAP_CASE_FIT.
