@@ -29,7 +29,10 @@ TEST(gap_names_a_wall_where_the_vehicle_file_has_one) {
                               &value[0], &error[0], &value[1], &error[1], &value[2], &error[2]) == 6))
     for (int k = 0; k < 3; k++) {
       ROW("%d", k);
-      CHECK_NEAR(value[k], hidden.p[1 + k], k < 2 ? 2.0 * error[k] : 0.05 * hidden.p[1 + k]);
+      CHECK_NEAR(value[k], hidden.p[1 + k], 2.0 * error[k]);
+      // The length is off by less than its error says: by 5 mm at most on seeds 24000 to 24600, error 9 to 45
+      // mm.
+      if (k == 2) CHECK_NEAR(value[k], hidden.p[1 + k], 0.05 * hidden.p[1 + k]);
       CHECK(error[k] < 0.25 * hidden.p[1 + k]); // size and length are known together, or not
     }
 }
