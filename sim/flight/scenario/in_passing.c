@@ -2,6 +2,7 @@
 // 15 mm, the curve learned on the way and flown by at once. Three starts: no ceiling at all, half and twice
 // the excess of the fixed weights. What was learned at 3 cm has to do nearer than that, too: the excess of
 // the ratio over 1 where it was learned and the slope at 15 mm, each beside the plant's.
+#include "flight/params.h"
 #include "flight/scenario.h"
 
 #include <stdio.h>
@@ -49,7 +50,11 @@ static void tell(const char *start, const rbf_weights_t *w, const model_t *model
 static done_t fly_from(setup_t setup, int start, result_t *result, why_t *why) {
   setup.learn_from = scaled(&setup.flight.curve.fixed, START[start].share);
   flown_t flown;
+  flight_param_t ships;
+  params_default(&ships);
   TRY(setup_fly(&setup, &flown, why));
+  // A start is no parameter that is set.
+  flown.shipped.curve.fixed = scaled(&ships.curve.fixed, START[start].share);
   const rbf_weights_t w = learned_until(&flown.record, setup.plan.way[2].at_s);
   tell(START[start].name, &w, &setup.model, result);
   for (int i = 0; i < flown.n_segment; i++)
