@@ -83,11 +83,12 @@ TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
     double least, most; // smallest size told, over typical
   } row[] = {
       {"tof_latency", 52070, 2.03, 8.0}, // 2.03 was hidden, and not named
+      {"flapping", 24086, 0.1, 1.0}, // 2.5 is named; not where nominal flights keep the first look's names
       {"ceiling", 52143, 1e3, HUGE_VAL},   {"ground", 52047, 1e3, HUGE_VAL}, {"flapping", 52076, 3.78, 16.0},
       {"motor_damage", 52012, 0.12, 0.31}, // named: a hover shows it well, and says so
   };
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+    ROW("%s of set %lu", row[i].what, row[i].seed);
     exam_set_t set;
     why_t why;
     CHECK_OK(exam_one(EXAM_HOVER, row[i].seed, &set, &why));
