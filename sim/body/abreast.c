@@ -157,10 +157,8 @@ static void watch(const abreast_t *a, bool near, contacts_t touch[LANES]) {
 
 static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
   const int surfaces = a->door->tick(a->lanes), parts = body_parts(surfaces, span_s);
-  bool event;
   for (int i = 0; i < parts; i++) {
-    if (!isfinite(integrate_to(a->integrate, a->door->at(a->lanes)->now, span_s / parts, &event)))
-      return false;
+    if (!integrate_to(a->integrate, a->door->at(a->lanes)->now, span_s / parts)) return false;
     watch(a, surfaces != 0, touch);
   }
   return true;

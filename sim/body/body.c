@@ -159,11 +159,10 @@ int body_parts(int surfaces, double span_s) {
 }
 
 static void advance(body_t *b, double span_s) {
-  bool event;
   b->surfaces = body_near(b, span_s);
   const int parts = body_parts(b->surfaces, span_s);
   for (int i = 0; i < parts && !b->broken; i++) {
-    b->broken = !isfinite(integrate_to(b->integrate, b->y, span_s / parts, &event));
+    b->broken = !integrate_to(b->integrate, b->y, span_s / parts);
     if (b->surfaces || b->on_floor || b->on_ceiling) watch_contacts(b);
   }
 }

@@ -5,18 +5,23 @@
 #include "base/error.h"
 #include "plant/short_vector.h"
 #include <arkode/arkode_erkstep.h>
+#include <float.h>
 #include <math.h>
+#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_context.h>
 
 _Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
 
+#define ERK_ROUNDING 1e-14 // of a span: so little is left of it by rounding alone
+
 struct integrate {
   integrate_kind_t kind;
   ode_t ode;
-  double span_s, h; // by hand: the last span, and the step that it was cut into
+  double span_s; // by hand: the last one, cut into so many steps
   int steps;
+  double h; // of the last step
   SUNContext sun;
   N_Vector y; // SUNDIALS's own copy of the state
   void *erk;
@@ -38,21 +43,6 @@ WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, do
   for (int i = 0; i < n; i++) next[i] = y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
 }
 
-// The margin fell to 0 within a step of h: the part of h until then, by bisection to 1e-12 of the step.
-static double rk4_until_event(const ode_t *ode, const double *y, double h, double *next) {
-  double lo = 0.0, hi = h;
-  for (int i = 0; i < 40; i++) {
-    const double mid = 0.5 * (lo + hi);
-    rk4_step(ode, y, mid, next);
-    if (ode->margin(ode->context, next) > 0.0)
-      lo = mid;
-    else
-      hi = mid;
-  }
-  rk4_step(ode, y, hi, next);
-  return hi;
-}
-
 // Spans are of few lengths.
 static void rk4_cut(integrate_t *s, double span_s) {
   if (span_s == s->span_s) return;
@@ -61,23 +51,11 @@ static void rk4_cut(integrate_t *s, double span_s) {
   s->h = span_s / s->steps;
 }
 
-static double rk4_to(integrate_t *s, double *y, double span_s, bool *event) {
-  const ode_t *const ode = &s->ode;
+static void rk4_to(integrate_t *s, double *y, double span_s) {
   rk4_cut(s, span_s);
   const int steps = s->steps;
   const double h = s->h;
-  if (!ode->margin) {
-    for (int i = 0; i < steps; i++) rk4_step(ode, y, h, y);
-    return span_s;
-  }
-  double next[ODE_MAX], passed_s = 0.0;
-  for (int i = 0; i < steps && !*event; i++) {
-    rk4_step(ode, y, h, next);
-    *event = !(ode->margin(ode->context, next) > 0.0);
-    passed_s += *event ? rk4_until_event(ode, y, h, next) : h;
-    memcpy(y, next, (size_t)ode->n * sizeof *y);
-  }
-  return *event ? passed_s : span_s;
+  for (int i = 0; i < steps; i++) rk4_step(&s->ode, y, h, y);
 }
 
 // --- SUNDIALS -----------------------------------------------------------------------------------------
@@ -85,27 +63,19 @@ static double rk4_to(integrate_t *s, double *y, double span_s, bool *event) {
 static int erk_derivative(realtype t, N_Vector y, N_Vector dydt, void *self) {
   (void)t;
   const ode_t *ode = &((integrate_t *)self)->ode;
-  ode->derivative(ode->context, N_VGetArrayPointer(y), N_VGetArrayPointer(dydt));
+  ode->derivative(ode->context, NV_DATA_S(y), NV_DATA_S(dydt));
   return 0;
 }
 
-static int erk_margin(realtype t, N_Vector y, realtype *out, void *self) {
-  (void)t;
-  const ode_t *ode = &((integrate_t *)self)->ode;
-  out[0] = ode->margin(ode->context, N_VGetArrayPointer(y));
-  return 0;
-}
-
-// The classic four stages, and a fifth that is the result itself with no weight. SUNDIALS 6.4 takes the last
-// stage's derivative for the next step's first wherever the last stage lies at the step's end; of the classic
-// table that is not true and costs two digits, of this one it is, and no evaluation is added.
-static bool erk_use_classic_table(void *erk, double step_s) {
-  double c[5] = {0.0, 0.5, 0.5, 1.0, 1.0};
-  double b[5] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
-  double A[25] = {[5] = 0.5, [11] = 0.5, [17] = 1.0, [20] = b[0], [21] = b[1], [22] = b[2], [23] = b[3]};
-  ARKodeButcherTable table = ARKodeButcherTable_Create(5, 4, 0, c, A, b, NULL);
-  const bool good =
-      table && ERKStepSetTable(erk, table) == ARK_SUCCESS && ERKStepSetFixedStep(erk, step_s) == ARK_SUCCESS;
+// The classic four stages. SUNDIALS 6.4 takes the last stage's derivative for the next step's first wherever
+// the last stage lies at the step's end, which of this table is not true and would cost two digits: each step
+// is begun anew.
+static bool erk_use_classic_table(void *erk) {
+  double c[4] = {0.0, 0.5, 0.5, 1.0};
+  double b[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+  double A[16] = {[4] = 0.5, [9] = 0.5, [14] = 1.0};
+  ARKodeButcherTable table = ARKodeButcherTable_Create(4, 4, 0, c, A, b, NULL);
+  const bool good = table && ERKStepSetTable(erk, table) == ARK_SUCCESS;
   ARKodeButcherTable_Free(table);
   return good;
 }
@@ -129,8 +99,7 @@ static void erk_silent(int code, const char *module, const char *function, char 
 
 static bool erk_tune(integrate_t *s) {
   if (s->kind == INTEGRATE_SUNDIALS)
-    return erk_use_classic_table(s->erk, s->ode.step_s) &&
-           ERKStepWFtolerances(s->erk, erk_no_weights) == ARK_SUCCESS;
+    return erk_use_classic_table(s->erk) && ERKStepWFtolerances(s->erk, erk_no_weights) == ARK_SUCCESS;
   return ERKStepSetOrder(s->erk, 5) == ARK_SUCCESS && ERKStepSStolerances(s->erk, 1e-9, 1e-11) == ARK_SUCCESS;
 }
 
@@ -141,24 +110,45 @@ static bool erk_open(integrate_t *s) {
   s->erk = ERKStepCreate(erk_derivative, 0.0, s->y, s->sun);
   if (!s->erk) return false;
   return erk_tune(s) && ERKStepSetUserData(s->erk, s) == ARK_SUCCESS &&
-         (!s->ode.margin || ERKStepRootInit(s->erk, 1, erk_margin) == ARK_SUCCESS) &&
          ERKStepSetMaxNumSteps(s->erk, 100000) == ARK_SUCCESS &&
          ERKStepSetErrHandlerFn(s->erk, erk_silent, NULL) == ARK_SUCCESS;
 }
 
-static double erk_to(integrate_t *s, double *y, double span_s, bool *event) {
-  const size_t bytes = (size_t)s->ode.n * sizeof *y;
-  memcpy(N_VGetArrayPointer(s->y), y, bytes);
+// One step of h, without all that serves to look between its ends.
+static bool erk_step(integrate_t *s, double h) {
   double t = 0.0;
-  // Both are needed at every change of an input: without the reset the old derivative is used once more,
-  // without the stop time the step runs past the end and is interpolated back.
-  int said = ERKStepReset(s->erk, 0.0, s->y);
-  if (said == ARK_SUCCESS) said = ERKStepSetStopTime(s->erk, span_s);
-  if (said == ARK_SUCCESS) said = ERKStepEvolve(s->erk, span_s, s->y, &t, ARK_NORMAL);
-  if (said < 0) return (double)NAN;
-  *event = said == ARK_ROOT_RETURN;
-  memcpy(y, N_VGetArrayPointer(s->y), bytes);
-  return *event ? t : span_s;
+  if (h != s->h && ERKStepSetFixedStep(s->erk, h) != ARK_SUCCESS) return false;
+  s->h = h;
+  return ERKStepReset(s->erk, 0.0, s->y) == ARK_SUCCESS &&
+         ERKStepEvolve(s->erk, h, s->y, &t, ARK_ONE_STEP) >= 0;
+}
+
+// Where a step does not fit any more it ends as SUNDIALS has it end at a stop time: not a hair too late.
+static bool erk_steps(integrate_t *s, double span_s) {
+  const double step_s = s->ode.step_s;
+  double h;
+  for (double t_s = 0.0; span_s - t_s > ERK_ROUNDING * span_s; t_s += h) {
+    h = t_s + step_s > span_s ? (span_s - t_s) * (1.0 - 4.0 * DBL_EPSILON) : step_s;
+    if (!erk_step(s, h)) return false;
+  }
+  return true;
+}
+
+// Both are needed at every change of an input: without the reset the old derivative is used once more,
+// without the stop time the step runs past the end and is interpolated back.
+static bool erk_adaptive(integrate_t *s, double span_s) {
+  double t = 0.0;
+  return ERKStepReset(s->erk, 0.0, s->y) == ARK_SUCCESS &&
+         ERKStepSetStopTime(s->erk, span_s) == ARK_SUCCESS &&
+         ERKStepEvolve(s->erk, span_s, s->y, &t, ARK_NORMAL) >= 0;
+}
+
+static bool erk_to(integrate_t *s, double *y, double span_s) {
+  const size_t bytes = (size_t)s->ode.n * sizeof *y;
+  memcpy(NV_DATA_S(s->y), y, bytes);
+  const bool good = s->kind == INTEGRATE_SUNDIALS ? erk_steps(s, span_s) : erk_adaptive(s, span_s);
+  if (good) memcpy(y, NV_DATA_S(s->y), bytes);
+  return good;
 }
 
 // --- both ---------------------------------------------------------------------------------------------
@@ -177,10 +167,11 @@ done_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode) 
   return DONE;
 }
 
-double integrate_to(integrate_t *s, double *y, double span_s, bool *event) {
-  *event = s->ode.margin && !(s->ode.margin(s->ode.context, y) > 0.0);
-  if (*event || !(span_s > 0.0)) return 0.0;
-  return s->kind == INTEGRATE_RK4 ? rk4_to(s, y, span_s, event) : erk_to(s, y, span_s, event);
+bool integrate_to(integrate_t *s, double *y, double span_s) {
+  if (!(span_s > 0.0)) return true;
+  if (s->kind != INTEGRATE_RK4) return erk_to(s, y, span_s);
+  rk4_to(s, y, span_s);
+  return true;
 }
 
 void integrate_close(integrate_t *s) {

@@ -17,8 +17,6 @@ typedef enum {
 typedef struct {
   int n; // states, 1..ODE_MAX
   void (*derivative)(void *context, const double *y, double *dydt);
-  // Above 0 as long as the derivative holds. The step ends where it comes to 0. Null: always (and faster).
-  double (*margin)(void *context, const double *y);
   void *context;
   double step_s; // > 0, of the fixed-step kinds
 } ode_t;
@@ -28,10 +26,10 @@ typedef struct integrate integrate_t;
 // BAD_INPUT: n or step_s out of range. FAILED: no memory. Close what was opened.
 MUST_CHECK done_t integrate_open(integrate_t **i, integrate_kind_t kind, const ode_t *ode);
 
-// Moves y by span_s, or less if the margin comes to 0: then *event is true. Returns the time that passed; NaN
-// if the solver gave up (y is then not to be used). Nothing is carried over from call to call, so that inputs
-// in `context` may change in between: a solver that is not restarted reuses the derivative of the old input.
-double integrate_to(integrate_t *i, double *y, double span_s, bool *event);
+// Moves y by span_s; false if the solver gave up (y is then not to be used). Nothing is carried over from
+// call to call, so that inputs in `context` may change in between: a solver that is not restarted reuses the
+// derivative of the old input.
+bool integrate_to(integrate_t *i, double *y, double span_s);
 
 void integrate_close(integrate_t *i);
 

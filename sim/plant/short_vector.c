@@ -1,12 +1,10 @@
 // short_vector.c - vectors of a few numbers for SUNDIALS.
 #include "plant/short_vector.h"
 
-#include "base/pair.h"
+#include "base/wide.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
-
-#define TERMS_MAX 16 // the state and the stages of the longest table, 13
-#define PAIRS     4  // at a time
+#include <string.h>
 
 // All vectors of one integrator are of one length. Arguments may be one and the same vector: element by
 // element that does no harm.
@@ -16,10 +14,15 @@ static void put_const(realtype c, N_Vector z) {
   for (sunindextype i = 0; i < n; i++) out[i] = c;
 }
 
+// Nearly always by 1: a copy.
 static void scale(realtype c, N_Vector x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   const realtype *in = NV_DATA_S(x);
   realtype *out = NV_DATA_S(z);
+  if (c == 1.0) {
+    memmove(out, in, (size_t)n * sizeof *out);
+    return;
+  }
   for (sunindextype i = 0; i < n; i++) out[i] = c * in[i];
 }
 
@@ -30,38 +33,17 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
   for (sunindextype i = 0; i < n; i++) out[i] = a * p[i] + b * q[i];
 }
 
-// Of so many pairs of elements from i on: all of them in registers, whatever the terms are.
-static inline void sum_pairs(int pairs, int terms, const realtype *factor, const realtype *const *in,
-                             sunindextype i, realtype *out) {
-  pair_t sum[PAIRS];
-  for (int p = 0; p < pairs; p++) sum[p] = pair_both(0.0);
-  for (int k = 0; k < terms; k++)
-    for (int p = 0; p < pairs; p++) sum[p] += factor[k] * pair_of(in[k] + i + 2 * p);
-  for (int p = 0; p < pairs; p++) pair_put(out + i + 2 * p, sum[p]);
-}
-
-static inline realtype sum_one(int terms, const realtype *factor, const realtype *const *in, sunindextype i) {
-  realtype sum = 0.0;
-  for (int k = 0; k < terms; k++) sum += factor[k] * in[k][i];
-  return sum;
-}
-
 // c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
-static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
+WIDE_COPIES static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
-  const realtype *in[TERMS_MAX];
-  realtype factor[TERMS_MAX], *const out = NV_DATA_S(z);
-  int used = 0;
-  if (terms > TERMS_MAX) return -1;
+  realtype sum[SHORT_VECTOR_MAX];
+  for (sunindextype i = 0; i < n; i++) sum[i] = 0.0;
   for (int k = 0; k < terms; k++) {
     if (c[k] == 0.0) continue;
-    factor[used] = c[k];
-    in[used++] = NV_DATA_S(x[k]);
+    const realtype *const in = NV_DATA_S(x[k]);
+    for (sunindextype i = 0; i < n; i++) sum[i] += c[k] * in[i];
   }
-  sunindextype i = 0;
-  for (; i + 2 * PAIRS <= n; i += 2 * PAIRS) sum_pairs(PAIRS, used, factor, in, i, out);
-  for (; i + 1 < n; i += 2) sum_pairs(1, used, factor, in, i, out);
-  if (i < n) out[i] = sum_one(used, factor, in, i);
+  memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
   return 0;
 }
 
