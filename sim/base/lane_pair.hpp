@@ -4,6 +4,8 @@
 #ifndef SIM_BASE_LANE_PAIR_HPP
 #define SIM_BASE_LANE_PAIR_HPP
 
+#define PAIR_COPIES
+
 struct pair_bits_t {
   pair_flag_t a[2];
   LANE pair_flag_t operator[](int i) const { return a[i]; }

@@ -18,7 +18,7 @@ static inline acting_t forces_of(const body_t *b) {
                     .push_w_N = b->pushed ? &b->push_w_N : NULL};
 }
 
-void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
+PAIR_COPIES void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {
   const acting_t f = forces_of(b);
   forces_look(&f, surfaces, y, look);
 }
@@ -33,12 +33,13 @@ void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body
   forces_look_more(&f, more, y, look);
 }
 
-void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt) {
+PAIR_COPIES void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look,
+                                      double *dydt) {
   const acting_t f = forces_of(b);
   forces_derivative(&f, y, look, dydt);
 }
 
-void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
+PAIR_COPIES void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt) {
   const acting_t f = forces_of(b);
   body_look_t look;
   forces_look(&f, surfaces, y, &look);
@@ -83,7 +84,7 @@ sensed_from_t body_sensed_from(const model_t *m) {
   return (sensed_from_t){d3_of(m->frame.imu_m), body_rotor_z_m(m), body_rest_z_m(m)};
 }
 
-void body_sensed(const body_t *b, fx_sensed_t *above, fx_sensed_t *below) {
+PAIR_COPIES void body_sensed(const body_t *b, fx_sensed_t *above, fx_sensed_t *below) {
   const acting_t f = forces_of(b);
   const sensed_from_t from = body_sensed_from(b->model);
   forces_sensed(&f, b->y, &b->look, &from, above, below);

@@ -143,8 +143,8 @@ static void want(stock_power_t *s, const stock_power_param_t *p, const double un
   for (int i = 0; i < PAIRS; i++) pair_put(s->wanted_V + 2 * i, v[i]);
 }
 
-void stock_power_duty(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
-                      double vbat_V, double duty[PILOT_MOTORS]) {
+PAIR_COPIES void stock_power_duty(stock_power_t *s, const stock_power_param_t *p,
+                                  const double unit[PILOT_MOTORS], double vbat_V, double duty[PILOT_MOTORS]) {
   const pair_t off = pair_both(0.0);
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
   if (!(s->supply_V >= SUPPLY_MIN_V)) { // not a number stops the motors, too

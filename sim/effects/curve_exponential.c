@@ -8,8 +8,8 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   return 1.0 + decay(p[0], p[1] / radius_m, pair_both(distance_m))[0];
 }
 
-static void add_excess(const double *p, const double distance_m[ROTORS], double radius_m,
-                       double ratio[ROTORS]) {
+PAIR_COPIES static void add_excess(const double *p, const double distance_m[ROTORS], double radius_m,
+                                   double ratio[ROTORS]) {
   const double k = p[1] / radius_m;
   for (int i = 0; i < ROTORS; i += 2)
     pair_put(ratio + i, pair_of(ratio + i) + decay(p[0], k, pair_of(distance_m + i)));

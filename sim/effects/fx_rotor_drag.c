@@ -7,7 +7,7 @@
 // Scaramuzza 2018 (doi 10.1109/LRA.2017.2776353), at the hubs.
 #include "effects/fx.h"
 
-static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+PAIR_COPIES static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
   load_t all = *load; // what is written through a pointer may be `motion`, to a compiler
   for (int i = 0; i < ROTORS; i++) {
     const double k = use->p[0] * motion->rotor_radps[i];

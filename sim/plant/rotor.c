@@ -1,7 +1,7 @@
 // rotor.c - motor commands and battery voltage to thrust.
 #include "plant/rotor.h"
 
-pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N) {
+PAIR_COPIES pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N) {
   const pair_t off = pair_both(0.0);
   const pair_t held = pair_min(pair_max(pwm, off), pair_both(ROTOR_PWM_MAX)); // NaN is 0: the motor is off
   if (map->kind == THRUST_MAP_NONE || thrust_map_takes_speed(map)) return held / ROTOR_PWM_MAX * max_N;

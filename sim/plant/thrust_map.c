@@ -5,7 +5,7 @@
 
 #define NEWTON_PER_GRAM 9.81e-3
 
-pair_t thrust_map_pair_N(const thrust_map_t *map, pair_t command, double vbat_V) {
+PAIR_COPIES pair_t thrust_map_pair_N(const thrust_map_t *map, pair_t command, double vbat_V) {
   const double *c = map->c;
   const pair_t zero = pair_both(0.0);
   switch (map->kind) {

@@ -55,7 +55,7 @@ static bool is_near(const touch_t *t, side_t side, double margin_m) {
   return side.room_m < along_m + t->beside_m * (fabs(to.x) + fabs(to.y)) + margin_m;
 }
 
-int touch_near(const touch_t *t, d3_t pos_w_m, const axes_t *axes, double margin_m) {
+PAIR_COPIES int touch_near(const touch_t *t, d3_t pos_w_m, const axes_t *axes, double margin_m) {
   const bool wall = t->wall_y_m < HUGE_VAL && t->wall_y_m > -HUGE_VAL; // most vehicles know of none
   return (is_near(t, floor_of(t, pos_w_m, axes), margin_m) ? TOUCH_FLOOR : 0) |
          (is_near(t, ceiling_of(t, pos_w_m, axes), margin_m) ? TOUCH_CEILING : 0) |
@@ -84,7 +84,7 @@ static double left_m(const touch_t *t, side_t side) {
   return side.room_m - most_m;
 }
 
-touch_gap_t touch_gap(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
+PAIR_COPIES touch_gap_t touch_gap(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
   return (touch_gap_t){left_m(t, floor_of(t, pos_w_m, axes)), left_m(t, ceiling_of(t, pos_w_m, axes)),
                        left_m(t, wall_of(t, pos_w_m, axes))};
 }
@@ -132,7 +132,8 @@ static void press(const touch_t *t, side_t side, const double y[RIGID_N], const 
   }
 }
 
-void touch_load(const touch_t *t, int surfaces, const double y[RIGID_N], const axes_t *axes, load_t *load) {
+PAIR_COPIES void touch_load(const touch_t *t, int surfaces, const double y[RIGID_N], const axes_t *axes,
+                            load_t *load) {
   const d3_t pos_w_m = d3_of(y + RIGID_POS_M);
   if (surfaces & TOUCH_FLOOR) press(t, floor_of(t, pos_w_m, axes), y, axes, load);
   if (surfaces & TOUCH_CEILING) press(t, ceiling_of(t, pos_w_m, axes), y, axes, load);

@@ -2,6 +2,7 @@
 #include "sense/ekf.h"
 
 #include "base/either.h"
+#include "base/pair.h"
 #include <math.h>
 
 #define PREDICT_MS   10
@@ -98,7 +99,7 @@ static void start_anew(ekf_t *e) {
   e->resets = before.resets + 1;
 }
 
-void ekf_update(ekf_t *e, const ekf_in_t *in) {
+PAIR_COPIES void ekf_update(ekf_t *e, const ekf_in_t *in) {
   e->flying_ms = EITHER(in->motors, FLIGHT_MS, EITHER(e->flying_ms > 0, e->flying_ms - 1, e->flying_ms));
   predict_if_due(e);
   e->noise_ms++;

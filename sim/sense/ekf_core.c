@@ -149,7 +149,7 @@ static d3_t to_world(const ekf_t *e, d3_t v) {
                 e->R[2][0] * v.x + e->R[2][1] * v.y + e->R[2][2] * v.z};
 }
 
-void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
+PAIR_COPIES void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool flying) {
   _Alignas(16) double P[EKF_N][EKF_ROW];
   slopes_t slopes;
   whole_of(e, P);
@@ -186,7 +186,7 @@ static void correct(ekf_t *e, alike_t i, double a, alike_t j, double b, double e
   e->updated = true;
 }
 
-void ekf_core_range(ekf_t *e, double range_m) {
+PAIR_COPIES void ekf_core_range(ekf_t *e, double range_m) {
   const double up = e->R[2][2];
   if (!(up > UP_LEAST)) return;
   ekf_core_noise(e);
@@ -196,7 +196,7 @@ void ekf_core_range(ekf_t *e, double range_m) {
   correct(e, POS + 2, slant, POS, 0.0, range_m - slant * e->s[POS + 2], sd);
 }
 
-void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
+PAIR_COPIES void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   ekf_core_noise(e);
   const double k = span_s * PIXELS_PER_RAD, z = larger(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
   const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
@@ -207,7 +207,7 @@ void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s) {
   correct(e, POS + 2, -k * up * vy / (z * z), VEL + 1, k * up / z, PIXELS_PER_COUNT * counts_y - seen_y, sd);
 }
 
-void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb) {
+PAIR_COPIES void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb) {
   ekf_core_noise(e);
   const double pos[3] = {pos_w_m.x, pos_w_m.y, pos_w_m.z};
   for (int i = 0; i < 3; i++) correct(e, POS + i, 1.0, POS, 0.0, pos[i] - e->s[POS + i], e->param.pose_m);
@@ -244,7 +244,7 @@ static void turn_attitude(ekf_t *e, d3_t v, bool turns) {
   turn_variance(e, v, turns);
 }
 
-void ekf_core_finish(ekf_t *e) {
+PAIR_COPIES void ekf_core_finish(ekf_t *e) {
   if (!e->updated) return;
   const d3_t d = part(e, ATT);
   const bool turns = fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD;

@@ -4,6 +4,7 @@
 #include "base/clip.h"
 #include "base/either.h"
 #include "base/lowpass.h"
+#include "base/pair.h"
 #include <stddef.h>
 
 #define RATE_HZ 1000.0
@@ -59,7 +60,7 @@ static void settle(const imu_filter_t *f, imu_memory_t m[3], d3_t v) {
     m[i] = (imu_memory_t){.next = x[i] - f->b0 * x[i], .after = f->b0 * x[i] - f->a2 * x[i]};
 }
 
-imu_sample_t imu_take(imu_t *s, const imu_param_t *p, const double *n, const truth_t *truth) {
+PAIR_COPIES imu_sample_t imu_take(imu_t *s, const imu_param_t *p, const double *n, const truth_t *truth) {
   d3_t acc = read(truth->force_b_mps2, p->mount_rad, p->acc_scale, p->acc_bias_b_mps2);
   d3_t gyro = read(truth->rate_b_radps, p->mount_rad, p->gyro_scale, p->gyro_bias_b_radps);
   if (n) {

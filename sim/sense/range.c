@@ -3,6 +3,7 @@
 
 #include "base/either.h"
 #include "base/larger.h"
+#include "base/pair.h"
 #include <math.h>
 
 static double rounded(const range_param_t *p, double x) {
@@ -94,8 +95,8 @@ static void flow(range_t *s, const range_param_t *p, const range_drawn_t *drawn,
   out->flow_span_s = 1e-3 * RANGE_FLOW_PERIOD_MS;
 }
 
-range_sample_t range_take(range_t *s, const range_param_t *p, const range_drawn_t *drawn,
-                          const truth_t *truth) {
+PAIR_COPIES range_sample_t range_take(range_t *s, const range_param_t *p, const range_drawn_t *drawn,
+                                      const truth_t *truth) {
   range_sample_t out = {.up_new = false};
   const unsigned at = s->tick % RANGE_MEMORY;
   s->up_m[at] = truth->up_m;
