@@ -30,8 +30,7 @@ struct integrate {
 // --- by hand ------------------------------------------------------------------------------------------
 
 // next may be y.
-WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
-  const int n = ode->n;
+WIDE_INLINE void rk4_of(int n, const ode_t *ode, const double *y, double h, double *next) {
   double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
   ode->derivative(ode->context, y, k1);
   for (int i = 0; i < n; i++) at[i] = y[i] + 0.5 * h * k1[i];
@@ -41,6 +40,13 @@ WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, do
   for (int i = 0; i < n; i++) at[i] = y[i] + h * k3[i];
   ode->derivative(ode->context, at, k4);
   for (int i = 0; i < n; i++) next[i] = y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+}
+
+WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
+  if (ode->n == SHORT_VECTOR_ONE)
+    rk4_of(SHORT_VECTOR_ONE, ode, y, h, next);
+  else
+    rk4_of(ode->n, ode, y, h, next);
 }
 
 // Spans are of few lengths.

@@ -34,8 +34,7 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
 }
 
 // c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
-WIDE_COPIES static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
-  const sunindextype n = NV_LENGTH_S(z);
+WIDE_INLINE void combine(sunindextype n, int terms, const realtype *c, N_Vector *x, N_Vector z) {
   realtype sum[SHORT_VECTOR_MAX];
   for (sunindextype i = 0; i < n; i++) sum[i] = 0.0;
   for (int k = 0; k < terms; k++) {
@@ -44,6 +43,13 @@ WIDE_COPIES static int linear_combination(int terms, realtype *c, N_Vector *x, N
     for (sunindextype i = 0; i < n; i++) sum[i] += c[k] * in[i];
   }
   memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
+}
+
+WIDE_COPIES static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
+  if (NV_LENGTH_S(z) == SHORT_VECTOR_ONE)
+    combine(SHORT_VECTOR_ONE, terms, c, x, z);
+  else
+    combine(NV_LENGTH_S(z), terms, c, x, z);
   return 0;
 }
 
