@@ -130,6 +130,7 @@ static void reset_estimate(drone_t *d) {
   e->s[0] = (double)p->kalman_initialX;
   e->s[1] = (double)p->kalman_initialY;
   e->s[2] = (double)p->kalman_initialZ;
+  e->updated = true; // is handed out
 }
 
 static void follow(drone_t *d) {

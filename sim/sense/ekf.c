@@ -35,7 +35,6 @@ static void expect(ekf_t *e, double xy_m, double z_m) {
 static void hand_out(ekf_t *e) {
   e->out.pos_w_m = d3_of(e->s);
   e->out.vel_w_mps = dq_to_world(e->q, d3_of(e->s + 3));
-  e->out.acc_w_mps2 = d3_sub(dq_to_world(e->q, e->imu.acc_b_mps2), (d3_t){0.0, 0.0, G_MPS2});
   e->out.q_wb = e->q;
 }
 
@@ -58,6 +57,7 @@ void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb) {
   ekf_core_rotation(e);
   expect(e, 1e-3, 1e-3);
   hand_out(e);
+  e->updated = true; // is held to the bounds
 }
 
 // The firmware takes the mean over what came since the last prediction; with nothing new, the last mean.
@@ -104,6 +104,7 @@ PAIR_COPIES void ekf_update(ekf_t *e, const ekf_in_t *in) {
   predict_if_due(e);
   e->noise_ms++;
   take(e, in);
+  if (!e->updated) return; // seven milliseconds in eight: what is handed out stays
   ekf_core_finish(e);
   if (!within_bounds(e)) start_anew(e);
   hand_out(e);

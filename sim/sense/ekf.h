@@ -68,7 +68,6 @@ typedef struct {
 // As the firmware's state_t, but in SI.
 typedef struct {
   d3_t pos_w_m, vel_w_mps;
-  d3_t acc_w_mps2; // newest accelerometer sample turned into the world, gravity removed
   dq_t q_wb;
 } ekf_out_t;
 
@@ -117,7 +116,7 @@ void ekf_core_range(ekf_t *e, double range_m);
 void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, double span_s);
 void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb);
 
-// Shifts the attitude error into the attitude, if anything has changed.
+// After prediction or correction: shifts the attitude error into the attitude.
 void ekf_core_finish(ekf_t *e);
 
 #endif

@@ -245,7 +245,6 @@ static void turn_attitude(ekf_t *e, d3_t v, bool turns) {
 }
 
 PAIR_COPIES void ekf_core_finish(ekf_t *e) {
-  if (!e->updated) return;
   const d3_t d = part(e, ATT);
   const bool turns = fabs(d.x) > TURN_LEAST_RAD || fabs(d.y) > TURN_LEAST_RAD || fabs(d.z) > TURN_LEAST_RAD;
   if (ANY(turns)) turn_attitude(e, d, turns);
