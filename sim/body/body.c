@@ -46,6 +46,7 @@ static void collect_effects(body_t *b) {
     }
     if (use->fx->load) b->load[b->n_load++] = use;
     if (use->fx->tick) b->tick[b->n_tick++] = use;
+    if (use->fx->sense) b->n_sense++;
   }
 }
 

@@ -48,7 +48,7 @@ typedef struct {
   fx_plant_t untouched, plant; // the model's numbers, and what the effects made of them for this tick
   double memory[FX_MAX][FX_MEMORY];
   const fx_use_t *excess[FX_MAX], *load[FX_MAX], *tick[FX_MAX];
-  int n_excess, n_load, n_tick;
+  int n_excess, n_load, n_tick, n_sense;
   int excess_of;    // SURFACE_* that they have to do with
   int surfaces;     // TOUCH_* that are near enough to look at
   body_look_t look; // at y, between ticks

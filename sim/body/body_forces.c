@@ -53,7 +53,7 @@ d3_t body_pull_b_mps2(const body_t *b, const double *y, const body_look_t *look,
 
 int body_near(const body_t *b, double span_s) {
   const acting_t f = forces_of(b);
-  const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
+  const axes_t axes = b->look_is_y ? b->look.axes : axes_of(dq_of(b->y + RIGID_Q_WB));
   return forces_near(&f, b->y, &axes, span_s);
 }
 
@@ -88,6 +88,7 @@ PAIR_COPIES void body_sensed(const body_t *b, fx_sensed_t *above, fx_sensed_t *b
   const acting_t f = forces_of(b);
   const sensed_from_t from = body_sensed_from(b->model);
   forces_sensed(&f, b->y, &b->look, &from, above, below);
+  if (b->n_sense == 0) return;
   model_sense(b->model, above);
   model_sense(b->model, below);
 }

@@ -4,7 +4,6 @@
 #include "base/clip.h"
 #include "base/constants.h"
 #include "base/either.h"
-#include "base/pair.h"
 #include "controller.h"
 #include "plant/rotor.h"
 #include "range.h"
@@ -113,9 +112,7 @@ static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
   else
     memcpy(duty, unit, sizeof duty);
   c->around.battery_V = (float)in->vbat_V;
-  for (int i = 0; i < PILOT_MOTORS; i += 2)
-    pair_put(motor_N + i,
-             rotor_command_pair_N(&c->map, pair_of(duty + i), in->vbat_V, c->firmware.thrust_max_N));
+  rotor_commands_N(&c->map, duty, in->vbat_V, c->firmware.thrust_max_N, motor_N);
   for (int i = 0; i < PILOT_MOTORS; i++) {
     c->around.duty[i] = (uint16_t)duty[i];
   }

@@ -109,18 +109,13 @@ static unsigned look(supervised_t *s, const supervised_param_t *p, const supervi
          when(s->landed_ms != 0 && now_ms - s->landed_ms > p->landed_ms, IS_DOWN);
 }
 
-static bool stays_armed(supervised_state_t state) {
-  return state == SUPERVISED_ARMING || state == SUPERVISED_READY || state == SUPERVISED_FLYING ||
-         state == SUPERVISED_LEVEL_OUT || state == SUPERVISED_LANDED;
-}
-
 static void enter(supervised_t *s, supervised_state_t state, uint32_t now_ms) {
   s->state = state;
   if (state == SUPERVISED_READY) s->armed_ms = now_ms;
   if (state == SUPERVISED_LANDED) s->landed_ms = now_ms;
   if (state == SUPERVISED_CRASHED) s->crashed = true;
   // It arms itself.
-  s->armed = state == SUPERVISED_PASSED || (s->armed && stays_armed(state));
+  s->armed = state == SUPERVISED_PASSED || (s->armed && supervised_motors_run(s));
 }
 
 supervised_t supervised_begun(bool flies, uint32_t now_ms) {
@@ -135,18 +130,6 @@ bool supervised_update(supervised_t *s, const supervised_param_t *p, const super
   if (to == s->state) return false;
   enter(s, to, in->now_ms);
   return true;
-}
-
-bool supervised_flies(const supervised_t *s) {
-  return s->state == SUPERVISED_FLYING || s->state == SUPERVISED_LEVEL_OUT;
-}
-
-bool supervised_can_fly(const supervised_t *s) {
-  return supervised_flies(s) || s->state == SUPERVISED_READY || s->state == SUPERVISED_LANDED;
-}
-
-bool supervised_motors_run(const supervised_t *s) {
-  return stays_armed(s->state);
 }
 
 bool supervised_arm(supervised_t *s, bool arm) {

@@ -63,9 +63,18 @@ supervised_t supervised_begun(bool flies, uint32_t now_ms);
 // One call at 25 Hz. Returns true if the state has changed.
 bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in);
 
-bool supervised_flies(const supervised_t *s);      // Flying, or levelling out
-bool supervised_can_fly(const supervised_t *s);    // ready, or it flies, or has landed
-bool supervised_motors_run(const supervised_t *s); // they are allowed to
+// Flying, or levelling out.
+static inline bool supervised_flies(const supervised_t *s) {
+  return s->state == SUPERVISED_FLYING || s->state == SUPERVISED_LEVEL_OUT;
+}
+// Ready, or it flies, or has landed.
+static inline bool supervised_can_fly(const supervised_t *s) {
+  return supervised_flies(s) || s->state == SUPERVISED_READY || s->state == SUPERVISED_LANDED;
+}
+// They are allowed to: so long it stays armed.
+static inline bool supervised_motors_run(const supervised_t *s) {
+  return supervised_can_fly(s) || s->state == SUPERVISED_ARMING;
+}
 
 // What a client asks. False: refused.
 bool supervised_arm(supervised_t *s, bool arm);

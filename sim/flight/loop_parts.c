@@ -9,22 +9,20 @@ double loop_tick_s(const flight_loop_t *f) {
   return f->plan->vertical_only ? f->plan->period_s : LOOP_TICK_S;
 }
 
-static truth_t truth_of(const flight_loop_t *f) {
+static void take_truth(const flight_loop_t *f, truth_t *truth) {
   const double *const y = f->body.y;
   bool motors = false;
   for (int i = 0; i < ROTORS; i++) motors = motors || y[RIGID_THRUST_N + i] > FORCES_IDLE_N;
   fx_sensed_t above, below;
   body_sensed(&f->body, &above, &below);
-  return (truth_t){
-      .pos_w_m = d3_of(y + RIGID_POS_M),
-      .vel_w_mps = d3_of(y + RIGID_VEL_MPS),
-      .q_wb = dq_of(y + RIGID_Q_WB),
-      .rate_b_radps = d3_of(y + RIGID_RATE_RADPS),
-      .force_b_mps2 = above.acc_b_mps2,
-      .up_m = above.range_m,
-      .down_m = below.range_m,
-      .motors = motors,
-  };
+  truth->pos_w_m = d3_of(y + RIGID_POS_M);
+  truth->vel_w_mps = d3_of(y + RIGID_VEL_MPS);
+  truth->q_wb = dq_of(y + RIGID_Q_WB);
+  truth->rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
+  truth->force_b_mps2 = above.acc_b_mps2;
+  truth->up_m = above.range_m;
+  truth->down_m = below.range_m;
+  truth->motors = motors;
 }
 
 // Motion capture in place of the downward sensors; its zero is the height at rest.
@@ -166,9 +164,8 @@ flight_over_t loop_tick_order(flight_loop_t *f) {
 }
 
 void loop_see_truth(flight_loop_t *f) {
-  f->truth = truth_of(f);
-  const axes_t axes = axes_of(f->truth.q_wb);
-  f->up_min = smaller(f->up_min, axes_up_b(&axes).z);
+  take_truth(f, &f->truth);
+  f->up_min = smaller(f->up_min, axes_up_b(&f->body.look.axes).z);
 }
 
 bool loop_is_sample(const flight_loop_t *f) {

@@ -1,7 +1,7 @@
 // rotor.c - motor commands and battery voltage to thrust.
 #include "plant/rotor.h"
 
-PAIR_COPIES pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N) {
+static inline pair_t command_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N) {
   const pair_t off = pair_both(0.0);
   const pair_t held = pair_min(pair_max(pwm, off), pair_both(ROTOR_PWM_MAX)); // NaN is 0: the motor is off
   if (map->kind == THRUST_MAP_NONE || thrust_map_takes_speed(map)) return held / ROTOR_PWM_MAX * max_N;
@@ -9,8 +9,13 @@ PAIR_COPIES pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, dou
   return pair_where(held > off, thrust_map_pair_N(map, held, vbat_V), off);
 }
 
+PAIR_COPIES void rotor_commands_N(const thrust_map_t *map, const double pwm[ROTORS], double vbat_V,
+                                  double max_N, double out_N[ROTORS]) {
+  for (int i = 0; i < ROTORS; i += 2) pair_put(out_N + i, command_N(map, pair_of(pwm + i), vbat_V, max_N));
+}
+
 double rotor_command_N(const thrust_map_t *map, double pwm, double vbat_V, double max_N) {
-  return rotor_command_pair_N(map, pair_both(pwm), vbat_V, max_N)[0];
+  return command_N(map, pair_both(pwm), vbat_V, max_N)[0];
 }
 
 double rotor_pwm(const thrust_map_t *map, double thrust_N, double vbat_V, double max_N) {

@@ -11,8 +11,9 @@
 // 0. THRUST_MAP_NONE, and a map that takes speeds: pwm is a share of max_N, in 65535ths, whatever the
 // voltage.
 double rotor_command_N(const thrust_map_t *map, double pwm, double vbat_V, double max_N);
-// The same of two.
-pair_t rotor_command_pair_N(const thrust_map_t *map, pair_t pwm, double vbat_V, double max_N);
+// The same of all.
+void rotor_commands_N(const thrust_map_t *map, const double pwm[ROTORS], double vbat_V, double max_N,
+                      double command_N[ROTORS]);
 
 // The pwm that gives thrust_N at vbat_V, by bisection; 65535 where there is none.
 double rotor_pwm(const thrust_map_t *map, double thrust_N, double vbat_V, double max_N);
