@@ -91,14 +91,18 @@ TEST(users_logs_are_not_given_a_name_that_feedback_made) {
 // of them nominal flights find as much where there is none.
 TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_commands_made) {
   static const struct {
+    users_kind_t kind;
     unsigned long seed;
     const char *answer;
-  } row[] = {{24450, "climb_inflow"}, {24533, "inertia+thrust_scale"}, {24549, "inertia"}};
+  } row[] = {{USERS_HABITS, 24450, "climb_inflow"},
+             {USERS_LADDER, 24519, "tof_bias"}, // of which one way of the two tells an inertia
+             {USERS_HABITS, 24533, "inertia+thrust_scale"},
+             {USERS_HABITS, 24549, "inertia"}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     users_set_t set;
     why_t why;
     ROW("%lu", row[i].seed);
-    if (!CHECK_OK(users_one(USERS_HABITS, row[i].seed, &set, &why))) return;
+    if (!CHECK_OK(users_one(row[i].kind, row[i].seed, &set, &why))) return;
     CHECK_TEXT(set.answer, row[i].answer);
   }
 }
