@@ -4,9 +4,10 @@
 //
 // The pilot is the one that the vehicle file names ([controller], nominal_known.h), else a cascade of
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
-// height; with as much lead on the rates as makes its commands as noisy as the log's. Noise and disturbance
-// are those of the log: sensors by what two successive samples differ by, disturbing force and moment
-// (first-order Gauss-Markov) by what the residual has beyond that.
+// height; what turns it by how much the log's vehicle turns, if that is swifter (swiftness.c); with as much
+// lead on the rates as makes its commands as noisy as the log's. Noise and disturbance are those of the log:
+// sensors by what two successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by
+// what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
@@ -32,7 +33,7 @@ typedef struct {
   double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
-  bool unread;                    // rows are fewer than commands: these say nothing of what turns it
+  bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
@@ -54,8 +55,8 @@ closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const 
 MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, unsigned long seed,
                                     why_t *why);
 
-// The same as another pilot could have flown it, whose gains fit the log as well, or where gains are unread,
-// odd ones, may be those of who flew; number 0 is the fit itself.
+// The same as another pilot could have flown it, whose gains fit the log as well; where they are unread every
+// odd one is at least as swift as the Crazyflie's INDI. Number 0 is the fit itself.
 // Of a pilot that is known there is but one.
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i);
 

@@ -19,14 +19,15 @@ typedef struct {
   const model_t *model;
   unsigned long seed;
   double log_radps;
-  double gain,
-      off; // off: logarithm of how much it turns over how much the log's does; NaN: it cannot be flown
+  double gain;
+  double off; // logarithm of how much it turns over how much the log's does; NaN: it cannot be flown
   gap_flights_t seen;
   done_t status;
   why_t why;
 } trial_t;
 
-// Rms of roll and pitch rates over what nominal flights fly of each flight; 0: there are none.
+// Rms of roll and pitch rates over what nominal flights fly of each flight; 0: there are none. Where a trial
+// is lost it is flown by a calmer pilot (nominal.c), and turns less.
 static double turning_radps(const set_t *s) {
   double sum = 0.0, n = 0.0;
   for (int f = 0; f < s->n_grid; f++) {
@@ -54,7 +55,8 @@ static void fly(void *trials, int i) {
 static void compare(trial_t *t) {
   set_t own = {.n_grid = 0};
   if (t->status == DONE) t->status = nominal_set(&own, &t->seen, t->model, &t->why);
-  t->off = t->status == DONE ? log(turning_radps(&own) / t->log_radps) : (double)NAN;
+  const double own_radps = t->status == DONE ? turning_radps(&own) : 0.0;
+  t->off = own_radps > 0.0 ? log(own_radps / t->log_radps) : (double)NAN;
   set_free(&own);
   for (int f = 0; t->seen.flight && f < t->set->n_grid; f++) gap_flight_free(&t->seen.flight[f]);
   free(t->seen.flight);

@@ -160,7 +160,8 @@ static done_t make_table(confirming_t *t, why_t *why) {
 
 static bool right_sign(const candidate_t *c, const confirm_t *a) {
   for (int k = 0; k < c->n; k++)
-    if (c->use.fx->size[k].sign > 0 && a->value[k] <= c->least[k]) return false;
+    if (c->use.fx->size[k].sign > 0 && a->value[k] + score_margin(c, a->stderr_[k]) <= c->least[k])
+      return false;
   return true;
 }
 

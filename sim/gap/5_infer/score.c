@@ -285,9 +285,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
   double largest = 0.0; // in parts of what is typical
   if ((!j->nominal || !j->nominal->n) && c->use.fx->only_beside_nominal) return false;
   for (int k = 0; k < c->n; k++) {
-    // What the vehicle file has too much of is found with errors: if there is none at all, at less than none.
-    const double errors = c->least[k] < 0.0 ? SCORE_ERRORS * v->stderr_[k] : 0.0;
-    if (!can_be(c, k, v->value[k], errors)) return false;
+    if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]))) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&

@@ -2,7 +2,7 @@
 // track?
 //
 // The motors get the logged commands, plus what a pilot adds who sees how far the simulated vehicle is from
-// the measured track: proportional in place, velocity, attitude and rates, with gains fitted to the log
+// the measured track: proportional in place, velocity, attitude and rates, with the gains of nominal pilots
 // (nominal.h), in height at least those of resimulate.c, the same for every model. A model without error
 // needs no correction and stays on the track.
 #ifndef SIM_GAP_7_VERIFY_RESIMULATE_H

@@ -7,9 +7,9 @@
 // --- what could have been seen ----------------------------------------------------------------------------
 
 static bool rivals_a_name(const report_t *r, const fx_t *fx) {
-  const model_t *const m = &r->study->diagnosis.extended;
-  for (int i = 0; i < m->n_fx && fx->group != FX_ALONE; i++)
-    if (m->fx[i].fx->group == fx->group) return true;
+  const found_t *const found = &r->study->diagnosis.found;
+  for (int i = 0; i < found->n && fx->group != FX_ALONE; i++)
+    if (found_use(found, &found->named[i])->fx->group == fx->group) return true;
   return false;
 }
 
@@ -69,7 +69,10 @@ static void take_others(report_t *r) {
     const double least = found_least(&d->found, &d->candidates, fx, &c);
     const char *obstacle = obstacle_of(r, fx);
     if (!obstacle && !c && rivals_a_name(r, fx)) continue;
-    if (!obstacle && !c) obstacle = "it shows in none of the residuals that can be formed from these logs";
+    if (!obstacle && !c)
+      obstacle = model_fx(&r->study->vehicle, fx)
+                     ? "the vehicle file has it, and no other number of it is looked for in these logs"
+                     : "it shows in none of the residuals that can be formed from these logs";
     if (!obstacle) {
       take_looked_for(r, fx, c, least);
       continue;

@@ -99,7 +99,7 @@ TEST(gap_confirms_what_is_hidden_with_the_set_points_as_instrument) {
       add(&t, &row[i].how, share_seed(FIRST_SEED) + 1000u * i + 10u * (unsigned)k, row[i].name, row[i].size,
           row[i].error);
     CHECK_SHARE(t.named, t.sets, row[i].named);
-    CHECK_SHARE(t.confirmed, t.named, row[i].confirmed);
+    CHECK_SHARE(t.confirmed, t.sets, row[i].named * row[i].confirmed);
   }
 }
 

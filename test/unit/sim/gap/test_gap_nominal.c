@@ -274,8 +274,7 @@ static void turning_of(set_t *s, double rms_radps2[3]) {
   lines_free(&l);
 }
 
-// Gains that are read off few rows, or off a swift pilot, are too small by far: the vehicle turns with its
-// track all the same.
+// Gains that are read off few rows are too small by far: the vehicle turns with its track all the same.
 TEST(gap_nominal_flights_turn_as_much_as_the_log_does) {
   gap_track_t r;
   why_t why = {""};
