@@ -44,14 +44,17 @@ TEST(side_by_side_each_has_the_bits_that_it_has_alone) {
   static const char *const effect[] = {"ceiling", "wind", "battery_sag"};
   for (unsigned e = 0; e < sizeof effect / sizeof *effect; e++) {
     ROW("%s", effect[e]);
-    static jobs_t alone, beside;
+    static jobs_t alone, beside, shared;
     alone.model = vehicle6(0.6);
     (void)vehicle6_add(&alone.model, effect[e]);
-    beside.model = alone.model;
+    beside.model = shared.model = alone.model;
     for (int i = 0; i < JOBS; i++) fly(&alone, i);
     const long together = side_by_side(JOBS, fly, &beside);
     CHECK(memcmp(alone.y, beside.y, sizeof alone.y) == 0);
     CHECK(memcmp(alone.charge, beside.charge, sizeof alone.charge) == 0);
+    side_by_side_shared(JOBS, fly, &shared);
+    CHECK(memcmp(alone.y, shared.y, sizeof alone.y) == 0);
+    CHECK(memcmp(alone.charge, shared.charge, sizeof alone.charge) == 0);
     if (lane_possible()) CHECK(together > JOBS * TICKS);
   }
 }

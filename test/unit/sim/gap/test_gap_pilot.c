@@ -19,6 +19,29 @@ static void thin(gap_flight_t *f, int every) {
   f->rate_Hz /= every;
 }
 
+static void hold_motors(gap_track_t *t) {
+  for (int f = 0; f < 2; f++)
+    for (int k = 0; k < 4 * t->flight[f].n; k++) t->flight[f].v[SIG_M1 + k % 4][k / 4] = 0.08;
+}
+
+// A vehicle with less falls over, one with more is not followed by its motors.
+TEST(gap_takes_a_pilots_gain_to_be_one_that_can_fly) {
+  static const struct {
+    const char *what;
+    gap_track_job_t job;
+    double read; // 1/s
+  } row[] = {{"commands that do not ask for rates", {.spoil = hold_motors}, 8.0},
+             {"the flight code's, in a hover", {.indi = true, .hover = true}, 40.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_track_t r;
+    why_t why = {""};
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(gap_track_make(&r, &row[i].job, &why))) return;
+    CHECK(r.loop.rate_gain[0] == row[i].read);
+    gap_track_free(&r);
+  }
+}
+
 // The flight code turns it with 24 1/s. What a hovering vehicle turns is its pilot's doing; in a manoeuvre
 // the one that is tried follows some of it, and less is found.
 TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
