@@ -66,10 +66,11 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   found_t first;
   model_t m;
   done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
-  const chosen_t chosen = first.chosen;
+  chosen_t chosen = first.chosen;
   d->rounds = first.rounds;
   found_free(&first);
   TRY(status);
+  TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));
   TRY(chosen_model(&chosen, job->model, &m, why));
   TRY(loop_fit(&d->loop, &d->fit, &m, job->flown_by, job->seed + TRIAL_SEED, why));
   return fly_with(job, d, &chosen, why);

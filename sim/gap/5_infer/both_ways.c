@@ -2,30 +2,74 @@
 #include "gap/5_infer/both_ways.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-// Rows of all channels: what was measured, and what a model leaves.
-typedef struct {
-  double *measured[CHANNELS], *left[CHANNELS], *room;
-} rows_of_both_t;
+enum { SWEEPS = 8 }; // slope and colour in turn: the slope moves by a tenth as much in each
 
-static bool open_rows(rows_of_both_t *r, const set_t *s) {
-  size_t n = 0;
-  for (int ch = 0; ch < CHANNELS; ch++) n += (size_t)set_rows(s, ch)->n + 1;
-  double *next = r->room = calloc(2 * n, sizeof *r->room);
-  for (int ch = 0; next && ch < CHANNELS; ch++) {
-    r->measured[ch] = next;
-    r->left[ch] = next + n;
-    next += set_rows(s, ch)->n + 1;
+static double mean(const rows_t *r, const double *v) {
+  double sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    sum += v[i];
+    n++;
   }
-  return next != NULL;
+  return n ? sum / n : 0.0;
 }
 
-double both_ways_agree(const increments_t *i, double k, double stderr_) {
-  if (!(k > 0.0 && i->yp > 0.0)) return 0.0;
-  const double forward = i->pp / i->yp - 1.0, reverse = i->yp / i->yy - 1.0;
-  const double error = hypot(stderr_, 0.5 * (forward - reverse));
-  return reverse > SCORE_ERRORS * error && k > reverse - SCORE_ERRORS * error ? reverse : 0.0;
+// y, p: white; where a row has no two before it both are 0.
+static both_t sums_of(const rows_t *r, const double *y, const double *p) {
+  const double y_mean = mean(r, y), p_mean = mean(r, p);
+  both_t s = {.n = 0};
+  for (int i = 0; i < r->n; i++) {
+    if (!color_reaches(r, i)) continue;
+    s.yy += (y[i] - y_mean) * (y[i] - y_mean);
+    s.pp += (p[i] - p_mean) * (p[i] - p_mean);
+    s.yp += (y[i] - y_mean) * (p[i] - p_mean);
+    s.n++;
+  }
+  return s;
+}
+
+both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
+                    double *room) {
+  for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
+  both_t s = sums_of(r, measured, left); // a scale that is left in the rows would be their colour
+  double slope = s.yp / s.yy;
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int i = 0; i < r->n; i++) left[i] = (1.0 - slope) * measured[i] - residual[i];
+    const double off = mean(r, left);
+    for (int i = 0; i < r->n; i++) left[i] -= off;
+    const color_t color = color_fit(r, left);
+    if (!color.used) return (both_t){.n = 0};
+    for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
+    color_whiten(&color, r, left, room);
+    color_whiten(&color, r, measured, left);
+    s = sums_of(r, left, room);
+    slope = s.yp / s.yy;
+  }
+  return s;
+}
+
+static double reverse(const both_t *b) {
+  return b->yp / b->yy - 1.0;
+}
+
+// With half of the interval as an error, too.
+static double error(const both_t *b, double stderr_) {
+  return hypot(stderr_, 0.5 * (b->pp / b->yp - b->yp / b->yy));
+}
+
+double both_ways_least(const both_t *b) {
+  if (!(b->yp > 0.0)) return 0.0;
+  const double left = fmax(b->pp - b->yp * b->yp / b->yy, 0.0);
+  const double stderr_ = SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0));
+  return reverse(b) > SCORE_ERRORS * error(b, stderr_) ? reverse(b) : 0.0;
+}
+
+double both_ways_agree(const both_t *b, double k, double stderr_) {
+  if (!(k > 0.0 && b->yp > 0.0)) return 0.0;
+  const double least = reverse(b), off = SCORE_ERRORS * error(b, stderr_);
+  return least > off && k > least - off ? least : 0.0;
 }
 
 // What missed commands make of it in nominal flights is no error of its own here: the interval holds it.
@@ -34,23 +78,50 @@ static double regression_error(const named_t *named, int k) {
   return sqrt(fmax(all * all - beside * beside, 0.0));
 }
 
+// about[k]: of the axes, what a choice predicts; n 0 where that cannot be told.
+static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_t *others, why_t *why) {
+  model_t m;
+  lines_t measured = {.r = {NULL}}, left = {.r = {NULL}}, room = {.r = {NULL}};
+  TRY(chosen_model(others, base, &m, why));
+  done_t status = lines_make(&measured, s, why);
+  if (status == DONE) status = lines_make(&room, s, why);
+  if (status == DONE) status = residual_measured(s, measured.r, why);
+  if (status == DONE) status = residual_lines(s, &m, &left, why);
+  for (int k = 0; k < 3; k++) {
+    const int ch = CH_WX + k;
+    about[k] = (both_t){.n = 0};
+    if (status == DONE && residual_has(s, ch) && !s->excluded[ch])
+      about[k] = both_ways_of(set_rows(s, ch), measured.r[ch], left.r[ch], room.r[CH_FX], room.r[CH_FY]);
+  }
+  lines_free(&measured);
+  lines_free(&left);
+  lines_free(&room);
+  return status;
+}
+
 done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named, bool *stands,
                  why_t *why) {
   chosen_t others = *chosen;
+  both_t about[3];
   chosen_drop(&others, named->candidate);
-  model_t m;
-  TRY(chosen_model(&others, base, &m, why));
-  rows_of_both_t r;
-  if (!open_rows(&r, s)) return error_failed(why, "out of memory");
-  done_t status = residual_measured(s, r.measured, why);
-  if (status == DONE) status = residual_of(s, &m, r.left, why);
+  TRY(look(about, s, base, &others, why));
   *stands = false;
-  for (int k = 0; k < 3 && status == DONE; k++) {
-    const int ch = CH_WX + k;
-    if (!residual_has(s, ch) || s->excluded[ch]) continue;
-    const increments_t i = increments_of(set_rows(s, ch), r.measured[ch], r.left[ch]);
-    *stands = *stands || both_ways_agree(&i, named->value[k], regression_error(named, k)) != 0.0;
-  }
-  free(r.room);
-  return status;
+  for (int k = 0; k < 3; k++)
+    *stands = *stands || both_ways_agree(&about[k], named->value[k], regression_error(named, k)) != 0.0;
+  return DONE;
+}
+
+done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const model_t *base, why_t *why) {
+  both_t about[3];
+  int which = -1;
+  for (int i = 0; i < c->n; i++)
+    if (c->candidate[i].use.fx->scales_turning && !c->candidate[i].barred) which = i;
+  if (which < 0 || chosen_use(chosen, which) || chosen->n >= NAMED_MAX) return DONE;
+  TRY(look(about, s, base, chosen, why));
+  double k[3];
+  for (int i = 0; i < 3; i++) k[i] = both_ways_least(&about[i]);
+  if (k[0] == 0.0 && k[1] == 0.0 && k[2] == 0.0) return DONE;
+  fx_use_t *const use = chosen_take(chosen, c, which);
+  for (int i = 0; i < 3; i++) fx_use_resize(use, i, candidate_possible(&c->candidate[which], i, k[i]));
+  return DONE;
 }

@@ -4,22 +4,44 @@
 // gives commands predicts the turning with an error, and least squares of measured by predicted then give too
 // small a slope: 1 + k too large. Of predicted by measured they give 1 + k itself, or too little where what
 // is measured has an error, too. The truth lies between the two (Frisch 1934, bounds of a line with errors in
-// both).
+// both). What a moment that control cancels adds to the predicted is such an error, and predicted by measured
+// does not see it.
+//
+// Rows are white in the colour of what predicted by measured leaves: a manoeuvre is slow, and where nothing
+// slow is left beside it all of it counts.
 #ifndef SIM_GAP_5_INFER_BOTH_WAYS_H
 #define SIM_GAP_5_INFER_BOTH_WAYS_H
 
 #include "gap/5_infer/found.h"
 
+// Sums of squares and products of white rows about their mean.
+typedef struct {
+  double yy, pp, yp; // measured, predicted, both
+  int n;
+} both_t;
+
+// residual: measured less predicted, by row of one axis. left, room: as many numbers. n 0: there is no
+// colour to be found.
+both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
+                    double *room);
+
 // Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
-// Returns the end that is nearer to 0 where it is beyond two of both errors, and k not within it; else 0. A k
-// below 0 is never borne out: a gyro's noise that is fed back makes commands that seem to turn the vehicle
-// more than they do. i: rows of one axis, predicted with J. k, stderr_: of least squares alone, without what
-// nominal flights find of k.
-double both_ways_agree(const increments_t *i, double k, double stderr_);
+// Returns the end that is nearer to 0 where it is beyond two of both errors; else 0. A k below 0 is never
+// borne out: a gyro's noise that is fed back makes commands that seem to turn the vehicle more than they do.
+double both_ways_least(const both_t *b);
+
+// The same of a k that is named; 0 also where k is not within the interval. stderr_: of least squares alone,
+// without what nominal flights find of k.
+double both_ways_agree(const both_t *b, double k, double stderr_);
 
 // named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways
 // say that k is not 0. FAILED: no memory. BAD_INPUT: too many effects.
 MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named,
                             bool *stands, why_t *why);
+
+// Takes into a choice that has none what scales the turning, by what both ways say about each axis of what
+// the choice leaves, if they say it of one. FAILED, BAD_INPUT: as above.
+MUST_CHECK done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const model_t *base,
+                                 why_t *why);
 
 #endif

@@ -134,8 +134,8 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
     }
 }
 
-// Nor is a name known that is excited at some time only, where a constant in every channel from then to then
-// does as well: something may have begun there, or gone.
+// Nor is a name known that speaks for itself at some time only, where a constant in every channel from then
+// to then does as well: something may have begun there, or gone.
 
 // Of what a name gives: constants that give so much have no more than a drift of the name's own to explain. A
 // motor that loses an eighth of its thrust half-way was a thrust curve at 1.
@@ -143,7 +143,7 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
 
 // Sums over bins of time: of the name's contribution, and of what constants in each channel would give.
 typedef struct {
-  double ff[WINDOW_BINS], fy, wy[CH_SMOOTH][WINDOW_BINS], ww[CH_SMOOTH][WINDOW_BINS];
+  double ff[WINDOW_BINS], fy[WINDOW_BINS], wy[CH_SMOOTH][WINDOW_BINS], ww[CH_SMOOTH][WINDOW_BINS];
 } times_t;
 
 static void add_times(const round_t *round, const parts_t *p, const int *bin, times_t *s) {
@@ -154,7 +154,7 @@ static void add_times(const round_t *round, const parts_t *p, const int *bin, ti
       if (!color_reaches(r, i)) continue;
       const double w = (1.0 - c->a1 - c->a2) / c->sd; // a constant, white
       s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
-      s->fy += p->f[ch][i] * p->y[ch][i];
+      s->fy[bin[i]] += p->f[ch][i] * p->y[ch][i];
       s->wy[ch][bin[i]] += w * p->y[ch][i];
       s->ww[ch][bin[i]] += w * w;
     }
@@ -174,16 +174,20 @@ static double by_constants(const times_t *s, int from, int to) {
   return sum;
 }
 
-// The rest of the time, a quarter of it or more, excites it no more than half a bin of it would.
-static bool at_times(const times_t *s) {
-  double ff = 0.0;
-  for (int i = 0; i < WINDOW_BINS; i++) ff += s->ff[i];
+// The rest of the time, a quarter of it or more, gives the name by its own slope no more than chance does.
+static bool at_times(const times_t *s, double chance) {
+  double ff = 0.0, fy = 0.0;
+  for (int i = 0; i < WINDOW_BINS; i++) {
+    ff += s->ff[i];
+    fy += s->fy[i];
+  }
   for (int from = 0; ff > 0.0 && from < WINDOW_BINS; from++) {
-    double inside = 0.0;
+    double rest_ff = ff, rest_fy = fy;
     for (int to = from; to < WINDOW_BINS && to - from < WINDOW_BINS - WINDOW_BINS / 4; to++) {
-      inside += s->ff[to];
-      if (ff - inside < 0.5 * ff / WINDOW_BINS && by_constants(s, from, to) > AS_WELL * s->fy * s->fy / ff)
-        return true;
+      rest_ff -= s->ff[to];
+      rest_fy -= s->fy[to];
+      const double slope = fy / ff, rest = slope * (2.0 * rest_fy - slope * rest_ff);
+      if (rest < chance && by_constants(s, from, to) > AS_WELL * slope * fy) return true;
     }
   }
   return false;
@@ -211,11 +215,11 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   for (int i = curve ? COORDINATES : 0; status == DONE && i < COORDINATES && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       by_bin_t s = {.ff = {0.0}};
-      times_t at = {.fy = 0.0};
+      times_t at = {.ff = {0.0}};
       if (!windows_bins(round->s, round->base, i, list, room, bin)) continue;
       add_slopes(round, &p, list, bin, &s);
       if (list == 0 && i == COORDINATE_TIME) add_times(round, &p, bin, &at);
-      *is = *is || in_a_part(&s, chance) || at_times(&at);
+      *is = *is || in_a_part(&s, chance) || at_times(&at, chance);
     }
   free(p.room);
   free(room);

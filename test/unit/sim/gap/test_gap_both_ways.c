@@ -2,63 +2,78 @@
 #include "gap/5_infer/both_ways.h"
 #include "rig/test.h"
 
+#include "base/constants.h"
 #include "base/random.h"
 #include <math.h>
 #include <stdlib.h>
 
 #define ROWS 800
 
-// Rows that are white: true turning of sd 1, of which the model predicts (1 + k) and an error, and a gyro
-// measures with another.
-static increments_t rows_of(double k, double missed, double noise, uint64_t seed, double *by_least_squares) {
+typedef struct {
+  double k, missed, noise; // sd of what the prediction and the gyro have of their own; the turning has 1
+  double slow;             // sd of a moment that control cancels: it is predicted, and nothing turns
+  double manoeuvre;        // for half of every hundred rows it turns by up to so much, and not otherwise
+} turning_t;
+
+static both_t rows_of(const turning_t *t, uint64_t seed, double *by_least_squares) {
   bool follows[ROWS];
-  double measured[ROWS], left[ROWS];
+  double measured[ROWS], residual[ROWS], left[ROWS], room[ROWS], slow = 0.0;
   random_t *const r = random_open(seed);
   if (!r) abort();
   for (int i = 0; i < ROWS; i++) {
-    const double turns = random_normal(r), predicted = (1.0 + k) * turns + missed * random_normal(r);
+    const double turns =
+        t->manoeuvre > 0.0 ? t->manoeuvre * fmax(sin(2.0 * PI / 100.0 * i), 0.0) : random_normal(r);
+    slow = 0.98 * slow + 0.2 * t->slow * random_normal(r);
+    const double predicted = (1.0 + t->k) * turns + t->missed * random_normal(r) + slow;
     follows[i] = i > 0;
-    measured[i] = turns + noise * random_normal(r);
-    left[i] = measured[i] - predicted;
+    measured[i] = turns + t->noise * random_normal(r);
+    residual[i] = measured[i] - predicted;
   }
   random_close(r);
   const rows_t rows = {.n = ROWS, .follows = follows};
-  const increments_t s = increments_of(&rows, measured, left);
-  *by_least_squares = s.pp / s.yp - 1.0;
-  return s;
+  const both_t b = both_ways_of(&rows, measured, residual, left, room);
+  *by_least_squares = b.pp / b.yp - 1.0;
+  return b;
 }
 
 TEST(gap_takes_for_inertia_only_what_measured_by_predicted_and_predicted_by_measured_both_say) {
   static const struct {
     const char *what;
-    double k, missed, noise;
+    turning_t t;
     bool agree;
   } row[] = {
-      {"half as much again", 0.5, 0.0, 0.0, true},
-      {"the same, a gyro's noise", 0.5, 0.0, 0.2, true},
-      {"the same, some commands missed", 0.5, 0.7, 0.2, true},
-      {"a third less: so does noise that is fed back", -0.33, 0.0, 0.0, false},
-      {"the same, as much missed as told", 0.5, 1.5, 0.0, false}, // 0.5 to 2
-      {"nothing", 0.0, 0.0, 0.0, false},
-      {"nothing, a gyro's noise", 0.0, 0.0, 0.3, false},
-      {"nothing, half of the commands missed", 0.0, 0.7, 0.0, false},
-      {"nothing, most of them missed", 0.0, 1.4, 0.2, false},
+      {"half as much again", {0.5, .noise = 0.0}, true},
+      {"the same, a gyro's noise", {0.5, .noise = 0.2}, true},
+      {"the same, some commands missed", {0.5, .missed = 0.7, .noise = 0.2}, true},
+      {"the same, and a moment that control cancels", {0.5, .missed = 0.2, .slow = 3.0}, true},
+      {"the same in slow manoeuvres, a gyro's noise", {0.5, .noise = 0.2, .manoeuvre = 3.0}, true},
+      {"a third less: so does noise that is fed back", {-0.33, .noise = 0.0}, false},
+      {"the same, as much missed as told", {0.5, .missed = 1.5}, false}, // 0.5 to 2
+      {"nothing", {0.0, .noise = 0.0}, false},
+      {"nothing, a gyro's noise", {0.0, .noise = 0.3}, false},
+      {"nothing, half of the commands missed", {0.0, .missed = 0.7}, false},
+      {"nothing, most of them missed", {0.0, .missed = 1.4, .noise = 0.2}, false},
+      {"nothing, and a moment that control cancels", {0.0, .noise = 0.1, .slow = 3.0}, false},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     double k;
-    const increments_t s = rows_of(row[i].k, row[i].missed, row[i].noise, 1 + i, &k);
-    const double agreed = both_ways_agree(&s, k, 0.05);
-    CHECK((agreed != 0.0) == row[i].agree);
-    if (row[i].agree) CHECK_NEAR(agreed, row[i].k, 0.1);
+    const both_t b = rows_of(&row[i].t, 1 + i, &k);
+    const double agreed = both_ways_agree(&b, k, 0.05), least = both_ways_least(&b);
+    CHECK((agreed != 0.0) == row[i].agree && (least != 0.0) == row[i].agree);
+    if (row[i].agree) CHECK_NEAR(agreed, row[i].t.k, 0.1);
+    CHECK(agreed == least);
   }
 }
 
 TEST(gap_takes_no_inertia_within_two_standard_errors) {
   double k;
-  const increments_t s = rows_of(0.5, 0.0, 0.0, 1, &k);
-  CHECK(both_ways_agree(&s, k, 0.24) > 0.0);
-  CHECK(both_ways_agree(&s, k, 0.26) == 0.0);
-  CHECK(both_ways_agree(&s, 0.2, 0.05) == 0.0); // the rows themselves say 0.5
-  CHECK(both_ways_agree(&(increments_t){0}, 0.5, 0.05) == 0.0);
+  const both_t b = rows_of(&(turning_t){0.5, .missed = 0.05}, 1, &k);
+  CHECK(both_ways_agree(&b, k, 0.24) > 0.0);
+  CHECK(both_ways_agree(&b, k, 0.26) == 0.0);
+  CHECK(both_ways_agree(&b, 0.2, 0.05) == 0.0); // the rows themselves say 0.5
+  CHECK(both_ways_agree(&(both_t){0}, 0.5, 0.05) == 0.0 && both_ways_least(&(both_t){0}) == 0.0);
+  const both_t few = {.yy = 100.0, .pp = 160.0, .yp = 120.0, .n = 40}; // 0.2 +- 0.1, and half of 0.13
+  CHECK(both_ways_least(&few) == 0.0);
+  CHECK(both_ways_least(&(both_t){.yy = 100.0, .pp = 160.0, .yp = 120.0, .n = 400}) > 0.19);
 }
