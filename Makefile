@@ -19,7 +19,7 @@ CF_PACKAGES   = python3-venv
 DESK_PACKAGES = python3-venv chromium
 
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
-C     = $(CC) -std=c11 $(OPT) $(FAST) -fno-math-errno $(WARN) $(SANITIZE) -MMD -MP
+C     = $(CC) -std=c11 $(OPT) $(FAST) -fno-math-errno $(WARN) -Wno-psabi $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off

@@ -19,6 +19,7 @@
 #include <type_traits>
 
 #define SIM_BASE_PAIR_H
+#define SIM_BASE_FEW_H
 #define SIM_BASE_EITHER_H
 #define SIM_BASE_WHERE_H
 
@@ -42,7 +43,6 @@ template <typename E> struct lane_kind_t : number<int> {
   using number<int>::number;
   operator E() const { return (E)v; }
 };
-struct pair_t {};
 
 template <typename A, typename B> auto either(bool holds, A a, B b) {
   return holds ? a : A(b);

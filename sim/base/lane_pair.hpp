@@ -94,4 +94,22 @@ LANE pair_t pair_exp2_of_bits(pair_t x) {
   return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
 }
 
+// base/few.h: two at a time, for four of eight vehicles would fill all registers.
+#define SIM_BASE_FEW_H
+#define FEW_N               2
+#define FEW_INLINE        LANE
+#define few_t             pair_t
+#define few_bits_t        pair_bits_t
+#define few_of            pair_of
+#define few_put           pair_put
+#define few_all           pair_both
+#define few_sum           pair_sum
+#define few_where         pair_where
+#define few_exp2_of_bits  pair_exp2_of_bits
+#define few_any           pair_any
+#define few_min           pair_min
+#define few_max           pair_max
+#define few_sqrt          pair_sqrt
+#define few_trunc         pair_trunc
+
 #endif

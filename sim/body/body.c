@@ -2,7 +2,7 @@
 #include "body/body.h"
 
 #include "base/constants.h"
-#include "base/pair.h"
+#include "base/few.h"
 #include "plant/rigid.h"
 #include <math.h>
 #include <string.h>
@@ -173,8 +173,8 @@ static void delay_commands(body_t *b, double span_s) {
   const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
   double *const last_N = b->queue_N[b->queued % BODY_QUEUE];
   const double *const due_N = b->queue_N[(b->queued - ticks) % BODY_QUEUE];
-  for (int i = 0; i < ROTORS; i += 2) pair_put(last_N + i, pair_of(b->command_N + i));
-  for (int i = 0; i < ROTORS; i += 2) pair_put(b->rigid.command_N + i, pair_of(due_N + i));
+  for (int i = 0; i < ROTORS; i += FEW_N) few_put(last_N + i, few_of(b->command_N + i));
+  for (int i = 0; i < ROTORS; i += FEW_N) few_put(b->rigid.command_N + i, few_of(due_N + i));
   b->queued++;
 }
 
@@ -214,10 +214,10 @@ void body_tick_end(body_t *b) {
 }
 
 void body_command(body_t *b, const double command_N[ROTORS], double span_s) {
-  const pair_t min_N = pair_both(b->model->thrust_min_N / ROTORS),
-               max_N = pair_both(b->model->thrust_max_N / ROTORS);
-  for (int i = 0; i < ROTORS; i += 2) // NaN is the least
-    pair_put(b->command_N + i, pair_min(pair_max(pair_of(command_N + i), min_N), max_N));
+  const few_t min_N = few_all(b->model->thrust_min_N / ROTORS),
+              max_N = few_all(b->model->thrust_max_N / ROTORS);
+  for (int i = 0; i < ROTORS; i += FEW_N) // NaN is the least
+    few_put(b->command_N + i, few_min(few_max(few_of(command_N + i), min_N), max_N));
   b->span_s = span_s;
 }
 

@@ -7,7 +7,7 @@
 #define SIM_BODY_FORCES_H
 
 #include "base/larger.h"
-#include "base/pair.h"
+#include "base/few.h"
 #include "effects/fx.h"
 #include "plant/rigid.h"
 #include "plant/touch.h"
@@ -40,9 +40,8 @@ typedef struct {
 } acting_t;
 
 // How far each rotor is from the place of the centre of mass, along a direction in body axes.
-static inline pair_t forces_along(const rigid_t *r, int i, d3_t to) {
-  return to.x * pair_of(r->rotor_x_m + i) + to.y * pair_of(r->rotor_y_m + i) +
-         to.z * pair_of(r->rotor_z_m + i);
+FEW_INLINE few_t forces_along(const rigid_t *r, int i, d3_t to) {
+  return to.x * few_of(r->rotor_x_m + i) + to.y * few_of(r->rotor_y_m + i) + to.z * few_of(r->rotor_z_m + i);
 }
 
 #define SURFACES (SURFACE_CEILING | SURFACE_GROUND)
@@ -53,18 +52,18 @@ static inline fx_places_t forces_places(const acting_t *f, int surfaces, d3_t po
   const d3_t up = axes_up_b(axes);
   const rigid_t *r = f->rigid;
   const touch_t *t = f->touch;
-  const pair_t zero = pair_both(0.0), nowhere = pair_both(HUGE_VAL);
+  const few_t zero = few_all(0.0), nowhere = few_all(HUGE_VAL);
   fx_places_t at;
   at.radius_m = t->disc_radius_m;
-  for (int i = 0; i < ROTORS; i += 2) {
-    pair_put(at.ceiling_gap_m + i, pair_max(t->ceiling_m - (pos_w_m.z + forces_along(r, i, up)), zero));
-    pair_put(at.ground_gap_m + i, nowhere);
+  for (int i = 0; i < ROTORS; i += FEW_N) {
+    few_put(at.ceiling_gap_m + i, few_max(t->ceiling_m - (pos_w_m.z + forces_along(r, i, up)), zero));
+    few_put(at.ground_gap_m + i, nowhere);
   }
   if (!(surfaces & SURFACE_GROUND)) return at;
   const d3_t floor_up = axes_to_body(axes, t->floor_up_w);
   const double above_m = touch_above_floor_m(t, pos_w_m);
-  for (int i = 0; i < ROTORS; i += 2)
-    pair_put(at.ground_gap_m + i, pair_max(above_m + forces_along(r, i, floor_up), zero));
+  for (int i = 0; i < ROTORS; i += FEW_N)
+    few_put(at.ground_gap_m + i, few_max(above_m + forces_along(r, i, floor_up), zero));
   return at;
 }
 
@@ -79,8 +78,8 @@ static inline void forces_surfaces(const acting_t *f, const double *y, const axe
 
 static inline void forces_speeds(const acting_t *f, const double *y, body_look_t *look) {
   rigid_rotor_radps(f->rigid, y + RIGID_THRUST_N, look->speed_radps);
-  for (int i = 0; i < ROTORS; i += 2)
-    pair_put(look->turning + i, inflow_turning(pair_of(look->ratio + i), pair_of(f->rigid->faster + i)));
+  for (int i = 0; i < ROTORS; i += FEW_N)
+    few_put(look->turning + i, inflow_turning(few_of(look->ratio + i), few_of(f->rigid->faster + i)));
 }
 
 // Written in place: who takes it copied waits for each of these stores.
@@ -93,8 +92,8 @@ static inline void forces_motion(const acting_t *f, const double *y, const body_
   motion->axes = axes;
   motion->hub_b_m = f->touch->disc;
   motion->spin = f->rigid->spin;
-  for (int i = 0; i < ROTORS; i += 2)
-    pair_put(motion->rotor_radps + i, pair_of(look->turning + i) * pair_of(look->speed_radps + i));
+  for (int i = 0; i < ROTORS; i += FEW_N)
+    few_put(motion->rotor_radps + i, few_of(look->turning + i) * few_of(look->speed_radps + i));
 }
 
 // Out of line: most vehicles have no such effect.
@@ -253,7 +252,7 @@ static inline double forces_rotors_N(const double *y) {
 
 // What is left of each rotor's current.
 static inline void forces_current_left(const body_look_t *look, double left[ROTORS]) {
-  for (int i = 0; i < ROTORS; i += 2) pair_put(left + i, inflow_torque(pair_of(look->turning + i)));
+  for (int i = 0; i < ROTORS; i += FEW_N) few_put(left + i, inflow_torque(few_of(look->turning + i)));
 }
 
 // What perfect sensors need to know of the vehicle file besides; heights over its centre of mass.

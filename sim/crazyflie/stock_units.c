@@ -4,12 +4,12 @@
 #include "base/clip.h"
 #include "base/constants.h"
 #include "base/either.h"
-#include "base/pair.h"
+#include "base/few.h"
 
 #define SUPPLY_START_V 4.2
 #define SUPPLY_GAIN    0.01
 #define SUPPLY_MIN_V   2.0
-#define PAIRS          (PILOT_MOTORS / 2)
+#define PARTS          (PILOT_MOTORS / FEW_N)
 #define UNIT_MAX       1e6 // far beyond all commands; keeps the sums of whole numbers exact
 
 stock_angles_t stock_angles(dq_t q) {
@@ -78,8 +78,14 @@ void stock_mix(const stock_command_t *command, double unit[PILOT_MOTORS]) {
   unit[3] = trunc(t + r + p - yaw);
 }
 
-static pair_t cubic_N(const double c[4], pair_t v) {
+FEW_INLINE few_t cubic_N(const double c[4], few_t v) {
   return c[0] + v * (c[1] + v * (c[2] + v * c[3]));
+}
+
+FEW_INLINE bool any_motor(const few_bits_t holds[PARTS]) {
+  few_bits_t any = holds[0];
+  for (int i = 1; i < PARTS; i++) any = any | holds[i];
+  return few_any(any);
 }
 
 // The real root of the cubic, which rises everywhere (Cardano): with v = t - b/(3a), t^3 + 3 m t = 2 n.
@@ -92,70 +98,75 @@ static double cubic_V(const double c[4], double thrust_N) {
 }
 
 // The same of those motors that are asked for, by Newton's method from the roots of thrusts that were a
-// little different. All four at once, for a step is one long division after another: who is there waits for
-// the others.
-static void near_V(const double c[4], const pair_t thrust_N[PAIRS], const pair_bits_t asked[PAIRS],
-                   pair_t v[PAIRS]) {
-  const pair_t zero = pair_both(0.0), near = pair_both(1e-9); // the next step would be its square
-  const pair_bits_t known[PAIRS] = {v[0] > zero, v[1] > zero};
-  pair_bits_t goes_on[PAIRS] = {asked[0] & known[0], asked[1] & known[1]};
-  for (int n = 0; n < 6 && pair_any(goes_on[0] | goes_on[1]); n++)
-    for (int i = 0; i < PAIRS; i++) {
-      const pair_t step = (cubic_N(c, v[i]) - thrust_N[i]) / (c[1] + v[i] * (2.0 * c[2] + v[i] * 3.0 * c[3]));
-      v[i] -= pair_where(goes_on[i], step, zero);
+// little different. All at once, for a step is one long division after another: who is there waits for the
+// others.
+static void near_V(const double c[4], const few_t thrust_N[PARTS], const few_bits_t asked[PARTS],
+                   few_t v[PARTS]) {
+  const few_t zero = few_all(0.0), near = few_all(1e-9); // the next step would be its square
+  few_bits_t known[PARTS], goes_on[PARTS];
+  for (int i = 0; i < PARTS; i++) {
+    known[i] = v[i] > zero;
+    goes_on[i] = asked[i] & known[i];
+  }
+  for (int n = 0; n < 6 && any_motor(goes_on); n++)
+    for (int i = 0; i < PARTS; i++) {
+      const few_t step = (cubic_N(c, v[i]) - thrust_N[i]) / (c[1] + v[i] * (2.0 * c[2] + v[i] * 3.0 * c[3]));
+      v[i] -= few_where(goes_on[i], step, zero);
       goes_on[i] &= ~((step < near) & (-step < near));
     }
+  for (int i = 0; i < PARTS; i++) goes_on[i] = goes_on[i] | (asked[i] & ~known[i]);
+  if (!any_motor(goes_on)) return;
   for (int k = 0; k < PILOT_MOTORS; k++) {
-    const alike_t i = k / 2;
-    if ((goes_on[i] | (asked[i] & ~known[i]))[k % 2]) v[i][k % 2] = cubic_V(c, thrust_N[i][k % 2]);
+    const alike_t i = k / FEW_N, at = k % FEW_N;
+    if (goes_on[i][at]) v[i][at] = cubic_V(c, thrust_N[i][at]);
   }
 }
 
-static void wanted_V(const stock_power_param_t *p, const pair_t thrust_N[PAIRS],
-                     const pair_bits_t asked[PAIRS], pair_t v[PAIRS]) {
+static void wanted_V(const stock_power_param_t *p, const few_t thrust_N[PARTS], const few_bits_t asked[PARTS],
+                     few_t v[PARTS]) {
   const double *q = p->volt_quadratic;
   if (!(q[0] > 0.0)) {
     near_V(p->volt_cubic, thrust_N, asked, v);
     return;
   }
-  for (int i = 0; i < PAIRS; i++) {
-    const pair_t grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N[i];
-    v[i] = pair_where(asked[i], grams * (q[0] + q[1] * grams), v[i]);
+  for (int i = 0; i < PARTS; i++) {
+    const few_t grams = PILOT_MOTORS * 1e3 / G_MPS2 * thrust_N[i];
+    v[i] = few_where(asked[i], grams * (q[0] + q[1] * grams), v[i]);
   }
 }
 
 // Volts at the motors for units; which of them run.
 static void want(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
-                 pair_t v[PAIRS], pair_bits_t runs[PAIRS]) {
-  pair_t wanted_N[PAIRS];
-  pair_bits_t changed[PAIRS];
-  for (int i = 0; i < PAIRS; i++) {
-    const pair_t whole = pair_trunc(pair_of(unit + 2 * i)), last_N = pair_of(s->wanted_N + 2 * i);
+                 few_t v[PARTS], few_bits_t runs[PARTS]) {
+  few_t wanted_N[PARTS];
+  few_bits_t changed[PARTS];
+  for (int i = 0; i < PARTS; i++) {
+    const few_t whole = few_trunc(few_of(unit + FEW_N * i)), last_N = few_of(s->wanted_N + FEW_N * i);
     wanted_N[i] =
-        p->thrust_max_N / STOCK_FULL * pair_min(pair_max(whole, pair_both(-UNIT_MAX)), pair_both(UNIT_MAX));
-    runs[i] = wanted_N[i] >= p->thrust_min_N;
+        p->thrust_max_N / STOCK_FULL * few_min(few_max(whole, few_all(-UNIT_MAX)), few_all(UNIT_MAX));
+    runs[i] = wanted_N[i] >= few_all(p->thrust_min_N);
     changed[i] = runs[i] & (wanted_N[i] != last_N);
-    v[i] = pair_of(s->wanted_V + 2 * i);
-    pair_put(s->wanted_N + 2 * i, pair_where(changed[i], wanted_N[i], last_N));
+    v[i] = few_of(s->wanted_V + FEW_N * i);
+    few_put(s->wanted_N + FEW_N * i, few_where(changed[i], wanted_N[i], last_N));
   }
-  if (!pair_any(changed[0] | changed[1])) return;
+  if (!any_motor(changed)) return;
   wanted_V(p, wanted_N, changed, v);
-  for (int i = 0; i < PAIRS; i++) pair_put(s->wanted_V + 2 * i, v[i]);
+  for (int i = 0; i < PARTS; i++) few_put(s->wanted_V + FEW_N * i, v[i]);
 }
 
 PAIR_COPIES void stock_power_duty(stock_power_t *s, const stock_power_param_t *p,
                                   const double unit[PILOT_MOTORS], double vbat_V, double duty[PILOT_MOTORS]) {
-  const pair_t off = pair_both(0.0);
+  const few_t off = few_all(0.0);
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
   if (!(s->supply_V >= SUPPLY_MIN_V)) { // not a number stops the motors, too
     for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = 0.0;
     return;
   }
-  pair_t v[PAIRS];
-  pair_bits_t runs[PAIRS];
+  few_t v[PARTS];
+  few_bits_t runs[PARTS];
   want(s, p, unit, v, runs);
-  for (int i = 0; i < PAIRS; i++)
-    pair_put(duty + 2 * i, pair_where(runs[i], pair_trunc(STOCK_FULL * v[i] / s->supply_V), off));
+  for (int i = 0; i < PARTS; i++)
+    few_put(duty + FEW_N * i, few_where(runs[i], few_trunc(STOCK_FULL * v[i] / s->supply_V), off));
   double most = STOCK_FULL;
   for (int i = 0; i < PILOT_MOTORS; i++) most = larger(most, duty[i]);
   for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = larger(duty[i] - (most - STOCK_FULL), 0.0);
@@ -165,10 +176,10 @@ void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const doub
                       double vbat_V, double motor_N[PILOT_MOTORS]) {
   double duty[PILOT_MOTORS];
   stock_power_duty(s, p, unit, vbat_V, duty);
-  const pair_t off = pair_both(0.0);
-  for (int i = 0; i < PILOT_MOTORS; i += 2) {
-    const pair_t share = pair_of(duty + i) / STOCK_FULL;
-    const pair_t turning_N = pair_max(cubic_N(p->volt_cubic, share * s->supply_V), off);
-    pair_put(motor_N + i, pair_where(share > off, turning_N, off));
+  const few_t off = few_all(0.0);
+  for (int i = 0; i < PILOT_MOTORS; i += FEW_N) {
+    const few_t share = few_of(duty + i) / STOCK_FULL;
+    const few_t turning_N = few_max(cubic_N(p->volt_cubic, share * s->supply_V), off);
+    few_put(motor_N + i, few_where(share > off, turning_N, off));
   }
 }

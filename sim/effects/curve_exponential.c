@@ -5,14 +5,14 @@
 
 static double ratio(const double *p, const curve_points_t *points, double distance_m, double radius_m) {
   (void)points;
-  return 1.0 + decay(p[0], p[1] / radius_m, pair_both(distance_m))[0];
+  return 1.0 + decay(p[0], p[1] / radius_m, few_all(distance_m))[0];
 }
 
 PAIR_COPIES static void add_excess(const double *p, const double distance_m[ROTORS], double radius_m,
                                    double ratio[ROTORS]) {
   const double k = p[1] / radius_m;
-  for (int i = 0; i < ROTORS; i += 2)
-    pair_put(ratio + i, pair_of(ratio + i) + decay(p[0], k, pair_of(distance_m + i)));
+  for (int i = 0; i < ROTORS; i += FEW_N)
+    few_put(ratio + i, few_of(ratio + i) + decay(p[0], k, few_of(distance_m + i)));
 }
 
 static void vary(double *p, curve_points_t *points, double more, double faster) {

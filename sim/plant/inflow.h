@@ -21,7 +21,7 @@
 #ifndef SIM_PLANT_INFLOW_H
 #define SIM_PLANT_INFLOW_H
 
-#include "base/pair.h"
+#include "base/few.h"
 
 // M: what a motor's turning induces over what its current loses, at hover. A Crazyflie's, 14,000 rpm/V: 1.4 V
 // at 2,000 rad/s, of 2.4 V.
@@ -33,16 +33,16 @@
 // they have no lift, inflow 0.093 of the tip's speed: (0.093 / 2) / (0.35 / 3 - 0.093 / 2).
 #define INFLOW_BLADES 0.66
 
-// s of two rotors. rho > 0; faster: by what share they turn faster besides.
-static inline pair_t inflow_turning(pair_t rho, pair_t faster) {
+// s of the rotors. rho > 0; faster: by what share they turn faster besides.
+FEW_INLINE few_t inflow_turning(few_t rho, few_t faster) {
   const double a = 1.0 - INFLOW_POWER + 0.5 * INFLOW_MOTOR, c = INFLOW_POWER / INFLOW_BLADES;
-  const pair_t b = 1.0 + 0.5 * INFLOW_MOTOR - (INFLOW_POWER + c) * rho;
-  return pair_sqrt((b + pair_sqrt(b * b + 4.0 * a * c * rho * rho)) * (0.5 / a)) + faster;
+  const few_t b = 1.0 + 0.5 * INFLOW_MOTOR - (INFLOW_POWER + c) * rho;
+  return few_sqrt((b + few_sqrt(b * b + 4.0 * a * c * rho * rho)) * (0.5 / a)) + faster;
 }
 
 // q of them; a motor that is driven by the air gives nothing back.
-static inline pair_t inflow_torque(pair_t turning) {
-  return pair_max(1.0 - 0.5 * INFLOW_MOTOR * (turning * turning - 1.0), pair_both(0.0));
+FEW_INLINE few_t inflow_torque(few_t turning) {
+  return few_max(1.0 - 0.5 * INFLOW_MOTOR * (turning * turning - 1.0), few_all(0.0));
 }
 
 #endif

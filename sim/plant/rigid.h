@@ -18,7 +18,7 @@
 
 #include "base/constants.h"
 #include "base/d3.h"
-#include "base/pair.h"
+#include "base/few.h"
 #include "plant/inflow.h"
 #include "plant/lag.h"
 #include <stdbool.h>
@@ -87,22 +87,22 @@ double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]);
 
 // Speeds of the rotors at thrusts in free air f[ROTORS], in free air, rad/s, >= ROTOR_SLOWEST_RADPS.
 static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]) {
-  const pair_t zero = pair_both(0.0), slowest = pair_both(ROTOR_SLOWEST_RADPS);
-  for (int i = 0; i < ROTORS; i += 2)
-    pair_put(speed + i, pair_max(pair_sqrt(pair_max(pair_of(f + i), zero)) * r->per_root_kf, slowest));
+  const few_t zero = few_all(0.0), slowest = few_all(ROTOR_SLOWEST_RADPS);
+  for (int i = 0; i < ROTORS; i += FEW_N)
+    few_put(speed + i, few_max(few_sqrt(few_max(few_of(f + i), zero)) * r->per_root_kf, slowest));
 }
 
-// How fast two rotors' thrusts change. A rotor that stands starts as if it turned at ROTOR_SLOWEST_RADPS.
-static inline pair_t rigid_change_Nps(const rigid_t *r, pair_t thrust, pair_t command, pair_t speed) {
+// How fast the rotors' thrusts change. A rotor that stands starts as if it turned at ROTOR_SLOWEST_RADPS.
+FEW_INLINE few_t rigid_change_Nps(const rigid_t *r, few_t thrust, few_t command, few_t speed) {
   if (r->plain_lag) return (command - thrust) * r->per_tau;
-  const pair_t zero = pair_both(0.0);
-  pair_t off = command - thrust;
+  const few_t zero = few_all(0.0);
+  few_t off = command - thrust;
   if (r->lag_in_speed) {
-    const pair_t to = pair_sqrt(pair_max(command, zero)) * r->per_root_kf,
-                 from = pair_sqrt(pair_max(thrust, zero)) * r->per_root_kf;
+    const few_t to = few_sqrt(few_max(command, zero)) * r->per_root_kf,
+                from = few_sqrt(few_max(thrust, zero)) * r->per_root_kf;
     off = 2.0 * r->kf_Ns2 * speed * (to - from);
   }
-  return pair_max(off, zero) * r->per_tau + pair_min(off, zero) * r->per_tau_down;
+  return few_max(off, zero) * r->per_tau + few_min(off, zero) * r->per_tau_down;
 }
 
 // Thrust, its moment, and what the rotors' torque and inertia do.
@@ -114,23 +114,21 @@ typedef struct {
 
 static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const double *speed,
                                     const double *ratio, const double *turning, double *df) {
-  pair_t lift = {0.0, 0.0}, roll = lift, pitch = lift, yaw = lift, spin = lift;
-  for (int i = 0; i < ROTORS; i += 2) {
-    const pair_t thrust = pair_of(f + i), scaled = pair_of(r->thrust_scale + i) * thrust,
-                 up = pair_of(ratio + i) * scaled, om = pair_of(speed + i), turns = pair_of(r->spin + i),
-                 change = rigid_change_Nps(r, thrust, pair_of(r->command_N + i), om),
-                 s = pair_of(turning + i);
-    pair_put(df + i, change);
+  few_t lift = few_all(0.0), roll = lift, pitch = lift, yaw = lift, spin = lift;
+  for (int i = 0; i < ROTORS; i += FEW_N) {
+    const few_t thrust = few_of(f + i), scaled = few_of(r->thrust_scale + i) * thrust,
+                up = few_of(ratio + i) * scaled, om = few_of(speed + i), turns = few_of(r->spin + i),
+                change = rigid_change_Nps(r, thrust, few_of(r->command_N + i), om), s = few_of(turning + i);
+    few_put(df + i, change);
     lift += up;
-    roll += pair_of(r->rotor_y_m + i) * up;
-    pitch -= pair_of(r->rotor_x_m + i) * up;
-    yaw -= turns * (r->torque_ratio_m * pair_of(r->torque_scale + i) * inflow_torque(s) * scaled +
+    roll += few_of(r->rotor_y_m + i) * up;
+    pitch -= few_of(r->rotor_x_m + i) * up;
+    yaw -= turns * (r->torque_ratio_m * few_of(r->torque_scale + i) * inflow_torque(s) * scaled +
                     r->half_I_per_kf * s * change / om);
     spin += turns * s * om;
   }
-  return (rotors_t){pair_sum(lift),
-                    {pair_sum(roll), pair_sum(pitch), pair_sum(yaw)},
-                    r->rotor_inertia_kgm2 * pair_sum(spin)};
+  return (rotors_t){
+      few_sum(lift), {few_sum(roll), few_sum(pitch), few_sum(yaw)}, r->rotor_inertia_kgm2 * few_sum(spin)};
 }
 
 static inline void rigid_translate(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N,

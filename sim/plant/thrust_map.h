@@ -2,7 +2,6 @@
 #ifndef SIM_PLANT_THRUST_MAP_H
 #define SIM_PLANT_THRUST_MAP_H
 
-#include "base/pair.h"
 #include <stdbool.h>
 
 typedef enum {
@@ -21,8 +20,6 @@ typedef struct {
 
 // Newton of one motor, >= 0. command: pwm 0..65535, or rad/s; vbat_V: > 0. With THRUST_MAP_NONE: NaN.
 double thrust_map_N(const thrust_map_t *map, double command, double vbat_V);
-// The same of two.
-pair_t thrust_map_pair_N(const thrust_map_t *map, pair_t command, double vbat_V);
 
 // The command is a rotor speed in rad/s, not a pwm.
 bool thrust_map_takes_speed(const thrust_map_t *map);

@@ -12,10 +12,10 @@ static double left_over(double rho, double s) {
 }
 
 static double turning_of(double rho) {
-  return inflow_turning(pair_both(rho), pair_both(0.0))[0];
+  return inflow_turning(few_all(rho), few_all(0.0))[0];
 }
 static double torque_of(double rho) {
-  return inflow_torque(inflow_turning(pair_both(rho), pair_both(0.0)))[0];
+  return inflow_torque(inflow_turning(few_all(rho), few_all(0.0)))[0];
 }
 
 TEST(inflow_speed_solves_motor_blades_and_power_together) {

@@ -1,0 +1,58 @@
+// few.h - a few doubles at a time, of each rotor one: the plant's inner loops, and what commands become on
+// their way to it. +, -, * and / act on all of them; the results are those of one at a time, to the bit.
+// Four, one register where a function is compiled for AVX2 (PAIR_COPIES); two where each number is that of
+// eight vehicles (base/lane_pair.hpp). An extension of C that gcc and clang share. Header only.
+#ifndef SIM_BASE_FEW_H
+#define SIM_BASE_FEW_H
+
+#include "base/pair.h"
+
+#define FEW_N 4 // so many they are
+
+// What takes or gives them is inlined: how a function is handed so many differs from processor to processor.
+#define FEW_INLINE WIDE_INLINE
+
+typedef four_t few_t;
+typedef four_bits_t few_bits_t;
+
+FEW_INLINE few_t few_of(const double *p) {
+  few_t a;
+  memcpy(&a, p, sizeof a);
+  return a;
+}
+FEW_INLINE void few_put(double *p, few_t a) {
+  memcpy(p, &a, sizeof a);
+}
+FEW_INLINE few_t few_all(double a) {
+  return (few_t){a, a, a, a};
+}
+// Of sums that were begun at 0, in the order of those who add two to two.
+FEW_INLINE double few_sum(few_t a) {
+  return (a[0] + a[2]) + (a[1] + a[3]);
+}
+// a where a comparison holds, elsewhere b.
+FEW_INLINE few_t few_where(few_bits_t holds, few_t a, few_t b) {
+  return (few_t)((holds & (few_bits_t)a) | (~holds & (few_bits_t)b));
+}
+// 2^n of whole numbers n, -1022..1023, that are in the lowest bits of a.
+FEW_INLINE few_t few_exp2_of_bits(few_t a) {
+  return (few_t)(((few_bits_t)a + 1023) << 52);
+}
+FEW_INLINE bool few_any(few_bits_t holds) {
+  return (holds[0] | holds[1] | holds[2] | holds[3]) != 0;
+}
+// The smaller and the larger; where a is NaN, b.
+FEW_INLINE few_t few_min(few_t a, few_t b) {
+  return few_where(a < b, a, b);
+}
+FEW_INLINE few_t few_max(few_t a, few_t b) {
+  return few_where(a > b, a, b);
+}
+FEW_INLINE few_t few_sqrt(few_t a) {
+  return (few_t){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])};
+}
+FEW_INLINE few_t few_trunc(few_t a) {
+  return (few_t){trunc(a[0]), trunc(a[1]), trunc(a[2]), trunc(a[3])};
+}
+
+#endif
