@@ -178,6 +178,6 @@ void settings_mend(void) {
   if (!(GLUE.flight.due & FLIGHT_SCRUB)) return;
   if (GLUE.flight.waiting != 0 && (GLUE.ready || GLUE.ground_starts))
     take();
-  else
+  else if (memcmp(&GLUE.flight.outer.param, &GLUE.flown, sizeof GLUE.flown) != 0) // else it has just done so
     (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }
