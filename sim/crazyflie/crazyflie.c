@@ -50,7 +50,7 @@ static void take_model(crazyflie_t *c, const model_t *model) {
 }
 
 void crazyflie_init(crazyflie_t *c, const model_t *model) {
-  *c = (crazyflie_t){.app = glue_static};
+  *c = (crazyflie_t){.app = glue_static, .touched = true};
   c->around = (stand_in_t){
       .app = &c->app, .has_flow = true, .has_multiranger = true, .stock = stock, .stock_context = c};
   c->supervised_by = supervised_default;
@@ -61,6 +61,7 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
 
 void crazyflie_home(crazyflie_t *c) {
   if (c->bring_home) c->bring_home(c->home_context);
+  c->touched = true; // after its state has come
 }
 
 void crazyflie_start(crazyflie_t *c) {

@@ -42,6 +42,7 @@ typedef struct crazyflie {
   bool called;
   void (*bring_home)(void *context); // null: its state is here
   void *home_context;
+  bool touched; // crazyflie_home() was called since its pilot looked
 } crazyflie_t;
 
 // A vehicle that is off: its app's parameters are at their defaults. The firmware is the one that was built

@@ -8,7 +8,8 @@
 typedef struct {
   crazyflie_t vehicle;
   flight_t *flight;     // its app's
-  flight_param_t param; // may be changed in flight: what differs is written to the app's parameters
+  flight_param_t param; // may be changed in flight, after crazyflie_home(): what differs is written to the
+                        // app's parameters
   flight_param_t sent;
   float *log; // rows of the app's logs; null unless kept; free it
   int n_log, room_log;

@@ -152,6 +152,7 @@ TEST(flight_takes_a_changed_cut_off_over_at_once) {
   hover6_start(&r, 0.0);
   hover6_fly(&r, 0.5);
   const lpf2_coef_t inner = r.flight.flight->att_filter, outer = r.flight.flight->outer.coef.filter;
+  crazyflie_home(&r.flight.vehicle);
   r.flight.param.cutoff_Hz = 15.0f;
   r.flight.param.att_cutoff_Hz = 30.0f;
   hover6_fly(&r, 0.02);
