@@ -33,6 +33,7 @@ static double noise(random_t *r, double sd) {
 // In this order, whatever is seen: what is above must not shift the other sensors' noise.
 range_drawn_t range_draw(const range_t *s, const range_param_t *p, random_t *r) {
   range_drawn_t drawn = {.up_age_ms = 0.0};
+  if (s->tick % RANGE_ANY_PERIOD_MS != 0) return drawn;
   if (is_due(s, RANGE_UP_PERIOD_MS)) {
     drawn.up_age_ms = random_uniform(r, RANGE_UP_AGE_MIN_MS, RANGE_UP_AGE_MAX_MS + 1);
     drawn.up_error_m = noise(r, p->up_m);
