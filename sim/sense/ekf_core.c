@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "base/either.h"
 #include "base/larger.h"
-#include "base/pair.h"
+#include "base/few.h"
 #include <math.h>
 #include <string.h>
 
@@ -29,11 +29,13 @@ static double bounded(double p) {
   return where(most > VARIANCE_MIN, most, VARIANCE_MIN);
 }
 
-// A row of the variance, its diagonal and what is right of it; in pairs, so that one element left of it may
-// change, too.
+// A row of the variance, its diagonal and what is right of it: a few at a time, and what is left in pairs, so
+// that one element left of it may change, too.
 static inline void put_row(ekf_t *e, alike_t i, const double row[EKF_ROW]) {
-  const pair_t most = pair_both(VARIANCE_MAX);
-  for (int j = i & ~1; j < EKF_ROW; j += 2) pair_put(e->P[i] + j, pair_min(pair_of(row + j), most));
+  alike_t j = i & ~1;
+  for (; j + FEW_N <= EKF_ROW; j += FEW_N)
+    few_put(e->P[i] + j, few_min(few_of(row + j), few_all(VARIANCE_MAX)));
+  for (; j < EKF_ROW; j += 2) pair_put(e->P[i] + j, pair_min(pair_of(row + j), pair_both(VARIANCE_MAX)));
   e->P[i][i] = bounded(e->P[i][i]);
 }
 
@@ -119,9 +121,16 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
 // are 0. The estimator's time goes here.
 static inline void row_times(alike_t part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
                              double *out) {
-  for (int j = part & ~1; j < EKF_ROW; j += 2) {
+  const alike_t from = part == ATT ? ATT : VEL;
+  alike_t j = part & ~1;
+  for (; j + FEW_N <= EKF_ROW; j += FEW_N) {
+    few_t sum = part == POS ? few_of(own + j) : few_all(0.0);
+    for (int k = from; k < EKF_N; k++) sum += a[k] * few_of(M[k] + j);
+    few_put(out + j, sum);
+  }
+  for (; j < EKF_ROW; j += 2) {
     pair_t sum = part == POS ? pair_of(own + j) : pair_both(0.0);
-    for (int k = part == ATT ? ATT : VEL; k < EKF_N; k++) sum += a[k] * pair_of(M[k] + j);
+    for (int k = from; k < EKF_N; k++) sum += a[k] * pair_of(M[k] + j);
     pair_put(out + j, sum);
   }
 }
@@ -179,8 +188,9 @@ static void correct(ekf_t *e, alike_t i, double a, alike_t j, double b, double e
   for (int k = 0; k < EKF_N; k++) {
     const double gain = Ph[k] * inverse;
     e->s[k] += gain * error;
-    for (int l = k & ~1; l < EKF_ROW; l += 2)
-      pair_put(row + l, pair_of(e->P[k] + l) - gain * pair_of(Ph + l));
+    alike_t l = k & ~1;
+    for (; l + FEW_N <= EKF_ROW; l += FEW_N) few_put(row + l, few_of(e->P[k] + l) - gain * few_of(Ph + l));
+    for (; l < EKF_ROW; l += 2) pair_put(row + l, pair_of(e->P[k] + l) - gain * pair_of(Ph + l));
     put_row(e, k, row);
   }
   e->updated = true;
