@@ -23,6 +23,10 @@ FEW_INLINE few_t few_of(const double *p) {
 FEW_INLINE void few_put(double *p, few_t a) {
   memcpy(p, &a, sizeof a);
 }
+// Four, one after the other: who reads them as few reads what was written at once, and need not wait.
+FEW_INLINE void few_put_four(double *p, double a, double b, double c, double d) {
+  few_put(p, (few_t){a, b, c, d});
+}
 FEW_INLINE few_t few_all(double a) {
   return (few_t){a, a, a, a};
 }

@@ -5,6 +5,7 @@
 #define SIM_BASE_LANE_PAIR_HPP
 
 #define PAIR_COPIES
+#define same_in_bits(a, b, bytes) (memcmp(a, b, bytes) == 0)
 
 struct pair_bits_t {
   pair_flag_t a[2];
@@ -111,5 +112,12 @@ LANE pair_t pair_exp2_of_bits(pair_t x) {
 #define few_max           pair_max
 #define few_sqrt          pair_sqrt
 #define few_trunc         pair_trunc
+
+LANE void few_put_four(pair_number_t *p, pair_number_t a, pair_number_t b, pair_number_t c, pair_number_t d) {
+  p[0] = a;
+  p[1] = b;
+  p[2] = c;
+  p[3] = d;
+}
 
 #endif

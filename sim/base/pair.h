@@ -23,6 +23,18 @@
 typedef double pair_t __attribute__((vector_size(16)));
 typedef int64_t pair_bits_t __attribute__((vector_size(16)));
 
+// Bit by bit the same: of a few dozen bytes the library's call costs more than they do. bytes: times 8.
+static inline bool same_in_bits(const void *a, const void *b, size_t bytes) {
+  uint64_t differ = 0;
+  for (size_t i = 0; i < bytes; i += sizeof differ) {
+    uint64_t x, y;
+    memcpy(&x, (const char *)a + i, sizeof x);
+    memcpy(&y, (const char *)b + i, sizeof y);
+    differ |= x ^ y;
+  }
+  return differ == 0;
+}
+
 static inline pair_t pair_of(const double *p) {
   pair_t a;
   memcpy(&a, p, sizeof a);

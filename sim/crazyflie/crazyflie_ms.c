@@ -1,9 +1,9 @@
 // crazyflie_ms.c - a millisecond of a Crazyflie on the host.
 #include "crazyflie.h"
 
-#include "base/clip.h"
 #include "base/constants.h"
 #include "base/either.h"
+#include "base/few.h"
 #include "controller.h"
 #include "plant/rotor.h"
 #include "range.h"
@@ -23,7 +23,7 @@
 
 // The angles cost more than all the rest, and in most milliseconds the estimate does not turn.
 static void take_attitude(crazyflie_t *c, dq_t q_wb) {
-  if (memcmp(&q_wb, &c->q_wb, sizeof q_wb) == 0) return;
+  if (same_in_bits(&q_wb, &c->q_wb, sizeof q_wb)) return;
   c->q_wb = q_wb;
   const stock_angles_t angles = stock_angles(q_wb);
   c->state.attitude.roll = (float)angles.roll_deg;
@@ -69,7 +69,7 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
 
 // Most set points stand for seconds: the firmware's is made when another one is asked for.
 static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
-  if (ANY(!c->ordered) || memcmp(set, &c->asked, sizeof *set) != 0) {
+  if (ANY(!c->ordered) || !same_in_bits(set, &c->asked, sizeof *set)) {
     memcpy(&c->asked, set, sizeof *set);
     c->setpoint = order(c, set);
   }
@@ -100,8 +100,10 @@ static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
     stock_mix(&command, unit);
     return;
   }
-  for (int i = 0; i < PILOT_MOTORS; i++)
-    unit[i] = trunc(UNIT_MAX * clip((double)control->normalizedForces[i], 0.0, 1.0));
+  const few_t none = few_all(0.0), all = few_all(1.0);
+  for (int i = 0; i < PILOT_MOTORS; i++) unit[i] = (double)control->normalizedForces[i];
+  for (int i = 0; i < PILOT_MOTORS; i += FEW_N) // NaN becomes none
+    few_put(unit + i, few_trunc(UNIT_MAX * few_min(few_max(few_of(unit + i), none), all)));
 }
 
 static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
@@ -197,7 +199,7 @@ static pilot_setpoint_t as_pilot(const crazyflie_t *c, const setpoint_t *sp) {
   };
 }
 
-void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
+PAIR_COPIES void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   stand_in = &c->around;
   if (!c->called) take_over(c, in);
   measure(c, in);

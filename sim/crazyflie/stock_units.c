@@ -162,14 +162,18 @@ PAIR_COPIES void stock_power_duty(stock_power_t *s, const stock_power_param_t *p
     for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = 0.0;
     return;
   }
-  few_t v[PARTS];
+  few_t v[PARTS], most = few_all(STOCK_FULL);
   few_bits_t runs[PARTS];
   want(s, p, unit, v, runs);
-  for (int i = 0; i < PARTS; i++)
-    few_put(duty + FEW_N * i, few_where(runs[i], few_trunc(STOCK_FULL * v[i] / s->supply_V), off));
-  double most = STOCK_FULL;
-  for (int i = 0; i < PILOT_MOTORS; i++) most = larger(most, duty[i]);
-  for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = larger(duty[i] - (most - STOCK_FULL), 0.0);
+  for (int i = 0; i < PARTS; i++) {
+    v[i] = few_where(runs[i], few_trunc(STOCK_FULL * v[i] / s->supply_V), off);
+    most = few_max(v[i], most);
+  }
+  double over = most[0];
+  for (int i = 1; i < FEW_N; i++) over = larger(over, most[i]);
+  over = over - STOCK_FULL;
+  // Together, as they are read again: who reads more at once than was written waits for it.
+  for (int i = 0; i < PARTS; i++) few_put(duty + FEW_N * i, few_max(v[i] - over, off));
 }
 
 void stock_power_step(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
