@@ -1,8 +1,8 @@
 // integrate.c - SUNDIALS ERKStep, and a Runge-Kutta step by hand as its cross-check.
 #include "plant/integrate.h"
 
-#include "base/wide.h"
 #include "base/error.h"
+#include "plant/one_state.h"
 #include "plant/short_vector.h"
 #include <arkode/arkode_erkstep.h>
 #include <float.h>
@@ -30,8 +30,9 @@ struct integrate {
 // --- by hand ------------------------------------------------------------------------------------------
 
 // next may be y.
-WIDE_INLINE void rk4_of(int n, const ode_t *ode, const double *y, double h, double *next) {
+WIDE_COPIES static void rk4_many(const ode_t *ode, const double *y, double h, double *next) {
   double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
+  const int n = ode->n;
   ode->derivative(ode->context, y, k1);
   for (int i = 0; i < n; i++) at[i] = y[i] + 0.5 * h * k1[i];
   ode->derivative(ode->context, at, k2);
@@ -42,11 +43,23 @@ WIDE_INLINE void rk4_of(int n, const ode_t *ode, const double *y, double h, doub
   for (int i = 0; i < n; i++) next[i] = y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
 }
 
-WIDE_COPIES static void rk4_step(const ode_t *ode, const double *y, double h, double *next) {
-  if (ode->n == SHORT_VECTOR_ONE)
-    rk4_of(SHORT_VECTOR_ONE, ode, y, h, next);
-  else
-    rk4_of(ode->n, ode, y, h, next);
+FEW_INLINE void ahead(const double *y, double h, one_state_t k, double *to) {
+  one_state_put(to, one_state_plus(one_state_of(y), h, k));
+}
+
+// The same of one vehicle.
+PAIR_COPIES static void rk4_one(const ode_t *ode, const double *y, double h, double *next) {
+  double k1[ONE_STATE], k2[ONE_STATE], k3[ONE_STATE], k4[ONE_STATE], at[ONE_STATE];
+  ode->derivative(ode->context, y, k1);
+  ahead(y, 0.5 * h, one_state_of(k1), at);
+  ode->derivative(ode->context, at, k2);
+  ahead(y, 0.5 * h, one_state_of(k2), at);
+  ode->derivative(ode->context, at, k3);
+  ahead(y, h, one_state_of(k3), at);
+  ode->derivative(ode->context, at, k4);
+  const one_state_t first = one_state_plus(one_state_of(k1), 2.0, one_state_of(k2)),
+                    all = one_state_plus(one_state_plus(first, 2.0, one_state_of(k3)), 1.0, one_state_of(k4));
+  ahead(y, h / 6.0, all, next);
 }
 
 // Spans are of few lengths.
@@ -61,7 +74,8 @@ static void rk4_to(integrate_t *s, double *y, double span_s) {
   rk4_cut(s, span_s);
   const int steps = s->steps;
   const double h = s->h;
-  for (int i = 0; i < steps; i++) rk4_step(&s->ode, y, h, y);
+  const bool one = s->ode.n == ONE_STATE;
+  for (int i = 0; i < steps; i++) one ? rk4_one(&s->ode, y, h, y) : rk4_many(&s->ode, y, h, y);
 }
 
 // --- SUNDIALS -----------------------------------------------------------------------------------------

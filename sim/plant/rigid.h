@@ -131,28 +131,20 @@ static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const dou
       few_sum(lift), {few_sum(roll), few_sum(pitch), few_sum(yaw)}, r->rotor_inertia_kgm2 * few_sum(spin)};
 }
 
-static inline void rigid_translate(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N,
-                                   double *dydt) {
+// All but the thrusts, written in fours: the integrator reads them so at once.
+static inline void rigid_move(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N,
+                              d3_t moment_b_Nm, double spin_Nms, double *dydt) {
   const d3_t acc = d3_scale(r->per_mass, axes_to_world(axes, force_b_N));
-  dydt[RIGID_POS_M] = y[RIGID_VEL_MPS];
-  dydt[RIGID_POS_M + 1] = y[RIGID_VEL_MPS + 1];
-  dydt[RIGID_POS_M + 2] = y[RIGID_VEL_MPS + 2];
-  dydt[RIGID_VEL_MPS] = acc.x;
-  dydt[RIGID_VEL_MPS + 1] = acc.y;
-  dydt[RIGID_VEL_MPS + 2] = acc.z - G_MPS2;
-}
-
-static inline void rigid_rotate(const rigid_t *r, const double *y, d3_t moment_b_Nm, double spin_Nms,
-                                double *dydt) {
   const d3_t w = d3_of(y + RIGID_RATE_RADPS), J = r->inertia_kgm2, per = r->per_inertia;
   const d3_t h = d3(J.x * w.x, J.y * w.y, J.z * w.z + spin_Nms);
   const d3_t left = d3_sub(moment_b_Nm, d3_cross(w, h));
   const double a = y[RIGID_Q_WB], b = y[RIGID_Q_WB + 1], c = y[RIGID_Q_WB + 2], d = y[RIGID_Q_WB + 3];
-  dydt[RIGID_Q_WB] = -0.5 * (b * w.x + c * w.y + d * w.z);
-  dydt[RIGID_Q_WB + 1] = 0.5 * (a * w.x + c * w.z - d * w.y);
-  dydt[RIGID_Q_WB + 2] = 0.5 * (a * w.y + d * w.x - b * w.z);
-  dydt[RIGID_Q_WB + 3] = 0.5 * (a * w.z + b * w.y - c * w.x);
-  d3_put(dydt + RIGID_RATE_RADPS, d3(left.x * per.x, left.y * per.y, left.z * per.z));
+  few_put_four(dydt, y[RIGID_VEL_MPS], y[RIGID_VEL_MPS + 1], y[RIGID_VEL_MPS + 2], acc.x);
+  few_put_four(dydt + RIGID_VEL_MPS + 1, acc.y, acc.z - G_MPS2, -0.5 * (b * w.x + c * w.y + d * w.z),
+               0.5 * (a * w.x + c * w.z - d * w.y));
+  few_put_four(dydt + RIGID_Q_WB + 2, 0.5 * (a * w.y + d * w.x - b * w.z),
+               0.5 * (a * w.z + b * w.y - c * w.x), left.x * per.x, left.y * per.y);
+  dydt[RIGID_RATE_RADPS + 2] = left.z * per.z;
 }
 
 // speed: of the rotors in free air, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: rho
@@ -167,8 +159,7 @@ static inline void rigid_derivative(const rigid_t *r, const double y[RIGID_N], c
     force_b_N = d3_add(load->force_b_N, force_b_N);
     moment_b_Nm = d3_add(load->moment_b_Nm, moment_b_Nm);
   }
-  rigid_translate(r, y, axes, force_b_N, dydt);
-  rigid_rotate(r, y, moment_b_Nm, all.spin_Nms, dydt);
+  rigid_move(r, y, axes, force_b_N, moment_b_Nm, all.spin_Nms, dydt);
   if (!r->vertical_only && !r->held) return;
   for (int i = 0; i < RIGID_THRUST_N; i++)
     if (r->held || (i != RIGID_POS_M + 2 && i != RIGID_VEL_MPS + 2)) dydt[i] = 0.0;

@@ -1,7 +1,7 @@
 // short_vector.c - vectors of a few numbers for SUNDIALS.
 #include "plant/short_vector.h"
 
-#include "base/wide.h"
+#include "plant/one_state.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
@@ -14,13 +14,20 @@ static void put_const(realtype c, N_Vector z) {
   for (sunindextype i = 0; i < n; i++) out[i] = c;
 }
 
+PAIR_COPIES static void copy_one(const realtype *in, realtype *out) {
+  one_state_put(out, one_state_of(in));
+}
+
 // Nearly always by 1: a copy.
 static void scale(realtype c, N_Vector x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   const realtype *in = NV_DATA_S(x);
   realtype *out = NV_DATA_S(z);
   if (c == 1.0) {
-    memmove(out, in, (size_t)n * sizeof *out);
+    if (n == ONE_STATE)
+      copy_one(in, out);
+    else
+      memmove(out, in, (size_t)n * sizeof *out);
     return;
   }
   for (sunindextype i = 0; i < n; i++) out[i] = c * in[i];
@@ -34,8 +41,9 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
 }
 
 // c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
-WIDE_INLINE void combine(sunindextype n, int terms, const realtype *c, N_Vector *x, N_Vector z) {
+WIDE_COPIES static void combine(int terms, const realtype *c, N_Vector *x, N_Vector z) {
   realtype sum[SHORT_VECTOR_MAX];
+  const sunindextype n = NV_LENGTH_S(z);
   for (sunindextype i = 0; i < n; i++) sum[i] = 0.0;
   for (int k = 0; k < terms; k++) {
     if (c[k] == 0.0) continue;
@@ -45,11 +53,16 @@ WIDE_INLINE void combine(sunindextype n, int terms, const realtype *c, N_Vector 
   memcpy(NV_DATA_S(z), sum, (size_t)n * sizeof *sum);
 }
 
-WIDE_COPIES static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
-  if (NV_LENGTH_S(z) == SHORT_VECTOR_ONE)
-    combine(SHORT_VECTOR_ONE, terms, c, x, z);
-  else
-    combine(NV_LENGTH_S(z), terms, c, x, z);
+PAIR_COPIES static void combine_one(int terms, const realtype *c, N_Vector *x, N_Vector z) {
+  const few_t zero = few_all(0.0);
+  one_state_t sum = {{zero, zero, zero}, zero, 0.0};
+  for (int k = 0; k < terms; k++)
+    if (c[k] != 0.0) sum = one_state_plus(sum, c[k], one_state_of(NV_DATA_S(x[k])));
+  one_state_put(NV_DATA_S(z), sum);
+}
+
+static int linear_combination(int terms, realtype *c, N_Vector *x, N_Vector z) {
+  NV_LENGTH_S(z) == ONE_STATE ? combine_one(terms, c, x, z) : combine(terms, c, x, z);
   return 0;
 }
 

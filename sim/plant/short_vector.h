@@ -7,7 +7,6 @@
 #include <sundials/sundials_nvector.h>
 
 #define SHORT_VECTOR_MAX 136
-#define SHORT_VECTOR_ONE 17 // one vehicle: any number will do, but loops over so many are unrolled
 
 // n numbers, all 0. Null: n > SHORT_VECTOR_MAX, or no memory. N_VDestroy frees it; its clones have the same
 // operations.
