@@ -19,17 +19,6 @@ double body_rotor_z_m(const model_t *model) {
   return model->frame.rotor_above_feet_m - model->frame.cg_above_feet_m;
 }
 
-static void derivative(void *self, const double *y, double *dydt) {
-  body_t *b = self;
-  if (!b->look_is_y) {
-    body_derivative(b, b->surfaces, y, dydt);
-    return;
-  }
-  // The first call of a tick is at the tick's start, whichever integrator it is.
-  body_derivative_seen(b, y, &b->look, dydt);
-  b->look_is_y = false;
-}
-
 static void look_now(body_t *b) {
   body_look(b, TOUCH_FLOOR | TOUCH_CEILING | TOUCH_WALL, b->y, &b->look);
   b->look_is_y = true;
@@ -112,7 +101,7 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
   b->on_ceiling = gap.ceiling_m < BODY_RELEASE_M;
   b->kind = kind;
   b->step_s = step_s;
-  const ode_t ode = {.n = RIGID_N, .derivative = derivative, .context = b, .step_s = step_s};
+  const ode_t ode = {.n = RIGID_N, .derivative = body_next_derivative, .context = b, .step_s = step_s};
   const done_t status = integrate_open(&b->integrate, kind, &ode);
   if (status != DONE) body_close(b);
   return status;

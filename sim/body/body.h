@@ -143,6 +143,8 @@ void body_look_more(const body_t *b, const fx_use_t *more, const double *y, body
 // dydt at state y, with what acts there or without having looked.
 void body_derivative_seen(const body_t *b, const double *y, const body_look_t *look, double *dydt);
 void body_derivative(const body_t *b, int surfaces, const double *y, double *dydt);
+// The integrator's: self is the body, which has looked at y where look_is_y.
+void body_next_derivative(void *self, const double *y, double *dydt);
 
 // Specific force at the centre of mass, body axes, and how the turning grows.
 d3_t body_pull_b_mps2(const body_t *b, const double *y, const body_look_t *look, d3_t *turn_radps2);

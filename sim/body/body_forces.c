@@ -46,6 +46,20 @@ PAIR_COPIES void body_derivative(const body_t *b, int surfaces, const double *y,
   forces_derivative(&f, y, &look, dydt);
 }
 
+PAIR_COPIES void body_next_derivative(void *self, const double *y, double *dydt) {
+  body_t *b = self;
+  const acting_t f = forces_of(b);
+  if (!b->look_is_y) {
+    body_look_t look;
+    forces_look(&f, b->surfaces, y, &look);
+    forces_derivative(&f, y, &look, dydt);
+    return;
+  }
+  // The first call of a tick is at the tick's start, whichever integrator it is.
+  forces_derivative(&f, y, &b->look, dydt);
+  b->look_is_y = false;
+}
+
 d3_t body_pull_b_mps2(const body_t *b, const double *y, const body_look_t *look, d3_t *turn_radps2) {
   const acting_t f = forces_of(b);
   return forces_pull_b_mps2(&f, y, look, turn_radps2);
@@ -66,7 +80,7 @@ double body_rotors_N(const body_t *b) {
   return forces_rotors_N(b->y);
 }
 
-double body_gap_m(const body_t *b) {
+PAIR_COPIES double body_gap_m(const body_t *b) {
   const acting_t f = forces_of(b);
   return forces_gap_m(&f, b->y, &b->look.axes);
 }

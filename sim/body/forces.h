@@ -91,7 +91,7 @@ static inline void forces_motion(const acting_t *f, const double *y, const body_
   motion->rate_b_radps = d3_of(y + RIGID_RATE_RADPS);
   motion->axes = axes;
   motion->hub_b_m = f->touch->disc;
-  motion->spin = f->rigid->spin;
+  motion->rigid = f->rigid;
   for (int i = 0; i < ROTORS; i += FEW_N)
     few_put(motion->rotor_radps + i, few_of(look->turning + i) * few_of(look->speed_radps + i));
 }
@@ -235,13 +235,11 @@ static inline double forces_ceiling_gap_m(const acting_t *f, const double *y, co
 
 // Of the rotor that is nearest; far from the ceiling that of the first is near enough.
 static inline double forces_gap_m(const acting_t *f, const double *y, const axes_t *axes) {
-  const double first_m = forces_ceiling_gap_m(f, y, axes, 0);
-  double gap_m = first_m;
-  for (int i = 1; i < ROTORS; i++) {
-    const double other_m = forces_ceiling_gap_m(f, y, axes, i);
-    gap_m = where(other_m < gap_m, other_m, gap_m);
-  }
-  return where(f->touch->ceiling_m - y[RIGID_POS_M + 2] > FORCES_FAR_M, first_m, gap_m);
+  const fx_places_t at = forces_places(f, SURFACE_CEILING, d3_of(y + RIGID_POS_M), axes);
+  const double *const each_m = at.ceiling_gap_m;
+  double gap_m = each_m[0];
+  for (int i = 1; i < ROTORS; i++) gap_m = where(each_m[i] < gap_m, each_m[i], gap_m);
+  return where(f->touch->ceiling_m - y[RIGID_POS_M + 2] > FORCES_FAR_M, each_m[0], gap_m);
 }
 
 static inline double forces_rotors_N(const double *y) {

@@ -95,7 +95,7 @@ typedef struct {
   const axes_t *axes;         // of the body
   const d3_t *hub_b_m;        // the rotors' centres, from the centre of mass
   double rotor_radps[ROTORS]; // their speeds
-  const double *spin;         // their senses of turning (plant/rigid.h, d_i)
+  const rigid_t *rigid;       // has the centres, too, and the rotors' senses of turning (plant/rigid.h, d_i)
 } fx_motion_t;
 
 // A rotor's hub, `arm` of the way from the centre of mass to it: 1 the hub, 0 the centre of mass.
@@ -271,10 +271,12 @@ static inline fx_places_t fx_middle(const fx_places_t *at) {
 
 // Adds the effect's excess at each rotor. The effect must have the hook.
 static inline void fx_add_excess(const fx_use_t *use, const fx_places_t *each, double ratio[ROTORS]) {
-  const bool middle = use->form && use->p[use->form->n_param - 1] < 0.5;
-  const fx_places_t mean = middle ? fx_middle(each) : (fx_places_t){.radius_m = 0.0}, *const at = middle
-                                                                                                      ? &mean
-                                                                                                      : each;
+  fx_places_t mean;
+  const fx_places_t *at = each;
+  if (use->form && use->p[use->form->n_param - 1] < 0.5) {
+    mean = fx_middle(each);
+    at = &mean;
+  }
   if (!use->form || !use->form->add_excess) {
     for (int i = 0; i < ROTORS; i++) {
       const fx_place_t place = {at->ceiling_gap_m[i], at->ground_gap_m[i], at->radius_m};

@@ -4,7 +4,7 @@
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
   double spin_radps = 0.0;
-  for (int i = 0; i < ROTORS; i++) spin_radps += motion->spin[i] * motion->rotor_radps[i];
+  for (int i = 0; i < ROTORS; i++) spin_radps += motion->rigid->spin[i] * motion->rotor_radps[i];
   const double h = use->p[0] * spin_radps;
   load->moment_b_Nm.x -= h * motion->rate_b_radps.y;
   load->moment_b_Nm.y += h * motion->rate_b_radps.x;

@@ -5,14 +5,32 @@
 // and pitches where they lie above the centre of mass; at the centre of mass (0), as simulators often have it
 // and as recorded flights of a Crazyflie show it, it does neither. Source: the form of Faessler, Franchi,
 // Scaramuzza 2018 (doi 10.1109/LRA.2017.2776353), at the hubs.
+#include "base/few.h"
 #include "effects/fx.h"
 
+// One after the other.
+FEW_INLINE double plus(double sum, few_t a) {
+  for (int i = 0; i < FEW_N; i++) sum += a[i];
+  return sum;
+}
+
+// As fx_hub() and fx_push_hub() of each.
 PAIR_COPIES static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
   load_t all = *load; // what is written through a pointer may be `motion`, to a compiler
-  for (int i = 0; i < ROTORS; i++) {
-    const double k = use->p[0] * motion->rotor_radps[i];
-    const fx_hub_t hub = fx_hub(motion, i, use->p[1]);
-    fx_push_hub(&hub, d3(-k * hub.air_b_mps.x, -k * hub.air_b_mps.y, 0.0), &all);
+  d3_t *const force = &all.force_b_N, *const moment = &all.moment_b_Nm;
+  const d3_t air = motion->air_b_mps, rate = motion->rate_b_radps;
+  const rigid_t *const r = motion->rigid;
+  const double arm = use->p[1];
+  for (int i = 0; i < ROTORS; i += FEW_N) {
+    const few_t k = use->p[0] * few_of(motion->rotor_radps + i), x = arm * few_of(r->rotor_x_m + i),
+                y = arm * few_of(r->rotor_y_m + i), z = arm * few_of(r->rotor_z_m + i);
+    const few_t fx = -k * (air.x + (rate.y * z - rate.z * y)), fy = -k * (air.y + (rate.z * x - rate.x * z));
+    force->x = plus(force->x, fx);
+    force->y = plus(force->y, fy);
+    force->z += 0.0; // which -0 is not any more
+    moment->x = plus(moment->x, y * 0.0 - z * fy);
+    moment->y = plus(moment->y, z * fx - x * 0.0);
+    moment->z = plus(moment->z, x * fy - y * fx);
   }
   *load = all;
 }
