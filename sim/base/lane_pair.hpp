@@ -97,21 +97,21 @@ LANE pair_t pair_exp2_of_bits(pair_t x) {
 
 // base/few.h: two at a time, for four of eight vehicles would fill all registers.
 #define SIM_BASE_FEW_H
-#define FEW_N               2
-#define FEW_INLINE        LANE
-#define few_t             pair_t
-#define few_bits_t        pair_bits_t
-#define few_of            pair_of
-#define few_put           pair_put
-#define few_all           pair_both
-#define few_sum           pair_sum
-#define few_where         pair_where
-#define few_exp2_of_bits  pair_exp2_of_bits
-#define few_any           pair_any
-#define few_min           pair_min
-#define few_max           pair_max
-#define few_sqrt          pair_sqrt
-#define few_trunc         pair_trunc
+#define FEW_N            2
+#define FEW_INLINE       LANE
+#define few_t            pair_t
+#define few_bits_t       pair_bits_t
+#define few_of           pair_of
+#define few_put          pair_put
+#define few_all          pair_both
+#define few_sum          pair_sum
+#define few_where        pair_where
+#define few_exp2_of_bits pair_exp2_of_bits
+#define few_any          pair_any
+#define few_min          pair_min
+#define few_max          pair_max
+#define few_sqrt         pair_sqrt
+#define few_trunc        pair_trunc
 
 LANE void few_put_four(pair_number_t *p, pair_number_t a, pair_number_t b, pair_number_t c, pair_number_t d) {
   p[0] = a;
