@@ -72,12 +72,6 @@ double both_ways_agree(const both_t *b, double k, double stderr_) {
   return least > off && k > least - off ? least : 0.0;
 }
 
-// What missed commands make of it in nominal flights is no error of its own here: the interval holds it.
-static double regression_error(const named_t *named, int k) {
-  const double all = named->stderr_[k], beside = named->beside[k];
-  return sqrt(fmax(all * all - beside * beside, 0.0));
-}
-
 // about[k]: of the axes, what a choice predicts; n 0 where that cannot be told.
 static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_t *others, why_t *why) {
   model_t m;
@@ -107,7 +101,7 @@ done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const na
   TRY(look(about, s, base, &others, why));
   *stands = false;
   for (int k = 0; k < 3; k++)
-    *stands = *stands || both_ways_agree(&about[k], named->value[k], regression_error(named, k)) != 0.0;
+    *stands = *stands || both_ways_agree(&about[k], named->value[k], named->stderr_[k]) != 0.0;
   return DONE;
 }
 

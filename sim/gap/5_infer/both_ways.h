@@ -30,8 +30,7 @@ both_t both_ways_of(const rows_t *r, const double *measured, const double *resid
 // borne out: a gyro's noise that is fed back makes commands that seem to turn the vehicle more than they do.
 double both_ways_least(const both_t *b);
 
-// The same of a k that is named; 0 also where k is not within the interval. stderr_: of least squares alone,
-// without what nominal flights find of k.
+// The same of a k that is named, with its standard error; 0 also where k is not within the interval.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 
 // named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways

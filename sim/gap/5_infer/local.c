@@ -134,16 +134,18 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
     }
 }
 
-// Nor is a name known that speaks for itself at some time only, where a constant in every channel from then
+// Nor is a name known that speaks for itself at some time only, where constants in its own channels from then
 // to then does as well: something may have begun there, or gone.
 
 // Of what a name gives: constants that give so much have no more than a drift of the name's own to explain. A
 // motor that loses an eighth of its thrust half-way was a thrust curve at 1.
 #define AS_WELL 0.9
 
-// Sums over bins of time: of the name's contribution, and of what constants in each channel would give.
+// Sums over bins of time: of the name's contribution, and of what constants would give in each channel that
+// it acts in (squares of f there).
 typedef struct {
-  double ff[WINDOW_BINS], fy[WINDOW_BINS], wy[CH_SMOOTH][WINDOW_BINS], ww[CH_SMOOTH][WINDOW_BINS];
+  double ff[WINDOW_BINS], fy[WINDOW_BINS], acts[CH_SMOOTH], wy[CH_SMOOTH][WINDOW_BINS],
+      ww[CH_SMOOTH][WINDOW_BINS];
 } times_t;
 
 static void add_times(const round_t *round, const parts_t *p, const int *bin, times_t *s) {
@@ -153,7 +155,9 @@ static void add_times(const round_t *round, const parts_t *p, const int *bin, ti
     for (int i = 0; c->used && i < r->n; i++) {
       if (!color_reaches(r, i)) continue;
       const double w = (1.0 - c->a1 - c->a2) / c->sd; // a constant, white
-      s->ff[bin[i]] += p->f[ch][i] * p->f[ch][i];
+      const double square = p->f[ch][i] * p->f[ch][i];
+      s->acts[ch] += square;
+      s->ff[bin[i]] += square;
       s->fy[bin[i]] += p->f[ch][i] * p->y[ch][i];
       s->wy[ch][bin[i]] += w * p->y[ch][i];
       s->ww[ch][bin[i]] += w * w;
@@ -169,7 +173,7 @@ static double by_constants(const times_t *s, int from, int to) {
       wy += s->wy[ch][i];
       ww += s->ww[ch][i];
     }
-    if (ww > 0.0) sum += wy * wy / ww;
+    if (ww > 0.0 && s->acts[ch] > 0.0) sum += wy * wy / ww;
   }
   return sum;
 }
