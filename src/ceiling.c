@@ -23,7 +23,7 @@ static unsigned at(const ceiling_t *s, unsigned ticks) {
 static float climb_since_m(const ceiling_t *s, float age_s) {
   const unsigned ticks = ticks_ago(s, age_s);
   float climb_m = 0.0f;
-  for (unsigned i = 0; i < ticks; i++) climb_m += s->climbs_m[at(s, i)];
+  for (unsigned i = 0; ANY(i < ticks); i++) climb_m += EITHER(i < ticks, s->climbs_m[at(s, i)], 0.0f);
   return climb_m;
 }
 
@@ -34,12 +34,13 @@ void ceiling_tilt(ceiling_t *s, float up) {
 }
 
 float ceiling_up(const ceiling_t *s, float age_s) {
-  return s->tilt_known ? s->ups[at(s, ticks_ago(s, age_s))] : 1.0f;
+  return s->tilt_known ? PICK(s->ups, at(s, ticks_ago(s, age_s))) : 1.0f;
 }
 
-static void set(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
-  s->zc_m = f_max(zc_m, 0.0f);
-  s->known = s->zc_m < p->far_m;
+// Where `is` holds; so below (flight/v3.h).
+static void set(ceiling_t *s, const ceiling_param_t *p, bool is, float zc_m) {
+  s->zc_m = EITHER(is, f_max(zc_m, 0.0f), s->zc_m);
+  s->known = EITHER(is, s->zc_m < p->far_m, s->known);
 }
 
 void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
@@ -49,7 +50,7 @@ void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
   s->ups[s->newest] = up;
   s->rival_m -= climb_m;
   s->blind_s += s->period_s;
-  if (s->known) set(s, p, s->zc_m - climb_m);
+  set(s, p, s->known, s->zc_m - climb_m);
 }
 
 void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m, int periods) {
@@ -59,34 +60,40 @@ void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m,
 }
 
 // Three samples in a row that agree overrule an estimate that the gate would keep for ever.
-static void take_rival(ceiling_t *s, const ceiling_param_t *p, float zc_m) {
-  if (!(s->rivals > 0 && fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M)) s->rivals = 0;
-  s->rivals++;
-  s->rival_m = s->rivals == 1 ? zc_m : s->rival_m + (zc_m - s->rival_m) / (float)s->rivals;
-  if (s->rivals < CEILING_AGREE_COUNT) return;
-  s->rivals = 0;
-  s->blind_s = 0.0f;
-  set(s, p, s->rival_m);
+static void take_rival(ceiling_t *s, const ceiling_param_t *p, bool is, float zc_m) {
+  const bool agrees = s->rivals > 0 && fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M;
+  const int rivals = EITHER(agrees, s->rivals + 1, 1);
+  const float mean_m = EITHER(rivals == 1, zc_m, s->rival_m + (zc_m - s->rival_m) / (float)rivals);
+  const bool enough = is && rivals >= CEILING_AGREE_COUNT;
+  s->rival_m = EITHER(is, mean_m, s->rival_m);
+  s->rivals = EITHER(is, EITHER(enough, 0, rivals), s->rivals);
+  s->blind_s = EITHER(enough, 0.0f, s->blind_s);
+  set(s, p, enough, mean_m);
 }
 
-status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s) {
-  if (!(range_m > 0.0f && range_m <= CEILING_RANGE_MAX_M)) return ST_BAD_RANGE;
-  if (!(age_s >= 0.0f && age_s <= FLT_MAX)) return ST_BAD_RANGE;
+bool ceiling_good(float range_m, float age_s) {
+  return range_m > 0.0f && range_m <= CEILING_RANGE_MAX_M && age_s >= 0.0f && age_s <= FLT_MAX;
+}
+
+void ceiling_take(ceiling_t *s, const ceiling_param_t *p, bool is, float range_m, float age_s) {
   const float now_m = range_m - climb_since_m(s, age_s);
-  s->seen_m = now_m;
+  s->seen_m = EITHER(is, now_m, s->seen_m);
   const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
   const bool gated = s->known && s->zc_m < p->near_m;
   // Beyond the gate by noise alone is no contradiction; at the floor, three times, is.
-  const bool contradicts = gated ? beyond_gate && now_m > s->zc_m + CEILING_AGREE_M
-                                 : s->known && (at_floor || now_m > s->zc_m + CEILING_JUMP_M);
-  if (contradicts) {
-    take_rival(s, p, now_m);
-    return ST_OK;
-  }
-  s->rivals = 0;
-  if (gated || at_floor || (!s->known && !beyond_gate)) return ST_OK;
-  s->blind_s = 0.0f;
+  const bool contradicts = is && EITHER(gated, beyond_gate && now_m > s->zc_m + CEILING_AGREE_M,
+                                        s->known && (at_floor || now_m > s->zc_m + CEILING_JUMP_M));
+  const bool counts = is && !contradicts && !(gated || at_floor || (!s->known && !beyond_gate));
+  if (ANY(contradicts)) take_rival(s, p, contradicts, now_m);
+  s->rivals = EITHER(is && !contradicts, 0, s->rivals);
+  if (!ANY(counts)) return;
+  s->blind_s = EITHER(counts, 0.0f, s->blind_s);
   const bool jumps = now_m < s->zc_m - CEILING_JUMP_M; // near is safe
-  set(s, p, s->known && !jumps ? s->zc_m + p->gain * (now_m - s->zc_m) : now_m);
+  set(s, p, counts, EITHER(s->known && !jumps, s->zc_m + p->gain * (now_m - s->zc_m), now_m));
+}
+
+status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s) {
+  if (!ceiling_good(range_m, age_s)) return ST_BAD_RANGE;
+  ceiling_take(s, p, true, range_m, age_s);
   return ST_OK;
 }

@@ -275,10 +275,10 @@ static void run_blind(flight_t *f, float thrust_N) {
 }
 
 static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
-  if (in->range_new) {
-    f->range_waits = true;
-    f->range_m = in->range_m;
-    f->range_age_s = in->range_age_s;
+  if (ANY(in->range_new)) { // of several vehicles each has its own time for it
+    f->range_waits = f->range_waits || in->range_new;
+    f->range_m = EITHER(in->range_new, in->range_m, f->range_m);
+    f->range_age_s = EITHER(in->range_new, in->range_age_s, f->range_age_s);
   }
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   if (f->due == FLIGHT_OUTER) return; // most often; and it costs the most

@@ -14,36 +14,40 @@ static bool is_settled_far(const hold_t *s, const ceiling_t *c) {
 }
 
 void hold_step(hold_t *s, const ceiling_t *c, float z_m, float period_s, int32_t mode) {
-  if (s->against > 0) s->against_s += period_s;
-  if (!c->known) return;
-  const bool follows = mode == HOLD_NOT || (mode == HOLD_LATCHED && is_settled_far(s, c));
-  if (follows || !f_finite(s->ceiling_z_m)) s->ceiling_z_m = z_m + c->zc_m;
+  s->against_s = EITHER(s->against > 0, s->against_s + period_s, s->against_s);
+  const bool asked = mode == HOLD_NOT || (mode == HOLD_LATCHED && is_settled_far(s, c));
+  const bool follows = c->known && (asked || !f_finite(s->ceiling_z_m));
+  s->ceiling_z_m = EITHER(follows, z_m + c->zc_m, s->ceiling_z_m);
 }
 
 // True once samples have put the ceiling elsewhere for long enough.
-static bool refuted(hold_t *s, float seen_z_m, float seen_m) {
+static bool refuted(hold_t *s, bool is, float seen_z_m, float seen_m) {
   const float off_m = seen_z_m - s->ceiling_z_m; // NaN where no ceiling is known: no contradiction
-  if (!(off_m < -HOLD_MARGIN_M || (off_m > HOLD_MARGIN_M && seen_m > HOLD_ROOM_M))) {
-    s->against = 0;
-    s->against_s = 0.0f;
-    return false;
-  }
-  if (s->against < HOLD_AGAINST) s->against++;
-  return s->against == HOLD_AGAINST && s->against_s >= HOLD_AGAINST_S;
+  const bool against = off_m < -HOLD_MARGIN_M || (off_m > HOLD_MARGIN_M && seen_m > HOLD_ROOM_M);
+  const int times = EITHER(s->against < HOLD_AGAINST, s->against + 1, s->against);
+  s->against = EITHER(is, EITHER(against, times, 0), s->against);
+  s->against_s = EITHER(is && !against, 0.0f, s->against_s);
+  return is && against && s->against == HOLD_AGAINST && s->against_s >= HOLD_AGAINST_S;
 }
 
-void hold_sample(hold_t *s, const ceiling_t *c, float z_m, float climb_mps, int32_t mode) {
+void hold_take(hold_t *s, const ceiling_t *c, bool is, float z_m, float climb_mps, int32_t mode) {
   const float seen_z_m = z_m + c->seen_m;
-  if (refuted(s, seen_z_m, c->seen_m)) {
+  if (refuted(s, is, seen_z_m, c->seen_m)) {
     hold_init(s);
     if (c->known) s->ceiling_z_m = seen_z_m;
   }
-  const bool taken = c->known && c->blind_s == 0.0f; // not at the sensor's floor, not gated
+  const bool taken = is && c->known && c->blind_s == 0.0f; // not at the sensor's floor, not gated
   const bool more = mode == HOLD_MEAN && fabsf(climb_mps) <= HOLD_SLOW_MPS &&
                     fabsf(seen_z_m - s->ceiling_z_m) <= HOLD_NOISE_M;
-  if (!taken || (s->samples >= HOLD_SAMPLES && !more)) return;
-  if (s->samples < 0) s->samples = 0; // its sign flipped
-  if (s->samples < HOLD_MEAN_SAMPLES) s->samples++;
-  if (s->samples == 1) s->ceiling_z_m = seen_z_m;
-  s->ceiling_z_m += (seen_z_m - s->ceiling_z_m) / (float)s->samples;
+  const bool counts = taken && (s->samples < HOLD_SAMPLES || more);
+  if (!ANY(counts)) return;
+  const int before = EITHER(s->samples < 0, 0, s->samples); // its sign flipped
+  const int samples = EITHER(before < HOLD_MEAN_SAMPLES, before + 1, before);
+  const float z_w_m = EITHER(samples == 1, seen_z_m, s->ceiling_z_m);
+  s->samples = EITHER(counts, samples, s->samples);
+  s->ceiling_z_m = EITHER(counts, z_w_m + (seen_z_m - z_w_m) / (float)samples, s->ceiling_z_m);
+}
+
+void hold_sample(hold_t *s, const ceiling_t *c, float z_m, float climb_mps, int32_t mode) {
+  hold_take(s, c, true, z_m, climb_mps, mode);
 }

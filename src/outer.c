@@ -106,26 +106,32 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
 // A sensor without a time stamp gives the last value again where it has no new one: after a climb the same
 // value is no measurement.
 static bool is_repeated(outer_t *f, const outer_in_t *in) {
-  if (!(in->range_m > 0.0f && in->range_m <= CEILING_RANGE_MAX_M)) return false;
-  if (in->range_m == f->range_last_m) return fabsf(in->pos_w_m.z - f->range_height_m) > OUTER_REPEATED_M;
-  f->range_last_m = in->range_m;
-  f->range_height_m = in->pos_w_m.z;
-  return false;
+  const bool is = in->range_new && in->range_m > 0.0f && in->range_m <= CEILING_RANGE_MAX_M;
+  const bool same = in->range_m == f->range_last_m, other = is && !same;
+  f->range_last_m = EITHER(other, in->range_m, f->range_last_m);
+  f->range_height_m = EITHER(other, in->pos_w_m.z, f->range_height_m);
+  return is && same && fabsf(in->pos_w_m.z - f->range_height_m) > OUTER_REPEATED_M;
+}
+
+static void take_range(outer_t *f, const outer_in_t *in) {
+  // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt as it was
+  // then.
+  const float vertical_m = in->range_m * ceiling_up(&f->ceiling, in->range_age_s);
+  const float gap_m =
+      EITHER(in->range_m <= CEILING_RANGE_MAX_M, vertical_m - f->param.up_offset_m, in->range_m);
+  const bool repeated = is_repeated(f, in), is_new = in->range_new && !repeated;
+  const bool good = ceiling_good(gap_m, in->range_age_s), is = is_new && good;
+  if (is_new && !good) count(f, ST_BAD_RANGE);
+  if (!ANY(is)) return;
+  ceiling_take(&f->ceiling, &f->param.ceiling, is, gap_m, in->range_age_s);
+  hold_take(&f->hold, &f->ceiling, is, in->pos_w_m.z, in->vel_w_mps.z, f->param.hold);
 }
 
 static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   const int ticks = 1 + (int)f->missed;
   ceiling_predict_over(&f->ceiling, &f->param.ceiling, climb_m(f, in, (float)ticks), ticks);
   ceiling_tilt(&f->ceiling, quat_up(f->sync.att_last).z);
-  if (in->range_new && !is_repeated(f, in)) {
-    // The sensor looks along the body's axis; a level ceiling is nearer by the cosine of the tilt as it was
-    // then.
-    const float vertical_m = in->range_m * ceiling_up(&f->ceiling, in->range_age_s);
-    const float gap_m = in->range_m <= CEILING_RANGE_MAX_M ? vertical_m - f->param.up_offset_m : in->range_m;
-    const status_t status = ceiling_correct(&f->ceiling, &f->param.ceiling, gap_m, in->range_age_s);
-    count(f, status);
-    if (status == ST_OK) hold_sample(&f->hold, &f->ceiling, in->pos_w_m.z, in->vel_w_mps.z, f->param.hold);
-  }
+  if (ANY(in->range_new)) take_range(f, in);
   hold_step(&f->hold, &f->ceiling, in->pos_w_m.z, f->coef.period_s * (float)ticks, f->param.hold);
 }
 

@@ -49,5 +49,7 @@ void hold_step(hold_t *s, const ceiling_t *c, float z_m, float period_s, int32_t
 
 // The estimate has just looked at a sample (ceiling_correct gave ST_OK) at height z_m, climbing by climb_mps.
 void hold_sample(hold_t *s, const ceiling_t *c, float z_m, float climb_mps, int32_t mode);
+// The same where `is` holds (ceiling_take).
+void hold_take(hold_t *s, const ceiling_t *c, bool is, float z_m, float climb_mps, int32_t mode);
 
 #endif

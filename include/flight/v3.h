@@ -28,6 +28,10 @@ typedef struct {
 #ifndef ANY
 #define ANY(holds) (holds)
 #endif
+// Element i, which may be another one for each of them.
+#ifndef PICK
+#define PICK(list, i) ((list)[i])
+#endif
 
 // False for NaN and both infinities.
 static inline bool f_finite(float x) {

@@ -13,9 +13,13 @@ typedef int alike_t;
 
 // Whether it holds for any of them: what is begun for one is computed for all, and EITHER says for whom it
 // counts.
+#ifndef ANY
 #define ANY(holds) (holds)
+#endif
 
 // Element i, which may be another one for each vehicle.
+#ifndef PICK
 #define PICK(list, i) ((list)[i])
+#endif
 
 #endif
