@@ -207,6 +207,14 @@ void random_triangles(random_t *r, int n, double *out) {
     out[i + 1] = triangle(static_cast<uint32_t>(b >> 32));
   }
 }
+// Of n rows of words, of each two rows.
+WIDE_COPIES static void triangles_of(const uint64_t *words, int n, double *rows) {
+  for (int i = 0; i < n; i++, words += LANES, rows += 2 * LANES)
+    for (int k = 0; k < LANES; k++) {
+      rows[k] = triangle(static_cast<uint32_t>(words[k]));
+      rows[LANES + k] = triangle(static_cast<uint32_t>(words[k] >> 32));
+    }
+}
 void random_triangles_of_all(random_t *const r[LANES], int n, double *rows) {
   constexpr int MOST = RANDOM_ROWS / 2;
   uint64_t room[LANES][MOST] = {{0}}, words[MOST][LANES];
@@ -215,11 +223,7 @@ void random_triangles_of_all(random_t *const r[LANES], int n, double *rows) {
   for (int k = 0; k < LANES; k++)
     at[k] = reinterpret_cast<const char *>(r[k] ? r[k]->bits.words(some, room[k]) : room[k]);
   rows_put_64(some, reinterpret_cast<char *>(words), at);
-  for (int i = 0; i < some; i++, rows += 2 * LANES)
-    for (int k = 0; k < LANES; k++) {
-      rows[k] = triangle(static_cast<uint32_t>(words[i][k]));
-      rows[LANES + k] = triangle(static_cast<uint32_t>(words[i][k] >> 32));
-    }
+  triangles_of(words[0], some, rows);
 }
 double random_uniform(random_t *r, double lo, double hi) {
   return canonical(r->bits()) * (hi - lo) + lo;

@@ -150,10 +150,17 @@ static unsigned left() {
   return lanes_in;
 }
 
+// Numbers of an integrator as they lie, or a copy of them where they lie otherwise than registers want it.
+static const double *in_place(const number_t *y, double copy[RIGID_N]) {
+  if (reinterpret_cast<uintptr_t>(y) % alignof(lane_t) == 0) return reinterpret_cast<const double *>(y);
+  for (int i = 0; i < RIGID_N; i++) copy[i] = lane_of(y + LANES * i);
+  return copy;
+}
+
 static void derivative(void *context, const number_t *y, number_t *dydt) {
   lanes_t *const l = static_cast<lanes_t *>(context);
-  double at[RIGID_N], change[RIGID_N];
-  for (int i = 0; i < RIGID_N; i++) at[i] = lane_of(y + LANES * i);
+  double copy[RIGID_N], change[RIGID_N];
+  const double *const at = in_place(y, copy);
   if (!l->looked) forces_look(&l->acting, l->surfaces, at, &l->look);
   l->looked = false;
   forces_derivative(&l->acting, at, &l->look, change);
