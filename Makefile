@@ -147,7 +147,7 @@ AVX512VL = $(if $(AVX2),-mavx512f -mavx512vl -mavx512dq -mavx512bw -mno-fma -DLA
 AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
 # Their sources go through tools/lanes.sed first, headers too.
 LANES_CPP  = $(CXX) -std=c++20 $(OPT) $(WARN) $(LANES_WARN) $(SANITIZE) -MMD -MP $(FLIGHT_FLAGS) -fno-math-errno $(AVX2)
-LANES_WARN = -Wno-extra -Wno-pedantic -Wno-shadow -Wno-conversion -Wno-missing-field-initializers -Wno-unused-function -Wno-c99-designator -Wno-return-type-c-linkage
+LANES_WARN = -Wno-psabi -Wno-extra -Wno-pedantic -Wno-shadow -Wno-conversion -Wno-missing-field-initializers -Wno-unused-function -Wno-c99-designator -Wno-return-type-c-linkage
 LANES_SEE  = $(patsubst %,-I$(O)/gen/lanes/%,include src src/firmware sim sim/crazyflie) -Isim
 LANES_SEEN = $(patsubst %,$(O)/gen/lanes/%,$(LANES_H))
 $(O)/gen/lanes/%: % tools/lanes.sed

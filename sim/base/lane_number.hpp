@@ -28,32 +28,11 @@ struct lane_float_t {
   }
 };
 
-struct lane_double_t {
-  doubles_t lo, hi;
-  LANE_MADE(lane_double_t, LANE_64)
-  constexpr LANE lane_double_t(doubles_t l, doubles_t h) : lo(l), hi(h) {}
-  template <plain T> static constexpr LANE double of(T a) { return (double)a; }
-  template <plain T>
-  constexpr LANE lane_double_t(T a) : lo{of(a), of(a), of(a), of(a)}, hi{of(a), of(a), of(a), of(a)} {}
-  LANE explicit lane_double_t(lane_float_t a)
-      : lo((doubles_t)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a.v))),
-        hi((doubles_t)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)a.v, 1))) {}
-  template <bool A>
-  LANE lane_double_t(lane_whole_t<A> a) // below 2^31
-      : lo((doubles_t)_mm256_cvtepi32_pd(_mm256_castsi256_si128((__m256i)a.v))),
-        hi((doubles_t)_mm256_cvtepi32_pd(_mm256_extracti128_si256((__m256i)a.v, 1))) {}
-  LANE explicit operator lane_int_t() const {
-    return (words_t)_mm256_set_m128i(_mm256_cvttpd_epi32((__m256d)hi), _mm256_cvttpd_epi32((__m256d)lo));
-  }
-  LANE explicit operator lane_unsigned_t() const {
-    return lane_unsigned_t((lane_int_t) * this);
-  } // below 2^31
-  template <typename T> LANE explicit operator lane_small_t<T>() const {
-    return lane_small_t<T>((lane_int_t) * this);
-  }
-};
-LANE lane_float_t::lane_float_t(lane_double_t a)
-    : v((floats_t)_mm256_set_m128(_mm256_cvtpd_ps((__m256d)a.hi), _mm256_cvtpd_ps((__m256d)a.lo))) {}
+#ifdef LANES_512
+#include "base/lane_double_512.hpp"
+#else
+#include "base/lane_double_256.hpp"
+#endif
 
 #define LANE_NUMBER(sign)                                                                                    \
   LANE lane_float_t operator sign(lane_float_t a, lane_float_t b) {                                          \
@@ -61,9 +40,6 @@ LANE lane_float_t::lane_float_t(lane_double_t a)
   }                                                                                                          \
   LANE lane_float_t &operator sign##=(lane_float_t &a, lane_float_t b) {                                     \
     return a = a sign b;                                                                                     \
-  }                                                                                                          \
-  LANE lane_double_t operator sign(lane_double_t a, lane_double_t b) {                                       \
-    return {a.lo sign b.lo, a.hi sign b.hi};                                                                 \
   }                                                                                                          \
   LANE lane_double_t &operator sign##=(lane_double_t &a, lane_double_t b) {                                  \
     return a = a sign b;                                                                                     \
@@ -83,9 +59,6 @@ LANE_NUMBER(/)
 #define LANE_COMPARED(sign)                                                                                  \
   LANE lane_flag_t operator sign(lane_float_t a, lane_float_t b) {                                           \
     return (words_t)(a.v sign b.v);                                                                          \
-  }                                                                                                          \
-  LANE lane_wide_flag_t operator sign(lane_double_t a, lane_double_t b) {                                    \
-    return {(longs_t)(a.lo sign b.lo), (longs_t)(a.hi sign b.hi)};                                           \
   }
 LANE_COMPARED(<)
 LANE_COMPARED(<=)
@@ -100,9 +73,6 @@ LANE_MIXED(lane_double_t, /)
 LANE lane_float_t operator-(lane_float_t a) {
   return -a.v;
 }
-LANE lane_double_t operator-(lane_double_t a) {
-  return {-a.lo, -a.hi};
-}
 LANE lane_flag_t operator!(lane_float_t a) {
   return a == 0.0f;
 }
@@ -110,10 +80,6 @@ LANE lane_flag_t operator!(lane_float_t a) {
 // a where it holds, elsewhere b. Both are computed.
 LANE lane_float_t either(lane_flag_t holds, lane_float_t a, lane_float_t b) {
   return (floats_t)_mm256_blendv_ps((__m256)b.v, (__m256)a.v, (__m256)holds.v);
-}
-LANE lane_double_t either(lane_wide_flag_t holds, lane_double_t a, lane_double_t b) {
-  return {(doubles_t)_mm256_blendv_pd((__m256d)b.lo, (__m256d)a.lo, (__m256d)holds.lo),
-          (doubles_t)_mm256_blendv_pd((__m256d)b.hi, (__m256d)a.hi, (__m256d)holds.hi)};
 }
 LANE lane_double_t either(lane_flag_t holds, lane_double_t a, lane_double_t b) {
   return either(wide(holds), a, b);
@@ -161,11 +127,6 @@ template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_do
   return either(holds, a, b);
 }
 
-// 2^n, of a whole number n that is in the lowest bits of x.
-LANE lane_double_t exp2_of_bits(lane_double_t x) {
-  return {(doubles_t)(((longs_t)x.lo + 1023) << 52), (doubles_t)(((longs_t)x.hi + 1023) << 52)};
-}
-
 // --- the C library's -----------------------------------------------------------------------------------
 
 LANE lane_float_t sqrtf(lane_float_t a) {
@@ -173,15 +134,6 @@ LANE lane_float_t sqrtf(lane_float_t a) {
 }
 LANE lane_float_t fabsf(lane_float_t a) {
   return (floats_t)((words_t)a.v & INT32_MAX);
-}
-LANE lane_double_t sqrt(lane_double_t a) {
-  return {(doubles_t)_mm256_sqrt_pd((__m256d)a.lo), (doubles_t)_mm256_sqrt_pd((__m256d)a.hi)};
-}
-LANE lane_double_t fabs(lane_double_t a) {
-  return {(doubles_t)((longs_t)a.lo & INT64_MAX), (doubles_t)((longs_t)a.hi & INT64_MAX)};
-}
-template <int how> LANE lane_double_t lanes_round(lane_double_t a) {
-  return {(doubles_t)_mm256_round_pd((__m256d)a.lo, how), (doubles_t)_mm256_round_pd((__m256d)a.hi, how)};
 }
 LANE lane_double_t trunc(lane_double_t a) {
   return lanes_round<_MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC>(a);

@@ -26,22 +26,12 @@ struct lane_flag_t {
   LANE explicit operator bool() const { return lanes_vote(bits()); }
 };
 
-// The same of comparisons of doubles.
-struct lane_wide_flag_t {
-  longs_t lo, hi;
-  LANE unsigned bits() const {
-    return (unsigned)_mm256_movemask_pd((__m256d)lo) | (unsigned)_mm256_movemask_pd((__m256d)hi) << 4;
-  }
-  LANE explicit operator bool() const { return lanes_vote(bits()); }
-  LANE operator lane_flag_t() const {
-    const __m256 half = _mm256_shuffle_ps((__m256)lo, (__m256)hi, 0x88);
-    return (words_t)_mm256_permute4x64_epi64((__m256i)half, 0xd8);
-  }
-};
-LANE lane_wide_flag_t wide(lane_flag_t a) {
-  return {(longs_t)_mm256_cvtepi32_epi64(_mm256_castsi256_si128((__m256i)a.v)),
-          (longs_t)_mm256_cvtepi32_epi64(_mm256_extracti128_si256((__m256i)a.v, 1))};
-}
+// The same of comparisons of doubles, and how to make it of the other.
+#ifdef LANES_512
+#include "base/lane_wide_512.hpp"
+#else
+#include "base/lane_wide_256.hpp"
+#endif
 LANE lane_wide_flag_t wide(lane_wide_flag_t a) {
   return a;
 }
@@ -55,9 +45,6 @@ LANE lane_wide_flag_t wide(lane_wide_flag_t a) {
   }                                                                                                          \
   template <std::same_as<bool> T> LANE lane_flag_t operator sign(T a, lane_flag_t b) {                       \
     return lane_flag_t(a) sign b;                                                                            \
-  }                                                                                                          \
-  LANE lane_wide_flag_t operator sign(lane_wide_flag_t a, lane_wide_flag_t b) {                              \
-    return {a.lo bitwise b.lo, a.hi bitwise b.hi};                                                           \
   }                                                                                                          \
   LANE lane_flag_t operator sign(lane_wide_flag_t a, lane_flag_t b) {                                        \
     return lane_flag_t(a) sign b;                                                                            \
@@ -75,9 +62,6 @@ LANE_LOGIC(&&, &)
 LANE_LOGIC(||, |)
 LANE lane_flag_t operator!(lane_flag_t a) {
   return ~a.v;
-}
-LANE lane_wide_flag_t operator!(lane_wide_flag_t a) {
-  return {~a.lo, ~a.hi};
 }
 LANE lane_flag_t operator==(lane_flag_t a, lane_flag_t b) {
   return ~(a.v ^ b.v);
