@@ -210,7 +210,7 @@ static void sense(lanes_t *l, lanes_truth_t *truth) {
   const d3_t force = above.acc_b_mps2;
   const double sensed[] = {force.x, force.y, force.z, above.range_m, below.range_m};
   memcpy(static_cast<void *>(truth->number), y, RIGID_THRUST_N * sizeof *y);
-  memcpy(static_cast<void *>(truth->number[RIGID_THRUST_N]), sensed, sizeof sensed);
+  memcpy(static_cast<void *>(truth->number + LANES * RIGID_THRUST_N), sensed, sizeof sensed);
   truth->motors = turn(y + RIGID_THRUST_N);
   lane_put(truth->up, axes_up_b(&l->look.axes).z);
 }

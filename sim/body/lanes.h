@@ -40,7 +40,7 @@ typedef struct {
 // range, in this order (sense/truth.h).
 #define LANES_TRUTH 18
 typedef struct {
-  double number[LANES_TRUTH][LANES];
+  double *number;   // room for so many rows of LANES
   unsigned motors;  // whether they turn, a bit each
   double up[LANES]; // cosine of the tilt
 } lanes_truth_t;

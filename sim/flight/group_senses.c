@@ -40,12 +40,13 @@ static void part(group_t *g, int k) {
 
 // --- a millisecond -----------------------------------------------------------------------------------------
 
-// The inertial sensors' noise of all, in lanes. Whether more than that was drawn.
-static bool draw(group_t *g, senses_drawn_t drawn[LANES]) {
+// The inertial sensors' noise of all, in lanes, and for some more than that.
+static void draw(group_t *g, senses_drawn_t drawn[LANES]) {
+  lanes_draw(g->woven.state);
   random_triangles_of_all(g->random, IMU_DRAWN, woven_noise_of_imu(&g->woven));
   const unsigned draws = g->ms % RANGE_ANY_PERIOD_MS == 0 ? g->fly : g->mocap & g->fly;
   EACH(k, g->fly & ~draws) drawn[k].by_mocap = false;
-  if (!draws) return false;
+  if (!draws) return;
   EACH(k, draws) {
     flight_loop_t *const f = g->job[k]->f;
     f->senses.range.tick = g->ms; // in lanes it lags behind
@@ -54,7 +55,6 @@ static bool draw(group_t *g, senses_drawn_t drawn[LANES]) {
   // Who is by itself, too: what is not drawn in each millisecond is its own when it comes back.
   OF_EACH(drawn_of, g->fly, &drawn[k]);
   woven_put_all(&g->woven, &g->woven.drawn_more, drawn_of);
-  return true;
 }
 
 static void sense_alone(group_t *g, int k, senses_drawn_t *drawn) {
@@ -67,8 +67,8 @@ static void sense_alone(group_t *g, int k, senses_drawn_t *drawn) {
 void group_sense(group_t *g) {
   senses_drawn_t drawn[LANES];
   come_back(g);
-  const unsigned what = (draw(g, drawn) ? LANES_DRAWN_MORE : 0u) | (g->ms % 2 ? 0u : LANES_TRUTH_NEW);
-  const unsigned in = g->sensed, passed = in ? lanes_senses_ms(g->woven.state, in, what) : 0;
+  draw(g, drawn);
+  const unsigned in = g->sensed, passed = in ? lanes_senses_ms(g->woven.state, in) : 0;
   EACH(k, in & ~passed) part(g, k);
   EACH(k, g->fly & ~in) sense_alone(g, k, &drawn[k]);
   EACH(k, lanes_range_new(g->woven.state) & g->fly) {

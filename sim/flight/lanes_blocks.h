@@ -54,9 +54,9 @@ typedef struct {
   X(range, range_t, senses.range)                                                                            \
   X(imu_param, imu_param_t, imu_param)                                                                       \
   X(range_param, range_param_t, range_param)                                                                 \
-  X(drawn, senses_drawn_t, drawn)                                                                            \
-  X(truth, truth_t, truth)                                                                                   \
-  X(in, pilot_in_t, in)                                                                                      \
+  X(drawn, senses_drawn_t, drawn[0])                                                                         \
+  X(truth, truth_t, truth[0])                                                                                \
+  X(in, pilot_in_t, in[0])                                                                                   \
   X(motors, lanes_motors_t, motors)
 #define LANES_BLOCKS(X)                                                                                      \
   LANES_BLOCKS_OF_VEHICLE(X)                                                                                 \

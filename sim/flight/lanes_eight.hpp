@@ -8,16 +8,17 @@ namespace lanes {
 #include "crazyflie/crazyflie.h"
 #include "flight/lanes_blocks.h"
 
-// All that a millisecond changes, and what it takes.
+// All that a millisecond changes, and what it takes. The latter is another one in each, for those of before
+// are kept where they are (lanes_state.cpp).
 struct state_of_eight {
   crazyflie_t vehicle;
   senses_t senses;
   imu_param_t imu_param;
   range_param_t range_param;
-  senses_drawn_t drawn;
-  truth_t truth;
-  pilot_in_t in;
   lanes_motors_t motors;
+  senses_drawn_t *drawn;
+  truth_t *truth;
+  pilot_in_t *in;
 };
 
 } // namespace lanes

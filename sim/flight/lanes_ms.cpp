@@ -37,7 +37,7 @@ const int params_count = 0;
 static plain_unsigned senses(plain_unsigned in, void *of) {
   state_of_eight *const now = static_cast<state_of_eight *>(of);
   lanes_in = in;
-  senses_take(&now->senses, &now->imu_param, &now->range_param, &now->drawn, &now->truth, &now->in);
+  senses_take(&now->senses, &now->imu_param, &now->range_param, now->drawn, now->truth, now->in);
   return lanes_in;
 }
 

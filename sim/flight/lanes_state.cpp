@@ -19,15 +19,19 @@
 // again from there.
 #define SINCE 32
 
+// One more than are asked for: the one of now.
+#define SLOTS (SINCE + 1)
+
 struct lanes_state {
   lanes::state_of_eight now, before;
-  // What came in in each: to sensors and estimator, and to the Crazyflie.
-  lanes::senses_drawn_t drawn[SINCE];
-  lanes::truth_t truth[SINCE]; // of ticks
-  int truth_of[SINCE], truths;
-  lanes::pilot_in_t in[SINCE];
-  unsigned set, set_of[SINCE]; // how many set points there were, and which of them each has; 0: none
+  // What comes in in each, in turn: to sensors and estimator, and to the Crazyflie. `now` is in one of them.
+  lanes::senses_drawn_t drawn[SLOTS];
+  lanes::truth_t truth[SLOTS]; // of ticks
+  lanes::pilot_in_t in[SLOTS], unedited;
+  int slot;                    // of `in`
+  unsigned set, set_of[SLOTS]; // how many set points there were, and which of them each has; 0: none
   int senses, vehicle;         // milliseconds since
+  const void *drawn_at[SINCE], *truth_at[SINCE], *told_at[SINCE]; // those of each
   const lanes_ms_t *ms;
 };
 
@@ -38,6 +42,9 @@ lanes_state_t *lanes_state_open(void) {
   if (!s) return nullptr;
   memset(static_cast<void *>(s), 0, sizeof *s);
   s->now.vehicle.around.app = &s->now.vehicle.app;
+  s->now.drawn = s->drawn;
+  s->now.truth = s->truth;
+  s->now.in = s->in;
   s->ms = lane_bits() == 512 ? &lanes_ms_512 : &lanes_ms_256;
   return s;
 }
@@ -76,63 +83,77 @@ static void keep_range(const lanes::range_t *from, lanes::range_t *to) {
   memcpy((void *)&to->up_mm, &from->up_mm, sizeof *to - offsetof(lanes::range_t, up_mm));
 }
 
-// Of what is the same as in the millisecond before a copy is there; but of range's noise, nobody asks for it.
-static void keep_told(lanes_state_t *s, unsigned what) {
-  const state_of_eight *const now = &s->now;
-  const int ms = s->senses++;
-  memcpy((void *)&s->drawn[ms], &now->drawn,
-         what & LANES_DRAWN_MORE ? sizeof now->drawn : offsetof(lanes::senses_drawn_t, range));
-  if (ms == 0) s->truths = 0;
-  if (ms == 0 || what & LANES_TRUTH_NEW)
-    memcpy((void *)&s->truth[s->truths++], &now->truth, sizeof now->truth);
-  s->truth_of[ms] = s->truths - 1;
+template <typename T> static T *next_of(T (&slots)[SLOTS], const T *at) {
+  return at == &slots[SLOTS - 1] ? slots : slots + (at - slots) + 1;
 }
 
-unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what) {
+void lanes_draw(lanes_state_t *s) {
+  s->now.drawn = next_of(s->drawn, s->now.drawn);
+}
+
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in) {
   state_of_eight *const now = &s->now;
   if (s->senses == SINCE) {
     LANES_BLOCKS_OF_SENSES(KEEP)
     keep_range(&now->senses.range, &s->before.senses.range);
     s->senses = 0;
   }
-  keep_told(s, what);
+  s->drawn_at[s->senses] = now->drawn;
+  s->truth_at[s->senses++] = now->truth;
   return s->ms->senses(in, now);
 }
 
 void lanes_set_new(lanes_state_t *s) {
-  s->set++;
+  s->set_of[s->slot] = ++s->set;
 }
 
+// What is edited does not last: what the next one begins with is kept aside.
 void *lanes_told(lanes_state_t *s, bool edited) {
-  const state_of_eight *const now = &s->now;
+  state_of_eight *const now = &s->now;
   if (s->vehicle == SINCE) {
     keep_app(&now->vehicle.app, &s->before.vehicle.app);
     keep_around(&now->vehicle.around, &s->before.vehicle.around);
     LANES_BLOCKS_OF_VEHICLE(KEEP)
     s->vehicle = 0;
   }
-  unsigned *const set = &s->set_of[s->vehicle]; // set points stand for seconds
-  lanes::pilot_in_t *const told = &s->in[s->vehicle];
-  memcpy((void *)told, &now->in, *set == s->set ? offsetof(lanes::pilot_in_t, set) : sizeof now->in);
-  *set = edited ? 0 : s->set;
+  lanes::pilot_in_t *const told = now->in;
+  s->told_at[s->vehicle] = told;
+  if (!edited) return told;
+  memcpy((void *)&s->unedited, told, sizeof *told);
+  now->in = &s->unedited;
+  s->set_of[s->slot] = 0;
   return told;
 }
 
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
-  return s->ms->vehicle(in, &s->now, &s->in[s->vehicle++]);
+  return s->ms->vehicle(in, &s->now, s->told_at[s->vehicle++]);
+}
+
+// Set points stand for seconds. What sensors and estimator say comes anew in each millisecond.
+void lanes_step(lanes_state_t *s) {
+  const lanes::pilot_in_t *const from = s->now.in;
+  s->slot = (s->slot + 1) % SLOTS;
+  lanes::pilot_in_t *const to = s->now.in = &s->in[s->slot];
+  constexpr size_t moved = offsetof(lanes::pilot_in_t, applied_N),
+                   sensed = offsetof(lanes::pilot_in_t, range_new);
+  memcpy((void *)to->applied_N, from->applied_N, sensed - moved);
+  to->step = from->step + 1u;
+  if (s->set_of[s->slot] == s->set) return;
+  memcpy((void *)&to->set, &from->set, sizeof to->set);
+  s->set_of[s->slot] = s->set;
 }
 
 lanes_since_t lanes_senses_since(const lanes_state_t *s) {
-  return {s->senses, sizeof s->drawn[0], s->drawn, sizeof s->truth[0], s->truth, s->truth_of};
+  return {s->senses, s->drawn_at, s->truth_at};
 }
 lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
-  return {s->vehicle, sizeof s->in[0], s->in, 0, nullptr, nullptr};
+  return {s->vehicle, s->told_at, nullptr};
 }
 void lanes_begin_anew(lanes_state_t *s) {
   memset((void *)s->drawn, 0, sizeof s->drawn); // nobody's by motion capture, for whom each is a copy
   s->senses = s->vehicle = SINCE;
-  s->set = 1;
   memset(s->set_of, 0, sizeof s->set_of);
+  s->set_of[s->slot] = s->set = 1;
 }
 bool lanes_senses_due(lanes_state_t *s, bool none) {
   if (none) s->senses = SINCE;
@@ -143,17 +164,16 @@ bool lanes_vehicle_due(lanes_state_t *s, bool none) {
   return s->vehicle == SINCE;
 }
 
-void lanes_take_truth(lanes_state_t *s, const double *numbers, unsigned motors) {
-  lanes::truth_t *const truth = &s->now.truth;
-  memcpy((void *)truth, numbers, offsetof(lanes::truth_t, motors));
-  for (int k = 0; k < LANES; k++) truth->motors.v[k] = -(int)(motors >> k & 1);
+double *lanes_truth(lanes_state_t *s) {
+  s->now.truth = next_of(s->truth, s->now.truth);
+  return (double *)(void *)s->now.truth;
+}
+void lanes_take_motors(lanes_state_t *s, unsigned motors) {
+  for (int k = 0; k < LANES; k++) s->now.truth->motors.v[k] = -(int)(motors >> k & 1);
 }
 
 unsigned lanes_range_new(const lanes_state_t *s) {
-  return s->now.in.range_new.bits();
-}
-void lanes_step(lanes_state_t *s) {
-  s->now.in.step++;
+  return s->now.in->range_new.bits();
 }
 
 #else // nobody asks for more (lane_possible)
@@ -162,7 +182,8 @@ lanes_state_t *lanes_state_open(void) {
   return nullptr;
 }
 void lanes_state_close(lanes_state_t *) {}
-unsigned lanes_senses_ms(lanes_state_t *, unsigned, unsigned) {
+void lanes_draw(lanes_state_t *) {}
+unsigned lanes_senses_ms(lanes_state_t *, unsigned) {
   return 0;
 }
 void *lanes_told(lanes_state_t *, bool) {
@@ -172,7 +193,10 @@ void lanes_set_new(lanes_state_t *) {}
 unsigned lanes_vehicle_ms(lanes_state_t *, unsigned) {
   return 0;
 }
-void lanes_take_truth(lanes_state_t *, const double *, unsigned) {}
+double *lanes_truth(lanes_state_t *) {
+  return nullptr;
+}
+void lanes_take_motors(lanes_state_t *, unsigned) {}
 unsigned lanes_range_new(const lanes_state_t *) {
   return 0;
 }

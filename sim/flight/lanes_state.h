@@ -18,38 +18,37 @@ typedef struct lanes_state lanes_state_t;
 lanes_state_t *lanes_state_open(void);
 void lanes_state_close(lanes_state_t *s);
 
+// What is drawn for a millisecond comes after this, into block `drawn`.
+void lanes_draw(lanes_state_t *s);
+
 // A millisecond of sensors and estimator, and of the Crazyflie, of the lanes `in` (a bit each). Those that
 // are returned have passed it; the others parted, and are to do it alone from what they were before.
-enum { LANES_DRAWN_MORE = 1, LANES_TRUTH_NEW = 2 }; // more than the inertial sensors' noise; of another tick
-unsigned lanes_senses_ms(lanes_state_t *s, unsigned in, unsigned what);
+unsigned lanes_senses_ms(lanes_state_t *s, unsigned in);
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
 
-// Before the latter, each time: what the Crazyflie of each is told in it, a copy of block `in` that may be
-// edited, if that is said here.
+// Before the latter, each time: what the Crazyflie of each is told in it, block `in`, or a copy of it that
+// may be edited.
 void *lanes_told(lanes_state_t *s, bool edited);
 // A set point in block `in` is another one.
 void lanes_set_new(lanes_state_t *s);
 
 // What is new of the upward range sensor since the last millisecond, a bit each.
 unsigned lanes_range_new(const lanes_state_t *s);
-// What is true of all of them: so many rows of 8 numbers in the order of truth_t, and whether their motors
-// turn, a bit each.
-void lanes_take_truth(lanes_state_t *s, const double *numbers, unsigned motors);
-// All have called their pilot.
+// Where what is true at another tick's begin goes: so many rows of 8 numbers in the order of truth_t; and
+// whether their motors turn, a bit each.
+double *lanes_truth(lanes_state_t *s);
+void lanes_take_motors(lanes_state_t *s, unsigned motors);
+// All have called their pilot: block `in` is that of the next millisecond.
 void lanes_step(lanes_state_t *s);
 
 // Where a block (lanes_blocks.h) lies, and where it lay some milliseconds ago.
 void *lanes_block(lanes_state_t *s, int block);
 const void *lanes_block_before(const lanes_state_t *s, int block);
 
-// What came in since: so many blocks of so many bytes, of what was drawn and what was true, or of pilot_in_t.
+// What came in since, a block for each millisecond: what was drawn and what was true, or pilot_in_t.
 typedef struct {
   int ms;
-  size_t bytes;
-  const void *first;
-  size_t other_bytes;
-  const void *other;
-  const int *other_of; // which of those is of each millisecond
+  const void *const *of, *const *truth;
 } lanes_since_t;
 lanes_since_t lanes_senses_since(const lanes_state_t *s);
 lanes_since_t lanes_vehicle_since(const lanes_state_t *s);

@@ -15,7 +15,6 @@ static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   job_t *const job = g->job[k];
   flight_loop_t *const f = job->f;
   group_settle(g, 1u << k);
-  woven_get(&g->woven, LANES_in, k, &f->in);
   if (g->sensed >> k & 1) woven_end_senses(&g->woven, k, f);
   if (g->vehicle >> k & 1) woven_end_vehicle(&g->woven, k, f->pilot->vehicle);
   job->status = status;
@@ -26,12 +25,13 @@ static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   g->sensed &= g->fly;
 }
 
-// What is true, of those whose bodies are in lanes. Numbers of eight lie in one way everywhere.
+// What is true, of those whose bodies are in lanes; written where it is read. Numbers of eight lie in one way
+// everywhere.
 static unsigned see_truth(group_t *g) {
-  lanes_truth_t truth;
+  lanes_truth_t truth = {.number = lanes_truth(g->woven.state)};
   const unsigned seen = abreast_sense(g->bodies, &truth) & g->fly;
   if (!seen) return 0;
-  lanes_take_truth(g->woven.state, truth.number[0], truth.motors);
+  lanes_take_motors(g->woven.state, truth.motors);
   EACH(k, seen) {
     flight_loop_t *const f = g->job[k]->f;
     f->up_min = smaller(f->up_min, truth.up[k]);

@@ -170,10 +170,6 @@ void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f) {
 
 // --- who parted, alone -------------------------------------------------------------------------------------
 
-static const void *block_of(const void *first, size_t bytes, int i) {
-  return (const char *)first + (size_t)i * bytes;
-}
-
 void woven_sense_alone(woven_t *w, int k, flight_loop_t *f) {
   const lanes_since_t since = lanes_senses_since(w->state);
   senses_drawn_t drawn;
@@ -182,9 +178,8 @@ void woven_sense_alone(woven_t *w, int k, flight_loop_t *f) {
   get_range_before(w, k, &f->senses.range);
   woven_get(w, LANES_in, k, &f->in);
   for (int ms = 0; ms < since.ms; ms++) {
-    weave_get(weave_block(LANES_drawn), block_of(since.first, since.bytes, ms), k, &drawn);
-    weave_get(weave_block(LANES_truth), block_of(since.other, since.other_bytes, since.other_of[ms]), k,
-              &truth);
+    weave_get(weave_block(LANES_drawn), since.of[ms], k, &drawn);
+    weave_get(weave_block(LANES_truth), since.truth[ms], k, &truth);
     senses_take(&f->senses, &f->noise.imu, &f->noise.range, &drawn, &truth, &f->in);
   }
   woven_tell_sensed(w, k, f);
@@ -198,7 +193,7 @@ void woven_pilot_alone(woven_t *w, int k, flight_loop_t *f) {
   const lanes_since_t since = lanes_vehicle_since(w->state);
   for (int ms = 0; ms < since.ms; ms++) {
     pilot_in_t in = {0};
-    weave_get(weave_block(LANES_in), block_of(since.first, since.bytes, ms), k, &in);
+    weave_get(weave_block(LANES_in), since.of[ms], k, &in);
     crazyflie_ms(c, &in, f->motor_N);
   }
 }

@@ -74,7 +74,8 @@ static void see(abreast_t *a, int i, bool moved, const lanes_seen_t *seen, doubl
 
 // What is true, likewise.
 static void sense(abreast_t *a, int n, body_t *body) {
-  lanes_truth_t truth;
+  double number[LANES_TRUTH][LANES];
+  lanes_truth_t truth = {.number = number[0]};
   const unsigned sensed = abreast_sense(a, &truth);
   for (int i = 0; i < n; i++) {
     if (!(sensed >> i & 1)) continue;
@@ -84,7 +85,7 @@ static void sense(abreast_t *a, int n, body_t *body) {
     const double want[] = {above.acc_b_mps2.x, above.acc_b_mps2.y, above.acc_b_mps2.z, above.range_m,
                            below.range_m};
     for (int k = 0; k < LANES_TRUTH; k++)
-      CHECK(truth.number[k][i] == (k < RIGID_THRUST_N ? body[i].y[k] : want[k - RIGID_THRUST_N]));
+      CHECK(number[k][i] == (k < RIGID_THRUST_N ? body[i].y[k] : want[k - RIGID_THRUST_N]));
   }
 }
 
