@@ -4,11 +4,18 @@
 #include "base/rows.h"
 #include "body/alike.h"
 #include "body/lanes_of.h"
+#include "body/orders.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
+
+// What becomes of contacts in a tick, of each.
+typedef struct {
+  bool on_floor, on_ceiling;
+  int floor, ceiling; // begun
+} contacts_t;
 
 struct abreast {
   const lanes_door_t *door;
@@ -24,6 +31,10 @@ struct abreast {
   lanes_alike_t alike; // of
   const body_t *first; // this one
   unsigned first_changed;
+  // For ticks whose commands come as rows (abreast_again).
+  bool again, begun; // the next may be one; and the last was
+  orders_t orders;
+  contacts_t touch[LANES];
 };
 
 // What is one and the same for those that are moved together; `b` is the first of them.
@@ -38,7 +49,6 @@ static void set_alike(abreast_t *a, const body_t *b) {
   to->looked = b->look_is_y;
   to->loaded = b->look.loaded;
   to->span_s = b->span_s;
-  a->door->set(a->lanes, to);
 }
 
 // --- numbers to their lane and back -----------------------------------------------------------------------
@@ -83,6 +93,7 @@ void abreast_settle(abreast_t *a, int k, body_t *b) {
   a->ahead &= ~(1u << k);
   const lanes_at_t *const from = a->door->at(a->lanes);
   give_now(from->now, k, b);
+  orders_give(&a->orders, k, b);
   lanes_get(from->look, (double *)&b->look, LOOK_NUMBERS, k);
   b->look.loaded = a->now_loaded;
 }
@@ -107,6 +118,7 @@ void abreast_settle_all(abreast_t *a, body_t *const b[LANES]) {
   rows_get_64(3, (const char *)(from->now + LANES * LANES_CHARGE), one);
   for (int k = 0; k < LANES; k++) {
     if (!(of >> k & 1)) continue;
+    orders_give(&a->orders, k, b[k]);
     b[k]->charge = battery[k][0];
     b[k]->current_A = battery[k][1];
     b[k]->vbat_V = battery[k][2];
@@ -124,6 +136,10 @@ static void give_before(abreast_t *a, int lane, body_t *b) {
 
 // --- a tick -----------------------------------------------------------------------------------------------
 
+void abreast_recall(abreast_t *a, int k, body_t *b) {
+  orders_give(&a->orders, k, b);
+}
+
 static bool integrator_for(abreast_t *a, const body_t *b) {
   if (a->integrate && a->kind == b->kind && a->step_s == b->step_s) return true;
   integrate_close(a->integrate);
@@ -134,12 +150,6 @@ static bool integrator_for(abreast_t *a, const body_t *b) {
       .n = RIGID_N * LANES, .derivative = a->door->derivative, .context = a->lanes, .step_s = a->step_s};
   return integrate_open(&a->integrate, a->kind, &ode) == DONE;
 }
-
-// What becomes of contacts in a tick, of each.
-typedef struct {
-  bool on_floor, on_ceiling;
-  int floor, ceiling; // begun
-} contacts_t;
 
 static void watch(const abreast_t *a, bool near, contacts_t touch[LANES]) {
   bool any = near;
@@ -164,7 +174,27 @@ static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
   return true;
 }
 
-// Moves those of `in`, which are alike. Returns those that were moved.
+// Moves those of `in`, whose numbers are in their lanes. Returns those that were moved.
+static unsigned move_lanes(abreast_t *a, body_t *const *b, unsigned in, double span_s,
+                           contacts_t touch[LANES], lanes_seen_t *seen) {
+  a->door->set(a->lanes, &a->alike);
+  a->door->begin(in);
+  if (!advance(a, span_s, touch)) return 0;
+  a->now_loaded = a->door->end(a->lanes, seen);
+  const unsigned moved = a->door->left();
+  for (int k = 0; k < LANES; k++) {
+    const contacts_t now = {touch[k].on_floor, touch[k].on_ceiling, 0, 0};
+    if (!(moved >> k & 1) || memcmp(&touch[k], &a->touch[k], sizeof now) == 0) continue;
+    b[k]->on_floor = touch[k].on_floor;
+    b[k]->on_ceiling = touch[k].on_ceiling;
+    b[k]->floor_contacts += touch[k].floor;
+    b[k]->ceiling_contacts += touch[k].ceiling;
+    a->touch[k] = now;
+  }
+  return moved;
+}
+
+// The same of bodies that are alike.
 static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
                               lanes_seen_t *seen) {
   contacts_t touch[LANES] = {{.floor = 0}};
@@ -172,20 +202,9 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
   for (int k = 0; k < LANES; k++) {
     if (!(in >> k & 1)) continue;
     take_all(a, k, b[k]);
-    touch[k] = (contacts_t){.on_floor = b[k]->on_floor, .on_ceiling = b[k]->on_ceiling};
+    a->touch[k] = touch[k] = (contacts_t){.on_floor = b[k]->on_floor, .on_ceiling = b[k]->on_ceiling};
   }
-  a->door->begin(in);
-  if (!advance(a, first->span_s, touch)) return 0;
-  a->now_loaded = a->door->end(a->lanes, seen);
-  const unsigned moved = a->door->left();
-  for (int k = 0; k < LANES; k++) {
-    if (!(moved >> k & 1)) continue;
-    b[k]->on_floor = touch[k].on_floor;
-    b[k]->on_ceiling = touch[k].on_ceiling;
-    b[k]->floor_contacts += touch[k].floor;
-    b[k]->ceiling_contacts += touch[k].ceiling;
-  }
-  return moved;
+  return move_lanes(a, b, in, first->span_s, touch, seen);
 }
 
 // Whether all were moved together in the last tick, and nobody has done anything to them since but order.
@@ -213,10 +232,14 @@ static unsigned alike_in(abreast_t *a, body_t *const *b, const body_t **first) {
   return n < ABREAST_FEWEST ? 0 : in;
 }
 
+static bool is_finite(const double *now, int k) {
+  return isfinite(now[LANES * (RIGID_POS_M + 2) + k]) && isfinite(now[LANES * RIGID_Q_WB + k]);
+}
+
 // Those of a tick that were moved with others: what is done for each body besides.
 static void end_together(abreast_t *a, int k, body_t *b, double *vbat_V) {
   const double *const now = a->door->at(a->lanes)->now;
-  b->broken = !isfinite(now[LANES * (RIGID_POS_M + 2) + k]) || !isfinite(now[LANES * RIGID_Q_WB + k]);
+  b->broken = !is_finite(now, k);
   b->t_s += b->span_s;
   b->look_is_y = true;
   *vbat_V = now[LANES * LANES_VBAT_V + k];
@@ -258,6 +281,55 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
     else
       end_alone(a, k, b[k]);
   }
+  a->again = a->moved != 0;
+  a->begun = false;
+  for (int k = 0; k < LANES; k++) {
+    if (!b[k]) continue;
+    a->again = a->again && a->moved >> k & 1 && orders_suffice(b[k]);
+  }
+  return a->moved;
+}
+
+bool abreast_again(const abreast_t *a, body_t *const b[LANES]) {
+  if (!a->again) return false;
+  for (int k = 0; k < LANES; k++) {
+    const bool was = a->moved >> k & 1;
+    if (was != (b[k] != NULL) || (was && (a->has[k].body != b[k] || a->has[k].changed != b[k]->changed)))
+      return false;
+  }
+  return true;
+}
+
+unsigned abreast_move_again(abreast_t *a, body_t *const b[LANES], const double *command_N, double *applied_N,
+                            lanes_seen_t *seen, double vbat_V[LANES]) {
+  const unsigned in = a->moved;
+  const lanes_at_t *const at = a->door->at(a->lanes);
+  orders_t *const orders = &a->orders;
+  contacts_t touch[LANES];
+  memcpy(touch, a->touch, sizeof touch);
+  for (int k = 0; k < LANES && !a->begun; k++)
+    if (in >> k & 1) orders_begin(orders, k, b[k]);
+  a->begun = true;
+  orders_take(orders, command_N, applied_N);
+  memcpy(at->rigid + LANES * RIGID_COMMAND, orders->due_N, sizeof orders->due_N);
+  a->alike.looked = true;
+  a->moved = move_lanes(a, b, in, a->alike.span_s, touch, seen);
+  orders->ahead = in & ~a->moved;
+  a->ahead |= in;
+  for (int k = 0; k < LANES; k++) {
+    if (!(orders->ahead >> k & 1)) continue;
+    orders_give(orders, k, b[k]);
+    end_alone(a, k, b[k]);
+  }
+  orders_end(orders, a->moved, a->alike.span_s);
+  memcpy(vbat_V, at->now + LANES * LANES_VBAT_V, LANES * sizeof *vbat_V);
+  a->together += __builtin_popcount(a->moved);
+  a->again = a->moved == in;
+  for (int k = 0; k < LANES; k++) {
+    if (!(a->moved >> k & 1) || is_finite(at->now, k)) continue;
+    b[k]->broken = true;
+    a->again = false;
+  }
   return a->moved;
 }
 
@@ -285,12 +357,14 @@ long abreast_together(const abreast_t *a) {
 void abreast_forget(abreast_t *a) {
   memset(a->has, 0, sizeof a->has);
   a->first = NULL;
-  a->moved = a->ahead = 0;
+  a->moved = a->ahead = a->orders.ahead = 0;
+  a->again = false;
 }
 
 void abreast_forget_one(abreast_t *a, int k) {
   for (int i = 0; i < LANES; i++) a->has[i].like = NULL; // it may be the one
   a->has[k] = (has_t){.body = NULL};
+  a->again = false;
   a->first = NULL;
 }
 

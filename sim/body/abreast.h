@@ -28,6 +28,18 @@ void abreast_forget_one(abreast_t *a, int k); // of lane k alone; it is settled
 // commands, time and `broken`, until somebody asks for it.
 unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, double vbat_V[LANES]);
 
+// Whether the next tick of these, and of no others, moves them all as the last one did, and nothing of them
+// but their commands has to be asked for. Then these may be given as they lie in lanes: row i is motor i's,
+// of all.
+bool abreast_again(const abreast_t *a, body_t *const b[LANES]);
+// That tick, as body_command() and abreast_move() do it. applied: the commands within limits, as rows. The
+// body_t of those that are returned lag behind in all but `broken` and contacts.
+unsigned abreast_move_again(abreast_t *a, body_t *const b[LANES], const double *command_N, double *applied_N,
+                            lanes_seen_t *seen, double vbat_V[LANES]);
+
+// Before body_command() of a body that may have been moved so.
+void abreast_recall(abreast_t *a, int k, body_t *b);
+
 // Before who was moved with others is looked at, or changed, or moved by somebody else.
 void abreast_settle(abreast_t *a, int k, body_t *b);
 // Those that are not null.

@@ -157,9 +157,13 @@ static void advance(body_t *b, double span_s) {
   }
 }
 
-static void delay_commands(body_t *b, double span_s) {
-  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / span_s + 0.5 : 0.0;
-  const unsigned ticks = wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
+unsigned body_delay_ticks(const body_t *b) {
+  const double wanted = b->plant.delay_s > 0.0 ? b->plant.delay_s / b->span_s + 0.5 : 0.0;
+  return wanted < BODY_QUEUE ? (unsigned)wanted : BODY_QUEUE - 1;
+}
+
+static void delay_commands(body_t *b) {
+  const unsigned ticks = body_delay_ticks(b);
   double *const last_N = b->queue_N[b->queued % BODY_QUEUE];
   const double *const due_N = b->queue_N[(b->queued - ticks) % BODY_QUEUE];
   for (int i = 0; i < ROTORS; i += FEW_N) few_put(last_N + i, few_of(b->command_N + i));
@@ -179,7 +183,7 @@ void body_tick_begin(body_t *b) {
     body_effects(b, b->span_s);
     b->look_is_y = false;
   }
-  delay_commands(b, b->span_s);
+  delay_commands(b);
   if (b->rigid.motor_tau_s < LAG_LEAST_S) take_commands(b);
 }
 

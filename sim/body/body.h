@@ -111,6 +111,7 @@ void body_close(body_t *b);
 
 void body_command(body_t *b, const double command_N[ROTORS], double span_s);
 void body_tick_begin(body_t *b); // delays and effects
+unsigned body_delay_ticks(const body_t *b);
 void body_tick_alone(body_t *b); // from y to the next, and a look at what acts there
 void body_tick_end(body_t *b);   // battery and time
 

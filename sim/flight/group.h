@@ -40,6 +40,10 @@ struct group {
   unsigned looked;  // and those at whose state somebody looks,
   const pilot_around_t *around; // this one
   uint32_t ms;
+  // What of flight_loop_t is kept here while they fly, for most ticks need nothing else of it.
+  long tick, until; // until: before that tick nobody has an order due, or is over
+  int every[LANES];
+  double up_min[LANES], gap_min_m[LANES];
   random_t *random[LANES]; // of those that fly
   apart_t apart[LANES], apart_sensed[LANES];
   place_t place[LANES];

@@ -105,6 +105,7 @@ static void edit_all(group_t *g, void *told, unsigned of) {
   group_settle(g, of);
   OF_EACH(in, of, &g->job[k]->f->in);
   woven_get_all(&g->woven, &g->woven.felt, in);
+  woven_get_all(&g->woven, &g->woven.moved, in);
   woven_get_all(&g->woven, &g->woven.ranges, in);
   EACH(k, of) edit(g, told, k);
 }

@@ -20,8 +20,17 @@ void woven_put_part(woven_t *w, const weave_t *part, int k, const void *one) {
 void woven_get_part(woven_t *w, const weave_t *part, int k, void *one) {
   weave_get(part, lanes_block(w->state, part->block), k, one);
 }
+static double *rows_of(woven_t *w, const weave_t *part) {
+  return (double *)(void *)((char *)lanes_block(w->state, part->block) + part->run[0].eight);
+}
 double *woven_noise_of_imu(woven_t *w) {
-  return (double *)(void *)((char *)lanes_block(w->state, LANES_drawn) + w->noise_of_imu.run[0].eight);
+  return rows_of(w, &w->noise_of_imu);
+}
+double *woven_motors(woven_t *w) {
+  return rows_of(w, weave_block(LANES_motors));
+}
+double *woven_moved(woven_t *w) {
+  return rows_of(w, &w->moved);
 }
 void woven_put_all(woven_t *w, const weave_t *part, void *const one[LANES]) {
   weave_put_all(part, lanes_block(w->state, part->block), (const void *const *)one);

@@ -36,8 +36,11 @@ void woven_put(woven_t *w, int block, int k, void *one);
 void woven_get(woven_t *w, int block, int k, void *one);
 void woven_put_part(woven_t *w, const weave_t *part, int k, const void *one);
 void woven_get_part(woven_t *w, const weave_t *part, int k, void *one);
-// IMU_DRAWN rows of LANES numbers.
+// IMU_DRAWN rows of LANES numbers; what motors are commanded, PILOT_MOTORS rows; that which was applied, and
+// what came of it, as pilot_in_t has them from applied_N on.
 double *woven_noise_of_imu(woven_t *w);
+double *woven_motors(woven_t *w);
+double *woven_moved(woven_t *w);
 void woven_put_all(woven_t *w, const weave_t *part, void *const one[LANES]);
 void woven_get_all(woven_t *w, const weave_t *part, void *const one[LANES]);
 
