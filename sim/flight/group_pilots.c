@@ -151,5 +151,4 @@ void group_pilots(group_t *g) {
     if (f->plan->edit) group_settle(g, 1u << k);
     loop_pilot(f);
   }
-  lanes_step(g->woven.state);
 }

@@ -38,7 +38,8 @@ unsigned lanes_range_new(const lanes_state_t *s);
 // whether their motors turn, a bit each.
 double *lanes_truth(lanes_state_t *s);
 void lanes_take_motors(lanes_state_t *s, unsigned motors);
-// All have called their pilot: block `in` is that of the next millisecond.
+// All have called their pilot, and what it was told is looked at no more: block `in` is that of the next
+// millisecond.
 void lanes_step(lanes_state_t *s);
 
 // Where a block (lanes_blocks.h) lies, and where it lay some milliseconds ago.

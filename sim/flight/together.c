@@ -222,8 +222,9 @@ static void fly_together(group_t *g) {
       g->ms = (uint32_t)(2 * g->tick + ms);
       group_sense(g);
       group_pilots(g);
+      if (ms == 1) sample(g);
+      lanes_step(g->woven.state);
     }
-    sample(g);
     move(g);
   }
 }
