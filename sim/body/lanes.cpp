@@ -151,8 +151,11 @@ static unsigned left() {
 }
 
 // Numbers of an integrator as they lie, or a copy of them where they lie otherwise than registers want it.
+static bool lies_well(const number_t *y) {
+  return reinterpret_cast<uintptr_t>(y) % alignof(lane_t) == 0;
+}
 static const double *in_place(const number_t *y, double copy[RIGID_N]) {
-  if (reinterpret_cast<uintptr_t>(y) % alignof(lane_t) == 0) return reinterpret_cast<const double *>(y);
+  if (lies_well(y)) return reinterpret_cast<const double *>(y);
   for (int i = 0; i < RIGID_N; i++) copy[i] = lane_of(y + LANES * i);
   return copy;
 }
@@ -163,8 +166,8 @@ static void derivative(void *context, const number_t *y, number_t *dydt) {
   const double *const at = in_place(y, copy);
   if (!l->looked) forces_look(&l->acting, l->surfaces, at, &l->look);
   l->looked = false;
-  forces_derivative(&l->acting, at, &l->look, change);
-  for (int i = 0; i < RIGID_N; i++) lane_put(dydt + LANES * i, change[i]);
+  forces_derivative(&l->acting, at, &l->look, lies_well(dydt) ? reinterpret_cast<double *>(dydt) : change);
+  for (int i = 0; i < RIGID_N && !lies_well(dydt); i++) lane_put(dydt + LANES * i, change[i]);
 }
 
 static int tick(lanes_t *l) {
