@@ -1,8 +1,6 @@
 // orders.c - what eight bodies are commanded, as rows.
 #include "body/orders.h"
 
-#include <string.h>
-
 #define ROW(tick) ((tick) % ORDERS_DELAY)
 
 bool orders_suffice(const body_t *b) {
@@ -26,9 +24,8 @@ void orders_take(orders_t *o, const double *command_N, double *applied_N) {
   for (int i = 0; i < ROTORS; i++)
     for (int k = 0; k < LANES; k++) { // NaN is the least
       const double N = command_N[LANES * i + k], more_N = N > o->least_N[k] ? N : o->least_N[k];
-      now_N[i][k] = more_N < o->most_N[k] ? more_N : o->most_N[k];
+      applied_N[LANES * i + k] = now_N[i][k] = more_N < o->most_N[k] ? more_N : o->most_N[k];
     }
-  memcpy(applied_N, now_N, sizeof o->due_N);
   for (int i = 0; i < ROTORS; i++)
     for (int k = 0; k < LANES; k++) o->due_N[i][k] = o->command_N[ROW(o->tick - o->delay[k])][i][k];
   for (int k = 0; k < LANES; k++) o->queued[k]++;
