@@ -60,6 +60,14 @@ static done_t fly_with(const diagnose_job_t *job, diagnosis_t *d, const chosen_t
   return DONE;
 }
 
+// What is tried next is what fits best between the shapes that were tried: the misfit of these is no effect.
+static void take_shapes(diagnosis_t *d, const found_t *first) {
+  for (int i = 0; i < d->candidates.n; i++) {
+    fx_use_t *const use = &d->candidates.candidate[i].use;
+    if (first->shape[i] > 0.0) use->p[use->fx->shape_param] = first->shape[i];
+  }
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
@@ -68,6 +76,7 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
   chosen_t chosen = first.chosen;
   d->rounds = first.rounds;
+  if (status == DONE) take_shapes(d, &first);
   found_free(&first);
   TRY(status);
   TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));

@@ -114,3 +114,98 @@ bool bend_nominal(const score_t *j, const choice_t *choice, const double value[F
   bend->shape = sqrt(bend->shape);
   return true;
 }
+
+// --- the shape that fits best -----------------------------------------------------------------------------
+
+// How far, in the logarithm, the shapes on both sides are; 0: there is none.
+static void distances(const candidates_t *c, const row_of_shapes_t *row, double x[2]) {
+  for (int i = 0; i < 2; i++)
+    x[i] = row->side[i] < 0 ? 0.0
+                            : log(shape_of(&c->candidate[row->side[i]]) / shape_of(&c->candidate[row->own]));
+}
+
+// Of the columns at the shape below, here and above, for one that is `on` from here: a parabola, or a line.
+static void between(const double x[2], double on, double weight[3]) {
+  for (int i = 0; i < 2; i++) {
+    const double other = x[1 - i], alone = x[i] != 0.0 ? on / x[i] : 0.0;
+    weight[2 * i] = other != 0.0 ? alone * (on - other) / (x[i] - other) : alone;
+  }
+  weight[1] = 1.0 - weight[0] - weight[2];
+}
+
+typedef struct {
+  const score_t *j;
+  const choice_t *beside;
+  row_of_shapes_t row;
+  double x[2];
+} bent_t;
+
+// A sum of columns.
+typedef struct {
+  int n, of[3];
+  double times[3];
+} mix_t;
+
+static double product(const gram_t *g, const mix_t *a, const mix_t *b) {
+  double sum = 0.0;
+  for (int i = 0; i < a->n; i++)
+    for (int k = 0; k < b->n; k++) sum += a->times[i] * b->times[k] * g->total[a->of[i] * g->size + b->of[k]];
+  return sum;
+}
+
+// What is beside it, its own numbers and the residual; returns how many but for that.
+static int mix(const bent_t *t, double on, mix_t m[COLUMN_MAX + FX_SIZE_MAX + 1]) {
+  const candidates_t *const c = t->j->c;
+  const int at[3] = {t->row.side[0], t->row.own, t->row.side[1]};
+  int column[COLUMN_MAX];
+  double weight[3];
+  int n = choice_columns(c, t->beside, column);
+  between(t->x, on, weight);
+  for (int i = 0; i < n; i++) m[i] = (mix_t){1, {column[i]}, {1.0}};
+  for (int k = 0; k < c->candidate[t->row.own].n; k++) {
+    m[n] = (mix_t){.n = 0};
+    for (int i = 0; i < 3; i++) {
+      if (at[i] < 0) continue;
+      m[n].of[m[n].n] = c->candidate[at[i]].first + k;
+      m[n].times[m[n].n++] = weight[i];
+    }
+    n++;
+  }
+  m[n] = (mix_t){1, {c->columns}, {1.0}};
+  return n;
+}
+
+// The sum of squares that is left with a shape that is `on` from here; HUGE_VAL: at a size that cannot be.
+static double left_at(const bent_t *t, double on) {
+  const candidate_t *const own = &t->j->c->candidate[t->row.own];
+  mix_t m[COLUMN_MAX + FX_SIZE_MAX + 1];
+  int order[COLUMN_MAX + FX_SIZE_MAX];
+  double b[COLUMN_MAX + FX_SIZE_MAX], H[(COLUMN_MAX + FX_SIZE_MAX + 1) * (COLUMN_MAX + FX_SIZE_MAX + 1)];
+  const int n = mix(t, on, m);
+  for (int i = 0; i <= n; i++)
+    for (int k = 0; k <= n; k++) H[i * (n + 1) + k] = product(t->j->g, &m[i], &m[k]);
+  for (int i = 0; i < n; i++) order[i] = i;
+  const double left = lsq_solve_products(H, n + 1, order, n, NULL, b, NULL);
+  for (int k = 0; k < own->n; k++)
+    if (own->use.fx->size[k].sign > 0 && b[n - own->n + k] < own->least[k]) return HUGE_VAL;
+  return left;
+}
+
+double bend_best(const score_t *j, const choice_t *beside, int own) {
+  const double golden = 0.618034, here = shape_of(&j->c->candidate[own]);
+  bent_t t = {.j = j, .beside = beside};
+  if (!find_neighbours(j->c, own, &t.row)) return here;
+  distances(j->c, &t.row, t.x);
+  double low = 0.5 * t.x[0], high = 0.5 * t.x[1];
+  const double ends[2] = {low, high}, span = high - low;
+  for (int i = 0; i < 20; i++) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    if (left_at(&t, a) < left_at(&t, b))
+      high = b;
+    else
+      low = a;
+  }
+  const double best = 0.5 * (low + high), close = 1e-3 * span;
+  if (best - ends[0] < close || ends[1] - best < close) return here; // beyond, it is a neighbour's to find
+  return left_at(&t, best) < left_at(&t, 0.0) * (1.0 - SELECT_GAIN) ? here * exp(best) : here;
+}

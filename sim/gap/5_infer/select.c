@@ -1,6 +1,7 @@
 // select.c - forward selection of effects.
 #include "gap/5_infer/select.h"
 
+#include "gap/5_infer/bend.h"
 #include "gap/5_infer/family.h"
 #include "gap/5_infer/evidence.h"
 #include "gap/5_infer/local.h"
@@ -245,6 +246,9 @@ static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
 static done_t find_choice(select_t *t, const timing_t *timing, found_t *found, why_t *why) {
   TRY(take_timing(t, timing, why));
   TRY(round_open(&t->round, why));
+  for (int i = 0; !t->round.nominal && i < t->round.c->n; i++)
+    if (t->round.c->candidate[i].use.fx->n_shape)
+      found->shape[i] = bend_best(&t->round.score, &t->round.choice, i);
   TRY(search(t, why));
   memcpy(found->echo, t->echo, (size_t)t->round.c->n * sizeof *t->echo);
   found_describe(found, &t->round, timing);

@@ -1,7 +1,11 @@
 // test_gap_shape.c - shapes of named effects that lie between the ones that are tried.
+#include "gap/5_infer/bend.h"
 #include "rig/gap_case.h"
+#include "rig/gap_rows.h"
 #include "rig/share.h"
 #include "rig/test.h"
+
+#include <math.h>
 
 static gap_case_t *diagnosed(const fx_use_t *use) {
   const gap_hidden_t hidden = {1, {*use}};
@@ -71,4 +75,42 @@ TEST(gap_finds_the_voltage_of_which_a_thrust_map_is) {
     CHECK_NEAR(found->p[2], 4.08, 0.02);
   }
   gap_case_free(c);
+}
+
+// --- before a shape is named ------------------------------------------------------------------------------
+
+// Rows of a sag by a voltage that swings between 3.5 and 4.1 V, of a map at `zero_V`, over what is typical.
+static void sag_by(double *v, double zero_V) {
+  for (int i = 0; i < GAP_ROWS; i++) v[i] = -600.0 * (1.0 - (3.8 + 0.3 * sin(0.9 * i)) / zero_V);
+}
+
+TEST(gap_finds_a_shape_between_those_that_are_tried) {
+  static const struct {
+    const char *what;
+    double zero_V, times;
+    int moves; // which of the three, or -1
+  } row[] = {
+      {"between the first two", 3.78, 1.0, 0},  {"nearer to the second", 3.87, 1.0, 1},
+      {"beyond the second", 4.02, 1.0, 1},      {"one that is tried", 3.95, 1.0, -1},
+      {"as large as nothing", 3.78, 0.001, -1}, {"the wrong sign", 3.78, -1.0, -1},
+  };
+  static const double tried_V[] = {3.7, 3.95, 4.2};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_rows_t g;
+    const choice_t none = {.n = 0};
+    double hidden[GAP_ROWS];
+    gap_rows_make(&g, 5 + i);
+    for (int k = 0; k < 3; k++) {
+      const int own = gap_rows_candidate(&g, "battery_sag");
+      g.candidate[own].use.p[2] = tried_V[k];
+      sag_by(gap_rows_column(&g, own, 0, CH_FZ), tried_V[k]);
+    }
+    sag_by(hidden, row[i].zero_V);
+    for (int r = 0; r < GAP_ROWS; r++) g.residual[CH_FZ][r] += row[i].times * hidden[r];
+    gap_rows_open(&g, 0, NULL);
+    for (int k = 0; k < 3; k++)
+      CHECK_NEAR(bend_best(&g.round.score, &none, k), k == row[i].moves ? row[i].zero_V : tried_V[k], 0.01);
+    gap_rows_free(&g);
+  }
 }
