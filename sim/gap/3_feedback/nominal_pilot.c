@@ -52,12 +52,14 @@ static d3_t track_turn(const nominal_flight_t *f, int at) {
                 sqrt(2.0 / f->g->every) * error / span_s);
 }
 
+// The point ahead is the next one here.
 void pilot_look_ahead(nominal_flight_t *f) {
-  for (int i = 0; i < 2; i++) {
-    const int at = f->at + (i && pilot_goes_on(f));
-    f->bends_mps2[i] = track_acc(f, at);
-    f->bends_radps2[i] = track_turn(f, at);
-  }
+  const bool known = f->at > f->from && f->bends_at == f->at;
+  f->bends_mps2[0] = known ? f->bends_mps2[1] : track_acc(f, f->at);
+  f->bends_radps2[0] = known ? f->bends_radps2[1] : track_turn(f, f->at);
+  f->bends_at = f->at + pilot_goes_on(f);
+  f->bends_mps2[1] = track_acc(f, f->bends_at);
+  f->bends_radps2[1] = track_turn(f, f->bends_at);
 }
 
 bool pilot_goes_on(const nominal_flight_t *f) {

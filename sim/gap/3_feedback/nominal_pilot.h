@@ -24,7 +24,8 @@ typedef struct {
   double lift_trim;                           // thrust over weight that holds it
   grid_point_t track;                         // where it is to be now
   d3_t bent_mps2, bent_radps2;                // acceleration of the track there, and of its turning
-  d3_t bends_mps2[2], bends_radps2[2];        // at the point before and the one behind
+  d3_t bends_mps2[2], bends_radps2[2];        // at the point before and the one behind,
+  int bends_at;                               // which is this one
   d3_t rate_before_radps;                     // seen at the last command; NaN: at none yet
   d3_t turn_slow_radps2;                      // commands as slower motors follow them
   double load_slow, call_s, quick;            // quick: the share of the way that they go from call to call

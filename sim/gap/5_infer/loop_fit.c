@@ -4,6 +4,7 @@
 #include "gap/2_predict/lines.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -45,14 +46,26 @@ static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const mod
   return status;
 }
 
+static done_t left_of(const gap_flights_t *flown, const set_t *like, const closed_loop_t *loop, squares_t *left,
+                      const model_t *m, why_t *why) {
+  set_t own = {.n_grid = 0};
+  done_t status = nominal_set(&own, flown, m, why);
+  memcpy(own.excluded, like->excluded, sizeof own.excluded);
+  if (status == DONE) status = windows_keep(&own, m, why);
+  if (status == DONE) status = read_off(NULL, left, &own, m, loop->flown_by, why);
+  set_free(&own);
+  return status;
+}
+
 // What is left of flights that are flown so.
 static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
-  along_t a;
-  done_t status = nominal_along(&a, s, m, loop, seed, why);
-  if (status == DONE) status = windows_keep(&a.seen, m, why);
-  if (status == DONE) status = read_off(NULL, left, &a.seen, m, loop->flown_by, why);
-  along_free(&a);
+  gap_flights_t flown = {.flight = calloc((size_t)s->n_grid + 1, sizeof(gap_flight_t))};
+  if (!flown.flight) return error_failed(why, "out of memory");
+  done_t status = nominal_flights(&flown, NULL, s, m, loop, seed, why);
+  if (status == DONE) status = left_of(&flown, s, loop, left, m, why);
+  for (int f = 0; f < flown.n; f++) gap_flight_free(&flown.flight[f]);
+  free(flown.flight);
   return status;
 }
 
