@@ -273,15 +273,12 @@ static void bridge(grid_point_t *point, int from, int to) {
   for (int j = from; j < to; j++) point[j].q_wb = dq_unit(point[j].q_wb);
 }
 
-// Places and speeds as they were logged: the pilot saw no better ones.
+// Places as they were logged: the pilot saw no better ones.
 static grid_point_t *whole_track(const grid_t *g, int from, int to) {
   grid_point_t *const point = malloc(((size_t)g->n + 1) * sizeof *point);
   if (!point) return NULL;
   memcpy(point, g->point, (size_t)g->n * sizeof *point);
-  for (int j = 0; j < g->n; j++) {
-    point[j].pos_w_m = point[j].seen_w_m;
-    point[j].vel_w_mps = point[j].seen_w_mps;
-  }
+  for (int j = 0; j < g->n; j++) point[j].pos_w_m = point[j].seen_w_m;
   bridge(point, from, to);
   return point;
 }
