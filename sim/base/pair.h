@@ -1,5 +1,5 @@
-// pair.h - two doubles at a time, as every processor with 64 bits has them: arithmetic of the plant's and the
-// estimator's inner loops, which a compiler does not find there by itself. +, -, * and / act on both; the
+// pair.h - two doubles at a time, as every processor with 64 bits has them: arithmetic of the estimator's
+// inner loops, which a compiler does not find there by itself. +, -, * and / act on both; the
 // results are those of one at a time, to the bit. An extension of C that gcc and clang share. Header only.
 #ifndef SIM_BASE_PAIR_H
 #define SIM_BASE_PAIR_H
@@ -23,7 +23,8 @@
 typedef double pair_t __attribute__((vector_size(16)));
 typedef int64_t pair_bits_t __attribute__((vector_size(16)));
 
-// Bit by bit the same: of a few dozen bytes the library's call costs more than they do. bytes: times 8.
+// Bit by bit the same: of a few dozen bytes the library's call costs more than they do. bytes: a multiple
+// of 8.
 static inline bool same_in_bits(const void *a, const void *b, size_t bytes) {
   uint64_t differ = 0;
   for (size_t i = 0; i < bytes; i += sizeof differ) {
@@ -46,32 +47,13 @@ static inline void pair_put(double *p, pair_t a) {
 static inline pair_t pair_both(double a) {
   return (pair_t){a, a};
 }
-static inline double pair_sum(pair_t a) {
-  return a[0] + a[1];
-}
 // a where a comparison holds, elsewhere b.
 static inline pair_t pair_where(pair_bits_t holds, pair_t a, pair_t b) {
   return (pair_t)((holds & (pair_bits_t)a) | (~holds & (pair_bits_t)b));
 }
-// 2^n of whole numbers n, -1022..1023, that are in the lowest bits of a.
-static inline pair_t pair_exp2_of_bits(pair_t a) {
-  return (pair_t)(((pair_bits_t)a + 1023) << 52);
-}
-static inline bool pair_any(pair_bits_t holds) {
-  return (holds[0] | holds[1]) != 0;
-}
-// The smaller and the larger; where a is NaN, b.
+// The smaller; where a is NaN, b.
 static inline pair_t pair_min(pair_t a, pair_t b) {
   return pair_where(a < b, a, b);
-}
-static inline pair_t pair_max(pair_t a, pair_t b) {
-  return pair_where(a > b, a, b);
-}
-static inline pair_t pair_sqrt(pair_t a) {
-  return (pair_t){sqrt(a[0]), sqrt(a[1])};
-}
-static inline pair_t pair_trunc(pair_t a) {
-  return (pair_t){trunc(a[0]), trunc(a[1])};
 }
 
 #endif

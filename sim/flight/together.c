@@ -49,7 +49,8 @@ static void take_motors(group_t *g) {
 // The tick before the one from which on a flight has an order due, or is over: rounded the safe way.
 static long quiet_until(const flight_loop_t *f) {
   const double until_s = smaller(f->order_s, f->plan->end_s);
-  return until_s < 1e6 ? (long)(until_s / LOOP_TICK_S) - 1 : LONG_MAX;
+  return until_s < 1e6 ? (long)(until_s / LOOP_TICK_S) - 1
+                       : LONG_MAX; // s: what is later, or never, has no tick
 }
 
 static void order(group_t *g) {

@@ -125,3 +125,15 @@ TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {
     CHECK_TEXT(set.answer, row[i].answer);
   }
 }
+
+// Its zero lies between two voltages that are tried, and what these leave was a mass, or had no name.
+TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
+  static const unsigned long seed[] = {26138, 26003};
+  for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) {
+    users_set_t set;
+    why_t why;
+    ROW("%lu", seed[i]);
+    if (!CHECK_OK(users_one(USERS_ALONE, seed[i], &set, &why))) return;
+    CHECK_TEXT(set.answer, "battery_sag");
+  }
+}

@@ -1,4 +1,4 @@
 # A size that cannot be negative is named although it is.
 # file: sim/gap/5_infer/score.c
 # test: gap_score_lets_in
-s/if (!can_be(c, k, v->value\[k\], 0\.0)) return false;/if (!can_be(c, k, fabs(v->value[k]), 0.0)) return false;/
+s/can_be(c, k, v->value\[k\], score_margin/can_be(c, k, fabs(v->value[k]), score_margin/

@@ -20,8 +20,8 @@ typedef struct {
   int n;
 } both_t;
 
-// residual: measured less predicted, by row of one axis. left, room: as many numbers. n 0: there is no
-// colour to be found.
+// residual: measured less predicted, by row of one axis. left, room: as many numbers, overwritten. n 0: there
+// is no colour to be found.
 both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
                     double *room);
 

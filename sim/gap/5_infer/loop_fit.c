@@ -46,8 +46,8 @@ static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const mod
   return status;
 }
 
-static done_t left_of(const gap_flights_t *flown, const set_t *like, const closed_loop_t *loop, squares_t *left,
-                      const model_t *m, why_t *why) {
+static done_t left_of(const gap_flights_t *flown, const set_t *like, const closed_loop_t *loop,
+                      squares_t *left, const model_t *m, why_t *why) {
   set_t own = {.n_grid = 0};
   done_t status = nominal_set(&own, flown, m, why);
   memcpy(own.excluded, like->excluded, sizeof own.excluded);
