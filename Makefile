@@ -143,7 +143,7 @@ $(B)/sim/body/lanes_512.o: sim/body/lanes.cpp $(B)/flags | setup
 	$(compile)
 AVX512 = $(if $(AVX2),-mavx512f -mprefer-vector-width=512)
 # What is compiled by lane_c.hpp, too: registers of 256 bits, but twice as many, and masks.
-AVX512VL = $(if $(AVX2),-mavx512f -mavx512vl -mavx512dq -mavx512bw -mno-fma -DLANES_512 -Dlanes=lanes_512)
+AVX512VL = $(if $(AVX2),-mavx512f -mavx512vl -mavx512dq -mavx512bw -DLANES_512 -Dlanes=lanes_512)
 AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
 # Their sources go through tools/lanes.sed first, headers too.
 LANES_CPP  = $(CXX) -std=c++20 $(OPT) $(WARN) $(LANES_WARN) $(SANITIZE) -MMD -MP $(FLIGHT_FLAGS) -fno-math-errno $(AVX2)
