@@ -21,6 +21,7 @@ DESK_PACKAGES = python3-venv chromium
 WARN  = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Werror
 C     = $(CC) -std=c11 $(OPT) $(FAST) -fno-math-errno $(WARN) -Wno-psabi $(SANITIZE) -MMD -MP
 CPP   = $(CXX) -std=c++17 $(OPT) $(WARN) $(SANITIZE) -MMD -MP -isystem /usr/include/eigen3
+# -Wno-psabi: vectors of four doubles (base/few.h) are passed inside of a program alone, whose objects agree.
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off
 # Some files fly many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.

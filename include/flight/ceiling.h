@@ -72,7 +72,8 @@ float ceiling_up(const ceiling_t *s, float age_s);
 MUST_CHECK status_t ceiling_correct(ceiling_t *s, const ceiling_param_t *p, float range_m, float age_s);
 
 // The same in two: whether a sample is one, and what it changes where `is` holds. Of vehicles that fly side
-// by side some have a sample that others have not (EITHER of flight/v3.h).
+// by side some have a sample that others have not (EITHER of flight/v3.h). Whether it is one (range_m within
+// 0..CEILING_RANGE_MAX_M, age_s not negative and finite) has to be asked before: ceiling_take() does not.
 bool ceiling_good(float range_m, float age_s);
 void ceiling_take(ceiling_t *s, const ceiling_param_t *p, bool is, float range_m, float age_s);
 

@@ -198,7 +198,7 @@ double bend_best(const score_t *j, const choice_t *beside, int own) {
   distances(j->c, &t.row, t.x);
   double low = 0.5 * t.x[0], high = 0.5 * t.x[1];
   const double ends[2] = {low, high}, span = high - low;
-  for (int i = 0; i < 20; i++) {
+  for (int i = 0; i < 20; i++) { // to 1e-4 of the span, a tenth of what is close to an end
     const double a = high - golden * (high - low), b = low + golden * (high - low);
     if (left_at(&t, a) < left_at(&t, b))
       high = b;

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-enum { SWEEPS = 8 }; // slope and colour in turn: the slope moves by a tenth as much in each
-
 static double mean(const rows_t *r, const double *v) {
   double sum = 0.0;
   int n = 0;
@@ -30,24 +28,22 @@ static both_t sums_of(const rows_t *r, const double *y, const double *p) {
   return s;
 }
 
+// The colour of what the plain slope leaves, once: slope and colour in turn may end at another slope, of rows
+// in which nothing slow is left, the turning least of all.
 both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
                     double *room) {
   for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
-  both_t s = sums_of(r, measured, left); // a scale that is left in the rows would be their colour
-  double slope = s.yp / s.yy;
-  for (int sweep = 0; sweep < SWEEPS; sweep++) {
-    for (int i = 0; i < r->n; i++) left[i] = (1.0 - slope) * measured[i] - residual[i];
-    const double off = mean(r, left);
-    for (int i = 0; i < r->n; i++) left[i] -= off;
-    const color_t color = color_fit(r, left);
-    if (!color.used) return (both_t){.n = 0};
-    for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
-    color_whiten(&color, r, left, room);
-    color_whiten(&color, r, measured, left);
-    s = sums_of(r, left, room);
-    slope = s.yp / s.yy;
-  }
-  return s;
+  const both_t plain = sums_of(r, measured, left); // a scale that is left in the rows would be their colour
+  const double slope = plain.yp / plain.yy;
+  for (int i = 0; i < r->n; i++) left[i] = (1.0 - slope) * measured[i] - residual[i];
+  const double off = mean(r, left);
+  for (int i = 0; i < r->n; i++) left[i] -= off;
+  const color_t color = color_fit(r, left);
+  if (!color.used) return (both_t){.n = 0};
+  for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
+  color_whiten(&color, r, left, room);
+  color_whiten(&color, r, measured, left);
+  return sums_of(r, left, room);
 }
 
 static double reverse(const both_t *b) {
