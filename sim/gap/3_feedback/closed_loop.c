@@ -9,6 +9,7 @@
 
 #define TILT_MOST 0.35 // of a rate gain squared: more overshoots
 #define LEAD_MOST 0.5  // acts as so much more inertia; with more, lag and delay make a loop ring
+#define YAW_GAIN  5.0  // 1/s: the Crazyflie's, whose yaw is weak
 #define VARIED    0.3  // of a gain: a fit from a log in closed loop knows it no better
 // Where rows are fewer than commands no one time of a row's command fits what turns the vehicle and what is
 // held between two looks at place and speed, and of a manoeuvre too small a gain is found (swiftness.c). Then
@@ -89,6 +90,16 @@ static d3_t turn_of(const grid_t *g, const model_t *m, int j, double *lift_mps2)
   return d3(moment.x / f->inertia_kgm2[0], moment.y / f->inertia_kgm2[1], moment.z / f->inertia_kgm2[2]);
 }
 
+// A rotor that spins up turns the body against it long before its drag does: of a step of command about z
+// there is at once so many times what there is in the end.
+static double yaw_at_once(const model_t *m) {
+  const frame_t *const f = &m->frame;
+  const double hover_N = m->mass_kg * G_MPS2 / ROTORS, drag_Nm = f->torque_ratio_m * hover_N;
+  if (!(drag_Nm > 0.0 && m->motor_tau_s > 0.0)) return 1.0;
+  const double spin_s = 0.5 * f->rotor_inertia_kgm2 * sqrt(hover_N / f->kf_Ns2) / drag_Nm;
+  return 1.0 + spin_s * (1.0 + pilot_motor_lead(m->motor_tau_s)) / m->motor_tau_s;
+}
+
 static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_t roll = {0}, pitch = {0}, climb = {0};
   const grid_t *g = &s->grid[0];
@@ -107,7 +118,7 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
   two_solve(&climb, &w->climb_gain, &w->height_gain);
   for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, RATE_GAIN_MOST);
-  w->rate_gain[2] = 5.0;
+  w->rate_gain[2] = fmin(YAW_GAIN, RATE_GAIN_MOST / yaw_at_once(m));
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), 0.1 * least * least, TILT_MOST * least * least);
   w->climb_gain = clamp(w->climb_gain, 2.0, 8.0);
@@ -154,7 +165,7 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
     for (int i = 0; i < g->samples; i++) turn[g->from + i] = turn_now(g, m, axis, i);
     const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
     const double d = lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s);
-    w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST);
+    w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
   free(turn);
 }
