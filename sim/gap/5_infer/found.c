@@ -127,7 +127,7 @@ static double gain_of_rivals(const round_t *r, int candidate, int k) {
                                                        : HUGE_VAL;
 }
 
-// In parts of what is typical.
+// In parts of what is typical; 0: nothing that is compared depends on it.
 static double least_of(const round_t *r, const choice_t *with, double left) {
   const int candidate = with->of[with->n - 1];
   const candidate_t *const c = &r->c->candidate[candidate];
@@ -137,11 +137,11 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
   const double wald = sqrt(c->n * lsq_f_quantile(SELECT_ALPHA / r->c->n, c->n, blocks));
   const double nominal = limits_nominal(r->nominal ? r->nominal->n : 0) * sqrt(c->n);
   double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX], unit[FX_SIZE_MAX], least = 0.0;
-  if (!(v.stderr_[0] > 0.0)) return 0.0; // no residual depends on it
   score_nominal_rms(&r->score, with, rms);
   score_least_gain(&r->score, with, SELECT_GAIN * left, gain);
   score_least_gain(&r->score, with, 1.0, unit);
   for (int k = 0; k < c->n && k < FX_SIZE_MAX; k++) {
+    if (!(v.stderr_[k] > 0.0)) continue;
     const double typical = c->typical[k], error = fmax(v.stderr_[k], rms[k]);
     const double rival = unit[k] * sqrt(gain_of_rivals(r, candidate, k));
     double need = fmax(fmax(wald * v.stderr_[k], nominal * rms[k]), fmax(gain[k], rival));

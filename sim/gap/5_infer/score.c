@@ -230,35 +230,45 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
   for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
+// Some channel that is compared depends on size k of a candidate.
+static bool is_shown(const score_t *j, const candidate_t *c, int k) {
+  return j->g->total[(c->first + k) * (j->g->size + 1)] > 0.0;
+}
+
 // Of what feedback makes of the last candidate's numbers, what could be taken for it.
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
   const int flights = nominal_values(j, choice, value);
+  int shown = 0;
   for (int k = 0; k < own->n; k++) {
+    if (!is_shown(j, own, k)) continue;
     score_made(own, k, value[k], flights);
     const double made = flights ? rms_of(value[k], flights) : taken_to_be(j, own, k);
     sum += made > 0.0 ? size[k] * size[k] / (made * made) : 1e12;
+    shown++;
   }
-  return sqrt(sum / own->n);
+  return sqrt(sum / shown);
 }
 
 verdict_t score_last(const score_t *j, const choice_t *choice) {
   verdict_t v = {.p = 1.0};
-  double b[COLUMN_MAX], V[COLUMN_MAX * COLUMN_MAX], own[FX_SIZE_MAX * FX_SIZE_MAX];
-  const int n_own = j->c->candidate[choice->of[choice->n - 1]].n;
-  int column[COLUMN_MAX];
+  double b[COLUMN_MAX], V[COLUMN_MAX * COLUMN_MAX], value[FX_SIZE_MAX], own[FX_SIZE_MAX * FX_SIZE_MAX];
+  const candidate_t *const c = &j->c->candidate[choice->of[choice->n - 1]];
+  int column[COLUMN_MAX], at[FX_SIZE_MAX], shown = 0;
   const int n = choice_columns(j->c, choice, column);
-  for (int i = n - n_own; i < n; i++) // nothing in these flights depends on it
-    if (!(j->g->total[column[i] * (j->g->size + 1)] > 0.0)) return v;
+  for (int k = 0; k < c->n; k++)
+    if (is_shown(j, c, k)) at[shown++] = n - c->n + k;
+  if (!shown) return v;
   score_estimate(j, choice, b, V);
-  for (int i = 0; i < n_own; i++) {
-    v.value[i] = b[n - n_own + i];
-    v.stderr_[i] = sqrt(V[(n - n_own + i) * (n + 1)]);
-    for (int k = 0; k < n_own; k++) own[i * n_own + k] = V[(n - n_own + i) * n + n - n_own + k];
+  for (int i = 0; i < shown; i++) {
+    const int k = at[i] - (n - c->n);
+    value[i] = v.value[k] = b[at[i]];
+    v.stderr_[k] = sqrt(V[at[i] * (n + 1)]);
+    for (int other = 0; other < shown; other++) own[i * shown + other] = V[at[i] * n + at[other]];
   }
   const double blocks = fmax(j->g->n_block - n, 2.0);
-  v.p = lsq_f_above(lsq_wald(v.value, own, n_own) / n_own, n_own, blocks);
+  v.p = lsq_f_above(lsq_wald(value, own, shown) / shown, shown, blocks);
   v.over_nominal = over_nominal(j, choice, v.value);
   return v;
 }

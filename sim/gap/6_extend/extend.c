@@ -99,7 +99,10 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
   const bool shape = use->fx->n_shape && use->fx->shape_param == param;
   for (int k = 0; k < use->fx->n_size; k++) {
     if (use->fx->size[k].param != param) continue;
-    fprintf(out, "estimated, +- %.2g (standard error)", named->stderr_[k]);
+    if (named->stderr_[k] > 0.0)
+      fprintf(out, "estimated, +- %.2g (standard error)", named->stderr_[k]);
+    else
+      fputs("not shown by what can be compared of these flights", out);
     if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
     return;
   }

@@ -8,10 +8,12 @@
 
 static void take_size(finding_t *f, const fx_param_t *param, int k) {
   const double in_file = f->in_file ? fx_use_size(f->in_file, k) : (double)NAN;
+  const double error = f->named->stderr_[k];
   f->number[f->n_number++] = (number_t){
       .param = &param[f->fx->size[k].param],
       .value = fx_use_size(f->use, k),
-      .stderr_ = f->named->stderr_[k],
+      .stderr_ = error > 0.0 ? error : (double)NAN,
+      .no_stderr = error > 0.0 ? NULL : REPORT_NOT_SHOWN,
       .in_file = in_file,
       .by_instrument = f->named->confirm.value[k] + (f->in_file ? in_file : 0.0),
   };

@@ -9,6 +9,10 @@
 
 static void print_number(const number_t *k, const char *before, FILE *out) {
   const char *const unit = report_unit(k);
+  if (k->no_stderr && strcmp(k->no_stderr, REPORT_NOT_SHOWN) == 0) {
+    fprintf(out, "%s%s not shown", before, k->param->name);
+    return;
+  }
   fprintf(out, "%s%s %.3g", before, k->param->name, k->value);
   if (!k->no_stderr) fprintf(out, " +- %.2g", k->stderr_);
   fprintf(out, "%s%s", text_gap(unit), unit);

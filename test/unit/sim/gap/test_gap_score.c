@@ -86,6 +86,31 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
   }
 }
 
+// Of a channel that is left out no size is known that shows there alone: the others are.
+TEST(gap_score_goes_by_the_sizes_that_are_shown) {
+  static const struct {
+    const char *what;
+    int shown; // of the sizes
+    bool enters;
+  } row[] = {{"one of three", 1, true}, {"none", 0, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 7);
+    const int of = gap_rows_candidate(&g, "accel_bias");
+    gap_rows_white(&g, gap_rows_column(&g, of, 0, CH_FX));
+    for (int k = 0; k < GAP_ROWS; k++) g.residual[CH_FX][k] += gap_rows_column(&g, of, 0, CH_FX)[k];
+    for (int k = 0; k < GAP_ROWS && !row[i].shown; k++) gap_rows_column(&g, of, 0, CH_FX)[k] = 0.0;
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, of);
+    const verdict_t v = score_last(&g.round.score, &with);
+    CHECK(score_allows(&g.round.score, &with, &v) == row[i].enters);
+    CHECK((v.stderr_[0] > 0.0) == (row[i].shown > 0));
+    for (int k = 1; k < 3; k++) CHECK(v.value[k] == 0.0 && v.stderr_[k] == 0.0);
+    gap_rows_free(&g);
+  }
+}
+
 // Of a few nominal flights the rms is not known well: so much more is asked for.
 TEST(gap_score_asks_for_more_where_few_nominal_flights_could_be_flown) {
   static const struct {
