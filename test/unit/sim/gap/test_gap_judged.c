@@ -96,7 +96,7 @@ TEST(gap_names_what_is_far_more_than_feedback_could_make_where_no_flight_tells) 
     const char *what;
     double times;
     bool named;
-  } row[] = {{"half more than typical", 1.0, true}, {"less than a third of it", 0.2, false}};
+  } row[] = {{"half more than typical", 1.0, true}, {"a seventh of it", 0.1, false}};
   for (int i = 0; i < 2; i++) {
     char text[6000];
     fx_use_t hidden = offset();

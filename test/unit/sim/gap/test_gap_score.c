@@ -170,13 +170,13 @@ TEST(gap_score_sees_harm_in_one_group_of_channels) {
   }
 }
 
-// A hundredth of what is left in the group, and ten: of 3600 squares in turning 46. The noise is without the
-// column's part, and what the column does of the wrong sign is three times its squares.
-TEST(gap_score_takes_a_hundredth_for_harm) {
+// A twentieth of what is left in the group, and ten: of 3600 squares in turning 190. The noise is without the
+// column's part, and what the column does of the wrong sign is nearly three times its squares.
+TEST(gap_score_takes_more_than_a_twentieth_for_harm) {
   static const struct {
     double squares;
     bool harms;
-  } row[] = {{13.0, false}, {19.0, true}};
+  } row[] = {{57.0, false}, {85.0, true}};
   for (int i = 0; i < 2; i++) {
     gap_rows_t g;
     double xx = 0.0, xy = 0.0;
