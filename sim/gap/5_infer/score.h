@@ -60,8 +60,8 @@ double score_alike(const score_t *j, int column, int candidate);
 // Estimates, and their cluster-robust covariance (column by column of the choice; V may be null).
 void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V);
 
-// A size on which nothing depends that is compared (a moment about an axis that is left out) is 0, and so is its
-// error; of none a p of 1.
+// A size on which nothing depends that is compared (a moment about an axis that is left out) is 0, and so is
+// its error; of none a p of 1.
 typedef struct {
   double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX], p, over_nominal;
 } verdict_t;

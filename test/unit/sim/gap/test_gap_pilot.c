@@ -70,8 +70,8 @@ TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
 }
 
 // The pilot that is read off a log which this one flew, if the file says that the vehicle is m.
-static done_t pilot_read(closed_loop_t *read, const gap_track_t *r, const model_t *m, const closed_loop_t *flown_by,
-                        int every, double told_Hz, why_t *why) {
+static done_t pilot_read(closed_loop_t *read, const gap_track_t *r, const model_t *m,
+                         const closed_loop_t *flown_by, int every, double told_Hz, why_t *why) {
   const flown_by_t by = {.rate_Hz = told_Hz};
   gap_flight_t flight;
   set_t set;
@@ -120,7 +120,7 @@ TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
 
 // Rms of the acceleration upwards over a nominal flight, less that at rest.
 static done_t shakes(double *mps2, const gap_track_t *r, const model_t *m, const closed_loop_t *loop,
-                       why_t *why) {
+                     why_t *why) {
   gap_flight_t flight;
   double squares = 0.0;
   TRY(nominal_fly(&r->set.grid[0], m, loop, 5, &flight, NULL, why));
@@ -130,9 +130,9 @@ static done_t shakes(double *mps2, const gap_track_t *r, const model_t *m, const
   return DONE;
 }
 
-// With the most lead of roll and pitch about z, too, heavy rotors run into their limits from call to call, and
-// shake the vehicle ten times as much. That was taken for noise: of a table of rotorpy with a weak rotor, and
-// rotors heavier than its own in the vehicle file, an offset of the centre of mass was told, or nothing.
+// With the most lead of roll and pitch about z, too, heavy rotors run into their limits from call to call,
+// and shake the vehicle ten times as much. That was taken for noise: of a table of rotorpy with a weak rotor,
+// and rotors heavier than its own in the vehicle file, an offset of the centre of mass was told, or nothing.
 TEST(gap_steers_no_more_about_z_than_heavy_rotors_bear) {
   static const double times[] = {0.0, 1.0, 3.0, 10.0};
   gap_track_t r;
