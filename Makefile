@@ -320,8 +320,8 @@ DESK_STORAGE = $(O)/desk.storage
 desk: setup $(O)/desk  ## a simulated Crazyflie that the stock client and library fly, until Ctrl-C (SCENE=FILE.toml)
 	@$(O)/desk $(SCENE) --storage $(DESK_STORAGE)
 
-bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log; a minute
-	@$(O)/bench
+bench: $(O)/bench  ## how fast it is, as ratios to real time, and how a diagnosis grows with the log; a minute (BEFORE=COMMIT: beside that one)
+	@$(if $(BEFORE),BEFORE="$(BEFORE)" $(DOC) show bench-before,$(O)/bench)
 
 lint: setup-lint  ## format, static analysis, headers alone, house rules; minutes
 	+@tools/lint/lint.sh

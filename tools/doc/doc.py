@@ -128,7 +128,7 @@ def main(words: list[str], recipes: dict[str, Recipe]) -> int:
                 return show(recipes, names)
             case ["check"]:
                 return 0 if places(recipes) else 1
-    except (Refused, run.Failed) as why:
+    except (Refused, run.Failed, run.Left) as why:
         print(f"doc: {why}", file=sys.stderr)
         return 1
     print(__doc__, file=sys.stderr)

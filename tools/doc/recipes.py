@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import before
 import bound
 import by_height
 import channel
@@ -135,6 +136,7 @@ RECIPES = {
     "mass-flights": Recipe(gap.mass_flights),
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
+    "bench-before": Recipe(before.before),
     "bench-fast": Recipe(bench_fast),
     "desk": Recipe(desk.load),
     "closest": Recipe(closest),

@@ -1,0 +1,55 @@
+"""before.py - how fast the complete loop is beside an earlier commit of this repository: both in turns, the best of all turns."""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import run
+
+TURNS = 3  # what else the machine does for a while then costs both
+FIRST = "e12773f"  # before the first commit that made it faster
+LINE = re.compile(r"^ *(.*\S) +(\d+) x real time", re.M)
+
+
+def built(commit: str) -> Path:
+    """The bench program of a commit, from a tree of its own under OUT."""
+    tree = run.OUT / "before" / commit
+    if not (tree / "out/bench").exists():
+        run.progress(f"building {commit}")
+        run.program("rm", "-rf", tree)
+        tree.mkdir(parents=True)
+        run.program("sh", "-euc", f'git archive "{commit}" | tar -x -C "{tree}"')
+        env = ("env", "-u", "O", "-u", "MAKEFLAGS", "-u", "MAKELEVEL")
+        run.program("sh", "-euc", " ".join(env) + f' make -s -C "{tree}" out/bench >"{tree}/log" 2>&1')
+    return (tree / "out/bench").resolve()
+
+
+def measured(bench: Path) -> dict[str, int]:
+    """Ratios to real time by what is flown. An older program knows no part of its work and does all of it."""
+    done = subprocess.run([bench, "loop"], capture_output=True, text=True, check=False)
+    said = done.stdout if done.returncode == 0 else run.program(bench)
+    return {what: int(ratio) for what, ratio in LINE.findall(said) if "complete loop" in what}
+
+
+def best(of: list[dict[str, int]]) -> dict[str, int]:
+    return {what: max(one[what] for one in of) for what in of[0]}
+
+
+def before() -> None:
+    commit = os.environ.get("BEFORE") or FIRST
+    known = subprocess.run(["git", "cat-file", "-e", f"{commit}^{{commit}}"], capture_output=True, check=False)
+    if known.returncode != 0:
+        raise run.Left(f"this copy of the repository has no commit {commit}")
+    programs = built(commit), (run.OUT / "bench").resolve()
+    turns: list[list[dict[str, int]]] = [[], []]
+    for turn in range(TURNS):
+        for which, bench in enumerate(programs):
+            run.progress(f"turn {turn + 1} of {TURNS}")
+            turns[which].append(measured(bench))
+    run.progress()
+    then, now = best(turns[0]), best(turns[1])
+    print(f"{'x real time':<62} {commit:>9} {'now':>9} {'ratio':>9}")
+    for what in then:
+        if what in now:
+            print(f"{what:<62} {then[what]:>9} {now[what]:>9} {now[what] / then[what]:>9.2f}")
