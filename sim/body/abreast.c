@@ -59,16 +59,16 @@ static void take_plant(const lanes_at_t *to, int lane, const body_t *b) {
   lanes_put(to->rigid + LANES * RIGID_SCALES, (const double *)&b->rigid + RIGID_SCALES, 3 * ROTORS, lane);
 }
 
-// Between ticks that are moved together nothing changes but that, and the commands.
+// Between ticks that are moved together nothing changes but that, pushes and commands.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = a->door->at(a->lanes);
   lanes_put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
   if (b->n_tick > 0) take_plant(to, lane, b);
+  if (b->pushed) lanes_put(to->push, (const double *)&b->push, PUSH_NUMBERS, lane);
   if (a->has[lane].body == b && a->has[lane].changed == b->changed) return;
   lanes_put(to->rigid, (const double *)&b->rigid, RIGID_NUMBERS, lane);
   lanes_put(to->touch, (const double *)&b->touch, TOUCH_NUMBERS, lane);
   lanes_put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
-  lanes_put(to->push_w_N, (const double *)&b->push_w_N, 3, lane);
   lanes_take_effects(to, lane, b);
   if (a->has[lane].body != b) lanes_take_model(to, lane, b->model);
   lanes_put(to->now, b->y, RIGID_N, lane);
@@ -213,7 +213,7 @@ static bool as_before(const abreast_t *a, body_t *const *b) {
     const has_t *const has = &a->has[k];
     if (!b[k] && !(a->moved >> k & 1)) continue;
     if (!b[k] || !(a->moved >> k & 1) || has->body != b[k] || has->changed != b[k]->changed || b[k]->broken ||
-        b[k]->n_tick > 0 || b[k]->span_s != a->alike.span_s)
+        b[k]->n_tick > 0 || b[k]->span_s != a->alike.span_s || b[k]->look_is_y != a->alike.looked)
       return false;
   }
   return a->moved != 0;
@@ -294,7 +294,8 @@ bool abreast_again(const abreast_t *a, body_t *const b[LANES]) {
   if (!a->again) return false;
   for (int k = 0; k < LANES; k++) {
     const bool was = a->moved >> k & 1;
-    if (was != (b[k] != NULL) || (was && (a->has[k].body != b[k] || a->has[k].changed != b[k]->changed)))
+    if (was != (b[k] != NULL)) return false;
+    if (was && (a->has[k].body != b[k] || a->has[k].changed != b[k]->changed || !b[k]->look_is_y))
       return false;
   }
   return true;

@@ -118,7 +118,13 @@ void body_hold(body_t *b, bool held) {
 void body_push(body_t *b, d3_t force_w_N) {
   b->pushed = true;
   b->changed++;
-  b->push_w_N = force_w_N;
+  b->push = (push_t){force_w_N, d3(0.0, 0.0, 0.0)};
+  b->look_is_y = false;
+}
+
+void body_shake(body_t *b, push_t push) {
+  b->pushed = true;
+  b->push = push;
   b->look_is_y = false;
 }
 

@@ -39,8 +39,8 @@ typedef struct {
   bool on_ceiling, on_floor;            // touching since the last contact, until the gap is BODY_RELEASE_M
   bool broken;                          // the solver gave up, or the state is not finite; it stands still
   // Not for callers.
-  bool pushed; // by push_w_N
-  d3_t push_w_N;
+  bool pushed; // by push
+  push_t push;
   integrate_t *integrate;
   integrate_kind_t kind;
   double step_s, span_s; // of the integrator, and of the last tick
@@ -93,6 +93,8 @@ void body_hold(body_t *b, bool held);
 
 // From now on this acts on the centre of mass besides.
 void body_push(body_t *b, d3_t force_w_N);
+// This, and another one at every tick: what else is known of the body stays so.
+void body_shake(body_t *b, push_t push);
 
 // At rest on the floor over the origin, motors off, x forward as far as the floor is level.
 body_start_t body_standing(const model_t *model);

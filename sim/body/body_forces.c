@@ -15,7 +15,7 @@ static inline acting_t forces_of(const body_t *b) {
                     .n_load = b->n_load,
                     .excess_of = b->excess_of,
                     .ticks = b->n_tick > 0,
-                    .push_w_N = b->pushed ? &b->push_w_N : NULL};
+                    .push = b->pushed ? &b->push : NULL};
 }
 
 PAIR_COPIES void body_look(const body_t *b, int surfaces, const double *y, body_look_t *look) {

@@ -27,6 +27,11 @@ typedef struct {
   bool loaded; // else load is not set: nothing acts but the rotors
 } body_look_t;
 
+// What acts on it besides, at the centre of mass.
+typedef struct {
+  d3_t force_w_N, moment_b_Nm;
+} push_t;
+
 // The vehicle, as it is in this tick.
 typedef struct {
   const rigid_t *rigid;
@@ -34,9 +39,9 @@ typedef struct {
   const fx_plant_t *plant;
   const fx_use_t *const *excess, *const *load; // effects with those hooks
   int n_excess, n_load;
-  int excess_of;        // SURFACE_* that they have to do with
-  bool ticks;           // an effect changes the plant at ticks
-  const d3_t *push_w_N; // acts on the centre of mass besides; null: nothing does
+  int excess_of;      // SURFACE_* that they have to do with
+  bool ticks;         // an effect changes the plant at ticks
+  const push_t *push; // null: nothing does
 } acting_t;
 
 // How far each rotor is from the place of the centre of mass, along a direction in body axes.
@@ -105,11 +110,11 @@ static void forces_effects(const acting_t *f, const double *y, body_look_t *look
 
 // What acts on the body besides the rotors. surfaces: as below.
 static inline void forces_load(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
-  look->loaded = f->ticks || f->n_load > 0 || f->push_w_N || surfaces;
+  look->loaded = f->ticks || f->n_load > 0 || f->push || surfaces;
   if (!look->loaded) return;
   look->load = (load_t){{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (f->ticks) look->load = (load_t){axes_to_body(&look->axes, f->plant->force_w_N), f->plant->moment_b_Nm};
-  if (f->push_w_N) load_add(&look->load, axes_to_body(&look->axes, *f->push_w_N), (d3_t){0.0, 0.0, 0.0});
+  if (f->push) load_add(&look->load, axes_to_body(&look->axes, f->push->force_w_N), f->push->moment_b_Nm);
   if (f->n_load > 0) forces_effects(f, y, look);
   if (!surfaces) return;
   const int near = surfaces & touch_near(f->touch, d3_of(y + RIGID_POS_M), &look->axes, 0.0);

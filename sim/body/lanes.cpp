@@ -61,7 +61,7 @@ struct lanes {
   rigid_t rigid;
   touch_t touch;
   fx_plant_t plant;
-  d3_t push_w_N;
+  push_t push;
   fx_use_t excess[FX_MAX], load[FX_MAX], sense[FX_MAX], tick[FX_MAX], more;
   const fx_use_t *excess_at[FX_MAX], *load_at[FX_MAX], *tick_at[FX_MAX];
   int n_sense, n_tick;
@@ -94,7 +94,7 @@ static lanes_t *open(const lanes_numbers_t *numbers_of_one) {
   l->at = {.rigid = numbers(&l->rigid),
            .touch = numbers(&l->touch),
            .plant = numbers(&l->plant),
-           .push_w_N = numbers(&l->push_w_N),
+           .push = numbers(&l->push),
            .untouched = numbers(&l->untouched),
            .inertia = numbers(&l->inertia_kgm2),
            .battery = numbers(&l->battery),
@@ -138,9 +138,8 @@ static void set(lanes_t *l, const lanes_alike_t *a) {
     for (int m = 0; m < FX_MEMORY; m++) l->memory[k][m] = 0.0;
   l->battery.n = a->n_open_V;
   l->span_s = a->span_s;
-  l->acting =
-      acting_t{&l->rigid,   &l->touch, &l->plant,    l->excess_at, l->load_at,
-               a->n_excess, a->n_load, a->excess_of, a->ticks,     a->pushed ? &l->push_w_N : nullptr};
+  l->acting = acting_t{&l->rigid,   &l->touch, &l->plant,    l->excess_at, l->load_at,
+                       a->n_excess, a->n_load, a->excess_of, a->ticks,     a->pushed ? &l->push : nullptr};
 }
 
 static void begin(unsigned in) {

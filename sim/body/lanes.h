@@ -19,7 +19,7 @@ typedef struct lanes lanes_t;
 
 // Where the numbers of a struct of one vehicle go, in its order; the other members stand in lanes_alike_t.
 typedef struct {
-  double *rigid, *touch, *plant, *push_w_N;
+  double *rigid, *touch, *plant, *push;
   double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS],
       *tick[LANES_EFFECTS];    // p of each
   double *untouched, *inertia; // what effects at ticks begin with: a plant, and the vehicle file's inertia

@@ -12,6 +12,7 @@
 #define RIGID_SCALES   (offsetof(rigid_t, thrust_scale) / NUMBER) // thrust, torque, faster
 #define TOUCH_NUMBERS  (sizeof(touch_t) / NUMBER)
 #define PLANT_NUMBERS  (sizeof(fx_plant_t) / NUMBER)
+#define PUSH_NUMBERS   (sizeof(push_t) / NUMBER)
 #define LOOK_NUMBERS   (offsetof(body_look_t, loaded) / NUMBER)
 #define EFFECT_NUMBERS FX_PARAM_MAX
 

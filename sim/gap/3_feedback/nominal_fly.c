@@ -14,40 +14,80 @@
 #define MASK_S  0.4 // until what it does is its own again
 #define PUT_S   3.0 // more often it cannot fly there
 
-// Disturbing force and moment. Not in the table: a part of the nominal flight, not of the model. What a step
-// leaves of them is a parameter, for all steps are alike.
-static void tick(const fx_use_t *use, const fx_tick_t *t, fx_plant_t *plant) {
-  const double *p = use->p;
-  double *const m = t->memory, normal[6];
-  random_normals(t->random, 6, normal);
-  for (int k = 0; k < 2; k++) {
-    const double kept = t->span_s > 0.0 ? p[6 + k] : 1.0;
-    const double keep = m[6] > 0.0 ? kept : 0.0, fresh = sqrt(1.0 - keep * keep);
-    for (int i = 3 * k; i < 3 * k + 3; i++) m[i] = keep * m[i] + p[i] * fresh * normal[i];
-  }
-  m[6] = 1.0;
-  plant->force_w_N = d3_add(plant->force_w_N, d3_of(m));
-  plant->moment_b_Nm = d3_add(plant->moment_b_Nm, d3_of(m + 3));
+static double step_of(const grid_t *g) {
+  const double log_s = g->period_s / g->every;
+  return log_s / nominal_steps(log_s);
 }
 
-static const fx_t disturb = {.name = "disturbance", .n_param = FX_PARAM_MAX, .tick = tick};
+// --- what lasts for a while -------------------------------------------------------------------------------
 
-static done_t disturbed(const model_t *m, const closed_loop_t *w, double step_s, model_t *out, why_t *why) {
-  fx_use_t use = {.fx = &disturb};
+#define LASTS 9 // normal numbers of a step, for errors that last
+#define SHAKE 6 // and for what disturbs
+
+static decay_t decay_of(const slow_t *slow, double step_s) {
+  decay_t d;
   for (int i = 0; i < 3; i++) {
-    use.p[i] = m->mass_kg * w->force_mps2[i];
-    use.p[3 + i] = m->frame.inertia_kgm2[i] * w->turn_radps2[i];
+    d.keep[i] = slow->tau_s[i] > 0.0 ? exp(-step_s / slow->tau_s[i]) : 0.0;
+    d.fresh[i] = slow->sd[i] * sqrt(1.0 - d.keep[i] * d.keep[i]);
   }
-  use.p[6] = exp(-step_s / w->force_tau_s);
-  use.p[7] = exp(-step_s / w->turn_tau_s);
-  *out = *m;
-  return model_add_fx(out, &use, why);
+  return d;
+}
+
+// sd: of an acceleration; of: the mass or inertia that it takes.
+static decay_t disturbance_of(const double sd[3], const double of[3], double tau_s, double step_s) {
+  const slow_t slow = {{of[0] * sd[0], of[1] * sd[1], of[2] * sd[2]}, {tau_s, tau_s, tau_s}};
+  return decay_of(&slow, step_s);
+}
+
+static void find_decays(nominal_flight_t *f, double step_s) {
+  const closed_loop_t *w = f->w;
+  const double m = f->m->mass_kg, mass_kg[] = {m, m, m};
+  f->pos_keeps = decay_of(&w->slow_pos_m, step_s);
+  f->vel_keeps = decay_of(&w->slow_vel_mps, step_s);
+  f->angle_keeps = decay_of(&w->slow_angle_rad, step_s);
+  f->force_keeps = disturbance_of(w->force_mps2, mass_kg, w->force_tau_s, step_s);
+  f->turn_keeps = disturbance_of(w->turn_radps2, f->m->frame.inertia_kgm2, w->turn_tau_s, step_s);
+}
+
+static d3_t drifted(d3_t off, const decay_t *d, const double normal[3]) {
+  return d3(d->keep[0] * off.x + d->fresh[0] * normal[0], d->keep[1] * off.y + d->fresh[1] * normal[1],
+            d->keep[2] * off.z + d->fresh[2] * normal[2]);
+}
+
+static void drift(nominal_flight_t *f, const double normal[LASTS]) {
+  f->pos_off_m = drifted(f->pos_off_m, &f->pos_keeps, normal);
+  f->vel_off_mps = drifted(f->vel_off_mps, &f->vel_keeps, normal + 3);
+  f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, normal + 6);
+}
+
+// The disturbance, a step later: a part of the nominal flight, not of the model.
+static void shake(nominal_flight_t *f) {
+  double normal[SHAKE];
+  random_normals(f->shakes, SHAKE, normal);
+  f->disturbs.force_w_N = drifted(f->disturbs.force_w_N, &f->force_keeps, normal);
+  f->disturbs.moment_b_Nm = drifted(f->disturbs.moment_b_Nm, &f->turn_keeps, normal + 3);
+  body_shake(&f->body, f->disturbs);
+}
+
+// It is there from the first on, at its full spread.
+static bool shake_first(nominal_flight_t *f, unsigned long seed) {
+  double normal[2 * SHAKE]; // of which some count
+  random_close(f->shakes);
+  f->shakes = random_open(seed);
+  if (!f->shakes) return false;
+  random_normals(f->shakes, 2 * SHAKE, normal);
+  find_decays(f, HUGE_VAL);
+  f->disturbs = (push_t){drifted(d3(0.0, 0.0, 0.0), &f->force_keeps, normal),
+                         drifted(d3(0.0, 0.0, 0.0), &f->turn_keeps, normal + 3)};
+  find_decays(f, step_of(f->g));
+  body_shake(&f->body, f->disturbs);
+  body_look(&f->body, 0, f->body.y, &f->body.look);
+  return true;
 }
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-#define LASTS 9  // normal numbers of a step, for errors that last
-#define SEEN  17 // of what is seen once
+#define SEEN 17 // normal numbers of a step, for what is seen once
 
 // The last axis takes the first number.
 static d3_t noisy3(d3_t v, const double sd[3], const double normal[3]) {
@@ -65,26 +105,6 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
                    .range_rate_mps = side * b->y[RIGID_VEL_MPS + 2] / up};
   model_sense(f->m, &s);
   return s;
-}
-
-static decay_t decay_of(const slow_t *slow, double step_s) {
-  decay_t d;
-  for (int i = 0; i < 3; i++) {
-    d.keep[i] = slow->tau_s[i] > 0.0 ? exp(-step_s / slow->tau_s[i]) : 0.0;
-    d.fresh[i] = slow->sd[i] * sqrt(1.0 - d.keep[i] * d.keep[i]);
-  }
-  return d;
-}
-
-static d3_t drifted(d3_t off, const decay_t *d, const double normal[3]) {
-  return d3(d->keep[0] * off.x + d->fresh[0] * normal[0], d->keep[1] * off.y + d->fresh[1] * normal[1],
-            d->keep[2] * off.z + d->fresh[2] * normal[2]);
-}
-
-static void drift(nominal_flight_t *f, const double normal[LASTS]) {
-  f->pos_off_m = drifted(f->pos_off_m, &f->pos_keeps, normal);
-  f->vel_off_mps = drifted(f->vel_off_mps, &f->vel_keeps, normal + 3);
-  f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, normal + 6);
 }
 
 static grid_point_t is(const nominal_flight_t *f) {
@@ -131,9 +151,10 @@ static void steer(nominal_flight_t *f, double step_s, const grid_point_t *seen, 
 }
 
 // On the track, hovering, with a fresh pilot.
-static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed, why_t *why) {
+static done_t start_at(nominal_flight_t *f, unsigned long seed, why_t *why) {
+  const model_t *m = f->m;
   const grid_point_t *p = &f->g->point[f->at];
-  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed};
+  body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed + 2};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
   // Motors faster than the step need a finer one.
   const done_t status = body_open(&f->body, m, INTEGRATE_RK4, model_step_s(m, NOMINAL_STEP_S), &start);
@@ -141,6 +162,7 @@ static done_t start_at(nominal_flight_t *f, const model_t *m, unsigned long seed
   if (status != DONE) return error_failed(why, "out of memory");
   f->body.vbat_V = p->vbat_V;
   body_effects(&f->body, 0.0);
+  if (!shake_first(f, seed)) return error_failed(why, "out of memory");
   pilot_tame(f);
   pilot_trim(f);
   return DONE;
@@ -166,14 +188,13 @@ static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
 
 // On the track as it is now; what it does is its own again a while later.
 static done_t put(nominal_flight_t *f, double t_s, why_t *why) {
-  const model_t *m = f->body.model;
   f->down_s = f->due_s = f->outer_due_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
   body_close(&f->body);
   f->body.integrate = NULL;
   free(f->known);
   f->known = NULL;
-  TRY(start_at(f, m, f->seed + (unsigned long)f->at, why));
+  TRY(start_at(f, f->seed + (unsigned long)f->at, why));
   return find_pilot(f, why);
 }
 
@@ -187,18 +208,10 @@ static bool goes_on(const nominal_flight_t *f) {
   return f->at > f->from && f->g->point[f->at].segment != f->g->point[f->at - 1].segment;
 }
 
-static double step_of(const grid_t *g) {
-  const double log_s = g->period_s / g->every;
-  return log_s / nominal_steps(log_s);
-}
-
 static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every, step_s = step_of(f->g);
   const int inner = nominal_steps(log_s), per_point = f->g->every;
   double motor_N[ROTORS] = {0.0};
-  f->pos_keeps = decay_of(&f->w->slow_pos_m, step_s);
-  f->vel_keeps = decay_of(&f->w->slow_vel_mps, step_s);
-  f->angle_keeps = decay_of(&f->w->slow_angle_rad, step_s);
   for (int first = f->at = f->from; f->at < f->to; f->at++) {
     if (goes_on(f)) {
       first = f->at;
@@ -217,6 +230,7 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
         steer(f, step_s, &seen, motor_N);
         if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
         if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
+        shake(f);
         side_by_side_tick(&f->body, motor_N, step_s);
       }
       const d3_t off = d3_sub(d3_of(f->body.y + RIGID_POS_M), f->g->point[f->at].pos_w_m);
@@ -232,9 +246,9 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
   return DONE;
 }
 
-static done_t take_off(nominal_flight_t *f, const model_t *m, why_t *why) {
+static done_t take_off(nominal_flight_t *f, why_t *why) {
   f->at = f->from;
-  TRY(start_at(f, m, f->seed, why));
+  TRY(start_at(f, f->seed, why));
   f->random = random_open(f->seed + 1);
   return f->random ? find_pilot(f, why) : error_failed(why, "out of memory");
 }
@@ -287,11 +301,9 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, un
                    gap_flight_t *flight, gap_flight_t *truth, why_t *why) {
   nominal_flight_t f = {
       .m = m, .own = *w, .w = &f.own, .log = flight, .truth = truth, .to = g->n, .seed = seed};
-  model_t with;
   grid_t track = *g;
   *flight = (gap_flight_t){.n = 0};
   if (truth) *truth = (gap_flight_t){.n = 0};
-  TRY(disturbed(m, w, step_of(g), &with, why));
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_set(why, "%s: it does not fly", g->flight->name);
@@ -300,10 +312,11 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, un
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
   const bool good = track.point && nominal_log_room(flight, &track, room) &&
                     (!truth || nominal_log_room(truth, &track, room));
-  done_t status = good ? take_off(&f, &with, why) : error_failed(why, "out of memory");
+  done_t status = good ? take_off(&f, why) : error_failed(why, "out of memory");
   if (status == DONE) status = fly(&f, why);
   if (f.body.integrate) body_close(&f.body);
   random_close(f.random);
+  random_close(f.shakes);
   free(f.known);
   free(track.point);
   if (status != DONE) gap_flight_free(flight);

@@ -17,6 +17,7 @@ typedef struct {
   int bits;            // of the registers
   double climb_N;      // above hover: who climbs touches the ceiling
   bool pushed;         // each by a force of its own
+  bool shaken;         // and by a moment, for 50 ticks and then not; every third always
   double other_step_s; // of the integrator, of every third; 0: as all
   bool held, vertical; // every third
   double y[FLIGHTS][RIGID_N], charge[FLIGHTS];
@@ -43,6 +44,8 @@ static bool order(const flights_t *f, int i, int k, body_t *b) {
   const double more = WEIGHT_N / ROTORS + f->climb_N + 1e-3 * ((k / 20 + i) % 3 - 1);
   const double command_N[ROTORS] = {more, more + 1e-4 * i, more, more - 1e-4};
   if (f->pushed && k % 50 == 0) body_push(b, d3(1e-3 * (k % 3), 1e-3 * i, -1e-3));
+  if (f->shaken && (i % 3 == 1 || k / 50 % 2))
+    body_shake(b, (push_t){{1e-3 * (k % 3), 1e-3 * i, -1e-3}, {1e-6 * i, 1e-6 * (k % 5), 1e-7}});
   body_command(b, command_N, 0.002);
   return true;
 }
@@ -224,7 +227,7 @@ static model_t with_effects(const char *const name[3]) {
 TEST(abreast_neighbours_that_differ_have_their_own_bits) {
   static const struct {
     const char *what, *model[3], *other[3];
-    bool pushed, held, vertical;
+    bool pushed, shaken, held, vertical;
     double other_step_s;
   } rows[] = {
       {.what = "three loads", .model = {"rotor_drag", "body_drag", "flapping"}},
@@ -234,6 +237,7 @@ TEST(abreast_neighbours_that_differ_have_their_own_bits) {
       {.what = "one without", .model = {"ceiling", "rotor_drag"}, .other = {"rotor_drag"}},
       {.what = "one ticks", .model = {"rotor_drag"}, .other = {"rotor_drag", "wind"}},
       {.what = "pushed", .model = {"rotor_drag"}, .pushed = true},
+      {.what = "shaken", .model = {"rotor_drag"}, .shaken = true},
       {.what = "held", .model = {"rotor_drag"}, .held = true},
       {.what = "on the vertical axis", .model = {"rotor_drag"}, .vertical = true},
       {.what = "a finer step", .model = {"ceiling"}, .other_step_s = 0.001},
@@ -246,6 +250,7 @@ TEST(abreast_neighbours_that_differ_have_their_own_bits) {
     const flights_t as = {.model = &m,
                           .other = &other,
                           .pushed = rows[i].pushed,
+                          .shaken = rows[i].shaken,
                           .held = rows[i].held,
                           .vertical = rows[i].vertical,
                           .other_step_s = rows[i].other_step_s};
