@@ -12,11 +12,14 @@
 extern "C" {
 #endif
 
-// Adds the products of some columns. X: column number j starts at X[j], `rows` numbers; column[j]: which one
-// of G it is. also: gets them too, or null. By the widest registers there are, with the same bits
-// (lsq_products.c). False: no memory.
+// Adds the products of some columns to one half of G, where a column meets itself or a later one. X: column
+// number j starts at X[j], `rows` numbers; column[j]: which one of G it is, in their order. also: gets them
+// too, or null. By the widest registers there are, with the same bits (lsq_products.c). False: no memory.
 bool lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
                       double *also);
+
+// When all are added: the other half is the same.
+void lsq_mirror(double *G, int size);
 
 // The best b (n numbers) for the regressors column[0..n-1] of G, whose size is `size` (the last is
 // explained). ridge (a null pointer for none): is added to the diagonal, by regressor of G. inverse: n x n,

@@ -46,16 +46,16 @@ static int least(int a, int b) {
   return a < b ? a : b;
 }
 
-// Tile by tile, for the other half lies across.
+// Columns that are neighbours in both go together.
 static void put_sums(const double *sum, int n, int pad, const int *column, int size, double *G) {
-  for (int down = 0; down < n; down += WIDE)
-    for (int across = down; across < n; across += WIDE) {
-      const int i_end = least(down + WIDE, n), j_end = least(across + WIDE, n);
-      for (int i = down; i < i_end; i++)
-        for (int j = across > i ? across : i; j < j_end; j++)
-          G[column[i] * size + column[j]] += sum[i * pad + j];
-      for (int j = across; j < j_end; j++)
-        for (int i = down; i < least(i_end, j); i++) G[column[j] * size + column[i]] += sum[i * pad + j];
+  for (int i = 0; i < n; i++)
+    for (int j = i; j < n;) {
+      const double *const from = sum + i * pad + j;
+      double *const to = G + column[i] * size + column[j];
+      int many = 1;
+      while (j + many < n && column[j + many] == column[j] + many) many++;
+      for (int k = 0; k < many; k++) to[k] += from[k];
+      j += many;
     }
 }
 
@@ -84,4 +84,9 @@ bool lsq_add_products(int rows, int n, const double *const *X, const int *column
   if (also) put_sums(sum, n, pad, column, size, also);
   free(sum);
   return true;
+}
+
+void lsq_mirror(double *G, int size) {
+  for (int i = 0; i < size; i++)
+    for (int j = i + 1; j < size; j++) G[j * size + i] = G[i * size + j];
 }

@@ -97,12 +97,16 @@ static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch
 
 static void add_blocks(gram_t *g) {
   const size_t n = (size_t)(g->size * g->size);
-  for (int b = 0; b < g->n_block; b++)
+  for (int i = 0; i < GROUPS * g->n_half; i++)
+    lsq_mirror(g->by_group[i % GROUPS] + (size_t)(i / GROUPS) * n, g->size);
+  for (int b = 0; b < g->n_block; b++) {
+    lsq_mirror(g->block + (size_t)b * n, g->size);
     for (size_t i = 0; i < n; i++) {
       const double v = g->block[(size_t)b * n + i];
       g->by_half[(size_t)g->half[b] * n + i] += v;
       g->total[i] += v;
     }
+  }
   for (size_t i = 0; i < (size_t)g->n_half * n; i++) g->others[i] = g->total[i % n] - g->by_half[i];
 }
 
@@ -137,7 +141,9 @@ static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const expla
     if (good && g->color[ch].used) good = add_total(g, s, t, ch, some, each + (size_t)ch * room);
   }
   memset(g->total, 0, room * sizeof(double));
-  for (size_t i = 0; good && i < CHANNELS * room; i++) g->total[i % room] += each[i];
+  for (int ch = 0; good && ch < CHANNELS; ch++)
+    for (size_t i = 0; i < room; i++) g->total[i] += each[(size_t)ch * room + i];
+  lsq_mirror(g->total, g->size);
   free(each);
   return good;
 }
@@ -188,6 +194,7 @@ done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const expla
     good = fit_color(g, s, t, ch, known);
     if (good && g->color[ch].used) good = add_total(g, s, t, ch, NULL, g->total);
   }
+  if (good) lsq_mirror(g->total, g->size);
   if (good) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");

@@ -23,8 +23,10 @@ TEST(lsq_products_go_over_rows_in_their_order_panel_by_panel) {
     const double *X[COLUMNS_MOST];
     int column[COLUMNS_MOST];
     double G[(COLUMNS_MOST + 2) * (COLUMNS_MOST + 2)] = {0.0}, also[sizeof G / sizeof *G] = {0.0};
-    for (int j = 0; j < n; j++) X[j] = room + j * ROWS_MOST, column[j] = size - 1 - j;
+    for (int j = 0; j < n; j++) X[j] = room + j * ROWS_MOST, column[j] = j + 1 + (j > 4);
     CHECK(lsq_add_products(row[i].rows, n, X, column, size, G, also));
+    lsq_mirror(G, size);
+    lsq_mirror(also, size);
     for (int j = 0; j < n; j++)
       for (int k = 0; k < n; k++) {
         double sum = 0.0;

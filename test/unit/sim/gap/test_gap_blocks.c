@@ -18,6 +18,8 @@ TEST(gap_blocks_fit_a_line_as_by_hand) {
   for (int from = 0; from < 4; from += 2)
     lsq_add_products(2, 3, (const double *const[]){one + from, x + from, y + from}, all, 3, G,
                      from ? also : NULL);
+  lsq_mirror(G, 3);
+  lsq_mirror(also, 3);
   CHECK_NEAR(G[8], 70.0, 1e-12);
   CHECK_NEAR(also[5], 29.0, 1e-12); // 2 * 4 + 3 * 7, of the second block
   CHECK_NEAR(also[7], 29.0, 1e-12);
