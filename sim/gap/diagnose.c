@@ -73,7 +73,10 @@ static void take_shapes(diagnosis_t *d, const found_t *first) {
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   model_t m;
-  done_t status = select_effects(&d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
+  selection_t *selection;
+  done_t status =
+      select_effects(&selection, &d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
+  select_close(selection);
   chosen_t chosen = first.chosen;
   d->rounds = first.rounds;
   if (status == DONE) take_shapes(d, &first);
@@ -91,14 +94,6 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
   unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
   d->unknown = d->nominal_flew && d->left.found;
-  return DONE;
-}
-
-static done_t look_once(diagnosis_t *d, const model_t *m, bool *refined, why_t *why) {
-  TRY(select_effects(&d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
-  d->rounds += d->found.rounds;
-  TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, refined, why));
-  candidates_reshape(&d->candidates, &d->found.chosen);
   return DONE;
 }
 
@@ -123,18 +118,42 @@ static bool gone(const chosen_t *flown, const chosen_t *found) {
   return false;
 }
 
+// Another model was flown than was found.
+static bool flew_other(const diagnosis_t *d) {
+  const chosen_t *const flown = &d->flown, *const found = &d->found.chosen;
+  return moved(found, flown) || moved(flown, found) || gone(flown, found);
+}
+
+static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,
+                   why_t *why) {
+  bool refined;
+  TRY(select_effects(selection, &d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
+  d->rounds += d->found.rounds;
+  TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, &refined, why));
+  *again = !last && (refined || flew_other(d));
+  if (*again) return DONE; // nobody asks for rivals
+  TRY(nominal_look(&d->nominal, m, why));
+  return select_rivals(*selection, &d->found, why);
+}
+
+static done_t look_once(diagnosis_t *d, const model_t *m, bool last, bool *again, why_t *why) {
+  selection_t *selection = NULL;
+  const done_t status = look(d, &selection, m, last, again, why);
+  select_close(selection);
+  if (status == DONE) candidates_reshape(&d->candidates, &d->found.chosen);
+  return status;
+}
+
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
 // names. What feedback makes is flown anew where the flown model was another one.
 static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
-  bool refined;
-  TRY(look_once(d, job->model, &refined, why));
-  const chosen_t *const flown = &d->flown, *const found = &d->found.chosen;
-  const bool other = moved(found, flown) || moved(flown, found) || gone(flown, found);
-  if (!refined && !other) return DONE;
-  if (other) TRY(fly_with(job, d, &d->found.chosen, why));
+  bool again;
+  TRY(look_once(d, job->model, false, &again, why));
+  if (!again) return DONE;
+  if (flew_other(d)) TRY(fly_with(job, d, &d->found.chosen, why));
   TRY(shapes_alone(&d->candidates, &d->fit, job->model, &d->found, why));
   found_free(&d->found);
-  return look_once(d, job->model, &refined, why);
+  return look_once(d, job->model, true, &again, why);
 }
 
 // Of a name that is withdrawn another kind may be right: a drag at the hubs that the held-out flights

@@ -64,10 +64,10 @@ typedef struct {
   int i;
   done_t status;
   why_t why;
-  gap_flights_t seen, is; // is: without errors; both have room for all tracks
+  nominal_left_t left;
+  gap_flights_t is; // the first one's without errors; as the others with room for all tracks
   int flown, lost;
   double *total; // into those of all
-  scan_t *scan;
   double floor[CHANNELS];
   bool first; // of it alone: kept and misfit
   double *kept, misfit[CHANNELS];
@@ -95,7 +95,10 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
     if (p->first) status = find_errors(p->kept, s, &t, g.color, truth, job, why);
     gram_free(&g);
   }
-  if (status == DONE) status = unknown_scan(s, job->base, residual, p->scan, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
+    p->left.residual[ch] = residual[ch];
+    t.x[ch][t.columns] = NULL;
+  }
   design_free(&t);
   return status;
 }
@@ -105,30 +108,40 @@ static void fly(void *parts, int k) {
   const nominal_job_t *const job = p->job;
   const closed_loop_t loop = closed_loop_varied(job->loop, p->i);
   const size_t flights = (size_t)job->set->n_grid;
-  p->seen = (gap_flights_t){.flight = calloc(2 * flights, sizeof(gap_flight_t))};
-  p->is = (gap_flights_t){.flight = p->seen.flight ? p->seen.flight + flights : NULL};
-  p->status = p->seen.flight ? nominal_flights(&p->seen, p->first ? &p->is : NULL, job->set, &job->flown,
-                                               &loop, job->seed + (unsigned long)p->i, &p->why)
-                             : error_failed(&p->why, "out of memory");
-  p->flown = p->seen.n;
-  p->lost = job->set->n_grid - p->seen.n;
+  gap_flights_t *const seen = &p->left.flights;
+  *seen = (gap_flights_t){.flight = calloc(flights, sizeof(gap_flight_t))};
+  p->is = (gap_flights_t){.flight = calloc(flights, sizeof(gap_flight_t))};
+  p->status = seen->flight && p->is.flight
+                  ? nominal_flights(seen, p->first ? &p->is : NULL, job->set, &job->flown, &loop,
+                                    job->seed + (unsigned long)p->i, &p->why)
+                  : error_failed(&p->why, "out of memory");
+  p->flown = seen->n;
+  p->lost = job->set->n_grid - seen->n;
 }
 
 static done_t sum_up(part_t *p, why_t *why) {
-  const set_t *const s = p->job->set;
-  set_t own = {.n_grid = 0};
-  done_t status = nominal_set(&own, &p->seen, p->job->base, why);
-  if (status == DONE) status = windows_keep(&own, p->job->base, why);
-  memcpy(own.excluded, s->excluded, sizeof own.excluded);
-  if (status == DONE) status = take_sums(p, &own, p->first ? &p->is : NULL, p->job, why);
-  set_free(&own);
-  return status;
+  set_t *const own = &p->left.set;
+  TRY(nominal_set(own, &p->left.flights, p->job->base, why));
+  memcpy(own->excluded, p->job->set->excluded, sizeof own->excluded);
+  return take_sums(p, own, p->first ? &p->is : NULL, p->job, why);
+}
+
+static void flights_free(gap_flights_t *flights) {
+  for (int f = 0; f < flights->n; f++) gap_flight_free(&flights->flight[f]);
+  free(flights->flight);
+}
+
+static void left_free(nominal_left_t *left) {
+  for (int ch = 0; ch < CHANNELS; ch++) free(left->residual[ch]);
+  set_free(&left->set);
+  flights_free(&left->flights);
+  *left = (nominal_left_t){.flights = {.n = 0}};
 }
 
 static void end_part(part_t *p) {
   if (p->status == DONE) p->status = sum_up(p, &p->why);
-  for (int f = 0; p->seen.flight && f < 2 * p->job->set->n_grid; f++) gap_flight_free(&p->seen.flight[f]);
-  free(p->seen.flight);
+  if (p->status != DONE) left_free(&p->left);
+  flights_free(&p->is);
 }
 
 // Flown side by side, then each by itself. What errors make of a size is told by the first flight that could
@@ -136,12 +149,8 @@ static void end_part(part_t *p) {
 static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
   const size_t room = (size_t)(n->size * n->size);
   for (int i = 0; i < NOMINAL_FLIGHTS; i++)
-    part[i] = (part_t){.job = job,
-                       .i = i,
-                       .total = n->total + (size_t)i * room,
-                       .scan = &n->scan[i],
-                       .kept = n->kept,
-                       .first = i == 0};
+    part[i] =
+        (part_t){.job = job, .i = i, .total = n->total + (size_t)i * room, .kept = n->kept, .first = i == 0};
   side_by_side_shared(NOMINAL_FLIGHTS, fly, part);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < NOMINAL_FLIGHTS; i++) end_part(&part[i]);
@@ -149,6 +158,7 @@ static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_jo
   while (first < NOMINAL_FLIGHTS && part[first].status == BAD_INPUT) first++;
   if (first == 0 || first == NOMINAL_FLIGHTS) return;
   part[first].first = true;
+  left_free(&part[first].left);
   fly(part, first);
   end_part(&part[first]);
 }
@@ -156,30 +166,31 @@ static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_jo
 // In their order, those that could be flown.
 static done_t take_parts(nominal_t *n, const part_t part[NOMINAL_FLIGHTS], why_t *why) {
   const size_t room = (size_t)(n->size * n->size);
+  done_t status = DONE;
   for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
     const part_t *const p = &part[i];
     n->flown += p->flown;
     n->lost += p->lost;
-    if (p->status == FAILED) *why = p->why;
-    if (p->status == FAILED) return FAILED;
+    if (p->status == FAILED) status = FAILED, *why = p->why;
     if (p->status != DONE) continue;
     memmove(n->total + (size_t)n->n * room, p->total, room * sizeof(double));
-    n->scan[n->n++] = *p->scan;
+    n->left[n->n++] = p->left;
     for (int ch = 0; ch < CHANNELS; ch++) n->floor[ch] += p->floor[ch];
     if (p->first) memcpy(n->misfit, p->misfit, sizeof n->misfit);
   }
   for (int ch = 0; ch < CHANNELS && n->n; ch++) n->floor[ch] /= n->n;
-  return DONE;
+  return status;
 }
 
 done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   *n = (nominal_t){.size = job->c->columns + 1};
   n->total = calloc((size_t)(NOMINAL_FLIGHTS * n->size * n->size), sizeof(double));
   n->scan = calloc(NOMINAL_FLIGHTS, sizeof *n->scan);
+  n->left = calloc(NOMINAL_FLIGHTS, sizeof *n->left);
   n->kept = malloc((size_t)n->size * sizeof(double));
   part_t *const part = malloc(NOMINAL_FLIGHTS * sizeof *part);
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
-  const bool room = n->total && n->scan && n->kept && part;
+  const bool room = n->total && n->scan && n->left && n->kept && part;
   if (room) fly_all(n, part, job);
   const done_t status = room ? take_parts(n, part, why) : error_failed(why, "out of memory");
   free(part);
@@ -187,7 +198,33 @@ done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   return status;
 }
 
+static void forget_left(nominal_t *n) {
+  for (int i = 0; n->left && i < n->n; i++) left_free(&n->left[i]);
+  free(n->left);
+  n->left = NULL;
+}
+
+static done_t look_at(const nominal_t *n, int i, const model_t *base, why_t *why) {
+  nominal_left_t *const left = &n->left[i];
+  TRY(windows_keep(&left->set, base, why));
+  return unknown_scan(&left->set, base, left->residual, &n->scan[i], why);
+}
+
+done_t nominal_look(nominal_t *n, const model_t *base, why_t *why) {
+  done_t status = DONE;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < (n->left ? n->n : 0); i++) {
+    why_t own;
+    if (look_at(n, i, base, &own) == DONE) continue;
+#pragma omp critical(nominal_failed)
+    status = FAILED, *why = own;
+  }
+  forget_left(n);
+  return status;
+}
+
 void nominal_free(nominal_t *n) {
+  forget_left(n);
   free(n->total);
   free(n->scan);
   free(n->kept);

@@ -9,8 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
+typedef struct selection {
   round_t round;
+  const timing_t *timing;
+  bool *room;
   bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
   bool *never;   // by candidate: it is out of question
   bool *echo;    // by candidate: something like it is there, at one place or time only
@@ -243,32 +245,41 @@ static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
   return DONE;
 }
 
-static done_t find_choice(select_t *t, const timing_t *timing, found_t *found, why_t *why) {
-  TRY(take_timing(t, timing, why));
+static done_t find_choice(select_t *t, found_t *found, why_t *why) {
+  TRY(take_timing(t, t->timing, why));
   TRY(round_open(&t->round, why));
   for (int i = 0; !t->round.nominal && i < t->round.c->n; i++)
     if (t->round.c->candidate[i].use.fx->n_shape)
       found->shape[i] = bend_best(&t->round.score, &t->round.choice, i);
   TRY(search(t, why));
   memcpy(found->echo, t->echo, (size_t)t->round.c->n * sizeof *t->echo);
-  found_describe(found, &t->round, timing);
-  if (!t->round.nominal) return DONE; // nobody asks a first look for rivals
-  TRY(family_find(&t->round, timing->measured, found, why));
+  found_describe(found, &t->round, t->timing);
+  return DONE;
+}
+
+done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s, const model_t *model,
+                      const nominal_t *nominal, const timing_t *timing, found_t *found, why_t *why) {
+  const size_t n = (size_t)c->n + 1;
+  select_t *const t = *selection = calloc(1, sizeof *t);
+  TRY(found_make(found, c, why));
+  bool *const room = t ? t->room = calloc(5 * n, sizeof *room) : NULL;
+  if (!room) return error_failed(why, "out of memory");
+  t->never = room, t->echo = room + n, t->alike = room + 2 * n, t->broken = room + 3 * n,
+  t->been = room + 4 * n;
+  t->timing = timing;
+  t->round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t->never};
+  for (int i = 0; i < c->n; i++) t->never[i] = c->candidate[i].barred;
+  return find_choice(t, found, why);
+}
+
+done_t select_rivals(const selection_t *t, found_t *found, why_t *why) {
+  TRY(family_find(&t->round, t->timing->measured, found, why));
   return tell_probabilities(&t->round, found, why);
 }
 
-done_t select_effects(const candidates_t *c, set_t *s, const model_t *model, const nominal_t *nominal,
-                      const timing_t *timing, found_t *found, why_t *why) {
-  const size_t n = (size_t)c->n + 1;
-  bool *const room = calloc(5 * n, sizeof *room);
-  select_t t = {.never = room};
-  if (room) t.echo = room + n, t.alike = room + 2 * n, t.broken = room + 3 * n, t.been = room + 4 * n;
-  t.round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t.never};
-  for (int i = 0; room && i < c->n; i++) t.never[i] = c->candidate[i].barred;
-  done_t status = found_make(found, c, why);
-  if (status == DONE)
-    status = room ? find_choice(&t, timing, found, why) : error_failed(why, "out of memory");
-  round_close(&t.round);
-  free(room);
-  return status;
+void select_close(selection_t *t) {
+  if (!t) return;
+  round_close(&t->round);
+  free(t->room);
+  free(t);
 }

@@ -16,10 +16,16 @@
 
 #include "gap/5_infer/found.h"
 
+typedef struct selection selection_t;
+
 // nominal: a null pointer for a first look; with n 0 where none could be flown. timing: of this set and
-// model. FAILED: no memory. Free what is found, also on an error.
-MUST_CHECK done_t select_effects(const candidates_t *c, set_t *s, const model_t *model,
-                                 const nominal_t *nominal, const timing_t *timing, found_t *found,
-                                 why_t *why);
+// model. FAILED: no memory. Close the selection and free what is found, also on an error.
+MUST_CHECK done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s,
+                                 const model_t *model, const nominal_t *nominal, const timing_t *timing,
+                                 found_t *found, why_t *why);
+// What could stand in the place of each name, and how probable they are; the nominal flights were looked at
+// (nominal_look). FAILED: no memory.
+MUST_CHECK done_t select_rivals(const selection_t *selection, found_t *found, why_t *why);
+void select_close(selection_t *selection);
 
 #endif
