@@ -34,7 +34,8 @@ static void collect_effects(body_t *b) {
       b->excess_of |= body_surfaces_of(use);
     }
     if (use->fx->load) b->load[b->n_load++] = use;
-    if (use->fx->tick) b->tick[b->n_tick++] = use;
+    if (use->fx->tick && use->fx->steady) use->fx->tick(use, NULL, &b->untouched);
+    if (use->fx->tick && !use->fx->steady) b->tick[b->n_tick++] = use;
     if (use->fx->sense) b->n_sense++;
   }
 }
@@ -94,7 +95,7 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
   look_at_battery(b, NULL);
   b->random = random_open(start->seed);
   if (!b->random) return FAILED;
-  if (b->n_tick > 0) body_effects(b, 0.0);
+  body_effects(b, 0.0);
   look_now(b);
   const touch_gap_t gap = body_clearance(b);
   b->on_floor = gap.floor_m < BODY_RELEASE_M;

@@ -45,7 +45,7 @@ typedef struct {
   integrate_kind_t kind;
   double step_s, span_s; // of the integrator, and of the last tick
   random_t *random;
-  fx_plant_t untouched, plant; // the model's numbers, and what the effects made of them for this tick
+  fx_plant_t untouched, plant; // the model's numbers with steady effects; what the others made of them
   double memory[FX_MAX][FX_MEMORY];
   const fx_use_t *excess[FX_MAX], *load[FX_MAX], *tick[FX_MAX];
   int n_excess, n_load, n_tick, n_sense;

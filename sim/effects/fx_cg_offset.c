@@ -17,4 +17,5 @@ const fx_t fx_cg_offset = {
     .n_param = 3,
     .param = {{"dx", "m", -0.5, 1.5e-3, 0.5}, {"dy", "m", -0.5, 0.0, 0.5}, {"dz", "m", -0.5, 0.0, 0.5}},
     .tick = tick,
+    .steady = true,
 };

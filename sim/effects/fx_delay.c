@@ -18,4 +18,5 @@ const fx_t fx_delay = {
     .n_param = 1,
     .param = {{"add", "s", 0.0, 0.01, 0.2}},
     .tick = tick,
+    .steady = true,
 };

@@ -20,4 +20,5 @@ const fx_t fx_inertia = {
     .n_param = 3,
     .param = {{"kx", "", -0.7, 0.1, 3.0}, {"ky", "", -0.7, 0.1, 3.0}, {"kz", "", -0.7, 0.1, 3.0}},
     .tick = tick,
+    .steady = true,
 };

@@ -21,4 +21,5 @@ const fx_t fx_motor_lag = {
     .n_param = 1,
     .param = {{"add", "s", -0.5, 0.025, 2.0}},
     .tick = tick,
+    .steady = true,
 };

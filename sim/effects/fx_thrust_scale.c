@@ -23,4 +23,5 @@ const fx_t fx_thrust_scale = {
     .n_param = 2,
     .param = {{"k", "", -0.9, 0.05, 4.0}, FX_TORQUE},
     .tick = tick,
+    .steady = true,
 };

@@ -238,3 +238,33 @@ TEST(a_surface_turns_a_tilted_vehicle_only_where_each_rotor_has_its_own_distance
     CHECK_NEAR(got.turn_b_radps2.y, 0.0, 1e-9);
   }
 }
+
+static body_t after_a_second(const fx_use_t *use) {
+  model_t m = vehicle6(0.6);
+  const body_start_t start = {.pos_w_m = {0.0, 0.0, 0.3}, .thrust_N = {0.08, 0.08, 0.08, 0.08}, .seed = 1};
+  static body_t b;
+  why_t why;
+  CHECK_OK(model_add_fx(&m, use, &why));
+  CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start));
+  for (int k = 0; k < 500; k++)
+    body_tick(&b, (const double[ROTORS]){0.08 + 1e-5 * (k % 50), 0.08, 0.081 - 1e-5 * (k % 30), 0.08}, 0.002);
+  body_close(&b);
+  return b;
+}
+
+TEST(what_a_steady_effect_does_once_is_what_it_would_do_at_every_tick) {
+  int steady = 0;
+  for (int i = 0; i < fx_count; i++) {
+    if (!fx_table[i]->steady) continue;
+    ROW("%s", fx_table[i]->name);
+    fx_t each = *fx_table[i];
+    each.steady = false;
+    const fx_use_t once = fx_use(fx_table[i]);
+    fx_use_t ever = once;
+    ever.fx = &each;
+    const body_t a = after_a_second(&once), b = after_a_second(&ever);
+    CHECK(a.n_tick == 0 && b.n_tick == 1 && memcmp(a.y, b.y, sizeof a.y) == 0);
+    steady++;
+  }
+  CHECK(steady > 0);
+}
