@@ -89,7 +89,7 @@ void body_current_left(const body_t *b, double left[ROTORS]) {
   forces_current_left(&b->look, left);
 }
 
-d3_t body_specific_force_b_mps2(const body_t *b) {
+PAIR_COPIES d3_t body_specific_force_b_mps2(const body_t *b) {
   const acting_t f = forces_of(b);
   return forces_specific_b_mps2(&f, b->y, &b->look, d3_of(b->model->frame.imu_m));
 }

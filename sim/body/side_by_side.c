@@ -29,8 +29,7 @@ static void move(void *self, void *const what[LANES]) {
     body_command(b[k], tick->command_N, tick->span_s);
   }
   (void)abreast_move(a, b, &seen, vbat_V);
-  for (int k = 0; k < LANES; k++)
-    if (b[k]) abreast_settle(a, k, b[k]);
+  abreast_settle_all(a, b);
 }
 
 int side_by_side_share(int n, int threads) {

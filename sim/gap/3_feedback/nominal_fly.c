@@ -1,6 +1,7 @@
 // nominal_fly.c - the model in closed loop along a log's track.
 #include "gap/3_feedback/nominal_known.h"
 
+#include "base/larger.h"
 #include "body/side_by_side.h"
 #include <math.h>
 #include <stdlib.h>
@@ -97,7 +98,7 @@ static d3_t noisy3(d3_t v, const double sd[3], const double normal[3]) {
 static fx_sensed_t sensed(const nominal_flight_t *f) {
   const body_t *b = &f->body;
   const axes_t axes = axes_of(dq_of(b->y + RIGID_Q_WB));
-  const double up = fmax(axes_up_b(&axes).z, 0.1), z = b->y[RIGID_POS_M + 2];
+  const double up = larger(axes_up_b(&axes).z, 0.1), z = b->y[RIGID_POS_M + 2];
   const double far_m = f->g->range_up ? f->m->ceiling_m - z - body_rotor_z_m(f->m) : z - body_rest_z_m(f->m);
   const double side = f->g->range_up ? -1.0 : 1.0;
   fx_sensed_t s = {.acc_b_mps2 = body_specific_force_b_mps2(b),
@@ -107,42 +108,41 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
   return s;
 }
 
-static grid_point_t is(const nominal_flight_t *f) {
+// What is true, and what is seen of it; number by number, for most of a point is none of them.
+static void look(nominal_flight_t *f, const double normal[SEEN]) {
   const body_t *b = &f->body;
   const fx_sensed_t s = sensed(f);
-  return (grid_point_t){.pos_w_m = d3_of(b->y + RIGID_POS_M),
-                        .vel_w_mps = d3_of(b->y + RIGID_VEL_MPS),
-                        .q_wb = dq_of(b->y + RIGID_Q_WB),
-                        .rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS),
-                        .acc_b_mps2 = s.acc_b_mps2,
-                        .range_m = s.range_m,
-                        .vbat_V = b->vbat_V};
-}
-
-static grid_point_t see(const nominal_flight_t *f, const grid_point_t *truth, const double normal[SEEN]) {
+  grid_point_t *const is = &f->is, *const seen = &f->seen;
+  is->pos_w_m = d3_of(b->y + RIGID_POS_M);
+  is->vel_w_mps = d3_of(b->y + RIGID_VEL_MPS);
+  is->q_wb = dq_of(b->y + RIGID_Q_WB);
+  is->rate_b_radps = d3_of(b->y + RIGID_RATE_RADPS);
+  is->acc_b_mps2 = s.acc_b_mps2;
+  is->range_m = s.range_m;
+  is->vbat_V = b->vbat_V;
   const closed_loop_t *w = f->w;
   const double any[3] = {w->angle_rad, w->angle_rad, w->angle_rad};
   const d3_t angle = d3_scale(0.5, noisy3(f->angle_off_rad, any, normal));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  return (grid_point_t){.pos_w_m = noisy3(d3_add(truth->pos_w_m, f->pos_off_m), w->pos_m, normal + 3),
-                        .vel_w_mps = noisy3(d3_add(truth->vel_w_mps, f->vel_off_mps), w->vel_mps, normal + 6),
-                        .q_wb = dq_mul(truth->q_wb, wrong),
-                        .rate_b_radps = noisy3(truth->rate_b_radps, w->gyro_radps, normal + 9),
-                        .acc_b_mps2 = noisy3(truth->acc_b_mps2, w->acc_mps2, normal + 12),
-                        .range_m = truth->range_m + w->range_m * normal[16],
-                        .vbat_V = truth->vbat_V + w->vbat_V * normal[15]};
+  seen->pos_w_m = noisy3(d3_add(is->pos_w_m, f->pos_off_m), w->pos_m, normal + 3);
+  seen->vel_w_mps = noisy3(d3_add(is->vel_w_mps, f->vel_off_mps), w->vel_mps, normal + 6);
+  seen->q_wb = dq_mul(is->q_wb, wrong);
+  seen->rate_b_radps = noisy3(is->rate_b_radps, w->gyro_radps, normal + 9);
+  seen->acc_b_mps2 = noisy3(is->acc_b_mps2, w->acc_mps2, normal + 12);
+  seen->range_m = is->range_m + w->range_m * normal[16];
+  seen->vbat_V = is->vbat_V + w->vbat_V * normal[15];
 }
 
 // --- the flight -------------------------------------------------------------------------------------------
 
 // motor_N: keeps what was commanded last, where no new command is due.
-static void steer(nominal_flight_t *f, double step_s, const grid_point_t *seen, double motor_N[ROTORS]) {
-  const grid_point_t *const track = &f->track;
+static void steer(nominal_flight_t *f, double step_s, double motor_N[ROTORS]) {
+  const grid_point_t *const track = &f->track, *const seen = &f->seen;
   if (f->known) {
     known_steer(f->known, step_s, track, seen, motor_N);
     return;
   }
-  const double period_s = fmax(pilot_period_s(f), step_s);
+  const double period_s = larger(pilot_period_s(f), step_s);
   if (f->due_s < 0.5 * step_s) {
     pilot_steer(f, period_s, track, seen, motor_N);
     f->due_s += period_s;
@@ -172,8 +172,8 @@ static done_t find_pilot(nominal_flight_t *f, why_t *why) {
   if (!f->w->flown_by || f->w->flown_by->kind <= FLOWN_BY_OTHER) return DONE;
   double normal[SEEN];
   random_normals(f->random, SEEN, normal);
-  const grid_point_t truth = is(f), seen = see(f, &truth, normal);
-  return known_open(&f->known, f, &seen, why);
+  look(f, normal);
+  return known_open(&f->known, f, &f->seen, why);
 }
 
 static bool is_down(nominal_flight_t *f, double span_s) {
@@ -225,11 +225,11 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
         random_normals(f->random, LASTS + SEEN, normal);
         drift(f, normal);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        const grid_point_t truth = is(f), seen = see(f, &truth, normal + LASTS);
+        look(f, normal + LASTS);
         pilot_take_track(f, (i * inner + k) / (double)(per_point * inner));
-        steer(f, step_s, &seen, motor_N);
-        if (k == 0) nominal_log_write(f, f->log, &seen, motor_N, t_s);
-        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &truth, motor_N, t_s);
+        steer(f, step_s, motor_N);
+        if (k == 0) nominal_log_write(f, f->log, &f->seen, motor_N, t_s);
+        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &f->is, motor_N, t_s);
         shake(f);
         side_by_side_tick(&f->body, motor_N, step_s);
       }

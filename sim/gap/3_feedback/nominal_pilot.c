@@ -1,6 +1,7 @@
 // nominal_pilot.c - who flies the nominal flights.
 #include "gap/3_feedback/nominal_pilot.h"
 
+#include "base/larger.h"
 #include "body/body.h"
 #include <math.h>
 #include <string.h>
@@ -26,16 +27,16 @@ static bool both_sides(const nominal_flight_t *f, int at, int side, const grid_p
 
 // Less what its errors could make of it, in a hover those would shake the vehicle.
 static d3_t beyond(d3_t v, double error) {
-  return d3_scale(fmax(1.0 - BEND_SURE * error / fmax(d3_norm(v), 1e-9), 0.0), v);
+  return d3_scale(larger(1.0 - BEND_SURE * error / larger(d3_norm(v), 1e-9), 0.0), v);
 }
 
 // How the track is bent.
 static d3_t track_acc(const nominal_flight_t *f, int at) {
-  const int side = (int)fmax(1.0, round(AHEAD_S / f->g->period_s));
+  const int side = (int)larger(1.0, round(AHEAD_S / f->g->period_s));
   const grid_point_t *end[2];
   double span_s, error = 0.0;
   if (!f->g->has_velocity || !both_sides(f, at, side, end, &span_s)) return d3(0.0, 0.0, 0.0);
-  for (int i = 0; i < 3; i++) error = fmax(error, hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]));
+  for (int i = 0; i < 3; i++) error = larger(error, hypot(f->w->vel_mps[i], f->w->slow_vel_mps.sd[i]));
   return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->vel_w_mps, end[0]->vel_w_mps)),
                 sqrt(2.0) * error / span_s);
 }
@@ -47,13 +48,14 @@ static d3_t track_turn(const nominal_flight_t *f, int at) {
   const grid_point_t *end[2];
   double span_s, error = 0.0;
   if (!f->w->unread || !f->g->has_rates || !both_sides(f, at, 1, end, &span_s)) return d3(0.0, 0.0, 0.0);
-  for (int i = 0; i < 3; i++) error = fmax(error, f->w->gyro_radps[i]);
+  for (int i = 0; i < 3; i++) error = larger(error, f->w->gyro_radps[i]);
   return beyond(d3_scale(1.0 / span_s, d3_sub(end[1]->rate_b_radps, end[0]->rate_b_radps)),
                 sqrt(2.0 / f->g->every) * error / span_s);
 }
 
 // The point ahead is the next one here.
 void pilot_look_ahead(nominal_flight_t *f) {
+  f->track = f->g->point[f->at];
   const bool known = f->at > f->from && f->bends_at == f->at;
   f->bends_mps2[0] = known ? f->bends_mps2[1] : track_acc(f, f->at);
   f->bends_radps2[0] = known ? f->bends_radps2[1] : track_turn(f, f->at);
@@ -73,7 +75,6 @@ static d3_t between(d3_t a, d3_t b, double share) {
 
 void pilot_take_track(nominal_flight_t *f, double share) {
   const grid_point_t *const a = &f->g->point[f->at], *const b = a + pilot_goes_on(f);
-  f->track = *a;
   f->track.pos_w_m = between(a->pos_w_m, b->pos_w_m, share);
   f->track.vel_w_mps = between(a->vel_w_mps, b->vel_w_mps, share);
   f->track.rate_b_radps = between(a->rate_b_radps, b->rate_b_radps, share);
@@ -88,15 +89,15 @@ static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, con
   const bool place = f->g->has_position;
   const double x = place ? f->level * f->push * off.x : 0.0, y = place ? f->level * f->push * off.y : 0.0;
   const d3_t feed = f->bent_mps2;
-  return d3(fmax(-6.0, fmin(6.0, feed.x + x + f->push * slip.x)),
-            fmax(-6.0, fmin(6.0, feed.y + y + f->push * slip.y)),
-            fmax(-5.0, fmin(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));
+  return d3(larger(-6.0, smaller(6.0, feed.x + x + f->push * slip.x)),
+            larger(-6.0, smaller(6.0, feed.y + y + f->push * slip.y)),
+            larger(-5.0, smaller(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));
 }
 
 // What the motors can give: height first, for what is left behind on a level comes back.
 static d3_t within_thrust(const nominal_flight_t *f, d3_t acc) {
   const double most = SPARE * f->m->thrust_max_N / f->lift_trim / f->m->mass_kg, level = hypot(acc.x, acc.y);
-  const double z = fmin(acc.z, most), share = sqrt(fmax(most * most - z * z, 0.0)) / fmax(level, 1e-9);
+  const double z = smaller(acc.z, most), share = sqrt(larger(most * most - z * z, 0.0)) / larger(level, 1e-9);
   return share < 1.0 ? d3(share * acc.x, share * acc.y, z) : acc;
 }
 
@@ -115,11 +116,11 @@ static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_
 static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
   const double lift_N = f->lift_trim * load * f->m->mass_kg * G_MPS2;
   mix(f->m, lift_N, d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2)), motor_N);
-  for (int r = 0; r < ROTORS; r++) motor_N[r] = fmax(0.0, fmin(motor_N[r], f->m->thrust_max_N / ROTORS));
+  for (int r = 0; r < ROTORS; r++) motor_N[r] = larger(0.0, smaller(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 
 double pilot_motor_lead(double motor_tau_s) {
-  return fmax(motor_tau_s / QUICK_S - 1.0, 0.0);
+  return larger(motor_tau_s / QUICK_S - 1.0, 0.0);
 }
 
 // As it is seen from one command to the next.
@@ -144,11 +145,11 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
     f->acc_mps2 = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
     f->outer_due_s += w->outer_s;
   }
-  f->outer_due_s = fmax(f->outer_due_s - step_s, 0.0);
+  f->outer_due_s = larger(f->outer_due_s - step_s, 0.0);
   const d3_t acc = f->acc_mps2;
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(acc), acc));
-  const double roll = fmax(-TILT_MAX, fmin(TILT_MAX, -pull_b.y)),
-               pitch = fmax(-TILT_MAX, fmin(TILT_MAX, pull_b.x));
+  const double roll = larger(-TILT_MAX, smaller(TILT_MAX, -pull_b.y)),
+               pitch = larger(-TILT_MAX, smaller(TILT_MAX, pull_b.x));
   const d3_t nose_b = axes_to_body(&axes, track_axes.x);
   const double yaw = atan2(nose_b.y, nose_b.x);
   const d3_t rate = seen->rate_b_radps, grows = rate_grows(f, rate, step_s);
@@ -158,7 +159,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
                           w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
                           w->rate_gain[2] * (YAW * yaw + off.z) - w->rate_lead[2] * grows.z);
   const d3_t turn = d3_add(f->bent_radps2, steered);
-  const double up = fmax(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
+  const double up = larger(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
   const double share = quick_share(f, step_s);
   f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
@@ -175,12 +176,12 @@ double pilot_period_s(const nominal_flight_t *f) {
 // A command that holds is half its period late.
 void pilot_tame(nominal_flight_t *f) {
   const double late_s = f->body.plant.delay_s + 0.5 * pilot_period_s(f);
-  const double most = SWIFT / (fmin(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * late_s);
+  const double most = SWIFT / (smaller(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * late_s);
   closed_loop_t *const w = &f->own;
-  for (int i = 0; i < 2; i++) w->rate_gain[i] = fmin(w->rate_gain[i], most);
-  const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
-  w->tilt_gain = fmin(w->tilt_gain, 0.25 * least * least);
-  f->push = fmin(3.0, fmax(0.8, 0.5 * w->tilt_gain / least));
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = smaller(w->rate_gain[i], most);
+  const double least = smaller(w->rate_gain[0], w->rate_gain[1]);
+  w->tilt_gain = smaller(w->tilt_gain, 0.25 * least * least);
+  f->push = smaller(3.0, larger(0.8, 0.5 * w->tilt_gain / least));
   f->level = 0.66 * f->push;
 }
 
@@ -202,6 +203,6 @@ void pilot_trim(nominal_flight_t *f) {
     memcpy(b->rigid.command_N, at + RIGID_THRUST_N, ROTORS * sizeof(double));
     body_derivative(b, 0.0, at, rates);
     f->turn_trim_radps2 = d3_sub(f->turn_trim_radps2, d3_of(rates + RIGID_RATE_RADPS));
-    f->lift_trim *= G_MPS2 / fmax(G_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * G_MPS2);
+    f->lift_trim *= G_MPS2 / larger(G_MPS2 + rates[RIGID_VEL_MPS + 2], 0.2 * G_MPS2);
   }
 }

@@ -23,6 +23,7 @@ typedef struct {
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
   d3_t turn_trim_radps2;                      // what holds it level, for a thrust of its weight
   double lift_trim;                           // thrust over weight that holds it
+  grid_point_t is, seen;                      // now, as far as a log or a pilot asks
   grid_point_t track;                         // where it is to be now
   d3_t bent_mps2, bent_radps2;                // acceleration of the track there, and of its turning
   d3_t bends_mps2[2], bends_radps2[2];        // at the point before and the one behind,
