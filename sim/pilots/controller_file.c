@@ -141,6 +141,10 @@ static done_t read_other(toml_t t, flown_by_t *to, why_t *why) {
   static const char *const keys[] = {"kind", "rate_Hz", NULL};
   flown_by_t by = {.kind = FLOWN_BY_OTHER};
   TRY(toml_only(t, keys, why));
+  if (!toml_has(t, "rate_Hz"))
+    return toml_refuse(t, "rate_Hz", why,
+                       "missing; allowed: how often the controller commands the motors, %g to %g Hz",
+                       RATE_MIN_HZ, RATE_MAX_HZ);
   TRY(toml_double(t, "rate_Hz", RATE_MIN_HZ, RATE_MAX_HZ, &by.rate_Hz, why));
   *to = by;
   return DONE;
