@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#define SURE 0.999 // of a probability: no exam is long enough to tell more
-
 static void numbers(const finding_t *f, FILE *out) {
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>standard error<th>unit</tr>\n", out);
   for (int k = 0; k < f->n_number; k++) {
@@ -60,7 +58,8 @@ void page_finding(const finding_t *f, FILE *out) {
   if (isfinite(f->named->probability))
     fprintf(out, "That it%s is there has a probability of %s%.3g, if the library has what is missing. ",
             f->named->n_rival ? ", or one that would do as well," : "",
-            f->named->probability > SURE ? "more than " : "", fmin(f->named->probability, SURE));
+            f->named->probability > REPORT_SURE ? "more than " : "",
+            fmin(f->named->probability, REPORT_SURE));
   fprintf(out, "It shows most in %s, at %s %.3g to %.3g %s.", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
   if (f->before > 0.0)

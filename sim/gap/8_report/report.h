@@ -39,6 +39,7 @@ extern const char *const standing_name[];
 typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
 extern const char *const left_name[];
 
+#define REPORT_SURE      0.999 // of a probability: no exam is long enough to tell more
 #define REPORT_NOT_SHOWN "not shown by what can be compared of these flights"
 
 // One number of a name: a size, then its shape and its kind, if it has them.

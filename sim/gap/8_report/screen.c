@@ -25,7 +25,10 @@ static void print_numbers(const finding_t *f, FILE *out) {
   for (int k = 0; k < f->n_number; k++) print_number(&f->number[k], k ? ", " : "", out);
   if (f->use->form) fprintf(out, ", form %s", f->use->form->name);
   fprintf(out, "; %.3g %% of the gap; %s", 100.0 * f->named->share, standing_name[f->standing]);
-  if (f->standing != STANDS_AMBIGUOUS) fprintf(out, ", %s", p_words(f->named->p, p));
+  if (f->standing == STANDS_AMBIGUOUS) return;
+  if (isfinite(f->named->probability))
+    fprintf(out, ", probability %.3g", fmin(f->named->probability, REPORT_SURE));
+  fprintf(out, ", %s", p_words(f->named->p, p));
 }
 
 static void print_effect(const finding_t *f, FILE *out) {
