@@ -58,11 +58,21 @@ static bool go(const gap_flight_t *f, int i, int j, window_t *w) {
   return true;
 }
 
-const drive_t GAP_TURN = {"attitude", "turns", "gyro", ATTITUDE | GYRO, ATTITUDE, SIG_GX, 0, 0.1, 0.01, turn};
-const drive_t GAP_PUSH = {
-    "velocity", "changes", "accelerometer", VELOCITY | FORCE | ATTITUDE, PLACE | VELOCITY, SIG_AX, 2, 0.2,
-    0.1,        push};
-const drive_t GAP_GO = {"position", "moves", "velocity", PLACE | VELOCITY, 0, SIG_VX, 0, 0.3, 0.02, go};
+const drive_t GAP_TURN = {"attitude", "turns", "gyro", ATTITUDE | GYRO, ATTITUDE, SIG_ROLL, SIG_GX, 0,
+                          0.1,        0.01,    turn};
+const drive_t GAP_PUSH = {"velocity",
+                          "changes",
+                          "accelerometer",
+                          VELOCITY | FORCE | ATTITUDE,
+                          PLACE | VELOCITY,
+                          SIG_VX,
+                          SIG_AX,
+                          2,
+                          0.2,
+                          0.1,
+                          push};
+const drive_t GAP_GO = {"position", "moves", "velocity", PLACE | VELOCITY, 0, SIG_X, SIG_VX, 0,
+                        0.3,        0.02,    go};
 
 int gap_drive_samples(const gap_flight_t *f, const drive_t *drive) {
   const int m = (int)(drive->span_s * f->rate_Hz + 0.5);

@@ -19,6 +19,7 @@
 #define RANGE_M     0.02 // no range sensor sees nearer only
 #define SHARE_MIN   0.65 // of the other motors' mean: the commands of another unit, or half of them
 #define SHARE_MAX   1.5
+#define FITS        (2 * COLUMNS_HINT + COLUMN_NAME_MAX) // bytes
 
 static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   double sum = 0.0, up = 0.0;
@@ -70,13 +71,18 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
     }
 }
 
-// What would fit instead, as the end of a message: another unit, or the other sign of one of the two.
-static void what_fits(const log_rows_t *rows, signal_id_t column, const slope_t *s, char text[COLUMNS_HINT]) {
+// What would fit instead, as the end of a message: another unit of either, or the other sign of one of both.
+static void what_fits(const log_rows_t *rows, signal_id_t column, signal_id_t moved, const slope_t *s,
+                      char text[FITS]) {
   const double b = s->mg / s->gg, size = fabs(b);
+  char hint[COLUMNS_HINT];
   if (b * b * s->gg <= 0.5 * s->mm) return;
   if (b > 0.0) columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
+  if (b > 0.0 && rows->at[moved] >= 0 && columns_hint(&rows->columns, moved, b, 0.5, 2.0, hint)[0])
+    text_add(text, FITS, "%s of column %s %s", text[0] ? ", or" : ";", rows->columns.of[moved].column,
+             hint + 2);
   if (b < 0.0 && size >= SLOPE_MIN && size <= SLOPE_MAX)
-    snprintf(text, COLUMNS_HINT, "; the other sign of one of both would fit (scale = -1 in a columns file)");
+    snprintf(text, FITS, "; the other sign of one of both would fit (scale = -1 in a columns file)");
 }
 
 static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
@@ -89,8 +95,8 @@ static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const d
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
     if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;
-    char text[COLUMNS_HINT] = "";
-    what_fits(rows, column, s, text);
+    char text[FITS] = "";
+    what_fits(rows, column, (signal_id_t)((int)drive->stream + k), s, text);
     return table_refuse(&rows->table, 0, rows->at[column], why,
                         "the %s %s %.3g times as far along axis %c as the %s says over the whole flight; "
                         "allowed: 0.33 to 3%s",
@@ -181,11 +187,18 @@ static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_
   if (!f->v[SIG_THRUST]) return DONE;
   const double ratio = lift_ratio(f, &rows->vehicle, false);
   if (!(ratio < SLOPE_MIN || ratio > SLOPE_MAX)) return DONE;
+  const signal_id_t first = each ? SIG_M1 : SIG_THRUST;
+  const double power =
+      each && rows->columns.motors == MOTORS_RADPS ? 0.5 : 1.0; // thrust goes with its square
+  char text[COLUMNS_HINT] = "";
+  if (!pwm && !rows->columns.mixed_pwm)
+    columns_hint(&rows->columns, first, pow(ratio, power), pow(SLOPE_MIN, power), pow(SLOPE_MAX, power),
+                 text);
   return table_refuse(
-      &rows->table, 0, rows->at[each ? SIG_M1 : SIG_THRUST], why,
+      &rows->table, 0, rows->at[first], why,
       "commands to vehicle %s give %.3g times what its acceleration takes; allowed: 0.33 to 3 "
-      "(is it the right vehicle and unit?)",
-      rows->vehicle.name, ratio);
+      "(is it the right vehicle and unit?)%s",
+      rows->vehicle.name, ratio, text);
 }
 
 // Heights of another room, or from another floor.
@@ -215,6 +228,7 @@ done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   if (f->v[SIG_Z] && isfinite(rows->vehicle.ceiling_m)) TRY(check_ceiling(f, rows, why));
   TRY(check_range(f, rows, SIG_RANGE, why));
   TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
+  TRY(gap_check_moves(f, rows, why));
   TRY(check_commands(f, rows, why));
   if (!has(f->v, SPEEDS)) return DONE;
   TRY(check_shares(f, rows, SIG_W1, why));

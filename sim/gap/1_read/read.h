@@ -88,7 +88,7 @@ typedef struct {
 typedef struct {
   const char *what, *moves, *by; // in words
   signals_t need, late;          // without which nothing is told; what is late where the stream is
-  signal_id_t driver;            // the first of its three columns
+  signal_id_t stream, driver;    // the first of three columns of each
   int axis;                      // the first that tells how late
   double span_s, least;          // a window's length; what is a movement
   bool (*at)(const gap_flight_t *f, int i, int j, window_t *w); // false: not all there
@@ -106,6 +106,9 @@ typedef struct {
 } skew_t;
 
 skew_t gap_skew(const gap_flight_t *f, const drive_t *drive);
+
+// BAD_INPUT: a range or a set point moves as far as the place only in another unit.
+MUST_CHECK done_t gap_check_moves(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
 
 // BAD_INPUT: signals contradict physics or each other over the whole flight.
 MUST_CHECK done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);

@@ -5,6 +5,7 @@
 #include "rig/test.h"
 #include "vehicle/model_file.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static done_t read_made(gap_flight_t *f, const flight_csv_t *made, why_t *why) {
@@ -38,7 +39,7 @@ static const struct {
      {.column = FC_Z, .scale = 100.0},
      "column stateEstimate.vz: the position moves 100 times as far along axis z as the velocity says over "
      "the "
-     "whole flight; allowed: 0.33 to 3"},
+     "whole flight; allowed: 0.33 to 3; of column stateEstimate.z the unit cm would fit (factor 0.01)"},
     {"climb in mm/s",
      {.column = FC_VZ, .scale = 1000.0},
      "column stateEstimate.vz: 452.525 m/s is not plausible"},
@@ -130,5 +131,93 @@ TEST(gap_refuses_units_signs_and_signals_that_contradict_with_column_and_factor)
     CHECK_STATUS(BAD_INPUT, read_made(&f, &contradicting[i].made, &why));
     CHECK(f.n == 0 && f.t_s == NULL);
     if (!strstr(why.text, contradicting[i].want)) CHECK_TEXT(scratch_short(why.text), contradicting[i].want);
+  }
+}
+
+// What a columns file says wrongly: the factor is what is read over what the column has.
+TEST(gap_refuses_what_moves_as_far_as_the_place_only_in_another_unit) {
+  static const struct {
+    const char *what;
+    signal_id_t signal;
+    const char *column, *unit;
+    double factor;
+    const char *want; // empty: read
+  } row[] = {
+      {"a height in m, said to be cm", SIG_Z, "stateEstimate.z", "cm", 0.01,
+       "column stateEstimate.vz: the position moves 0.01 times as far along axis z as the velocity says over "
+       "the whole flight; allowed: 0.33 to 3; the unit cm/s would fit (factor 0.01), or of column "
+       "stateEstimate.z the unit m would fit (factor 100)"},
+      {"a range in cm, said to be mm", SIG_RANGE, "range.up", "mm", 1e-4,
+       "column range.up: the range moves 0.0999 times as far as the place along axis z over the whole flight; "
+       "allowed: 0.33 to 3; the unit cm would fit (factor 10)"},
+      {"a range in mm, said to be cm", SIG_RANGE, "range.up", "cm", 0.01,
+       "the unit mm would fit (factor 0.1)"},
+      {"a range downwards in cm, said to be mm", SIG_RANGE_DOWN, "stateEstimate.z", "mm", 0.1,
+       "the range moves 0.1 times as far as the place along axis z over the whole flight; allowed: 0.33 to "
+       "3; the unit cm would fit (factor 10)"},
+      {"a range over things", SIG_RANGE_DOWN, "stateEstimate.x", "mm", 0.1, ""},
+      {"a range upwards said to look downwards", SIG_RANGE_DOWN, "range.up", "mm", 1e-4, ""},
+      {"a set point in mm, said to be m", SIG_SET_Z, "stateEstimate.z", "m", 1000.0,
+       "the set point moves 1e+03 times as far as the place along axis z over the whole flight; allowed: "
+       "0.33 to 3; the unit mm would fit (factor 0.001)"},
+      {"a set point in m, said to be cm", SIG_SET_X, "stateEstimate.x", "cm", 0.01,
+       "the set point moves 0.01 times as far as the place along axis x over the whole flight; allowed: 0.33 "
+       "to 3; the unit m would fit (factor 100)"},
+      {"a set point that is not followed", SIG_SET_Z, "stateEstimate.x", "m", 1000.0, ""},
+      {"a set point in no unit", SIG_SET_Z, "stateEstimate.z", "m", 5.0, ""},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    column_t *const to = &columns.of[row[i].signal];
+    to->factor = row[i].factor;
+    snprintf(to->column, sizeof to->column, "%s", row[i].column);
+    snprintf(to->unit, sizeof to->unit, "%s", row[i].unit);
+    model_t vehicle;
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+    const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = 10.0}, "f.csv");
+    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, gap_read(&f, path, &columns, &vehicle, &why));
+    if (!row[i].want[0] || !strstr(why.text, row[i].want)) CHECK_TEXT(scratch_short(why.text), row[i].want);
+    gap_flight_free(&f);
+  }
+}
+
+// Thrust goes with the square of a speed.
+TEST(gap_says_which_unit_of_commanded_speeds_fits) {
+  static const struct {
+    const char *what;
+    double scale;     // of the column, which has rpm
+    const char *want; // empty: read
+  } row[] = {
+      {"rpm", 1.0, ""},
+      {"rad/s, said to be rpm", 0.1047198,
+       "give 0.011 times what its acceleration takes; allowed: 0.33 to 3 (is it the right vehicle and "
+       "unit?); "
+       "the unit rad/s would fit (factor 9.549)"},
+      {"a third of the speed, in no unit", 0.33, "(is it the right vehicle and unit?)"},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    columns_t columns = flight_csv_columns();
+    model_t vehicle;
+    gap_flight_t f;
+    why_t why = {""};
+    CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+    vehicle.map = (thrust_map_t){THRUST_MAP_SPEED, {0.0, 0.0, vehicle.frame.kf_Ns2}};
+    columns.motors = MOTORS_RADPS;
+    for (int k = 0; k < 4; k++) {
+      column_t *const to = &columns.of[SIG_M1 + k];
+      *to = columns.of[SIG_W1 + k];
+      columns.of[SIG_W1 + k].column[0] = 0;
+      to->factor *= row[i].scale;
+    }
+    const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = 10.0}, "f.csv");
+    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, gap_read(&f, path, &columns, &vehicle, &why));
+    const char *const end = strstr(why.text, row[i].want);
+    if (!row[i].want[0] || !end || strcmp(end, row[i].want) != 0)
+      CHECK_TEXT(scratch_short(why.text), row[i].want);
+    gap_flight_free(&f);
   }
 }

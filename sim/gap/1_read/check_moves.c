@@ -1,0 +1,79 @@
+// check_moves.c - stage 1: do ranges and set points move as far as the place does? Finds their unit.
+//
+// What lies under or above a vehicle moves a range, too, and a vehicle follows its set points late: nothing
+// is refused but where the two go together as a line and one of the units that are known makes them equal.
+#include "gap/1_read/read.h"
+
+#include <math.h>
+
+#define APART_S   0.5    // between two samples of a range that are compared: an age of 0.1 s matters little
+#define MOVES_M   0.05   // a movement, and the rms of one
+#define MOVES_MIN 10     // of them
+#define TOGETHER  0.8    // of the squares, that a line explains
+#define ALIKE     1.25   // times as far, or so many times less: equal
+#define SLOPE_MIN 0.3333 // as of other streams (check.c)
+#define SLOPE_MAX 3.0
+
+typedef struct {
+  double n, x, y, xx, xy, yy;
+} line_t;
+
+static void add(line_t *s, double x, double y) {
+  s->n += 1.0;
+  s->x += x, s->y += y;
+  s->xx += x * x, s->xy += x * y, s->yy += y * y;
+}
+
+// How far y moves as x does; NaN: they do not go together, or x moves too little.
+static double slope(const line_t *s) {
+  const double xx = s->xx - s->x * s->x / s->n, xy = s->xy - s->x * s->y / s->n,
+               yy = s->yy - s->y * s->y / s->n;
+  if (!(s->n >= MOVES_MIN && xx >= s->n * MOVES_M * MOVES_M)) return (double)NAN;
+  return xy > 0.0 && xy * xy >= TOGETHER * xx * yy ? xy / xx : (double)NAN;
+}
+
+// Of a stream that moves so many times as far as the place.
+static done_t judge(const log_rows_t *rows, signal_id_t stream, const char *what, int axis, double times,
+                    why_t *why) {
+  char text[COLUMNS_HINT];
+  if (!(times < SLOPE_MIN || times > SLOPE_MAX)) return DONE; // NaN, too
+  if (!columns_hint(&rows->columns, stream, times, 1.0 / ALIKE, ALIKE, text)[0]) return DONE;
+  return table_refuse(&rows->table, 0, rows->at[stream], why,
+                      "the %s moves %.3g times as far as the place along axis %c over the whole flight; "
+                      "allowed: 0.33 to 3%s",
+                      what, times, 'x' + axis, text);
+}
+
+// From sample to sample of the range, half a second or more apart. Upwards it falls as the vehicle rises.
+static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t range, why_t *why) {
+  const double sign = range == SIG_RANGE ? -1.0 : 1.0, *const v = f->v[range], *const z_m = f->v[SIG_Z];
+  line_t line = {0};
+  int last = -1;
+  if (!v || !z_m) return DONE;
+  for (int i = 0; i < f->n; i++) {
+    if (isnan(v[i]) || isnan(z_m[i])) continue;
+    const bool first = last < 0 || f->segment[last] != f->segment[i];
+    if (!first && f->t_s[i] - f->t_s[last] < APART_S) continue;
+    const double rise_m = first ? 0.0 : sign * (z_m[i] - z_m[last]);
+    if (fabs(rise_m) >= MOVES_M) add(&line, rise_m, v[i] - v[last]);
+    last = i;
+  }
+  return judge(rows, range, "range", 2, slope(&line), why);
+}
+
+// A place follows its set point late: all of the flight is looked at, not one movement after the other.
+static done_t check_set_point(const gap_flight_t *f, const log_rows_t *rows, int axis, why_t *why) {
+  const double *const set_m = f->v[SIG_SET_X + axis], *const at_m = f->v[SIG_X + axis];
+  line_t line = {0};
+  if (!set_m || !at_m) return DONE;
+  for (int i = 0; i < f->n; i++)
+    if (!isnan(set_m[i]) && !isnan(at_m[i])) add(&line, at_m[i], set_m[i]);
+  return judge(rows, (signal_id_t)(SIG_SET_X + axis), "set point", axis, slope(&line), why);
+}
+
+done_t gap_check_moves(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+  TRY(check_range(f, rows, SIG_RANGE, why));
+  TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
+  for (int axis = 0; axis < 3; axis++) TRY(check_set_point(f, rows, axis, why));
+  return DONE;
+}
