@@ -120,17 +120,34 @@ static done_t find_order(set_t *s, const model_t *m, double *room, why_t *why) {
       order[2] + 1, order[3] + 1);
 }
 
+// About x and y turning follows the commands, about z it does with the other sign of every spin.
+static done_t try_other_spins(set_t *s, const model_t *m, double *room, const likeness_t best[CHANNELS],
+                              why_t *why) {
+  model_t other = *m;
+  likeness_t then[CHANNELS];
+  if (!(best[CH_WZ].correlation < 0.0 && best[CH_WX].slope >= EXCLUDED_SLOPE &&
+        best[CH_WY].slope >= EXCLUDED_SLOPE))
+    return DONE;
+  for (int k = 0; k < ROTORS; k++) other.frame.rotor_spin[k] *= -1.0;
+  TRY(best_of(s, &other, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, then, why));
+  s->spins_other = then[CH_WZ].correlation > 0.0 && then[CH_WZ].slope >= EXCLUDED_SLOPE;
+  return DONE;
+}
+
 static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
   likeness_t best[CHANNELS];
   bool any = false;
   TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
+  TRY(try_other_spins(s, m, room, best, why));
   for (int ch = CH_WX; ch <= CH_WZ; ch++)
     if (best[ch].correlation > -2.0 && best[ch].correlation < EXCLUDED_AGAINST)
       return error_set(
           why,
           "%s: %s goes against what the motor commands say (correlation %.2f); allowed: rates and "
-          "commands of one sign, motors in the vehicle file's order",
-          s->grid[0].flight->name, gap_channel[ch], best[ch].correlation);
+          "commands of one sign, motors in the vehicle file's order%s",
+          s->grid[0].flight->name, gap_channel[ch], best[ch].correlation,
+          ch == CH_WZ && s->spins_other ? " (it follows with the other sign of `spin` in the vehicle file)"
+                                        : "");
   for (int ch = CH_WX; ch <= CH_WZ; ch++) {
     s->excluded[ch] = best[ch].slope < EXCLUDED_SLOPE;
     any = any || s->excluded[ch];
@@ -140,6 +157,7 @@ static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
 
 done_t excluded_find(set_t *s, const model_t *m, why_t *why) {
   memset(s->excluded, 0, sizeof s->excluded);
+  s->spins_other = false;
   if (!residual_has(s, CH_WX)) return DONE;
   const size_t n = set_most_rows(s);
   double *const room = calloc((CHANNELS + 3) * n, sizeof(double));

@@ -25,6 +25,7 @@ typedef struct {
   int n_block, *half; // of each block: which half-flight it belongs to; those of a lone flight interleave
   int n_half;
   bool excluded[CHANNELS];    // excluded.h
+  bool spins_other;           // excluded.h
   double *measured[CHANNELS]; // by channel and row, kept from the first time on (residual.h), or null
   struct cuts *cuts;          // where the rows lie, kept (5_infer/windows.h); one block, or null
 } set_t;

@@ -115,8 +115,11 @@ static void warn_of_diagnosis(report_t *r) {
   for (int ch = 0; ch < CHANNELS; ch++)
     if (d->fit.excluded[ch])
       warn(r,
-           "%s is left out: the logged commands say too little of it (logged more slowly than given, or "
-           "motors in another order?)",
+           ch == CH_WZ && d->fit.spins_other
+               ? "%s is left out: it goes against the commands, and follows them with the other sign of "
+                 "`spin` in the vehicle file"
+               : "%s is left out: the logged commands say too little of it (logged more slowly than given, "
+                 "or motors in another order?)",
            gap_channel[ch]);
   if (d->found.aligned)
     warn(r,
