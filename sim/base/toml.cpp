@@ -19,6 +19,7 @@
 
 struct toml_file {
   std::string path;
+  const toml_kind_t *kind;
   toml::table root;
 };
 
@@ -80,7 +81,7 @@ done_t read(toml_file_t &file, const char *text, const toml_kind_t *kind, why_t 
 done_t open(toml_file_t **file, const char *path, const char *text, const toml_kind_t *kind, why_t *why) {
   *file = nullptr;
   try {
-    toml_file_t *const fresh = new toml_file_t{path, {}};
+    toml_file_t *const fresh = new toml_file_t{path, kind, {}};
     const done_t status = read(*fresh, text, kind, why);
     if (status == DONE)
       *file = fresh;
@@ -116,7 +117,7 @@ bool toml_has(toml_t t, const char *key) {
 }
 
 done_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ...) {
-  char what[400];
+  char what[480];
   va_list args;
   va_start(args, format);
   std::vsnprintf(what, sizeof what, format, args);
@@ -204,6 +205,12 @@ const char *toml_key(toml_t t, int i) {
   return std::next(table.begin(), i)->first.data();
 }
 
+const char *toml_astray(toml_t t, const char *key) {
+  for (const char *const *own = t.file->kind->keys; *own && t.table != &t.file->root; own++)
+    if (std::strcmp(*own, key) == 0) return " (a key of the file itself stands before the first [table])";
+  return "";
+}
+
 done_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
   for (int i = 0; const char *key = toml_key(t, i); i++) {
     bool known = false;
@@ -213,7 +220,8 @@ done_t toml_only(toml_t t, const char *const *allowed, why_t *why) {
     for (const char *const *a = allowed; *a; a++)
       text_add(list, sizeof list, "%s%s", a == allowed ? "" : ", ", *a);
     char hint[NEAREST_HINT];
-    return toml_refuse(t, key, why, "unknown key%s; allowed: %s", nearest_of(key, allowed, hint), list);
+    return toml_refuse(t, key, why, "unknown key%s; allowed: %s%s", nearest_of(key, allowed, hint), list,
+                       toml_astray(t, key));
   }
   return DONE;
 }

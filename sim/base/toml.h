@@ -56,6 +56,10 @@ MUST_CHECK done_t toml_table_at(toml_t t, const char *key, int i, toml_t *sub, b
 // The key number i of a table, in no particular order; a null pointer beyond the last.
 const char *toml_key(toml_t t, int i);
 
+// For a message about an unknown key of a table that is one of the root's, and stands behind that table's
+// head: " (a key of the file itself stands before the first [table])"; else empty.
+const char *toml_astray(toml_t t, const char *key);
+
 // BAD_INPUT: the table has a key that is not in `allowed`, which ends with a null pointer.
 MUST_CHECK done_t toml_only(toml_t t, const char *const *allowed, why_t *why);
 

@@ -99,7 +99,8 @@ static done_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why_t
     // An unknown key first gets the list of what is allowed, whatever its type.
     double value = 0.0;
     if (toml_double(t, key, -HUGE_VAL, HUGE_VAL, &value, &cause) != DONE) value = (double)NAN;
-    TRY(located(t, key, effect_set(use, key, value, &cause), &cause, why));
+    if (effect_set(use, key, value, &cause) != DONE)
+      return toml_refuse(t, key, why, "%s%s", cause.text, toml_astray(t, key));
   }
   return DONE;
 }

@@ -68,6 +68,13 @@ static const struct {
     {"effect key", VEHICLE "[[effect]]\nname = \"ceiling\"\nCc = 1\n",
      "v.toml:9: Cc: effect ceiling, form exponential: unknown key `Cc`; allowed: form, Ca 0 to 5, Cb 0.01 "
      "to 50, each 0 to 1"},
+    {"a key of the file behind an effect", VEHICLE "[[effect]]\nname = \"delay\"\nceiling_m = 2.4\n",
+     "v.toml:9: ceiling_m: effect delay: unknown key `ceiling_m`; allowed: add 0 to 0.2 s (a key of the file "
+     "itself stands before the first [table])"},
+    {"a key of the file behind a table", VEHICLE "[rotors]\nmotor_tau_down_s = 0.1\n",
+     "v.toml:8: motor_tau_down_s: unknown key; allowed: x_m, y_m, spin, torque_ratio_m, kf_Ns2, "
+     "inertia_kgm2, "
+     "delay_s (a key of the file itself stands before the first [table])"},
     {"effect range", VEHICLE "[[effect]]\nname = \"ceiling\"\nCa = 9\n",
      "v.toml:9: Ca: effect ceiling: Ca = 9 is out of range; allowed: 0 to 5"},
     {"points",
