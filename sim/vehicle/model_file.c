@@ -159,11 +159,20 @@ static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
   if (lift > LIFT_MIN && lift <= LIFT_MAX) return DONE;
   const double most_kg = m->thrust_max_N / G_MPS2;
   if (!(most_kg > 0.0))
-    return toml_refuse(root, "thrust_max_N", why, "%g; allowed: more than the weight, %.3g N",
-                       m->thrust_max_N, weight_N);
-  return toml_refuse(root, "mass_kg", why,
-                     "%g kg weigh %.3g N, and thrust_max_N is %g; allowed with that: %.3g to %.3g kg",
-                     m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
+    return toml_refuse(root, "thrust_max_N", why,
+                       "%g; allowed: more than the weight, %.3g N, of all rotors together", m->thrust_max_N,
+                       weight_N);
+  if (lift <= LIFT_MIN && ROTORS * lift > LIFT_MIN)
+    return toml_refuse(
+        root, "thrust_max_N", why,
+        "%g, and mass_kg weighs %.3g N; allowed: more than that, of all rotors together (is it "
+        "of one?)",
+        m->thrust_max_N, weight_N);
+  return toml_refuse(
+      root, "mass_kg", why,
+      "%g kg weigh %.3g N, and thrust_max_N, of all rotors together, is %g; allowed with that: "
+      "%.3g to %.3g kg",
+      m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
 }
 
 static const char *const ROOT_KEYS[] = {"name",

@@ -94,20 +94,27 @@ TEST(vehicle_file_is_refused_where_the_thrust_is_no_match_for_the_weight) {
     const char *what, *text, *want;
   } row[] = {
       {"grams", LIFTS("32.9", "0.6"),
-       "v.toml:2: mass_kg: 32.9 kg weigh 323 N, and thrust_max_N is 0.6; allowed with that: 0.00122 to "
+       "v.toml:2: mass_kg: 32.9 kg weigh 323 N, and thrust_max_N, of all rotors together, is 0.6; allowed "
+       "with that: 0.00122 to "
        "0.0612 kg"},
       {"millinewton", LIFTS("0.0329", "600"),
-       "v.toml:2: mass_kg: 0.0329 kg weigh 0.323 N, and thrust_max_N is 600; allowed with that: 1.22 to 61.2 "
+       "v.toml:2: mass_kg: 0.0329 kg weigh 0.323 N, and thrust_max_N, of all rotors together, is 600; "
+       "allowed with that: 1.22 to 61.2 "
        "kg"},
       {"its weight", LIFTS("0.1", "0.981"),
-       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 0.981; allowed with that: 0.002 to 0.1 "
-       "kg"},
+       "v.toml:6: thrust_max_N: 0.981, and mass_kg weighs 0.981 N; allowed: more than that, of all rotors "
+       "together (is it of one?)"},
+      {"that of one rotor", LIFTS("0.37", "2.2"),
+       "v.toml:6: thrust_max_N: 2.2, and mass_kg weighs 3.63 N; allowed: more than that, of all rotors "
+       "together (is it of one?)"},
       {"a little more", LIFTS("0.1", "0.99"), ""},
       {"50 times", LIFTS("0.1", "49"), ""},
       {"more than that", LIFTS("0.1", "49.2"),
-       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N is 49.2; allowed with that: 0.1 to 5.02 "
+       "v.toml:2: mass_kg: 0.1 kg weigh 0.981 N, and thrust_max_N, of all rotors together, is 49.2; allowed "
+       "with that: 0.1 to 5.02 "
        "kg"},
-      {"none", LIFTS("0.1", "0"), "v.toml:6: thrust_max_N: 0; allowed: more than the weight, 0.981 N"},
+      {"none", LIFTS("0.1", "0"),
+       "v.toml:6: thrust_max_N: 0; allowed: more than the weight, 0.981 N, of all rotors together"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
