@@ -1,6 +1,9 @@
 // frame_file.c - what a vehicle file says of body, rotors, battery and range sensors.
 #include "vehicle/frame_file.h"
 
+#include "base/text.h"
+#include <string.h>
+
 typedef struct {
   const char *key;
   double min, max, *value;
@@ -101,6 +104,58 @@ static done_t read_range(toml_t root, const char *name, range_told_t *range, why
   return read_numbers(t, row, (int)(sizeof row / sizeof *row), why);
 }
 
+// The keys that model_frame_like_crazyflie stands in for; bit i of frame_lacks is number i.
+static const struct {
+  const char *table, *key;
+} SCALED[] = {
+    {"body", "inertia_kgm2"},
+    {"body", "cg_above_feet_m"},
+    {"body", "rotor_above_feet_m"},
+    {"body", "top_above_rotor_m"},
+    {"body", "top_half_m"},
+    {"rotors", "x_m"},
+    {"rotors", "y_m"},
+    {"rotors", "spin"},
+    {"rotors", "torque_ratio_m"},
+    {"rotors", "kf_Ns2"},
+    {"rotors", "inertia_kgm2"},
+};
+#define SCALEDS ((int)(sizeof SCALED / sizeof *SCALED))
+
+static unsigned lacks(toml_t root) {
+  unsigned bits = 0;
+  for (int i = 0; i < SCALEDS; i++) {
+    toml_t t;
+    why_t ignored;
+    const bool there = toml_has(root, SCALED[i].table) &&
+                       toml_table(root, SCALED[i].table, &t, &ignored) == DONE && toml_has(t, SCALED[i].key);
+    if (!there) bits |= 1u << i;
+  }
+  return bits;
+}
+
+// All keys of the table.
+static unsigned whole(const char *table) {
+  unsigned bits = 0;
+  for (int i = 0; i < SCALEDS; i++)
+    if (strcmp(SCALED[i].table, table) == 0) bits |= 1u << i;
+  return bits;
+}
+
+const char *frame_lacks(const model_t *m, char text[FRAME_LACKS]) {
+  unsigned said = 0;
+  text[0] = '\0';
+  for (int i = 0; i < SCALEDS; i++) {
+    const unsigned all = whole(SCALED[i].table), bit = 1u << i;
+    if (!(m->frame_lacks & bit) || (said & bit)) continue;
+    const bool none = (m->frame_lacks & all) == all;
+    said |= none ? all : bit;
+    text_add(text, FRAME_LACKS, none ? "%s[%s]%s" : "%s%s.%s", text[0] ? ", " : "", SCALED[i].table,
+             none ? "" : SCALED[i].key);
+  }
+  return text;
+}
+
 done_t frame_read(toml_t root, model_t *m, why_t *why) {
   toml_t t;
   frame_t frame = model_frame_like_crazyflie(m);
@@ -121,6 +176,7 @@ done_t frame_read(toml_t root, model_t *m, why_t *why) {
   TRY(read_range(root, "range_down", &m->range_down, why));
   m->frame = frame;
   m->frame_told = toml_has(root, "body") && toml_has(root, "rotors");
+  m->frame_lacks = lacks(root);
   m->battery = battery;
   return DONE;
 }

@@ -55,6 +55,7 @@ typedef struct {
   double rotor_more[ROTORS];
   frame_t frame;
   bool frame_told;         // by the vehicle file, body and rotors; else it is like a Crazyflie's
+  unsigned frame_lacks;    // which keys of them it does not say (vehicle/frame_file.h)
   battery_param_t battery; // capacity 0: none
   range_told_t range_up, range_down;
   int n_fx;

@@ -2,6 +2,7 @@
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
+#include "vehicle/frame_file.h"
 #include <string.h>
 
 #define LIFT_MIN 1.1 // thrust over weight
@@ -157,6 +158,10 @@ static void warn_of_vehicle(report_t *r) {
          "%s: thrust_max_N lifts %.3g times the weight of mass_kg; quadrotors lift %g to %g times theirs (is "
          "mass_kg in kg, and thrust_max_N that of all motors in N?)",
          base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
+  char lacks[FRAME_LACKS];
+  if (frame_lacks(m, lacks)[0])
+    warn(r, "%s does not say %s: a Crazyflie's, scaled to its mass and radius, are taken",
+         base_name(study_vehicle(r->study)), lacks);
 }
 
 void report_warn(report_t *r) {

@@ -2,6 +2,7 @@
 #include "rig/scratch.h"
 #include "rig/test.h"
 #include "vehicle/effect_spec.h"
+#include "vehicle/frame_file.h"
 #include "vehicle/model_file.h"
 
 #include <stdio.h>
@@ -206,6 +207,33 @@ TEST(vehicle_file_gives_body_rotors_and_battery) {
   CHECK_OK(model_read(scratch_file("v.toml", VEHICLE, -1), &m, &why));
   CHECK_NEAR(m.frame.inertia_kgm2[2], 29.8e-6 * 30.0 / 32.9 * 400.0 / (23.55 * 23.55), 1e-12);
   CHECK(m.battery.capacity_As == 0.0);
+}
+
+TEST(vehicle_file_lacks_what_a_crazyflie_stands_in_for) {
+  static const struct {
+    const char *text, *want;
+  } row[] = {
+      {"", "[body], [rotors]"},
+      {"[rotors]\ndelay_s = 0.004\n", "[body], [rotors]"},
+      {"[body]\nimu_m = [0, 0, 0]\ninertia_kgm2 = [1e-5, 2e-5, 3e-5]\n",
+       "body.cg_above_feet_m, body.rotor_above_feet_m, body.top_above_rotor_m, body.top_half_m, [rotors]"},
+      {"[body]\ninertia_kgm2 = [1e-5, 2e-5, 3e-5]\ncg_above_feet_m = 0.05\nrotor_above_feet_m = 0.05\n"
+       "top_above_rotor_m = 0\n[rotors]\nx_m = [1, -1, -1, 1]\ny_m = [-1, -1, 1, 1]\nspin = [1, -1, 1, -1]\n"
+       "torque_ratio_m = 0.02\nkf_Ns2 = 1e-6\n",
+       "body.top_half_m, rotors.inertia_kgm2"},
+  };
+  char text[900], lacks[FRAME_LACKS];
+  model_t m;
+  why_t why = {""};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].text);
+    snprintf(text, sizeof text, VEHICLE "%s", row[i].text);
+    CHECK_OK(model_read_text("v.toml", text, &m, &why));
+    CHECK_TEXT(why.text, "");
+    CHECK_TEXT(frame_lacks(&m, lacks), row[i].want);
+  }
+  CHECK_OK(model_builtin("cf21_legacy", &m, &why));
+  CHECK_TEXT(frame_lacks(&m, lacks), "");
 }
 
 TEST(vehicle_file_says_how_the_rotors_follow) {
