@@ -134,53 +134,61 @@ TEST(gap_refuses_units_signs_and_signals_that_contradict_with_column_and_factor)
   }
 }
 
+// The log by these columns; the refusal ends with `want` (empty: it is read).
+static void check_read(const columns_t *columns, const model_t *vehicle, const char *want) {
+  gap_flight_t f;
+  why_t why = {""};
+  const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = 10.0}, "f.csv");
+  CHECK_STATUS(want[0] ? BAD_INPUT : DONE, gap_read(&f, path, columns, vehicle, &why));
+  const char *const end = strstr(why.text, want);
+  if (!want[0] || !end || strcmp(end, want) != 0) CHECK_TEXT(scratch_short(why.text), want);
+  gap_flight_free(&f);
+}
+
 // What a columns file says wrongly: the factor is what is read over what the column has.
+static const struct {
+  const char *what;
+  signal_id_t signal;
+  const char *column, *unit;
+  double factor;
+  const char *want; // empty: read
+} moving[] = {
+    {"a height in m, said to be cm", SIG_Z, "stateEstimate.z", "cm", 0.01,
+     "column stateEstimate.vz: the position moves 0.01 times as far along axis z as the velocity says over "
+     "the whole flight; allowed: 0.33 to 3; the unit cm/s would fit (factor 0.01), or of column "
+     "stateEstimate.z the unit m would fit (factor 100)"},
+    {"a range in cm, said to be mm", SIG_RANGE, "range.up", "mm", 1e-4,
+     "column range.up: the range moves 0.0999 times as far as the place along axis z over the whole "
+     "flight; "
+     "allowed: 0.33 to 3; the unit cm would fit (factor 10)"},
+    {"a range in mm, said to be cm", SIG_RANGE, "range.up", "cm", 0.01, "the unit mm would fit (factor 0.1)"},
+    {"a range downwards in cm, said to be mm", SIG_RANGE_DOWN, "stateEstimate.z", "mm", 0.1,
+     "the range moves 0.1 times as far as the place along axis z over the whole flight; allowed: 0.33 to "
+     "3; the unit cm would fit (factor 10)"},
+    {"a range over things", SIG_RANGE_DOWN, "stateEstimate.x", "mm", 0.1, ""},
+    {"a range upwards said to look downwards", SIG_RANGE_DOWN, "range.up", "mm", 1e-4, ""},
+    {"a set point in mm, said to be m", SIG_SET_Z, "stateEstimate.z", "m", 1000.0,
+     "the set point moves 1e+03 times as far as the place along axis z over the whole flight; allowed: "
+     "0.33 to 3; the unit mm would fit (factor 0.001)"},
+    {"a set point in m, said to be cm", SIG_SET_X, "stateEstimate.x", "cm", 0.01,
+     "the set point moves 0.01 times as far as the place along axis x over the whole flight; allowed: 0.33 "
+     "to 3; the unit m would fit (factor 100)"},
+    {"a set point that is not followed", SIG_SET_Z, "stateEstimate.x", "m", 1000.0, ""},
+    {"a set point in no unit", SIG_SET_Z, "stateEstimate.z", "m", 5.0, ""},
+};
+
 TEST(gap_refuses_what_moves_as_far_as_the_place_only_in_another_unit) {
-  static const struct {
-    const char *what;
-    signal_id_t signal;
-    const char *column, *unit;
-    double factor;
-    const char *want; // empty: read
-  } row[] = {
-      {"a height in m, said to be cm", SIG_Z, "stateEstimate.z", "cm", 0.01,
-       "column stateEstimate.vz: the position moves 0.01 times as far along axis z as the velocity says over "
-       "the whole flight; allowed: 0.33 to 3; the unit cm/s would fit (factor 0.01), or of column "
-       "stateEstimate.z the unit m would fit (factor 100)"},
-      {"a range in cm, said to be mm", SIG_RANGE, "range.up", "mm", 1e-4,
-       "column range.up: the range moves 0.0999 times as far as the place along axis z over the whole flight; "
-       "allowed: 0.33 to 3; the unit cm would fit (factor 10)"},
-      {"a range in mm, said to be cm", SIG_RANGE, "range.up", "cm", 0.01,
-       "the unit mm would fit (factor 0.1)"},
-      {"a range downwards in cm, said to be mm", SIG_RANGE_DOWN, "stateEstimate.z", "mm", 0.1,
-       "the range moves 0.1 times as far as the place along axis z over the whole flight; allowed: 0.33 to "
-       "3; the unit cm would fit (factor 10)"},
-      {"a range over things", SIG_RANGE_DOWN, "stateEstimate.x", "mm", 0.1, ""},
-      {"a range upwards said to look downwards", SIG_RANGE_DOWN, "range.up", "mm", 1e-4, ""},
-      {"a set point in mm, said to be m", SIG_SET_Z, "stateEstimate.z", "m", 1000.0,
-       "the set point moves 1e+03 times as far as the place along axis z over the whole flight; allowed: "
-       "0.33 to 3; the unit mm would fit (factor 0.001)"},
-      {"a set point in m, said to be cm", SIG_SET_X, "stateEstimate.x", "cm", 0.01,
-       "the set point moves 0.01 times as far as the place along axis x over the whole flight; allowed: 0.33 "
-       "to 3; the unit m would fit (factor 100)"},
-      {"a set point that is not followed", SIG_SET_Z, "stateEstimate.x", "m", 1000.0, ""},
-      {"a set point in no unit", SIG_SET_Z, "stateEstimate.z", "m", 5.0, ""},
-  };
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%s", row[i].what);
+  for (unsigned i = 0; i < sizeof moving / sizeof *moving; i++) {
+    ROW("%s", moving[i].what);
     columns_t columns = flight_csv_columns();
-    column_t *const to = &columns.of[row[i].signal];
-    to->factor = row[i].factor;
-    snprintf(to->column, sizeof to->column, "%s", row[i].column);
-    snprintf(to->unit, sizeof to->unit, "%s", row[i].unit);
+    column_t *const to = &columns.of[moving[i].signal];
+    to->factor = moving[i].factor;
+    snprintf(to->column, sizeof to->column, "%s", moving[i].column);
+    snprintf(to->unit, sizeof to->unit, "%s", moving[i].unit);
     model_t vehicle;
-    gap_flight_t f;
-    why_t why = {""};
+    why_t why;
     CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
-    const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = 10.0}, "f.csv");
-    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, gap_read(&f, path, &columns, &vehicle, &why));
-    if (!row[i].want[0] || !strstr(why.text, row[i].want)) CHECK_TEXT(scratch_short(why.text), row[i].want);
-    gap_flight_free(&f);
+    check_read(&columns, &vehicle, moving[i].want);
   }
 }
 
@@ -202,8 +210,7 @@ TEST(gap_says_which_unit_of_commanded_speeds_fits) {
     ROW("%s", row[i].what);
     columns_t columns = flight_csv_columns();
     model_t vehicle;
-    gap_flight_t f;
-    why_t why = {""};
+    why_t why;
     CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
     vehicle.map = (thrust_map_t){THRUST_MAP_SPEED, {0.0, 0.0, vehicle.frame.kf_Ns2}};
     columns.motors = MOTORS_RADPS;
@@ -213,11 +220,6 @@ TEST(gap_says_which_unit_of_commanded_speeds_fits) {
       columns.of[SIG_W1 + k].column[0] = 0;
       to->factor *= row[i].scale;
     }
-    const char *const path = flight_csv_file(&(flight_csv_t){.dt_ms = 10.0}, "f.csv");
-    CHECK_STATUS(row[i].want[0] ? BAD_INPUT : DONE, gap_read(&f, path, &columns, &vehicle, &why));
-    const char *const end = strstr(why.text, row[i].want);
-    if (!row[i].want[0] || !end || strcmp(end, row[i].want) != 0)
-      CHECK_TEXT(scratch_short(why.text), row[i].want);
-    gap_flight_free(&f);
+    check_read(&columns, &vehicle, row[i].want);
   }
 }
