@@ -1,11 +1,7 @@
-// frame_file.h - what a vehicle file says of body, rotors and battery. Every key may be left out.
+// frame_file.h - what a vehicle file says of body, rotors, battery and range sensors: the keys stand in
+// README.md.
 //
-//   - [body]: inertia_kgm2 = [x, y, z], cg_above_feet_m, rotor_above_feet_m, top_above_rotor_m, top_half_m;
-//     imu_m = [x, y, z], the accelerometer from the centre of mass
-//   - [rotors]: x_m, y_m, spin, four numbers each: front right, back right, back left, front left;
-//     torque_ratio_m, kf_Ns2, inertia_kgm2, delay_s
-//   - [battery], of which the first five keys are needed where there is one: capacity_Ah, resistance_ohm,
-//     idle_A, a_ApN, b_ApN2; open_V, 2 to 21 numbers from empty to full, at equal steps of charge
+// Every key may be left out, but those of a [battery] that is there.
 #ifndef SIM_VEHICLE_FRAME_FILE_H
 #define SIM_VEHICLE_FRAME_FILE_H
 

@@ -1,20 +1,8 @@
 // model_file.h - vehicle files (sim/vehicle/vehicles/*.toml).
 //
-//   name = "..."            and the numbers mass_kg, rotor_radius_m, motor_tau_s, thrust_min_N, thrust_max_N
-//   ceiling_m = 0.5         left out: no ceiling
-//   wall_y_m = 1.0          left out: no wall that the workflow could find an effect of
-//   floor_rise_x = 0.087    and floor_rise_y: how steeply the floor rises along x and y; left out: level
-//   [thrust_map]            left out: commands are newton
-//   kind = "stand"          five numbers c = [...]; or "volt_cubic", "pwm_cubic" (four), "speed" (three; k
-//   w^2
-//                           is c = [0, 0, k]): see plant/thrust_map.h
-//   [body] [rotors] [battery]   see vehicle/frame_file.h; left out: a Crazyflie scaled to mass and radius, no
-//   battery
-//   [controller]            who flew its logs: pilots/controller_file.h reads it; left out: not known
-//   [[effect]]              any number of them
-//   name = "ceiling"        form = "..." where the effect has forms, and its parameters by name;
-//                           form "table": file = "FILE.csv" (from the vehicle file's folder), or the lists
-//                           distance_over_radius = [...] and ratio = [...]
+// Every key, its unit and what it is where it is left out: README.md. Of [thrust_map] see plant/thrust_map.h,
+// of [body], [rotors], [battery] and the ranges vehicle/frame_file.h, of [controller]
+// pilots/controller_file.h.
 #ifndef SIM_VEHICLE_MODEL_FILE_H
 #define SIM_VEHICLE_MODEL_FILE_H
 

@@ -10,6 +10,8 @@ from pathlib import Path
 C_LINES, PYTHON_LINES, FUNCTION_LINES, COLUMNS = 400, 250, 40, 125
 TOPS = ("include", "src", "sim", "test", "tools")
 READING_RULE = re.compile(r"^\|.*\| `([a-z0-9_]+)` \|$", re.M)
+KEY_FILES = ("sim/vehicle/model_file.c", "sim/vehicle/frame_file.c", "sim/pilots/controller_file.c")
+KEYS = re.compile(r"const char \*const (?:keys|ROOT_KEYS)\[\] = \{(.*?)\}", re.S)
 OF_CONSTANTS = re.compile(r"^// test: (.*)$", re.M)
 
 
@@ -55,11 +57,25 @@ def of_tests() -> Iterator[str]:
                 yield f"{file} names the test {test}, which does not exist"
 
 
+def of_vehicle_files() -> Iterator[str]:
+    page = Path("sim/vehicle/README.md")
+    said = set(re.findall(r"`\[*(\w+)\]*`", page.read_text(encoding="utf-8")))
+    for name in KEY_FILES:
+        lists = KEYS.findall(Path(name).read_text(encoding="utf-8"))
+        keys = [key for one in lists for key in re.findall(r'"(\w+)"', one)]
+        if not keys:
+            yield f"{name}: no list of keys"
+        for key in keys:
+            if key not in said:
+                yield f"{page} says nothing of the key {key} of {name}"
+
+
 def complaints() -> Iterator[str]:
     for suffixes, rule in (((".c", ".h", ".cpp", ".hpp"), of_c), ((".py",), of_python)):
         for file in files(*suffixes):
             yield from rule(file, file.read_text(encoding="utf-8").splitlines())
     yield from of_tests()
+    yield from of_vehicle_files()
 
 
 if __name__ == "__main__":
