@@ -110,6 +110,7 @@ TEST(gap_names_a_hidden_drag_shows_it_and_writes_a_model_that_flies) {
   CHECK(program_run(GAP "--out $S/named --json $S/same.json $S/c?.csv", STREAM_OUTPUT, text, sizeof text) ==
         0);
   CHECK(strstr(text, "\nMissing in room.toml: rotor_drag.\n") != NULL);
+  CHECK(strstr(text, ", probability 0.999, p ") != NULL);
   CHECK(strstr(text, "held out: 1 of 3 flights\n") != NULL);
   cJSON *const v = verdict_read("named/verdict.json"), *const same = verdict_read("same.json");
   CHECK_TEXT(verdict_string(v, "verdict"), "named");
@@ -188,6 +189,19 @@ TEST(gap_cannot_tell_by_a_flight_too_short_for_each_turn_to_be_held_out) {
     CHECK((strstr(text, "These flights cannot tell what is missing") == NULL) == row[i].tells);
     CHECK(!strstr(text, "more is left than noise and feedback leave"));
   }
+}
+
+TEST(gap_notes_what_its_vehicle_file_does_not_say_first_of_all) {
+  char line[600], text[4000];
+  CHECK(gap_logs_fly("n", 2, NULL));
+  snprintf(line, sizeof line,
+           "%ssed '/^kf_Ns2/d; /^top_half_m/d' $S/room.toml >$S/lacks.toml; gap --vehicle $S/lacks.toml "
+           "--columns tools/columns/fly.toml $S/part.csv",
+           rows_of(6.0, 9.0, false));
+  CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(strstr(text,
+               "\n\nnote: lacks.toml does not say body.top_half_m, rotors.kf_Ns2: a Crazyflie's, scaled to "
+               "its mass and radius, are taken\n") != NULL);
 }
 
 // What is flown again takes the commands of the same time: behind a gap those of later would lift and sink.
