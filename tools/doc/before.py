@@ -1,4 +1,4 @@
-"""before.py - how fast the complete loop is beside an earlier commit of this repository: both in turns, the best of all turns."""
+"""before.py - the complete loop beside an earlier commit of this repository: both in turns, the best of all turns."""
 
 import os
 import re
