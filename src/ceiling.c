@@ -23,14 +23,14 @@ static unsigned at(const ceiling_t *s, unsigned ticks) {
 static float climb_since_m(const ceiling_t *s, float age_s) {
   const unsigned ticks = ticks_ago(s, age_s);
   float climb_m = 0.0f;
-  for (unsigned i = 0; ANY(i < ticks); i++) climb_m += EITHER(i < ticks, s->climbs_m[at(s, i)], 0.0f);
+  for (unsigned i = 0; ANY(i < ticks); i++) climb_m += EITHER(i < ticks, PICK(s->climbs_m, at(s, i)), 0.0f);
   return climb_m;
 }
 
 void ceiling_tilt(ceiling_t *s, float up) {
   for (int i = 0; i < CEILING_HISTORY && !s->tilt_known; i++) s->ups[i] = up;
   s->tilt_known = true;
-  s->ups[at(s, 0)] = up;
+  PLACE(s->ups, at(s, 0), up);
 }
 
 float ceiling_up(const ceiling_t *s, float age_s) {
@@ -44,10 +44,10 @@ static void set(ceiling_t *s, const ceiling_param_t *p, bool is, float zc_m) {
 }
 
 void ceiling_predict(ceiling_t *s, const ceiling_param_t *p, float climb_m) {
-  const float up = s->ups[at(s, 0)];
+  const float up = PICK(s->ups, at(s, 0));
   s->newest = (s->newest + 1) % CEILING_HISTORY;
-  s->climbs_m[s->newest] = climb_m;
-  s->ups[s->newest] = up;
+  PLACE(s->climbs_m, s->newest, climb_m);
+  PLACE(s->ups, s->newest, up);
   s->rival_m -= climb_m;
   s->blind_s += s->period_s;
   set(s, p, s->known, s->zc_m - climb_m);

@@ -31,23 +31,26 @@ void flyable_init(flyable_t *s) {
 
 static bool up(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
   const bool kept = (s->not_flyable & FLYABLE_UP) != 0;
-  s->steady_s = v3_within(rate, STILL_RADPS) ? f_clamp(s->steady_s + STEP_S, 0.0f, 1.0f) : 0.0f;
-  if (s->steady_s < STILL_S) return kept;
+  s->steady_s = EITHER(v3_within(rate, STILL_RADPS), f_clamp(s->steady_s + STEP_S, 0.0f, 1.0f), 0.0f);
+  const bool still = !(s->steady_s < STILL_S);
+  if (!ANY(still)) return kept;
   const v3_t wanted = quat_to_body(quat_unit(q), (v3_t){0.0f, 0.0f, GRAVITY_MPS2});
   const v3_t error = v3_sub(acc, wanted);
   // On its back on a table the estimate may agree: it cannot take off from there either.
   const bool wrong = v3_dot(error, error) > UP_MPS2 * UP_MPS2 || acc.z < UPRIGHT_MPS2;
-  s->wrong_s = wrong ? f_clamp(s->wrong_s + STEP_S, 0.0f, WRONG_S) : 0.0f;
-  return wrong && (kept || s->wrong_s >= WRONG_S);
+  const float wrong_s = EITHER(wrong, f_clamp(s->wrong_s + STEP_S, 0.0f, WRONG_S), 0.0f);
+  s->wrong_s = EITHER(still, wrong_s, s->wrong_s);
+  return EITHER(still, wrong && (kept || s->wrong_s >= WRONG_S), kept);
 }
 
 // About one axis: what the turn so far says; `kept` where it says nothing.
 static bool turn(flyable_turn_t *s, bool kept, float change, float explained) {
-  if (fabsf(explained) < TURNED_MPS2) return kept;
-  s->cross = FORGET * s->cross + change * explained;
-  s->square = FORGET * s->square + explained * explained;
-  if (s->square < ENOUGH) return kept;
-  return s->cross < EXPLAINED * s->square;
+  const bool turned = !(fabsf(explained) < TURNED_MPS2);
+  FOR_WHOM(turned, s) {
+    s->cross = FORGET * s->cross + change * explained;
+    s->square = FORGET * s->square + explained * explained;
+  }
+  return EITHER(turned && !(s->square < ENOUGH), s->cross < EXPLAINED * s->square, kept);
 }
 
 static bool jolted(v3_t acc) {
@@ -55,22 +58,27 @@ static bool jolted(v3_t acc) {
 }
 
 static void stands(flyable_t *s, unsigned reason, bool does) {
-  s->not_flyable = does ? s->not_flyable | reason : s->not_flyable & ~reason;
+  s->not_flyable = EITHER(does, s->not_flyable | reason, s->not_flyable & ~reason);
+}
+
+static void end_stretch(flyable_t *s, v3_t acc) {
+  s->stretch_ms = 0;
+  FOR_WHOM(!jolted(acc) && !jolted(s->acc_from), s) {
+    const v3_t change = v3_sub(acc, s->acc_from);
+    const bool was_x = (s->not_flyable & FLYABLE_TURN_X) != 0, was_y = (s->not_flyable & FLYABLE_TURN_Y) != 0;
+    stands(s, FLYABLE_TURN_X, turn(&s->turn_x, was_x, change.x, s->explained.x));
+    stands(s, FLYABLE_TURN_Y, turn(&s->turn_y, was_y, change.y, s->explained.y));
+  }
 }
 
 void flyable_step(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
   if (!v3_within(acc, BOUND_ACC_MPS2) || !v3_within(rate, RATE_MOST_RADPS) || !quat_plausible(q)) return;
   stands(s, FLYABLE_UP, up(s, acc, rate, q));
-  if (s->stretch_ms == 0) {
+  FOR_WHOM(s->stretch_ms == 0, s) {
     s->acc_from = acc;
     s->explained = (v3_t){0.0f, 0.0f, 0.0f};
   }
   s->explained = v3_sub(s->explained, v3_scale(STEP_S, v3_cross(rate, acc)));
-  if (++s->stretch_ms < STRETCH_MS) return;
-  s->stretch_ms = 0;
-  if (jolted(acc) || jolted(s->acc_from)) return;
-  const v3_t change = v3_sub(acc, s->acc_from);
-  const bool was_x = (s->not_flyable & FLYABLE_TURN_X) != 0, was_y = (s->not_flyable & FLYABLE_TURN_Y) != 0;
-  stands(s, FLYABLE_TURN_X, turn(&s->turn_x, was_x, change.x, s->explained.x));
-  stands(s, FLYABLE_TURN_Y, turn(&s->turn_y, was_y, change.y, s->explained.y));
+  s->stretch_ms++;
+  FOR_WHOM(!(s->stretch_ms < STRETCH_MS), s) end_stretch(s, acc);
 }

@@ -68,10 +68,11 @@ static bool no_room(const guard_t *g, const guard_param_t *p, const guard_in_t *
 
 // Slow mean of the thrust that carries, for when nothing better is known.
 static void learn_hover(guard_t *g, const guard_in_t *in) {
-  if (g->now != 0 || !in->carries) return;
   const float least = CARRYING_SHARE * in->weight_N;
-  if (!(g->hover_N > least)) g->hover_N = in->weight_N;
-  g->hover_N += HOVER_PER_MS * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - g->hover_N);
+  FOR_WHOM(g->now == 0 && in->carries, &g->hover_N) {
+    const float N = EITHER(g->hover_N > least, g->hover_N, in->weight_N);
+    g->hover_N = N + HOVER_PER_MS * (float)in->ms * (f_clamp(in->thrust_N, least, in->thrust_max_N) - N);
+  }
 }
 
 // What has flown is in the air until a floor carries it, however little thrust it gives: it may be falling.
@@ -85,9 +86,9 @@ static void find_airborne(guard_t *g, const guard_in_t *in) {
 // sees only one that needs no climb ends a retreat: the pilot who is told of more room than there is goes on
 // asking for more.
 static bool asks_for_another(const guard_t *g, const guard_in_t *in) {
-  if (!in->setpoint_good || !f_finite(in->asked_z_m)) return false;
-  if (g->unseen && in->asked_z_m > in->pos_w_m.z) return false;
-  return !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
+  return in->setpoint_good && f_finite(in->asked_z_m) &&
+         !(g->unseen && in->asked_z_m > in->pos_w_m.z) &&
+         !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
 }
 
 static void begin_retreat(guard_t *g, const guard_in_t *in) {
@@ -99,50 +100,56 @@ static void begin_retreat(guard_t *g, const guard_in_t *in) {
   g->unseen = (g->now & GUARD_RATIO) != 0;
 }
 
+static void retreat(guard_t *g, const guard_in_t *in) {
+  g->retreat_ms = judge_longer(g->retreat_ms, true, in->ms);
+  g->unseen = g->unseen || (g->now & GUARD_RATIO) != 0;
+  FOR_WHOM(g->quiet_ms > QUIET_MS && asks_for_another(g, in), &g->action) g->action = GUARD_FLY;
+}
+
+static void stay_or_retreat(guard_t *g, const guard_in_t *in) {
+  const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > GUARD_SETPOINT_DOWN_MS;
+  const bool was = g->action == GUARD_RETREAT, begins = !was && down && g->airborne;
+  g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
+  FOR_WHOM(!was && in->setpoint_good, &g->action) g->action = GUARD_FLY;
+  FOR_WHOM(!was && !in->setpoint_good, &g->action) g->action = GUARD_HOLD;
+  FOR_WHOM(was, g) retreat(g, in);
+  FOR_WHOM(begins, g) begin_retreat(g, in);
+}
+
 static void decide(guard_t *g, const guard_in_t *in) {
   const bool ends = ((g->now & GUARD_NOT_A_NUMBER) != 0 && g->bad_ms > (float)GUARD_NOT_A_NUMBER_ENDS_MS) ||
                     ((g->now & GUARD_GYRO_FROZEN) != 0 && g->rate_same_ms >= GUARD_GYRO_FROZEN_ENDS_MS) ||
                     g->tilt_ms > GUARD_TILT_ENDS_MS || g->vel_odd_ms > GUARD_VELOCITY_ENDS_MS;
-  if (ends && g->airborne) g->action = GUARD_HAND_OVER;
-  if (g->action == GUARD_HAND_OVER) {
-    g->handed_ms = judge_longer(g->handed_ms, true, in->ms);
-    return;
-  }
-  const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > GUARD_SETPOINT_DOWN_MS;
-  g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
-  if (g->action == GUARD_RETREAT) {
-    g->retreat_ms = judge_longer(g->retreat_ms, true, in->ms);
-    g->unseen = g->unseen || (g->now & GUARD_RATIO) != 0;
-    if (g->quiet_ms > QUIET_MS && asks_for_another(g, in)) g->action = GUARD_FLY;
-    return;
-  }
-  if (down && g->airborne)
-    begin_retreat(g, in);
-  else
-    g->action = in->setpoint_good ? GUARD_FLY : GUARD_HOLD;
+  FOR_WHOM(ends && g->airborne, &g->action) g->action = GUARD_HAND_OVER;
+  const bool handed = g->action == GUARD_HAND_OVER;
+  FOR_WHOM(handed, &g->handed_ms) g->handed_ms = judge_longer(g->handed_ms, true, in->ms);
+  FOR_WHOM(!handed, g) stay_or_retreat(g, in);
+}
+
+static unsigned judge(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
+  FOR_WHOM(!g->started, g) judge_begin(g, in);
+  g->started = true;
+  const unsigned of_motion = judge_motion(g, in);
+  return of_motion | judge_ceiling(g, p, in);
 }
 
 void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   find_airborne(g, in);
-  unsigned now = 0;
-  if (not_a_number(g, in)) {
-    now = (g->now & ~(unsigned)GUARD_SETPOINT) | GUARD_NOT_A_NUMBER;
-  } else {
-    if (!g->started) judge_begin(g, in);
-    g->started = true;
-    now |= judge_motion(g, in);
-    now |= judge_ceiling(g, p, in);
-  }
-  if (setpoint(g, in)) now |= GUARD_SETPOINT;
-  if (no_room(g, p, in)) {
-    now |= GUARD_NO_ROOM;
+  const bool bad = not_a_number(g, in);
+  unsigned judged = 0;
+  FOR_WHOM(!bad, g) judged = judge(g, p, in);
+  unsigned now = EITHER(bad, (g->now & ~(unsigned)GUARD_SETPOINT) | GUARD_NOT_A_NUMBER, judged);
+  now |= EITHER(setpoint(g, in), (unsigned)GUARD_SETPOINT, 0u);
+  const bool crammed = no_room(g, p, in);
+  now |= EITHER(crammed, (unsigned)GUARD_NO_ROOM, 0u);
+  FOR_WHOM(crammed, g) {
     g->action = GUARD_HAND_OVER;
     g->handed_ms = JUDGE_MS_MAX;
   }
   g->now = now;
   g->latched |= now;
   g->acc_lost = (now & GUARD_ACC_FROZEN) != 0 || g->acc_clip_ms > 0;
-  g->acc_bias_mps2 = in->find_bias || (now & GUARD_ACC_BIAS) ? g->bias_mps2 : 0.0f;
+  g->acc_bias_mps2 = EITHER(in->find_bias || (now & GUARD_ACC_BIAS) != 0, g->bias_mps2, 0.0f);
   learn_hover(g, in);
   decide(g, in);
 }
@@ -159,13 +166,13 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
 }
 
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N) {
-  if ((float)g->handed_ms > 1000.0f * p->cut_after_s) return 0.0f;
-  if ((g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0) return 0.0f;
-  return p->share * f_clamp(g->hover_N, HOVER_LEAST * weight_N, HOVER_MOST * weight_N);
+  const bool cut = (float)g->handed_ms > 1000.0f * p->cut_after_s ||
+                   (g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0;
+  return EITHER(cut, 0.0f, p->share * f_clamp(g->hover_N, HOVER_LEAST * weight_N, HOVER_MOST * weight_N));
 }
 
 float guard_settled_bias_mps2(const guard_t *g) {
-  return g->bias_s < JUDGE_SETTLED_S ? 0.0f : g->bias_mps2;
+  return EITHER(g->bias_s < JUDGE_SETTLED_S, 0.0f, g->bias_mps2);
 }
 
 void guard_give_bias(guard_t *g, float given_mps2) {

@@ -49,7 +49,7 @@
 
 // No sample that is a distance for too long, after a ceiling was near enough to need one.
 static bool range_lost(guard_t *g, const guard_in_t *in, bool distance) {
-  if (in->zc_known) g->near_seen = in->zc_m < NEAR_M && in->zc_m >= in->range_near_m;
+  g->near_seen = EITHER(in->zc_known, in->zc_m < NEAR_M && in->zc_m >= in->range_near_m, g->near_seen);
   g->range_ms = judge_longer(g->range_ms, !distance, in->ms);
   return g->near_seen && g->range_ms > GUARD_RANGE_LOST_LASTS_MS;
 }
@@ -179,12 +179,12 @@ unsigned judge_ceiling(guard_t *g, const guard_param_t *p, const guard_in_t *in)
   const bool distance =
       in->range_new && in->range_m >= CEILING_RANGE_MIN_M && in->range_m <= CEILING_RANGE_MAX_M;
   unsigned now = 0;
-  if (range_lost(g, in, distance)) now |= GUARD_RANGE_LOST;
-  if (blind(p, in)) now |= GUARD_BLIND;
-  if (range_odd(g, in, distance)) now |= GUARD_RANGE_ODD;
-  if (range_frozen(g, in, distance)) now |= GUARD_RANGE_FROZEN;
-  if (saturated(g, in)) now |= GUARD_SATURATED;
-  if (too_near(g, in)) now |= GUARD_TOO_NEAR;
-  if (ratio(g, in)) now |= GUARD_RATIO;
+  now |= EITHER(range_lost(g, in, distance), (unsigned)GUARD_RANGE_LOST, 0u);
+  now |= EITHER(blind(p, in), (unsigned)GUARD_BLIND, 0u);
+  now |= EITHER(range_odd(g, in, distance), (unsigned)GUARD_RANGE_ODD, 0u);
+  now |= EITHER(range_frozen(g, in, distance), (unsigned)GUARD_RANGE_FROZEN, 0u);
+  now |= EITHER(saturated(g, in), (unsigned)GUARD_SATURATED, 0u);
+  now |= EITHER(too_near(g, in), (unsigned)GUARD_TOO_NEAR, 0u);
+  now |= EITHER(ratio(g, in), (unsigned)GUARD_RATIO, 0u);
   return now;
 }

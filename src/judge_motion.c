@@ -47,25 +47,24 @@ static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   g->vel_raw = in->vel_w_mps;
   g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
   g->impact_ms = EITHER(v3_within(in->acc_b_mps2, IMPACT_MPS2), g->impact_ms - in->ms, IMPACT_MS);
-  if (g->impact_ms < 0) g->impact_ms = 0;
+  g->impact_ms = EITHER(g->impact_ms < 0, 0, g->impact_ms);
   g->vel_lost = (odd || g->vel_lost) && g->vel_calm_ms < GUARD_VELOCITY_GONE_MS && g->impact_ms == 0;
   g->vel_odd_ms = judge_longer(g->vel_odd_ms, g->vel_lost, in->ms);
-  if (!g->vel_lost) {
-    g->vel_w_mps = in->vel_w_mps;
-    return false;
+  FOR_WHOM(!g->vel_lost, &g->vel_w_mps) g->vel_w_mps = in->vel_w_mps;
+  FOR_WHOM(g->vel_lost, &g->vel_w_mps) {
+    const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
+    const float bias_mps2 = g->acc_bias_mps2 + in->bias_known_mps2;
+    g->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - bias_mps2);
   }
-  const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
-  const float bias_mps2 = g->acc_bias_mps2 + in->bias_known_mps2;
-  g->vel_w_mps.z += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2 - bias_mps2);
-  return true;
+  return g->vel_lost;
 }
 
 // A sensor that was alive and now gives the same bits is frozen. One that never was (a perfect one) is not.
 static bool frozen(int *same_ms, float *life, float changed, float least, int lasts_ms, int ms) {
   *same_ms = judge_longer(*same_ms, changed == 0.0f, ms);
-  if (*same_ms >= lasts_ms && *life > least) return true;
-  if (*same_ms < lasts_ms) *life += LIFE_SHARE * (changed - *life);
-  return false;
+  const bool lasts = *same_ms >= lasts_ms;
+  *life = EITHER(lasts, *life, *life + LIFE_SHARE * (changed - *life));
+  return lasts && *life > least;
 }
 
 static bool gyro_frozen(guard_t *g, const guard_in_t *in) {
@@ -81,12 +80,10 @@ static bool acc_frozen(guard_t *g, const guard_in_t *in) {
 }
 
 static bool acc_clipped(guard_t *g, const guard_in_t *in) {
-  if (!v3_within(in->acc_b_mps2, ACC_CLIP_MPS2)) {
-    g->acc_clip_ms = CLIP_MEMORY_MS;
-    return true;
-  }
-  if (g->acc_clip_ms > 0) g->acc_clip_ms -= in->ms < g->acc_clip_ms ? in->ms : g->acc_clip_ms;
-  return false;
+  const bool clipped = !v3_within(in->acc_b_mps2, ACC_CLIP_MPS2);
+  const int left_ms = EITHER(in->ms < g->acc_clip_ms, g->acc_clip_ms - in->ms, 0);
+  g->acc_clip_ms = EITHER(clipped, CLIP_MEMORY_MS, EITHER(g->acc_clip_ms > 0, left_ms, g->acc_clip_ms));
+  return clipped;
 }
 
 static bool tilt(guard_t *g, const guard_in_t *in, quat_t q_wb) {
@@ -95,23 +92,25 @@ static bool tilt(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   return tilted;
 }
 
-// What the vertical acceleration says against the change of the estimated climb is the accelerometer's error.
-// Only steps of it are found here, as the mean since the step; what is left is the outer loop's.
-static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float dt) {
-  const float rest = error_mps2 - g->bias_mps2 - in->bias_known_mps2;
-  if (!(fabsf(rest) <= REST_MAX_MPS2)) { // a bit flipped, of one of them
-    g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
-    return;
-  }
-  if (!(fabsf(g->bias_fast_mps2) <= REST_MAX_MPS2)) g->bias_fast_mps2 = 0.0f;
+static void follow_bias(guard_t *g, float rest, float dt) {
+  FOR_WHOM(!(fabsf(g->bias_fast_mps2) <= REST_MAX_MPS2), g) g->bias_fast_mps2 = 0.0f;
   g->bias_fast_mps2 += f_clamp(dt / BIAS_FAST_S, 0.0f, 1.0f) * (rest - g->bias_fast_mps2);
-  if (fabsf(g->bias_fast_mps2) > BIAS_STEP_MPS2) {
+  FOR_WHOM(fabsf(g->bias_fast_mps2) > BIAS_STEP_MPS2, g) {
     g->bias_mps2 += g->bias_fast_mps2;
     g->bias_fast_mps2 = 0.0f;
     g->bias_s = BIAS_FAST_S;
   }
-  if (g->bias_s < BIAS_SLOW_S) g->bias_mps2 += f_clamp(dt / f_max(g->bias_s, BIAS_FAST_S), 0.0f, 1.0f) * rest;
-  if (g->bias_s < JUDGE_SETTLED_S) g->bias_s += dt;
+  FOR_WHOM(g->bias_s < BIAS_SLOW_S, g) {
+    g->bias_mps2 += f_clamp(dt / f_max(g->bias_s, BIAS_FAST_S), 0.0f, 1.0f) * rest;
+  }
+  FOR_WHOM(g->bias_s < JUDGE_SETTLED_S, g) g->bias_s += dt;
+}
+
+// What the vertical acceleration says against the change of the estimated climb is the accelerometer's error.
+// Only steps of it are found here, as the mean since the step; what is left is the outer loop's.
+static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float dt) {
+  const float rest = error_mps2 - g->bias_mps2 - in->bias_known_mps2;
+  FOR_WHOM(fabsf(rest) <= REST_MAX_MPS2, g) follow_bias(g, rest, dt); // else a bit flipped, of one of them
   g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
 }
 
@@ -122,21 +121,23 @@ static void begin_window(guard_t *g) {
 }
 
 static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
-  const bool kept = (g->now & GUARD_ACC_BIAS) != 0;
-  if (g->window_ms < 0) begin_window(g); // its sign flipped: it would not end in days
-  if (g->acc_lost || g->acc_clip_ms > 0) {
-    begin_window(g);
-    return kept;
+  const bool kept = (g->now & GUARD_ACC_BIAS) != 0, lost = g->acc_lost || g->acc_clip_ms > 0;
+  // Below 0 its sign flipped: it would not end in days.
+  FOR_WHOM(lost || g->window_ms < 0, g) begin_window(g);
+  FOR_WHOM(!lost, g) {
+    const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
+    g->window_mps += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2);
+    g->window_ms += in->ms;
   }
-  const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);
-  g->window_mps += 1e-3f * (float)in->ms * (force.z - GRAVITY_MPS2);
-  g->window_ms += in->ms;
-  if (g->window_ms < BIAS_MS) return kept;
-  const float dt = 1e-3f * (float)g->window_ms;
-  const float error = (g->window_mps - (g->vel_w_mps.z - g->window_vel_mps)) / dt;
-  find_bias(g, in, f_clamp(error, -BIAS_MAX_MPS2, BIAS_MAX_MPS2), dt);
-  begin_window(g);
-  return fabsf(g->bias_mps2 + in->bias_known_mps2) > (kept ? BIAS_KEPT : 1.0f) * BIAS_MPS2;
+  const bool full = !lost && g->window_ms >= BIAS_MS;
+  FOR_WHOM(full, g) {
+    const float dt = 1e-3f * (float)g->window_ms;
+    const float error = (g->window_mps - (g->vel_w_mps.z - g->window_vel_mps)) / dt;
+    find_bias(g, in, f_clamp(error, -BIAS_MAX_MPS2, BIAS_MAX_MPS2), dt);
+    begin_window(g);
+  }
+  const float bias_mps2 = fabsf(g->bias_mps2 + in->bias_known_mps2);
+  return EITHER(full, bias_mps2 > EITHER(kept, BIAS_KEPT, 1.0f) * BIAS_MPS2, kept);
 }
 
 static bool height_lost(guard_t *g, const guard_in_t *in) {
@@ -155,12 +156,12 @@ void judge_begin(guard_t *g, const guard_in_t *in) {
 unsigned judge_motion(guard_t *g, const guard_in_t *in) {
   const quat_t q_wb = quat_unit(in->q_wb);
   unsigned now = 0;
-  if (velocity(g, in, q_wb)) now |= GUARD_VELOCITY;
-  if (gyro_frozen(g, in)) now |= GUARD_GYRO_FROZEN;
-  if (acc_frozen(g, in)) now |= GUARD_ACC_FROZEN;
-  if (acc_clipped(g, in)) now |= GUARD_ACC_CLIPPED;
-  if (tilt(g, in, q_wb)) now |= GUARD_TILT;
-  if (acc_bias(g, in, q_wb)) now |= GUARD_ACC_BIAS;
-  if (height_lost(g, in)) now |= GUARD_HEIGHT_LOST;
+  now |= EITHER(velocity(g, in, q_wb), (unsigned)GUARD_VELOCITY, 0u);
+  now |= EITHER(gyro_frozen(g, in), (unsigned)GUARD_GYRO_FROZEN, 0u);
+  now |= EITHER(acc_frozen(g, in), (unsigned)GUARD_ACC_FROZEN, 0u);
+  now |= EITHER(acc_clipped(g, in), (unsigned)GUARD_ACC_CLIPPED, 0u);
+  now |= EITHER(tilt(g, in, q_wb), (unsigned)GUARD_TILT, 0u);
+  now |= EITHER(acc_bias(g, in, q_wb), (unsigned)GUARD_ACC_BIAS, 0u);
+  now |= EITHER(height_lost(g, in), (unsigned)GUARD_HEIGHT_LOST, 0u);
   return now;
 }

@@ -144,9 +144,12 @@ static status_t find_bias(outer_t *f, const outer_in_t *in, v3_t acc_w_mps2) {
 }
 
 float outer_take_bias(outer_t *f, float more_mps2) {
-  if (!f->started || !(f->param.bias.pole_radps > 0.0f)) return 0.0f;
-  const float taken_mps2 = bias_take(&f->bias, &f->param.bias, more_mps2);
-  if (taken_mps2 != 0.0f) sync_shift_acc(&f->sync, taken_mps2); // at its bound nothing is left to do
+  const bool takes = f->started && f->param.bias.pole_radps > 0.0f && more_mps2 != 0.0f;
+  if (!ANY(takes)) return 0.0f;
+  float taken_mps2 = 0.0f;
+  FOR_WHOM(takes, &f->bias) taken_mps2 = bias_take(&f->bias, &f->param.bias, more_mps2);
+  taken_mps2 = EITHER(takes, taken_mps2, 0.0f); // at its bound nothing is left to do
+  FOR_WHOM(taken_mps2 != 0.0f, &f->sync) sync_shift_acc(&f->sync, taken_mps2);
   return taken_mps2;
 }
 

@@ -102,11 +102,12 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
   if (fabsf(z_m) <= BOUND_POS_M && fabsf(in->vel_w_mps.z) <= BOUND_VEL_MPS) {
     const float dz_m = z_m - f->height_m;
     const float most_m = BOUND_HEIGHT_JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
-    const bool jumped = f->height_seen && fabsf(dz_m) > most_m;
-    if (jumped && fabsf(f->height_m) <= BOUND_POS_M) { // else a bit of that flipped
+    // Else a bit of that flipped.
+    const bool jumped = f->height_seen && fabsf(dz_m) > most_m && fabsf(f->height_m) <= BOUND_POS_M;
+    FOR_WHOM(jumped, &f->height_off_m) {
       f->height_off_m = f_clamp(f->height_off_m + dz_m, -2.0f * BOUND_POS_M, 2.0f * BOUND_POS_M);
-      f->guard.latched |= GUARD_HEIGHT_JUMP;
     }
+    f->guard.latched |= EITHER(jumped, (unsigned)GUARD_HEIGHT_JUMP, 0u);
     f->height_m = z_m;
     f->height_seen = true;
   }
@@ -116,8 +117,8 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
 // Field by field: what is zeroed first takes a sixth of the millisecond's instructions.
 static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms, bool setpoint_good) {
   const outer_t *o = &f->outer;
-  float top_m = o->out.ceiling_z_m - f->outer.param.gap_min_m, z_m = in->setpoint.pos_w_m.z;
-  if (z_m > top_m) z_m = top_m;
+  const float top_m = o->out.ceiling_z_m - f->outer.param.gap_min_m, asked_m = in->setpoint.pos_w_m.z;
+  const float z_m = EITHER(asked_m > top_m, top_m, asked_m);
   g->ms = ms;
   g->wanted = in->setpoint.z != AXIS_OFF && !f->by_hand.held;
   g->carries = in->setpoint.z != AXIS_OFF && o->carrying_s > 0.0f;
@@ -145,25 +146,28 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->thrust_now_N = o->sample.thrust_N;
   g->force_new = (f->due & FLIGHT_LEARN) != 0; // not in the outer loop's own call, which costs the most
   g->bias_known_mps2 = o->bias.bias_mps2.z;
-  g->asked_z_m = in->setpoint.z == AXIS_POSITION ? in->setpoint.pos_w_m.z : NAN;
-  g->setpoint_z_m = in->setpoint.z == AXIS_POSITION ? z_m : NAN;
+  const bool by_height = in->setpoint.z == AXIS_POSITION;
+  g->asked_z_m = EITHER(by_height, asked_m, NAN);
+  g->setpoint_z_m = EITHER(by_height, z_m, NAN);
 }
 
 // Two who hold each a part of the accelerometer's bias would keep parts that cancel: what has settled is the
 // outer loop's.
 static void hand_bias_over(flight_t *f) {
   const float settled_mps2 = guard_settled_bias_mps2(&f->guard);
-  if (settled_mps2 != 0.0f) guard_give_bias(&f->guard, outer_take_bias(&f->outer, settled_mps2));
+  if (ANY(settled_mps2 != 0.0f)) guard_give_bias(&f->guard, outer_take_bias(&f->outer, settled_mps2));
 }
 
 // Without an accelerometer: what the thrust that the motors give does, with the bias that the outer loop will
 // take off.
 static void mend_acceleration(const flight_t *f, flight_in_t *in) {
   const guard_t *g = &f->guard;
-  if (g->acc_lost && g->hover_N > 0.0f) {
+  const bool lost = g->acc_lost && g->hover_N > 0.0f;
+  FOR_WHOM(lost, &in->acc_b_mps2) {
     const v3_t model = {0.0f, 0.0f, GRAVITY_MPS2 * f->outer.sync.thrust.model_N / g->hover_N};
     in->acc_b_mps2 = v3_add(model, quat_to_body(quat_unit(in->q_wb), f->outer.bias.bias_mps2));
-  } else if (g->acc_bias_mps2 != 0.0f) {
+  }
+  FOR_WHOM(!lost && g->acc_bias_mps2 != 0.0f, &in->acc_b_mps2) {
     const v3_t bias_b = quat_to_body(quat_unit(in->q_wb), (v3_t){0.0f, 0.0f, g->acc_bias_mps2});
     in->acc_b_mps2 = v3_sub(in->acc_b_mps2, bias_b);
   }
@@ -226,8 +230,8 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   see(&guard_in, f, in, ms, good);
   guard_step(&f->guard, &f->outer.param.guard, &guard_in);
   hand_bias_over(f);
-  if (f->guard.vel_lost) in->vel_w_mps = f->guard.vel_w_mps;
+  FOR_WHOM(f->guard.vel_lost, &in->vel_w_mps) in->vel_w_mps = f->guard.vel_w_mps;
   mend_acceleration(f, in);
-  if (in->range_m < CEILING_RANGE_MIN_M) in->range_m = 0.0f; // "no sample"
+  in->range_m = EITHER(in->range_m < CEILING_RANGE_MIN_M, 0.0f, in->range_m); // "no sample"
   set_what_flies(f, in);
 }

@@ -28,9 +28,15 @@ typedef struct {
 #ifndef ANY
 #define ANY(holds) (holds)
 #endif
+// What follows is done where it holds. It changes *state and what it makes itself, nothing else: of several
+// vehicles the state of the others stays.
+#ifndef FOR_WHOM
+#define FOR_WHOM(holds, state) if (holds)
+#endif
 // Element i, which may be another one for each of them.
 #ifndef PICK
-#define PICK(list, i) ((list)[i])
+#define PICK(list, i)         ((list)[i])
+#define PLACE(list, i, value) ((list)[i] = (value))
 #endif
 
 // False for NaN and both infinities.

@@ -109,6 +109,9 @@ requires(!plain<T>) LANE T lanes_of(T a) {
 }
 // Element i of a list, of each lane its own.
 template <typename T, bool A> LANE T lanes_pick(const T *list, lane_whole_t<A> i) {
+  const unsigned first = (unsigned)i.v[0];
+  if (lane_flag_t(i == lane_whole_t<A>(first)).bits() == (1u << LANES) - 1) [[likely]]
+    return list[first];
   typedef std::conditional_t<sizeof(T) == 64, plain_double, uint32_t> one_t;
   alignas(32) one_t of[LANES];
   alignas(32) uint32_t at[LANES];
@@ -119,9 +122,52 @@ template <typename T, bool A> LANE T lanes_pick(const T *list, lane_whole_t<A> i
   memcpy(&t, of, sizeof t);
   return t;
 }
-#define PICK(list, i)       lanes_pick(list, i)
+template <bool A> LANE void lanes_place(lane_float_t *list, lane_whole_t<A> i, lane_float_t value) {
+  alignas(32) uint32_t at[LANES];
+  memcpy(at, &i, sizeof at);
+  for (int k = 0; k < LANES; k++)
+    memcpy((char *)&list[at[k]] + (size_t)k * sizeof at[k], (const char *)&value + (size_t)k * sizeof at[k],
+           sizeof at[k]);
+}
+#define PICK(list, i)         lanes_pick(list, i)
+#define PLACE(list, i, value) lanes_place(list, i, value)
 #define ANY(holds)          ((lane_flag_t(holds).bits() & lanes_in) != 0)
 #define EITHER(holds, a, b) either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
+
+// The numbers of the lanes `of` are again what they were. All are of 32 bits.
+typedef uwords_t any_words_t __attribute__((may_alias));
+inline __attribute__((noinline)) void lanes_undo(unsigned of, void *now, const void *was, size_t bytes) {
+  const uwords_t bit = {1, 2, 4, 8, 16, 32, 64, 128}, back = (uwords_t)((bit & of) != 0);
+  any_words_t *const to = (any_words_t *)now;
+  const any_words_t *const from = (const any_words_t *)was;
+  for (size_t i = 0; i < bytes / sizeof *to; i++) to[i] = (from[i] & back) | (to[i] & ~back);
+}
+// What is done to a state where it holds. Who parts meanwhile has left, as anywhere.
+template <typename T> struct lanes_some_t {
+  T *state;
+  unsigned in, say;
+  bool todo;
+  T was;
+  LANE lanes_some_t(lane_flag_t holds, T *of) : state(of), in(lanes_in), say(holds.bits() & in), todo(say != 0) {
+    static_assert(sizeof(T) % sizeof(words_t) == 0);
+    if (!todo || say == in) [[likely]]
+      return;
+    memcpy((void *)&was, of, sizeof was);
+    lanes_in = say;
+  }
+  LANE ~lanes_some_t() {
+    if (say == 0 || say == in) [[likely]]
+      return;
+    lanes_undo(~say, state, &was, sizeof was);
+    lanes_in |= in & ~say;
+  }
+  LANE bool once() {
+    const bool now = todo;
+    todo = false;
+    return now;
+  }
+};
+#define FOR_WHOM(holds, state) for (lanes_some_t some_(lane_flag_t(holds), state); some_.once();)
 
 template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_double_t b) {
   return either(holds, a, b);

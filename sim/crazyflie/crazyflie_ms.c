@@ -209,7 +209,7 @@ PAIR_COPIES void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor
   else
     take_order(c, &in->set);
   const bool may = supervised_can_fly(&c->supervised);
-  if (!may) c->setpoint = (setpoint_t){.timestamp = 0};
+  FOR_WHOM(!may, &c->setpoint) c->setpoint = (setpoint_t){.timestamp = 0};
   if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
   const bool overridden = override(&c->supervised, &c->setpoint);
   c->ordered = !c->command && may && !overridden; // else it is made anew
