@@ -122,11 +122,10 @@ static bool may_learn(const flight_t *f) {
 }
 
 // One lesson a period. In what the ceiling learns from the ground's share must be known.
-static APART void run_lesson(flight_t *f) {
-  if (f->ground.turn)
-    count(f, ground_learn(&f->ground, &f->outer.param.learn));
-  else if (f->outer.param.ground.mode == CURVE_OFF || f->ground.known)
-    outer_learn(&f->outer);
+static APART void run_lesson(flight_t *f, bool may) {
+  const bool of_ground = f->ground.turn, known = f->outer.param.ground.mode == CURVE_OFF || f->ground.known;
+  FOR_WHOM(may && of_ground, f) count(f, ground_learn(&f->ground, &f->outer.param.learn));
+  FOR_WHOM(may && !of_ground && known, &f->outer) outer_learn(&f->outer);
 }
 
 static bool ground_may_learn(const flight_t *f) {
@@ -283,7 +282,7 @@ static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   if (f->due & FLIGHT_OUTER) run_outer(f, in);
   if (f->due == FLIGHT_OUTER) return; // most often; and it costs the most
   if (f->due & FLIGHT_HEIGHT) run_height(f, in, raw);
-  if ((f->due & FLIGHT_LEARN) && may_learn(f)) run_lesson(f);
+  if (f->due & FLIGHT_LEARN) run_lesson(f, may_learn(f));
   if (f->due & FLIGHT_GROUND) run_ground(f);
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }

@@ -30,15 +30,20 @@ static bool usable(const learn_param_t *p, const learn_sample_t *x) {
          x->force_N <= p->y_max * x->thrust_N && x->thrust_N <= FLT_MAX;
 }
 
-status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample, float excess) {
-  if (!usable(p, sample)) {
-    if (s->refused < UINT_MAX) s->refused++;
-    return ST_SAMPLE_REFUSED;
-  }
+static status_t teach(learn_t *s, const learn_param_t *p, const learn_sample_t *sample, float excess) {
   float basis[RBF_N];
   rbf_basis(sample->zc_m, basis);
   const float y = sample->force_N / sample->thrust_N - excess;
   TRY(rls_update(&s->rls, &p->rls, basis, y));
   s->y = y;
   return ST_OK;
+}
+
+status_t learn_update(learn_t *s, const learn_param_t *p, const learn_sample_t *sample, float excess) {
+  const bool good = usable(p, sample);
+  status_t status = ST_OK;
+  FOR_WHOM(good, s) status = teach(s, p, sample, excess);
+  FOR_WHOM(!good, &status) status = ST_SAMPLE_REFUSED;
+  FOR_WHOM(!good && s->refused < UINT_MAX, &s->refused) s->refused++;
+  return status;
 }

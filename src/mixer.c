@@ -19,7 +19,7 @@ mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N) 
   const float yaw_N = f_bound(torque_b_Nm.z / (4.0f * p->yaw_m), ASKED_MAX_N);
   // Of roll and pitch the extremes are +-(|roll| + |pitch|): their span must fit between 0 and max.
   const float half_span = fabsf(roll) + fabsf(pitch);
-  const float tilt_share = 2.0f * half_span > max ? max / (2.0f * half_span) : 1.0f;
+  const float tilt_share = EITHER(2.0f * half_span > max, max / (2.0f * half_span), 1.0f);
   const float span = tilt_share * half_span;
   const float lift = f_clamp(0.25f * thrust_N, span, max - span);
 

@@ -55,7 +55,9 @@ status_t outer_take(outer_t *f, const flight_param_t *p) {
 }
 
 static void count(outer_t *f, status_t status) {
-  if (status != ST_OK && f->faults[status] < UINT_MAX) f->faults[status]++;
+  FOR_WHOM(status != ST_OK, &f->faults) {
+    if (f->faults[status] < UINT_MAX) f->faults[status]++;
+  }
 }
 
 status_t outer_tune(outer_t *f, const flight_param_t *p) {

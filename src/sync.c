@@ -35,7 +35,8 @@ void sync_start(sync_t *s, const sync_in_t *in) {
 
 bool sync_good(const sync_t *s) {
   float sum = thrust_sum(&s->thrust);
-  if (s->distance_known) sum += lpf2_sum(&s->distance); // else nothing steps it, and it starts afresh
+  // Else nothing steps it, and it starts afresh.
+  sum = EITHER(s->distance_known, sum + lpf2_sum(&s->distance), sum);
   for (int i = 0; i < 3; i++) sum += lpf2_sum(&s->acc_w[i]);
   for (int i = 0; i < 4; i++) sum += lpf2_sum(&s->att[i]);
   return fabsf(sum) <= STATE_MAX;
@@ -65,7 +66,9 @@ void sync_shift_acc(sync_t *s, float by_mps2) {
 }
 
 float sync_distance_m(sync_t *s, const sync_coef_t *c, bool known, float distance_m) {
-  if (known && !s->distance_known) lpf2_reset(&s->distance, distance_m);
+  FOR_WHOM(known && !s->distance_known, &s->distance) lpf2_reset(&s->distance, distance_m);
   s->distance_known = known;
-  return known ? lpf2_step(&s->distance, &c->filter, distance_m) : distance_m;
+  float filtered_m = distance_m;
+  FOR_WHOM(known, &s->distance) filtered_m = lpf2_step(&s->distance, &c->filter, distance_m);
+  return EITHER(known, filtered_m, distance_m);
 }

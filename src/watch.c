@@ -176,13 +176,14 @@ static void mend_acceleration(const flight_t *f, flight_in_t *in) {
 static void set_what_flies(const flight_t *f, flight_in_t *in) {
   const guard_t *g = &f->guard;
   flight_setpoint_t *const sp = &in->setpoint;
-  if (g->action == GUARD_RETREAT) {
+  FOR_WHOM(g->action == GUARD_RETREAT, sp) {
     sp->x = sp->y = sp->z = AXIS_POSITION;
     sp->pos_w_m = g->hold_w_m;
     sp->pos_w_m.z = guard_retreat_z_m(g, &f->outer.param.guard, in->pos_w_m.z, f->outer.out.ceiling_z_m,
                                       f->outer.param.pos.kp_z_per_s);
     sp->vel_mps = sp->acc_w_mps2 = (v3_t){0.0f, 0.0f, 0.0f};
-  } else if (g->action == GUARD_HAND_OVER) {
+  }
+  FOR_WHOM(g->action == GUARD_HAND_OVER, sp) {
     *sp = (flight_setpoint_t){.yaw = YAW_RATE};
     sp->thrust_N = guard_thrust_N(g, &f->outer.param.guard, f->outer.param.pos.mass_kg * GRAVITY_MPS2);
   }

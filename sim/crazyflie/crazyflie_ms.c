@@ -155,17 +155,16 @@ static void supervise(crazyflie_t *c) {
 
 // Whether it changed anything.
 static bool override(const supervised_t *s, setpoint_t *set) {
-  if (s->state == SUPERVISED_LEVEL_OUT) {
+  const bool levels = s->state == SUPERVISED_LEVEL_OUT, stops = !levels && !supervised_motors_run(s);
+  FOR_WHOM(levels, set) {
     set->mode.x = set->mode.y = modeDisable;
     set->mode.roll = set->mode.pitch = modeAbs;
     set->mode.yaw = modeVelocity;
     set->attitude.roll = set->attitude.pitch = 0.0f;
     set->attitudeRate.yaw = 0.0f;
-    return true;
   }
-  if (supervised_motors_run(s)) return false;
-  *set = (setpoint_t){.thrust = 0.0f};
-  return true;
+  FOR_WHOM(stops, set) *set = (setpoint_t){.thrust = 0.0f};
+  return levels || stops;
 }
 
 static void fly(crazyflie_t *c, const pilot_in_t *in) {
@@ -210,7 +209,7 @@ PAIR_COPIES void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor
     take_order(c, &in->set);
   const bool may = supervised_can_fly(&c->supervised);
   FOR_WHOM(!may, &c->setpoint) c->setpoint = (setpoint_t){.timestamp = 0};
-  if (in->step % SUPERVISED_PERIOD_MS == 0) supervise(c);
+  FOR_WHOM(in->step % SUPERVISED_PERIOD_MS == 0, &c->supervised) supervise(c);
   const bool overridden = override(&c->supervised, &c->setpoint);
   c->ordered = !c->command && may && !overridden; // else it is made anew
   c->around.can_fly = supervised_can_fly(&c->supervised);

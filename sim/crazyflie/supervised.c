@@ -82,14 +82,11 @@ static supervised_state_t next(supervised_state_t state, unsigned now) {
 // Tilted for a while, or upside down for a moment. To fall is to fly.
 static bool tumbles(supervised_t *s, const supervised_in_t *in) {
   const float *const g = in->acc_g;
-  if (fabsf(g[0]) < FREE_FALL_G && fabsf(g[1]) < FREE_FALL_G && fabsf(g[2]) < FREE_FALL_G) s->tilted_ms = 0;
-  if (!(g[2] < TILTED_G)) {
-    s->tilted_ms = 0;
-    return false;
-  }
-  if (s->tilted_ms == 0) s->tilted_ms = in->now_ms;
+  const bool falls = fabsf(g[0]) < FREE_FALL_G && fabsf(g[1]) < FREE_FALL_G && fabsf(g[2]) < FREE_FALL_G;
+  const bool tilted = g[2] < TILTED_G, begins = falls || s->tilted_ms == 0;
+  s->tilted_ms = EITHER(tilted, EITHER(begins, in->now_ms, s->tilted_ms), (uint32_t)0);
   const uint32_t since_ms = in->now_ms - s->tilted_ms;
-  return since_ms > (g[2] < UPSIDE_DOWN_G ? UPSIDE_DOWN_MS : TILTED_MS);
+  return tilted && since_ms > EITHER(g[2] < UPSIDE_DOWN_G, UPSIDE_DOWN_MS, TILTED_MS);
 }
 
 static unsigned when(bool condition, unsigned bit) {
