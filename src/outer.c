@@ -206,13 +206,14 @@ static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_setpoint_t *sp = &in->setpoint;
   wanted_t w = {.acc_mps2 = pos_indi_wanted_acc(p, sp, in->pos_w_m, vel_mps),
                 .climb_mps = sp->vel_w_mps.z + p->kp_z_per_s * (sp->pos_w_m.z - in->pos_w_m.z)};
-  if (!f_finite(f->hold.ceiling_z_m)) return w;
+  const bool limited = f_finite(f->hold.ceiling_z_m);
+  if (!ANY(limited)) return w;
   const float limit_m = f->hold.ceiling_z_m - f->gap_min_m;
   const float beyond_m = f_clamp(sp->pos_w_m.z - limit_m, 0.0f, OUTER_CLIP_M);
   const float climb_mps = p->kp_z_per_s * (limit_m - beyond_m - in->pos_w_m.z);
   const float most_mps2 = f_max(p->kd_z_per_s * (climb_mps - vel_mps.z), -p->acc_max_mps2);
-  w.acc_mps2.z = f_min(w.acc_mps2.z, most_mps2);
-  w.climb_mps = f_min(w.climb_mps, climb_mps);
+  w.acc_mps2.z = EITHER(limited, f_min(w.acc_mps2.z, most_mps2), w.acc_mps2.z);
+  w.climb_mps = EITHER(limited, f_min(w.climb_mps, climb_mps), w.climb_mps);
   return w;
 }
 

@@ -17,6 +17,12 @@ typedef int alike_t;
 #define ANY(holds) (holds)
 #endif
 
+// What follows is done where it holds. It changes *state, in which there is no double, and what it makes
+// itself, nothing else: of several vehicles the state of the others stays.
+#ifndef FOR_WHOM
+#define FOR_WHOM(holds, state) if (holds)
+#endif
+
 // Element i, which may be another one for each vehicle.
 #ifndef PICK
 #define PICK(list, i) ((list)[i])

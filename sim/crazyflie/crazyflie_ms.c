@@ -108,7 +108,9 @@ static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
 
 static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOTORS]) {
   double unit[PILOT_MOTORS] = {0.0}, duty[PILOT_MOTORS];
-  if (c->around.motors_allowed) distribute(&c->control, unit);
+  const bool allowed = c->around.motors_allowed;
+  if (ANY(allowed)) distribute(&c->control, unit);
+  for (int i = 0; i < PILOT_MOTORS; i++) unit[i] = EITHER(allowed, unit[i], 0.0);
   if (c->compensates)
     stock_power_duty(&c->power, &c->firmware, unit, in->vbat_V, duty);
   else

@@ -68,15 +68,21 @@ static const transition_t transitions[] = {
 };
 
 static bool holds(const transition_t *t, unsigned now) {
-  if (now & t->but) return false;
-  if (t->any || t->lacks) return (now & t->any) || (~now & t->lacks);
-  return (now & t->all) == t->all && !(now & t->none);
+  const bool one = (now & t->any) != 0 || (~now & t->lacks) != 0;
+  const bool all = (now & t->all) == t->all && (now & t->none) == 0;
+  return (now & t->but) == 0 && EITHER(t->any != 0 || t->lacks != 0, one, all);
 }
 
 static supervised_state_t next(supervised_state_t state, unsigned now) {
-  for (unsigned i = 0; i < sizeof transitions / sizeof *transitions; i++)
-    if (transitions[i].from == state && holds(&transitions[i], now)) return transitions[i].to;
-  return state;
+  supervised_state_t to = state;
+  bool found = false;
+  for (unsigned i = 0; i < sizeof transitions / sizeof *transitions; i++) {
+    const transition_t *const t = &transitions[i];
+    const bool first = !found && t->from == state && holds(t, now);
+    FOR_WHOM(first, &to) to = t->to;
+    found = found || first;
+  }
+  return to;
 }
 
 // Tilted for a while, or upside down for a moment. To fall is to fly.
@@ -108,9 +114,9 @@ static unsigned look(supervised_t *s, const supervised_param_t *p, const supervi
 
 static void enter(supervised_t *s, supervised_state_t state, uint32_t now_ms) {
   s->state = state;
-  if (state == SUPERVISED_READY) s->armed_ms = now_ms;
-  if (state == SUPERVISED_LANDED) s->landed_ms = now_ms;
-  if (state == SUPERVISED_CRASHED) s->crashed = true;
+  s->armed_ms = EITHER(state == SUPERVISED_READY, now_ms, s->armed_ms);
+  s->landed_ms = EITHER(state == SUPERVISED_LANDED, now_ms, s->landed_ms);
+  s->crashed = s->crashed || state == SUPERVISED_CRASHED;
   // It arms itself.
   s->armed = state == SUPERVISED_PASSED || (s->armed && supervised_motors_run(s));
 }
@@ -124,9 +130,9 @@ supervised_t supervised_begun(bool flies, uint32_t now_ms) {
 
 bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in) {
   const supervised_state_t to = next(s->state, look(s, p, in));
-  if (to == s->state) return false;
-  enter(s, to, in->now_ms);
-  return true;
+  const bool other = to != s->state;
+  FOR_WHOM(other, s) enter(s, to, in->now_ms);
+  return other;
 }
 
 bool supervised_arm(supervised_t *s, bool arm) {

@@ -75,8 +75,8 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   units_sensors(in, sensors, state);
   units_applied(in->force_N, control);
   battery_cap(in->force_N);
-  if (!supervisorAreMotorsAllowedToRun())
-    for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
+  const bool allowed = supervisorAreMotorsAllowedToRun();
+  for (int i = 0; i < MOTORS; i++) in->force_N[i] = EITHER(allowed, in->force_N[i], 0.0f);
   take_range(in, step);
   if (is_pilots()) units_setpoint(&in->setpoint, setpoint);
   if (GLUE.flight.phase == 1) take_rarely(in, setpoint);
@@ -85,7 +85,9 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
 
 // What contradicts itself before it flies does not fly; in flight it is the guard's to judge.
 static void judge_flyable(const flight_in_t *in) {
-  if (!supervisorIsFlying()) flyable_step(&GLUE.flyable, in->acc_b_mps2, in->rate_b_radps, in->q_wb);
+  FOR_WHOM(!supervisorIsFlying(), &GLUE.flyable) {
+    flyable_step(&GLUE.flyable, in->acc_b_mps2, in->rate_b_radps, in->q_wb);
+  }
 }
 
 // From one controller to the other over a second; at once while nobody flies.
