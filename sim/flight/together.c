@@ -174,8 +174,7 @@ static void move_rows(group_t *g, body_t *const bodies[LANES]) {
 static void move(group_t *g) {
   body_t *bodies[LANES] = {NULL};
   EACH(k, g->fly) bodies[k] = &g->job[k]->f->body;
-  // Somebody who edits looks at the body in each tick: then it is as well here.
-  if (g->vehicle == g->fly && !g->edited && abreast_again(g->bodies, bodies)) {
+  if (g->vehicle == g->fly && abreast_again(g->bodies, bodies)) {
     move_rows(g, bodies);
   } else {
     move_each(g, bodies);
