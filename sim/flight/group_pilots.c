@@ -115,7 +115,7 @@ static void look(group_t *g, unsigned of) {
   const unsigned in = of & g->vehicle;
   OF_EACH(app, in, &pilot_of(g, k)->vehicle->app);
   OF_EACH(motor_N, in, g->job[k]->f->motor_N);
-  woven_get_all(&g->woven, &g->woven.looked, app);
+  woven_get_looked(&g->woven, app);
   woven_get_all(&g->woven, weave_block(LANES_motors), motor_N);
   EACH(k, of) {
     const flight_loop_t *const f = g->job[k]->f;

@@ -24,6 +24,7 @@
 
 struct lanes_state {
   lanes::state_of_eight now, before;
+  lanes::glue_t looked;
   // What comes in in each, in turn: to sensors and estimator, and to the Crazyflie. `now` is in one of them.
   lanes::senses_drawn_t drawn[SLOTS];
   lanes::truth_t truth[SLOTS]; // of ticks
@@ -65,6 +66,10 @@ void *lanes_block(lanes_state_t *s, int i) {
 }
 const void *lanes_block_before(const lanes_state_t *s, int i) {
   return block(const_cast<state_of_eight *>(&s->before), i);
+}
+
+void *lanes_looked(lanes_state_t *s) {
+  return &s->looked;
 }
 
 // Parameters change between milliseconds alone (pilot_t.vehicle), and what was printed is nobody's number.
@@ -151,6 +156,7 @@ lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
 }
 void lanes_begin_anew(lanes_state_t *s) {
   memset((void *)s->drawn, 0, sizeof s->drawn); // nobody's by motion capture, for whom each is a copy
+  memcpy((void *)&s->looked, &s->now.vehicle.app, sizeof s->looked);
   s->senses = s->vehicle = SINCE;
   memset(s->set_of, 0, sizeof s->set_of);
   s->set_of[s->slot] = s->set = 1;
@@ -205,6 +211,9 @@ void *lanes_block(lanes_state_t *, int) {
   return nullptr;
 }
 const void *lanes_block_before(const lanes_state_t *, int) {
+  return nullptr;
+}
+void *lanes_looked(lanes_state_t *) {
   return nullptr;
 }
 lanes_since_t lanes_senses_since(const lanes_state_t *) {

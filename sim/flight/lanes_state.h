@@ -46,6 +46,9 @@ void lanes_step(lanes_state_t *s);
 void *lanes_block(lanes_state_t *s, int block);
 const void *lanes_block_before(const lanes_state_t *s, int block);
 
+// Where block `app` as it was looked at last is kept.
+void *lanes_looked(lanes_state_t *s);
+
 // What came in since, a block for each millisecond: what was drawn and what was true, or pilot_in_t.
 typedef struct {
   int ms;

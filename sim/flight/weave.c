@@ -194,19 +194,32 @@ void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]) 
   }
 }
 
+static void get_run_of_all(const weave_run_t *r, const char *from, void *const one[LANES]) {
+  char *to[LANES];
+  for (int k = 0; k < LANES; k++) to[k] = (char *)one[k] + r->one;
+  if (r->kind == LANE_64)
+    rows_get_64(r->n, from, to);
+  else if (r->kind == LANE_32)
+    rows_get_32(r->n, from, to);
+  else if (r->kind == LANE_FLAG)
+    rows_get_flags(r->n, from, to);
+  else
+    for (int k = 0; k < LANES; k++) get_run(r, from + (size_t)k * lane_bytes(r->kind), to[k]);
+}
+
 void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]) {
+  for (int i = 0; i < w->n; i++)
+    get_run_of_all(&w->run[i], (const char *)eight + w->run[i].eight, one);
+}
+
+void weave_get_changed(const weave_t *w, const void *eight, void *was, void *const one[LANES]) {
   for (int i = 0; i < w->n; i++) {
     const weave_run_t *const r = &w->run[i];
     const char *const from = (const char *)eight + r->eight;
-    char *to[LANES];
-    for (int k = 0; k < LANES; k++) to[k] = (char *)one[k] + r->one;
-    if (r->kind == LANE_64)
-      rows_get_64(r->n, from, to);
-    else if (r->kind == LANE_32)
-      rows_get_32(r->n, from, to);
-    else if (r->kind == LANE_FLAG)
-      rows_get_flags(r->n, from, to);
-    else
-      for (int k = 0; k < LANES; k++) get_run(r, from + (size_t)k * lane_bytes(r->kind), to[k]);
+    char *const before = (char *)was + r->eight;
+    const size_t bytes = (size_t)r->n * lane_bytes(r->kind) * LANES;
+    if (memcmp(from, before, bytes) == 0) continue;
+    memcpy(before, from, bytes);
+    get_run_of_all(r, from, one);
   }
 }

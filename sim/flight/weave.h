@@ -37,5 +37,7 @@ void weave_put_changed(const weave_t *w, void *eight, int lane, const void *was,
 // The same of all eight flights, for less than half.
 void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]);
 void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]);
+// The same of what is another than in *was, which lies as *eight does and is as that afterwards.
+void weave_get_changed(const weave_t *w, const void *eight, void *was, void *const one[LANES]);
 
 #endif

@@ -70,6 +70,10 @@ void woven_look(woven_t *w, const pilot_around_t *around) {
   }
 }
 
+void woven_get_looked(woven_t *w, void *const app[LANES]) {
+  weave_get_changed(&w->looked, lanes_block(w->state, LANES_app), lanes_looked(w->state), app);
+}
+
 // What it remembers does not change but in the place that it writes anew.
 static void get_range_before(woven_t *w, int k, range_t *range) {
   woven_get(w, LANES_range, k, range);

@@ -24,6 +24,8 @@ void woven_close(woven_t *w);
 
 // `looked` is that from here on.
 void woven_look(woven_t *w, const pilot_around_t *around);
+// What of it has changed.
+void woven_get_looked(woven_t *w, void *const app[LANES]);
 
 // Lane k is that flight's from here on, and its vehicle's; and no more.
 void woven_begin_flight(woven_t *w, int k, flight_loop_t *f);

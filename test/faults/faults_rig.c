@@ -76,6 +76,7 @@ pilot_flight_t *faults_pilot(case_t *c) {
 #define LOOKED(field)                                                                                        \
   { offsetof(glue_t, flight.field), offsetof(glue_t, flight.field) + sizeof(((glue_t *)0)->flight.field) }
 static const pilot_part_t looked[] = {
+    LOOKED(due),
     LOOKED(outer.learn.rls.theta),
     LOOKED(outer.learn.rls.P),
     LOOKED(outer.sync.thrust.model_N),
