@@ -27,17 +27,6 @@ void rows_put_flags(int n, char *rows, const char *const one[LANES]) {
     }
 }
 
-static unsigned differ_from(int from, int words, const char *a, const char *b) {
-  unsigned differ = 0;
-  for (int i = from; i < words; i++) {
-    uint64_t x, y;
-    memcpy(&x, a + 8 * (size_t)i, sizeof x);
-    memcpy(&y, b + 8 * (size_t)i, sizeof y);
-    differ |= (unsigned)(x != y) << i;
-  }
-  return differ;
-}
-
 #ifdef __x86_64__
 #include <immintrin.h>
 
@@ -127,32 +116,11 @@ __attribute__((target("avx2"))) void rows_get_flags(int n, const char *rows, cha
   }
 }
 
-// Of four words.
-AVX2 unsigned differ_4(const char *a, const char *b) {
-  const __m256i x = _mm256_loadu_si256((const __m256i *)(const void *)a);
-  const __m256i y = _mm256_loadu_si256((const __m256i *)(const void *)b);
-  return 15u ^ (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(_mm256_cmpeq_epi64(x, y)));
-}
-
-__attribute__((target("avx2"))) unsigned rows_differ(int words, const char *a, const char *b) {
-  unsigned differ = 0;
-  int i = 0;
-  for (; i + 16 <= words; i += 16)
-    differ |= (differ_4(a + 8 * i, b + 8 * i) | differ_4(a + 8 * i + 32, b + 8 * i + 32) << 4 |
-               differ_4(a + 8 * i + 64, b + 8 * i + 64) << 8 | differ_4(a + 8 * i + 96, b + 8 * i + 96) << 12)
-              << i;
-  for (; i + 4 <= words; i += 4) differ |= differ_4(a + 8 * i, b + 8 * i) << i;
-  return differ | differ_from(i, words, a, b);
-}
-
 #else
 
 void rows_get_flags(int n, const char *rows, char *const one[LANES]) {
   for (int i = 0; i < n; i++)
     for (int k = 0; k < LANES; k++) one[k][i] = rows[ROW_32 * i + 4 * k] != 0;
-}
-unsigned rows_differ(int words, const char *a, const char *b) {
-  return differ_from(0, words, a, b);
 }
 void rows_put_64(int n, char *rows, const char *const one[LANES]) {
   put_some(0, n, 8, rows, one);

@@ -20,10 +20,6 @@ void rows_get_32(int n, const char *rows, char *const one[LANES]);
 void rows_put_flags(int n, char *rows, const char *const one[LANES]);
 void rows_get_flags(int n, const char *rows, char *const one[LANES]);
 
-// Which of so many words of 8 bytes differ, a bit each.
-#define ROWS_WORDS 32
-unsigned rows_differ(int words, const char *a, const char *b);
-
 #ifdef __cplusplus
 }
 #endif

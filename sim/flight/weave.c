@@ -23,15 +23,6 @@ static bool goes_on(const weave_run_t *r, const lane_field_t *one, const lane_fi
          eight->at == r->eight + (size_t)r->n * LANES * lane_bytes(r->kind);
 }
 
-// The first run that ends behind the begin of each word.
-static void find_words(weave_t *b) {
-  for (int i = b->n - 1; i >= 0; i--) {
-    const weave_run_t *const r = &b->run[i];
-    const size_t end = r->one + (size_t)r->n * width[r->kind];
-    for (size_t word = r->one / 8; word < WEAVE_WORDS && 8 * word < end; word++) b->run_of[word] = (uint8_t)i;
-  }
-}
-
 static bool collect(int block, size_t size) {
   static lane_field_t one[NUMBERS], eight[NUMBERS];
   weave_t *const b = &blocks[block];
@@ -49,7 +40,6 @@ static bool collect(int block, size_t size) {
     if (b->n == WEAVE_RUNS) return false;
     b->run[b->n++] = (weave_run_t){one[i].at, eight[i].at, 1, one[i].kind};
   }
-  find_words(b);
   return true;
 }
 
@@ -117,30 +107,6 @@ static void get_run(const weave_run_t *r, const char *restrict eight, char *rest
       memcpy(&x, LANE(i, 4), 4);
       narrow(r->kind, x, ONE(i, wide));
     }
-  }
-}
-
-// Of a struct of numbers few change: those are looked for 4 words at a time. A word lies in one run or,
-// where its numbers are small, in some that follow each other.
-static void put_word(const weave_t *w, void *eight, int lane, const void *is, size_t at) {
-  for (int i = w->run_of[at / 8]; i < w->n && w->run[i].one < at + 8; i++) {
-    const weave_run_t *const r = &w->run[i];
-    char *const to = (char *)eight + r->eight + (size_t)lane * lane_bytes(r->kind);
-    if (r->kind == LANE_64)
-      memcpy(to + (at - r->one) * LANES, (const char *)is + at, 8);
-    else
-      put_run(r, to, (const char *)is + r->one);
-  }
-}
-
-void weave_put_changed(const weave_t *w, void *eight, int lane, const void *was, const void *is,
-                       size_t bytes) {
-  for (size_t at = 0; at < bytes; at += ROWS_WORDS * 8) {
-    const size_t left = (bytes - at) / 8;
-    const int words = left < ROWS_WORDS ? (int)left : ROWS_WORDS;
-    for (unsigned differ = rows_differ(words, (const char *)was + at, (const char *)is + at); differ;
-         differ &= differ - 1)
-      put_word(w, eight, lane, is, at + 8 * (size_t)__builtin_ctz(differ));
   }
 }
 

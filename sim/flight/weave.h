@@ -4,8 +4,7 @@
 
 #include "flight/lanes_state.h"
 
-#define WEAVE_RUNS  256
-#define WEAVE_WORDS 64 // of 8 bytes, at a struct's begin, whose runs are known
+#define WEAVE_RUNS 256
 
 // Numbers of a kind that lie one behind the other, in the struct of one and among eight.
 typedef struct {
@@ -17,7 +16,6 @@ typedef struct {
 typedef struct {
   int block, n;
   weave_run_t run[WEAVE_RUNS];
-  uint8_t run_of[WEAVE_WORDS]; // of a whole block: the first run in each word
 } weave_t;
 
 // All numbers of a block (lanes_blocks.h). Null: the structs of one and of eight have not the same numbers,
@@ -30,9 +28,6 @@ weave_t weave_part(int block, size_t from, size_t to);
 // eight: where that block lies.
 void weave_put(const weave_t *w, void *eight, int lane, const void *one);
 void weave_get(const weave_t *w, const void *eight, int lane, void *one);
-// Of those that are changed, and where `was` was put before. Both are so many bytes, in whole words of 8.
-void weave_put_changed(const weave_t *w, void *eight, int lane, const void *was, const void *is,
-                       size_t bytes);
 
 // The same of all eight flights, for less than half.
 void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]);

@@ -167,10 +167,6 @@ void woven_close(woven_t *w) {
 
 // --- somebody between sensors and pilot --------------------------------------------------------------------
 
-void woven_tell(void *told, int k, const pilot_in_t *was, const pilot_in_t *is) {
-  weave_put_changed(weave_block(LANES_in), told, k, was, is, sizeof *is);
-}
-
 void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f) {
   woven_end_vehicle(w, k, f->pilot->vehicle);
   woven_get(w, LANES_motors, k, f->motor_N);

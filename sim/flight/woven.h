@@ -14,7 +14,7 @@ typedef struct {
   weave_t felt;                        // out: what is measured and estimated of pilot_in_t
   weave_t now, range_begin, range_end; // of an app and of its range sensors, since some milliseconds
   weave_t curve, learned, guard;       // what pilot_t.tell() speaks of
-  weave_t ranges;                      // out: besides, what who edits pilot_in_t looks at of it
+  weave_t ranges;                      // in: besides, of whom sensed alone
   weave_t looked;                      // out: what of an app those look at who stand around
 } woven_t;
 
@@ -49,8 +49,6 @@ void woven_get_all(woven_t *w, const weave_t *part, void *const one[LANES]);
 // Another set point of that flight.
 void woven_set(woven_t *w, int k, const pilot_in_t *in);
 
-// Of what the vehicle of lane k is told in this millisecond (lanes_told), what was edited.
-void woven_tell(void *told, int k, const pilot_in_t *was, const pilot_in_t *is);
 // Its state comes here, and goes back after it was changed.
 void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f);
 void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f);
