@@ -86,8 +86,7 @@ static void find_airborne(guard_t *g, const guard_in_t *in) {
 // sees only one that needs no climb ends a retreat: the pilot who is told of more room than there is goes on
 // asking for more.
 static bool asks_for_another(const guard_t *g, const guard_in_t *in) {
-  return in->setpoint_good && f_finite(in->asked_z_m) &&
-         !(g->unseen && in->asked_z_m > in->pos_w_m.z) &&
+  return in->setpoint_good && f_finite(in->asked_z_m) && !(g->unseen && in->asked_z_m > in->pos_w_m.z) &&
          !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
 }
 
@@ -166,8 +165,8 @@ float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, flo
 }
 
 float guard_thrust_N(const guard_t *g, const guard_param_t *p, float weight_N) {
-  const bool cut = (float)g->handed_ms > 1000.0f * p->cut_after_s ||
-                   (g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0;
+  const bool cut =
+      (float)g->handed_ms > 1000.0f * p->cut_after_s || (g->now & (GUARD_TILT | GUARD_GYRO_FROZEN)) != 0;
   return EITHER(cut, 0.0f, p->share * f_clamp(g->hover_N, HOVER_LEAST * weight_N, HOVER_MOST * weight_N));
 }
 

@@ -131,8 +131,8 @@ template <bool A> LANE void lanes_place(lane_float_t *list, lane_whole_t<A> i, l
 }
 #define PICK(list, i)         lanes_pick(list, i)
 #define PLACE(list, i, value) lanes_place(list, i, value)
-#define ANY(holds)          ((lane_flag_t(holds).bits() & lanes_in) != 0)
-#define EITHER(holds, a, b) either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
+#define ANY(holds)            ((lane_flag_t(holds).bits() & lanes_in) != 0)
+#define EITHER(holds, a, b)   either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
 
 // The numbers of the lanes `of` are again what they were. All are of 32 bits.
 typedef uwords_t any_words_t __attribute__((may_alias));
@@ -148,7 +148,8 @@ template <typename T> struct lanes_some_t {
   unsigned in, say;
   bool todo;
   T was;
-  LANE lanes_some_t(lane_flag_t holds, T *of) : state(of), in(lanes_in), say(holds.bits() & in), todo(say != 0) {
+  LANE lanes_some_t(lane_flag_t holds, T *of)
+      : state(of), in(lanes_in), say(holds.bits() & in), todo(say != 0) {
     static_assert(sizeof(T) % sizeof(words_t) == 0);
     if (!todo || say == in) [[likely]]
       return;

@@ -174,8 +174,7 @@ static void get_run_of_all(const weave_run_t *r, const char *from, void *const o
 }
 
 void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]) {
-  for (int i = 0; i < w->n; i++)
-    get_run_of_all(&w->run[i], (const char *)eight + w->run[i].eight, one);
+  for (int i = 0; i < w->n; i++) get_run_of_all(&w->run[i], (const char *)eight + w->run[i].eight, one);
 }
 
 void weave_get_changed(const weave_t *w, const void *eight, void *was, void *const one[LANES]) {

@@ -19,7 +19,8 @@ static bool learner_in_box(const rls_t *rls) {
 }
 
 // Whether the learner's memory is another than in the last millisecond: most of what is looked at is its. By
-// itself it changes in lessons alone; and while the pilot is called for this flight, a row may have changed it.
+// itself it changes in lessons alone; and while the pilot is called for this flight, a row may have changed
+// it.
 static bool learned(case_t *c) {
   const rls_t *rls = &c->pilot.flight->outer.learn.rls;
   const bool in_lanes = c->pilot.vehicle.bring_home != NULL && c->t_s > 0.0;
