@@ -107,12 +107,13 @@ static void retreat(guard_t *g, const guard_in_t *in) {
 
 static void stay_or_retreat(guard_t *g, const guard_in_t *in) {
   const bool down = (g->now & SENDS_DOWN) != 0 || g->setpoint_ms > GUARD_SETPOINT_DOWN_MS;
-  const bool was = g->action == GUARD_RETREAT, begins = !was && down && g->airborne;
+  const bool was = g->action == GUARD_RETREAT;
   g->quiet_ms = judge_longer(g->quiet_ms, !down, in->ms);
-  FOR_WHOM(!was && in->setpoint_good, &g->action) g->action = GUARD_FLY;
-  FOR_WHOM(!was && !in->setpoint_good, &g->action) g->action = GUARD_HOLD;
   FOR_WHOM(was, g) retreat(g, in);
-  FOR_WHOM(begins, g) begin_retreat(g, in);
+  FOR_WHOM(!was, g) {
+    g->action = EITHER(in->setpoint_good, GUARD_FLY, GUARD_HOLD);
+    FOR_WHOM(down && g->airborne, g) begin_retreat(g, in);
+  }
 }
 
 static void decide(guard_t *g, const guard_in_t *in) {
@@ -138,9 +139,9 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   unsigned judged = 0;
   FOR_WHOM(!bad, g) judged = judge(g, p, in);
   unsigned now = EITHER(bad, (g->now & ~(unsigned)GUARD_SETPOINT) | GUARD_NOT_A_NUMBER, judged);
-  now |= EITHER(setpoint(g, in), (unsigned)GUARD_SETPOINT, 0u);
+  FOR_WHOM(setpoint(g, in), &now) now |= GUARD_SETPOINT;
   const bool crammed = no_room(g, p, in);
-  now |= EITHER(crammed, (unsigned)GUARD_NO_ROOM, 0u);
+  FOR_WHOM(crammed, &now) now |= GUARD_NO_ROOM;
   FOR_WHOM(crammed, g) {
     g->action = GUARD_HAND_OVER;
     g->handed_ms = JUDGE_MS_MAX;

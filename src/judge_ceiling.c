@@ -179,12 +179,12 @@ unsigned judge_ceiling(guard_t *g, const guard_param_t *p, const guard_in_t *in)
   const bool distance =
       in->range_new && in->range_m >= CEILING_RANGE_MIN_M && in->range_m <= CEILING_RANGE_MAX_M;
   unsigned now = 0;
-  now |= EITHER(range_lost(g, in, distance), (unsigned)GUARD_RANGE_LOST, 0u);
-  now |= EITHER(blind(p, in), (unsigned)GUARD_BLIND, 0u);
-  now |= EITHER(range_odd(g, in, distance), (unsigned)GUARD_RANGE_ODD, 0u);
-  now |= EITHER(range_frozen(g, in, distance), (unsigned)GUARD_RANGE_FROZEN, 0u);
-  now |= EITHER(saturated(g, in), (unsigned)GUARD_SATURATED, 0u);
-  now |= EITHER(too_near(g, in), (unsigned)GUARD_TOO_NEAR, 0u);
-  now |= EITHER(ratio(g, in), (unsigned)GUARD_RATIO, 0u);
+  FOR_WHOM(range_lost(g, in, distance), &now) now |= GUARD_RANGE_LOST;
+  FOR_WHOM(blind(p, in), &now) now |= GUARD_BLIND;
+  FOR_WHOM(range_odd(g, in, distance), &now) now |= GUARD_RANGE_ODD;
+  FOR_WHOM(range_frozen(g, in, distance), &now) now |= GUARD_RANGE_FROZEN;
+  FOR_WHOM(saturated(g, in), &now) now |= GUARD_SATURATED;
+  FOR_WHOM(too_near(g, in), &now) now |= GUARD_TOO_NEAR;
+  FOR_WHOM(ratio(g, in), &now) now |= GUARD_RATIO;
   return now;
 }

@@ -81,8 +81,10 @@ static bool acc_frozen(guard_t *g, const guard_in_t *in) {
 
 static bool acc_clipped(guard_t *g, const guard_in_t *in) {
   const bool clipped = !v3_within(in->acc_b_mps2, ACC_CLIP_MPS2);
-  const int left_ms = EITHER(in->ms < g->acc_clip_ms, g->acc_clip_ms - in->ms, 0);
-  g->acc_clip_ms = EITHER(clipped, CLIP_MEMORY_MS, EITHER(g->acc_clip_ms > 0, left_ms, g->acc_clip_ms));
+  FOR_WHOM(clipped, &g->acc_clip_ms) g->acc_clip_ms = CLIP_MEMORY_MS;
+  FOR_WHOM(!clipped && g->acc_clip_ms > 0, &g->acc_clip_ms) {
+    g->acc_clip_ms -= EITHER(in->ms < g->acc_clip_ms, in->ms, g->acc_clip_ms);
+  }
   return clipped;
 }
 
@@ -130,6 +132,7 @@ static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
     g->window_ms += in->ms;
   }
   const bool full = !lost && g->window_ms >= BIAS_MS;
+  if (!ANY(full)) return kept;
   FOR_WHOM(full, g) {
     const float dt = 1e-3f * (float)g->window_ms;
     const float error = (g->window_mps - (g->vel_w_mps.z - g->window_vel_mps)) / dt;
@@ -156,12 +159,12 @@ void judge_begin(guard_t *g, const guard_in_t *in) {
 unsigned judge_motion(guard_t *g, const guard_in_t *in) {
   const quat_t q_wb = quat_unit(in->q_wb);
   unsigned now = 0;
-  now |= EITHER(velocity(g, in, q_wb), (unsigned)GUARD_VELOCITY, 0u);
-  now |= EITHER(gyro_frozen(g, in), (unsigned)GUARD_GYRO_FROZEN, 0u);
-  now |= EITHER(acc_frozen(g, in), (unsigned)GUARD_ACC_FROZEN, 0u);
-  now |= EITHER(acc_clipped(g, in), (unsigned)GUARD_ACC_CLIPPED, 0u);
-  now |= EITHER(tilt(g, in, q_wb), (unsigned)GUARD_TILT, 0u);
-  now |= EITHER(acc_bias(g, in, q_wb), (unsigned)GUARD_ACC_BIAS, 0u);
-  now |= EITHER(height_lost(g, in), (unsigned)GUARD_HEIGHT_LOST, 0u);
+  FOR_WHOM(velocity(g, in, q_wb), &now) now |= GUARD_VELOCITY;
+  FOR_WHOM(gyro_frozen(g, in), &now) now |= GUARD_GYRO_FROZEN;
+  FOR_WHOM(acc_frozen(g, in), &now) now |= GUARD_ACC_FROZEN;
+  FOR_WHOM(acc_clipped(g, in), &now) now |= GUARD_ACC_CLIPPED;
+  FOR_WHOM(tilt(g, in, q_wb), &now) now |= GUARD_TILT;
+  FOR_WHOM(acc_bias(g, in, q_wb), &now) now |= GUARD_ACC_BIAS;
+  FOR_WHOM(height_lost(g, in), &now) now |= GUARD_HEIGHT_LOST;
   return now;
 }

@@ -30,16 +30,22 @@ static float sin_small(float x) {
   return x * (1.0f - x2 * (1.0f / 6.0f) * (1.0f - x2 * (1.0f / 20.0f) * (1.0f - x2 * (1.0f / 42.0f))));
 }
 
+static v3_t at_limit(v3_t up, float side2, float side_max) {
+  if (!(side2 > 1e-12f)) return (v3_t){0.0f, 0.0f, 1.0f}; // upside down: any way up is as good
+  const float k = side_max / sqrtf(side2);
+  return (v3_t){k * up.x, k * up.y, sqrtf(1.0f - side_max * side_max)};
+}
+
 // The direction `up`, of any length but 0, made unit and brought within tilt_max_rad of vertical.
 static v3_t limit_tilt(v3_t up, float tilt_max_rad) {
   const float side2 = up.x * up.x + up.y * up.y;
   const float side_max = sin_small(tilt_max_rad);
   const float norm2 = side2 + up.z * up.z;
   const bool within = up.z > 0.0f && side2 <= side_max * side_max * norm2;
-  const bool over = !within && !(side2 > 1e-12f); // upside down: any way up is as good
-  const float k = EITHER(within, 1.0f / sqrtf(norm2), side_max / sqrtf(side2));
-  return (v3_t){EITHER(over, 0.0f, k * up.x), EITHER(over, 0.0f, k * up.y),
-                EITHER(within, k * up.z, EITHER(over, 1.0f, sqrtf(1.0f - side_max * side_max)))};
+  v3_t held;
+  FOR_WHOM(within, &held) held = v3_scale(1.0f / sqrtf(norm2), up);
+  FOR_WHOM(!within, &held) held = at_limit(up, side2, side_max);
+  return held;
 }
 
 pos_command_t pos_indi_command(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, pos_step_t step) {

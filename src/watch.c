@@ -107,7 +107,7 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
     FOR_WHOM(jumped, &f->height_off_m) {
       f->height_off_m = f_clamp(f->height_off_m + dz_m, -2.0f * BOUND_POS_M, 2.0f * BOUND_POS_M);
     }
-    f->guard.latched |= EITHER(jumped, (unsigned)GUARD_HEIGHT_JUMP, 0u);
+    FOR_WHOM(jumped, &f->guard.latched) f->guard.latched |= GUARD_HEIGHT_JUMP;
     f->height_m = z_m;
     f->height_seen = true;
   }

@@ -91,6 +91,13 @@ template <bool A, bool B>
 LANE lane_whole_t<A && B> either(lane_flag_t holds, lane_whole_t<A> a, lane_whole_t<B> b) {
   return (holds.v & a.v) | (~holds.v & b.v);
 }
+template <typename E> LANE lane_kind_t<E> either(lane_flag_t holds, lane_kind_t<E> a, lane_kind_t<E> b) {
+  return lane_kind_t<E>(lane_int_t((holds.v & a.v) | (~holds.v & b.v)));
+}
+template <typename E>
+requires(std::is_enum_v<E>) LANE lane_kind_t<E> lanes_of(E a) {
+  return a;
+}
 LANE lane_float_t lanes_of(plain_float a) {
   return a;
 }

@@ -75,8 +75,9 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   units_sensors(in, sensors, state);
   units_applied(in->force_N, control);
   battery_cap(in->force_N);
-  const bool allowed = supervisorAreMotorsAllowedToRun();
-  for (int i = 0; i < MOTORS; i++) in->force_N[i] = EITHER(allowed, in->force_N[i], 0.0f);
+  FOR_WHOM(!supervisorAreMotorsAllowedToRun(), &in->force_N) {
+    for (int i = 0; i < MOTORS; i++) in->force_N[i] = 0.0f;
+  }
   take_range(in, step);
   if (is_pilots()) units_setpoint(&in->setpoint, setpoint);
   if (GLUE.flight.phase == 1) take_rarely(in, setpoint);
