@@ -1,4 +1,4 @@
 # Any other height ends a retreat from a ceiling that nobody sees.
 # file: src/guard.c
 # test: guard_ends_a_retreat
-s/if (g->unseen && in->asked_z_m > in->pos_w_m.z) return false;//
+s/ && !(g->unseen && in->asked_z_m > in->pos_w_m.z)//
