@@ -49,6 +49,7 @@ static bool has_speeds(const gap_flight_t *f) {
 static done_t take_commands(grid_t *g, const model_t *m, int n, why_t *why) {
   const gap_flight_t *f = g->flight;
   const bool commands = has_commands(f);
+  g->by_speeds = !commands;
   g->has_moments = each_commanded(f) || !commands;
   for (int k = 0; k < ROTORS; k++) {
     g->command_N[k] = malloc((size_t)n * sizeof(double));

@@ -54,7 +54,8 @@ typedef struct {
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   bool velocity_made, acceleration_made; // of the place, of the velocity: they are not logged
-  double *command_N[ROTORS];             // by sample, from `from`
+  bool by_speeds; // the log has no commands, and rotor speeds that were measured stand for them: no lag
+  double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];
   int motors_used;
@@ -76,8 +77,8 @@ bool grid_is_slow(const grid_t *g);
 // small (5_infer/bend.h). FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
-// Rotor thrusts as the vehicle would have them with this lag and delay; kept for the next call. Null: no
-// memory.
+// Rotor thrusts as the vehicle would have them with this lag and delay; of a grid by speeds, as they were.
+// Kept for the next call. Null: no memory.
 const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s);
 // Whether two such are the same.
 bool grid_same_motors(const lag_t *a, double a_delay_s, const lag_t *b, double b_delay_s);

@@ -65,7 +65,7 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);
   const double rate_Hz = g->flight->rate_Hz;
-  const bool none = lag_is_none(lag), along = !mean && grid_is_slow(g);
+  const bool none = lag_is_none(lag), along = g->by_speeds || (!mean && grid_is_slow(g));
   four_t now = {0.0};
   for (int i = 0; i < g->samples; i++) {
     const bool last = i + 1 == g->samples || (segment && segment[i] != segment[i + 1]);
@@ -75,7 +75,7 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
     const four_t next_N = {c[0][j], c[1][j], c[2][j], c[3][j]};
     if (none) {
       h->thrust_N[i] = command_N;
-      h->rise_Nps[i] = (four_t){0.0};
+      h->rise_Nps[i] = g->by_speeds && !last ? (next_N - command_N) * rate_Hz : (four_t){0.0};
       continue;
     }
     if (i == 0 || (segment && segment[i] != segment[i - 1]))
@@ -148,7 +148,10 @@ static lagged_t *place_of(grid_t *g) {
   return m;
 }
 
-const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s) {
+const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double commands_delay_s) {
+  const lag_t none = {.up_s = 0.0};
+  const lag_t *const lag = g->by_speeds ? &none : commands_lag;
+  const double delay_s = g->by_speeds ? 0.0 : commands_delay_s;
   for (int i = 0; i < GRID_MOTORS; i++)
     if (is_of(&g->motors[i], lag, delay_s)) return &g->motors[i];
   lagged_t *const m = place_of(g);

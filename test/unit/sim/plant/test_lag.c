@@ -70,12 +70,13 @@ TEST(a_rotor_that_stands_starts_and_one_that_stops_does_not_turn_back) {
 #define STEP_AT 10
 #define ROW_S   0.01
 
-static void replay_step(const kind_t *k, bool means, double delay_s, double thrust_N[ROWS]) {
+static void replay_step(const kind_t *k, bool means, bool by_speeds, double delay_s, double thrust_N[ROWS]) {
   gap_flight_t flight = {.rate_Hz = 1.0 / ROW_S, .rows_are_means = means};
   grid_point_t point[ROWS] = {{.t_s = 0.0}};
   double command_N[ROWS];
   grid_t g = {.flight = &flight, .samples = ROWS, .every = 1, .period_s = ROW_S, .n = ROWS, .point = point};
   g.command_Hz = 1.0 / ROW_S; // every command is there
+  g.by_speeds = by_speeds;
   for (int i = 0; i < ROWS; i++) command_N[i] = i < STEP_AT ? 0.05 : 0.09;
   for (int r = 0; r < ROTORS; r++) g.command_N[r] = command_N;
   const lag_t lag = {k->tau_s, k->tau_s * k->down_over_up, k->in_speed};
@@ -95,16 +96,28 @@ static double mean_N(const kind_t *k, int row) {
 TEST(a_row_that_is_an_instant_has_the_thrust_before_its_command_and_a_mean_that_of_its_hold) {
   for (size_t i = 0; i < KINDS; i++) {
     double thrust_N[ROWS] = {0.0};
-    replay_step(&KIND[i], false, 0.0, thrust_N);
+    replay_step(&KIND[i], false, false, 0.0, thrust_N);
     for (int row = 0; row < ROWS; row++) {
       ROW("%s, instant %d", KIND[i].what, row);
       const double t_s = (row - STEP_AT) * ROW_S;
       CHECK_NEAR(thrust_N[row], row < STEP_AT ? 0.05 : after_N(&KIND[i], 0.05, 0.09, t_s), 1e-12);
     }
-    replay_step(&KIND[i], true, 0.0, thrust_N);
+    replay_step(&KIND[i], true, false, 0.0, thrust_N);
     for (int row = 0; row < ROWS; row++) {
       ROW("%s, mean %d", KIND[i].what, row);
       CHECK_NEAR(thrust_N[row], mean_N(&KIND[i], row), 1e-7);
+    }
+  }
+}
+
+// Of a log with rotor speeds alone a lag of the file was taken once more, and told as motor_lag.
+TEST(rotor_speeds_that_were_measured_have_their_lag_and_delay_behind_them) {
+  for (size_t i = 0; i < KINDS; i++) {
+    double thrust_N[ROWS] = {0.0};
+    replay_step(&KIND[i], false, true, 0.02, thrust_N);
+    for (int row = 0; row < ROWS; row++) {
+      ROW("%s, instant %d", KIND[i].what, row);
+      CHECK(thrust_N[row] == (row < STEP_AT ? 0.05 : 0.09));
     }
   }
 }
@@ -115,14 +128,14 @@ TEST(a_delay_and_a_late_log_move_the_thrust_by_whole_rows_and_parts) {
     int rows; // later
   } row[] = {{0.0, 0}, {0.02, 2}, {-0.02, -2}};
   double none_N[ROWS] = {0.0}, moved_N[ROWS] = {0.0};
-  replay_step(&KIND[2], false, 0.0, none_N);
+  replay_step(&KIND[2], false, false, 0.0, none_N);
   for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-    replay_step(&KIND[2], false, row[i].delay_s, moved_N);
+    replay_step(&KIND[2], false, false, row[i].delay_s, moved_N);
     for (int k = 3; k < ROWS - 3; k++) {
       ROW("delay %g s, row %d", row[i].delay_s, k);
       CHECK_NEAR(moved_N[k], none_N[k - row[i].rows], 1e-12);
     }
   }
-  replay_step(&KIND[2], false, 0.005, moved_N);
+  replay_step(&KIND[2], false, false, 0.005, moved_N);
   CHECK_NEAR(moved_N[12], 0.5 * (none_N[11] + none_N[12]), 1e-12);
 }
