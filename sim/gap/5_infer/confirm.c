@@ -158,17 +158,26 @@ static done_t make_table(confirming_t *t, why_t *why) {
 
 // --- what they say ----------------------------------------------------------------------------------------
 
+// Which of the sizes something depends on that is compared, by number of the column; returns how many.
+static int shown_of(const candidate_t *c, const named_t *named, int at[FX_SIZE_MAX]) {
+  int n = 0;
+  for (int k = 0; k < c->n; k++)
+    if (named->stderr_[k] > 0.0) at[n++] = c->first + k;
+  return n;
+}
+
 static bool right_sign(const candidate_t *c, const confirm_t *a) {
   for (int k = 0; k < c->n; k++)
-    if (c->use.fx->size[k].sign > 0 && a->value[k] + score_margin(c, a->stderr_[k]) <= c->least[k])
+    if (a->stderr_[k] > 0.0 && c->use.fx->size[k].sign > 0 &&
+        a->value[k] + score_margin(c, a->stderr_[k]) <= c->least[k])
       return false;
   return true;
 }
 
-static double wald_p(const double *v, const double *V, int first, int n, int all, double blocks) {
+static double wald_p(const double *v, const double *V, const int *at, int n, int all, double blocks) {
   double own[FX_SIZE_MAX * FX_SIZE_MAX];
   for (int i = 0; i < n; i++)
-    for (int k = 0; k < n; k++) own[i * n + k] = V[(first + i) * all + first + k];
+    for (int k = 0; k < n; k++) own[i * n + k] = V[at[i] * all + at[k]];
   return lsq_f_above(lsq_wald(v, own, n) / n, n, blocks);
 }
 
@@ -179,26 +188,36 @@ typedef struct {
 
 static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named) {
   confirm_t *const a = &named->confirm;
-  double differ[FX_SIZE_MAX];
+  double found[FX_SIZE_MAX], differ[FX_SIZE_MAX];
+  int at[FX_SIZE_MAX];
   bool beyond = false;
+  const int n = shown_of(c, named, at);
   *a = (confirm_t){.answer = CONFIRM_WEAK, .F = HUGE_VAL, .blocks = HUGE_VAL};
-  for (int k = 0; k < c->n; k++) a->F = fmin(a->F, f->F[c->first + k]);
+  for (int i = 0; i < n; i++) a->F = fmin(a->F, f->F[at[i]]);
   if (!(a->F >= CONFIRM_F)) return;
-  for (int k = 0; k < c->n; k++) a->blocks = fmin(a->blocks, f->blocks[c->first + k]);
-  a->blocks = fmax(a->blocks, c->n + 2.0);
-  const double free = a->blocks - c->n; // degrees of freedom
-  for (int k = 0; k < c->n; k++) {
-    const int i = c->first + k;
-    a->value[k] = f->b[i];
-    a->stderr_[k] = sqrt(f->V[i * (all + 1)]);
-    differ[k] = f->b[i] - f->plain[i];
+  for (int i = 0; i < n; i++) a->blocks = fmin(a->blocks, f->blocks[at[i]]);
+  a->blocks = fmax(a->blocks, n + 2.0);
+  const double free = a->blocks - n; // degrees of freedom
+  for (int i = 0; i < n; i++) {
+    const int k = at[i] - c->first;
+    a->value[k] = found[i] = f->b[at[i]];
+    a->stderr_[k] = sqrt(f->V[at[i] * (all + 1)]);
+    differ[i] = f->b[at[i]] - f->plain[at[i]];
     // Less does not matter, however sure it is: the named error already holds it.
-    beyond = beyond || fabs(differ[k]) > hypot(a->stderr_[k], named->stderr_[k]);
+    beyond = beyond || fabs(differ[i]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
-  a->p = wald_p(a->value, f->V, c->first, c->n, all, free);
-  a->p_apart = wald_p(differ, f->apart, c->first, c->n, all, free);
+  a->p = wald_p(found, f->V, at, n, all, free);
+  a->p_apart = wald_p(differ, f->apart, at, n, all, free);
   a->apart = beyond && a->p_apart < SELECT_ALPHA;
   a->answer = a->p < SELECT_ALPHA && right_sign(c, a) ? CONFIRM_YES : CONFIRM_NO;
+}
+
+// A column of nothing becomes one along nothing else: it keeps no other from its answer.
+static void set_apart(gram_t *g, int n) {
+  for (int i = 0; i < n; i++) {
+    const int diagonal = i * (g->size + 1);
+    if (!gram_shows(g, i)) g->total[diagonal] = g->block[diagonal] = 1.0;
+  }
 }
 
 static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why) {
@@ -213,6 +232,7 @@ static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why)
     }
   const explained_t known = {n, column, value, false};
   TRY(gram_make(&g, t->s, &t->table, &known, NULL, why));
+  set_apart(&g, n);
   fit_t *const f = malloc(sizeof *f);
   const lsq_instrument_t job = {g.total, g.block, g.n_block, n, GROUPS, LAGS, CONFIRM_F};
   const bool good =

@@ -29,6 +29,7 @@ static double set_log(const beam_t *b, const evidence_set_t *s) {
   for (int i = 0; i < s->n; i++) {
     const candidate_t *const c = &b->r->c->candidate[s->of[i]];
     for (int k = 0; k < c->n; k++) {
+      if (!gram_shows(&b->r->gram, c->first + k)) continue;
       column[n] = c->first + k;
       p[n] = 1.0 / (s->scale[i] * s->scale[i]);
       positive[n++] = c->least[k] >= 0.0;
@@ -86,9 +87,9 @@ static bool may_join(const beam_t *b, const evidence_set_t *s, int candidate) {
   choice_t choice = {.n = s->n};
   memcpy(choice.of, s->of, (size_t)s->n * sizeof *s->of);
   const candidate_t *const c = &b->r->c->candidate[candidate];
-  for (int k = 0; k < c->n; k++) // nothing in these flights depends on it
-    if (!(b->r->gram.total[(c->first + k) * (b->r->gram.size + 1)] > 0.0)) return false;
-  return !b->r->never[candidate] && round_fits(b->r, &choice, candidate);
+  bool shown = false;
+  for (int k = 0; k < c->n; k++) shown = shown || gram_shows(&b->r->gram, c->first + k);
+  return shown && !b->r->never[candidate] && round_fits(b->r, &choice, candidate);
 }
 
 static int by_log(const void *a, const void *b) {

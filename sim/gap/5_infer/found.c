@@ -47,6 +47,7 @@ static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
   if (bend_nominal(&r->score, last, named->value, &bend)) memcpy(rms, bend.size, sizeof rms);
   named->shape_beside = bend.shape;
   for (int k = 0; k < fx->n_size; k++) {
+    if (!(named->stderr_[k] > 0.0)) continue; // not shown
     named->beside[k] = hypot(rms[k], candidates_least(fx, r->s) / SCORE_ERRORS);
     named->stderr_[k] = hypot(named->stderr_[k], named->beside[k]);
   }
@@ -134,8 +135,11 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
   const verdict_t v = score_last(&r->score, with);
   int column[COLUMN_MAX];
   const double blocks = fmax(r->gram.n_block - choice_columns(r->c, with, column), 2.0);
-  const double wald = sqrt(c->n * lsq_f_quantile(SELECT_ALPHA / r->c->n, c->n, blocks));
-  const double nominal = limits_nominal(r->nominal ? r->nominal->n : 0) * sqrt(c->n);
+  int shown = 0;
+  for (int k = 0; k < c->n; k++) shown += v.stderr_[k] > 0.0;
+  if (!shown) return 0.0;
+  const double wald = sqrt(shown * lsq_f_quantile(SELECT_ALPHA / r->c->n, shown, blocks));
+  const double nominal = limits_nominal(r->nominal ? r->nominal->n : 0) * sqrt(shown);
   double rms[FX_SIZE_MAX], gain[FX_SIZE_MAX], unit[FX_SIZE_MAX], least = 0.0;
   score_nominal_rms(&r->score, with, rms);
   score_least_gain(&r->score, with, SELECT_GAIN * left, gain);

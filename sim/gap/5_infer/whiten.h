@@ -28,6 +28,12 @@ typedef struct {
   color_t color[CHANNELS];
 } gram_t;
 
+// Whether something that is compared depends on a column. Of an effect's sizes some may have none, as a
+// moment about an axis that is left out.
+static inline bool gram_shows(const gram_t *g, int column) {
+  return g->total[column * (g->size + 1)] > 0.0;
+}
+
 // What is taken to be known of the residual: columns and their values.
 typedef struct {
   int n;

@@ -8,12 +8,11 @@
 
 static void take_size(finding_t *f, const fx_param_t *param, int k) {
   const double in_file = f->in_file ? fx_use_size(f->in_file, k) : (double)NAN;
-  const double error = f->named->stderr_[k];
+  const bool shown = f->named->stderr_[k] > 0.0;
   f->number[f->n_number++] = (number_t){
       .param = &param[f->fx->size[k].param],
-      .value = fx_use_size(f->use, k),
-      .stderr_ = error > 0.0 ? error : (double)NAN,
-      .no_stderr = error > 0.0 ? NULL : REPORT_NOT_SHOWN,
+      .value = shown ? fx_use_size(f->use, k) : (double)NAN,
+      .stderr_ = shown ? f->named->stderr_[k] : (double)NAN,
       .in_file = in_file,
       .by_instrument = f->named->confirm.value[k] + (f->in_file ? in_file : 0.0),
   };
@@ -55,10 +54,11 @@ static void say_instrument(finding_t *f) {
     return;
   }
   text_add(text, REPORT_TEXT, ", by the set points as instrument:");
-  for (int k = 0; k < f->fx->n_size; k++) {
+  for (int k = 0, told = 0; k < f->fx->n_size; k++) {
     const fx_param_t *const p = f->number[k].param;
-    text_add(text, REPORT_TEXT, "%s%s %.3g +- %.2g%s%s", k ? ", " : " ", p->name, f->number[k].by_instrument,
-             a->stderr_[k], text_gap(p->unit), p->unit);
+    if (!(a->stderr_[k] > 0.0)) continue;
+    text_add(text, REPORT_TEXT, "%s%s %.3g +- %.2g%s%s", told++ ? ", " : " ", p->name,
+             f->number[k].by_instrument, a->stderr_[k], text_gap(p->unit), p->unit);
   }
   text_add(text, REPORT_TEXT, " (first-stage F %.3g)", a->F);
   if (a->apart)

@@ -7,6 +7,11 @@ static void numbers(const finding_t *f, FILE *out) {
   fputs("<table><tr><th>parameter<th class=n>value<th class=n>standard error<th>unit</tr>\n", out);
   for (int k = 0; k < f->n_number; k++) {
     const number_t *const n = &f->number[k];
+    if (isnan(n->value)) {
+      fprintf(out, "<tr><td>%s<td colspan=3>not shown by what can be compared of these flights</tr>\n",
+              n->param->name);
+      continue;
+    }
     fprintf(out, "<tr><td>%s<td class=n>%.4g<td class=n>", n->param->name, n->value);
     if (n->no_stderr)
       fputs(n->no_stderr, out);

@@ -39,13 +39,11 @@ extern const char *const standing_name[];
 typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
 extern const char *const left_name[];
 
-#define REPORT_SURE      0.999 // of a probability: no exam is long enough to tell more
-#define REPORT_NOT_SHOWN "not shown by what can be compared of these flights"
-
+#define REPORT_SURE 0.999 // of a probability: no exam is long enough to tell more
 // One number of a name: a size, then its shape and its kind, if it has them.
 typedef struct {
   const fx_param_t *param;
-  double value, stderr_;
+  double value, stderr_; // both NaN: nothing that can be compared of these flights shows it
   const char *no_stderr; // why it has none; null: it has
   double in_file;        // as the vehicle file has it; NaN: it has it not
   double by_instrument;  // as the set points say; only of sizes, where they were tried

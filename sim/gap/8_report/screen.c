@@ -9,7 +9,7 @@
 
 static void print_number(const number_t *k, const char *before, FILE *out) {
   const char *const unit = report_unit(k);
-  if (k->no_stderr && strcmp(k->no_stderr, REPORT_NOT_SHOWN) == 0) {
+  if (isnan(k->value)) {
     fprintf(out, "%s%s not shown", before, k->param->name);
     return;
   }

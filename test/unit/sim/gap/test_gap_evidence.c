@@ -4,6 +4,7 @@
 #include "rig/test.h"
 
 #include <math.h>
+#include <string.h>
 
 static int along(gap_rows_t *g, const char *effect, int channel, double sure) {
   const int i = gap_rows_candidate(g, effect);
@@ -183,6 +184,32 @@ TEST(gap_evidence_extends_the_sixteen_best_sets_of_a_size) {
   CHECK_NEAR(of_size[3], 66, 4); // of ten pairs 55, of twenty-four more than 70
   evidence_free(&e);
   gap_rows_free(&g);
+}
+
+// Of a channel that is left out some of an effect's sizes have no column: the others speak for it.
+TEST(gap_evidence_speaks_for_an_effect_by_the_sizes_that_are_shown) {
+  static const struct {
+    const char *what;
+    int shown;
+    bool there;
+  } row[] = {{"two of three", 2, true}, {"one", 1, true}, {"none", 0, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    why_t why;
+    evidence_t e;
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 24);
+    const int of = along(&g, "accel_bias", CH_FX, 20.0);
+    gap_rows_add(&g, of, 0, 3.0);
+    for (int k = row[i].shown; k < 3; k++)
+      memset(gap_rows_column(&g, of, k, CH_FX + k), 0, GAP_ROWS * sizeof(double));
+    gap_rows_nominal(&g, 0, 0.0, NULL);
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
+    CHECK((e.set[0].n == 1) == row[i].there);
+    evidence_free(&e);
+    gap_rows_free(&g);
+  }
 }
 
 TEST(gap_evidence_finds_a_set_and_leaves_the_rest_out) {
