@@ -124,6 +124,7 @@ void body_push(body_t *b, d3_t force_w_N) {
 }
 
 void body_shake(body_t *b, push_t push) {
+  if (!b->pushed) b->changed++; // for those that it flies beside
   b->pushed = true;
   b->push = push;
   b->look_is_y = false;

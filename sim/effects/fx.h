@@ -227,7 +227,9 @@ typedef struct {
   void (*load)(const struct fx_use *use, const fx_motion_t *motion, load_t *load);
   // Six degrees of freedom only: once at the beginning of every tick.
   void (*tick)(const struct fx_use *use, const fx_tick_t *tick, fx_plant_t *plant);
-  bool steady; // it does not look at `tick`: what it does is done once
+  // It does not look at `tick`, nor at what other effects did, and sets neither wind nor force: what it does
+  // is done once, before those that are not steady.
+  bool steady;
   // Six degrees of freedom only: changes what accelerometer and range sensors read.
   void (*sense)(const struct fx_use *use, fx_sensed_t *sensed);
 } fx_t; // a hook that is null does nothing

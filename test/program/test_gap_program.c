@@ -199,9 +199,9 @@ TEST(gap_notes_what_its_vehicle_file_does_not_say_first_of_all) {
            "--columns tools/columns/fly.toml $S/part.csv",
            rows_of(6.0, 9.0, false));
   CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
-  CHECK(strstr(text,
-               "\n\nnote: lacks.toml does not say body.top_half_m, rotors.kf_Ns2: a Crazyflie's, scaled to "
-               "its mass and radius, are taken\n") != NULL);
+  CHECK(strstr(text, "\n\nnote: lacks.toml does not say body.top_half_m, rotors.kf_Ns2: those of a Crazyflie "
+                     "are taken, scaled to "
+                     "this mass and radius\n") != NULL);
 }
 
 // What is flown again takes the commands of the same time: behind a gap those of later would lift and sink.

@@ -38,9 +38,11 @@ def best(of: list[dict[str, int]]) -> dict[str, int]:
 
 def before() -> None:
     commit = os.environ.get("BEFORE") or FIRST
-    known = subprocess.run(["git", "cat-file", "-e", f"{commit}^{{commit}}"], capture_output=True, check=False)
+    ask = ("git", "rev-parse", "--short", "--verify", "--quiet", f"{commit}^{{commit}}")
+    known = subprocess.run(ask, capture_output=True, text=True, check=False)
     if known.returncode != 0:
         raise run.Left(f"this copy of the repository has no commit {commit}")
+    commit = known.stdout.strip()
     programs = built(commit), (run.OUT / "bench").resolve()
     turns: list[list[dict[str, int]]] = [[], []]
     for turn in range(TURNS):

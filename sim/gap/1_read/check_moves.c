@@ -45,7 +45,8 @@ static done_t judge(const log_rows_t *rows, signal_id_t stream, const char *what
 }
 
 // From sample to sample of the range, half a second or more apart. Upwards it falls as the vehicle rises.
-static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t range, why_t *why) {
+static done_t check_range_moves(const gap_flight_t *f, const log_rows_t *rows, signal_id_t range,
+                                why_t *why) {
   const double sign = range == SIG_RANGE ? -1.0 : 1.0, *const v = f->v[range], *const z_m = f->v[SIG_Z];
   line_t line = {0};
   int last = -1;
@@ -72,8 +73,8 @@ static done_t check_set_point(const gap_flight_t *f, const log_rows_t *rows, int
 }
 
 done_t gap_check_moves(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
-  TRY(check_range(f, rows, SIG_RANGE, why));
-  TRY(check_range(f, rows, SIG_RANGE_DOWN, why));
+  TRY(check_range_moves(f, rows, SIG_RANGE, why));
+  TRY(check_range_moves(f, rows, SIG_RANGE_DOWN, why));
   for (int axis = 0; axis < 3; axis++) TRY(check_set_point(f, rows, axis, why));
   return DONE;
 }

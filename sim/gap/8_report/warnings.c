@@ -160,7 +160,7 @@ static void warn_of_vehicle(report_t *r) {
          base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
   char lacks[FRAME_LACKS];
   if (frame_lacks(m, lacks)[0])
-    warn(r, "%s does not say %s: a Crazyflie's, scaled to its mass and radius, are taken",
+    warn(r, "%s does not say %s: those of a Crazyflie are taken, scaled to this mass and radius",
          base_name(study_vehicle(r->study)), lacks);
 }
 
