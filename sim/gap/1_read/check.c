@@ -10,10 +10,8 @@
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
-#define MEAN_OF     50 // samples from which a mean says something
-#define WINDOWS_MIN 6  // windows from which a slope has an error of its own
-#define SLOPE_MIN   0.3333
-#define SLOPE_MAX   3.0
+#define MEAN_OF     50   // samples from which a mean says something
+#define WINDOWS_MIN 6    // windows from which a slope has an error of its own
 #define CLEARLY     4.0  // standard errors
 #define FLIES_AT    0.3  // of the largest thrust: it flies
 #define RANGE_M     0.02 // no range sensor sees nearer only

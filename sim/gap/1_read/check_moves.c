@@ -6,13 +6,11 @@
 
 #include <math.h>
 
-#define APART_S   0.5    // between two samples of a range that are compared: an age of 0.1 s matters little
-#define MOVES_M   0.05   // a movement, and the rms of one
-#define MOVES_MIN 10     // of them
-#define TOGETHER  0.8    // of the squares, that a line explains
-#define ALIKE     1.25   // times as far, or so many times less: equal
-#define SLOPE_MIN 0.3333 // as of other streams (check.c)
-#define SLOPE_MAX 3.0
+#define APART_S   0.5  // between two samples of a range that are compared: an age of 0.1 s matters little
+#define MOVES_M   0.05 // a movement, and the rms of one
+#define MOVES_MIN 10   // of them
+#define TOGETHER  0.8  // of the squares, that a line explains
+#define ALIKE     1.25 // times as far, or so many times less: equal
 
 typedef struct {
   double n, x, y, xx, xy, yy;

@@ -107,6 +107,10 @@ typedef struct {
 
 skew_t gap_skew(const gap_flight_t *f, const drive_t *drive);
 
+// So many times as far as another stream says one may move: what is beyond has another unit or sign.
+#define SLOPE_MIN 0.3333
+#define SLOPE_MAX 3.0
+
 // BAD_INPUT: a range or a set point moves as far as the place only in another unit.
 MUST_CHECK done_t gap_check_moves(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
 

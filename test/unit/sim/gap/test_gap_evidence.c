@@ -192,7 +192,7 @@ TEST(gap_evidence_speaks_for_an_effect_by_the_sizes_that_are_shown) {
     const char *what;
     int shown;
     bool there;
-  } row[] = {{"two of three", 2, true}, {"one", 1, true}, {"none", 0, false}};
+  } row[] = {{"all three", 3, true}, {"two of three", 2, true}, {"one", 1, true}, {"none", 0, false}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     why_t why;
@@ -200,7 +200,7 @@ TEST(gap_evidence_speaks_for_an_effect_by_the_sizes_that_are_shown) {
     ROW("%s", row[i].what);
     gap_rows_make(&g, 24);
     const int of = along(&g, "accel_bias", CH_FX, 20.0);
-    gap_rows_add(&g, of, 0, 3.0);
+    for (int k = 0; k < row[i].shown; k++) gap_rows_add(&g, of, k, 3.0);
     for (int k = row[i].shown; k < 3; k++)
       memset(gap_rows_column(&g, of, k, CH_FX + k), 0, GAP_ROWS * sizeof(double));
     gap_rows_nominal(&g, 0, 0.0, NULL);
