@@ -1,7 +1,7 @@
 // information.c - what the rows hold of every candidate beside feedback, slow noise and misfit.
 #include "gap/5_infer/evidence.h"
 
-#include "base/lsq_blocks.h"
+#include "base/cholesky.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,32 +30,6 @@ static void scaled(const parts_t *p, const double *G, double *A, double *g) {
   }
 }
 
-// In place; false: not positive.
-static bool cholesky(double *A, int n) {
-  for (int i = 0; i < n; i++)
-    for (int k = 0; k <= i; k++) {
-      double sum = A[i * n + k];
-      for (int m = 0; m < k; m++) sum -= A[i * n + m] * A[k * n + m];
-      if (i == k && !(sum > 0.0)) return false;
-      A[i * n + k] = i == k ? sqrt(sum) : sum / A[k * n + k];
-    }
-  return true;
-}
-
-static void forward(const double *L, int n, double *b) {
-  for (int i = 0; i < n; i++) {
-    for (int k = 0; k < i; k++) b[i] -= L[i * n + k] * b[k];
-    b[i] /= L[i * n + i];
-  }
-}
-
-static void backward(const double *L, int n, double *b) {
-  for (int i = n - 1; i >= 0; i--) {
-    for (int k = i + 1; k < n; k++) b[i] -= L[k * n + i] * b[k];
-    b[i] /= L[i * n + i];
-  }
-}
-
 // b_i = (A_i + I)^-1 g_i of nominal flight i: bias, spread and correlations. excess: mean square of each
 // column's own score there, in the log's units.
 static void feedback(parts_t *p, double *excess, double *A, double *g) {
@@ -70,8 +44,8 @@ static void feedback(parts_t *p, double *excess, double *A, double *g) {
       A[k * (n + 1)] += 1.0;
     }
     if (!cholesky(A, n)) continue;
-    forward(A, n, g);
-    backward(A, n, g);
+    cholesky_forward(A, n, g);
+    cholesky_backward(A, n, g);
     for (int k = 0; k < n; k++) p->low[k * flights + f] = g[k] / sqrt(flights);
   }
 }
@@ -193,8 +167,8 @@ static bool inform(const parts_t *p, information_t *f) {
   for (int k = 0; k < m; k++) C[k * (m + 1)] += 1.0;
   const bool good = cholesky(C, m);
   if (good) {
-    forward(C, m, z);
-    for (int i = 0; i < n; i++) forward(C, m, M + i * m);
+    cholesky_forward(C, m, z);
+    for (int i = 0; i < n; i++) cholesky_forward(C, m, M + i * m);
     for (int i = 0; i < n; i++) {
       f->h[i] = p->g[i];
       for (int k = 0; k < m; k++) f->h[i] -= M[i * m + k] * z[k];
@@ -247,14 +221,14 @@ double evidence_log(const information_t *f, int n, const int *column, const doub
     Q[i * (n + 1)] += p[i];
   }
   if (!cholesky(Q, n)) return -HUGE_VAL;
-  forward(Q, n, z);
+  cholesky_forward(Q, n, z);
   for (int i = 0; i < n; i++) sum += 0.5 * z[i] * z[i] - log(Q[i * (n + 1)]) + 0.5 * log(p[i]);
-  backward(Q, n, z); // means
+  cholesky_backward(Q, n, z); // means
   for (int i = 0; i < n; i++) {
     if (!positive[i]) continue;
     double e[COLUMN_MAX] = {0.0}, variance = 0.0;
     e[i] = 1.0;
-    forward(Q, n, e);
+    cholesky_forward(Q, n, e);
     for (int k = i; k < n; k++) variance += e[k] * e[k];
     // The share of a normal prior about 0 that is positive is a half.
     sum += log(fmax(erfc(-z[i] / sqrt(2.0 * variance)), 1e-200));
