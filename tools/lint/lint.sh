@@ -43,6 +43,7 @@ done
 export PYTHONDONTWRITEBYTECODE=1
 python3 tools/lint/arrows.py || fail "an include that points up the stack, or in a circle"
 python3 tools/lint/rules.py || fail "the rules of the house"
+python3 tools/lint/traps.py || fail "a trap of test/seeded that changes nothing"
 said=$(python3 -m unittest discover -q -s test/doc 2>&1) || fail "the tests of tools/doc: $said"
 python3 tools/doc/doc.py check || fail "documents and recipes"
 python3 tools/lint/links.py || fail "a page that leads nowhere"
