@@ -8,7 +8,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 
 const fx_t fx_cg_offset = {
     .name = "cg_offset",
-    .brief = "the centre of mass lies elsewhere than the vehicle file has it",
+    .brief = "the centre of mass lies elsewhere than the vehicle file has it (dx: forwards, dy: to the left)",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"inertia", "a calm hover: an offset shows there, inertia in attitude doublets alone"}},

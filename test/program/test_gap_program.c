@@ -96,6 +96,7 @@ static void check_model(const cJSON *v) {
   CHECK(m.mass_kg == plain.mass_kg && m.ceiling_m == plain.ceiling_m && plain.n_fx == 0 && m.n_fx == 1);
   CHECK_TEXT(m.fx[0].fx->name, "rotor_drag");
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
+  CHECK_NEAR(verdict_number(effect, "probability"), 0.999, 0.0); // as in words
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
   CHECK_NEAR(m.fx[0].p[0], verdict_number(k, "value"), 1e-8 * DRAG_KG);
   CHECK(program_run("fly ceiling-gap --vehicle $S/named/model.toml", STREAM_ERROR, text, sizeof text) == 0);

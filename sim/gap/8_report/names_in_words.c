@@ -63,8 +63,7 @@ void page_finding(const finding_t *f, FILE *out) {
   if (isfinite(f->named->probability))
     fprintf(out, "That it%s is there has a probability of %s%.3g, if the library has what is missing. ",
             f->named->n_rival ? ", or one that would do as well," : "",
-            f->named->probability > REPORT_SURE ? "more than " : "",
-            fmin(f->named->probability, REPORT_SURE));
+            f->named->probability > REPORT_SURE ? "more than " : "", report_probability(f));
   fprintf(out, "It shows most in %s, at %s %.3g to %.3g %s.", gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));
   if (f->before > 0.0)

@@ -133,8 +133,6 @@ void report_headline(const report_t *r, const char *vehicle, FILE *out) {
 
 // --- how much is left -------------------------------------------------------------------------------------
 
-#define LEFT_OVER 2.0 // times the floor: there is a gap, whatever could be named
-
 const char *const left_name[] = {"not known", "quieter than the model's noise", "noise", "more than noise"};
 
 left_over_t report_adequacy(const report_t *r, int channel) {

@@ -35,11 +35,12 @@ typedef struct {
 typedef enum { STANDS_AMBIGUOUS, STANDS_LIKELY, STANDS_STRONG } standing_t;
 extern const char *const standing_name[];
 
-// What the extended model leaves of a channel beside what noise and feedback alone leave.
+// What the extended model leaves of a channel beside what noise and feedback alone leave, the floor. So many
+// times it: there is a gap, whatever could be named; the other way round: the floor is not that of this log.
+#define LEFT_OVER 2.0
 typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
 extern const char *const left_name[];
 
-#define REPORT_SURE 0.999 // of a probability: no exam is long enough to tell more
 // One number of a name: a size, then its shape and its kind, if it has them.
 typedef struct {
   const fx_param_t *param;
@@ -73,6 +74,12 @@ typedef struct {
   char says[REPORT_TEXT];       // what it does: "lift is short by 0.79 +- 0.02 m/s2, 8 % of g"
   char instrument[REPORT_TEXT]; // what the set points as the instrument say of it; empty: not tried
 } finding_t;
+
+// Of the name or a rival, as it is told; NaN: it was not worked out. No exam is long enough to tell more.
+#define REPORT_SURE 0.999
+static inline double report_probability(const finding_t *f) {
+  return f->named->probability > REPORT_SURE ? REPORT_SURE : f->named->probability;
+}
 
 // An effect that these flights cannot tell.
 typedef struct {

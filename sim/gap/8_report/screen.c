@@ -26,8 +26,7 @@ static void print_numbers(const finding_t *f, FILE *out) {
   if (f->use->form) fprintf(out, ", form %s", f->use->form->name);
   fprintf(out, "; %.3g %% of the gap; %s", 100.0 * f->named->share, standing_name[f->standing]);
   if (f->standing == STANDS_AMBIGUOUS) return;
-  if (isfinite(f->named->probability))
-    fprintf(out, ", probability %.3g", fmin(f->named->probability, REPORT_SURE));
+  if (isfinite(f->named->probability)) fprintf(out, ", probability %.3g", report_probability(f));
   fprintf(out, ", %s", p_words(f->named->p, p));
 }
 

@@ -75,7 +75,7 @@ static void add_effect(cJSON *list, const finding_t *f) {
   cJSON_AddStringToObject(o, "name", f->fx->name);
   add_parameters(o, f);
   add(o, {.key = "p", .number = p_value(f->named->p)},
-      {.key = "probability", .number = f->named->probability},
+      {.key = "probability", .number = report_probability(f)},
       {.key = "standing", .text = standing_name[f->standing]}, {.key = "says", .text = f->says},
       {.key = "share", .number = f->named->share});
   cJSON *const family = cJSON_AddArrayToObject(o, "family");

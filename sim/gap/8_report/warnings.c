@@ -36,6 +36,12 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && d->nominal_flew && p->floor > LEFT_OVER * p->before)
+      warn(r,
+           "%s: flights of the model along these tracks leave %.3g %s, these only %.3g: their pilot shakes "
+           "more than who flew, and what is small here is not named (does the vehicle file say who flew, "
+           "[controller], and the rotors' inertia?)",
+           gap_channel[ch], p->floor, gap_unit[ch], p->before);
     if (report_adequacy(r, ch) == LEFT_MORE)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "

@@ -43,6 +43,43 @@ TEST(gap_gives_a_probability_alike_in_words_and_in_numbers) {
   }
 }
 
+// Rms before, after and of the floor; what is noted of force_z.
+static const struct {
+  const char *what;
+  gap_part_t part;
+  const char *note; // null: none
+} floors[] = {
+    {"noise", {.used = true, .before = 0.2, .after = 0.1, .floor = 0.08}, NULL},
+    {"more than noise", {.used = true, .before = 0.3, .after = 0.2, .floor = 0.09}, "more than can be named"},
+    {"a floor a little above the log", {.used = true, .before = 0.1, .after = 0.1, .floor = 0.19}, NULL},
+    {"a pilot that shakes more than who flew",
+     {.used = true, .before = 0.1, .after = 0.1, .floor = 0.21},
+     "shakes more than who flew"},
+    {"a channel that is left out", {.before = 0.1, .after = 0.1, .floor = 0.21}, NULL},
+};
+
+TEST(gap_notes_where_floor_and_log_are_not_of_one_flight) {
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
+  r->study = study;
+  study->resimulation.flew = study->diagnosis.nominal_flew = true;
+  for (unsigned i = 0; i < sizeof floors / sizeof *floors; i++) {
+    ROW("%s", floors[i].what);
+    study->diagnosis.held_out.channel[CH_FZ] = floors[i].part;
+    memset(&r->warnings, 0, sizeof r->warnings);
+    report_warn(r);
+    const char *said = NULL;
+    for (int k = 0; k < r->warnings.n; k++)
+      if (strncmp(r->warnings.line[k], "force_z: ", 9) == 0) said = r->warnings.line[k];
+    CHECK((said != NULL) == (floors[i].note != NULL));
+    if (said && floors[i].note) CHECK(strstr(said, floors[i].note) != NULL);
+  }
+  free(study);
+  free(r);
+}
+
 // Off the measured track by so much along x, y and height, with the old model and with the new one.
 static const struct {
   double before[3], after[3];
