@@ -64,9 +64,15 @@ static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   TRY(read_list(t, "x_m", ROTORS, -5.0, 5.0, f->rotor_x_m, why));
   TRY(read_list(t, "y_m", ROTORS, -5.0, 5.0, f->rotor_y_m, why));
   TRY(read_list(t, "spin", ROTORS, -1.0, 1.0, f->rotor_spin, why));
-  for (int i = 0; i < ROTORS; i++)
+  double sum = 0.0;
+  for (int i = 0; i < ROTORS; i++) {
+    sum += f->rotor_spin[i];
     if (f->rotor_spin[i] > -1.0 && f->rotor_spin[i] < 1.0)
       return toml_refuse(t, "spin", why, "%g; allowed: 1 and -1", f->rotor_spin[i]);
+  }
+  if (sum < 0.0 || sum > 0.0)
+    return toml_refuse(t, "spin", why, "%g rotors of 1; allowed: 2, else the torques of a hover turn it",
+                       0.5 * (ROTORS + sum));
   return DONE;
 }
 
