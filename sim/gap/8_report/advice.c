@@ -1,6 +1,7 @@
 // advice.c - what to do now: use this, add that, fly the other.
 #include "gap/8_report/report.h"
 
+#include "vehicle/frame_file.h"
 #include <math.h>
 
 static void advise_use(report_t *r) {
@@ -13,6 +14,7 @@ static void advise_use(report_t *r) {
 }
 
 static void advise_add(report_t *r) {
+  char lacks[FRAME_LACKS];
   if (r->ceiling_suspected && isfinite(r->ceiling_seen_m))
     note(&r->to_do, "add: ceiling_m = %.2f to the vehicle file if that is the ceiling, and run this again",
          r->ceiling_seen_m);
@@ -20,6 +22,8 @@ static void advise_add(report_t *r) {
     note(&r->to_do, "add: ceiling_m to the vehicle file, if there was a ceiling, and run this again");
   else if (!r->study->order.vehicle)
     note(&r->to_do, "add: a vehicle file of your own (--vehicle); the built-in one was taken");
+  else if (frame_lacks(&r->study->vehicle, lacks)[0])
+    note(&r->to_do, "add: what the vehicle file does not say and is a Crazyflie's: %s", lacks);
   else
     note(&r->to_do, "add: nothing more to the vehicle file");
 }

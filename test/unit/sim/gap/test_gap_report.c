@@ -80,6 +80,32 @@ TEST(gap_notes_where_floor_and_log_are_not_of_one_flight) {
   free(r);
 }
 
+// Keys that a vehicle file lacks, bit by bit as frame_lacks() counts them.
+TEST(gap_advises_to_add_what_was_taken_from_a_crazyflie) {
+  static const struct {
+    unsigned lacks;
+    const char *line;
+  } cases[] = {
+      {0, "add: nothing more to the vehicle file"},
+      {1, "add: what the vehicle file does not say and is a Crazyflie's: body.inertia_kgm2"},
+      {0x7e0, "add: what the vehicle file does not say and is a Crazyflie's: [rotors]"},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->order.vehicle = "v.toml";
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%#x", cases[i].lacks);
+    study->vehicle.frame_lacks = cases[i].lacks;
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK(r->to_do.n == 3);
+    CHECK_TEXT(r->to_do.line[1], cases[i].line);
+  }
+  free(study);
+  free(r);
+}
+
 // Off the measured track by so much along x, y and height, with the old model and with the new one.
 static const struct {
   double before[3], after[3];
