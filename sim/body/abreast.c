@@ -266,7 +266,7 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
     if (b[k]) begin_tick(a, k, b[k]);
   const bool again = as_before(a, b);
   const unsigned in = again ? a->moved : alike_in(a, b, &first);
-  if (again) first = a->first;
+  if (again) first = b[__builtin_ctz(a->moved)]; // who was the first may have left since, and be gone
   if (in && integrator_for(a, first)) {
     a->moved = move_together(a, b, in, first, seen);
   } else {

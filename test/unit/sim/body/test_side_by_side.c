@@ -59,6 +59,38 @@ TEST(side_by_side_each_has_the_bits_that_it_has_alone) {
   }
 }
 
+// The first parts from the others in every tick, at a branch on a number of its own, and ends before them;
+// nothing of its body is left.
+static void leave_or_stay(void *self, int i) {
+  static body_t own[4];
+  jobs_t *const j = self;
+  body_t *const b = &own[i];
+  if (!begin(j + (i == 0), i, 0, b)) return;
+  for (int k = 0; k < (i == 0 ? 5 : 10); k++) {
+    const double command_N[ROTORS] = {0.1, 0.1, 0.1, 0.1};
+    side_by_side_tick(b, command_N, TICK_S);
+  }
+  memcpy(j->y[i], b->y, sizeof b->y);
+  body_close(b);
+  memset(b, 0xff, sizeof *b);
+}
+
+TEST(side_by_side_nobody_asks_one_who_has_left) {
+  static jobs_t alone[2], beside[2]; // the second: its model is that of the first job
+  fx_use_t use = fx_use(fx_find("ceiling"));
+  why_t why;
+  for (int i = 0; i < 2; i++) {
+    alone[i].model = vehicle6(0.6);
+    use.p[fx_use_kind(&use)] = i == 0 ? 1.0 : 0.0; // where the ceiling's distance is taken
+    CHECK_OK(model_add_fx(&alone[i].model, &use, &why));
+    beside[i].model = alone[i].model;
+  }
+  for (int i = 0; i < 4; i++) leave_or_stay(alone, i);
+  const long together = side_by_side(4, leave_or_stay, beside);
+  CHECK(memcmp(alone[0].y, beside[0].y, sizeof alone[0].y) == 0);
+  if (lane_possible()) CHECK(together == 3 * 10); // as the one who has left would have it they could not
+}
+
 TEST(side_by_side_a_call_does_no_more_than_leave_every_thread_some) {
   static const struct {
     int n, threads, share;
