@@ -27,6 +27,22 @@ frame_t model_frame_like_crazyflie(const model_t *m) {
   };
 }
 
+static double per_square(double square) {
+  return square > 0.0 ? 1.0 / square : 0.0;
+}
+
+void model_mix(const frame_t *f, double lift_N, const double moment_Nm[3], double more_N[ROTORS]) {
+  double xx = 0.0, yy = 0.0;
+  for (int k = 0; k < ROTORS; k++) {
+    xx += f->rotor_x_m[k] * f->rotor_x_m[k];
+    yy += f->rotor_y_m[k] * f->rotor_y_m[k];
+  }
+  const double roll = moment_Nm[0] * per_square(yy), pitch = moment_Nm[1] * per_square(xx);
+  const double yaw = f->torque_ratio_m > 0.0 ? moment_Nm[2] / (ROTORS * f->torque_ratio_m) : 0.0;
+  for (int k = 0; k < ROTORS; k++)
+    more_N[k] = lift_N / ROTORS + roll * f->rotor_y_m[k] - pitch * f->rotor_x_m[k] - yaw * f->rotor_spin[k];
+}
+
 model_t model_point(const model_t *m) {
   model_t point = *m;
   point.frame = model_frame_like_crazyflie(m);

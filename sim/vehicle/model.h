@@ -65,6 +65,11 @@ typedef struct {
 // A Crazyflie 2.1 scaled to the model's mass and rotor radius: what a file says nothing of.
 frame_t model_frame_like_crazyflie(const model_t *m);
 
+// Newton that each rotor gives more, for so much lift and moment (body's axes, about the origin) together:
+// the smallest that do, of a frame that is symmetric about both axes, with rotors on them or beside. Without
+// a torque of the rotors there is no moment about z, nor about an axis on which all of them lie.
+void model_mix(const frame_t *f, double lift_N, const double moment_Nm[3], double more_N[ROTORS]);
+
 // The same vehicle as a point with mass and thrust, its rotors' plane, above level ground and without walls.
 model_t model_point(const model_t *m);
 

@@ -101,21 +101,13 @@ static d3_t within_thrust(const nominal_flight_t *f, d3_t acc) {
   return share < 1.0 ? d3(share * acc.x, share * acc.y, z) : acc;
 }
 
-static void mix(const model_t *m, double lift_N, d3_t turn_radps2, double motor_N[ROTORS]) {
-  const frame_t *f = &m->frame;
-  const double roll = turn_radps2.x * f->inertia_kgm2[0], pitch = turn_radps2.y * f->inertia_kgm2[1];
-  const double yaw = turn_radps2.z * f->inertia_kgm2[2];
-  for (int k = 0; k < ROTORS; k++) {
-    const double x = f->rotor_x_m[k], y = f->rotor_y_m[k];
-    const double turn = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
-    motor_N[k] = 0.25 * lift_N + 0.25 * roll / y - 0.25 * pitch / x + turn;
-  }
-}
-
 // load: of the weight.
 static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
   const double lift_N = f->lift_trim * load * f->m->mass_kg * G_MPS2;
-  mix(f->m, lift_N, d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2)), motor_N);
+  const d3_t turn = d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2));
+  const double *const inertia_kgm2 = f->m->frame.inertia_kgm2;
+  const double moment_Nm[] = {inertia_kgm2[0] * turn.x, inertia_kgm2[1] * turn.y, inertia_kgm2[2] * turn.z};
+  model_mix(&f->m->frame, lift_N, moment_Nm, motor_N);
   for (int r = 0; r < ROTORS; r++) motor_N[r] = larger(0.0, smaller(motor_N[r], f->m->thrust_max_N / ROTORS));
 }
 

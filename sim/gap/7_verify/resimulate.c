@@ -35,16 +35,17 @@ static void correct(const flight_again_t *a, const grid_point_t *track, double m
   const d3_t up_w = d3_add_scaled(wanted.z, 1.0 / G_MPS2, push);
   const d3_t pull_b = axes_to_body(&axes, d3_scale(1.0 / d3_norm(up_w), up_w));
   const d3_t nose_b = axes_to_body(&axes, wanted.x);
-  const double roll = f->inertia_kgm2[0] * (w->tilt_gain * -pull_b.y + w->rate_gain[0] * turn.x);
-  const double pitch = f->inertia_kgm2[1] * (w->tilt_gain * pull_b.x + w->rate_gain[1] * turn.y);
-  const double yaw = f->inertia_kgm2[2] * w->rate_gain[2] * (2.0 * atan2(nose_b.y, nose_b.x) + turn.z);
+  const double moment_Nm[] = {
+      f->inertia_kgm2[0] * (w->tilt_gain * -pull_b.y + w->rate_gain[0] * turn.x),
+      f->inertia_kgm2[1] * (w->tilt_gain * pull_b.x + w->rate_gain[1] * turn.y),
+      f->inertia_kgm2[2] * w->rate_gain[2] * (2.0 * atan2(nose_b.y, nose_b.x) + turn.z),
+  };
   const double lift =
       a->pilots->mass_kg * (fmax(w->height_gain, HEIGHT) * off.z + fmax(w->climb_gain, CLIMB) * slip.z);
-  for (int k = 0; k < ROTORS; k++) {
-    const double spin = f->torque_ratio_m > 0.0 ? -f->rotor_spin[k] * yaw / (4.0 * f->torque_ratio_m) : 0.0;
-    const double more = 0.25 * lift + 0.25 * roll / f->rotor_y_m[k] - 0.25 * pitch / f->rotor_x_m[k] + spin;
-    motor_N[k] = fmax(0.0, fmin(motor_N[k] + more, 0.25 * a->pilots->thrust_max_N));
-  }
+  double more_N[ROTORS];
+  model_mix(f, lift, moment_Nm, more_N);
+  for (int k = 0; k < ROTORS; k++)
+    motor_N[k] = fmax(0.0, fmin(motor_N[k] + more_N[k], 0.25 * a->pilots->thrust_max_N));
 }
 
 // --- the flight -----------------------------------------------------------------------------------------
@@ -151,14 +152,11 @@ static done_t fly_all(const set_t *held, const by_turns_t *turns, const model_t 
   return DONE;
 }
 
-static const char *obstacle(const set_t *held, const model_t *m) {
+static const char *obstacle(const set_t *held) {
   const grid_t *g = &held->grid[0];
   if (!g->has_position) return "the log has no position";
   if (!g->has_velocity) return "the log has no velocity";
   if (!g->has_attitude || !g->has_rates) return "the log has no attitude or no rates";
-  for (int k = 0; k < ROTORS; k++)
-    if (m->frame.rotor_x_m[k] == 0.0 || m->frame.rotor_y_m[k] == 0.0)
-      return "the pilot is made for rotors beside both axes";
   return NULL;
 }
 
@@ -178,7 +176,7 @@ done_t resimulate(const set_t *held, const model_t *before, const by_turns_t *af
                   const closed_loop_t *loop, resimulation_t *r, why_t *why) {
   static const by_turns_t none = {.n = 1};
   bool old_flew, new_flew;
-  *r = (resimulation_t){.why_not = obstacle(held, before)};
+  *r = (resimulation_t){.why_not = obstacle(held)};
   if (r->why_not) return DONE;
   if (!take_room(r, &held->grid[0])) return error_failed(why, "out of memory");
   TRY(fly_all(held, &none, before, loop, &r->before, &old_flew, why));
