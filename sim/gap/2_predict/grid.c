@@ -76,6 +76,17 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
   return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
 }
 
+// A quaternion and its opposite are one attitude.
+static dq_t mean_attitude(const gap_flight_t *f, int from, int n) {
+  dq_t sum = {0.0, 0.0, 0.0, 0.0};
+  for (int i = from; i < from + n; i++) {
+    const dq_t q = {f->v[SIG_QW][i], f->v[SIG_QX][i], f->v[SIG_QY][i], f->v[SIG_QZ][i]};
+    const double way = sum.w * q.w + sum.x * q.x + sum.y * q.y + sum.z * q.z < 0.0 ? -1.0 : 1.0;
+    sum = (dq_t){sum.w + way * q.w, sum.x + way * q.x, sum.y + way * q.y, sum.z + way * q.z};
+  }
+  return isfinite(sum.w) ? dq_unit(sum) : sum;
+}
+
 static void take_range(const grid_t *g, int from, grid_point_t *p) {
   const double *range = g->range_up ? g->flight->v[SIG_RANGE] : g->flight->v[SIG_RANGE_DOWN];
   p->range_m = (double)NAN;
@@ -108,7 +119,7 @@ static bool is_good(const grid_t *g, const grid_point_t *p, const model_t *m, co
 
 static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *touch, int from) {
   const gap_flight_t *f = g->flight;
-  const int n = g->every, middle = from + n / 2;
+  const int n = g->every;
   grid_point_t p = {
       .t_s = mean(f->t_s, from, n), .segment = f->segment ? f->segment[from] : 0, .q_wb = {.w = 1.0}};
   if (g->has_position)
@@ -117,10 +128,7 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
     p.pos_w_m.z = mean(f->v[SIG_Z], from, n);
   p.pos_w_m.z += body_rest_z_m(m);
   if (g->has_velocity) p.vel_w_mps = mean3(f, SIG_VX, from, n);
-  if (g->has_attitude) {
-    p.q_wb = (dq_t){f->v[SIG_QW][middle], f->v[SIG_QX][middle], f->v[SIG_QY][middle], f->v[SIG_QZ][middle]};
-    if (isfinite(p.q_wb.w)) p.q_wb = dq_unit(p.q_wb);
-  }
+  if (g->has_attitude) p.q_wb = mean_attitude(f, from, n);
   if (g->has_rates) p.rate_b_radps = mean3(f, SIG_GX, from, n);
   if (g->has_force) p.acc_b_mps2 = mean3(f, SIG_AX, from, n);
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
