@@ -41,7 +41,8 @@ typedef struct {
   lag_t lag;
   double delay_s;
   double *thrust_N[ROTORS], *rise_Nps[ROTORS];
-  bool lent; // another grid's, only to be read
+  double *later_N[ROTORS]; // what differences see besides (holds.h); null: nothing
+  bool lent;               // another grid's, only to be read
 } lagged_t;
 
 typedef struct {
@@ -76,6 +77,13 @@ bool grid_is_slow(const grid_t *g);
 // 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is estimated too
 // small (5_infer/bend.h). FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
+
+// The first sample from number i on with which a whole point of one segment begins, if there is one.
+static inline int grid_begins(const grid_t *g, int i) {
+  const int *const segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  while (segment && i + g->every <= g->samples && segment[i] != segment[i + g->every - 1]) i++;
+  return i;
+}
 
 // Rotor thrusts as the vehicle would have them with this lag and delay; of a grid by speeds, as they were.
 // Kept for the next call. Null: no memory.

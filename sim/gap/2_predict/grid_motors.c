@@ -4,7 +4,7 @@
 // line (of 500 a second one that holds for a row of 100 a second is 5 ms late). A row that is a sample has
 // the thrust of its instant, before its own command acts (without a lag: with it); a row that is a mean has
 // the mean over its hold.
-#include "gap/2_predict/grid.h"
+#include "gap/2_predict/holds.h"
 
 #include "base/wide.h"
 #include "body/points.h"
@@ -61,6 +61,7 @@ WIDE_INLINE void go_on(const lag_t *lag, const keep_t *left, double rate_Hz, boo
   *rise_Nps = (end_N - now_N) * rate_Hz;
 }
 
+// mean: each command holds, and what is wanted is the mean over that.
 WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);
@@ -86,8 +87,8 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
 
 // A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold
 // waits for the one before.
-WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, const history_t *h) {
-  if (g->flight->rows_are_means)
+WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
+  if (mean)
     follow_all(g, lag, true, h);
   else
     follow_all(g, lag, false, h);
@@ -113,11 +114,9 @@ static int last_of_segment(const grid_t *g, int i) {
 }
 
 WIDE_COPIES static void average(const grid_t *g, const history_t *h, lagged_t *m) {
-  const gap_flight_t *f = g->flight;
   int i = 0, first = 0, last = last_of_segment(g, 0);
   for (int j = 0; j < g->n; j++) {
-    // As take_points has walked.
-    while (f->segment && f->segment[g->from + i] != f->segment[g->from + i + g->every - 1]) i++;
+    i = grid_begins(g, i);
     if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
     if (i > last) last = last_of_segment(g, i);
     four_t thrust_N = {0.0}, rise_Nps = {0.0};
@@ -156,7 +155,7 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
     if (is_of(&g->motors[i], lag, delay_s)) return &g->motors[i];
   lagged_t *const m = place_of(g);
   const size_t n = (size_t)g->n;
-  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(2 * ROTORS * (n + 1) * sizeof(double));
+  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(3 * ROTORS * (n + 1) * sizeof(double));
   four_t *const room = aligned_alloc(sizeof(four_t), 2 * ((size_t)g->samples + 1) * sizeof *room);
   if (!m->thrust_N[0] || !room) {
     free(room);
@@ -167,10 +166,15 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
   for (int k = 0; k < ROTORS; k++) {
     m->thrust_N[k] = m->thrust_N[0] + (size_t)k * n;
     m->rise_Nps[k] = m->thrust_N[0] + (size_t)(ROTORS + k) * n;
+    m->later_N[k] = holds_matter(g, lag) ? m->thrust_N[0] + (size_t)(2 * ROTORS + k) * n : NULL;
   }
   const history_t h = {room, room + g->samples, delay_s * g->flight->rate_Hz};
-  follow(g, lag, &h);
+  follow(g, lag, g->flight->rows_are_means, &h);
   average(g, &h, m);
+  if (m->later_N[0]) {
+    follow(g, lag, true, &h);
+    holds_fit(g, h.thrust_N, h.shift, m, (double *)h.rise_Nps);
+  }
   free(room);
   return m;
 }

@@ -2,6 +2,7 @@
 #include "gap/2_predict/predict.h"
 
 #include "gap/2_predict/eight.h"
+#include "gap/2_predict/holds.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,10 +113,8 @@ static bool same_motors(const path_t *known, const body_t *b) {
   return known && grid_same_motors(&known->lag, known->delay_s, &lag, b->plant.delay_s);
 }
 
-static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, double *const out[CHANNELS],
-                  why_t *why) {
-  const lagged_t *const motors = start(g, b);
-  if (!motors) return error_failed(why, "out of memory");
+static done_t run_points(grid_t *g, body_t *b, const lagged_t *motors, const path_t *known, path_t *path,
+                         double *const out[CHANNELS], why_t *why) {
   if (path) path->lag = rigid_lag(&b->rigid), path->delay_s = b->plant.delay_s;
   if (!same_motors(known, b)) known = NULL;
   if (path ? eight_keep(g, b, motors, path, out) : known && eight_again(g, b, known, out)) return DONE;
@@ -129,6 +128,15 @@ static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, doubl
     if (path) keep(path, b, &at, j);
     put(&at.sensed, at.turn_radps2, j, out);
   }
+  return DONE;
+}
+
+static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, double *const out[CHANNELS],
+                  why_t *why) {
+  const lagged_t *const motors = start(g, b);
+  if (!motors) return error_failed(why, "out of memory");
+  TRY(run_points(g, b, motors, known, path, out, why));
+  holds_add(g, &b->rigid, motors, out);
   return DONE;
 }
 
@@ -236,6 +244,7 @@ done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *
   TRY(open_body(&b, g, path->model, why));
   const lagged_t *const motors = start(g, &b);
   const bool done = motors && run_more(g, &b, path, motors, more, out);
+  if (done) holds_add(g, &b.rigid, motors, out);
   body_close(&b);
   if (!motors) return error_failed(why, "out of memory");
   return done ? DONE : run_anew(g, path, more, out, why);
