@@ -28,6 +28,21 @@ static void advise_add(report_t *r) {
     note(&r->to_do, "add: nothing more to the vehicle file");
 }
 
+// A place or a state can be flown for; a time cannot, nor a line in the spectrum.
+static void advise_place(report_t *r, const cell_t *cell) {
+  char where[REPORT_PLACE];
+  report_place(cell, where);
+  if (cell->along == COORDINATE_TIME)
+    note(&r->to_do,
+         "fly: the same again, and see whether it comes at %s once more; what happens once may be a gust, a "
+         "touch, or commands between two rows",
+         where);
+  else if (cell->along == NOWHERE)
+    note(&r->to_do, "fly: the same again with another pilot or other gains, and see whether %s stays", where);
+  else
+    note(&r->to_do, "fly: the same again with more time at %s, and as much beside it", where);
+}
+
 // First what tells the members of a family apart, the largest first; then what shows best what has no name;
 // then what shows an effect that these flights could not.
 static void advise_fly(report_t *r) {
@@ -37,9 +52,7 @@ static void advise_fly(report_t *r) {
       return;
     }
   if (r->study->diagnosis.unknown) {
-    char where[REPORT_PLACE];
-    note(&r->to_do, "fly: the same again with more time at %s, and as much beside it",
-         report_place(&r->study->diagnosis.left.cell, where));
+    advise_place(r, &r->study->diagnosis.left.cell);
     return;
   }
   for (int i = 0; i < r->n_untested; i++)

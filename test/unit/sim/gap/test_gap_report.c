@@ -106,6 +106,34 @@ TEST(gap_advises_to_add_what_was_taken_from_a_crazyflie) {
   free(r);
 }
 
+TEST(gap_advises_to_fly_where_something_is_but_not_when) {
+  static const struct {
+    cell_t cell;
+    const char *line;
+  } cases[] = {
+      {{.along = COORDINATE_HEIGHT, .coordinate = "height", .unit = "m", .from = 0.4, .to = 0.6},
+       "fly: the same again with more time at height 0.4 to 0.6 m, and as much beside it"},
+      {{.along = COORDINATE_TIME, .coordinate = "time", .unit = "s", .from = 3.0, .to = 3.2},
+       "fly: the same again, and see whether it comes at time 3 to 3.2 s once more; "},
+      {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
+       "fly: the same again with another pilot or other gains, and see whether frequency 2.4 to 2.6 Hz "
+       "stays"},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->diagnosis.unknown = true;
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%s", cases[i].cell.coordinate);
+    study->diagnosis.left.cell = cases[i].cell;
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK(strncmp(r->to_do.line[2], cases[i].line, strlen(cases[i].line)) == 0);
+  }
+  free(study);
+  free(r);
+}
+
 // Off the measured track by so much along x, y and height, with the old model and with the new one.
 static const struct {
   double before[3], after[3];
