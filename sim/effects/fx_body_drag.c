@@ -1,9 +1,12 @@
-// fx_body_drag.c - drag of the body: F = -c |v| v, v: velocity through the air.
+// fx_body_drag.c - drag of the body: F = -c |v| v - (linear_x v_x, linear_y v_y, linear_z v_z), body axes, v:
+// velocity through the air. Linear drag is for vehicle files of simulators that have it, whatever the rotors
+// do; in a search rotor_drag and climb_inflow stand for it, whose rotors turn nearly alike all the time.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
   const d3_t v = motion->air_b_mps;
   load->force_b_N = d3_add_scaled(load->force_b_N, -use->p[0] * d3_norm(v), v);
+  load->force_b_N = d3_sub(load->force_b_N, d3(use->p[1] * v.x, use->p[2] * v.y, use->p[3] * v.z));
 }
 
 const fx_t fx_body_drag = {
@@ -16,7 +19,10 @@ const fx_t fx_body_drag = {
     .needs = FX_NEEDS_VELOCITY,
     .n_size = 1,
     .size = {{0, 1e-4, 1, 0.0, FX_BY_MASS}},
-    .n_param = 1,
-    .param = {{"c", "kg/m", 0.0, 2e-3, 10.0}},
+    .n_param = 4,
+    .param = {{"c", "kg/m", 0.0, 2e-3, 10.0},
+              {"linear_x", "kg/s", 0.0, 0.0, 100.0},
+              {"linear_y", "kg/s", 0.0, 0.0, 100.0},
+              {"linear_z", "kg/s", 0.0, 0.0, 100.0}},
     .load = load,
 };

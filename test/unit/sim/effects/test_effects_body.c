@@ -49,6 +49,10 @@ TEST(rotor_drag_and_body_drag_push_against_the_velocity_through_the_air) {
   m.n_fx = 0;
   vehicle6_add(&m, "body_drag"); // 2e-3 x 13 m/s x (3, -4, 12) / 0.0329 kg
   check_d3(felt(&m, &start).acc_b_mps2, -2.370821, 3.161094, -9.483283, 1e-6);
+  double *const drag = m.fx[0].p; // 13 m/s in z as well: along each axis its own
+  drag[0] = 0.0, drag[1] = 0.01, drag[2] = 0.02, drag[3] = 0.005;
+  check_d3(felt(&m, &start).acc_b_mps2, -0.03 / MASS_KG, 0.08 / MASS_KG, -0.06 / MASS_KG, 1e-9);
+  drag[0] = 2e-3;
   fx_use_t *wind = vehicle6_add(&m, "wind"); // the air moves along: nothing but its own 3 mN
   wind->p[5] = 3.0, wind->p[6] = -4.0, wind->p[7] = 12.0;
   check_d3(felt(&m, &start).acc_b_mps2, 3e-3 / MASS_KG, 0.0, 0.0, 1e-9);
