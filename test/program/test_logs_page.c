@@ -49,7 +49,7 @@ TEST(logs_page_has_columns_of_crazyflow) {
   CHECK_OK(columns_read("tools/columns/crazyflow.toml", &c, &why));
   CHECK_TEXT(why.text, "");
   CHECK(c.acc == ACC_WORLD && c.motors == MOTORS_RADPS && !c.rows_are_means);
-  CHECK_NEAR(c.of[SIG_M1].late_s, 0.01, 1e-12);
+  CHECK_NEAR(c.of[SIG_M1].late_s, 0.005, 1e-12);
   CHECK(c.of[SIG_AX].optional && !c.of[SIG_QW].optional);
 }
 
