@@ -68,18 +68,31 @@ static void take_shapes(diagnosis_t *d, const found_t *first) {
   }
 }
 
+// What the next look is to start from: shapes that fit, and names that one of them makes needless left to it.
+static done_t find_shapes(const diagnose_job_t *job, diagnosis_t *d, found_t *found, why_t *why) {
+  TRY(shapes_refine(&d->candidates, &d->fit, job->model, found, why));
+  candidates_reshape(&d->candidates, &found->chosen);
+  return shapes_alone(&d->candidates, &d->fit, job->model, found, why);
+}
+
+static done_t look_first(const diagnose_job_t *job, diagnosis_t *d, found_t *first, why_t *why) {
+  selection_t *selection;
+  const done_t status =
+      select_effects(&selection, &d->candidates, &d->fit, job->model, NULL, &d->timing, first, why);
+  select_close(selection);
+  TRY(status);
+  d->rounds = first->rounds;
+  take_shapes(d, first);
+  return find_shapes(job, d, first, why);
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   model_t m;
-  selection_t *selection;
-  done_t status =
-      select_effects(&selection, &d->candidates, &d->fit, job->model, NULL, &d->timing, &first, why);
-  select_close(selection);
+  const done_t status = look_first(job, d, &first, why);
   chosen_t chosen = first.chosen;
-  d->rounds = first.rounds;
-  if (status == DONE) take_shapes(d, &first);
   found_free(&first);
   TRY(status);
   TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));
@@ -97,16 +110,25 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   return DONE;
 }
 
-// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none.
-static double bent_by(const fx_use_t *use) {
-  if (use && use->fx->group == FX_TIMING) return fx_use_size(use, 0);
-  return use && fx_use_has_shape(use) ? use->p[use->fx->shape_param] : (double)NAN;
+// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none. far: where
+// it is another one: another lag, or the next shape that is tried.
+static double bent_by(const fx_use_t *use, double *far) {
+  const fx_t *const fx = use ? use->fx : NULL;
+  *far = fx ? fabs(fx_use_size(use, 0)) : 0.0;
+  if (fx && fx->group == FX_TIMING) return fx_use_size(use, 0);
+  if (!fx || !fx_use_has_shape(use)) return (double)NAN;
+  const double shape = use->p[fx->shape_param];
+  int next = 1;
+  while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;
+  if (fx->n_shape > 1) *far = fx->shape[next] - fx->shape[next - 1];
+  return shape;
 }
 
 static bool moved(const chosen_t *a, const chosen_t *b) {
   for (int i = 0; i < a->n; i++) {
-    const double here = bent_by(&a->use[i]), there = bent_by(chosen_use(b, a->of[i]));
-    if (isfinite(here) && !(fabs(here - there) < MOVED * fabs(here))) return true;
+    double far, other;
+    const double here = bent_by(&a->use[i], &far), there = bent_by(chosen_use(b, a->of[i]), &other);
+    if (isfinite(here) && !(fabs(here - there) < MOVED * far)) return true;
   }
   return false;
 }
@@ -126,11 +148,10 @@ static bool flew_other(const diagnosis_t *d) {
 
 static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,
                    why_t *why) {
-  bool refined;
   TRY(select_effects(selection, &d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
   d->rounds += d->found.rounds;
-  TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, &refined, why));
-  *again = !last && (refined || flew_other(d));
+  TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, why));
+  *again = !last && flew_other(d);
   if (*again) return DONE; // nobody asks for rivals
   TRY(nominal_look(&d->nominal, m, why));
   return select_rivals(*selection, &d->found, why);
@@ -150,7 +171,7 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   bool again;
   TRY(look_once(d, job->model, false, &again, why));
   if (!again) return DONE;
-  if (flew_other(d)) TRY(fly_with(job, d, &d->found.chosen, why));
+  TRY(fly_with(job, d, &d->found.chosen, why));
   TRY(shapes_alone(&d->candidates, &d->fit, job->model, &d->found, why));
   found_free(&d->found);
   return look_once(d, job->model, true, &again, why);

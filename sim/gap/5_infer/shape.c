@@ -151,16 +151,13 @@ static bool has_shape(const candidate_t *c) {
   return !c->in_file && c->use.fx->n_shape >= 2 && !candidate_is_numbered(c);
 }
 
-done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found, bool *changed,
-                     why_t *why) {
-  *changed = false;
+done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found, why_t *why) {
   for (int i = 0; i < found->n; i++) {
     const candidate_t *const own = &c->candidate[found->named[i].candidate];
     polish_t p = {.chosen = &found->chosen, .own = own, .s = s, .base = base, .n = SIZE + own->n};
     if (!has_shape(own)) continue;
     p.use = chosen_take(&found->chosen, c, found->named[i].candidate);
     TRY(polish(&p, &found->named[i], why));
-    *changed = true;
   }
   return DONE;
 }

@@ -11,10 +11,9 @@
 //
 // The standard errors of both follow from the curvature of that sum, H: the size's, which the selection gave
 // for a known shape, times sqrt(H_11 (H^-1)_11), without what stands beside the regression's own; the shape's
-// in the proportion that H gives. NaN: it ends at a bound, or there is no minimum. changed: there was one to
-// refine. FAILED: no memory.
+// in the proportion that H gives. NaN: it ends at a bound, or there is no minimum. FAILED: no memory.
 MUST_CHECK done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found,
-                                bool *changed, why_t *why);
+                                why_t *why);
 
 // A shape between those that were tried may do what a second name did: a voltage of the thrust map beside the
 // one that was tried looks like a thrust scale. Where a name gains less beside a free shape than a name must,
