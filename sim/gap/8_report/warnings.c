@@ -3,10 +3,13 @@
 
 #include "base/constants.h"
 #include "vehicle/frame_file.h"
+#include <math.h>
 #include <string.h>
 
-#define LIFT_MIN 1.1 // thrust over weight
-#define LIFT_MAX 12.0
+#define LIFT_MIN     1.1 // thrust over weight
+#define LIFT_MAX     12.0
+#define LATE_LEAST_S 1e-3 // of an attitude: less is within what rows that come at uneven times leave
+#define LATE_SURE    4.0  // standard errors
 
 #define warn(r, ...) note(&(r)->warnings, __VA_ARGS__)
 
@@ -170,8 +173,43 @@ static void warn_of_vehicle(report_t *r) {
          base_name(study_vehicle(r->study)), lacks);
 }
 
+// An acceleration that comes in the world's axes, or is made of the velocity, is turned into the body's by
+// the attitude. One that is late shows as a force: the thrust over mass, g, times the turning meanwhile.
+static double attitude_late_s(const report_t *r, double *stderr_s) {
+  const set_t *const held = &r->study->diagnosis.held;
+  double rr = 0.0, fr = 0.0, ff = 0.0;
+  for (int i = 0; i < held->smooth.n; i++) {
+    const grid_t *const g = &held->grid[held->smooth.flight[i]];
+    const d3_t rate = g->point[held->smooth.point[i]].rate_b_radps;
+    const double fx = r->after.r[CH_FX][i], fy = r->after.r[CH_FY][i];
+    rr += rate.x * rate.x + rate.y * rate.y;
+    fr += fx * rate.y - fy * rate.x;
+    ff += fx * fx + fy * fy;
+  }
+  const double slope = rr > 0.0 ? fr / rr : 0.0;
+  *stderr_s = rr > 0.0 ? sqrt(fmax(ff - slope * fr, 0.0) / (2.0 * held->smooth.n) / rr) / G_MPS2 : 0.0;
+  return slope / G_MPS2;
+}
+
+static void warn_of_attitude(report_t *r) {
+  const study_t *const s = r->study;
+  const grid_t *const g = s->diagnosis.held.grid;
+  const bool turned = g && (g->acceleration_made || s->columns.acc != ACC_BODY);
+  if (!turned || !g->has_rates || !g->has_attitude || !s->diagnosis.held_out.channel[CH_FX].used) return;
+  double stderr_s;
+  const double late_s = attitude_late_s(r, &stderr_s);
+  if (fabs(late_s) < LATE_LEAST_S || fabs(late_s) < LATE_SURE * stderr_s) return;
+  warn(
+      r,
+      "what is left of force_x and force_y goes with the turn rates, as if the attitude were %.1f +- %.1f ms "
+      "%s against the velocities: add %.1f to late_ms of its columns (a simulator's own step, or an "
+      "estimator)",
+      1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", 1e3 * late_s);
+}
+
 void report_warn(report_t *r) {
   warn_of_vehicle(r);
+  warn_of_attitude(r);
   warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_instrument(r);

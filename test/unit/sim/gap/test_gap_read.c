@@ -5,6 +5,7 @@
 #include "rig/test.h"
 #include "vehicle/model_file.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -264,6 +265,30 @@ TEST(gap_splits_counts_or_refuses_what_is_wrong_in_rows_and_cells) {
     for (int k = 1; k < 4; k++) CHECK_NEAR(worst(&f, k, 0.0), 0.0, 0.02);
     gap_flight_free(&f);
   }
+}
+
+// Accelerations in the world's axes, beside an attitude that is late and says so: as if it were not.
+TEST(gap_turns_accelerations_by_the_attitude_of_their_own_time) {
+  columns_t columns = flight_csv_columns();
+  columns.acc = ACC_WORLD_WITH_GRAVITY;
+  gap_flight_t f[2];
+  for (int k = 0; k < 2; k++) {
+    const double late_s = 0.02 * k;
+    why_t why = {""};
+    for (int i = SIG_QW; i <= SIG_QZ; i++) columns.of[i].late_s = late_s, columns.of[i].late_said = true;
+    CHECK_OK(
+        read_by(&columns, &f[k], &(flight_csv_t){.dt_ms = 2.0, .rows = 5000, .late_att_s = late_s}, &why));
+    CHECK_TEXT(why.text, "");
+  }
+  double most = 0.0, differ = 0.0;
+  const int later = (int)lround((f[0].t_s[0] - f[1].t_s[0]) * f[0].rate_Hz); // of the second one's samples
+  for (int i = 50; i < f[0].n - 50; i++) {
+    most = fmax(most, fabs(f[0].v[SIG_AX][i]));
+    differ = fmax(differ, fabs(f[0].v[SIG_AX][i] - f[1].v[SIG_AX][i + later]));
+  }
+  CHECK(most > 0.3);
+  CHECK_NEAR(differ, 0.0, 0.01 * most);
+  for (int k = 0; k < 2; k++) gap_flight_free(&f[k]);
 }
 
 TEST(gap_takes_new_range_samples_alone) {

@@ -4,9 +4,11 @@
 #include "gap/8_report/page.h"
 #include "rig/programs.h"
 #include "rig/scratch.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 #include "vehicle/model_file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,6 +80,61 @@ TEST(gap_notes_where_floor_and_log_are_not_of_one_flight) {
   }
   free(study);
   free(r);
+}
+
+// A flight that turns, and what an attitude that is late leaves of its forces beside noise.
+static void turn_late(report_t *r, study_t *study, double late_s) {
+  enum { POINTS = 600 };
+  splitmix_t draw = {5};
+  why_t why;
+  grid_t *const grid = calloc(1, sizeof *grid);
+  grid->n = POINTS, grid->period_s = 0.02;
+  grid->point = calloc(POINTS, sizeof *grid->point);
+  grid->acceleration_made = grid->has_rates = grid->has_attitude = true;
+  for (int j = 0; j < POINTS; j++)
+    grid->point[j] = (grid_point_t){.t_s = 0.02 * j,
+                                    .ok = true,
+                                    .rate_b_radps = {sin(0.1 * j), cos(0.13 * j), 0.3},
+                                    .range_m = (double)NAN};
+  set_t *const held = &study->diagnosis.held;
+  CHECK_OK(set_make(held, grid, 1, &why));
+  CHECK_OK(lines_make(&r->after, held, &why));
+  study->diagnosis.held_out.channel[CH_FX].used = true;
+  for (int i = 0; i < held->smooth.n; i++) {
+    const d3_t rate = grid->point[held->smooth.point[i]].rate_b_radps;
+    r->after.r[CH_FX][i] = G_MPS2 * late_s * rate.y + splitmix_normal(&draw, 0.02);
+    r->after.r[CH_FY][i] = -G_MPS2 * late_s * rate.x + splitmix_normal(&draw, 0.02);
+  }
+}
+
+TEST(gap_notes_an_attitude_that_is_not_of_the_time_of_the_forces) {
+  static const struct {
+    double late_s;
+    const char *said; // null: nothing
+  } cases[] = {{0.0, NULL},
+               {0.0005, NULL},
+               {0.004, "4.0 +- 0.1 ms late against the velocities: add 4.0 to"},
+               {-0.003, "3.0 +- 0.1 ms early against the velocities: add -3.0 to"}};
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%g s", cases[i].late_s);
+    study_t *const study = calloc(1, sizeof *study);
+    report_t *const r = calloc(1, sizeof *r);
+    why_t why;
+    CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
+    study->resimulation.flew = true;
+    r->study = study;
+    turn_late(r, study, cases[i].late_s);
+    report_warn(r);
+    const char *said = NULL;
+    for (int k = 0; k < r->warnings.n; k++)
+      if (strstr(r->warnings.line[k], "goes with the turn rates")) said = r->warnings.line[k];
+    CHECK((said != NULL) == (cases[i].said != NULL));
+    if (said && cases[i].said) CHECK(strstr(said, cases[i].said) != NULL);
+    lines_free(&r->after);
+    set_free(&study->diagnosis.held);
+    free(study);
+    free(r);
+  }
 }
 
 // Keys that a vehicle file lacks, bit by bit as frame_lacks() counts them.
