@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-// A becomes L, whose other half keeps what it had. False: A is not positive, and is no L.
+// A becomes L, whose other half keeps what it had. False: A is not positive, or not finite; it is
+// overwritten.
 bool cholesky(double *A, int n);
 
 // b becomes L^-1 b, and L'^-1 b.

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOVED      0.1 // of a shape, a lag or a delay: columns about the old one are no longer those of the new
+#define MOVED                                                                                                \
+  0.1 // of the way to another shape, lag or delay: columns about the old one are not those of the new
 #define TRIAL_SEED 1000 // other draws than the flights that count
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose_job_t *job, why_t *why) {
@@ -110,17 +111,17 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   return DONE;
 }
 
-// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none. far: where
-// it is another one: another lag, or the next shape that is tried.
+// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none. far: to
+// another one, of lags as far as itself, of shapes the next that is tried.
 static double bent_by(const fx_use_t *use, double *far) {
-  const fx_t *const fx = use ? use->fx : NULL;
-  *far = fx ? fabs(fx_use_size(use, 0)) : 0.0;
-  if (fx && fx->group == FX_TIMING) return fx_use_size(use, 0);
-  if (!fx || !fx_use_has_shape(use)) return (double)NAN;
+  *far = (double)NAN;
+  if (use && use->fx->group == FX_TIMING) return *far = fabs(fx_use_size(use, 0)), fx_use_size(use, 0);
+  if (!use || !fx_use_has_shape(use) || use->fx->n_shape < 2) return (double)NAN;
+  const fx_t *const fx = use->fx;
   const double shape = use->p[fx->shape_param];
   int next = 1;
   while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;
-  if (fx->n_shape > 1) *far = fx->shape[next] - fx->shape[next - 1];
+  *far = fx->shape[next] - fx->shape[next - 1];
   return shape;
 }
 

@@ -2,6 +2,7 @@
 #include "vehicle/frame_file.h"
 
 #include "base/text.h"
+#include <math.h>
 #include <string.h>
 
 typedef struct {
@@ -50,6 +51,9 @@ static done_t read_body(toml_t t, frame_t *f, why_t *why) {
   return read_list(t, "imu_m", 3, -1.0, 1.0, f->imu_m, why);
 }
 
+// Of all rotors' distances: alike beside each other they make 0.7 of them, opposite ones nothing.
+#define ASKEW 0.35
+
 static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   static const char *const keys[] = {"x_m",    "y_m",          "spin",    "torque_ratio_m",
                                      "kf_Ns2", "inertia_kgm2", "delay_s", NULL};
@@ -64,15 +68,20 @@ static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   TRY(read_list(t, "x_m", ROTORS, -5.0, 5.0, f->rotor_x_m, why));
   TRY(read_list(t, "y_m", ROTORS, -5.0, 5.0, f->rotor_y_m, why));
   TRY(read_list(t, "spin", ROTORS, -1.0, 1.0, f->rotor_spin, why));
-  double sum = 0.0;
+  double sum = 0.0, roll_m = 0.0, pitch_m = 0.0, size_m = 0.0; // of the moments that a moment about z brings
   for (int i = 0; i < ROTORS; i++) {
     sum += f->rotor_spin[i];
+    roll_m += f->rotor_spin[i] * f->rotor_y_m[i];
+    pitch_m += f->rotor_spin[i] * f->rotor_x_m[i];
+    size_m += hypot(f->rotor_x_m[i], f->rotor_y_m[i]);
     if (f->rotor_spin[i] > -1.0 && f->rotor_spin[i] < 1.0)
       return toml_refuse(t, "spin", why, "%g; allowed: 1 and -1", f->rotor_spin[i]);
   }
   if (sum < 0.0 || sum > 0.0)
     return toml_refuse(t, "spin", why, "%g rotors of 1; allowed: 2, else the torques of a hover turn it",
                        0.5 * (ROTORS + sum));
+  if (hypot(roll_m, pitch_m) > ASKEW * size_m)
+    return toml_refuse(t, "spin", why, "rotors of 1 lie on one side; allowed: opposite ones turn alike");
   return DONE;
 }
 

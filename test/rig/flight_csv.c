@@ -173,7 +173,8 @@ size_t flight_csv_write(const flight_csv_t *f, char *text, size_t room) {
     const bool same = i > from && i <= from + f->same_rows;
     const double t_s = dt_s * (same ? from : i);
     double v[FC_COLUMNS];
-    values(t_s, t_s - f->late_att_s, t_s - f->late_vel_s, v);
+    const double stands_s = f->repeats_att ? dt_s * (i % f->repeats_att) : 0.0;
+    values(t_s, t_s - f->late_att_s - stands_s, t_s - f->late_vel_s, v);
     if (f->late_cmd_s != 0.0) late_commands(t_s - f->late_cmd_s, v);
     spoil(f, t_s, v);
     bool first = true;

@@ -46,6 +46,7 @@ typedef struct {
   double late_att_s;  // attitude and
   double late_vel_s;  // velocity and position are late
   double late_cmd_s;  // motor commands too
+  int repeats_att;    // the attitude comes every so many rows, and stands in between; 0: in each
   int column;         // which columns: this one and
   int more;           // so many behind it
   double scale;       // 0: 1; times this ..

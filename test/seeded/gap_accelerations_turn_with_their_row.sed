@@ -1,4 +1,4 @@
 # An acceleration in the world's axes is turned by the attitude of its row, however late that is.
 # file: sim/gap/1_read/read.c
 # test: gap_turns_accelerations_by_the_attitude
-s/const bool in_world = c->acc != ACC_BODY;/const bool in_world = c->acc > ACC_WORLD_WITH_GRAVITY;/
+/raw_to_world(raw);/d

@@ -122,27 +122,6 @@ static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive
   return DONE;
 }
 
-// A log's accelerations in the world's axes came into the body's by the attitude of their row. Where one of
-// both is moved in time they go back, and come by that of their own time.
-static void turn_acceleration(int n, double *const v[SIG_COUNT], bool to_world) {
-  if (!has(v, FORCE) || !has(v, ATTITUDE)) return;
-  for (int i = 0; i < n; i++) {
-    const dq_t q_wb = attitude_at(v, i);
-    const d3_t acc = vector_at(v, SIG_AX, i);
-    const d3_t turned = to_world ? dq_to_world(q_wb, acc) : dq_to_body(q_wb, acc);
-    v[SIG_AX][i] = turned.x, v[SIG_AY][i] = turned.y, v[SIG_AZ][i] = turned.z;
-  }
-}
-
-static done_t gap_grid_turned(gap_flight_t *f, raw_t *raw, const columns_t *c,
-                              const double shift_s[SIG_COUNT], why_t *why) {
-  const bool in_world = c->acc != ACC_BODY;
-  if (in_world) turn_acceleration(raw->n, raw->v, true);
-  TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
-  if (in_world) turn_acceleration(f->n, f->v, false);
-  return DONE;
-}
-
 // --- the whole --------------------------------------------------------------------------------------------
 
 // What the log lacks, and what that costs.
@@ -210,6 +189,7 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   double shift_s[SIG_COUNT];
   late_as_logged(rows, shift_s);
   TRY(raw_read(raw, rows, &f->cut, why));
+  if (rows->columns.acc != ACC_BODY) raw_to_world(raw);
   for (int i = SIG_RANGE; i <= SIG_RANGE_DOWN; i++) shift_s[i] = range_age_s(raw, rows, (signal_id_t)i);
   f->rows_are_means = rows->columns.rows_are_means || raw->thin > 1;
   TRY(gap_check_cells(f, raw, rows, why));
@@ -225,7 +205,7 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         slow);
   TRY(align(f, raw, &rows->columns, &GAP_TURN, shift_s, &f->attitude_late_s, why));
   TRY(align(f, raw, &rows->columns, &GAP_PUSH, shift_s, &f->velocity_late_s, why));
-  TRY(gap_grid_turned(f, raw, &rows->columns, shift_s, why));
+  TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
     return table_refuse(&rows->table, 0, -1, why,
                         "%d samples without a gap; allowed: a second of flight or more", f->n);

@@ -50,6 +50,7 @@ typedef struct {
   long rows;                // of the log
   long merged;              // rows at, or almost at, the time of the one before
   long range_unusable;      // samples of 0 and of no return
+  bool acc_in_world;        // else in the body's axes
 } raw_t;
 
 void raw_free(raw_t *raw);
@@ -74,8 +75,12 @@ MUST_CHECK done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_
 // FAILED: no memory.
 MUST_CHECK done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why);
 
-// The uniform time base: shift_s[i] is taken from the time stamps of signal i. Signals not in `want` are
-// left out; at most limit_s of flight. FAILED: no memory.
+// Accelerations that the log has in the world's axes came into the body's by the attitude of their row, which
+// may be a repeated one, or of another time: back, until both are where they belong.
+void raw_to_world(raw_t *raw);
+
+// The uniform time base, with accelerations in the body's axes: shift_s[i] is taken from the time stamps of
+// signal i. Signals not in `want` are left out; at most limit_s of flight. FAILED: no memory.
 MUST_CHECK done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT],
                            double limit_s, bool drop, why_t *why);
 

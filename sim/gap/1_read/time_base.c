@@ -163,6 +163,21 @@ static done_t fill_signal(gap_flight_t *f, const raw_t *raw, const steps_t *g, i
   return DONE;
 }
 
+static void turn_acceleration(int n, double *const v[SIG_COUNT], bool to_world) {
+  if (!has(v, FORCE) || !has(v, ATTITUDE)) return;
+  for (int i = 0; i < n; i++) {
+    const dq_t q_wb = attitude_at(v, i);
+    const d3_t acc = vector_at(v, SIG_AX, i);
+    const d3_t turned = to_world ? dq_to_world(q_wb, acc) : dq_to_body(q_wb, acc);
+    v[SIG_AX][i] = turned.x, v[SIG_AY][i] = turned.y, v[SIG_AZ][i] = turned.z;
+  }
+}
+
+void raw_to_world(raw_t *raw) {
+  turn_acceleration(raw->n, raw->v, true);
+  raw->acc_in_world = true;
+}
+
 done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_s[SIG_COUNT], double limit_s,
                 bool drop, why_t *why) {
   steps_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
@@ -187,5 +202,6 @@ done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_
     if (drop) raw_drop(raw, (signal_id_t)i);
   }
   unit_quaternions(f);
+  if (raw->acc_in_world) turn_acceleration(f->n, f->v, false);
   return DONE;
 }

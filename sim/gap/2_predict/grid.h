@@ -41,8 +41,10 @@ typedef struct {
   lag_t lag;
   double delay_s;
   double *thrust_N[ROTORS], *rise_Nps[ROTORS];
-  double *later_N[ROTORS]; // what differences see besides (holds.h); null: nothing
-  bool lent;               // another grid's, only to be read
+  // What differences over the neighbouring points see besides, of thrust, and of how fast it rises over its
+  // root (holds.h); null: nothing.
+  double *later_N[ROTORS], *later_rootNps[ROTORS];
+  bool lent; // another grid's, only to be read
 } lagged_t;
 
 typedef struct {
@@ -55,6 +57,7 @@ typedef struct {
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   bool velocity_made, acceleration_made; // of the place, of the velocity: they are not logged
+  bool quick;     // the vehicle file's rotors follow a command within a few rows (holds.h)
   bool by_speeds; // the log has no commands, and rotor speeds that were measured stand for them: no lag
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
@@ -82,6 +85,14 @@ MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 static inline int grid_begins(const grid_t *g, int i) {
   const int *const segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   while (segment && i + g->every <= g->samples && segment[i] != segment[i + g->every - 1]) i++;
+  return i;
+}
+
+// The last sample of the segment that has number i.
+static inline int grid_segment_end(const grid_t *g, int i) {
+  const int *const segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  if (!segment) return g->samples - 1;
+  while (i + 1 < g->samples && segment[i + 1] == segment[i]) i++;
   return i;
 }
 

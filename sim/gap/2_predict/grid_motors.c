@@ -106,19 +106,12 @@ WIDE_INLINE void look_back(const history_t *h, int first, int last, int i, four_
   *rise_Nps += share > 0.0 ? rise[0] + share * (rise[1] - rise[0]) : rise[0];
 }
 
-static int last_of_segment(const grid_t *g, int i) {
-  const int *segment = g->flight->segment;
-  if (!segment) return g->samples - 1;
-  while (i + 1 < g->samples && segment[g->from + i + 1] == segment[g->from + i]) i++;
-  return i;
-}
-
 WIDE_COPIES static void average(const grid_t *g, const history_t *h, lagged_t *m) {
-  int i = 0, first = 0, last = last_of_segment(g, 0);
+  int i = 0, first = 0, last = grid_segment_end(g, 0);
   for (int j = 0; j < g->n; j++) {
     i = grid_begins(g, i);
     if (j > 0 && g->point[j].segment != g->point[j - 1].segment) first = i;
-    if (i > last) last = last_of_segment(g, i);
+    if (i > last) last = grid_segment_end(g, i);
     four_t thrust_N = {0.0}, rise_Nps = {0.0};
     for (int k = i; k < i + g->every; k++) look_back(h, first, last, k, &thrust_N, &rise_Nps);
     for (int k = 0; k < ROTORS; k++) {
@@ -155,7 +148,7 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
     if (is_of(&g->motors[i], lag, delay_s)) return &g->motors[i];
   lagged_t *const m = place_of(g);
   const size_t n = (size_t)g->n;
-  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(3 * ROTORS * (n + 1) * sizeof(double));
+  if (!m->thrust_N[0]) m->thrust_N[0] = malloc(4 * ROTORS * (n + 1) * sizeof(double));
   four_t *const room = aligned_alloc(sizeof(four_t), 2 * ((size_t)g->samples + 1) * sizeof *room);
   if (!m->thrust_N[0] || !room) {
     free(room);
@@ -166,17 +159,17 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
   for (int k = 0; k < ROTORS; k++) {
     m->thrust_N[k] = m->thrust_N[0] + (size_t)k * n;
     m->rise_Nps[k] = m->thrust_N[0] + (size_t)(ROTORS + k) * n;
-    m->later_N[k] = holds_matter(g, lag) ? m->thrust_N[0] + (size_t)(2 * ROTORS + k) * n : NULL;
+    m->later_N[k] = holds_known(g) ? m->thrust_N[0] + (size_t)(2 * ROTORS + k) * n : NULL;
+    m->later_rootNps[k] = m->later_N[k] ? m->later_N[k] + ROTORS * n : NULL;
   }
   const history_t h = {room, room + g->samples, delay_s * g->flight->rate_Hz};
   follow(g, lag, g->flight->rows_are_means, &h);
   average(g, &h, m);
-  if (m->later_N[0]) {
-    follow(g, lag, true, &h);
-    holds_fit(g, h.thrust_N, h.shift, m, (double *)h.rise_Nps);
-  }
+  if (m->later_N[0]) follow(g, lag, true, &h);
+  const bool fits = !m->later_N[0] || holds_fit(g, h.thrust_N, h.shift, m);
   free(room);
-  return m;
+  if (!fits) m->delay_s = (double)NAN; // of no commands
+  return fits ? m : NULL;
 }
 
 grid_t grid_lend(const grid_t *g) {

@@ -1,39 +1,49 @@
 // holds.c - commands that hold, as a difference of two points sees them.
 #include "gap/2_predict/holds.h"
 
+#include "base/wide.h"
 #include <math.h>
+#include <stdlib.h>
 
-// Rows that the slower of both lags takes: at three Simpson's rule errs by 3 % of a turning that jumps from
-// row to row, at so many by 1 %, and less than one cannot be seen beside noise (test_gap_holds.c).
-#define ROWS_OF_LAG 10.0
-
-bool holds_matter(const grid_t *g, const lag_t *lag) {
-  const bool hold = !g->by_speeds && !g->flight->rows_are_means && !grid_is_slow(g);
-  return hold && fmax(lag->up_s, lag->down_s) * g->flight->rate_Hz < ROWS_OF_LAG;
+bool holds_known(const grid_t *g) {
+  return g->quick && !g->by_speeds && !g->flight->rows_are_means && !grid_is_slow(g);
 }
 
-// Of holds that begin at this sample; the neighbour's beyond the ends.
-static double hold_of(const four_t *hold_N, double shift, int rotor, int i, int samples) {
-  const double at = fmin(fmax(i - shift, 0.0), samples - 1.0);
-  const int low = (int)at, next = low + 1 < samples ? low + 1 : low;
-  return hold_N[low][rotor] + (at - low) * (hold_N[next][rotor] - hold_N[low][rotor]);
+// Of one rotor: what its thrust has given up to the beginning of each sample, in newton times samples.
+typedef struct {
+  const four_t *hold_N;
+  double *given;
+  int rotor;
+} impulse_t;
+
+// At an instant among the samples first..last of a segment; what holds at its ends held before and behind.
+static double given_at(const impulse_t *p, int first, int last, double at) {
+  const int i = at < first ? first : at < last ? (int)at : last;
+  return p->given[i] + (at - i) * p->hold_N[i][p->rotor];
 }
 
-// The mean that a difference of the points beside one sees: each is a mean of samples, so that holds in the
-// middle are seen by all pairs of them. first: the sample with which the point before begins.
-static double seen(const grid_t *g, const four_t *hold_N, double shift, int rotor, int first) {
-  const int every = g->every, holds = 3 * every - 1;
+static void add_up(impulse_t *p, int samples) {
   double sum = 0.0;
-  for (int r = 0; r < holds; r++) {
-    const int pairs = (int)fmin(fmin(r + 1, every), holds - r);
-    sum += pairs * hold_of(hold_N, shift, rotor, first + r, g->samples);
+  for (int i = 0; i < samples; i++) {
+    p->given[i] = sum;
+    sum += p->hold_N[i][p->rotor];
   }
-  return sum / (2.0 * every * every);
+}
+
+// What a mean of a point's samples has been given, as its rates are one.
+static double given_to(const grid_t *g, const impulse_t *p, int first, int last, int i, double shift) {
+  double sum = 0.0;
+  for (int k = i; k < i + g->every; k++) sum += given_at(p, first, last, k - shift);
+  return sum / g->every;
 }
 
 static bool inside(const grid_t *g, int j) {
   const grid_point_t *const p = g->point;
   return j > 0 && j + 1 < g->n && p[j - 1].segment == p[j].segment && p[j + 1].segment == p[j].segment;
+}
+
+static double by_simpson(const double *v, int j) {
+  return (v[j - 1] + 4.0 * v[j] + v[j + 1]) / 6.0;
 }
 
 // (x[j-1] + 4 x[j] + x[j+1]) / 6 = d[j] between the ends of a segment, where x is 0; d becomes x.
@@ -48,34 +58,67 @@ static void undo_simpson(const grid_t *g, double *d, double *room) {
     if (inside(g, j)) d[j] -= room[j] * d[j + 1];
 }
 
-void holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors, double *room) {
-  for (int k = 0; k < ROTORS; k++) {
-    double *const later_N = motors->later_N[k];
-    const double *const at = motors->thrust_N[k];
-    for (int j = 0, i = 0; j < g->n; j++, i += g->every) {
-      i = grid_begins(g, i);
-      later_N[j] = 0.0;
-      if (!inside(g, j)) continue;
-      const double by_instants = (at[j - 1] + 4.0 * at[j] + at[j + 1]) / 6.0;
-      later_N[j] = seen(g, hold_N, shift, k, i - g->every) - by_instants;
-    }
-    undo_simpson(g, later_N, room);
+// A rotor that hardly turns is taken to give this: how fast it speeds up at a given rise is infinite at rest.
+#define LEAST_N 1e-3
+
+// given: by point. What it and the thrusts at the points' instants grow by over the span, less what Simpson's
+// rule makes of the instants.
+static void fit_one(const grid_t *g, const double *given, int k, lagged_t *m, double *room) {
+  const double *const at_N = m->thrust_N[k], *const rise_Nps = m->rise_Nps[k];
+  for (int j = 0; j < g->n; j++) {
+    const bool in = inside(g, j);
+    m->later_N[k][j] = in ? (given[j + 1] - given[j - 1]) / (2.0 * g->every) - by_simpson(at_N, j) : 0.0;
+    m->later_rootNps[k][j] =
+        in ? (at_N[j + 1] - at_N[j - 1]) / (2.0 * g->period_s) - by_simpson(rise_Nps, j) : 0.0;
   }
+  undo_simpson(g, m->later_N[k], room);
+  undo_simpson(g, m->later_rootNps[k], room);
+  for (int j = 0; j < g->n; j++) m->later_rootNps[k][j] /= sqrt(fmax(at_N[j], LEAST_N));
+}
+
+bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors) {
+  const size_t points = (size_t)g->n + 1;
+  double *const room = malloc((2 * points + (size_t)g->samples) * sizeof *room);
+  if (!room) return false;
+  double *const given = room + points;
+  for (int k = 0; k < ROTORS; k++) {
+    impulse_t p = {hold_N, given + points, k};
+    add_up(&p, g->samples);
+    for (int j = 0, i = 0, first = 0, last = -1; j < g->n; j++, i += g->every) {
+      i = grid_begins(g, i);
+      if (i > last) first = i, last = grid_segment_end(g, i);
+      given[j] = given_to(g, &p, first, last, i, shift);
+    }
+    fit_one(g, given, k, motors, room);
+  }
+  free(room);
+  return true;
+}
+
+// Of each point, what the four rotors' numbers make with these weights.
+WIDE_COPIES static void add_weighted(int n, const double *const by_rotor[ROTORS], const double weight[ROTORS],
+                                     double *to) {
+  const double *const a = by_rotor[0], *const b = by_rotor[1], *const c = by_rotor[2], *const d = by_rotor[3];
+  for (int j = 0; j < n; j++)
+    to[j] += weight[0] * a[j] + weight[1] * b[j] + weight[2] * c[j] + weight[3] * d[j];
 }
 
 void holds_add(const grid_t *g, const rigid_t *r, const lagged_t *motors, double *const out[CHANNELS]) {
   if (!motors->later_N[0]) return;
+  const double *const *const later_N = (const double *const *)motors->later_N;
+  double lift[ROTORS], x[ROTORS], y[ROTORS], z[ROTORS], spin_up[ROTORS];
   for (int k = 0; k < ROTORS; k++) {
-    const double scale = r->thrust_scale[k], x = scale * r->rotor_y_m[k] * r->per_inertia.x,
-                 y = -scale * r->rotor_x_m[k] * r->per_inertia.y,
-                 z = -scale * r->torque_scale[k] * r->spin[k] * r->torque_ratio_m * r->per_inertia.z;
-    const double lift = g->acceleration_made ? scale * r->per_mass : 0.0;
-    for (int j = 0; j < g->n; j++) {
-      const double later_N = motors->later_N[k][j];
-      out[CH_FZ][j] += lift * later_N;
-      out[CH_WX][j] += x * later_N;
-      out[CH_WY][j] += y * later_N;
-      out[CH_WZ][j] += z * later_N;
-    }
+    const double scale = r->thrust_scale[k], turns = -r->spin[k] * r->per_inertia.z;
+    lift[k] = scale * r->per_mass;
+    x[k] = scale * r->rotor_y_m[k] * r->per_inertia.x;
+    y[k] = -scale * r->rotor_x_m[k] * r->per_inertia.y;
+    z[k] = turns * scale * r->torque_scale[k] * r->torque_ratio_m;
+    spin_up[k] = turns * r->half_I_per_kf / r->per_root_kf; // of a rise over the thrust's root
   }
+  if (g->acceleration_made) add_weighted(g->n, later_N, lift, out[CH_FZ]);
+  add_weighted(g->n, later_N, x, out[CH_WX]);
+  add_weighted(g->n, later_N, y, out[CH_WY]);
+  add_weighted(g->n, later_N, z, out[CH_WZ]);
+  if (r->rotor_inertia_kgm2 > 0.0)
+    add_weighted(g->n, (const double *const *)motors->later_rootNps, spin_up, out[CH_WZ]);
 }

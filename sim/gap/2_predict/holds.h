@@ -8,15 +8,15 @@
 
 #include "gap/2_predict/grid.h"
 
-// Rotors with this lag change within a few rows, and every command is logged and holds.
-bool holds_matter(const grid_t *g, const lag_t *lag);
+// Rotors are quick, every command is logged, and holds until the next row.
+bool holds_known(const grid_t *g);
 
-// later_N of motors whose thrusts are known. hold_N: means over the hold of every sample, wanted `shift`
-// samples before. room: n numbers.
-void holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors, double *room);
+// later_N and later_rootNps of motors whose thrusts are known. hold_N: means over the hold of every sample of
+// the grid, wanted `shift` samples before, a part of one too, or after where it is below 0. False: no memory.
+bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors);
 
-// Adds what later_N does, by mass, inertia and rotors of r, to what is predicted of the channels that are
-// differences.
+// Adds what these do to what is predicted of the channels that are differences. r: the vehicle at the first
+// point, whatever its effects make of it later: a sag of a tenth is a tenth of a correction.
 void holds_add(const grid_t *g, const rigid_t *r, const lagged_t *motors, double *const out[CHANNELS]);
 
 #endif

@@ -135,8 +135,9 @@ static done_t run(grid_t *g, body_t *b, const path_t *known, path_t *path, doubl
                   why_t *why) {
   const lagged_t *const motors = start(g, b);
   if (!motors) return error_failed(why, "out of memory");
+  const rigid_t first = b->rigid;
   TRY(run_points(g, b, motors, known, path, out, why));
-  holds_add(g, &b->rigid, motors, out);
+  holds_add(g, &first, motors, out);
   return DONE;
 }
 
@@ -243,8 +244,9 @@ done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *
   if (g->n == 0) return DONE;
   TRY(open_body(&b, g, path->model, why));
   const lagged_t *const motors = start(g, &b);
+  const rigid_t first = b.rigid;
   const bool done = motors && run_more(g, &b, path, motors, more, out);
-  if (done) holds_add(g, &b.rigid, motors, out);
+  if (done) holds_add(g, &first, motors, out);
   body_close(&b);
   if (!motors) return error_failed(why, "out of memory");
   return done ? DONE : run_anew(g, path, more, out, why);

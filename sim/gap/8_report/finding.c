@@ -105,7 +105,7 @@ static void say_what(finding_t *f, const double *effect, int rows) {
   rms = sqrt(rms);
   const double late_s = fx_use_size(f->use, 0);
   if (f->fx->group == FX_TIMING)
-    snprintf(f->says, REPORT_TEXT, "commands act %.1f +- %.1f ms %s", 1e3 * fabs(late_s),
+    snprintf(f->says, REPORT_TEXT, "commands act %.3g +- %.2g ms %s", 1e3 * fabs(late_s),
              1e3 * f->named->stderr_[0], late_s < 0.0 ? "earlier" : "later");
   else if (mean * mean > 0.5 * rms * rms) // most of it is steady
     say_steady(f, mean, f->says);

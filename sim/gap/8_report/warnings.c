@@ -191,20 +191,29 @@ static double attitude_late_s(const report_t *r, double *stderr_s) {
   return slope / G_MPS2;
 }
 
+// What a columns file is to say of it: what it says now, or what was moved because it says nothing, and this.
+static double late_ms_told(const study_t *s, double late_s) {
+  const column_t *const of = s->columns.of;
+  const double said_s = of[SIG_QW].late_said ? of[SIG_QW].late_s : of[SIG_ROLL].late_s;
+  return 1e3 * (said_s + s->flight[0].attitude_late_s + late_s);
+}
+
 static void warn_of_attitude(report_t *r) {
   const study_t *const s = r->study;
   const grid_t *const g = s->diagnosis.held.grid;
+  const gap_part_t *const part = s->diagnosis.held_out.channel;
   const bool turned = g && (g->acceleration_made || s->columns.acc != ACC_BODY);
-  if (!turned || !g->has_rates || !g->has_attitude || !s->diagnosis.held_out.channel[CH_FX].used) return;
+  if (!turned || !g->has_rates || !g->has_attitude || !part[CH_FX].used || !part[CH_FY].used) return;
   double stderr_s;
   const double late_s = attitude_late_s(r, &stderr_s);
   if (fabs(late_s) < LATE_LEAST_S || fabs(late_s) < LATE_SURE * stderr_s) return;
   warn(
       r,
-      "what is left of force_x and force_y goes with the turn rates, as if the attitude were %.1f +- %.1f ms "
-      "%s against the velocities: add %.1f to late_ms of its columns (a simulator's own step, or an "
-      "estimator)",
-      1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", 1e3 * late_s);
+      "what is left of force_x and force_y goes with the turn rates, as if the attitude were %.2g +- %.1g ms "
+      "%s against the velocities; if it is (a simulator's own step, an estimator), late_ms = %.1f of its "
+      "columns "
+      "says so",
+      1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", late_ms_told(s, late_s));
 }
 
 void report_warn(report_t *r) {

@@ -99,7 +99,7 @@ static void turn_late(report_t *r, study_t *study, double late_s) {
   set_t *const held = &study->diagnosis.held;
   CHECK_OK(set_make(held, grid, 1, &why));
   CHECK_OK(lines_make(&r->after, held, &why));
-  study->diagnosis.held_out.channel[CH_FX].used = true;
+  study->diagnosis.held_out.channel[CH_FX].used = study->diagnosis.held_out.channel[CH_FY].used = true;
   for (int i = 0; i < held->smooth.n; i++) {
     const d3_t rate = grid->point[held->smooth.point[i]].rate_b_radps;
     r->after.r[CH_FX][i] = G_MPS2 * late_s * rate.y + splitmix_normal(&draw, 0.02);
@@ -109,12 +109,15 @@ static void turn_late(report_t *r, study_t *study, double late_s) {
 
 TEST(gap_notes_an_attitude_that_is_not_of_the_time_of_the_forces) {
   static const struct {
-    double late_s;
-    const char *said; // null: nothing
-  } cases[] = {{0.0, NULL},
-               {0.0005, NULL},
-               {0.004, "4.0 +- 0.1 ms late against the velocities: add 4.0 to"},
-               {-0.003, "3.0 +- 0.1 ms early against the velocities: add -3.0 to"}};
+    double late_s, said_s, moved_s; // left; by the columns file; because that says nothing
+    const char *said;               // null: nothing
+  } cases[] = {{0.0, 0.0, 0.0, NULL},
+               {0.0005, 0.0, 0.0, NULL},
+               {0.004, 0.0, 0.0,
+                "4 +- 0.1 ms late against the velocities; if it is (a simulator's own step, an "
+                "estimator), late_ms = 4.0"},
+               {-0.003, 0.001, 0.0, "late_ms = -2.0"},
+               {0.003, 0.0, 0.012, "late_ms = 15.0"}};
   for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
     ROW("%g s", cases[i].late_s);
     study_t *const study = calloc(1, sizeof *study);
@@ -123,6 +126,10 @@ TEST(gap_notes_an_attitude_that_is_not_of_the_time_of_the_forces) {
     CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
     study->resimulation.flew = true;
     r->study = study;
+    gap_flight_t flight = {.attitude_late_s = cases[i].moved_s};
+    study->flight = &flight;
+    study->columns.of[SIG_QW].late_s = cases[i].said_s;
+    study->columns.of[SIG_QW].late_said = cases[i].said_s != 0.0;
     turn_late(r, study, cases[i].late_s);
     report_warn(r);
     const char *said = NULL;

@@ -277,6 +277,8 @@ TEST(vehicle_file_with_a_bad_body_is_refused) {
       {"[rotors]\nspin = [1, 0, 1, 1]\n", "v.toml:8: spin: 0; allowed: 1 and -1"},
       {"[rotors]\nspin = [1, -1, 1, 1]\n",
        "v.toml:8: spin: 3 rotors of 1; allowed: 2, else the torques of a hover turn it"},
+      {"[rotors]\nspin = [1, 1, -1, -1]\n",
+       "v.toml:8: spin: rotors of 1 lie on one side; allowed: opposite ones turn alike"},
       {"[rotors]\nkf_Ns2 = 0\n", "v.toml:8: kf_Ns2: 0 is out of range; allowed: 1e-12 to 1"},
       {"[battery]\ncapacity_Ah = 1\nresistance_ohm = 1\nidle_A = 0\na_ApN = 0\nb_ApN2 = 0\nopen_V = [4, 3]\n",
        "v.toml:13: open_V: 3; allowed: 0 to 100, not falling"},
