@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOVED                                                                                                \
-  0.1 // of the way to another shape, lag or delay: columns about the old one are not those of the new
+// Of the way to another shape, lag or delay: columns about the old one are no longer those of the new.
+#define MOVED      0.1
 #define TRIAL_SEED 1000 // other draws than the flights that count
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose_job_t *job, why_t *why) {
@@ -115,9 +115,12 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
 // another one, of lags as far as itself, of shapes the next that is tried.
 static double bent_by(const fx_use_t *use, double *far) {
   *far = (double)NAN;
-  if (use && use->fx->group == FX_TIMING) return *far = fabs(fx_use_size(use, 0)), fx_use_size(use, 0);
-  if (!use || !fx_use_has_shape(use) || use->fx->n_shape < 2) return (double)NAN;
-  const fx_t *const fx = use->fx;
+  const fx_t *const fx = use ? use->fx : NULL;
+  if (fx && fx->group == FX_TIMING) {
+    *far = fabs(fx_use_size(use, 0));
+    return fx_use_size(use, 0);
+  }
+  if (!fx || !fx_use_has_shape(use) || fx->n_shape < 2) return (double)NAN;
   const double shape = use->p[fx->shape_param];
   int next = 1;
   while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;

@@ -224,6 +224,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   g->period_s = g->every / f->rate_Hz;
   g->command_Hz = f->command_Hz;
   g->quick = is_quick(m, f->rate_Hz);
+  g->slowest_N = m->frame.kf_Ns2 * ROTOR_SLOWEST_RADPS * ROTOR_SLOWEST_RADPS;
   g->has_position = has(f, SIG_X, SIG_Z);
   g->has_velocity = has(f, SIG_VX, SIG_VZ);
   g->has_attitude = has(f, SIG_QW, SIG_QZ);

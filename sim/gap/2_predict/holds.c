@@ -58,9 +58,6 @@ static void undo_simpson(const grid_t *g, double *d, double *room) {
     if (inside(g, j)) d[j] -= room[j] * d[j + 1];
 }
 
-// A rotor that hardly turns is taken to give this: how fast it speeds up at a given rise is infinite at rest.
-#define LEAST_N 1e-3
-
 // given: by point. What it and the thrusts at the points' instants grow by over the span, less what Simpson's
 // rule makes of the instants.
 static void fit_one(const grid_t *g, const double *given, int k, lagged_t *m, double *room) {
@@ -73,7 +70,7 @@ static void fit_one(const grid_t *g, const double *given, int k, lagged_t *m, do
   }
   undo_simpson(g, m->later_N[k], room);
   undo_simpson(g, m->later_rootNps[k], room);
-  for (int j = 0; j < g->n; j++) m->later_rootNps[k][j] /= sqrt(fmax(at_N[j], LEAST_N));
+  for (int j = 0; j < g->n; j++) m->later_rootNps[k][j] /= sqrt(fmax(at_N[j], g->slowest_N));
 }
 
 bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors) {

@@ -298,6 +298,22 @@ TEST(vehicle_file_with_a_bad_body_is_refused) {
 
 // What a drag of 1/s per mass, a wind of m/s2 and an offset of a tenth of the arm are in newton and metres
 // grows with the vehicle.
+TEST(vehicle_file_takes_arms_that_are_not_all_alike) {
+  static const char *const text[] = {
+      "[rotors]\nx_m = [0.04, -0.03, -0.03, 0.04]\ny_m = [-0.03, -0.03, 0.04, 0.04]\n",
+      "[rotors]\nx_m = [0.04, 0, -0.04, 0]\ny_m = [0, -0.04, 0, 0.04]\n",
+      "[rotors]\nx_m = [0.06, -0.03, -0.03, 0.03]\n"};
+  for (unsigned i = 0; i < sizeof text / sizeof *text; i++) {
+    char all[600];
+    model_t m;
+    why_t why = {""};
+    ROW("%s", text[i]);
+    snprintf(all, sizeof all, VEHICLE "%s", text[i]);
+    CHECK_OK(model_read(scratch_file("v.toml", all, -1), &m, &why));
+    CHECK_TEXT(why.text, "");
+  }
+}
+
 TEST(vehicle_file_takes_effects_of_vehicles_of_every_size) {
   static const struct {
     const char *what;
