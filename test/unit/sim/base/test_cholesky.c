@@ -32,7 +32,8 @@ TEST(cholesky_solves_forward_and_backward) {
 }
 
 TEST(cholesky_says_that_a_matrix_is_not_positive) {
-  double rows[][4] = {{1, 1, 1, 1}, {1, 2, 2, 1}, {NAN, 0, 0, 1}, {1, NAN, NAN, 1}, {1, 0, 0, NAN}};
+  const double nan = (double)NAN;
+  double rows[][4] = {{1, 1, 1, 1}, {1, 2, 2, 1}, {nan, 0, 0, 1}, {1, nan, nan, 1}, {1, 0, 0, nan}};
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     ROW("%u", i);
     CHECK(!cholesky(rows[i], 2));
