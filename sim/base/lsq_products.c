@@ -4,20 +4,30 @@
 #include <stdlib.h>
 
 // Rows that are taken at once, and of a tile columns down; across it has WIDE. What a tile adds up stays in
-// registers, for which four sums are enough to wait for none of them.
+// registers, for which eight sums are enough to wait for none of them.
 enum { ROWS = 64, DOWN = 4 };
 
 // One tile of a sum: rows of `x`, `pad` numbers each, of which `down` and `across` are the first that meet.
 WIDE_INLINE void add_tile(const double *x, int rows, int pad, int down, int across, double *sum) {
-  wide_t all[DOWN];
-  for (int i = 0; i < DOWN; i++) WIDE_LOAD(all[i], sum + (down + i) * pad + across);
+  four_t low[DOWN], high[DOWN];
+  for (int i = 0; i < DOWN; i++) {
+    FOUR_LOAD(low[i], sum + (down + i) * pad + across);
+    FOUR_LOAD(high[i], sum + (down + i) * pad + across + HALF);
+  }
   for (int r = 0; r < rows; r++) {
     const double *const row = x + r * pad;
-    wide_t there;
-    WIDE_LOAD(there, row + across);
-    for (int i = 0; i < DOWN; i++) all[i] += row[down + i] * there;
+    four_t there_low, there_high;
+    FOUR_LOAD(there_low, row + across);
+    FOUR_LOAD(there_high, row + across + HALF);
+    for (int i = 0; i < DOWN; i++) {
+      low[i] += row[down + i] * there_low;
+      high[i] += row[down + i] * there_high;
+    }
   }
-  for (int i = 0; i < DOWN; i++) WIDE_PUT(sum + (down + i) * pad + across, all[i]);
+  for (int i = 0; i < DOWN; i++) {
+    FOUR_PUT(sum + (down + i) * pad + across, low[i]);
+    FOUR_PUT(sum + (down + i) * pad + across + HALF, high[i]);
+  }
 }
 
 // Of a symmetric sum, the tiles that hold one half.

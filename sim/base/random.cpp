@@ -12,25 +12,25 @@ namespace {
 
 constexpr int TOGETHER = 16; // pairs whose logarithms are taken one behind the other
 
-using unsigned_wide_t = uint64_t __attribute__((vector_size(64)));
+using unsigned_four_t = uint64_t __attribute__((vector_size(32)));
 
 // Whole numbers below 2^32 as doubles, exactly: they are put behind the point of 2^52.
-WIDE_INLINE void whole(const unsigned_wide_t &bits, wide_t &x) {
-  x = (wide_t)(bits | 0x4330000000000000u) - 0x1p52;
+WIDE_INLINE void whole(const unsigned_four_t &bits, four_t &x) {
+  x = (four_t)(bits | 0x4330000000000000u) - 0x1p52;
 }
 
 // 2 c - 1 of c in [0, 1), as the library has it. Of either half of 64 bits a double is exact, so that the sum
 // alone is rounded.
 WIDE_COPIES void units_of(const uint64_t *bits, int n, double *unit) {
-  for (int i = 0; i < n; i += WIDE) {
-    unsigned_wide_t b;
-    wide_t high, low;
-    WIDE_LOAD(b, bits + i);
+  for (int i = 0; i < n; i += HALF) {
+    unsigned_four_t b;
+    four_t high, low;
+    FOUR_LOAD(b, bits + i);
     whole(b >> 32, high);
     whole(b & 0xffffffffu, low);
-    const wide_t c = 0x1p-64 * (0x1p32 * high + low), most = c - c + (1.0 - 0x1p-53);
-    const wide_t x = 2.0 * (c < most ? c : most) - 1.0;
-    WIDE_PUT(unit + i, x);
+    const four_t c = 0x1p-64 * (0x1p32 * high + low), most = c - c + (1.0 - 0x1p-53);
+    const four_t x = 2.0 * (c < most ? c : most) - 1.0;
+    FOUR_PUT(unit + i, x);
   }
 }
 

@@ -16,31 +16,38 @@ _Static_assert(CH_SMOOTH <= WIDE && (int)RESIDUAL_SCRATCH == WIDE,
 #define CHUNK 32
 
 typedef struct {
-  wide_t x1, x2, y1, y2;
+  four_t x1, x2, y1, y2;
 } rest_t;
+
+// Four numbers of a point, in place; `met`: some of them were almost nothing.
+WIDE_INLINE void filter_four(const lowpass_t *f, bool starts, bool tidy, double *v, rest_t *s,
+                             four_bits_t *met) {
+  four_t x;
+  FOUR_LOAD(x, v);
+  if (starts) s->x1 = s->x2 = s->y1 = s->y2 = x;
+  four_t y = f->b * (x + 2.0 * s->x1 + s->x2) - f->a1 * s->y1 - f->a2 * s->y2;
+  const four_bits_t size = (four_bits_t)y & INT64_MAX, tiny = (four_t)size <= TINY;
+  if (tidy)
+    y = (four_t)(~tiny & (four_bits_t)y);
+  else
+    *met |= tiny & size;
+  s->x2 = s->x1, s->x1 = x;
+  s->y2 = s->y1, s->y1 = y;
+  FOUR_PUT(v, y);
+}
 
 // From point j on, in place. A number that is almost nothing is nothing: what dies away in the filter would
 // end where processors are slow. tidy: it is made so; else whether one was met.
 WIDE_INLINE bool filter(const lowpass_t *f, const unsigned char *mark, int starts, int j, int n, int way,
-                        bool tidy, double *v, rest_t *s) {
-  wide_bits_t met = {0};
+                        bool tidy, double *v, rest_t s[HALVES]) {
+  rest_t low = s[0], high = s[1];
+  four_bits_t met = {0};
   for (; n > 0; n--, j += way) {
-    wide_t x;
-    WIDE_LOAD(x, v + WIDE * j);
-    if (mark[j] & starts) s->x1 = s->x2 = s->y1 = s->y2 = x;
-    wide_t y = f->b * (x + 2.0 * s->x1 + s->x2) - f->a1 * s->y1 - f->a2 * s->y2;
-    const wide_bits_t size = (wide_bits_t)y & INT64_MAX, tiny = (wide_t)size <= TINY;
-    if (tidy)
-      y = (wide_t)(~tiny & (wide_bits_t)y);
-    else
-      met |= tiny & size;
-    s->x2 = s->x1, s->x1 = x;
-    s->y2 = s->y1, s->y1 = y;
-    WIDE_PUT(v + WIDE * j, y);
+    filter_four(f, mark[j] & starts, tidy, v + WIDE * j, &low, &met);
+    filter_four(f, mark[j] & starts, tidy, v + WIDE * j + HALF, &high, &met);
   }
-  bool any = false;
-  for (int k = 0; k < WIDE; k++) any = any || met[k] != 0;
-  return any;
+  s[0] = low, s[1] = high;
+  return (met[0] | met[1] | met[2] | met[3]) != 0;
 }
 
 // Forwards and backwards; every segment starts at rest. v: so many numbers of every point, all at once: one
@@ -49,16 +56,16 @@ WIDE_COPIES static void smooth(const lowpass_t *f, const unsigned char *mark, in
   double before[WIDE * CHUNK];
   for (int way = 1; way >= -1; way -= 2) {
     const int starts = way > 0 ? MARK_FIRST : MARK_LAST;
-    rest_t s = {.x1 = {0.0}};
+    rest_t s[HALVES] = {{.x1 = {0.0}}};
     for (int done = 0; done < n; done += CHUNK) {
       const int points = n - done < CHUNK ? n - done : CHUNK, j = way > 0 ? done : n - 1 - done;
       double *const low = v + WIDE * (way > 0 ? j : j - points + 1);
-      const rest_t begin = s;
-      memcpy(before, low, (size_t)points * sizeof(wide_t));
-      if (!filter(f, mark, starts, j, points, way, false, v, &s)) continue;
-      memcpy(low, before, (size_t)points * sizeof(wide_t));
-      s = begin;
-      (void)filter(f, mark, starts, j, points, way, true, v, &s);
+      const rest_t begin[HALVES] = {s[0], s[1]};
+      memcpy(before, low, (size_t)points * WIDE * sizeof(double));
+      if (!filter(f, mark, starts, j, points, way, false, v, s)) continue;
+      memcpy(low, before, (size_t)points * WIDE * sizeof(double));
+      memcpy(s, begin, sizeof s);
+      (void)filter(f, mark, starts, j, points, way, true, v, s);
     }
   }
 }

@@ -132,22 +132,27 @@ static const int BESIDE = (int)(STRETCH_S / ABOUT_S);
 
 // Of all channels, side by side.
 typedef struct {
-  wide_t power[LINES + 1];
+  double power[LINES + 1][WIDE];
   int stretches;
 } spectrum_t;
 
 // What a row has of lines 0, 1, ..: each is the one before, turned on; the turn is that of its time, in every
 // channel. Of one row alone each would wait for the one before.
 typedef struct {
-  wide_t x, y;
+  four_t x[HALVES], y[HALVES];
   double c, s;
 } turning_t;
 
-WIDE_INLINE void turn_on(turning_t *t) {
-  const wide_t next = t->c * t->x - t->s * t->y;
-  t->y = t->s * t->x + t->c * t->y;
-  t->x = next;
+WIDE_INLINE void turn_on(double c, double s, four_t *x, four_t *y) {
+  const four_t next = c * *x - s * *y;
+  *y = s * *x + c * *y;
+  *x = next;
 }
+
+// Of half of the channels: two sums, of every other row each.
+typedef struct {
+  four_t re[2], im[2];
+} line_t;
 
 // A stretch of rows of one flight; v: WIDE numbers a row.
 typedef struct {
@@ -163,46 +168,50 @@ static void take_row(const stretch_t *s, int i, turning_t *t, double *weights) {
   if (i >= s->to) return;
   const double t_s = time_s(s->l, i) - s->start_s, turn = 2.0 * PI * t_s / STRETCH_S;
   const double taper = 0.5 - 0.5 * cos(2.0 * PI * t_s / s->span_s);
-  wide_t v;
-  WIDE_LOAD(v, s->v + WIDE * i);
-  t->x = taper * v;
+  for (int half = 0; half < HALVES; half++) {
+    four_t v;
+    FOUR_LOAD(v, s->v + WIDE * i + HALF * half);
+    t->x[half] = taper * v;
+  }
   t->c = cos(turn);
   t->s = sin(turn);
   *weights += taper * taper;
 }
 
-// Four rows' lines: two sums, of every other row each.
-WIDE_COPIES static void add_lines(turning_t row[4], int last, wide_t *re, wide_t *im) {
-  turning_t t = row[0], u = row[1], v = row[2], w = row[3];
-  for (int k = 0; k <= last; k++) {
-    wide_t *const a = re + 2 * k, *const b = im + 2 * k;
-    a[0] = a[0] + t.x + v.x;
-    a[1] = a[1] + u.x + w.x;
-    b[0] = b[0] + t.y + v.y;
-    b[1] = b[1] + u.y + w.y;
-    turn_on(&t);
-    turn_on(&u);
-    turn_on(&v);
-    turn_on(&w);
+// Four rows' lines.
+WIDE_COPIES static void add_lines(const turning_t row[4], int last, line_t sum[HALVES][LINES + 1]) {
+  for (int half = 0; half < HALVES; half++) {
+    four_t x[4], y[4];
+    for (int i = 0; i < 4; i++) x[i] = row[i].x[half], y[i] = row[i].y[half];
+    for (int k = 0; k <= last; k++) {
+      line_t *const line = &sum[half][k];
+      for (int i = 0; i < 2; i++) {
+        line->re[i] = line->re[i] + x[i] + x[i + 2];
+        line->im[i] = line->im[i] + y[i] + y[i + 2];
+      }
+      for (int i = 0; i < 4; i++) turn_on(row[i].c, row[i].s, &x[i], &y[i]);
+    }
   }
 }
 
 // Tapered (Hann) by time; lines 0 to last.
 static void add_stretch(const look_t *l, const double *v, int from, int to, int last, spectrum_t *sum) {
-  wide_t re[2 * (LINES + 1)], im[2 * (LINES + 1)];
+  line_t line[HALVES][LINES + 1];
   double weights = 0.0;
-  for (int k = 0; k < 2 * (last + 1); k++) re[k] = im[k] = (wide_t){0.0};
+  memset(line, 0, sizeof line);
   const double start_s = time_s(l, from), span_s = time_s(l, to - 1) - start_s;
   const stretch_t s = {l, v, from, to, start_s, span_s};
   for (int i = from; i < to; i += 4) {
     turning_t row[4];
     for (int k = 0; k < 4; k++) take_row(&s, i + k, &row[k], &weights);
-    add_lines(row, last, re, im);
+    add_lines(row, last, line);
   }
-  for (int k = 0; k <= last; k++) {
-    const wide_t x = re[2 * k] + re[2 * k + 1], y = im[2 * k] + im[2 * k + 1];
-    sum->power[k] += (x * x + y * y) / weights;
-  }
+  for (int half = 0; half < HALVES; half++)
+    for (int k = 0; k <= last; k++) {
+      const line_t *const of = &line[half][k];
+      const four_t x = of->re[0] + of->re[1], y = of->im[0] + of->im[1], power = (x * x + y * y) / weights;
+      for (int i = 0; i < HALF; i++) sum->power[k][HALF * half + i] += power[i];
+    }
   sum->stretches++;
 }
 

@@ -1,5 +1,5 @@
 // windows_sums.h - products of indicator columns of bins with each other and with a residual, all white: of
-// one channel, or of several side by side: SUMS_NUMBER, one number or WIDE of them, and SUMS_BINS, the most
+// one channel, or of several side by side: SUMS_NUMBER, one number or four, and SUMS_BINS, the most
 // that there are, are defined before. Within sim/gap/5_infer only.
 #ifndef SIM_GAP_5_INFER_WINDOWS_SUMS_H
 #define SIM_GAP_5_INFER_WINDOWS_SUMS_H
