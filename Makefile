@@ -302,9 +302,19 @@ debug:  ## the programs and the tests, not optimised, for a debugger: out/debug/
 	@$(MAKE) B=$(O)/debug OPT='-O0 -g3' $(patsubst %,$(O)/debug/bin/%,tests $(PROGRAMS))
 
 # The same bits: nothing is fused, and C++ stays as it is, for Eigen takes its sums in as many parts as a register holds.
-# Warnings are the other build's to give: this one's are of code that was inlined.
-fast: setup $(O)/fly  ## the programs for an x86-64-v3 (AVX2), optimised as a whole, to the same bits: out/fast/bin; minutes
-	+@$(MAKE) B=$(O)/fast FAST='-march=x86-64-v3 -mno-fma -ffp-contract=off -flto=auto -w' $(PROGRAMS:%=$(O)/fast/bin/%)
+# Warnings are the other build's to give: this one's are of code that was inlined. Which branches are taken a first build
+# counts, in one thread: alone, side by side, in a diagnosis.
+FASTER = -march=x86-64-v3 -mno-fma -ffp-contract=off -flto=auto -w
+COUNTS = -fprofile-generate -fprofile-update=single
+COUNT  = @OMP_NUM_THREADS=1 $(O)/counted/bin
+fast: setup $(O)/fly  ## the programs for an x86-64-v3 (AVX2), optimised as a whole, to the same bits: out/fast/bin; ten minutes
+	+@$(MAKE) B=$(O)/counted FAST='$(FASTER) $(COUNTS)' $(O)/counted/bin/fly $(O)/counted/bin/gap
+	@find $(O)/counted -name '*.gcda' -delete
+	$(COUNT)/fly learning-flight --log $(O)/counted/log.csv --log-rate 500 >$(O)/counted/said
+	$(COUNT)/fly test-flight --integrator rk4 --from 1 --to 16 --summary $(O)/counted/many >$(O)/counted/said
+	$(COUNT)/gap --vehicle sim/vehicle/vehicles/cf21_legacy.toml --columns tools/columns/fly.toml --out $(O)/counted/report $(O)/counted/log.csv >$(O)/counted/said 2>&1
+	@mkdir -p $(O)/fast && cd $(O)/counted && find . -name '*.gcda' -exec cp --parents -t ../fast {} +
+	+@$(MAKE) B=$(O)/fast FAST='$(FASTER) -fprofile-use' $(PROGRAMS:%=$(O)/fast/bin/%)
 	@$(O)/fly learning-flight --log $(O)/fast/want.csv >$(O)/fast/want
 	@$(O)/fast/bin/fly learning-flight --log $(O)/fast/got.csv >$(O)/fast/got
 	@cmp $(O)/fast/want.csv $(O)/fast/got.csv

@@ -1,4 +1,4 @@
-"""before.py - the complete loop beside an earlier commit of this repository: both in turns, the best of all turns."""
+"""before.py - the complete loop beside an earlier commit of this repository, and by make fast: in turns, the best of all."""
 
 import os
 import re
@@ -29,7 +29,12 @@ def measured(bench: Path) -> dict[str, int]:
     """Ratios to real time by what is flown. An older program knows no part of its work and does all of it."""
     done = subprocess.run([bench, "loop"], capture_output=True, text=True, check=False)
     said = done.stdout if done.returncode == 0 else run.program(bench)
-    return {what: int(ratio) for what, ratio in LINE.findall(said) if "complete loop" in what}
+    return {what: int(ratio) for what, ratio in LINE.findall(said) if "complete loop" in what or "eight" in what}
+
+
+def alone(what: str, of: dict[str, int]) -> int | None:
+    """What was flown then, one flight at a time, by the same integrator."""
+    return next((ratio for name, ratio in of.items() if name.split(",")[-1] == what.split(",")[-1]), None)
 
 
 def best(of: list[dict[str, int]]) -> dict[str, int]:
@@ -43,15 +48,20 @@ def before() -> None:
     if known.returncode != 0:
         raise run.Left(f"this copy of the repository has no commit {commit}")
     commit = known.stdout.strip()
-    programs = built(commit), (run.OUT / "bench").resolve()
-    turns: list[list[dict[str, int]]] = [[], []]
+    programs = [built(commit), (run.OUT / "bench").resolve()]
+    fast = run.OUT / "fast/bin/bench"
+    if fast.is_file():
+        programs.append(fast.resolve())
+    turns: list[list[dict[str, int]]] = [[] for _ in programs]
     for turn in range(TURNS):
         for which, bench in enumerate(programs):
             run.progress(f"turn {turn + 1} of {TURNS}")
             turns[which].append(measured(bench))
     run.progress()
-    then, now = best(turns[0]), best(turns[1])
-    print(f"{'x real time':<62} {commit:>9} {'now':>9} {'ratio':>9}")
-    for what in then:
-        if what in now:
-            print(f"{what:<62} {then[what]:>9} {now[what]:>9} {now[what] / then[what]:>9.2f}")
+    then, *later = (best(of) for of in turns)
+    names = ["now", "make fast"][: len(later)]
+    print(f"{'x real time':<62} {commit:>9}" + "".join(f" {name:>9} {'ratio':>6}" for name in names))
+    for what in later[0]:
+        was = alone(what, then)
+        cells = (f" {of[what]:>9} {of[what] / was if was else float('nan'):>6.2f}" for of in later)
+        print(f"{what:<62} {was or '-':>9}" + "".join(cells).replace("nan", "  -"))

@@ -61,13 +61,6 @@ def identify() -> None:
     typed(f'{OUT}/effectiveness "$DATA/inner_loop_id/data_1901.csv" --as-stock')
 
 
-def bench_fast() -> None:
-    fast = OUT / "fast/bin/bench"
-    if not fast.is_file():
-        raise run.Left("make fast was not run")
-    print(program(fast, "loop"), end="")
-
-
 def image() -> None:
     size = OUT / "firmware/size"
     if not size.is_file():
@@ -137,7 +130,6 @@ RECIPES = {
     "cable": Recipe(gap.added_effect),
     "bench": Recipe(says("bench")),
     "bench-before": Recipe(before.before),
-    "bench-fast": Recipe(bench_fast),
     "desk": Recipe(desk.load),
     "closest": Recipe(closest),
     "noise": Recipe(noise),
