@@ -24,9 +24,9 @@ CPP   = $(CXX) -std=c++17 $(OPT) $(MOVES) $(WARN) $(SANITIZE) -MMD -MP -isystem 
 # -Wno-psabi: vectors of four doubles (base/few.h) are passed inside of a program alone, whose objects agree.
 # The same bits on host and target: no fused multiply-add.
 FLIGHT_FLAGS = -ffp-contract=off
-# What is compiled for AVX2 or AVX-512 copies a struct by whole registers. By the 16 bytes that gcc 12 takes otherwise, a
-# register that is read back waits until both halves are in memory: eight flights in lanes lose an eighth.
-MOVES := $(if $(findstring clang,$(CC)),,$(if $(filter x86_64,$(shell uname -m)),-mmove-max=512 -mstore-max=512))
+# What is compiled for AVX2 copies a struct by whole registers. By the 16 bytes that gcc 12 takes otherwise, a register
+# that is read back waits until both halves are in memory: eight flights in lanes lose an eighth.
+MOVES := $(if $(findstring clang,$(CC)),,$(if $(filter x86_64,$(shell uname -m)),-mmove-max=256 -mstore-max=256))
 # Some files fly many vehicles at once. clang's OpenMP is another package: built by it, they fly one by one.
 ifeq ($(findstring clang,$(CC)),)
 OMP     = -fopenmp
@@ -145,7 +145,7 @@ $(B)/sim/body/lanes.o $(B)/sim/body/lanes_512.o: $(O)/gen/lanes_table.inc
 $(B)/sim/body/lanes_512.o: SEES = -Isim -I$(O)/gen $(FLIGHT_FLAGS) $(LANES) -DLANES_512 $(AVX512)
 $(B)/sim/body/lanes_512.o: sim/body/lanes.cpp $(B)/flags | setup
 	$(compile)
-AVX512 = $(if $(AVX2),-mavx512f -mprefer-vector-width=512)
+AVX512 = $(if $(AVX2),-mavx512f -mprefer-vector-width=512 $(MOVES:256=512))
 # What is compiled by lane_c.hpp, too: registers of 256 bits, but twice as many, and masks.
 AVX512VL = $(if $(AVX2),-mavx512f -mavx512vl -mavx512dq -mavx512bw -DLANES_512 -Dlanes=lanes_512)
 AVX2 = $(if $(filter x86_64,$(shell uname -m)),-mavx2 -mtune=haswell)
