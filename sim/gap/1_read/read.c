@@ -146,6 +146,19 @@ static void note_missing(gap_flight_t *f) {
     if (!has(f->v, row[k].need)) gap_note(f, "without %s %s", row[k].what, row[k].cost);
 }
 
+// What fell lies there to the end; who flies a loop does not end in it.
+static void note_fallen(gap_flight_t *f) {
+  if (!has(f->v, ATTITUDE)) return;
+  const double *const x = f->v[SIG_QX], *const y = f->v[SIG_QY];
+  int from = f->n;
+  while (from > 0 && x[from - 1] * x[from - 1] + y[from - 1] * y[from - 1] > 0.5) from--;
+  if (from < f->n)
+    gap_note(f,
+             "from %.2f s on it is tilted by more than 90 degrees, to the end: if it fell, cut the rows off, "
+             "for a vehicle on the ground does not fly",
+             f->t_s[from]);
+}
+
 static void note_samples(gap_flight_t *f) {
   int masked = 0;
   for (int i = 0; i < f->n; i++) masked += f->saturated[i];
@@ -153,6 +166,7 @@ static void note_samples(gap_flight_t *f) {
     gap_note(f, "a motor was at its limit in %.3g %% of the samples; they are masked", 100.0 * masked / f->n);
   if (f->n > 0 && f->segment[f->n - 1] > 0)
     gap_note(f, "gaps in time split the flight: %d", f->segment[f->n - 1]);
+  note_fallen(f);
   note_missing(f);
 }
 

@@ -241,6 +241,13 @@ static const struct {
      0,
      0,
      NULL},
+    {"upside down to the end",
+     {.column = FC_QW, .more = 1, .scale = -1.0, .offset = 1.0, .from_s = 18.0}, // w for x
+     NULL,
+     0,
+     0,
+     1,
+     "from 18.00 s on it is tilted by more than 90 degrees, to the end"},
 };
 
 static bool noted(const gap_flight_t *f, const char *text) {
@@ -260,6 +267,7 @@ TEST(gap_splits_counts_or_refuses_what_is_wrong_in_rows_and_cells) {
     CHECK(f.cells_bad == spoilt[i].bad && f.cells_missing == spoilt[i].missing);
     CHECK(f.segment[f.n - 1] + 1 == spoilt[i].segments);
     if (spoilt[i].note) CHECK(noted(&f, spoilt[i].note));
+    CHECK(noted(&f, "tilted") == (spoilt[i].note && strstr(spoilt[i].note, "tilted")));
     CHECK((f.v[SIG_GX] == NULL) ==
           (spoilt[i].made.column == FC_GX && (spoilt[i].made.drop || spoilt[i].made.rename)));
     for (int k = 1; k < 4; k++) CHECK_NEAR(worst(&f, k, 0.0), 0.0, 0.02);
