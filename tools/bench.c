@@ -1,6 +1,7 @@
 // bench.c - how fast the closed loop runs, as ratios to real time on one core, and how a diagnosis grows.
 // Prints, never judges.
 #include "base/cpu_time.h"
+#include "base/lane.h"
 #include "base/made.h"
 #include "bench_gap.h"
 #include "body/body.h"
@@ -190,8 +191,8 @@ static done_t bench_abreast(why_t *why) {
     }
     *why = f.why;
     if (f.status != DONE) return f.status;
-    printf("  eight side by side, %-38s %7.0f x real time (%.2f of one by one, best of %d)\n", rows[i].what,
-           side, side / one, RUNS);
+    printf("  eight side by side (%d bits), %-27s %7.0f x real time (%.2f of one by one, best of %d)\n",
+           lane_bits(), rows[i].what, side, side / one, RUNS);
   }
   return DONE;
 }

@@ -65,7 +65,7 @@ bool points_more(points_t *p, const fx_use_t *more) {
 }
 
 size_t points_kept_bytes(const points_t *p) {
-  return p->door->kept_bytes();
+  return (p->door->kept_bytes() + POINTS_ALIGN - 1) / POINTS_ALIGN * POINTS_ALIGN;
 }
 
 static void begin(const points_t *p, int n) {

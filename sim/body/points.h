@@ -19,7 +19,7 @@ bool points_of(points_t *p, const body_t *b, double span_s);
 // One effect more that does not act at ticks. False: it is always looked at alone.
 bool points_more(points_t *p, const fx_use_t *more);
 
-// So many bytes are kept of eight instants, at places that are multiples of POINTS_ALIGN.
+// So many bytes are kept of eight instants, a multiple of POINTS_ALIGN, at places that are, too.
 #define POINTS_ALIGN 64
 size_t points_kept_bytes(const points_t *p);
 
