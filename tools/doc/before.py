@@ -63,5 +63,5 @@ def before() -> None:
     print(f"{'x real time':<62} {commit:>9}" + "".join(f" {name:>9} {'ratio':>6}" for name in names))
     for what in later[0]:
         was = alone(what, then)
-        cells = (f" {of[what]:>9} {of[what] / was if was else float('nan'):>6.2f}" for of in later)
-        print(f"{what:<62} {was or '-':>9}" + "".join(cells).replace("nan", "  -"))
+        cells = (f" {of.get(what, '-'):>9} {f'{of[what] / was:.2f}' if was and what in of else '-':>6}" for of in later)
+        print(f"{what:<62} {was or '-':>9}" + "".join(cells))
