@@ -115,38 +115,55 @@ static cell_t cell_of(const window_t *w, int channel, int coordinate, int bins, 
                   .last = w->to + 1 == bins};
 }
 
-// v: the rows of the four.
-static void try_windows(const look_t *l, int coordinate, cut_t cut, const weights_t *w, const four_of_t *f,
-                        const double *v, cell_t cell[LOOKED]) {
+// A list's rows, four channels after the other.
+typedef struct {
+  four_of_t four;
+  weights_t w;
+  const double *v;
+} fours_t;
+
+static void try_windows(const look_t *l, int coordinate, int bins, const double *edge, const fours_t *f,
+                        cell_t cell[LOOKED]) {
   products_t p;
-  double edge[WINDOW_FINE + 1];
   window_t best[HALF] = {{.statistic = 0.0}};
   four_bits_t looked = {0};
-  const int bins = windows_cut_in[cut];
-  if (!windows_cut(l->s, l->m, coordinate, f->list, bins, cut, l->room, l->bin, edge)) return;
-  for (int k = 0; k < f->n; k++) {
-    looked[k] = l->color[channel_of(f, k)].used ? -1 : 0;
-    best[k].statistic = cell[channel_of(f, k)].statistic;
+  for (int k = 0; k < f->four.n; k++) {
+    looked[k] = l->color[channel_of(&f->four, k)].used ? -1 : 0;
+    best[k].statistic = cell[channel_of(&f->four, k)].statistic;
   }
-  add_products(&p, bins, windows_rows(l->s, f->list), w, v, l->bin);
+  add_products(&p, bins, windows_rows(l->s, f->four.list), &f->w, f->v, l->bin);
   best_windows(&p, l->centred, &looked, best);
-  for (int k = 0; k < f->n; k++) {
-    const int ch = channel_of(f, k);
+  for (int k = 0; k < f->four.n; k++) {
+    const int ch = channel_of(&f->four, k);
     if (best[k].statistic > cell[ch].statistic) cell[ch] = cell_of(&best[k], ch, coordinate, bins, edge);
   }
 }
 
+static void take_four(const look_t *l, fours_t *f, double *v) {
+  const int n = windows_rows(l->s, f->four.list)->n;
+  weigh(l, &f->four, &f->w);
+  f->v = v;
+  for (int k = 0; k < HALF; k++) {
+    const int ch = channel_of(&f->four, k);
+    const double *const from = k < f->four.n && l->color[ch].used ? l->residual[ch] : NULL;
+    for (int i = 0; i < n; i++) v[HALF * i + k] = from ? from[i] : 0.0;
+  }
+}
+
 void windows_along(const look_t *l, int coordinate, cell_t cell[LOOKED]) {
-  static const four_of_t all[] = {{0, 0, HALF}, {0, HALF, HALF}, {1, 0, 1}};
-  for (int i = 0; i < (int)(sizeof all / sizeof *all); i++) {
-    const four_of_t *const f = &all[i];
-    double *const v = l->room + 2 * set_most_rows(l->s);
-    weights_t w;
-    weigh(l, f, &w);
-    for (int row = 0; row < windows_rows(l->s, f->list)->n; row++)
-      for (int k = 0; k < HALF; k++)
-        v[HALF * row + k] =
-            k < f->n && l->color[channel_of(f, k)].used ? l->residual[channel_of(f, k)][row] : 0.0;
-    for (int cut = 0; cut < CUTS; cut++) try_windows(l, coordinate, (cut_t)cut, &w, f, v, cell);
+  for (int list = 0; list < 2; list++) {
+    const int fours = list ? 1 : HALVES, rows = windows_rows(l->s, list)->n;
+    double *const room = l->room + 2 * set_most_rows(l->s);
+    fours_t f[HALVES];
+    for (int i = 0; i < fours; i++) {
+      f[i].four = (four_of_t){list, HALF * i, list ? 1 : HALF};
+      take_four(l, &f[i], room + HALF * i * rows);
+    }
+    for (int cut = 0; cut < CUTS; cut++) {
+      double edge[WINDOW_FINE + 1];
+      const int bins = windows_cut_in[cut];
+      if (!windows_cut(l->s, l->m, coordinate, list, bins, (cut_t)cut, l->room, l->bin, edge)) continue;
+      for (int i = 0; i < fours; i++) try_windows(l, coordinate, bins, edge, &f[i], cell);
+    }
   }
 }
