@@ -7,12 +7,9 @@
 #include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/select.h"
 #include "gap/5_infer/shape.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Of the way to another shape, lag or delay: columns about the old one are no longer those of the new.
-#define MOVED      0.1
 #define TRIAL_SEED 1000 // other draws than the flights that count
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose_job_t *job, why_t *why) {
@@ -111,51 +108,12 @@ static done_t look_for_more(diagnosis_t *d, why_t *why) {
   return DONE;
 }
 
-// What no straight line about the flown model shows: a shape, a lag or a delay. NaN: it has none. far: to
-// another one, of lags as far as itself, of shapes the next that is tried.
-static double bent_by(const fx_use_t *use, double *far) {
-  *far = (double)NAN;
-  const fx_t *const fx = use ? use->fx : NULL;
-  if (fx && fx->group == FX_TIMING) {
-    *far = fabs(fx_use_size(use, 0));
-    return fx_use_size(use, 0);
-  }
-  if (!fx || !fx_use_has_shape(use) || fx->n_shape < 2) return (double)NAN;
-  const double shape = use->p[fx->shape_param];
-  int next = 1;
-  while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;
-  *far = fx->shape[next] - fx->shape[next - 1];
-  return shape;
-}
-
-static bool moved(const chosen_t *a, const chosen_t *b) {
-  for (int i = 0; i < a->n; i++) {
-    double far, other;
-    const double here = bent_by(&a->use[i], &far), there = bent_by(chosen_use(b, a->of[i]), &other);
-    if (isfinite(here) && !(fabs(here - there) < MOVED * far)) return true;
-  }
-  return false;
-}
-
-// What was flown and is not found again: the first look took noise for it, and that hides what is there.
-static bool gone(const chosen_t *flown, const chosen_t *found) {
-  for (int i = 0; i < flown->n; i++)
-    if (!chosen_use(found, flown->of[i])) return true;
-  return false;
-}
-
-// Another model was flown than was found.
-static bool flew_other(const diagnosis_t *d) {
-  const chosen_t *const flown = &d->flown, *const found = &d->found.chosen;
-  return moved(found, flown) || moved(flown, found) || gone(flown, found);
-}
-
 static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,
                    why_t *why) {
   TRY(select_effects(selection, &d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
   d->rounds += d->found.rounds;
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, why));
-  *again = !last && flew_other(d);
+  *again = !last && chosen_other(&d->flown, &d->found.chosen);
   if (*again) return DONE; // nobody asks for rivals
   TRY(nominal_look(&d->nominal, m, why));
   return select_rivals(*selection, &d->found, why);

@@ -1,4 +1,4 @@
 # What the first look takes noise for is flown nominally for good, and hides what is there.
-# file: sim/gap/diagnose.c
+# file: sim/gap/4_candidates/candidates.c
 # test: what_a_hover_hides
 s/(!chosen_use(found, flown->of\[i\])) return/(!found) return/

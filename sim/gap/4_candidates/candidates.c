@@ -187,6 +187,46 @@ void chosen_drop(chosen_t *chosen, int candidate) {
   }
 }
 
+// Of the way to another shape, lag or delay: columns about the old one are no longer those of the new.
+#define MOVED 0.1
+
+// What no straight line about a model shows: a shape, a lag or a delay. NaN: it has none. far: to
+// another one, of lags as far as itself, of shapes the next that is tried.
+static double bent_by(const fx_use_t *use, double *far) {
+  *far = (double)NAN;
+  const fx_t *const fx = use ? use->fx : NULL;
+  if (fx && fx->group == FX_TIMING) {
+    *far = fabs(fx_use_size(use, 0));
+    return fx_use_size(use, 0);
+  }
+  if (!fx || !fx_use_has_shape(use) || fx->n_shape < 2) return (double)NAN;
+  const double shape = use->p[fx->shape_param];
+  int next = 1;
+  while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;
+  *far = fx->shape[next] - fx->shape[next - 1];
+  return shape;
+}
+
+static bool moved(const chosen_t *a, const chosen_t *b) {
+  for (int i = 0; i < a->n; i++) {
+    double far, other;
+    const double here = bent_by(&a->use[i], &far), there = bent_by(chosen_use(b, a->of[i]), &other);
+    if (isfinite(here) && !(fabs(here - there) < MOVED * far)) return true;
+  }
+  return false;
+}
+
+// What was flown and is not found again: the first look took noise for it, and that hides what is there.
+static bool gone(const chosen_t *flown, const chosen_t *found) {
+  for (int i = 0; i < flown->n; i++)
+    if (!chosen_use(found, flown->of[i])) return true;
+  return false;
+}
+
+bool chosen_other(const chosen_t *flown, const chosen_t *found) {
+  return moved(found, flown) || moved(flown, found) || gone(flown, found);
+}
+
 done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all, const chosen_t *chosen,
                          why_t *why) {
   *own = *chosen;

@@ -201,3 +201,52 @@ TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
   CHECK(found == 1);
   candidates_free(&c);
 }
+
+// A choice of one name, or of none.
+static chosen_t choice_of(const candidates_t *c, const char *name, double size, double shape) {
+  chosen_t chosen = {.n = 0};
+  for (int i = 0; i < c->n && name; i++) {
+    const fx_t *const fx = c->candidate[i].use.fx;
+    if (strcmp(fx->name, name) != 0) continue;
+    fx_use_t *const use = chosen_take(&chosen, c, i);
+    fx_use_resize(use, 0, size);
+    if (fx->n_shape) use->p[fx->shape_param] = shape;
+    break;
+  }
+  CHECK(chosen.n == (name ? 1 : 0));
+  return chosen;
+}
+
+// Shapes that are tried lie at 0.2, 0.34, 0.6, .. of a ceiling.
+TEST(what_was_flown_is_another_model_from_a_tenth_of_the_way_to_another_shape_on) {
+  static const struct {
+    const char *what, *flown, *found;
+    double flown_size, found_size, flown_shape, found_shape;
+    bool other;
+  } row[] = {
+      {"nothing, and nothing", NULL, NULL, 0, 0, 0, 0, false},
+      {"a size alone is a straight line", "mass", "mass", 0.003, 0.006, 0, 0, false},
+      {"it is not found again", "mass", NULL, 0.003, 0, 0, 0, true},
+      {"a size that was not flown", NULL, "mass", 0, 0.003, 0, 0, false},
+      {"a shape that was not flown", NULL, "ceiling", 0, 0.4, 0, 0.34, true},
+      {"the same shape", "ceiling", "ceiling", 0.4, 0.8, 0.34, 0.34, false},
+      {"9 % of the way to the next", "ceiling", "ceiling", 0.4, 0.4, 0.21, 0.2226, false},
+      {"11 %", "ceiling", "ceiling", 0.4, 0.4, 0.21, 0.2254, true},
+      {"11 %, back", "ceiling", "ceiling", 0.4, 0.4, 0.2254, 0.21, true},
+      {"9 % of a delay", "delay", "delay", 0.0109, 0.01, 0, 0, false},
+      {"11 %", "delay", "delay", 0.0111, 0.01, 0, 0, true},
+      {"a delay that was not flown", NULL, "delay", 0, 0.01, 0, 0, true},
+  };
+  log_t l;
+  candidates_t c;
+  why_t why;
+  log_make(&l);
+  CHECK_OK(candidates_make(&c, &l.model, &l.set, &why));
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const chosen_t flown = choice_of(&c, row[i].flown, row[i].flown_size, row[i].flown_shape);
+    const chosen_t found = choice_of(&c, row[i].found, row[i].found_size, row[i].found_shape);
+    CHECK(chosen_other(&flown, &found) == row[i].other);
+  }
+  candidates_free(&c);
+}
