@@ -10,9 +10,8 @@ struct points {
   lanes_effect_t more;
 };
 
-points_t *points_open(void) {
-  const int bits = lane_bits();
-  if (!bits) return NULL;
+points_t *points_open(int bits) {
+  if (bits == 0) return NULL;
   points_t *const p = malloc(sizeof *p);
   if (!p) return NULL;
   p->door = lanes_door(bits);

@@ -8,8 +8,8 @@
 
 typedef struct points points_t;
 
-// Null: this processor cannot do it, or there is no memory.
-points_t *points_open(void);
+// bits: of the registers, as abreast_open() has it. Null: bits is 0, or there is no memory.
+points_t *points_open(int bits);
 void points_close(points_t *p);
 
 // From now on it is of this vehicle, as its effects at ticks have left it; instants are span_s apart, and lag

@@ -1,6 +1,7 @@
 // eight.c - replays eight points at a time.
 #include "gap/2_predict/eight.h"
 
+#include "base/lane.h"
 #include "body/points.h"
 #include <stdlib.h>
 
@@ -31,7 +32,7 @@ void predict_sight(const grid_t *g, const model_t *m, const grid_point_t *p, dou
 // --- eight ------------------------------------------------------------------------------------------------
 
 static bool open_eight(grid_t *g, const body_t *b) {
-  if (!g->eight) g->eight = points_open();
+  if (!g->eight) g->eight = points_open(lane_bits());
   return g->eight && points_of(g->eight, b, g->period_s);
 }
 
