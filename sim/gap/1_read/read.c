@@ -146,12 +146,13 @@ static void note_missing(gap_flight_t *f) {
     if (!has(f->v, row[k].need)) gap_note(f, "without %s %s", row[k].what, row[k].cost);
 }
 
-// What fell lies there to the end; who flies a loop does not end in it.
+// What fell lies there to the end; who flies a loop does not end in it. Samples that are missing say nothing.
 static void note_fallen(gap_flight_t *f) {
   if (!has(f->v, ATTITUDE)) return;
   const double *const x = f->v[SIG_QX], *const y = f->v[SIG_QY];
   int from = f->n;
-  while (from > 0 && x[from - 1] * x[from - 1] + y[from - 1] * y[from - 1] > 0.5) from--;
+  for (int i = f->n - 1; i >= 0 && !(x[i] * x[i] + y[i] * y[i] <= 0.5); i--)
+    if (!isnan(x[i] + y[i])) from = i;
   if (from < f->n)
     gap_note(f,
              "from %.2f s on it is tilted by more than 90 degrees, to the end: if it fell, cut the rows off, "

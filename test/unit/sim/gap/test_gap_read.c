@@ -248,6 +248,13 @@ static const struct {
      0,
      1,
      "from 18.00 s on it is tilted by more than 90 degrees, to the end"},
+    {"upside down to the end, of which the last row is missing",
+     {.column = FC_QW, .more = 1, .scale = -1.0, .offset = 1.0, .from_s = 18.0, .cell = "nan", .every = 1999},
+     NULL,
+     0,
+     2,
+     1,
+     "from 18.00 s on it is tilted by more than 90 degrees, to the end"},
 };
 
 static bool noted(const gap_flight_t *f, const char *text) {
