@@ -62,6 +62,6 @@ def before() -> None:
     names = ["now", "make fast"][: len(later)]
     print(f"{'x real time':<62} {commit:>9}" + "".join(f" {name:>9} {'ratio':>6}" for name in names))
     for what in later[0]:
-        was = alone(what, then)
+        was = then.get(what) or alone(what, then)
         cells = (f" {of.get(what, '-'):>9} {f'{of[what] / was:.2f}' if was and what in of else '-':>6}" for of in later)
         print(f"{what:<62} {was or '-':>9}" + "".join(cells))

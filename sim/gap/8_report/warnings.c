@@ -209,8 +209,8 @@ static void warn_of_attitude(report_t *r) {
   if (fabs(late_s) < LATE_LEAST_S || fabs(late_s) < LATE_SURE * stderr_s) return;
   warn(r,
        "what is left of force_x and force_y goes with the turn rates, as if the attitude were %.2g +- %.1g "
-       "ms %s "
-       "against the velocities; if it is (a simulator's own step, an estimator), write late_ms = %.1f at its "
+       "ms %s against the velocities; if it is (a simulator's own step, an estimator), write late_ms = %.1f "
+       "at its "
        "columns",
        1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", late_ms_told(s, late_s));
 }
