@@ -158,6 +158,7 @@ template <typename T> struct lanes_some_t {
   LANE lanes_some_t(lane_flag_t holds, T *of)
       : state(of), in(lanes_in), say(holds.bits() & in), todo(say != 0) {
     static_assert(sizeof(T) % sizeof(words_t) == 0);
+    static_assert(alignof(T) < alignof(lane_double_t), "no double in a state of FOR_WHOM");
     if (!todo || say == in) [[likely]]
       return;
     memcpy((void *)&was, of, sizeof was);

@@ -2,7 +2,7 @@
 # seeded.sh [WORD] - steps into every trap of test/seeded, in a copy of the tree, and expects the tests to say so.
 #
 # A trap is a file of sed: what it is, the file it changes, the tests that must fail (make test W=..., `objects`:
-# test/pil/pil.sh, or `arrows`: tools/lint/arrows.py). One line for each; fails if one is not caught, or no longer changes its file.
+# test/pil/pil.sh, `arrows`: tools/lint/arrows.py, or `compiler`: a static assertion). One line for each; fails if one is not caught, or no longer changes its file.
 set -eu
 o=${O:-out}
 tree=$o/seeded
@@ -20,6 +20,7 @@ says() {
   case $1 in
   objects) test/pil/pil.sh objects ;;
   arrows) python3 tools/lint/arrows.py ;;
+  compiler) make tests-built ;;
   *) make test W="$1" ;;
   esac
 }
@@ -38,6 +39,7 @@ for trap in test/seeded/*"${1:-}"*.sed; do
     by=$(sed -n 's/^FAILED //p; s/: died (status.*//p' "$log" | head -1)
     [ "$word" != objects ] || by=$(grep -m1 '^pil:' "$log" || tail -1 "$log")
     [ "$word" != arrows ] || by=$(grep -m1 -E '^circle: |: includes ' "$log")
+    [ "$word" != compiler ] || by=$(grep -m1 -o 'static assertion failed.*' "$log")
     said="caught by $by"
     [ -n "$by" ] || said="MISSED: it does not build"
   fi
