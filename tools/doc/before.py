@@ -3,13 +3,15 @@
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import run
 
-TURNS = 3  # what else the machine does for a while then costs both
+TURNS = 3  # what else the machine does for a while then costs all
 FIRST = "e12773f"  # before the first commit that made it faster
 LINE = re.compile(r"^ *(.*\S) +(\d+) x real time", re.M)
+WIDTH = re.compile(r" \(\d+ bits\)")  # of a processor's registers: not of what is flown
 
 
 def built(commit: str) -> Path:
@@ -29,11 +31,14 @@ def measured(bench: Path) -> dict[str, int]:
     """Ratios to real time by what is flown. An older program knows no part of its work and does all of it."""
     done = subprocess.run([bench, "loop"], capture_output=True, text=True, check=False)
     said = done.stdout if done.returncode == 0 else run.program(bench)
-    return {what: int(ratio) for what, ratio in LINE.findall(said) if "complete loop" in what or "eight" in what}
+    lines = ((WIDTH.sub("", what), int(ratio)) for what, ratio in LINE.findall(said))
+    return {what: ratio for what, ratio in lines if "complete loop" in what or "eight" in what}
 
 
-def alone(what: str, of: dict[str, int]) -> int | None:
-    """What was flown then, one flight at a time, by the same integrator."""
+def then_flown(what: str, of: dict[str, int]) -> int | None:
+    """The same then; if no flights flew side by side then, one flight at a time by the same integrator."""
+    if what in of or not what.startswith("eight") or any(name.startswith("eight") for name in of):
+        return of.get(what)
     return next((ratio for name, ratio in of.items() if name.split(",")[-1] == what.split(",")[-1]), None)
 
 
@@ -50,8 +55,10 @@ def before() -> None:
     commit = known.stdout.strip()
     programs = [built(commit), (run.OUT / "bench").resolve()]
     fast = run.OUT / "fast/bin/bench"
-    if fast.is_file():
+    if fast.is_file() and run.program(fast, "--version") == run.program(programs[1], "--version"):
         programs.append(fast.resolve())
+    elif fast.is_file():
+        print(f"{fast} is of another commit, and left out; `make fast` builds it", file=sys.stderr)
     turns: list[list[dict[str, int]]] = [[] for _ in programs]
     for turn in range(TURNS):
         for which, bench in enumerate(programs):
@@ -62,6 +69,6 @@ def before() -> None:
     names = ["now", "make fast"][: len(later)]
     print(f"{'x real time':<62} {commit:>9}" + "".join(f" {name:>9} {'ratio':>6}" for name in names))
     for what in later[0]:
-        was = then.get(what) or alone(what, then)
+        was = then_flown(what, then)
         cells = (f" {of.get(what, '-'):>9} {f'{of[what] / was:.2f}' if was and what in of else '-':>6}" for of in later)
         print(f"{what:<62} {was or '-':>9}" + "".join(cells))
