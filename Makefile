@@ -347,7 +347,7 @@ arrows: setup-lint  ## draw which folder takes from which: out/arrows.svg; secon
 # clang-tidy (.clang-tidy).
 compile_commands: setup  ## out/compile_commands.json, for an editor or clang-tidy; seconds
 	@env -u MAKEFLAGS $(MAKE) -nB COUNTING=1 MOVES= $(B)/bin/pil-record $(TESTED:%=$(B)/bin/%) $(PROGRAMS:%=$(O)/%) $(O)/exam 2>/dev/null | \
-	 sed -nE 's|.* -c ([^ ]+) -o .*|{"directory": "$(CURDIR)", "command": "&", "file": "\1"},|p' | \
+	 sed -nE 's|["\\]|\\&|g; s|.* -c ([^ ]+) -o .*|{"directory": "$(CURDIR)", "command": "&", "file": "\1"},|p' | \
 	 sed '1s/^/[/; $$s/,$$/]/' >$(O)/compile_commands.json
 
 format: setup-lint  ## bring every source into the one format; seconds
