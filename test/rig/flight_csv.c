@@ -145,7 +145,7 @@ static size_t write_names(const flight_csv_t *f, char *text, size_t room) {
 }
 
 static void spoil(const flight_csv_t *f, double t_s, double v[FC_COLUMNS]) {
-  if (t_s < f->from_s) return;
+  if (t_s < f->from_s || (f->to_s > 0.0 && t_s >= f->to_s)) return;
   double held[FC_COLUMNS];
   flight_csv_values(f->from_s, held);
   for (int c = f->column; c <= f->column + f->more; c++) {

@@ -51,7 +51,8 @@ typedef struct {
   int more;           // so many behind it
   double scale;       // 0: 1; times this ..
   double offset;      // .. plus this,
-  double from_s;      // from here on
+  double from_s;      // from here on,
+  double to_s;        // before here; 0: to the end
   double hold_s;      // they stand still for so long from from_s on; 0: they do not
   int gap_rows;       // rows missing from from_s on
   int same_rows;      // rows behind from_s that all have its time

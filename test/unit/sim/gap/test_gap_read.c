@@ -255,6 +255,20 @@ static const struct {
      2,
      1,
      "from 18.00 s on it is tilted by more than 90 degrees, to the end"},
+    {"upside down for a while",
+     {.column = FC_QW, .more = 1, .scale = -1.0, .offset = 1.0, .from_s = 17.0, .to_s = 18.0},
+     NULL,
+     0,
+     0,
+     1,
+     NULL},
+    {"without an attitude from 18 s on",
+     {.column = FC_QW, .from_s = 18.0, .scale = (double)NAN},
+     NULL,
+     0,
+     200,
+     1,
+     NULL},
 };
 
 static bool noted(const gap_flight_t *f, const char *text) {
