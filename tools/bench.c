@@ -237,7 +237,7 @@ int main(int argc, char **argv) {
   if (strcmp(word, "gap") == 0) return error_exit("bench", bench_gap(&why), &why);
   if (argc > 1) {
     const char *const allowed = "%s: allowed: bench, bench loop, bench gap, or bench --version";
-    return error_exit("bench", error_set(&why, allowed, argv[1]), &why);
+    return error_exit("bench", error_set(&why, allowed, argv[argc - 1]), &why);
   }
   return error_exit("bench", all(&why), &why);
 }

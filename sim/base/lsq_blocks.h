@@ -14,7 +14,7 @@ extern "C" {
 
 // Adds the products of some columns to one half of G, where a column meets itself or a later one. X: column
 // number j starts at X[j], `rows` numbers; column[j]: which one of G it is, in their order. also: gets them
-// too, or null. By the widest registers there are, with the same bits (lsq_products.c). False: no memory.
+// too, or null. Four rows at a time, with the same bits (lsq_products.c). False: no memory.
 bool lsq_add_products(int rows, int n, const double *const *X, const int *column, int size, double *G,
                       double *also);
 

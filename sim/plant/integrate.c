@@ -31,8 +31,8 @@ struct integrate {
 
 // next may be y.
 WIDE_COPIES static void rk4_many(const ode_t *ode, const double *y, double h, double *next) {
-  // Lanes take them where they lie.
-  _Alignas(sizeof(four_t)) double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
+  // Lanes take them where they lie, as one register or as two.
+  _Alignas(WIDE * sizeof(double)) double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
   const int n = ode->n;
   ode->derivative(ode->context, y, k1);
   for (int i = 0; i < n; i++) at[i] = y[i] + 0.5 * h * k1[i];

@@ -64,7 +64,7 @@ const fx_use_t *chosen_use(const chosen_t *chosen, int candidate);
 fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate);
 void chosen_drop(chosen_t *chosen, int candidate);
 // Another model was flown than was found: a name that was flown is not found again, or a shape, lag or delay
-// is a tenth of the way to another one from what was flown. Other sizes are not another model.
+// that was found was not flown, or is a tenth or more off what was flown. Other sizes are not another model.
 bool chosen_other(const chosen_t *flown, const chosen_t *found);
 
 // Its shape is one of a few numbers (which rotor), and not a length between others.

@@ -210,8 +210,7 @@ static void warn_of_attitude(report_t *r) {
   warn(r,
        "what is left of force_x and force_y goes with the turn rates, as if the attitude were %.2g +- %.1g "
        "ms %s against the velocities; if it is (a simulator's own step, an estimator), write late_ms = %.1f "
-       "at its "
-       "columns",
+       "at its columns",
        1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", late_ms_told(s, late_s));
 }
 

@@ -1,4 +1,4 @@
-// test_lsq_products.c - sums of products by the widest registers: each goes over its rows in their order.
+// test_lsq_products.c - sums of products, four rows at a time: each goes over its rows in their order.
 #include "base/lsq_blocks.h"
 #include "base/random.h"
 #include "rig/test.h"

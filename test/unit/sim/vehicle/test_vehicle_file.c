@@ -296,8 +296,6 @@ TEST(vehicle_file_with_a_bad_body_is_refused) {
   }
 }
 
-// What a drag of 1/s per mass, a wind of m/s2 and an offset of a tenth of the arm are in newton and metres
-// grows with the vehicle.
 TEST(vehicle_file_takes_arms_that_are_not_all_alike) {
   static const char *const text[] = {
       "[rotors]\nx_m = [0.04, -0.03, -0.03, 0.04]\ny_m = [-0.03, -0.03, 0.04, 0.04]\n",
@@ -314,6 +312,8 @@ TEST(vehicle_file_takes_arms_that_are_not_all_alike) {
   }
 }
 
+// What a drag of 1/s per mass, a wind of m/s2 and an offset of a tenth of the arm are in newton and metres
+// grows with the vehicle.
 TEST(vehicle_file_takes_effects_of_vehicles_of_every_size) {
   static const struct {
     const char *what;
