@@ -14,7 +14,9 @@
 // Where rows are fewer than commands no one time of a row's command fits what turns the vehicle and what is
 // held between two looks at place and speed, and of a manoeuvre too small a gain is found (swiftness.c). Then
 // every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c) at least, and looks
-// at place and speed as seldom. Its lead stays the one of the smaller gain.
+// at place and speed as seldom. Its lead stays the one of the smaller gain. Every other of these is as swift
+// as the motors allow: of a simulator's motors without lag a PID has 170 1/s, its commands decay from row to
+// row, and where rows keep step with its outer loop each has the peak: an inertia half as large again.
 // gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // of its position loop
@@ -117,8 +119,8 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_solve(&roll, &w->rate_gain[0], &tilt[0]);
   two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
   two_solve(&climb, &w->climb_gain, &w->height_gain);
-  for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, RATE_GAIN_MOST);
-  w->rate_gain[2] = fmin(YAW_GAIN, RATE_GAIN_MOST / yaw_at_once(m));
+  for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, w->rate_gain_most);
+  w->rate_gain[2] = fmin(YAW_GAIN, w->rate_gain_most / yaw_at_once(m));
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), 0.1 * least * least, TILT_MOST * least * least);
   w->climb_gain = clamp(w->climb_gain, 2.0, 8.0);
@@ -246,8 +248,9 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   }
   v.tilt_gain *= turn * turn;
   if (w->unread && i % 2) {
-    for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], turn * SWIFT_GAIN);
-    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * SWIFT_GAIN * SWIFT_GAIN * turn * turn);
+    const double swift = turn * (i % 4 == 3 ? w->rate_gain_most / (1.0 + VARIED) : SWIFT_GAIN);
+    for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], swift);
+    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * swift * swift);
     v.outer_s = OUTER_S;
   }
   v.climb_gain *= place;
@@ -274,6 +277,7 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   w.angle_rad = 2.0 * larger_noise(s, SIG_QX, SIG_QY);
   w.vbat_V = noise_of(&s->grid[0], f->v[SIG_VBAT]);
   find_slow(&s->grid[0], &w);
+  w.rate_gain_most = pilot_gain_most(m->motor_tau_s, 0.0, pilot_period_s(by));
   find_gains(s, m, &w);
   find_lead(s, m, &w);
   closed_loop_shaken(&w, s, m, residual);

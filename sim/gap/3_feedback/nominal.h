@@ -23,14 +23,13 @@ static inline int nominal_steps(double sample_s) {
   return (int)fmax(1.0, round(sample_s / NOMINAL_STEP_S));
 }
 
-// 1/s, of a vehicle that small; with less it falls over, with more its motors do not follow.
-#define RATE_GAIN_LEAST 8.0
-#define RATE_GAIN_MOST  40.0
+#define RATE_GAIN_LEAST 8.0 // 1/s, of a vehicle that small; with less it falls over
 
 // How a flight was flown and measured.
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
+  double rate_gain_most;          // 1/s: with more its motors do not follow
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
   bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
@@ -56,7 +55,8 @@ MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const mode
                                     why_t *why);
 
 // The same as another pilot could have flown it, whose gains fit the log as well; where they are unread every
-// odd one is at least as swift as the Crazyflie's INDI. Number 0 is the fit itself.
+// odd one is at least as swift as the Crazyflie's INDI, and every other of these as the motors allow. Number 0
+// is the fit itself.
 // Of a pilot that is known there is but one.
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i);
 

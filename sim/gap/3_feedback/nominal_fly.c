@@ -142,7 +142,7 @@ static void steer(nominal_flight_t *f, double step_s, double motor_N[ROTORS]) {
     known_steer(f->known, step_s, track, seen, motor_N);
     return;
   }
-  const double period_s = larger(pilot_period_s(f), step_s);
+  const double period_s = larger(pilot_period_s(f->w->flown_by), step_s);
   if (f->due_s < 0.5 * step_s) {
     pilot_steer(f, period_s, track, seen, motor_N);
     f->due_s += period_s;

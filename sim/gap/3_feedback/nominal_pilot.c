@@ -160,15 +160,19 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
        d3_add(turn, d3_scale(lead, d3_sub(turn, f->turn_slow_radps2))), motor_N);
 }
 
-double pilot_period_s(const nominal_flight_t *f) {
-  const flown_by_t *const by = f->w->flown_by;
+double pilot_period_s(const flown_by_t *by) {
   return by && by->rate_Hz > 0.0 ? 1.0 / by->rate_Hz : 0.0;
 }
 
 // A command that holds is half its period late.
+double pilot_gain_most(double motor_tau_s, double delay_s, double period_s) {
+  const double late_s = delay_s + 0.5 * larger(period_s, NOMINAL_STEP_S);
+  return SWIFT / (smaller(motor_tau_s, QUICK_S) + 3.0 * late_s);
+}
+
 void pilot_tame(nominal_flight_t *f) {
-  const double late_s = f->body.plant.delay_s + 0.5 * pilot_period_s(f);
-  const double most = SWIFT / (smaller(f->body.rigid.motor_tau_s, QUICK_S) + 3.0 * late_s);
+  const double most =
+      pilot_gain_most(f->body.rigid.motor_tau_s, f->body.plant.delay_s, pilot_period_s(f->w->flown_by));
   closed_loop_t *const w = &f->own;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = smaller(w->rate_gain[i], most);
   const double least = smaller(w->rate_gain[0], w->rate_gain[1]);

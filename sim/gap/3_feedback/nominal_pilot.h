@@ -56,7 +56,11 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
 double pilot_motor_lead(double motor_tau_s);
 
 // Between two commands, where that is known of who flew; else 0: it commands whenever it is asked.
-double pilot_period_s(const nominal_flight_t *f);
+double pilot_period_s(const flown_by_t *by);
+
+// The largest rate gain, 1/s, with which a cascade does not ring: of motors of that lag, and commands that are
+// so late and come so seldom; more often than a nominal flight has steps they never come.
+double pilot_gain_most(double motor_tau_s, double delay_s, double period_s);
 
 // Gains that do not ring with the body's lag.
 void pilot_tame(nominal_flight_t *f);

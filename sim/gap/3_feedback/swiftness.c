@@ -79,14 +79,14 @@ done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, uns
   const bool known = w->flown_by && w->flown_by->kind > FLOWN_BY_OTHER;
   const double log_radps = s->grid[0].has_rates ? turning_radps(s) : 0.0;
   const double read = fmin(w->rate_gain[0], w->rate_gain[1]);
-  if (known || !(log_radps > 0.0) || !(read < RATE_GAIN_MOST)) return DONE;
+  if (known || !(log_radps > 0.0) || !(read < w->rate_gain_most)) return DONE;
   for (int i = 0; i < TRIALS; i++)
     trial[i] = (trial_t){.loop = w,
                          .set = s,
                          .model = m,
                          .seed = seed,
                          .log_radps = log_radps,
-                         .gain = read * pow(RATE_GAIN_MOST / read, i / (TRIALS - 1.0))};
+                         .gain = read * pow(w->rate_gain_most / read, i / (TRIALS - 1.0))};
   side_by_side_shared(TRIALS, fly, trial);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < TRIALS; i++) compare(&trial[i]);

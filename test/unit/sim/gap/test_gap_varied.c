@@ -24,7 +24,7 @@ TEST(gap_nominal_pilots_are_varied_about_the_one_that_fits) {
 }
 
 TEST(gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands) {
-  closed_loop_t slow = {.rate_gain = {8.0, 12.0, 5.0}, .tilt_gain = 22.0};
+  closed_loop_t slow = {.rate_gain = {8.0, 12.0, 5.0}, .rate_gain_most = 170.0, .tilt_gain = 22.0};
   for (int unread = 0; unread < 2; unread++) {
     slow.unread = unread;
     for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
@@ -32,6 +32,9 @@ TEST(gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands) {
       const bool swift = unread && i % 2;
       ROW("%s, pilot %d", unread ? "rows miss commands" : "no row misses one", i);
       CHECK((v.rate_gain[0] > 0.69 * 25.0) == swift && (v.tilt_gain > 100.0) == swift);
+      const bool swiftest = v.rate_gain[0] > 0.69 / 1.3 * 170.0 && v.rate_gain[1] == v.rate_gain[0];
+      CHECK(swiftest == (swift && i % 4 == 3));
+      CHECK(v.rate_gain[0] <= 170.0);
       CHECK(v.outer_s == (swift ? 0.01 : 0.0));
       CHECK(v.rate_gain[2] < 7.0); // a rotor's torque is small
     }
