@@ -97,7 +97,9 @@ static done_t tell_late(raw_t *raw, const drive_t *stream, const double shift_s[
 }
 
 // What the columns file says stands: feedback of noise can look like a stream that is late.
+// Of an attitude that is logged as angles it is said at one of these.
 static bool is_said(const columns_t *c, signals_t moved) {
+  if (moved == ATTITUDE) moved |= SIGNALS(SIG_ROLL, SIG_YAW);
   for (int i = 0; i < SIG_COUNT; i++)
     if ((moved & SIGNAL_BIT(i)) && c->of[i].late_said) return true;
   return false;

@@ -84,15 +84,17 @@ TEST(gap_takes_out_the_lateness_of_commands) {
 TEST(gap_does_not_move_a_stream_of_which_the_columns_file_says_how_late_it_is) {
   static const double late_s = 0.005;
   const flight_csv_t made = {.dt_ms = 2.0, .rows = 10000, .late_att_s = late_s, .late_vel_s = late_s};
-  for (int said = 0; said < 3; said++) {
-    ROW("%s", (const char *const[]){"nothing said", "of the attitude", "of the velocity"}[said]);
+  static const signal_id_t of[] = {SIG_TIME, SIG_QY, SIG_VX, SIG_PITCH};
+  for (int said = 0; said < 4; said++) {
+    ROW("%s",
+        (const char *const[]){"nothing said", "of the attitude", "of the velocity", "of an angle"}[said]);
     columns_t columns = flight_csv_columns();
-    if (said) columns.of[said == 1 ? SIG_QY : SIG_VX].late_said = true;
+    columns.of[of[said]].late_said = said > 0;
     gap_flight_t f;
     why_t why = {""};
     CHECK_OK(read_by(&columns, &f, &made, &why));
     CHECK_TEXT(why.text, "");
-    CHECK(said == 1 ? f.attitude_late_s == 0.0 : f.attitude_late_s > 0.5 * late_s);
+    CHECK(said == 1 || said == 3 ? f.attitude_late_s == 0.0 : f.attitude_late_s > 0.5 * late_s);
     if (said == 2) CHECK(f.velocity_late_s == 0.0);
     if (said == 0) CHECK(f.velocity_late_s > 0.5 * late_s);
     gap_flight_free(&f);
