@@ -195,13 +195,22 @@ void evidence_free(evidence_t *e) {
   *e = (evidence_t){.n = 0};
 }
 
+static bool holds(const evidence_set_t *s, const candidates_t *c, int n, const fx_t *const fx[]) {
+  for (int k = 0; k < s->n; k++)
+    for (int m = 0; m < n; m++)
+      if (c->candidate[s->of[k]].use.fx == fx[m]) return true;
+  return false;
+}
+
 double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t *const fx[]) {
   double sum = 0.0;
-  for (int i = 0; i < e->n; i++) {
-    bool has = false;
-    for (int k = 0; k < e->set[i].n; k++)
-      for (int m = 0; m < n; m++) has = has || c->candidate[e->set[i].of[k]].use.fx == fx[m];
-    sum += has ? e->set[i].share : 0.0;
-  }
+  for (int i = 0; i < e->n; i++) sum += holds(&e->set[i], c, n, fx) ? e->set[i].share : 0.0;
   return fmin(sum, 1.0); // the shares' rounding adds up
+}
+
+const evidence_set_t *evidence_without(const evidence_t *e, const candidates_t *c, int n,
+                                       const fx_t *const fx[]) {
+  for (int i = 0; i < e->n; i++)
+    if (!holds(&e->set[i], c, n, fx)) return &e->set[i];
+  return NULL;
 }

@@ -42,6 +42,10 @@ MUST_CHECK done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t 
 // The probability that one of these effects is there, in any shape.
 double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t *const fx[]);
 
+// The likeliest set that has none of these effects; null: there is none.
+const evidence_set_t *evidence_without(const evidence_t *e, const candidates_t *c, int n,
+                                       const fx_t *const fx[]);
+
 // --- its parts --------------------------------------------------------------------------------------------
 
 // F and h of `n` columns, in parts of what is typical.

@@ -1,6 +1,7 @@
 // family.c - which other effects could stand in a name's place.
 #include "gap/5_infer/family.h"
 
+#include "gap/5_infer/evidence.h"
 #include "gap/5_infer/local.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
@@ -90,6 +91,11 @@ static void keep(rival_t *list, int *n, const rival_t *one) {
   list[at] = *one;
 }
 
+static void take(const rival_t *rival, named_t *named) {
+  named->rival[named->n_rival] = rival->fx;
+  named->rival_share[named->n_rival++] = rival->share;
+}
+
 static void find_rivals(const round_t *r, const unexplained_t *u, bool measured, double left_before,
                         named_t *named) {
   rival_t list[FX_TABLE_MAX];
@@ -104,10 +110,68 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
     const double left = score_left(&r->score, &with, NULL);
     keep(list, &n, &(rival_t){round_fx(r, i), (without - left) / left_before, left});
   }
-  for (named->n_rival = 0; named->n_rival < n; named->n_rival++) {
-    named->rival[named->n_rival] = list[named->n_rival].fx;
-    named->rival_share[named->n_rival] = list[named->n_rival].share;
+  named->n_rival = 0;
+  for (int i = 0; i < n; i++) take(&list[i], named);
+}
+
+// What an effect would explain in the place of a name, in the form that leaves least.
+static rival_t in_its_place(const round_t *r, double left_before, const named_t *named, const fx_t *fx) {
+  const choice_t rest = choice_without(&r->choice, named->candidate);
+  const double without = score_left(&r->score, &rest, NULL);
+  rival_t best = {fx, 0.0, without};
+  for (int i = 0; i < r->c->n; i++) {
+    if (round_fx(r, i) != fx || r->never[i] || !round_fits(r, &rest, i)) continue;
+    const choice_t with = choice_with(&rest, i);
+    const double left = score_left(&r->score, &with, NULL);
+    if (left < best.left) best = (rival_t){fx, (without - left) / left_before, left};
   }
+  return best;
+}
+
+// --- how probable it is -----------------------------------------------------------------------------------
+
+// Of a set what would explain most in the place of a name; fx null: it has nothing that is not named.
+static rival_t best_of(const round_t *r, double left_before, const named_t *named,
+                       const evidence_set_t *set) {
+  rival_t best = {.fx = NULL};
+  for (int k = 0; set && k < set->n; k++) {
+    bool chosen = false;
+    for (int i = 0; i < r->choice.n; i++)
+      chosen = chosen || round_fx(r, r->choice.of[i]) == round_fx(r, set->of[k]);
+    if (chosen) continue;
+    const rival_t one = in_its_place(r, left_before, named, round_fx(r, set->of[k]));
+    if (!best.fx || one.left < best.left) best = one;
+  }
+  return best;
+}
+
+// A name that is less likely than not, with its rivals, is not told without what is likelier: two effects may
+// do together what it does alone.
+static void weigh(const round_t *r, const evidence_t *e, double left_before, named_t *named) {
+  const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
+  for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
+  for (;;) {
+    const int n = named->n_rival + 1;
+    named->probability = evidence_of(e, r->c, n, fx);
+    if (named->probability >= 0.5 || n > FX_TABLE_MAX) return;
+    const rival_t rival = best_of(r, left_before, named, evidence_without(e, r->c, n, fx));
+    if (!rival.fx) return;
+    take(&rival, named);
+    fx[n] = rival.fx;
+  }
+}
+
+// What measured rotor speeds show is no question to the rows.
+static done_t weigh_names(const round_t *r, found_t *found, why_t *why) {
+  evidence_t e = {.n = 0};
+  TRY(evidence_make(&e, r, why));
+  for (int i = 0; i < found->n; i++) {
+    named_t *const named = &found->named[i];
+    named->probability = (double)NAN;
+    if (e.n && choice_has(&r->choice, named->candidate)) weigh(r, &e, found->left_before, named);
+  }
+  evidence_free(&e);
+  return DONE;
 }
 
 // --- what could not be told apart -------------------------------------------------------------------------
@@ -148,5 +212,5 @@ done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why) 
   for (int i = 0; i < found->n; i++)
     if (choice_has(&r->choice, found->named[i].candidate))
       find_rivals(r, &u, measured, found->left_before, &found->named[i]);
-  return DONE;
+  return weigh_names(r, found, why);
 }

@@ -229,22 +229,6 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-// What measured rotor speeds show is no question to the rows.
-static done_t tell_probabilities(const round_t *r, found_t *found, why_t *why) {
-  evidence_t e = {.n = 0};
-  if (found->n) TRY(evidence_make(&e, r, why));
-  for (int i = 0; i < found->n; i++) {
-    named_t *const named = &found->named[i];
-    const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
-    for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
-    named->probability = e.n && choice_has(&r->choice, named->candidate)
-                             ? evidence_of(&e, r->c, named->n_rival + 1, fx)
-                             : (double)NAN;
-  }
-  evidence_free(&e);
-  return DONE;
-}
-
 static done_t find_choice(select_t *t, found_t *found, why_t *why) {
   TRY(take_timing(t, t->timing, why));
   TRY(round_open(&t->round, why));
@@ -273,8 +257,7 @@ done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s, 
 }
 
 done_t select_rivals(const selection_t *t, found_t *found, why_t *why) {
-  TRY(family_find(&t->round, t->timing->measured, found, why));
-  return tell_probabilities(&t->round, found, why);
+  return family_find(&t->round, t->timing->measured, found, why);
 }
 
 void select_close(selection_t *t) {

@@ -300,6 +300,18 @@ TEST(gap_evidence_is_never_more_than_sure) {
   CHECK(evidence_of(&e, &c, 1, &(const fx_t *const){candidate.use.fx}) == 1.0);
 }
 
+TEST(gap_evidence_knows_the_likeliest_set_without_an_effect) {
+  candidate_t candidate[] = {
+      {.use.fx = fx_find("body_drag")}, {.use.fx = fx_find("rotor_drag")}, {.use.fx = fx_find("mass")}};
+  const candidates_t c = {.n = 3, .candidate = candidate};
+  evidence_set_t set[] = {{2, {1, 2}, .share = 0.7}, {2, {0, 2}, .share = 0.2}, {1, {1}, .share = 0.1}};
+  const evidence_t e = {3, set};
+  const fx_t *const drags[] = {candidate[1].use.fx, candidate[0].use.fx};
+  CHECK(evidence_without(&e, &c, 1, drags + 1) == &set[0]);
+  CHECK(evidence_without(&e, &c, 1, drags) == &set[1]);
+  CHECK(evidence_without(&e, &c, 2, drags) == NULL);
+}
+
 // What feedback alone makes as much of is no evidence, however far it is from noise.
 TEST(gap_evidence_does_not_speak_for_what_feedback_makes) {
   static const struct {
