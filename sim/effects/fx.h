@@ -208,6 +208,8 @@ typedef struct {
   // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
   // misses some looks like it.
   bool scales_turning;
+  // It changes the thrust of all rotors: where no force along z is compared it scales the turning, too.
+  bool scales_thrust;
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none

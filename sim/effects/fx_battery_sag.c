@@ -18,6 +18,7 @@ const fx_t fx_battery_sag = {
               {"mass", "one hover on a full battery until it is nearly empty"},
               {"thrust_curve", "the same throttle steps on a full and on a nearly empty battery"}},
     .needs = FX_NEEDS_VOLTAGE,
+    .scales_thrust = true,
     .n_size = 1,
     .size = {{0, 0.05, 1, 0.0, FX_SAME}},
     .shape_param = 2,

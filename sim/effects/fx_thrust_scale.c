@@ -15,6 +15,7 @@ const fx_t fx_thrust_scale = {
               {"thrust_curve", "long climbs and descents with a wide range of throttle"},
               {"inertia", "throttle steps without turning, then attitude doublets"}},
     .group = FX_WEIGHT,
+    .scales_thrust = true,
     .n_size = 1,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}},
     .kind_param = 1,
