@@ -103,6 +103,9 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *lag, double delay_s);
 // Whether two such are the same.
 bool grid_same_motors(const lag_t *a, double a_delay_s, const lag_t *b, double b_delay_s);
 
+// rad/s2, what a motor command of one sample turns with about an axis (0, 1, 2).
+double grid_turns(const grid_t *g, const model_t *m, int axis, int sample);
+
 // The same grid for one thread beside others: motor histories that are new are the copy's own. Meanwhile the
 // grid must not change.
 grid_t grid_lend(const grid_t *g);

@@ -184,3 +184,13 @@ void grid_give_back(grid_t *lent) {
   for (int i = 0; i < GRID_MOTORS; i++)
     if (!lent->motors[i].lent) free(lent->motors[i].thrust_N[0]);
 }
+
+double grid_turns(const grid_t *g, const model_t *m, int axis, int sample) {
+  const frame_t *const f = &m->frame;
+  double moment_Nm = 0.0;
+  for (int k = 0; k < ROTORS; k++) {
+    const double arm_m[] = {f->rotor_y_m[k], -f->rotor_x_m[k], -f->rotor_spin[k] * f->torque_ratio_m};
+    moment_Nm += arm_m[axis] * g->command_N[k][sample];
+  }
+  return moment_Nm / f->inertia_kgm2[axis];
+}

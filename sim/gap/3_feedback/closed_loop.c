@@ -16,7 +16,8 @@
 // every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c) at least, and looks
 // at place and speed as seldom. Its lead stays the one of the smaller gain. Every other of these is as swift
 // as the motors allow: of a simulator's motors without lag a PID has 170 1/s, its commands decay from row to
-// row, and where rows keep step with its outer loop each has the peak: an inertia half as large again.
+// row, and where rows keep step with its outer loop each has the peak: an inertia half as large again. The
+// attitude it steers as slowly as the others: by its square it would follow the noise of the track.
 // gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // of its position loop
@@ -130,17 +131,6 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
 
 // --- lead: what makes commands noisy --------------------------------------------------------------------
 
-// What a motor command of one sample turns with, about an axis.
-static double turn_now(const grid_t *g, const model_t *m, int axis, int i) {
-  const frame_t *const f = &m->frame;
-  double moment_Nm = 0.0;
-  for (int k = 0; k < ROTORS; k++) {
-    const double arm_m[] = {f->rotor_y_m[k], -f->rotor_x_m[k], -f->rotor_spin[k] * f->torque_ratio_m};
-    moment_Nm += arm_m[axis] * g->command_N[k][i];
-  }
-  return moment_Nm / f->inertia_kgm2[axis];
-}
-
 // From call to call, a pilot gives -(P + d) n(0) + d n(1) of white noise n of the rates, P its rate gain and
 // d its lead over its period. Third differences of rows have (70 d^2 + 70 P d + 20 P^2) times its variance,
 // 20 of which are what noise_of() divides by; of rows that lie two calls or more apart 20 ((P + d)^2 + d^2).
@@ -164,8 +154,9 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   double *const turn =
       g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
   for (int axis = 0; axis < 3 && turn; axis++) {
-    for (int i = 0; i < g->samples; i++) turn[g->from + i] = turn_now(g, m, axis, i);
+    for (int i = 0; i < g->samples; i++) turn[g->from + i] = grid_turns(g, m, axis, i);
     const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
+    if (axis < 2) w->turn_noise_radps2[axis] = noise;
     const double d = lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s);
     w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
@@ -237,6 +228,16 @@ static void find_slow(const grid_t *g, closed_loop_t *w) {
   slow_errors(g, &white, &w->slow_pos_m, &w->slow_vel_mps, &w->slow_angle_rad);
 }
 
+// Commands by these gains are no noisier than the log's: who has such gains is not fed with all of its noise.
+static double spared(const closed_loop_t *w) {
+  double share = 1.0;
+  for (int i = 0; i < 2; i++) {
+    const double own_radps2 = hypot(w->rate_gain[i] * w->gyro_radps[i], w->tilt_gain * w->angle_rad);
+    if (w->turn_noise_radps2[i] > 0.0) share = fmin(share, w->turn_noise_radps2[i] / own_radps2);
+  }
+  return 1.0 - share;
+}
+
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   closed_loop_t v = *w;
   // Steps of the golden section fill both ranges evenly, and not together.
@@ -250,7 +251,11 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   if (w->unread && i % 2) {
     const double swift = turn * (i % 4 == 3 ? w->rate_gain_most / (1.0 + VARIED) : SWIFT_GAIN);
     for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], swift);
-    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * swift * swift);
+    v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * turn * SWIFT_GAIN * swift);
+    if (i % 4 == 3) {
+      v.spared = spared(&v);
+      v.unread = false; // its gain alone turns it: by that the track's noise would shake it
+    }
     v.outer_s = OUTER_S;
   }
   v.climb_gain *= place;

@@ -28,8 +28,10 @@ static inline int nominal_steps(double sample_s) {
 // How a flight was flown and measured.
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
-  double rate_lead[3]; // 1: the same per angular acceleration, as a pilot sees it from call to call
-  double rate_gain_most;          // 1/s: with more its motors do not follow
+  double rate_lead[3];         // 1: the same per angular acceleration, as a pilot sees it from call to call
+  double rate_gain_most;       // 1/s: with more its motors do not follow
+  double turn_noise_radps2[2]; // of its commands about x and y, sd of a sample; 0: not known
+  double spared; // so much of the noise of a log that it is not fed with, 0 to 1: that is of logging
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
   bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
@@ -55,9 +57,8 @@ MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const mode
                                     why_t *why);
 
 // The same as another pilot could have flown it, whose gains fit the log as well; where they are unread every
-// odd one is at least as swift as the Crazyflie's INDI, and every other of these as the motors allow. Number 0
-// is the fit itself.
-// Of a pilot that is known there is but one.
+// odd one is at least as swift as the Crazyflie's INDI, and every other of these as the motors allow. Number
+// 0 is the fit itself. Of a pilot that is known there is but one.
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i);
 
 // One flight along the track of grid g. truth (may be null): the same without the errors of sensors and

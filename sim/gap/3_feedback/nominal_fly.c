@@ -135,16 +135,30 @@ static void look(nominal_flight_t *f, const double normal[SEEN]) {
 
 // --- the flight -------------------------------------------------------------------------------------------
 
+// What the pilot is fed with: a log may hold noise that is none of its own.
+static grid_point_t fed_with(const nominal_flight_t *f) {
+  grid_point_t fed = f->seen;
+  const double share = 1.0 - f->w->spared;
+  if (share >= 1.0) return fed;
+  fed.pos_w_m = d3_add(f->is.pos_w_m, d3_scale(share, d3_sub(fed.pos_w_m, f->is.pos_w_m)));
+  fed.vel_w_mps = d3_add(f->is.vel_w_mps, d3_scale(share, d3_sub(fed.vel_w_mps, f->is.vel_w_mps)));
+  fed.rate_b_radps =
+      d3_add(f->is.rate_b_radps, d3_scale(share, d3_sub(fed.rate_b_radps, f->is.rate_b_radps)));
+  fed.q_wb = dq_unit(dq_towards(f->is.q_wb, fed.q_wb, share));
+  return fed;
+}
+
 // motor_N: keeps what was commanded last, where no new command is due.
 static void steer(nominal_flight_t *f, double step_s, double motor_N[ROTORS]) {
-  const grid_point_t *const track = &f->track, *const seen = &f->seen;
+  const grid_point_t *const track = &f->track;
   if (f->known) {
-    known_steer(f->known, step_s, track, seen, motor_N);
+    known_steer(f->known, step_s, track, &f->seen, motor_N);
     return;
   }
   const double period_s = larger(pilot_period_s(f->w->flown_by), step_s);
   if (f->due_s < 0.5 * step_s) {
-    pilot_steer(f, period_s, track, seen, motor_N);
+    const grid_point_t fed = fed_with(f);
+    pilot_steer(f, period_s, track, &fed, motor_N);
     f->due_s += period_s;
   }
   f->due_s -= step_s;
@@ -287,14 +301,39 @@ static void bridge(grid_point_t *point, int from, int to) {
   for (int j = from; j < to; j++) point[j].q_wb = dq_unit(point[j].q_wb);
 }
 
-// Places as they were logged: the pilot saw no better ones.
-static grid_point_t *whole_track(const grid_t *g, int from, int to) {
+// Means over both sides, within a segment. False: no memory.
+static bool smooth_track(const grid_t *g, int from, int to, grid_point_t *point) {
+  const int most = (int)larger(1.0, round(AHEAD_S / g->period_s));
+  grid_point_t *const was = malloc(((size_t)g->n + 1) * sizeof *was);
+  if (!was) return false;
+  memcpy(was, point, (size_t)g->n * sizeof *was);
+  for (int j = from; j < to; j++) {
+    d3_t pos = {0.0, 0.0, 0.0}, vel = {0.0, 0.0, 0.0};
+    int side = 0;
+    while (side < most && j - side - 1 >= from && j + side + 1 < to &&
+           was[j - side - 1].segment == was[j + side + 1].segment)
+      side++;
+    for (int i = j - side; i <= j + side; i++) {
+      pos = d3_add(pos, was[i].pos_w_m);
+      vel = d3_add(vel, was[i].vel_w_mps);
+    }
+    point[j].pos_w_m = d3_scale(1.0 / (2 * side + 1), pos);
+    point[j].vel_w_mps = d3_scale(1.0 / (2 * side + 1), vel);
+  }
+  free(was);
+  return true;
+}
+
+// Places as they were logged: the pilot saw no better ones, but for one who is spared the noise.
+static grid_point_t *whole_track(const grid_t *g, int from, int to, bool smooth) {
   grid_point_t *const point = malloc(((size_t)g->n + 1) * sizeof *point);
   if (!point) return NULL;
   memcpy(point, g->point, (size_t)g->n * sizeof *point);
   for (int j = 0; j < g->n; j++) point[j].pos_w_m = point[j].seen_w_m;
   bridge(point, from, to);
-  return point;
+  if (!smooth || smooth_track(g, from, to, point)) return point;
+  free(point);
+  return NULL;
 }
 
 done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, unsigned long seed,
@@ -307,7 +346,7 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, un
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_set(why, "%s: it does not fly", g->flight->name);
-  track.point = whole_track(g, f.from, f.to);
+  track.point = whole_track(g, f.from, f.to, w->spared > 0.0);
   f.g = &track;
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;
   const bool good = track.point && nominal_log_room(flight, &track, room) &&

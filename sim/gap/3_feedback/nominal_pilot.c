@@ -9,7 +9,6 @@
 #define QUICK_S   0.03 // slower motors get commands with a lead, so that they are as quick as this
 #define SWIFT     1.3  // rate gain times lag at most: the cascade rings beyond
 #define TILT_MAX  0.5
-#define AHEAD_S   0.1  // the track's acceleration is a difference over this on both sides
 #define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0

@@ -4,6 +4,9 @@
 
 #include "gap/3_feedback/nominal.h"
 
+// The track's acceleration is a difference over this on both sides; a mean over as much is without noise.
+#define AHEAD_S 0.1
+
 // What a step leaves of an error by axis, and the sd of what comes anew.
 typedef struct {
   double keep[3], fresh[3];
@@ -58,8 +61,8 @@ double pilot_motor_lead(double motor_tau_s);
 // Between two commands, where that is known of who flew; else 0: it commands whenever it is asked.
 double pilot_period_s(const flown_by_t *by);
 
-// The largest rate gain, 1/s, with which a cascade does not ring: of motors of that lag, and commands that are
-// so late and come so seldom; more often than a nominal flight has steps they never come.
+// The largest rate gain, 1/s, with which a cascade does not ring: of motors of that lag, and commands that
+// are so late and come so seldom; more often than a nominal flight has steps they never come.
 double pilot_gain_most(double motor_tau_s, double delay_s, double period_s);
 
 // Gains that do not ring with the body's lag.

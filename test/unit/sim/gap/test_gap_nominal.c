@@ -59,6 +59,37 @@ TEST(gap_nominal_pilots_follow_places_as_they_were_logged) {
   gap_track_free(&r);
 }
 
+static double shaking_N(const gap_flight_t *f) {
+  double squares = 0.0;
+  for (int i = 3; i < f->n; i++) {
+    const double *const v = f->v[SIG_M1] + i, x = v[0] - 3.0 * v[-1] + 3.0 * v[-2] - v[-3];
+    squares += x * x;
+  }
+  return sqrt(squares / (20.0 * f->n));
+}
+
+// Of a log whose noise its pilot did not see: it follows a smooth track, and the log is as noisy all the
+// same.
+TEST(gap_nominal_pilots_may_be_spared_a_logs_noise) {
+  gap_track_t r;
+  why_t why = {""};
+  double shaking[2], gyro[2] = {0.0};
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  r.loop.gyro_radps[0] = r.loop.gyro_radps[1] = 0.05;
+  for (int spared = 0; spared < 2; spared++) {
+    gap_flight_t flown;
+    r.loop.spared = spared;
+    if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
+    shaking[spared] = shaking_N(&flown);
+    for (int i = 1; i < flown.n; i++)
+      gyro[spared] += fabs(flown.v[SIG_GX][i] - flown.v[SIG_GX][i - 1]) / flown.n;
+    gap_flight_free(&flown);
+  }
+  CHECK(shaking[1] < 0.2 * shaking[0]);
+  CHECK_NEAR(gyro[1] / gyro[0], 1.0, 0.2);
+  gap_track_free(&r);
+}
+
 // A track that goes on by steps has its commands step with it, and a log of them misses none.
 TEST(gap_nominal_pilots_are_told_their_track_between_its_points) {
   gap_track_t r;

@@ -24,7 +24,12 @@ TEST(gap_nominal_pilots_are_varied_about_the_one_that_fits) {
 }
 
 TEST(gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands) {
-  closed_loop_t slow = {.rate_gain = {8.0, 12.0, 5.0}, .rate_gain_most = 170.0, .tilt_gain = 22.0};
+  closed_loop_t slow = {.rate_gain = {8.0, 12.0, 5.0},
+                        .rate_gain_most = 170.0,
+                        .tilt_gain = 22.0,
+                        .gyro_radps = {0.01, 0.01, 0.01},
+                        .angle_rad = 0.002,
+                        .turn_noise_radps2 = {0.8, 1.0}};
   for (int unread = 0; unread < 2; unread++) {
     slow.unread = unread;
     for (int i = 0; i < NOMINAL_FLIGHTS; i++) {
@@ -34,7 +39,11 @@ TEST(gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands) {
       CHECK((v.rate_gain[0] > 0.69 * 25.0) == swift && (v.tilt_gain > 100.0) == swift);
       const bool swiftest = v.rate_gain[0] > 0.69 / 1.3 * 170.0 && v.rate_gain[1] == v.rate_gain[0];
       CHECK(swiftest == (swift && i % 4 == 3));
-      CHECK(v.rate_gain[0] <= 170.0);
+      CHECK(v.rate_gain[0] <= 170.0 && v.tilt_gain <= 0.35 * 1.3 * 25.0 * 170.0);
+      CHECK(v.unread == (unread && !swiftest));
+      // What it is fed with makes commands as noisy as the log's, and no noisier.
+      const double noise = hypot(0.01 * v.rate_gain[0], 0.002 * v.tilt_gain);
+      CHECK_NEAR((1.0 - v.spared) * noise, swiftest ? 0.8 : noise, 1e-9);
       CHECK(v.outer_s == (swift ? 0.01 : 0.0));
       CHECK(v.rate_gain[2] < 7.0); // a rotor's torque is small
     }
