@@ -34,9 +34,52 @@ static pulse_t pulse_of(const color_t *c, int rows) {
 
 typedef struct {
   const rows_t *r;
-  const double *white; // in standard deviations
-  double *found;       // statistics
+  const double *white;  // in standard deviations
+  const double *change; // by row, how much commands change about it, squared; null: no command is missed
+  double *found, *at, *about; // statistics, the row that each begins at, and the largest change in its rows
 } pulses_t;
+
+// Of those of one length.
+typedef struct {
+  int at;
+  double largest, whole; // statistic; the same before errors of missed commands are allowed for
+  double alike, scatter; // squares of all that are half as large, and what they scatter by
+} peak_t;
+
+// --- commands that a log misses
+
+// Of a log with fewer rows than commands the turning is predicted with an error that is the larger, the more
+// commands change from one row to the next: a set point that jumps makes a pulse, though nothing pushes.
+// A row of it is a difference over the points beside, of numbers that are filtered over as many.
+enum { REACH = 2 };
+
+static void find_changes(const look_t *l, int axis, double *change) {
+  const rows_t *const r = &l->s->smooth;
+  for (int i = 0; i < r->n; i++) {
+    const grid_t *const g = &l->s->grid[r->flight[i]];
+    const int from = (r->point[i] - REACH) * g->every, to = (r->point[i] + REACH + 1) * g->every;
+    change[i] = 0.0;
+    for (int k = from > 0 ? from : 0; k + 1 < to && k + 1 < g->samples && grid_is_slow(g); k++) {
+      const double step = grid_turns(g, l->m, axis, k + 1) - grid_turns(g, l->m, axis, k);
+      change[i] = fmax(change[i], step * step);
+    }
+  }
+}
+
+// Statistics in what they scatter by where commands change so much: 1 + c x, x the change, squared, c by
+// least squares of their squares on it.
+static void allow_for_changes(const pulses_t *w, int n, double scatter) {
+  double fx = 0.0, xx = 0.0;
+  for (int i = 0; i < n; i++) {
+    const double x = w->about[i], f = w->found[i] / scatter;
+    fx += (f * f - 1.0) * x;
+    xx += x * x;
+  }
+  const double c = xx > 0.0 ? fmax(fx / xx, 0.0) : 0.0;
+  for (int i = 0; i < n; i++) w->found[i] /= sqrt(1.0 + c * w->about[i]);
+}
+
+// --- the largest
 
 // Row `from` and all rows to two behind the pulse reach back without a gap.
 static bool unbroken(const rows_t *r, int from, int rows, int *good_to, int *began) {
@@ -62,25 +105,40 @@ static double alike_squares(const double *found, int n, double largest, int rows
   return peaks ? fmax(sum * sum / peaks - peaks * dear, 0.0) : 0.0;
 }
 
-// The largest of one length, the squares of all that are half as large, and what they scatter by. False: too
-// few to say.
-static bool largest_pulse(const pulses_t *w, const pulse_t *p, int rows, int *at, double *largest,
-                          double *alike, double *scatter) {
+static double scatter_of(const double *found, int n, double *room) {
+  for (int i = 0; i < n; i++) room[i] = fabs(found[i]);
+  return n ? nth_smallest(room, n, n / 2) / 0.6745 : 0.0;
+}
+
+// How many.
+static int find_pulses(const pulses_t *w, const pulse_t *p, int rows) {
   const double *const e = w->white;
   int n = 0, good_to = 0, began = 0;
-  *largest = 0.0;
   for (int i = 2; i + rows + 2 <= w->r->n; i++) {
     if (!unbroken(w->r, i, rows, &good_to, &began)) continue;
     double y = p->first * e[i] + p->second * e[i + 1] + p->after * e[i + rows] + p->last * e[i + rows + 1];
     for (int k = 2; k < rows; k++) y += p->inner * e[i + k];
-    y /= sqrt(p->energy);
-    w->found[n++] = y;
-    if (fabs(y) > fabs(*largest)) *largest = y, *at = i;
+    w->found[n] = y / sqrt(p->energy);
+    w->about[n] = 0.0;
+    for (int k = 0; w->change && k < rows + 2; k++) w->about[n] = fmax(w->about[n], w->change[i + k]);
+    w->at[n++] = i;
   }
-  *alike = alike_squares(w->found, n, *largest, rows);
-  for (int i = 0; i < n; i++) w->found[i] = fabs(w->found[i]);
-  *scatter = n ? nth_smallest(w->found, n, n / 2) / 0.6745 : 0.0;
-  return n > 20 * rows && *scatter > 0.0;
+  return n;
+}
+
+// room: as many numbers as rows. False: too few to say.
+static bool largest_pulse(const pulses_t *w, const pulse_t *p, int rows, double *room, peak_t *peak) {
+  const int n = find_pulses(w, p, rows);
+  *peak = (peak_t){.scatter = scatter_of(w->found, n, room)};
+  if (n <= 20 * rows || !(peak->scatter > 0.0)) return false;
+  memcpy(room, w->found, (size_t)n * sizeof *room);
+  if (w->change) allow_for_changes(w, n, peak->scatter);
+  for (int i = 0; i < n; i++)
+    if (fabs(w->found[i]) > fabs(peak->largest))
+      peak->largest = w->found[i], peak->whole = room[i], peak->at = (int)w->at[i];
+  peak->alike = alike_squares(w->found, n, peak->largest, rows);
+  peak->scatter = scatter_of(w->found, n, room);
+  return peak->scatter > 0.0;
 }
 
 static double time_s(const look_t *l, int row) {
@@ -90,24 +148,26 @@ static double time_s(const look_t *l, int row) {
 
 static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
-  const pulses_t w = {&l->s->smooth, l->room, l->room + l->s->smooth.n};
+  const int n = l->s->smooth.n;
+  const bool turning = ch >= CH_WX && ch <= CH_WZ && l->s->grid[0].has_moments;
+  double *const room = l->room + 5 * n, *const change = turning ? l->room + 4 * n : NULL;
+  const pulses_t w = {&l->s->smooth, l->room, change, l->room + n, l->room + 2 * n, l->room + 3 * n};
   color_whiten(c, w.r, l->residual[ch], l->room);
+  if (change) find_changes(l, ch - CH_WX, change);
   for (int rows = FILTER_ROWS; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
     const pulse_t p = pulse_of(c, rows);
-    double largest, alike, scatter;
-    int at = 0;
-    if (!largest_pulse(&w, &p, rows, &at, &largest, &alike, &scatter) ||
-        fabs(largest) <= cell->statistic * scatter)
+    peak_t peak;
+    if (!largest_pulse(&w, &p, rows, room, &peak) || fabs(peak.largest) <= cell->statistic * peak.scatter)
       continue;
     *cell = (cell_t){.channel = ch,
                      .along = COORDINATE_TIME,
                      .coordinate = coordinate_name(COORDINATE_TIME),
                      .unit = coordinate_unit(COORDINATE_TIME),
-                     .from = time_s(l, at),
-                     .to = time_s(l, at + rows - 1),
-                     .size = c->sd * largest / sqrt(p.energy),
-                     .statistic = fabs(largest) / scatter,
-                     .explained = alike};
+                     .from = time_s(l, peak.at),
+                     .to = time_s(l, peak.at + rows - 1),
+                     .size = c->sd * peak.whole / sqrt(p.energy),
+                     .statistic = fabs(peak.largest) / peak.scatter,
+                     .explained = peak.alike};
   }
 }
 

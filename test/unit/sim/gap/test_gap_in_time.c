@@ -11,15 +11,20 @@
 #define ROW_S 0.04
 #define CALM  0.05 // of the rows' standard deviation: the noise of what is not added here
 
-// The largest pulse or line in the force along z, of rows without colour.
-static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[LOOKED])) {
-  const color_t color[CHANNELS] = {[CH_FZ] = {.used = true, .sd = 1.0}};
+// The largest pulse or line in a channel, of rows without colour.
+static cell_t look_at(gap_rows_t *g, int channel, void (*in_time)(const look_t *, cell_t[LOOKED])) {
+  color_t color[CHANNELS] = {{.used = false}};
+  color[channel] = (color_t){.used = true, .sd = 1.0};
   cell_t cell[LOOKED] = {{.statistic = 0.0}};
   look_t l = look_of(&g->set, &g->model, g->residual, color, true);
   l.room = malloc(LOOK_ROOM * set_most_rows(&g->set) * sizeof(double));
   if (CHECK(l.room)) in_time(&l, cell);
   free(l.room);
-  return cell[CH_FZ];
+  return cell[channel];
+}
+
+static cell_t look(gap_rows_t *g, void (*in_time)(const look_t *, cell_t[LOOKED])) {
+  return look_at(g, CH_FZ, in_time);
 }
 
 static void make_calm(gap_rows_t *g, unsigned long seed) {
@@ -66,6 +71,39 @@ TEST(gap_finds_no_pulse_in_the_first_second) {
     const cell_t cell = look(&g, in_time_pulses);
     CHECK((cell.statistic > 10.0) == row[i].found);
     if (row[i].found) CHECK_NEAR(cell.from / ROW_S, row[i].from, 0.1);
+    gap_rows_free(&g);
+  }
+}
+
+// Three pulses about x, and commands that step every 200 rows. Of a log that misses commands a pulse at a
+// step is one of those; one that comes while commands stand still is not.
+TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
+  static const struct {
+    const char *what;
+    double rate_Hz; // of the log; commands come 500 times a second
+    int later;      // rows behind the steps
+    bool found;
+  } row[] = {{"no command is missed", 500.0, 0, true},
+             {"some are", 100.0, 0, false},
+             {"some are, while others stand", 100.0, 60, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    static double still_N[GAP_ROWS], steps_N[GAP_ROWS];
+    gap_rows_t g;
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 44);
+    g.flight.rate_Hz = row[i].rate_Hz;
+    g.grid.command_Hz = 500.0;
+    g.grid.samples = GAP_ROWS;
+    for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = k >= 2 ? steps_N : still_N;
+    for (int k = 0; k < GAP_ROWS; k++) {
+      steps_N[k] = 0.01 * (k / 200 % 2);
+      g.residual[CH_WX][k] *= CALM;
+    }
+    for (int k = 400; k < 1000; k += 200)
+      for (int q = 0; q < 2; q++) g.residual[CH_WX][k + row[i].later + q] += 1.0;
+    const cell_t cell = look_at(&g, CH_WX, in_time_pulses);
+    CHECK((cell.statistic > 8.0) == row[i].found);
+    for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = NULL;
     gap_rows_free(&g);
   }
 }
