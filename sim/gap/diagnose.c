@@ -188,14 +188,14 @@ static bool bar_refuted(diagnosis_t *d) {
 }
 
 // Of a log that misses commands no scale is told that these could have made; nor one of the thrust by the
-// turning alone, where nobody says how large it is otherwise.
+// turning alone.
 static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
   *barred = false;
   if (!candidates_slow(&d->fit)) return DONE;
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     candidate_t *const c = &d->candidates.candidate[named->candidate];
-    const bool lifts = c->use.fx->scales_thrust && !residual_has(&d->fit, CH_FZ);
+    const bool lifts = candidates_by_turning(c->use.fx, &d->fit);
     if (!(c->use.fx->scales_turning || lifts) || d->n_refuted >= NAMED_MAX) continue;
     bool stands = false;
     if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, named, &stands, why));

@@ -135,7 +135,7 @@ static void note_missing(gap_flight_t *f) {
       {FORCE, "acceleration",
        f->v[SIG_VX] && f->v[SIG_QW]
            ? "that of the velocity stands in for it; its own errors are not looked for"
-           : "no force is compared"},
+           : "(or velocity and attitude) no force is compared"},
       {GYRO, "rates", "no moment is compared"},
       {ATTITUDE, "attitude", "neither wind nor anything else in the world's axes is looked for"},
       {VELOCITY, "velocity",

@@ -19,6 +19,10 @@ bool candidates_slow(const set_t *s) {
   return false;
 }
 
+bool candidates_by_turning(const fx_t *fx, const set_t *s) {
+  return fx->scales_thrust && !residual_has(s, CH_FZ);
+}
+
 double candidates_least(const fx_t *fx, const set_t *s) {
   const char *const unit = fx->param[fx->size[0].param].unit;
   const bool is_time = unit && strcmp(unit, "s") == 0;

@@ -54,6 +54,10 @@ void candidates_free(candidates_t *c);
 // cannot be told, nor inertia from lag, nor mass from thrust scale.
 bool candidates_slow(const set_t *s);
 
+// It is a scale of the thrust, of which nothing but turning is compared: of a log that misses commands these
+// look like it, and nobody says how large it is otherwise.
+bool candidates_by_turning(const fx_t *fx, const set_t *s);
+
 // Of a lag or delay, what is never named: fx->size.least, or one period of the slowest log, whichever is
 // more. Of other effects 0.
 double candidates_least(const fx_t *fx, const set_t *s);

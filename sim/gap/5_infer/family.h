@@ -9,10 +9,10 @@
 #include "gap/5_infer/found.h"
 
 // Sets the rivals of every name of `found`, which is described already (found.h), the most likely first; how
-// probable it is that one of them is there; and which columns could not be told apart in these flights if they
-// were there with their typical size. Where the rows speak for a set without any of them (evidence.h), what
-// that set has is a rival, too.
-// measured: rotor speeds were logged, they tell lag from delay. FAILED: no memory.
+// probable it is that one of them is there; and which columns could not be told apart in these flights if
+// they were there with their typical size. Where the rows speak for a set without any of them (evidence.h),
+// what that set has is a rival, too. measured: rotor speeds were logged, they tell lag from delay. FAILED: no
+// memory.
 MUST_CHECK done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why);
 
 #endif

@@ -97,9 +97,11 @@ static void warn_of_withdrawn(report_t *r) {
     if (f->too_slow) {
       warn(r,
            "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
-           "fed back, looks like it; measured turning by predicted and predicted by measured do not both "
-           "bear it out",
-           f->fx->name);
+           "fed back, looks like it; %s",
+           f->fx->name,
+           f->fx->scales_turning
+               ? "measured turning by predicted and predicted by measured do not both bear it out"
+               : "with velocity or acceleration in the log a force along z would tell");
       continue;
     }
     warn(r,

@@ -2,6 +2,7 @@
 // where it shows, and what tells it from its rivals.
 #include "gap/4_candidates/candidates.h"
 #include "gap/5_infer/unknown.h"
+#include "rig/gap_rows.h"
 #include "rig/test.h"
 #include "vehicle/model_file.h"
 
@@ -249,4 +250,21 @@ TEST(what_was_flown_is_another_model_from_a_tenth_of_the_way_to_another_shape_on
     CHECK(chosen_other(&flown, &found) == row[i].other);
   }
   candidates_free(&c);
+}
+
+TEST(gap_knows_which_scales_of_the_thrust_the_turning_alone_would_tell) {
+  static const struct {
+    const char *effect;
+    bool forces, alone;
+  } row[] = {{"thrust_scale", false, true}, {"thrust_curve", false, true}, {"battery_sag", false, true},
+             {"thrust_scale", true, false}, {"inertia", false, false},     {"motor_damage", false, false},
+             {"cg_offset", false, false},   {"delay", false, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    ROW("%s, %s forces", row[i].effect, row[i].forces ? "with" : "without");
+    gap_rows_make(&g, 3);
+    g.grid.has_force = row[i].forces;
+    CHECK(candidates_by_turning(fx_find(row[i].effect), &g.set) == row[i].alone);
+    gap_rows_free(&g);
+  }
 }
