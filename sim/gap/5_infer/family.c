@@ -164,14 +164,14 @@ static void weigh(const round_t *r, const evidence_t *e, double left_before, nam
 // What measured rotor speeds show is no question to the rows.
 static done_t weigh_names(const round_t *r, found_t *found, why_t *why) {
   evidence_t e = {.n = 0};
-  TRY(evidence_make(&e, r, why));
-  for (int i = 0; i < found->n; i++) {
+  const done_t status = evidence_make(&e, r, why);
+  for (int i = 0; status == DONE && i < found->n; i++) {
     named_t *const named = &found->named[i];
     named->probability = (double)NAN;
     if (e.n && choice_has(&r->choice, named->candidate)) weigh(r, &e, found->left_before, named);
   }
   evidence_free(&e);
-  return DONE;
+  return status;
 }
 
 // --- what could not be told apart -------------------------------------------------------------------------

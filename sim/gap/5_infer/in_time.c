@@ -48,9 +48,9 @@ typedef struct {
 
 // --- commands that a log misses
 
-// Of a log with fewer rows than commands the turning is predicted with an error that is the larger, the more
-// commands change from one row to the next: a set point that jumps makes a pulse, though nothing pushes.
-// A row of it is a difference over the points beside, of numbers that are filtered over as many.
+// Of fewer rows than commands, unless they are means, the turning is predicted with an error that is larger
+// the more commands change from one row to the next: a set point that jumps makes a pulse, though nothing
+// pushes. A row of it is a difference over the points beside, of numbers that are filtered over as many.
 enum { REACH = 2 };
 
 static void find_changes(const look_t *l, int axis, double *change) {
@@ -58,8 +58,9 @@ static void find_changes(const look_t *l, int axis, double *change) {
   for (int i = 0; i < r->n; i++) {
     const grid_t *const g = &l->s->grid[r->flight[i]];
     const int from = (r->point[i] - REACH) * g->every, to = (r->point[i] + REACH + 1) * g->every;
+    const bool missed = grid_is_slow(g) && !g->flight->rows_are_means;
     change[i] = 0.0;
-    for (int k = from > 0 ? from : 0; k + 1 < to && k + 1 < g->samples && grid_is_slow(g); k++) {
+    for (int k = from > 0 ? from : 0; missed && k + 1 < to && k + 1 < g->samples; k++) {
       const double step = grid_turns(g, l->m, axis, k + 1) - grid_turns(g, l->m, axis, k);
       change[i] = fmax(change[i], step * step);
     }
@@ -149,7 +150,7 @@ static double time_s(const look_t *l, int row) {
 static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
   const int n = l->s->smooth.n;
-  const bool turning = ch >= CH_WX && ch <= CH_WZ && l->s->grid[0].has_moments;
+  const bool turning = ch >= CH_WX && ch <= CH_WZ;
   double *const room = l->room + 5 * n, *const change = turning ? l->room + 4 * n : NULL;
   const pulses_t w = {&l->s->smooth, l->room, change, l->room + n, l->room + 2 * n, l->room + 3 * n};
   color_whiten(c, w.r, l->residual[ch], l->room);

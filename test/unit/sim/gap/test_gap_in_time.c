@@ -81,17 +81,20 @@ TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
   static const struct {
     const char *what;
     double rate_Hz; // of the log; commands come 500 times a second
-    int later;      // rows behind the steps
+    bool means;
+    int later; // rows behind the steps
     bool found;
-  } row[] = {{"no command is missed", 500.0, 0, true},
-             {"some are", 100.0, 0, false},
-             {"some are, while others stand", 100.0, 60, true}};
+  } row[] = {{"no command is missed", 500.0, false, 0, true},
+             {"some are", 100.0, false, 0, false},
+             {"rows are means", 100.0, true, 0, true},
+             {"some are, while others stand", 100.0, false, 60, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     static double still_N[GAP_ROWS], steps_N[GAP_ROWS];
     gap_rows_t g;
     ROW("%s", row[i].what);
     gap_rows_make(&g, 44);
     g.flight.rate_Hz = row[i].rate_Hz;
+    g.flight.rows_are_means = row[i].means;
     g.grid.command_Hz = 500.0;
     g.grid.samples = GAP_ROWS;
     for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = k >= 2 ? steps_N : still_N;
