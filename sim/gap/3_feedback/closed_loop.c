@@ -142,13 +142,13 @@ static double lead_of(double noise, double gyro, double gain, double calls_a_row
   return more > gain * gain ? 0.5 * (sqrt(more) - gain) : 0.0;
 }
 
-// Where it is told that every command is in the log, none is missed, and of slow rows the third differences
-// are motion: no lead.
+// And how noisy they are. Where it is told that nearly every command is in the log, of slow rows the third
+// differences are motion: no lead.
 static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   const grid_t *const g = &s->grid[0];
   const double row_s = g->period_s / g->every, step_s = row_s / nominal_steps(row_s);
   const double told_Hz = w->flown_by ? w->flown_by->rate_Hz : 0.0;
-  if (told_Hz > 0.0 && told_Hz * row_s < CALLS_APART) return;
+  const bool told = told_Hz > 0.0 && told_Hz * row_s < CALLS_APART;
   // As the nominal pilot will be called: once a step at most.
   const double call_s = told_Hz > 0.0 ? fmax(1.0 / told_Hz, step_s) : step_s;
   double *const turn =
@@ -157,6 +157,7 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
     for (int i = 0; i < g->samples; i++) turn[g->from + i] = grid_turns(g, m, axis, i);
     const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
     if (axis < 2) w->turn_noise_radps2[axis] = noise;
+    if (told) continue;
     const double d = lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s);
     w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
@@ -249,7 +250,8 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   }
   v.tilt_gain *= turn * turn;
   if (w->unread && i % 2) {
-    const double swift = turn * (i % 4 == 3 ? w->rate_gain_most / (1.0 + VARIED) : SWIFT_GAIN);
+    const double swift =
+        turn * (i % 4 == 3 ? fmax(SWIFT_GAIN, w->rate_gain_most / (1.0 + VARIED)) : SWIFT_GAIN);
     for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], swift);
     v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * turn * SWIFT_GAIN * swift);
     if (i % 4 == 3) {
@@ -282,7 +284,7 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   w.angle_rad = 2.0 * larger_noise(s, SIG_QX, SIG_QY);
   w.vbat_V = noise_of(&s->grid[0], f->v[SIG_VBAT]);
   find_slow(&s->grid[0], &w);
-  w.rate_gain_most = pilot_gain_most(m->motor_tau_s, 0.0, pilot_period_s(by));
+  w.rate_gain_most = fmax(RATE_GAIN_LEAST, pilot_gain_most(m->motor_tau_s, 0.0, pilot_period_s(by)));
   find_gains(s, m, &w);
   find_lead(s, m, &w);
   closed_loop_shaken(&w, s, m, residual);

@@ -114,11 +114,11 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
   for (int i = 0; i < n; i++) take(&list[i], named);
 }
 
-// What an effect would explain in the place of a name, in the form that leaves least.
+// What an effect would explain in the place of a name, in the form that leaves least; fx null: nothing.
 static rival_t in_its_place(const round_t *r, double left_before, const named_t *named, const fx_t *fx) {
   const choice_t rest = choice_without(&r->choice, named->candidate);
   const double without = score_left(&r->score, &rest, NULL);
-  rival_t best = {fx, 0.0, without};
+  rival_t best = {.left = without};
   for (int i = 0; i < r->c->n; i++) {
     if (round_fx(r, i) != fx || r->never[i] || !round_fits(r, &rest, i)) continue;
     const choice_t with = choice_with(&rest, i);
@@ -140,7 +140,7 @@ static rival_t best_of(const round_t *r, double left_before, const named_t *name
       chosen = chosen || round_fx(r, r->choice.of[i]) == round_fx(r, set->of[k]);
     if (chosen) continue;
     const rival_t one = in_its_place(r, left_before, named, round_fx(r, set->of[k]));
-    if (!best.fx || one.left < best.left) best = one;
+    if (one.fx && (!best.fx || one.left < best.left)) best = one;
   }
   return best;
 }
