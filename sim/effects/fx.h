@@ -95,7 +95,7 @@ typedef struct {
   const axes_t *axes;         // of the body
   const d3_t *hub_b_m;        // the rotors' centres, from the centre of mass
   double rotor_radps[ROTORS]; // their speeds
-  const rigid_t *rigid;       // has the centres, too, and the rotors' senses of turning (plant/rigid.h, d_i)
+  const rigid_t *rigid; // plant/rigid.h: the centres, too, senses of turning (d_i), kf_Ns2, thrust_scale
 } fx_motion_t;
 
 // A rotor's hub, `arm` of the way from the centre of mass to it: 1 the hub, 0 the centre of mass.
