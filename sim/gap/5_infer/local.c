@@ -38,9 +38,11 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
   score_t score = round->score;
   TRY(gram_make(&plain, round->s, &round->table, &known, NULL, why));
   score.g = &plain;
-  for (int k = 0; k < round->c->n; k++)
-    alike[k] = score_likeness(&round->score, &round->choice, candidate, k) > SCORE_MOST ||
-               score_likeness(&score, &round->choice, candidate, k) > SCORE_MOST;
+  for (int k = 0; k < round->c->n; k++) {
+    const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, k);
+    alike[k] = score_likeness(&round->score, &round->choice, candidate, &alone) > SCORE_MOST ||
+               score_likeness(&score, &round->choice, candidate, &alone) > SCORE_MOST;
+  }
   gram_free(&plain);
   return DONE;
 }

@@ -304,29 +304,28 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------
 
-double score_likeness(const score_t *j, const choice_t *choice, int own, int other) {
-  const gram_t *g = j->g;
-  const candidate_t *a = &j->c->candidate[own], *c = &j->c->candidate[other];
-  int column[COLUMN_MAX];
-  const int n = choice_columns(j->c, choice, column), size = c->n + 1;
-  double b[COLUMN_MAX], at[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
-  int order[FX_SIZE_MAX];
-  score_estimate(j, choice, b, NULL);
+double score_likeness(const score_t *j, const choice_t *choice, int own, const choice_t *with) {
+  const gram_t *const g = j->g;
+  const candidate_t *const a = &j->c->candidate[own];
+  int column[COLUMN_MAX] = {0}, of[COLUMN_MAX], order[COLUMN_MAX];
+  double b[COLUMN_MAX], at[COLUMN_MAX], G[(COLUMN_MAX + 1) * (COLUMN_MAX + 1)] = {0.0};
+  const int n = choice_columns(j->c, choice, column), m = choice_columns(j->c, with, of), size = m + 1;
+  lsq_solve_products(g->total, g->size, column, n, NULL, b, NULL);
   for (int i = 0; i < n; i++) {
-    const bool mine = column[i] >= a->first && column[i] < a->first + a->n;
-    for (int k = 0; mine && k < c->n; k++)
-      G[k * size + c->n] += b[i] * g->total[column[i] * g->size + c->first + k];
-    for (int k = 0; mine && k < n; k++)
+    if (column[i] < a->first || column[i] >= a->first + a->n) continue;
+    for (int k = 0; k < m; k++) G[k * size + m] += b[i] * g->total[column[i] * g->size + of[k]];
+    for (int k = 0; k < n; k++)
       if (column[k] >= a->first && column[k] < a->first + a->n)
         G[size * size - 1] += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
   }
-  for (int i = 0; i < c->n; i++) {
+  for (int i = 0; i < m; i++) {
     order[i] = i;
-    G[c->n * size + i] = G[i * size + c->n];
-    for (int k = 0; k < c->n; k++) G[i * size + k] = g->total[(c->first + i) * g->size + c->first + k];
+    G[m * size + i] = G[i * size + m];
+    for (int k = 0; k < m; k++) G[i * size + k] = g->total[of[i] * g->size + of[k]];
   }
-  const double all = G[size * size - 1];
-  return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, c->n, NULL, at, NULL) / all : 0.0;
+  const int beside = m - j->c->candidate[with->of[with->n - 1]].n;
+  const double all = lsq_solve_products(G, size, order, beside, NULL, at, NULL);
+  return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, m, NULL, at, NULL) / all : 0.0;
 }
 
 double score_alike(const score_t *j, int column, int candidate) {

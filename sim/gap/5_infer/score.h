@@ -51,8 +51,9 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
 // unexplained: what neither explains, in white standard errors; it may prefer the wrong one by 2 d so much.
 bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other, double unexplained);
 
-// The part of what `own` gives in the choice that `other` alone could give in its place, 0 to 1.
-double score_likeness(const score_t *j, const choice_t *choice, int own, int other);
+// The part of what `own` gives in the choice, beyond what all but the last one of `with` could give in its
+// place, that the last one could give: 0 to 1.
+double score_likeness(const score_t *j, const choice_t *choice, int own, const choice_t *with);
 
 // The part of a column that the candidate alone could give in its place, 0 to 1.
 double score_alike(const score_t *j, int column, int candidate);

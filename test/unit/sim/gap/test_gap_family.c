@@ -109,3 +109,26 @@ TEST(gap_tells_mass_beside_a_thrust_scale_that_stands_for_a_name_where_the_log_m
     gap_rows_free(&g);
   }
 }
+
+// What tells the two apart is thirty standard errors strong, and straight lines make as much of what is
+// large.
+TEST(gap_tells_nothing_apart_by_less_than_what_straight_lines_are_wrong_by) {
+  static const struct {
+    double sure; // of the name, in standard errors
+    bool rival;
+  } row[] = {{1000.0, false}, {2000.0, true}}; // 3 % of it, and 1.5 %
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("a name of %g standard errors", row[i].sure);
+    gap_rows_t g;
+    found_t before, found;
+    gap_rows_make(&g, 22);
+    const int drag = gap_rows_candidate(&g, "rotor_drag"), rival = gap_rows_candidate(&g, "body_drag");
+    nearly(&g, rival, CH_FX, white_column(&g, drag, CH_FX, row[i].sure), 1.0);
+    white_column(&g, rival, CH_FY, 30.0);
+    gap_rows_add(&g, drag, 0, 1.0);
+    if (describe(&g, 1, &drag, &before, &found))
+      CHECK(has_rival(named(&found, drag), "body_drag") == row[i].rival);
+    found_free(&found);
+    gap_rows_free(&g);
+  }
+}

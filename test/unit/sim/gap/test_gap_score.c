@@ -5,6 +5,7 @@
 #include "rig/test.h"
 
 #include <math.h>
+#include <string.h>
 
 static const choice_t NONE = {.n = 0};
 
@@ -213,11 +214,35 @@ TEST(gap_score_tells_how_alike_two_effects_are) {
   gap_rows_open(&g, 1, &own);
   const score_t *const s = &g.round.score;
   const choice_t *const choice = &g.round.choice;
-  CHECK_NEAR(score_likeness(s, choice, own, same), 1.0, 1e-6);
-  CHECK_NEAR(score_likeness(s, choice, own, half), 0.5, 0.06);
-  CHECK_NEAR(score_likeness(s, choice, own, other), 0.0, 0.02);
+  const choice_t with_same = choice_with(&NONE, same), with_half = choice_with(&NONE, half),
+                 with_other = choice_with(&NONE, other);
+  CHECK_NEAR(score_likeness(s, choice, own, &with_same), 1.0, 1e-6);
+  CHECK_NEAR(score_likeness(s, choice, own, &with_half), 0.5, 0.06);
+  CHECK_NEAR(score_likeness(s, choice, own, &with_other), 0.0, 0.02);
   CHECK_NEAR(score_alike(s, g.candidate[own].first, same), 1.0, 1e-6);
   CHECK_NEAR(score_alike(s, g.candidate[own].first, other), 0.0, 0.02);
+  gap_rows_free(&g);
+}
+
+// A thrust scale lifts and turns, a mass lifts, and an inertia that is named, too, gives what the scale
+// turns.
+TEST(gap_score_takes_for_alike_what_is_alike_beside_the_other_names) {
+  gap_rows_t g;
+  gap_rows_make(&g, 11);
+  const int scale = gap_rows_candidate(&g, "thrust_scale"), mass = gap_rows_candidate(&g, "mass"),
+            inertia = gap_rows_candidate(&g, "inertia");
+  double *const lift = gap_rows_column(&g, scale, 0, CH_FZ), *const turn =
+                                                                 gap_rows_column(&g, scale, 0, CH_WX);
+  gap_rows_white(&g, lift);
+  gap_rows_white(&g, turn);
+  memcpy(gap_rows_column(&g, mass, 0, CH_FZ), lift, GAP_ROWS * sizeof *lift);
+  memcpy(gap_rows_column(&g, inertia, 0, CH_WX), turn, GAP_ROWS * sizeof *turn);
+  gap_rows_add(&g, scale, 0, 1.0);
+  gap_rows_open(&g, 1, &scale);
+  const choice_t alone = choice_with(&NONE, mass), beside = choice_with(&NONE, inertia),
+                 both = choice_with(&beside, mass);
+  CHECK_NEAR(score_likeness(&g.round.score, &g.round.choice, scale, &alone), 0.5, 0.05);
+  CHECK_NEAR(score_likeness(&g.round.score, &g.round.choice, scale, &both), 1.0, 1e-6);
   gap_rows_free(&g);
 }
 
