@@ -78,13 +78,16 @@ static bool is_out(const round_t *r, bool measured, int i) {
   return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
 }
 
-// with: the choice with the other one as its last. What it gives but for less than what a right form leaves
+// with: the choice with the other one as its last. Alone or beside the other names it gives most of what the
+// name does. What it gives but for less than what a right form leaves
 // is the same: the straight lines that tell more are not as right as that.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other)) return true;
+  const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, other);
   const double like = score_likeness(&r->score, &r->choice, own, with);
-  if (!(like > SCORE_MOST && score_is_possible(&r->score, with))) return false;
+  const double most = fmax(like, score_likeness(&r->score, &r->choice, own, &alone));
+  if (!(most > SCORE_MOST && score_is_possible(&r->score, with))) return false;
   return 1.0 - like < CANDIDATES_MISFIT * CANDIDATES_MISFIT ||
          score_is_rival(&r->score, &r->choice, with, unexplained_of(r, u, own, other));
 }

@@ -1,9 +1,9 @@
 // family.h - which other effects could stand in a name's place: what these flights cannot separate.
 //
-// Another effect is of a name's family if it gives, beside the other names, most of what the name gives in
-// these flights, at a size that it can have, and the name is not better by more than chance, what is left
-// unexplained and the error of straight lines could make it. The other names' numbers, which it would move,
-// are known no better than half of that way.
+// Another effect is of a name's family if it gives, alone or beside the other names, most of what the name
+// gives in these flights, at a size that it can have, and the name is not better by more than chance, what is
+// left unexplained and the error of straight lines could make it. The other names' numbers, which it would
+// move, are known no better than half of that way.
 #ifndef SIM_GAP_5_INFER_FAMILY_H
 #define SIM_GAP_5_INFER_FAMILY_H
 
