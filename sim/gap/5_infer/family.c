@@ -79,8 +79,8 @@ static bool is_out(const round_t *r, bool measured, int i) {
 }
 
 // with: the choice with the other one as its last. Alone or beside the other names it gives most of what the
-// name does. What it gives but for less than what a right form leaves
-// is the same: the straight lines that tell more are not as right as that.
+// name does. What differs by less than a right form leaves is the same: straight lines are no better than
+// that.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other)) return true;
