@@ -212,9 +212,11 @@ static done_t find_what_stands(const diagnose_job_t *job, diagnosis_t *d, why_t 
     TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
     bool too_slow;
     TRY(bar_too_slow(job, d, &too_slow, why));
-    if (!bar_refuted(d) && !too_slow) return DONE;
+    if (!bar_refuted(d) && !too_slow) break;
     found_free(&d->found);
   }
+  found_join_rivals(&d->found);
+  return DONE;
 }
 
 static void tell(const diagnose_job_t *job, const char *what) {

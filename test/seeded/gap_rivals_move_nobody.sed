@@ -1,4 +1,4 @@
 # A rival of one name leaves the errors of the others as they are.
 # file: sim/gap/5_infer/family.c
 # test: gap_is_less_sure_of_a_number
-s/fmax(moved->by\[i\]\[k\], fabs/fmin(moved->by[i][k], fabs/
+s/fmax(other->by_rivals\[k\]/fmin(other->by_rivals[k]/

@@ -14,7 +14,9 @@
 #include "gap/2_predict/predict.h"
 #include "gap/2_predict/residual.h"
 
-#define CANDIDATES_MISFIT 0.02 // of what is typical: a right form with other numbers beside it
+// Of what is typical, or of what a name gives: what a right form with other numbers beside it leaves, and
+// what straight lines are wrong by.
+#define CANDIDATES_MISFIT 0.02
 
 typedef struct {
   fx_use_t use; // with its shape; its sizes are 0

@@ -60,13 +60,8 @@ static double unexplained_of(const round_t *r, const unexplained_t *u, int own, 
 typedef struct {
   const fx_t *fx;
   double share, left; // of the gap that it would explain; white sum of squares that would be left
-  choice_t with;      // it in the name's place
+  int candidate;      // in its best form
 } rival_t;
-
-// How far each number of each name moves, at most, where another name gives its place to a rival.
-typedef struct {
-  double by[NAMED_MAX][FX_SIZE_MAX];
-} moved_t;
 
 // Mass and thrust scale differ in turning alone.
 static bool only_turning_tells(const round_t *r, int a, int b) {
@@ -109,46 +104,39 @@ static int place_in(const round_t *r, const choice_t *choice, int candidate) {
   return -1;
 }
 
-static void move(const round_t *r, const found_t *found, const choice_t *with, moved_t *moved) {
+// How far the other names' numbers move where a rival stands in a name's place: most of all rivals of all
+// names. The others keep their shapes and kinds, without which two numbers are not of one thing.
+static void move_others(const round_t *r, found_t *found, const named_t *named, int rival) {
+  const choice_t rest = choice_without(&r->choice, named->candidate), with = choice_with(&rest, rival);
   double here[COLUMN_MAX], there[COLUMN_MAX];
   score_estimate(&r->score, &r->choice, here, NULL);
-  score_estimate(&r->score, with, there, NULL);
+  score_estimate(&r->score, &with, there, NULL);
   for (int i = 0; i < found->n; i++) {
-    const int candidate = found->named[i].candidate;
-    const int a = place_in(r, &r->choice, candidate), b = place_in(r, with, candidate);
-    for (int k = 0; a >= 0 && b >= 0 && k < r->c->candidate[candidate].n; k++)
-      moved->by[i][k] = fmax(moved->by[i][k], fabs(there[b + k] - here[a + k]));
+    named_t *const other = &found->named[i];
+    const candidate_t *const c = &r->c->candidate[other->candidate];
+    const int a = place_in(r, &r->choice, other->candidate), b = place_in(r, &rest, other->candidate);
+    for (int k = 0; a >= 0 && b >= 0 && k < c->n; k++) {
+      const double way = candidate_possible(c, k, there[b + k]) - candidate_possible(c, k, here[a + k]);
+      other->by_rivals[k] = fmax(other->by_rivals[k], 0.5 * fabs(way));
+    }
   }
 }
 
-// Which of the two is there nobody knows, and neither what the others' numbers are: half of the way is an
-// error like the standard one (both_ways.h).
-static void add_moved(found_t *found, const moved_t *moved) {
-  for (int i = 0; i < found->n; i++)
-    for (int k = 0; k < FX_SIZE_MAX; k++) {
-      named_t *const named = &found->named[i];
-      if (!(named->stderr_[k] > 0.0)) continue; // not shown
-      named->beside[k] = hypot(named->beside[k], 0.5 * moved->by[i][k]);
-      named->stderr_[k] = hypot(named->stderr_[k], 0.5 * moved->by[i][k]);
-    }
-}
-
-static void take(const round_t *r, const rival_t *rival, found_t *found, named_t *named, moved_t *moved) {
+static void take(const rival_t *rival, named_t *named) {
   named->rival[named->n_rival] = rival->fx;
   named->rival_share[named->n_rival++] = rival->share;
-  move(r, found, &rival->with, moved);
 }
 
 // Of a name's list, in a log that misses commands: who is rival to one of two that the turning alone tells
 // apart is rival to both.
 static bool is_twin(const round_t *r, const rival_t *list, int n, int candidate) {
   for (int i = 0; i < n; i++)
-    if (only_turning_tells(r, list[i].with.of[list[i].with.n - 1], candidate)) return true;
+    if (only_turning_tells(r, list[i].candidate, candidate)) return true;
   return false;
 }
 
 static void find_rivals(const round_t *r, const unexplained_t *u, bool measured, found_t *found,
-                        named_t *named, moved_t *moved) {
+                        named_t *named) {
   rival_t list[FX_TABLE_MAX];
   int n = 0;
   const choice_t rest = choice_without(&r->choice, named->candidate);
@@ -156,14 +144,20 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
   for (int twins = 0; twins < 2; twins++)
     for (int i = 0; i < r->c->n; i++) {
       if (round_fx(r, i) == round_fx(r, named->candidate) || is_out(r, measured, i)) continue;
-      if (!round_fits(r, &rest, i)) continue;
+      if (!round_fits(r, &rest, i) || (twins && !is_twin(r, list, n, i))) continue;
       const choice_t in_place = choice_with(&rest, i), with = round_reshaped(r, &in_place);
-      if (!(twins ? is_twin(r, list, n, i) : could_stand(r, u, named->candidate, &with))) continue;
+      const bool stands =
+          twins ? score_is_possible(&r->score, &with) : could_stand(r, u, named->candidate, &with);
+      if (!stands) continue;
       const double left = score_left(&r->score, &with, NULL);
-      keep(list, &n, &(rival_t){round_fx(r, i), (without - left) / found->left_before, left, with});
+      keep(list, &n,
+           &(rival_t){round_fx(r, i), (without - left) / found->left_before, left, with.of[with.n - 1]});
     }
   named->n_rival = 0;
-  for (int i = 0; i < n; i++) take(r, &list[i], found, named, moved);
+  for (int i = 0; i < n; i++) {
+    take(&list[i], named);
+    move_others(r, found, named, list[i].candidate);
+  }
 }
 
 // What an effect would explain in the place of a name, in the form that leaves least; fx null: nothing.
@@ -175,7 +169,7 @@ static rival_t in_its_place(const round_t *r, double left_before, const named_t 
     if (round_fx(r, i) != fx || r->never[i] || !round_fits(r, &rest, i)) continue;
     const choice_t with = choice_with(&rest, i);
     const double left = score_left(&r->score, &with, NULL);
-    if (left < best.left) best = (rival_t){fx, (without - left) / left_before, left, with};
+    if (left < best.left) best = (rival_t){fx, (without - left) / left_before, left, i};
   }
   return best;
 }
@@ -199,28 +193,28 @@ static rival_t best_of(const round_t *r, double left_before, const named_t *name
 
 // A name that is less likely than not, with its rivals, is not told without what is likelier: two effects may
 // do together what it does alone.
-static void weigh(const round_t *r, const evidence_t *e, found_t *found, named_t *named, moved_t *moved) {
+static void weigh(const round_t *r, const evidence_t *e, double left_before, named_t *named) {
   const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
   for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
   for (;;) {
     const int n = named->n_rival + 1;
     named->probability = evidence_of(e, r->c, n, fx);
     if (named->probability >= 0.5 || n > FX_TABLE_MAX) return;
-    const rival_t rival = best_of(r, found->left_before, named, evidence_without(e, r->c, n, fx));
+    const rival_t rival = best_of(r, left_before, named, evidence_without(e, r->c, n, fx));
     if (!rival.fx) return;
-    take(r, &rival, found, named, moved);
+    take(&rival, named);
     fx[n] = rival.fx;
   }
 }
 
 // What measured rotor speeds show is no question to the rows.
-static done_t weigh_names(const round_t *r, found_t *found, moved_t *moved, why_t *why) {
+static done_t weigh_names(const round_t *r, found_t *found, why_t *why) {
   evidence_t e = {.n = 0};
   const done_t status = evidence_make(&e, r, why);
   for (int i = 0; status == DONE && i < found->n; i++) {
     named_t *const named = &found->named[i];
     named->probability = (double)NAN;
-    if (e.n && choice_has(&r->choice, named->candidate)) weigh(r, &e, found, named, moved);
+    if (e.n && choice_has(&r->choice, named->candidate)) weigh(r, &e, found->left_before, named);
   }
   evidence_free(&e);
   return status;
@@ -261,11 +255,8 @@ done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why) 
   find_alike(r, found);
   if (found->n == 0) return DONE;
   TRY(find_unexplained(r, &u, why));
-  moved_t moved = {{{0.0}}};
   for (int i = 0; i < found->n; i++)
     if (choice_has(&r->choice, found->named[i].candidate))
-      find_rivals(r, &u, measured, found, &found->named[i], &moved);
-  TRY(weigh_names(r, found, &moved, why));
-  add_moved(found, &moved);
-  return DONE;
+      find_rivals(r, &u, measured, found, &found->named[i]);
+  return weigh_names(r, found, why);
 }

@@ -35,6 +35,14 @@ void found_withdraw(found_t *f, int i) {
   for (f->n--; i < f->n; i++) f->named[i] = f->named[i + 1];
 }
 
+void found_join_rivals(found_t *f) {
+  for (int i = 0; i < f->n; i++)
+    for (int k = 0; k < FX_SIZE_MAX; k++) {
+      named_t *const named = &f->named[i];
+      if (named->stderr_[k] > 0.0) named->stderr_[k] = hypot(named->stderr_[k], named->by_rivals[k]);
+    }
+}
+
 // --- names ------------------------------------------------------------------------------------------------
 
 // What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness

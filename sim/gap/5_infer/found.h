@@ -29,12 +29,15 @@ typedef struct {
   // named.
   double stderr_[FX_SIZE_MAX];
   double beside[FX_SIZE_MAX]; // of stderr_, what is not the regression's own
-  double shape_stderr;        // of its shape (shape.h); NaN or 0: not known
-  double shape_beside;        // of it, rms over the shape, what nominal flights show (bend.h)
-  double p;                   // of the Wald test, all its numbers together
-  double probability;         // that it, or a rival that is told, is there (evidence.h); NaN: not computed
-  double share;               // of the sum of squares that the original model leaves and the effect explains
-  int n_rival;                // family.h
+  // Half of the way that it moves, at most, where another name gives its place to a rival (family.h): which
+  // of the two is there nobody knows. Part of stderr_ once found_join_rivals has been called.
+  double by_rivals[FX_SIZE_MAX];
+  double shape_stderr; // of its shape (shape.h); NaN or 0: not known
+  double shape_beside; // of it, rms over the shape, what nominal flights show (bend.h)
+  double p;            // of the Wald test, all its numbers together
+  double probability;  // that it, or a rival that is told, is there (evidence.h); NaN: not computed
+  double share;        // of the sum of squares that the original model leaves and the effect explains
+  int n_rival;         // family.h
   const fx_t *rival[FX_TABLE_MAX];
   double rival_share[FX_TABLE_MAX]; // what each would explain in its place
   confirm_t confirm;
@@ -63,6 +66,10 @@ const fx_use_t *found_use(const found_t *f, const named_t *named);
 
 // Takes the name number i back; the model no longer has it.
 void found_withdraw(found_t *f, int i);
+
+// When it is decided what stands: what rivals would make of numbers is an error of them, as half of an
+// interval is in both_ways.h. Called once.
+void found_join_rivals(found_t *f);
 
 // What a finished selection says: names (their rivals are family.h's), and of each candidate the least that
 // could have been seen. f->echo is known already.

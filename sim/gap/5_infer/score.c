@@ -304,41 +304,44 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------
 
-double score_likeness(const score_t *j, const choice_t *choice, int own, const choice_t *with) {
-  const gram_t *const g = j->g;
-  const candidate_t *const a = &j->c->candidate[own];
-  int column[COLUMN_MAX] = {0}, of[COLUMN_MAX], order[COLUMN_MAX];
-  double b[COLUMN_MAX], at[COLUMN_MAX], G[(COLUMN_MAX + 1) * (COLUMN_MAX + 1)] = {0.0};
-  const int n = choice_columns(j->c, choice, column), m = choice_columns(j->c, with, of), size = m + 1;
-  lsq_solve_products(g->total, g->size, column, n, NULL, b, NULL);
+// Of what numbers of own columns give, beyond what the first `beside` of others could, the part that all of
+// these could give.
+static double part_given(const gram_t *g, int n, const int *own, const double *number, int m,
+                         const int *other, int beside) {
+  double G[(COLUMN_MAX + 1) * (COLUMN_MAX + 1)] = {0.0}, at[COLUMN_MAX];
+  int order[COLUMN_MAX];
+  const int size = m + 1;
   for (int i = 0; i < n; i++) {
-    if (column[i] < a->first || column[i] >= a->first + a->n) continue;
-    for (int k = 0; k < m; k++) G[k * size + m] += b[i] * g->total[column[i] * g->size + of[k]];
-    for (int k = 0; k < n; k++)
-      if (column[k] >= a->first && column[k] < a->first + a->n)
-        G[size * size - 1] += b[i] * b[k] * g->total[column[i] * g->size + column[k]];
+    const double *const row = g->total + own[i] * g->size;
+    for (int k = 0; k < m; k++) G[k * size + m] += number[i] * row[other[k]];
   }
+  G[size * size - 1] = squared(g->total, g->size, n, own, number);
   for (int i = 0; i < m; i++) {
     order[i] = i;
     G[m * size + i] = G[i * size + m];
-    for (int k = 0; k < m; k++) G[i * size + k] = g->total[of[i] * g->size + of[k]];
+    for (int k = 0; k < m; k++) G[i * size + k] = g->total[other[i] * g->size + other[k]];
   }
-  const int beside = m - j->c->candidate[with->of[with->n - 1]].n;
   const double all = lsq_solve_products(G, size, order, beside, NULL, at, NULL);
   return all > 0.0 ? 1.0 - lsq_solve_products(G, size, order, m, NULL, at, NULL) / all : 0.0;
 }
 
+double score_likeness(const score_t *j, const choice_t *choice, int own, const choice_t *with) {
+  int column[COLUMN_MAX] = {0}, other[COLUMN_MAX], first = 0;
+  double b[COLUMN_MAX];
+  const int n = choice_columns(j->c, choice, column), m = choice_columns(j->c, with, other);
+  lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, NULL);
+  while (first < n && column[first] != j->c->candidate[own].first) first++;
+  if (first == n) return 0.0; // it is not there
+  return part_given(j->g, j->c->candidate[own].n, column + first, b + first, m, other,
+                    m - j->c->candidate[with->of[with->n - 1]].n);
+}
+
 double score_alike(const score_t *j, int column, int candidate) {
-  const candidate_t *const c = &j->c->candidate[candidate];
-  const int size = j->g->size, n = c->n + 1;
-  double b[FX_SIZE_MAX], G[(FX_SIZE_MAX + 1) * (FX_SIZE_MAX + 1)] = {0.0};
-  int of[FX_SIZE_MAX + 1], order[FX_SIZE_MAX];
-  for (int i = 0; i < c->n; i++) of[order[i] = i] = c->first + i;
-  of[c->n] = column;
-  for (int i = 0; i < n; i++)
-    for (int k = 0; k < n; k++) G[i * n + k] = j->g->total[of[i] * size + of[k]];
-  const double all = G[n * n - 1];
-  return all > 0.0 ? 1.0 - lsq_solve_products(G, n, order, c->n, NULL, b, NULL) / all : 0.0;
+  const double one = 1.0;
+  const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, candidate);
+  int other[COLUMN_MAX];
+  const int m = choice_columns(j->c, &alone, other);
+  return part_given(j->g, 1, &column, &one, m, other, 0);
 }
 
 // A number b takes b^2 / (A^-1)_kk from the sum of squares.
