@@ -19,11 +19,11 @@ typedef struct {
   double *t_s;    // strictly increasing, uniform within a segment; the log's own zero
   // Per signal (logs/columns.h): n numbers, NaN: none at this instant; null: not logged. SIG_A*: specific
   // force in body axes; SIG_QW..QZ: body to world, length 1, no jumps of sign; SIG_ROLL..YAW: always null
-  // (see SIG_Q*). SIG_Z: 0 at rest on the floor, if the columns file says where that is. SIG_M*: newton, or
-  // the argument of the vehicle's thrust map (0..65535, or rad/s). SIG_F*: newton of each motor in free air
-  // as commanded, by the map, whatever the log's unit; null if the map or the voltage it needs is missing.
-  // SIG_THRUST: of all together. SIG_VBAT: the last one known.
-  // SIG_RANGE..: fresh samples only, NaN between them.
+  // (see SIG_Q*). SIG_Z: 0 at rest on the floor, if the columns file or the rows before take-off say where
+  // that is. SIG_M*: newton, or the argument of the vehicle's thrust map (0..65535, or rad/s). SIG_F*: newton
+  // of each motor in free air as commanded, by the map, whatever the log's unit; null if the map or the
+  // voltage it needs is missing. SIG_THRUST: of all together. SIG_VBAT: the last one known. SIG_RANGE..:
+  // fresh samples only, NaN between them.
   double *v[SIG_COUNT];
   // A row is the mean of everything over its period; else what is at its time, and its commands hold from
   // then on.
@@ -40,6 +40,7 @@ typedef struct {
   // What the reader found and mended, for the report.
   double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see
   double velocity_late_s; // ... velocity and position behind the accelerometer
+  bool floor_known;       // the columns file, or the rows before take-off, say what z is on the floor
   long rows;              // of the log that were read
   long cells_bad;         // text or infinite: taken as missing
   long cells_missing;     // empty or nan

@@ -61,11 +61,6 @@ static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why
     return table_refuse(&rows->table, 1, -1, why,
                         "no signal of a flight; allowed: columns of --columns FILE");
   for (unsigned k = 0; k < sizeof WHOLE / sizeof *WHOLE; k++) drop_part(f, raw, WHOLE[k]);
-  const double rest_m = rows->columns.rest_height_m;
-  for (int k = 0; k < 2 && isfinite(rest_m); k++) {
-    double *const z_m = raw->v[k ? SIG_SET_Z : SIG_Z];
-    for (int i = 0; z_m && i < raw->n; i++) z_m[i] -= rest_m;
-  }
   return DONE;
 }
 
@@ -212,6 +207,7 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   TRY(gap_check_cells(f, raw, rows, why));
   TRY(raw_check_stuck(raw, rows, why));
   TRY(drop_rest(f, raw, rows, why));
+  TRY(raw_from_floor(f, raw, rows, why));
   int slow;
   TRY(raw_free_of_repeats(raw, &slow, why));
   if (slow)

@@ -67,8 +67,15 @@ MUST_CHECK done_t raw_read(raw_t *raw, log_rows_t *rows, bool *cut, why_t *why);
 // Counts what is no use, and says it. BAD_INPUT: too much of a column, or only some of the motors' columns.
 MUST_CHECK done_t gap_check_cells(gap_flight_t *f, const raw_t *raw, const log_rows_t *rows, why_t *why);
 
+// In row i the commands, or else the rotor speeds, carry it: 1, or not: 0. -1: cannot be told.
+int raw_flies(const raw_t *raw, const model_t *vehicle, int i);
+
 // BAD_INPUT: a signal that stands still while the vehicle flies. FAILED: no memory.
 MUST_CHECK done_t raw_check_stuck(const raw_t *raw, const log_rows_t *rows, why_t *why);
+
+// Heights from what z says where the vehicle stands on the floor: by the columns file, else by the rows
+// before take-off, if z stands there at some point of the vehicle, and with a note. FAILED: no memory.
+MUST_CHECK done_t raw_from_floor(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why);
 
 // A slower stream repeats its last value until the next: makes the repeats gaps, so that what is between new
 // values is a line and not a stair, which would be late by half a step. Returns in how many streams.

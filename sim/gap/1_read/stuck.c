@@ -96,8 +96,7 @@ done_t raw_free_of_repeats(raw_t *raw, int *streams, why_t *why) {
   return DONE;
 }
 
-// -1: cannot be told.
-static int flies(const raw_t *raw, const model_t *vehicle, int i) {
+int raw_flies(const raw_t *raw, const model_t *vehicle, int i) {
   const double weight_N = vehicle->mass_kg * G_MPS2;
   if (raw->v[SIG_THRUST]) return raw->v[SIG_THRUST][i] > GAP_CARRIED * weight_N;
   return has(raw->v, SPEEDS) ? thrust_of_speeds_N(raw->v, vehicle, i) > GAP_CARRIED * weight_N : -1;
@@ -128,7 +127,7 @@ static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_
   TRY(usual_run(raw, g->first, g->n, &run_s, why));
   const double stuck_s = fmax(g->stuck_s, STUCK_RUNS * run_s);
   for (int i = 1; i < raw->n; i++) {
-    const int flying = flies(raw, &rows->vehicle, i);
+    const int flying = raw_flies(raw, &rows->vehicle, i);
     const bool stands = same(raw, g->first, g->n, i);
     whole += stands;
     if (!stands || flying == 0 || (g->first == SIG_M1 && raw->at_limit[i])) {

@@ -149,11 +149,12 @@ static void warn_of_diagnosis(report_t *r) {
 }
 
 // The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias
-// over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone.
+// over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone, unless it
+// shows the vehicle on the floor.
 static void warn_of_names(report_t *r) {
-  const diagnosis_t *const d = &r->study->diagnosis;
+  const grid_t *const g = r->study->diagnosis.fit.grid;
   for (int i = 0; i < r->n_finding; i++)
-    if (r->finding[i].fx->in_height && d->fit.grid[0].range_up)
+    if (r->finding[i].fx->in_height && g->range_up && !g->flight->floor_known)
       warn(r,
            "%s: where the log's height comes from a range sensor with the same error (a flow deck's), "
            "it is half of the %.3g m, and the log cannot tell",
