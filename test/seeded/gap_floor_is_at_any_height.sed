@@ -1,4 +1,4 @@
 # What z says before take-off is the floor only at a height that the vehicle has.
 # file: sim/gap/1_read/floor.c
 # test: gap_counts_heights_from_where
-s/<= width_m(&rows->vehicle)/<= 9.0 * width_m(&rows->vehicle)/
+s/return 2.0 \* (hypot/return 20.0 * (hypot/
