@@ -153,6 +153,31 @@ TEST(a_damaged_motor_and_a_centre_of_mass_elsewhere_turn_the_vehicle) {
   CHECK_NEAR(got.acc_b_mps2.z, WEIGHT_N / 16.8e-6 * (0.5e-3 * 0.5e-3 + 1.5e-3 * 1.5e-3), 1e-9);
 }
 
+TEST(rotors_that_lean_turn_the_vehicle_about_z_and_do_nothing_else) {
+  model_t m = vehicle6(HUGE_VAL);
+  vehicle6_add(&m, "rotor_tilt"); // 0.3 mm of the thrust
+  for (int i = 0; i < 2; i++) {
+    const double weights = i ? 1.2 : 1.0;
+    const body_start_t start = vehicle6_start(&m, 5.0, weights);
+    const felt_t got = felt(&m, &start);
+    check_d3(got.acc_b_mps2, 0.0, 0.0, 0.0, 1e-12);
+    check_d3(got.turn_b_radps2, 0.0, 0.0, 3e-4 * weights * WEIGHT_N / 29.8e-6, 1e-9);
+  }
+}
+
+TEST(a_steeper_curve_of_the_thrust_is_right_at_the_weight) {
+  static const struct {
+    double weights, more; // thrust in free air; what the slope adds
+  } row[] = {{1.0, 0.0}, {1.2, 0.02}, {0.7, -0.03}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g weights", row[i].weights);
+    model_t m = vehicle6(HUGE_VAL);
+    vehicle6_add(&m, "thrust_slope"); // by a tenth
+    const body_start_t start = vehicle6_start(&m, 5.0, row[i].weights);
+    check_d3(felt(&m, &start).acc_b_mps2, 0.0, 0.0, row[i].more * 9.81, 1e-9);
+  }
+}
+
 TEST(a_payload_comes_and_goes) {
   model_t m = vehicle6(HUGE_VAL);
   fx_use_t *mass = vehicle6_add(&m, "mass");
