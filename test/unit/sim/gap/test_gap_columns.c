@@ -1,0 +1,81 @@
+// test_gap_columns.c - the columns of candidates in a log that misses commands.
+#include "gap/4_candidates/candidates.h"
+#include "rig/gap_track.h"
+#include "rig/test.h"
+#include <math.h>
+#include <string.h>
+
+#define EVERY 10 // of the samples of 500 Hz
+
+static void thin(gap_track_t *t) {
+  for (int f = 0; f < 2; f++) {
+    gap_flight_t *const to = &t->flight[f];
+    to->n /= EVERY;
+    to->rate_Hz /= EVERY;
+    for (int i = 0; i < to->n; i++) {
+      to->t_s[i] = to->t_s[EVERY * i];
+      for (int s = 0; s < SIG_COUNT; s++)
+        if (to->v[s]) to->v[s][i] = to->v[s][EVERY * i];
+    }
+  }
+}
+
+static void thin_to_means(gap_track_t *t) {
+  thin(t);
+  t->flight[0].rows_are_means = t->flight[1].rows_are_means = true;
+}
+
+// Of two columns of one flight about their means.
+static double alike(const double *a, const double *b, int n) {
+  double sa = 0.0, sb = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (int i = 0; i < n; i++) sa += a[i] / n, sb += b[i] / n;
+  for (int i = 0; i < n; i++)
+    aa += (a[i] - sa) * (a[i] - sa), bb += (b[i] - sb) * (b[i] - sb), ab += (a[i] - sa) * (b[i] - sb);
+  return aa * bb > 0.0 ? fabs(ab) / sqrt(aa * bb) : 0.0;
+}
+
+// The first candidate of that name.
+static const candidate_t *find(const candidates_t *c, const char *name) {
+  for (int i = 0; i < c->n; i++)
+    if (strcmp(c->candidate[i].use.fx->name, name) == 0) return &c->candidate[i];
+  return NULL;
+}
+
+// How much of a column about x is what the commands predict of the turning: inertia's is that alone.
+static double scale_in(const design_t *t, const set_t *s, const candidates_t *c, const char *name) {
+  const double *const own = t->x[CH_WX][find(c, name)->first], *const all =
+                                                                   t->x[CH_WX][find(c, "inertia")->first];
+  double most = 0.0;
+  for (int f = 0; own && f < s->n_grid; f++) {
+    const int from = rows_from(&s->smooth, f), n = rows_from(&s->smooth, f + 1) - from;
+    most = fmax(most, alike(own + from, all + from, n));
+  }
+  return most;
+}
+
+TEST(gap_leaves_a_scale_of_the_turning_out_of_slopes_and_bends_where_a_log_misses_commands) {
+  static const struct {
+    const char *what;
+    void (*spoil)(gap_track_t *t);
+    bool left_out;
+  } row[] = {
+      {"every command", NULL, false}, {"one in ten", thin, true}, {"means of ten", thin_to_means, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_track_t r;
+    candidates_t c;
+    design_t t;
+    why_t why = {""};
+    if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = row[i].spoil}, &why))) return;
+    CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why));
+    CHECK_OK(design_make(&t, &r.set, &r.vehicle, &c, &(chosen_t){.n = 0}, &why));
+    CHECK_TEXT(why.text, "");
+    const double slope = scale_in(&t, &r.set, &c, "thrust_slope"),
+                 scale = scale_in(&t, &r.set, &c, "thrust_scale");
+    CHECK(row[i].left_out ? slope < 1e-6 : slope > 0.9);
+    CHECK(scale > 0.9); // the forces tell it
+    design_free(&t);
+    candidates_free(&c);
+    gap_track_free(&r);
+  }
+}
