@@ -171,6 +171,13 @@ const char *frame_lacks(const model_t *m, char text[FRAME_LACKS]) {
   return text;
 }
 
+bool frame_lacks_key(const model_t *m, const char *table, const char *key) {
+  for (int i = 0; i < SCALEDS; i++)
+    if (strcmp(SCALED[i].table, table) == 0 && strcmp(SCALED[i].key, key) == 0)
+      return m->frame_lacks & 1u << i;
+  return false;
+}
+
 done_t frame_read(toml_t root, model_t *m, why_t *why) {
   toml_t t;
   frame_t frame = model_frame_like_crazyflie(m);

@@ -17,5 +17,7 @@ MUST_CHECK done_t frame_read(toml_t root, model_t *m, why_t *why);
 // What the file does not say and a Crazyflie's, scaled, stands in for: "[body], rotors.kf_Ns2"; empty:
 // nothing. A key that is 0 where it is left out is no part of it. Returns text.
 const char *frame_lacks(const model_t *m, char text[FRAME_LACKS]);
+// Whether it is this key of them.
+bool frame_lacks_key(const model_t *m, const char *table, const char *key);
 
 #endif

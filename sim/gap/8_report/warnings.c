@@ -39,18 +39,39 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (p->used && d->nominal_flew && p->floor > LEFT_OVER * p->before)
-      warn(r,
-           "%s: flights of the model along these tracks leave %.3g %s, these only %.3g: their pilot shakes "
-           "more than who flew, and what is small here is not named (does the vehicle file say who flew, "
-           "[controller], and the rotors' inertia?)",
-           gap_channel[ch], p->floor, gap_unit[ch], p->before);
     if (report_adequacy(r, ch) == LEFT_MORE)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
            "much flight",
            gap_channel[ch], p->after, gap_unit[ch], p->floor);
   }
+}
+
+// What the vehicle file could say, and does not, that makes the nominal flights calmer or wilder.
+static const char *tells_the_pilot(const study_t *s) {
+  const bool pilot = s->flown_by.kind <= FLOWN_BY_OTHER,
+             rotors = frame_lacks_key(&s->vehicle, "rotors", "inertia_kgm2");
+  if (pilot && rotors)
+    return "; [controller] and rotors.inertia_kgm2 in the vehicle file would tell more of it";
+  if (pilot) return "; [controller] in the vehicle file would say who flew";
+  return rotors ? "; rotors.inertia_kgm2 in the vehicle file would tell more of it" : "";
+}
+
+// The nominal flights are wilder than the log.
+static void warn_of_pilot(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  char where[REPORT_TEXT] = "";
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    if (p->used && d->nominal_flew && p->floor > LEFT_OVER * p->before)
+      text_add(where, sizeof where, "%s%s %.3g, not %.3g %s", where[0] ? ", " : "", gap_channel[ch], p->floor,
+               p->before, gap_unit[ch]);
+  }
+  if (where[0])
+    warn(r,
+         "flights of the model along these tracks shake more than who flew (%s): what is small there is not "
+         "named%s",
+         where, tells_the_pilot(r->study));
 }
 
 static void warn_of_instrument(report_t *r) {
@@ -224,5 +245,6 @@ void report_warn(report_t *r) {
   warn_of_diagnosis(r);
   warn_of_instrument(r);
   warn_of_gap(r);
+  warn_of_pilot(r);
   warn_of_logs(r);
 }

@@ -56,7 +56,7 @@ static const struct {
     {"a floor a little above the log", {.used = true, .before = 0.1, .after = 0.1, .floor = 0.19}, NULL},
     {"a pilot that shakes more than who flew",
      {.used = true, .before = 0.1, .after = 0.1, .floor = 0.21},
-     "shakes more than who flew"},
+     "shake more than who flew (force_z 0.21, not 0.1 m/s2)"},
     {"a channel that is left out", {.before = 0.1, .after = 0.1, .floor = 0.21}, NULL},
 };
 
@@ -74,9 +74,50 @@ TEST(gap_notes_where_floor_and_log_are_not_of_one_flight) {
     report_warn(r);
     const char *said = NULL;
     for (int k = 0; k < r->warnings.n; k++)
-      if (strncmp(r->warnings.line[k], "force_z: ", 9) == 0) said = r->warnings.line[k];
+      if (strstr(r->warnings.line[k], "force_z")) said = r->warnings.line[k];
     CHECK((said != NULL) == (floors[i].note != NULL));
     if (said && floors[i].note) CHECK(strstr(said, floors[i].note) != NULL);
+  }
+  free(study);
+  free(r);
+}
+
+// Only what the vehicle file does not say is asked for.
+TEST(gap_asks_of_a_pilot_that_shakes_what_the_vehicle_file_does_not_say) {
+  static const struct {
+    const char *what;
+    flown_by_kind_t flown_by;
+    bool rotors;
+    const char *asks;
+  } row[] = {
+      {"nothing is said", FLOWN_BY_UNKNOWN, false,
+       "is not named; [controller] and rotors.inertia_kgm2 in the vehicle file would tell more of it"},
+      {"the rotors are", FLOWN_BY_OTHER, true,
+       "is not named; [controller] in the vehicle file would say who flew"},
+      {"who flew is", FLOWN_BY_STOCK_PID, false,
+       "is not named; rotors.inertia_kgm2 in the vehicle file would tell more of it"},
+      {"both are", FLOWN_BY_INDI, true, "is not named"},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  why_t why;
+  CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
+  study->resimulation.flew = study->diagnosis.nominal_flew = true;
+  study->diagnosis.held_out.channel[CH_WX] =
+      (gap_part_t){.used = true, .before = 10.0, .after = 10.0, .floor = 90.0};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    study->vehicle.frame_lacks = row[i].rotors ? 0 : 1u << 10;
+    study->flown_by.kind = row[i].flown_by;
+    memset(&r->warnings, 0, sizeof r->warnings);
+    report_warn(r);
+    const char *said = "";
+    for (int k = 0; k < r->warnings.n; k++)
+      if (strstr(r->warnings.line[k], "shake more")) said = r->warnings.line[k];
+    said = strstr(said, "is not ");
+    if (!CHECK(said != NULL)) continue;
+    CHECK_TEXT(said, row[i].asks);
   }
   free(study);
   free(r);
