@@ -165,6 +165,18 @@ TEST(rotors_that_lean_turn_the_vehicle_about_z_and_do_nothing_else) {
   }
 }
 
+TEST(rotors_with_more_torque_turn_the_vehicle_as_one_of_them_gives_more) {
+  model_t m = vehicle6(HUGE_VAL);
+  vehicle6_add(&m, "torque_ratio"); // a tenth more
+  const body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+  felt_t got = felt(&m, &start); // all cancel
+  check_d3(got.turn_b_radps2, 0.0, 0.0, 0.0, 1e-9);
+  fx_use_t *damage = vehicle6_add(&m, "motor_damage"); // of the first a tenth is left, and of its torque
+  damage->p[1] = 0.9;
+  got = felt(&m, &start);
+  CHECK_NEAR(got.turn_b_radps2.z, 1.1 * 0.9 * WEIGHT_N / 4.0 * m.frame.torque_ratio_m / 29.8e-6, 1e-9);
+}
+
 TEST(a_steeper_curve_of_the_thrust_is_right_at_the_weight) {
   static const struct {
     double weights, more; // thrust in free air; what the slope adds

@@ -1,0 +1,24 @@
+// fx_torque_ratio.c - the rotors' torque over their thrust is larger than the vehicle file has it, or
+// smaller: torque_ratio_m (1 + k).
+#include "effects/fx.h"
+
+static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
+  (void)tick;
+  for (int i = 0; i < ROTORS; i++) plant->torque_scale[i] *= 1.0 + use->p[0];
+}
+
+const fx_t fx_torque_ratio = {
+    .name = "torque_ratio",
+    .brief = "the rotors' torque over their thrust is larger than the vehicle file has it",
+    .fly = "yaw doublets",
+    .over = {"thrust"},
+    .in = "turn_z",
+    .apart = {{"inertia", "attitude doublets beside those in yaw: an inertia is seldom wrong about z alone"}},
+    .scales_thrust = true, // as one does: in a log that misses commands they look like it
+    .n_size = 1,
+    .size = {{0, 0.01, 0, 0.0, FX_SAME}},
+    .n_param = 1,
+    .param = {{"k", "", -0.9, 0.1, 4.0}},
+    .tick = tick,
+    .steady = true,
+};
