@@ -14,6 +14,7 @@ const fx_t fx_torque_ratio = {
     .over = {"thrust"},
     .in = "turn_z",
     .apart = {{"inertia", "attitude doublets beside those in yaw: an inertia is seldom wrong about z alone"}},
+    .only_beside_nominal = true,
     .scales_thrust = true, // as one does: in a log that misses commands they look like it
     .n_size = 1,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}},
