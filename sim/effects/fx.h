@@ -180,6 +180,7 @@ enum {
   FX_NEEDS_VELOCITY = 1 << 5,
   FX_NEEDS_ATTITUDE = 1 << 6,
   FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
+  FX_NEEDS_COMMANDS = 1 << 8,     // all that attitude control gives
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
@@ -208,6 +209,9 @@ typedef struct {
   // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
   // misses some looks like it.
   bool scales_turning;
+  // At the weight it does nothing: where a log misses commands the scale of the turning that is in it is left
+  // out, and the forces tell it.
+  bool about_weight;
   // It changes the thrust of all rotors: where no force along z is compared it scales the turning, too.
   bool scales_thrust;
   int n_size;

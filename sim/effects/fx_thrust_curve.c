@@ -16,6 +16,7 @@ const fx_t fx_thrust_curve = {
     .brief = "a bend in the curve from command to thrust",
     .fly = "a wide range of throttle",
     .over = {"thrust"},
+    .about_weight = true,
     .scales_thrust = true,
     .n_size = 1,
     .size = {{0, 0.05, 0, 0.0, FX_BY_PER_WEIGHT}},

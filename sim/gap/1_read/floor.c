@@ -12,10 +12,17 @@
 #define STANDS_S 0.5  // so long before take-off
 #define STILL_M  0.01 // four fifths of what z says there; as far from 0 is on the floor, as an estimate has it
 
+// Without a command nobody knows.
+static bool stands(const raw_t *raw, const model_t *vehicle, int i) {
+  const double command = raw->v[raw->v[SIG_THRUST] ? SIG_THRUST : SIG_W1][i];
+  return isfinite(command) && raw_flies(raw, vehicle, i) == 0;
+}
+
 // Rows before the first that is flown; 0: it does not stand so long.
 static int rows_before(const raw_t *raw, const model_t *vehicle) {
   int n = 0;
-  while (n < raw->n && raw_flies(raw, vehicle, n) == 0) n++;
+  if (!raw->v[SIG_THRUST] && !has(raw->v, SPEEDS)) return 0;
+  while (n < raw->n && stands(raw, vehicle, n)) n++;
   return n < raw->n && n > 0 && raw->t_s[n - 1] - raw->t_s[0] >= STANDS_S ? n : 0;
 }
 
@@ -59,6 +66,7 @@ done_t raw_from_floor(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t
              "the floor",
              stands_m);
   if (!f->floor_known || fabs(stands_m) <= STILL_M) return DONE;
+  f->floor_m = stands_m;
   lower(raw, stands_m);
   gap_note(f,
            "before take-off z stands at %.3g m: that is taken for the floor (if it stood on something, "

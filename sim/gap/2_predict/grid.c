@@ -258,6 +258,10 @@ bool grid_is_slow(const grid_t *g) {
   return g->flight->rate_Hz < (g->command_Hz > 0.0 ? JITTER * g->command_Hz : COMMANDS_HZ);
 }
 
+bool grid_misses_commands(const grid_t *g) {
+  return grid_is_slow(g) && !g->flight->rows_are_means;
+}
+
 void grid_free(grid_t *g) {
   for (int k = 0; k < ROTORS; k++) {
     free(g->command_N[k]);

@@ -75,6 +75,7 @@ void grid_free(grid_t *g);
 
 // Rows come more seldom than commands; those that are of one instant miss most of these, means hold them all.
 bool grid_is_slow(const grid_t *g);
+bool grid_misses_commands(const grid_t *g);
 
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by
 // the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.

@@ -191,13 +191,6 @@ static bool design_room(design_t *t, const set_t *s, const candidates_t *c) {
 
 // --- a log that misses commands ---------------------------------------------------------------------------
 
-static bool misses_commands(const set_t *s) {
-  bool misses = false;
-  for (int f = 0; f < s->n_grid; f++)
-    misses = misses || (grid_is_slow(&s->grid[f]) && !s->grid[f].flight->rows_are_means);
-  return misses;
-}
-
 // x without what is a multiple of p about its mean.
 static void take_out(double *x, const double *p, int n) {
   double sum = 0.0, xp = 0.0, pp = 0.0;
@@ -207,11 +200,6 @@ static void take_out(double *x, const double *p, int n) {
   for (int i = 0; i < n && pp > 0.0; i++) x[i] -= xp / pp * (p[i] - mean);
 }
 
-// Nothing but the turning tells it from others: about the weight it does next to nothing.
-static bool told_by_turning(const fx_t *fx) {
-  return fx->scales_thrust && fx->group != FX_WEIGHT;
-}
-
 // How strongly commands turn the vehicle such a log does not tell: too weakly, by as much as it misses. A
 // bend or a slope of the thrust that is large enough would be as weak. What of it is such a scale is left
 // out, and the forces tell it. Inertia, which does nothing else, is held both ways against it
@@ -219,9 +207,10 @@ static bool told_by_turning(const fx_t *fx) {
 static void leave_out_scales(design_t *t, const set_t *s, const asked_t *a, const lines_t *predicted) {
   for (int i = 0; i < a->c->n; i++) {
     const candidate_t *const c = &a->c->candidate[i];
-    if (!a->wanted[i] || !told_by_turning(c->use.fx)) continue;
+    if (!a->wanted[i] || !c->use.fx->about_weight) continue;
     for (int ch = CH_WX; ch <= CH_WZ; ch++)
       for (int f = 0; f < s->n_grid && residual_has(s, ch); f++) {
+        if (!grid_misses_commands(&s->grid[f])) continue;
         const rows_t *const r = set_rows(s, ch);
         const int from = rows_from(r, f), n = rows_from(r, f + 1) - from;
         for (int k = c->first; k < c->first + c->n; k++)
@@ -241,7 +230,7 @@ static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, l
   for (int ch = 0; ch < CHANNELS; ch++) r[ch] = t->x[ch][t->columns];
   TRY(residual_measured(s, r, why));
   for (int f = 0; f < s->n_grid; f++) TRY(fill_flight(t, s, f, &now, a, l, predicted, why));
-  if (misses_commands(s)) leave_out_scales(t, s, a, predicted);
+  leave_out_scales(t, s, a, predicted);
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) r[ch][i] -= predicted->r[ch][i];
   design_add_chosen(t, s, a->c, a->chosen, 1.0); // as the straight line has them

@@ -58,7 +58,7 @@ static void find_changes(const look_t *l, int axis, double *change) {
   for (int i = 0; i < r->n; i++) {
     const grid_t *const g = &l->s->grid[r->flight[i]];
     const int from = (r->point[i] - REACH) * g->every, to = (r->point[i] + REACH + 1) * g->every;
-    const bool missed = grid_is_slow(g) && !g->flight->rows_are_means;
+    const bool missed = grid_misses_commands(g);
     change[i] = 0.0;
     for (int k = from > 0 ? from : 0; missed && k + 1 < to && k + 1 < g->samples; k++) {
       const double step = grid_turns(g, l->m, axis, k + 1) - grid_turns(g, l->m, axis, k);

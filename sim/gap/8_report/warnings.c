@@ -29,6 +29,22 @@ static void warn_of_logs(report_t *r) {
   }
 }
 
+// Of one log it is seen where the floor is, and of another it is not.
+static void warn_of_floors(report_t *r) {
+  const study_t *const s = r->study;
+  const gap_flight_t *lowered = NULL, *other = NULL;
+  for (int i = 0; i < s->fit.n + s->held.n; i++) {
+    if (s->flight[i].floor_m != 0.0) lowered = &s->flight[i];
+    if (s->flight[i].v[SIG_Z] && !s->flight[i].floor_known) other = &s->flight[i];
+  }
+  if (lowered && other)
+    warn(r,
+         "heights of %s count from %.3g m, where it stood, those of %s from 0, for it does not begin on the "
+         "floor: "
+         "rest_height_m in the columns file says it of all",
+         base_name(lowered->name), lowered->floor_m, base_name(other->name));
+}
+
 static void warn_of_gap(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -49,7 +65,7 @@ static void warn_of_gap(report_t *r) {
 
 // What the vehicle file could say, and does not, that makes the nominal flights calmer or wilder.
 static const char *tells_the_pilot(const study_t *s) {
-  const bool pilot = s->flown_by.kind <= FLOWN_BY_OTHER,
+  const bool pilot = s->flown_by.kind == FLOWN_BY_UNKNOWN,
              rotors = frame_lacks_key(&s->vehicle, "rotors", "inertia_kgm2");
   if (pilot && rotors)
     return "; [controller] and rotors.inertia_kgm2 in the vehicle file would tell more of it";
@@ -173,9 +189,11 @@ static void warn_of_diagnosis(report_t *r) {
 // over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone, unless it
 // shows the vehicle on the floor.
 static void warn_of_names(report_t *r) {
-  const grid_t *const g = r->study->diagnosis.fit.grid;
+  const set_t *const s = &r->study->diagnosis.fit;
+  bool open = false;
+  for (int f = 0; f < s->n_grid; f++) open = open || (s->grid[f].range_up && !s->grid[f].flight->floor_known);
   for (int i = 0; i < r->n_finding; i++)
-    if (r->finding[i].fx->in_height && g->range_up && !g->flight->floor_known)
+    if (r->finding[i].fx->in_height && open)
       warn(r,
            "%s: where the log's height comes from a range sensor with the same error (a flow deck's), "
            "it is half of the %.3g m, and the log cannot tell",
@@ -244,6 +262,7 @@ void report_warn(report_t *r) {
   warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_instrument(r);
+  warn_of_floors(r);
   warn_of_gap(r);
   warn_of_pilot(r);
   warn_of_logs(r);

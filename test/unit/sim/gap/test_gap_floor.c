@@ -8,7 +8,8 @@
 #include <string.h>
 
 #define ROWS_HZ 100
-#define FLIES_S 3.0
+#define FLIES_S 12.0
+#define STRAY_M 0.1
 #define UP_M    0.5 // so far above where it stood it flies
 
 typedef struct {
@@ -18,26 +19,31 @@ typedef struct {
   double told_m;  // NaN: the columns file does not say
   double want_m;  // what the height is less by
   const char *note;
+  int stray;    // every so many rows z is STRAY_M off; 0: none
+  bool unknown; // nobody knows the commands of the rows in which it seems to stand
 } standing_t;
 
 static const char TAKEN[] = "that is taken for the floor", SOMEWHERE[] = "on what, the log does not say";
 
 static const standing_t row[] = {
-    {"at 0", 0.0, 1.0, 0.0, (double)NAN, 0.0, NULL},
-    {"a marker above the feet", 0.054, 1.0, 0.001, (double)NAN, 0.054, TAKEN},
-    {"below 0", -0.03, 1.0, 0.001, (double)NAN, -0.03, TAKEN},
-    {"as near as an estimate is", 0.009, 1.0, 0.0, (double)NAN, 0.0, NULL},
-    {"further than an estimate is", 0.011, 1.0, 0.0, (double)NAN, 0.011, TAKEN},
-    {"at a height that the vehicle has", 0.13, 1.0, 0.0, (double)NAN, 0.13, TAKEN},
-    {"higher than the vehicle is wide: on something", 0.15, 1.0, 0.0, (double)NAN, 0.0, SOMEWHERE},
-    {"deeper than the vehicle is wide", -0.15, 1.0, 0.0, (double)NAN, 0.0, SOMEWHERE},
-    {"for a moment", 0.054, 0.45, 0.0, (double)NAN, 0.0, NULL},
-    {"for a little more than a moment", 0.054, 0.55, 0.0, (double)NAN, 0.054, TAKEN},
-    {"not at all", 0.054, 0.0, 0.0, (double)NAN, 0.0, NULL},
-    {"almost still", 0.054, 1.0, 0.009, (double)NAN, 0.054, TAKEN},
-    {"carried about", 0.054, 1.0, 0.011, (double)NAN, 0.0, NULL},
-    {"on something, as the columns file says", 0.054, 1.0, 0.0, 0.0, 0.0, NULL},
-    {"as the columns file says", 0.054, 1.0, 0.0, 0.05, 0.05, NULL},
+    {"at 0", 0.0, 1.0, 0.0, (double)NAN, 0.0, NULL, 0, false},
+    {"a marker above the feet", 0.054, 1.0, 0.001, (double)NAN, 0.054, TAKEN, 0, false},
+    {"below 0", -0.03, 1.0, 0.001, (double)NAN, -0.03, TAKEN, 0, false},
+    {"as near as an estimate is", 0.009, 1.0, 0.0, (double)NAN, 0.0, NULL, 0, false},
+    {"further than an estimate is", 0.011, 1.0, 0.0, (double)NAN, 0.011, TAKEN, 0, false},
+    {"at a height that the vehicle has", 0.13, 1.0, 0.0, (double)NAN, 0.13, TAKEN, 0, false},
+    {"higher than the vehicle is wide: on something", 0.15, 1.0, 0.0, (double)NAN, 0.0, SOMEWHERE, 0, false},
+    {"deeper than the vehicle is wide", -0.15, 1.0, 0.0, (double)NAN, 0.0, SOMEWHERE, 0, false},
+    {"with a stray in twelve", 0.054, 1.0, 0.0, (double)NAN, 0.054, TAKEN, 12, false},
+    {"with a stray in four", 0.054, 1.0, 0.0, (double)NAN, 0.0, NULL, 4, false},
+    {"in flight, before the commands come", 0.054, 0.6, 0.0, (double)NAN, 0.0, NULL, 0, true},
+    {"for a moment", 0.054, 0.45, 0.0, (double)NAN, 0.0, NULL, 0, false},
+    {"for a little more than a moment", 0.054, 0.55, 0.0, (double)NAN, 0.054, TAKEN, 0, false},
+    {"not at all", 0.054, 0.0, 0.0, (double)NAN, 0.0, NULL, 0, false},
+    {"almost still", 0.054, 1.0, 0.009, (double)NAN, 0.054, TAKEN, 0, false},
+    {"carried about", 0.054, 1.0, 0.011, (double)NAN, 0.0, NULL, 0, false},
+    {"on something, as the columns file says", 0.054, 1.0, 0.0, 0.0, 0.0, NULL, 0, false},
+    {"as the columns file says", 0.054, 1.0, 0.0, 0.05, 0.05, NULL, 0, false},
 };
 
 // Thrust of the motors' commands, and height: it stands, then it flies.
@@ -48,11 +54,14 @@ static const char *log_of(const standing_t *s) {
       text, "timestamp,stateEstimate.z,ctrltarget.z,motor.m1,motor.m2,motor.m3,motor.m4,pm.vbat\n");
   for (int i = 0; i < n; i++) {
     const bool flies = i >= stands;
+    const double stray_m = s->stray && i % s->stray == 0 ? STRAY_M : 0.0;
     const double z_m =
-        s->stands_m + (flies ? UP_M : (i % 3 - 1) * 0.5 * s->moves_m) + (flies ? 1e-4 * (i % 7) : 0.0);
+        s->stands_m + (flies ? UP_M + 1e-4 * (i % 7) : (i % 3 - 1) * 0.5 * s->moves_m + stray_m);
     const int pwm = flies ? 42000 + i % 5 * 100 : 0;
-    at += (size_t)sprintf(text + at, "%d,%.5f,%.5f,%d,%d,%d,%d,3.8\n", i * 1000 / ROWS_HZ, z_m,
-                          s->stands_m + UP_M, pwm, pwm, pwm, pwm);
+    at += (size_t)sprintf(text + at, "%d,%.5f,%.5f,", i * 1000 / ROWS_HZ, z_m, s->stands_m + UP_M);
+    at += s->unknown && !flies
+              ? (size_t)sprintf(text + at, ",,,,3.%d\n", 70 + i % 2)
+              : (size_t)sprintf(text + at, "%d,%d,%d,%d,3.%d\n", pwm, pwm, pwm, pwm, 70 + i % 2);
   }
   const char *const path = scratch_file("stands.csv", text, -1);
   free(text);

@@ -82,6 +82,41 @@ TEST(gap_notes_where_floor_and_log_are_not_of_one_flight) {
   free(r);
 }
 
+TEST(gap_notes_heights_that_do_not_count_from_one_floor) {
+  static const struct {
+    double floor_m[2];
+    bool known[2], noted;
+  } row[] = {{{0.05, 0.0}, {true, false}, true},
+             {{0.0, 0.05}, {false, true}, true},
+             {{0.05, 0.05}, {true, true}, false},
+             {{0.0, 0.0}, {true, false}, false}};
+  double z_m[1] = {0.3};
+  gap_flight_t flight[2];
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  why_t why;
+  CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
+  r->study = study;
+  study->flight = flight;
+  study->fit.n = study->held.n = 1;
+  study->resimulation.flew = true;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%u", i);
+    for (int k = 0; k < 2; k++)
+      flight[k] = (gap_flight_t){.name = {(char)('a' + k)},
+                                 .v = {[SIG_Z] = z_m},
+                                 .floor_m = row[i].floor_m[k],
+                                 .floor_known = row[i].known[k]};
+    memset(&r->warnings, 0, sizeof r->warnings);
+    report_warn(r);
+    bool noted = false;
+    for (int k = 0; k < r->warnings.n; k++) noted = noted || strstr(r->warnings.line[k], "where it stood");
+    CHECK(noted == row[i].noted);
+  }
+  free(study);
+  free(r);
+}
+
 // Only what the vehicle file does not say is asked for.
 TEST(gap_asks_of_a_pilot_that_shakes_what_the_vehicle_file_does_not_say) {
   static const struct {
@@ -92,10 +127,11 @@ TEST(gap_asks_of_a_pilot_that_shakes_what_the_vehicle_file_does_not_say) {
   } row[] = {
       {"nothing is said", FLOWN_BY_UNKNOWN, false,
        "is not named; [controller] and rotors.inertia_kgm2 in the vehicle file would tell more of it"},
-      {"the rotors are", FLOWN_BY_OTHER, true,
+      {"the rotors are", FLOWN_BY_UNKNOWN, true,
        "is not named; [controller] in the vehicle file would say who flew"},
       {"who flew is", FLOWN_BY_STOCK_PID, false,
        "is not named; rotors.inertia_kgm2 in the vehicle file would tell more of it"},
+      {"who flew is, and nobody knows it", FLOWN_BY_OTHER, true, "is not named"},
       {"both are", FLOWN_BY_INDI, true, "is not named"},
   };
   study_t *const study = calloc(1, sizeof *study);
