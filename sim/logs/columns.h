@@ -3,9 +3,8 @@
 //
 // A columns file (tools/columns/*.toml):
 //
-//   rest_height_m = 0.05                         optional: what z says on the floor; else a log that begins
-//   there does acceleration = "body"                        specific force in body axes (+1 g on z at rest),
-//   or
+//   rest_height_m = 0.05                         optional: what z says when the vehicle stands on the ground
+//   acceleration = "body"                        specific force in body axes (+1 g on z at rest), or
 //                                                "world" (gravity taken out), or "world_with_gravity"
 //   rows = "instants"                            optional: a row is what is at its time, and its commands
 //   hold

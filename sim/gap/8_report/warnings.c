@@ -39,9 +39,9 @@ static void warn_of_floors(report_t *r) {
   }
   if (lowered && other)
     warn(r,
-         "heights of %s count from %.3g m, where it stood, those of %s from 0, for it does not begin on the "
-         "floor: "
-         "rest_height_m in the columns file says it of all",
+         "heights of %s count from %.3g m, where it stood, and those of %s, which does not begin on the "
+         "floor, "
+         "from 0: rest_height_m in the columns file says it of all",
          base_name(lowered->name), lowered->floor_m, base_name(other->name));
 }
 
