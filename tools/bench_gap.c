@@ -18,7 +18,6 @@
 #define ROUNDS  12
 #define ROUND_S (LONG_S / ROUNDS)
 #define START_S 5.0 // it flies, and is where it was told to be
-#define ROOM    4   // effects that a model with fewer candidates can still get
 
 typedef struct {
   int candidates, named, rounds;
@@ -130,7 +129,7 @@ static done_t time_one(const gap_flight_t *log, double span_s, const model_t *m,
 static done_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *why) {
   *m = *vehicle;
   for (int i = 0, kept = 0; i < fx_count; i++) {
-    if (fx_table[i]->n_size == 0 || kept++ < keep || m->n_fx == FX_MAX - ROOM) continue;
+    if (fx_table[i]->n_size == 0 || kept++ < keep) continue;
     fx_use_t use = fx_use(fx_table[i]);
     for (int k = 0; k < use.fx->n_size; k++) use.p[use.fx->size[k].param] = 0.0;
     TRY(model_add_fx(m, &use, why));
@@ -156,7 +155,7 @@ static done_t by_length(const gap_flight_t *log, const model_t *vehicle, why_t *
 }
 
 static done_t by_candidates(const gap_flight_t *log, const model_t *vehicle, why_t *why) {
-  static const int keep[] = {13, 17, FX_TABLE_MAX};
+  static const int keep[] = {13, 17, FX_MAX};
   double first_s = 0.0;
   int first_n = 1;
   for (unsigned i = 0; i < sizeof keep / sizeof *keep; i++) {

@@ -21,6 +21,8 @@ of() {
   echo "const $1 *const ${kind}_table[] = {"
   for name in $names; do echo "    &$name,"; done
   echo "};"
+  [ "$kind" != fx ] ||
+    echo "_Static_assert(sizeof fx_table / sizeof *fx_table <= FX_MAX, \"FX_MAX holds every effect\");"
   echo "const int ${kind}_count = (int)(sizeof ${kind}_table / sizeof *${kind}_table);"
 }
 

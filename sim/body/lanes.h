@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-#define LANES_EFFECTS 16 // FX_MAX
+#define LANES_EFFECTS 32 // FX_MAX
 #define LANES_PARAMS  8  // FX_PARAM_MAX
 
 typedef struct lanes lanes_t;

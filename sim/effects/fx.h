@@ -13,9 +13,8 @@
 #include <string.h>
 
 #define FX_PARAM_MAX 8
-#define FX_MEMORY    8 // numbers that an effect keeps from tick to tick
-#define FX_TABLE_MAX 64
-#define FX_MAX       16 // effects switched on at once
+#define FX_MEMORY    8  // numbers that an effect keeps from tick to tick
+#define FX_MAX       32 // effects; all of them can be on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
 #define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
 #define FX_KIND_MAX  2
@@ -46,7 +45,7 @@ enum { SURFACE_CEILING = 1, SURFACE_GROUND = 2 };
 
 // Points of a measured curve, x ascending (form `table`).
 #ifndef CURVE_POINTS_MAX // where no curve has any (body/lanes.cpp)
-#define CURVE_POINTS_MAX FX_TABLE_MAX
+#define CURVE_POINTS_MAX 64
 #endif
 typedef struct {
   int n;

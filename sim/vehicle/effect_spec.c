@@ -90,7 +90,8 @@ done_t effect_set(fx_use_t *use, const char *key, double value, why_t *why) {
 done_t effect_set_points(fx_use_t *use, const curve_points_t *points, why_t *why) {
   if (!use->form || !use->form->needs_points) return unknown_key(use, "file", why);
   if (points->n < 2)
-    return error_set(why, "effect %s: %d points; allowed: 2 to %d", use->fx->name, points->n, FX_TABLE_MAX);
+    return error_set(why, "effect %s: %d points; allowed: 2 to %d", use->fx->name, points->n,
+                     CURVE_POINTS_MAX);
   for (int i = 0; i < points->n; i++) {
     if (!(points->x[i] >= 0.0 && points->x[i] <= 1e3) || (i > 0 && !(points->x[i] > points->x[i - 1])))
       return error_set(why, "effect %s: point %d: distance_over_radius %g; allowed: 0 to 1000, ascending",
@@ -121,8 +122,8 @@ static done_t read_points(csv_file_t *file, curve_points_t *points, why_t *why) 
     bool more;
     TRY(csv_next(file, &more, why));
     if (!more) return DONE;
-    if (points->n == FX_TABLE_MAX)
-      return csv_refuse(file, -1, why, "too many points; allowed: %d", FX_TABLE_MAX);
+    if (points->n == CURVE_POINTS_MAX)
+      return csv_refuse(file, -1, why, "too many points; allowed: %d", CURVE_POINTS_MAX);
     TRY(csv_number(file, x, CSV_GAP_REFUSED, &points->x[points->n], why));
     TRY(csv_number(file, ratio, CSV_GAP_REFUSED, &points->ratio[points->n], why));
     points->n++;

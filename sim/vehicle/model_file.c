@@ -52,8 +52,8 @@ static done_t points_from_file(toml_t t, const char *model_path, curve_points_t 
 
 static done_t points_from_lists(toml_t t, curve_points_t *points, why_t *why) {
   int n_ratio;
-  TRY(toml_doubles(t, "distance_over_radius", FX_TABLE_MAX, points->x, &points->n, why));
-  TRY(toml_doubles(t, "ratio", FX_TABLE_MAX, points->ratio, &n_ratio, why));
+  TRY(toml_doubles(t, "distance_over_radius", CURVE_POINTS_MAX, points->x, &points->n, why));
+  TRY(toml_doubles(t, "ratio", CURVE_POINTS_MAX, points->ratio, &n_ratio, why));
   if (n_ratio != points->n)
     return toml_refuse(t, "ratio", why, "%d numbers; allowed: as many as distance_over_radius, %d", n_ratio,
                        points->n);

@@ -237,8 +237,8 @@ static bool run_more(grid_t *g, body_t *b, const path_t *path, const lagged_t *m
 done_t replay_with(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
                    why_t *why) {
   const fx_t *const fx = more->fx;
-  const bool moves = fx->load || fx->excess, full = path->model->n_fx == FX_MAX;
-  if (fx->tick || moves == (fx->sense != NULL) || full || has(path->model, fx))
+  const bool moves = fx->load || fx->excess;
+  if (fx->tick || moves == (fx->sense != NULL) || has(path->model, fx))
     return run_anew(g, path, more, out, why);
   body_t b;
   if (g->n == 0) return DONE;

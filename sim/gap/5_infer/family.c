@@ -137,7 +137,7 @@ static bool is_twin(const round_t *r, const rival_t *list, int n, int candidate)
 
 static void find_rivals(const round_t *r, const unexplained_t *u, bool measured, found_t *found,
                         named_t *named) {
-  rival_t list[FX_TABLE_MAX];
+  rival_t list[FX_MAX];
   int n = 0;
   const choice_t rest = choice_without(&r->choice, named->candidate);
   const double without = score_left(&r->score, &rest, NULL);
@@ -194,12 +194,12 @@ static rival_t best_of(const round_t *r, double left_before, const named_t *name
 // A name that is less likely than not, with its rivals, is not told without what is likelier: two effects may
 // do together what it does alone.
 static void weigh(const round_t *r, const evidence_t *e, double left_before, named_t *named) {
-  const fx_t *fx[FX_TABLE_MAX + 1] = {round_fx(r, named->candidate)};
+  const fx_t *fx[FX_MAX + 1] = {round_fx(r, named->candidate)};
   for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
   for (;;) {
     const int n = named->n_rival + 1;
     named->probability = evidence_of(e, r->c, n, fx);
-    if (named->probability >= 0.5 || n > FX_TABLE_MAX) return;
+    if (named->probability >= 0.5 || n > FX_MAX) return;
     const rival_t rival = best_of(r, left_before, named, evidence_without(e, r->c, n, fx));
     if (!rival.fx) return;
     take(&rival, named);

@@ -38,8 +38,8 @@ typedef struct {
   double probability;  // that it, or a rival that is told, is there (evidence.h); NaN: not computed
   double share;        // of the sum of squares that the original model leaves and the effect explains
   int n_rival;         // family.h
-  const fx_t *rival[FX_TABLE_MAX];
-  double rival_share[FX_TABLE_MAX]; // what each would explain in its place
+  const fx_t *rival[FX_MAX];
+  double rival_share[FX_MAX]; // what each would explain in its place
   confirm_t confirm;
 } named_t;
 

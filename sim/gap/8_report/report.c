@@ -62,7 +62,7 @@ static bool is_named(const diagnosis_t *d, const fx_t *fx) {
 // What the vehicle file has can be looked for, too: more of it, or less.
 static void take_others(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  for (int i = 0; i < fx_count && i < FX_TABLE_MAX; i++) {
+  for (int i = 0; i < fx_count && i < FX_MAX; i++) {
     const fx_t *const fx = fx_table[i];
     if (is_named(d, fx)) continue;
     const candidate_t *c;

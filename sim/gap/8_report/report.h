@@ -107,8 +107,8 @@ typedef struct {
   const char *verdict; // "named", "none", "unknown"
   int n_finding, n_untested, n_shown;
   finding_t finding[NAMED_MAX];
-  untested_t untested[FX_TABLE_MAX];
-  shown_t shown[FX_TABLE_MAX];
+  untested_t untested[FX_MAX];
+  shown_t shown[FX_MAX];
   notes_t fitness, to_do, warnings; // are these flights fit for the question; use, add, fly; all else
   profile_t left;                   // over the coordinate of the largest cell of what is left
   lines_t before, after;            // held-out rows

@@ -95,6 +95,11 @@ TEST(gap_replay_with_one_effect_more_is_the_whole_replay_to_the_bit) {
     CHECK_OK(model_add_fx(&m, &use, &why));
     if (i % 4 == 3) compare_all(c, &m);
   }
+  for (int i = 0; i < fx_count; i++) {
+    const fx_use_t use = fx_use(fx_table[i]);
+    CHECK_OK(model_add_fx(&m, &use, &why)); // a model has room for all of them
+  }
+  compare_all(c, &m);
   drop(c);
 }
 
