@@ -92,19 +92,22 @@ static bool prune_one(select_t *t) {
 // Straight lines about the last values, until these stay; by half where they only go to and fro, and no more
 // where that brings them no nearer. On the way only the columns of the choice are formed anew. With all of
 // them the colours may be a little others: then once more, as long as that comes nearer, too.
-static done_t settle(select_t *t, why_t *why) {
+typedef enum { SETTLE_ALL, SETTLE_OWN } settle_t; // OWN: the other candidates' columns stay as they were
+
+static done_t settle(select_t *t, settle_t which, why_t *why) {
   const double stays = 1e-3; // of what is typical
+  const bool own = which == SETTLE_OWN;
   double last = HUGE_VAL, last_of_all = HUGE_VAL, share = 1.0;
-  bool all = true; // columns
+  bool all = !own; // columns
   for (;;) {
     const double change = round_take(&t->round, share);
     const bool nearer = change < 0.7 * (all ? last_of_all : last);
-    if (change < stays && all) return DONE;
-    if (!nearer && share < 1.0) return round_complete(&t->round, why);
+    if (change < stays && (all || own)) return DONE;
+    if (!nearer && share < 1.0) return own ? DONE : round_complete(&t->round, why);
     if (!nearer) share = 0.5;
     if (all) last_of_all = change;
     last = all ? HUGE_VAL : change;
-    all = change < stays;
+    all = !own && change < stays;
     if (all)
       TRY(round_complete(&t->round, why));
     else
@@ -136,7 +139,7 @@ static done_t left_by(const select_t *t, const chosen_t *chosen, const color_t c
 // A swap is promised by straight lines about the one that goes: a lag that is taken out along its line leaves
 // what no vehicle does, and a delay may fit that better. It stays if the models themselves, both replayed,
 // keep the promise, and is not tried again if they do not, in nobody's place: the line that promised too much
-// is its own.
+// is its own. Most are broken: no other column is formed until it is kept.
 static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   round_t *const r = &t->round;
   const choice_t choice = r->choice;
@@ -148,11 +151,12 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   *swapped = now >= 0;
   if (!*swapped) return DONE;
   TRY(left_by(t, &chosen, color, &before, why));
-  TRY(settle(t, why));
+  TRY(settle(t, SETTLE_OWN, why));
   TRY(left_by(t, &r->chosen, color, &after, why));
   if (after < before) {
     t->been[now] = true;
-    return DONE;
+    TRY(round_complete(r, why));
+    return settle(t, SETTLE_ALL, why);
   }
   t->broken[now] = true;
   r->choice = choice;
@@ -169,7 +173,7 @@ static done_t step_until_still(select_t *t, why_t *why) {
     changed = changed || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
-    TRY(settle(t, why));
+    TRY(settle(t, SETTLE_ALL, why));
   }
 }
 
@@ -189,7 +193,7 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
     if (round_fx(r, k) == round_fx(r, worst)) t->been[k] = true;
   r->choice = choice_without(&r->choice, worst);
   *dropped = true;
-  return settle(t, why);
+  return settle(t, SETTLE_ALL, why);
 }
 
 // First in the colours that would be left if everything that can be named were there: they show what is slow.
