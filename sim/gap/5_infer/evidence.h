@@ -3,8 +3,9 @@
 // One likelihood: white rows, y = X b + e. One prior: of an effect's numbers N(0, s^2), s a half, once, twice
 // or four times what is typical, each as likely; one effect in a hundred is there. What is known of b beside
 // it is a covariance of all of them: what feedback makes of each on nominal flights (low rank, with their
-// correlations and bias), what the score's own ups and downs over blocks have beyond white noise, and the
-// misfit of a right form (both diagonal). With A = X'X, N = [L, sqrt(D)] the rows hold
+// correlations and bias), what the score's own ups and downs over blocks have beyond white noise, the misfit
+// of a right form, and, of what control commands, how much feedback makes of it with another pilot (all
+// diagonal). With A = X'X, N = [L, sqrt(D)] the rows hold
 //
 //   F = A - A N (I + N'A N)^-1 N'A,   h = g - A N (I + N'A N)^-1 N'g
 //

@@ -126,6 +126,17 @@ static void spread(parts_t *p, const double *wanted) {
   free(s.square);
 }
 
+// Who flew is not the nominal pilot: his filters turn what control makes of noise by other angles, and what
+// looks like inertia on nominal flights may look like torque in the log. Of such a column nothing is known
+// but how large it gets.
+static double other_pilots(const parts_t *p, int column, const fx_t *fx) {
+  const int flights = p->r->nominal ? p->r->nominal->n : 0;
+  double squares = 0.0;
+  for (int f = 0; fx->only_beside_nominal && f < flights; f++)
+    squares += p->low[column * flights + f] * p->low[column * flights + f];
+  return squares;
+}
+
 // An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a
 // ground would hide what one does.
 static void widen(parts_t *p, const double *nominal, const double *blocks) {
@@ -141,7 +152,7 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late;
+      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late + other_pilots(p, column, fx);
     }
   }
 }

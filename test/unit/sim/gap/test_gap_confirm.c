@@ -21,7 +21,6 @@
 typedef struct {
   const char *effect;
   bool hover, indi, known; // known: the vehicle file names the controller
-  bool among;              // what is hidden is looked for among the names
 } flown_t;
 
 // Flies, and diagnoses without a look at what was hidden. The first name; none: `name` stays as it is.
@@ -52,9 +51,7 @@ static named_t first_name(const flown_t *how, uint64_t seed, char name[32]) {
   const diagnose_job_t job = {
       .fit = &fit, .held = &held, .model = &base, .flown_by = how->known ? &by : NULL, .seed = 1};
   if (CHECK_OK(diagnose(&job, d, &why)) && d->found.n > 0) {
-    int i = 0;
-    while (how->among && i < d->found.n - 1 && found_use(&d->found, &d->found.named[i])->fx != use.fx) i++;
-    named = d->found.named[i];
+    named = d->found.named[0];
     snprintf(name, 32, "%s", found_use(&d->found, &named)->fx->name);
   }
   diagnosis_free(d);
@@ -89,10 +86,10 @@ TEST(gap_confirms_what_is_hidden_with_the_set_points_as_instrument) {
     const char *name;
     double size, error, named, confirmed; // shares
   } row[] = {
-      {{"rotor_drag:k=1e-6", false, false, false, false}, "rotor_drag", 1e-6, 0.1, 0.95, 0.95},
-      {{"rotor_drag:k=1e-6", false, false, true, false}, "rotor_drag", 1e-6, 0.1, 0.95, 0.95},
-      {{"delay:add=0.01", false, false, false, false}, "delay", 0.01, 0.15, 0.8, 0.95},
-      {{"delay:add=0.01", false, true, true, false}, "delay", 0.01, 0.1, 0.95, 0.8},
+      {{"rotor_drag:k=1e-6", false, false, false}, "rotor_drag", 1e-6, 0.1, 0.95, 0.95},
+      {{"rotor_drag:k=1e-6", false, false, true}, "rotor_drag", 1e-6, 0.1, 0.95, 0.95},
+      {{"delay:add=0.01", false, false, false}, "delay", 0.01, 0.15, 0.8, 0.95},
+      {{"delay:add=0.01", false, true, true}, "delay", 0.01, 0.1, 0.95, 0.8},
   };
   const int sets = test_long() ? 20 : 3;
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) { // of a controller that is known: two tests below
@@ -152,8 +149,8 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
   static const struct {
     flown_t how;
     double size;
-  } row[] = {{{"rotor_drag:k=6e-6", true, false, true, true}, 6e-6},
-             {{"rotor_drag:k=3e-6", true, false, true, true}, 3e-6}};
+  } row[] = {{{"rotor_drag:k=6e-6", true, false, true}, 6e-6},
+             {{"rotor_drag:k=3e-6", true, false, true}, 3e-6}};
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%g", row[i].size);
     char name[32] = "";
@@ -166,7 +163,7 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
 }
 
 TEST(gap_says_of_a_hover_that_the_instrument_is_too_weak) {
-  static const flown_t how = {"delay:add=0.01", true, false, false, false};
+  static const flown_t how = {"delay:add=0.01", true, false, false};
   char name[32] = "";
   const named_t n = first_name(&how, FIRST_SEED, name);
   CHECK_TEXT(name, "delay");

@@ -140,6 +140,33 @@ TEST(gap_information_holds_little_of_an_inertia_and_of_lateness) {
   }
 }
 
+// Of two columns F^-1 has the nominal flights' mean of b b', and each column's mean square beside. Of what
+// control commands it has that once more.
+TEST(gap_information_takes_of_another_pilot_s_feedback_only_how_large_it_gets) {
+  static const struct {
+    const char *name[2];
+    double times; // of the first one's mean square
+  } row[] = {{{"rotor_drag", "flapping"}, 2.0}, {{"torque_ratio", "flapping"}, 3.0}};
+  for (int i = 0; i < 2; i++) {
+    gap_rows_t g;
+    why_t why;
+    information_t f;
+    ROW("%s", row[i].name[0]);
+    gap_rows_make(&g, 31);
+    (void)along(&g, row[i].name[0], CH_WZ, 2000.0);
+    (void)along(&g, row[i].name[1], CH_FY, 2000.0);
+    gap_rows_nominal(&g, 2, 1e8, (const double[]){2.0, -1.0, 2.0, -1.0});
+    gap_rows_open(&g, 0, NULL);
+    if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
+    const double det = f.F[0] * f.F[3] - f.F[1] * f.F[2];
+    CHECK_NEAR(f.F[3] / det, row[i].times * 4.0, 0.2);
+    CHECK_NEAR(f.F[0] / det, 2.0, 0.1);
+    CHECK_NEAR(-f.F[1] / det, -2.0, 0.1);
+    information_free(&f);
+    gap_rows_free(&g);
+  }
+}
+
 // One effect in a hundred is there, and is a half, once, twice or four times what is typical.
 TEST(gap_evidence_weighs_four_scales_and_how_rare_an_effect_is) {
   gap_rows_t g;
