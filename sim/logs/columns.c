@@ -298,12 +298,18 @@ static done_t read_columns(toml_t t, columns_t *c, why_t *why) {
 static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "rows", "columns", NULL};
 static const toml_kind_t COLUMNS_FILE = {"a columns file", "tools/columns/fly.toml", ROOT_KEYS};
 
+// Without a table of columns what the file says otherwise is said of the Crazyflie's own.
 static done_t read_root(toml_t root, columns_t *c, why_t *why) {
   toml_t columns;
   TRY(toml_only(root, ROOT_KEYS, why));
-  TRY(toml_table(root, "columns", &columns, why));
-  TRY(read_columns(columns, c, why));
-  if (c->of[SIG_AX].column[0] || c->of[SIG_AZ].column[0]) TRY(read_frame(root, &c->acc, why));
+  if (toml_has(root, "columns") || !toml_key(root, 0)) {
+    TRY(toml_table(root, "columns", &columns, why));
+    TRY(read_columns(columns, c, why));
+    if (c->of[SIG_AX].column[0] || c->of[SIG_AZ].column[0]) TRY(read_frame(root, &c->acc, why));
+  } else {
+    *c = columns_crazyflie();
+    if (toml_has(root, "acceleration")) TRY(read_frame(root, &c->acc, why));
+  }
   if (toml_has(root, "rows")) TRY(read_rows(root, &c->rows_are_means, why));
   if (toml_has(root, "rest_height_m"))
     TRY(toml_double(root, "rest_height_m", -10.0, 10.0, &c->rest_height_m, why));

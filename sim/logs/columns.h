@@ -6,10 +6,10 @@
 //   rest_height_m = 0.05                         optional: what z says when the vehicle stands on the ground
 //   acceleration = "body"                        specific force in body axes (+1 g on z at rest), or
 //                                                "world" (gravity taken out), or "world_with_gravity"
-//   rows = "instants"                            optional: a row is what is at its time, and its commands
-//   hold
+//   rows = "instants"                            optional: a row is what is at its time, its commands hold
 //                                                from then on; or "means" of all columns over one period
-//   [columns]                                    SIGNAL = {column, unit, and where wanted
+//   [columns]                                    SIGNAL = {column, unit, and where wanted; without this
+//                                                table the file is about the Crazyflie's own names
 //   time = {column = "timestamp", unit = "ms"}             scale = 1, offset = 0, optional = false}
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
 //   vbat = {value = 3.9, unit = "V"}             a battery that is always full, as simulators have

@@ -75,6 +75,17 @@ TEST(columns_bring_every_frame_to_ours) {
   }
 }
 
+TEST(columns_files_without_columns_are_about_the_crazyflie_s_own) {
+  columns_t c, own = columns_crazyflie();
+  why_t why = {""};
+  CHECK_OK(columns_read(scratch_file("c.toml", "rest_height_m = 0.05\nrows = \"means\"\n", -1), &c, &why));
+  CHECK(c.rest_height_m == 0.05 && c.rows_are_means && c.crazyflie && c.acc == own.acc);
+  for (int i = 0; i < SIG_COUNT; i++) {
+    CHECK_TEXT(c.of[i].column, own.of[i].column);
+    CHECK(c.of[i].late_s == own.of[i].late_s && c.of[i].optional == own.of[i].optional);
+  }
+}
+
 #define TIME "[columns]\ntime = {column = \"t\", unit = \"s\"}\n"
 
 static const struct {
