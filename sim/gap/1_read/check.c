@@ -213,9 +213,12 @@ static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t
     most_m = fmax(most_m, over_m);
   }
   if (n < MEAN_OF || above <= ABOVE_SHARE * n) return DONE;
+  char from[80] = "";
+  if (f->floor_m != 0.0)
+    snprintf(from, sizeof from, "; heights count from %.3g m, where it stood before take-off", f->floor_m);
   return table_refuse(&rows->table, 0, rows->at[SIG_Z], why,
-                      "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g); allowed: below it",
-                      most_m, m->name, m->ceiling_m);
+                      "up to %.2g m above the ceiling of vehicle %s (ceiling_m = %g%s); allowed: below it",
+                      most_m, m->name, m->ceiling_m, from);
 }
 
 done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {

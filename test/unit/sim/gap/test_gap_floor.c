@@ -74,6 +74,27 @@ static const char *note_of(const gap_flight_t *f) {
   return NULL;
 }
 
+TEST(gap_says_of_a_flight_above_the_ceiling_what_its_heights_count_from) {
+  static const struct {
+    double stands_m;
+    const char *want;
+  } at[] = {
+      {0.0, "(ceiling_m = 0.2); allowed: below it"},
+      {-0.03, "(ceiling_m = 0.2; heights count from -0.03 m, where it stood before take-off); allowed"}};
+  for (int i = 0; i < 2; i++) {
+    const standing_t s = {.stands_m = at[i].stands_m, .stands_s = 1.0};
+    const columns_t columns = columns_crazyflie();
+    model_t vehicle;
+    gap_flight_t f;
+    why_t why = {""};
+    ROW("%g", s.stands_m);
+    CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+    vehicle.ceiling_m = 0.2;
+    CHECK_STATUS(BAD_INPUT, gap_read(&f, log_of(&s), &columns, &vehicle, &why));
+    CHECK(strstr(why.text, at[i].want) != NULL);
+  }
+}
+
 TEST(gap_counts_heights_from_where_the_vehicle_stands_before_take_off) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
