@@ -128,13 +128,10 @@ static void spread(parts_t *p, const double *wanted) {
 
 // Who flew is not the nominal pilot: his filters turn what control makes of noise by other angles, and what
 // looks like inertia on nominal flights may look like torque in the log. Of such a column nothing is known
-// but how large it gets.
-static double other_pilots(const parts_t *p, int column, const fx_t *fx) {
-  const int flights = p->r->nominal ? p->r->nominal->n : 0;
-  double squares = 0.0;
-  for (int f = 0; fx->only_beside_nominal && f < flights; f++)
-    squares += p->low[column * flights + f] * p->low[column * flights + f];
-  return squares;
+// but how large it gets by itself. square: mean square of its own score on nominal flights.
+static double other_pilots(const parts_t *p, int column, double square) {
+  const double own = p->A[column * (p->n + 1)];
+  return own > 0.0 ? square / (own * own) : 0.0;
 }
 
 // An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a
@@ -152,7 +149,8 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late + other_pilots(p, column, fx);
+      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late;
+      if (fx->only_beside_nominal) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }
 }
