@@ -202,9 +202,10 @@ typedef struct {
   fx_group_t group;
   bool lags;      // FX_TIMING: it slows the motors down; else it moves their commands in time
   bool in_height; // a range sensor that has it gives it to an estimate of the height, too
-  // Control that cancels a disturbance looks like this effect: the first look, which finds out how much
-  // disturbance there is, leaves it out.
-  bool only_beside_nominal;
+  // Control that cancels a disturbance commands what does not turn the vehicle: it looks like this effect
+  // with sizes above 0 (1) or below (-1). The first look, which finds out how much disturbance there is,
+  // takes none of these. 0: like no size.
+  int control_makes;
   // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
   // misses some looks like it.
   bool scales_turning;

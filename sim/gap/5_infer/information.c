@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// As CANDIDATES_MISFIT, of what control makes of a disturbance (fx->only_beside_nominal): an inertia of a
+// As CANDIDATES_MISFIT, of what control makes of a disturbance (fx->control_makes): an inertia of a
 // quarter of what is typical has been named where nothing was hidden.
 #define MISFIT_BESIDE 0.25
 
@@ -145,12 +145,12 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
   free(wanted);
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
-    const double misfit = fx->only_beside_nominal ? MISFIT_BESIDE : CANDIDATES_MISFIT;
+    const double misfit = fx->control_makes ? MISFIT_BESIDE : CANDIDATES_MISFIT;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
       p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late;
-      if (fx->only_beside_nominal) p->wide[column] += other_pilots(p, column, nominal[column]);
+      if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }
 }

@@ -26,7 +26,7 @@ done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nomi
       const double typical = FAR * c->candidate[i].typical[k];
       const int column = c->candidate[i].first + k;
       j->ridge[column] = 1.0 / (typical * typical);
-      j->color_ridge[column] = c->candidate[i].use.fx->only_beside_nominal ? 1e30 : j->ridge[column];
+      j->color_ridge[column] = c->candidate[i].use.fx->control_makes ? 1e30 : j->ridge[column];
     }
   return DONE;
 }
@@ -290,10 +290,21 @@ bool score_is_possible(const score_t *j, const choice_t *choice) {
   return true;
 }
 
+// Control that cancels a disturbance makes no such numbers.
+static bool beyond_control(const candidate_t *c, const verdict_t *v) {
+  bool beyond = c->use.fx->control_makes == 0;
+  for (int k = 0; k < c->n && c->use.fx->control_makes; k++) {
+    const double made = c->use.fx->control_makes * v->value[k], error = SCORE_ERRORS * v->stderr_[k];
+    if (made > error) return false;
+    beyond = beyond || made < -error;
+  }
+  return beyond;
+}
+
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   double largest = 0.0; // in parts of what is typical
-  if ((!j->nominal || !j->nominal->n) && c->use.fx->only_beside_nominal) return false;
+  if ((!j->nominal || !j->nominal->n) && !beyond_control(c, v)) return false;
   for (int k = 0; k < c->n; k++) {
     if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]))) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);

@@ -56,6 +56,9 @@ static const struct {
     {"none could fly", "rotor_drag", 0.45, -1.0, 0.0, true},
     {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, 0.0, false},
     {"only beside nominal flights", "inertia", 0.5, 0.0, 0.0, false},
+    {"of the sign that no control makes", "inertia", -0.5, 0.0, 0.0, true},
+    {"which for torque is above 0", "torque_ratio", 0.5, 0.0, 0.0, true},
+    {"and not below", "torque_ratio", -0.5, 0.0, 0.0, false},
     {"and there", "inertia", 0.5, 0.05, 0.0, true},
     {"and none could fly", "inertia", 0.9, -1.0, 0.0, false},
     // With this noise two errors (0.005 each) less are seen than is hidden.
