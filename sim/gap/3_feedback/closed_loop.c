@@ -22,6 +22,10 @@
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // of its position loop
 
+// A moment that changes once in a flight stands, and no control shakes by it: taken for one of 3 s, a centre
+// of mass that moved half way shook the nominal flights by what it had done, and nothing was unknown.
+#define STANDS_S 60.0
+
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
 }
@@ -212,10 +216,12 @@ static void find_disturbance(const set_t *s, double *const r[CHANNELS], closed_l
       w->force_mps2[ch] = sd;
     else
       w->turn_radps2[ch - CH_WX] = sd;
-    if (sd > 0.0) tau[!force] += (-2.0 / RESIDUAL_HZ / log(clamp(correlation, 0.05, 0.98))) / 3.0;
+    if (sd > 0.0)
+      tau[!force] +=
+          (-2.0 / RESIDUAL_HZ / log(clamp(correlation, 0.05, exp(-2.0 / RESIDUAL_HZ / STANDS_S)))) / 3.0;
   }
   w->force_tau_s = clamp(tau[0], 0.05, 3.0);
-  w->turn_tau_s = clamp(tau[1], 0.05, 3.0);
+  w->turn_tau_s = clamp(tau[1], 0.05, STANDS_S);
 }
 
 // Place and speed of a point are means over samples, its attitude is one of them.

@@ -1,6 +1,7 @@
 // test_gap_controller.c - nominal flights by the controller that the vehicle file names: it does with
 // noise what it did in the log.
 #include "base/by_size.h"
+#include "base/random.h"
 #include "exam/flights.h"
 #include "gap/diagnose.h"
 #include "rig/gap_logs.h"
@@ -34,6 +35,44 @@ static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, residual);
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   return DONE;
+}
+
+// By row of the turning: first order, 2 rad/s2 of 0.3 s; or nothing, and 8 rad/s2 from half way on.
+static void put_turning(const rig_t *r, bool step, double *const residual[CHANNELS]) {
+  const int n = r->set.smooth.n;
+  const double keep = exp(-1.0 / RESIDUAL_HZ / 0.3), fresh = 2.0 * sqrt(1.0 - keep * keep);
+  random_t *const random = random_open(11);
+  for (int ch = CH_WX; ch < CH_SMOOTH; ch++) {
+    double now = 0.0;
+    for (int i = 0; i < n; i++) {
+      now = keep * now + fresh * random_normal(random);
+      residual[ch][i] = !step ? now : i < n / 2 ? 0.0 : 8.0;
+    }
+  }
+  random_close(random);
+}
+
+TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
+  static const struct {
+    bool step;
+    double least_s, most_s;
+  } row[] = {{false, 0.2, 0.4}, {true, 10.0, 60.0}};
+  rig_t r;
+  why_t why = {""};
+  double *residual[CHANNELS];
+  if (!CHECK_OK(rig_make(&r, false, &why))) return;
+  for (int ch = 0; ch < CHANNELS; ch++)
+    residual[ch] = calloc((size_t)set_rows(&r.set, ch)->n + 1, sizeof(double));
+  for (int i = 0; i < 2; i++) {
+    ROW("%s", row[i].step ? "a step" : "gusts");
+    closed_loop_t loop = r.loop;
+    put_turning(&r, row[i].step, residual);
+    closed_loop_shaken(&loop, &r.set, &r.vehicle, residual);
+    CHECK(loop.turn_tau_s > row[i].least_s && loop.turn_tau_s < row[i].most_s);
+  }
+  for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
+  set_free(&r.set);
+  gap_flight_free(&r.flight);
 }
 
 // Median of what a motor's command changes from sample to sample: noise that the controller fed back.
