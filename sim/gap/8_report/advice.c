@@ -5,7 +5,10 @@
 #include <math.h>
 
 static void advise_use(report_t *r) {
-  if (r->n_finding == 0)
+  if (r->n_finding == 0 && (r->study->diagnosis.unknown || report_adequacy_of_all(r) == LEFT_MORE))
+    note(&r->to_do,
+         "use: the vehicle file as it is, and mind that it leaves more than noise in these flights");
+  else if (r->n_finding == 0)
     note(&r->to_do, "use: the vehicle file as it is; these flights add nothing to it");
   else
     note(&r->to_do,

@@ -250,6 +250,66 @@ TEST(gap_advises_to_add_what_was_taken_from_a_crazyflie) {
   free(r);
 }
 
+TEST(gap_notes_a_name_with_which_the_vehicle_flies_worse) {
+  static const struct {
+    int named, lost;
+    double before_m, after_m;
+    bool noted;
+  } cases[] = {{1, 0, 0.004, 0.0079, false},
+               {1, 0, 0.004, 0.0081, true},
+               {0, 0, 0.004, 0.0081, false},
+               {1, 1, 0.004, 0.0081, false}};
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%g", cases[i].after_m);
+    study_t *const study = calloc(1, sizeof *study);
+    report_t *const r = calloc(1, sizeof *r);
+    why_t why;
+    CHECK_OK(model_builtin("cf21_legacy", &study->vehicle, &why));
+    r->study = study;
+    r->n_finding = cases[i].named;
+    r->finding[0].fx = fx_find("mass");
+    study->resimulation = (resimulation_t){.flew = true,
+                                           .before = {.height_m = cases[i].before_m},
+                                           .after = {.height_m = cases[i].after_m, .lost = cases[i].lost}};
+    report_warn(r);
+    bool noted = false;
+    for (int k = 0; k < r->warnings.n; k++)
+      noted =
+          noted || strstr(r->warnings.line[k], "further off the measured height than without, 4 mm to 8.1");
+    CHECK(noted == cases[i].noted);
+    free(study);
+    free(r);
+  }
+}
+
+TEST(gap_advises_to_mind_what_has_no_name) {
+  static const struct {
+    bool unknown;
+    double left; // of the floor
+    const char *line;
+  } cases[] = {
+      {false, 1.9, "use: the vehicle file as it is; these flights add nothing to it"},
+      {false, 2.1,
+       "use: the vehicle file as it is, and mind that it leaves more than noise in these flights"},
+      {true, 1.9, "use: the vehicle file as it is, and mind that it leaves more than noise in these flights"},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->diagnosis.nominal_flew = true;
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%g", cases[i].left);
+    study->diagnosis.unknown = cases[i].unknown;
+    study->diagnosis.held_out.channel[CH_WY] =
+        (gap_part_t){.used = true, .after = cases[i].left, .floor = 1.0};
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK_TEXT(r->to_do.line[0], cases[i].line);
+  }
+  free(study);
+  free(r);
+}
+
 TEST(gap_advises_to_fly_where_something_is_but_not_when) {
   static const struct {
     cell_t cell;
