@@ -1,7 +1,6 @@
 // loop_fit.c - noise and disturbance with which nominal flights shake as the log does.
 #include "gap/5_infer/loop_fit.h"
 
-#include "base/nth.h"
 #include "gap/2_predict/lines.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
@@ -21,29 +20,12 @@ static double mean_squares(const double *v, int n, bool about_mean) {
   return n ? (squares - (about_mean ? sum * sum / n : 0.0)) / n : 0.0;
 }
 
-// Of rows that follow one another: how much less their increments vary, most of the time, than their mean
-// square says; 1 of a Gaussian process. What jumps once is no disturbance that goes on.
-static double steadiness(const rows_t *rows, const double *v) {
-  double *const step = malloc(((size_t)rows->n + 1) * sizeof(double)), squares = 0.0;
-  int n = 0;
-  for (int i = 1; step && i < rows->n; i++) {
-    if (!rows->follows[i]) continue;
-    step[n] = fabs(v[i] - v[i - 1]);
-    squares += step[n] * step[n];
-    n++;
-  }
-  const double usual = n ? nth_smallest(step, n, n / 2) / 0.6745 : 0.0;
-  free(step);
-  return squares > 0.0 ? fmin(1.0, usual * usual * n / squares) : 1.0;
-}
-
 // Mean squares of what a model leaves. Disturbing moments are large and slow on real vehicles; control
 // cancels them, which is what the nominal flights are to show: they are read before the cleaning, with their
 // mean. loop: how the flights were flown, or null.
 static done_t read_rows(closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
                         const flown_by_t *by, const lines_t *l, why_t *why) {
-  for (int ch = CH_WX; ch < CH_SMOOTH; ch++)
-    left->of[ch] = steadiness(&s->smooth, l->r[ch]) * mean_squares(l->r[ch], s->smooth.n, false);
+  for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, false);
   if (loop) *loop = closed_loop_of(s, m, by, l->r);
   TRY(unknown_clean(s, m, l->r, why));
   for (int ch = 0; ch < CH_FORCES; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, true);
@@ -105,7 +87,7 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int ch = 0; ch < CH_SMOOTH; ch++) {
     *disturbance(&calm, ch) = 0.0;
-    *disturbance(loop, ch) = sqrt(log->of[ch]); // to begin with, all of it
+    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch])); // to begin with, all of it
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};

@@ -3,7 +3,6 @@
 #include "base/by_size.h"
 #include "base/random.h"
 #include "exam/flights.h"
-#include "gap/5_infer/loop_fit.h"
 #include "gap/diagnose.h"
 #include "rig/gap_logs.h"
 #include "rig/programs.h"
@@ -20,15 +19,13 @@ typedef struct {
   closed_loop_t loop;
 } rig_t;
 
-// A flight in which nothing is hidden, or an effect.
-static done_t rig_make_with(rig_t *r, bool indi, const fx_use_t *hidden, why_t *why) {
+// A flight in which nothing is hidden.
+static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   grid_t *const grid = calloc(2, sizeof *grid);
   double *residual[CHANNELS];
   *r = (rig_t){.set = {.n_grid = 0}};
   TRY(exam_vehicle(&r->vehicle, why));
-  model_t truth = r->vehicle;
-  if (hidden) TRY(model_add_fx(&truth, hidden, why));
-  const exam_flight_t job = {.truth = &truth, .indi = indi, .seed = 52003};
+  const exam_flight_t job = {.truth = &r->vehicle, .indi = indi, .seed = 52003};
   TRY(exam_fly(&job, &r->flight, why));
   TRY(grid_make(&grid[0], &r->flight, 0, r->flight.n, &r->vehicle, why));
   TRY(set_make(&r->set, grid, 1, why));
@@ -38,10 +35,6 @@ static done_t rig_make_with(rig_t *r, bool indi, const fx_use_t *hidden, why_t *
   r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, residual);
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   return DONE;
-}
-
-static done_t rig_make(rig_t *r, bool indi, why_t *why) {
-  return rig_make_with(r, indi, NULL, why);
 }
 
 // By row of the turning: first order, 2 rad/s2 of 0.3 s; or nothing, and 8 rad/s2 from half way on.
@@ -80,26 +73,6 @@ TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   set_free(&r.set);
   gap_flight_free(&r.flight);
-}
-
-// A motor that loses 6 %, from the start or half way through: what it turns is as large as what the log
-// leaves, or it is no disturbance that goes on.
-TEST(gap_shakes_nominal_flights_by_no_jump) {
-  static const double start_s[] = {0.0, 0.5 * EXAM_SPAN_S};
-  double turn_radps2[2];
-  for (int i = 0; i < 2; i++) {
-    rig_t r;
-    why_t why = {""};
-    closed_loop_t loop;
-    fx_use_t damage = fx_use(fx_find("motor_damage"));
-    damage.p[2] = start_s[i];
-    if (!CHECK_OK(rig_make_with(&r, false, &damage, &why))) return;
-    CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 3, &why));
-    turn_radps2[i] = loop.turn_radps2[0];
-    set_free(&r.set);
-    gap_flight_free(&r.flight);
-  }
-  CHECK(turn_radps2[1] < 0.55 * turn_radps2[0]);
 }
 
 // Median of what a motor's command changes from sample to sample: noise that the controller fed back.
