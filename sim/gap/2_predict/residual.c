@@ -1,6 +1,7 @@
 // residual.c - measured less predicted, as rows for least squares.
 #include "gap/2_predict/residual.h"
 
+#include "base/nth.h"
 #include "gap/2_predict/lines.h"
 #include <math.h>
 #include <stdlib.h>
@@ -72,4 +73,22 @@ done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t 
   free(l.room);
   lines_free(&predicted);
   return status;
+}
+
+// Of a Gaussian's variance, what lies beyond its largest hundredth.
+#define GAUSSIAN_BEYOND 0.0845
+
+double residual_jumps(const rows_t *r, const double *v) {
+  double *const square = malloc(((size_t)r->n + 1) * sizeof(double)), all = 0.0, largest = 0.0;
+  int n = 0;
+  for (int i = 1; square && i < r->n; i++) {
+    if (!r->follows[i]) continue;
+    square[n] = (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+    all += square[n++];
+  }
+  const int first = n - (n + 99) / 100;
+  if (n > 0) (void)nth_smallest(square, n, first);
+  for (int i = first; i < n; i++) largest += square[i];
+  free(square);
+  return all > 0.0 ? fmax(0.0, 1.0 - (1.0 - largest / all) / (1.0 - GAUSSIAN_BEYOND)) : 0.0;
 }

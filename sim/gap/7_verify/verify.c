@@ -63,6 +63,7 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
     if (!p->used) continue;
     p->before = rms_of(b.r[ch], rows->n);
     p->after = rms_of(a.r[ch], rows->n);
+    p->jumps = ch < CH_SMOOTH ? residual_jumps(rows, a.r[ch]) : 0.0;
     held->left_before += color_left(rows, &color, b.r[ch]);
     held->left_after += color_left(rows, &color, a.r[ch]);
   }

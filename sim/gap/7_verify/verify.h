@@ -9,6 +9,7 @@
 typedef struct {
   bool used;
   double before, after, floor; // rms of rows
+  double jumps;                // of what is left (2_predict/residual.h)
 } gap_part_t;
 
 // Held-out flights, all together.

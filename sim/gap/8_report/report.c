@@ -139,7 +139,7 @@ left_over_t report_adequacy(const report_t *r, int channel) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const gap_part_t *const p = &d->held_out.channel[channel];
   if (!p->used || !d->nominal_flew) return LEFT_UNKNOWN;
-  if (p->after > LEFT_OVER * p->floor) return LEFT_MORE;
+  if (p->after > LEFT_OVER * p->floor || p->jumps > LEFT_JUMPS) return LEFT_MORE;
   return p->after < p->floor ? LEFT_QUIETER : LEFT_NOISE;
 }
 

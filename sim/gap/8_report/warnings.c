@@ -55,7 +55,10 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (report_adequacy(r, ch) == LEFT_MORE)
+    if (report_adequacy(r, ch) == LEFT_MORE && p->jumps > LEFT_JUMPS)
+      warn(r, "%s: %.3g %s is left, most of it by few jumps: something changed in flight, or was touched",
+           gap_channel[ch], p->after, gap_unit[ch]);
+    else if (report_adequacy(r, ch) == LEFT_MORE)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
            "much flight",

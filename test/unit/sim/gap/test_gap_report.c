@@ -283,16 +283,14 @@ TEST(gap_notes_a_name_with_which_the_vehicle_flies_worse) {
 }
 
 TEST(gap_advises_to_mind_what_has_no_name) {
+  static const char *const alone = "use: the vehicle file as it is; these flights add nothing to it";
+  static const char *const mind =
+      "use: the vehicle file as it is, and mind that it leaves more than noise in these flights";
   static const struct {
-    bool unknown;
-    double left; // of the floor
-    const char *line;
+    bool unknown, more;
+    double left, jumps; // of the floor; share
   } cases[] = {
-      {false, 1.9, "use: the vehicle file as it is; these flights add nothing to it"},
-      {false, 2.1,
-       "use: the vehicle file as it is, and mind that it leaves more than noise in these flights"},
-      {true, 1.9, "use: the vehicle file as it is, and mind that it leaves more than noise in these flights"},
-  };
+      {false, false, 1.9, 0.74}, {false, true, 1.0, 0.76}, {false, true, 2.1, 0.0}, {true, true, 1.9, 0.0}};
   study_t *const study = calloc(1, sizeof *study);
   report_t *const r = calloc(1, sizeof *r);
   r->study = study;
@@ -301,10 +299,10 @@ TEST(gap_advises_to_mind_what_has_no_name) {
     ROW("%g", cases[i].left);
     study->diagnosis.unknown = cases[i].unknown;
     study->diagnosis.held_out.channel[CH_WY] =
-        (gap_part_t){.used = true, .after = cases[i].left, .floor = 1.0};
+        (gap_part_t){.used = true, .after = cases[i].left, .floor = 1.0, .jumps = cases[i].jumps};
     memset(&r->to_do, 0, sizeof r->to_do);
     report_advise(r);
-    CHECK_TEXT(r->to_do.line[0], cases[i].line);
+    CHECK_TEXT(r->to_do.line[0], cases[i].more ? mind : alone);
   }
   free(study);
   free(r);

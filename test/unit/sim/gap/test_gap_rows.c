@@ -1,4 +1,5 @@
 // test_gap_rows.c - series of a flight as rows, through the zero-phase low-pass.
+#include "base/random.h"
 #include "gap/2_predict/residual.h"
 #include "rig/test.h"
 
@@ -90,5 +91,32 @@ TEST(gap_halves_of_a_lone_flight_interleave) {
     while (s.grid[0].point[s.smooth.point[k]].t_s < row[i].at_s) k++;
     CHECK(s.half[s.smooth.block[k]] == row[i].half && s.n_half == 2 * row[i].flights);
     set_free(&s);
+  }
+}
+
+// 2000 rows of white noise. A step of 50 of its sd, over four rows, has 625 squares of the increments, noise
+// has 4000. Of a hundred such steps the largest hundredth of the rows is no more than its share.
+TEST(gap_jumps_are_few) {
+  static const struct {
+    int jumps;
+    double least, most;
+  } row[] = {{0, 0.0, 0.02}, {1, 0.1, 0.15}, {4, 0.3, 0.4}, {100, 0.0, 0.02}};
+  enum { ROWS = 2000 };
+  static bool follows[ROWS];
+  static double v[ROWS];
+  const rows_t rows = {.n = ROWS, .follows = follows};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%d", row[i].jumps);
+    random_t *const random = random_open(5);
+    double at = 0.0;
+    for (int k = 0; k < ROWS; k++) {
+      const int every = row[i].jumps ? ROWS / row[i].jumps : ROWS, into = k % every;
+      if (row[i].jumps && into >= 8 && into < 12) at += k / every % 2 ? -12.5 : 12.5;
+      follows[k] = k > 0;
+      v[k] = at + random_normal(random);
+    }
+    random_close(random);
+    const double jumps = residual_jumps(&rows, v);
+    CHECK(jumps >= row[i].least && jumps <= row[i].most);
   }
 }
