@@ -144,7 +144,7 @@ RECIPES = {
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 163001, 200)),
-    "users": Recipe(says("exam", "users", 164001, 240)),
+    "users": Recipe(says("exam", "users", 167001, 240)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),
