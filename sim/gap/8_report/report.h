@@ -38,7 +38,9 @@ extern const char *const standing_name[];
 // What the extended model leaves of a channel beside what noise and feedback alone leave, the floor. So many
 // times it: there is a gap, whatever could be named; the other way round: the floor is not that of this log.
 #define LEFT_OVER 2.0
-// Or jumps are more of its increments' squares than that leaves: something changed.
+// Or something changed in flight: without its jumps a residual whose increments have them for three quarters
+// of their squares would be half as large, and nominal flights that were shaken by all of it have a floor as
+// high.
 #define LEFT_JUMPS (1.0 - 1.0 / (LEFT_OVER * LEFT_OVER))
 typedef enum { LEFT_UNKNOWN, LEFT_QUIETER, LEFT_NOISE, LEFT_MORE } left_over_t;
 extern const char *const left_name[];
