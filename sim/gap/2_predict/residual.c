@@ -77,6 +77,7 @@ done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t 
 
 // Of a Gaussian's variance, what lies beyond its largest hundredth.
 #define GAUSSIAN_BEYOND 0.0845
+#define JUMPS_OF        100 // increments, of which a hundredth is one
 
 double residual_jumps(const rows_t *r, const double *v) {
   double *const square = malloc(((size_t)r->n + 1) * sizeof(double)), all = 0.0, largest = 0.0;
@@ -90,5 +91,5 @@ double residual_jumps(const rows_t *r, const double *v) {
   if (n > 0) (void)nth_smallest(square, n, first);
   for (int i = first; i < n; i++) largest += square[i];
   free(square);
-  return all > 0.0 ? fmax(0.0, 1.0 - (1.0 - largest / all) / (1.0 - GAUSSIAN_BEYOND)) : 0.0;
+  return all > 0.0 && n >= JUMPS_OF ? fmax(0.0, 1.0 - (1.0 - largest / all) / (1.0 - GAUSSIAN_BEYOND)) : 0.0;
 }

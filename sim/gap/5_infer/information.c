@@ -127,8 +127,8 @@ static void spread(parts_t *p, const double *wanted) {
 }
 
 // Who flew is not the nominal pilot: his filters turn what control makes of noise by other angles, and what
-// looks like inertia on nominal flights may look like torque in the log. Of such a column nothing is known
-// but how large it gets by itself. square: mean square of its own score on nominal flights.
+// looks like inertia on nominal flights may look like torque in the log. Each such column may be off by as
+// much once more, whatever the others are. square: mean square of its own score on nominal flights.
 static double other_pilots(const parts_t *p, int column, double square) {
   const double own = p->A[column * (p->n + 1)];
   return own > 0.0 ? square / (own * own) : 0.0;

@@ -290,7 +290,8 @@ bool score_is_possible(const score_t *j, const choice_t *choice) {
   return true;
 }
 
-// Control that cancels a disturbance makes no such numbers.
+// Of an effect that control's work can look like: no number is surely one that control makes, and one at
+// least surely is not. Of any other effect: always.
 static bool beyond_control(const candidate_t *c, const verdict_t *v) {
   bool beyond = c->use.fx->control_makes == 0;
   for (int k = 0; k < c->n && c->use.fx->control_makes; k++) {

@@ -96,7 +96,7 @@ static void held_out(const report_t *r, FILE *out) {
     fprintf(out, "<tr><td>%s<td>%s<td class=n>%.3g<td class=n>%.3g", gap_channel[ch], gap_unit[ch], p->before,
             p->after);
     const left_over_t left = report_adequacy(r, ch);
-    const bool floor = left == LEFT_NOISE || left == LEFT_MORE;
+    const bool floor = (left == LEFT_NOISE || left == LEFT_MORE) && p->after >= p->floor;
     if (floor)
       fprintf(out, "<td class=n>%.3g", p->floor);
     else

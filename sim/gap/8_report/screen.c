@@ -76,7 +76,7 @@ static void print_gap(const report_t *r, FILE *out) {
     fprintf(out, "  %-9s %-7s %9.3g %9.3g ", gap_channel[ch], gap_unit[ch], p->before, p->after);
     // A floor above what is left would say that the model is better than it can be.
     const left_over_t left = report_adequacy(r, ch);
-    if (left == LEFT_NOISE || left == LEFT_MORE)
+    if ((left == LEFT_NOISE || left == LEFT_MORE) && p->after >= p->floor)
       fprintf(out, "%9.3g\n", p->floor);
     else
       fprintf(out, " %s\n", left_name[left]);

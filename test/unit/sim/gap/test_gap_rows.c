@@ -101,10 +101,10 @@ TEST(gap_jumps_are_few) {
     int jumps;
     double least, most;
   } row[] = {{0, 0.0, 0.02}, {1, 0.1, 0.15}, {4, 0.3, 0.4}, {100, 0.0, 0.02}};
-  enum { ROWS = 2000 };
+  enum { ROWS = 2000, TOO_FEW = 100 };
   static bool follows[ROWS];
   static double v[ROWS];
-  const rows_t rows = {.n = ROWS, .follows = follows};
+  const rows_t rows = {.n = ROWS, .follows = follows}, few = {.n = TOO_FEW, .follows = follows};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%d", row[i].jumps);
     random_t *const random = random_open(5);
@@ -118,5 +118,6 @@ TEST(gap_jumps_are_few) {
     random_close(random);
     const double jumps = residual_jumps(&rows, v);
     CHECK(jumps >= row[i].least && jumps <= row[i].most);
+    CHECK(residual_jumps(&few, v) == 0.0); // 99 increments
   }
 }
