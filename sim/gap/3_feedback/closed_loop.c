@@ -24,7 +24,7 @@
 
 // A moment that changes once in a flight stands, and no control shakes by it: taken for one of 3 s, a centre
 // of mass that moved half way shook the nominal flights by what it had done, and nothing was unknown.
-#define STANDS_S 60.0
+#define STANDS_S 60.0 // as long as a nominal flight
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
@@ -176,52 +176,42 @@ closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const 
   return v;
 }
 
-// --- disturbance ------------------------------------------------------------------------------------------
+// --- disturbing moments -----------------------------------------------------------------------------------
 
-// Variance and correlation over one row, about the mean; less what white noise of variance `noise` would make
-// of it.
-static double disturbance(const set_t *s, int ch, const double *r, double noise, double *row_correlation) {
-  const rows_t *rows = set_rows(s, ch);
-  double sum = 0.0, squares = 0.0, next = 0.0;
-  int n = rows->n, pairs = 0;
-  for (int i = 0; i < n; i++) sum += r[i];
-  const double mean = n && ch < CH_FORCES ? sum / n : 0.0; // a standing moment is a disturbance, too
-  for (int i = 0; i < n; i++) {
-    squares += (r[i] - mean) * (r[i] - mean);
+// A derivative of noise of the samples has in a row what the filter leaves: about (2 pi 5 Hz)^2 of it.
+static double filtered(const grid_t *g, double sd_radps) {
+  return 900.0 * sd_radps * sd_radps / g->every * fmin(1.0, 13.0 * g->period_s);
+}
+
+// Variance and correlation over two rows, in which the filter has no say. About no mean: a standing moment is
+// a disturbance, too.
+static double moment(const rows_t *rows, const double *r, double *correlation) {
+  double squares = 0.0, next = 0.0;
+  int pairs = 0;
+  for (int i = 0; i < rows->n; i++) {
+    squares += r[i] * r[i];
     if (i < 2 || !rows->follows[i] || !rows->follows[i - 1]) continue;
-    next += (r[i] - mean) * (r[i - 2] - mean); // two rows apart: the filter has no say there
+    next += r[i] * r[i - 2];
     pairs++;
   }
-  const double variance = n ? squares / n : 0.0;
-  *row_correlation = variance > 0.0 && pairs ? next / pairs / variance : 0.0;
-  return fmax(variance - noise, 0.0);
+  const double variance = rows->n ? squares / rows->n : 0.0;
+  *correlation = variance > 0.0 && pairs ? next / pairs / variance : 0.0;
+  return variance;
 }
 
-// What the filter leaves of white noise of the samples, in the variance of a row.
-static double filtered(const grid_t *g, int ch, double sd) {
-  const double share = fmin(1.0, 13.0 * g->period_s); // of the variance, both ways of the filter
-  const double mean = sd * sd / g->every * share;
-  return ch < CH_FORCES ? mean : mean * 900.0; // a derivative: about (2 pi 5 Hz)^2
-}
-
-static void find_disturbance(const set_t *s, double *const r[CHANNELS], closed_loop_t *w) {
-  const grid_t *g = &s->grid[0];
-  double tau[2] = {0.0, 0.0};
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    double correlation = 0.0;
-    const bool force = ch < CH_FORCES;
-    const double noise = filtered(g, ch, force ? w->acc_mps2[ch] : w->gyro_radps[ch - CH_WX]);
-    const double sd = residual_has(s, ch) ? sqrt(disturbance(s, ch, r[ch], noise, &correlation)) : 0.0;
-    if (force)
-      w->force_mps2[ch] = sd;
-    else
-      w->turn_radps2[ch - CH_WX] = sd;
-    if (sd > 0.0)
-      tau[!force] +=
-          (-2.0 / RESIDUAL_HZ / log(clamp(correlation, 0.05, exp(-2.0 / RESIDUAL_HZ / STANDS_S)))) / 3.0;
+// The correlation time is the mean of the axes': taken for each alone a weak axis' is that of noise, and what
+// feedback makes there of a name that is too small was told as another torque_ratio.
+static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_t *w) {
+  double tau_s = 0.0;
+  for (int k = 0; k < 3; k++) {
+    if (!residual_has(s, CH_WX + k)) continue;
+    double correlation;
+    const double apart_s = 2.0 / RESIDUAL_HZ, noise = filtered(&s->grid[0], w->gyro_radps[k]);
+    w->turn_radps2[k] = sqrt(fmax(moment(&s->smooth, r[CH_WX + k], &correlation) - noise, 0.0));
+    if (w->turn_radps2[k] > 0.0)
+      tau_s -= apart_s / log(clamp(correlation, 0.05, exp(-apart_s / STANDS_S))) / 3.0;
   }
-  w->force_tau_s = clamp(tau[0], 0.05, 3.0);
-  w->turn_tau_s = clamp(tau[1], 0.05, STANDS_S);
+  w->turn_tau_s = clamp(tau_s, 0.05, STANDS_S);
 }
 
 // Place and speed of a point are means over samples, its attitude is one of them.
@@ -271,12 +261,10 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   return v;
 }
 
-void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m,
-                        double *const residual[CHANNELS]) {
-  const color_t range = s->range.n ? color_fit(&s->range, residual[CH_RANGE]) : (color_t){.used = false};
+double closed_loop_range_m(const set_t *s, const model_t *m, const double *residual_m) {
+  const color_t range = s->range.n ? color_fit(&s->range, residual_m) : (color_t){.used = false};
   const range_told_t *const told = s->grid[0].range_up ? &m->range_up : &m->range_down;
-  w->range_m = range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
-  find_disturbance(s, residual, w);
+  return range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
 }
 
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
@@ -293,6 +281,7 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   w.rate_gain_most = fmax(RATE_GAIN_LEAST, pilot_gain_most(m->motor_tau_s, 0.0, pilot_period_s(by)));
   find_gains(s, m, &w);
   find_lead(s, m, &w);
-  closed_loop_shaken(&w, s, m, residual);
+  w.range_m = closed_loop_range_m(s, m, residual[CH_RANGE]);
+  find_moments(s, residual, &w);
   return w;
 }

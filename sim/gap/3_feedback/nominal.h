@@ -6,8 +6,8 @@
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
 // height; what turns it by how much the log's vehicle turns, if that is swifter (swiftness.c); with as much
 // lead on the rates as makes its commands as noisy as the log's. Noise and disturbance are those of the log:
-// sensors by what two successive samples differ by, disturbing force and moment (first-order Gauss-Markov) by
-// what the residual has beyond that.
+// sensors by what two successive samples differ by, disturbing forces (gusts.h) and moments, first-order
+// Gauss-Markov, by what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
@@ -37,16 +37,16 @@ typedef struct {
   bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
-  double force_mps2[3], force_tau_s;               // disturbance, sd and correlation time
-  double turn_radps2[3], turn_tau_s;
+  double force_mps2[3], force_tau_s;               // disturbing forces, sd and correlation time (gusts.h)
+  double turn_radps2[3], turn_tau_s;               // and moments
   const flown_by_t *flown_by; // who flew, as far as the vehicle file says; null: nobody knows
 } closed_loop_t;
 
-// residual: of the best model so far, by channel and row of the set.
+// residual: of the best model so far, by channel and row of the set. Without disturbing forces.
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]);
-// Of these what the residual says anew, by another one of the same set: disturbance and noise of the range.
-void closed_loop_shaken(closed_loop_t *w, const set_t *s, const model_t *m, double *const residual[CHANNELS]);
+// Noise of the range, by its rows.
+double closed_loop_range_m(const set_t *s, const model_t *m, const double *residual_m);
 
 // The same by a pilot that turns it with this rate gain at least, and commands as noisily.
 closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const model_t *m, double gain);

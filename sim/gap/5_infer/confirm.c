@@ -30,7 +30,6 @@ static closed_loop_t quiet(const closed_loop_t *w) {
                      .height_gain = w->height_gain,
                      .flown_by = w->flown_by};
   for (int i = 0; i < 3; i++) q.rate_gain[i] = w->rate_gain[i];
-  q.force_tau_s = q.turn_tau_s = 1.0;
   return q;
 }
 

@@ -2,46 +2,50 @@
 #include "gap/5_infer/loop_fit.h"
 
 #include "gap/2_predict/lines.h"
+#include "gap/3_feedback/gusts.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-  double of[CH_SMOOTH]; // mean squares of rows
+  double of[3]; // mean squares of rows, about each axis
 } squares_t;
 
-static double mean_squares(const double *v, int n, bool about_mean) {
-  double sum = 0.0, squares = 0.0;
-  for (int i = 0; i < n; i++) {
-    sum += v[i];
-    squares += v[i] * v[i];
-  }
-  return n ? (squares - (about_mean ? sum * sum / n : 0.0)) / n : 0.0;
+static double mean_squares(const double *v, int n) {
+  double squares = 0.0;
+  for (int i = 0; i < n; i++) squares += v[i] * v[i];
+  return n ? squares / n : 0.0;
 }
 
-// Mean squares of what a model leaves. Disturbing moments are large and slow on real vehicles; control
-// cancels them, which is what the nominal flights are to show: they are read before the cleaning, with their
-// mean. loop: how the flights were flown, or null.
-static done_t read_rows(closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
-                        const flown_by_t *by, const lines_t *l, why_t *why) {
-  for (int ch = CH_WX; ch < CH_SMOOTH; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, false);
-  if (loop) *loop = closed_loop_of(s, m, by, l->r);
+static squares_t moments_left(const set_t *s, const lines_t *l) {
+  squares_t left;
+  for (int k = 0; k < 3; k++) left.of[k] = mean_squares(l->r[CH_WX + k], s->smooth.n);
+  return left;
+}
+
+static done_t read_rows(closed_loop_t *loop, const set_t *s, const model_t *m, const flown_by_t *by,
+                        unsigned long seed, const lines_t *l, why_t *why) {
+  gusts_t gusts;
+  TRY(gusts_of(s, l->r, seed, &gusts, why));
+  *loop = closed_loop_of(s, m, by, l->r);
   TRY(unknown_clean(s, m, l->r, why));
-  for (int ch = 0; ch < CH_FORCES; ch++) left->of[ch] = mean_squares(l->r[ch], s->smooth.n, true);
-  if (!loop) return DONE;
-  const closed_loop_t raw = *loop;
-  closed_loop_shaken(loop, s, m, l->r);
-  memcpy(loop->turn_radps2, raw.turn_radps2, sizeof raw.turn_radps2);
-  loop->turn_tau_s = raw.turn_tau_s;
+  loop->range_m = closed_loop_range_m(s, m, l->r[CH_RANGE]);
+  loop->force_tau_s = gusts.tau_s;
+  // Not of what two samples differ by: an accelerometer that filters seems calmer by that.
+  if (s->grid[0].has_force && !s->grid[0].acceleration_made)
+    memcpy(loop->acc_mps2, gusts.white, sizeof gusts.white);
+  for (int k = 0; k < 3; k++) loop->force_mps2[k] = residual_has(s, k) ? gusts.force_mps2 : 0.0;
   return DONE;
 }
 
+// loop: how the flights were flown, or null.
 static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
-                       why_t *why) {
+                       unsigned long seed, why_t *why) {
   lines_t l = {.r = {NULL}};
   done_t status = residual_lines(s, m, &l, why);
-  if (status == DONE) status = read_rows(loop, left, s, m, by, &l, why);
+  if (status == DONE) *left = moments_left(s, &l);
+  if (status == DONE && loop) status = read_rows(loop, s, m, by, seed, &l, why);
   lines_free(&l);
   return status;
 }
@@ -52,7 +56,7 @@ static done_t left_of(const gap_flights_t *flown, const set_t *like, const close
   done_t status = nominal_set(&own, flown, m, why);
   memcpy(own.excluded, like->excluded, sizeof own.excluded);
   if (status == DONE) status = windows_keep(&own, m, why);
-  if (status == DONE) status = read_off(NULL, left, &own, m, loop->flown_by, why);
+  if (status == DONE) status = read_off(NULL, left, &own, m, loop->flown_by, 0, why);
   set_free(&own);
   return status;
 }
@@ -69,10 +73,6 @@ static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, 
   return status;
 }
 
-static double *disturbance(closed_loop_t *loop, int ch) {
-  return ch < CH_FORCES ? &loop->force_mps2[ch] : &loop->turn_radps2[ch - CH_WX];
-}
-
 // Squares of independent causes add: without a disturbance (none) and with one (some) they tell by how much
 // it is to be multiplied, so that what the log leaves is left.
 static double times(double none, double some, double log) {
@@ -80,14 +80,15 @@ static double times(double none, double some, double log) {
   return some > none ? sqrt((log - none) / (some - none)) : HUGE_VAL;
 }
 
+// Disturbing moments: what of them is left depends on control. Forces are as they were read.
 static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
   TRY(closed_loop_match(loop, s, m, seed, why));
   closed_loop_t calm = *loop;
   squares_t none, some;
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    *disturbance(&calm, ch) = 0.0;
-    *disturbance(loop, ch) = fmax(*disturbance(loop, ch), sqrt(log->of[ch])); // to begin with, all of it
+  for (int k = 0; k < 3; k++) {
+    calm.turn_radps2[k] = 0.0;
+    loop->turn_radps2[k] = fmax(loop->turn_radps2[k], sqrt(log->of[k])); // to begin with, all of it
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};
@@ -100,25 +101,25 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
     *why = whys[i];
     return status[i];
   }
-  for (int ch = 0; ch < CH_SMOOTH; ch++) {
-    const double by = times(none.of[ch], some.of[ch], log->of[ch]);
-    const double most = ch < CH_FORCES ? HUGE_VAL : 1.0; // what turns it was read before control cancelled it
-    if (isfinite(by)) *disturbance(loop, ch) *= fmin(by, most);
-    if (!residual_has(s, ch)) *disturbance(loop, ch) = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const double by = times(none.of[k], some.of[k], log->of[k]);
+    // What turns it was read before control cancelled it: no more than that.
+    if (isfinite(by)) loop->turn_radps2[k] *= fmin(by, 1.0);
+    if (!residual_has(s, CH_WX + k)) loop->turn_radps2[k] = 0.0;
   }
   // A disturbance of one channel shakes the others, too: none of them more than in the log.
   double share = 1.0;
   TRY(trial(loop, &some, s, m, seed, why));
-  for (int ch = 0; ch < CH_SMOOTH; ch++)
-    if (residual_has(s, ch) && none.of[ch] < log->of[ch])
-      share = fmin(share, times(none.of[ch], some.of[ch], log->of[ch]));
-  for (int ch = 0; ch < CH_SMOOTH; ch++) *disturbance(loop, ch) *= share;
+  for (int k = 0; k < 3; k++)
+    if (residual_has(s, CH_WX + k) && none.of[k] < log->of[k])
+      share = fmin(share, times(none.of[k], some.of[k], log->of[k]));
+  for (int k = 0; k < 3; k++) loop->turn_radps2[k] *= share;
   return DONE;
 }
 
 done_t loop_fit(closed_loop_t *loop, set_t *s, const model_t *m, const flown_by_t *by, unsigned long seed,
                 why_t *why) {
   squares_t log;
-  TRY(read_off(loop, &log, s, m, by, why));
+  TRY(read_off(loop, &log, s, m, by, seed, why));
   return scale(loop, &log, s, m, seed, why) == FAILED ? FAILED : DONE;
 }

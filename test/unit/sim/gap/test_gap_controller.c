@@ -65,9 +65,8 @@ TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
     residual[ch] = calloc((size_t)set_rows(&r.set, ch)->n + 1, sizeof(double));
   for (int i = 0; i < 2; i++) {
     ROW("%s", row[i].step ? "a step" : "gusts");
-    closed_loop_t loop = r.loop;
     put_turning(&r, row[i].step, residual);
-    closed_loop_shaken(&loop, &r.set, &r.vehicle, residual);
+    const closed_loop_t loop = closed_loop_of(&r.set, &r.vehicle, NULL, residual);
     CHECK(loop.turn_tau_s > row[i].least_s && loop.turn_tau_s < row[i].most_s);
   }
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
