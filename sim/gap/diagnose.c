@@ -99,13 +99,15 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   return fly_with(job, d, &chosen, why);
 }
 
-static done_t look_for_more(diagnosis_t *d, why_t *why) {
+static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(find_residual(d, &d->extended, why));
   scan_t scan;
   TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
   unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
   d->unknown = d->nominal_flew && d->left.found;
-  return DONE;
+  if (!d->unknown) return DONE;
+  return for_a_time(&d->for_a_time, &d->fit, job->model, &d->candidates, &d->found.chosen, &d->left.cell,
+                    &d->left.also, why);
 }
 
 static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,
@@ -235,7 +237,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(find_what_stands(job, d, why));
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
-  TRY(look_for_more(d, why));
+  TRY(look_for_more(job, d, why));
   const verify_job_t names = held_out(job, d);
   return verify_held(&names, &d->nominal, &d->held_out, why);
 }

@@ -2,6 +2,7 @@
 #ifndef SIM_GAP_DIAGNOSE_H
 #define SIM_GAP_DIAGNOSE_H
 
+#include "gap/5_infer/for_a_time.h"
 #include "gap/5_infer/unknown.h"
 #include "gap/7_verify/verify.h"
 
@@ -36,11 +37,12 @@ typedef struct {
   by_turns_t turns; // by which numbers the held-out rows are judged
   model_t extended;
   closed_loop_t loop;
-  timing_t timing;   // of the fitted flights
-  chosen_t flown;    // what nominal flights had beside the model
-  bool nominal_flew; // false: none could; then names need more evidence and nothing is unknown
-  judged_t left;     // what no name explains
-  bool unknown;      // it is beyond its bound
+  timing_t timing;         // of the fitted flights
+  chosen_t flown;          // what nominal flights had beside the model
+  bool nominal_flew;       // false: none could; then names need more evidence and nothing is unknown
+  judged_t left;           // what no name explains
+  bool unknown;            // it is beyond its bound
+  for_a_time_t for_a_time; // what would do for it
   held_t held_out;
   double *residual[CHANNELS]; // of the fitted flights, extended model
 } diagnosis_t;

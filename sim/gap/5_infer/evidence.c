@@ -10,8 +10,8 @@
 // Sets of each size that are extended: the right one is among the best, and alike ones fill a few places.
 #define BEAM 16
 
-// Of what is typical, the spread of the priors: a name is told from an eighth on, and is rarely beyond four.
-static const double SCALE[] = {0.5, 1.0, 2.0, 4.0};
+// Of what is typical, the spread of the priors: a name is told from an eighth on.
+static const double SCALE[] = {0.5, 1.0, 2.0, EVIDENCE_TYPICAL_MOST};
 #define SCALES ((int)(sizeof SCALE / sizeof *SCALE))
 
 typedef struct {

@@ -17,7 +17,8 @@
 
 #include "gap/5_infer/round.h"
 
-#define EVIDENCE_DEPTH NAMED_MAX // effects of a set, at most
+#define EVIDENCE_DEPTH        NAMED_MAX // effects of a set, at most
+#define EVIDENCE_TYPICAL_MOST 4.0       // of what is typical: the widest prior; effects are rarely beyond it
 
 typedef struct {
   int n, of[EVIDENCE_DEPTH];    // candidates, in their order

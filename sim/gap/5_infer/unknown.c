@@ -196,10 +196,6 @@ double unknown_in_windows(const scan_t *scan) {
 
 // --- what is beyond nominal flights -----------------------------------------------------------------------
 
-// Of what explains most, that explains as much: a window ends on a bin, and may miss a fifth of what is
-// there.
-#define TIE 0.8
-
 // The largest statistic of all windows of a coordinate, where there is noise alone.
 static double of_noise(void) {
   return limits_noise(WINDOWS_TRIED);
@@ -254,7 +250,8 @@ static void weigh_ties(const scan_t *log, judged_t *to) {
   bool tied[UNKNOWN_CELLS];
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     const cell_t *const c = &log->cell[k];
-    tied[k] = beyond(c, to->bound[k]) > 0.0 && of_one_force(c, &best) && c->explained >= TIE * best.explained;
+    tied[k] = beyond(c, to->bound[k]) > 0.0 && of_one_force(c, &best) &&
+              c->explained >= UNKNOWN_TIE * best.explained;
     if (!tied[k] || !goes_before(c, &to->cell)) continue;
     to->cell = *c;
     to->cell_bound = to->bound[k];

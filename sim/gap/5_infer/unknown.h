@@ -62,6 +62,10 @@ typedef struct {
   cell_t also; // of the same force, along something else, explains as much but for a fifth; statistic 0: none
 } judged_t;
 
+// Of what explains most, that explains as much: a window ends on a bin, and may miss a fifth of what is
+// there.
+#define UNKNOWN_TIE 0.8
+
 // nominal: n scans of flights in which nothing is hidden. misfit: by channel, what a right model leaves, rms:
 // six times as much is as large as an effect that is named.
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],

@@ -100,6 +100,10 @@ void page_unknown(const report_t *r, FILE *out) {
   if (d->left.also.statistic > 0.0) fprintf(out, ", or at %s as well", report_place(&d->left.also, where));
   fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
           d->unknown ? "" : ": chance, or a right form with other numbers");
+  char acts[REPORT_FOR_A_TIME];
+  if (d->for_a_time.n)
+    fprintf(out, "\n<p>%s. It is not named: effects are looked for as acting all the time.</p>",
+            report_for_a_time(&d->for_a_time, acts));
   if (c->along != NOWHERE) {
     fputs("\n<figure>", out);
     picture_place(&r->left, c->from, c->to, "the largest cell", out);

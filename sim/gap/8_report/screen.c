@@ -61,6 +61,11 @@ static void print_unknown(const judged_t *left, FILE *out) {
   fputc('\n', out);
 }
 
+static void print_for_a_time(const for_a_time_t *f, FILE *out) {
+  char text[REPORT_FOR_A_TIME];
+  if (f->n) fprintf(out, "  %s\n", report_for_a_time(f, text));
+}
+
 static void print_gap(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   if (!report_has_residual(r)) return;
@@ -150,7 +155,10 @@ void report_words(const report_t *r, FILE *out) {
   print_verdict(r, out);
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
   if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
-  if (r->study->diagnosis.unknown) print_unknown(&r->study->diagnosis.left, out);
+  if (r->study->diagnosis.unknown) {
+    print_unknown(&r->study->diagnosis.left, out);
+    print_for_a_time(&r->study->diagnosis.for_a_time, out);
+  }
   print_gap(r, out);
   print_untested(r, out);
   for (int i = 0; i < r->warnings.n && i < WARNINGS; i++)

@@ -107,6 +107,23 @@ static void add_place(cJSON *o, const cell_t *c) {
   add(o, {.key = "y_from", .number = c->y_from_m}, {.key = "y_to", .number = c->y_to_m});
 }
 
+// In the time that `unknown` tells, or (outside) in all other.
+static void add_acts_as(cJSON *o, const for_a_time_t *f) {
+  cJSON *const list = cJSON_AddArrayToObject(o, "acts_as");
+  for (int i = 0; i < f->n; i++) {
+    const would_do_t *const one = &f->would[i];
+    cJSON *const would = add_object(list);
+    int n;
+    const fx_param_t *const param = fx_use_params(&one->use, &n);
+    cJSON_AddStringToObject(would, "name", one->use.fx->name);
+    cJSON *const all = cJSON_AddObjectToObject(would, "parameters");
+    for (int k = 0; k < n; k++) cJSON_AddNumberToObject(all, param[k].name, one->use.p[k]);
+    cJSON_AddBoolToObject(would, "outside", f->outside);
+    add(would, {.key = "from_s", .number = f->from_s}, {.key = "to_s", .number = f->to_s},
+        {.key = "share", .number = one->share});
+  }
+}
+
 static void add_unknown(cJSON *root, const diagnosis_t *d) {
   if (!d->unknown) {
     cJSON_AddNullToObject(root, "unknown");
@@ -117,6 +134,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   add_place(o, c);
   add(o, {.key = "size", .number = c->size}, {.key = "stderr", .number = fabs(c->size) / c->statistic});
   if (d->left.also.statistic > 0.0) add_place(cJSON_AddObjectToObject(o, "also"), &d->left.also);
+  add_acts_as(o, &d->for_a_time);
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[c->channel]);
 }

@@ -1,0 +1,33 @@
+// for_a_time.h - which effects of the library would do for what has no name, if they acted for a time only.
+//
+// A load that is picked up, a propeller that chips: every effect of the library acts all the time, and so
+// none is named. What is left in that time is fitted with each alone, and what is left in all the other time;
+// noise is what the quieter of the two has.
+#ifndef SIM_GAP_5_INFER_FOR_A_TIME_H
+#define SIM_GAP_5_INFER_FOR_A_TIME_H
+
+#include "gap/4_candidates/candidates.h"
+#include "gap/5_infer/windows.h"
+
+enum { FOR_A_TIME_MAX = 3 };
+
+typedef struct {
+  fx_use_t use; // with its numbers; of what the model has, the difference
+  double share; // of the sum of squares beyond noise that it takes there, at most 1
+  double worth; // the same, less what a right form with other numbers leaves for each number more than one
+} would_do_t;
+
+typedef struct {
+  int n;                            // 0: nothing of the library would do, or it is of no time
+  bool outside;                     // in all the time but that
+  double from_s, to_s;              // of the log
+  would_do_t would[FOR_A_TIME_MAX]; // the one that is worth most first
+} for_a_time_t;
+
+// cell, also: where it is (windows.h). Of these the one that is along the time counts, if it is two blocks
+// long, and the rest of the time, too. base, chosen: the model, and what is named beside it. FAILED: no
+// memory.
+MUST_CHECK done_t for_a_time(for_a_time_t *to, set_t *s, const model_t *base, const candidates_t *c,
+                             const chosen_t *chosen, const cell_t *cell, const cell_t *also, why_t *why);
+
+#endif
