@@ -13,6 +13,7 @@
 #define MEAN_OF     50   // samples from which a mean says something
 #define WINDOWS_MIN 6    // windows from which a slope has an error of its own
 #define CLEARLY     4.0  // standard errors
+#define OTHER_SCALE 0.02 // of a right form as much is left (CANDIDATES_MISFIT)
 #define FLIES_AT    0.3  // of the largest thrust: it flies
 #define RANGE_M     0.02 // no range sensor sees nearer only
 #define SHARE_MIN   0.65 // of the other motors' mean: the commands of another unit, or half of them
@@ -47,6 +48,9 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
 
 typedef struct {
   double n, gg, mg, mm, mean;
+  // Where the scale is nearly right: less the mean difference. Of those windows in which what drives moves,
+  // of those in which what is driven does, and of all.
+  double offset, driven_gg, driven_mg, moved_mg, moved_mm, left;
 } slope_t;
 
 // The slope of what moves against what drives it, over the windows in which one of both does.
@@ -61,10 +65,15 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.
         if (pass == 0) slope[k].mean += (w.driven[k] - slope[k].mean) / n;
+        if (pass == 0) slope[k].offset += (w.driven[k] - w.moved[k] - slope[k].offset) / n;
         const double g = w.driven[k] - slope[k].mean, moved = w.moved[k];
         if (pass == 0 || (fabs(g) < drive->least && fabs(moved) < drive->least)) continue;
         slope[k].n += 1.0;
         slope[k].gg += g * g, slope[k].mg += moved * g, slope[k].mm += moved * moved;
+        const double d = w.driven[k] - slope[k].offset;
+        if (fabs(d) >= drive->least) slope[k].driven_gg += d * d, slope[k].driven_mg += moved * d;
+        if (fabs(moved) >= drive->least) slope[k].moved_mg += moved * d, slope[k].moved_mm += moved * moved;
+        slope[k].left += (moved - d) * (moved - d);
       }
     }
 }
@@ -83,7 +92,28 @@ static void what_fits(const log_rows_t *rows, signal_id_t column, signal_id_t mo
     snprintf(text, FITS, "; the other sign of one of both would fit (scale = -1 in a columns file)");
 }
 
-static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
+// All axes together. Noise of what drives makes the slope over the windows in which it moves too flat; noise
+// of what is driven, over those in which that does, too steep: the truth lies between.
+static void note_scale(gap_flight_t *f, const drive_t *drive, const slope_t slope[3]) {
+  slope_t all = {.n = 0.0};
+  for (int k = 0; k < 3; k++) {
+    all.n += slope[k].n, all.left += slope[k].left;
+    all.driven_gg += slope[k].driven_gg, all.driven_mg += slope[k].driven_mg;
+    all.moved_mg += slope[k].moved_mg, all.moved_mm += slope[k].moved_mm;
+  }
+  if (all.n < WINDOWS_MIN || !(all.driven_mg > 0.0 && all.moved_mg > 0.0)) return;
+  const double flat = all.driven_mg / all.driven_gg, steep = all.moved_mm / all.moved_mg;
+  const double stderr_b = sqrt(all.left / (all.n * all.driven_gg));
+  const double times = flat > 1.0 ? flat : fmin(steep, 1.0), off = fabs(times - 1.0);
+  if (off > OTHER_SCALE && off > CLEARLY * stderr_b)
+    gap_note(f,
+             "the %s %s %.3f +- %.1g times as far as the %s says: one of the two has another scale or place, "
+             "and a "
+             "name may be made of it",
+             drive->what, drive->moves, times, stderr_b, drive->by);
+}
+
+static done_t check_drive(gap_flight_t *f, const log_rows_t *rows, const drive_t *drive, why_t *why) {
   slope_t slope[3] = {0};
   slopes(f, drive, slope);
   for (int k = 0; k < 3; k++) {
@@ -100,6 +130,7 @@ static done_t check_drive(const gap_flight_t *f, const log_rows_t *rows, const d
                         "allowed: 0.33 to 3%s",
                         drive->what, drive->moves, b, 'x' + k, drive->by, text);
   }
+  note_scale(f, drive, slope);
   return DONE;
 }
 
@@ -221,7 +252,7 @@ static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t
                       most_m, m->name, m->ceiling_m, from);
 }
 
-done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
+done_t gap_check(gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   static const drive_t *const drives[] = {&GAP_TURN, &GAP_GO, &GAP_PUSH};
   TRY(check_acceleration(f, rows, why));
   for (int i = 0; i < 3; i++)

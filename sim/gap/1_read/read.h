@@ -127,6 +127,6 @@ skew_t gap_skew(const gap_flight_t *f, const drive_t *drive);
 MUST_CHECK done_t gap_check_moves(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
 
 // BAD_INPUT: signals contradict physics or each other over the whole flight.
-MUST_CHECK done_t gap_check(const gap_flight_t *f, const log_rows_t *rows, why_t *why);
+MUST_CHECK done_t gap_check(gap_flight_t *f, const log_rows_t *rows, why_t *why);
 
 #endif

@@ -223,3 +223,30 @@ TEST(gap_says_which_unit_of_commanded_speeds_fits) {
     check_read(&columns, &vehicle, row[i].want);
   }
 }
+
+// What is right within a factor of three is read; more than 2 % is told.
+TEST(gap_tells_of_a_scale_that_attitude_or_velocity_contradict) {
+  static const struct {
+    const char *what;
+    flight_csv_t made;
+    const char *want; // null: nothing is told
+  } row[] = {
+      {"all as it is", {.column = FC_GX, .more = 2, .scale = 1.0}, NULL},
+      {"a gyro that reads 5 % more", {.column = FC_GX, .more = 2, .scale = 1.05}, "the attitude turns 0.95"},
+      {"a gyro that reads 5 % less", {.column = FC_GX, .more = 2, .scale = 0.95}, "the attitude turns 1.0"},
+      {"1 %, as a right form leaves", {.column = FC_GX, .more = 2, .scale = 1.01}, NULL},
+      {"an accelerometer", {.column = FC_AX, .more = 2, .scale = 1.05}, "the velocity changes 0.9"}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_flight_t f;
+    why_t why = {""};
+    bool told = false, any = false;
+    ROW("%s", row[i].what);
+    if (!CHECK_OK(read_made(&f, &row[i].made, &why))) continue;
+    for (int k = 0; k < f.n_note; k++) {
+      any = any || strstr(f.note[k], "another scale");
+      told = told || (row[i].want && strstr(f.note[k], row[i].want));
+    }
+    CHECK(any == (row[i].want != NULL) && told == any);
+    gap_flight_free(&f);
+  }
+}
