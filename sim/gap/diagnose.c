@@ -106,8 +106,8 @@ static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
   d->unknown = d->nominal_flew && d->left.found;
   if (!d->unknown) return DONE;
-  return for_a_time(&d->for_a_time, &d->fit, job->model, &d->candidates, &d->found.chosen, &d->left.cell,
-                    &d->left.also, why);
+  return for_a_time(&d->for_a_time, &d->fit, d->residual, job->model, &d->candidates, &d->found.chosen,
+                    &d->left.cell, &d->left.also, why);
 }
 
 static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,

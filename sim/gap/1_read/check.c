@@ -107,9 +107,8 @@ static void note_scale(gap_flight_t *f, const drive_t *drive, const slope_t slop
   const double times = flat > 1.0 ? flat : fmin(steep, 1.0), off = fabs(times - 1.0);
   if (off > OTHER_SCALE && off > CLEARLY * stderr_b)
     gap_note(f,
-             "the %s %s %.3f +- %.1g times as far as the %s says: one of the two has another scale or place, "
-             "and a "
-             "name may be made of it",
+             "the %s %s %.3f +- %.1g times as far as the %s says: one of them has another scale, and a name "
+             "may be made of it",
              drive->what, drive->moves, times, stderr_b, drive->by);
 }
 

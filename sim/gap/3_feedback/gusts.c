@@ -10,7 +10,7 @@ enum {
   STRETCH_BLOCKS = 2,          // 4 s: what a vehicle passes through takes seconds, and a gust less
   LAGS = (int)RESIDUAL_HZ + 1, // up to a second
   SLOW_LAG = 2,                // rows: below, the filter of the rows correlates
-  TAUS = 6,                    // from one row to 32, which is as far: each twice as long as the one before
+  TAUS = 5,                    // a row, twice as long and so on: of more than 16 a stretch has too little
   WHITE = TAUS,                // the last trial
   TRIALS,
   ENOUGH_ROWS = 4000 // four flights of 40 s: what a trial errs by adds little to what the log does
@@ -18,16 +18,17 @@ enum {
 
 // --- covariances ------------------------------------------------------------------------------------------
 
-// By channel.
+// By channel, in the quieter half.
 typedef struct {
-  double of[CH_FORCES][LAGS]; // means of products of rows so far apart, in the quieter half
-  double changes[CH_FORCES];  // half the mean square of what changes from row to row, everywhere
+  double of[CH_FORCES][LAGS]; // sums of products of rows so far apart, over the number of all rows
+  double changes[CH_FORCES];  // half the mean square of what changes from row to row
 } lags_t;
 
 // Of one stretch, about its mean.
 typedef struct {
   double of[LAGS];
-  double slow; // those from SLOW_LAG on together
+  double changes, pairs; // sum of squares, and of how many
+  double slow;           // the products from SLOW_LAG on, a row
 } stretch_t;
 
 // The end of the stretch that begins with row `from`.
@@ -45,8 +46,11 @@ static stretch_t stretch_of(const rows_t *r, const double *v, int from, int end)
   for (int i = from, first = from; i < end; i++) {
     if (!r->follows[i]) first = i;
     for (int lag = 0; lag < LAGS && i - lag >= first; lag++) s.of[lag] += (v[i] - mean) * (v[i - lag] - mean);
+    if (i == first) continue;
+    s.changes += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+    s.pairs += 1.0;
   }
-  for (int lag = SLOW_LAG; lag < LAGS; lag++) s.slow += s.of[lag];
+  for (int lag = SLOW_LAG; lag < LAGS; lag++) s.slow += s.of[lag] / (end - from);
   return s;
 }
 
@@ -54,17 +58,21 @@ static done_t add_lags(const set_t *s, const double *v, double sum[LAGS], double
   const rows_t *const r = &s->smooth;
   const size_t room = (size_t)s->n_block + 1;
   stretch_t *const stretch = malloc(room * sizeof *stretch);
-  double *const slow = malloc(room * sizeof *slow);
+  double *const slow = malloc(room * sizeof *slow), squares = 0.0, pairs = 0.0;
   int n = 0;
   for (int from = 0, end; stretch && slow && from < r->n; from = end, n++) {
     end = stretch_end(r, from);
     stretch[n] = stretch_of(r, v, from, end);
     slow[n] = stretch[n].slow;
-    *changes += (stretch[n].of[0] - stretch[n].of[1]) / r->n;
   }
   const double most = n ? nth_smallest(slow, n, (n - 1) / 2) : 0.0;
-  for (int k = 0; k < n; k++)
-    for (int lag = 0; lag < LAGS && stretch[k].slow <= most; lag++) sum[lag] += stretch[k].of[lag] / r->n;
+  for (int k = 0; k < n; k++) {
+    if (stretch[k].slow > most) continue;
+    for (int lag = 0; lag < LAGS; lag++) sum[lag] += stretch[k].of[lag] / r->n;
+    squares += stretch[k].changes;
+    pairs += stretch[k].pairs;
+  }
+  *changes += pairs > 0.0 ? 0.5 * squares / pairs : 0.0;
   const bool good = stretch && slow;
   free(stretch);
   free(slow);
@@ -90,6 +98,17 @@ static void draw(const grid_t *g, double tau_s, random_t *random, double *v) {
   for (int j = 1; j < g->n; j++) v[j] = keep * v[j - 1] + fresh * v[j];
 }
 
+// Of a velocity's noise that of the acceleration which is made of it.
+static void differentiate(const grid_t *g, double *v) {
+  double before = v[0];
+  for (int j = 1; j + 1 < g->n; j++) {
+    const double here = v[j];
+    v[j] = (v[j + 1] - before) / (2.0 * g->period_s);
+    before = here;
+  }
+  v[0] = v[g->n - 1] = 0.0;
+}
+
 // As rows; white noise as what is measured, the others as what is predicted.
 static done_t draw_rows(const set_t *s, double tau_s, unsigned long seed, double *const row[CHANNELS],
                         why_t *why) {
@@ -98,7 +117,10 @@ static done_t draw_rows(const set_t *s, double tau_s, unsigned long seed, double
   const bool good = random && flight_lines_make(&l, s);
   double *const forces[CHANNELS] = {row[CH_FX], row[CH_FY], row[CH_FZ]};
   for (int f = 0; good && f < s->n_grid; f++) {
-    for (int ch = 0; ch < CH_FORCES; ch++) draw(&s->grid[f], tau_s, random, l.base[ch]);
+    for (int ch = 0; ch < CH_FORCES; ch++) {
+      draw(&s->grid[f], tau_s, random, l.base[ch]);
+      if (tau_s == 0.0 && s->grid[f].acceleration_made) differentiate(&s->grid[f], l.base[ch]);
+    }
     residual_rows(s, f, tau_s > 0.0 ? SERIES_PREDICTED : SERIES_RATE, (const double *const *)l.base,
                   l.scratch, forces);
   }
@@ -172,21 +194,22 @@ static fit_t fit(const double log[LAGS], const double lasting[LAGS], const doubl
   return f;
 }
 
-// Air that moves pushes each way alike: what one axis alone has, or lacks, is no gust. The middle one's is
-// all's.
-static double middle(const set_t *s, const double sd[CH_FORCES]) {
+// Air that moves pushes each way alike: what one axis has more than the middle one is no gust.
+static void take_gusts(const set_t *s, const double sd[CH_FORCES], gusts_t *to) {
   double of[CH_FORCES];
   int n = 0;
   for (int ch = 0; ch < CH_FORCES; ch++)
     if (residual_has(s, ch)) of[n++] = sd[ch];
-  return n ? nth_smallest(of, n, (n - 1) / 2) : 0.0;
+  const double middle = n ? nth_smallest(of, n, (n - 1) / 2) : 0.0;
+  for (int ch = 0; ch < CH_FORCES; ch++) to->force_mps2[ch] = fmin(sd[ch], middle);
 }
 
 // What changes from row to row more than by the gusts is white.
 static void find_white(const set_t *s, const lags_t *log, const lags_t *lasting, const lags_t *white,
                        gusts_t *to) {
-  const double gusts = to->force_mps2 * to->force_mps2, every = s->grid[0].every; // a point is a mean
+  const double every = s->grid[0].every; // a point is a mean
   for (int ch = 0; ch < CH_FORCES; ch++) {
+    const double gusts = to->force_mps2[ch] * to->force_mps2[ch];
     const double left = fmax(log->changes[ch] - gusts * lasting->changes[ch], 0.0);
     to->white[ch] = white->changes[ch] > 0.0 ? sqrt(every * left / white->changes[ch]) : 0.0;
   }
@@ -196,6 +219,7 @@ done_t gusts_of(const set_t *s, double *const residual[CHANNELS], unsigned long 
                 why_t *why) {
   lags_t trial[TRIALS], log = {.changes = {0.0}};
   double least = HUGE_VAL;
+  *to = (gusts_t){.tau_s = tau_of(0)};
   TRY(add_forces(s, residual, &log, why));
   TRY(try_all(s, seed, trial, why));
   for (int k = 0; k < TAUS; k++) {
@@ -207,7 +231,8 @@ done_t gusts_of(const set_t *s, double *const residual[CHANNELS], unsigned long 
     }
     if (!(left < least)) continue;
     least = left;
-    *to = (gusts_t){.tau_s = tau_of(k), .force_mps2 = middle(s, sd)};
+    to->tau_s = tau_of(k);
+    take_gusts(s, sd, to);
     find_white(s, &log, &trial[k], &trial[WHITE], to);
   }
   return DONE;

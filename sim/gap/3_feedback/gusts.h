@@ -11,9 +11,9 @@
 #include "gap/2_predict/set.h"
 
 typedef struct {
-  double force_mps2;       // sd of what lasts, along each axis; 0 where the log has no force
-  double tau_s;            // its correlation time: 0.04 to 1.28
-  double white[CH_FORCES]; // sd of a sample: m/s2; m/s where the acceleration is made of velocities
+  double force_mps2[CH_FORCES]; // sd of what lasts; 0 where the log has no force
+  double tau_s;                 // its correlation time: 0.04 to 0.64
+  double white[CH_FORCES];      // sd of a sample: m/s2; m/s where the acceleration is made of velocities
 } gusts_t;
 
 // residual: by channel and row. FAILED: no memory.

@@ -6,8 +6,8 @@
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
 // height; what turns it by how much the log's vehicle turns, if that is swifter (swiftness.c); with as much
 // lead on the rates as makes its commands as noisy as the log's. Noise and disturbance are those of the log:
-// sensors by what two successive samples differ by, disturbing forces (gusts.h) and moments, first-order
-// Gauss-Markov, by what the residual has beyond that.
+// sensors by what two successive samples differ by, but the accelerometer by the rows; disturbing forces
+// (gusts.h) and moments, first-order Gauss-Markov, by what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 

@@ -17,21 +17,38 @@ typedef struct {
   double *sums[2];
 } times_t;
 
-static void add_block(times_t *t, const gram_t *g, int block, bool inside) {
-  const size_t n = (size_t)(g->size * g->size);
-  t->blocks[!inside]++;
-  for (size_t i = 0; i < n; i++) t->sums[!inside][i] += g->block[(size_t)block * n + i];
+static bool is_inside(const set_t *s, const rows_t *r, const model_t *m, const cell_t *time, int row) {
+  const double t_s = coordinate_of(COORDINATE_TIME, &s->grid[r->flight[row]], m, r->point[row]);
+  return t_s >= time->from && t_s <= time->to;
 }
 
-static void add_blocks(times_t *t, const gram_t *g, const set_t *s, const model_t *m, const cell_t *cell) {
+// A block belongs where more of its rows are.
+static void add_blocks(times_t *t, const gram_t *g, const set_t *s, const model_t *m, const cell_t *time) {
   const rows_t *const r = &s->smooth;
+  const size_t n = (size_t)(g->size * g->size);
   for (int i = 0, end; i < r->n; i = end) {
-    double sum_s = 0.0;
-    for (end = i; end < r->n && r->block[end] == r->block[i]; end++)
-      sum_s += coordinate_of(COORDINATE_TIME, &s->grid[r->flight[end]], m, r->point[end]);
-    const double middle_s = sum_s / (end - i);
-    add_block(t, g, r->block[i], middle_s >= cell->from && middle_s <= cell->to);
+    int inside = 0;
+    for (end = i; end < r->n && r->block[end] == r->block[i]; end++) inside += is_inside(s, r, m, time, end);
+    const int side = 2 * inside < end - i;
+    t->blocks[side]++;
+    for (size_t k = 0; k < n; k++) t->sums[side][k] += g->block[(size_t)r->block[i] * n + k];
   }
+}
+
+// By the channel in which it was found: it acts where more is left. False: half of that, or more, is there at
+// other times, too.
+static bool find_side(const set_t *s, const model_t *m, double *const residual[CHANNELS], const cell_t *time,
+                      bool *outside) {
+  const rows_t *const r = set_rows(s, time->channel);
+  double squares[2] = {0.0}, rows[2] = {0.0};
+  for (int i = 0; i < r->n; i++) {
+    const int side = !is_inside(s, r, m, time, i);
+    squares[side] += residual[time->channel][i] * residual[time->channel][i];
+    rows[side] += 1.0;
+  }
+  *outside = squares[1] * rows[0] > squares[0] * rows[1];
+  const int here = *outside, there = !here;
+  return squares[there] * rows[here] < SCORE_MOST * squares[here] * rows[there];
 }
 
 // The last column is the residual with what is chosen taken out again: it is put back.
@@ -63,7 +80,7 @@ static int numbers_of(const candidates_t *c, const chosen_t *chosen, int *column
 }
 
 static done_t times_make(times_t *t, set_t *s, const model_t *base, const candidates_t *c,
-                         const chosen_t *chosen, const cell_t *cell, why_t *why) {
+                         const chosen_t *chosen, const cell_t *time, why_t *why) {
   int column[CHOSEN_MAX * FX_SIZE_MAX];
   double b[CHOSEN_MAX * FX_SIZE_MAX];
   design_t table = {.columns = 0};
@@ -74,12 +91,11 @@ static done_t times_make(times_t *t, set_t *s, const model_t *base, const candid
   if (status == DONE) {
     const size_t room = (size_t)(g.size * g.size);
     t->size = g.size;
-    t->sums[0] = calloc(2 * room, sizeof(double));
-    t->sums[1] = t->sums[0] + room;
-    if (!t->sums[0]) status = error_failed(why, "out of memory");
+    for (int i = 0; i < 2; i++) t->sums[i] = calloc(room, sizeof(double));
+    if (!t->sums[0] || !t->sums[1]) status = error_failed(why, "out of memory");
   }
   if (status == DONE) {
-    add_blocks(t, &g, s, base, cell);
+    add_blocks(t, &g, s, base, time);
     for (int i = 0; i < 2; i++) put_back(t->sums[i], t->size, known.n, column, b);
   }
   gram_free(&g);
@@ -87,15 +103,17 @@ static done_t times_make(times_t *t, set_t *s, const model_t *base, const candid
   return status;
 }
 
-// What a candidate alone takes from sums, at numbers that it can have.
-static double taken_by(const candidate_t *c, const double *G, int size, fx_use_t *use) {
+// What a candidate alone takes from sums, at numbers that it can have: of what is chosen, beside its own.
+static double taken_by(const candidate_t *c, const fx_use_t *chosen, const double *G, int size,
+                       fx_use_t *use) {
   int column[FX_SIZE_MAX];
   double b[FX_SIZE_MAX], taken = 0.0;
   for (int k = 0; k < c->n; k++) column[k] = c->first + k;
   lsq_solve_products(G, size, column, c->n, NULL, b, NULL);
   *use = c->use;
   for (int k = 0; k < c->n; k++) {
-    b[k] = isfinite(b[k]) ? candidate_possible(c, k, b[k]) : 0.0;
+    const double now = chosen ? fx_use_size(chosen, k) : 0.0;
+    b[k] = isfinite(b[k]) ? candidate_possible(c, k, now + b[k]) - now : 0.0;
     fx_use_resize(use, k, b[k]);
   }
   for (int k = 0; k < c->n; k++) {
@@ -133,31 +151,35 @@ static void put_in(for_a_time_t *to, would_do_t one) {
   to->would[at] = one;
 }
 
-static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c) {
-  const int last = t->size * t->size - 1;
-  const double in = t->sums[0][last] / t->blocks[0], out = t->sums[1][last] / t->blocks[1];
-  const double beyond = fabs(in - out) * t->blocks[out > in];
-  to->outside = out > in;
+static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c, const chosen_t *chosen) {
+  const int last = t->size * t->size - 1, here = to->outside, there = !here;
+  const double beyond = t->sums[here][last] - t->sums[there][last] / t->blocks[there] * t->blocks[here];
+  if (!(beyond > 0.0)) return;
   for (int i = 0; i < c->n; i++) {
-    would_do_t one;
-    const double share = taken_by(&c->candidate[i], t->sums[to->outside], t->size, &one.use) / beyond;
-    one.share = fmin(share, 1.0);
-    one.worth = share - CANDIDATES_MISFIT * (c->candidate[i].n - 1);
-    if (one.worth >= SCORE_MOST && is_likely(&c->candidate[i], &one.use)) put_in(to, one);
+    const candidate_t *const one = &c->candidate[i];
+    would_do_t would;
+    const double share = taken_by(one, chosen_use(chosen, i), t->sums[here], t->size, &would.use) / beyond;
+    would.share = fmin(share, 1.0);
+    would.worth = share - CANDIDATES_MISFIT * (one->n - 1);
+    if (would.worth >= SCORE_MOST && is_likely(one, &would.use)) put_in(to, would);
   }
   while (to->n && to->would[to->n - 1].worth < UNKNOWN_TIE * to->would[0].worth) to->n--;
 }
 
-done_t for_a_time(for_a_time_t *to, set_t *s, const model_t *base, const candidates_t *c,
-                  const chosen_t *chosen, const cell_t *cell, const cell_t *also, why_t *why) {
+done_t for_a_time(for_a_time_t *to, set_t *s, double *const residual[CHANNELS], const model_t *base,
+                  const candidates_t *c, const chosen_t *chosen, const cell_t *cell, const cell_t *also,
+                  why_t *why) {
   *to = (for_a_time_t){.n = 0};
   const cell_t *const time = cell->along == COORDINATE_TIME ? cell : also;
-  if (time->along != COORDINATE_TIME || !(time->statistic > 0.0)) return DONE;
+  if (time->along != COORDINATE_TIME || !(time->statistic > 0.0) || time->to - time->from < 2.0 * BLOCK_S)
+    return DONE;
+  if (!find_side(s, base, residual, time, &to->outside)) return DONE;
   times_t t = {.size = 0};
   const done_t status = times_make(&t, s, base, c, chosen, time, why);
   to->from_s = time->from;
   to->to_s = time->to;
-  if (status == DONE && t.blocks[0] > 1 && t.blocks[1] > 1) judge(to, &t, c);
+  if (status == DONE && t.blocks[0] > 1 && t.blocks[1] > 1) judge(to, &t, c, chosen);
   free(t.sums[0]);
+  free(t.sums[1]);
   return status;
 }

@@ -1,8 +1,8 @@
 // for_a_time.h - which effects of the library would do for what has no name, if they acted for a time only.
 //
 // A load that is picked up, a propeller that chips: every effect of the library acts all the time, and so
-// none is named. What is left in that time is fitted with each alone, and what is left in all the other time;
-// noise is what the quieter of the two has.
+// none is named. What is left while it acts, in that time or in all other, is fitted with each effect alone;
+// what the rest of the time leaves is noise. Times count from the beginning of each log.
 #ifndef SIM_GAP_5_INFER_FOR_A_TIME_H
 #define SIM_GAP_5_INFER_FOR_A_TIME_H
 
@@ -13,7 +13,7 @@ enum { FOR_A_TIME_MAX = 3 };
 
 typedef struct {
   fx_use_t use; // with its numbers; of what the model has, the difference
-  double share; // of the sum of squares beyond noise that it takes there, at most 1
+  double share; // of what is left there beyond noise, of the squares: what it takes, at most 1
   double worth; // the same, less what a right form with other numbers leaves for each number more than one
 } would_do_t;
 
@@ -25,9 +25,10 @@ typedef struct {
 } for_a_time_t;
 
 // cell, also: where it is (windows.h). Of these the one that is along the time counts, if it is two blocks
-// long, and the rest of the time, too. base, chosen: the model, and what is named beside it. FAILED: no
-// memory.
-MUST_CHECK done_t for_a_time(for_a_time_t *to, set_t *s, const model_t *base, const candidates_t *c,
-                             const chosen_t *chosen, const cell_t *cell, const cell_t *also, why_t *why);
+// long, and the rest of the time, too. residual: what is left, by channel and row. base, chosen: the model,
+// and what is named beside it. FAILED: no memory.
+MUST_CHECK done_t for_a_time(for_a_time_t *to, set_t *s, double *const residual[CHANNELS],
+                             const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                             const cell_t *cell, const cell_t *also, why_t *why);
 
 #endif

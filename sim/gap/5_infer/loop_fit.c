@@ -18,45 +18,44 @@ static double mean_squares(const double *v, int n) {
   return n ? squares / n : 0.0;
 }
 
-static squares_t moments_left(const set_t *s, const lines_t *l) {
-  squares_t left;
-  for (int k = 0; k < 3; k++) left.of[k] = mean_squares(l->r[CH_WX + k], s->smooth.n);
-  return left;
+static done_t moments_left(squares_t *left, set_t *s, const model_t *m, lines_t *l, why_t *why) {
+  TRY(residual_lines(s, m, l, why));
+  for (int k = 0; k < 3; k++) left->of[k] = mean_squares(l->r[CH_WX + k], s->smooth.n);
+  return DONE;
 }
 
-static done_t read_rows(closed_loop_t *loop, const set_t *s, const model_t *m, const flown_by_t *by,
-                        unsigned long seed, const lines_t *l, why_t *why) {
+// Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
+// flights are to show: they are read with their mean, and before the cleaning.
+static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
+                       unsigned long seed, lines_t *l, why_t *why) {
   gusts_t gusts;
+  TRY(moments_left(left, s, m, l, why));
   TRY(gusts_of(s, l->r, seed, &gusts, why));
   *loop = closed_loop_of(s, m, by, l->r);
   TRY(unknown_clean(s, m, l->r, why));
   loop->range_m = closed_loop_range_m(s, m, l->r[CH_RANGE]);
   loop->force_tau_s = gusts.tau_s;
-  // Not of what two samples differ by: an accelerometer that filters seems calmer by that.
-  if (s->grid[0].has_force && !s->grid[0].acceleration_made)
-    memcpy(loop->acc_mps2, gusts.white, sizeof gusts.white);
-  for (int k = 0; k < 3; k++) loop->force_mps2[k] = residual_has(s, k) ? gusts.force_mps2 : 0.0;
+  for (int k = 0; k < 3; k++) {
+    if (!residual_has(s, k)) continue;
+    loop->force_mps2[k] = gusts.force_mps2[k];
+    // Not of what two samples differ by: an instrument that filters seems calmer by that.
+    if (s->grid[0].acceleration_made)
+      loop->vel_mps[k] = fmax(loop->vel_mps[k], gusts.white[k]);
+    else
+      loop->acc_mps2[k] = gusts.white[k];
+  }
   return DONE;
 }
 
-// loop: how the flights were flown, or null.
-static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
-                       unsigned long seed, why_t *why) {
-  lines_t l = {.r = {NULL}};
-  done_t status = residual_lines(s, m, &l, why);
-  if (status == DONE) *left = moments_left(s, &l);
-  if (status == DONE && loop) status = read_rows(loop, s, m, by, seed, &l, why);
-  lines_free(&l);
-  return status;
-}
-
-static done_t left_of(const gap_flights_t *flown, const set_t *like, const closed_loop_t *loop,
-                      squares_t *left, const model_t *m, why_t *why) {
+static done_t left_of(const gap_flights_t *flown, const set_t *like, squares_t *left, const model_t *m,
+                      why_t *why) {
   set_t own = {.n_grid = 0};
+  lines_t l = {.r = {NULL}};
   done_t status = nominal_set(&own, flown, m, why);
   memcpy(own.excluded, like->excluded, sizeof own.excluded);
   if (status == DONE) status = windows_keep(&own, m, why);
-  if (status == DONE) status = read_off(NULL, left, &own, m, loop->flown_by, 0, why);
+  if (status == DONE) status = moments_left(left, &own, m, &l, why);
+  lines_free(&l);
   set_free(&own);
   return status;
 }
@@ -67,7 +66,7 @@ static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, 
   gap_flights_t flown = {.flight = calloc((size_t)s->n_grid + 1, sizeof(gap_flight_t))};
   if (!flown.flight) return error_failed(why, "out of memory");
   done_t status = nominal_flights(&flown, NULL, s, m, loop, seed, why);
-  if (status == DONE) status = left_of(&flown, s, loop, left, m, why);
+  if (status == DONE) status = left_of(&flown, s, left, m, why);
   for (int f = 0; f < flown.n; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);
   return status;
@@ -120,6 +119,10 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
 done_t loop_fit(closed_loop_t *loop, set_t *s, const model_t *m, const flown_by_t *by, unsigned long seed,
                 why_t *why) {
   squares_t log;
-  TRY(read_off(loop, &log, s, m, by, seed, why));
-  return scale(loop, &log, s, m, seed, why) == FAILED ? FAILED : DONE;
+  lines_t l = {.r = {NULL}};
+  done_t status = read_off(loop, &log, s, m, by, seed, &l, why);
+  lines_free(&l);
+  TRY(status);
+  status = scale(loop, &log, s, m, seed, why);
+  return status == FAILED ? FAILED : DONE;
 }

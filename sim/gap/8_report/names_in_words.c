@@ -102,7 +102,7 @@ void page_unknown(const report_t *r, FILE *out) {
           d->unknown ? "" : ": chance, or a right form with other numbers");
   char acts[REPORT_FOR_A_TIME];
   if (d->for_a_time.n)
-    fprintf(out, "\n<p>%s. It is not named: effects are looked for as acting all the time.</p>",
+    fprintf(out, "\n<p>It is not named, for effects are looked for as acting all the time; but %s.</p>",
             report_for_a_time(&d->for_a_time, acts));
   if (c->along != NOWHERE) {
     fputs("\n<figure>", out);

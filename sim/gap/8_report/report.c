@@ -112,12 +112,12 @@ static void add_use(char text[REPORT_FOR_A_TIME], const fx_use_t *use) {
 
 const char *report_for_a_time(const for_a_time_t *f, char text[REPORT_FOR_A_TIME]) {
   text[0] = '\0';
-  text_add(text, REPORT_FOR_A_TIME, "at %s%.3g to %.3g s it acts as ", f->outside ? "all times but " : "",
+  text_add(text, REPORT_FOR_A_TIME, "at %s%.1f to %.1f s it acts as ", f->outside ? "all times but " : "",
            f->from_s, f->to_s);
   for (int i = 0; i < f->n; i++) {
     text_add(text, REPORT_FOR_A_TIME, "%s%s would (", i ? ", or " : "", f->would[i].use.fx->name);
     add_use(text, &f->would[i].use);
-    text_add(text, REPORT_FOR_A_TIME, ": %.0f %% of what is left there)", 100.0 * f->would[i].share);
+    text_add(text, REPORT_FOR_A_TIME, ": %.0f %% of what is there more)", 100.0 * f->would[i].share);
   }
   return text;
 }

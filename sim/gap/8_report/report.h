@@ -149,8 +149,8 @@ void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
 // Where a cell is: "height 0.4 to 0.6 m". Returns text.
 #define REPORT_PLACE 96
 const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
-// What would do for it for a time: "it is as if there were, but for 0.3 to 15.1 s, mass (add 0.0031 kg: 97 %
-// of what is left there)". Returns text.
+// What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %
+// of what is there more)". Returns text.
 #define REPORT_FOR_A_TIME 512
 const char *report_for_a_time(const for_a_time_t *f, char text[REPORT_FOR_A_TIME]);
 // "12.3 mm", or in metres from 1 m on. Returns text.

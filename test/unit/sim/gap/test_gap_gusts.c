@@ -21,7 +21,7 @@ static void put(gap_track_t *t) {
     for (int i = 0; i < to->n; i++)
       for (int k = 0; k < 3; k++) {
         gust[k] = keep * gust[k] + sqrt(1.0 - keep * keep) * gust_mps2 * random_normal(random);
-        const double step = k == 2 && i > 0.71 * to->n ? step_mps2 : 0.0;
+        const double step = i > 0.71 * to->n ? step_mps2 : 0.0;
         to->v[SIG_AX + k][i] += (k >= first_axis ? gust[k] : 0.0) + step;
       }
   }
@@ -63,8 +63,9 @@ TEST(gap_reads_how_strong_gusts_are_and_how_long_they_last) {
     first_axis = row[i].first_axis;
     const gusts_t gusts = read_gusts();
     CHECK(gusts.tau_s >= row[i].least_s && gusts.tau_s <= row[i].most_s);
-    CHECK(gusts.force_mps2 >= row[i].least_mps2 && gusts.force_mps2 <= row[i].most_mps2);
-    if (row[i].first_axis == 0)
-      for (int k = 0; k < 3; k++) CHECK_NEAR(gusts.white[k], 0.5, 0.15);
+    for (int k = 0; k < 3; k++) {
+      CHECK(gusts.force_mps2[k] >= row[i].least_mps2 && gusts.force_mps2[k] <= row[i].most_mps2);
+      if (row[i].first_axis == 0) CHECK_NEAR(gusts.white[k], 0.5, 0.2);
+    }
   }
 }

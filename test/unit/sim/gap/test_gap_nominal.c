@@ -267,12 +267,27 @@ static void spoil_by_shaking(gap_track_t *r) {
   random_close(random);
 }
 
+// Velocities that err for longer than a sample, and stand for the acceleration.
+static void spoil_velocities(gap_track_t *r) {
+  random_t *const random = random_open(4);
+  for (int f = 0; f < 2; f++)
+    for (int k = 0; k < 3; k++) {
+      double *const v = r->flight[f].v[SIG_VX + k], off = 0.0;
+      for (int i = 0; i < r->flight[f].n; i++) v[i] += off = 0.8 * off + 0.004 * random_normal(random);
+      free(r->flight[f].v[SIG_AX + k]);
+      r->flight[f].v[SIG_AX + k] = NULL;
+    }
+  random_close(random);
+}
+
 TEST(gap_nominal_flights_shake_as_the_log_does) {
   static const struct {
     const char *what;
     void (*spoil)(gap_track_t *r);
     int channels; // an accelerometer that shakes shows in forces; a force of that size shakes what turns, too
-  } row[] = {{"as flown", NULL, CH_SMOOTH}, {"shaken", spoil_by_shaking, CH_FORCES}};
+  } row[] = {{"as flown", NULL, CH_SMOOTH},
+             {"shaken", spoil_by_shaking, CH_FORCES},
+             {"without an accelerometer", spoil_velocities, CH_FORCES}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_track_t r;
     why_t why = {""};

@@ -12,7 +12,7 @@ TEST(gap_gives_no_name_to_what_begins_in_flight) {
     const char *effect, *seen_in, *acts_as;
   } row[] = {
       {"motor_damage:rotor=3,loss=0.12,start=30", " at time 2", // was named thrust_curve
-       "s it acts as motor_damage would (rotor 3, loss 0.12: 100 % of what is left there)\n"},
+       "s it acts as motor_damage would (rotor 3, loss 0.12: 100 % of what is there more)\n"},
       {"mass:add=-0.0016,start=15,end=35", " at time 1",
        " mass would (add -0.001"}, // ended in a mass below none
       {"mass:add=0.003,start=25", " at time 2", " mass would (add 0.00"},
