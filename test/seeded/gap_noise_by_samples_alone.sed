@@ -1,4 +1,4 @@
-# An accelerometer that filters is taken for as calm as two samples of it are alike.
+# What an accelerometer that filters has between its samples shakes nobody.
 # file: sim/gap/5_infer/loop_fit.c
-# test: gap_takes_the_age_of_a_range_sample_for_no_effect
-s/loop->acc_mps2\[k\] = gusts\.white\[k\];/(void)0;/
+# test: gap_names_nothing_that_control_makes
+/memcpy(loop->quick_mps2, gusts/d

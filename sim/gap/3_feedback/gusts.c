@@ -88,7 +88,7 @@ static done_t add_forces(const set_t *s, double *const row[CHANNELS], lags_t *su
 // --- trials -----------------------------------------------------------------------------------------------
 
 static double tau_of(int k) {
-  return k == WHITE ? 0.0 : ldexp(1.0 / RESIDUAL_HZ, k);
+  return k == WHITE ? 0.0 : ldexp(GUST_QUICK_S, k);
 }
 
 // By point, of one flight: variance 1; without memory where tau_s is 0.
@@ -204,22 +204,28 @@ static void take_gusts(const set_t *s, const double sd[CH_FORCES], gusts_t *to) 
   for (int ch = 0; ch < CH_FORCES; ch++) to->force_mps2[ch] = fmin(sd[ch], middle);
 }
 
-// What changes from row to row more than by the gusts is white.
-static void find_white(const set_t *s, const lags_t *log, const lags_t *lasting, const lags_t *white,
-                       gusts_t *to) {
+// What changes from row to row more than by the gusts, and by what two samples of the sensor differ by.
+static void find_quick(const set_t *s, const lags_t *log, const lags_t trial[TRIALS], const lags_t *lasting,
+                       const double white[CH_FORCES], gusts_t *to) {
   const double every = s->grid[0].every; // a point is a mean
   for (int ch = 0; ch < CH_FORCES; ch++) {
-    const double gusts = to->force_mps2[ch] * to->force_mps2[ch];
-    const double left = fmax(log->changes[ch] - gusts * lasting->changes[ch], 0.0);
-    to->white[ch] = white->changes[ch] > 0.0 ? sqrt(every * left / white->changes[ch]) : 0.0;
+    const double of_white = trial[WHITE].changes[ch] / every;
+    const double left = log->changes[ch] - to->force_mps2[ch] * to->force_mps2[ch] * lasting->changes[ch] -
+                        white[ch] * white[ch] * of_white;
+    to->quick_mps2[ch] = to->velocity_mps[ch] = 0.0;
+    if (!(left > 0.0 && of_white > 0.0)) continue;
+    if (s->grid[0].acceleration_made)
+      to->velocity_mps[ch] = sqrt(left / of_white);
+    else
+      to->quick_mps2[ch] = sqrt(left / trial[0].changes[ch]);
   }
 }
 
-done_t gusts_of(const set_t *s, double *const residual[CHANNELS], unsigned long seed, gusts_t *to,
-                why_t *why) {
+done_t gusts_of(const set_t *s, double *const residual[CHANNELS], const double white[CH_FORCES],
+                unsigned long seed, gusts_t *to, why_t *why) {
   lags_t trial[TRIALS], log = {.changes = {0.0}};
   double least = HUGE_VAL;
-  *to = (gusts_t){.tau_s = tau_of(0)};
+  *to = (gusts_t){.tau_s = GUST_QUICK_S};
   TRY(add_forces(s, residual, &log, why));
   TRY(try_all(s, seed, trial, why));
   for (int k = 0; k < TAUS; k++) {
@@ -233,7 +239,7 @@ done_t gusts_of(const set_t *s, double *const residual[CHANNELS], unsigned long 
     least = left;
     to->tau_s = tau_of(k);
     take_gusts(s, sd, to);
-    find_white(s, &log, &trial[k], &trial[WHITE], to);
+    find_quick(s, &log, trial, &trial[k], white, to);
   }
   return DONE;
 }

@@ -22,6 +22,7 @@ grid_t nominal_part(const grid_t *g) {
 static void calm(closed_loop_t *w) {
   for (int i = 0; i < 3; i++) {
     w->force_mps2[i] *= 0.5;
+    w->quick_mps2[i] *= 0.5;
     w->turn_radps2[i] *= 0.5;
     w->acc_mps2[i] *= 0.7;
     w->gyro_radps[i] *= 0.7;

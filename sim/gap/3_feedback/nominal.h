@@ -6,8 +6,8 @@
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
 // height; what turns it by how much the log's vehicle turns, if that is swifter (swiftness.c); with as much
 // lead on the rates as makes its commands as noisy as the log's. Noise and disturbance are those of the log:
-// sensors by what two successive samples differ by, but the accelerometer by the rows; disturbing forces
-// (gusts.h) and moments, first-order Gauss-Markov, by what the residual has beyond that.
+// sensors by what two successive samples differ by, disturbing forces (gusts.h) and moments, first-order
+// Gauss-Markov, by what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 
@@ -38,6 +38,7 @@ typedef struct {
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbing forces, sd and correlation time (gusts.h)
+  double quick_mps2[3];                            // and such as last for GUST_QUICK_S
   double turn_radps2[3], turn_tau_s;               // and moments
   const flown_by_t *flown_by; // who flew, as far as the vehicle file says; null: nobody knows
 } closed_loop_t;

@@ -3,6 +3,7 @@
 
 #include "base/larger.h"
 #include "body/side_by_side.h"
+#include "gap/3_feedback/gusts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +24,7 @@ static double step_of(const grid_t *g) {
 // --- what lasts for a while -------------------------------------------------------------------------------
 
 #define LASTS 9 // normal numbers of a step, for errors that last
-#define SHAKE 6 // and for what disturbs
+#define SHAKE 9 // and for what disturbs
 
 static decay_t decay_of(const slow_t *slow, double step_s) {
   decay_t d;
@@ -47,6 +48,7 @@ static void find_decays(nominal_flight_t *f, double step_s) {
   f->vel_keeps = decay_of(&w->slow_vel_mps, step_s);
   f->angle_keeps = decay_of(&w->slow_angle_rad, step_s);
   f->force_keeps = disturbance_of(w->force_mps2, mass_kg, w->force_tau_s, step_s);
+  f->quick_keeps = disturbance_of(w->quick_mps2, mass_kg, GUST_QUICK_S, step_s);
   f->turn_keeps = disturbance_of(w->turn_radps2, f->m->frame.inertia_kgm2, w->turn_tau_s, step_s);
 }
 
@@ -62,12 +64,17 @@ static void drift(nominal_flight_t *f, const double normal[LASTS]) {
 }
 
 // The disturbance, a step later: a part of the nominal flight, not of the model.
+static push_t shaken(nominal_flight_t *f, const double normal[SHAKE]) {
+  f->gust_w_N = drifted(f->gust_w_N, &f->force_keeps, normal);
+  f->disturbs_b_Nm = drifted(f->disturbs_b_Nm, &f->turn_keeps, normal + 3);
+  f->quick_w_N = drifted(f->quick_w_N, &f->quick_keeps, normal + 6);
+  return (push_t){d3_add(f->gust_w_N, f->quick_w_N), f->disturbs_b_Nm};
+}
+
 static void shake(nominal_flight_t *f) {
   double normal[SHAKE];
   random_normals(f->shakes, SHAKE, normal);
-  f->disturbs.force_w_N = drifted(f->disturbs.force_w_N, &f->force_keeps, normal);
-  f->disturbs.moment_b_Nm = drifted(f->disturbs.moment_b_Nm, &f->turn_keeps, normal + 3);
-  body_shake(&f->body, f->disturbs);
+  body_shake(&f->body, shaken(f, normal));
 }
 
 // It is there from the first on, at its full spread.
@@ -78,10 +85,10 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
   if (!f->shakes) return false;
   random_normals(f->shakes, 2 * SHAKE, normal);
   find_decays(f, HUGE_VAL);
-  f->disturbs = (push_t){drifted(d3(0.0, 0.0, 0.0), &f->force_keeps, normal),
-                         drifted(d3(0.0, 0.0, 0.0), &f->turn_keeps, normal + 3)};
+  f->gust_w_N = f->quick_w_N = f->disturbs_b_Nm = d3(0.0, 0.0, 0.0);
+  const push_t first = shaken(f, normal);
   find_decays(f, step_of(f->g));
-  body_shake(&f->body, f->disturbs);
+  body_shake(&f->body, first);
   body_look(&f->body, 0, f->body.y, &f->body.look);
   return true;
 }

@@ -20,7 +20,7 @@ typedef struct {
   double level, push; // 1/s: position errors to velocity, velocity errors to acceleration, level
   body_t body;
   random_t *random, *shakes; // of what is seen, and of what disturbs
-  push_t disturbs;
+  d3_t gust_w_N, quick_w_N, disturbs_b_Nm;
   gap_flight_t *log, *truth;                  // truth: what a log without errors would say; may be null
   int from, to, at;                           // points of the track
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // errors that last
@@ -38,7 +38,7 @@ typedef struct {
   d3_t acc_mps2;                              // wanted since the last look, with what carries the weight
   unsigned long seed;
   // Of what lasts, over a step.
-  decay_t pos_keeps, vel_keeps, angle_keeps, force_keeps, turn_keeps;
+  decay_t pos_keeps, vel_keeps, angle_keeps, force_keeps, quick_keeps, turn_keeps;
   double down_s, masked_to_s; // in contact since it was put on its track; of the log
   int puts;                   // how often it was put back
   struct known *known;        // who flew, where the vehicle file says so (nominal_known.h); else null

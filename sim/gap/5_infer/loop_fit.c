@@ -30,20 +30,15 @@ static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const mod
                        unsigned long seed, lines_t *l, why_t *why) {
   gusts_t gusts;
   TRY(moments_left(left, s, m, l, why));
-  TRY(gusts_of(s, l->r, seed, &gusts, why));
   *loop = closed_loop_of(s, m, by, l->r);
+  const double *const white = s->grid[0].acceleration_made ? loop->vel_mps : loop->acc_mps2;
+  TRY(gusts_of(s, l->r, white, seed, &gusts, why));
   TRY(unknown_clean(s, m, l->r, why));
   loop->range_m = closed_loop_range_m(s, m, l->r[CH_RANGE]);
   loop->force_tau_s = gusts.tau_s;
-  for (int k = 0; k < 3; k++) {
-    if (!residual_has(s, k)) continue;
-    loop->force_mps2[k] = gusts.force_mps2[k];
-    // Not of what two samples differ by: an instrument that filters seems calmer by that.
-    if (s->grid[0].acceleration_made)
-      loop->vel_mps[k] = fmax(loop->vel_mps[k], gusts.white[k]);
-    else
-      loop->acc_mps2[k] = gusts.white[k];
-  }
+  memcpy(loop->force_mps2, gusts.force_mps2, sizeof gusts.force_mps2);
+  memcpy(loop->quick_mps2, gusts.quick_mps2, sizeof gusts.quick_mps2);
+  for (int k = 0; k < 3; k++) loop->vel_mps[k] = hypot(loop->vel_mps[k], gusts.velocity_mps[k]);
   return DONE;
 }
 

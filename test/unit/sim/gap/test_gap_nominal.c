@@ -99,6 +99,7 @@ TEST(gap_nominal_pilots_are_told_their_track_between_its_points) {
   closed_loop_t calm = r.loop;
   memset(calm.gyro_radps, 0, sizeof calm.gyro_radps);
   memset(calm.force_mps2, 0, sizeof calm.force_mps2);
+  memset(calm.quick_mps2, 0, sizeof calm.quick_mps2);
   memset(calm.turn_radps2, 0, sizeof calm.turn_radps2);
   memset(calm.rate_lead, 0, sizeof calm.rate_lead);
   calm.slow_pos_m = calm.slow_vel_mps = calm.slow_angle_rad = (slow_t){.sd = {0.0}};
