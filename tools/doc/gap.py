@@ -89,7 +89,7 @@ def mass_flights() -> None:
     run.vehicle_under_ceiling(out / "with.toml")
     files = {"with": ["--vehicle", out / "with.toml"], "without": []}
     counts: Counter[tuple[int, str, str]] = Counter()
-    firsts = [int(first) for first in os.environ.get("SEEDS", "1 201 301").split()]
+    firsts = [int(first) for first in (os.environ.get("SEEDS") or "1 201 301").split()]
     for grams, first, integrator in itertools.product(MASSES_G, firsts, ("sundials", "rk4")):
         logs = [out / f"flight{k}.csv" for k in range(3)]
         for k, log in enumerate(logs):
