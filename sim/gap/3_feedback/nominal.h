@@ -52,6 +52,17 @@ double closed_loop_range_m(const set_t *s, const model_t *m, const double *resid
 // The same by a pilot that turns it with this rate gain at least, and commands as noisily.
 closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const model_t *m, double gain);
 
+// With a rate gain; off: logarithm of how much the model turns over how much the log's vehicle does; NaN: it
+// cannot be flown.
+typedef struct {
+  double gain, off;
+} turned_t;
+
+// Of n in the gain's order, that at which it first turns as much, between two of them; else the nearest one.
+// 0: none could be flown. believed: what was read, the first, may be right. Else only those count from which
+// on a larger gain turns it more: with less a vehicle swings, which is no sign of a swift pilot.
+double closed_loop_gain(const turned_t *t, int n, bool believed);
+
 // Turned with the gain with which the model turns as much as the log's vehicle, if that is more than was read
 // (swiftness.c); as it is where the log has no rates or the pilot is known. FAILED: no memory.
 MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, unsigned long seed,

@@ -19,8 +19,7 @@ typedef struct {
   const model_t *model;
   unsigned long seed;
   double log_radps;
-  double gain;
-  double off; // logarithm of how much it turns over how much the log's does; NaN: it cannot be flown
+  turned_t turned;
   gap_flights_t seen;
   done_t status;
   why_t why;
@@ -45,7 +44,7 @@ static double turning_radps(const set_t *s) {
 
 static void fly(void *trials, int i) {
   trial_t *const t = (trial_t *)trials + i;
-  closed_loop_t loop = closed_loop_turning(t->loop, t->set, t->model, t->gain);
+  closed_loop_t loop = closed_loop_turning(t->loop, t->set, t->model, t->turned.gain);
   loop.unread = false; // its gain alone turns it, and not the track
   t->seen.flight = calloc((size_t)t->set->n_grid + 1, sizeof(gap_flight_t));
   t->status = t->seen.flight ? nominal_flights(&t->seen, NULL, t->set, t->model, &loop, t->seed, &t->why)
@@ -56,20 +55,22 @@ static void compare(trial_t *t) {
   set_t own = {.n_grid = 0};
   if (t->status == DONE) t->status = nominal_set(&own, &t->seen, t->model, &t->why);
   const double own_radps = t->status == DONE ? turning_radps(&own) : 0.0;
-  t->off = own_radps > 0.0 ? log(own_radps / t->log_radps) : (double)NAN;
+  t->turned.off = own_radps > 0.0 ? log(own_radps / t->log_radps) : (double)NAN;
   set_free(&own);
   for (int f = 0; t->seen.flight && f < t->set->n_grid; f++) gap_flight_free(&t->seen.flight[f]);
   free(t->seen.flight);
 }
 
-// Where it first turns as much as the log, between two gains; else the nearest one. 0: none could be flown.
-static double gain_of(const trial_t *t) {
+double closed_loop_gain(const turned_t *t, int n, bool believed) {
   double nearest = HUGE_VAL, gain = 0.0;
-  if (t[0].off >= 0.0) return t[0].gain;
-  for (int i = 0; i + 1 < TRIALS; i++)
+  int first = 0;
+  for (int i = 1; i < n && !believed; i++)
+    if (isnan(t[first].off) || t[i].off < t[first].off) first = i;
+  if (t[first].off >= 0.0) return t[first].gain;
+  for (int i = first; i + 1 < n; i++)
     if (t[i].off < 0.0 && t[i + 1].off >= 0.0)
       return t[i].gain * pow(t[i + 1].gain / t[i].gain, t[i].off / (t[i].off - t[i + 1].off));
-  for (int i = 0; i < TRIALS; i++)
+  for (int i = first; i < n; i++)
     if (fabs(t[i].off) < nearest) nearest = fabs(t[i].off), gain = t[i].gain;
   return gain;
 }
@@ -86,16 +87,18 @@ done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, uns
                          .model = m,
                          .seed = seed,
                          .log_radps = log_radps,
-                         .gain = read * pow(w->rate_gain_most / read, i / (TRIALS - 1.0))};
+                         .turned.gain = read * pow(w->rate_gain_most / read, i / (TRIALS - 1.0))};
   side_by_side_shared(TRIALS, fly, trial);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < TRIALS; i++) compare(&trial[i]);
+  turned_t turned[TRIALS];
   for (int i = 0; i < TRIALS; i++) {
+    turned[i] = trial[i].turned;
     if (trial[i].status != FAILED) continue;
     *why = trial[i].why;
     return FAILED;
   }
-  const double gain = gain_of(trial);
+  const double gain = closed_loop_gain(turned, TRIALS, !w->unread);
   if (gain > read) *w = closed_loop_turning(w, s, m, gain);
   return DONE;
 }
