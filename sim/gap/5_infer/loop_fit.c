@@ -82,7 +82,8 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int k = 0; k < 3; k++) {
     calm.turn_radps2[k] = 0.0;
-    loop->turn_radps2[k] = fmax(loop->turn_radps2[k], sqrt(log->of[k])); // to begin with, all of it
+    // To begin with, all of it; a log without moments does not say.
+    loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->of[k])) : 0.0;
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};
@@ -99,7 +100,6 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
     const double by = times(none.of[k], some.of[k], log->of[k]);
     // What turns it was read before control cancelled it: no more than that.
     if (isfinite(by)) loop->turn_radps2[k] *= fmin(by, 1.0);
-    if (!residual_has(s, CH_WX + k)) loop->turn_radps2[k] = 0.0;
   }
   // A disturbance of one channel shakes the others, too: none of them more than in the log.
   double share = 1.0;

@@ -307,6 +307,23 @@ TEST(gap_nominal_flights_shake_as_the_log_does) {
   }
 }
 
+// Of commands that are not compared a weak rotor makes a moment that nobody gave; with this one it cannot be
+// flown either, so that no trial takes the moment back.
+TEST(gap_takes_no_moment_for_a_disturbance_that_cannot_be_compared) {
+  gap_track_t r;
+  why_t why = {""};
+  closed_loop_t loop;
+  fx_use_t weak = fx_use(fx_find("motor_damage"));
+  fx_use_resize(&weak, 0, 0.9);
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) r.set.excluded[ch] = true;
+  model_t m = r.vehicle;
+  CHECK_OK(model_add_fx(&m, &weak, &why));
+  if (!CHECK_OK(loop_fit(&loop, &r.set, &m, NULL, 9, &why))) return;
+  for (int k = 0; k < 3; k++) CHECK(loop.turn_radps2[k] == 0.0);
+  gap_track_free(&r);
+}
+
 // Rms of the turning that was measured, about each axis.
 static void turning_of(set_t *s, double rms_radps2[3]) {
   lines_t l = {.r = {NULL}};
