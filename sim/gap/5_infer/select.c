@@ -21,7 +21,17 @@ typedef struct selection {
   model_t timed; // the model with what measured rotor speeds say
 } select_t;
 
-// The choice with the candidate as its last one, if it is allowed there; its score, else HUGE_VAL.
+// What a choice leaves, and twice the logarithm of how many forms each of its effects has, as if each were as
+// likely. Of those that leave the same the one with fewest is taken: in a log without moments a weak rotor
+// leaves what a thrust scale leaves, and turns the nominal flights, which the log's vehicle was not.
+static double left_of(const select_t *t, const choice_t *choice) {
+  double left = score_left(&t->round.score, choice, NULL);
+  for (int i = 0; i < choice->n; i++)
+    left += 2.0 * log(candidates_of(t->round.c, round_fx(&t->round, choice->of[i])));
+  return left;
+}
+
+// The choice with the candidate as its last one, if it is allowed there; what it leaves, else HUGE_VAL.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   const score_t *const score = &t->round.score;
   if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate)) return HUGE_VAL;
@@ -30,13 +40,12 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (!score_allows(score, &with, &v) || !score_is_sure(score, rest, &with) ||
       score_harms(score, rest, &with))
     return HUGE_VAL;
-  return score_left(score, &with, NULL);
+  return left_of(t, &with);
 }
 
 static bool add_best(select_t *t) {
   choice_t *const choice = &t->round.choice;
-  const double now = score_left(&t->round.score, choice, NULL);
-  double best = now * (1.0 - SELECT_GAIN);
+  double best = left_of(t, choice) * (1.0 - SELECT_GAIN);
   int which = -1;
   for (int i = 0; i < t->round.c->n; i++) {
     const double left = try_with(t, choice, i);
@@ -53,7 +62,7 @@ static bool add_best(select_t *t) {
 // One for another, where that explains more. -1: none; else which it is now.
 static int swap_one(select_t *t) {
   choice_t *const choice = &t->round.choice;
-  double best = score_left(&t->round.score, choice, NULL) - 2.0;
+  double best = left_of(t, choice) - 2.0;
   choice_t better = {.n = -1};
   for (int i = 0; i < choice->n; i++) {
     const choice_t rest = choice_without(choice, choice->of[i]);
