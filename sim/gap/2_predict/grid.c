@@ -246,7 +246,10 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
   if (g->acceleration_made) make_acceleration(g);
   g->has_velocity = g->has_velocity || g->velocity_made;
   g->has_force = g->has_force || g->acceleration_made;
-  for (int j = 0; j < g->n; j++) g->point[j].seen_w_m = g->point[j].pos_w_m;
+  for (int j = 0; j < g->n; j++) {
+    g->point[j].seen_w_m = g->point[j].pos_w_m;
+    g->point[j].seen_w_mps = g->point[j].vel_w_mps;
+  }
   set_points_judge(g);
   return grid_smooth(g, why);
 }

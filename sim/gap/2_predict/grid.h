@@ -18,8 +18,8 @@ typedef struct {
   int segment;
   bool ok; // flying, nothing touched, no motor at a limit, every signal there
   d3_t pos_w_m,
-      vel_w_mps; // centre of mass, the floor is at 0; the place without errors of a moment (smooth.c)
-  d3_t seen_w_m; // the place as it is logged
+      vel_w_mps;             // centre of mass, the floor is at 0; both without errors of a moment (smooth.c)
+  d3_t seen_w_m, seen_w_mps; // both as they are logged
   dq_t q_wb;
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
@@ -80,7 +80,8 @@ bool grid_misses_commands(const grid_t *g);
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by
 // the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.
 // 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is estimated too
-// small (5_infer/bend.h). FAILED: no memory.
+// small (5_infer/bend.h). Velocities likewise, by what those about them say, as much as their errors and the
+// flight's own accelerations ask for; left as they are where either is not logged. FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
 // The first sample from number i on with which a whole point of one segment begins, if there is one.

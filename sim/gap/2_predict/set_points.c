@@ -128,7 +128,10 @@ done_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
   if (!track->point) return error_failed(why, "out of memory");
   memcpy(track->point, g->point, (size_t)g->n * sizeof(grid_point_t));
   for (int k = 0; k < 3; k++) lead(track, g, k);
-  for (int j = 0; j < g->n; j++) track->point[j].seen_w_m = track->point[j].pos_w_m; // what pilots follow
+  for (int j = 0; j < g->n; j++) { // what pilots follow
+    track->point[j].seen_w_m = track->point[j].pos_w_m;
+    track->point[j].seen_w_mps = track->point[j].vel_w_mps;
+  }
   head(track, g);
   line_of_voltage(track, g);
   for (int j = 0; j < g->n; j++) {

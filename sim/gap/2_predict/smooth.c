@@ -1,8 +1,10 @@
-// smooth.c - places without what of their errors lasts for a moment only.
+// smooth.c - places and velocities without what of their errors lasts for a moment only.
 #include "gap/2_predict/grid.h"
 
+#include "base/lsq_blocks.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // On each side. Errors that last for 30 to 60 ms fall to 0.35 to 0.45 in it, in half of it to 0.46 to 0.6; in
 // twice as much the velocity's own errors begin to move the place (by 3 mm, of 0.03 m/s).
@@ -35,19 +37,154 @@ static void smooth(grid_point_t *p, int n, int reach, d3_t *room) {
   for (int j = 0; j < n; j++) p[j].pos_w_m = d3_add(room[j], middle(off, n, j, reach));
 }
 
-// Of a velocity that was made of places nothing new is to be learned. Velocities are left as they are:
-// smoothed by the accelerations they go with what the forces' residual holds, and a climb seems to need an
-// inflow.
+// Behind the last one of those that follow each other.
+static int run_end(const grid_t *g, int from) {
+  const grid_point_t *const p = &g->point[from];
+  int to = from + 1;
+  while (to < g->n && g->point[to].segment == p->segment && g->point[to].ok == p->ok) to++;
+  return to;
+}
+
+// --- velocities -------------------------------------------------------------------------------------------
+//
+// Of x = v + u, a velocity and its error, what is nearest to v (Wiener) and leaves constants and slopes as
+// they are:
+//
+//   v^ = x(0) + sum over k of g_k s_k(x),   s_k(x) = x(k) + x(-k) - 2 x(0)
+//   (E s(v) s(v)' + E s(u) s(u)') g = d,    d_k = -E u(0) s_k(u) = E (u(k) - u(0))^2
+//
+// where u has nothing in common with v and is as large at any time. What accelerations add up to tells s(v),
+// and what x has beside it s(u): what goes on in the same way, as an acceleration's constant error makes it,
+// falls out of both. So d is told by them, too: E s_k(u)^2 = 4 d_k - d_2k, and d_2k is d_k where u has
+// forgotten. The accelerations themselves do not come in: with them goes what the forces' residual holds, and
+// a climb seems to need an inflow.
+//
+// Of what is multiplied by a velocity that is mostly error least squares find a part, and take the rest for
+// noise: of flapping in a hover a twentieth was found
+// (large_flapping_is_named_in_a_hover_and_its_size_is_right).
+
+// Of how velocities change, squared: what accelerations add up to is known to 3 %, by their scale and by the
+// adding up. Without it a flight without errors is smoothed by the rounding of its numbers.
+// gap_takes_as_much_of_a_moment_out_of_velocities_as_their_errors_ask_for holds it.
+#define SCALE_ERROR 1e-3
+
+// Points on each side: SMOOTH_S of more than 10 ms each.
+enum { REACH_MOST = 26 };
+
+typedef struct {
+  int reach, windows;
+  double G[(REACH_MOST + 1) * (REACH_MOST + 1)], squares[REACH_MOST]; // sums of products; of s(u) alone
+} changes_t;
+
+static d3_t acc_w_mps2(const grid_point_t *p) {
+  const axes_t a = axes_of(p->q_wb);
+  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, G_MPS2));
+}
+
+// way: what accelerations add up to from the first of n points on; off: what the velocity has beside it. Axis
+// by axis, `all` numbers each.
+static void tell_apart(const grid_point_t *p, int n, int all, double *way, double *off) {
+  d3_t sum = {0.0, 0.0, 0.0}, before = sum;
+  for (int j = 0; j < n; j++) {
+    const d3_t now = acc_w_mps2(&p[j]);
+    if (j) sum = d3_add(sum, d3_scale(0.5 * (p[j].t_s - p[j - 1].t_s), d3_add(before, now)));
+    before = now;
+    double v[3], x[3];
+    d3_put(v, sum);
+    d3_put(x, p[j].seen_w_mps);
+    for (int axis = 0; axis < 3; axis++) {
+      way[axis * all + j] = v[axis];
+      off[axis * all + j] = x[axis] - v[axis];
+    }
+  }
+}
+
+// v, u: at the middle of a window.
+static void add_window(changes_t *c, const double *v, const double *u) {
+  double of_v[REACH_MOST], of_u[REACH_MOST];
+  const int n = c->reach;
+  for (int k = 0; k < n; k++) {
+    of_v[k] = v[k + 1] + v[-k - 1] - 2.0 * v[0];
+    of_u[k] = u[k + 1] + u[-k - 1] - 2.0 * u[0];
+    c->squares[k] += of_u[k] * of_u[k];
+    for (int i = 0; i <= k; i++) c->G[k * (n + 1) + i] += of_v[k] * of_v[i] + of_u[k] * of_u[i];
+  }
+  c->windows++;
+}
+
+// g, by axis.
+typedef struct {
+  double of[3][REACH_MOST];
+} weights_t;
+
+// False: too short a flight to say.
+static bool weights_of(changes_t *c, double g[REACH_MOST]) {
+  const int n = c->reach;
+  int order[REACH_MOST];
+  for (int k = n - 1; k >= 0; k--) {
+    const int twice = 2 * k + 1; // of k + 1
+    double *const d = &c->G[k * (n + 1) + n];
+    *d = twice < n ? (c->squares[k] + c->G[twice * (n + 1) + n]) / 4.0 : c->squares[k] / 3.0;
+    for (int i = 0; i < k; i++) c->G[i * (n + 1) + k] = c->G[k * (n + 1) + i];
+    c->G[k * (n + 2)] *= 1.0 + SCALE_ERROR;
+    order[k] = k;
+  }
+  if (c->windows <= 2 * n) return false;
+  lsq_solve_products(c->G, n + 1, order, n, NULL, g, NULL);
+  return true;
+}
+
+// Near the end of a run as many points on each side as there are on one.
+static d3_t weighted(const grid_point_t *p, int n, int j, int reach, const weights_t *g) {
+  const d3_t here = p[j].seen_w_mps;
+  double v[3];
+  d3_put(v, here);
+  for (int k = 1; k <= reach && k <= j && k < n - j; k++) {
+    double s[3];
+    d3_put(s, d3_sub(d3_add(p[j + k].seen_w_mps, p[j - k].seen_w_mps), d3_scale(2.0, here)));
+    for (int axis = 0; axis < 3; axis++) v[axis] += g->of[axis][k - 1] * s[axis];
+  }
+  return d3_of(v);
+}
+
+// room: six numbers a point.
+static void smooth_velocities(grid_t *grid, int reach, double *room) {
+  changes_t c[3];
+  weights_t g = {.of = {{0.0}}};
+  const int all = grid->n;
+  memset(c, 0, sizeof c);
+  for (int axis = 0; axis < 3; axis++) c[axis].reach = reach < REACH_MOST ? reach : REACH_MOST;
+  for (int from = 0, to; from < all; from = to) {
+    double *const way = room + from, *const off = room + 3 * all + from;
+    to = run_end(grid, from);
+    if (!grid->point[from].ok) continue;
+    tell_apart(&grid->point[from], to - from, all, way, off);
+    for (int axis = 0; axis < 3; axis++)
+      for (int j = c->reach; j + c->reach < to - from; j++)
+        add_window(&c[axis], way + axis * all + j, off + axis * all + j);
+  }
+  for (int axis = 0; axis < 3; axis++)
+    if (!weights_of(&c[axis], g.of[axis])) return;
+  for (int from = 0, to; from < all; from = to) {
+    grid_point_t *const p = &grid->point[from];
+    to = run_end(grid, from);
+    for (int j = 0; p->ok && j < to - from; j++) p[j].vel_w_mps = weighted(p, to - from, j, c->reach, &g);
+  }
+}
+
+// --- both -------------------------------------------------------------------------------------------------
+
+// Of a velocity that was made of places nothing new is to be learned.
 done_t grid_smooth(grid_t *g, why_t *why) {
   const int reach = (int)round(SMOOTH_S / g->period_s);
   if (!g->has_position || !g->has_velocity || g->velocity_made) return DONE;
   d3_t *const room = malloc((2 * (size_t)g->n + 1) * sizeof(d3_t));
   if (!room) return error_failed(why, "out of memory");
   for (int from = 0, to; from < g->n; from = to) {
-    grid_point_t *const p = &g->point[from];
-    for (to = from + 1; to < g->n && g->point[to].segment == p->segment && g->point[to].ok == p->ok;) to++;
-    if (p->ok) smooth(p, to - from, reach, room);
+    to = run_end(g, from);
+    if (g->point[from].ok) smooth(&g->point[from], to - from, reach, room);
   }
+  if (g->has_force && !g->acceleration_made && g->has_attitude) smooth_velocities(g, reach, &room->x);
   free(room);
   return DONE;
 }

@@ -118,7 +118,7 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
     const d3_t rate = d3_sub(p->rate_b_radps, q->rate_b_radps), tilt = d3_sub(tilt_of(p), tilt_of(q));
     two_add(&roll, rate.x, tilt.x, turn.x);
     two_add(&pitch, rate.y, tilt.y, turn.y);
-    two_add(&climb, p->vel_w_mps.z - q->vel_w_mps.z, p->seen_w_m.z - q->seen_w_m.z, lift - lift_before);
+    two_add(&climb, p->seen_w_mps.z - q->seen_w_mps.z, p->seen_w_m.z - q->seen_w_m.z, lift - lift_before);
   }
   double tilt[2];
   two_solve(&roll, &w->rate_gain[0], &tilt[0]);

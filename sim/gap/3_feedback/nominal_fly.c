@@ -331,12 +331,15 @@ static bool smooth_track(const grid_t *g, int from, int to, grid_point_t *point)
   return true;
 }
 
-// Places as they were logged: the pilot saw no better ones, but for one who is spared the noise.
+// Places and speeds as they were logged: the pilot saw no better ones, but for one who is spared the noise.
 static grid_point_t *whole_track(const grid_t *g, int from, int to, bool smooth) {
   grid_point_t *const point = malloc(((size_t)g->n + 1) * sizeof *point);
   if (!point) return NULL;
   memcpy(point, g->point, (size_t)g->n * sizeof *point);
-  for (int j = 0; j < g->n; j++) point[j].pos_w_m = point[j].seen_w_m;
+  for (int j = 0; j < g->n; j++) {
+    point[j].pos_w_m = point[j].seen_w_m;
+    point[j].vel_w_mps = point[j].seen_w_mps;
+  }
   bridge(point, from, to);
   if (!smooth || smooth_track(g, from, to, point)) return point;
   free(point);

@@ -201,7 +201,7 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
     const int k = at[i] - c->first;
     a->value[k] = found[i] = f->b[at[i]];
     a->stderr_[k] = sqrt(f->V[at[i] * (all + 1)]);
-    differ[i] = f->b[at[i]] - f->plain[at[i]];
+    differ[i] = f->b[at[i]] - named->value[k];
     // Less does not matter, however sure it is: the named error already holds it.
     beyond = beyond || fabs(differ[i]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
@@ -262,6 +262,17 @@ static bool all_have_set_points(const set_t *s) {
   return s->n_grid > 0;
 }
 
+// Velocities as they are logged, and back: where errors do not matter, what smoothing takes of a motion does.
+static void swap_speeds(set_t *s) {
+  for (int f = 0; f < s->n_grid; f++)
+    for (int j = 0; j < s->grid[f].n; j++) {
+      grid_point_t *const p = &s->grid[f].point[j];
+      const d3_t smooth = p->vel_w_mps;
+      p->vel_w_mps = p->seen_w_mps;
+      p->seen_w_mps = smooth;
+    }
+}
+
 done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const closed_loop_t *loop,
                      found_t *found, const char **why_not, why_t *why) {
   confirming_t t = {.s = s, .base = base, .loop = loop};
@@ -269,9 +280,11 @@ done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const
   *why_not = NULL;
   if (found->n == 0 || !all_have_set_points(s)) return DONE;
   done_t status = take_names(&t, c, &found->chosen, why);
+  swap_speeds(s);
   if (status == DONE) status = make_table(&t, why);
   if (status == DONE) status = make_instruments(&t, &flew, why);
   if (status == DONE && flew) status = ask_instruments(&t, found, why);
+  swap_speeds(s);
   if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
   design_free(&t.table);
   candidates_free(&t.names);

@@ -143,9 +143,10 @@ TEST(gap_asks_of_an_instrument_what_staiger_and_stock_do) {
   CHECK_NEAR(CONFIRM_F, 10.0, 0.0);
 }
 
-// Noise of the measured speed weakens the drag that depends on it; the set points know no such noise. What is
-// weakened leaves a rest that a first look, which does not know what noise makes, takes for a second effect.
-TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
+// Noise of the measured speed weakens the drag that depends on it, but for what smoothing takes of it. The
+// set points know no such noise, and ask velocities as logged: of smooth ones they would find a fifth too
+// much.
+TEST(gap_s_instrument_knows_no_noise_that_weakens_least_squares) {
   static const struct {
     flown_t how;
     double size;
@@ -156,8 +157,8 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
     char name[32] = "";
     const named_t n = first_name(&row[i].how, FIRST_SEED + 1000u * i, name);
     CHECK_TEXT(name, "rotor_drag");
-    CHECK(n.value[0] < 0.75 * row[i].size);
-    CHECK(n.confirm.answer == CONFIRM_YES && n.confirm.apart && n.confirm.p_apart < 0.01);
+    CHECK(n.confirm.answer == CONFIRM_YES && !n.confirm.apart);
+    CHECK_NEAR(n.value[0], row[i].size, 0.15 * row[i].size); // of velocities as logged a quarter is lost
     CHECK_NEAR(n.confirm.value[0], row[i].size, 3.0 * n.confirm.stderr_[0]);
   }
 }

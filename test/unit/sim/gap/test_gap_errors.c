@@ -12,12 +12,13 @@
 // Of flights that are flown for a test: a lone one, of which all is fitted; long: two, and one is held out.
 #define SEEDS (test_long() ? "1 2 3" : "1")
 
+// Of a delay more than a period of the log, below which none is named.
 TEST(gap_gives_errors_that_hold_what_was_hidden) {
   static const struct {
     const char *name;
     double p[2];
   } row[] = {
-      {"delay", {0.010}},       {"inertia", {0.3, -0.1}}, {"flapping", {1.3e-8}},
+      {"delay", {0.012}},       {"inertia", {0.3, -0.1}}, {"flapping", {1.3e-8}},
       {"motor_lag", {0.025}},   {"tof_latency", {0.025}}, {"tof_latency", {0.06}},
       {"climb_inflow", {3e-6}}, {"inertia", {0.1, 0.1}},  {"cg_offset", {0.0015, -0.001}},
   };

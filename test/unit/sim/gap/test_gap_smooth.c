@@ -1,4 +1,4 @@
-// test_gap_smooth.c - places of a log, without what of their errors lasts for a moment.
+// test_gap_smooth.c - places and velocities of a log, without what of their errors lasts for a moment.
 #include "base/random.h"
 #include "gap/2_predict/grid.h"
 #include "rig/test.h"
@@ -118,4 +118,89 @@ TEST(gap_leaves_a_place_without_a_logged_velocity_as_it_is) {
   CHECK_OK(grid_smooth(&g, &why));
   CHECK(g.point[50].pos_w_m.x == g.point[50].seen_w_m.x);
   free(g.point);
+}
+
+// --- velocities -------------------------------------------------------------------------------------------
+
+// On a circle, with what an accelerometer measures there, off by a constant.
+typedef struct {
+  double turn_radps, radius_m, bias_mps2;
+} way_t;
+
+static d3_t speed_mps(const way_t *w, double t_s) {
+  const double a = w->turn_radps * t_s, v = w->turn_radps * w->radius_m;
+  return d3(-v * sin(a), v * cos(a), 0.0);
+}
+
+static grid_t flown(const way_t *w, double sd_mps, double tau_s) {
+  grid_t g = circle();
+  g.has_force = g.has_attitude = true;
+  random_t *const r = random_open(11);
+  if (!r) abort();
+  d3_t off = {0.0, 0.0, 0.0};
+  for (int j = 0; j < g.n; j++) {
+    grid_point_t *const p = &g.point[j];
+    const double a = w->turn_radps * p->t_s, inwards = w->turn_radps * w->turn_radps * w->radius_m;
+    off = drifted(r, off, sd_mps, tau_s);
+    p->q_wb = (dq_t){1.0, 0.0, 0.0, 0.0};
+    p->acc_b_mps2 = d3(w->bias_mps2 - inwards * cos(a), -inwards * sin(a), G_MPS2);
+    p->vel_w_mps = p->seen_w_mps = d3_add(speed_mps(w, p->t_s), off);
+  }
+  random_close(r);
+  return g;
+}
+
+static double rms_mps(const grid_t *g, const way_t *w) {
+  double sum = 0.0;
+  for (int j = 0; j < g->n; j++)
+    sum += pow(d3_norm(d3_sub(g->point[j].vel_w_mps, speed_mps(w, g->point[j].t_s))), 2.0);
+  return sqrt(sum / g->n / 3.0);
+}
+
+// What is slow may be smoothed more than what is swift, and what is known at once not at all.
+TEST(gap_takes_as_much_of_a_moment_out_of_velocities_as_their_errors_ask_for) {
+  static const struct {
+    const char *what;
+    way_t way;
+    double sd_mps, tau_s, left_mps;
+  } row[] = {
+      {"a hover", {0.7, 0.03, 0.0}, 0.03, 0.03, 0.014},
+      {"with an accelerometer that is off", {0.7, 0.03, 0.3}, 0.03, 0.03, 0.014},
+      {"1.5 m/s", {4.0, 0.375, 0.0}, 0.03, 0.03, 0.021},
+      {"1.5 m/s, no errors", {4.0, 0.375, 0.0}, 0.0, 0.03, 3e-4},
+      {"a hover, no errors", {0.7, 0.03, 0.0}, 0.0, 0.03, 1e-4},
+      {"errors that stay", {0.7, 0.03, 0.0}, 0.03, 2.0, 0.033},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    why_t why;
+    grid_t g = flown(&row[i].way, row[i].sd_mps, row[i].tau_s);
+    if (row[i].tau_s < 1.0) CHECK(rms_mps(&g, &row[i].way) > 0.9 * row[i].sd_mps - 1e-9);
+    CHECK_OK(grid_smooth(&g, &why));
+    CHECK(rms_mps(&g, &row[i].way) < row[i].left_mps);
+    CHECK(d3_norm(d3_sub(g.point[99].vel_w_mps, g.point[99].seen_w_mps)) > 0.0 || row[i].sd_mps <= 0.0);
+    free(g.point);
+  }
+}
+
+TEST(gap_smooths_no_velocity_over_a_gap_nor_without_accelerations) {
+  const way_t way = {0.7, 0.03, 0.0};
+  for (int gap = 0; gap < 2; gap++) {
+    ROW("%s", gap ? "a gap" : "no accelerations");
+    why_t why;
+    grid_t g = flown(&way, 0.03, 0.03);
+    g.acceleration_made = !gap;
+    for (int j = 1000; gap && j < g.n; j++) { // it goes on elsewhere, and swifter
+      g.point[j].segment = 1;
+      g.point[j].vel_w_mps.x += 5.0;
+      g.point[j].seen_w_mps.x += 5.0;
+    }
+    CHECK_OK(grid_smooth(&g, &why));
+    for (int j = 0; j < g.n; j++) {
+      const double off = g.point[j].vel_w_mps.x - speed_mps(&way, g.point[j].t_s).x;
+      if (gap) CHECK_NEAR(off, j < 1000 ? 0.0 : 5.0, 0.2);
+      if (!gap) CHECK(g.point[j].vel_w_mps.x == g.point[j].seen_w_mps.x);
+    }
+    free(g.point);
+  }
 }
