@@ -174,19 +174,20 @@ TEST(gap_score_sees_harm_in_one_group_of_channels) {
   }
 }
 
-// A twentieth of what is left in the group, and ten: of 3600 squares in turning 190. The noise is without the
-// column's part, and what the column does of the wrong sign is nearly three times its squares.
+// A twentieth of what is left in the group and of what is taken elsewhere, and ten: of 3600 squares in
+// turning 190, and beside a force of 900 squares 45 more, of 3600 squares 180. The noise is without the
+// column's part, and what the column does of the wrong sign is two to three times its squares.
 TEST(gap_score_takes_more_than_a_twentieth_for_harm) {
   static const struct {
-    double squares;
+    double sure, squares; // of the force in standard errors; of the moment
     bool harms;
-  } row[] = {{57.0, false}, {85.0, true}};
-  for (int i = 0; i < 2; i++) {
+  } row[] = {{30.0, 85.0, false}, {30.0, 150.0, true}, {60.0, 150.0, false}, {60.0, 250.0, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     double xx = 0.0, xy = 0.0;
-    ROW("%g", 3.0 * row[i].squares);
+    ROW("a force of %g standard errors, %g", row[i].sure, row[i].squares);
     gap_rows_make(&g, 9);
-    const int of = along_x(&g, "flapping", 60.0);
+    const int of = along_x(&g, "flapping", row[i].sure);
     gap_rows_add(&g, of, 0, 1.0);
     double *const turn = gap_rows_column(&g, of, 0, CH_WX), *const noise = g.residual[CH_WX];
     gap_rows_white(&g, turn);
