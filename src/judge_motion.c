@@ -41,9 +41,8 @@ static float change(v3_t a, v3_t b) {
 // no longer jumps. Unless the accelerometer has felt an impact: then it is true.
 static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool calm = v3_within(v3_sub(in->vel_w_mps, g->vel_raw), VEL_STEP_MPS);
-  bool odd = !calm; // what is believed is what came last, unless that is lost
-  if (ANY(g->vel_lost))
-    odd = EITHER(g->vel_lost, !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS), odd);
+  // What is believed is what came last, unless that is lost; of two memories one may have a flipped bit.
+  const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS);
   g->vel_raw = in->vel_w_mps;
   g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
   g->impact_ms = EITHER(v3_within(in->acc_b_mps2, IMPACT_MPS2), g->impact_ms - in->ms, IMPACT_MS);
