@@ -158,6 +158,13 @@ static bool speeds_room(grid_t *g, size_t points) {
   return true;
 }
 
+// On the floor it lands; what it does at the ceiling is told.
+static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
+  p->ok = false;
+  if (m->ceiling_m - p->pos_w_m.z > p->pos_w_m.z) return;
+  if (g->bumps++ == 0) g->bump_s = p->t_s;
+}
+
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
   body_t b = {.model = m}; // the points that can touch
@@ -170,7 +177,9 @@ static void take_points(grid_t *g, const model_t *m, int to) {
       continue;
     }
     if (g->measured_N[0]) take_speeds(g, m, i);
-    g->point[g->n++] = point_of(g, m, &b.touch, i);
+    grid_point_t *const p = &g->point[g->n++];
+    *p = point_of(g, m, &b.touch, i);
+    if (p->ok && grid_bumps(g, m, p, i - g->from)) leave_out(g, m, p);
     i += g->every;
   }
 }

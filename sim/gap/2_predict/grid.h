@@ -60,6 +60,8 @@ typedef struct {
   bool quick;       // the vehicle file's rotors follow a command within a few rows (holds.h)
   double slowest_N; // what a rotor gives that is taken to turn at ROTOR_SLOWEST_RADPS
   bool by_speeds;   // the log has no commands, and rotor speeds that were measured stand for them: no lag
+  int bumps;        // points at which it bumps into the ceiling,
+  double bump_s;    // and the time of the first one
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];
@@ -76,6 +78,10 @@ void grid_free(grid_t *g);
 // Rows come more seldom than commands; those that are of one instant miss most of these, means hold them all.
 bool grid_is_slow(const grid_t *g);
 bool grid_misses_commands(const grid_t *g);
+
+// Whether something solid pushes at a point that begins with this sample: near floor or ceiling it is lifted
+// or turned as no air does it (bumps.c).
+bool grid_bumps(const grid_t *g, const model_t *m, const grid_point_t *p, int sample);
 
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by
 // the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.

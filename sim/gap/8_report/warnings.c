@@ -278,11 +278,26 @@ static void warn_of_attitude(report_t *r) {
        1e3 * fabs(late_s), 1e3 * stderr_s, late_s > 0.0 ? "late" : "early", late_ms_told(s, late_s));
 }
 
+static void warn_of_bumps(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const set_t *const sets[] = {&d->fit, r->study->by_time ? NULL : &d->held};
+  for (int i = 0; i < 2; i++)
+    for (int f = 0; sets[i] && f < sets[i]->n_grid; f++) {
+      const grid_t *const g = &sets[i]->grid[f];
+      if (g->bumps)
+        warn(r,
+             "%s: it bumped into the ceiling, at %.1f s for the first time; what was measured then is left "
+             "out",
+             base_name(g->flight->name), g->bump_s);
+    }
+}
+
 void report_warn(report_t *r) {
   warn_of_vehicle(r);
   warn_of_attitude(r);
   warn_of_names(r);
   warn_of_diagnosis(r);
+  warn_of_bumps(r);
   warn_of_flight_again(r);
   warn_of_instrument(r);
   warn_of_floors(r);

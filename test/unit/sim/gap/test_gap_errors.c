@@ -104,8 +104,9 @@ TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
   }
 }
 
-// They differ in turning alone: of that a slow log misses most, and a calm flight has too little at any rate.
-TEST(gap_tells_mass_from_thrust_scale_neither_by_slow_logs_nor_by_calm_flights) {
+// They differ in turning alone: of that a slow log misses most, and in a calm flight a mass has too little at
+// any rate. A scale that is there turns even a hovering vehicle by its share (6 of 6 seeds).
+TEST(gap_tells_mass_from_thrust_scale_neither_by_slow_logs_nor_a_mass_by_calm_flights) {
   static const struct {
     const char *effect;
     int rate_Hz, every;
@@ -114,7 +115,7 @@ TEST(gap_tells_mass_from_thrust_scale_neither_by_slow_logs_nor_by_calm_flights) 
       {"mass:add=0.0016", 100, 1, "thrust_scale", "mass"}, // the wrong name, and the right one beside it
       {"mass:add=0.0016", 100, 2, "thrust_scale", "mass"},
       {"thrust_scale:k=-0.05", 100, 1, "thrust_scale", "mass"},
-      {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", "mass"},
+      {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", NULL},
       {"mass:add=0.0016", 500, 1, "mass", "thrust_scale"},
   };
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
@@ -131,8 +132,8 @@ TEST(gap_tells_mass_from_thrust_scale_neither_by_slow_logs_nor_by_calm_flights) 
     snprintf(name, sizeof name, "Missing in vehicle.toml: %s", row[i].named);
     CHECK(strstr(text, name) != NULL);
     const char *const rivals = strstr(text, "would do as well: ");
-    const char *const rival = rivals ? strstr(rivals, row[i].rival) : NULL;
-    CHECK(rival && rival < strchr(rivals, '\n'));
+    const char *const rival = rivals && row[i].rival ? strstr(rivals, row[i].rival) : NULL;
+    CHECK(row[i].rival ? rival && rival < strchr(rivals, '\n') : !rivals);
   }
 }
 

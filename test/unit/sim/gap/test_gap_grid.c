@@ -48,3 +48,73 @@ TEST(gap_points_have_attitude_and_place_of_one_instant_at_every_rate) {
     grid_free(&g);
   }
 }
+
+// Hovers at half a metre; from 1 to 1.03 s something pushes it, or turns it about x.
+typedef struct {
+  double rate_Hz, clear_m; // of any part of it from a ceiling
+  double push_g, turn_radps2;
+} pushed_t;
+
+static void hover(gap_flight_t *f, const pushed_t *how, const model_t *m, double v[SIG_COUNT][MOST],
+                  double t_s[MOST]) {
+  static const signal_id_t more[] = {SIG_AX, SIG_AY, SIG_AZ, SIG_GX, SIG_GY, SIG_GZ};
+  double rate_radps = 0.0;
+  fly(f, how->rate_Hz, v, t_s);
+  for (unsigned i = 0; i < sizeof more / sizeof *more; i++) f->v[more[i]] = v[more[i]];
+  for (int i = 0; i < f->n; i++) {
+    const bool pushed = t_s[i] > 0.9999 && t_s[i] < 1.0301;
+    if (pushed) rate_radps += how->turn_radps2 / how->rate_Hz;
+    v[SIG_Z][i] = 0.5, v[SIG_VZ][i] = 0.0, v[SIG_QW][i] = 1.0, v[SIG_QZ][i] = 0.0;
+    v[SIG_AX][i] = v[SIG_AY][i] = v[SIG_GY][i] = v[SIG_GZ][i] = 0.0;
+    v[SIG_AZ][i] = (1.0 + (pushed ? how->push_g : 0.0)) * G_MPS2;
+    v[SIG_GX][i] = rate_radps;
+    for (int k = 0; k < ROTORS; k++) v[SIG_F1 + k][i] = 0.25 * m->mass_kg * G_MPS2;
+  }
+}
+
+// Of its points so many are left out; told: at the ceiling, where it lies.
+static int left_out(const pushed_t *how, int *told) {
+  static double v[SIG_COUNT][MOST], t_s[MOST];
+  model_t vehicle;
+  why_t why;
+  gap_flight_t flight;
+  grid_t g;
+  int out = 0;
+  CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+  hover(&flight, how, &vehicle, v, t_s);
+  for (int again = 0; again < 2; again++) { // once to see how high it reaches
+    if (!again) vehicle.ceiling_m = 0.7;
+    CHECK_OK(grid_make(&g, &flight, 0, flight.n, &vehicle, &why));
+    if (!again) vehicle.ceiling_m += how->clear_m - g.point[0].clear_m;
+    for (int j = 0; again && j < g.n; j++) out += !g.point[j].ok;
+    *told = g.bumps;
+    CHECK(!g.bumps || fabs(g.bump_s - 1.0) < 0.03);
+    grid_free(&g);
+  }
+  return out;
+}
+
+// Ground and ceiling effects give a third of the weight. An edge that touches turns it more than it lifts it;
+// of rows that miss commands a turn says nothing.
+TEST(gap_leaves_out_points_at_which_something_solid_pushes) {
+  static const struct {
+    const char *what;
+    pushed_t how;
+    bool left_out;
+  } row[] = {
+      {"a ceiling that pushes back", {500.0, 0.02, -0.7, 0.0}, true},
+      {"the same at 100 Hz", {100.0, 0.02, -0.7, 0.0}, true},
+      {"the same in the open", {500.0, 0.1, -0.7, 0.0}, false},
+      {"a ceiling that pulls", {500.0, 0.02, 0.35, 0.0}, false},
+      {"an edge that touches", {500.0, 0.02, -0.1, 100.0}, true},
+      {"the same in the open", {500.0, 0.1, -0.1, 100.0}, false},
+      {"rows that miss commands", {100.0, 0.02, -0.1, 100.0}, false},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s, %g Hz", row[i].what, row[i].how.rate_Hz);
+    int told;
+    const int out = left_out(&row[i].how, &told);
+    CHECK(row[i].left_out ? out >= 1 && out <= 4 : out == 0);
+    CHECK(told == out);
+  }
+}
