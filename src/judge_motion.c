@@ -41,7 +41,8 @@ static float change(v3_t a, v3_t b) {
 // no longer jumps. Unless the accelerometer has felt an impact: then it is true.
 static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool calm = v3_within(v3_sub(in->vel_w_mps, g->vel_raw), VEL_STEP_MPS);
-  // What is believed is what came last, unless that is lost; of two memories one may have a flipped bit.
+  // What is believed is what came last, unless that is lost; but a bit flipped in one of them alone is no
+  // loss.
   const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS);
   g->vel_raw = in->vel_w_mps;
   g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);

@@ -4,11 +4,16 @@
 // bump is no part of any model of air; a few rows of it outweigh all that a ceiling effect does in a flight.
 #include "gap/2_predict/grid.h"
 
+#include "base/nth.h"
 #include <math.h>
+#include <stdlib.h>
 
 #define NEAR_M      0.03 // of any part of the vehicle from floor or ceiling
 #define SHARE       0.5  // of the weight: ground and ceiling effects give a third
 #define SHARE_ALONE 0.1  // the same, at a rotor: what pushes at one edge turns more than it lifts
+
+// What it is lifted with (m/s2) and turned with about x and y (rad/s2) beyond its commands; NaN: not logged.
+enum { LIFT, TURN_X, TURN_Y, PUSHES };
 
 static double mean_of(const double *v, int n) {
   double sum = 0.0;
@@ -16,19 +21,19 @@ static double mean_of(const double *v, int n) {
   return sum;
 }
 
-// What it is lifted with beyond its command, m/s2.
-static double lifted_mps2(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
+static double lifted(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
   double thrust_N = 0.0;
   for (int k = 0; k < ROTORS; k++) thrust_N += mean_of(g->command_N[k] + sample, g->every);
-  return p->acc_b_mps2.z - thrust_N / m->mass_kg;
+  return g->has_force ? p->acc_b_mps2.z - thrust_N / m->mass_kg : (double)NAN;
 }
 
-// What it is turned with about x or y beyond its command, from the sample before the point to the one behind.
-static double turned_radps2(const grid_t *g, const model_t *m, int axis, int sample) {
+// From the sample before the point to the one behind. Of rows that miss commands it says nothing.
+static double turned(const grid_t *g, const model_t *m, int axis, int sample) {
   const int before = sample - 1, behind = sample + g->every;
   const int *const segment = g->flight->segment;
-  if (before < 0 || behind >= g->samples) return 0.0;
-  if (segment && segment[g->from + before] != segment[g->from + behind]) return 0.0;
+  if (!g->has_rates || !g->has_moments || grid_misses_commands(g)) return (double)NAN;
+  if (before < 0 || behind >= g->samples) return (double)NAN;
+  if (segment && segment[g->from + before] != segment[g->from + behind]) return (double)NAN;
   const double *const rate_radps = g->flight->v[SIG_GX + axis] + g->from;
   double command_radps2 = 0.0;
   for (int i = sample; i < behind; i++) command_radps2 += grid_turns(g, m, axis, i) / g->every;
@@ -36,14 +41,57 @@ static double turned_radps2(const grid_t *g, const model_t *m, int axis, int sam
   return (rate_radps[behind] - rate_radps[before]) / span_s - command_radps2;
 }
 
-bool grid_bumps(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
-  if (!g->has_position || !(p->clear_m < NEAR_M)) return false;
-  if (g->has_force && fabs(lifted_mps2(g, m, p, sample)) > SHARE * G_MPS2) return true;
-  const double arm_m[2] = {fabs(m->frame.rotor_y_m[0]), fabs(m->frame.rotor_x_m[0])};
-  const bool told = g->has_rates && g->has_moments && !grid_misses_commands(g);
-  for (int axis = 0; axis < 2 && told; axis++) {
-    const double most_radps2 = SHARE_ALONE * m->mass_kg * G_MPS2 * arm_m[axis] / m->frame.inertia_kgm2[axis];
-    if (fabs(turned_radps2(g, m, axis, sample)) > most_radps2) return true;
+// More than that, either way, is no air.
+static void find_most(const model_t *m, double most[PUSHES]) {
+  const double weight_N = m->mass_kg * G_MPS2;
+  double arm_m[2] = {0.0, 0.0}; // about x, y
+  for (int k = 0; k < ROTORS; k++) {
+    arm_m[0] = fmax(arm_m[0], fabs(m->frame.rotor_y_m[k]));
+    arm_m[1] = fmax(arm_m[1], fabs(m->frame.rotor_x_m[k]));
   }
-  return false;
+  most[LIFT] = SHARE * G_MPS2;
+  for (int i = 0; i < 2; i++) most[TURN_X + i] = SHARE_ALONE * weight_N * arm_m[i] / m->frame.inertia_kgm2[i];
+}
+
+static void find_pushes(const grid_t *g, const model_t *m, double *of[PUSHES]) {
+  for (int j = 0, i = 0; j < g->n; j++, i += g->every) {
+    i = grid_begins(g, i);
+    of[LIFT][j] = lifted(g, m, &g->point[j], i);
+    for (int axis = 0; axis < 2; axis++) of[TURN_X + axis][j] = turned(g, m, axis, i);
+  }
+}
+
+// Of what is there: a load, or a centre of mass that lies elsewhere, pushes all the time.
+static double median_of(const double *v, int n, double *room) {
+  int finite = 0;
+  for (int j = 0; j < n; j++)
+    if (isfinite(v[j])) room[finite++] = v[j];
+  return finite ? nth_smallest(room, finite, (finite - 1) / 2) : 0.0;
+}
+
+// On the floor it lands; what it does at the ceiling is told.
+static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
+  p->ok = false;
+  if (m->ceiling_m - p->pos_w_m.z > p->pos_w_m.z) return;
+  if (g->bumps++ == 0) g->bump_s = p->t_s;
+}
+
+done_t grid_leave_out_bumps(grid_t *g, const model_t *m, why_t *why) {
+  double most[PUSHES], usual[PUSHES], *of[PUSHES];
+  const size_t n = (size_t)g->n;
+  if (!g->has_position) return DONE;
+  double *const room = malloc(((PUSHES + 1) * n + 1) * sizeof(double));
+  if (!room) return error_failed(why, "out of memory");
+  for (size_t k = 0; k < PUSHES; k++) of[k] = room + k * n;
+  find_pushes(g, m, of);
+  find_most(m, most);
+  for (int k = 0; k < PUSHES; k++) usual[k] = median_of(of[k], g->n, room + PUSHES * n);
+  for (int j = 0; j < g->n; j++) {
+    grid_point_t *const p = &g->point[j];
+    bool bumps = false;
+    for (int k = 0; k < PUSHES; k++) bumps = bumps || fabs(of[k][j] - usual[k]) > most[k];
+    if (p->ok && p->clear_m < NEAR_M && bumps) leave_out(g, m, p);
+  }
+  free(room);
+  return DONE;
 }

@@ -158,13 +158,6 @@ static bool speeds_room(grid_t *g, size_t points) {
   return true;
 }
 
-// On the floor it lands; what it does at the ceiling is told.
-static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
-  p->ok = false;
-  if (m->ceiling_m - p->pos_w_m.z > p->pos_w_m.z) return;
-  if (g->bumps++ == 0) g->bump_s = p->t_s;
-}
-
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
   body_t b = {.model = m}; // the points that can touch
@@ -177,9 +170,7 @@ static void take_points(grid_t *g, const model_t *m, int to) {
       continue;
     }
     if (g->measured_N[0]) take_speeds(g, m, i);
-    grid_point_t *const p = &g->point[g->n++];
-    *p = point_of(g, m, &b.touch, i);
-    if (p->ok && grid_bumps(g, m, p, i - g->from)) leave_out(g, m, p);
+    g->point[g->n++] = point_of(g, m, &b.touch, i);
     i += g->every;
   }
 }
@@ -249,6 +240,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
     return error_failed(why, "out of memory");
   TRY(take_commands(g, m, to - from, why));
   take_points(g, m, to);
+  TRY(grid_leave_out_bumps(g, m, why));
   g->velocity_made = g->has_position && !g->has_velocity;
   if (g->velocity_made) make_velocity(g);
   g->acceleration_made = g->has_velocity && g->has_attitude && !g->has_force;

@@ -79,15 +79,16 @@ void grid_free(grid_t *g);
 bool grid_is_slow(const grid_t *g);
 bool grid_misses_commands(const grid_t *g);
 
-// Whether something solid pushes at a point that begins with this sample: near floor or ceiling it is lifted
-// or turned as no air does it (bumps.c).
-bool grid_bumps(const grid_t *g, const model_t *m, const grid_point_t *p, int sample);
+// Points at which something solid pushes are no good ones: near floor or ceiling it is lifted or turned as no
+// air does it, and not as at other times (bumps.c). FAILED: no memory.
+MUST_CHECK done_t grid_leave_out_bumps(grid_t *g, const model_t *m, why_t *why);
 
 // Places without what of their errors lasts less than about a quarter of a second: each is carried along by
 // the logged velocity, and the mean taken over the points about it (flight path reconstruction: Mulder et al.
 // 1999, Non-linear aircraft flight path reconstruction review). What is multiplied by errors is estimated too
 // small (5_infer/bend.h). Velocities likewise, by what those about them say, as much as their errors and the
-// flight's own accelerations ask for; left as they are where either is not logged. FAILED: no memory.
+// flight's own accelerations ask for. Both are left as they are where places or velocities are not logged,
+// velocities also without an accelerometer or an attitude. FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
 // The first sample from number i on with which a whole point of one segment begins, if there is one.

@@ -202,7 +202,8 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
     a->value[k] = found[i] = f->b[at[i]];
     a->stderr_[k] = sqrt(f->V[at[i] * (all + 1)]);
     differ[i] = f->b[at[i]] - named->value[k];
-    // Less does not matter, however sure it is: the named error already holds it.
+    // From what is named, of smooth velocities; how much it scatters is known of plain least squares in
+    // velocities as logged. Less does not matter, however sure it is: the named error already holds it.
     beyond = beyond || fabs(differ[i]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
   a->p = wald_p(found, f->V, at, n, all, free);

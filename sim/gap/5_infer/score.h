@@ -34,7 +34,7 @@ bool choice_has(const choice_t *choice, int candidate);
 double score_left(const score_t *j, const choice_t *choice, double *halves);
 
 // What is right in one group of channels is not wrong in another: the choice `with` leaves more of one of
-// them.
+// them, by a twentieth of it and of what it takes from the others.
 bool score_harms(const score_t *j, const choice_t *without, const choice_t *with);
 
 // Sum of squares left where it was fitted.

@@ -7,10 +7,12 @@
 //   a cross-validated gain of 0.4 % of the sum of squares, that is not ups and downs among half-flights.
 // A lag or delay below 5 ms, or below one period of the log, is what feedback alone looks like, or streams
 // that are not aligned: it is taken into the model, and not named. A name that others could stand for is
-// told with them (family.h). The best one enters, what is named is estimated anew about its present values,
-// what no longer passes beside the others goes, and one is swapped for another where both models, replayed,
-// say so; until nothing changes. Of what is left then, a name that the rows speak against, beside the others
-// and what feedback makes of all of them together (evidence.h), goes out for good, the worst first.
+// told with them (family.h). The best one enters, of those that leave the same the one with fewest forms
+// (twice their logarithm counts with what is left: an effect is there in any of its forms), what is named is
+// estimated anew about its present values, what no longer passes beside the others goes, and one is swapped
+// for another where both models, replayed, say so; until nothing changes. Of what is left then, a name that
+// the rows speak against, beside the others and what feedback makes of all of them together (evidence.h),
+// goes out for good, the worst first.
 #ifndef SIM_GAP_5_INFER_SELECT_H
 #define SIM_GAP_5_INFER_SELECT_H
 
