@@ -172,8 +172,11 @@ void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f) {
   woven_get(w, LANES_motors, k, f->motor_N);
 }
 
+// What is looked at is known where it comes from. In the lane it was something else meanwhile, and where that
+// is what it becomes at once nobody would be told.
 void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f) {
   woven_begin_vehicle(w, k, f->pilot->vehicle);
+  weave_put(&w->looked, lanes_looked(w->state), k, &f->pilot->vehicle->app);
   put_motors(w, k, f);
 }
 
