@@ -89,8 +89,9 @@ TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
 // The swinging one is of a user's flights with 5 g more mass, whose pilot had 24 1/s.
 TEST(gap_takes_a_vehicle_that_swings_for_no_sign_of_a_swift_pilot) {
   enum { N = 6 };
-  static const double gain[N] = {8.0, 10.0, 12.5, 16.0, 20.0, 25.0};
-  static const struct {
+  const double lost = (double)NAN;
+  const double gain[N] = {8.0, 10.0, 12.5, 16.0, 20.0, 25.0};
+  const struct {
     const char *what;
     double off[N];
     bool believed;
@@ -102,9 +103,9 @@ TEST(gap_takes_a_vehicle_that_swings_for_no_sign_of_a_swift_pilot) {
       {"it swings with the least", {0.2, -0.65, -0.69, -0.49, -0.36, -0.35}, false, 25.0},
       {"it swings a little less", {-0.34, -0.65, -0.69, -0.49, -0.36, -0.35}, false, 25.0},
       {"the least is what was read", {0.2, -0.65, -0.69, -0.49, -0.36, -0.35}, true, 8.0},
-      {"the least cannot be flown", {(double)NAN, -0.1, -0.2, 0.2, 0.4, 0.6}, false, 14.142},
-      {"one cannot be flown", {-0.3, (double)NAN, -0.2, 0.2, 0.4, 0.6}, false, 14.142},
-      {"none can be flown", {NAN, NAN, NAN, NAN, NAN, NAN}, false, 0.0},
+      {"the least cannot be flown", {lost, -0.1, -0.2, 0.2, 0.4, 0.6}, false, 14.142},
+      {"one cannot be flown", {-0.3, lost, -0.2, 0.2, 0.4, 0.6}, false, 14.142},
+      {"none can be flown", {lost, lost, lost, lost, lost, lost}, false, 0.0},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     turned_t turned[N];
