@@ -127,18 +127,34 @@ bool settle(stage_t &s, const MatrixXd &G, double *F, double *blocks, fit_t &f) 
   }
 }
 
-// Jackknife over the blocks: of `two`, and of its distance from `one`.
+VectorXd scale_of(const double *total, int size) {
+  VectorXd scale = VectorXd::Zero(size);
+  for (int i = 0; i < size; i++) {
+    const double square = total[i * (size + 1)];
+    scale(i) = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+  }
+  return scale;
+}
+
+// Of the regressors, in their own units.
+VectorXd unit_of(const stage_t &s) {
+  return s.scale.head(s.p->n) / s.scale(s.size - 1);
+}
+
+// Jackknife over the blocks, in the regressors' units: of `two`, and of its distance from `one`.
 void spreads(const stage_t &two, const fit_t &iv, const stage_t &one, const fit_t &ls, MatrixXd &spread,
              MatrixXd &apart) {
-  const int n = two.p->n, last = two.size - 1;
+  const int n = two.p->n;
   const MatrixXd G = products(two, two.p->total), H = products(one, one.p->total);
+  const VectorXd own = unit_of(two), other = unit_of(one);
   double used = 0.0;
   spread = apart = MatrixXd::Zero(n, n);
   for (int i = 0; i < two.p->n_block; i++) {
-    const double *own = two.p->block + (ptrdiff_t)i * two.size * two.size;
-    const MatrixXd g = products(two, own), h = products(one, own);
-    if (!(g(last, last) > 0.0)) continue;
-    const VectorXd u = without(two, G, iv, g) - iv.b, d = u - (without(one, H, ls, h) - ls.b);
+    const MatrixXd g = products(two, two.p->block + (ptrdiff_t)i * two.size * two.size),
+                   h = products(one, one.p->block + (ptrdiff_t)i * one.size * one.size);
+    if (!(g(two.size - 1, two.size - 1) > 0.0)) continue;
+    const VectorXd u = (without(two, G, iv, g) - iv.b).cwiseProduct(own),
+                   d = u - (without(one, H, ls, h) - ls.b).cwiseProduct(other);
     spread += dense_product(u, u.transpose());
     apart += dense_product(d, d.transpose());
     used += 1.0;
@@ -147,31 +163,33 @@ void spreads(const stage_t &two, const fit_t &iv, const stage_t &one, const fit_
   apart *= (used - 1.0) / std::fmax(used, 1.0);
 }
 
+bool moves(const stage_t &s) {
+  return s.scale.head(s.p->n).minCoeff() > 0.0 && s.scale(s.size - 1) > 0.0;
+}
+
 } // namespace
 
 bool lsq_instrument(const lsq_instrument_t *p, const lsq_instrumented_t *out) {
+  using marks_t = Eigen::Array<bool, Eigen::Dynamic, 1>;
   const int n = p->n, size = n + n * p->sets * p->lags + 1;
-  stage_t two = {
-      p, size, VectorXd::Zero(size), {}, Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, false)};
-  for (int i = 0; i < size; i++) {
-    const double square = p->total[i * (size + 1)];
-    two.scale(i) = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
-  }
-  if (n == 0 || !(two.scale.head(n).minCoeff() > 0.0) || !(two.scale(size - 1) > 0.0)) return false;
-  stage_t one = two;
-  one.own.setConstant(true);
+  lsq_instrument_t plain = *p;
+  if (p->plain_total)
+    plain = {p->plain_total, p->plain_block, p->n_block, n, 0, 0, p->least, nullptr, nullptr};
+  stage_t two = {p, size, scale_of(p->total, size), {}, marks_t::Constant(n, false)};
+  stage_t one = {&plain, 0, {}, {}, marks_t::Constant(n, true)};
+  one.size = n + n * plain.sets * plain.lags + 1;
+  one.scale = scale_of(plain.total, one.size);
+  if (n == 0 || !moves(two) || !moves(one)) return false;
   choose(two, out->F);
-  const MatrixXd G = products(one, p->total);
   fit_t ls, iv;
+  const MatrixXd G = products(one, plain.total);
   project(one, G);
   if (!fit(one, G, ls) || !settle(two, products(two, p->total), out->F, out->blocks, iv)) return false;
   MatrixXd spread, differ;
   spreads(two, iv, one, ls, spread, differ);
-  // Back to the regressors' own units.
-  const VectorXd unit = two.scale.head(n) / two.scale(size - 1);
-  Eigen::Map<VectorXd>(out->b, n) = iv.b.cwiseProduct(unit);
-  Eigen::Map<VectorXd>(out->plain, n) = ls.b.cwiseProduct(unit);
-  out_t(out->V, n, n) = dense_scaled(spread, unit);
-  out_t(out->apart, n, n) = dense_scaled(differ, unit);
+  Eigen::Map<VectorXd>(out->b, n) = iv.b.cwiseProduct(unit_of(two));
+  Eigen::Map<VectorXd>(out->plain, n) = ls.b.cwiseProduct(unit_of(one));
+  out_t(out->V, n, n) = spread;
+  out_t(out->apart, n, n) = differ;
   return true;
 }

@@ -2,9 +2,10 @@
 //
 // Columns of G: n regressors X, then for each of them in turn its instruments Z_k, `sets` times `lags`, and
 // last y. A set that alone is too weak (F below `least`) is left out. First stage: xhat_k = Z_k (Z_k' Z_k)^-1
-// Z_k' x_k; second: b = (Xhat' X)^-1 Xhat' y. Covariances, of b and of b less the plain least squares
+// Z_k' x_k; second: b = (Xhat' X)^-1 Xhat' y. Covariances, of b and of b less plain least squares
 // (Hausman's test, robust), are jackknifed over the blocks: a few of these often have nearly all that the
-// reference does, and the usual sandwich is too small then.
+// reference does, and the usual sandwich is too small then. The plain ones may be of other sums, over the
+// same blocks: of regressors that were measured better, where instruments need no better ones.
 //
 // Strength of a first stage: F = gamma^2/var(gamma) over the number of instruments, gamma the slope of x_k on
 // the combination of Xhat that is orthogonal to all other regressors. Where it is below `least`, x_k stands
@@ -22,6 +23,8 @@ typedef struct {
   const double *total, *block; // n_block matrices; total is their sum
   int n_block, n, sets, lags;
   double least; // F from which an instrument is one
+  const double *plain_total,
+      *plain_block; // of the n regressors and y for plain least squares; null: of these
 } lsq_instrument_t;
 
 // n numbers each.

@@ -172,8 +172,9 @@ void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f) {
   woven_get(w, LANES_motors, k, f->motor_N);
 }
 
-// What is looked at is known where it comes from. In the lane it was something else meanwhile, and where that
-// is what it becomes at once nobody would be told.
+// Its lane flew on without it, and what was looked at there is no longer what the vehicle has: it is
+// remembered as the vehicle has it. Else what becomes in the first millisecond just what the lane had is not
+// told.
 void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f) {
   woven_begin_vehicle(w, k, f->pilot->vehicle);
   weave_put(&w->looked, lanes_looked(w->state), k, &f->pilot->vehicle->app);

@@ -205,6 +205,25 @@ TEST(gap_notes_what_its_vehicle_file_does_not_say_first_of_all) {
                      "this mass and radius\n") != NULL);
 }
 
+// The hover under the ceiling, pushed back with 0.8 g for 30 ms.
+TEST(gap_notes_when_a_vehicle_bumped_into_the_ceiling) {
+  for (int bump = 0; bump < 2; bump++) {
+    ROW("%s", bump ? "a bump" : "none");
+    char line[600], text[6000];
+    snprintf(
+        line, sizeof line,
+        "(echo 'ceiling_m = 0.5'; cat sim/vehicle/vehicles/cf21_legacy.toml) >$S/under.toml; fly "
+        "test-flight --seed 5 --log $S/whole.csv >$S/fly.txt; awk -F, -v OFS=, '$1 > 36000 && $1 < 36035 "
+        "{$11 -= %g} 1' $S/whole.csv >$S/bump.csv; gap --vehicle $S/under.toml $S/bump.csv",
+        bump ? 0.8 : 0.0);
+    CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
+    const char *const said =
+        strstr(text, "note: bump.csv: it bumped into the ceiling, at 36.0 s for the first "
+                     "time; what was measured then is left out\n");
+    CHECK(bump ? said != NULL : !strstr(text, "bumped"));
+  }
+}
+
 // What is flown again takes the commands of the same time: behind a gap those of later would lift and sink.
 TEST(gap_flies_again_behind_a_gap_in_time_as_before_it) {
   double off_m[2];

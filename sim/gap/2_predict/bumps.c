@@ -8,27 +8,28 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR_M      0.03 // of any part of the vehicle from floor or ceiling
-#define SHARE       0.5  // of the weight: ground and ceiling effects give a third
-#define SHARE_ALONE 0.1  // the same, at a rotor: what pushes at one edge turns more than it lifts
+// Of any part of the vehicle from floor or ceiling: places err by 1 cm or 2, and tilt moves an edge by as
+// much.
+#define NEAR_M 0.03
+// Of the weight, no unit: ground and ceiling effects give a third at most, a bump at 0.2 m/s several times
+// it.
+#define LIFT_SHARE 0.5
+// Of the weight, at a rotor's arm: what pushes at one edge turns it more than it lifts it. The moments of a
+// tilt under a ceiling are a tenth of that.
+#define EDGE_SHARE 0.1
 
 // What it is lifted with (m/s2) and turned with about x and y (rad/s2) beyond its commands; NaN: not logged.
 enum { LIFT, TURN_X, TURN_Y, PUSHES };
 
-static double mean_of(const double *v, int n) {
-  double sum = 0.0;
-  for (int i = 0; i < n; i++) sum += v[i] / n;
-  return sum;
-}
-
-static double lifted(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
+static double lifted_mps2(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
   double thrust_N = 0.0;
-  for (int k = 0; k < ROTORS; k++) thrust_N += mean_of(g->command_N[k] + sample, g->every);
+  for (int k = 0; k < ROTORS; k++)
+    for (int i = 0; i < g->every; i++) thrust_N += g->command_N[k][sample + i] / g->every;
   return g->has_force ? p->acc_b_mps2.z - thrust_N / m->mass_kg : (double)NAN;
 }
 
 // From the sample before the point to the one behind. Of rows that miss commands it says nothing.
-static double turned(const grid_t *g, const model_t *m, int axis, int sample) {
+static double turned_radps2(const grid_t *g, const model_t *m, int axis, int sample) {
   const int before = sample - 1, behind = sample + g->every;
   const int *const segment = g->flight->segment;
   if (!g->has_rates || !g->has_moments || grid_misses_commands(g)) return (double)NAN;
@@ -49,15 +50,15 @@ static void find_most(const model_t *m, double most[PUSHES]) {
     arm_m[0] = fmax(arm_m[0], fabs(m->frame.rotor_y_m[k]));
     arm_m[1] = fmax(arm_m[1], fabs(m->frame.rotor_x_m[k]));
   }
-  most[LIFT] = SHARE * G_MPS2;
-  for (int i = 0; i < 2; i++) most[TURN_X + i] = SHARE_ALONE * weight_N * arm_m[i] / m->frame.inertia_kgm2[i];
+  most[LIFT] = LIFT_SHARE * G_MPS2;
+  for (int i = 0; i < 2; i++) most[TURN_X + i] = EDGE_SHARE * weight_N * arm_m[i] / m->frame.inertia_kgm2[i];
 }
 
 static void find_pushes(const grid_t *g, const model_t *m, double *of[PUSHES]) {
   for (int j = 0, i = 0; j < g->n; j++, i += g->every) {
     i = grid_begins(g, i);
-    of[LIFT][j] = lifted(g, m, &g->point[j], i);
-    for (int axis = 0; axis < 2; axis++) of[TURN_X + axis][j] = turned(g, m, axis, i);
+    of[LIFT][j] = lifted_mps2(g, m, &g->point[j], i);
+    for (int axis = 0; axis < 2; axis++) of[TURN_X + axis][j] = turned_radps2(g, m, axis, i);
   }
 }
 

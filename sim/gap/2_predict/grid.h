@@ -91,6 +91,12 @@ MUST_CHECK done_t grid_leave_out_bumps(grid_t *g, const model_t *m, why_t *why);
 // velocities also without an accelerometer or an attitude. FAILED: no memory.
 MUST_CHECK done_t grid_smooth(grid_t *g, why_t *why);
 
+// How the velocity changes, in the world, by accelerometer and attitude, which are there.
+static inline d3_t grid_acc_w_mps2(const grid_point_t *p) {
+  const axes_t a = axes_of(p->q_wb);
+  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, G_MPS2));
+}
+
 // The first sample from number i on with which a whole point of one segment begins, if there is one.
 static inline int grid_begins(const grid_t *g, int i) {
   const int *const segment = g->flight->segment ? g->flight->segment + g->from : NULL;

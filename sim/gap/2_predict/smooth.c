@@ -76,17 +76,12 @@ typedef struct {
   double G[(REACH_MOST + 1) * (REACH_MOST + 1)], squares[REACH_MOST]; // sums of products; of s(u) alone
 } changes_t;
 
-static d3_t acc_w_mps2(const grid_point_t *p) {
-  const axes_t a = axes_of(p->q_wb);
-  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, G_MPS2));
-}
-
 // way: what accelerations add up to from the first of n points on; off: what the velocity has beside it. Axis
 // by axis, `all` numbers each.
 static void tell_apart(const grid_point_t *p, int n, int all, double *way, double *off) {
   d3_t sum = {0.0, 0.0, 0.0}, before = sum;
   for (int j = 0; j < n; j++) {
-    const d3_t now = acc_w_mps2(&p[j]);
+    const d3_t now = grid_acc_w_mps2(&p[j]);
     if (j) sum = d3_add(sum, d3_scale(0.5 * (p[j].t_s - p[j - 1].t_s), d3_add(before, now)));
     before = now;
     double v[3], x[3];

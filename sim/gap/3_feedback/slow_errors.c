@@ -50,11 +50,6 @@ static slow_t solve_axes(const spans_t *s, const grid_t *g, const double white[3
   return slow;
 }
 
-static d3_t acc_w(const grid_point_t *p) {
-  const axes_t a = axes_of(p->q_wb);
-  return d3_sub(axes_to_world(&a, p->acc_b_mps2), d3(0.0, 0.0, G_MPS2));
-}
-
 static d3_t up_b(const grid_point_t *p) {
   const axes_t a = axes_of(p->q_wb);
   return axes_up_b(&a);
@@ -111,7 +106,8 @@ void slow_errors(const grid_t *g, const white_error_t *white, slow_t *pos_m, slo
   if (g->has_position && own) s = misses(g, position, velocity);
   *pos_m = solve_axes(&s, g, white->pos_m, POS_MOST_M);
   s.n = 0;
-  if (own && g->has_force && !g->acceleration_made && g->has_attitude) s = misses(g, velocity, acc_w);
+  if (own && g->has_force && !g->acceleration_made && g->has_attitude)
+    s = misses(g, velocity, grid_acc_w_mps2);
   *vel_mps = solve_axes(&s, g, white->vel_mps, VEL_MOST_MPS);
   s.n = 0;
   if (g->has_attitude && g->has_rates) s = of_two_axes(misses(g, up_b, up_rate));

@@ -19,7 +19,8 @@ typedef struct {
   const model_t *base;
   model_t now; // with them
   const closed_loop_t *loop;
-  design_t table; // columns of the names, of the instruments, and the residual
+  gram_t plain;   // of the names as they were found, of smooth velocities
+  design_t table; // columns of the names, of the instruments, and the residual; velocities as logged
 } confirming_t;
 
 // --- the flight along the reference -----------------------------------------------------------------------
@@ -201,9 +202,8 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
     const int k = at[i] - c->first;
     a->value[k] = found[i] = f->b[at[i]];
     a->stderr_[k] = sqrt(f->V[at[i] * (all + 1)]);
-    differ[i] = f->b[at[i]] - named->value[k];
-    // From what is named, of smooth velocities; how much it scatters is known of plain least squares in
-    // velocities as logged. Less does not matter, however sure it is: the named error already holds it.
+    differ[i] = f->b[at[i]] - f->plain[at[i]];
+    // Less does not matter, however sure it is: the named error already holds it.
     beyond = beyond || fabs(differ[i]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
   a->p = wald_p(found, f->V, at, n, all, free);
@@ -220,10 +220,10 @@ static void set_apart(gram_t *g, int n) {
   }
 }
 
-static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why) {
+// In the colours of what the names leave.
+static done_t take_products(const confirming_t *t, const design_t *table, gram_t *g, why_t *why) {
   int column[COLUMN_MAX];
   double value[COLUMN_MAX];
-  gram_t g;
   const int n = t->names.columns;
   for (int i = 0; i < t->names.n; i++)
     for (int k = 0; k < t->names.candidate[i].n; k++) {
@@ -231,10 +231,26 @@ static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why)
       value[t->names.candidate[i].first + k] = fx_use_size(&t->chosen.use[i], k);
     }
   const explained_t known = {n, column, value, false};
-  TRY(gram_make(&g, t->s, &t->table, &known, NULL, why));
-  set_apart(&g, n);
+  TRY(gram_make(g, t->s, table, &known, NULL, why));
+  set_apart(g, n);
+  return DONE;
+}
+
+static done_t make_plain(confirming_t *t, why_t *why) {
+  design_t names;
+  TRY(design_make(&names, t->s, t->base, &t->names, &t->chosen, why));
+  const done_t status = take_products(t, &names, &t->plain, why);
+  design_free(&names);
+  return status;
+}
+
+static done_t ask_instruments(const confirming_t *t, found_t *found, why_t *why) {
+  gram_t g;
+  const int n = t->names.columns;
+  TRY(take_products(t, &t->table, &g, why));
   fit_t *const f = malloc(sizeof *f);
-  const lsq_instrument_t job = {g.total, g.block, g.n_block, n, GROUPS, LAGS, CONFIRM_F};
+  const lsq_instrument_t job = {g.total,   g.block,        g.n_block,     n, GROUPS, LAGS,
+                                CONFIRM_F, t->plain.total, t->plain.block};
   const bool good =
       f && lsq_instrument(&job, &(lsq_instrumented_t){f->plain, f->b, f->F, f->blocks, f->V, f->apart});
   for (int i = 0; i < found->n; i++)
@@ -263,7 +279,8 @@ static bool all_have_set_points(const set_t *s) {
   return s->n_grid > 0;
 }
 
-// Velocities as they are logged, and back: where errors do not matter, what smoothing takes of a motion does.
+// Velocities as they are logged, and back: to an instrument their errors do no harm, and of smooth ones it
+// finds a fifth too much, for what smoothing takes of a motion. Meanwhile `seen` are the smooth ones.
 static void swap_speeds(set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     for (int j = 0; j < s->grid[f].n; j++) {
@@ -276,17 +293,19 @@ static void swap_speeds(set_t *s) {
 
 done_t confirm_names(const candidates_t *c, set_t *s, const model_t *base, const closed_loop_t *loop,
                      found_t *found, const char **why_not, why_t *why) {
-  confirming_t t = {.s = s, .base = base, .loop = loop};
+  confirming_t t = {.s = s, .base = base, .loop = loop, .plain = {.size = 0}};
   bool flew = false;
   *why_not = NULL;
   if (found->n == 0 || !all_have_set_points(s)) return DONE;
   done_t status = take_names(&t, c, &found->chosen, why);
+  if (status == DONE) status = make_plain(&t, why);
   swap_speeds(s);
   if (status == DONE) status = make_table(&t, why);
   if (status == DONE) status = make_instruments(&t, &flew, why);
   if (status == DONE && flew) status = ask_instruments(&t, found, why);
   swap_speeds(s);
   if (status == DONE && !flew) *why_not = "the model cannot be flown along the logged set points";
+  gram_free(&t.plain);
   design_free(&t.table);
   candidates_free(&t.names);
   return status;

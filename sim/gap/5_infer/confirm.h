@@ -6,6 +6,7 @@
 // model is flown along the logs' set points, without noise and disturbance, by the pilot of the nominal
 // flights; what each name adds there (its columns, through the same 8 Hz filter, at three lags) is a filter
 // of the reference and of nothing else, and the instruments of two-stage least squares (lsq_instrument.h).
+// These ask velocities as logged; what they are held against is found in smooth ones, as the names were.
 #ifndef SIM_GAP_5_INFER_CONFIRM_H
 #define SIM_GAP_5_INFER_CONFIRM_H
 

@@ -42,7 +42,7 @@ typedef struct {
 
 static got_t solve(const sums_t *s) {
   got_t g = {0};
-  const lsq_instrument_t job = {s->total, s->block[0], BLOCKS, 1, SETS, LAGS, 10.0};
+  const lsq_instrument_t job = {s->total, s->block[0], BLOCKS, 1, SETS, LAGS, 10.0, NULL, NULL};
   CHECK(lsq_instrument(&job, &(lsq_instrumented_t){&g.plain, &g.b, &g.F, &g.blocks, &g.V, &g.apart}));
   return g;
 }
@@ -70,6 +70,34 @@ TEST(lsq_instrument_agrees_with_least_squares_where_nothing_feeds_back) {
   }
 }
 
+// Measured with errors x is found too small by plain least squares; measured without, as the instrument has
+// it.
+TEST(lsq_instrument_is_held_against_least_squares_of_a_better_measurement) {
+  static sums_t s;
+  static double better[4], of_block[BLOCKS][4]; // x without errors, y
+  splitmix_t r = {8};
+  for (int i = 0; i < BLOCKS * ROWS; i++) {
+    const double z1 = splitmix_normal(&r, 1.0), z2 = splitmix_normal(&r, 1.0), x = z1 + z2;
+    const double y = 2.0 * x + splitmix_normal(&r, 1.0), off = splitmix_normal(&r, 1.0), xy[] = {x, y};
+    const double row[] = {x + off, z1, z2, splitmix_normal(&r, 1.0), splitmix_normal(&r, 1.0), y};
+    add(&s, i / ROWS, row, 6);
+    for (int k = 0; k < 4; k++) {
+      better[k] += xy[k / 2] * xy[k % 2];
+      of_block[i / ROWS][k] += xy[k / 2] * xy[k % 2];
+    }
+  }
+  for (int held = 0; held < 2; held++) {
+    ROW("%s", held ? "without errors" : "with errors");
+    got_t g = {0};
+    lsq_instrument_t job = {s.total, s.block[0], BLOCKS, 1, SETS, LAGS, 10.0, NULL, NULL};
+    if (held) job.plain_total = better, job.plain_block = of_block[0];
+    CHECK(lsq_instrument(&job, &(lsq_instrumented_t){&g.plain, &g.b, &g.F, &g.blocks, &g.V, &g.apart}));
+    CHECK_NEAR(g.b, 2.0, 3.0 * sqrt(g.V));
+    CHECK_NEAR(g.plain, held ? 2.0 : 4.0 / 3.0, 0.1); // var(x)/(var(x) + var(off)) of it
+    CHECK(held == (fabs(g.b - g.plain) < 3.0 * sqrt(g.apart)));
+  }
+}
+
 TEST(lsq_instrument_tells_when_it_is_too_weak) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     static sums_t s;
@@ -85,6 +113,6 @@ TEST(lsq_instrument_has_no_solution_without_a_regressor_that_moves) {
   static sums_t s;
   got_t g;
   memset(&s, 0, sizeof s);
-  const lsq_instrument_t job = {s.total, s.block[0], BLOCKS, 1, SETS, LAGS, 10.0};
+  const lsq_instrument_t job = {s.total, s.block[0], BLOCKS, 1, SETS, LAGS, 10.0, NULL, NULL};
   CHECK(!lsq_instrument(&job, &(lsq_instrumented_t){&g.plain, &g.b, &g.F, &g.blocks, &g.V, &g.apart}));
 }
