@@ -12,7 +12,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 
 const fx_t fx_gyroscopic = {
     .name = "gyroscopic",
-    .brief = "the rotors' angular momentum is larger than the vehicle file has it",
+    .brief = "the rotors' angular momentum is larger (k > 0) or smaller than the vehicle file has it",
     .fly = "fast roll with yaw",
     .over = {"roll rate"},
     .n_size = 1,

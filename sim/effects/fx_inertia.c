@@ -10,7 +10,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 
 const fx_t fx_inertia = {
     .name = "inertia",
-    .brief = "the inertia about each axis is larger than the vehicle file has it",
+    .brief = "the inertia about each axis is larger (> 0) or smaller than the vehicle file has it",
     .fly = "attitude doublets",
     .over = {"roll rate", "yaw rate"},
     .control_makes = 1,

@@ -8,7 +8,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 
 const fx_t fx_thrust_scale = {
     .name = "thrust_scale",
-    .brief = "every rotor gives more thrust than the vehicle file has it",
+    .brief = "every rotor gives more thrust (k > 0) or less than the vehicle file has it",
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"accel_bias", "throttle steps of 20 %: a bias stays, a scale grows with the thrust"},

@@ -9,7 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 
 const fx_t fx_torque_ratio = {
     .name = "torque_ratio",
-    .brief = "the rotors' torque over their thrust is larger than the vehicle file has it",
+    .brief = "the rotors' torque over their thrust is larger (k > 0) or smaller than the vehicle file has it",
     .fly = "yaw doublets",
     .over = {"thrust"},
     .in = "turn_z",

@@ -217,7 +217,8 @@ TEST(gap_says_that_a_range_bias_may_be_in_the_height_too) {
              "tools/columns/fly.toml $S/cut.csv",
              row[i].from_ms);
     CHECK(program_run(line, STREAM_OUTPUT, text, sizeof text) == 0);
-    const char *const told = strstr(text, "tof_bias: the range sensors read too much by a constant\n  add ");
+    const char *const told = strstr(
+        text, "tof_bias: the range sensors read too much (add > 0) or too little by a constant\n  add ");
     if (CHECK(told)) CHECK_NEAR(strtod(strstr(told, "add ") + 4, NULL), row[i].want_m, 0.005);
     CHECK((strstr(text,
                   "note: tof_bias: where the log's height comes from a range sensor with the same error") !=
