@@ -93,8 +93,10 @@ static void slope_of(const double x[2], double weight[3]) {
 bool bend_nominal(const score_t *j, const choice_t *choice, const double value[FX_SIZE_MAX], bend_t *bend) {
   const candidates_t *const c = j->c;
   const int flights = j->nominal ? j->nominal->n : 0, own = choice->of[choice->n - 1];
+  const int sizes = c->candidate[own].n; // and the slope behind them
   row_of_shapes_t row;
-  double x[2], weight[3], ridge[MIXED], b[MIXED], H[MIXED * MIXED];
+  double x[2], weight[3], ridge[MIXED], b[MIXED], H[MIXED * MIXED], inverse[MIXED * MIXED];
+  double made[FX_SIZE_MAX + 1][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX + 1][NOMINAL_FLIGHTS];
   int order[MIXED];
   mix_t m[MIXED];
   *bend = (bend_t){.shape = 0.0};
@@ -103,7 +105,7 @@ bool bend_nominal(const score_t *j, const choice_t *choice, const double value[F
   slope_of(x, weight);
   const int n = mix_choice(c, choice, m); // number n: the slope
   m[n] = (mix_t){.n = 0};
-  for (int k = 0; k < c->candidate[own].n; k++) mix_shapes(c, &row, weight, value[k], k, &m[n]);
+  for (int k = 0; k < sizes; k++) mix_shapes(c, &row, weight, value[k], k, &m[n]);
   m[n + 1] = column_alone(c->columns);
   const double far = fmax(fabs(x[0]), fabs(x[1])); // no shape that is tried lies beyond it
   for (int i = 0; i <= n; i++) {
@@ -113,15 +115,15 @@ bool bend_nominal(const score_t *j, const choice_t *choice, const double value[F
   for (int f = 0; f < flights; f++) {
     const int size = j->nominal->size;
     products(n + 2, m, j->nominal->total + (size_t)f * (size_t)(size * size), size, H);
-    lsq_solve_products(H, n + 2, order, n + 1, ridge, b, NULL);
-    for (int k = 0; k < c->candidate[own].n; k++) {
-      const double error = b[n - c->candidate[own].n + k];
-      bend->size[k] += error * error / flights;
+    lsq_solve_products(H, n + 2, order, n + 1, ridge, b, inverse);
+    for (int k = 0; k <= sizes; k++) {
+      const int at = n - sizes + k;
+      made[k][f] = b[at];
+      holds[k][f] = 1.0 / inverse[at * (n + 2)];
     }
-    bend->shape += b[n] * b[n] / flights;
   }
-  for (int k = 0; k < c->candidate[own].n; k++) bend->size[k] = sqrt(bend->size[k]);
-  bend->shape = sqrt(bend->shape);
+  for (int k = 0; k < sizes; k++) bend->size[k] = score_rms(made[k], holds[k], flights);
+  bend->shape = score_rms(made[sizes], holds[sizes], flights);
   return true;
 }
 

@@ -198,25 +198,32 @@ void score_estimate(const score_t *j, const choice_t *choice, double *b, double 
   for (int i = 0; i < n * n; i++) V[i] *= few;
 }
 
-// Of size k of a choice's last candidate, by nominal flight; returns how many.
+// Of size k of a choice's last candidate, by nominal flight, and what each flight holds of it (null: nobody
+// asks); returns how many.
 static int nominal_values(const score_t *j, const choice_t *choice,
-                          double value[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
+                          double value[FX_SIZE_MAX][NOMINAL_FLIGHTS],
+                          double holds[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
   int column[COLUMN_MAX];
-  double b[COLUMN_MAX];
+  double b[COLUMN_MAX], inverse[COLUMN_MAX * COLUMN_MAX];
   const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
   const int flights = j->nominal ? j->nominal->n : 0;
   for (int i = 0; i < flights; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
-    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, NULL);
+    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, inverse);
     for (int k = 0; k < own; k++) value[k][i] = b[n - own + k];
+    for (int k = 0; k < own && holds; k++) holds[k][i] = 1.0 / inverse[(n - own + k) * (n + 1)];
   }
   return flights;
 }
 
-static double rms_of(const double *value, int n) {
-  double sum = 0.0;
-  for (int i = 0; i < n; i++) sum += value[i] * value[i] / n;
-  return sqrt(sum);
+double score_rms(const double *value, const double *holds, int n) {
+  double sum = 0.0, all = 0.0;
+  for (int i = 0; i < n; i++) {
+    const double weight = holds ? holds[i] : 1.0;
+    sum += weight * value[i] * value[i];
+    all += weight;
+  }
+  return all > 0.0 ? sqrt(sum / all) : 0.0;
 }
 
 // Where none could be flown.
@@ -226,9 +233,10 @@ static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
 
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
-  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS];
-  const int flights = nominal_values(j, choice, value);
-  for (int k = 0; k < own->n; k++) rms[k] = flights ? rms_of(value[k], flights) : taken_to_be(j, own, k);
+  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
+  const int flights = nominal_values(j, choice, value, holds);
+  for (int k = 0; k < own->n; k++)
+    rms[k] = flights ? score_rms(value[k], holds[k], flights) : taken_to_be(j, own, k);
 }
 
 void score_made(const candidate_t *c, int k, double *value, int flights) {
@@ -241,12 +249,12 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
-  const int flights = nominal_values(j, choice, value);
+  const int flights = nominal_values(j, choice, value, NULL);
   int shown = 0;
   for (int k = 0; k < own->n; k++) {
     if (!gram_shows(j->g, own->first + k)) continue;
     score_made(own, k, value[k], flights);
-    const double made = flights ? rms_of(value[k], flights) : taken_to_be(j, own, k);
+    const double made = flights ? score_rms(value[k], NULL, flights) : taken_to_be(j, own, k);
     sum += made > 0.0 ? size[k] * size[k] / (made * made) : 1e12;
     shown++;
   }

@@ -83,8 +83,13 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v);
 // The sizes of the choice's last candidate are, within two standard errors, such as the effect can have.
 bool score_is_possible(const score_t *j, const choice_t *choice);
 
-// Rms of a candidate's numbers on nominal flights, given the others of the choice. Where none could be flown,
-// feedback is taken to make as much as is never named; 0 for a first look.
+// Rms of what n nominal flights make of a number, each counted by what it holds of it (the inverse of the
+// number's variance, white; null: all alike). Whom an effect pulls towards a surface comes nearer to it than
+// a nominal flight: one that hardly comes there says something of its own noise, not of the log's.
+double score_rms(const double *value, const double *holds, int n);
+
+// Rms (score_rms) of a candidate's numbers on nominal flights, given the others of the choice. Where none
+// could be flown, feedback is taken to make as much as is never named; 0 for a first look.
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
 // Of what nominal flights make of size k of a candidate, what could be taken for it (gate (c)): of a size

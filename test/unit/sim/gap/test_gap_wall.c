@@ -33,7 +33,8 @@ TEST(gap_names_a_wall_where_the_vehicle_file_has_one) {
       // The length is off by less than its error says: by 5 mm at most on seeds 24000 to 24600, error 9 to 45
       // mm.
       if (k == 2) CHECK_NEAR(value[k], hidden.p[1 + k], 0.05 * hidden.p[1 + k]);
-      CHECK(error[k] < 0.25 * hidden.p[1 + k]); // size and length are known together, or not
+      // Size and length are known together, or not. The force at the wall is that of 0.57 m, four lengths on.
+      CHECK(error[k] < (k == 0 ? 0.3 : 0.25) * hidden.p[1 + k]);
     }
 }
 
