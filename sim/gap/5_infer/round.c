@@ -100,18 +100,40 @@ const fx_t *round_fx(const round_t *r, int candidate) {
   return r->c->candidate[candidate].use.fx;
 }
 
+bool round_tells_turning(const round_t *r) {
+  const choice_t nothing = {.n = 0};
+  bool told = false;
+  if (!r->nominal || r->nominal->n == 0 || candidates_slow(r->s)) return false;
+  for (int i = 0; i < r->c->n; i++) {
+    const candidate_t *const c = &r->c->candidate[i];
+    if (!c->use.fx->scales_turning) continue;
+    const choice_t with = choice_with(&nothing, i);
+    double rms[FX_SIZE_MAX];
+    score_nominal_rms(&r->score, &with, rms);
+    for (int k = 0; k < 2; k++) // about x and y: thrust makes no moment about z but through torque
+      if (!gram_shows(&r->gram, c->first + k) || !(limits_nominal(r->nominal->n) * rms[k] < c->typical[k]))
+        return false;
+    told = true;
+  }
+  return told;
+}
+
+static bool excludes(const round_t *r, const fx_t *a, const fx_t *b) {
+  return a->group != FX_ALONE && a->group == b->group && !(a->group == FX_WEIGHT && r->turning_told);
+}
+
 bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
   const fx_t *fx = round_fx(r, candidate);
   for (int i = 0; i < choice->n; i++) {
     const fx_t *other = round_fx(r, choice->of[i]);
-    if (other == fx || (fx->group != FX_ALONE && other->group == fx->group)) return false;
+    if (other == fx || excludes(r, fx, other)) return false;
   }
   return choice->n < NAMED_MAX;
 }
 
-// Another class: of lag and delay, or of mass and thrust scale, either is right.
+// Another class: of lag and delay, or of mass and thrust scale where these exclude each other, either is
+// right.
 bool round_may_stand_for(const round_t *r, const choice_t *rest, int own, int other) {
   const fx_t *const a = round_fx(r, own), *const b = round_fx(r, other);
-  return a != b && (a->group == FX_ALONE || a->group != b->group) && !r->never[other] &&
-         round_fits(r, rest, other);
+  return a != b && !excludes(r, a, b) && !r->never[other] && round_fits(r, rest, other);
 }

@@ -16,6 +16,7 @@ typedef struct {
   choice_t choice;   // in the order in which they entered
   chosen_t chosen;   // the same with their numbers, as of the last round_take
   bool strict;       // colours of what is chosen alone, not of all candidates
+  bool turning_told; // round_tells_turning, of a look with nominal flights
   int rounds;        // times that all columns were formed
   design_t table;
   gram_t gram;
@@ -41,8 +42,14 @@ const fx_t *round_fx(const round_t *r, int candidate);
 // hang on shapes that were found for another choice.
 choice_t round_reshaped(const round_t *r, const choice_t *choice);
 
+// How strongly commands tilt the vehicle can be told, though control makes something of noise, too: on
+// nominal flights it looks like less than an inertia of typical size. Then a log holds mass and thrust scale
+// both, which differ in nothing else. A real vehicle's log in which it looks like one and a half (the
+// brushless one's) was told as twice the thrust and 15 g.
+bool round_tells_turning(const round_t *r);
+
 // Whether the candidate may stand beside a choice: not another shape of the same effect, nor another one of
-// its class.
+// its class, of which one alone is there (lag and delay), or can be told (mass and thrust scale).
 bool round_fits(const round_t *r, const choice_t *choice, int candidate);
 
 // Another name, and not one of the same class, that may stand beside `rest` in place of `own`.

@@ -245,6 +245,7 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
 static done_t find_choice(select_t *t, found_t *found, why_t *why) {
   TRY(take_timing(t, t->timing, why));
   TRY(round_open(&t->round, why));
+  t->round.turning_told = round_tells_turning(&t->round);
   for (int i = 0; !t->round.nominal && i < t->round.c->n; i++)
     if (t->round.c->candidate[i].use.fx->n_shape)
       found->shape[i] = bend_best(&t->round.score, &t->round.choice, i);

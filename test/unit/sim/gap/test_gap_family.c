@@ -212,6 +212,43 @@ TEST(gap_tells_mass_beside_a_thrust_scale_that_stands_for_a_name_where_the_log_m
   }
 }
 
+// They may both be named where the turning tells them apart: control makes of noise what looks like less than
+// a typical inertia by 3.2 times its rms, and all commands are logged.
+TEST(gap_names_mass_beside_a_thrust_scale_where_turning_is_told) {
+  enum { FLIGHTS = 10, COLUMNS = 5 };
+  static const struct {
+    const char *what;
+    double inertia[2], rate_Hz;
+    int flights;
+    bool both;
+  } row[] = {{"little is made of noise", {0.30, 0.30}, 500.0, FLIGHTS, true},
+             {"more about x", {0.33, 0.30}, 500.0, FLIGHTS, false},
+             {"more about y", {0.30, 0.33}, 500.0, FLIGHTS, false},
+             {"one command of five", {0.30, 0.30}, 100.0, FLIGHTS, false},
+             {"nothing was flown", {0.30, 0.30}, 500.0, 0, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_rows_t g;
+    double made[FLIGHTS * COLUMNS] = {0.0};
+    gap_rows_make(&g, 24);
+    g.flight.rate_Hz = row[i].rate_Hz;
+    g.grid.command_Hz = 500.0;
+    const int inertia = gap_rows_candidate(&g, "inertia"), mass = gap_rows_candidate(&g, "mass"),
+              scale = gap_rows_candidate(&g, "thrust_scale");
+    white_column(&g, inertia, 0, CH_WX, 50.0);
+    white_column(&g, inertia, 1, CH_WY, 50.0);
+    white_column(&g, mass, 0, CH_FZ, 50.0);
+    for (int f = 0; f < FLIGHTS; f++)
+      for (int k = 0; k < 2; k++) made[f * COLUMNS + k] = f % 2 ? -row[i].inertia[k] : row[i].inertia[k];
+    gap_rows_nominal(&g, row[i].flights, 1e8, made);
+    gap_rows_open(&g, 1, &mass);
+    g.round.turning_told = round_tells_turning(&g.round);
+    CHECK(g.round.turning_told == row[i].both);
+    CHECK(round_fits(&g.round, &g.round.choice, scale) == row[i].both);
+    gap_rows_free(&g);
+  }
+}
+
 // What tells the two apart is thirty standard errors strong, and straight lines make as much of what is
 // large.
 TEST(gap_tells_nothing_apart_by_less_than_what_straight_lines_are_wrong_by) {
