@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 #define LANES_EFFECTS 32 // FX_MAX
-#define LANES_PARAMS  8  // FX_PARAM_MAX
+#define LANES_PARAMS  9  // FX_PARAM_MAX
 
 typedef struct lanes lanes_t;
 

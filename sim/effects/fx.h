@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define FX_PARAM_MAX 8
+#define FX_PARAM_MAX 9
 #define FX_MEMORY    8  // numbers that an effect keeps from tick to tick
 #define FX_MAX       32 // effects; all of them can be on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates

@@ -1,5 +1,6 @@
 // fx_wind.c - wind: a force in world axes, constant and with gusts, and air that moves (felt through the
-// drags).
+// drags). `plane` 1: of the constant force only the part in the rotors' plane, as a steady wind that is felt
+// through the rotors' drag: a vehicle that leans into it is not lifted by it.
 //
 // The gusts are a first-order Gauss-Markov process of the given standard deviation on each axis, stepped at
 // ticks, exact for any tick.
@@ -8,7 +9,7 @@
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   const double *p = use->p;
-  plant->force_w_N = d3_add(plant->force_w_N, d3_of(p));
+  plant->force_w_N = d3_add_scaled(plant->force_w_N, 1.0 - p[8], d3_of(p));
   plant->air_w_mps = d3_add(plant->air_w_mps, d3_of(p + 5));
   if (!(p[3] > 0.0)) return;
   // memory[3] says that the process has begun: at its stationary spread, not at 0.
@@ -19,6 +20,11 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
   plant->force_w_N = d3_add(plant->force_w_N, d3_of(tick->memory));
 }
 
+static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
+  const d3_t force_b_N = axes_to_body(motion->axes, d3_scale(use->p[8], d3_of(use->p)));
+  load->force_b_N = d3_add(load->force_b_N, d3(force_b_N.x, force_b_N.y, 0.0));
+}
+
 const fx_t fx_wind = {
     .name = "wind",
     .brief = "a constant force in the world, gusts, and moving air that the drags feel",
@@ -27,7 +33,10 @@ const fx_t fx_wind = {
     .needs = FX_NEEDS_ATTITUDE,
     .n_size = 2,
     .size = {{0, 1e-4, 0, 0.0, FX_BY_MASS}, {1, 1e-4, 0, 0.0, FX_BY_MASS}},
-    .n_param = 8,
+    .kind_param = 8,
+    .n_kind = 2,
+    .kind = {0.0, 1.0},
+    .n_param = 9,
     .param = {{"fx", "N", -50.0, 3e-3, 50.0},
               {"fy", "N", -50.0, 0.0, 50.0},
               {"fz", "N", -50.0, 0.0, 50.0},
@@ -35,6 +44,8 @@ const fx_t fx_wind = {
               {"tau", "s", 0.01, 0.3, 100.0},
               {"vx", "m/s", -20.0, 0.0, 20.0},
               {"vy", "m/s", -20.0, 0.0, 20.0},
-              {"vz", "m/s", -20.0, 0.0, 20.0}},
+              {"vz", "m/s", -20.0, 0.0, 20.0},
+              {"plane", "number", 0.0, 0.0, 1.0}},
+    .load = load,
     .tick = tick,
 };

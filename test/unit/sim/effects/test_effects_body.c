@@ -100,6 +100,17 @@ TEST(wind_pushes_in_the_world_whatever_the_vehicle_looks_at) {
   check_d3(felt(&m, &start).acc_b_mps2, 0.303951, 0.0, 0.0, 1e-6);
 }
 
+TEST(wind_that_the_rotors_feel_pushes_in_their_plane) {
+  model_t m = vehicle6(HUGE_VAL);
+  body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+  fx_use_t *wind = vehicle6_add(&m, "wind");
+  start.q_wb = turned_about(d3(0.0, 1.0, 0.0), 0.3); // nose down
+  wind->p[0] = 0.01;
+  check_d3(felt(&m, &start).acc_b_mps2, 0.303951 * cos(0.3), 0.0, 0.303951 * sin(0.3), 1e-6);
+  wind->p[8] = 1.0;
+  check_d3(felt(&m, &start).acc_b_mps2, 0.303951 * cos(0.3), 0.0, 0.0, 1e-6);
+}
+
 TEST(gusts_have_the_spread_and_the_memory_they_say) {
   model_t m = vehicle6(HUGE_VAL);
   fx_use_t *wind = vehicle6_add(&m, "wind");

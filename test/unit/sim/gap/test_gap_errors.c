@@ -1,4 +1,5 @@
 // test_gap_errors.c - what stands behind a number: the truth lies within it.
+#include "base/constants.h"
 #include "rig/gap_case.h"
 #include "rig/programs.h"
 #include "rig/test.h"
@@ -180,6 +181,25 @@ TEST(gap_tells_mass_from_thrust_scale_by_fast_logs_of_flights_that_turn) {
     }
     gap_case_free(c);
   }
+}
+
+// The vehicle leans into it, and is not lifted by it as by a push from outside: 4 k Om v in the rotors'
+// plane.
+TEST(gap_names_air_that_moves_through_the_rotors_as_a_wind_in_their_plane) {
+  fx_use_t air = gap_effect("wind", 0.0, 0.0);
+  air.p[5] = 2.0;                                                                // m/s
+  const gap_hidden_t hidden = {2, {gap_effect("rotor_drag", 1.7e-6, 0.0), air}}; // at the centre of mass
+  gap_case_t *const c = gap_case(&hidden, &hidden);
+  const named_t *const named = gap_case_named(c, "wind");
+  CHECK(c->d.found.n == 2 && gap_case_named(c, "rotor_drag"));
+  if (CHECK(named)) {
+    const model_t *const m = &c->given;
+    const double speed_radps = sqrt(0.25 * m->mass_kg * G_MPS2 / m->frame.kf_Ns2);
+    CHECK_NEAR(named->value[0], 4.0 * 1.7e-6 * speed_radps * 2.0, 0.05 * named->value[0]);
+    CHECK_NEAR(named->value[1], 0.0, 3.0 * named->stderr_[1]);
+    CHECK(found_use(&c->d.found, named)->p[8] == 1.0);
+  }
+  gap_case_free(c);
 }
 
 // More mass under a ceiling: what else is said holds the mass among its rivals. Where the vehicle file has no
