@@ -90,6 +90,25 @@ TEST(drag_and_inflow_at_the_hubs_damp_turning_and_at_the_centre_of_mass_do_not) 
   check_d3(felt(&m, &start).turn_b_radps2, 0.0, push_N * body_rotor_z_m(&m) / 16.8e-6, 0.0, 1e-9);
 }
 
+// At 2 m/s forwards and 3 rad/s to the left the hubs on the right go at 2 + 3 y, those on the left at 2 - 3
+// y.
+TEST(translational_lift_at_the_hubs_lifts_the_rotors_that_advance) {
+  const double arm_m = 0.0325, k = 0.02, v = 2.0, yaw = 3.0;
+  for (int arm = 0; arm <= 1; arm++) {
+    ROW("arm %d", arm);
+    model_t m = vehicle6(HUGE_VAL);
+    body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+    start.vel_w_mps = d3(v, 0.0, 0.0);
+    start.rate_b_radps = d3(0.0, 0.0, yaw);
+    fx_use_t *const lift = vehicle6_add(&m, "translational_lift");
+    lift->p[0] = k, lift->p[1] = arm;
+    const double turned = arm * yaw * arm_m; // of each hub, along x and y
+    check_d3(felt(&m, &start).acc_b_mps2, 0.0, 0.0, k * (v * v + 2.0 * turned * turned) / MASS_KG, 1e-9);
+    // Sums over the hubs of y F and -x F: the squares' cross terms, -2 v turned along x alone.
+    check_d3(felt(&m, &start).turn_b_radps2, -2.0 * k * v * turned * arm_m / 16.8e-6, 0.0, 0.0, 1e-6);
+  }
+}
+
 TEST(wind_pushes_in_the_world_whatever_the_vehicle_looks_at) {
   model_t m = vehicle6(HUGE_VAL);
   body_start_t start = vehicle6_start(&m, 5.0, 1.0);
