@@ -167,7 +167,8 @@ typedef struct {
   fx_grows_t grows; // its nominal number and its step
 } fx_size_t;
 
-typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_group_t; // of one group, one at most is named
+// Of FX_TIMING one at most is named; of FX_WEIGHT, too, unless the log's turning tells them apart.
+typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_group_t;
 
 // What the vehicle file and the log must say before the workflow looks for an effect.
 enum {

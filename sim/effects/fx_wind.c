@@ -1,6 +1,7 @@
 // fx_wind.c - wind: a force in world axes, constant and with gusts, and air that moves (felt through the
 // drags). `plane` 1: of the constant force only the part in the rotors' plane, as a steady wind that is felt
-// through the rotors' drag: a vehicle that leans into it is not lifted by it.
+// through the rotors' drag: a vehicle that leans into it is not lifted by it. fx, fy, fz are in world axes
+// all the same.
 //
 // The gusts are a first-order Gauss-Markov process of the given standard deviation on each axis, stepped at
 // ticks, exact for any tick.
@@ -27,7 +28,8 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 
 const fx_t fx_wind = {
     .name = "wind",
-    .brief = "a constant force in the world, gusts, and moving air that the drags feel",
+    .brief = "a constant force (plane 1: its part in the rotors' plane alone), gusts, and moving air that "
+             "the drags feel",
     .fly = "a full yaw turn on the spot",
     .over = {"time"},
     .needs = FX_NEEDS_ATTITUDE,

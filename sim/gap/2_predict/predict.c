@@ -217,7 +217,7 @@ static bool has(const model_t *m, const fx_t *fx) {
 static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
                        why_t *why) {
   model_t m = *path->model;
-  const bool changes = !more->fx->load && !more->fx->excess && !more->fx->sense && !has(&m, more->fx);
+  const bool changes = !more->fx->excess && !more->fx->sense && !has(&m, more->fx);
   TRY(model_add_fx(&m, more, why));
   return replay_into(g, &m, changes ? path : NULL, NULL, out, why);
 }

@@ -51,7 +51,7 @@ static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
   double rms[FX_SIZE_MAX];
   bend_t bend;
   const fx_t *const fx = round_fx(r, named->candidate);
-  score_nominal_rms(&r->score, last, rms);
+  score_nominal_error(&r->score, last, rms);
   if (bend_nominal(&r->score, last, named->value, &bend)) memcpy(rms, bend.size, sizeof rms);
   named->shape_beside = bend.shape;
   for (int k = 0; k < fx->n_size; k++) {

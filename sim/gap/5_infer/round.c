@@ -72,7 +72,7 @@ double round_take(round_t *r, double share) {
     for (int k = 0; k < c->n; k++) {
       const double value = fx_use_size(use, k), way = candidate_possible(c, k, b[n++]) - value;
       most = fmax(most, fabs(way) / c->typical[k]);
-      fx_use_resize(use, k, value + share * way);
+      fx_use_resize(use, k, candidate_possible(c, k, value + share * way)); // the sum may end an ulp beyond
     }
   }
   return most;

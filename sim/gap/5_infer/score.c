@@ -231,12 +231,20 @@ static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
   return j->nominal ? SELECT_LEAST * c->typical[k] : 0.0;
 }
 
-void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+static void nominal_rms(const score_t *j, const choice_t *choice, bool alike, double rms[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
   const int flights = nominal_values(j, choice, value, holds);
   for (int k = 0; k < own->n; k++)
-    rms[k] = flights ? score_rms(value[k], holds[k], flights) : taken_to_be(j, own, k);
+    rms[k] = flights ? score_rms(value[k], alike ? NULL : holds[k], flights) : taken_to_be(j, own, k);
+}
+
+void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+  nominal_rms(j, choice, false, rms);
+}
+
+void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+  nominal_rms(j, choice, true, rms);
 }
 
 void score_made(const candidate_t *c, int k, double *value, int flights) {

@@ -88,8 +88,10 @@ bool score_is_possible(const score_t *j, const choice_t *choice);
 // a nominal flight: one that hardly comes there says something of its own noise, not of the log's.
 double score_rms(const double *value, const double *holds, int n);
 
-// Rms (score_rms) of a candidate's numbers on nominal flights, given the others of the choice. Where none
-// could be flown, feedback is taken to make as much as is never named; 0 for a first look.
+// Rms of a candidate's numbers on nominal flights, given the others of the choice. Where none could be flown,
+// feedback is taken to make as much as is never named; 0 for a first look. Gates count all flights alike, as
+// many as limits_nominal() is told; an error of the log counts each by what it holds (score_rms).
+void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 
 // Of what nominal flights make of size k of a candidate, what could be taken for it (gate (c)): of a size

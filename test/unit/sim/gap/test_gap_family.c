@@ -212,6 +212,23 @@ TEST(gap_tells_mass_beside_a_thrust_scale_that_stands_for_a_name_where_the_log_m
   }
 }
 
+// A step that ends an ulp below the least mass is a vehicle that no model takes.
+TEST(gap_takes_no_number_beyond_what_it_can_be) {
+  gap_rows_t g;
+  gap_rows_make(&g, 25);
+  const int mass = gap_rows_candidate(&g, "mass");
+  white_column(&g, mass, 0, CH_FZ, 50.0);
+  gap_rows_add(&g, mass, 0, -1e3); // typical masses: more than there is
+  gap_rows_open(&g, 1, &mass);
+  for (int i = 1; i < 200; i++) {
+    g.candidate[mass].least[0] = -0.0463596 + 1.2345e-6 * i;
+    round_take(&g.round, 1.0);
+    CHECK(fx_use_size(chosen_use(&g.round.chosen, mass), 0) >= g.candidate[mass].least[0]);
+    fx_use_resize(chosen_take(&g.round.chosen, g.round.c, mass), 0, 1e-4 * i);
+  }
+  gap_rows_free(&g);
+}
+
 // They may both be named where the turning tells them apart: control makes of noise what looks like less than
 // a typical inertia by 3.2 times its rms, and all commands are logged.
 TEST(gap_names_mass_beside_a_thrust_scale_where_turning_is_told) {

@@ -45,10 +45,12 @@ static void compare_all(case_t *c, const model_t *m) {
   why_t why;
   const size_t bytes = (size_t)c->grid.n * sizeof(double);
   CHECK_OK(replay_keep(&c->grid, m, &c->path, c->base, &why));
-  for (int i = 0; i < fx_count; i++) {
-    const fx_use_t more = fx_use(fx_table[i]);
+  for (int i = 0; i < 2 * fx_count; i++) {
+    fx_use_t more = fx_use(fx_table[i / 2]);
+    if (i % 2 && more.fx->n_kind == 0) continue;
+    if (i % 2) more.p[fx_use_kind(&more)] = more.fx->kind[more.fx->n_kind - 1];
     model_t with = *m;
-    ROW("%d effects, %s", m->n_fx, more.fx->name);
+    ROW("%d effects, %s, kind %d", m->n_fx, more.fx->name, i % 2);
     CHECK_OK(model_add_fx(&with, &more, &why));
     CHECK_OK(replay(&c->grid, &with, c->whole, &why));
     CHECK_OK(replay_with(&c->grid, &c->path, &more, c->with, &why));
