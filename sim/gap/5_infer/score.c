@@ -209,7 +209,8 @@ static int nominal_values(const score_t *j, const choice_t *choice,
   const int flights = j->nominal ? j->nominal->n : 0;
   for (int i = 0; i < flights; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
-    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, inverse);
+    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b,
+                       holds ? inverse : NULL);
     for (int k = 0; k < own; k++) value[k][i] = b[n - own + k];
     for (int k = 0; k < own && holds; k++) holds[k][i] = 1.0 / inverse[(n - own + k) * (n + 1)];
   }
@@ -234,7 +235,7 @@ static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
 static void nominal_rms(const score_t *j, const choice_t *choice, bool alike, double rms[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
-  const int flights = nominal_values(j, choice, value, holds);
+  const int flights = nominal_values(j, choice, value, alike ? NULL : holds);
   for (int k = 0; k < own->n; k++)
     rms[k] = flights ? score_rms(value[k], alike ? NULL : holds[k], flights) : taken_to_be(j, own, k);
 }

@@ -159,8 +159,9 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
     bool apart;
   } row[] = {
       {{"flapping:k=3e-8", true, false, true, true}, "flapping", 3e-8, 0.0, 0.8, true},
-      {{"rotor_drag:k=3e-6", true, false, true, false}, "rotor_drag", 3e-6, 0.8, 1.2, false},
-      {{"flapping:k=3e-8", true, false, true, false}, "flapping", 3e-8, 0.8, 1.2, false},
+      {{"rotor_drag:k=3e-6", true, false, true, false}, "rotor_drag", 3e-6, 0.85, 1.15, false},
+      {{"flapping:k=3e-8", true, false, true, false}, "flapping", 3e-8, 0.85, 1.15, false},
+      {{"rotor_drag:k=6e-6", true, false, true, false}, "rotor_drag", 6e-6, 0.85, 1.15, false},
   };
   for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
     ROW("%s%s", row[i].how.effect, row[i].how.blind ? ", no accelerometer" : "");
