@@ -135,7 +135,8 @@ static char *log_of(uint64_t seed, uint64_t flight, bool *flew) {
   job.truth = job.known;
   job.span_s = 15.0, job.seed = flight;
   FILE *const file = tmpfile();
-  *flew = file && other_fly(&job, file, NULL);
+  felt_t felt = {0.0, 0.0, 0.0};
+  *flew = file && other_fly(&job, file, &felt);
   const long size = file ? ftell(file) : 0;
   char *const text = calloc((size_t)size + 1, 1);
   if (file) rewind(file);
@@ -173,7 +174,8 @@ TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
   job.ladder = true, job.span_s = 26.0, job.seed = 1;
   job.habits.every = 5, job.habits.means = false;
   FILE *const file = tmpfile();
-  CHECK(file && other_fly(&job, file, NULL));
+  felt_t felt = {0.0, 0.0, 0.0};
+  CHECK(file && other_fly(&job, file, &felt));
   char log[2000000];
   rewind(file);
   log[fread(log, 1, sizeof log - 1, file)] = '\0';
@@ -212,5 +214,37 @@ TEST(the_second_plant_counts_how_long_what_no_library_has_is_felt) {
     nature_start(&f, &n, vec(row[i].x_m, 0.0, row[i].z_m));
     run(&f, 1.0, nature_hover_radps(&n));
     CHECK_NEAR(f.felt_s, row[i].share, 0.01);
+  }
+}
+
+// Take-off and landing meet the ground, the steps between them the ceiling.
+TEST(the_second_plant_counts_how_long_a_surface_that_the_file_lacks_is_felt) {
+  static const struct {
+    const char *what;
+    double ground, ceiling, known; // shares
+    bool feels_ground, feels_ceiling;
+  } row[] = {{"nothing", 0.0, 0.0, 0.0, false, false},
+             {"a ground", 1.0, 0.0, 0.0, true, false},
+             {"a ground of no size", 0.01, 0.0, 0.0, false, false},
+             {"a ceiling", 0.0, 0.2, 0.0, false, true},
+             {"a ceiling that the file has", 0.0, 0.2, 0.2, false, false},
+             {"one of which it has too little", 0.0, 0.2, 0.15, false, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    dice_t d = {1};
+    other_job_t job = other_job(&d);
+    hide_prepare(hide_number("ceiling"), &d, &job.known);
+    job.known.ceiling_m0 = 4.0 * job.known.radius_m;
+    job.known.ceiling_share = row[i].known;
+    job.truth = job.known;
+    job.truth.ceiling_share = row[i].ceiling;
+    job.truth.ground_share = row[i].ground;
+    job.ladder = true, job.span_s = 26.0, job.seed = 1;
+    FILE *const file = tmpfile();
+    felt_t felt = {0.0, 0.0, 0.0};
+    CHECK(file && other_fly(&job, file, &felt));
+    CHECK((felt.ground_s > 0.5) == row[i].feels_ground && (felt.ceiling_s > 0.5) == row[i].feels_ceiling);
+    CHECK((felt.ground_s > 0.0) == row[i].feels_ground && (felt.ceiling_s > 0.0) == row[i].feels_ceiling);
+    if (file) fclose(file);
   }
 }

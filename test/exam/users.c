@@ -9,7 +9,7 @@
 
 #define FLIGHTS 3
 #define FITTED  2   // of them; the last is held out
-#define FELT_S  1.0 // at least, in those, of what is outside the library: half a block of the Wald F
+#define FELT_S  1.0 // at least, in those, of what acts at places only: half a block of the Wald F
 #define DRAWS   20
 #define PATH    80
 
@@ -144,22 +144,29 @@ static done_t write_file(const char *path, const other_job_t *job, void (*write)
 
 typedef enum { FLEW, LOST, UNMET } flown_t; // UNMET: what lies where nobody flew is not hidden
 
+// The flights came to where it is hidden.
+static bool is_met(const other_job_t *job, const felt_t *felt) {
+  const nature_t *const is = &job->truth, *const known = &job->known;
+  const bool ground = is->ground_share != known->ground_share;
+  const bool ceiling = is->ceiling_share != known->ceiling_share || is->ceiling_m0 != known->ceiling_m0;
+  return (is->strange == STRANGE_NONE || felt->strange_s >= FELT_S) &&
+         (!ground || felt->ground_s >= FELT_S) && (!ceiling || felt->ceiling_s >= FELT_S);
+}
+
 static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, flown_t *flown, why_t *why) {
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
-  double all_s = 0.0;
+  felt_t felt = {0.0, 0.0, 0.0}, of_held = felt;
   *flown = FLEW;
   for (int i = 0; i < flights && *flown == FLEW; i++) {
-    double felt_s = 0.0;
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
     job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
     job->seed = (uint64_t)(1e15 * dice_share(d));
-    if (!other_fly(job, out, &felt_s)) *flown = LOST;
-    if (i < FITTED) all_s += felt_s;
+    if (!other_fly(job, out, i < FITTED ? &felt : &of_held)) *flown = LOST;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
   }
-  if (*flown == FLEW && job->truth.strange != STRANGE_NONE && all_s < FELT_S) *flown = UNMET;
+  if (*flown == FLEW && !is_met(job, &felt)) *flown = UNMET;
   return DONE;
 }
 

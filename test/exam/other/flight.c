@@ -225,7 +225,17 @@ static bool lost(const other_t *o, const pilot_wish_t *wish) {
          o->body.s.pos_m.z >= o->body.nature->ceiling_m;
 }
 
-bool other_fly(const other_job_t *job, FILE *out, double *felt_s) {
+// Standing on the floor it feels nothing.
+static void feel(felt_t *felt, const other_job_t *job, const nature_flight_t *body) {
+  const double z = body->s.pos_m.z;
+  if (z <= body->nature->rest_m) return;
+  const double ceiling = nature_ceiling_gain(&job->truth, z) - nature_ceiling_gain(&job->known, z);
+  const double ground = nature_ground_gain(&job->truth, z) - nature_ground_gain(&job->known, z);
+  if (fabs(ceiling) >= FELT_GAIN) felt->ceiling_s += PILOT_S;
+  if (fabs(ground) >= FELT_GAIN) felt->ground_s += PILOT_S;
+}
+
+bool other_fly(const other_job_t *job, FILE *out, felt_t *felt) {
   static _Thread_local other_t o;
   memset(&o, 0, sizeof o);
   o.dice.at = job->seed;
@@ -253,8 +263,9 @@ bool other_fly(const other_job_t *job, FILE *out, double *felt_s) {
     log_tick(&o, job, &wish, tick, out);
     battery(&o, &job->known, command, tick * PILOT_S);
     for (int k = 0; k < STEPS; k++) nature_step(&o.body, command);
+    feel(felt, job, &o.body);
     if (lost(&o, &wish)) return false;
   }
-  if (felt_s) *felt_s = o.body.felt_s;
+  felt->strange_s += o.body.felt_s;
   return !ferror(out);
 }

@@ -47,9 +47,16 @@ typedef struct {
 // Nothing hidden yet; everything but the flights' seed is drawn.
 other_job_t other_job(dice_t *d);
 
+// For how long what the file does not have acted: outside the library at half its size or more; a surface by
+// a hundredth of the thrust or more.
+#define FELT_GAIN 0.01
+typedef struct {
+  double strange_s, ceiling_s, ground_s;
+} felt_t;
+
 // Flies pieces that excite it, near the floor and under the ceiling where there is one. False: it was lost,
-// or could not be written. felt_s: so long something outside the library acted; may be null.
-bool other_fly(const other_job_t *job, FILE *out, double *felt_s);
+// or could not be written. felt: is added to.
+bool other_fly(const other_job_t *job, FILE *out, felt_t *felt);
 
 void other_write_columns(const other_job_t *job, FILE *out);
 void other_write_vehicle(const other_job_t *job, FILE *out);

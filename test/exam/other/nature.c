@@ -13,14 +13,19 @@ double nature_hover_radps(const nature_t *n) {
 
 // --- thrust and drag ---------------------------------------------------------------------------------------
 
-static double surfaces(const nature_t *n, double height_m) {
-  double gain = 1.0;
-  if (n->ceiling_share > 0.0) {
-    const double far = fmax(n->ceiling_m - height_m, 0.0) / n->ceiling_m0;
-    gain += n->ceiling_share / ((1.0 + far * far) * (1.0 + far * far));
-  }
+double nature_ceiling_gain(const nature_t *n, double height_m) {
+  if (!(n->ceiling_share > 0.0)) return 0.0;
+  const double far = fmax(n->ceiling_m - height_m, 0.0) / n->ceiling_m0;
+  return n->ceiling_share / ((1.0 + far * far) * (1.0 + far * far));
+}
+
+double nature_ground_gain(const nature_t *n, double height_m) {
   const double near = n->radius_m / (4.0 * fmax(height_m, 0.5 * n->radius_m));
-  return gain + n->ground_share * near * near;
+  return n->ground_share * near * near;
+}
+
+static double surfaces(const nature_t *n, double height_m) {
+  return 1.0 + nature_ceiling_gain(n, height_m) + nature_ground_gain(n, height_m);
 }
 
 static double thrust_N(const nature_flight_t *f, int i, double radps) {

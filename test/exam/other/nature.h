@@ -65,6 +65,10 @@ typedef struct {
 // Speed of each rotor in a hover.
 double nature_hover_radps(const nature_t *n);
 
+// Of its thrust in the open, what is added at a height.
+double nature_ceiling_gain(const nature_t *n, double height_m);
+double nature_ground_gain(const nature_t *n, double height_m);
+
 void nature_start(nature_flight_t *f, const nature_t *n, vec_t pos_m);
 // One step with these commands.
 void nature_step(nature_flight_t *f, const double command_radps[4]);
