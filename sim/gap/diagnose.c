@@ -58,30 +58,18 @@ static done_t fly_with(const diagnose_job_t *job, diagnosis_t *d, const chosen_t
   return DONE;
 }
 
-// What is tried next is what fits best between the shapes that were tried: the misfit of these is no effect.
-static void take_shapes(diagnosis_t *d, const found_t *first) {
-  for (int i = 0; i < d->candidates.n; i++) {
-    fx_use_t *const use = &d->candidates.candidate[i].use;
-    if (first->shape[i] > 0.0) use->p[use->fx->shape_param] = first->shape[i];
-  }
-}
-
-// What the next look is to start from: shapes that fit, and names that one of them makes needless left to it.
-static done_t find_shapes(const diagnose_job_t *job, diagnosis_t *d, found_t *found, why_t *why) {
-  TRY(shapes_refine(&d->candidates, &d->fit, job->model, found, why));
-  candidates_reshape(&d->candidates, &found->chosen);
-  return shapes_alone(&d->candidates, &d->fit, job->model, found, why);
-}
-
 static done_t look_first(const diagnose_job_t *job, diagnosis_t *d, found_t *first, why_t *why) {
   selection_t *selection;
-  const done_t status =
-      select_effects(&selection, &d->candidates, &d->fit, job->model, NULL, &d->timing, first, why);
+  const select_job_t look = {
+      .candidates = &d->candidates, .set = &d->fit, .model = job->model, .timing = &d->timing};
+  const done_t status = select_effects(&selection, &look, first, why);
   select_close(selection);
   TRY(status);
   d->rounds = first->rounds;
-  take_shapes(d, first);
-  return find_shapes(job, d, first, why);
+  TRY(shapes_refine(&d->candidates, &d->fit, job->model, first, why));
+  candidates_reshape(&d->candidates, &first->chosen);
+  d->before = first->chosen;
+  return DONE;
 }
 
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
@@ -112,9 +100,11 @@ static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
 
 static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bool last, bool *again,
                    why_t *why) {
-  TRY(select_effects(selection, &d->candidates, &d->fit, m, &d->nominal, &d->timing, &d->found, why));
+  const select_job_t job = {&d->candidates, &d->fit, m, &d->timing, &d->nominal, &d->before};
+  TRY(select_effects(selection, &job, &d->found, why));
   d->rounds += d->found.rounds;
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, why));
+  d->before = d->found.chosen;
   *again = !last && chosen_other(&d->flown, &d->found.chosen);
   if (*again) return DONE; // nobody asks for rivals
   TRY(nominal_look(&d->nominal, m, why));
@@ -136,7 +126,6 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   TRY(look_once(d, job->model, false, &again, why));
   if (!again) return DONE;
   TRY(fly_with(job, d, &d->found.chosen, why));
-  TRY(shapes_alone(&d->candidates, &d->fit, job->model, &d->found, why));
   found_free(&d->found);
   return look_once(d, job->model, true, &again, why);
 }

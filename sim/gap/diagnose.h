@@ -38,6 +38,7 @@ typedef struct {
   model_t extended;
   closed_loop_t loop;
   timing_t timing;         // of the fitted flights
+  chosen_t before;         // what the last look found, with which the next one begins
   chosen_t flown;          // what nominal flights had beside the model
   bool nominal_flew;       // false: none could; then names need more evidence and nothing is unknown
   judged_t left;           // what no name explains

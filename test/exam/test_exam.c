@@ -141,6 +141,19 @@ TEST(numbers_hold_that_are_multiplied_by_the_logs_errors) {
   }
 }
 
+// A sag about a voltage between those that are tried: the other name comes in between, and a scale or a slope
+// made up for what the voltage leaves.
+TEST(a_sag_beside_another_effect_has_its_own_voltage) {
+  static const unsigned long seed[] = {29843, 40033};
+  for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) {
+    ROW("set %lu", seed[i]);
+    exam_set_t set;
+    why_t why;
+    CHECK_OK(exam_one(EXAM_TWO, seed[i], &set, &why));
+    CHECK(set.exact && set.n == 2);
+  }
+}
+
 TEST(a_held_out_flight_without_rows_is_left_out_of_the_shrink) {
   static const struct {
     double before, after, oracle;

@@ -126,14 +126,31 @@ TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {
   }
 }
 
-// Its zero lies between two voltages that are tried, and what these leave was a mass, or had no name.
+// Its zero lies between two voltages that are tried, and what these leave was a mass, or more, or had no
+// name.
 TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
-  static const unsigned long seed[] = {26138, 26003};
-  for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) {
+  static const struct {
+    users_kind_t kind;
+    unsigned long seed;
+    const char *answer;
+  } row[] = {{USERS_ALONE, 26138, "battery_sag"},
+             {USERS_LADDER, 40211, "cg_offset+battery_sag"}, // and a mass, and a rotor of a third
+             {USERS_ALONE, 26003, "battery_sag"},
+             {USERS_HABITS, 29922, "climb_inflow+battery_sag"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
     users_set_t set;
     why_t why;
-    ROW("%lu", seed[i]);
-    if (!CHECK_OK(users_one(USERS_ALONE, seed[i], &set, &why))) return;
-    CHECK_TEXT(set.answer, "battery_sag");
+    ROW("%lu", row[i].seed);
+    if (!CHECK_OK(users_one(row[i].kind, row[i].seed, &set, &why))) return;
+    CHECK_TEXT(set.answer, row[i].answer);
   }
+}
+
+// With nothing to begin with, a look whose first name leaves other colours named a broken rotor and a tilted
+// one in its place.
+TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {
+  users_set_t set;
+  why_t why;
+  if (!CHECK_OK(users_one(USERS_LADDER, 29761, &set, &why))) return;
+  CHECK_TEXT(set.answer, "cg_offset+accel_bias");
 }

@@ -1,4 +1,4 @@
-# What is tried after a first look is the grid of shapes, and their misfit a name.
-# file: sim/gap/diagnose.c
+# What is tried is the grid of shapes, and their misfit a name.
+# file: sim/gap/5_infer/select.c
 # test: a_sag_between_the_voltages
-s/if (first->shape\[i\] > 0.0)/if (first->shape[i] > 1e9)/
+s/if (!use->fx->n_shape) return false;/if (use->fx) return false;/

@@ -168,12 +168,12 @@ static double left_at(const bent_t *t, double on) {
   return left;
 }
 
-double bend_best(const score_t *j, const choice_t *beside, int own) {
+double bend_best(const score_t *j, const choice_t *beside, int own, double reach) {
   const double golden = 0.618034, here = shape_of(&j->c->candidate[own]);
   bent_t t = {.j = j, .beside = beside};
   if (!find_neighbours(j->c, own, &t.row)) return here;
   distances(j->c, &t.row, t.x);
-  double low = 0.5 * t.x[0], high = 0.5 * t.x[1];
+  double low = reach * t.x[0], high = reach * t.x[1];
   const double ends[2] = {low, high}, span = high - low;
   for (int i = 0; i < 20; i++) { // to 1e-4 of the span, a tenth of what is close to an end
     const double a = high - golden * (high - low), b = low + golden * (high - low);

@@ -18,10 +18,10 @@ typedef struct {
 // was flown.
 bool bend_nominal(const score_t *j, const choice_t *choice, const double value[FX_SIZE_MAX], bend_t *bend);
 
-// The shape between those that are tried, half-way to the neighbours at most, with which a candidate leaves
-// least beside a choice, by columns between the neighbours' (the same parabola); its own where none leaves
-// less by as much as a name has to give. What a shape beside the right one leaves looks like another effect:
-// of a sag about a wrong voltage like a mass.
-double bend_best(const score_t *j, const choice_t *beside, int own);
+// The shape between those that are tried, at most so much of the way to the neighbours, with which a
+// candidate leaves least beside a choice, by columns between the neighbours' (the same parabola); its own
+// where none leaves less by as much as a name has to give. What a shape beside the right one leaves looks
+// like another effect: of a sag about a wrong voltage like a mass.
+double bend_best(const score_t *j, const choice_t *beside, int own, double reach);
 
 #endif

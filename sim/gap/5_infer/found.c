@@ -10,20 +10,17 @@
 done_t found_make(found_t *f, const candidates_t *c, why_t *why) {
   *f = (found_t){.least = calloc((size_t)c->n + 1, sizeof(double)),
                  .alike = calloc((size_t)c->columns + 1, sizeof(int)),
-                 .echo = calloc((size_t)c->n + 1, sizeof(bool)),
-                 .shape = calloc((size_t)c->n + 1, sizeof(double))};
-  return f->least && f->alike && f->echo && f->shape ? DONE : error_failed(why, "out of memory");
+                 .echo = calloc((size_t)c->n + 1, sizeof(bool))};
+  return f->least && f->alike && f->echo ? DONE : error_failed(why, "out of memory");
 }
 
 void found_free(found_t *f) {
   free(f->least);
   free(f->alike);
   free(f->echo);
-  free(f->shape);
   f->least = NULL;
   f->alike = NULL;
   f->echo = NULL;
-  f->shape = NULL;
 }
 
 const fx_use_t *found_use(const found_t *f, const named_t *named) {

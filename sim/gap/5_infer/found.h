@@ -54,7 +54,6 @@ typedef struct {
   double *least; // by candidate: the smallest size that would have been seen, over what is typical; 0: none
   int *alike;    // by column: the first of those that these flights would not tell from it, or itself
   bool *echo;    // by candidate: something like it is there, at one place or time only: it was not tried
-  double *shape; // by candidate, of a first look: with which it would have left least (bend.h); 0: none
 } found_t;
 
 // Nothing found yet. FAILED: no memory. Free it, also on an error.

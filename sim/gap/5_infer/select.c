@@ -12,6 +12,7 @@
 typedef struct selection {
   round_t round;
   const timing_t *timing;
+  candidate_t *candidates; // the round's, whose shapes a first look bends
   bool *room;
   bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
   bool *never;   // by candidate: it is out of question
@@ -124,6 +125,36 @@ static done_t settle(select_t *t, settle_t which, why_t *why) {
   }
 }
 
+// The shape between those that are tried that fits best beside the others. True: it is another one than
+// before. What is chosen may go all the way to a neighbour; what is not leaves the other half to it.
+static bool bend(select_t *t, int candidate) {
+  round_t *const r = &t->round;
+  fx_use_t *const use = &t->candidates[candidate].use;
+  if (!use->fx->n_shape) return false;
+  const choice_t beside = choice_without(&r->choice, candidate);
+  double *const shape = &use->p[use->fx->shape_param], was = *shape;
+  const bool chosen = choice_has(&r->choice, candidate);
+  *shape = bend_best(&r->score, &beside, candidate, chosen ? 1.0 : 0.5);
+  if (chosen) chosen_take(&r->chosen, r->c, candidate)->p[use->fx->shape_param] = *shape;
+  return *shape != was;
+}
+
+// Of a first look, for nominal flights have the columns with which they were flown.
+static done_t bend_chosen(select_t *t, why_t *why) {
+  bool bent = false;
+  for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++)
+    bent = bend(t, t->round.choice.of[i]) || bent;
+  return bent ? settle(t, SETTLE_ALL, why) : DONE;
+}
+
+// The misfit of the shapes that are tried is no effect.
+static done_t bend_all(select_t *t, why_t *why) {
+  if (t->round.nominal) return DONE;
+  for (int i = 0; i < t->round.c->n; i++) (void)bend(t, i);
+  round_close(&t->round);
+  return round_open(&t->round, why);
+}
+
 static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
   *dropped = false;
   for (int i = 0; t->round.strict && i < t->round.choice.n && !*dropped; i++) {
@@ -178,11 +209,11 @@ static done_t step_until_still(select_t *t, why_t *why) {
   for (;;) {
     bool swapped = false, changed = prune_one(t);
     if (!changed) TRY(try_swap(t, &swapped, why));
-    if (swapped) continue;
-    changed = changed || add_best(t);
+    changed = changed || swapped || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
-    TRY(settle(t, SETTLE_ALL, why));
+    if (!swapped) TRY(settle(t, SETTLE_ALL, why)); // a swap that stays has settled
+    TRY(bend_chosen(t, why));
   }
 }
 
@@ -205,16 +236,19 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
   return settle(t, SETTLE_ALL, why);
 }
 
-// First in the colours that would be left if everything that can be named were there: they show what is slow.
-// Then in those of what the named effects really leave: what a vehicle has of slow disturbance is noise
-// there.
-static done_t search(select_t *t, why_t *why) {
+// In the colours that would be left if everything that can be named were there: they show what is slow.
+static done_t search_first(select_t *t, why_t *why) {
+  TRY(bend_all(t, why));
   TRY(step_until_still(t, why));
   t->round.strict = true;
   memset(t->been, 0, (size_t)t->round.c->n * sizeof *t->been);
   memset(t->echo, 0, (size_t)t->round.c->n * sizeof *t->echo);
   memset(t->broken, 0, (size_t)t->round.c->n * sizeof *t->broken);
-  TRY(round_complete(&t->round, why));
+  return round_complete(&t->round, why);
+}
+
+// In those of what the named effects really leave: what a vehicle has of slow disturbance is noise there.
+static done_t search(select_t *t, why_t *why) {
   for (bool dropped = true; dropped;) {
     TRY(step_until_still(t, why));
     TRY(drop_doubtful(t, &dropped, why));
@@ -242,21 +276,40 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-static done_t find_choice(select_t *t, found_t *found, why_t *why) {
+// Beside the timing. False: there is nothing to begin with.
+static bool begin_with(select_t *t, const chosen_t *before) {
+  round_t *const r = &t->round;
+  for (int i = 0; before && i < before->n; i++)
+    if (r->c->candidate[before->of[i]].barred) return false;
+  for (int i = 0; before && i < before->n; i++) {
+    const int candidate = before->of[i];
+    if (t->never[candidate] || !round_fits(r, &r->choice, candidate)) continue;
+    r->choice = choice_with(&r->choice, candidate);
+    fx_use_t *const use = chosen_take(&r->chosen, r->c, candidate); // of the candidate's present shape
+    for (int k = 0; k < r->c->candidate[candidate].n; k++)
+      fx_use_resize(use, k, fx_use_size(&before->use[i], k));
+  }
+  return before != NULL;
+}
+
+static done_t find_choice(select_t *t, const chosen_t *before, found_t *found, why_t *why) {
+  round_t *const r = &t->round;
   TRY(take_timing(t, t->timing, why));
-  TRY(round_open(&t->round, why));
-  t->round.turning_told = round_tells_turning(&t->round);
-  for (int i = 0; !t->round.nominal && i < t->round.c->n; i++)
-    if (t->round.c->candidate[i].use.fx->n_shape)
-      found->shape[i] = bend_best(&t->round.score, &t->round.choice, i);
+  r->strict = begin_with(t, before);
+  TRY(round_open(r, why));
+  r->turning_told = round_tells_turning(r);
+  if (r->strict)
+    TRY(settle(t, SETTLE_ALL, why));
+  else
+    TRY(search_first(t, why));
   TRY(search(t, why));
-  memcpy(found->echo, t->echo, (size_t)t->round.c->n * sizeof *t->echo);
-  found_describe(found, &t->round, t->timing);
+  memcpy(found->echo, t->echo, (size_t)r->c->n * sizeof *t->echo);
+  found_describe(found, r, t->timing);
   return DONE;
 }
 
-done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s, const model_t *model,
-                      const nominal_t *nominal, const timing_t *timing, found_t *found, why_t *why) {
+done_t select_effects(selection_t **selection, const select_job_t *job, found_t *found, why_t *why) {
+  candidates_t *const c = job->candidates;
   const size_t n = (size_t)c->n + 1;
   select_t *const t = *selection = calloc(1, sizeof *t);
   TRY(found_make(found, c, why));
@@ -264,10 +317,16 @@ done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s, 
   if (!room) return error_failed(why, "out of memory");
   t->never = room, t->echo = room + n, t->alike = room + 2 * n, t->broken = room + 3 * n,
   t->been = room + 4 * n;
-  t->timing = timing;
-  t->round = (round_t){.c = c, .s = s, .given = model, .base = model, .nominal = nominal, .never = t->never};
+  t->timing = job->timing;
+  t->candidates = c->candidate;
+  t->round = (round_t){.c = c,
+                       .s = job->set,
+                       .given = job->model,
+                       .base = job->model,
+                       .nominal = job->nominal,
+                       .never = t->never};
   for (int i = 0; i < c->n; i++) t->never[i] = c->candidate[i].barred;
-  return find_choice(t, found, why);
+  return find_choice(t, job->before, found, why);
 }
 
 done_t select_rivals(const selection_t *t, found_t *found, why_t *why) {

@@ -13,6 +13,10 @@
 // for another where both models, replayed, say so; until nothing changes. Of what is left then, a name that
 // the rows speak against, beside the others and what feedback makes of all of them together (evidence.h),
 // goes out for good, the worst first.
+// A first look begins with nothing, in the colours that would be left if everything that can be named were
+// there, and what is chosen gets the shape that fits best beside the others; one with nominal flights begins
+// where the look before it ended, in the colours of what the names leave. With nothing again, where one of
+// these names is out of question now: what it hid was never looked for.
 #ifndef SIM_GAP_5_INFER_SELECT_H
 #define SIM_GAP_5_INFER_SELECT_H
 
@@ -20,11 +24,18 @@
 
 typedef struct selection selection_t;
 
-// nominal: a null pointer for a first look; with n 0 where none could be flown. timing: of this set and
-// model. FAILED: no memory. Close the selection and free what is found, also on an error.
-MUST_CHECK done_t select_effects(selection_t **selection, const candidates_t *c, set_t *s,
-                                 const model_t *model, const nominal_t *nominal, const timing_t *timing,
-                                 found_t *found, why_t *why);
+typedef struct {
+  candidates_t *candidates; // a first look bends their shapes (bend.h)
+  set_t *set;
+  const model_t *model;
+  const timing_t *timing;   // of this set and model
+  const nominal_t *nominal; // a null pointer for a first look; with n 0 where none could be flown
+  const chosen_t *before;   // what the look before found; a null pointer for a first one
+} select_job_t;
+
+// FAILED: no memory. Close the selection and free what is found, also on an error.
+MUST_CHECK done_t select_effects(selection_t **selection, const select_job_t *job, found_t *found,
+                                 why_t *why);
 // What could stand in the place of each name, and how probable they are; the nominal flights were looked at
 // (nominal_look). FAILED: no memory.
 MUST_CHECK done_t select_rivals(const selection_t *selection, found_t *found, why_t *why);

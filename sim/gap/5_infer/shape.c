@@ -41,8 +41,8 @@ static double left_with(unsigned n, const double *x, double *gradient, void *dat
   return left;
 }
 
-// Between its neighbours, which lost; or all that are tried. At an end of the list as far again.
-static void take_bounds(polish_t *p, bool all) {
+// Between its neighbours, which lost; at an end of the list as far again.
+static void take_bounds(polish_t *p) {
   const fx_t *const fx = p->own->use.fx;
   int n, at = 0;
   const fx_param_t *const param = fx_use_params(&p->own->use, &n);
@@ -50,9 +50,8 @@ static void take_bounds(polish_t *p, bool all) {
   const int end = fx->n_shape - 1;
   while (at < end && shape[at] < *number(p, SHAPE)) at++;
   const double here = shape[at];
-  const int from = all ? 0 : at, to = all ? end : at;
-  const double below = from > 0 ? shape[from - 1] : shape[0] * shape[0] / shape[1];
-  const double above = to < end ? shape[to + 1] : shape[end] * shape[end] / shape[end - 1];
+  const double below = at > 0 ? shape[at - 1] : shape[0] * shape[0] / shape[1];
+  const double above = at < end ? shape[at + 1] : shape[end] * shape[end] / shape[end - 1];
   p->unit[SHAPE] = here;
   p->low[SHAPE] = fmax(below, param[fx->shape_param].min) / here;
   p->high[SHAPE] = fmin(above, param[fx->shape_param].max) / here;
@@ -136,7 +135,7 @@ static void take_errors(polish_t *p, const double x[MOST], named_t *named) {
 }
 
 static done_t polish(polish_t *p, named_t *named, why_t *why) {
-  take_bounds(p, false);
+  take_bounds(p);
   TRY(take_colors(p, why));
   double x[MOST] = {0.0};
   for (int i = 0; i < p->n; i++) x[i] = fmin(fmax(*number(p, i) / p->unit[i], p->low[i]), p->high[i]);
@@ -159,58 +158,5 @@ done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found
     p.use = chosen_take(&found->chosen, c, found->named[i].candidate);
     TRY(polish(&p, &found->named[i], why));
   }
-  return DONE;
-}
-
-// --- what one shape more does without a name --------------------------------------------------------------
-
-typedef struct {
-  double left, shape; // the least that is left with a free shape of one effect, and that shape
-  double without;     // what is left without the effect
-} alone_t;
-
-// Beside some of the chosen.
-static done_t least_left(const candidates_t *c, int candidate, const chosen_t *beside, const polish_t *like,
-                         alone_t *alone, why_t *why) {
-  chosen_t chosen = *beside;
-  polish_t p = *like;
-  double x[MOST] = {0.0};
-  p.chosen = &chosen;
-  p.use = chosen_take(&chosen, c, candidate);
-  take_bounds(&p, true);
-  for (int i = 0; i < p.n; i++) x[i] = fmin(fmax(*number(&p, i) / p.unit[i], p.low[i]), p.high[i]);
-  TRY(minimise(&p, x, why));
-  alone->left = left_with((unsigned)p.n, x, NULL, &p);
-  alone->shape = *number(&p, SHAPE);
-  for (int i = SIZE; i < p.n; i++) x[i] = 0.0;
-  alone->without = left_with((unsigned)p.n, x, NULL, &p);
-  return p.failed ? error_failed(why, "%s", p.why.text) : DONE;
-}
-
-static done_t shape_alone(candidates_t *c, set_t *s, const model_t *base, found_t *found, int which,
-                          why_t *why) {
-  candidate_t *const own = &c->candidate[which];
-  polish_t like = {.chosen = &found->chosen, .own = own, .s = s, .base = base, .n = SIZE + own->n};
-  alone_t all, alone;
-  TRY(take_colors(&like, why));
-  TRY(least_left(c, which, &found->chosen, &like, &all, why));
-  for (int i = 0; i < found->n; i++) {
-    const int other = found->named[i].candidate;
-    if (other == which || c->candidate[other].in_file) continue;
-    chosen_t rest = found->chosen;
-    chosen_drop(&rest, other);
-    TRY(least_left(c, which, &rest, &like, &alone, why));
-    const double misfit = CANDIDATES_MISFIT * CANDIDATES_MISFIT * (alone.without - alone.left);
-    if (all.left < alone.left * (1.0 - SELECT_GAIN) - misfit) continue;
-    own->use.p[own->use.fx->shape_param] = alone.shape;
-    break;
-  }
-  return DONE;
-}
-
-done_t shapes_alone(candidates_t *c, set_t *s, const model_t *base, found_t *found, why_t *why) {
-  for (int i = 0; i < found->n; i++)
-    if (has_shape(&c->candidate[found->named[i].candidate]))
-      TRY(shape_alone(c, s, base, found, found->named[i].candidate, why));
   return DONE;
 }

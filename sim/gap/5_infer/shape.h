@@ -15,10 +15,4 @@
 MUST_CHECK done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found,
                                 why_t *why);
 
-// A shape between those that were tried may do what a second name did: a voltage of the thrust map beside the
-// one that was tried looks like a thrust scale. Where a name gains less beside a free shape than a name must,
-// or than a misfit of the shape's effect could leave, the candidate takes that shape, for another look.
-// FAILED: no memory.
-MUST_CHECK done_t shapes_alone(candidates_t *c, set_t *s, const model_t *base, found_t *found, why_t *why);
-
 #endif

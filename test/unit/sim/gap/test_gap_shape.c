@@ -110,7 +110,9 @@ TEST(gap_finds_a_shape_between_those_that_are_tried) {
     for (int r = 0; r < GAP_ROWS; r++) g.residual[CH_FZ][r] += row[i].times * hidden[r];
     gap_rows_open(&g, 0, NULL);
     for (int k = 0; k < 3; k++)
-      CHECK_NEAR(bend_best(&g.round.score, &none, k), k == row[i].moves ? row[i].zero_V : tried_V[k], 0.01);
+      CHECK_NEAR(bend_best(&g.round.score, &none, k, 0.5), k == row[i].moves ? row[i].zero_V : tried_V[k],
+                 0.01);
+    CHECK_NEAR(bend_best(&g.round.score, &none, 1, 1.0), row[i].moves < 0 ? tried_V[1] : row[i].zero_V, 0.01);
     gap_rows_free(&g);
   }
 }
