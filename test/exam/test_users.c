@@ -154,3 +154,18 @@ TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {
   if (!CHECK_OK(users_one(USERS_LADDER, 29761, &set, &why))) return;
   CHECK_TEXT(set.answer, "cg_offset+accel_bias");
 }
+
+// Feedback could have made the lag, and the delay in its place fits far worse: either is told.
+TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
+  static const struct {
+    users_kind_t kind;
+    unsigned long seed;
+  } row[] = {{USERS_HABITS, 40042}, {USERS_ALONE, 29810}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
+    users_set_t set;
+    why_t why;
+    ROW("%lu", row[i].seed);
+    if (!CHECK_OK(users_one(row[i].kind, row[i].seed, &set, &why))) return;
+    CHECK(users_exact(&set)); // a rival counts
+  }
+}

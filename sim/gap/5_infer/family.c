@@ -73,16 +73,19 @@ static bool is_out(const round_t *r, bool measured, int i) {
   return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
 }
 
-// with: the choice with the other one as its last. Alone or beside the other names it gives most of what the
-// name does. What differs by less than a right form leaves is the same: straight lines are no better than
-// that.
+// with: the choice with the other one as its last. What leaves less was refused for what feedback makes of
+// it, and may be there all the same: a lag, for which a delay stands then. Else it gives, alone or beside the
+// other names, most of what the name does. What differs by less than a right form leaves is the same:
+// straight lines are no better than that.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other)) return true;
+  if (!score_is_possible(&r->score, with)) return false;
+  if (score_left(&r->score, with, NULL) < score_left(&r->score, &r->choice, NULL)) return true;
   const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, other);
   const double like = score_likeness(&r->score, &r->choice, own, with);
   const double most = fmax(like, score_likeness(&r->score, &r->choice, own, &alone));
-  if (!(most > SCORE_MOST && score_is_possible(&r->score, with))) return false;
+  if (!(most > SCORE_MOST)) return false;
   return 1.0 - like < CANDIDATES_MISFIT * CANDIDATES_MISFIT ||
          score_is_rival(&r->score, &r->choice, with, unexplained_of(r, u, own, other));
 }
