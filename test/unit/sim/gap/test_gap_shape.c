@@ -116,3 +116,49 @@ TEST(gap_finds_a_shape_between_those_that_are_tried) {
     gap_rows_free(&g);
   }
 }
+
+// One nominal flight in four errs by its typical size, and holds so much of every number of what the others
+// do.
+static void one_errs(gap_rows_t *g, double holds) {
+  double b[4 * GAP_COLUMNS] = {0.0};
+  const int columns = g->candidates.columns, room = (columns + 1) * (columns + 1);
+  for (int k = 0; k < columns; k++) b[k] = 1.0;
+  gap_rows_nominal(g, 4, 1e9, b);
+  for (int i = 0; i < room; i++) g->nominal.total[i] *= holds;
+}
+
+TEST(gap_s_errors_count_a_nominal_flight_by_what_it_holds_and_its_gates_do_not) {
+  static const struct {
+    const char *what;
+    double holds, error; // over what is typical
+  } row[] = {
+      {"as much as the others", 1.0, 0.5}, {"a hundredth", 0.01, 0.0576}, {"all but all", 100.0, 0.9853}};
+  static const double tried_V[] = {3.7, 3.95, 4.2};
+  double of_size = 0.0, of_shape = 0.0;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_rows_t g;
+    gap_rows_make(&g, 9);
+    for (int k = 0; k < 3; k++) {
+      const int own = gap_rows_candidate(&g, "battery_sag");
+      g.candidate[own].use.p[2] = tried_V[k];
+      sag_by(gap_rows_column(&g, own, 0, CH_FZ), tried_V[k]);
+    }
+    one_errs(&g, row[i].holds);
+    const int chosen = 1;
+    gap_rows_open(&g, 1, &chosen);
+    const double typical = g.candidate[1].typical[0], value[FX_SIZE_MAX] = {typical};
+    double error[FX_SIZE_MAX], plain[FX_SIZE_MAX];
+    bend_t bend;
+    score_nominal_error(&g.round.score, &g.round.choice, error);
+    score_nominal_rms(&g.round.score, &g.round.choice, plain);
+    CHECK_NEAR(error[0] / typical, row[i].error, 1e-3);
+    CHECK_NEAR(plain[0] / typical, 0.5, 1e-3);
+    CHECK(bend_nominal(&g.round.score, &g.round.choice, value, &bend));
+    if (i == 0) of_size = bend.size[0], of_shape = bend.shape;
+    CHECK(of_size > 0.0 && of_shape > 0.0);
+    CHECK_NEAR(bend.size[0] / of_size, row[i].error / row[0].error, 0.02);
+    CHECK_NEAR(bend.shape / of_shape, row[i].error / row[0].error, 0.02);
+    gap_rows_free(&g);
+  }
+}
