@@ -70,6 +70,32 @@ TEST(lsq_instrument_agrees_with_least_squares_where_nothing_feeds_back) {
   }
 }
 
+// Of 200 draws, errors squared over the variances that were told: 1 but for the jackknife's own bias. In
+// units a thousand times as small all numbers are so many times as large.
+TEST(lsq_instrument_tells_how_far_its_numbers_spread_in_any_unit) {
+  static sums_t s, small;
+  double of_b = 0.0, of_apart = 0.0;
+  for (uint64_t seed = 1; seed <= 200; seed++) {
+    make(&s, 0.5, 0.0, 1000 + seed);
+    const got_t g = solve(&s);
+    of_b += (g.b - 2.0) * (g.b - 2.0) / g.V / 200.0;
+    of_apart += (g.b - g.plain) * (g.b - g.plain) / g.apart / 200.0;
+  }
+  CHECK(of_b > 0.75 && of_b < 1.3); // chi-squared of 200: 0.8 to 1.2
+  CHECK(of_apart > 0.75 && of_apart < 1.3);
+  const got_t g = solve(&s);
+  small = s;
+  for (int i = 0; i < (1 + BLOCKS) * 36; i++) {
+    double *const v = i < 36 ? &small.total[i] : &small.block[i / 36 - 1][i % 36];
+    *v *= (i / 6 % 6 < 5 ? 1e-3 : 1.0) * (i % 6 < 5 ? 1e-3 : 1.0); // all but y
+  }
+  const got_t in_small = solve(&small);
+  CHECK_NEAR(in_small.b / g.b, 1e3, 1e-6);
+  CHECK_NEAR(in_small.V / g.V, 1e6, 1e-3);
+  CHECK_NEAR(in_small.apart / g.apart, 1e6, 1e-3);
+  CHECK_NEAR(in_small.F / g.F, 1.0, 1e-9);
+}
+
 // Measured with errors x is found too small by plain least squares; measured without, as the instrument has
 // it.
 TEST(lsq_instrument_is_held_against_least_squares_of_a_better_measurement) {
