@@ -133,11 +133,13 @@ TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
     users_kind_t kind;
     unsigned long seed;
     const char *answer;
-  } row[] = {{USERS_ALONE, 26138, "battery_sag"},
-             {USERS_LADDER, 40211, "cg_offset+battery_sag"}, // and a mass, and a rotor of a third
-             {USERS_ALONE, 26003, "battery_sag"},
-             {USERS_HABITS, 29922, "climb_inflow+battery_sag"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+  } row[] = {
+      {USERS_ALONE, 26138, "battery_sag"},
+      {USERS_LADDER, 40211, "cg_offset+battery_sag"},  // and a mass, and a rotor of a third
+      {USERS_HABITS, 41210, "rotor_drag+battery_sag"}, // and a scale: its size stayed that of another voltage
+      {USERS_ALONE, 26003, "battery_sag"},
+      {USERS_HABITS, 29922, "climb_inflow+battery_sag"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) {
     users_set_t set;
     why_t why;
     ROW("%lu", row[i].seed);

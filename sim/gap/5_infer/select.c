@@ -144,7 +144,9 @@ static done_t bend_chosen(select_t *t, why_t *why) {
   bool bent = false;
   for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++)
     bent = bend(t, t->round.choice.of[i]) || bent;
-  return bent ? settle(t, SETTLE_ALL, why) : DONE;
+  if (!bent) return DONE;
+  TRY(round_complete(&t->round, why));
+  return settle(t, SETTLE_ALL, why);
 }
 
 // The misfit of the shapes that are tried is no effect.
