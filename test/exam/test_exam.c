@@ -154,6 +154,14 @@ TEST(a_sag_beside_another_effect_has_its_own_voltage) {
   }
 }
 
+// Found a hundredth larger than an effect can be, with an error of a tenth.
+TEST(a_ground_as_large_as_can_be_is_named) {
+  exam_set_t set;
+  why_t why;
+  CHECK_OK(exam_one(EXAM_TWO, 41183, &set, &why));
+  CHECK(set.exact && set.n == 2);
+}
+
 TEST(a_held_out_flight_without_rows_is_left_out_of_the_shrink) {
   static const struct {
     double before, after, oracle;
