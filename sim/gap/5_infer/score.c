@@ -305,8 +305,10 @@ static bool can_be(const candidate_t *c, int k, double value, double less, doubl
 bool score_is_possible(const score_t *j, const choice_t *choice) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   const verdict_t v = score_last(j, choice);
-  for (int k = 0; k < c->n; k++)
-    if (!can_be(c, k, v.value[k], SCORE_ERRORS * v.stderr_[k], SCORE_ERRORS * v.stderr_[k])) return false;
+  for (int k = 0; k < c->n; k++) {
+    const double off = SCORE_ERRORS * v.stderr_[k];
+    if (!can_be(c, k, v.value[k], off, off)) return false;
+  }
   return true;
 }
 

@@ -151,8 +151,9 @@ static done_t bend_chosen(select_t *t, why_t *why) {
 
 // The misfit of the shapes that are tried is no effect.
 static done_t bend_all(select_t *t, why_t *why) {
-  if (t->round.nominal) return DONE;
-  for (int i = 0; i < t->round.c->n; i++) (void)bend(t, i);
+  bool bent = false;
+  for (int i = 0; !t->round.nominal && i < t->round.c->n; i++) bent = bend(t, i) || bent;
+  if (!bent) return DONE;
   round_close(&t->round);
   return round_open(&t->round, why);
 }
