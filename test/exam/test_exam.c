@@ -162,6 +162,18 @@ TEST(a_ground_as_large_as_can_be_is_named) {
   CHECK(set.exact && set.n == 2);
 }
 
+// It reads 7 cm too little, and 4 cm at the least: that is no floor of 6 cm, or of 8.
+TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
+  static const unsigned long seed[] = {175106, 175166};
+  for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) {
+    ROW("set %lu", seed[i]);
+    exam_set_t set;
+    why_t why;
+    CHECK_OK(exam_one(EXAM_ONE, seed[i], &set, &why));
+    CHECK(set.exact && set.n == 1);
+  }
+}
+
 TEST(a_held_out_flight_without_rows_is_left_out_of_the_shrink) {
   static const struct {
     double before, after, oracle;

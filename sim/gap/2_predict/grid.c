@@ -97,7 +97,8 @@ static void take_range(const grid_t *g, int from, grid_point_t *p) {
     }
 }
 
-// Nearer than this an upward range sensor is at its floor.
+// Nearer than this, by the place or by what it says, an upward range sensor is at its floor: one that reads
+// too little is there before the vehicle is.
 static double blind_m(const range_told_t *told) {
   return told->told ? told->floor_m + NOISES * told->noise_m : FLOOR_M + NOISES * NOISE_M;
 }
@@ -134,7 +135,7 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
   p.vbat_V = g->has_vbat ? mean(f->v[SIG_VBAT], from, n) : NOMINAL_V;
   const double above_m = m->ceiling_m - p.pos_w_m.z - body_rotor_z_m(m);
   take_range(g, from, &p);
-  if (g->range_up && above_m < blind_m(&m->range_up)) p.range_m = (double)NAN;
+  if (g->range_up && fmin(above_m, p.range_m) < blind_m(&m->range_up)) p.range_m = (double)NAN;
   set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);
