@@ -72,19 +72,21 @@ TEST(an_unknown_is_right_where_it_is_and_in_what) {
   }
 }
 
+static void answers(users_kind_t kind, unsigned long seed, const char *answer) {
+  users_set_t set;
+  why_t why;
+  ROW("%lu", seed);
+  if (CHECK_OK(users_one(kind, seed, &set, &why))) CHECK_TEXT(set.answer, answer);
+}
+
 // Feedback made a name of what the sensors had: the set points refute it.
 TEST(users_logs_are_not_given_a_name_that_feedback_made) {
   static const struct {
     unsigned long seed;
     const char *answer;
   } row[] = {{24546, "ceiling"}, {24512, "ceiling"}, {24627, "nothing"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
-    users_set_t set;
-    why_t why;
-    ROW("%lu", row[i].seed);
-    if (!CHECK_OK(users_one(USERS_LADDER, row[i].seed, &set, &why))) return;
-    CHECK_TEXT(set.answer, row[i].answer); // was with delay
-  }
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++)
+    answers(USERS_LADDER, row[i].seed, row[i].answer); // was with delay
 }
 
 // These logs miss most commands: what those did looks like an inertia. In some there is one; in 24549 nominal
@@ -101,13 +103,7 @@ TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_command
              {USERS_ALONE, 26017, "inertia"}, // withdrawn, for its manoeuvre is slow
              {USERS_ALONE, 26035, "inertia"},
              {USERS_ALONE, 26052, "inertia"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 5); i++) {
-    users_set_t set;
-    why_t why;
-    ROW("%lu", row[i].seed);
-    if (!CHECK_OK(users_one(row[i].kind, row[i].seed, &set, &why))) return;
-    CHECK_TEXT(set.answer, row[i].answer);
-  }
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 5); i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
 // They show it at one time or two, and constants do nearly as well; but the little that is seen beside says
@@ -117,13 +113,7 @@ TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {
     unsigned long seed;
     const char *answer;
   } row[] = {{26042, "rotor_drag"}, {26178, "translational_lift"}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    users_set_t set;
-    why_t why;
-    ROW("%lu", row[i].seed);
-    if (!CHECK_OK(users_one(USERS_ALONE, row[i].seed, &set, &why))) return;
-    CHECK_TEXT(set.answer, row[i].answer);
-  }
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) answers(USERS_ALONE, row[i].seed, row[i].answer);
 }
 
 // Its zero lies between two voltages that are tried, and what these leave was a mass, or more, or had no
@@ -139,22 +129,13 @@ TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
       {USERS_HABITS, 41210, "rotor_drag+battery_sag"}, // and a scale: its size stayed that of another voltage
       {USERS_ALONE, 26003, "battery_sag"},
       {USERS_HABITS, 29922, "climb_inflow+battery_sag"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) {
-    users_set_t set;
-    why_t why;
-    ROW("%lu", row[i].seed);
-    if (!CHECK_OK(users_one(row[i].kind, row[i].seed, &set, &why))) return;
-    CHECK_TEXT(set.answer, row[i].answer);
-  }
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
 // With nothing to begin with, a look whose first name leaves other colours named a broken rotor and a tilted
 // one in its place.
 TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {
-  users_set_t set;
-  why_t why;
-  if (!CHECK_OK(users_one(USERS_LADDER, 29761, &set, &why))) return;
-  CHECK_TEXT(set.answer, "cg_offset+accel_bias");
+  answers(USERS_LADDER, 29761, "cg_offset+accel_bias");
 }
 
 // Feedback could have made the lag, and the delay in its place fits far worse: either is told.
