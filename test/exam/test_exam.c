@@ -156,11 +156,6 @@ TEST(a_sag_beside_another_effect_has_its_own_voltage) {
   for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) named_alone(EXAM_TWO, seed[i]);
 }
 
-// Found a hundredth larger than an effect can be, with an error of a tenth.
-TEST(a_ground_as_large_as_can_be_is_named) {
-  named_alone(EXAM_TWO, 41183);
-}
-
 // It reads 7 cm too little, and 4 cm at the least: that is no floor of 6 cm, or of 8.
 TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
   static const unsigned long seed[] = {175106, 175166};

@@ -292,23 +292,20 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
-// Size k of a candidate, or something that is `less` above it or `more` below, is one that the effect can
-// have.
-static bool can_be(const candidate_t *c, int k, double value, double less, double more) {
+// Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
+static bool can_be(const candidate_t *c, int k, double value, double margin) {
   const fx_size_t *size = &c->use.fx->size[k];
   int n;
   const fx_param_t *param = &fx_use_params(&c->use, &n)[size->param];
   const double least = c->least[k];
-  return value - more <= param->max && (size->sign > 0 ? value + less > least : value + less >= least);
+  return value - margin <= param->max && (size->sign > 0 ? value + margin > least : value + margin >= least);
 }
 
 bool score_is_possible(const score_t *j, const choice_t *choice) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   const verdict_t v = score_last(j, choice);
-  for (int k = 0; k < c->n; k++) {
-    const double off = SCORE_ERRORS * v.stderr_[k];
-    if (!can_be(c, k, v.value[k], off, off)) return false;
-  }
+  for (int k = 0; k < c->n; k++)
+    if (!can_be(c, k, v.value[k], SCORE_ERRORS * v.stderr_[k])) return false;
   return true;
 }
 
@@ -329,8 +326,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
   double largest = 0.0; // in parts of what is typical
   if ((!j->nominal || !j->nominal->n) && !beyond_control(c, v)) return false;
   for (int k = 0; k < c->n; k++) {
-    const double more = SCORE_ERRORS * v->stderr_[k]; // what is as large as it can be is found with errors
-    if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]), more)) return false;
+    if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]))) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
   return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&

@@ -71,7 +71,7 @@ typedef struct {
 // it on nominal flights.
 verdict_t score_last(const score_t *j, const choice_t *choice);
 
-// By how much a number may lie below what it can be: what the vehicle file has too much of is found with
+// By how much a number may lie beyond what it can be: what the vehicle file has too much of is found with
 // errors, and if there is none at all, as often as not at less than none.
 static inline double score_margin(const candidate_t *c, double error) {
   return c->in_file ? SCORE_ERRORS * error : 0.0;
