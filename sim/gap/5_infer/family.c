@@ -73,15 +73,23 @@ static bool is_out(const round_t *r, bool measured, int i) {
   return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
 }
 
-// with: the choice with the other one as its last. What leaves less was refused for what feedback makes of
-// it, and may be there all the same: a lag, for which a delay stands then. Else it gives, alone or beside the
-// other names, most of what the name does. What differs by less than a right form leaves is the same:
-// straight lines are no better than that.
+// It leaves less in the name's place, and beside it the name gives less than half of what it gave: refused
+// for what feedback makes of it, it may be there all the same. A lag is so, for which a delay stands.
+static bool fits_better(const round_t *r, int own, const choice_t *with) {
+  const choice_t rest = choice_without(&r->choice, own), both = choice_with(with, own);
+  const double named = score_left(&r->score, &r->choice, NULL), other = score_left(&r->score, with, NULL);
+  const double gives = score_left(&r->score, &rest, NULL) - named;
+  return other < named && other - score_left(&r->score, &both, NULL) < (1.0 - SCORE_MOST) * gives;
+}
+
+// with: the choice with the other one as its last. It fits better, or gives, alone or beside the other names,
+// most of what the name does. What differs by less than a right form leaves is the same: straight lines are
+// no better than that.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other)) return true;
   if (!score_is_possible(&r->score, with)) return false;
-  if (score_left(&r->score, with, NULL) < score_left(&r->score, &r->choice, NULL)) return true;
+  if (fits_better(r, own, with)) return true;
   const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, other);
   const double like = score_likeness(&r->score, &r->choice, own, with);
   const double most = fmax(like, score_likeness(&r->score, &r->choice, own, &alone));

@@ -2,8 +2,9 @@
 //
 // Another effect is of a name's family if it gives, alone or beside the other names, most of what the name
 // gives in these flights, at a size that it can have, and the name is not better by more than chance, what is
-// left unexplained and the error of straight lines could make it. The other names' numbers, which it would
-// move, are known no better than half of that way.
+// left unexplained and the error of straight lines could make it; or if it leaves less in the name's place,
+// and beside it the name gives less than half. The other names' numbers, which it would move, are known no
+// better than half of that way.
 #ifndef SIM_GAP_5_INFER_FAMILY_H
 #define SIM_GAP_5_INFER_FAMILY_H
 

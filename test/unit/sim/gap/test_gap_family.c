@@ -123,6 +123,32 @@ TEST(gap_is_less_sure_of_a_number_that_a_rival_would_give_another_form) {
   gap_rows_free(&g);
 }
 
+// Drag is named though something that was refused explains more: what leaves nothing for the drag stands for
+// it, what explains something else does not.
+TEST(gap_takes_for_a_rival_what_fits_better_only_where_it_does_the_names_work) {
+  static const struct {
+    const char *what;
+    double of_drag, else_; // what the other one does of what drag does, and besides, in standard errors
+    bool rival;
+  } row[] = {{"it does the same and more", 1.0, 60.0, true}, {"it does something else", 0.0, 80.0, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_rows_t g;
+    found_t found;
+    gap_rows_make(&g, 28);
+    const int drag = gap_rows_candidate(&g, "rotor_drag"), wind = gap_rows_candidate(&g, "wind");
+    const double *const x = white_column(&g, drag, 0, CH_FX, 50.0);
+    nearly(&g, wind, CH_FX, x, row[i].of_drag, 0.1);
+    white_column(&g, wind, 1, CH_FY, row[i].else_);
+    gap_rows_add(&g, wind, 0, row[i].of_drag);
+    gap_rows_add(&g, wind, 1, 1.0);
+    gap_rows_add(&g, drag, 0, 1.0 - row[i].of_drag);
+    if (describe(&g, 1, &drag, &found)) CHECK(has_rival(named(&found, drag), "wind") == row[i].rival);
+    found_free(&found);
+    gap_rows_free(&g);
+  }
+}
+
 // A thrust scale lifts and turns, a mass lifts, and an inertia takes back what the scale turns: beside it the
 // two are one.
 TEST(gap_takes_for_a_rival_what_is_alike_beside_another_name) {
