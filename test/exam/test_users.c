@@ -103,7 +103,7 @@ TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_command
              {USERS_ALONE, 26017, "inertia"}, // withdrawn, for its manoeuvre is slow
              {USERS_ALONE, 26035, "inertia"},
              {USERS_ALONE, 26052, "inertia"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 5); i++) answers(row[i].kind, row[i].seed, row[i].answer);
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
 // They show it at one time or two, and constants do nearly as well; but the little that is seen beside says

@@ -125,35 +125,50 @@ static done_t settle(select_t *t, settle_t which, why_t *why) {
   }
 }
 
-// The shape between those that are tried that fits best beside the others. True: it is another one than
-// before. What is chosen may go all the way to a neighbour; what is not leaves the other half to it.
-static bool bend(select_t *t, int candidate) {
-  round_t *const r = &t->round;
+// The shape between those that are tried that fits best beside the others. What is chosen may go all the way
+// to a neighbour; what is not leaves the other half to it.
+static double bent(const select_t *t, int candidate) {
+  const round_t *const r = &t->round;
+  const choice_t beside = choice_without(&r->choice, candidate);
+  return bend_best(&r->score, &beside, candidate, choice_has(&r->choice, candidate) ? 1.0 : 0.5);
+}
+
+// True: it is another one than before.
+static bool take_shape(select_t *t, int candidate, double shape) {
   fx_use_t *const use = &t->candidates[candidate].use;
   if (!use->fx->n_shape) return false;
-  const choice_t beside = choice_without(&r->choice, candidate);
-  double *const shape = &use->p[use->fx->shape_param], was = *shape;
-  const bool chosen = choice_has(&r->choice, candidate);
-  *shape = bend_best(&r->score, &beside, candidate, chosen ? 1.0 : 0.5);
-  if (chosen) chosen_take(&r->chosen, r->c, candidate)->p[use->fx->shape_param] = *shape;
-  return *shape != was;
+  double *const p = &use->p[use->fx->shape_param], was = *p;
+  *p = shape;
+  if (choice_has(&t->round.choice, candidate))
+    chosen_take(&t->round.chosen, t->round.c, candidate)->p[use->fx->shape_param] = shape;
+  return shape != was;
 }
 
 // Of a first look, for nominal flights have the columns with which they were flown.
 static done_t bend_chosen(select_t *t, why_t *why) {
-  bool bent = false;
-  for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++)
-    bent = bend(t, t->round.choice.of[i]) || bent;
-  if (!bent) return DONE;
+  bool other = false;
+  for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++) {
+    const int candidate = t->round.choice.of[i];
+    if (round_fx(&t->round, candidate)->n_shape)
+      other = take_shape(t, candidate, bent(t, candidate)) || other;
+  }
+  if (!other) return DONE;
   TRY(round_complete(&t->round, why));
   return settle(t, SETTLE_ALL, why);
 }
 
-// The misfit of the shapes that are tried is no effect.
+// The misfit of the shapes that are tried is no effect. All by the columns that are there: a neighbour's
+// shape is asked for.
 static done_t bend_all(select_t *t, why_t *why) {
-  bool bent = false;
-  for (int i = 0; !t->round.nominal && i < t->round.c->n; i++) bent = bend(t, i) || bent;
-  if (!bent) return DONE;
+  const int n = t->round.nominal ? 0 : t->round.c->n;
+  double *const shape = calloc((size_t)n + 1, sizeof *shape);
+  bool other = false;
+  if (!shape) return error_failed(why, "out of memory");
+  for (int i = 0; i < n; i++)
+    if (round_fx(&t->round, i)->n_shape) shape[i] = bent(t, i);
+  for (int i = 0; i < n; i++) other = take_shape(t, i, shape[i]) || other;
+  free(shape);
+  if (!other) return DONE;
   round_close(&t->round);
   return round_open(&t->round, why);
 }
@@ -207,7 +222,7 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   return round_complete(r, why);
 }
 
-// It ends: nothing comes in twice.
+// It ends: what comes in does so once, and what a look begins with once more at most.
 static done_t step_until_still(select_t *t, why_t *why) {
   for (;;) {
     bool swapped = false, changed = prune_one(t);
@@ -279,14 +294,15 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-// Beside the timing. False: there is nothing to begin with.
+// Beside the timing, with all that the look before found: whether mass and scale may both stay is known when
+// the columns are (leave_out_excluded). False: with nothing, in the colours of a first look.
 static bool begin_with(select_t *t, const chosen_t *before) {
   round_t *const r = &t->round;
   for (int i = 0; before && i < before->n; i++)
     if (r->c->candidate[before->of[i]].barred) return false;
   for (int i = 0; before && i < before->n; i++) {
     const int candidate = before->of[i];
-    if (t->never[candidate] || !round_fits(r, &r->choice, candidate)) continue;
+    if (t->never[candidate] || choice_has(&r->choice, candidate)) continue;
     r->choice = choice_with(&r->choice, candidate);
     fx_use_t *const use = chosen_take(&r->chosen, r->c, candidate); // of the candidate's present shape
     for (int k = 0; k < r->c->candidate[candidate].n; k++)
@@ -295,12 +311,20 @@ static bool begin_with(select_t *t, const chosen_t *before) {
   return before != NULL;
 }
 
+static void leave_out_excluded(round_t *r) {
+  choice_t fits = {.n = 0};
+  for (int i = 0; i < r->choice.n; i++)
+    if (round_fits(r, &fits, r->choice.of[i])) fits = choice_with(&fits, r->choice.of[i]);
+  r->choice = fits;
+}
+
 static done_t find_choice(select_t *t, const chosen_t *before, found_t *found, why_t *why) {
   round_t *const r = &t->round;
   TRY(take_timing(t, t->timing, why));
   r->strict = begin_with(t, before);
   TRY(round_open(r, why));
   r->turning_told = round_tells_turning(r);
+  leave_out_excluded(r);
   if (r->strict)
     TRY(settle(t, SETTLE_ALL, why));
   else
