@@ -217,6 +217,9 @@ typedef struct {
   bool scales_thrust;
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
+  // The sizes from this one on may be missing without those before it: they are a candidate by themselves,
+  // which has other rivals. 0: all are one.
+  int size_apart;
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
   // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the

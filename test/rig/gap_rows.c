@@ -88,7 +88,7 @@ void gap_rows_free(gap_rows_t *g) {
 int gap_rows_candidate(gap_rows_t *g, const char *effect) {
   candidate_t *const c = &g->candidate[g->candidates.n];
   const fx_t *const fx = fx_find(effect);
-  *c = (candidate_t){.use = fx_use(fx), .first = g->candidates.columns, .n = fx->n_size};
+  *c = (candidate_t){.use = fx_use(fx), .first = g->candidates.columns, .n = fx->n_size, .to = fx->n_size};
   for (int k = 0; k < fx->n_size; k++) {
     c->use.p[fx->size[k].param] = 0.0;
     c->least[k] = fx->size[k].sign > 0 ? 0.0 : -HUGE_VAL;

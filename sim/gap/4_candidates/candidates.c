@@ -86,9 +86,13 @@ static double as_strong(const fx_use_t *use, double radius_m) {
   return use->fx->excess(&typical, &place) / use->fx->excess(&here, &place);
 }
 
-static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) {
+typedef struct {
+  int from, to; // of an effect's numbers
+} span_t;
+
+static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, span_t of) {
   candidate_t *const to = &c->candidate[c->n++];
-  *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size};
+  *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size, .from = of.from, .to = of.to};
   for (int k = 0; k < fx->n_size; k++) {
     const int param = fx->size[k].param;
     const double grows = model_grows(m, fx->size[k].grows);
@@ -106,14 +110,14 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant) 
 }
 
 // Of an effect that the file has. Which lag or delay there is, is another question.
-static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own) {
+static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own, span_t of) {
   int n;
   const fx_param_t *const param = fx_use_params(own, &n);
   const fx_t *const fx = own->fx;
   // Of other forms the first number is no factor of what the effect does.
   if (own->form && !own->form->needs_points && own->form != curve_find(fx->form_initial)) return;
   if (fx->group == FX_TIMING) return;
-  add(c, fx, m, 0);
+  add(c, fx, m, 0, of);
   candidate_t *const to = &c->candidate[c->n - 1];
   to->use = *own;
   to->in_file = true;
@@ -124,16 +128,21 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   }
 }
 
+static void add_all(candidates_t *c, const model_t *m, const fx_t *fx, span_t of) {
+  const fx_use_t *const own = model_fx(m, fx);
+  if (own) add_difference(c, m, own, of);
+  for (int k = own ? fx_variants(fx) : 0; k < fx_variants(fx); k++) add(c, fx, m, k, of);
+}
+
 done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
   *c = (candidates_t){.candidate =
                           calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < fx_count; i++) {
-    if (candidates_obstacle(fx_table[i], m, s)) continue;
-    const fx_use_t *const own = model_fx(m, fx_table[i]);
-    if (own) add_difference(c, m, own);
-    for (int k = own ? fx_variants(fx_table[i]) : 0; k < fx_variants(fx_table[i]); k++)
-      add(c, fx_table[i], m, k);
+    const fx_t *const fx = fx_table[i];
+    if (candidates_obstacle(fx, m, s)) continue;
+    if (fx->size_apart) add_all(c, m, fx, (span_t){0, fx->size_apart});
+    add_all(c, m, fx, (span_t){fx->size_apart, fx->n_size});
   }
   return DONE;
 }
@@ -143,9 +152,13 @@ void candidates_free(candidates_t *c) {
   *c = (candidates_t){.n = 0};
 }
 
-int candidates_of(const candidates_t *c, const fx_t *fx) {
+bool candidates_exclude(const candidate_t *a, const candidate_t *b) {
+  return a->use.fx == b->use.fx && a->from == b->from;
+}
+
+int candidates_of(const candidates_t *c, int candidate) {
   int n = 0;
-  for (int i = 0; i < c->n; i++) n += c->candidate[i].use.fx == fx;
+  for (int i = 0; i < c->n; i++) n += candidates_exclude(&c->candidate[i], &c->candidate[candidate]);
   return n;
 }
 
@@ -270,7 +283,7 @@ fx_use_t effect_whole(const model_t *base, const fx_use_t *use) {
 done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why) {
   *m = *base;
   for (int i = 0; i < chosen->n; i++) {
-    const fx_use_t whole = effect_whole(base, &chosen->use[i]);
+    const fx_use_t whole = effect_whole(m, &chosen->use[i]); // of which some numbers may be in it already
     TRY(model_add_fx(m, &whole, why));
   }
   return DONE;

@@ -22,6 +22,8 @@ typedef struct {
   fx_use_t use; // with its shape; its sizes are 0
   bool in_file; // the vehicle file has it: its sizes are differences, shape and kind the file's
   int first, n; // columns
+  int from,
+      to; // of its numbers, those that it is about: the columns of the others are empty (fx->size_apart)
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
   bool barred; // held-out flights or set points contradict it: it is out of question
@@ -42,8 +44,11 @@ typedef struct {
   fx_use_t use[CHOSEN_MAX];
 } chosen_t;
 
-// As how many candidates an effect is tried: its shapes and kinds.
-int candidates_of(const candidates_t *c, const fx_t *fx);
+// The same numbers of the same effect, perhaps in another shape or kind: one of them is there at most.
+bool candidates_exclude(const candidate_t *a, const candidate_t *b);
+
+// As how many candidates the numbers of one are tried: its shapes and kinds.
+int candidates_of(const candidates_t *c, int candidate);
 
 // Why an effect cannot be looked for in these logs at all; a null pointer: it can.
 const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s);

@@ -55,8 +55,9 @@ typedef struct {
 
 // The effect that a candidate is another shape of, if that one is chosen.
 static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
+  const candidate_t *const all = a->c->candidate;
   for (int i = 0; i < a->chosen->n; i++)
-    if (a->chosen->of[i] != candidate && a->chosen->use[i].fx == a->c->candidate[candidate].use.fx)
+    if (a->chosen->of[i] != candidate && candidates_exclude(&all[a->chosen->of[i]], &all[candidate]))
       return a->chosen->use[i].fx;
   return NULL;
 }
@@ -82,7 +83,7 @@ static bool columns_list(column_list_t *to, const fx_t *dropped) {
   to->candidate = malloc(2 * ((size_t)c->columns + 1) * sizeof(int));
   to->size = to->candidate ? to->candidate + c->columns : NULL;
   for (int i = 0; to->candidate && i < c->n; i++)
-    for (int k = 0; is_asked(to->asked, i, dropped) && k < c->candidate[i].n; k++) {
+    for (int k = c->candidate[i].from; is_asked(to->asked, i, dropped) && k < c->candidate[i].to; k++) {
       to->candidate[to->n] = i;
       to->size[to->n++] = k;
     }
@@ -91,8 +92,8 @@ static bool columns_list(column_list_t *to, const fx_t *dropped) {
 
 static done_t fill_one(const column_list_t *a, int i, grid_t *g, const flight_lines_t *l, why_t *why) {
   const candidate_t *const c = &a->asked->c->candidate[a->candidate[i]];
-  const fx_use_t *const own = chosen_use(a->asked->chosen, a->candidate[i]);
-  const fx_use_t whole = effect_whole(a->asked->base, own ? own : &c->use);
+  const fx_use_t *const own = model_fx(a->now->model, c->use.fx);
+  const fx_use_t whole = own ? *own : c->use;
   const int k = a->size[i];
   TRY(column_differentiate(g, a->now, &whole, k, c->step[k], l->base, l->with, why));
   if (fill_column(a->t, a->s, a->flight, c->first + k, l) != DONE) return error_failed(why, "out of memory");

@@ -126,7 +126,7 @@ static void share_out(evidence_t *e) {
 
 static void take_priors(beam_t *b) {
   const candidates_t *const c = b->r->c;
-  for (int i = 0; i < c->n; i++) b->prior[i] = log(RARE / candidates_of(c, c->candidate[i].use.fx));
+  for (int i = 0; i < c->n; i++) b->prior[i] = log(RARE / candidates_of(c, i));
 }
 
 static done_t open_beam(beam_t *b, const round_t *r, why_t *why) {
@@ -172,7 +172,9 @@ static double any_form_log(const beam_t *b, const choice_t *choice, int i) {
   double best = choice_log(b, choice, -1), sum = 1.0;
   for (int k = 0; k < c->n; k++) {
     choice_t other = *choice;
-    if (k == choice->of[i] || b->r->never[k] || round_fx(b->r, k) != round_fx(b->r, choice->of[i])) continue;
+    if (k == choice->of[i] || b->r->never[k] ||
+        !candidates_exclude(&c->candidate[k], &c->candidate[choice->of[i]]))
+      continue;
     other.of[i] = k;
     const double log_k = choice_log(b, &other, -1);
     sum = log_k > best ? sum * exp(best - log_k) + 1.0 : sum + exp(log_k - best);

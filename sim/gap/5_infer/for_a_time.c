@@ -160,7 +160,7 @@ static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c, con
     would_do_t would;
     const double share = taken_by(one, chosen_use(chosen, i), t->sums[here], t->size, &would.use) / beyond;
     would.share = fmin(share, 1.0);
-    would.worth = share - CANDIDATES_MISFIT * (one->n - 1);
+    would.worth = share - CANDIDATES_MISFIT * (one->to - one->from - 1);
     if (would.worth >= SCORE_MOST && is_likely(one, &would.use)) put_in(to, would);
   }
   while (to->n && to->would[to->n - 1].worth < UNKNOWN_TIE * to->would[0].worth) to->n--;

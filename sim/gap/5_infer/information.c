@@ -149,7 +149,7 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += misfit * misfit / candidates_of(c, fx) + late * late;
+      p->wide[column] += misfit * misfit / candidates_of(c, i) + late * late;
       if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }

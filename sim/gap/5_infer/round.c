@@ -82,9 +82,9 @@ choice_t round_reshaped(const round_t *r, const choice_t *choice) {
   choice_t best = *choice;
   double least = score_left(&r->score, choice, NULL);
   for (int k = 0; k < choice->n; k++) {
-    const fx_t *const fx = round_fx(r, choice->of[k]);
-    for (int i = 0; i < r->c->n && fx_variants(fx) > 1; i++) {
-      if (round_fx(r, i) != fx || i == choice->of[k]) continue;
+    const candidate_t *const all = r->c->candidate;
+    for (int i = 0; i < r->c->n; i++) {
+      if (!candidates_exclude(&all[i], &all[choice->of[k]]) || i == choice->of[k]) continue;
       choice_t other = best;
       other.of[k] = i;
       const double left = score_left(&r->score, &other, NULL);
@@ -125,8 +125,9 @@ static bool excludes(const round_t *r, const fx_t *a, const fx_t *b) {
 bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
   const fx_t *fx = round_fx(r, candidate);
   for (int i = 0; i < choice->n; i++) {
-    const fx_t *other = round_fx(r, choice->of[i]);
-    if (other == fx || excludes(r, fx, other)) return false;
+    const candidate_t *const all = r->c->candidate;
+    if (candidates_exclude(&all[candidate], &all[choice->of[i]])) return false;
+    if (excludes(r, fx, round_fx(r, choice->of[i]))) return false;
   }
   return choice->n < NAMED_MAX;
 }

@@ -27,8 +27,7 @@ typedef struct selection {
 // leaves what a thrust scale leaves, and turns the nominal flights, which the log's vehicle was not.
 static double left_of(const select_t *t, const choice_t *choice) {
   double left = score_left(&t->round.score, choice, NULL);
-  for (int i = 0; i < choice->n; i++)
-    left += 2.0 * log(candidates_of(t->round.c, round_fx(&t->round, choice->of[i])));
+  for (int i = 0; i < choice->n; i++) left += 2.0 * log(candidates_of(t->round.c, choice->of[i]));
   return left;
 }
 
@@ -181,7 +180,7 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
     if (!*dropped) continue;
     TRY(local_alike(&t->round, candidate, t->alike, why));
     for (int k = 0; k < t->round.c->n; k++)
-      if (t->alike[k] || k == candidate) t->been[k] = t->echo[k] = true;
+      if (t->alike[k] || k == candidate) t->been[k] = t->echo[k] = t->never[k] = true;
     t->round.choice = choice_without(&t->round.choice, candidate);
   }
   return DONE;
@@ -248,7 +247,7 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
     if (odds[i] < least) least = odds[i], worst = r->choice.of[i];
   if (worst < 0) return DONE;
   for (int k = 0; k < r->c->n; k++)
-    if (round_fx(r, k) == round_fx(r, worst)) t->been[k] = true;
+    if (candidates_exclude(&r->c->candidate[k], &r->c->candidate[worst])) t->been[k] = true;
   r->choice = choice_without(&r->choice, worst);
   *dropped = true;
   return settle(t, SETTLE_ALL, why);

@@ -4,6 +4,7 @@
 
 #include "gap/6_extend/p_value.h"
 #include "vehicle/model_file.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,10 +21,19 @@ static void write_points(FILE *out, const curve_points_t *points) {
 
 // --- effects that the file has with other numbers ---------------------------------------------------------
 
-static bool is_named(const extend_job_t *job, const fx_t *fx) {
-  for (int i = 0; i < job->found->n; i++)
-    if (found_use(job->found, &job->found->named[i])->fx == fx) return true;
+static bool is_about(const extend_job_t *job, int name, const fx_t *fx) {
+  return found_use(job->found, &job->found->named[name])->fx == fx;
+}
+
+// Among the first n names.
+static bool is_among(const extend_job_t *job, int n, const fx_t *fx) {
+  for (int i = 0; i < n; i++)
+    if (is_about(job, i, fx)) return true;
   return false;
+}
+
+static bool is_named(const extend_job_t *job, const fx_t *fx) {
+  return is_among(job, job->found->n, fx);
 }
 
 static const char *next_line(const char *line) {
@@ -92,6 +102,14 @@ static void write_text(const extend_job_t *job, const char *text, FILE *out) {
 
 // --- the names --------------------------------------------------------------------------------------------
 
+// Two names may be about one effect, each about other numbers. 0: no name shows it.
+static double stderr_of(const extend_job_t *job, const fx_t *fx, int k) {
+  double most = 0.0;
+  for (int i = 0; i < job->found->n; i++)
+    if (is_about(job, i, fx)) most = fmax(most, job->found->named[i].stderr_[k]);
+  return most;
+}
+
 // Where a number comes from.
 static void write_source(const extend_job_t *job, const fx_use_t *use, const named_t *named, int param,
                          FILE *out) {
@@ -99,8 +117,9 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
   const bool shape = use->fx->n_shape && use->fx->shape_param == param;
   for (int k = 0; k < use->fx->n_size; k++) {
     if (use->fx->size[k].param != param) continue;
-    if (named->stderr_[k] > 0.0)
-      fprintf(out, "estimated, +- %.2g (standard error)", named->stderr_[k]);
+    const double error = stderr_of(job, use->fx, k);
+    if (error > 0.0)
+      fprintf(out, "estimated, +- %.2g (standard error)", error);
     else
       fputs("not shown by what can be compared of these flights", out);
     if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
@@ -115,8 +134,8 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
           out);
 }
 
-static void write_effect(const extend_job_t *job, const named_t *named, FILE *out) {
-  const fx_use_t use = effect_whole(job->model, found_use(job->found, named));
+static void write_effect(const extend_job_t *job, const model_t *extended, const named_t *named, FILE *out) {
+  const fx_use_t use = *model_fx(extended, found_use(job->found, named)->fx);
   int n;
   char p[P_TEXT];
   const fx_param_t *param = fx_use_params(&use, &n);
@@ -143,7 +162,9 @@ static done_t check(const char *text, const extend_job_t *job, why_t *why) {
 }
 
 done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
+  model_t extended;
   char *text = NULL;
+  TRY(chosen_model(&job->found->chosen, job->model, &extended, why));
   size_t size = 0;
   FILE *const made = open_memstream(&text, &size);
   if (!made) return error_failed(why, "out of memory");
@@ -154,7 +175,9 @@ done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   char *const kept = without_names(job);
   if (kept) write_text(job, kept, made);
   free(kept);
-  for (int i = 0; i < job->found->n; i++) write_effect(job, &job->found->named[i], made);
+  for (int i = 0; i < job->found->n; i++)
+    if (!is_among(job, i, found_use(job->found, &job->found->named[i])->fx))
+      write_effect(job, &extended, &job->found->named[i], made);
   done_t status = fclose(made) == 0 && text && kept ? DONE : error_failed(why, "out of memory");
   if (status == DONE) status = check(text, job, why);
   if (status == DONE) fputs(text, out);

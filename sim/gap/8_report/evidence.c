@@ -180,13 +180,18 @@ static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, i
 
 static done_t find_adds(const report_t *r, set_t *held, const finding_t *f, adds_t *adds, why_t *why) {
   model_t m = r->study->diagnosis.extended;
-  model_drop_fx(&m, f->fx);
-  if (f->in_file) TRY(model_add_fx(&m, f->in_file, why));
+  fx_use_t without = *f->use; // others of its numbers may be another name's
+  for (int k = f->from; k < f->to; k++)
+    fx_use_resize(&without, k, f->in_file ? fx_use_size(f->in_file, k) : 0.0);
+  if (f->in_file || f->fx->size_apart)
+    TRY(model_add_fx(&m, &without, why));
+  else
+    model_drop_fx(&m, f->fx);
   TRY(residual_lines(held, &m, &adds->effect, why));
   TRY(lines_make(&adds->variance, held, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(held, ch)->n; i++) adds->effect.r[ch][i] -= adds->now->r[ch][i];
-  for (int k = 0; k < f->fx->n_size; k++) TRY(add_variance(r, held, f, k, adds, why));
+  for (int k = f->from; k < f->to; k++) TRY(add_variance(r, held, f, k, adds, why));
   return DONE;
 }
 
@@ -239,7 +244,8 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
 
 static done_t find_one(report_t *r, set_t *held, const lines_t *now, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
-  f->fx = found_use(&d->found, f->named)->fx;
+  const candidate_t *const own = &d->candidates.candidate[f->named->candidate];
+  f->fx = own->use.fx, f->from = own->from, f->to = own->to;
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);
   adds_t adds = {.now = now};

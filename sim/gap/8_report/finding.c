@@ -31,7 +31,7 @@ static void take_numbers(finding_t *f) {
   const double error = f->named->shape_stderr;
   int n;
   const fx_param_t *const param = fx_use_params(f->use, &n);
-  for (int k = 0; k < f->fx->n_size; k++) take_size(f, param, k);
+  for (int k = f->from; k < f->to; k++) take_size(f, param, k);
   if (fx_use_has_shape(f->use))
     take_other(f, param, f->fx->shape_param, error,
                error > 0.0    ? NULL
@@ -54,11 +54,12 @@ static void say_instrument(finding_t *f) {
     return;
   }
   text_add(text, REPORT_TEXT, ", by the set points as instrument:");
-  for (int k = 0, told = 0; k < f->fx->n_size; k++) {
-    const fx_param_t *const p = f->number[k].param;
+  for (int k = f->from, told = 0; k < f->to; k++) {
+    const number_t *const number = &f->number[k - f->from];
+    const fx_param_t *const p = number->param;
     if (!(a->stderr_[k] > 0.0)) continue;
-    text_add(text, REPORT_TEXT, "%s%s %.3g +- %.2g%s%s", told++ ? ", " : " ", p->name,
-             f->number[k].by_instrument, a->stderr_[k], text_gap(p->unit), p->unit);
+    text_add(text, REPORT_TEXT, "%s%s %.3g +- %.2g%s%s", told++ ? ", " : " ", p->name, number->by_instrument,
+             a->stderr_[k], text_gap(p->unit), p->unit);
   }
   text_add(text, REPORT_TEXT, " (first-stage F %.3g)", a->F);
   if (a->apart)

@@ -35,8 +35,8 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
 static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, double least) {
   const diagnosis_t *const d = &r->study->diagnosis;
   int n;
-  const fx_param_t *const size = &fx_use_params(&c->use, &n)[fx->size[0].param];
-  const double typical = c->typical[0], from = fmax(least * typical, candidates_least(fx, &d->fit));
+  const fx_param_t *const size = &fx_use_params(&c->use, &n)[fx->size[c->from].param];
+  const double typical = c->typical[c->from], from = fmax(least * typical, candidates_least(fx, &d->fit));
   if (from < typical) {
     r->shown[r->n_shown++] = (shown_t){fx, size, from, model_fx(&r->study->vehicle, fx) != NULL};
     return;

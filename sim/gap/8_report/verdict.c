@@ -59,8 +59,8 @@ static void add_instrument(cJSON *effect, const finding_t *f) {
   cJSON *const o = cJSON_AddObjectToObject(effect, "instrument");
   add(o, {.key = "answer", .text = report_feedback[a->answer]}, {.key = "F", .number = a->F});
   cJSON *const all = cJSON_AddObjectToObject(o, "parameters");
-  for (int k = 0; k < f->fx->n_size && !weak; k++) {
-    const number_t *const n = &f->number[k];
+  for (int k = f->from; k < f->to && !weak; k++) {
+    const number_t *const n = &f->number[k - f->from];
     cJSON_AddStringToObject(add_number(all, n->param, n->by_instrument, a->stderr_[k]), "unit",
                             n->param->unit);
   }

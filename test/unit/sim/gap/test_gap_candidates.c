@@ -232,6 +232,37 @@ TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
   candidates_free(&c);
 }
 
+// An accelerometer's error along z is alike more mass, those along x and y are alike wind.
+TEST(numbers_that_have_other_rivals_are_a_candidate_of_their_own) {
+  log_t l;
+  candidates_t c;
+  why_t why;
+  model_t m;
+  chosen_t chosen = {.n = 0};
+  int level = -1, upright = -1;
+  log_make(&l);
+  CHECK_OK(candidates_make(&c, &l.model, &l.set, &why));
+  for (int i = 0; i < c.n; i++) {
+    const candidate_t *const own = &c.candidate[i];
+    if (own->use.fx != fx_find("accel_bias")) {
+      CHECK(own->from == 0 && own->to == own->n);
+      continue;
+    }
+    *(own->from == 0 ? &level : &upright) = i;
+  }
+  if (!CHECK(level >= 0 && upright >= 0)) return;
+  const candidate_t *const a = &c.candidate[level], *const b = &c.candidate[upright];
+  CHECK(a->to == 2 && b->from == 2 && b->to == 3);
+  CHECK(!candidates_exclude(a, b) && candidates_exclude(a, a));
+  CHECK(candidates_of(&c, level) == 1 && candidates_of(&c, upright) == 1);
+  fx_use_resize(chosen_take(&chosen, &c, level), 0, 0.3);
+  fx_use_resize(chosen_take(&chosen, &c, upright), 2, -0.2);
+  CHECK_OK(chosen_model(&chosen, &l.model, &m, &why));
+  const fx_use_t *const both = model_fx(&m, a->use.fx);
+  CHECK(m.n_fx == l.model.n_fx + 1 && both->p[0] == 0.3 && both->p[1] == 0.0 && both->p[2] == -0.2);
+  candidates_free(&c);
+}
+
 // A choice of one name, or of none.
 static chosen_t choice_of(const candidates_t *c, const char *name, double size, double shape) {
   chosen_t chosen = {.n = 0};

@@ -269,3 +269,25 @@ TEST(gap_says_that_a_range_bias_may_be_in_the_height_too) {
            NULL) == (i == 1));
   }
 }
+
+// Each lot of its numbers is a name: along z a mass looks like it, along x none does but wind.
+TEST(gap_names_an_accelerometer_s_errors_along_and_across_the_thrust_apart) {
+  fx_use_t bias = gap_effect("accel_bias", 0.3, 0.0);
+  bias.p[2] = 0.4;
+  const gap_hidden_t hidden = {1, {bias}};
+  gap_case_t *const c = gap_case(&hidden, &hidden);
+  CHECK(c->d.found.n == 2);
+  for (int i = 0; i < c->d.found.n; i++) {
+    const named_t *const one = &c->d.found.named[i];
+    const candidate_t *const own = &c->d.candidates.candidate[one->candidate];
+    ROW("from number %d on", own->from);
+    CHECK(own->use.fx == bias.fx && one->n_rival == 1);
+    CHECK(one->rival[0] == fx_find(own->from ? "mass" : "imu_misalignment"));
+    for (int k = 0; k < 3; k++) {
+      const bool owns = k >= own->from && k < own->to;
+      CHECK(owns == (one->stderr_[k] > 0.0));
+      CHECK_NEAR(one->value[k], owns ? bias.p[k] : 0.0, 3.0 * one->stderr_[k]);
+    }
+  }
+  gap_case_free(c);
+}

@@ -55,6 +55,32 @@ TEST(gap_extends_a_vehicle_file_by_every_effect_that_can_be_named) {
   }
 }
 
+TEST(gap_writes_one_effect_of_two_names_that_are_about_its_numbers) {
+  fx_use_t use[2] = {fx_use(fx_find("accel_bias")), fx_use(fx_find("accel_bias"))};
+  found_t found = {.n = 2, .chosen = {.n = 2, .of = {0, 1}}};
+  model_t base, m;
+  why_t why = {""};
+  char *text = NULL;
+  size_t size = 0;
+  for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < 3; k++) fx_use_resize(&use[i], k, i == (k == 2) ? 0.1 * (k + 1) : 0.0);
+    found.chosen.use[i] = use[i];
+    found.named[i] = (named_t){.candidate = i, .p = 1e-5, .share = 0.25};
+  }
+  found.named[0].stderr_[0] = found.named[0].stderr_[1] = 0.01;
+  found.named[1].stderr_[2] = 0.04;
+  CHECK_OK(model_read_text("v.toml", VEHICLE, &base, &why));
+  FILE *const file = open_memstream(&text, &size);
+  CHECK_OK(extend_write(&(extend_job_t){"v.toml", VEHICLE, &base, &found, "3 flights", NULL}, file, &why));
+  fclose(file);
+  CHECK_OK(model_read_text("model.toml", text, &m, &why));
+  if (CHECK(m.n_fx == 1))
+    for (int k = 0; k < 3; k++) CHECK_NEAR(m.fx[0].p[k], 0.1 * (k + 1), 1e-9);
+  CHECK(strstr(text, "x = 0.1 # m/s2, estimated, +- 0.01") &&
+        strstr(text, "z = 0.3 # m/s2, estimated, +- 0.04"));
+  free(text);
+}
+
 TEST(gap_keeps_the_effects_that_a_vehicle_file_has_and_its_measured_curves) {
   char vehicle[600], text[8000];
   snprintf(vehicle, sizeof vehicle, "%s[[effect]]\nname = \"ground\"\nform = \"table\"\nfile = \"curve.csv\"",
