@@ -78,12 +78,23 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
     }
 }
 
+// Some of one goes with the other: half of the squares.
+static bool goes_along(const slope_t *s) {
+  return s->mg * s->mg > 0.5 * s->mm * s->gg;
+}
+
+// Next to nothing moves, and not as what drives says: that is an error of its own, as of an accelerometer
+// that is tilted where the vehicle turns about the vertical, and no unit.
+static bool stands(const slope_t *s) {
+  return s->mm < SLOPE_MIN * SLOPE_MIN * s->gg && !goes_along(s);
+}
+
 // What would fit instead, as the end of a message: another unit of either, or the other sign of one of both.
 static void what_fits(const log_rows_t *rows, signal_id_t column, signal_id_t moved, const slope_t *s,
                       char text[FITS]) {
   const double b = s->mg / s->gg, size = fabs(b);
   char hint[COLUMNS_HINT];
-  if (b * b * s->gg <= 0.5 * s->mm) return;
+  if (!goes_along(s)) return;
   if (b > 0.0) columns_hint(&rows->columns, column, 1.0, b / 2.0, b * 2.0, text);
   if (b > 0.0 && rows->at[moved] >= 0 && columns_hint(&rows->columns, moved, b, 0.5, 2.0, hint)[0])
     text_add(text, FITS, "%s of column %s %s", text[0] ? ", or" : ";", rows->columns.of[moved].column,
@@ -118,7 +129,7 @@ static done_t check_drive(gap_flight_t *f, const log_rows_t *rows, const drive_t
   for (int k = 0; k < 3; k++) {
     const slope_t *const s = &slope[k];
     const signal_id_t column = (signal_id_t)((int)drive->driver + k);
-    if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
+    if (s->n < WINDOWS_MIN || !(s->gg > 0.0) || stands(s)) continue;
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
     if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;

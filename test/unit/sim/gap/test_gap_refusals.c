@@ -250,3 +250,49 @@ TEST(gap_tells_of_a_scale_that_attitude_or_velocity_contradict) {
     gap_flight_free(&f);
   }
 }
+
+// A hover that turns about the vertical, twice one way and back: at a steady place, or on a circle of 0.3 m
+// about which it goes once in 3 s, with an accelerometer that errs by a steady 0.5 m/s2 forwards.
+static done_t read_yaw(double circle_m, bool exchanged, why_t *why) {
+  const columns_t columns = flight_csv_columns();
+  model_t vehicle;
+  gap_flight_t f = {.n = 0};
+  const char *const path = scratch_path("yaw.csv");
+  TRY(model_builtin("cf21_legacy", &vehicle, why));
+  FILE *const out = fopen(path, "w");
+  if (!out) return FAILED;
+  for (int k = 0; k <= FC_VBAT; k++) fprintf(out, "%s%s", k ? "," : "", flight_csv_name[k]);
+  for (int i = 0; i < 2000; i++) {
+    const double t_s = 0.01 * i, w = 2.0 * 3.14159265 / 3.0, at = w * t_s,
+                 noise = 0.002 * sin(37.0 * t_s * t_s);
+    const double yaw = 4.0 * 3.14159265 * sin(0.3 * t_s) + 0.001 * sin(50.0 * t_s);
+    const double rate = 1.2 * 3.14159265 * cos(0.3 * t_s) + 0.05 * cos(50.0 * t_s);
+    const double x = circle_m * cos(at), y = circle_m * sin(at), a_x = -w * w * x, a_y = -w * w * y;
+    double v[FC_COLUMNS];
+    flight_csv_values(t_s, v);
+    v[FC_X] = x + noise, v[FC_Y] = y - noise, v[FC_Z] = 1.0 + noise;
+    v[FC_VX] = -w * y + noise, v[FC_VY] = w * x - noise, v[FC_VZ] = 2.0 * noise;
+    v[FC_AX] = (cos(yaw) * a_x + sin(yaw) * a_y + 0.5) / 9.81 - noise;
+    v[FC_AY] = (cos(yaw) * a_y - sin(yaw) * a_x) / 9.81 + noise;
+    v[FC_AZ] = 1.0 + noise;
+    v[FC_QW] = cos(0.5 * yaw), v[FC_QX] = 0.0, v[FC_QY] = 0.0, v[FC_QZ] = sin(0.5 * yaw);
+    v[FC_GX] = 57.3 * noise, v[FC_GY] = -57.3 * noise, v[FC_GZ] = rate * 180.0 / 3.14159265;
+    if (exchanged) {
+      const double keep = v[FC_AX];
+      v[FC_AX] = v[FC_AY], v[FC_AY] = keep;
+    }
+    for (int k = 0; k <= FC_VBAT; k++) fprintf(out, "%s%.9g", k ? "," : "\n", v[k]);
+  }
+  fclose(out);
+  const done_t status = gap_read(&f, path, &columns, &vehicle, why);
+  gap_flight_free(&f);
+  return status;
+}
+
+TEST(gap_refuses_no_hover_for_an_accelerometer_that_errs_while_it_turns) {
+  why_t why = {""};
+  CHECK_OK(read_yaw(0.0, false, &why));
+  CHECK_OK(read_yaw(0.3, false, &why));
+  CHECK_STATUS(BAD_INPUT, read_yaw(0.3, true, &why)); // the axes are exchanged
+  CHECK(strstr(why.text, "times as far along axis") != NULL);
+}
