@@ -79,6 +79,12 @@ static void answers(users_kind_t kind, unsigned long seed, const char *answer) {
   if (CHECK_OK(users_one(kind, seed, &set, &why))) CHECK_TEXT(set.answer, answer);
 }
 
+// One flight up and down, one sideways: each axis turns in one of them alone, and no half of the one is told
+// by the other what its inertia is.
+TEST(users_logs_of_one_sort_of_manoeuvre_each_are_told_what_one_of_them_shows) {
+  answers(USERS_SORTS, 43054, "inertia+wind");
+}
+
 // Feedback made a name of what the sensors had: the set points refute it.
 TEST(users_logs_are_not_given_a_name_that_feedback_made) {
   static const struct {

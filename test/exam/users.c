@@ -153,7 +153,14 @@ static bool is_met(const other_job_t *job, const felt_t *felt) {
          (!ground || felt->ground_s >= FELT_S) && (!ceiling || felt->ceiling_s >= FELT_S);
 }
 
-static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, flown_t *flown, why_t *why) {
+// Of the kind of users who keep a flight to one sort of manoeuvre; the last one, held out, has all.
+static int sort_of(users_kind_t kind, int flight) {
+  static const int sort[FLIGHTS] = {SORT_UPRIGHT, SORT_SIDEWAYS, SORT_ALL};
+  return kind == USERS_SORTS ? sort[flight] : SORT_ALL;
+}
+
+static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t *job, dice_t *d,
+                  flown_t *flown, why_t *why) {
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
   felt_t felt = {0.0, 0.0, 0.0}, of_held = felt;
@@ -162,6 +169,7 @@ static done_t fly(const paper_t *p, int flights, other_job_t *job, dice_t *d, fl
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
     job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
+    job->sort = sort_of(kind, i);
     job->seed = (uint64_t)(1e15 * dice_share(d));
     if (!other_fly(job, out, i < FITTED ? &felt : &of_held)) *flown = LOST;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
@@ -200,6 +208,7 @@ static done_t answer(const paper_t *p, int flights, unsigned long seed, users_se
 static void (*const how[USERS_KINDS])(users_set_t *, other_job_t *, dice_t *) = {
     [USERS_HABITS] = hide,         [USERS_LADDER] = hide_in_ladder, [USERS_ALONE] = hide_alone,
     [USERS_FILE] = hide_from_file, [USERS_OUTSIDE] = hide_outside,  [USERS_DIRTY] = soil,
+    [USERS_SORTS] = hide,
 };
 
 done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t *why) {
@@ -214,7 +223,7 @@ done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t 
     *set = (users_set_t){.kind = kind, .lost = lost, .unmet = unmet};
     other_job_t job = other_job(&d);
     how[kind](set, &job, &d);
-    status = fly(&paper, flights, &job, &d, &flown, why);
+    status = fly(&paper, kind, flights, &job, &d, &flown, why);
     if (flown == FLEW) break;
     ++*(flown == LOST ? &lost : &unmet);
   }

@@ -15,6 +15,7 @@ typedef enum {
   USERS_FILE,    // the vehicle file is wrong in what it has, or has no ceiling
   USERS_OUTSIDE, // what no library has
   USERS_DIRTY,   // logs and columns files with a fault
+  USERS_SORTS,   // another simulator's; one flight up and down, one sideways, one of all
   USERS_KINDS
 } users_kind_t;
 

@@ -7,8 +7,9 @@
 
 #define SETS_MAX 4000
 
-static const char *const KIND[USERS_KINDS] = {"another simulator",   "ladder", "one flight", "wrong file",
-                                              "outside the library", "dirty"};
+static const char *const KIND[USERS_KINDS] = {
+    "another simulator",   "ladder", "one flight",       "wrong file",
+    "outside the library", "dirty",  "one sort a flight"};
 
 static void print_set(unsigned long seed, const users_set_t *s) {
   printf("%lu %s:", seed, KIND[s->kind]);
@@ -102,7 +103,7 @@ int users_main(int argc, char **argv) {
   for (int k = 0; k < USERS_KINDS; k++) {
     const reliability_t own = stated_in((users_kind_t)k, sets, n);
     print_kind((users_kind_t)k, sets, n);
-    if (k < USERS_OUTSIDE) reliability_join(&stated, &own);
+    if (k != USERS_OUTSIDE && k != USERS_DIRTY) reliability_join(&stated, &own);
   }
   printf("names of all kinds but outside the library and dirty, by the probability stated\n");
   reliability_print(&stated, stdout);

@@ -8,7 +8,7 @@
 #define EDGE_S       0.3  // so does the end of a segment
 #define FLIGHT_MIN_S 1.0
 #define TOUCHES_M    0.003
-#define STRETCHES    6.0 // of a lone flight, at most three or so to a half: what is slow is not alike in all
+#define STRETCHES    6.0 // of a flight, at most three or so to a half: what is slow is not alike in all
 
 // good[j]: nothing masked is near.
 static void find_good(const grid_t *g, bool *good) {
@@ -38,11 +38,12 @@ static void rows_add(rows_t *r, int flight, int point, int block, bool follows) 
   r->follows[r->n++] = follows;
 }
 
-// Each flight has two halves. A lone one is cut into stretches that belong to the one and the other in turn:
-// what was met once in it, as a ceiling, lies in both, and either can confirm the other.
-static int half_of(const set_t *s, int flight, double since_s, double span_s) {
+// Each flight has two halves, of stretches that belong to the one and the other in turn: what was met once,
+// as a ceiling, or the one flight that turns about the vertical, lies in both, and either can confirm the
+// other.
+static int half_of(int flight, double since_s, double span_s) {
   const double stretch_s = fmax(BLOCK_S, BLOCK_S * floor(span_s / BLOCK_S / STRETCHES));
-  return s->n_grid == 1 ? (int)(since_s / stretch_s) % 2 : 2 * flight + (since_s > 0.5 * span_s);
+  return 2 * flight + (int)(since_s / stretch_s) % 2;
 }
 
 static void add_flight(set_t *s, int flight, const bool *good) {
@@ -52,7 +53,7 @@ static void add_flight(set_t *s, int flight, const bool *good) {
   int last = -1000, last_range = -1;
   for (int j = 0; j < g->n; j++) {
     const int block = s->n_block + set_block_of(g, j);
-    s->half[block] = half_of(s, flight, g->point[j].t_s - start_s, end_s - start_s);
+    s->half[block] = half_of(flight, g->point[j].t_s - start_s, end_s - start_s);
     if (good[j] && j >= last + step) {
       rows_add(&s->smooth, flight, j, block, j == last + step);
       last = j;

@@ -22,7 +22,7 @@ typedef struct {
   grid_t *grid; // one per flight
   int n_grid;
   rows_t smooth, range;
-  int n_block, *half; // of each block: which half-flight it belongs to; those of a lone flight interleave
+  int n_block, *half; // of each block: which half-flight it belongs to; the two of a flight interleave
   int n_half;
   bool excluded[CHANNELS];    // excluded.h
   bool spins_other;           // excluded.h

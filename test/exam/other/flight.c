@@ -24,7 +24,10 @@ typedef struct {
   double yaw[3];
 } plan_t;
 
-static void shuffle(plan_t *p, dice_t *d) {
+static const int SORT[SORTS][PIECES] = {
+    [SORT_UPRIGHT] = {3, 4, 6, 3, 5, 4, 3}, [SORT_SIDEWAYS] = {0, 1, 2, 0, 1, 2, 0}};
+
+static void shuffle(plan_t *p, int sort, dice_t *d) {
   for (int i = 0; i < PIECES; i++) {
     p->order[i] = i;
     for (int k = 0; k < 4; k++) p->number[i][k] = dice_share(d);
@@ -34,6 +37,7 @@ static void shuffle(plan_t *p, dice_t *d) {
     p->order[i] = p->order[k];
     p->order[k] = swap;
   }
+  for (int i = 0; i < PIECES && sort != SORT_ALL; i++) p->order[i] = SORT[sort][p->order[i]];
 }
 
 static double square(double t_s, double half_s) {
@@ -82,7 +86,7 @@ static pilot_wish_t wish_at(plan_t *p, double t_s) {
   const int i = (int)fmin(t_s / span, PIECES - 1.0);
   double yaw = 0.0;
   for (int k = 0; k < i; k++)
-    if (p->order[k] == 4) yaw = p->number[4][0] < 0.5 ? 2.0 * OTHER_PI : -2.0 * OTHER_PI;
+    if (p->order[k] == 4) yaw += p->number[4][0] < 0.5 ? 2.0 * OTHER_PI : -2.0 * OTHER_PI;
   vec_t in = told(p, p->order[i], t_s - i * span, span, &yaw);
   if (p->ladder) in = told_ladder(p, t_s), yaw = 0.0;
   const vec_t before = p->lag[2];
@@ -98,7 +102,7 @@ static plan_t plan_of(const other_job_t *job, dice_t *d) {
   plan_t p = {
       .room = &job->truth, .ladder = job->ladder, .far = hide_stretch(&job->known), .span_s = job->span_s};
   p.quick = dice_between(d, 3.6, 4.6) / sqrt(p.far);
-  shuffle(&p, d);
+  shuffle(&p, job->sort, d);
   double yaw = 0.0;
   const vec_t at = p.ladder ? told_ladder(&p, 0.0) : told(&p, p.order[0], 0.0, 1.0, &yaw);
   for (int n = 0; n < 3; n++) p.lag[n] = vec(0.0, 0.0, at.z);

@@ -34,12 +34,16 @@ typedef struct {
   dirt_t dirt;
 } habits_t;
 
+// One sort of manoeuvre: up, down and about the vertical, or sideways.
+enum { SORT_ALL, SORT_UPRIGHT, SORT_SIDEWAYS, SORTS };
+
 typedef struct {
   nature_t truth, known; // the user knows the second, but for what it does not say
   senses_t senses;
   habits_t habits;
   double briskness; // of the pilot
   bool ladder;      // take-off, steps of height and holds, landing; else pieces that excite it
+  int sort;         // which of these: a flight has one sort of them, or all
   double span_s;
   uint64_t seed;
 } other_job_t;
