@@ -17,6 +17,8 @@ typedef struct {
   int columns, time;
   stand_t before, after; // of the row of the table that is read
   bool ended;
+  double late_ms, apart_ms; // sums over its rows (blocks_times_t)
+  int fresh;
 } block_t;
 
 struct blocks {
@@ -130,14 +132,24 @@ static done_t step(block_t *block, why_t *why) {
                     block->before.t_ms);
 }
 
+// The newest of its rows is another one than in the last row of the table.
+static void count(block_t *block, double last_ms, double now_ms) {
+  if (!block->before.any || !(block->before.t_ms > last_ms)) return;
+  block->fresh++;
+  block->late_ms += now_ms - block->before.t_ms;
+  block->apart_ms += block->before.t_ms - last_ms;
+}
+
 done_t blocks_next(blocks_t *b, bool *more, why_t *why) {
   block_t *const rows = &b->block[b->rows];
   TRY(step(rows, why));
   *more = rows->after.any;
   for (int k = 0; k < b->n && *more; k++) {
     block_t *const other = &b->block[k];
+    const double last_ms = other->before.any ? other->before.t_ms : HUGE_VAL;
     while (other != rows && !other->ended && !(other->after.any && other->after.t_ms > rows->after.t_ms))
       TRY(step(other, why));
+    if (other != rows) count(other, last_ms, rows->after.t_ms);
   }
   return DONE;
 }
@@ -173,4 +185,10 @@ done_t blocks_number(const blocks_t *b, int column, csv_gap_t gap, double *value
     return csv_refuse(block->csv, c, why, "a gap; allowed: a number");
   if (isnan(*value) && !isnan(block->before.v[c]) && isinf(block->after.v[c])) *value = HUGE_VAL;
   return DONE;
+}
+
+blocks_times_t blocks_times(const blocks_t *b, int column) {
+  const block_t *const block = of(b, column);
+  const double per_row_s = block->fresh ? 1e-3 / block->fresh : 0.0;
+  return (blocks_times_t){per_row_s * block->late_ms, per_row_s * block->apart_ms};
 }

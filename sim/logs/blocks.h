@@ -35,4 +35,11 @@ const char *blocks_path(const blocks_t *blocks, int column);
 MUST_CHECK done_t blocks_next(blocks_t *blocks, bool *more, why_t *why);
 MUST_CHECK done_t blocks_number(const blocks_t *blocks, int column, csv_gap_t gap, double *value, why_t *why);
 
+// Of what is not drawn, so far: its own file has a new value so long before the row in which it stands first,
+// on average, and its rows are that far apart. Of the rows' own file both are 0.
+typedef struct {
+  double late_s, apart_s;
+} blocks_times_t;
+blocks_times_t blocks_times(const blocks_t *blocks, int column);
+
 #endif

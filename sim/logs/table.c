@@ -135,6 +135,10 @@ done_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, 
   return DONE;
 }
 
+blocks_times_t table_times(const table_t *t, int column) {
+  return t->blocks && column >= 0 ? blocks_times(t->blocks, column) : (blocks_times_t){0.0, 0.0};
+}
+
 long table_line(const table_t *t) {
   if (t->blocks) return blocks_line(t->blocks);
   return t->csv ? csv_line(t->csv) : usd_record(t->usd);

@@ -38,6 +38,9 @@ MUST_CHECK done_t table_next(table_t *t, bool *more, why_t *why);
 // As csv_number; a uSD log has NaN for a gap.
 MUST_CHECK done_t table_number(const table_t *t, int column, csv_gap_t gap, double *value, why_t *why);
 
+// As blocks_times; 0 of a log that is one file.
+blocks_times_t table_times(const table_t *t, int column);
+
 // The number of the present row's line or record.
 long table_line(const table_t *t);
 

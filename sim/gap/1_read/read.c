@@ -186,7 +186,7 @@ static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
 
 // How old a new sample of a range sensor is when its row is written: as the columns file says, else the
 // vehicle file, else as the Crazyflie's are; and it came half a period of the log before, where it comes more
-// seldom.
+// seldom. In a file of its own it was there before the row of the motors' file.
 static double range_age_s(const raw_t *raw, const log_rows_t *rows, signal_id_t range) {
   const column_t *const column = &rows->columns.of[range];
   const range_told_t *const told = range == SIG_RANGE ? &rows->vehicle.range_up : &rows->vehicle.range_down;
@@ -194,7 +194,9 @@ static double range_age_s(const raw_t *raw, const log_rows_t *rows, signal_id_t 
   int fresh = 0;
   for (int i = 0; raw->v[range] && i < raw->n; i++) fresh += !isnan(raw->v[range][i]);
   const bool seldom = fresh < RANGE_SELDOM * raw->n;
-  return age_s + (seldom && !rows->columns.rows_are_means ? 0.5 * raw->period_s : 0.0);
+  const blocks_times_t own = table_times(&rows->table, rows->at[range]);
+  const double apart_s = fmax(own.apart_s, raw->period_s);
+  return age_s + own.late_s + (seldom && !rows->columns.rows_are_means ? 0.5 * apart_s : 0.0);
 }
 
 static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {

@@ -86,6 +86,28 @@ TEST(blocks_of_a_flight_are_one_log_by_folder_by_name_and_packed) {
   }
 }
 
+// A range at 4, 14, .. ms stands in rows at 12, 22, ..: told as new there, it would be a late sensor.
+TEST(blocks_tell_how_long_ago_a_range_was_new) {
+  static const struct {
+    const char *column;
+    double late_s, apart_s;
+  } row[] = {{"range.up", 0.008, 0.010}, {"motor.m1", 0.0, 0.0}};
+  table_t t;
+  why_t why;
+  bool more = true;
+  write_blocks();
+  if (!CHECK_OK(table_open_flight(&t, scratch_path("blocks"), &why))) return;
+  while (more && CHECK_OK(table_next(&t, &more, &why))) {
+  }
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].column);
+    const blocks_times_t times = table_times(&t, table_find(&t, row[i].column));
+    CHECK_NEAR(times.late_s, row[i].late_s, 1e-4);
+    CHECK_NEAR(times.apart_s, row[i].apart_s, 1e-4);
+  }
+  table_close(&t);
+}
+
 TEST(blocks_that_are_no_flight_are_refused_in_one_line) {
   static const struct {
     const char *make, *path, *want;
