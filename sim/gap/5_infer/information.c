@@ -20,7 +20,6 @@ typedef struct {
   double *typical, *A, *g; // of the log
   double *low;             // n x nominal flights: what feedback makes of each
   double *wide;            // n: D
-  bool *in_spite;          // n: of the other sign than what control makes of noise
 } parts_t;
 
 static void scaled(const parts_t *p, const double *G, double *A, double *g) {
@@ -31,43 +30,17 @@ static void scaled(const parts_t *p, const double *G, double *A, double *g) {
   }
 }
 
-// Of each column alone what nominal flights find: the mean, and the mean square of its score in the log's
-// units.
-static void feedback_alone(const parts_t *p, double *mean, double *excess) {
-  const nominal_t *const nominal = p->r->nominal;
-  const int n = p->n, flights = nominal ? nominal->n : 0, size = n + 1;
-  for (int f = 0; f < flights; f++) {
-    const double *const G = nominal->total + (size_t)f * (size_t)(size * size);
-    for (int k = 0; k < n; k++) {
-      const double own = G[k * (size + 1)] * p->typical[k] * p->typical[k], here = p->A[k * (n + 1)];
-      const double b = own > 1e-9 * here && own > 0.0 ? G[k * size + n] * p->typical[k] / own : 0.0;
-      mean[k] += b / flights;
-      excess[k] += b * b * here * here / flights;
-    }
-  }
-}
-
-// What control makes of noise has one sign. A number of the other sign is there in spite of it, and what
-// nominal flights have in common of it does not speak against it.
-static void find_in_spite(parts_t *p, const double *mean, double *excess) {
-  const candidates_t *const c = p->r->c;
-  for (int i = 0; i < c->n; i++)
-    for (int k = 0; k < c->candidate[i].n && c->candidate[i].use.fx->control_makes; k++) {
-      const int at = c->candidate[i].first + k;
-      const double score = mean[at] * p->A[at * (p->n + 1)];
-      p->in_spite[at] = mean[at] * p->g[at] < 0.0;
-      if (p->in_spite[at]) excess[at] = fmax(excess[at] - score * score, 0.0);
-    }
-}
-
-// b_i = (A_i + I)^-1 g_i of nominal flight i: bias, spread and correlations.
-static void feedback(parts_t *p, const double *mean, double *A, double *g) {
+// b_i = (A_i + I)^-1 g_i of nominal flight i: bias, spread and correlations. excess: mean square of each
+// column's own score there, in the log's units.
+static void feedback(parts_t *p, double *excess, double *A, double *g) {
   const nominal_t *const nominal = p->r->nominal;
   const int n = p->n, flights = nominal ? nominal->n : 0;
   for (int f = 0; f < flights; f++) {
     scaled(p, nominal->total + (size_t)f * (size_t)(nominal->size * nominal->size), A, g);
     for (int k = 0; k < n; k++) {
-      if (p->in_spite[k]) g[k] -= mean[k] * A[k * (n + 1)];
+      const double own = A[k * (n + 1)], here = p->A[k * (n + 1)];
+      const double b = own > 1e-9 * here && own > 0.0 ? g[k] / own : 0.0;
+      excess[k] += b * b * here * here / flights;
       A[k * (n + 1)] += 1.0;
     }
     if (!cholesky(A, n)) continue;
@@ -172,13 +145,12 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
   free(wanted);
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
+    const double misfit = fx->control_makes ? MISFIT_BESIDE : CANDIDATES_MISFIT;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
-      const bool made = fx->control_makes && !p->in_spite[column];
-      const double misfit = made ? MISFIT_BESIDE : CANDIDATES_MISFIT;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
       p->wide[column] += misfit * misfit / candidates_of(c, i) + late * late;
-      if (made) p->wide[column] += other_pilots(p, column, nominal[column]);
+      if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }
 }
@@ -227,30 +199,24 @@ void information_free(information_t *f) {
 done_t information_make(information_t *f, const round_t *r, why_t *why) {
   const int n = r->c->columns, flights = r->nominal ? r->nominal->n : 0;
   const size_t square = (size_t)(n * n), line = (size_t)n;
-  double *const room = calloc(2 * square + (7 + (size_t)flights) * line + 1, sizeof(double));
+  double *const room = calloc(2 * square + (6 + (size_t)flights) * line + 1, sizeof(double));
   *f = (information_t){.n = n, .F = calloc(square + line + 1, sizeof(double))};
-  bool *const in_spite = calloc(line + 1, sizeof(bool));
-  if (!room || !f->F || !in_spite) {
-    free(in_spite);
+  if (!room || !f->F) {
     free(room);
     return error_failed(why, "out of memory");
   }
   f->h = f->F + square;
   double *const A = room + square, *const at = A + square;
-  parts_t p = {r, n, at, room, at + line, at + 7 * line, at + 2 * line, in_spite};
-  double *const nominal = at + 3 * line, *const blocks = at + 4 * line, *const g = at + 5 * line,
-                *const mean = at + 6 * line;
+  parts_t p = {r, n, at, room, at + line, at + 6 * line, at + 2 * line};
+  double *const nominal = at + 3 * line, *const blocks = at + 4 * line, *const g = at + 5 * line;
   for (int i = 0; i < r->c->n; i++)
     for (int k = 0; k < r->c->candidate[i].n; k++)
       p.typical[r->c->candidate[i].first + k] = r->c->candidate[i].typical[k];
   scaled(&p, r->gram.total, p.A, p.g);
-  feedback_alone(&p, mean, nominal);
-  find_in_spite(&p, mean, nominal);
-  feedback(&p, mean, A, g);
+  feedback(&p, nominal, A, g);
   block_scores(&p, blocks);
   widen(&p, nominal, blocks);
   const bool good = inform(&p, f);
-  free(in_spite);
   free(room);
   return good ? DONE : error_failed(why, "out of memory");
 }

@@ -167,29 +167,6 @@ TEST(gap_information_takes_of_another_pilot_s_feedback_only_how_large_it_gets) {
   }
 }
 
-// On nominal flights control makes -0.6 and -0.4 of it: their mean square, and of another pilot as much again
-// and a misfit; where the log shows the other sign, what these differ by is left.
-TEST(gap_information_takes_a_number_for_less_likely_made_that_is_of_the_other_sign) {
-  static const struct {
-    double times, variance;
-  } row[] = {{-1.0, 3.0 * 0.26 + 0.25 * 0.25 + 1.0 / 2000.0}, {1.0, 2.0 * 0.01 + 0.02 * 0.02 + 1.0 / 2000.0}};
-  for (int i = 0; i < 2; i++) {
-    gap_rows_t g;
-    why_t why;
-    information_t f;
-    ROW("%g", row[i].times);
-    gap_rows_make(&g, 33);
-    const int of = along(&g, "torque_ratio", CH_WZ, 2000.0);
-    gap_rows_add(&g, of, 0, row[i].times);
-    gap_rows_nominal(&g, 2, 1e8, (const double[]){-0.6, -0.4});
-    gap_rows_open(&g, 1, &of);
-    if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
-    CHECK_NEAR(1.0 / f.F[0], row[i].variance, 0.1 * row[i].variance);
-    information_free(&f);
-    gap_rows_free(&g);
-  }
-}
-
 // One effect in a hundred is there, and is a half, once, twice or four times what is typical.
 TEST(gap_evidence_weighs_four_scales_and_how_rare_an_effect_is) {
   gap_rows_t g;
