@@ -86,6 +86,40 @@ TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
   }
 }
 
+// A look at place and speed 10 ms after the first finds the vehicle 0.5 m/s aside: by the error of its rate,
+// a pilot commands once what the wanted rate has grown by, and from then on as the other one does.
+TEST(gap_a_pilot_kicks_at_a_look_where_its_lead_is_on_the_error) {
+  double turn[2][8] = {{0.0}};
+  gap_track_t r;
+  why_t why = {""};
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.hover = true}, &why))) return;
+  for (int kicks = 0; kicks < 2; kicks++) {
+    closed_loop_t w = {.rate_gain = {25.0, 25.0, 5.0},
+                       .rate_lead = {0.1},
+                       .tilt_gain = 200.0,
+                       .outer_s = 0.01,
+                       .kicks = kicks};
+    nominal_flight_t f = {.g = r.set.grid, .m = &r.vehicle, .w = &w, .lift_trim = 1.0, .load_slow = 1.0};
+    grid_point_t track = {.q_wb = {1.0, 0.0, 0.0, 0.0}}, seen = track;
+    f.push = 2.0;
+    f.rate_before_radps.x = (double)NAN;
+    for (int i = 0; i < 8; i++) {
+      double motor_N[ROTORS];
+      seen.vel_w_mps.y = i > 0 ? -0.5 : 0.0;
+      pilot_steer(&f, 0.002, &track, &seen, motor_N);
+      for (int k = 0; k < ROTORS; k++) turn[kicks][i] += r.vehicle.frame.rotor_y_m[k] * motor_N[k];
+      turn[kicks][i] /= r.vehicle.frame.inertia_kgm2[0];
+    }
+  }
+  const double wanted = -atan(2.0 * 0.5 / 9.81) * 200.0;
+  for (int i = 0; i < 8; i++) {
+    ROW("call %d: %g, %g rad/s2, %g", i, turn[0][i], turn[1][i], wanted);
+    CHECK_NEAR(turn[0][i], i < 5 ? 0.0 : wanted, 0.3);
+    CHECK_NEAR(turn[1][i] - turn[0][i], i == 5 ? 0.1 * wanted / 25.0 / 0.002 : 0.0, 0.3);
+  }
+  gap_track_free(&r);
+}
+
 // The swinging one is of a user's flights with 5 g more mass, whose pilot had 24 1/s.
 TEST(gap_takes_a_vehicle_that_swings_for_no_sign_of_a_swift_pilot) {
   enum { N = 6 };

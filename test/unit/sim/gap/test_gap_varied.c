@@ -44,7 +44,7 @@ TEST(gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands) {
       // What it is fed with makes commands as noisy as the log's, and no noisier.
       const double noise = hypot(0.01 * v.rate_gain[0], 0.002 * v.tilt_gain);
       CHECK_NEAR((1.0 - v.spared) * noise, swiftest ? 0.8 : noise, 1e-9);
-      CHECK(v.outer_s == (swift ? 0.01 : 0.0));
+      CHECK(v.outer_s == (swift ? 0.01 : 0.0) && v.kicks == (swift && !swiftest));
       CHECK(v.rate_gain[2] < 7.0); // a rotor's torque is small
     }
   }
