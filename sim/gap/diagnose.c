@@ -139,7 +139,7 @@ static bool bar_kinds(diagnosis_t *d) {
     const int which = d->withdrawn.name[i].candidate;
     int others = 0;
     for (int k = 0; k < d->candidates.n; k++)
-      others += k != which && all[k].use.fx == all[which].use.fx && !all[k].barred;
+      others += k != which && candidates_exclude(&all[k], &all[which]) && !all[k].barred;
     const bool kinds = all[which].use.fx->n_kind > 1 || candidate_is_numbered(&all[which]);
     if (!kinds || others == 0) continue;
     barred = all[which].barred = true;
@@ -172,7 +172,8 @@ static bool bar_refuted(diagnosis_t *d) {
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
     candidate_t *const c = &d->candidates.candidate[named->candidate];
     if (c->barred) continue; // it is withdrawn already
-    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], named->confirm, false};
+    d->refuted[d->n_refuted++] =
+        (refuted_t){c->use.fx, c->from, named->value[c->from], named->confirm, false};
     refuted = c->barred = true;
   }
   return refuted;
@@ -191,7 +192,8 @@ static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barr
     bool stands = false;
     if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, named, &stands, why));
     if (stands) continue;
-    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, named->value[0], {.answer = CONFIRM_NOT_TRIED}, true};
+    d->refuted[d->n_refuted++] =
+        (refuted_t){c->use.fx, c->from, named->value[c->from], {.answer = CONFIRM_NOT_TRIED}, true};
     *barred = c->barred = true;
   }
   return DONE;

@@ -18,7 +18,8 @@ typedef struct {
 // made of which the log has too few.
 typedef struct {
   const fx_t *fx;
-  double value; // the first of its numbers
+  int number; // of its numbers the first that the name is about
+  double value;
   confirm_t by_set_points;
   bool too_slow;
 } refuted_t;

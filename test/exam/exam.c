@@ -129,8 +129,9 @@ static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *tr
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     const fx_use_t *const use = found_use(&d->found, named);
+    const candidate_t *const own = &d->candidates.candidate[named->candidate];
     for (int q = 0; q < truth->n_fx; q++)
-      for (int k = 0; truth->fx[q].fx == use->fx && k < use->fx->n_size && set->n_value < EXAM_VALUES; k++) {
+      for (int k = own->from; truth->fx[q].fx == use->fx && k < own->to && set->n_value < EXAM_VALUES; k++) {
         const int param = use->fx->size[k].param;
         int n;
         set->value[set->n_value++] =

@@ -53,14 +53,39 @@ typedef struct {
   double offset, driven_gg, driven_mg, moved_mg, moved_mm, left;
 } slope_t;
 
+// What an accelerometer says too much of, steadily, over a window, in the body's axes: of one that is tilted
+// or errs it goes to and fro in the world's where the vehicle turns about the vertical, and is no movement.
+static d3_t steady_b(const gap_flight_t *f, const drive_t *drive) {
+  const int m = gap_drive_samples(f, drive);
+  d3_t sum = d3(0.0, 0.0, 0.0);
+  double n = 0.0;
+  for (int i = 0; drive == &GAP_PUSH && i + m < f->n; i += m) {
+    window_t w;
+    if (!gap_drive_window(f, drive, i, &w)) continue;
+    const d3_t over = d3_sub(d3_of(w.driven), d3_of(w.moved));
+    sum = d3_add(sum, dq_to_body(attitude_at(f->v, i + m / 2), over));
+    n += 1.0;
+  }
+  return d3_scale(n > 0.0 ? 1.0 / n : 0.0, sum);
+}
+
+static bool window_at(const gap_flight_t *f, const drive_t *drive, int i, d3_t steady_b, window_t *w) {
+  if (!gap_drive_window(f, drive, i, w)) return false;
+  if (drive != &GAP_PUSH) return true;
+  const int mid = i + gap_drive_samples(f, drive) / 2;
+  d3_put(w->driven, d3_sub(d3_of(w->driven), dq_to_world(attitude_at(f->v, mid), steady_b)));
+  return true;
+}
+
 // The slope of what moves against what drives it, over the windows in which one of both does.
 static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
   const int m = gap_drive_samples(f, drive);
+  const d3_t steady = steady_b(f, drive);
   double n = 0.0;
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i + m < f->n; i += m) {
       window_t w;
-      if (!gap_drive_window(f, drive, i, &w)) continue;
+      if (!window_at(f, drive, i, steady, &w)) continue;
       n += pass == 0;
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.
@@ -81,12 +106,6 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
 // Some of one goes with the other: half of the squares.
 static bool goes_along(const slope_t *s) {
   return s->mg * s->mg > 0.5 * s->mm * s->gg;
-}
-
-// Next to nothing moves, and not as what drives says: that is an error of its own, as of an accelerometer
-// that is tilted where the vehicle turns about the vertical, and no unit.
-static bool stands(const slope_t *s) {
-  return s->mm < SLOPE_MIN * SLOPE_MIN * s->gg && !goes_along(s);
 }
 
 // What would fit instead, as the end of a message: another unit of either, or the other sign of one of both.
@@ -129,7 +148,7 @@ static done_t check_drive(gap_flight_t *f, const log_rows_t *rows, const drive_t
   for (int k = 0; k < 3; k++) {
     const slope_t *const s = &slope[k];
     const signal_id_t column = (signal_id_t)((int)drive->driver + k);
-    if (s->n < WINDOWS_MIN || !(s->gg > 0.0) || stands(s)) continue;
+    if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
     const double b = s->mg / s->gg;
     const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
     if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;

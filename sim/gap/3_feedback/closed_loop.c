@@ -17,11 +17,11 @@
 // at place and speed as seldom. Its lead stays the one of the smaller gain. Every other of these is as swift
 // as the motors allow: of a simulator's motors without lag a PID has 170 1/s, its commands decay from row to
 // row, and where rows keep step with its outer loop each has the peak: an inertia half as large again. The
-// attitude it steers as slowly as the others: by its square it would follow the noise of the track. The rest
-// have their lead on the error of a rate, as a PID may: each look kicks, a log that keeps step with the looks
-// has every kick or none, and what it misses goes with the speed, as flapping does (of 32 nominal sets of
-// somebody else's Crazyflie four were told one).
-// gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds both.
+// attitude it steers as slowly as the others: by its square it would follow the noise of the track. The swift
+// ones but those have their lead on the error of a rate, as a PID may: each look kicks, a log that keeps step
+// with the looks has every kick or none, and what it misses goes with the speed, as flapping does (of 32
+// nominal sets of somebody else's Crazyflie four were told one).
+// gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds all of it.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // of its position loop
 

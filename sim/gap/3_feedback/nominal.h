@@ -34,8 +34,8 @@ typedef struct {
   double spared; // so much of the noise of a log that it is not fed with, 0 to 1: that is of logging
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
-  bool kicks;  // its lead is on the error of a rate, with what a look does to what is wanted
-  bool unread; // rows are fewer than commands: what is read of rate gains is not believed
+  bool kicks;                     // its lead is on the error of a rate: what is wanted steps at each look
+  bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides
   double force_mps2[3], force_tau_s;               // disturbing forces, sd and correlation time (gusts.h)

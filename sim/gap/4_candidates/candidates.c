@@ -88,9 +88,9 @@ static double as_strong(const fx_use_t *use, double radius_m) {
 
 typedef struct {
   int from, to; // of an effect's numbers
-} span_t;
+} numbers_t;
 
-static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, span_t of) {
+static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, numbers_t of) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size, .from = of.from, .to = of.to};
   for (int k = 0; k < fx->n_size; k++) {
@@ -110,7 +110,7 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, 
 }
 
 // Of an effect that the file has. Which lag or delay there is, is another question.
-static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own, span_t of) {
+static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own, numbers_t of) {
   int n;
   const fx_param_t *const param = fx_use_params(own, &n);
   const fx_t *const fx = own->fx;
@@ -128,7 +128,7 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   }
 }
 
-static void add_all(candidates_t *c, const model_t *m, const fx_t *fx, span_t of) {
+static void add_variants(candidates_t *c, const model_t *m, const fx_t *fx, numbers_t of) {
   const fx_use_t *const own = model_fx(m, fx);
   if (own) add_difference(c, m, own, of);
   for (int k = own ? fx_variants(fx) : 0; k < fx_variants(fx); k++) add(c, fx, m, k, of);
@@ -141,8 +141,8 @@ done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t 
   for (int i = 0; i < fx_count; i++) {
     const fx_t *const fx = fx_table[i];
     if (candidates_obstacle(fx, m, s)) continue;
-    if (fx->size_apart) add_all(c, m, fx, (span_t){0, fx->size_apart});
-    add_all(c, m, fx, (span_t){fx->size_apart, fx->n_size});
+    if (fx->size_apart) add_variants(c, m, fx, (numbers_t){0, fx->size_apart});
+    add_variants(c, m, fx, (numbers_t){fx->size_apart, fx->n_size});
   }
   return DONE;
 }

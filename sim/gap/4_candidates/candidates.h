@@ -22,8 +22,8 @@ typedef struct {
   fx_use_t use; // with its shape; its sizes are 0
   bool in_file; // the vehicle file has it: its sizes are differences, shape and kind the file's
   int first, n; // columns
-  int from,
-      to; // of its numbers, those that it is about: the columns of the others are empty (fx->size_apart)
+  // Of its numbers those that it is about: the columns of the others are empty (fx->size_apart).
+  int from, to;
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
   bool barred; // held-out flights or set points contradict it: it is out of question

@@ -109,11 +109,11 @@ static done_t put_flight(confirming_t *t, int flight, grid_t *quiet, int first, 
     return error_failed(why, "out of memory");
   done_t status = replay_keep(quiet, &t->now, &path, r.base, why);
   for (int i = 0; i < t->names.n; i++)
-    for (int k = 0; k < t->names.candidate[i].n && status == DONE; k++) {
-      const int column = t->names.candidate[i].first + k;
-      const fx_use_t whole = effect_whole(t->base, &t->chosen.use[i]);
-      status =
-          column_differentiate(quiet, &path, &whole, k, t->names.candidate[i].step[k], r.base, r.with, why);
+    for (int k = t->names.candidate[i].from; k < t->names.candidate[i].to && status == DONE; k++) {
+      const candidate_t *const own = &t->names.candidate[i];
+      const int column = own->first + k;
+      const fx_use_t *const whole = model_fx(&t->now, own->use.fx);
+      status = column_differentiate(quiet, &path, whole, k, own->step[k], r.base, r.with, why);
       if (status == DONE) status = put_instruments(t, flight, quiet, first, &r, column, why);
     }
   path_free(&path);

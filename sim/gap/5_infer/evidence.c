@@ -197,22 +197,22 @@ void evidence_free(evidence_t *e) {
   *e = (evidence_t){.n = 0};
 }
 
-static bool holds(const evidence_set_t *s, const candidates_t *c, int n, const fx_t *const fx[]) {
+static bool holds(const evidence_set_t *s, const candidates_t *c, int n, const int *candidate) {
   for (int k = 0; k < s->n; k++)
     for (int m = 0; m < n; m++)
-      if (c->candidate[s->of[k]].use.fx == fx[m]) return true;
+      if (candidates_exclude(&c->candidate[s->of[k]], &c->candidate[candidate[m]])) return true;
   return false;
 }
 
-double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t *const fx[]) {
+double evidence_of(const evidence_t *e, const candidates_t *c, int n, const int *candidate) {
   double sum = 0.0;
-  for (int i = 0; i < e->n; i++) sum += holds(&e->set[i], c, n, fx) ? e->set[i].share : 0.0;
+  for (int i = 0; i < e->n; i++) sum += holds(&e->set[i], c, n, candidate) ? e->set[i].share : 0.0;
   return fmin(sum, 1.0); // the shares' rounding adds up
 }
 
 const evidence_set_t *evidence_without(const evidence_t *e, const candidates_t *c, int n,
-                                       const fx_t *const fx[]) {
+                                       const int *candidate) {
   for (int i = 0; i < e->n; i++)
-    if (!holds(&e->set[i], c, n, fx)) return &e->set[i];
+    if (!holds(&e->set[i], c, n, candidate)) return &e->set[i];
   return NULL;
 }

@@ -41,12 +41,12 @@ void evidence_free(evidence_t *e);
 // beside the others. FAILED: no memory.
 MUST_CHECK done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why);
 
-// The probability that one of these effects is there, in any shape.
-double evidence_of(const evidence_t *e, const candidates_t *c, int n, const fx_t *const fx[]);
+// The probability that one of these candidates is there, in any shape.
+double evidence_of(const evidence_t *e, const candidates_t *c, int n, const int *candidate);
 
-// The likeliest set that has none of these effects; null: there is none.
+// The likeliest set that has none of these; null: there is none.
 const evidence_set_t *evidence_without(const evidence_t *e, const candidates_t *c, int n,
-                                       const fx_t *const fx[]);
+                                       const int *candidate);
 
 // --- its parts --------------------------------------------------------------------------------------------
 

@@ -135,6 +135,7 @@ static void move_others(const round_t *r, found_t *found, const named_t *named, 
 
 static void take(const rival_t *rival, named_t *named) {
   named->rival[named->n_rival] = rival->fx;
+  named->rival_candidate[named->n_rival] = rival->candidate;
   named->rival_share[named->n_rival++] = rival->share;
 }
 
@@ -171,16 +172,17 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
   }
 }
 
-// What an effect would explain in the place of a name, in the form that leaves least; fx null: nothing.
-static rival_t in_its_place(const round_t *r, double left_before, const named_t *named, const fx_t *fx) {
+// What a candidate would explain in the place of a name, in the form that leaves least; fx null: nothing.
+static rival_t in_its_place(const round_t *r, double left_before, const named_t *named, int candidate) {
+  const candidate_t *const all = r->c->candidate;
   const choice_t rest = choice_without(&r->choice, named->candidate);
   const double without = score_left(&r->score, &rest, NULL);
   rival_t best = {.left = without};
   for (int i = 0; i < r->c->n; i++) {
-    if (round_fx(r, i) != fx || r->never[i] || !round_fits(r, &rest, i)) continue;
+    if (!candidates_exclude(&all[i], &all[candidate]) || r->never[i] || !round_fits(r, &rest, i)) continue;
     const choice_t with = choice_with(&rest, i);
     const double left = score_left(&r->score, &with, NULL);
-    if (left < best.left) best = (rival_t){fx, (without - left) / left_before, left, i};
+    if (left < best.left) best = (rival_t){all[i].use.fx, (without - left) / left_before, left, i};
   }
   return best;
 }
@@ -190,13 +192,14 @@ static rival_t in_its_place(const round_t *r, double left_before, const named_t 
 // Of a set what would explain most in the place of a name; fx null: it has nothing that is not named.
 static rival_t best_of(const round_t *r, double left_before, const named_t *named,
                        const evidence_set_t *set) {
+  const candidate_t *const all = r->c->candidate;
   rival_t best = {.fx = NULL};
   for (int k = 0; set && k < set->n; k++) {
     bool chosen = false;
     for (int i = 0; i < r->choice.n; i++)
-      chosen = chosen || round_fx(r, r->choice.of[i]) == round_fx(r, set->of[k]);
+      chosen = chosen || candidates_exclude(&all[r->choice.of[i]], &all[set->of[k]]);
     if (chosen) continue;
-    const rival_t one = in_its_place(r, left_before, named, round_fx(r, set->of[k]));
+    const rival_t one = in_its_place(r, left_before, named, set->of[k]);
     if (one.fx && (!best.fx || one.left < best.left)) best = one;
   }
   return best;
@@ -205,16 +208,16 @@ static rival_t best_of(const round_t *r, double left_before, const named_t *name
 // A name that is less likely than not, with its rivals, is not told without what is likelier: two effects may
 // do together what it does alone.
 static void weigh(const round_t *r, const evidence_t *e, double left_before, named_t *named) {
-  const fx_t *fx[FX_MAX + 1] = {round_fx(r, named->candidate)};
-  for (int k = 0; k < named->n_rival; k++) fx[k + 1] = named->rival[k];
+  int of[FX_MAX + 1] = {named->candidate};
+  for (int k = 0; k < named->n_rival; k++) of[k + 1] = named->rival_candidate[k];
   for (;;) {
     const int n = named->n_rival + 1;
-    named->probability = evidence_of(e, r->c, n, fx);
+    named->probability = evidence_of(e, r->c, n, of);
     if (named->probability >= 0.5 || n > FX_MAX) return;
-    const rival_t rival = best_of(r, left_before, named, evidence_without(e, r->c, n, fx));
+    const rival_t rival = best_of(r, left_before, named, evidence_without(e, r->c, n, of));
     if (!rival.fx) return;
     take(&rival, named);
-    fx[n] = rival.fx;
+    of[n] = rival.candidate;
   }
 }
 

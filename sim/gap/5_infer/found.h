@@ -39,6 +39,7 @@ typedef struct {
   double share;        // of the sum of squares that the original model leaves and the effect explains
   int n_rival;         // family.h
   const fx_t *rival[FX_MAX];
+  int rival_candidate[FX_MAX];
   double rival_share[FX_MAX]; // what each would explain in its place
   confirm_t confirm;
 } named_t;

@@ -180,7 +180,8 @@ static done_t drop_echo(select_t *t, bool *dropped, why_t *why) {
     if (!*dropped) continue;
     TRY(local_alike(&t->round, candidate, t->alike, why));
     for (int k = 0; k < t->round.c->n; k++)
-      if (t->alike[k] || k == candidate) t->been[k] = t->echo[k] = t->never[k] = true;
+      if (k == candidate || (t->alike[k] && !choice_has(&t->round.choice, k)))
+        t->echo[k] = t->never[k] = true;
     t->round.choice = choice_without(&t->round.choice, candidate);
   }
   return DONE;

@@ -110,6 +110,14 @@ static double stderr_of(const extend_job_t *job, const fx_t *fx, int k) {
   return most;
 }
 
+// A name is about the lot of numbers (fx->size_apart) to which k belongs.
+static bool is_of_a_lot(const extend_job_t *job, const fx_t *fx, int k) {
+  bool of = false;
+  for (int other = 0; other < fx->n_size; other++)
+    of = of || ((other < fx->size_apart) == (k < fx->size_apart) && stderr_of(job, fx, other) > 0.0);
+  return of || !fx->size_apart;
+}
+
 // Where a number comes from.
 static void write_source(const extend_job_t *job, const fx_use_t *use, const named_t *named, int param,
                          FILE *out) {
@@ -121,7 +129,9 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
     if (error > 0.0)
       fprintf(out, "estimated, +- %.2g (standard error)", error);
     else
-      fputs("not shown by what can be compared of these flights", out);
+      fputs(is_of_a_lot(job, use->fx, k) ? "not shown by what can be compared of these flights"
+                                         : "no name is about it",
+            out);
     if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
     return;
   }
@@ -136,12 +146,15 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
 
 static void write_effect(const extend_job_t *job, const model_t *extended, const named_t *named, FILE *out) {
   const fx_use_t use = *model_fx(extended, found_use(job->found, named)->fx);
+  double share = 0.0;
   int n;
+  for (int i = 0; i < job->found->n; i++)
+    share += is_about(job, i, use.fx) ? job->found->named[i].share : 0.0;
   char p[P_TEXT];
   const fx_param_t *param = fx_use_params(&use, &n);
   fprintf(out,
           "\n# Found by the discrepancy workflow in %s: %s, %.3g %% of the gap.\n[[effect]]\nname = \"%s\"\n",
-          job->logs, p_words(named->p, p), 100.0 * named->share, use.fx->name);
+          job->logs, p_words(named->p, p), 100.0 * share, use.fx->name);
   if (use.form) fprintf(out, "form = \"%s\"\n", use.form->name);
   if (use.points.n) write_points(out, &use.points);
   for (int i = 0; i < n; i++) {

@@ -135,7 +135,7 @@ static void warn_of_withdrawn(report_t *r) {
   }
   for (int i = 0; i < d->n_refuted; i++) {
     const refuted_t *const f = &d->refuted[i];
-    const fx_size_t *const size = &f->fx->size[0];
+    const fx_size_t *const size = &f->fx->size[f->number];
     const char *const unit = f->fx->param[size->param].unit;
     if (f->too_slow) {
       warn(r,
@@ -150,7 +150,8 @@ static void warn_of_withdrawn(report_t *r) {
     warn(r,
          "%s is withdrawn: the rows show %.3g %s, but by the set points as instrument it is %.3g +- %.2g %s: "
          "feedback makes it",
-         f->fx->name, f->value, unit, f->by_set_points.value[0], f->by_set_points.stderr_[0], unit);
+         f->fx->name, f->value, unit, f->by_set_points.value[f->number], f->by_set_points.stderr_[f->number],
+         unit);
   }
 }
 

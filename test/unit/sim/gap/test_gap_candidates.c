@@ -250,7 +250,10 @@ TEST(numbers_that_have_other_rivals_are_a_candidate_of_their_own) {
     }
     *(own->from == 0 ? &level : &upright) = i;
   }
-  if (!CHECK(level >= 0 && upright >= 0)) return;
+  if (!CHECK(level >= 0 && upright >= 0)) {
+    candidates_free(&c);
+    return;
+  }
   const candidate_t *const a = &c.candidate[level], *const b = &c.candidate[upright];
   CHECK(a->to == 2 && b->from == 2 && b->to == 3);
   CHECK(!candidates_exclude(a, b) && candidates_exclude(a, a));

@@ -288,7 +288,7 @@ TEST(gap_evidence_of_alike_effects_is_shared) {
   gap_rows_nominal(&g, 0, 0.0, NULL);
   gap_rows_open(&g, 0, NULL);
   if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
-  const fx_t *const both[] = {fx_find("rotor_drag"), fx_find("flapping")};
+  const int both[] = {own, twin};
   CHECK(evidence_of(&e, &g.candidates, 2, both) > 0.99);
   for (int i = 0; i < 2; i++) CHECK_NEAR(evidence_of(&e, &g.candidates, 1, both + i), 0.5, 0.2);
   evidence_free(&e);
@@ -324,7 +324,7 @@ TEST(gap_evidence_is_never_more_than_sure) {
   const candidates_t c = {.n = 1, .candidate = &candidate};
   evidence_set_t set[2] = {{.n = 1, .share = 0.5}, {.n = 1, .share = 0.5 + 1e-15}};
   const evidence_t e = {2, set};
-  CHECK(evidence_of(&e, &c, 1, &(const fx_t *const){candidate.use.fx}) == 1.0);
+  CHECK(evidence_of(&e, &c, 1, &(const int){0}) == 1.0);
 }
 
 TEST(gap_evidence_knows_the_likeliest_set_without_an_effect) {
@@ -333,10 +333,23 @@ TEST(gap_evidence_knows_the_likeliest_set_without_an_effect) {
   const candidates_t c = {.n = 3, .candidate = candidate};
   evidence_set_t set[] = {{2, {1, 2}, .share = 0.7}, {2, {0, 2}, .share = 0.2}, {1, {1}, .share = 0.1}};
   const evidence_t e = {3, set};
-  const fx_t *const drags[] = {candidate[1].use.fx, candidate[0].use.fx};
+  const int drags[] = {1, 0};
   CHECK(evidence_without(&e, &c, 1, drags + 1) == &set[0]);
   CHECK(evidence_without(&e, &c, 1, drags) == &set[1]);
   CHECK(evidence_without(&e, &c, 2, drags) == NULL);
+}
+
+// A sure error of the accelerometer along x says nothing of one along z.
+TEST(gap_evidence_of_one_lot_of_an_effect_s_numbers_is_not_the_other_s) {
+  const fx_t *const bias = fx_find("accel_bias");
+  candidate_t candidate[] = {
+      {.use.fx = bias, .to = 2}, {.use.fx = bias, .from = 2, .to = 3}, {.use.fx = fx_find("battery_sag")}};
+  const candidates_t c = {.n = 3, .candidate = candidate};
+  evidence_set_t set[] = {{2, {0, 2}, .share = 0.7}, {2, {0, 1}, .share = 0.3}};
+  const evidence_t e = {2, set};
+  CHECK_NEAR(evidence_of(&e, &c, 1, &(const int){0}), 1.0, 1e-12);
+  CHECK_NEAR(evidence_of(&e, &c, 1, &(const int){1}), 0.3, 1e-12);
+  CHECK(evidence_without(&e, &c, 1, &(const int){1}) == &set[0]);
 }
 
 // What feedback alone makes as much of is no evidence, however far it is from noise.

@@ -76,7 +76,7 @@ TEST(gap_writes_one_effect_of_two_names_that_are_about_its_numbers) {
   CHECK_OK(model_read_text("model.toml", text, &m, &why));
   if (CHECK(m.n_fx == 1))
     for (int k = 0; k < 3; k++) CHECK_NEAR(m.fx[0].p[k], 0.1 * (k + 1), 1e-9);
-  CHECK(strstr(text, "x = 0.1 # m/s2, estimated, +- 0.01") &&
+  CHECK(strstr(text, "50 % of the gap") && strstr(text, "x = 0.1 # m/s2, estimated, +- 0.01") &&
         strstr(text, "z = 0.3 # m/s2, estimated, +- 0.04"));
   free(text);
 }

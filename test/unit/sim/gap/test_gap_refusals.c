@@ -253,7 +253,8 @@ TEST(gap_tells_of_a_scale_that_attitude_or_velocity_contradict) {
 
 // A hover that turns about the vertical, twice one way and back: at a steady place, or on a circle of 0.3 m
 // about which it goes once in 3 s, with an accelerometer that errs by a steady 0.5 m/s2 forwards.
-static done_t read_yaw(double circle_m, bool exchanged, why_t *why) {
+typedef enum { AS_IT_IS, EXCHANGED, DEAD } spoilt_t; // the accelerometer's axes; the velocity, but for noise
+static done_t read_yaw(double circle_m, spoilt_t spoilt, why_t *why) {
   const columns_t columns = flight_csv_columns();
   model_t vehicle;
   gap_flight_t f = {.n = 0};
@@ -262,7 +263,7 @@ static done_t read_yaw(double circle_m, bool exchanged, why_t *why) {
   FILE *const out = fopen(path, "w");
   if (!out) return FAILED;
   for (int k = 0; k <= FC_VBAT; k++) fprintf(out, "%s%s", k ? "," : "", flight_csv_name[k]);
-  for (int i = 0; i < 2000; i++) {
+  for (int i = 0; i < 5000; i++) {
     const double t_s = 0.01 * i, w = 2.0 * 3.14159265 / 3.0, at = w * t_s,
                  noise = 0.002 * sin(37.0 * t_s * t_s);
     const double yaw = 4.0 * 3.14159265 * sin(0.3 * t_s) + 0.001 * sin(50.0 * t_s);
@@ -277,7 +278,8 @@ static done_t read_yaw(double circle_m, bool exchanged, why_t *why) {
     v[FC_AZ] = 1.0 + noise;
     v[FC_QW] = cos(0.5 * yaw), v[FC_QX] = 0.0, v[FC_QY] = 0.0, v[FC_QZ] = sin(0.5 * yaw);
     v[FC_GX] = 57.3 * noise, v[FC_GY] = -57.3 * noise, v[FC_GZ] = rate * 180.0 / 3.14159265;
-    if (exchanged) {
+    for (int k = 0; k < 3 && spoilt == DEAD; k++) v[FC_VX + k] = (k + 1) * noise;
+    if (spoilt == EXCHANGED) {
       const double keep = v[FC_AX];
       v[FC_AX] = v[FC_AY], v[FC_AY] = keep;
     }
@@ -291,8 +293,11 @@ static done_t read_yaw(double circle_m, bool exchanged, why_t *why) {
 
 TEST(gap_refuses_no_hover_for_an_accelerometer_that_errs_while_it_turns) {
   why_t why = {""};
-  CHECK_OK(read_yaw(0.0, false, &why));
-  CHECK_OK(read_yaw(0.3, false, &why));
-  CHECK_STATUS(BAD_INPUT, read_yaw(0.3, true, &why)); // the axes are exchanged
-  CHECK(strstr(why.text, "times as far along axis") != NULL);
+  CHECK_OK(read_yaw(0.0, AS_IT_IS, &why));
+  CHECK_OK(read_yaw(0.3, AS_IT_IS, &why));
+  for (spoilt_t spoilt = EXCHANGED; spoilt <= DEAD; spoilt++) {
+    ROW("%s", spoilt == DEAD ? "a velocity that is noise" : "axes that are exchanged");
+    CHECK_STATUS(BAD_INPUT, read_yaw(0.3, spoilt, &why));
+    CHECK(strstr(why.text, "the velocity changes") != NULL);
+  }
 }
