@@ -220,6 +220,7 @@ typedef struct {
   // The sizes from this one on may be missing without those before it: they are a candidate by themselves,
   // which has other rivals. 0: all are one.
   int size_apart;
+  const char *apart_name;   // what people are told of these
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
   // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the

@@ -16,6 +16,7 @@ const fx_t fx_accel_bias = {
     .n_size = 3,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}, {1, 0.01, 0, 0.0, FX_SAME}, {2, 0.01, 0, 0.0, FX_SAME}},
     .size_apart = 2, // along z it is alike more mass, along x and y wind
+    .apart_name = "accel_bias z",
     .n_param = 3,
     .param = {{"x", "m/s2", -1.0, 0.12, 1.0}, // beyond 0.1 g a sensor is broken, or it is something else
               {"y", "m/s2", -1.0, 0.0, 1.0},

@@ -156,6 +156,10 @@ bool candidates_exclude(const candidate_t *a, const candidate_t *b) {
   return a->use.fx == b->use.fx && a->from == b->from;
 }
 
+const char *candidate_name(const candidate_t *c) {
+  return c->from > 0 ? c->use.fx->apart_name : c->use.fx->name;
+}
+
 int candidates_of(const candidates_t *c, int candidate) {
   int n = 0;
   for (int i = 0; i < c->n; i++) n += candidates_exclude(&c->candidate[i], &c->candidate[candidate]);

@@ -47,6 +47,9 @@ typedef struct {
 // The same numbers of the same effect, perhaps in another shape or kind: one of them is there at most.
 bool candidates_exclude(const candidate_t *a, const candidate_t *b);
 
+// Its name for people: of an effect's numbers that are apart their own.
+const char *candidate_name(const candidate_t *c);
+
 // As how many candidates the numbers of one are tried: its shapes and kinds.
 int candidates_of(const candidates_t *c, int candidate);
 

@@ -245,6 +245,7 @@ static void find_place(const report_t *r, finding_t *f, double *const effect[CHA
 static done_t find_one(report_t *r, set_t *held, const lines_t *now, finding_t *f, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const candidate_t *const own = &d->candidates.candidate[f->named->candidate];
+  f->name = candidate_name(own);
   f->fx = own->use.fx, f->from = own->from, f->to = own->to;
   f->use = model_fx(&d->extended, f->fx);
   f->in_file = model_fx(&r->study->vehicle, f->fx);

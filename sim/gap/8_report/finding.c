@@ -133,7 +133,7 @@ static standing_t standing_of(const report_t *r, const finding_t *f) {
 
 void report_describe(const report_t *r, finding_t *f, const double *effect, int rows) {
   take_numbers(f);
-  text_add(f->family, REPORT_TEXT, "%s", f->fx->name);
+  text_add(f->family, REPORT_TEXT, "%s", f->name);
   for (int i = 0; i < f->named->n_rival; i++)
     text_add(f->family, REPORT_TEXT, "%s%s", i + 1 < f->named->n_rival ? ", " : " or ",
              f->named->rival[i]->name);

@@ -67,7 +67,7 @@ static void tell_motion(const report_t *r, char text[REPORT_LONG]) {
 
 static void tell_shown(const report_t *r, char text[REPORT_LONG]) {
   int n = 0;
-  for (int i = 0; i < r->n_finding; i++) add(text, "%s%s", n++ ? ", " : "", r->finding[i].fx->name);
+  for (int i = 0; i < r->n_finding; i++) add(text, "%s%s", n++ ? ", " : "", r->finding[i].name);
   for (int i = 0; i < r->n_shown; i++) add(text, "%s%s", n++ ? ", " : "", r->shown[i].fx->name);
   if (n == 0) add(text, "no effect of typical size");
 }

@@ -39,7 +39,7 @@ static void rivals(const finding_t *f, FILE *out) {
   fputs("<figure><figcaption>Rivals: what each name would explain of the gap in this "
         "place</figcaption><table>\n",
         out);
-  share_row(f->fx->name, k->share, most, "after", out);
+  share_row(f->name, k->share, most, "after", out);
   for (int i = 0; i < k->n_rival; i++) share_row(k->rival[i]->name, k->rival_share[i], most, "floor", out);
   fputs("</table></figure>\n", out);
   for (int i = 0; i < k->n_rival; i++) {

@@ -59,7 +59,7 @@ static void overview(const report_t *r, FILE *out) {
         out);
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
-    share_row(f->fx->name, f->named->share, most, "after", gap_channel[f->profile.channel], out);
+    share_row(f->name, f->named->share, most, "after", gap_channel[f->profile.channel], out);
   }
   share_row("left", report_left(r), most, "before", "", out);
   fputs("</table></section>\n", out);

@@ -27,10 +27,10 @@ void picture_curve(const finding_t *f, FILE *out) {
   svg_hold(&c, p->n, p->x, p->high);
   svg_hold(&c, p->n, p->x, seen);
   svg_hold(&c, p->n ? 1 : 0, p->x, zero);
-  snprintf(name, sizeof name, "What %s adds", f->fx->name);
+  snprintf(name, sizeof name, "What %s adds", f->name);
   svg_open(&c, name, of_coordinate(p->coordinate, x), of_channel(p->channel, "", y));
   svg_band(&c, p->n, p->x, p->low, p->high, "band", "+- standard error");
-  svg_line(&c, p->n, p->x, p->effect, "after", f->fx->name);
+  svg_line(&c, p->n, p->x, p->effect, "after", f->name);
   svg_dots(&c, p->n, p->x, seen, "seen", "measured, rest taken out");
   svg_close(&c);
 }
@@ -136,7 +136,7 @@ void report_curves(const report_t *r, FILE *out) {
     const finding_t *const f = &r->finding[i];
     const profile_t *const p = &f->profile;
     for (int k = 0; k < p->n; k++)
-      fprintf(out, "%s,%s,%s,%s,%s,%.6g,%.0f,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", f->fx->name,
+      fprintf(out, "%s,%s,%s,%s,%s,%.6g,%.0f,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", f->name,
               gap_channel[p->channel], gap_unit[p->channel], coordinate_name(p->coordinate),
               coordinate_unit(p->coordinate), p->x[k], p->rows[k], p->effect[k], p->low[k], p->high[k],
               p->effect[k] + p->after[k], p->before[k], p->after[k]);

@@ -65,7 +65,8 @@ typedef struct {
   const fx_use_t *use;     // as the new model has it
   const fx_use_t *in_file; // as the vehicle file has it; null: it has it not. named->value is the difference
   const fx_t *fx;
-  int from, to; // of its sizes, those that the name is about
+  const char *name; // for people (candidate_name)
+  int from, to;     // of its sizes, those that the name is about
   int n_number;
   number_t number[REPORT_NUMBERS];
   interval_t where; // of the profile's coordinate: there lie the middle 90 % of its sum of squares

@@ -33,7 +33,7 @@ static void print_numbers(const finding_t *f, FILE *out) {
 static void print_effect(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
   const char *const unit = gap_unit[f->profile.channel];
-  fprintf(out, "\n%s: %s\n  ", f->fx->name, f->fx->brief);
+  fprintf(out, "\n%s: %s\n  ", f->name, f->fx->brief);
   print_numbers(f, out);
   fprintf(out, "\n  %s; seen in %s, %s %.3g to %.3g %s", f->says, gap_channel[f->profile.channel],
           coordinate_name(coordinate), f->where.from, f->where.to, coordinate_unit(coordinate));

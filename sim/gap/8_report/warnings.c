@@ -101,7 +101,7 @@ static void warn_of_instrument(report_t *r) {
   if (d->why_not_confirmed) warn(r, "whether feedback makes a name is not known: %s", d->why_not_confirmed);
   for (int i = 0; i < d->found.n; i++) {
     const confirm_t *const a = &d->found.named[i].confirm;
-    const char *const name = found_use(&d->found, &d->found.named[i])->fx->name;
+    const char *const name = candidate_name(&d->candidates.candidate[d->found.named[i].candidate]);
     if (a->answer == CONFIRM_NO)
       warn(r, "%s may be made by feedback, by the set points as instrument, or they show too little of it",
            name);
@@ -131,17 +131,19 @@ static void warn_of_withdrawn(report_t *r) {
     const withdrawn_t *const w = &d->withdrawn.name[i];
     warn(r,
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
-         w->fx->name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
+         candidate_name(&d->candidates.candidate[w->candidate]), gap_channel[w->channel], w->without, w->with,
+         gap_unit[w->channel]);
   }
   for (int i = 0; i < d->n_refuted; i++) {
     const refuted_t *const f = &d->refuted[i];
     const fx_size_t *const size = &f->fx->size[f->number];
+    const char *const name = f->number > 0 ? f->fx->apart_name : f->fx->name;
     const char *const unit = f->fx->param[size->param].unit;
     if (f->too_slow) {
       warn(r,
            "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
            "fed back, looks like it; %s",
-           f->fx->name,
+           name,
            f->fx->scales_turning
                ? "measured turning by predicted and predicted by measured do not both bear it out"
                : "with velocity or acceleration in the log a force along z would tell");
@@ -150,8 +152,7 @@ static void warn_of_withdrawn(report_t *r) {
     warn(r,
          "%s is withdrawn: the rows show %.3g %s, but by the set points as instrument it is %.3g +- %.2g %s: "
          "feedback makes it",
-         f->fx->name, f->value, unit, f->by_set_points.value[f->number], f->by_set_points.stderr_[f->number],
-         unit);
+         name, f->value, unit, f->by_set_points.value[f->number], f->by_set_points.stderr_[f->number], unit);
   }
 }
 

@@ -232,6 +232,16 @@ TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
   candidates_free(&c);
 }
 
+// Nothing that is tried in shapes or kinds has numbers apart: which of them would go with which is not said.
+TEST(every_effect_with_numbers_apart_has_a_name_for_them_and_no_other_forms) {
+  for (int i = 0; i < fx_count; i++) {
+    ROW("%s", fx_table[i]->name);
+    CHECK(!fx_table[i]->size_apart == !fx_table[i]->apart_name &&
+          fx_table[i]->size_apart < fx_table[i]->n_size + 1);
+    CHECK(!fx_table[i]->size_apart || fx_variants(fx_table[i]) == 1);
+  }
+}
+
 // An accelerometer's error along z is alike more mass, those along x and y are alike wind.
 TEST(numbers_that_have_other_rivals_are_a_candidate_of_their_own) {
   log_t l;
@@ -257,6 +267,8 @@ TEST(numbers_that_have_other_rivals_are_a_candidate_of_their_own) {
   const candidate_t *const a = &c.candidate[level], *const b = &c.candidate[upright];
   CHECK(a->to == 2 && b->from == 2 && b->to == 3);
   CHECK(!candidates_exclude(a, b) && candidates_exclude(a, a));
+  CHECK_TEXT(candidate_name(a), "accel_bias");
+  CHECK_TEXT(candidate_name(b), "accel_bias z");
   CHECK(candidates_of(&c, level) == 1 && candidates_of(&c, upright) == 1);
   fx_use_resize(chosen_take(&chosen, &c, level), 0, 0.3);
   fx_use_resize(chosen_take(&chosen, &c, upright), 2, -0.2);
