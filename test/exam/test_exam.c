@@ -156,6 +156,11 @@ TEST(a_sag_beside_another_effect_has_its_own_voltage) {
   for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) named_alone(EXAM_TWO, seed[i]);
 }
 
+// Its decay lies beyond half of the way to the next that is tried, and is found when the scale is in.
+TEST(a_ground_beside_another_effect_has_its_own_decay) {
+  named_alone(EXAM_TWO, 45101);
+}
+
 // It reads 7 cm too little, and 4 cm at the least: that is no floor of 6 cm, or of 8.
 TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
   static const unsigned long seed[] = {175106, 175166};

@@ -55,7 +55,7 @@ typedef struct {
 
 // What an accelerometer says too much of, steadily, over a window, in the body's axes: of one that is tilted
 // or errs it goes to and fro in the world's where the vehicle turns about the vertical, and is no movement.
-static d3_t steady_b(const gap_flight_t *f, const drive_t *drive) {
+static d3_t steady_b_mps(const gap_flight_t *f, const drive_t *drive) {
   const int m = gap_drive_samples(f, drive);
   d3_t sum = d3(0.0, 0.0, 0.0);
   double n = 0.0;
@@ -69,23 +69,23 @@ static d3_t steady_b(const gap_flight_t *f, const drive_t *drive) {
   return d3_scale(n > 0.0 ? 1.0 / n : 0.0, sum);
 }
 
-static bool window_at(const gap_flight_t *f, const drive_t *drive, int i, d3_t steady_b, window_t *w) {
+static bool window_at(const gap_flight_t *f, const drive_t *drive, int i, d3_t over_b_mps, window_t *w) {
   if (!gap_drive_window(f, drive, i, w)) return false;
   if (drive != &GAP_PUSH) return true;
   const int mid = i + gap_drive_samples(f, drive) / 2;
-  d3_put(w->driven, d3_sub(d3_of(w->driven), dq_to_world(attitude_at(f->v, mid), steady_b)));
+  d3_put(w->driven, d3_sub(d3_of(w->driven), dq_to_world(attitude_at(f->v, mid), over_b_mps)));
   return true;
 }
 
 // The slope of what moves against what drives it, over the windows in which one of both does.
 static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
   const int m = gap_drive_samples(f, drive);
-  const d3_t steady = steady_b(f, drive);
+  const d3_t steady_mps = steady_b_mps(f, drive);
   double n = 0.0;
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i + m < f->n; i += m) {
       window_t w;
-      if (!window_at(f, drive, i, steady, &w)) continue;
+      if (!window_at(f, drive, i, steady_mps, &w)) continue;
       n += pass == 0;
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.

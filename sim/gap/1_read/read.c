@@ -186,7 +186,8 @@ static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
 
 // How old a new sample of a range sensor is when its row is written: as the columns file says, else the
 // vehicle file, else as the Crazyflie's are; and it came half a period of the log before, where it comes more
-// seldom. In a file of its own it was there before the row of the motors' file.
+// seldom. In a block file of its own it was there before the row of the motors' file, and came half of its
+// own file's period before.
 static double range_age_s(const raw_t *raw, const log_rows_t *rows, signal_id_t range) {
   const column_t *const column = &rows->columns.of[range];
   const range_told_t *const told = range == SIG_RANGE ? &rows->vehicle.range_up : &rows->vehicle.range_down;

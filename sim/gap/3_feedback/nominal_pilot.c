@@ -146,10 +146,10 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const d3_t rate = seen->rate_b_radps;
   const bool turns = w->unread && f->g->has_rates;
   const d3_t off = turns ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
-  const d3_t wanted =
+  const d3_t wanted_radps =
       d3(w->tilt_gain / w->rate_gain[0] * roll, w->tilt_gain / w->rate_gain[1] * pitch, YAW * yaw);
   // The lead is on what is seen, or on its error.
-  const d3_t grows = rate_grows(f, w->kicks ? d3_scale(-1.0, d3_add(off, wanted)) : rate, step_s);
+  const d3_t grows = rate_grows(f, w->kicks ? d3_scale(-1.0, d3_add(off, wanted_radps)) : rate, step_s);
   const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,
                           w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
                           w->rate_gain[2] * (YAW * yaw + off.z) - w->rate_lead[2] * grows.z);

@@ -176,8 +176,8 @@ static done_t check(const char *text, const extend_job_t *job, why_t *why) {
 
 done_t extend_write(const extend_job_t *job, FILE *out, why_t *why) {
   model_t extended;
-  char *text = NULL;
   TRY(chosen_model(&job->found->chosen, job->model, &extended, why));
+  char *text = NULL;
   size_t size = 0;
   FILE *const made = open_memstream(&text, &size);
   if (!made) return error_failed(why, "out of memory");

@@ -28,8 +28,7 @@ TEST(gap_nominal_flight_is_not_poisoned_by_a_sample_that_is_not_there) {
   const grid_t *const g = &r.set.grid[0];
   int bad = 0, far = 0;
   for (int i = 0; i < flown.n; i++) {
-    const d3_t track =
-        g->point[i / g->every].pos_w_m; // where x is not there it was bridged for the flight alone
+    const d3_t track = g->point[i / g->every].pos_w_m; // NaN where x is not there: no distance
     bad += !isfinite(flown.v[SIG_Z][i]) || !isfinite(flown.v[SIG_M1][i]);
     far += fabs(flown.v[SIG_Y][i] - track.y) > 0.5 || fabs(flown.v[SIG_X][i] - track.x) > 0.5;
   }

@@ -237,6 +237,37 @@ TEST(gap_knows_a_name_that_acts_in_one_part_only) {
   }
 }
 
+// A name that acts in the first quarter only, and gives 1.5 or so of each of its rows, where something else
+// begins and ends in this or another channel: constants say as much, and of its own channel it counts.
+TEST(gap_asks_what_began_in_the_channels_of_a_name_alone) {
+  static const struct {
+    const char *what;
+    double steady; // part of the column
+    int channel;
+    bool confined;
+  } row[] = {{"it swings, and a push along z begins and ends", 0.0, CH_FZ, false},
+             {"it swings, and nothing else is there", 0.0, -1, false},
+             {"it is steady itself", 1.0, -1, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    why_t why;
+    bool confined;
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 37);
+    const int of = gap_rows_candidate(&g, "rotor_drag");
+    double *const x = gap_rows_column(&g, of, 0, CH_FX);
+    for (int k = 0; k < GAP_ROWS / 4; k++) {
+      x[k] = row[i].steady > 0.0 ? 1.2 : 1.7 * sin(0.11 * k);
+      g.residual[CH_FX][k] += x[k];
+      if (row[i].channel >= 0) g.residual[row[i].channel][k] += 3.0;
+    }
+    gap_rows_open(&g, 1, &of);
+    CHECK_OK(local_is_confined(&g.round, of, &confined, &why));
+    CHECK(confined == row[i].confined);
+    gap_rows_free(&g);
+  }
+}
+
 TEST(gap_knows_which_names_are_alike) {
   gap_rows_t g;
   why_t why;

@@ -86,6 +86,24 @@ TEST(blocks_of_a_flight_are_one_log_by_folder_by_name_and_packed) {
   }
 }
 
+// The sensor reads every 0.1 s. Its file has that 4 ms later (half a period, 5 ms, is taken for it), the
+// motors' row another 8 ms later.
+TEST(blocks_give_a_range_the_time_of_its_own_file) {
+  gap_flight_t f;
+  why_t why = {""};
+  int samples = 0;
+  write_blocks();
+  if (!CHECK_OK(read_flight(&f, scratch_path("blocks"), &why))) return;
+  for (int k = 0; k < f.n; k++) {
+    if (!isfinite(f.v[SIG_RANGE][k])) continue;
+    const double taken_s = f.t_s[k] - f.range_late_s[0];
+    samples++;
+    if (!CHECK_NEAR(taken_s, 0.1 * round(taken_s / 0.1) - 0.001, 5e-4)) break;
+  }
+  CHECK(samples > 100);
+  gap_flight_free(&f);
+}
+
 // A range at 4, 14, .. ms stands in rows at 12, 22, ..: told as new there, it would be a late sensor.
 TEST(blocks_tell_how_long_ago_a_range_was_new) {
   static const struct {
