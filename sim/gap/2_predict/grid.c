@@ -107,13 +107,12 @@ static bool finite3(d3_t a) {
   return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
-static bool is_good(const grid_t *g, const grid_point_t *p, const model_t *m, const touch_gap_t *gap,
-                    int from) {
+static bool is_good(const grid_t *g, const grid_point_t *p, const model_t *m, int from) {
   double thrust_N = 0.0;
   for (int k = 0; k < ROTORS; k++) thrust_N += mean(g->command_N[k], from - g->from, g->every);
   for (int i = from; i < from + g->every; i++)
     if (g->flight->saturated && g->flight->saturated[i]) return false;
-  if (g->has_position && (gap->floor_m < CLEAR_M || gap->ceiling_m < TOP_M)) return false;
+  if (p->touches) return false;
   return thrust_N > GAP_CARRIED * m->mass_kg * G_MPS2 && finite3(p->pos_w_m) && finite3(p->vel_w_mps) &&
          finite3(p->rate_b_radps) && finite3(p->acc_b_mps2) && isfinite(p->q_wb.w) && isfinite(p->vbat_V);
 }
@@ -140,7 +139,8 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);
   p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
-  p.ok = is_good(g, &p, m, &gap, from);
+  p.touches = g->has_position && (gap.floor_m < CLEAR_M || gap.ceiling_m < TOP_M);
+  p.ok = is_good(g, &p, m, from);
   return p;
 }
 

@@ -26,6 +26,7 @@ typedef struct {
   double range_m;          // fresh, else NaN
   double range_before_s;   // so long before t_s it was taken
   double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
+  bool touches;            // one of them, as estimated, or by what pushes it (bumps.c)
   d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
   double set_yaw_rad;
 } grid_point_t;

@@ -119,7 +119,7 @@ TEST(gap_leaves_out_points_at_which_something_solid_pushes) {
       {"the same at 100 Hz", {100.0, 0.025, -0.7, 0.0, 0.0, false}, true, true},
       {"the same further off", {500.0, 0.035, -0.7, 0.0, 0.0, false}, false, false},
       {"a ceiling that pulls", {500.0, 0.02, 0.35, 0.0, 0.0, false}, false, false},
-      {"a floor that it lands on", {500.0, -0.01, 0.7, 0.0, 0.0, false}, true, false},
+      {"a floor that it lands on", {500.0, -0.02, 0.7, 0.0, 0.0, false}, true, false},
       {"an edge that touches", {500.0, 0.025, -0.1, 100.0, 0.0, false}, true, true},
       {"the same further off", {500.0, 0.035, -0.1, 100.0, 0.0, false}, false, false},
       {"a gust that turns it", {500.0, 0.02, 0.0, 50.0, 0.0, false}, false, false},
@@ -135,4 +135,58 @@ TEST(gap_leaves_out_points_at_which_something_solid_pushes) {
     CHECK(row[i].left_out ? out >= 1 && out <= 4 : out == 0);
     CHECK(told == (row[i].told ? out : 0));
   }
+}
+
+// Points of a flight from one on, how clear of floor or ceiling they are, and whether they are left out.
+typedef struct {
+  int from;
+  double clear_m;
+  bool left_out;
+} clear_row_t;
+
+static void check_left_out(const clear_row_t *row, int n, bool floor, double *bump_s) {
+  static double v[SIG_COUNT][MOST], t_s[MOST];
+  model_t vehicle;
+  why_t why;
+  gap_flight_t flight;
+  grid_t g;
+  CHECK_OK(model_builtin("cf21_legacy", &vehicle, &why));
+  hover(&flight, &(pushed_t){50.0, floor ? -0.5 : 1.0, 0.0, 0.0, 0.0, false}, &vehicle, v, t_s);
+  vehicle.ceiling_m = floor ? 2.0 : 0.7;
+  CHECK_OK(grid_make(&g, &flight, 0, flight.n, &vehicle, &why));
+  const double way = floor ? 1.0 : -1.0, end_m = v[SIG_Z][0] - way * g.point[0].clear_m;
+  grid_free(&g);
+  for (int i = 0; i < n; i++)
+    for (int j = row[i].from; j < flight.n; j++) v[SIG_Z][j] = end_m + way * row[i].clear_m;
+  CHECK_OK(grid_make(&g, &flight, 0, flight.n, &vehicle, &why));
+  for (int i = 0; i < n; i++)
+    for (int j = row[i].from; j < (i + 1 < n ? row[i + 1].from : flight.n); j++) {
+      if (j == 55) continue; // half a second later
+      ROW("point %d, %g m", j, row[i].clear_m);
+      CHECK_NEAR(g.point[j].clear_m, row[i].clear_m, 1e-9);
+      CHECK(g.point[j].ok == !row[i].left_out);
+    }
+  *bump_s = g.bumps ? g.bump_s - g.point[0].t_s : -1.0;
+  grid_free(&g);
+}
+
+// It rests there, and its place errs: in one go it touches at every point, but not for ever.
+TEST(gap_leaves_out_a_rest_at_a_ceiling_whole) {
+  static const clear_row_t row[] = {{0, 0.030, false},  {20, 0.012, false}, {21, 0.008, true},
+                                    {22, 0.001, true},  {23, 0.006, true},  {24, 0.009, true},
+                                    {25, 0.011, false}, {26, 0.006, true},  {30, 0.001, true},
+                                    {31, 0.006, true},  {56, 0.006, false}, {98, 0.030, false}};
+  double bump_s;
+  check_left_out(row, sizeof row / sizeof *row, false, &bump_s);
+  CHECK_NEAR(bump_s, 0.42, 1e-9);
+}
+
+// In between it flies low over the ground, and may touch it.
+TEST(gap_leaves_out_a_landing_whole_and_of_a_low_flight_what_touches) {
+  static const clear_row_t row[] = {{0, 0.004, true},   {3, 0.008, true},  {6, 0.02, false},
+                                    {30, 0.008, false}, {33, 0.004, true}, {34, 0.008, false},
+                                    {50, 0.02, false},  {95, 0.008, true}, {98, 0.004, true}};
+  double bump_s;
+  check_left_out(row, sizeof row / sizeof *row, true, &bump_s);
+  CHECK_NEAR(bump_s, -1.0, 0.0);
 }
