@@ -217,6 +217,22 @@ static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_
   w->turn_tau_s = clamp(tau_s, 0.05, STANDS_S);
 }
 
+// Who is told a heading at looks, and has his lead on its error, kicks at each step of it. A log in step with
+// the looks has all kicks or none, and what is left about z goes with the turning of the nose: as much lead
+// as makes it, and no more than the motors follow. Of 30 nominal sets of somebody else's Crazyflie, whose
+// lead is 0.35 of a rate gain of 13 1/s, five were told a moment there. With 0.35 whatever is left, six of
+// the users' inertias are not named, which turning about z tells.
+static double nose_lead(const set_t *s, const model_t *m, const closed_loop_t *w, const double *left_radps2) {
+  double squares = 0.0, products = 0.0;
+  for (int i = 0; residual_has(s, CH_WZ) && i < s->smooth.n; i++) {
+    const double rate_radps = s->grid[s->smooth.flight[i]].point[s->smooth.point[i]].rate_b_radps.z;
+    squares += rate_radps * rate_radps;
+    products += rate_radps * left_radps2[i];
+  }
+  const double most = w->rate_gain_most / yaw_at_once(m) / w->rate_gain[2] - 1.0;
+  return squares > 0.0 ? fmin(fabs(products) / squares / w->rate_gain[2], fmax(most, 0.0)) : 0.0;
+}
+
 // Place and speed of a point are means over samples, its attitude is one of them.
 static void find_slow(const grid_t *g, closed_loop_t *w) {
   white_error_t white;
@@ -287,5 +303,6 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   find_lead(s, m, &w);
   w.range_m = closed_loop_range_m(s, m, residual[CH_RANGE]);
   find_moments(s, residual, &w);
+  w.nose_lead = nose_lead(s, m, &w, residual[CH_WZ]);
   return w;
 }

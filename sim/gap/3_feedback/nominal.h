@@ -35,6 +35,7 @@ typedef struct {
   double climb_gain, height_gain; // 1/s, 1/s2
   double outer_s;                 // between two looks at place and speed; 0: at every call
   bool kicks;                     // its lead is on the error of a rate: what is wanted steps at each look
+  double nose_lead;               // with kicks: of the rate about z it wants so much per rate of its heading
   bool unread;                    // rows are fewer than commands: what is read of rate gains is not believed
   double acc_mps2[3], gyro_radps[3], vel_mps[3], pos_m[3], angle_rad, vbat_V, range_m; // sd of a sample
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // errors of the estimates that last, besides

@@ -12,13 +12,8 @@
 #define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0
-// A pilot that kicks turns its nose as the Crazyflie's attitude PID may (crazyflie/stock_pid.c): it is told
-// its heading at looks, and wants so much of a rate per rate of the heading's error. Each step of what it is
-// told is a kick, of which a log in step with the looks has all or none, and what the others turn it by looks
-// like a moment that comes with every turn of the nose: of 30 nominal sets of somebody else's Crazyflie five
-// were told one. Such a kick may take half of what the motors have beside its weight, as the firmware's may;
-// with all of it lift goes with the turning where yaw is weak, and a ceiling 4 cm off is missed.
-#define NOSE_LEAD  0.35
+// Such a kick may take half of what the motors have beside the weight, as the Crazyflie's may; with all of it
+// lift goes with the turning where yaw is weak, and no updraft is seen (users 45354, 45410).
 #define NOSE_SHARE 0.5
 
 // Points on both sides of one, and the time between them; false: there are none, or a gap in time lies
@@ -136,27 +131,25 @@ static double quick_share(nominal_flight_t *f, double step_s) {
   return f->quick;
 }
 
-// Where the nose is to point; returns how fast that turns, as it is seen from one call to the next.
-static double point_nose(nominal_flight_t *f, const axes_t *axes, d3_t nose_w, double step_s) {
-  const d3_t was_b = axes_to_body(axes, f->nose_w), now_b = axes_to_body(axes, nose_w);
-  f->nose_w = nose_w;
-  if (!isfinite(f->rate_before_radps.x)) return 0.0; // the first call
-  return atan2(was_b.x * now_b.y - was_b.y * now_b.x, was_b.x * now_b.x + was_b.y * now_b.y) / step_s;
+// What is wanted of the rate about z. By how much the heading has stepped since the look before the track's
+// rates say: from one sample to the next an attitude steps by its noise.
+static double wanted_yaw(const nominal_flight_t *f, bool looks, const axes_t *axes, const grid_point_t *track,
+                         double rate_radps, double step_s) {
+  const closed_loop_t *const w = f->w;
+  const d3_t nose_b = axes_to_body(axes, axes_of(track->q_wb).x);
+  const double wanted_radps = YAW * atan2(nose_b.y, nose_b.x);
+  if (!w->kicks) return wanted_radps;
+  const double error_radps = w->gyro_radps[2] / sqrt(f->g->every);
+  const d3_t turns_radps = beyond(d3(0.0, 0.0, f->g->has_rates ? track->rate_b_radps.z : 0.0), error_radps);
+  const double stepped_rad = looks ? w->outer_s * turns_radps.z : 0.0;
+  return wanted_radps + w->nose_lead * (stepped_rad / step_s - rate_radps);
 }
 
-// What is wanted of the rate about z.
-static double wanted_yaw(nominal_flight_t *f, bool looks, const axes_t *axes, d3_t nose_w, double rate_radps,
-                         double step_s) {
-  const bool kicks = f->w->kicks;
-  const double turns_radps = kicks && looks ? point_nose(f, axes, nose_w, step_s) : 0.0;
-  const d3_t nose_b = axes_to_body(axes, kicks ? f->nose_w : nose_w);
-  const double yaw = atan2(nose_b.y, nose_b.x);
-  return YAW * yaw + (kicks ? NOSE_LEAD * (turns_radps - rate_radps) : 0.0);
-}
-
+// A kick is of no more than the motors can give beside the weight, with their own lead.
 static double within_yaw(const nominal_flight_t *f, double turn_radps2) {
   const double weight_N = f->m->mass_kg * G_MPS2, over_N = f->m->thrust_max_N - weight_N;
-  const double spare_N = NOSE_SHARE * larger(smaller(weight_N, over_N), 0.0);
+  const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
+  const double spare_N = NOSE_SHARE / (1.0 + lead) * larger(smaller(weight_N, over_N), 0.0);
   const double most_radps2 = spare_N * f->m->frame.torque_ratio_m / f->m->frame.inertia_kgm2[2];
   return f->w->kicks ? larger(-most_radps2, smaller(most_radps2, turn_radps2)) : turn_radps2;
 }
@@ -164,7 +157,7 @@ static double within_yaw(const nominal_flight_t *f, double turn_radps2) {
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
                  double motor_N[ROTORS]) {
   const closed_loop_t *w = f->w;
-  const axes_t axes = axes_of(seen->q_wb), track_axes = axes_of(track->q_wb);
+  const axes_t axes = axes_of(seen->q_wb);
   const bool looks = f->outer_due_s < 0.5 * step_s;
   if (looks) {
     f->acc_mps2 = within_thrust(f, d3_add(wanted_acc(f, track, seen), d3(0.0, 0.0, G_MPS2)));
@@ -179,7 +172,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const bool turns = w->unread && f->g->has_rates;
   const d3_t off = turns ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
   const d3_t wanted_radps = d3(w->tilt_gain / w->rate_gain[0] * roll, w->tilt_gain / w->rate_gain[1] * pitch,
-                               wanted_yaw(f, looks, &axes, track_axes.x, rate.z, step_s));
+                               wanted_yaw(f, looks, &axes, track, rate.z, step_s));
   // The lead is on what is seen, or on its error.
   const d3_t grows = rate_grows(f, w->kicks ? d3_scale(-1.0, d3_add(off, wanted_radps)) : rate, step_s);
   const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,

@@ -36,7 +36,6 @@ typedef struct {
   double load_slow, call_s, quick;            // quick: the share of the way that they go from call to call
   double due_s, outer_due_s;                  // until the next command, and the next look at place and speed
   d3_t acc_mps2;                              // wanted since the last look, with what carries the weight
-  d3_t nose_w;                                // where that pointed at the last look, of a pilot that kicks
   unsigned long seed;
   // Of what lasts, over a step.
   decay_t pos_keeps, vel_keeps, angle_keeps, force_keeps, quick_keeps, turn_keeps;

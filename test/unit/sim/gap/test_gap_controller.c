@@ -74,6 +74,29 @@ TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
   gap_flight_free(&r.flight);
 }
 
+// The last one is more than its motors follow.
+TEST(gap_leads_a_nose_as_much_as_what_is_left_goes_with_its_turning) {
+  static const double goes_hz[] = {0.0, 1.0, -1.0, 1000.0};
+  rig_t r;
+  why_t why = {""};
+  double *residual[CHANNELS];
+  if (!CHECK_OK(rig_make(&r, false, &why))) return;
+  for (int ch = 0; ch < CHANNELS; ch++)
+    residual[ch] = calloc((size_t)set_rows(&r.set, ch)->n + 1, sizeof(double));
+  for (unsigned k = 0; k < sizeof goes_hz / sizeof *goes_hz; k++) {
+    for (int i = 0; i < r.set.smooth.n; i++)
+      residual[CH_WZ][i] = goes_hz[k] * r.set.grid[0].point[r.set.smooth.point[i]].rate_b_radps.z;
+    const closed_loop_t loop = closed_loop_of(&r.set, &r.vehicle, NULL, residual);
+    const double gain_hz = loop.rate_gain[2];
+    ROW("%g 1/s: %g of %g 1/s", goes_hz[k], loop.nose_lead, gain_hz);
+    if (goes_hz[k] < 1000.0) CHECK_NEAR(loop.nose_lead, fabs(goes_hz[k]) / gain_hz, 1e-9);
+    CHECK(loop.nose_lead >= 0.0 && (1.0 + loop.nose_lead) * gain_hz <= loop.rate_gain_most);
+  }
+  for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
+  set_free(&r.set);
+  gap_flight_free(&r.flight);
+}
+
 // Median of what a motor's command changes from sample to sample: noise that the controller fed back.
 static double restless_N(const gap_flight_t *f) {
   double *const step_N = malloc((size_t)f->n * sizeof *step_N);
