@@ -109,7 +109,7 @@ static done_t fill_all(const column_list_t *a, const flight_lines_t *base, why_t
     flight_lines_t l;
     grid_t g = grid_lend(&a->s->grid[a->flight]);
     const bool room = flight_lines_beside(&l, a->s, base);
-#pragma omp for schedule(dynamic, 4)
+#pragma omp for schedule(dynamic, 1)
     for (int i = 0; i < a->n; i++) {
       why_t own;
       const done_t now = room ? fill_one(a, i, &g, &l, &own) : error_failed(&own, "out of memory");

@@ -69,7 +69,7 @@ static evidence_set_t extended(const beam_t *b, const evidence_set_t *s, int can
 }
 
 static bool same(const evidence_set_t *a, const evidence_set_t *b) {
-  return a->n == b->n && memcmp(a->of, b->of, (size_t)a->n * sizeof *a->of) == 0;
+  return a->n == b->n && a->of[0] == b->of[0] && memcmp(a->of, b->of, (size_t)a->n * sizeof *a->of) == 0;
 }
 
 // Of a set that is met twice the better one counts: its numbers have other scales. from: sets of this size.

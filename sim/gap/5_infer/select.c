@@ -14,6 +14,7 @@ typedef struct selection {
   const timing_t *timing;
   candidate_t *candidates; // the round's, whose shapes a first look bends
   bool *room;
+  double *left;  // by candidate: room
   bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
   bool *never;   // by candidate: it is out of question
   bool *echo;    // by candidate: something like it is there, at one place or time only
@@ -43,14 +44,21 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   return left_of(t, &with);
 }
 
+// Each candidate as the last one of a choice; by candidate.
+static const double *try_each(const select_t *t, const choice_t *rest) {
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int i = 0; i < t->round.c->n; i++) t->left[i] = choice_has(rest, i) ? HUGE_VAL : try_with(t, rest, i);
+  return t->left;
+}
+
 static bool add_best(select_t *t) {
   choice_t *const choice = &t->round.choice;
   double best = left_of(t, choice) * (1.0 - SELECT_GAIN);
+  const double *const left = try_each(t, choice);
   int which = -1;
   for (int i = 0; i < t->round.c->n; i++) {
-    const double left = try_with(t, choice, i);
-    if (!(left < best)) continue;
-    best = left;
+    if (!(left[i] < best)) continue;
+    best = left[i];
     which = i;
   }
   if (which < 0) return false;
@@ -66,11 +74,10 @@ static int swap_one(select_t *t) {
   choice_t better = {.n = -1};
   for (int i = 0; i < choice->n; i++) {
     const choice_t rest = choice_without(choice, choice->of[i]);
+    const double *const left = try_each(t, &rest);
     for (int k = 0; k < t->round.c->n; k++) {
-      if (choice_has(choice, k) || t->broken[k]) continue;
-      const double left = try_with(t, &rest, k);
-      if (!(left < best)) continue;
-      best = left;
+      if (choice_has(choice, k) || t->broken[k] || !(left[k] < best)) continue;
+      best = left[k];
       better = choice_with(&rest, k);
     }
   }
@@ -341,7 +348,8 @@ done_t select_effects(selection_t **selection, const select_job_t *job, found_t 
   select_t *const t = *selection = calloc(1, sizeof *t);
   TRY(found_make(found, c, why));
   bool *const room = t ? t->room = calloc(5 * n, sizeof *room) : NULL;
-  if (!room) return error_failed(why, "out of memory");
+  if (t) t->left = calloc(n, sizeof *t->left);
+  if (!room || !t->left) return error_failed(why, "out of memory");
   t->never = room, t->echo = room + n, t->alike = room + 2 * n, t->broken = room + 3 * n,
   t->been = room + 4 * n;
   t->timing = job->timing;
@@ -364,5 +372,6 @@ void select_close(selection_t *t) {
   if (!t) return;
   round_close(&t->round);
   free(t->room);
+  free(t->left);
   free(t);
 }

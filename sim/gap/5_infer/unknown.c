@@ -36,7 +36,8 @@ static void flatten(const rows_t *r, const int *bin, double *v) {
     sum[bin[i]] += v[i];
     n[bin[i]]++;
   }
-  for (int i = 0; i < r->n; i++) v[i] -= sum[bin[i]] / n[bin[i]];
+  for (int k = 0; k < WINDOW_BINS; k++) sum[k] /= n[k] > 0 ? n[k] : 1;
+  for (int i = 0; i < r->n; i++) v[i] -= sum[bin[i]];
 }
 
 static void clean(const set_t *s, const model_t *m, int coordinate, double *const residual[CHANNELS],

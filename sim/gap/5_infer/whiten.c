@@ -50,6 +50,7 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
     if (t->x[ch][i] && (!some || i == t->columns || some[i])) w->column[w->n++] = i;
   w->room = malloc((size_t)w->n * ((size_t)r->n + 1) * sizeof(double));
   if (!w->column || !w->x || !w->room) return false;
+#pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < w->n; i++) {
     w->x[i] = w->room + (size_t)i * (size_t)r->n;
     color_whiten(color, r, t->x[ch][w->column[i]], w->x[i]);
@@ -95,19 +96,32 @@ static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch
   return good;
 }
 
-static void add_blocks(gram_t *g) {
+// Some numbers of the sums, each of all blocks in their order, whoever adds it.
+static void add_some(gram_t *g, size_t from, size_t to) {
   const size_t n = (size_t)(g->size * g->size);
-  for (int i = 0; i < GROUPS * g->n_half; i++)
-    lsq_mirror(g->by_group[i % GROUPS] + (size_t)(i / GROUPS) * n, g->size);
-  for (int b = 0; b < g->n_block; b++) {
-    lsq_mirror(g->block + (size_t)b * n, g->size);
-    for (size_t i = 0; i < n; i++) {
+  for (int b = 0; b < g->n_block; b++)
+    for (size_t i = from; i < to; i++) {
       const double v = g->block[(size_t)b * n + i];
       g->by_half[(size_t)g->half[b] * n + i] += v;
       g->total[i] += v;
     }
+  for (size_t h = 0; h < (size_t)g->n_half; h++)
+    for (size_t i = from; i < to; i++) g->others[h * n + i] = g->total[i] - g->by_half[h * n + i];
+}
+
+static void add_blocks(gram_t *g) {
+  const size_t n = (size_t)(g->size * g->size);
+#pragma omp parallel
+  {
+#pragma omp for nowait
+    for (int i = 0; i < GROUPS * g->n_half; i++)
+      lsq_mirror(g->by_group[i % GROUPS] + (size_t)(i / GROUPS) * n, g->size);
+#pragma omp for
+    for (int b = 0; b < g->n_block; b++) lsq_mirror(g->block + (size_t)b * n, g->size);
+#pragma omp for
+    for (int line = 0; line < g->size; line++)
+      add_some(g, (size_t)(line * g->size), (size_t)((line + 1) * g->size));
   }
-  for (size_t i = 0; i < (size_t)g->n_half * n; i++) g->others[i] = g->total[i % n] - g->by_half[i];
 }
 
 static void empty(gram_t *g) {
@@ -122,10 +136,10 @@ static void empty(gram_t *g) {
 static bool fill(gram_t *g, const set_t *s, const design_t *t, const explained_t *e) {
   bool good = true;
   empty(g);
-  for (int ch = 0; ch < CHANNELS && good; ch++) {
-    good = fit_color(g, s, t, ch, e);
-    if (good && g->color[ch].used) good = add_channel(g, s, t, ch);
-  }
+#pragma omp parallel for schedule(dynamic, 1) reduction(&& : good)
+  for (int ch = 0; ch < CHANNELS; ch++) good = good && fit_color(g, s, t, ch, e);
+  for (int ch = 0; ch < CHANNELS && good; ch++)
+    if (g->color[ch].used) good = add_channel(g, s, t, ch);
   if (good) add_blocks(g);
   return good;
 }
