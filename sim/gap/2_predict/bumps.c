@@ -79,7 +79,7 @@ static bool is_high(const model_t *m, const grid_point_t *p) {
   return m->ceiling_m - p->pos_w_m.z <= p->pos_w_m.z;
 }
 
-// On the floor it lands; what it does at the ceiling is told.
+// On the floor it lands; what it does at the ceiling, and beside it, is told.
 static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
   p->ok = false;
   if (!is_high(m, p)) return;
@@ -87,15 +87,16 @@ static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
 }
 
 // Points that are near what the vehicle touched a moment before; way: or touches a moment later. Over a floor
-// before it was first clear, and after it last was: it lifts off and lands, and no air holds it there.
+// before it was first clear, and after it last was: of a log it first lifts off and last lands, and no
+// air holds it there. Where its place is not known that goes on.
 static void leave_out_beside(grid_t *g, const model_t *m, int way) {
   double touched_s = HUGE_VAL;
   int first = 0, last = g->n - 1;
-  while (first < g->n && g->point[first].clear_m < SURE_M) first++;
-  while (last >= 0 && g->point[last].clear_m < SURE_M) last--;
+  while (first < g->n && !(g->point[first].clear_m >= SURE_M)) first++;
+  while (last >= 0 && !(g->point[last].clear_m >= SURE_M)) last--;
   for (int j = way > 0 ? 0 : g->n - 1; j >= 0 && j < g->n; j += way) {
     grid_point_t *const p = &g->point[j];
-    if (!(p->clear_m < SURE_M)) touched_s = HUGE_VAL;
+    if (p->clear_m >= SURE_M) touched_s = HUGE_VAL;
     if (p->touches && (is_high(m, p) || j < first || j > last)) touched_s = p->t_s;
     if (p->ok && fabs(p->t_s - touched_s) < SURE_S) leave_out(g, m, p);
   }

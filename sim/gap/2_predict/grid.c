@@ -138,7 +138,8 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
   set_point_read(g, m, from, &p);
   const axes_t axes = axes_of(p.q_wb);
   const touch_gap_t gap = touch_gap(touch, p.pos_w_m, &axes);
-  p.clear_m = g->has_position ? fmin(gap.floor_m, gap.ceiling_m) : HUGE_VAL;
+  const bool known = finite3(p.pos_w_m) && isfinite(p.q_wb.w);
+  p.clear_m = !g->has_position ? HUGE_VAL : known ? fmin(gap.floor_m, gap.ceiling_m) : (double)NAN;
   p.touches = g->has_position && (gap.floor_m < CLEAR_M || gap.ceiling_m < TOP_M);
   p.ok = is_good(g, &p, m, from);
   return p;

@@ -23,10 +23,10 @@ typedef struct {
   dq_t q_wb;
   d3_t rate_b_radps, acc_b_mps2;
   double vbat_V;
-  double range_m;          // fresh, else NaN
-  double range_before_s;   // so long before t_s it was taken
-  double clear_m;          // least distance of any part of it from ceiling or floor, as estimated
-  bool touches;            // one of them, as estimated, or by what pushes it (bumps.c)
+  double range_m;        // fresh, else NaN
+  double range_before_s; // so long before t_s it was taken
+  double clear_m; // least distance of any part of it from ceiling or floor, as estimated; NaN: not known
+  bool touches;   // one of them, as estimated, or by what pushes it (bumps.c)
   d3_t set_w_m, set_w_mps; // what the controller was told, NaN where the log has it not
   double set_yaw_rad;
 } grid_point_t;
@@ -61,7 +61,7 @@ typedef struct {
   bool quick;       // the vehicle file's rotors follow a command within a few rows (holds.h)
   double slowest_N; // what a rotor gives that is taken to turn at ROTOR_SLOWEST_RADPS
   bool by_speeds;   // the log has no commands, and rotor speeds that were measured stand for them: no lag
-  int bumps;        // points at which it bumps into the ceiling,
+  int bumps;        // points left out at the ceiling that it touches, or beside it,
   double bump_s;    // and the time of the first one
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged

@@ -12,7 +12,7 @@
 #define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0
-// Such a kick may take half of what the motors have beside the weight, as the Crazyflie's may; with all of it
+// What turns it about z may take half of what the motors have beside the weight, if it kicks; with all of it
 // lift goes with the turning where yaw is weak, and no updraft is seen (users 45354, 45410).
 #define NOSE_SHARE 0.5
 
@@ -132,9 +132,11 @@ static double quick_share(nominal_flight_t *f, double step_s) {
 }
 
 // What is wanted of the rate about z. By how much the heading has stepped since the look before the track's
-// rates say: from one sample to the next an attitude steps by its noise.
-static double wanted_yaw(const nominal_flight_t *f, bool looks, const axes_t *axes, const grid_point_t *track,
-                         double rate_radps, double step_s) {
+// rates say: from one sample to the next an attitude steps by its noise. Where there is a lead on the rate's
+// error, too, as in a cascade of two PIDs, that makes the kick several times as large, and takes it back at
+// the next call: in the mean it is the nose's.
+static double wanted_yaw_radps(const nominal_flight_t *f, bool looks, const axes_t *axes,
+                               const grid_point_t *track, double rate_radps, double step_s) {
   const closed_loop_t *const w = f->w;
   const d3_t nose_b = axes_to_body(axes, axes_of(track->q_wb).x);
   const double wanted_radps = YAW * atan2(nose_b.y, nose_b.x);
@@ -145,7 +147,8 @@ static double wanted_yaw(const nominal_flight_t *f, bool looks, const axes_t *ax
   return wanted_radps + w->nose_lead * (stepped_rad / step_s - rate_radps);
 }
 
-// A kick is of no more than the motors can give beside the weight, with their own lead.
+// Of who kicks: what turns it about z, within what the motors can give beside the weight, with their own
+// lead.
 static double within_yaw(const nominal_flight_t *f, double turn_radps2) {
   const double weight_N = f->m->mass_kg * G_MPS2, over_N = f->m->thrust_max_N - weight_N;
   const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
@@ -172,7 +175,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const bool turns = w->unread && f->g->has_rates;
   const d3_t off = turns ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
   const d3_t wanted_radps = d3(w->tilt_gain / w->rate_gain[0] * roll, w->tilt_gain / w->rate_gain[1] * pitch,
-                               wanted_yaw(f, looks, &axes, track, rate.z, step_s));
+                               wanted_yaw_radps(f, looks, &axes, track, rate.z, step_s));
   // The lead is on what is seen, or on its error.
   const d3_t grows = rate_grows(f, w->kicks ? d3_scale(-1.0, d3_add(off, wanted_radps)) : rate, step_s);
   const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,

@@ -288,7 +288,7 @@ static void warn_of_bumps(report_t *r) {
       const grid_t *const g = &sets[i]->grid[f];
       if (g->bumps)
         warn(r,
-             "%s: it bumped into the ceiling, at %.1f s for the first time; what was measured then is left "
+             "%s: it touched the ceiling, at about %.1f s for the first time; what was measured then is left "
              "out",
              base_name(g->flight->name), g->bump_s);
     }

@@ -155,6 +155,8 @@ TEST(gap_a_pilot_that_kicks_is_told_its_heading_at_looks) {
              {"one that does", 0.5, 0.0, true, 4.425, 0.06},
              {"the other way", -0.5, 0.0, true, -4.425, -0.06},
              {"a kick that would take the lift", 40.0, 0.0, true, HUGE_VAL, 4.8},
+             {"the other way", -40.0, 0.0, true, -HUGE_VAL, -4.8},
+             {"as much without kicks", 250.0, 0.0, false, 25.0, 30.0},
              {"turning that may be noise", 0.5, 10.0, true, 0.05, 0.06}};
   gap_track_t r;
   why_t why = {""};
@@ -167,7 +169,8 @@ TEST(gap_a_pilot_that_kicks_is_told_its_heading_at_looks) {
     double turn[7];
     ROW("%s", row[i].what);
     turned_along(row[i].rate_radps, row[i].noise_radps, row[i].kicks, 7, turn, &r);
-    CHECK_NEAR(turn[5], fmin(row[i].kick_radps2, most_radps2), 1e-3 * most_radps2);
+    const double kick_radps2 = fmax(fmin(row[i].kick_radps2, most_radps2), -most_radps2);
+    CHECK_NEAR(turn[5], row[i].kicks ? kick_radps2 : row[i].kick_radps2, 1e-3 * most_radps2);
     CHECK_NEAR(turn[6], row[i].between_radps2, 1e-3 * most_radps2);
   }
   gap_track_free(&r);
