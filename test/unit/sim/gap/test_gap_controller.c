@@ -19,6 +19,10 @@ typedef struct {
   closed_loop_t loop;
 } rig_t;
 
+static void residual_room(const set_t *s, double *residual[CHANNELS]) {
+  for (int ch = 0; ch < CHANNELS; ch++) residual[ch] = calloc((size_t)set_rows(s, ch)->n + 1, sizeof(double));
+}
+
 // A flight in which nothing is hidden.
 static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   grid_t *const grid = calloc(2, sizeof *grid);
@@ -29,8 +33,7 @@ static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   TRY(exam_fly(&job, &r->flight, why));
   TRY(grid_make(&grid[0], &r->flight, 0, r->flight.n, &r->vehicle, why));
   TRY(set_make(&r->set, grid, 1, why));
-  for (int ch = 0; ch < CHANNELS; ch++)
-    residual[ch] = calloc((size_t)set_rows(&r->set, ch)->n + 1, sizeof(double));
+  residual_room(&r->set, residual);
   TRY(residual_of(&r->set, &r->vehicle, residual, why));
   r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, residual);
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
@@ -61,8 +64,7 @@ TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
   why_t why = {""};
   double *residual[CHANNELS];
   if (!CHECK_OK(rig_make(&r, false, &why))) return;
-  for (int ch = 0; ch < CHANNELS; ch++)
-    residual[ch] = calloc((size_t)set_rows(&r.set, ch)->n + 1, sizeof(double));
+  residual_room(&r.set, residual);
   for (int i = 0; i < 2; i++) {
     ROW("%s", row[i].step ? "a step" : "gusts");
     put_turning(&r, row[i].step, residual);
@@ -81,8 +83,7 @@ TEST(gap_leads_a_nose_as_much_as_what_is_left_goes_with_its_turning) {
   why_t why = {""};
   double *residual[CHANNELS];
   if (!CHECK_OK(rig_make(&r, false, &why))) return;
-  for (int ch = 0; ch < CHANNELS; ch++)
-    residual[ch] = calloc((size_t)set_rows(&r.set, ch)->n + 1, sizeof(double));
+  residual_room(&r.set, residual);
   for (unsigned k = 0; k < sizeof goes_hz / sizeof *goes_hz; k++) {
     for (int i = 0; i < r.set.smooth.n; i++)
       residual[CH_WZ][i] = goes_hz[k] * r.set.grid[0].point[r.set.smooth.point[i]].rate_b_radps.z;
