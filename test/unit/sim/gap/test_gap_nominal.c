@@ -26,14 +26,19 @@ TEST(gap_nominal_flight_is_not_poisoned_by_a_sample_that_is_not_there) {
   if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_a_sample}, &why))) return;
   if (!CHECK_OK(nominal_fly(&r.set.grid[0], &r.vehicle, &r.loop, 5, &flown, NULL, &why))) return;
   const grid_t *const g = &r.set.grid[0];
-  int bad = 0, far = 0;
+  const double most_N = r.vehicle.thrust_max_N / ROTORS;
+  int bad = 0, far = 0, at_limit = 0;
   for (int i = 0; i < flown.n; i++) {
     const d3_t track = g->point[i / g->every].pos_w_m; // NaN where x is not there: no distance
+    const double m1_N = flown.v[SIG_M1][i];
+    at_limit += m1_N <= 0.0 || m1_N >= most_N;
     bad += !isfinite(flown.v[SIG_Z][i]) || !isfinite(flown.v[SIG_M1][i]);
     far += fabs(flown.v[SIG_Y][i] - track.y) > 0.5 || fabs(flown.v[SIG_X][i] - track.x) > 0.5;
   }
+  ROW("%d bad, %d far, %d at a limit of %d", bad, far, at_limit, flown.n);
   CHECK(bad == 0);
   CHECK(far < flown.n / 50);
+  CHECK(at_limit < flown.n / 50);
   gap_flight_free(&flown);
   gap_track_free(&r);
 }
