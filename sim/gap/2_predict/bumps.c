@@ -86,9 +86,9 @@ static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
   if (g->bumps++ == 0 || p->t_s < g->bump_s) g->bump_s = p->t_s;
 }
 
-// Points that are near what the vehicle touched a moment before; way: or touches a moment later. Over a floor
-// before it was first clear, and after it last was: of a log it first lifts off and last lands, and no
-// air holds it there. Where its place is not known that goes on.
+// Points near what the vehicle touched a moment before (way 1), or touches a moment later (-1). Of the floor
+// those alone before it was first clear, and after it last was: it lifts off and lands there, and in between
+// no air holds it on the floor. A point whose place is not known ends nothing.
 static void leave_out_beside(grid_t *g, const model_t *m, int way) {
   double touched_s = HUGE_VAL;
   int first = 0, last = g->n - 1;

@@ -220,7 +220,7 @@ static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_
 // Who has his lead on the error of a heading that he is told at looks kicks at each step of it. A log in step
 // with the looks has all kicks or none, and what is left about z goes with the turning of the nose: as much
 // lead as makes it, and no more than the motors follow. Of 30 nominal sets of somebody else's Crazyflie,
-// whose lead is 0.35 of a rate gain of 13 1/s, five were told a moment there. With 0.35 whatever is left, six
+// whose lead is 0.35 of a rate gain of 13 1/s, four were told a moment there. With 0.35 whatever is left, six
 // of the users' inertias are not named, which turning about z tells.
 static double nose_lead(const set_t *s, const model_t *m, const closed_loop_t *w, const double *left_radps2) {
   double squares = 0.0, products = 0.0;

@@ -12,9 +12,10 @@
 #define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
 #define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
 #define YAW       2.0
-// What turns it about z may take half of what the motors have beside the weight, if it kicks; with all of it
-// lift goes with the turning where yaw is weak, and no updraft is seen (users 45354, 45410).
-#define NOSE_SHARE 0.5
+// Of what the motors have beside the weight, no unit: so much may turn a pilot that kicks about z, for the
+// rest turns it about x and y. With all of it lift goes with the turning where yaw is weak, and no updraft is
+// seen (users 45354, 45410).
+#define YAW_SHARE 0.5
 
 // Points on both sides of one, and the time between them; false: there are none, or a gap in time lies
 // between.
@@ -149,12 +150,11 @@ static double wanted_yaw_radps(const nominal_flight_t *f, bool looks, const axes
 
 // Of who kicks: what turns it about z, within what the motors can give beside the weight, with their own
 // lead.
-static double within_yaw(const nominal_flight_t *f, double turn_radps2) {
+static double within_yaw(const nominal_flight_t *f, double lead, double turn_radps2) {
   const double weight_N = f->m->mass_kg * G_MPS2, over_N = f->m->thrust_max_N - weight_N;
-  const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
-  const double spare_N = NOSE_SHARE / (1.0 + lead) * larger(smaller(weight_N, over_N), 0.0);
+  const double spare_N = YAW_SHARE / (1.0 + lead) * larger(smaller(weight_N, over_N), 0.0);
   const double most_radps2 = spare_N * f->m->frame.torque_ratio_m / f->m->frame.inertia_kgm2[2];
-  return f->w->kicks ? larger(-most_radps2, smaller(most_radps2, turn_radps2)) : turn_radps2;
+  return larger(-most_radps2, smaller(most_radps2, turn_radps2));
 }
 
 void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, const grid_point_t *seen,
@@ -182,9 +182,9 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
                           w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
                           w->rate_gain[2] * (wanted_radps.z + off.z) - w->rate_lead[2] * grows.z);
   d3_t turn = d3_add(f->bent_radps2, steered);
-  turn.z = within_yaw(f, turn.z);
-  const double up = larger(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double lead = pilot_motor_lead(f->body.rigid.motor_tau_s);
+  if (w->kicks) turn.z = within_yaw(f, lead, turn.z);
+  const double up = larger(axes_up_b(&axes).z, 0.5), load = acc.z / up / G_MPS2;
   const double share = quick_share(f, step_s);
   f->turn_slow_radps2 = d3_add(f->turn_slow_radps2, d3_scale(share, d3_sub(turn, f->turn_slow_radps2)));
   f->load_slow += share * (load - f->load_slow);

@@ -78,23 +78,23 @@ TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
 
 // The last one is more than its motors follow.
 TEST(gap_leads_a_nose_as_much_as_what_is_left_goes_with_its_turning) {
-  static const double goes_hz[] = {0.0, 1.0, -1.0, 1000.0};
+  static const double goes_per_s[] = {0.0, 1.0, -1.0, 1000.0};
   rig_t r;
   why_t why = {""};
   double *residual[CHANNELS];
   if (!CHECK_OK(rig_make(&r, false, &why))) return;
   residual_room(&r.set, residual);
-  for (unsigned k = 0; k < sizeof goes_hz / sizeof *goes_hz; k++) {
+  for (unsigned k = 0; k < sizeof goes_per_s / sizeof *goes_per_s; k++) {
     for (int i = 0; i < r.set.smooth.n; i++)
-      residual[CH_WZ][i] = goes_hz[k] * r.set.grid[0].point[r.set.smooth.point[i]].rate_b_radps.z;
+      residual[CH_WZ][i] = goes_per_s[k] * r.set.grid[0].point[r.set.smooth.point[i]].rate_b_radps.z;
     const closed_loop_t loop = closed_loop_of(&r.set, &r.vehicle, NULL, residual);
-    const double gain_hz = loop.rate_gain[2];
-    ROW("%g 1/s: %g of %g 1/s", goes_hz[k], loop.nose_lead, gain_hz);
-    if (goes_hz[k] < 1000.0)
-      CHECK_NEAR(loop.nose_lead, fabs(goes_hz[k]) / gain_hz, 1e-9);
+    const double gain_per_s = loop.rate_gain[2];
+    ROW("%g 1/s: %g of %g 1/s", goes_per_s[k], loop.nose_lead, gain_per_s);
+    if (goes_per_s[k] < 1000.0)
+      CHECK_NEAR(loop.nose_lead, fabs(goes_per_s[k]) / gain_per_s, 1e-9);
     else
       CHECK_NEAR(loop.nose_lead, 1.672, 1e-3);
-    CHECK((1.0 + loop.nose_lead) * gain_hz < loop.rate_gain_most);
+    CHECK((1.0 + loop.nose_lead) * gain_per_s < loop.rate_gain_most);
   }
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   set_free(&r.set);

@@ -121,8 +121,8 @@ TEST(gap_a_pilot_kicks_at_a_look_where_its_lead_is_on_the_error) {
 }
 
 // What the pilot turns it by about z at each call, where its track turns at that rate, and it does not.
-static void turned_along(double rate_radps, double noise_radps, bool kicks, int n, double *turn_radps2,
-                         const gap_track_t *r) {
+static void turned_along(double rate_radps, double noise_radps, bool kicks, double motor_tau_s, int n,
+                         double *turn_radps2, const gap_track_t *r) {
   const closed_loop_t w = {.rate_gain = {25.0, 25.0, 5.0},
                            .tilt_gain = 200.0,
                            .outer_s = 0.01,
@@ -133,6 +133,7 @@ static void turned_along(double rate_radps, double noise_radps, bool kicks, int 
   const grid_point_t seen = {.q_wb = {1.0, 0.0, 0.0, 0.0}};
   const frame_t *const frame = &r->vehicle.frame;
   f.rate_before_radps.x = (double)NAN;
+  f.body.rigid.motor_tau_s = motor_tau_s;
   for (int i = 0; i < n; i++) {
     grid_point_t track = {.q_wb = dq_turn(d3(0.0, 0.0, 0.002 * i * rate_radps)),
                           .rate_b_radps = {0.0, 0.0, rate_radps}};
@@ -168,11 +169,16 @@ TEST(gap_a_pilot_that_kicks_is_told_its_heading_at_looks) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     double turn[7];
     ROW("%s", row[i].what);
-    turned_along(row[i].rate_radps, row[i].noise_radps, row[i].kicks, 7, turn, &r);
+    turned_along(row[i].rate_radps, row[i].noise_radps, row[i].kicks, 0.0, 7, turn, &r);
     const double kick_radps2 = fmax(fmin(row[i].kick_radps2, most_radps2), -most_radps2);
     CHECK_NEAR(turn[5], row[i].kicks ? kick_radps2 : row[i].kick_radps2, 1e-3 * most_radps2);
     CHECK_NEAR(turn[6], row[i].between_radps2, 1e-3 * most_radps2);
   }
+  ROW("motors that get as much lead");
+  double turn[7];
+  turned_along(40.0, 0.0, true, 0.06, 7, turn, &r);
+  for (int i = 0; i < 7; i++) CHECK(fabs(turn[i]) < 1.001 * most_radps2);
+  CHECK(turn[0] > 0.9 * most_radps2); // the first kick comes before what is slow follows
   gap_track_free(&r);
 }
 

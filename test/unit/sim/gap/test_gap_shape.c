@@ -1,5 +1,6 @@
 // test_gap_shape.c - shapes of named effects that lie between the ones that are tried.
 #include "gap/5_infer/bend.h"
+#include "gap/5_infer/select.h"
 #include "rig/gap_case.h"
 #include "rig/gap_rows.h"
 #include "rig/share.h"
@@ -161,4 +162,24 @@ TEST(gap_s_errors_count_a_nominal_flight_by_what_it_holds_and_its_gates_do_not) 
     CHECK_NEAR(bend.shape / of_shape, row[i].error / row[0].error, 0.02);
     gap_rows_free(&g);
   }
+}
+
+// It ends with the same names after fewer rounds.
+TEST(gap_looks_again_from_where_the_first_look_ended) {
+  const fx_use_t ceiling = gap_effect("ceiling", 0.6, 0.8);
+  gap_case_t *const c = diagnosed(&ceiling);
+  const chosen_t chosen = c->d.found.chosen, *const before[] = {NULL, &chosen};
+  found_t found[2];
+  for (int i = 0; i < 2; i++) {
+    selection_t *selection = NULL;
+    why_t why;
+    const select_job_t job = {&c->d.candidates, &c->d.fit, &c->given, &c->d.timing, &c->d.nominal, before[i]};
+    CHECK_OK(select_effects(&selection, &job, &found[i], &why));
+    select_close(selection);
+  }
+  ROW("%d rounds from nothing, %d from there", found[0].rounds, found[1].rounds);
+  CHECK(chosen.n > 0 && found[0].chosen.n == chosen.n && found[1].chosen.n == chosen.n);
+  CHECK(found[1].rounds < found[0].rounds);
+  for (int i = 0; i < 2; i++) found_free(&found[i]);
+  gap_case_free(c);
 }
