@@ -152,7 +152,7 @@ TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
   static const struct {
     users_kind_t kind;
     unsigned long seed;
-  } row[] = {{USERS_HABITS, 40042}, {USERS_ALONE, 29810}};
+  } row[] = {{USERS_HABITS, 46134}, {USERS_ALONE, 29810}};
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     users_set_t set;
     why_t why;

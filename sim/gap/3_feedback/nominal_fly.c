@@ -23,8 +23,10 @@ static double step_of(const grid_t *g) {
 
 // --- what lasts for a while -------------------------------------------------------------------------------
 
-#define LASTS 9 // normal numbers of a step, for errors that last
-#define SHAKE 9 // and for what disturbs
+// What flies, filters and is fitted averages over many of these numbers: their spread counts, not how they
+// are distributed, and triangles cost a tenth of normal ones.
+#define LASTS 9  // numbers of a step, for errors that last
+#define SHAKE 10 // and for what disturbs; the last does nothing, for they come in pairs
 
 static decay_t decay_of(const slow_t *slow, double step_s) {
   decay_t d;
@@ -52,41 +54,41 @@ static void find_decays(nominal_flight_t *f, double step_s) {
   f->turn_keeps = disturbance_of(w->turn_radps2, f->m->frame.inertia_kgm2, w->turn_tau_s, step_s);
 }
 
-static d3_t drifted(d3_t off, const decay_t *d, const double normal[3]) {
-  return d3(d->keep[0] * off.x + d->fresh[0] * normal[0], d->keep[1] * off.y + d->fresh[1] * normal[1],
-            d->keep[2] * off.z + d->fresh[2] * normal[2]);
+static d3_t drifted(d3_t off, const decay_t *d, const double drawn[3]) {
+  return d3(d->keep[0] * off.x + d->fresh[0] * drawn[0], d->keep[1] * off.y + d->fresh[1] * drawn[1],
+            d->keep[2] * off.z + d->fresh[2] * drawn[2]);
 }
 
-static void drift(nominal_flight_t *f, const double normal[LASTS]) {
-  f->pos_off_m = drifted(f->pos_off_m, &f->pos_keeps, normal);
-  f->vel_off_mps = drifted(f->vel_off_mps, &f->vel_keeps, normal + 3);
-  f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, normal + 6);
+static void drift(nominal_flight_t *f, const double drawn[LASTS]) {
+  f->pos_off_m = drifted(f->pos_off_m, &f->pos_keeps, drawn);
+  f->vel_off_mps = drifted(f->vel_off_mps, &f->vel_keeps, drawn + 3);
+  f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, drawn + 6);
 }
 
 // The disturbance, a step later: a part of the nominal flight, not of the model.
-static push_t shaken(nominal_flight_t *f, const double normal[SHAKE]) {
-  f->gust_w_N = drifted(f->gust_w_N, &f->force_keeps, normal);
-  f->disturbs_b_Nm = drifted(f->disturbs_b_Nm, &f->turn_keeps, normal + 3);
-  f->quick_w_N = drifted(f->quick_w_N, &f->quick_keeps, normal + 6);
+static push_t shaken(nominal_flight_t *f, const double drawn[SHAKE]) {
+  f->gust_w_N = drifted(f->gust_w_N, &f->force_keeps, drawn);
+  f->disturbs_b_Nm = drifted(f->disturbs_b_Nm, &f->turn_keeps, drawn + 3);
+  f->quick_w_N = drifted(f->quick_w_N, &f->quick_keeps, drawn + 6);
   return (push_t){d3_add(f->gust_w_N, f->quick_w_N), f->disturbs_b_Nm};
 }
 
 static void shake(nominal_flight_t *f) {
-  double normal[SHAKE];
-  random_normals(f->shakes, SHAKE, normal);
-  body_shake(&f->body, shaken(f, normal));
+  double drawn[SHAKE];
+  random_triangles(f->shakes, SHAKE, drawn);
+  body_shake(&f->body, shaken(f, drawn));
 }
 
 // It is there from the first on, at its full spread.
 static bool shake_first(nominal_flight_t *f, unsigned long seed) {
-  double normal[2 * SHAKE]; // of which some count
+  double drawn[2 * SHAKE]; // of which some count
   random_close(f->shakes);
   f->shakes = random_open(seed);
   if (!f->shakes) return false;
-  random_normals(f->shakes, 2 * SHAKE, normal);
+  random_triangles(f->shakes, 2 * SHAKE, drawn);
   find_decays(f, HUGE_VAL);
   f->gust_w_N = f->quick_w_N = f->disturbs_b_Nm = d3(0.0, 0.0, 0.0);
-  const push_t first = shaken(f, normal);
+  const push_t first = shaken(f, drawn);
   find_decays(f, step_of(f->g));
   body_shake(&f->body, first);
   body_look(&f->body, 0, f->body.y, &f->body.look);
@@ -95,11 +97,11 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-#define SEEN 17 // normal numbers of a step, for what is seen once
+#define SEEN 17 // numbers of a step, for what is seen once
 
 // The last axis takes the first number.
-static d3_t noisy3(d3_t v, const double sd[3], const double normal[3]) {
-  return d3(v.x + sd[0] * normal[2], v.y + sd[1] * normal[1], v.z + sd[2] * normal[0]);
+static d3_t noisy3(d3_t v, const double sd[3], const double drawn[3]) {
+  return d3(v.x + sd[0] * drawn[2], v.y + sd[1] * drawn[1], v.z + sd[2] * drawn[0]);
 }
 
 static fx_sensed_t sensed(const nominal_flight_t *f) {
@@ -116,7 +118,7 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
 }
 
 // What is true, and what is seen of it; number by number, for most of a point is none of them.
-static void look(nominal_flight_t *f, const double normal[SEEN]) {
+static void look(nominal_flight_t *f, const double drawn[SEEN]) {
   const body_t *b = &f->body;
   const fx_sensed_t s = sensed(f);
   grid_point_t *const is = &f->is, *const seen = &f->seen;
@@ -129,15 +131,15 @@ static void look(nominal_flight_t *f, const double normal[SEEN]) {
   is->vbat_V = b->vbat_V;
   const closed_loop_t *w = f->w;
   const double any[3] = {w->angle_rad, w->angle_rad, w->angle_rad};
-  const d3_t angle = d3_scale(0.5, noisy3(f->angle_off_rad, any, normal));
+  const d3_t angle = d3_scale(0.5, noisy3(f->angle_off_rad, any, drawn));
   const dq_t wrong = dq_unit((dq_t){1.0, angle.x, angle.y, angle.z});
-  seen->pos_w_m = noisy3(d3_add(is->pos_w_m, f->pos_off_m), w->pos_m, normal + 3);
-  seen->vel_w_mps = noisy3(d3_add(is->vel_w_mps, f->vel_off_mps), w->vel_mps, normal + 6);
+  seen->pos_w_m = noisy3(d3_add(is->pos_w_m, f->pos_off_m), w->pos_m, drawn + 3);
+  seen->vel_w_mps = noisy3(d3_add(is->vel_w_mps, f->vel_off_mps), w->vel_mps, drawn + 6);
   seen->q_wb = dq_mul(is->q_wb, wrong);
-  seen->rate_b_radps = noisy3(is->rate_b_radps, w->gyro_radps, normal + 9);
-  seen->acc_b_mps2 = noisy3(is->acc_b_mps2, w->acc_mps2, normal + 12);
-  seen->range_m = is->range_m + w->range_m * normal[16];
-  seen->vbat_V = is->vbat_V + w->vbat_V * normal[15];
+  seen->rate_b_radps = noisy3(is->rate_b_radps, w->gyro_radps, drawn + 9);
+  seen->acc_b_mps2 = noisy3(is->acc_b_mps2, w->acc_mps2, drawn + 12);
+  seen->range_m = is->range_m + w->range_m * drawn[16];
+  seen->vbat_V = is->vbat_V + w->vbat_V * drawn[15];
 }
 
 // --- the flight -------------------------------------------------------------------------------------------
@@ -191,9 +193,9 @@ static done_t start_at(nominal_flight_t *f, unsigned long seed, why_t *why) {
 
 static done_t find_pilot(nominal_flight_t *f, why_t *why) {
   if (!f->w->flown_by || f->w->flown_by->kind <= FLOWN_BY_OTHER) return DONE;
-  double normal[SEEN];
-  random_normals(f->random, SEEN, normal);
-  look(f, normal);
+  double drawn[LASTS + SEEN];
+  random_triangles(f->random, LASTS + SEEN, drawn);
+  look(f, drawn + LASTS);
   return known_open(&f->known, f, &f->seen, why);
 }
 
@@ -242,11 +244,11 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
     for (int i = 0; i < per_point; i++) {
       const double t_s = f->g->point[first].t_s + ((f->at - first) * per_point + i) * log_s;
       for (int k = 0; k < inner; k++) {
-        double normal[LASTS + SEEN];
-        random_normals(f->random, LASTS + SEEN, normal);
-        drift(f, normal);
+        double drawn[LASTS + SEEN];
+        random_triangles(f->random, LASTS + SEEN, drawn);
+        drift(f, drawn);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
-        look(f, normal + LASTS);
+        look(f, drawn + LASTS);
         pilot_take_track(f, (i * inner + k) / (double)(per_point * inner));
         steer(f, step_s, motor_N);
         if (k == 0) nominal_log_write(f, f->log, &f->seen, motor_N, t_s);
