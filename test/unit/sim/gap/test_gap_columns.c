@@ -79,3 +79,40 @@ TEST(gap_leaves_a_scale_of_the_turning_out_of_slopes_and_bends_where_a_log_misse
     gap_track_free(&r);
   }
 }
+
+// Mass, by so much of what is typical.
+static chosen_t heavier(const candidates_t *c, double by) {
+  chosen_t chosen = {.n = 0};
+  const candidate_t *const mass = find(c, "mass");
+  fx_use_resize(chosen_take(&chosen, c, (int)(mass - c->candidate)), 0, by * mass->typical[0]);
+  return chosen;
+}
+
+// What a heavier vehicle's thrust does is less; by a fifth of what is typical nobody minds.
+TEST(gap_forms_columns_anew_from_a_quarter_of_what_is_typical_on) {
+  static const struct {
+    double by;
+    bool anew;
+  } row[] = {{0.2, false}, {0.3, true}, {-0.2, false}, {-0.3, true}};
+  gap_track_t r;
+  candidates_t c;
+  why_t why = {""};
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why));
+  const int scale = find(&c, "thrust_scale")->first;
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g", row[i].by);
+    design_t t, fresh;
+    const chosen_t before = heavier(&c, 0.0), now = heavier(&c, row[i].by);
+    CHECK_OK(design_make(&t, &r.set, &r.vehicle, &c, &before, &why));
+    const double was = t.x[CH_FZ][scale][10];
+    CHECK_OK(design_make(&fresh, &r.set, &r.vehicle, &c, &now, &why));
+    CHECK_OK(design_renew(&t, &r.set, &r.vehicle, &c, &now, true, &why));
+    CHECK(fresh.x[CH_FZ][scale][10] != was);
+    CHECK(t.x[CH_FZ][scale][10] == (row[i].anew ? fresh.x[CH_FZ][scale][10] : was));
+    design_free(&t);
+    design_free(&fresh);
+  }
+  candidates_free(&c);
+  gap_track_free(&r);
+}
