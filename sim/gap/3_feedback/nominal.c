@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CALMER     4    // times that a flight is tried again with less disturbance
-#define FLOWN_S    60.0 // of a flight, so much is flown
-#define POINTS_MIN 50   // a shorter flight tells nothing
+#define CALMER     4  // times that a flight is tried again with less disturbance
+#define POINTS_MIN 50 // a shorter flight tells nothing
 
-grid_t nominal_part(const grid_t *g) {
+grid_t nominal_part(const grid_t *g, double most_s) {
   grid_t part = *g;
-  const int most = (int)(FLOWN_S / g->period_s);
+  const int most = (int)(most_s / g->period_s);
   int from = 0;
   while (from < g->n && !g->point[from].ok) from++;
   if (part.n > from + most) part.n = from + most;
@@ -32,9 +31,9 @@ static void calm(closed_loop_t *w) {
 }
 
 done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                       const closed_loop_t *w, unsigned long seed, why_t *why) {
+                       const closed_loop_t *w, double most_s, unsigned long seed, why_t *why) {
   for (int f = 0; f < s->n_grid; f++) {
-    const grid_t part = nominal_part(&s->grid[f]);
+    const grid_t part = nominal_part(&s->grid[f], most_s);
     if (part.n < POINTS_MIN) continue;
     const unsigned long own = seed * 2654435761u + (unsigned long)f * 97u;
     closed_loop_t calmer = *w;
@@ -70,7 +69,7 @@ done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const clos
   *a = (along_t){.seen_flights = {.flight = calloc(n, sizeof(gap_flight_t))},
                  .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
   if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
-  TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, loop, seed, why));
+  TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, loop, NOMINAL_S, seed, why));
   TRY(nominal_set(&a->seen, &a->seen_flights, m, why));
   TRY(nominal_set(&a->is, &a->is_flights, m, why));
   memcpy(a->seen.excluded, like->excluded, sizeof a->seen.excluded);

@@ -93,13 +93,18 @@ MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
-// What is flown of a flight: its first 60 s. The points are the grid's own.
-grid_t nominal_part(const grid_t *g);
+// What is flown of a flight, s: of one that counts, and of a trial. Nothing is seen in a trial but how much
+// it shakes: of moments that last for a second 30 s say it to a tenth.
+#define NOMINAL_S 60.0
+#define TRIAL_S   30.0
+
+// The first part of a flight. The points are the grid's own.
+grid_t nominal_part(const grid_t *g, double most_s);
 
 // One flight along each flight of a set that can be flown, of each that part. truth: the same flights
 // without errors; may be null. Both lists have room. BAD_INPUT: none could be flown; FAILED: no memory.
 MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
-                                  const closed_loop_t *loop, unsigned long seed, why_t *why);
+                                  const closed_loop_t *loop, double most_s, unsigned long seed, why_t *why);
 // The flights as a set. FAILED: no memory.
 MUST_CHECK done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why);
 

@@ -30,7 +30,7 @@ typedef struct {
 static double turning_radps(const set_t *s) {
   double sum = 0.0, n = 0.0;
   for (int f = 0; f < s->n_grid; f++) {
-    const grid_t part = nominal_part(&s->grid[f]);
+    const grid_t part = nominal_part(&s->grid[f], TRIAL_S);
     for (int j = 0; j < part.n; j++) {
       const grid_point_t *const p = &part.point[j];
       const double square = p->rate_b_radps.x * p->rate_b_radps.x + p->rate_b_radps.y * p->rate_b_radps.y;
@@ -47,8 +47,9 @@ static void fly(void *trials, int i) {
   closed_loop_t loop = closed_loop_turning(t->loop, t->set, t->model, t->turned.gain);
   loop.unread = false; // its gain alone turns it, and not the track
   t->seen.flight = calloc((size_t)t->set->n_grid + 1, sizeof(gap_flight_t));
-  t->status = t->seen.flight ? nominal_flights(&t->seen, NULL, t->set, t->model, &loop, t->seed, &t->why)
-                             : error_failed(&t->why, "out of memory");
+  t->status = t->seen.flight
+                  ? nominal_flights(&t->seen, NULL, t->set, t->model, &loop, TRIAL_S, t->seed, &t->why)
+                  : error_failed(&t->why, "out of memory");
 }
 
 static void compare(trial_t *t) {

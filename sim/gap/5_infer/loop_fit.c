@@ -60,7 +60,7 @@ static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, 
                     unsigned long seed, why_t *why) {
   gap_flights_t flown = {.flight = calloc((size_t)s->n_grid + 1, sizeof(gap_flight_t))};
   if (!flown.flight) return error_failed(why, "out of memory");
-  done_t status = nominal_flights(&flown, NULL, s, m, loop, seed, why);
+  done_t status = nominal_flights(&flown, NULL, s, m, loop, TRIAL_S, seed, why);
   if (status == DONE) status = left_of(&flown, s, left, m, why);
   for (int f = 0; f < flown.n; f++) gap_flight_free(&flown.flight[f]);
   free(flown.flight);

@@ -112,7 +112,7 @@ static void fly(void *parts, int k) {
   *seen = (gap_flights_t){.flight = calloc(flights, sizeof(gap_flight_t))};
   p->is = (gap_flights_t){.flight = calloc(flights, sizeof(gap_flight_t))};
   p->status = seen->flight && p->is.flight
-                  ? nominal_flights(seen, p->first ? &p->is : NULL, job->set, &job->flown, &loop,
+                  ? nominal_flights(seen, p->first ? &p->is : NULL, job->set, &job->flown, &loop, NOMINAL_S,
                                     job->seed + (unsigned long)p->i, &p->why)
                   : error_failed(&p->why, "out of memory");
   p->flown = seen->n;

@@ -194,6 +194,26 @@ TEST(gap_nominal_flight_goes_on_where_the_log_does_after_a_gap) {
   gap_track_free(&r);
 }
 
+TEST(gap_flies_the_first_minute_of_a_flight_and_half_of_it_in_a_trial) {
+  enum { ALL = 90, ON_FLOOR = 10 };
+  static const struct {
+    const char *what;
+    double most_s;
+    int points, flown;
+  } row[] = {{"one that counts", NOMINAL_S, ALL, ON_FLOOR + 60},
+             {"a trial", TRIAL_S, ALL, ON_FLOOR + 30},
+             {"a short one", NOMINAL_S, 50, 50},
+             {"a trial of it", TRIAL_S, 35, 35}};
+  grid_point_t point[ALL];
+  for (int j = 0; j < ALL; j++) point[j] = (grid_point_t){.t_s = j, .ok = j >= ON_FLOOR};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const grid_t g = {.n = row[i].points, .period_s = 1.0, .point = point};
+    const grid_t part = nominal_part(&g, row[i].most_s);
+    CHECK(part.n == row[i].flown && part.point == point);
+  }
+}
+
 // Nothing flies that is 5 m away every other second.
 static void jump(gap_flight_t *f) {
   for (int i = 0; i < f->n; i++) f->v[SIG_X][i] += fmod(f->t_s[i], 2.0) < 1.0 ? 0.0 : 5.0;
@@ -222,7 +242,8 @@ TEST(gap_nominal_flight_that_cannot_be_flown_costs_itself_alone) {
     gap_flights_t flown = {.flight = room};
     ROW("%s", row[i].what);
     if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = row[i].spoil}, &why))) return;
-    CHECK_STATUS(row[i].status, nominal_flights(&flown, NULL, &r.set, &r.vehicle, &r.loop, 1, &why));
+    CHECK_STATUS(row[i].status,
+                 nominal_flights(&flown, NULL, &r.set, &r.vehicle, &r.loop, NOMINAL_S, 1, &why));
     CHECK(flown.n == row[i].flown);
     for (int k = 0; k < flown.n; k++) gap_flight_free(&room[k]);
     gap_track_free(&r);
