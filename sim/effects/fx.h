@@ -181,6 +181,7 @@ enum {
   FX_NEEDS_ATTITUDE = 1 << 6,
   FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
   FX_NEEDS_COMMANDS = 1 << 8,     // all that attitude control gives
+  FX_NEEDS_TURNING = 1 << 9,      // of some axis; without it is nothing but a push, or a lack of lift
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
@@ -215,6 +216,7 @@ typedef struct {
   bool about_weight;
   // It changes the thrust of all rotors: where no force along z is compared it scales the turning, too.
   bool scales_thrust;
+  bool by_thrust; // its load grows with the rotors' thrust: what scales that changes what it does, too
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
   // The sizes from this one on may be missing without those before it: they are a candidate by themselves,

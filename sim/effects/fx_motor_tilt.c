@@ -1,6 +1,7 @@
-// fx_motor_tilt.c - the axis of one rotor leans, as on a bent mount: its thrust T acts along (x, y, 1), which
-// pushes the hub by T (x, y, 0). Its torque leans with it (1), or stays about z (0), as simulators often have
-// it. That the lift falls with the square of the angle is left out: 3 % at the end of the range.
+// fx_motor_tilt.c - the axis of one rotor leans, as on a bent mount: its thrust T, of its speed in free air,
+// acts along (x, y, 1), which pushes the hub by T (x, y, 0). Its torque leans with it (1), or stays about z
+// (0), as simulators often have it. That the lift falls with the square of the angle is left out: 3 % at the
+// end of a range. A lean along the arm does what one of the rotor opposite does.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -17,15 +18,18 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 
 const fx_t fx_motor_tilt = {
     .name = "motor_tilt",
-    .brief = "the axis of one rotor leans (x: forwards, y: to the left), as on a bent mount",
+    .brief = "the axis of one rotor leans (x: forwards, y: to the left); where along its arm, it or the one "
+             "opposite",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"rotor_tilt", "throttle steps: one rotor that leans pushes to a side, too"},
-              {"imu_misalignment", "a calm hover: a rotor that leans turns the vehicle about z, too"},
+              {"imu_misalignment", "a calm hover: a rotor that leans across its arm turns the vehicle, too"},
               {"accel_bias", "throttle steps of 20 %: a bias stays, the other grows with the thrust"},
               {"wind", "a full yaw turn on the spot: a rotor turns with the body, wind does not"},
-              {"cg_offset", "a calm hover: a rotor that leans turns the vehicle about z, too"},
+              {"cg_offset", "a calm hover: a rotor that leans pushes to a side, too"},
               {"motor_damage", "throttle steps: a weak rotor lacks lift, one that leans does not"}},
+    .needs = FX_NEEDS_TURNING,
+    .by_thrust = true,
     .n_size = 2,
     .size = {{1, 1e-3, 0, 0.0, FX_SAME}, {2, 1e-3, 0, 0.0, FX_SAME}},
     .shape_param = 0,

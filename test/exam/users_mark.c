@@ -12,8 +12,8 @@
 static const char *const FAMILY[][8] = {
     {"mass", "thrust_scale", "accel_bias", "battery_sag", "climb_inflow", "motor_damage", "thrust_curve"},
     {"motor_lag", "delay"},
-    {"wind", "accel_bias", "imu_misalignment"},
-    {"cg_offset", "motor_damage", "imu_misalignment"},
+    {"wind", "accel_bias", "imu_misalignment", "motor_tilt"},
+    {"cg_offset", "motor_damage", "imu_misalignment", "motor_tilt"},
     {"rotor_drag", "body_drag", "wind"},
     {"ceiling", "tof_bias", "battery_sag"},
 };

@@ -18,8 +18,8 @@ import reliability
 FAMILIES = (
     {"mass", "thrust_scale", "accel_bias", "battery_sag", "climb_inflow", "motor_damage", "thrust_curve"},  # constant lift
     {"motor_lag", "delay"},  # time between command and thrust
-    {"wind", "accel_bias", "imu_misalignment"},  # constant push, without a turn about the vertical
-    {"cg_offset", "motor_damage", "imu_misalignment"},  # constant moments
+    {"wind", "accel_bias", "imu_misalignment", "motor_tilt"},  # constant push, without a turn about the vertical
+    {"cg_offset", "motor_damage", "imu_misalignment", "motor_tilt"},  # constant moments
     {"rotor_drag", "body_drag", "wind"},  # against the velocity
     {"ceiling", "tof_bias", "battery_sag"},  # by place, where place and time go together
 )

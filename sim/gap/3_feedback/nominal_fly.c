@@ -81,11 +81,11 @@ static void shake(nominal_flight_t *f) {
 
 // It is there from the first on, at its full spread.
 static bool shake_first(nominal_flight_t *f, unsigned long seed) {
-  double drawn[2 * SHAKE]; // of which some count
+  double drawn[SHAKE];
   random_close(f->shakes);
   f->shakes = random_open(seed);
   if (!f->shakes) return false;
-  random_triangles(f->shakes, 2 * SHAKE, drawn);
+  random_triangles(f->shakes, SHAKE, drawn);
   find_decays(f, HUGE_VAL);
   f->gust_w_N = f->quick_w_N = f->disturbs_b_Nm = d3(0.0, 0.0, 0.0);
   const push_t first = shaken(f, drawn);
@@ -98,6 +98,8 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
 // --- sensors ----------------------------------------------------------------------------------------------
 
 #define SEEN 17 // numbers of a step, for what is seen once
+
+_Static_assert(SHAKE % 2 == 0 && (LASTS + SEEN) % 2 == 0, "random_triangles() draws pairs");
 
 // The last axis takes the first number.
 static d3_t noisy3(d3_t v, const double sd[3], const double drawn[3]) {

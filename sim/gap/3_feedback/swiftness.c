@@ -25,7 +25,7 @@ typedef struct {
   why_t why;
 } trial_t;
 
-// Rms of roll and pitch rates over what nominal flights fly of each flight; 0: there are none. Where a trial
+// Rms of roll and pitch rates over what a trial flies of each flight; 0: there are none. Where a trial
 // is lost it is flown by a calmer pilot (nominal.c), and turns less.
 static double turning_radps(const set_t *s) {
   double sum = 0.0, n = 0.0;

@@ -52,6 +52,7 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
       {FX_NEEDS_ACCELERATION, g->has_force && !g->acceleration_made, "the log has no acceleration"},
       {FX_NEEDS_COMMANDS, every_command(s), "the log misses commands of the attitude control"},
       {FX_NEEDS_ATTITUDE, g->has_attitude, "the log has no attitude"},
+      {FX_NEEDS_TURNING, turning, "no turning is compared"},
   };
   if (fx->n_size == 0) return "it has no numbers that could be estimated";
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++)

@@ -195,25 +195,29 @@ TEST(rotors_that_lean_turn_the_vehicle_about_z_and_do_nothing_else) {
   }
 }
 
-// Rotor 1, front right, turns counter-clockwise.
+// Rotor 1, front right, turns counter-clockwise, rotor 2, behind it, clockwise.
 TEST(a_rotor_that_leans_pushes_its_hub_to_a_side_and_its_torque_leans_or_not) {
   static const struct {
     const char *what;
-    double torque, weights;
-  } row[] = {{"its torque leans", 1.0, 1.0}, {"and does not", 0.0, 1.0}, {"with more thrust", 1.0, 1.2}};
+    double rotor, torque, weights, hub_x_m, spin;
+  } row[] = {{"its torque leans", 1.0, 1.0, 1.0, 0.0325, 1.0},
+             {"and does not", 1.0, 0.0, 1.0, 0.0325, 1.0},
+             {"with more thrust", 1.0, 1.0, 1.2, 0.0325, 1.0},
+             {"another rotor", 2.0, 1.0, 1.0, -0.0325, -1.0}};
   model_t m = vehicle6(HUGE_VAL);
   fx_use_t *const tilt = vehicle6_add(&m, "motor_tilt"); // 0.03 forwards
   tilt->p[2] = -0.01;                                    // and to the right
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
+    tilt->p[0] = row[i].rotor;
     tilt->p[3] = row[i].torque;
     const body_start_t start = vehicle6_start(&m, 5.0, row[i].weights);
     const double f = row[i].weights * WEIGHT_N / 4.0, f_x = 0.03 * f, f_y = -0.01 * f;
-    const double up_m = body_rotor_z_m(&m), torque_m = row[i].torque * m.frame.torque_ratio_m;
+    const double up_m = body_rotor_z_m(&m), torque_m = row[i].torque * row[i].spin * m.frame.torque_ratio_m;
     const felt_t got = felt(&m, &start);
     check_d3(got.acc_b_mps2, f_x / WEIGHT_N * 9.81, f_y / WEIGHT_N * 9.81, 0.0, 1e-9);
     check_d3(got.turn_b_radps2, (-up_m * f_y - torque_m * f_x) / 16.8e-6,
-             (up_m * f_x - torque_m * f_y) / 16.8e-6, 0.0325 * (f_y + f_x) / 29.8e-6, 1e-9);
+             (up_m * f_x - torque_m * f_y) / 16.8e-6, (row[i].hub_x_m * f_y + 0.0325 * f_x) / 29.8e-6, 1e-9);
   }
 }
 

@@ -61,6 +61,9 @@ static void made_acceleration(log_t *l) {
 static void quickness(log_t *l) {
   l->flight.rate_Hz = 50.0;
 }
+static void turning(log_t *l) {
+  l->grid.has_rates = false;
+}
 static void force_and_turning(log_t *l) {
   l->grid.has_force = l->grid.has_rates = false;
 }
@@ -98,6 +101,7 @@ TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
       {"attitude", attitude, FX_NEEDS_ATTITUDE, " wind "},
       {"acceleration", made_acceleration, FX_NEEDS_ACCELERATION, " accel_bias imu_misalignment "},
       {"a quick log", quickness, FX_NEEDS_COMMANDS, " torque_ratio "},
+      {"turning", turning, FX_NEEDS_TURNING, " motor_tilt "},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     log_t l;

@@ -80,20 +80,30 @@ TEST(gap_leaves_a_scale_of_the_turning_out_of_slopes_and_bends_where_a_log_misse
   }
 }
 
-// Mass, by so much of what is typical.
-static chosen_t heavier(const candidates_t *c, double by) {
+// One name, by so much of what is typical.
+static chosen_t with(const candidates_t *c, const char *name, double by) {
   chosen_t chosen = {.n = 0};
-  const candidate_t *const mass = find(c, "mass");
-  fx_use_resize(chosen_take(&chosen, c, (int)(mass - c->candidate)), 0, by * mass->typical[0]);
+  const candidate_t *const own = find(c, name);
+  fx_use_resize(chosen_take(&chosen, c, (int)(own - c->candidate)), 0, by * own->typical[0]);
   return chosen;
 }
 
-// What a heavier vehicle's thrust does is less; by a fifth of what is typical nobody minds.
+// Row 10 of a column; one that is zero throughout is not there.
+static double at(const design_t *t, int channel, int column) {
+  return t->x[channel][column] ? t->x[channel][column][10] : 0.0;
+}
+
+// What a heavier vehicle's thrust does is less; by a fifth of what is typical nobody minds. More thrust of a
+// rotor that leans pushes to a side.
 TEST(gap_forms_columns_anew_from_a_quarter_of_what_is_typical_on) {
   static const struct {
+    const char *name;
+    int channel;
     double by;
     bool anew;
-  } row[] = {{0.2, false}, {0.3, true}, {-0.2, false}, {-0.3, true}};
+  } row[] = {{"mass", CH_FZ, 0.2, false},       {"mass", CH_FZ, 0.3, true},
+             {"mass", CH_FZ, -0.2, false},      {"mass", CH_FZ, -0.3, true},
+             {"motor_tilt", CH_FX, 0.2, false}, {"motor_tilt", CH_FX, 1.0, true}};
   gap_track_t r;
   candidates_t c;
   why_t why = {""};
@@ -101,15 +111,15 @@ TEST(gap_forms_columns_anew_from_a_quarter_of_what_is_typical_on) {
   CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why));
   const int scale = find(&c, "thrust_scale")->first;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    ROW("%g", row[i].by);
+    ROW("%s by %g", row[i].name, row[i].by);
     design_t t, fresh;
-    const chosen_t before = heavier(&c, 0.0), now = heavier(&c, row[i].by);
+    const chosen_t before = with(&c, row[i].name, 0.0), now = with(&c, row[i].name, row[i].by);
     CHECK_OK(design_make(&t, &r.set, &r.vehicle, &c, &before, &why));
-    const double was = t.x[CH_FZ][scale][10];
+    const double was = at(&t, row[i].channel, scale);
     CHECK_OK(design_make(&fresh, &r.set, &r.vehicle, &c, &now, &why));
     CHECK_OK(design_renew(&t, &r.set, &r.vehicle, &c, &now, true, &why));
-    CHECK(fresh.x[CH_FZ][scale][10] != was);
-    CHECK(t.x[CH_FZ][scale][10] == (row[i].anew ? fresh.x[CH_FZ][scale][10] : was));
+    const double anew = at(&fresh, row[i].channel, scale);
+    CHECK(anew != was && at(&t, row[i].channel, scale) == (row[i].anew ? anew : was));
     design_free(&t);
     design_free(&fresh);
   }
