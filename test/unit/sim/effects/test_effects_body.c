@@ -221,6 +221,27 @@ TEST(a_rotor_that_leans_pushes_its_hub_to_a_side_and_its_torque_leans_or_not) {
   }
 }
 
+TEST(a_weak_rotor_that_leans_pushes_less_and_its_torque_leans_as_far_as_it_is_there) {
+  static const struct {
+    const char *what;
+    double torque, left; // of the weak rotor's torque
+  } row[] = {{"its torque is less, too", 1.0, 0.94}, {"its torque stays", 0.0, 1.0}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    model_t m = vehicle6(HUGE_VAL);
+    const body_start_t start = vehicle6_start(&m, 5.0, 1.0);
+    vehicle6_add(&m, "motor_damage")->p[3] = row[i].torque; // rotor 1 loses 6 %
+    const felt_t weak = felt(&m, &start);
+    vehicle6_add(&m, "motor_tilt"); // 0.03 forwards
+    const felt_t got = felt(&m, &start);
+    const double f_x = 0.03 * WEIGHT_N / 4.0;
+    CHECK_NEAR(got.acc_b_mps2.x - weak.acc_b_mps2.x, 0.94 * f_x / WEIGHT_N * 9.81, 1e-9);
+    CHECK_NEAR(got.turn_b_radps2.x - weak.turn_b_radps2.x,
+               -row[i].left * m.frame.torque_ratio_m * f_x / 16.8e-6, 1e-9);
+    CHECK_NEAR(got.turn_b_radps2.z - weak.turn_b_radps2.z, 0.94 * 0.0325 * f_x / 29.8e-6, 1e-9);
+  }
+}
+
 TEST(rotors_with_more_torque_turn_the_vehicle_as_one_of_them_gives_more) {
   model_t m = vehicle6(HUGE_VAL);
   vehicle6_add(&m, "torque_ratio"); // a tenth more
