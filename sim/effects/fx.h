@@ -181,7 +181,7 @@ enum {
   FX_NEEDS_ATTITUDE = 1 << 6,
   FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
   FX_NEEDS_COMMANDS = 1 << 8,     // all that attitude control gives
-  FX_NEEDS_TURNING = 1 << 9,      // of some axis; without it is nothing but a push, or a lack of lift
+  FX_NEEDS_TURNING = 1 << 9,      // of some axis; without, it is nothing but a push
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.

@@ -93,8 +93,9 @@ MUST_CHECK done_t nominal_along(along_t *a, const set_t *like, const model_t *m,
                                 unsigned long seed, why_t *why);
 void along_free(along_t *a);
 
-// What is flown of a flight, s: of one that counts, and of a trial. Nothing is seen in a trial but how much
-// it shakes: of moments that last for a second 30 s say it to an eighth.
+// What is flown of a flight, s: of one that counts, so that a longer log costs no more, and of a trial.
+// Nothing is seen in a trial but how much it shakes: of moments that last for a second 30 s say it to an
+// eighth.
 #define NOMINAL_S 60.0
 #define TRIAL_S   30.0
 
