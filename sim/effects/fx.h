@@ -208,6 +208,9 @@ typedef struct {
   // with sizes above 0 (1) or below (-1). The first look, which finds out how much disturbance there is,
   // takes none of these. 0: like no size.
   int control_makes;
+  // What control gives in answer to a disturbance, late and by its own gains, looks like it: a name of it has
+  // to say more than such control (gap/5_infer/own_work.h).
+  bool answers;
   // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
   // misses some looks like it.
   bool scales_turning;

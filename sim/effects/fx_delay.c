@@ -13,6 +13,7 @@ const fx_t fx_delay = {
     .over = {"thrust"},
     .apart = {{"inertia", "slow and fast attitude doublets: delay hurts the fast ones alone"}},
     .group = FX_TIMING,
+    .answers = true,
     .n_size = 1,
     .size = {{0, 4e-3, 1, 5e-3, FX_SAME}},
     .n_param = 1,

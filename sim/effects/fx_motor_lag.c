@@ -16,6 +16,7 @@ const fx_t fx_motor_lag = {
               {"inertia", "slow and fast attitude doublets: lag hurts the fast ones alone"}},
     .group = FX_TIMING,
     .lags = true,
+    .answers = true,
     .n_size = 1,
     .size = {{0, 0.03, 0, 5e-3, FX_SAME}},
     .n_param = 1,

@@ -20,6 +20,7 @@ const fx_t fx_thrust_slope = {
     .apart = {{"inertia", "throttle steps without turning, then attitude doublets"},
               {"thrust_scale", "throttle steps of 20 %: at the weight a slope is right"},
               {"thrust_curve", "a wide range of throttle"}},
+    .answers = true,
     .about_weight = true,
     .scales_thrust = true,
     .n_size = 1,

@@ -5,8 +5,10 @@
 #include "gap/5_infer/both_ways.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/loop_fit.h"
+#include "gap/5_infer/own_work.h"
 #include "gap/5_infer/select.h"
 #include "gap/5_infer/shape.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,7 +53,7 @@ static done_t fly_with(const diagnose_job_t *job, diagnosis_t *d, const chosen_t
   model_t m;
   nominal_free(&d->nominal);
   TRY(chosen_model(chosen, job->model, &m, why));
-  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, chosen, &d->loop, job->seed};
+  const nominal_job_t nominal = {&d->fit, job->model, m, &d->candidates, chosen, &d->loop, job->seed, NULL};
   TRY(nominal_make(&d->nominal, &nominal, why));
   d->nominal_flew = d->nominal.n > 0;
   d->flown = *chosen;
@@ -72,6 +74,56 @@ static done_t look_first(const diagnose_job_t *job, diagnosis_t *d, found_t *fir
   return DONE;
 }
 
+// Names that control's answers look like, and of whose kind nominal flights had none.
+typedef struct {
+  int n, of[NAMED_MAX];
+  bool own[NAMED_MAX]; // it is control's own work
+} answers_t;
+
+// Another kind of an effect, or of a lag a delay: of the same rows each would be the other's stand-in.
+static bool are_alike(const fx_t *a, const fx_t *b) {
+  return a == b || (a->group == FX_TIMING && b->group == FX_TIMING);
+}
+
+static bool flew_with(const diagnosis_t *d, const fx_t *fx) {
+  for (int i = 0; i < d->flown.n; i++)
+    if (are_alike(d->flown.use[i].fx, fx)) return true;
+  return false;
+}
+
+// A lag or delay that is too long for a straight line, or that rotor speeds show, is sure; one that is too
+// small is not named.
+static bool is_answer(const diagnosis_t *d, const fx_use_t *use, int candidate) {
+  return use->fx->answers && candidate != d->timing.candidate && !flew_with(d, use->fx) &&
+         fabs(fx_use_size(use, 0)) >= candidates_least(use->fx, &d->fit);
+}
+
+static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, diagnosis_t *d, answers_t *a,
+                            why_t *why) {
+  const own_work_job_t asked = {.c = &d->candidates,
+                                .set = &d->fit,
+                                .base = job->model,
+                                .flown_by = job->flown_by,
+                                .seed = job->seed,
+                                .trial_seed = job->seed + TRIAL_SEED};
+  *a = (answers_t){.n = 0};
+  for (int i = 0; i < chosen->n; i++)
+    if (is_answer(d, &chosen->use[i], chosen->of[i])) a->of[a->n++] = chosen->of[i];
+  return own_work(&asked, chosen, a->n, a->of, a->own, why);
+}
+
+// Nominal flights do not have it, and looks do not begin with it.
+static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t *chosen, why_t *why) {
+  answers_t a;
+  TRY(find_own_work(job, chosen, d, &a, why));
+  for (int k = 0; k < a.n; k++) {
+    if (!a.own[k]) continue;
+    chosen_drop(chosen, a.of[k]);
+    chosen_drop(&d->before, a.of[k]);
+  }
+  return DONE;
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
 // it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
@@ -82,6 +134,7 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   found_free(&first);
   TRY(status);
   TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));
+  TRY(drop_own_work(job, d, &chosen, why));
   TRY(chosen_model(&chosen, job->model, &m, why));
   TRY(loop_fit(&d->loop, &d->fit, &m, job->flown_by, job->seed + TRIAL_SEED, why));
   return fly_with(job, d, &chosen, why);
@@ -119,15 +172,52 @@ static done_t look_once(diagnosis_t *d, const model_t *m, bool last, bool *again
   return status;
 }
 
+static void refute(diagnosis_t *d, const named_t *named, maker_t by) {
+  candidate_t *const c = &d->candidates.candidate[named->candidate];
+  if (d->n_refuted < NAMED_MAX)
+    d->refuted[d->n_refuted++] = (refuted_t){c->use.fx, c->from, named->value[c->from], named->confirm, by};
+  c->barred = true;
+}
+
+// What is own work is looked for no more.
+static void bar_alike(diagnosis_t *d, const fx_t *fx) {
+  for (int i = 0; i < d->candidates.n; i++)
+    if (are_alike(d->candidates.candidate[i].use.fx, fx)) d->candidates.candidate[i].barred = true;
+}
+
+static done_t bar_own_work(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
+  answers_t a;
+  *barred = false;
+  TRY(find_own_work(job, &d->found.chosen, d, &a, why));
+  for (int k = 0; k < a.n; k++) {
+    if (!a.own[k]) continue;
+    for (int i = 0; i < d->found.n; i++)
+      if (d->found.named[i].candidate == a.of[k]) refute(d, &d->found.named[i], MADE_BY_CONTROL);
+    bar_alike(d, d->candidates.candidate[a.of[k]].use.fx);
+    *barred = true;
+  }
+  if (*barred) found_free(&d->found);
+  return DONE;
+}
+
+static done_t look_beyond_control(const diagnose_job_t *job, diagnosis_t *d, bool last, bool *again,
+                                  why_t *why) {
+  for (bool barred = true; barred;) {
+    TRY(look_once(d, job->model, last, again, why));
+    TRY(bar_own_work(job, d, &barred, why));
+  }
+  return DONE;
+}
+
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
 // names. What feedback makes is flown anew where the flown model was another one.
 static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   bool again;
-  TRY(look_once(d, job->model, false, &again, why));
+  TRY(look_beyond_control(job, d, false, &again, why));
   if (!again) return DONE;
   TRY(fly_with(job, d, &d->found.chosen, why));
   found_free(&d->found);
-  return look_once(d, job->model, true, &again, why);
+  return look_beyond_control(job, d, true, &again, why);
 }
 
 // Of a name that is withdrawn another kind may be right: a drag at the hubs that the held-out flights
@@ -170,11 +260,9 @@ static bool bar_refuted(diagnosis_t *d) {
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
-    candidate_t *const c = &d->candidates.candidate[named->candidate];
-    if (c->barred) continue; // it is withdrawn already
-    d->refuted[d->n_refuted++] =
-        (refuted_t){c->use.fx, c->from, named->value[c->from], named->confirm, false};
-    refuted = c->barred = true;
+    if (d->candidates.candidate[named->candidate].barred) continue; // it is withdrawn already
+    refute(d, named, MADE_BY_FEEDBACK);
+    refuted = true;
   }
   return refuted;
 }
@@ -192,9 +280,8 @@ static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barr
     bool stands = false;
     if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, named, &stands, why));
     if (stands) continue;
-    d->refuted[d->n_refuted++] =
-        (refuted_t){c->use.fx, c->from, named->value[c->from], {.answer = CONFIRM_NOT_TRIED}, true};
-    *barred = c->barred = true;
+    refute(d, named, MADE_BY_MISSED_COMMANDS);
+    *barred = true;
   }
   return DONE;
 }

@@ -14,14 +14,16 @@ typedef struct {
   void (*progress)(const char *what); // is told what begins; may be null
 } diagnose_job_t;
 
-// A name that feedback made: least squares see it, the set points as instruments do not. Or one that commands
-// made of which the log has too few.
+// A name that feedback made: least squares see it, the set points as instruments do not; commands of which
+// the log has too few; control that answers a disturbance (own_work.h).
+typedef enum { MADE_BY_FEEDBACK, MADE_BY_MISSED_COMMANDS, MADE_BY_CONTROL } maker_t;
+
 typedef struct {
   const fx_t *fx;
   int number; // of its numbers the first that the name is about
   double value;
   confirm_t by_set_points;
-  bool too_slow;
+  maker_t by;
 } refuted_t;
 
 typedef struct {

@@ -1,4 +1,4 @@
 # Nominal pilots are not varied.
-# file: sim/gap/3_feedback/closed_loop.c
+# file: sim/gap/3_feedback/nominal.h
 # test: gap_nominal_pilots
-s/^#define VARIED    0\.3/#define VARIED    0.0/
+s/^#define NOMINAL_VARIED 0\.3/#define NOMINAL_VARIED 0.0/

@@ -10,7 +10,6 @@
 #define TILT_MOST 0.35 // of a rate gain squared: more overshoots
 #define LEAD_MOST 0.5  // acts as so much more inertia; with more, lag and delay make a loop ring
 #define YAW_GAIN  5.0  // 1/s: the Crazyflie's, whose yaw is weak
-#define VARIED    0.3  // of a gain: a fit from a log in closed loop knows it no better
 // Where rows are fewer than commands no one time of a row's command fits what turns the vehicle and what is
 // held between two looks at place and speed, and of a manoeuvre too small a gain is found (swiftness.c). Then
 // every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c) at least, and looks
@@ -257,8 +256,8 @@ static double spared(const closed_loop_t *w) {
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   closed_loop_t v = *w;
   // Steps of the golden section fill both ranges evenly, and not together.
-  const double turn = 1.0 + VARIED * (i ? 2.0 * fmod(0.618 * i, 1.0) - 1.0 : 0.0);
-  const double place = 1.0 + VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
+  const double turn = 1.0 + NOMINAL_VARIED * (i ? 2.0 * fmod(0.618 * i, 1.0) - 1.0 : 0.0);
+  const double place = 1.0 + NOMINAL_VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
   for (int k = 0; k < 3; k++) {
     v.rate_gain[k] *= turn;
     v.rate_lead[k] = fmin(turn * v.rate_lead[k], LEAD_MOST);
@@ -266,7 +265,7 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   v.tilt_gain *= turn * turn;
   if (w->unread && i % 2) {
     const double swift =
-        turn * (i % 4 == 3 ? fmax(SWIFT_GAIN, w->rate_gain_most / (1.0 + VARIED)) : SWIFT_GAIN);
+        turn * (i % 4 == 3 ? fmax(SWIFT_GAIN, w->rate_gain_most / (1.0 + NOMINAL_VARIED)) : SWIFT_GAIN);
     for (int k = 0; k < 2; k++) v.rate_gain[k] = fmax(v.rate_gain[k], swift);
     v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * turn * SWIFT_GAIN * swift);
     if (i % 4 == 3) {

@@ -70,6 +70,8 @@ double closed_loop_gain(const turned_t *t, int n, bool believed);
 MUST_CHECK done_t closed_loop_match(closed_loop_t *w, const set_t *s, const model_t *m, unsigned long seed,
                                     why_t *why);
 
+#define NOMINAL_VARIED 0.3 // of a gain: a fit from a log in closed loop knows it no better
+
 // The same as another pilot could have flown it, whose gains fit the log as well; where they are unread every
 // odd one is at least as swift as the Crazyflie's INDI, and every other of these as the motors allow. Number
 // 0 is the fit itself. Of a pilot that is known there is but one.

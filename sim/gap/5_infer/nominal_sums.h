@@ -36,6 +36,7 @@ typedef struct {
   const chosen_t *chosen;
   const closed_loop_t *loop;
   unsigned long seed;
+  const double *ridge; // null: sums in the colour of the residual; else of what all candidates leave
 } nominal_job_t;
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the

@@ -164,7 +164,7 @@ static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const expla
 
 // In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
 // least squares come first; an autoregression of the raw residual would hide what is slow in it.
-static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge) {
+static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge, bool total_alone) {
   const int n = t->columns;
   int *const column = malloc(((size_t)n + 1) * sizeof(int));
   double *const b = malloc(((size_t)n + 1) * sizeof(double));
@@ -174,7 +174,7 @@ static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *r
   e = (explained_t){n, column, b, false};
   for (int i = 0; good && i < 2; i++) {
     lsq_solve_products(g->total, g->size, column, n, ridge, b, NULL);
-    good = i == 0 ? fill_total(g, s, t, &e, NULL) : fill(g, s, t, &e);
+    good = i == 0 || total_alone ? fill_total(g, s, t, &e, NULL) : fill(g, s, t, &e);
   }
   free(column);
   free(b);
@@ -194,7 +194,7 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
     g->by_group[i] = calloc((size_t)g->n_half * room, sizeof(double));
     good = good && g->by_group[i];
   }
-  if (good) good = ridge ? refine(g, s, t, ridge) : fill(g, s, t, known);
+  if (good) good = ridge ? refine(g, s, t, ridge, false) : fill(g, s, t, known);
   if (good) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
@@ -210,6 +210,15 @@ done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const expla
   }
   if (good) lsq_mirror(g->total, g->size);
   if (good) return DONE;
+  gram_free(g);
+  return error_failed(why, "out of memory");
+}
+
+done_t gram_make_total_of_left(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
+                               why_t *why) {
+  *g = (gram_t){.size = t->columns + 1};
+  g->total = calloc((size_t)(g->size * g->size), sizeof(double));
+  if (g->total && refine(g, s, t, ridge, true)) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
 }

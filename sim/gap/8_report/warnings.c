@@ -139,7 +139,15 @@ static void warn_of_withdrawn(report_t *r) {
     const fx_size_t *const size = &f->fx->size[f->number];
     const char *const name = f->number > 0 ? f->fx->apart_name : f->fx->name;
     const char *const unit = f->fx->param[size->param].unit;
-    if (f->too_slow) {
+    if (f->by == MADE_BY_CONTROL) {
+      warn(
+          r,
+          "%s is withdrawn: the rows show %.3g %s, but of a disturbance as large as the log's, control makes "
+          "as much in flights of the model without it",
+          name, f->value, unit);
+      continue;
+    }
+    if (f->by == MADE_BY_MISSED_COMMANDS) {
       warn(r,
            "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
            "fed back, looks like it; %s",

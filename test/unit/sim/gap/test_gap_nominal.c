@@ -258,7 +258,7 @@ TEST(gap_counts_the_flights_that_cannot_be_flown) {
   if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_one_track}, &why))) return;
   if (!CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why))) return;
   const chosen_t none = {.n = 0};
-  const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1};
+  const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1, NULL};
   if (!CHECK_OK(nominal_make(&n, &job, &why))) return;
   CHECK(n.n == NOMINAL_FLIGHTS && n.flown == NOMINAL_FLIGHTS && n.lost == NOMINAL_FLIGHTS);
   for (int k = 0; k < c.columns; k++) CHECK(n.kept[k] > 0.0 && n.kept[k] <= 1.0);

@@ -1,0 +1,111 @@
+// own_work.c - what answers look like, in the log and in flights of the model without it.
+#include "gap/5_infer/own_work.h"
+
+#include "gap/5_infer/loop_fit.h"
+#include "gap/5_infer/score.h"
+#include <math.h>
+
+// What is chosen alone, each with columns of its own.
+typedef struct {
+  candidates_t names;
+  chosen_t without;    // all but those that are asked, at their numbers
+  choice_t rest, with; // the same, and with these behind them
+  score_t score;
+} asked_t;
+
+static bool is_in(int n, const int *candidate, int which) {
+  for (int k = 0; k < n; k++)
+    if (candidate[k] == which) return true;
+  return false;
+}
+
+static done_t ask(asked_t *a, const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
+                  why_t *why) {
+  *a = (asked_t){.rest = {.n = 0}};
+  TRY(candidates_chosen(&a->names, &a->without, job->c, chosen, why));
+  for (int i = 0; i < chosen->n; i++)
+    if (!is_in(n, candidate, chosen->of[i])) a->rest = choice_with(&a->rest, i);
+  a->with = a->rest;
+  for (int i = 0; i < chosen->n; i++) {
+    if (!is_in(n, candidate, chosen->of[i])) continue;
+    a->with = choice_with(&a->with, i);
+    chosen_drop(&a->without, i);
+  }
+  return score_make(&a->score, &a->names, NULL, NULL, why);
+}
+
+static void ask_no_more(asked_t *a) {
+  score_free(&a->score);
+  candidates_free(&a->names);
+}
+
+// Of sums of products, over what is left: a root.
+static double takes(const asked_t *a, const double *total) {
+  const int size = a->names.columns + 1;
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX];
+  int n = choice_columns(&a->names, &a->rest, column);
+  const double before = lsq_solve_products(total, size, column, n, a->score.ridge, b, NULL);
+  n = choice_columns(&a->names, &a->with, column);
+  const double after = lsq_solve_products(total, size, column, n, a->score.ridge, b, NULL);
+  return after > 0.0 ? sqrt(fmax(before / after - 1.0, 0.0)) : 0.0;
+}
+
+static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *takes_of_it, why_t *why) {
+  design_t t;
+  gram_t g;
+  TRY(design_make(&t, job->set, job->base, &a->names, &a->without, why));
+  design_add_chosen(&t, job->set, &a->names, &a->without, -1.0);
+  const done_t status = gram_make_total_of_left(&g, job->set, &t, a->score.ridge, why);
+  if (status == DONE) *takes_of_it = takes(a, g.total);
+  if (status == DONE) gram_free(&g);
+  design_free(&t);
+  return status;
+}
+
+static done_t fly_without(const asked_t *a, const own_work_job_t *job, nominal_t *n, why_t *why) {
+  closed_loop_t loop;
+  model_t m;
+  TRY(chosen_model(&a->without, job->base, &m, why));
+  TRY(loop_fit(&loop, job->set, &m, job->flown_by, job->trial_seed, why));
+  const nominal_job_t nominal = {job->set,    job->base, m,         &a->names,
+                                 &a->without, &loop,     job->seed, a->score.ridge};
+  return nominal_make(n, &nominal, why);
+}
+
+// What flights scatter by about their mean, and the mean as far as gains are known.
+static bool is_usual(const asked_t *a, const nominal_t *n, double log) {
+  double mean = 0.0, squares = 0.0;
+  for (int i = 0; i < n->n; i++) {
+    const double here = takes(a, n->total + (size_t)i * (size_t)(n->size * n->size));
+    mean += here / n->n;
+    squares += here * here / n->n;
+  }
+  const double scatter = sqrt(fmax(squares - mean * mean, 0.0) * n->n / fmax(n->n - 1, 1));
+  return n->n && fabs(log - mean) < limits_nominal(n->n) * hypot(scatter, NOMINAL_VARIED * mean);
+}
+
+static done_t are_usual(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
+                        bool *usual, why_t *why) {
+  asked_t a;
+  nominal_t flown = {.n = 0};
+  double log = 0.0;
+  done_t status = ask(&a, job, chosen, n, candidate, why);
+  if (status == DONE) status = takes_in_log(&a, job, &log, why);
+  if (status == DONE) status = fly_without(&a, job, &flown, why);
+  *usual = status == DONE && is_usual(&a, &flown, log);
+  nominal_free(&flown);
+  ask_no_more(&a);
+  return status;
+}
+
+done_t own_work(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate, bool *own,
+                why_t *why) {
+  bool all = false;
+  if (n > 0) TRY(are_usual(job, chosen, n, candidate, &all, why));
+  for (int k = 0; k < n; k++) {
+    own[k] = all;
+    if (!all && n > 1) TRY(are_usual(job, chosen, 1, &candidate[k], &own[k], why));
+  }
+  return DONE;
+}

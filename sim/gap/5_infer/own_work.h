@@ -1,0 +1,32 @@
+// own_work.h - whether a lag or a delay is control's own work: an answer to what disturbs the vehicle.
+//
+// Who answers a moment that comes and goes is late by his way through the motors and the body. In a calm
+// flight that holds little else it looks as if commands acted later than they do: least squares of a closed
+// loop err where the disturbance has a colour (Ljung, System Identification, 1999, 13.4). In nominal flights
+// with such a delay this is not seen: there it is the model's. So the model is flown without it, disturbed by
+// as much as the log leaves then, and both are asked alike: what does the straight line about no delay take,
+// over what it leaves, beside the other names? A real one leaves hardly anything in a log, and much in
+// flights that are disturbed by all that it explains there.
+#ifndef SIM_GAP_5_INFER_OWN_WORK_H
+#define SIM_GAP_5_INFER_OWN_WORK_H
+
+#include "gap/3_feedback/nominal.h"
+#include "gap/4_candidates/candidates.h"
+
+typedef struct {
+  const candidates_t *c;
+  set_t *set;
+  const model_t *base;
+  const flown_by_t *flown_by; // null: nobody knows
+  unsigned long seed;         // of the nominal flights,
+  unsigned long trial_seed;   // and of those that say how much shakes them
+} own_work_job_t;
+
+// Of n candidates that are chosen, effects that answers look like (fx->answers): own of each says that it is.
+// All together first; each beside the others then, if these say more. A name says more where it takes more
+// than in nominal flights without it, by chance and by what is not known of who flew. Where none could be
+// flown they do. FAILED: no memory. BAD_INPUT: too many effects.
+MUST_CHECK done_t own_work(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
+                           bool *own, why_t *why);
+
+#endif
