@@ -210,22 +210,11 @@ static void make_acceleration(grid_t *g) {
   }
 }
 
-// Rows: slower rotors leave less than a hundredth of the turning, of commands that jump from row to row
-// (test_gap_holds.c), and a long log costs a sixth more. By the vehicle file's lag, not by one that is tried:
-// a lag that is looked for must not find a step in the model.
-#define QUICK_ROWS 10.0
-
-static bool is_quick(const model_t *m, double rate_Hz) {
-  const lag_t lag = model_lag(m, 0.0);
-  return fmax(lag.up_s, lag.down_s) * rate_Hz < QUICK_ROWS;
-}
-
 done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model_t *m, why_t *why) {
   *g = (grid_t){.flight = f, .from = from, .samples = to - from};
   g->every = (int)fmax(1.0, floor(f->rate_Hz / POINT_HZ + 1e-3));
   g->period_s = g->every / f->rate_Hz;
   g->command_Hz = f->command_Hz;
-  g->quick = is_quick(m, f->rate_Hz);
   g->slowest_N = m->frame.kf_Ns2 * ROTOR_SLOWEST_RADPS * ROTOR_SLOWEST_RADPS;
   g->has_position = has(f, SIG_X, SIG_Z);
   g->has_velocity = has(f, SIG_VX, SIG_VZ);

@@ -58,11 +58,10 @@ typedef struct {
   unsigned char *mark; // MARK_*, by point; null until the grid is in a set
   bool has_attitude, has_rates, has_force, has_velocity, has_position, has_vbat, has_moments, range_up;
   bool velocity_made, acceleration_made; // of the place, of the velocity: they are not logged
-  bool quick;       // the vehicle file's rotors follow a command within a few rows (holds.h)
-  double slowest_N; // what a rotor gives that is taken to turn at ROTOR_SLOWEST_RADPS
-  bool by_speeds;   // the log has no commands, and rotor speeds that were measured stand for them: no lag
-  int bumps;        // points left out at the ceiling that it touches, or beside it,
-  double bump_s;    // and the time of the first one
+  double slowest_N;                      // what a rotor gives that is taken to turn at ROTOR_SLOWEST_RADPS
+  bool by_speeds; // the log has no commands, and rotor speeds that were measured stand for them: no lag
+  int bumps;      // points left out at the ceiling that it touches, or beside it,
+  double bump_s;  // and the time of the first one
   double *command_N[ROTORS];  // by sample, from `from`
   double *measured_N[ROTORS]; // by point, of measured rotor speeds beside commands; null: not logged
   lagged_t motors[GRID_MOTORS];

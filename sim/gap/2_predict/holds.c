@@ -6,35 +6,35 @@
 #include <stdlib.h>
 
 bool holds_known(const grid_t *g) {
-  return g->quick && !g->by_speeds && !g->flight->rows_are_means && !grid_is_slow(g);
+  return !g->by_speeds && !g->flight->rows_are_means && !grid_is_slow(g);
 }
 
-// Of one rotor: what its thrust has given up to the beginning of each sample, in newton times samples.
+// What the rotors' thrusts have given up to the beginning of each sample, in newton times samples. All rotors
+// side by side, here and below: of one alone each sample waits for the one before.
 typedef struct {
   const four_t *hold_N;
-  double *given;
-  int rotor;
+  four_t *given;
 } impulse_t;
 
 // At an instant among the samples first..last of a segment; what holds at its ends held before and behind.
-static double given_at(const impulse_t *p, int first, int last, double at) {
+WIDE_INLINE four_t given_at(const impulse_t *p, int first, int last, double at) {
   const int i = at < first ? first : at < last ? (int)at : last;
-  return p->given[i] + (at - i) * p->hold_N[i][p->rotor];
+  return p->given[i] + (at - i) * p->hold_N[i];
 }
 
-static void add_up(impulse_t *p, int samples) {
-  double sum = 0.0;
+static void add_up(const impulse_t *p, int samples) {
+  four_t sum = {0.0};
   for (int i = 0; i < samples; i++) {
     p->given[i] = sum;
-    sum += p->hold_N[i][p->rotor];
+    sum += p->hold_N[i];
   }
 }
 
 // What a mean of a point's samples has been given, as its rates are one.
-static double given_to(const grid_t *g, const impulse_t *p, int first, int last, int i, double shift) {
-  double sum = 0.0;
+WIDE_INLINE four_t given_to(const grid_t *g, const impulse_t *p, int first, int last, int i, double shift) {
+  four_t sum = {0.0};
   for (int k = i; k < i + g->every; k++) sum += given_at(p, first, last, k - shift);
-  return sum / g->every;
+  return sum / (double)g->every;
 }
 
 static bool inside(const grid_t *g, int j) {
@@ -42,52 +42,78 @@ static bool inside(const grid_t *g, int j) {
   return j > 0 && j + 1 < g->n && p[j - 1].segment == p[j].segment && p[j + 1].segment == p[j].segment;
 }
 
-static double by_simpson(const double *v, int j) {
-  return (v[j - 1] + 4.0 * v[j] + v[j + 1]) / 6.0;
-}
-
 // (x[j-1] + 4 x[j] + x[j+1]) / 6 = d[j] between the ends of a segment, where x is 0; d becomes x.
-static void undo_simpson(const grid_t *g, double *d, double *room) {
+static void undo_simpson(const grid_t *g, four_t *d, double *room) {
   for (int j = 0; j < g->n; j++) {
     const bool in = inside(g, j), before = in && inside(g, j - 1);
     const double pivot = 4.0 - (before ? room[j - 1] : 0.0);
     room[j] = in ? 1.0 / pivot : 0.0;
-    d[j] = in ? (6.0 * d[j] - (before ? d[j - 1] : 0.0)) / pivot : 0.0;
+    if (before)
+      d[j] = (6.0 * d[j] - d[j - 1]) * room[j];
+    else
+      d[j] = in ? 6.0 * d[j] * room[j] : (four_t){0.0};
   }
   for (int j = g->n - 2; j > 0; j--)
     if (inside(g, j)) d[j] -= room[j] * d[j + 1];
 }
 
-// given: by point. What it and the thrusts at the points' instants grow by over the span, less what Simpson's
-// rule makes of the instants.
-static void fit_one(const grid_t *g, const double *given, int k, lagged_t *m, double *room) {
-  const double *const at_N = m->thrust_N[k], *const rise_Nps = m->rise_Nps[k];
-  for (int j = 0; j < g->n; j++) {
-    const bool in = inside(g, j);
-    m->later_N[k][j] = in ? (given[j + 1] - given[j - 1]) / (2.0 * g->every) - by_simpson(at_N, j) : 0.0;
-    m->later_rootNps[k][j] =
-        in ? (at_N[j + 1] - at_N[j - 1]) / (2.0 * g->period_s) - by_simpson(rise_Nps, j) : 0.0;
+// Of all rotors at a point: thrust; its root, and its rise over that, of which the integral is twice the
+// root.
+typedef struct {
+  four_t thrust_N, root, rise;
+} instant_t;
+
+static instant_t instant_of(const grid_t *g, const lagged_t *m, int j) {
+  instant_t at;
+  for (int k = 0; k < ROTORS; k++) {
+    at.thrust_N[k] = m->thrust_N[k][j];
+    at.root[k] = sqrt(fmax(at.thrust_N[k], g->slowest_N));
+    at.rise[k] = m->rise_Nps[k][j] / at.root[k];
   }
-  undo_simpson(g, m->later_N[k], room);
-  undo_simpson(g, m->later_rootNps[k], room);
-  for (int j = 0; j < g->n; j++) m->later_rootNps[k][j] /= sqrt(fmax(at_N[j], g->slowest_N));
+  return at;
+}
+
+// given: by point. What it and the roots of the thrusts grow by over the span, less what Simpson's rule makes
+// of three instants.
+static void find_later(const grid_t *g, const lagged_t *m, const four_t *given, four_t *later,
+                       four_t *later_root) {
+  instant_t before, here = instant_of(g, m, 0), next = here;
+  for (int j = 0; j < g->n; j++) {
+    before = here, here = next;
+    if (j + 1 < g->n) next = instant_of(g, m, j + 1);
+    later[j] = later_root[j] = (four_t){0.0};
+    if (!inside(g, j)) continue;
+    later[j] = (given[j + 1] - given[j - 1]) / (2.0 * g->every) -
+               (before.thrust_N + 4.0 * here.thrust_N + next.thrust_N) / 6.0;
+    later_root[j] =
+        (next.root - before.root) / g->period_s - (before.rise + 4.0 * here.rise + next.rise) / 6.0;
+  }
+}
+
+WIDE_COPIES static void give(const grid_t *g, const impulse_t *p, double shift, four_t *given) {
+  for (int j = 0, i = 0, first = 0, last = -1; j < g->n; j++, i += g->every) {
+    i = grid_begins(g, i);
+    if (i > last) first = i, last = grid_segment_end(g, i);
+    given[j] = given_to(g, p, first, last, i, shift);
+  }
 }
 
 bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors) {
   const size_t points = (size_t)g->n + 1;
-  double *const room = malloc((2 * points + (size_t)g->samples) * sizeof *room);
+  four_t *const room = aligned_alloc(sizeof(four_t), (4 * points + (size_t)g->samples) * sizeof *room);
   if (!room) return false;
-  double *const given = room + points;
-  for (int k = 0; k < ROTORS; k++) {
-    impulse_t p = {hold_N, given + points, k};
-    add_up(&p, g->samples);
-    for (int j = 0, i = 0, first = 0, last = -1; j < g->n; j++, i += g->every) {
-      i = grid_begins(g, i);
-      if (i > last) first = i, last = grid_segment_end(g, i);
-      given[j] = given_to(g, &p, first, last, i, shift);
+  four_t *const given = room, *const later = room + points, *const later_root = room + 2 * points;
+  const impulse_t p = {hold_N, room + 4 * points};
+  add_up(&p, g->samples);
+  give(g, &p, shift, given);
+  if (g->n > 0) find_later(g, motors, given, later, later_root);
+  undo_simpson(g, later, (double *)(room + 3 * points));
+  undo_simpson(g, later_root, (double *)(room + 3 * points));
+  for (int k = 0; k < ROTORS; k++)
+    for (int j = 0; j < g->n; j++) {
+      motors->later_N[k][j] = later[j][k];
+      motors->later_rootNps[k][j] = later_root[j][k];
     }
-    fit_one(g, given, k, motors, room);
-  }
   free(room);
   return true;
 }

@@ -2,13 +2,15 @@
 //
 // Turning (and an acceleration that is not logged) is a difference over the points before and after, and sees
 // the mean over all holds between. Of a model's thrusts at three instants Simpson's rule makes that mean, if
-// they are smooth; those of rotors that follow within a row are steps, and come half a row late.
+// they are smooth. Those of rotors that follow within a row are steps, and come half a row late; of slower
+// ones what spins them up steps all the same, and of a heading that steps a twenty-fifth of the turning had
+// no name.
 #ifndef SIM_GAP_2_PREDICT_HOLDS_H
 #define SIM_GAP_2_PREDICT_HOLDS_H
 
 #include "gap/2_predict/grid.h"
 
-// Rotors are quick, every command is logged, and holds until the next row.
+// Every command is logged, and holds until the next row.
 bool holds_known(const grid_t *g);
 
 // later_N and later_rootNps of motors whose thrusts are known. hold_N: means over the hold of every sample of

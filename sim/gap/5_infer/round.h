@@ -44,9 +44,9 @@ choice_t round_reshaped(const round_t *r, const choice_t *choice);
 
 // How strongly commands tilt the vehicle can be told, though control makes something of noise, too: on
 // nominal flights it looks like less than an inertia of typical size. Then mass and thrust scale may both be
-// named, which differ in nothing else. What the scale does to the turning an inertia about all axes does as
-// well: it is their rival then, and their errors hold half of the way to it. A real vehicle's log in which it
-// looks like one and a half (the brushless one's) was told as twice the thrust and 15 g.
+// named, which differ in nothing else. What the scale does to the turning an inertia about all axes does
+// nearly as well: it may be their rival then, and their errors hold half of the way to it. A real vehicle's
+// log in which it looks like one and a half (the brushless one's) was told as twice the thrust and 15 g.
 bool round_tells_turning(const round_t *r);
 
 // Whether the candidate may stand beside a choice: not another shape of the same effect, nor another one of
