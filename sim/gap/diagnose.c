@@ -112,7 +112,8 @@ static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, d
   return own_work(&asked, chosen, a->n, a->of, a->own, why);
 }
 
-// Nominal flights do not have it, and looks do not begin with it.
+// Nominal flights do not have it, and looks do not begin with it. A slope of the thrust may have stood for an
+// inertia, which a first look does not take.
 static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t *chosen, why_t *why) {
   answers_t a;
   TRY(find_own_work(job, chosen, d, &a, why));
@@ -121,7 +122,7 @@ static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t 
     chosen_drop(chosen, a.of[k]);
     chosen_drop(&d->before, a.of[k]);
   }
-  return DONE;
+  return both_ways_take(chosen, &d->candidates, &d->fit, job->model, why);
 }
 
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with

@@ -147,6 +147,12 @@ TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {
   CHECK(set.names == 2 && users_exact(&set)); // the sensor is tilted or errs: either is right
 }
 
+// A first look takes none, and finds a flatter thrust, which control makes as well: nominal flights without
+// either were shaken by all that the inertia does.
+TEST(users_logs_are_given_an_inertia_for_which_a_slope_stood) {
+  answers(USERS_SORTS, 46425, "inertia");
+}
+
 // Feedback could have made the lag, and the delay in its place fits far worse: either is told.
 TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
   static const struct {
