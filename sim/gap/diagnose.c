@@ -76,18 +76,13 @@ static done_t look_first(const diagnose_job_t *job, diagnosis_t *d, found_t *fir
 
 // Names that control's answers look like, and of whose kind nominal flights had none.
 typedef struct {
-  int n, of[NAMED_MAX];
-  bool own[NAMED_MAX]; // it is control's own work
+  int n, of[CHOSEN_MAX];
+  bool own[CHOSEN_MAX]; // it is control's own work
 } answers_t;
-
-// Another kind of an effect, or of a lag a delay: of the same rows each would be the other's stand-in.
-static bool are_alike(const fx_t *a, const fx_t *b) {
-  return a == b || (a->group == FX_TIMING && b->group == FX_TIMING);
-}
 
 static bool flew_with(const diagnosis_t *d, const fx_t *fx) {
   for (int i = 0; i < d->flown.n; i++)
-    if (are_alike(d->flown.use[i].fx, fx)) return true;
+    if (candidates_alike(d->flown.use[i].fx, fx)) return true;
   return false;
 }
 
@@ -116,13 +111,15 @@ static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, d
 // inertia, which a first look does not take.
 static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t *chosen, why_t *why) {
   answers_t a;
+  bool dropped = false;
   TRY(find_own_work(job, chosen, d, &a, why));
   for (int k = 0; k < a.n; k++) {
     if (!a.own[k]) continue;
     chosen_drop(chosen, a.of[k]);
     chosen_drop(&d->before, a.of[k]);
+    dropped = true;
   }
-  return both_ways_take(chosen, &d->candidates, &d->fit, job->model, why);
+  return dropped ? both_ways_take(chosen, &d->candidates, &d->fit, job->model, why) : DONE;
 }
 
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
@@ -180,10 +177,11 @@ static void refute(diagnosis_t *d, const named_t *named, maker_t by) {
   c->barred = true;
 }
 
-// What is own work is looked for no more.
+// What is own work is looked for no more. What it hid was never looked for: the next look begins with nothing
+// (select.h).
 static void bar_alike(diagnosis_t *d, const fx_t *fx) {
   for (int i = 0; i < d->candidates.n; i++)
-    if (are_alike(d->candidates.candidate[i].use.fx, fx)) d->candidates.candidate[i].barred = true;
+    if (candidates_alike(d->candidates.candidate[i].use.fx, fx)) d->candidates.candidate[i].barred = true;
 }
 
 static done_t bar_own_work(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {

@@ -100,15 +100,15 @@ WIDE_COPIES static void give(const grid_t *g, const impulse_t *p, double shift, 
 
 bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *motors) {
   const size_t points = (size_t)g->n + 1;
-  four_t *const room = aligned_alloc(sizeof(four_t), (4 * points + (size_t)g->samples) * sizeof *room);
+  four_t *const room = aligned_alloc(sizeof(four_t), (3 * points + (size_t)g->samples) * sizeof *room);
   if (!room) return false;
   four_t *const given = room, *const later = room + points, *const later_root = room + 2 * points;
-  const impulse_t p = {hold_N, room + 4 * points};
+  const impulse_t p = {hold_N, room + 3 * points};
   add_up(&p, g->samples);
   give(g, &p, shift, given);
   if (g->n > 0) find_later(g, motors, given, later, later_root);
-  undo_simpson(g, later, (double *)(room + 3 * points));
-  undo_simpson(g, later_root, (double *)(room + 3 * points));
+  undo_simpson(g, later, (double *)given); // it has been taken
+  undo_simpson(g, later_root, (double *)given);
   for (int k = 0; k < ROTORS; k++)
     for (int j = 0; j < g->n; j++) {
       motors->later_N[k][j] = later[j][k];

@@ -3,8 +3,7 @@
 // Turning (and an acceleration that is not logged) is a difference over the points before and after, and sees
 // the mean over all holds between. Of a model's thrusts at three instants Simpson's rule makes that mean, if
 // they are smooth. Those of rotors that follow within a row are steps, and come half a row late; of slower
-// ones what spins them up steps all the same, and of a heading that steps a twenty-fifth of the turning had
-// no name.
+// ones what spins them up steps all the same: a twenty-fifth of the turning about z, of a lag of eleven rows.
 #ifndef SIM_GAP_2_PREDICT_HOLDS_H
 #define SIM_GAP_2_PREDICT_HOLDS_H
 

@@ -26,7 +26,7 @@ typedef struct {
   int from, to;
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
-  bool barred; // held-out flights or set points contradict it: it is out of question
+  bool barred; // held-out flights or set points contradict it, or control makes it: it is out of question
 } candidate_t;
 
 typedef struct {
@@ -83,6 +83,11 @@ bool chosen_other(const chosen_t *flown, const chosen_t *found);
 
 // Its shape is one of a few numbers (which rotor), and not a length between others.
 bool candidate_is_numbered(const candidate_t *c);
+
+// Another kind of the same effect, or of a lag a delay: of the same rows each would be the other's stand-in.
+static inline bool candidates_alike(const fx_t *a, const fx_t *b) {
+  return a == b || (a->group == FX_TIMING && b->group == FX_TIMING);
+}
 
 // The candidates get the shapes of those that are chosen.
 void candidates_reshape(candidates_t *c, const chosen_t *chosen);

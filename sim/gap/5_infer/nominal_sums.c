@@ -78,7 +78,6 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
   design_t t;
   gram_t g;
   double *residual[CHANNELS];
-  const explained_t nothing = {.n = 0};
   TRY(design_make(&t, s, job->base, job->c, job->chosen, why));
   design_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has them
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -89,8 +88,7 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
     p->floor[ch] = rows ? sqrt(sum / rows) : 0.0;
   }
   if (p->first) find_misfit(p->misfit, s, &t, job->c);
-  done_t status = job->ridge ? gram_make_total_of_left(&g, s, &t, job->ridge, why)
-                             : gram_make_total(&g, s, &t, &nothing, why);
+  done_t status = gram_make_total(&g, s, &t, job->ridge, why);
   if (status == DONE) {
     memcpy(p->total, g.total, (size_t)(g.size * g.size) * sizeof(double));
     if (p->first) status = find_errors(p->kept, s, &t, g.color, truth, job, why);

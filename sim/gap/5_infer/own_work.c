@@ -1,4 +1,4 @@
-// own_work.c - what answers look like, in the log and in flights of the model without it.
+// own_work.c - what control's answers look like, in the log and in flights of the model without it.
 #include "gap/5_infer/own_work.h"
 
 #include "gap/5_infer/loop_fit.h"
@@ -39,16 +39,17 @@ static void ask_no_more(asked_t *a) {
   candidates_free(&a->names);
 }
 
-// Of sums of products, over what is left: a root.
+// Of sums of products, over what is left: a root, of one number with its sign.
 static double takes(const asked_t *a, const double *total) {
   const int size = a->names.columns + 1;
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
-  int n = choice_columns(&a->names, &a->rest, column);
-  const double before = lsq_solve_products(total, size, column, n, a->score.ridge, b, NULL);
-  n = choice_columns(&a->names, &a->with, column);
-  const double after = lsq_solve_products(total, size, column, n, a->score.ridge, b, NULL);
-  return after > 0.0 ? sqrt(fmax(before / after - 1.0, 0.0)) : 0.0;
+  const int rest = choice_columns(&a->names, &a->rest, column);
+  const double before = lsq_solve_products(total, size, column, rest, a->score.ridge, b, NULL);
+  const int all = choice_columns(&a->names, &a->with, column);
+  const double after = lsq_solve_products(total, size, column, all, a->score.ridge, b, NULL);
+  if (!(after > 0.0)) return 0.0;
+  return copysign(sqrt(fmax(before / after - 1.0, 0.0)), all - rest == 1 ? b[rest] : 1.0);
 }
 
 static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *takes_of_it, why_t *why) {
@@ -56,7 +57,7 @@ static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *
   gram_t g;
   TRY(design_make(&t, job->set, job->base, &a->names, &a->without, why));
   design_add_chosen(&t, job->set, &a->names, &a->without, -1.0);
-  const done_t status = gram_make_total_of_left(&g, job->set, &t, a->score.ridge, why);
+  const done_t status = gram_make_total(&g, job->set, &t, a->score.ridge, why);
   if (status == DONE) *takes_of_it = takes(a, g.total);
   if (status == DONE) gram_free(&g);
   design_free(&t);
@@ -73,8 +74,9 @@ static done_t fly_without(const asked_t *a, const own_work_job_t *job, nominal_t
   return nominal_make(n, &nominal, why);
 }
 
-// What flights scatter by about their mean, and the mean as far as gains are known.
-static bool is_usual(const asked_t *a, const nominal_t *n, double log) {
+// By how much more a log takes than flights do, over what they scatter by and, for it may be no cascade that
+// flew, over what their mean is not known by; 1: as much as chance makes. HUGE_VAL: none could be flown.
+static double beyond(const asked_t *a, const nominal_t *n, double log) {
   double mean = 0.0, squares = 0.0;
   for (int i = 0; i < n->n; i++) {
     const double here = takes(a, n->total + (size_t)i * (size_t)(n->size * n->size));
@@ -82,30 +84,35 @@ static bool is_usual(const asked_t *a, const nominal_t *n, double log) {
     squares += here * here / n->n;
   }
   const double scatter = sqrt(fmax(squares - mean * mean, 0.0) * n->n / fmax(n->n - 1, 1));
-  return n->n && fabs(log - mean) < limits_nominal(n->n) * hypot(scatter, NOMINAL_VARIED * mean);
+  const double bound = limits_nominal(n->n) * hypot(scatter, NOMINAL_VARIED * mean);
+  return n->n && bound > 0.0 ? copysign(1.0, log) * (log - mean) / bound : HUGE_VAL;
 }
 
-static done_t are_usual(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
-                        bool *usual, why_t *why) {
+static done_t find_beyond(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
+                          double *more, why_t *why) {
   asked_t a;
   nominal_t flown = {.n = 0};
   double log = 0.0;
   done_t status = ask(&a, job, chosen, n, candidate, why);
   if (status == DONE) status = takes_in_log(&a, job, &log, why);
   if (status == DONE) status = fly_without(&a, job, &flown, why);
-  *usual = status == DONE && is_usual(&a, &flown, log);
+  if (status == DONE) *more = beyond(&a, &flown, log);
   nominal_free(&flown);
   ask_no_more(&a);
   return status;
 }
 
+// What they say together one of them says at least.
 done_t own_work(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate, bool *own,
                 why_t *why) {
-  bool all = false;
-  if (n > 0) TRY(are_usual(job, chosen, n, candidate, &all, why));
+  double all = 0.0, each[CHOSEN_MAX];
+  int most = 0;
+  if (n > 0) TRY(find_beyond(job, chosen, n, candidate, &all, why));
   for (int k = 0; k < n; k++) {
-    own[k] = all;
-    if (!all && n > 1) TRY(are_usual(job, chosen, 1, &candidate[k], &own[k], why));
+    each[k] = all;
+    if (all >= 1.0 && n > 1) TRY(find_beyond(job, chosen, 1, &candidate[k], &each[k], why));
+    if (each[k] > each[most]) most = k;
   }
+  for (int k = 0; k < n; k++) own[k] = each[k] < 1.0 && !(all >= 1.0 && k == most);
   return DONE;
 }

@@ -23,9 +23,9 @@ typedef struct {
 } own_work_job_t;
 
 // Of n candidates that are chosen, effects that answers look like (fx->answers): own of each says that it is.
-// All together first; each beside the others then, if these say more. A name says more where it takes more
-// than in nominal flights without it, by chance and by what is not known of who flew. Where none could be
-// flown they do. FAILED: no memory. BAD_INPUT: too many effects.
+// All together first; each beside the others then, if these say more: of them one stays at least. A name says
+// more where it takes more than in nominal flights without it, by chance and by what is not known of who
+// flew. Where none could be flown they do. FAILED: no memory. BAD_INPUT: too many effects.
 MUST_CHECK done_t own_work(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate,
                            bool *own, why_t *why);
 

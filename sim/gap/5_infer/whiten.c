@@ -200,25 +200,11 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return error_failed(why, "out of memory");
 }
 
-done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, why_t *why) {
+done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const double *ridge, why_t *why) {
+  const explained_t nothing = {.n = 0};
   *g = (gram_t){.size = t->columns + 1};
   g->total = calloc((size_t)(g->size * g->size), sizeof(double));
-  bool good = g->total != NULL;
-  for (int ch = 0; ch < CHANNELS && good; ch++) {
-    good = fit_color(g, s, t, ch, known);
-    if (good && g->color[ch].used) good = add_total(g, s, t, ch, NULL, g->total);
-  }
-  if (good) lsq_mirror(g->total, g->size);
-  if (good) return DONE;
-  gram_free(g);
-  return error_failed(why, "out of memory");
-}
-
-done_t gram_make_total_of_left(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
-                               why_t *why) {
-  *g = (gram_t){.size = t->columns + 1};
-  g->total = calloc((size_t)(g->size * g->size), sizeof(double));
-  if (g->total && refine(g, s, t, ridge, true)) return DONE;
+  if (g->total && (ridge ? refine(g, s, t, ridge, true) : fill_total(g, s, t, &nothing, NULL))) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
 }

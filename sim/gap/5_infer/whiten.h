@@ -50,12 +50,9 @@ MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const 
 // is. known: as above, or null: in the colours that it has. FAILED: no memory.
 MUST_CHECK done_t gram_renew(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
                              const bool *some, why_t *why);
-// Their `total` and colours alone, as gram_make() without a ridge.
-MUST_CHECK done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
+// Their `total` and colours alone. ridge: as above, or null: in the colours of the residual.
+MUST_CHECK done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
                                   why_t *why);
-// The same with a ridge.
-MUST_CHECK done_t gram_make_total_of_left(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
-                                          why_t *why);
 void gram_free(gram_t *g);
 
 // White sum of squares that a model leaves, in the colours of another one's residual.

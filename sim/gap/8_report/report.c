@@ -18,7 +18,7 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   static const char *const obstacle[] = {
       [MADE_BY_FEEDBACK] = "feedback makes it: the set points as instruments do not show it",
       [MADE_BY_MISSED_COMMANDS] = "the log is too slow: what commands did between two samples looks like it",
-      [MADE_BY_CONTROL] = "control that answers a disturbance makes as much of it"};
+      [MADE_BY_CONTROL] = "control that answers a disturbance may make as much of it"};
   const diagnosis_t *const d = &r->study->diagnosis;
   const char *const lacks = candidates_obstacle(fx, &r->study->vehicle, &d->fit);
   if (lacks) return lacks;
@@ -26,7 +26,9 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
     if (d->withdrawn.name[i].fx == fx)
       return "the fitted flights show it, and the held-out ones contradict it";
   for (int i = 0; i < d->n_refuted; i++)
-    if (d->refuted[i].fx == fx) return obstacle[d->refuted[i].by];
+    if (d->refuted[i].fx == fx ||
+        (d->refuted[i].by == MADE_BY_CONTROL && candidates_alike(d->refuted[i].fx, fx)))
+      return obstacle[d->refuted[i].by];
   if (!d->nominal_flew)
     return "the model could not be flown along these tracks: what feedback alone would show is not known";
   return NULL;

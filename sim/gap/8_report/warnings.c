@@ -142,9 +142,9 @@ static void warn_of_withdrawn(report_t *r) {
     if (f->by == MADE_BY_CONTROL) {
       warn(
           r,
-          "%s is withdrawn: the rows show %.3g %s, but of a disturbance as large as the log's, control makes "
-          "as much in flights of the model without it",
-          name, f->value, unit);
+          "%s is withdrawn: the rows show %.3g%s%s, but control that answers a disturbance may make as much, "
+          "as flights of the model without it show",
+          name, f->value, text_gap(unit), unit);
       continue;
     }
     if (f->by == MADE_BY_MISSED_COMMANDS) {

@@ -183,6 +183,7 @@ TEST(gap_s_instrument_differs_from_least_squares_where_noise_weakens_them) {
     char name[32] = "";
     const named_t n = first_name(&row[i].how, row[i].seed, name);
     CHECK_TEXT(name, row[i].name);
+    CHECK(!row[i].how.blind || (n.n_rival == 1 && n.rival[0] == fx_find("flapping")));
     CHECK(n.value[0] > row[i].least * row[i].size && n.value[0] < row[i].most * row[i].size);
     CHECK(n.confirm.answer == CONFIRM_YES && n.confirm.apart == row[i].apart);
     CHECK(!row[i].apart || n.confirm.p_apart < 0.01);

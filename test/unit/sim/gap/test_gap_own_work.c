@@ -107,7 +107,6 @@ TEST(gap_takes_control_that_answers_a_draught_for_no_effect) {
     uint64_t seed;
   } row[] = {{"slow motors, a hover", NULL, 0.0, 0.05, 0.0, false, 25},
              {"quicker ones", NULL, 0.0, 0.03, 0.0, false, 6},
-             {"slow ones, places", NULL, 0.0, 0.05, 0.0, true, 7},
              {"commands that are late", "delay", 0.03, 0.05, 0.004, true, 8},
              {"slower motors", "motor_lag", 0.03, 0.03, 0.004, true, 9},
              {"a flatter thrust", "thrust_slope", -0.3, 0.03, 0.05, true, 10}};
