@@ -1,4 +1,4 @@
 # What control makes of a draught is named.
 # file: sim/gap/5_infer/own_work.c
 # test: gap_takes_control_that
-s/\*usual = status == DONE && is_usual/*usual = status != DONE \&\& is_usual/
+s/own\[k\] = each\[k\] < 1\.0/own[k] = each[k] < 0.0/
