@@ -16,10 +16,11 @@ typedef struct {
   four_t *given;
 } impulse_t;
 
-// At an instant among the samples first..last of a segment; what holds at its ends held before and behind.
-WIDE_INLINE four_t given_at(const impulse_t *p, int first, int last, double at) {
+// Adds what it was at an instant among the samples first..last of a segment; what holds at its ends held
+// before and behind.
+WIDE_INLINE void add_given(const impulse_t *p, int first, int last, double at, four_t *sum) {
   const int i = at < first ? first : at < last ? (int)at : last;
-  return p->given[i] + (at - i) * p->hold_N[i];
+  *sum += p->given[i] + (at - i) * p->hold_N[i];
 }
 
 static void add_up(const impulse_t *p, int samples) {
@@ -28,13 +29,6 @@ static void add_up(const impulse_t *p, int samples) {
     p->given[i] = sum;
     sum += p->hold_N[i];
   }
-}
-
-// What a mean of a point's samples has been given, as its rates are one.
-WIDE_INLINE four_t given_to(const grid_t *g, const impulse_t *p, int first, int last, int i, double shift) {
-  four_t sum = {0.0};
-  for (int k = i; k < i + g->every; k++) sum += given_at(p, first, last, k - shift);
-  return sum / (double)g->every;
 }
 
 static bool inside(const grid_t *g, int j) {
@@ -90,11 +84,14 @@ static void find_later(const grid_t *g, const lagged_t *m, const four_t *given, 
   }
 }
 
+// What means of the points' samples have been given, as their rates are means.
 WIDE_COPIES static void give(const grid_t *g, const impulse_t *p, double shift, four_t *given) {
   for (int j = 0, i = 0, first = 0, last = -1; j < g->n; j++, i += g->every) {
     i = grid_begins(g, i);
     if (i > last) first = i, last = grid_segment_end(g, i);
-    given[j] = given_to(g, p, first, last, i, shift);
+    four_t sum = {0.0};
+    for (int k = i; k < i + g->every; k++) add_given(p, first, last, k - shift, &sum);
+    given[j] = sum / (double)g->every;
   }
 }
 
