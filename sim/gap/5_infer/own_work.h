@@ -1,12 +1,13 @@
-// own_work.h - whether a lag or a delay is control's own work: an answer to what disturbs the vehicle.
+// own_work.h - whether a delay, a lag or a slope of the thrust is control's own work: its answer to what
+// disturbs the vehicle.
 //
-// Who answers a moment that comes and goes is late by his way through the motors and the body. In a calm
-// flight that holds little else it looks as if commands acted later than they do: least squares of a closed
-// loop err where the disturbance has a colour (Ljung, System Identification, 1999, 13.4). In nominal flights
-// with such a delay this is not seen: there it is the model's. So the model is flown without it, disturbed by
-// as much as the log leaves then, and both are asked alike: what does the straight line about no delay take,
-// over what it leaves, beside the other names? A real one leaves hardly anything in a log, and much in
-// flights that are disturbed by all that it explains there.
+// Who answers a moment that comes and goes is late by his way through motors and body, and gives less than
+// all of it. In a calm flight that holds little else it looks as if commands acted late, or less: least
+// squares of a closed loop err where the disturbance has a colour (Ljung, System Identification, 1999, 13.4).
+// Nominal flights that have such a name do not show it: there it is the model's. So the model is flown
+// without it, disturbed by as much as the log leaves then, and both are asked alike: what does the straight
+// line about nothing take, over what it leaves, beside the other names? A real one leaves hardly anything in
+// a log, and much in flights that are disturbed by all that it explains there.
 #ifndef SIM_GAP_5_INFER_OWN_WORK_H
 #define SIM_GAP_5_INFER_OWN_WORK_H
 

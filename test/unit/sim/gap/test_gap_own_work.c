@@ -1,4 +1,4 @@
-// test_gap_own_work.c - a lag or a delay that is control's answer to what disturbs the vehicle.
+// test_gap_own_work.c - a delay, a lag or a slope of the thrust that is control's answer to a disturbance.
 #include "body/body.h"
 #include "exam/flights.h"
 #include "gap/diagnose.h"
