@@ -170,6 +170,10 @@ typedef struct {
 // Of FX_TIMING one at most is named; of FX_WEIGHT, too, unless the log's turning tells them apart.
 typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_group_t;
 
+// By what its numbers multiply the turning that is predicted. INERTIA: number k by 1 / (1 + number) about
+// axis k; TORQUE: number 0 by 1 + number about z.
+typedef enum { FX_SCALES_NOTHING, FX_SCALES_INERTIA, FX_SCALES_TORQUE } fx_scales_t;
+
 // What the vehicle file and the log must say before the workflow looks for an effect.
 enum {
   FX_NEEDS_CEILING = 1 << 0,  // the vehicle file: ceiling_m
@@ -180,8 +184,7 @@ enum {
   FX_NEEDS_VELOCITY = 1 << 5,
   FX_NEEDS_ATTITUDE = 1 << 6,
   FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
-  FX_NEEDS_COMMANDS = 1 << 8,     // all that attitude control gives
-  FX_NEEDS_TURNING = 1 << 9,      // of some axis; without, it is nothing but a push
+  FX_NEEDS_TURNING = 1 << 8,      // of some axis; without, it is nothing but a push
 };
 
 // What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
@@ -211,9 +214,7 @@ typedef struct {
   // What control gives in answer to a disturbance, late and by its own gains, looks like it: a name of it has
   // to say more than such control (gap/5_infer/own_work.h).
   bool answers;
-  // Its sizes 0, 1, 2 scale what is predicted about x, y and z: a prediction from commands of which a log
-  // misses some looks like it.
-  bool scales_turning;
+  fx_scales_t scales; // the turning: a prediction from commands of which a log misses some looks like it
   // At the weight it does nothing: where a log misses commands the scale of the turning that is in it is left
   // out, and the forces tell it.
   bool about_weight;

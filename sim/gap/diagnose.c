@@ -275,9 +275,9 @@ static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barr
     const named_t *const named = &d->found.named[i];
     candidate_t *const c = &d->candidates.candidate[named->candidate];
     const bool lifts = candidates_by_turning(c->use.fx, &d->fit);
-    if (!(c->use.fx->scales_turning || lifts) || d->n_refuted >= NAMED_MAX) continue;
+    if (!(c->use.fx->scales || lifts) || d->n_refuted >= NAMED_MAX) continue;
     bool stands = false;
-    if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, named, &stands, why));
+    if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, c->use.fx, named, &stands, why));
     if (stands) continue;
     refute(d, named, MADE_BY_MISSED_COMMANDS);
     *barred = true;

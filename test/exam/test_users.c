@@ -112,6 +112,16 @@ TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_command
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
+// About z an inertia turns it as another torque does; where the log misses commands, too.
+TEST(users_logs_that_miss_commands_are_given_the_torque_that_is_another) {
+  static const struct {
+    unsigned long seed;
+    const char *answer;
+  } row[] = {
+      {47602, "torque_ratio"}, {47608, "torque_ratio"}, {47606, "torque_ratio"}, {47610, "torque_ratio"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) answers(USERS_TORQUE, row[i].seed, row[i].answer);
+}
+
 // They show it at one time or two, and constants do nearly as well; but the little that is seen beside says
 // the same, and in the channels that it does not act in constants say nothing of it.
 TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {

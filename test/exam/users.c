@@ -105,6 +105,15 @@ static void hide_from_file(users_set_t *set, other_job_t *job, dice_t *d) {
     job->known.hub_kg *= dice_share(d) < 0.5 ? 0.5 : 2.0;
 }
 
+static void hide_torque(users_set_t *set, other_job_t *job, dice_t *d) {
+  job->habits.every = 5;
+  job->truth = job->known;
+  set->n = 1;
+  set->hidden[0] = "torque_ratio";
+  set->times[0] = dice_share(d) < 0.5 ? 1.5 : 1.0 / 1.5;
+  job->truth.torque_m *= set->times[0];
+}
+
 static void soil(users_set_t *set, other_job_t *job, dice_t *d) {
   static const char *const cause[DIRTS] = {
       [DIRT_EXCHANGED] = "cmd", [DIRT_HALF] = "cmd2",     [DIRT_GYRO] = "column q",      [DIRT_VOLT] = "volt",
@@ -205,10 +214,10 @@ static done_t answer(const paper_t *p, int flights, unsigned long seed, users_se
   return status;
 }
 
-static void (*const how[USERS_KINDS])(users_set_t *, other_job_t *, dice_t *) = {
+static void (*const how[USERS_ALL])(users_set_t *, other_job_t *, dice_t *) = {
     [USERS_HABITS] = hide,         [USERS_LADDER] = hide_in_ladder, [USERS_ALONE] = hide_alone,
     [USERS_FILE] = hide_from_file, [USERS_OUTSIDE] = hide_outside,  [USERS_DIRTY] = soil,
-    [USERS_SORTS] = hide,
+    [USERS_SORTS] = hide,          [USERS_TORQUE] = hide_torque,
 };
 
 done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t *why) {

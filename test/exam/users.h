@@ -16,7 +16,10 @@ typedef enum {
   USERS_OUTSIDE, // what no library has
   USERS_DIRTY,   // logs and columns files with a fault
   USERS_SORTS,   // another simulator's; one flight up and down, one sideways, one of all
-  USERS_KINDS
+  USERS_KINDS,
+  USERS_TORQUE =
+      USERS_KINDS, // of tests alone: the rotors' torque is two thirds, or half as much again; 100 Hz
+  USERS_ALL
 } users_kind_t;
 
 #define USERS_HIDDEN 2

@@ -7,9 +7,9 @@
 
 #define SETS_MAX 4000
 
-static const char *const KIND[USERS_KINDS] = {
-    "another simulator",   "ladder", "one flight",       "wrong file",
-    "outside the library", "dirty",  "one sort a flight"};
+static const char *const KIND[USERS_ALL] = {
+    "another simulator",   "ladder", "one flight",        "wrong file",
+    "outside the library", "dirty",  "one sort a flight", "torque"};
 
 static void print_set(unsigned long seed, const users_set_t *s) {
   printf("%lu %s:", seed, KIND[s->kind]);
@@ -83,7 +83,7 @@ int users_main(int argc, char **argv) {
   static users_set_t sets[SETS_MAX];
   const unsigned long first = argc > 1 ? strtoul(argv[1], NULL, 10) : 1;
   const int n = argc > 2 ? atoi(argv[2]) : 20, only = argc > 4 ? atoi(argv[4]) : -1;
-  if (n < 1 || n > SETS_MAX || only >= USERS_KINDS) return 2;
+  if (n < 1 || n > SETS_MAX || only >= USERS_ALL) return 2;
   bool failed = false;
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < n; i++) {

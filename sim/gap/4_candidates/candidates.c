@@ -19,12 +19,6 @@ bool candidates_slow(const set_t *s) {
   return false;
 }
 
-static bool every_command(const set_t *s) {
-  bool every = true;
-  for (int f = 0; f < s->n_grid; f++) every = every && !grid_misses_commands(&s->grid[f]);
-  return every;
-}
-
 bool candidates_by_turning(const fx_t *fx, const set_t *s) {
   return fx->scales_thrust && !residual_has(s, CH_FZ);
 }
@@ -50,7 +44,6 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
       {FX_NEEDS_VOLTAGE, g->has_vbat, "the log has no battery voltage"},
       {FX_NEEDS_VELOCITY, g->has_velocity, "the log has no velocity"},
       {FX_NEEDS_ACCELERATION, g->has_force && !g->acceleration_made, "the log has no acceleration"},
-      {FX_NEEDS_COMMANDS, every_command(s), "the log misses commands of the attitude control"},
       {FX_NEEDS_ATTITUDE, g->has_attitude, "the log has no attitude"},
       {FX_NEEDS_TURNING, turning, "no turning is compared"},
   };

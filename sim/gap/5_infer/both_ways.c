@@ -3,6 +3,10 @@
 
 #include <math.h>
 
+typedef struct {
+  double k, stderr_;
+} inertia_t;
+
 static double mean(const rows_t *r, const double *v) {
   double sum = 0.0;
   int n = 0;
@@ -55,17 +59,29 @@ static double error(const both_t *b, double stderr_) {
   return hypot(stderr_, 0.5 * (b->pp / b->yp - b->yp / b->yy));
 }
 
+// The part of either that does not go with the other.
+static double unlike(const both_t *b) {
+  return 1.0 - b->yp * b->yp / (b->yy * b->pp);
+}
+
+// The end that is nearer to 0, where it is sure.
+static double sure_end(const both_t *b, double stderr_) {
+  const double forward = b->pp / b->yp - 1.0;
+  if (reverse(b) > SCORE_ERRORS * error(b, stderr_)) return reverse(b);
+  return forward < -SCORE_ERRORS * hypot(stderr_, unlike(b)) ? forward : 0.0;
+}
+
 double both_ways_least(const both_t *b) {
   if (!(b->yp > 0.0)) return 0.0;
   const double left = fmax(b->pp - b->yp * b->yp / b->yy, 0.0);
-  const double stderr_ = SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0));
-  return reverse(b) > SCORE_ERRORS * error(b, stderr_) ? reverse(b) : 0.0;
+  return sure_end(b, SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0)));
 }
 
 double both_ways_agree(const both_t *b, double k, double stderr_) {
-  if (!(k > 0.0 && b->yp > 0.0)) return 0.0;
-  const double least = reverse(b), off = SCORE_ERRORS * error(b, stderr_);
-  return least > off && k > least - off ? least : 0.0;
+  if (!(b->yp > 0.0)) return 0.0;
+  const double least = sure_end(b, stderr_);
+  const double within = fabs(least) - SCORE_ERRORS * error(b, stderr_);
+  return least * k > 0.0 && fabs(k) > within ? least : 0.0;
 }
 
 // about[k]: of the axes, what a choice predicts; n 0 where that cannot be told.
@@ -89,15 +105,25 @@ static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_
   return status;
 }
 
-done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named, bool *stands,
-                 why_t *why) {
+// A torque that is 1 + t times as large turns it about z as an inertia of 1 / (1 + t).
+static inertia_t as_inertia(const fx_t *fx, const named_t *named, int axis) {
+  if (fx->scales == FX_SCALES_INERTIA) return (inertia_t){named->value[axis], named->stderr_[axis]};
+  const double scale = 1.0 + named->value[0];
+  return axis == 2 ? (inertia_t){1.0 / scale - 1.0, named->stderr_[0] / (scale * scale)}
+                   : (inertia_t){0.0, 0.0};
+}
+
+done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx_t *fx, const named_t *named,
+                 bool *stands, why_t *why) {
   chosen_t others = *chosen;
   both_t about[3];
   chosen_drop(&others, named->candidate);
   TRY(look(about, s, base, &others, why));
   *stands = false;
-  for (int k = 0; k < 3; k++)
-    *stands = *stands || both_ways_agree(&about[k], named->value[k], named->stderr_[k]) != 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    const inertia_t told = as_inertia(fx, named, axis);
+    *stands = *stands || both_ways_agree(&about[axis], told.k, told.stderr_) != 0.0;
+  }
   return DONE;
 }
 
@@ -105,7 +131,7 @@ done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const m
   both_t about[3];
   int which = -1;
   for (int i = 0; i < c->n; i++)
-    if (c->candidate[i].use.fx->scales_turning && !c->candidate[i].barred) which = i;
+    if (c->candidate[i].use.fx->scales == FX_SCALES_INERTIA && !c->candidate[i].barred) which = i;
   if (which < 0 || chosen_use(chosen, which) || chosen->n >= NAMED_MAX) return DONE;
   TRY(look(about, s, base, chosen, why));
   double k[3];

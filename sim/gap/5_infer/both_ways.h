@@ -26,17 +26,19 @@ both_t both_ways_of(const rows_t *r, const double *measured, const double *resid
                     double *room);
 
 // Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
-// Returns the end that is nearer to 0 where it is beyond two of both errors; else 0. A k below 0 is never
-// borne out: a gyro's noise that is fed back makes commands that seem to turn the vehicle more than they do.
+// Of a k below 0 all that does not go with each other is: a gyro's noise that is fed back makes commands that
+// seem to turn the vehicle more than they do. Of turning s with noise v, y = s + v and p = s - c v, where
+// predicted by measured says k = -(1 + c) v / (s + v), in squares, and the part of both that is unlike is
+// never less. Returns the end that is nearer to 0 where it is beyond two of both errors; else 0.
 double both_ways_least(const both_t *b);
 
 // The same of a k that is named, with its standard error; 0 also where k is not within the interval.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 
-// named: chosen, of an effect that scales the turning (fx->scales_turning). stands: about one axis both ways
-// say that k is not 0. FAILED: no memory. BAD_INPUT: too many effects.
-MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const named_t *named,
-                            bool *stands, why_t *why);
+// named: chosen, of this effect, which scales the turning (fx->scales). stands: about one axis both ways say
+// that it does. FAILED: no memory. BAD_INPUT: too many effects.
+MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx_t *fx,
+                            const named_t *named, bool *stands, why_t *why);
 
 // Takes into a choice that has none what scales the turning, by what both ways say about each axis of what
 // the choice leaves, if they say it of one. FAILED, BAD_INPUT: as above.

@@ -106,7 +106,7 @@ bool round_tells_turning(const round_t *r) {
   if (!r->nominal || r->nominal->n == 0 || candidates_slow(r->s)) return false;
   for (int i = 0; i < r->c->n; i++) {
     const candidate_t *const c = &r->c->candidate[i];
-    if (!c->use.fx->scales_turning) continue;
+    if (c->use.fx->scales != FX_SCALES_INERTIA) continue;
     const choice_t with = choice_with(&nothing, i);
     double rms[FX_SIZE_MAX];
     score_nominal_rms(&r->score, &with, rms);

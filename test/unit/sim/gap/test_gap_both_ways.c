@@ -11,6 +11,7 @@
 
 typedef struct {
   double k, missed, noise; // sd of what the prediction and the gyro have of their own; the turning has 1
+  double back;             // so many times the gyro's noise control commands against it
   double slow;             // sd of a moment that control cancels: it is predicted, and nothing turns
   double manoeuvre;        // for half of every hundred rows it turns by up to so much, and not otherwise
 } turning_t;
@@ -24,9 +25,10 @@ static both_t rows_of(const turning_t *t, uint64_t seed, double *by_least_square
     const double turns =
         t->manoeuvre > 0.0 ? t->manoeuvre * fmax(sin(2.0 * PI / 100.0 * i), 0.0) : random_normal(r);
     slow = 0.98 * slow + 0.2 * t->slow * random_normal(r);
-    const double predicted = (1.0 + t->k) * turns + t->missed * random_normal(r) + slow;
+    const double missed = t->missed * random_normal(r), noise = t->noise * random_normal(r);
+    const double predicted = (1.0 + t->k) * turns + missed - t->back * noise + slow;
     follows[i] = i > 0;
-    measured[i] = turns + t->noise * random_normal(r);
+    measured[i] = turns + noise;
     residual[i] = measured[i] - predicted;
   }
   random_close(r);
@@ -47,7 +49,12 @@ TEST(gap_takes_for_inertia_only_what_measured_by_predicted_and_predicted_by_meas
       {"the same, some commands missed", {0.5, .missed = 0.7, .noise = 0.2}, true},
       {"the same, and a moment that control cancels", {0.5, .missed = 0.2, .slow = 3.0}, true},
       {"the same in slow manoeuvres, a gyro's noise", {0.5, .noise = 0.2, .manoeuvre = 3.0}, true},
-      {"a third less: so does noise that is fed back", {-0.33, .noise = 0.0}, false},
+      {"a third less", {-0.33, .noise = 0.0}, true},
+      {"the same, a gyro's noise", {-0.33, .noise = 0.2}, true},
+      {"the same, half of the commands missed", {-0.33, .missed = 0.7}, false},
+      {"half as much, and a gyro's noise of which half could be made", {-0.5, .noise = 0.7}, false},
+      {"nothing, a gyro's noise that is fed back", {0.0, .noise = 0.3, .back = 1.0}, false},
+      {"the same threefold", {0.0, .noise = 0.3, .back = 3.0}, false},
       {"the same, as much missed as told", {0.5, .missed = 1.5}, false}, // 0.5 to 2
       {"nothing", {0.0, .noise = 0.0}, false},
       {"nothing, a gyro's noise", {0.0, .noise = 0.3}, false},

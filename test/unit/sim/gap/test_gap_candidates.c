@@ -100,7 +100,7 @@ TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
        " body_drag climb_inflow flapping rotor_drag sidewall translational_lift "},
       {"attitude", attitude, FX_NEEDS_ATTITUDE, " wind "},
       {"acceleration", made_acceleration, FX_NEEDS_ACCELERATION, " accel_bias imu_misalignment "},
-      {"a quick log", quickness, FX_NEEDS_COMMANDS, " torque_ratio "},
+      {"a quick log", quickness, 0, ""},
       {"turning", turning, FX_NEEDS_TURNING, " motor_tilt "},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
