@@ -14,6 +14,7 @@ const fx_t fx_inertia = {
     .fly = "attitude doublets",
     .over = {"roll rate", "yaw rate"},
     .control_makes = 1,
+    .answers = true,
     .scales = FX_SCALES_INERTIA,
     .n_size = 3,
     .size = {{0, 0.01, 0, 0.0, FX_SAME}, {1, 0.01, 0, 0.0, FX_SAME}, {2, 0.01, 0, 0.0, FX_SAME}},

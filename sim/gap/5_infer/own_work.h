@@ -1,5 +1,5 @@
-// own_work.h - whether a delay, a lag or a slope of the thrust is control's own work: its answer to what
-// disturbs the vehicle.
+// own_work.h - whether a delay, a lag, an inertia or a slope of the thrust is control's own work: its answer
+// to what disturbs the vehicle.
 //
 // Who answers a moment that comes and goes is late by his way through motors and body, and gives less than
 // all of it. In a calm flight that holds little else it looks as if commands acted late, or less: least

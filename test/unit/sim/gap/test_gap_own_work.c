@@ -1,4 +1,4 @@
-// test_gap_own_work.c - a delay, a lag or a slope of the thrust that is control's answer to a disturbance.
+// test_gap_own_work.c - a delay, a lag, an inertia or a slope that is control's answer to a draught.
 #include "body/body.h"
 #include "exam/flights.h"
 #include "gap/diagnose.h"
@@ -107,6 +107,7 @@ TEST(gap_takes_control_that_answers_a_draught_for_no_effect) {
     uint64_t seed;
   } row[] = {{"slow motors, a hover", NULL, 0.0, 0.05, 0.0, false, 25},
              {"quicker ones", NULL, 0.0, 0.03, 0.0, false, 6},
+             {"slower ones, which seem to turn more", NULL, 0.0, 0.07, 0.0, false, 300},
              {"commands that are late", "delay", 0.03, 0.05, 0.004, true, 8},
              {"slower motors", "motor_lag", 0.03, 0.03, 0.004, true, 9},
              {"a flatter thrust", "thrust_slope", -0.3, 0.03, 0.05, true, 10}};
