@@ -253,12 +253,14 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   }
 }
 
-// A name that the set points refute is out of question: what it explained is looked at without it.
+// A name that the set points refute is out of question: what it explained is looked at without it. Where
+// rotor speeds were measured nothing else has a say in timing.
 static bool bar_refuted(diagnosis_t *d) {
   bool refuted = false;
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
+    if (d->timing.measured && named->candidate == d->timing.candidate) continue;
     if (d->candidates.candidate[named->candidate].barred) continue; // it is withdrawn already
     refute(d, named, MADE_BY_FEEDBACK);
     refuted = true;

@@ -30,3 +30,16 @@ void gap_track_free(gap_track_t *t) {
   set_free(&t->set);
   for (int i = 0; i < 2; i++) gap_flight_free(&t->flight[i]);
 }
+
+void gap_track_thin(gap_track_t *t, int every) {
+  for (int f = 0; f < 2; f++) {
+    gap_flight_t *const to = &t->flight[f];
+    to->n /= every;
+    to->rate_Hz /= every;
+    for (int i = 0; i < to->n; i++) {
+      to->t_s[i] = to->t_s[every * i];
+      for (int s = 0; s < SIG_COUNT; s++)
+        if (to->v[s]) to->v[s][i] = to->v[s][every * i];
+    }
+  }
+}

@@ -22,4 +22,7 @@ typedef struct {
 done_t gap_track_make(gap_track_t *t, const gap_track_job_t *job, why_t *why);
 void gap_track_free(gap_track_t *t);
 
+// Leaves one sample of so many of each flight.
+void gap_track_thin(gap_track_t *t, int every);
+
 #endif

@@ -190,9 +190,11 @@ static double best_lag(speeds_t *s, double *left) {
   return best;
 }
 
+// And every command is known that they follow: a lag takes the noise of commands of which a log misses some
+// out of what they predict.
 static bool all_measured(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
-    if (!s->grid[f].measured_N[ROTORS - 1]) return false;
+    if (!s->grid[f].measured_N[ROTORS - 1] || grid_misses_commands(&s->grid[f])) return false;
   return s->n_grid > 0;
 }
 

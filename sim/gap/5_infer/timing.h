@@ -1,5 +1,5 @@
 // timing.h - before the selection: a lag or a delay that is too long for a straight line, or that measured
-// rotor speeds show without a way round over the body.
+// rotor speeds show without a way round over the body, where the log has every command.
 #ifndef SIM_GAP_5_INFER_TIMING_H
 #define SIM_GAP_5_INFER_TIMING_H
 

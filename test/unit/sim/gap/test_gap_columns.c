@@ -8,16 +8,7 @@
 #define EVERY 10 // of the samples of 500 Hz
 
 static void thin(gap_track_t *t) {
-  for (int f = 0; f < 2; f++) {
-    gap_flight_t *const to = &t->flight[f];
-    to->n /= EVERY;
-    to->rate_Hz /= EVERY;
-    for (int i = 0; i < to->n; i++) {
-      to->t_s[i] = to->t_s[EVERY * i];
-      for (int s = 0; s < SIG_COUNT; s++)
-        if (to->v[s]) to->v[s][i] = to->v[s][EVERY * i];
-    }
-  }
+  gap_track_thin(t, EVERY);
 }
 
 static void thin_to_means(gap_track_t *t) {
