@@ -100,12 +100,12 @@ static const model_t *vehicle(void) {
   return &m;
 }
 
-static void values(double t_s, double att_s, double vel_s, double v[FC_COLUMNS]) {
+static void values(double t_s, double att_s, double vel_s, double place_s, double v[FC_COLUMNS]) {
   const model_t *const m = vehicle();
   double w[3];
   v[FC_TIME] = 1e3 * t_s;
   for (int k = 0; k < 3; k++) {
-    v[FC_X + k] = wave(k, vel_s, 0);
+    v[FC_X + k] = wave(k, place_s, 0);
     v[FC_VX + k] = wave(k, vel_s, 1);
   }
   force(t_s, &v[FC_AX]);
@@ -124,7 +124,7 @@ static void values(double t_s, double att_s, double vel_s, double v[FC_COLUMNS])
 }
 
 void flight_csv_values(double t_s, double v[FC_COLUMNS]) {
-  values(t_s, t_s, t_s, v);
+  values(t_s, t_s, t_s, t_s, v);
 }
 
 columns_t flight_csv_columns(void) {
@@ -174,7 +174,8 @@ size_t flight_csv_write(const flight_csv_t *f, char *text, size_t room) {
     const double t_s = dt_s * (same ? from : i);
     double v[FC_COLUMNS];
     const double stands_s = f->repeats_att ? dt_s * (i % f->repeats_att) : 0.0;
-    values(t_s, t_s - f->late_att_s - stands_s, t_s - f->late_vel_s, v);
+    values(t_s, t_s - f->late_att_s - stands_s, t_s - f->late_vel_s, t_s - f->late_vel_s - f->late_place_s,
+           v);
     if (f->late_cmd_s != 0.0) late_commands(t_s - f->late_cmd_s, v);
     spoil(f, t_s, v);
     bool first = true;

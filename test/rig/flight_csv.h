@@ -41,25 +41,26 @@ enum {
 
 // What is wrong with a log. Zero: nothing.
 typedef struct {
-  double dt_ms;       // 0: 10 ms
-  int rows;           // 0: 2000
-  double late_att_s;  // attitude and
-  double late_vel_s;  // velocity and position are late
-  double late_cmd_s;  // motor commands too
-  int repeats_att;    // the attitude comes every so many rows, and stands in between; 0: in each
-  int column;         // which columns: this one and
-  int more;           // so many behind it
-  double scale;       // 0: 1; times this ..
-  double offset;      // .. plus this,
-  double from_s;      // from here on,
-  double to_s;        // before here; 0: to the end
-  double hold_s;      // they stand still for so long from from_s on; 0: they do not
-  int gap_rows;       // rows missing from from_s on
-  int same_rows;      // rows behind from_s that all have its time
-  const char *cell;   // what stands in `column` instead, in every
-  int every;          // so many rows (0: all)
-  bool drop;          // `column` is not there
-  const char *rename; // its name
+  double dt_ms;        // 0: 10 ms
+  int rows;            // 0: 2000
+  double late_att_s;   // attitude and
+  double late_vel_s;   // velocity and position are late,
+  double late_place_s; // the position by so much more
+  double late_cmd_s;   // motor commands too
+  int repeats_att;     // the attitude comes every so many rows, and stands in between; 0: in each
+  int column;          // which columns: this one and
+  int more;            // so many behind it
+  double scale;        // 0: 1; times this ..
+  double offset;       // .. plus this,
+  double from_s;       // from here on,
+  double to_s;         // before here; 0: to the end
+  double hold_s;       // they stand still for so long from from_s on; 0: they do not
+  int gap_rows;        // rows missing from from_s on
+  int same_rows;       // rows behind from_s that all have its time
+  const char *cell;    // what stands in `column` instead, in every
+  int every;           // so many rows (0: all)
+  bool drop;           // `column` is not there
+  const char *rename;  // its name
 } flight_csv_t;
 
 // Writes the log into text; returns its size.

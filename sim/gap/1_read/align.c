@@ -71,7 +71,7 @@ const drive_t GAP_PUSH = {"velocity",
                           0.2,
                           0.1,
                           push};
-const drive_t GAP_GO = {"position", "moves", "velocity", PLACE | VELOCITY, 0, SIG_X, SIG_VX, 0,
+const drive_t GAP_GO = {"position", "moves", "velocity", PLACE | VELOCITY, PLACE, SIG_X, SIG_VX, 0,
                         0.3,        0.02,    go};
 
 int gap_drive_samples(const gap_flight_t *f, const drive_t *drive) {

@@ -40,6 +40,7 @@ typedef struct {
   // What the reader found and mended, for the report.
   double attitude_late_s; // taken out: so much did the attitude lag behind the gyro; 0: nothing to see
   double velocity_late_s; // ... velocity and position behind the accelerometer
+  double position_late_s; // ... then the position behind the velocity
   double floor_m;         // what z said where it stood before take-off, and is taken out; 0: nothing
   bool floor_known;       // the columns file, or the rows before take-off, say what z is on the floor
   long rows;              // of the log that were read

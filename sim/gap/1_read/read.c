@@ -221,6 +221,10 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         slow);
   TRY(align(f, raw, &rows->columns, &GAP_TURN, shift_s, &f->attitude_late_s, why));
   TRY(align(f, raw, &rows->columns, &GAP_PUSH, shift_s, &f->velocity_late_s, why));
+  // Of a filter that follows the place the velocity lags more. Where it did not have to be moved it may be
+  // the velocity that is late.
+  if (f->velocity_late_s != 0.0)
+    TRY(align(f, raw, &rows->columns, &GAP_GO, shift_s, &f->position_late_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
     return table_refuse(&rows->table, 0, -1, why,

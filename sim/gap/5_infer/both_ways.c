@@ -135,7 +135,7 @@ done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const m
   if (which < 0 || chosen_use(chosen, which) || chosen->n >= NAMED_MAX) return DONE;
   TRY(look(about, s, base, chosen, why));
   double k[3];
-  for (int i = 0; i < 3; i++) k[i] = both_ways_least(&about[i]);
+  for (int i = 0; i < 3; i++) k[i] = fmax(both_ways_least(&about[i]), 0.0);
   if (k[0] == 0.0 && k[1] == 0.0 && k[2] == 0.0) return DONE;
   fx_use_t *const use = chosen_take(chosen, c, which);
   for (int i = 0; i < 3; i++) fx_use_resize(use, i, candidate_possible(&c->candidate[which], i, k[i]));

@@ -73,24 +73,27 @@ TEST(gap_reads_every_rate_to_a_uniform_time_base) {
 TEST(gap_aligns_streams_that_are_late) {
   static const struct {
     const char *what;
-    double dt_ms, att_s, vel_s, tol_s;
-  } row[] = {{"together", 2.0, 0.0, 0.0, 1e-9},
-             {"together, 100 Hz", 10.0, 0.0, 0.0, 1e-9},
-             {"attitude", 2.0, 0.005, 0.0, 0.0003},
-             {"velocity", 2.0, 0.0, 0.008, 0.0005},
-             {"both, 100 Hz", 10.0, 0.004, -0.006, 0.001}};
+    double dt_ms, att_s, vel_s, place_s, tol_s;
+  } row[] = {{"together", 2.0, 0.0, 0.0, 0.0, 1e-9},
+             {"together, 100 Hz", 10.0, 0.0, 0.0, 0.0, 1e-9},
+             {"attitude", 2.0, 0.005, 0.0, 0.0, 0.0003},
+             {"velocity and position", 2.0, 0.0, 0.008, 0.0, 0.0005},
+             {"velocity alone", 2.0, 0.0, 0.016, -0.016, 0.0005},
+             {"all, 100 Hz", 10.0, 0.004, -0.006, 0.002, 0.001}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
     const flight_csv_t made = {.dt_ms = row[i].dt_ms,
                                .rows = (int)(20000.0 / row[i].dt_ms),
                                .late_att_s = row[i].att_s,
-                               .late_vel_s = row[i].vel_s};
+                               .late_vel_s = row[i].vel_s,
+                               .late_place_s = row[i].place_s};
     gap_flight_t f;
     why_t why = {""};
     CHECK_OK(read_made(&f, &made, &why));
     CHECK_TEXT(why.text, "");
     CHECK_NEAR(f.attitude_late_s, row[i].att_s, row[i].tol_s);
     CHECK_NEAR(f.velocity_late_s, row[i].vel_s, row[i].tol_s);
+    CHECK_NEAR(f.position_late_s, row[i].place_s, row[i].tol_s);
     for (int k = 0; k < 5 && f.n > 0; k++) CHECK_NEAR(worst(&f, k, 0.0), 0.0, 0.012);
     gap_flight_free(&f);
   }
