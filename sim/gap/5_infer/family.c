@@ -65,7 +65,7 @@ typedef struct {
 
 // Mass and thrust scale differ in turning alone.
 static bool only_turning_tells(const round_t *r, int a, int b) {
-  return round_fx(r, a)->group == FX_WEIGHT && round_fx(r, b)->group == FX_WEIGHT && candidates_slow(r->s);
+  return round_fx(r, a)->group == FX_WEIGHT && round_fx(r, b)->group == FX_WEIGHT && !r->turning_told;
 }
 
 // Selection settles on a lag or on a delay and asks no more; what the two do is nevertheless alike.
