@@ -93,8 +93,8 @@ static bool is_answer(const diagnosis_t *d, const fx_use_t *use, int candidate) 
          fabs(fx_use_size(use, 0)) >= candidates_least(use->fx, &d->fit);
 }
 
-static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, diagnosis_t *d, answers_t *a,
-                            why_t *why) {
+static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, diagnosis_t *d, bool first,
+                            answers_t *a, why_t *why) {
   const own_work_job_t asked = {.c = &d->candidates,
                                 .set = &d->fit,
                                 .base = job->model,
@@ -103,16 +103,18 @@ static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, d
                                 .trial_seed = job->seed + TRIAL_SEED};
   *a = (answers_t){.n = 0};
   for (int i = 0; i < chosen->n; i++)
-    if (is_answer(d, &chosen->use[i], chosen->of[i])) a->of[a->n++] = chosen->of[i];
+    if (is_answer(d, &chosen->use[i], chosen->of[i]) &&
+        !(first && chosen->use[i].fx->scales == FX_SCALES_INERTIA))
+      a->of[a->n++] = chosen->of[i];
   return own_work(&asked, chosen, a->n, a->of, a->own, why);
 }
 
 // Nominal flights do not have it, and looks do not begin with it. A slope of the thrust may have stood for an
-// inertia, which a first look does not take.
+// inertia, which a first look does not take: one that is in is borne out both ways, as no draught does it.
 static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t *chosen, why_t *why) {
   answers_t a;
   bool dropped = false;
-  TRY(find_own_work(job, chosen, d, &a, why));
+  TRY(find_own_work(job, chosen, d, true, &a, why));
   for (int k = 0; k < a.n; k++) {
     if (!a.own[k]) continue;
     chosen_drop(chosen, a.of[k]);
@@ -187,7 +189,7 @@ static void bar_alike(diagnosis_t *d, const fx_t *fx) {
 static done_t bar_own_work(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
   answers_t a;
   *barred = false;
-  TRY(find_own_work(job, &d->found.chosen, d, &a, why));
+  TRY(find_own_work(job, &d->found.chosen, d, false, &a, why));
   for (int k = 0; k < a.n; k++) {
     if (!a.own[k]) continue;
     for (int i = 0; i < d->found.n; i++)
@@ -253,14 +255,19 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   }
 }
 
-// A name that the set points refute is out of question: what it explained is looked at without it. Where
-// rotor speeds were measured nothing else has a say in timing.
+// What rotor speeds show of the timing nothing else has a say in.
+static void believe_speeds(diagnosis_t *d) {
+  for (int i = 0; i < d->found.n && d->timing.measured; i++)
+    if (d->found.named[i].candidate == d->timing.candidate)
+      d->found.named[i].confirm = (confirm_t){.answer = CONFIRM_NOT_TRIED};
+}
+
+// A name that the set points refute is out of question: what it explained is looked at without it.
 static bool bar_refuted(diagnosis_t *d) {
   bool refuted = false;
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
-    if (d->timing.measured && named->candidate == d->timing.candidate) continue;
     if (d->candidates.candidate[named->candidate].barred) continue; // it is withdrawn already
     refute(d, named, MADE_BY_FEEDBACK);
     refuted = true;
@@ -277,7 +284,7 @@ static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barr
     const named_t *const named = &d->found.named[i];
     candidate_t *const c = &d->candidates.candidate[named->candidate];
     const bool lifts = candidates_by_turning(c->use.fx, &d->fit);
-    if (!(c->use.fx->scales || lifts) || d->n_refuted >= NAMED_MAX) continue;
+    if (!(c->use.fx->scales != FX_SCALES_NOTHING || lifts) || d->n_refuted >= NAMED_MAX) continue;
     bool stands = false;
     if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, c->use.fx, named, &stands, why));
     if (stands) continue;
@@ -291,6 +298,7 @@ static done_t find_what_stands(const diagnose_job_t *job, diagnosis_t *d, why_t 
   for (;;) {
     TRY(find_and_verify(job, d, why));
     TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
+    believe_speeds(d);
     bool too_slow;
     TRY(bar_too_slow(job, d, &too_slow, why));
     if (!bar_refuted(d) && !too_slow) break;

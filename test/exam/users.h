@@ -16,10 +16,9 @@ typedef enum {
   USERS_OUTSIDE, // what no library has
   USERS_DIRTY,   // logs and columns files with a fault
   USERS_SORTS,   // another simulator's; one flight up and down, one sideways, one of all
-  USERS_KINDS,
-  USERS_TORQUE =
-      USERS_KINDS, // of tests alone: the rotors' torque is two thirds, or half as much again; 100 Hz
-  USERS_ALL
+  USERS_TORQUE,  // of tests alone: the rotors' torque is two thirds, or half as much again; 100 Hz
+  USERS_ALL,
+  USERS_KINDS = USERS_TORQUE // that are drawn
 } users_kind_t;
 
 #define USERS_HIDDEN 2

@@ -1,6 +1,7 @@
 // align.c - stage 1: how late one stream is against another that drives it.
 //
-// Over windows of h: what attitude or velocity moved is what gyro or force drive, tau late:
+// Over windows of h: what attitude, velocity or position moved is what gyro, force or velocity drive, tau
+// late:
 //   moved(t) = driven(t - tau) = driven(t) - tau (ends of the driving signal: last minus first) + ...
 // Least squares over each of eight parts of the flight, with a scale and an offset beside tau; their scatter
 // is the standard error.

@@ -205,7 +205,7 @@ static void take_out(double *x, const double *p, int n) {
 
 // How strongly commands turn the vehicle such a log does not tell: too weakly, by as much as it misses. A
 // bend or a slope of the thrust that is large enough would be as weak. What of it is such a scale is left
-// out, and the forces tell it. Inertia, which does nothing else, is held both ways against it
+// out, and the forces tell it. Inertia and torque, which do nothing else, are held both ways against it
 // (5_infer/both_ways.h).
 static void leave_out_scales(design_t *t, const set_t *s, const asked_t *a, const lines_t *predicted) {
   for (int i = 0; i < a->c->n; i++) {

@@ -5,7 +5,7 @@
 
 typedef struct {
   double k, stderr_;
-} inertia_t;
+} scaled_t;
 
 static double mean(const rows_t *r, const double *v) {
   double sum = 0.0;
@@ -64,24 +64,26 @@ static double unlike(const both_t *b) {
   return 1.0 - b->yp * b->yp / (b->yy * b->pp);
 }
 
-// The end that is nearer to 0, where it is sure.
-static double sure_end(const both_t *b, double stderr_) {
+// The end that is nearer to 0, where it is sure: of a larger k the lower one, of a smaller one the upper one.
+static double sure_larger(const both_t *b, double stderr_) {
+  return reverse(b) > SCORE_ERRORS * error(b, stderr_) ? reverse(b) : 0.0;
+}
+
+static double sure_smaller(const both_t *b, double stderr_) {
   const double forward = b->pp / b->yp - 1.0;
-  if (reverse(b) > SCORE_ERRORS * error(b, stderr_)) return reverse(b);
   return forward < -SCORE_ERRORS * hypot(stderr_, unlike(b)) ? forward : 0.0;
 }
 
 double both_ways_least(const both_t *b) {
   if (!(b->yp > 0.0)) return 0.0;
   const double left = fmax(b->pp - b->yp * b->yp / b->yy, 0.0);
-  return sure_end(b, SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0)));
+  return sure_larger(b, SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0)));
 }
 
 double both_ways_agree(const both_t *b, double k, double stderr_) {
   if (!(b->yp > 0.0)) return 0.0;
-  const double least = sure_end(b, stderr_);
-  const double within = fabs(least) - SCORE_ERRORS * error(b, stderr_);
-  return least * k > 0.0 && fabs(k) > within ? least : 0.0;
+  const double end = k > 0.0 ? sure_larger(b, stderr_) : sure_smaller(b, stderr_);
+  return fabs(k) > fabs(end) - SCORE_ERRORS * error(b, stderr_) ? end : 0.0;
 }
 
 // about[k]: of the axes, what a choice predicts; n 0 where that cannot be told.
@@ -106,11 +108,11 @@ static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_
 }
 
 // A torque that is 1 + t times as large turns it about z as an inertia of 1 / (1 + t).
-static inertia_t as_inertia(const fx_t *fx, const named_t *named, int axis) {
-  if (fx->scales == FX_SCALES_INERTIA) return (inertia_t){named->value[axis], named->stderr_[axis]};
+static scaled_t as_inertia(const fx_t *fx, const named_t *named, int axis) {
+  if (fx->scales == FX_SCALES_INERTIA) return (scaled_t){named->value[axis], named->stderr_[axis]};
   const double scale = 1.0 + named->value[0];
-  return axis == 2 ? (inertia_t){1.0 / scale - 1.0, named->stderr_[0] / (scale * scale)}
-                   : (inertia_t){0.0, 0.0};
+  return axis == 2 ? (scaled_t){1.0 / scale - 1.0, named->stderr_[0] / (scale * scale)}
+                   : (scaled_t){0.0, 0.0};
 }
 
 done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx_t *fx, const named_t *named,
@@ -121,7 +123,7 @@ done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx
   TRY(look(about, s, base, &others, why));
   *stands = false;
   for (int axis = 0; axis < 3; axis++) {
-    const inertia_t told = as_inertia(fx, named, axis);
+    const scaled_t told = as_inertia(fx, named, axis);
     *stands = *stands || both_ways_agree(&about[axis], told.k, told.stderr_) != 0.0;
   }
   return DONE;
@@ -135,7 +137,7 @@ done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const m
   if (which < 0 || chosen_use(chosen, which) || chosen->n >= NAMED_MAX) return DONE;
   TRY(look(about, s, base, chosen, why));
   double k[3];
-  for (int i = 0; i < 3; i++) k[i] = fmax(both_ways_least(&about[i]), 0.0);
+  for (int i = 0; i < 3; i++) k[i] = both_ways_least(&about[i]);
   if (k[0] == 0.0 && k[1] == 0.0 && k[2] == 0.0) return DONE;
   fx_use_t *const use = chosen_take(chosen, c, which);
   for (int i = 0; i < 3; i++) fx_use_resize(use, i, candidate_possible(&c->candidate[which], i, k[i]));

@@ -26,13 +26,15 @@ both_t both_ways_of(const rows_t *r, const double *measured, const double *resid
                     double *room);
 
 // Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
-// Of a k below 0 all that does not go with each other is: a gyro's noise that is fed back makes commands that
-// seem to turn the vehicle more than they do. Of turning s with noise v, y = s + v and p = s - c v, where
-// predicted by measured says k = -(1 + c) v / (s + v), in squares, and the part of both that is unlike is
-// never less. Returns the end that is nearer to 0 where it is beyond two of both errors; else 0.
+// Returns its lower end where that is beyond two of both errors above 0; else 0.
 double both_ways_least(const both_t *b);
 
-// The same of a k that is named, with its standard error; 0 also where k is not within the interval.
+// The same of a k that is named, with its standard error; 0 also where k is nearer to 0 than that end. Of a k
+// below 0 it is the upper end, and all that does not go with each other counts for an error: so much may come
+// of a gyro's noise v that is fed back against it, which seems to turn the vehicle more than commands do. Of
+// y = s + v and p = s - c v, c >= 0, predicted by measured says k = -(1 + c) v / (s + v), in squares, and
+// that part is never less; measured by predicted says no k below 0. Of noise that comes back with its own
+// sign nothing here is proof: nominal flights show how much of that there is.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 
 // named: chosen, of this effect, which scales the turning (fx->scales). stands: about one axis both ways say
@@ -41,8 +43,7 @@ MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chose
                             const named_t *named, bool *stands, why_t *why);
 
 // Takes into a choice that has none an inertia that is larger, by what both ways say about each axis of what
-// the choice leaves, if they say it of one. Nominal flights hardly need one that is smaller: with y's -0.1
-// their 0.1 about z errs by 0.13, without it by 0.006 (test_gap_errors.c). FAILED, BAD_INPUT: as above.
+// the choice leaves, if they say it of one. FAILED, BAD_INPUT: as above.
 MUST_CHECK done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const model_t *base,
                                  why_t *why);
 

@@ -139,8 +139,8 @@ static void take(const rival_t *rival, named_t *named) {
   named->rival_share[named->n_rival++] = rival->share;
 }
 
-// Of a name's list, in a log that misses commands: who is rival to one of two that the turning alone tells
-// apart is rival to both.
+// Of a name's list, where the turning does not tell them apart: who is rival to one of two that it alone
+// would tell apart is rival to both.
 static bool is_twin(const round_t *r, const rival_t *list, int n, int candidate) {
   for (int i = 0; i < n; i++)
     if (only_turning_tells(r, list[i].candidate, candidate)) return true;

@@ -8,6 +8,9 @@
 // without it, disturbed by as much as the log leaves then, and both are asked alike: what does the straight
 // line about nothing take, over what it leaves, beside the other names? A real one leaves hardly anything in
 // a log, and much in flights that are disturbed by all that it explains there.
+//
+// Of an inertia, three numbers, only how much they take together counts: one that is smaller is asked as one
+// that is larger.
 #ifndef SIM_GAP_5_INFER_OWN_WORK_H
 #define SIM_GAP_5_INFER_OWN_WORK_H
 

@@ -190,9 +190,9 @@ static double best_lag(speeds_t *s, double *left) {
   return best;
 }
 
-// And every command is known that they follow: a lag takes the noise of commands of which a log misses some
-// out of what they predict.
-static bool all_measured(const set_t *s) {
+// They are there, and every command that they follow: a lag takes the noise of commands of which a log misses
+// some out of what these predict.
+static bool speeds_tell(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     if (!s->grid[f].measured_N[ROTORS - 1] || grid_misses_commands(&s->grid[f])) return false;
   return s->n_grid > 0;
@@ -234,7 +234,7 @@ static done_t read_speeds(timing_t *found, const candidates_t *c, set_t *set, co
 
 done_t timing_find(timing_t *found, const candidates_t *c, set_t *s, const model_t *m, why_t *why) {
   *found = (timing_t){.candidate = -1};
-  if (all_measured(s)) return read_speeds(found, c, s, m, why);
+  if (speeds_tell(s)) return read_speeds(found, c, s, m, why);
   lines_t measured, left = {.r = {NULL}};
   done_t status = lines_make(&measured, s, why);
   if (status == DONE) status = lines_make(&left, s, why);

@@ -152,8 +152,9 @@ static void warn_of_withdrawn(report_t *r) {
            "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
            "fed back, looks like it; %s",
            name,
-           f->fx->scales ? "measured turning by predicted and predicted by measured do not both bear it out"
-                         : "with velocity or acceleration in the log a force along z would tell");
+           f->fx->scales != FX_SCALES_NOTHING
+               ? "measured turning by predicted and predicted by measured do not both bear it out"
+               : "with velocity or acceleration in the log a force along z would tell");
       continue;
     }
     warn(r,

@@ -73,7 +73,7 @@ static void force_and_turning(log_t *l) {
 #define OF_THE_VEHICLE                                                                                       \
   " accel_bias battery_sag body_drag ceiling ceiling_rpm cg_offset climb_inflow delay flapping ground "      \
   "gyroscopic imu_misalignment inertia mass motor_damage motor_lag rotor_drag sidewall thrust_curve "        \
-  "thrust_scale translational_lift wind "
+  "thrust_scale torque_ratio translational_lift wind "
 
 static bool is_among(const char *names, const char *name) {
   char word[100];
@@ -100,7 +100,7 @@ TEST(gap_looks_for_an_effect_where_the_log_has_what_it_needs) {
        " body_drag climb_inflow flapping rotor_drag sidewall translational_lift "},
       {"attitude", attitude, FX_NEEDS_ATTITUDE, " wind "},
       {"acceleration", made_acceleration, FX_NEEDS_ACCELERATION, " accel_bias imu_misalignment "},
-      {"a quick log", quickness, 0, ""},
+      {"a quick log, which they do not need", quickness, 0, ""},
       {"turning", turning, FX_NEEDS_TURNING, " motor_tilt "},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {

@@ -123,7 +123,7 @@ TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
 }
 
 // They differ in turning alone, and of that a slow log misses most.
-TEST(gap_tells_mass_from_thrust_scale_by_no_slow_log) {
+TEST(gap_tells_mass_from_thrust_scale_by_logs_that_have_every_command_alone) {
   static const struct {
     const char *effect;
     int rate_Hz, every;
@@ -133,7 +133,7 @@ TEST(gap_tells_mass_from_thrust_scale_by_no_slow_log) {
       {"mass:add=0.0016", 100, 2, "thrust_scale", "mass"},
       {"thrust_scale:k=-0.05", 100, 1, "thrust_scale", "mass"},
       {"thrust_scale:k=-0.05", 500, 1, "thrust_scale", NULL},
-      {"mass:add=0.0016", 500, 1, "mass", "accel_bias"}, // calm flights do not tell that
+      {"mass:add=0.0016", 500, 1, "mass", "accel_bias"}, // of a calm flight: what either lifts
   };
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++) {
     ROW("%s, %d Hz", row[i].effect, row[i].rate_Hz / row[i].every);
@@ -151,6 +151,8 @@ TEST(gap_tells_mass_from_thrust_scale_by_no_slow_log) {
     const char *const rivals = strstr(text, "would do as well: ");
     const char *const rival = rivals && row[i].rival ? strstr(rivals, row[i].rival) : NULL;
     CHECK(row[i].rival ? rival && rival < strchr(rivals, '\n') : !rivals);
+    const char *const scale = rivals && row[i].rate_Hz == 500 ? strstr(rivals, "thrust_scale") : NULL;
+    CHECK(!scale || scale > strchr(rivals, '\n'));
   }
 }
 

@@ -157,6 +157,7 @@ TEST(gap_takes_for_a_rival_what_is_alike_beside_another_name) {
     gap_rows_t g;
     found_t found;
     gap_rows_make(&g, 23);
+    g.round.turning_told = true;
     const int scale = gap_rows_candidate(&g, "thrust_scale"), mass = gap_rows_candidate(&g, "mass"),
               inertia = gap_rows_candidate(&g, "inertia");
     nearly(&g, mass, CH_FZ, white_column(&g, scale, 0, CH_FZ, 50.0), 1.0, 4.0); // the rows prefer the scale
