@@ -68,6 +68,12 @@ static bool only_turning_tells(const round_t *r, int a, int b) {
   return round_fx(r, a)->group == FX_WEIGHT && round_fx(r, b)->group == FX_WEIGHT && !r->turning_told;
 }
 
+// Another torque turns it about z as an inertia does; what that does about x and y missed commands hide.
+static bool missed_commands_hide(const round_t *r, int own, int other) {
+  return round_fx(r, own)->scales == FX_SCALES_TORQUE && round_fx(r, other)->scales == FX_SCALES_INERTIA &&
+         candidates_slow(r->s);
+}
+
 // Selection settles on a lag or on a delay and asks no more; what the two do is nevertheless alike.
 static bool is_out(const round_t *r, bool measured, int i) {
   return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
@@ -87,7 +93,7 @@ static bool fits_better(const round_t *r, int own, const choice_t *with) {
 // no better than that.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
-  if (only_turning_tells(r, own, other)) return true;
+  if (only_turning_tells(r, own, other) || missed_commands_hide(r, own, other)) return true;
   if (!score_is_possible(&r->score, with)) return false;
   if (fits_better(r, own, with)) return true;
   const choice_t nothing = {.n = 0}, alone = choice_with(&nothing, other);

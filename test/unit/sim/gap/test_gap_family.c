@@ -237,6 +237,31 @@ TEST(gap_tells_mass_beside_a_thrust_scale_that_stands_for_a_name_where_turning_d
   }
 }
 
+// About z they are one; a log that misses commands does not tell what an inertia does about x and y.
+TEST(gap_tells_an_inertia_beside_another_torque_where_the_log_misses_commands) {
+  static const struct {
+    const char *what;
+    double rate_Hz;
+    bool rival;
+  } row[] = {{"all commands", 500.0, false}, {"one of five", 100.0, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    gap_rows_t g;
+    found_t found;
+    gap_rows_make(&g, 27);
+    g.flight.rate_Hz = row[i].rate_Hz;
+    g.grid.command_Hz = 500.0;
+    const int torque = gap_rows_candidate(&g, "torque_ratio"), inertia = gap_rows_candidate(&g, "inertia");
+    const double *const z = white_column(&g, torque, 0, CH_WZ, 50.0);
+    nearly(&g, inertia, CH_WZ, z, 1.0, 1.0);
+    white_column(&g, inertia, 0, CH_WX, 50.0); // as large about x, of which the rows have nothing
+    gap_rows_add(&g, torque, 0, 1.0);
+    if (describe(&g, 1, &torque, &found)) CHECK(has_rival(named(&found, torque), "inertia") == row[i].rival);
+    found_free(&found);
+    gap_rows_free(&g);
+  }
+}
+
 // A step that ends an ulp below the least mass is a vehicle that no model takes.
 TEST(gap_takes_no_number_beyond_what_it_can_be) {
   gap_rows_t g;
