@@ -144,7 +144,7 @@ RECIPES = {
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 199001, 200)),
-    "users": Recipe(says("exam", "users", 203001, 280)),
+    "users": Recipe(says("exam", "users", 206001, 280)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),
