@@ -100,14 +100,14 @@ static bool is_said(const columns_t *c, signals_t moved) {
   return false;
 }
 
-// Moves the stream by what it is late.
-static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive_t *stream,
+// Moves the stream by what it is late, if that is no more than it can be.
+static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive_t *stream, double most_s,
                     double shift_s[SIG_COUNT], double *late_s, why_t *why) {
   skew_t told;
   if (!has(raw->v, stream->need) || is_said(c, stream->late)) return DONE;
   TRY(tell_late(raw, stream, shift_s, &told, why));
   const double size_s = fabs(told.late_s);
-  if (!isfinite(told.stderr_s) || !(size_s > SKEW_SURE * told.stderr_s)) return DONE;
+  if (!isfinite(told.stderr_s) || !(size_s > SKEW_SURE * told.stderr_s) || told.late_s > most_s) return DONE;
   if (!(size_s <= SKEW_MAX_S))
     gap_note(f, "the %s seems %.0f ms late against the %s: more than can be mended", stream->what,
              1e3 * told.late_s, stream->by);
@@ -219,12 +219,12 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         "streams that are slower than the log and repeat themselves: %d; they are drawn through their new "
         "values",
         slow);
-  TRY(align(f, raw, &rows->columns, &GAP_TURN, shift_s, &f->attitude_late_s, why));
-  TRY(align(f, raw, &rows->columns, &GAP_PUSH, shift_s, &f->velocity_late_s, why));
-  // Of a filter that follows the place the velocity lags more. Where it did not have to be moved it may be
-  // the velocity that is late.
+  TRY(align(f, raw, &rows->columns, &GAP_TURN, HUGE_VAL, shift_s, &f->attitude_late_s, why));
+  TRY(align(f, raw, &rows->columns, &GAP_PUSH, HUGE_VAL, shift_s, &f->velocity_late_s, why));
+  // A filter that follows the place is less late in it than in the velocity, with which it was moved. Where
+  // the velocity was not it may be the one that is late.
   if (f->velocity_late_s != 0.0)
-    TRY(align(f, raw, &rows->columns, &GAP_GO, shift_s, &f->position_late_s, why));
+    TRY(align(f, raw, &rows->columns, &GAP_GO, 0.0, shift_s, &f->position_late_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)
     return table_refuse(&rows->table, 0, -1, why,
