@@ -223,7 +223,7 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
   TRY(align(f, raw, &rows->columns, &GAP_PUSH, HUGE_VAL, shift_s, &f->velocity_late_s, why));
   // A filter that follows the place is less late in it than in the velocity, with which it was moved. Where
   // the velocity was not it may be the one that is late.
-  if (f->velocity_late_s != 0.0)
+  if (f->velocity_late_s > 0.0)
     TRY(align(f, raw, &rows->columns, &GAP_GO, 0.0, shift_s, &f->position_late_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));
   if (f->n < 10)

@@ -82,6 +82,7 @@ TEST(gap_aligns_streams_that_are_late) {
              {"velocity alone", 2.0, 0.0, 0.016, -0.016, 0.0005, false},
              {"position alone: or is it the velocity?", 2.0, 0.0, 0.0, -0.008, 1e-9, true},
              {"position later still", 2.0, 0.0, 0.008, 0.002, 0.0005, true},
+             {"velocity and position early, attitude late, 100 Hz", 10.0, 0.004, -0.006, 0.0, 0.001, false},
              {"all, 100 Hz", 10.0, 0.004, 0.006, -0.002, 0.001, false}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
