@@ -40,7 +40,7 @@ typedef struct {
   char **file;
   int files;
   uLong crc; // of the files that say what is flown; 0: none
-  bool list, logs, params, markdown, help, rate_said;
+  bool list, effects, logs, params, markdown, help, rate_said;
   bool version;
   made_t made, each; // each: of one of many flights, but for its seed
   int not_finite;    // flights
@@ -129,12 +129,18 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   case 'r': o->rate_said = true; return request_take_log_rate(&o->request, text, why);
   case 'g': o->merge = true; return DONE;
   case 'L': o->list = true; return DONE;
+  case 'E': o->effects = true; return DONE;
   case 'G': o->logs = true; return DONE;
   case 'P': return take_params(o, text, why);
   case 'V': o->version = true; return DONE;
   case 'h': o->help = true; return DONE;
   }
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
+}
+
+// What there is, not a flight.
+static bool only_says(const order_t *o) {
+  return o->list || o->effects || o->logs || o->params || o->help || o->version;
 }
 
 static bool many(const order_t *o) {
@@ -182,7 +188,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
       {"commands", 1, 0, 'C'}, {"scene", 1, 0, 'x'}, {"storage", 1, 0, 'X'},
       {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
       {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
-      {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"logs", 0, 0, 'G'},
+      {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"effects", 0, 0, 'E'}, {"logs", 0, 0, 'G'},
       {"summary", 1, 0, 'M'}, {"merge", 0, 0, 'g'}, {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'}, {"version", 0, 0, 'V'}, {0},
   };
   // clang-format on
@@ -197,7 +203,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
     if (!strchr("ftjlTM", option)) made_option(&o->each, options[at].name, optarg);
   }
-  if (o->list || o->logs || o->params || o->help || o->version) return DONE;
+  if (only_says(o)) return DONE;
   if (o->merge) return take_merge(o, given, argc, argv, why);
   TRY(check_commands(o, given, argv[optind], why));
   if (o->replay && o->summary) return error_set(why, "--summary: nothing is flown by --replay; leave it out");
@@ -373,9 +379,10 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->help) fputs(USAGE, stdout);
   if (order->version) made_version("fly");
   if (order->list) catalogue_all();
+  if (order->effects) catalogue_effects();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
-  if (order->help || order->version || order->list || order->logs || order->params) return DONE;
+  if (only_says(order)) return DONE;
   if (order->replay) return replay_report(order->replay, &order->request, why);
   if (!order->scenario && !order->commands && !order->merge) return DONE;
   if (order->seeds == 0) order->seeds = 1;

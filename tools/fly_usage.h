@@ -44,6 +44,7 @@ static const char USAGE[] =
     "  --storage FILE           what was stored before; it is not written\n"
     "  --json FILE              writes what is printed, and more\n"
     "  --list                   scenarios, controllers and effects\n"
+    "  --effects                what each effect does, as a table in Markdown\n"
     "  --logs                   what the app logs, by group\n"
     "  --params                 the parameters of the flight code, with unit, default and range\n"
     "  --version                version and commit\n"

@@ -197,6 +197,7 @@ struct fx_use;
 typedef struct {
   const char *name;
   const char *brief;
+  const char *law; // what it does, by the names of its numbers and those of fx_law_symbols
   const char *fly; // the manoeuvre that shows it
   // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h), none: any but time;
   // and the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does
@@ -263,6 +264,7 @@ static inline int fx_variants(const fx_t *fx) {
 
 extern const fx_t *const fx_table[];
 extern const int fx_count;
+extern const char fx_law_symbols[]; // what the letters of all laws mean, for people
 
 // An effect that is switched on, with its numbers: those of the form where there is one, else its own.
 typedef struct fx_use {

@@ -8,6 +8,7 @@ static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
 const fx_t fx_accel_bias = {
     .name = "accel_bias",
     .brief = "a constant error of the accelerometer",
+    .law = "it reads f + (x, y, z), body axes",
     .fly = "a full yaw turn on the spot",
     .over = {"time"},
     .apart = {{"imu_misalignment", "throttle steps of 20 %: a bias stays, the other grows with the thrust"},

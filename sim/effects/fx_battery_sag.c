@@ -1,5 +1,5 @@
-// fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says: T (1 - k (1 -
-// vbat/zero)), not below 0. zero: the voltage of which the map is.
+// fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says. zero: the
+// voltage of which the map is.
 #include "effects/fx.h"
 #include "plant/battery.h"
 
@@ -11,6 +11,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_battery_sag = {
     .name = "battery_sag",
     .brief = "thrust falls with the voltage beyond what the thrust map says",
+    .law = "each rotor gives T_i (1 - k (1 - vbat/zero)), not below 0",
     .fly = "a long flight, or full and empty batteries, with throttle steps",
     .over = {"voltage"},
     .in = "force_z",

@@ -1,6 +1,6 @@
-// fx_body_drag.c - drag of the body: F = -c |v| v - (linear_x v_x, linear_y v_y, linear_z v_z), body axes, v:
-// velocity through the air. Linear drag is for vehicle files of simulators that have it, whatever the rotors
-// do; in a search rotor_drag and climb_inflow stand for it, whose rotors turn nearly alike all the time.
+// fx_body_drag.c - drag of the body. What is linear is for vehicle files of simulators that have it, whatever
+// the rotors do; in a search rotor_drag and climb_inflow stand for it, whose rotors turn nearly alike all the
+// time.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -12,6 +12,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_body_drag = {
     .name = "body_drag",
     .brief = "force against the velocity, with its square",
+    .law = "F = -c |v| v - (linear_x v_x, linear_y v_y, linear_z v_z)",
     .fly = "straight lines at two speeds, 0.5 m/s and three times that",
     .over = {"v_x", "v_y"},
     .apart = {{"wind", "the same line there and back: drag turns round, wind does not"},

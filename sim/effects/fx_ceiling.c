@@ -8,6 +8,7 @@ static double excess(const fx_use_t *use, const fx_place_t *place) {
 const fx_t fx_ceiling = {
     .name = "ceiling",
     .brief = "a rotor under a ceiling gives more thrust at the same command",
+    .law = "each rotor gives T_i times the form's ratio at d",
     .fly = "slow climbs and holds at 2 to 10 cm under the ceiling",
     .over = {"ceiling distance"},
     .in = "force_z",

@@ -1,6 +1,5 @@
 // fx_ceiling_rpm.c - under a ceiling the rotors turn faster than their thrust's gain says (plant/inflow.h),
-// at the same command: by k exp(-b d/R) more, and take less torque and current by the motor's line. The
-// thrust stays.
+// at the same command, and take less torque and current by the motor's line.
 #include "effects/fx.h"
 #include <math.h>
 
@@ -14,6 +13,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_ceiling_rpm = {
     .name = "ceiling_rpm",
     .brief = "rotors turn faster under a ceiling at the same command, and draw less",
+    .law = "each rotor turns faster by k exp(-b d/R) Om_i; its thrust stays",
     .fly = "yaw turns at 2 to 10 cm under the ceiling",
     .over = {"ceiling distance"},
     .in = "turn_z",

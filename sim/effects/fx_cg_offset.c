@@ -1,4 +1,4 @@
-// fx_cg_offset.c - the centre of mass lies elsewhere: moments T (-dy, dx). The inertia is kept.
+// fx_cg_offset.c - the centre of mass lies elsewhere. The inertia is kept.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -9,6 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_cg_offset = {
     .name = "cg_offset",
     .brief = "the centre of mass lies elsewhere than the vehicle file has it (dx: forwards, dy: to the left)",
+    .law = "about the centre of mass at (dx, dy, dz): M = T (-dy, dx, 0)",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"inertia", "a calm hover: an offset shows there, inertia in attitude doublets alone"}},

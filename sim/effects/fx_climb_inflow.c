@@ -1,6 +1,5 @@
-// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent:
-// F_z = -k Om_i v_z at `arm` of the way from the centre of mass to each hub, v: of that place through the
-// air. At the hubs (1) it damps roll and pitch.
+// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent, at `arm` of the way
+// from the centre of mass to each hub, where v is taken, too. At the hubs (1) it damps roll and pitch.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -13,6 +12,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_climb_inflow = {
     .name = "climb_inflow",
     .brief = "rotors lose thrust in a climb and gain it in a descent",
+    .law = "at each hub F_z = -k Om_i v_z",
     .fly = "vertical steps",
     .over = {"v_z"},
     .in = "force_z",

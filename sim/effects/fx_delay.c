@@ -9,6 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_delay = {
     .name = "delay",
     .brief = "commands reach the motors later (add > 0) or earlier than the vehicle file has it",
+    .law = "commands act `add` later",
     .fly = "attitude doublets and throttle steps",
     .over = {"thrust"},
     .apart = {{"inertia", "slow and fast attitude doublets: delay hurts the fast ones alone"}},

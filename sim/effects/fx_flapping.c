@@ -1,5 +1,4 @@
-// fx_flapping.c - the discs tilt back in forward flight: M = k Om_i (v x e_z) of each
-// rotor, v: of its hub through the air.
+// fx_flapping.c - the discs tilt back in forward flight.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -14,6 +13,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_flapping = {
     .name = "flapping",
     .brief = "the rotor discs tilt back in forward flight",
+    .law = "of each rotor M = k Om_i (v_y, -v_x, 0), v: of its hub",
     .fly = "sideways steps",
     .over = {"v_x", "v_y"},
     .apart = {{"cg_offset", "sideways steps both ways: flapping turns round, an offset stays"},

@@ -8,6 +8,7 @@ static double excess(const fx_use_t *use, const fx_place_t *place) {
 const fx_t fx_ground = {
     .name = "ground",
     .brief = "a rotor over the ground gives more thrust at the same command",
+    .law = "each rotor gives T_i times the form's ratio at d",
     .fly = "hover at 1 to 20 cm over the ground",
     .over = {"height"},
     .in = "force_z",

@@ -1,5 +1,4 @@
-// fx_gyroscopic.c - the rotors' angular momentum is larger (or smaller) than the vehicle file has it: M = -w
-// x e_z k sum(s_i Om_i).
+// fx_gyroscopic.c - the rotors' angular momentum is larger (or smaller) than the vehicle file has it.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -13,6 +12,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_gyroscopic = {
     .name = "gyroscopic",
     .brief = "the rotors' angular momentum is larger (k > 0) or smaller than the vehicle file has it",
+    .law = "M = -w x e_z k sum(s_i Om_i)",
     .fly = "fast roll with yaw",
     .over = {"roll rate"},
     .n_size = 1,

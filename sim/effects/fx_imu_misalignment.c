@@ -1,4 +1,4 @@
-// fx_imu_misalignment.c - the accelerometer is turned by a small angle from the body: it reads f + f x theta.
+// fx_imu_misalignment.c - the accelerometer is turned by a small angle from the body.
 #include "effects/fx.h"
 
 static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
@@ -9,6 +9,7 @@ static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
 const fx_t fx_imu_misalignment = {
     .name = "imu_misalignment",
     .brief = "the accelerometer is turned by a small angle from the body",
+    .law = "it reads f + f x (x, y, 0)",
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"wind", "a full yaw turn on the spot: the sensor turns with the body, wind does not"}},

@@ -1,4 +1,4 @@
-// fx_inertia.c - the inertia about each axis is larger (or smaller) than the vehicle file has it: J (1 + k).
+// fx_inertia.c - the inertia about each axis is larger (or smaller) than the vehicle file has it.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -11,6 +11,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_inertia = {
     .name = "inertia",
     .brief = "the inertia about each axis is larger (> 0) or smaller than the vehicle file has it",
+    .law = "about each axis J (1 + kx), J (1 + ky), J (1 + kz)",
     .fly = "attitude doublets",
     .over = {"roll rate", "yaw rate"},
     .control_makes = 1,

@@ -12,6 +12,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_mass = {
     .name = "mass",
     .brief = "the vehicle is heavier (add > 0) or lighter, or carries something for a time",
+    .law = "the mass is m + add, from `start` to `end`",
     .fly = "throttle steps of 20 %",
     .over = {"time"},
     .apart = {{"thrust_scale",

@@ -1,9 +1,7 @@
-// fx_rotor_drag.c - rotor drag: a force in the rotor plane against the velocity through the air,
-//   F_xy = -k Om_i v_xy
-//
-// at `arm` of the way from the centre of mass to each hub, v: of that place. At the hubs (1) it damps yaw,
-// and pitches where they lie above the centre of mass; at the centre of mass (0), as simulators often have it
-// and as recorded flights of a Crazyflie show it, it does neither. Source: the form of Faessler, Franchi,
+// fx_rotor_drag.c - rotor drag: a force in the rotor plane against the velocity through the air, at `arm` of
+// the way from the centre of mass to each hub, where v is taken, too. At the hubs (1) it damps yaw, and
+// pitches where they lie above the centre of mass; at the centre of mass (0), as simulators often have it and
+// as recorded flights of a Crazyflie show it, it does neither. Source: the form of Faessler, Franchi,
 // Scaramuzza 2018 (doi 10.1109/LRA.2017.2776353), at the hubs.
 #include "base/few.h"
 #include "effects/fx.h"
@@ -38,6 +36,7 @@ PAIR_COPIES static void load(const fx_use_t *use, const fx_motion_t *motion, loa
 const fx_t fx_rotor_drag = {
     .name = "rotor_drag",
     .brief = "force in the rotor plane against the velocity, linear in it and in the rotor speeds",
+    .law = "at each hub F_xy = -k Om_i v_xy",
     .fly = "sideways faster than 0.5 m/s",
     .over = {"v_x", "v_y"},
     .apart = {{"body_drag", "straight lines at 0.5 and 1.5 m/s: one grows threefold, the other ninefold"},

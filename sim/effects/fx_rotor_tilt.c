@@ -1,5 +1,5 @@
 // fx_rotor_tilt.c - the rotors' axes lean about their arms, all the same way round, so that thrust turns the
-// vehicle about z: M_z = lever T. Rotors of one sense that have more drag do as much.
+// vehicle about z. Rotors of one sense that have more drag do as much.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -11,6 +11,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_rotor_tilt = {
     .name = "rotor_tilt",
     .brief = "the rotors' axes lean about their arms: thrust turns the vehicle about z",
+    .law = "M_z = lever T",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"motor_damage", "a calm hover: a weak rotor tilts, too"},

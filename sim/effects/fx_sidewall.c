@@ -1,9 +1,6 @@
 // fx_sidewall.c - a wall beside the vehicle pulls it and turns its top towards itself, both falling with the
-// distance d of the centre of mass from the wall, a plane of constant y:
-//
-//   F = force exp(-d/length) towards the wall,   M = moment exp(-d/length), top towards the wall
-//
-// Form and nominal numbers are assumptions: nothing is published.
+// distance d of the centre of mass from the wall, a plane of constant y. Form and nominal numbers are
+// assumptions: nothing is published.
 #include "effects/fx.h"
 #include <math.h>
 
@@ -19,6 +16,9 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_sidewall = {
     .name = "sidewall",
     .brief = "a wall pulls the vehicle and turns its top towards itself",
+    .law =
+        "F = force exp(-d/length) towards the wall, M = moment exp(-d/length), top towards it, d: from the "
+        "centre of mass",
     .fly = "slow approaches to the wall, sideways",
     .over = {"y"},
     .apart = {{"wind", "the same height beside the wall and away from it: wind is there too"},

@@ -1,4 +1,4 @@
-// fx_thrust_curve.c - a bend in the curve from command to thrust: T_i + k (T_i - m g / 4)^2, in newton.
+// fx_thrust_curve.c - a bend in the curve from command to thrust.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -14,6 +14,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_thrust_curve = {
     .name = "thrust_curve",
     .brief = "a bend in the curve from command to thrust",
+    .law = "each rotor gives T_i + k (T_i - m g/4)^2",
     .fly = "a wide range of throttle",
     .over = {"thrust"},
     .about_weight = true,

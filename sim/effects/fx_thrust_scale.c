@@ -1,4 +1,4 @@
-// fx_thrust_scale.c - every rotor gives more thrust (or less) than the vehicle file has it: T (1 + k).
+// fx_thrust_scale.c - every rotor gives more thrust (or less) than the vehicle file has it.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -9,6 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_thrust_scale = {
     .name = "thrust_scale",
     .brief = "every rotor gives more thrust (k > 0) or less than the vehicle file has it",
+    .law = "each rotor gives T_i (1 + k)",
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"accel_bias", "throttle steps of 20 %: a bias stays, a scale grows with the thrust"},

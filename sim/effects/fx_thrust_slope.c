@@ -1,5 +1,5 @@
-// fx_thrust_slope.c - the curve from command to thrust is steeper than the vehicle file has it, or flatter:
-// T_i + k (T_i - m g / 4). At the weight it is right.
+// fx_thrust_slope.c - the curve from command to thrust is steeper than the vehicle file has it, or flatter.
+// At the weight it is right.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
@@ -15,6 +15,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_thrust_slope = {
     .name = "thrust_slope",
     .brief = "the curve from command to thrust is steeper (k > 0) or flatter, about the weight",
+    .law = "each rotor gives T_i + k (T_i - m g/4)",
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"inertia", "throttle steps without turning, then attitude doublets"},

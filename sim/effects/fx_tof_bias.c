@@ -8,6 +8,7 @@ static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
 const fx_t fx_tof_bias = {
     .name = "tof_bias",
     .brief = "the range sensors read too much (add > 0) or too little by a constant",
+    .law = "they read d + add",
     .fly = "vertical sweeps",
     .over = {"height"},
     .apart = {{"tof_latency", "the same vertical sweep up and down: latency changes its sign"},

@@ -1,5 +1,5 @@
-// fx_tof_floor.c - nearer than its floor a range sensor says its floor: max(d, floor). share: 1, or less
-// where only some samples do.
+// fx_tof_floor.c - nearer than its floor a range sensor says its floor. share: 1, or less where only some
+// samples do.
 #include "effects/fx.h"
 
 static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
@@ -10,6 +10,7 @@ static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
 const fx_t fx_tof_floor = {
     .name = "tof_floor",
     .brief = "nearer than its floor a range sensor says its floor",
+    .law = "they read d + share (floor - d) where d < floor",
     .fly = "vertical sweeps down to contact",
     .over = {"ceiling distance", "height"},
     .apart = {{"tof_latency", "stand still near the surface: latency needs a climb"}},

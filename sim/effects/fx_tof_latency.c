@@ -8,6 +8,7 @@ static void sense(const fx_use_t *use, fx_sensed_t *sensed) {
 const fx_t fx_tof_latency = {
     .name = "tof_latency",
     .brief = "what the range sensors read was true some time ago",
+    .law = "they read d - add d', d' the rate of d",
     .fly = "vertical sweeps",
     .over = {"v_z"},
     .needs = FX_NEEDS_RANGE,

@@ -1,6 +1,6 @@
-// fx_translational_lift.c - more thrust in forward flight: of each rotor F_z = k / 4 (v_x^2 + v_y^2) at `arm`
-// of the way from the centre of mass to its hub, v: of that place through the air. At the hubs (1) a rotor
-// that advances lifts more than one that retreats, and a yawing vehicle is lifted, too.
+// fx_translational_lift.c - more thrust in forward flight, at `arm` of the way from the centre of mass to
+// each hub, where v is taken, too. At the hubs (1) a rotor that advances lifts more than one that retreats,
+// and a yawing vehicle is lifted, too.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
@@ -14,6 +14,7 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 const fx_t fx_translational_lift = {
     .name = "translational_lift",
     .brief = "more thrust in forward flight, with the square of the speed",
+    .law = "of each rotor F_z = k/4 (v_x^2 + v_y^2)",
     .fly = "circles at two speeds",
     .over = {"v_x", "v_y"},
     .in = "force_z",

@@ -61,7 +61,7 @@ static void list_values(const fx_param_t *param, int n) {
 }
 
 static void list_effect(const fx_t *fx) {
-  printf("  %-16s %s\n", fx->name, fx->brief);
+  printf("  %-16s %s\n    law: %s\n", fx->name, fx->brief, fx->law);
   list_values(fx->param, fx->n_param);
   for (int i = 0; i < curve_count; i++) {
     const curve_t *curve = curve_table[i];
@@ -69,6 +69,39 @@ static void list_effect(const fx_t *fx) {
     printf("    form=%s: %s (%s)\n", curve->name, curve->brief, curve->source);
     list_values(curve->param, curve->n_param);
   }
+}
+
+static void tell_numbers(const fx_param_t *param, int n) {
+  for (int i = 0; i < n; i++)
+    printf("%s`%s` %g (%g to %g)%s%s", i ? "<br>" : "", param[i].name, param[i].nominal, param[i].min,
+           param[i].max, param[i].unit[0] && !fx_is_number(&param[i]) ? " " : "",
+           fx_is_number(&param[i]) ? "" : param[i].unit);
+}
+
+// A bar would end the cell.
+static void tell_law(const char *law) {
+  for (; *law; law++) printf(*law == '|' ? "\\%c" : "%c", *law);
+}
+
+static void tell_effect(const fx_t *fx) {
+  printf("| `%s` | %s | ", fx->name, fx->brief);
+  tell_law(fx->law);
+  fputs(" | ", stdout);
+  tell_numbers(fx->param, fx->n_param);
+  fputs(" |\n", stdout);
+  for (int i = 0; i < curve_count; i++) {
+    const curve_t *const curve = curve_table[i];
+    if (!(curve->surfaces & fx->surface)) continue;
+    printf("| | form `%s` (%s) | %s | ", curve->name, curve->source, curve->brief);
+    tell_numbers(curve->param, curve->n_param);
+    fputs(" |\n", stdout);
+  }
+}
+
+void catalogue_effects(void) {
+  printf("%s.\n\n| effect | what it is | what it does | typical (range) |\n|---|---|---|---|\n",
+         fx_law_symbols);
+  for (int i = 0; i < fx_count; i++) tell_effect(fx_table[i]);
 }
 
 static void list_noise(void) {

@@ -7,6 +7,9 @@
 // Scenarios, controllers, effects with their forms and parameters, noise levels.
 void catalogue_all(void);
 
+// Every effect, as a table in Markdown: what it is, what it does, its numbers.
+void catalogue_effects(void);
+
 // Every parameter of the flight code: unit, default, range, what it does; aligned, or as a table in Markdown.
 void catalogue_params(bool markdown);
 

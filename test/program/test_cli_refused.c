@@ -18,7 +18,7 @@ static const struct {
      "--usd-config, --replay, "
      "--effect, --commands, --scene, --storage, --vehicle, --noise, --seed, --seeds, --integrator, --from, "
      "--to, --log, --log-rate, --json, "
-     "--list, --logs, --summary, --merge, --params, --help, --version\n"},
+     "--list, --effects, --logs, --summary, --merge, --params, --help, --version\n"},
     {"fly close-flight --summary $S/x", "fly: --summary: allowed with --from and --to, or --merge\n"},
     {"fly --replay README.md --summary $S/x", "fly: --summary: nothing is flown by --replay; leave it out\n"},
     {"fly --merge", "fly: --merge: files are needed, as fly --summary writes them\n"},

@@ -18,7 +18,7 @@
 
 static void check_drag(const cJSON *v) {
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
-  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 1 && cJSON_GetArraySize(effect) == 12);
+  CHECK(cJSON_GetArraySize(cJSON_GetObjectItem(v, "effects")) == 1 && cJSON_GetArraySize(effect) == 13);
   CHECK_TEXT(verdict_string(effect, "name"), "rotor_drag");
   CHECK(verdict_number(effect, "p") < 1e-4 && verdict_number(effect, "share") > 0.05);
   CHECK(cJSON_IsArray(cJSON_GetObjectItem(effect, "rivals")) && verdict_string(effect, "fly")[0]);

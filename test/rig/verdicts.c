@@ -29,7 +29,7 @@ static void check_effect(const cJSON *one) {
   CHECK(cJSON_GetArraySize(one) >= 12 && cJSON_GetArraySize(family) == 1 + cJSON_GetArraySize(rivals));
   CHECK_TEXT(cJSON_GetArrayItem(family, 0)->valuestring, verdict_string(one, "name"));
   CHECK((strcmp(verdict_string(one, "standing"), "ambiguous") == 0) || cJSON_GetArraySize(rivals) == 0);
-  CHECK(verdict_string(one, "says")[0]);
+  CHECK(verdict_string(one, "says")[0] && verdict_string(one, "law")[0]);
   const cJSON *const matters = cJSON_GetObjectItem(one, "matters");
   CHECK(cJSON_GetArraySize(matters) == 6 && verdict_string(matters, "channel")[0]);
   CHECK(verdict_number(matters, "to") > verdict_number(matters, "from"));

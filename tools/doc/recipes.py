@@ -116,6 +116,7 @@ def picture_of_diagnosis() -> None:
 
 RECIPES = {
     "params": Recipe(says("fly", "--params=markdown"), markdown=True),
+    "effects": Recipe(says("fly", "--effects"), markdown=True),
     "logs": Recipe(says("fly", "--logs"), markdown=True),
     "counted": Recipe(counted),
     "image": Recipe(image),

@@ -54,7 +54,10 @@ void page_finding(const finding_t *f, FILE *out) {
   const int coordinate = f->profile.coordinate;
   char p[P_TEXT];
   html_text(out, "<section><h2>", f->family, "</h2>");
-  html_text(out, "<p class=quiet>", f->fx->brief, "</p>\n");
+  html_text(out, "<p class=quiet>", f->fx->brief, ": ");
+  html_text(out, "<code>", f->fx->law, "</code>");
+  if (f->use->form) html_text(out, ", which is <code>", f->use->form->brief, "</code>");
+  fputs("</p>\n", out);
   html_text(out, "<p><b>", standing_name[f->standing], "</b>: ");
   html_text(out, "", f->says, ". ");
   fprintf(out, "It explains %.3g %% of the gap", 100.0 * f->named->share);

@@ -62,7 +62,7 @@ static void overview(const report_t *r, FILE *out) {
     share_row(f->name, f->named->share, most, "after", gap_channel[f->profile.channel], out);
   }
   share_row("left", report_left(r), most, "before", "", out);
-  fputs("</table></section>\n", out);
+  html_text(out, "</table><p class=quiet>In the formulas below: ", fx_law_symbols, ".</p></section>\n");
 }
 
 // --- held-out flights -------------------------------------------------------------------------------------

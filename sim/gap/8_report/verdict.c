@@ -73,6 +73,8 @@ static void add_effect(cJSON *list, const finding_t *f) {
   const int channel = f->profile.channel, coordinate = f->profile.coordinate;
   cJSON *const o = add_object(list);
   cJSON_AddStringToObject(o, "name", f->fx->name);
+  cJSON_AddStringToObject(o, "law", f->fx->law);
+  if (f->use->form) cJSON_AddStringToObject(o, "form", f->use->form->brief);
   add_parameters(o, f);
   add(o, {.key = "p", .number = p_value(f->named->p)},
       {.key = "probability", .number = report_probability(f)},

@@ -3,6 +3,7 @@
 #include "rig/test.h"
 #include "vehicle/model.h"
 
+#include <ctype.h>
 #include <string.h>
 
 static double ratio_of(const char *form, double distance_over_radius) {
@@ -133,6 +134,31 @@ TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
     }
     if (fx && fx->surface)
       CHECK(curve_find(fx->form_initial) && (curve_find(fx->form_initial)->surfaces & fx->surface));
+  }
+}
+
+// As a word: the k of `k (v x e_z)` is not that of `kx`.
+static bool names(const char *text, const char *word) {
+  const size_t n = strlen(word);
+  for (const char *at = strstr(text, word); at; at = strstr(at + 1, word)) {
+    const bool begins = at == text || !isalnum((unsigned char)at[-1]);
+    if (begins && !isalnum((unsigned char)at[n]) && at[n] != '_') return true;
+  }
+  return false;
+}
+
+TEST(every_effect_s_law_names_each_number_that_is_estimated) {
+  for (int i = 0; i < fx_count; i++) {
+    const fx_t *const fx = fx_table[i];
+    for (int k = 0; k < fx->n_size; k++) {
+      const curve_t *const form = fx->surface ? curve_find(fx->form_initial) : NULL;
+      const fx_param_t *const p = form ? &form->param[fx->size[k].param] : &fx->param[fx->size[k].param];
+      ROW("%s, %s", fx->name, p->name);
+      CHECK(names(form ? form->brief : fx->law, p->name));
+    }
+    if (fx->n_shape == 0 || fx->surface) continue;
+    ROW("%s, its shape", fx->name);
+    CHECK(names(fx->law, fx->param[fx->shape_param].name));
   }
 }
 
