@@ -47,7 +47,7 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
 }
 
 typedef struct {
-  double n, gg, mg, mm, mean;
+  double n, gg, mg, mm, mean, moved_mean;
   // Where the scale is nearly right: less the mean difference. Of those windows in which what drives moves,
   // of those in which what is driven does, and of all.
   double offset, driven_gg, driven_mg, moved_mg, moved_mm, left;
@@ -77,6 +77,12 @@ static bool window_at(const gap_flight_t *f, const drive_t *drive, int i, d3_t o
   return true;
 }
 
+// What is steady in both, with one sign: a vehicle that turns evenly all the time. Beside it what drives is
+// noise, and the other would turn a multiple of that.
+static double common(double a, double b) {
+  return a * b > 0.0 ? copysign(fmin(fabs(a), fabs(b)), a) : 0.0;
+}
+
 // The slope of what moves against what drives it, over the windows in which one of both does.
 static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
   const int m = gap_drive_samples(f, drive);
@@ -90,11 +96,13 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
       for (int k = 0; k < 3; k++) {
         // A constant offset of the sensor is no movement.
         if (pass == 0) slope[k].mean += (w.driven[k] - slope[k].mean) / n;
+        if (pass == 0) slope[k].moved_mean += (w.moved[k] - slope[k].moved_mean) / n;
         if (pass == 0) slope[k].offset += (w.driven[k] - w.moved[k] - slope[k].offset) / n;
         const double g = w.driven[k] - slope[k].mean, moved = w.moved[k];
-        if (pass == 0 || (fabs(g) < drive->least && fabs(moved) < drive->least)) continue;
+        const double beside = moved - common(slope[k].moved_mean, slope[k].mean);
+        if (pass == 0 || (fabs(g) < drive->least && fabs(beside) < drive->least)) continue;
         slope[k].n += 1.0;
-        slope[k].gg += g * g, slope[k].mg += moved * g, slope[k].mm += moved * moved;
+        slope[k].gg += g * g, slope[k].mg += beside * g, slope[k].mm += beside * beside;
         const double d = w.driven[k] - slope[k].offset;
         if (fabs(d) >= drive->least) slope[k].driven_gg += d * d, slope[k].driven_mg += moved * d;
         if (fabs(moved) >= drive->least) slope[k].moved_mg += moved * d, slope[k].moved_mm += moved * moved;
