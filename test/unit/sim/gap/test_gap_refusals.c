@@ -268,8 +268,11 @@ static done_t read_yaw(double circle_m, spoilt_t spoilt, why_t *why) {
     const double t_s = 0.01 * i, w = 2.0 * 3.14159265 / 3.0, at = w * t_s,
                  noise = 0.002 * sin(37.0 * t_s * t_s);
     const bool evenly = spoilt == EVENLY;
-    const double yaw = (evenly ? 0.12 * (t_s - 10.0 * (1.0 - exp(-0.1 * t_s))) : 4.0 * 3.14159265 * sin(0.3 * t_s)) + 0.001 * sin(50.0 * t_s);
-    const double rate = evenly ? 0.12 * (1.0 - exp(-0.1 * t_s)) + noise : 1.2 * 3.14159265 * cos(0.3 * t_s) + 0.05 * cos(50.0 * t_s);
+    const double yaw =
+        (evenly ? 0.12 * (t_s - 10.0 * (1.0 - exp(-0.1 * t_s))) : 4.0 * 3.14159265 * sin(0.3 * t_s)) +
+        0.001 * sin(50.0 * t_s);
+    const double rate = evenly ? 0.12 * (1.0 - exp(-0.1 * t_s)) + noise
+                               : 1.2 * 3.14159265 * cos(0.3 * t_s) + 0.05 * cos(50.0 * t_s);
     const double x = circle_m * cos(at), y = circle_m * sin(at), a_x = -w * w * x, a_y = -w * w * y;
     double v[FC_COLUMNS];
     flight_csv_values(t_s, v);
