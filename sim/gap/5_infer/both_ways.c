@@ -3,10 +3,6 @@
 
 #include <math.h>
 
-typedef struct {
-  double k, stderr_;
-} scaled_t;
-
 static double mean(const rows_t *r, const double *v) {
   double sum = 0.0;
   int n = 0;
@@ -47,7 +43,28 @@ both_t both_ways_of(const rows_t *r, const double *measured, const double *resid
   for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
   color_whiten(&color, r, left, room);
   color_whiten(&color, r, measured, left);
-  return sums_of(r, left, room);
+  both_t white = sums_of(r, left, room);
+  white.slow = (slope_t){plain.yy, plain.pp, plain.yp};
+  return white;
+}
+
+typedef struct {
+  double from, to, stderr_; // of the lower end
+} interval_t;
+
+static interval_t interval_of(const slope_t *s, int n) {
+  const double left = fmax(s->pp - s->yp * s->yp / s->yy, 0.0);
+  return (interval_t){s->yp / s->yy - 1.0, s->pp / s->yp - 1.0,
+                      SCORE_CLUSTER * sqrt(left / s->yy / fmax(n - 2, 1.0))};
+}
+
+// Of two scales that are nearer than the least that is named nobody would say that they are two.
+bool both_ways_are_one(const both_t *b, double typical) {
+  const slope_t white = {b->yy, b->pp, b->yp};
+  if (b->n == 0 || !(b->yp > 0.0 && b->slow.yp > 0.0)) return true;
+  const interval_t fast = interval_of(&white, b->n), slow = interval_of(&b->slow, b->n);
+  const double margin = SCORE_ERRORS * hypot(fast.stderr_, slow.stderr_) + SELECT_LEAST * typical;
+  return fast.from - margin < slow.to && slow.from - margin < fast.to;
 }
 
 static double reverse(const both_t *b) {
@@ -75,19 +92,29 @@ static double sure_smaller(const both_t *b, double stderr_) {
 }
 
 double both_ways_least(const both_t *b) {
-  if (!(b->yp > 0.0)) return 0.0;
+  if (!(b->yp > 0.0) || b->apart) return 0.0;
   const double left = fmax(b->pp - b->yp * b->yp / b->yy, 0.0);
   return sure_larger(b, SCORE_CLUSTER * sqrt(left / b->yy / fmax(b->n - 2, 1.0)));
 }
 
 double both_ways_agree(const both_t *b, double k, double stderr_) {
-  if (!(b->yp > 0.0)) return 0.0;
+  if (!(b->yp > 0.0) || b->apart) return 0.0;
   const double end = k > 0.0 ? sure_larger(b, stderr_) : sure_smaller(b, stderr_);
   return fabs(k) > fabs(end) - SCORE_ERRORS * error(b, stderr_) ? end : 0.0;
 }
 
-// about[k]: of the axes, what a choice predicts; n 0 where that cannot be told.
-static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_t *others, why_t *why) {
+bool both_ways_stand(const both_t about[3], const scaled_t told[3]) {
+  bool borne_out = false, one = true;
+  for (int axis = 0; axis < 3; axis++) {
+    borne_out = borne_out || both_ways_agree(&about[axis], told[axis].k, told[axis].stderr_) != 0.0;
+    one = one && (told[axis].k == 0.0 || !about[axis].apart);
+  }
+  return borne_out && one;
+}
+
+// about[k]: of the axes, what a choice predicts; n 0 where that cannot be told. typical: of a scale.
+static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_t *others, double typical,
+                   why_t *why) {
   model_t m;
   lines_t measured = {.r = {NULL}}, left = {.r = {NULL}}, room = {.r = {NULL}};
   TRY(chosen_model(others, base, &m, why));
@@ -100,6 +127,7 @@ static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_
     about[k] = (both_t){.n = 0};
     if (status == DONE && residual_has(s, ch) && !s->excluded[ch])
       about[k] = both_ways_of(set_rows(s, ch), measured.r[ch], left.r[ch], room.r[CH_FX], room.r[CH_FY]);
+    about[k].apart = !both_ways_are_one(&about[k], typical);
   }
   lines_free(&measured);
   lines_free(&left);
@@ -120,12 +148,10 @@ done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx
   chosen_t others = *chosen;
   both_t about[3];
   chosen_drop(&others, named->candidate);
-  TRY(look(about, s, base, &others, why));
-  *stands = false;
-  for (int axis = 0; axis < 3; axis++) {
-    const scaled_t told = as_inertia(fx, named, axis);
-    *stands = *stands || both_ways_agree(&about[axis], told.k, told.stderr_) != 0.0;
-  }
+  TRY(look(about, s, base, &others, fx->param[fx->size[0].param].nominal, why));
+  scaled_t told[3];
+  for (int axis = 0; axis < 3; axis++) told[axis] = as_inertia(fx, named, axis);
+  *stands = both_ways_stand(about, told);
   return DONE;
 }
 
@@ -135,7 +161,7 @@ done_t both_ways_take(chosen_t *chosen, const candidates_t *c, set_t *s, const m
   for (int i = 0; i < c->n; i++)
     if (c->candidate[i].use.fx->scales == FX_SCALES_INERTIA && !c->candidate[i].barred) which = i;
   if (which < 0 || chosen_use(chosen, which) || chosen->n >= NAMED_MAX) return DONE;
-  TRY(look(about, s, base, chosen, why));
+  TRY(look(about, s, base, chosen, c->candidate[which].typical[0], why));
   double k[3];
   for (int i = 0; i < 3; i++) k[i] = both_ways_least(&about[i]);
   if (k[0] == 0.0 && k[1] == 0.0 && k[2] == 0.0) return DONE;

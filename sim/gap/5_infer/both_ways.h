@@ -14,10 +14,17 @@
 
 #include "gap/5_infer/found.h"
 
-// Sums of squares and products of white rows about their mean.
+// Sums of squares and products of rows about their mean: measured, predicted, both.
 typedef struct {
-  double yy, pp, yp; // measured, predicted, both
+  double yy, pp, yp;
+} slope_t;
+
+// Of white rows; slow: of the same as they are, in which slow turning counts most.
+typedef struct {
+  double yy, pp, yp;
   int n;
+  slope_t slow;
+  bool apart; // not both_ways_are_one
 } both_t;
 
 // residual: measured less predicted, by row of one axis. left, room: as many numbers, overwritten. n 0: there
@@ -37,8 +44,23 @@ double both_ways_least(const both_t *b);
 // sign nothing here is proof: nominal flights show how much of that there is.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 
-// named: chosen, of this effect, which scales the turning (fx->scales). stands: about one axis both ways say
-// that it does. FAILED: no memory. BAD_INPUT: too many effects.
+// Slow and fast turning can be scaled by one number: their intervals meet, within their errors and the least
+// part of what is typical that is named. A log that goes
+// in step with an outer loop misses the same commands in each of its rows; what it has of them is no error
+// beside the right ones, but another multiple of them at each frequency.
+bool both_ways_are_one(const both_t *b, double typical);
+
+// What is told of an axis, as an inertia.
+typedef struct {
+  double k, stderr_;
+} scaled_t;
+
+// About one axis at least both ways say what is told, and about none for which something is told slow turning
+// says another number than fast.
+bool both_ways_stand(const both_t about[3], const scaled_t told[3]);
+
+// named: chosen, of this effect, which scales the turning (fx->scales). stands: both_ways_stand. FAILED: no
+// memory. BAD_INPUT: too many effects.
 MUST_CHECK done_t both_ways(set_t *s, const model_t *base, const chosen_t *chosen, const fx_t *fx,
                             const named_t *named, bool *stands, why_t *why);
 

@@ -14,6 +14,7 @@ typedef struct {
   double back;             // so many times the gyro's noise control commands against it
   double slow;             // sd of a moment that control cancels: it is predicted, and nothing turns
   double manoeuvre;        // for half of every hundred rows it turns by up to so much, and not otherwise
+  double fast, k_fast;     // sd of what it turns besides, of which so much more is predicted
 } turning_t;
 
 static both_t rows_of(const turning_t *t, uint64_t seed, double *by_least_squares) {
@@ -26,9 +27,11 @@ static both_t rows_of(const turning_t *t, uint64_t seed, double *by_least_square
         t->manoeuvre > 0.0 ? t->manoeuvre * fmax(sin(2.0 * PI / 100.0 * i), 0.0) : random_normal(r);
     slow = 0.98 * slow + 0.2 * t->slow * random_normal(r);
     const double missed = t->missed * random_normal(r), noise = t->noise * random_normal(r);
-    const double predicted = (1.0 + t->k) * turns + missed - t->back * noise + slow;
+    const double fast = t->fast * random_normal(r);
+    const double predicted =
+        (1.0 + t->k) * turns + (1.0 + t->k_fast) * fast + missed - t->back * noise + slow;
     follows[i] = i > 0;
-    measured[i] = turns + noise;
+    measured[i] = turns + fast + noise;
     residual[i] = measured[i] - predicted;
   }
   random_close(r);
@@ -86,4 +89,46 @@ TEST(gap_takes_no_inertia_within_two_standard_errors) {
   const both_t few = {.yy = 100.0, .pp = 160.0, .yp = 120.0, .n = 40}; // 0.2 +- 0.1, and half of 0.13
   CHECK(both_ways_least(&few) == 0.0);
   CHECK(both_ways_least(&(both_t){.yy = 100.0, .pp = 160.0, .yp = 120.0, .n = 400}) > 0.19);
+}
+
+// A log that went in step with an outer loop: 0.8 by slow turning, 0.3 by fast, was told as 0.46 for sure.
+TEST(gap_takes_for_no_inertia_what_slow_and_fast_turning_say_otherwise) {
+  static const struct {
+    const char *what;
+    turning_t t;
+    bool one;
+  } row[] = {
+      {"one number", {0.5, .manoeuvre = 3.0, .fast = 0.5, .k_fast = 0.5}, true},
+      {"the same, some commands missed",
+       {0.5, .missed = 0.3, .manoeuvre = 3.0, .fast = 0.5, .k_fast = 0.5},
+       true},
+      {"the same, a gyro's noise", {0.5, .noise = 0.2, .manoeuvre = 3.0, .fast = 0.5, .k_fast = 0.5}, true},
+      {"two, nearer than what is named", {0.5, .manoeuvre = 3.0, .fast = 0.5, .k_fast = 0.49}, true},
+      {"two", {0.8, .manoeuvre = 3.0, .fast = 1.0, .k_fast = 0.3}, false},
+      {"two, some commands missed",
+       {0.8, .missed = 0.1, .manoeuvre = 3.0, .fast = 1.0, .k_fast = 0.3},
+       false},
+  };
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    double k;
+    both_t b = rows_of(&row[i].t, 40 + i, &k);
+    CHECK(both_ways_are_one(&b, 0.1) == row[i].one);
+    b.apart = !row[i].one;
+    CHECK((both_ways_least(&b) > 0.0) == row[i].one);
+  }
+  CHECK(both_ways_are_one(&(both_t){0}, 0.1)); // nothing is turned
+}
+
+TEST(gap_takes_for_no_inertia_what_another_axis_contradicts) {
+  double k;
+  both_t b = rows_of(&(turning_t){0.5, .missed = 0.05}, 1, &k), other = b, nothing = {.n = 0};
+  other.apart = true;
+  const scaled_t told = {k, 0.05}, none = {0.0, 0.0};
+  CHECK(both_ways_stand((both_t[]){b, b, b}, (scaled_t[]){told, told, told}));
+  CHECK(
+      both_ways_stand((both_t[]){nothing, nothing, b}, (scaled_t[]){told, told, told})); // one axis is enough
+  CHECK(!both_ways_stand((both_t[]){b, other, b}, (scaled_t[]){told, told, told}));
+  CHECK(both_ways_stand((both_t[]){b, other, b}, (scaled_t[]){told, none, told})); // of which nothing is told
+  CHECK(!both_ways_stand((both_t[]){nothing, nothing, nothing}, (scaled_t[]){told, told, told}));
 }
