@@ -83,6 +83,9 @@ done_t body_open(body_t *b, const model_t *model, integrate_kind_t kind, double 
                        .rotor_inertia_kgm2 = f->rotor_inertia_kgm2,
                        .motor_tau_s = model->motor_tau_s,
                        .motor_down_over_up = model->motor_down_over_up,
+                       .lag_up_square = model->lag_square[0],
+                       .lag_down_square = model->lag_square[1],
+                       .lag_steady_N = model_steady_N(model),
                        .lag_in_speed = model->lag_in_speed,
                        .torque_scale = {1.0, 1.0, 1.0, 1.0}};
   rigid_tune(&b->rigid);

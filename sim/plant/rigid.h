@@ -43,20 +43,22 @@ typedef struct {
   double mass_kg;    // > 0
   d3_t inertia_kgm2; // > 0, about the body's axes
   double rotor_x_m[ROTORS], rotor_y_m[ROTORS],
-      rotor_z_m[ROTORS];       // centres, from the centre of mass, body axes
-  double spin[ROTORS];         // +1 counter-clockwise seen from above, -1 clockwise
-  double torque_ratio_m;       // >= 0   torque over thrust of a rotor
-  double kf_Ns2;               // > 0    thrust over speed squared, N/(rad/s)^2
-  double rotor_inertia_kgm2;   // >= 0   of propeller and motor about the axis
-  double motor_tau_s;          // >= 0   below LAG_LEAST_S: none, the thrust is set with the command
-  double motor_down_over_up;   // >= 0   what the lag is multiplied by while the thrust falls; 0: 1
+      rotor_z_m[ROTORS];                 // centres, from the centre of mass, body axes
+  double spin[ROTORS];                   // +1 counter-clockwise seen from above, -1 clockwise
+  double torque_ratio_m;                 // >= 0   torque over thrust of a rotor
+  double kf_Ns2;                         // > 0    thrust over speed squared, N/(rad/s)^2
+  double rotor_inertia_kgm2;             // >= 0   of propeller and motor about the axis
+  double motor_tau_s;                    // >= 0   below LAG_LEAST_S: none, the thrust is set with the command
+  double motor_down_over_up;             // >= 0   what the lag is multiplied by while the thrust falls; 0: 1
+  double lag_up_square, lag_down_square; // 0 to 1: plant/lag.h
+  double lag_steady_N;                   // > 0
   double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
   double torque_scale[ROTORS]; // what the torque is multiplied by besides
   double faster[ROTORS];       // by what share it turns faster, beside what its inflow does
-  double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf; // set by rigid_tune
-  d3_t per_inertia;                                                   // set by rigid_tune
-  double command_N[ROTORS];                                           // held
-  bool lag_in_speed;                                                  // else in thrust
+  double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf, per_two_steady; // set by rigid_tune
+  d3_t per_inertia;                                                                   // set by rigid_tune
+  double command_N[ROTORS];                                                           // held
+  bool lag_in_speed;                                                                  // else in thrust
   bool plain_lag;     // set by rigid_tune: in thrust, and the same up and down
   bool vertical_only; // all but height, climb and thrust stand still
   bool held;          // all but the thrust stands still
@@ -96,13 +98,15 @@ static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], d
 FEW_INLINE few_t rigid_change_Nps(const rigid_t *r, few_t thrust, few_t command, few_t speed) {
   if (r->plain_lag) return (command - thrust) * r->per_tau;
   const few_t zero = few_all(0.0);
-  few_t off = command - thrust;
+  few_t up = command - thrust, down = up;
   if (r->lag_in_speed) {
     const few_t to = few_sqrt(few_max(command, zero)) * r->per_root_kf,
-                from = few_sqrt(few_max(thrust, zero)) * r->per_root_kf;
-    off = 2.0 * r->kf_Ns2 * speed * (to - from);
+                from = few_sqrt(few_max(thrust, zero)) * r->per_root_kf,
+                off = 2.0 * r->kf_Ns2 * speed * (to - from), faster = (to + from) * r->per_two_steady - 1.0;
+    up = off * (1.0 + r->lag_up_square * faster);
+    down = off * (1.0 + r->lag_down_square * faster);
   }
-  return few_max(off, zero) * r->per_tau + few_min(off, zero) * r->per_tau_down;
+  return few_max(up, zero) * r->per_tau + few_min(down, zero) * r->per_tau_down;
 }
 
 // Thrust, its moment, and what the rotors' torque and inertia do.

@@ -54,9 +54,18 @@ model_t model_point(const model_t *m) {
   return point;
 }
 
+double model_steady_N(const model_t *m) {
+  return m->mass_kg * G_MPS2 / ROTORS;
+}
+
 lag_t model_lag(const model_t *m, double more_s) {
   const double up_s = fmax(m->motor_tau_s + more_s, 0.0);
-  return (lag_t){up_s, up_s * (m->motor_down_over_up > 0.0 ? m->motor_down_over_up : 1.0), m->lag_in_speed};
+  return (lag_t){.up_s = up_s,
+                 .down_s = up_s * (m->motor_down_over_up > 0.0 ? m->motor_down_over_up : 1.0),
+                 .in_speed = m->lag_in_speed,
+                 .up_square = m->lag_square[0],
+                 .down_square = m->lag_square[1],
+                 .steady_N = model_steady_N(m)};
 }
 
 double model_step_s(const model_t *m, double most_s) {

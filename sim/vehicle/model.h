@@ -43,6 +43,7 @@ typedef struct {
   double motor_tau_s;        // >= 0  first-order lag; below LAG_LEAST_S: none
   double motor_down_over_up; // >= 0 what it is multiplied by while the thrust falls; 0: 1
   bool lag_in_speed;         // of the rotor, else in thrust
+  double lag_square[2];      // 0 to 1: up and down, plant/lag.h
   double thrust_min_N;       // of all motors together; below 0 only in the thesis's section 4.2
   double thrust_max_N;       // > thrust_min_N
   thrust_map_t map;          // PWM and volts to newton per motor
@@ -72,6 +73,9 @@ void model_mix(const frame_t *f, double lift_N, const double moment_Nm[3], doubl
 
 // The same vehicle as a point with mass and thrust, its rotors' plane, above level ground and without walls.
 model_t model_point(const model_t *m);
+
+// Thrust of a rotor in the hover.
+double model_steady_N(const model_t *m);
 
 // How its rotors follow, with so much more lag (or less) than the file has.
 lag_t model_lag(const model_t *m, double more_s);

@@ -138,6 +138,18 @@ static done_t read_numbers(toml_t root, model_t *m, why_t *why) {
   return DONE;
 }
 
+static done_t read_lag_square(toml_t root, model_t *m, why_t *why) {
+  const char *const key = "lag_square";
+  int n = 0;
+  if (!toml_has(root, key)) return DONE;
+  TRY(toml_doubles(root, key, 2, m->lag_square, &n, why));
+  if (!m->lag_in_speed) return toml_refuse(root, key, why, "allowed: with lag_in = \"speed\"");
+  for (int i = 0; i < 2; i++)
+    if (n != 2 || !(m->lag_square[i] >= 0.0 && m->lag_square[i] <= 1.0))
+      return toml_refuse(root, key, why, "allowed: two numbers from 0 to 1, up and down");
+  return DONE;
+}
+
 // How the rotors follow. A file that says nothing means the speed, which is what a motor turns.
 static done_t read_lag(toml_t root, model_t *m, why_t *why) {
   char in[16] = "speed";
@@ -148,6 +160,7 @@ static done_t read_lag(toml_t root, model_t *m, why_t *why) {
   if (toml_has(root, "motor_tau_down_s"))
     TRY(toml_double(root, "motor_tau_down_s", LAG_LEAST_S, 2.0, &down_s, why));
   m->lag_in_speed = strcmp(in, "speed") == 0;
+  TRY(read_lag_square(root, m, why));
   m->motor_down_over_up = m->motor_tau_s >= LAG_LEAST_S ? down_s / m->motor_tau_s : 1.0;
   return DONE;
 }
@@ -175,27 +188,11 @@ static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
       m->mass_kg, weight_N, m->thrust_max_N, most_kg / LIFT_MAX, most_kg / LIFT_MIN);
 }
 
-static const char *const ROOT_KEYS[] = {"name",
-                                        "mass_kg",
-                                        "rotor_radius_m",
-                                        "motor_tau_s",
-                                        "motor_tau_down_s",
-                                        "lag_in",
-                                        "thrust_min_N",
-                                        "thrust_max_N",
-                                        "ceiling_m",
-                                        "wall_y_m",
-                                        "floor_rise_x",
-                                        "floor_rise_y",
-                                        "thrust_map",
-                                        "body",
-                                        "rotors",
-                                        "battery",
-                                        "controller",
-                                        "range_up",
-                                        "range_down",
-                                        "effect",
-                                        NULL};
+static const char *const ROOT_KEYS[] = {
+    "name",         "mass_kg",      "rotor_radius_m", "motor_tau_s", "motor_tau_down_s", "lag_in",
+    "lag_square",   "thrust_min_N", "thrust_max_N",   "ceiling_m",   "wall_y_m",         "floor_rise_x",
+    "floor_rise_y", "thrust_map",   "body",           "rotors",      "battery",          "controller",
+    "range_up",     "range_down",   "effect",         NULL};
 const toml_kind_t model_file_kind = {"a vehicle file", "sim/vehicle/vehicles/cf21_legacy.toml", ROOT_KEYS};
 
 static done_t read_root(toml_t root, const char *path, model_t *m, why_t *why) {

@@ -78,7 +78,8 @@ static const struct {
     {"unknown vehicle key", "$S/l_flight.csv --vehicle $S/l_unknown.toml",
      "learn: l_unknown.toml:3: mass_g: unknown key (did you mean mass_kg?); allowed: name, mass_kg, "
      "rotor_radius_m, motor_tau_s, "
-     "motor_tau_down_s, lag_in, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, floor_rise_y, "
+     "motor_tau_down_s, lag_in, lag_square, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, "
+     "floor_rise_y, "
      "thrust_map, body, rotors, battery, controller, range_up, range_down, "
      "effect\n"},
     {"written twice", "$S/l_flight.csv --points $S/l_new.json",

@@ -94,6 +94,76 @@ WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, con
     follow_all(g, lag, false, h);
 }
 
+// --- a lag of which a part goes with the square of the speed ---------------------------------------------
+
+// m = Om - u changes by -m l - b m^2, l = a + 2 b u (plant/lag.h).
+static double squared_at(double m, double l, double b, double t_s) {
+  return m * exp(-l * t_s) / (1.0 - b * m * expm1(-l * t_s) / l);
+}
+
+// Of a command that goes on along a line: how fast it is followed stays for the hold as it is in the middle.
+static double along_line(const lag_t *lag, bool speeds_up, double b, double hold_s, double to, double next,
+                         double start) {
+  const double tau_s = speeds_up ? lag->up_s : lag->down_s, q = speeds_up ? lag->up_square : lag->down_square;
+  double end = start;
+  for (int i = 0; i < 2; i++) { // the middle of what it comes to
+    const double l = fmax((1.0 - q) / tau_s + 0.5 * b * (to + next + start + end), 1e-6);
+    const double behind = (next - to) / (hold_s * l);
+    end = next - behind + exp(-l * hold_s) * (start - to + behind);
+  }
+  return end;
+}
+
+// One rotor from one row to the next. now: as above. The mean of a square by Simpson's rule.
+static void go_on_squared(const lag_t *lag, double hold_s, bool mean, double command_N, double next_N,
+                          double *now, double *thrust_N, double *rise_Nps) {
+  const double to = lag_follows(lag, command_N), next = lag_follows(lag, next_N), start = *now;
+  const bool speeds_up = to > start;
+  const double tau_s = speeds_up ? lag->up_s : lag->down_s, q = speeds_up ? lag->up_square : lag->down_square;
+  const double b = 0.5 * q / (sqrt(lag->steady_N) * tau_s);
+  const double l = fmax((1.0 - q) / tau_s + 2.0 * b * to, 1e-6); // 0 would be m / (1 + b m t)
+  const double m = start - to;
+  *now =
+      next != to ? along_line(lag, speeds_up, b, hold_s, to, next, start) : to + squared_at(m, l, b, hold_s);
+  *thrust_N = start * start;
+  *rise_Nps = -2.0 * start * m * (l + b * m);
+  if (!mean) return;
+  const double middle = to + squared_at(m, l, b, 0.5 * hold_s);
+  *thrust_N = (start * start + 4.0 * middle * middle + *now * *now) / 6.0;
+  *rise_Nps = (*now * *now - start * start) / hold_s;
+}
+
+static bool segment_ends(const grid_t *g, int i) {
+  const int *const segment = g->flight->segment ? g->flight->segment + g->from : NULL;
+  return i + 1 == g->samples || (segment && segment[i] != segment[i + 1]);
+}
+
+static void follow_squared(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
+  const bool along = !mean && grid_is_slow(g);
+  double now[ROTORS] = {0.0};
+  for (int i = 0; i < g->samples; i++) {
+    const bool begins = i == 0 || segment_ends(g, i - 1);
+    for (int k = 0; k < ROTORS; k++) {
+      const double command_N = g->command_N[k][i],
+                   next_N = g->command_N[k][i + (along && !segment_ends(g, i))];
+      double thrust_N, rise_Nps;
+      if (begins) now[k] = lag_follows(lag, command_N);
+      go_on_squared(lag, 1.0 / g->flight->rate_Hz, mean, command_N, next_N, &now[k], &thrust_N, &rise_Nps);
+      h->thrust_N[i][k] = thrust_N;
+      h->rise_Nps[i][k] = rise_Nps;
+    }
+  }
+}
+
+static void follow_lag(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
+  if (lag_is_squared(lag))
+    follow_squared(g, lag, mean, h);
+  else
+    follow(g, lag, mean, h);
+}
+
+// --- the history of a model ------------------------------------------------------------------------------
+
 // Adds what the thrusts were at sample i - shift of the samples first..last, and how fast they rose.
 WIDE_INLINE void look_back(const history_t *h, int first, int last, int i, four_t *thrust_N,
                            four_t *rise_Nps) {
@@ -123,7 +193,9 @@ WIDE_COPIES static void average(const grid_t *g, const history_t *h, lagged_t *m
 }
 
 bool grid_same_motors(const lag_t *a, double a_delay_s, const lag_t *b, double b_delay_s) {
-  return a->up_s == b->up_s && a->down_s == b->down_s && a->in_speed == b->in_speed && a_delay_s == b_delay_s;
+  return a->up_s == b->up_s && a->down_s == b->down_s && a->in_speed == b->in_speed &&
+         a->up_square == b->up_square && a->down_square == b->down_square && a->steady_N == b->steady_N &&
+         a_delay_s == b_delay_s;
 }
 
 static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
@@ -163,9 +235,9 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
     m->later_rootNps[k] = m->later_N[k] ? m->later_N[k] + ROTORS * n : NULL;
   }
   const history_t h = {room, room + g->samples, delay_s * g->flight->rate_Hz};
-  follow(g, lag, g->flight->rows_are_means, &h);
+  follow_lag(g, lag, g->flight->rows_are_means, &h);
   average(g, &h, m);
-  if (m->later_N[0]) follow(g, lag, true, &h);
+  if (m->later_N[0]) follow_lag(g, lag, true, &h);
   const bool fits = !m->later_N[0] || holds_fit(g, h.thrust_N, h.shift, m);
   free(room);
   if (!fits) m->delay_s = (double)NAN; // of no commands

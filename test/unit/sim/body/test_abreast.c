@@ -259,10 +259,12 @@ TEST(abreast_neighbours_that_differ_have_their_own_bits) {
 }
 
 TEST(abreast_who_lags_otherwise_has_its_own_bits) {
-  model_t m = vehicle6(0.6), other = m;
-  other.lag_in_speed = true;
+  model_t m = vehicle6(0.6), other = m, squared = m;
+  other.lag_in_speed = squared.lag_in_speed = true;
+  squared.lag_square[1] = 1.0;
   int contacts;
   (void)same_bits_of(&m, &other, 0.0, &contacts);
+  (void)same_bits_of(&other, &squared, 0.0, &contacts);
 }
 
 TEST(abreast_measured_points_have_the_bits_that_they_have_alone) {

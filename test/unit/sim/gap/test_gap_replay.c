@@ -137,14 +137,28 @@ TEST(gap_replay_of_eight_points_has_the_bits_of_each_alone) {
   drop(c);
 }
 
+// Of a lag in speed of which all goes with the square of it (plant/lag.h), by many small steps.
+static void follow_wave(const lag_t *lag, double omega, double rate_Hz, int n, double thrust_N[]) {
+  const int steps = 500;
+  const double steady = sqrt(lag->steady_N);
+  double speed = sqrt(0.1);
+  for (int i = 0; i < n * steps; i++) {
+    if (i % steps == 0) thrust_N[i / steps] = speed * speed;
+    const double u = sqrt(0.1 + 0.05 * sin(omega * i / steps / rate_Hz));
+    speed += (u * u - speed * speed) / (2.0 * steady * lag->up_s) / steps / rate_Hz;
+  }
+}
+
 // Rotors with a lag follow a wave that is commanded all the time and logged 50 times a second.
 TEST(gap_follows_commands_along_lines_where_rows_miss_them) {
   static const struct {
     const char *what;
     double command_Hz, least, most; // rms error over the wave's amplitude
-  } row[] = {{"nobody said how often", 0.0, 0.0, 0.01},
-             {"500 a second", 500.0, 0.0, 0.01},
-             {"every command is there, and holds for 20 ms", 50.0, 0.05, 0.1}};
+    bool squared;
+  } row[] = {{"nobody said how often", 0.0, 0.0, 0.01, false},
+             {"500 a second", 500.0, 0.0, 0.01, false},
+             {"500 a second, followed with the square of the speed", 500.0, 0.0, 0.01, true},
+             {"every command is there, and holds for 20 ms", 50.0, 0.05, 0.1, false}};
   enum { N = 400 };
   const double rate_Hz = 50.0, omega = 12.0, tau_s = 0.03;
   static double command_N[N];
@@ -156,12 +170,16 @@ TEST(gap_follows_commands_along_lines_where_rows_miss_them) {
     ROW("%s", row[k].what);
     g.command_Hz = row[k].command_Hz;
     for (int r = 0; r < ROTORS; r++) g.command_N[r] = command_N;
-    const lagged_t *const m = grid_motors(&g, &(lag_t){tau_s, tau_s, false}, 0.0);
+    const lag_t lag = {tau_s, tau_s, row[k].squared, row[k].squared, row[k].squared, 0.08};
+    static double followed_N[N];
+    if (row[k].squared) follow_wave(&lag, omega, rate_Hz, N, followed_N);
+    const lagged_t *const m = grid_motors(&g, &lag, 0.0);
     double sum = 0.0;
     CHECK(m != NULL);
     for (int i = N / 2; m && i < N; i++) {
       const double is = sin(omega * i / rate_Hz - atan(omega * tau_s)) / hypot(1.0, omega * tau_s);
-      const double error = (m->thrust_N[0][i] - 0.1) / 0.05 - is;
+      const double want_N = row[k].squared ? followed_N[i] : 0.1 + 0.05 * is;
+      const double error = (m->thrust_N[0][i] - want_N) / 0.05;
       sum += error * error / (N - N / 2);
     }
     CHECK(sqrt(sum) >= row[k].least && sqrt(sum) <= row[k].most);

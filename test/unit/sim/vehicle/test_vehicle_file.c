@@ -53,7 +53,8 @@ static const struct {
     {"empty", "", "v.toml:1: name: missing; allowed: a text in quotes"},
     {"unknown key", VEHICLE "mass = 1\n",
      "v.toml:7: mass: unknown key; allowed: name, mass_kg, rotor_radius_m, "
-     "motor_tau_s, motor_tau_down_s, lag_in, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, floor_rise_x, "
+     "motor_tau_s, motor_tau_down_s, lag_in, lag_square, thrust_min_N, thrust_max_N, ceiling_m, wall_y_m, "
+     "floor_rise_x, "
      "floor_rise_y, thrust_map, "
      "body, rotors, battery, "
      "controller, range_up, range_down, "
@@ -256,6 +257,13 @@ TEST(vehicle_file_says_how_the_rotors_follow) {
       {"", true, 1.0, ""},
       {"lag_in = \"thrust\"\n", false, 1.0, ""},
       {"lag_in = \"speed\"\nmotor_tau_down_s = 0.09\n", true, 1.5, ""},
+      {"lag_square = [0.0, 1.0]\n", true, 1.0, ""},
+      {"lag_square = [0.0, 1.5]\n", false, 0.0,
+       "v.toml:7: lag_square: allowed: two numbers from 0 to 1, up and down"},
+      {"lag_square = [0.5]\n", false, 0.0,
+       "v.toml:7: lag_square: allowed: two numbers from 0 to 1, up and down"},
+      {"lag_in = \"thrust\"\nlag_square = [0.0, 1.0]\n", false, 0.0,
+       "v.toml:8: lag_square: allowed: with lag_in = \"speed\""},
       {"lag_in = \"torque\"\n", false, 0.0,
        "v.toml:7: lag_in: unknown word `torque`; allowed: speed, thrust"},
       {"motor_tau_down_s = 0\n", false, 0.0,
