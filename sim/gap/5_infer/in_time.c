@@ -188,7 +188,7 @@ enum {
   LINES = STRETCH_S * RESIDUAL_SMOOTH_HZ,
   OWN = 2, // lines either side that Hann's taper spreads one over
 };
-// Lines either side that one is compared with, and the slowest one.
+// Lines either side that one is compared with, and the slowest one; over so many the way of flying spreads.
 static const int BESIDE = (int)(STRETCH_S / ABOUT_S);
 
 // Of all channels, side by side.
@@ -325,6 +325,7 @@ static cell_t line_of(const look_t *l, int lane, int line, const spectrum_t *whi
                   .to = (line + 1.0) / STRETCH_S,
                   .size = sqrt(4.0 * raw->power[line][lane] / raw->stretches / (2.0 / 3.0 * rows)),
                   .statistic = statistic,
+                  .spreads = BESIDE,
                   .explained = 3.0 * white->power[line][lane] / white->stretches * l->s->smooth.n / rows};
 }
 

@@ -216,8 +216,10 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
 
 // The bound of a cell with what a right form with other numbers leaves beside chance: an error of the model,
 // which nominal flights do not have. Of the largest effect of its channel so much is told as would be named.
+// A misfit is as wide in the spectrum as the flight's manoeuvres, in which a line is narrow.
 static double bound_of(const cell_t *c, double chance, const double misfit[CHANNELS]) {
-  const double share = c->size != 0.0 ? misfit[c->channel] * c->statistic / c->size : 0.0;
+  const double left = misfit[c->channel] / sqrt(c->spreads > 1 ? c->spreads : 1);
+  const double share = c->size != 0.0 ? left * c->statistic / c->size : 0.0;
   return hypot(chance, SELECT_LEAST / CANDIDATES_MISFIT * share);
 }
 

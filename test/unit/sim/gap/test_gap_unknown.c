@@ -39,8 +39,10 @@ TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
 TEST(gap_measures_a_misfit_by_itself_and_not_by_nominal_flights) {
   static const struct {
     double statistic, size;
+    int spreads;
     bool found;
-  } row[] = {{2000.0, 0.13, true}, {2000.0, 0.11, false}, {150.0, 2.0, true}, {120.0, 2.0, false}};
+  } row[] = {{2000.0, 0.13, 0, true}, {2000.0, 0.11, 0, false},  {150.0, 2.0, 0, true},
+             {120.0, 2.0, 0, false},  {2000.0, 0.031, 16, true}, {2000.0, 0.029, 16, false}}; // a line
   scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[NOMINAL_FLIGHTS];
   const double misfit[CHANNELS] = {[CH_WX] = 0.02};
   const int look = unknown_cell(CH_WX, COORDINATE_VEL_Z, false);
@@ -53,6 +55,7 @@ TEST(gap_measures_a_misfit_by_itself_and_not_by_nominal_flights) {
     log.cell[look] = (cell_t){.channel = CH_WX,
                               .size = row[i].size,
                               .statistic = row[i].statistic,
+                              .spreads = row[i].spreads,
                               .explained = row[i].statistic * row[i].statistic};
     unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
     CHECK(judged.found == row[i].found);
