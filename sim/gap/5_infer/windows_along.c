@@ -102,6 +102,26 @@ WIDE_COPIES static void best_windows(const products_t *p, bool centred, const fo
 
 // --- a coordinate -----------------------------------------------------------------------------------------
 
+// A window and what lies beside it are one thing but for a constant, and windows are no longer than half of
+// the coordinate: of one that reaches an end it is the other part, if that explains more with no constant.
+static bool lies_beside(const products_t *p, int k, const window_t *w) {
+  const int bins = p->bins;
+  double y = 0.0, own = 0.0, cross = 0.0;
+  if (w->from > 0 && w->to + 1 < bins) return false;
+  for (int a = w->from; a <= w->to; a++) {
+    y += p->y[a][k];
+    cross += p->D[a][bins][k];
+    for (int b = w->from; b <= w->to; b++) own += p->D[a][b][k];
+  }
+  const double y_beside = p->y[bins][k] - y, own_beside = p->D[bins][bins][k] - 2.0 * cross + own;
+  return own > 0.0 && own_beside > 0.0 && y_beside * y_beside * own > y * y * own_beside;
+}
+
+static window_t beside(const window_t *w, int bins) {
+  const bool lowest = w->from == 0;
+  return (window_t){lowest ? w->to + 1 : 0, lowest ? bins - 1 : w->from - 1, -w->size, w->statistic};
+}
+
 static cell_t cell_of(const window_t *w, int channel, int coordinate, int bins, const double *edge) {
   return (cell_t){.channel = channel,
                   .along = coordinate,
@@ -135,7 +155,9 @@ static void try_windows(const look_t *l, int coordinate, int bins, const double 
   best_windows(&p, l->centred, &looked, best);
   for (int k = 0; k < f->four.n; k++) {
     const int ch = channel_of(&f->four, k);
-    if (best[k].statistic > cell[ch].statistic) cell[ch] = cell_of(&best[k], ch, coordinate, bins, edge);
+    if (!(best[k].statistic > cell[ch].statistic)) continue;
+    const window_t at = lies_beside(&p, k, &best[k]) ? beside(&best[k], bins) : best[k];
+    cell[ch] = cell_of(&at, ch, coordinate, bins, edge);
   }
 }
 

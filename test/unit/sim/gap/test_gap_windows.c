@@ -33,7 +33,9 @@ TEST(gap_finds_the_window_in_which_something_lies) {
     double size;
   } row[] = {{"a layer", CH_FZ, 400, 600, 1.0},
              {"a thin one", CH_FX, 800, 900, -1.5},
-             {"the lowest, turning", CH_WY, 0, 300, 1.0}};
+             {"the lowest, turning", CH_WY, 0, 300, 1.0},
+             {"all but the lowest", CH_FZ, 300, GAP_ROWS, 1.0}, // was told as -1 in the lowest
+             {"all but the highest", CH_FX, 0, 900, -1.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     why_t why;
