@@ -40,8 +40,7 @@ typedef struct {
   char **file;
   int files;
   uLong crc; // of the files that say what is flown; 0: none
-  bool list, effects, logs, params, markdown, help, rate_said;
-  bool version;
+  bool list, effects, logs, params, markdown, help, version, only_says, rate_said;
   made_t made, each; // each: of one of many flights, but for its seed
   int not_finite;    // flights
   double rows;       // recorded
@@ -138,11 +137,6 @@ static done_t take_option(order_t *o, int option, const char *text, why_t *why) 
   return error_set(why, "an option that is not known, or without its value; fly --help lists them");
 }
 
-// What there is, not a flight.
-static bool only_says(const order_t *o) {
-  return o->list || o->effects || o->logs || o->params || o->help || o->version;
-}
-
 static bool many(const order_t *o) {
   return !isnan(o->from) || !isnan(o->to);
 }
@@ -183,8 +177,7 @@ static done_t check_commands(const order_t *o, const char *given, const char *sc
 static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   // clang-format off
   static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'},
-      {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
+      {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'}, {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
       {"commands", 1, 0, 'C'}, {"scene", 1, 0, 'x'}, {"storage", 1, 0, 'X'},
       {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
       {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
@@ -203,7 +196,8 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
     if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
     if (!strchr("ftjlTM", option)) made_option(&o->each, options[at].name, optarg);
   }
-  if (only_says(o)) return DONE;
+  o->only_says = o->list || o->effects || o->logs || o->params || o->help || o->version;
+  if (o->only_says) return DONE;
   if (o->merge) return take_merge(o, given, argc, argv, why);
   TRY(check_commands(o, given, argv[optind], why));
   if (o->replay && o->summary) return error_set(why, "--summary: nothing is flown by --replay; leave it out");
@@ -234,12 +228,10 @@ static done_t open_output(const order_t *o, output_t *out, why_t *why) {
   TRY(whole_files_open(&out->files, o->params_to, &out->params, why));
   TRY(whole_files_open(&out->files, o->usd, &out->usd, why));
   TRY(whole_files_open(&out->files, o->summary, &out->summary, why));
-  TRY(whole_files_spare(&out->files, o->usd_config, why));
-  TRY(whole_files_spare(&out->files, o->commands, why));
-  TRY(whole_files_spare(&out->files, o->scene, why));
-  TRY(whole_files_spare(&out->files, o->storage, why));
+  const char *const read[] = {o->usd_config, o->commands, o->scene, o->storage, o->vehicle_path};
+  for (size_t i = 0; i < sizeof read / sizeof *read; i++) TRY(whole_files_spare(&out->files, read[i], why));
   for (int i = 0; i < o->files; i++) TRY(whole_files_spare(&out->files, o->file[i], why));
-  return whole_files_spare(&out->files, o->vehicle_path, why);
+  return DONE;
 }
 
 static done_t tell(const order_t *o, cJSON *json, const record_t *record, output_t *out, why_t *why) {
@@ -382,7 +374,7 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->effects) catalogue_effects();
   if (order->logs) catalogue_logs();
   if (order->params) catalogue_params(order->markdown);
-  if (only_says(order)) return DONE;
+  if (order->only_says) return DONE;
   if (order->replay) return replay_report(order->replay, &order->request, why);
   if (!order->scenario && !order->commands && !order->merge) return DONE;
   if (order->seeds == 0) order->seeds = 1;

@@ -309,44 +309,9 @@ bool score_is_possible(const score_t *j, const choice_t *choice) {
   return true;
 }
 
-// Of a disturbance d control commands -T d, beside what a pilot commands. What of the residual, which is d,
-// goes along with the commands at a slope q is q |T| at most of its squares: the more a pilot commands, the
-// flatter the slope and the smaller the share. So much more than its slope no control explains, nor one that
-// overshoots by the largest peak of T that loops are designed for; an inertia that is there explains all but
-// noise.
-#define CONTROL_PEAK 2.0
-
-static bool explains_more_than_control(const score_t *j, const choice_t *choice, const verdict_t *v) {
-  const candidate_t *const c = &j->c->candidate[choice->of[choice->n - 1]];
-  choice_t rest = *choice;
-  double slope = 0.0;
-  rest.n--;
-  for (int k = 0; k < c->n; k++) {
-    const double made = c->use.fx->control_makes * v->value[k];
-    slope = fmax(slope, c->use.fx->control_makes > 0 ? made / (1.0 + made) : made);
-  }
-  const double before = score_left(j, &rest, NULL), after = score_left(j, choice, NULL);
-  return !j->c->slow && before - after > CONTROL_PEAK * slope * before;
-}
-
-// Of an effect that control's work can look like: no number is surely one that control makes, and one at
-// least surely is not; or it explains too much. Of any other effect: always.
-static bool beyond_control(const score_t *j, const choice_t *choice, const verdict_t *v) {
-  const candidate_t *const c = &j->c->candidate[choice->of[choice->n - 1]];
-  bool beyond = c->use.fx->control_makes == 0;
-  if (!beyond && explains_more_than_control(j, choice, v)) return true;
-  for (int k = 0; k < c->n && c->use.fx->control_makes; k++) {
-    const double made = c->use.fx->control_makes * v->value[k], error = SCORE_ERRORS * v->stderr_[k];
-    if (made > error) return false;
-    beyond = beyond || made < -error;
-  }
-  return beyond;
-}
-
 bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) {
   const candidate_t *c = &j->c->candidate[choice->of[choice->n - 1]];
   double largest = 0.0; // in parts of what is typical
-  if ((!j->nominal || !j->nominal->n) && !beyond_control(j, choice, v)) return false;
   for (int k = 0; k < c->n; k++) {
     if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]))) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);

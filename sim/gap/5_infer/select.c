@@ -2,6 +2,7 @@
 #include "gap/5_infer/select.h"
 
 #include "gap/5_infer/bend.h"
+#include "gap/5_infer/beyond_control.h"
 #include "gap/5_infer/family.h"
 #include "gap/5_infer/evidence.h"
 #include "gap/5_infer/local.h"
@@ -38,8 +39,8 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate)) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = score_last(score, &with);
-  if (!score_allows(score, &with, &v) || !score_is_sure(score, rest, &with) ||
-      score_harms(score, rest, &with))
+  if (!beyond_control(score, &with, &v) || !score_allows(score, &with, &v) ||
+      !score_is_sure(score, rest, &with) || score_harms(score, rest, &with))
     return HUGE_VAL;
   return left_of(t, &with);
 }
@@ -96,8 +97,9 @@ static bool prune_one(select_t *t) {
     const choice_t last = choice_with(&rest, choice->of[i]);
     const verdict_t v = score_last(score, &last);
     const double without = score_left(score, &rest, NULL);
-    if (score_allows(score, &last, &v) && now < without * (1.0 - SELECT_GAIN) &&
-        score_is_sure(score, &rest, &last) && !score_harms(score, &rest, &last))
+    if (beyond_control(score, &last, &v) && score_allows(score, &last, &v) &&
+        now < without * (1.0 - SELECT_GAIN) && score_is_sure(score, &rest, &last) &&
+        !score_harms(score, &rest, &last))
       continue;
     *choice = rest;
     return true;
