@@ -119,14 +119,15 @@ static void say_what(finding_t *f, const double *effect, int rows) {
 
 const char *const standing_name[] = {"ambiguous", "likely", "strong"};
 
-static standing_t standing_of(const report_t *r, const finding_t *f) {
+standing_t report_standing(const report_t *r, const finding_t *f) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const int ch = f->profile.channel;
   const bool feedback = f->named->confirm.answer == CONFIRM_NO;
   if (f->named->n_rival || feedback) return STANDS_AMBIGUOUS;
   const bool unexplained = d->unknown && d->left.cell.channel == ch;
   const left_over_t left = report_adequacy(r, ch);
-  return unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN ? STANDS_LIKELY : STANDS_STRONG;
+  const bool doubted = unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN || report_contradicted(r);
+  return doubted ? STANDS_LIKELY : STANDS_STRONG;
 }
 
 // --- the whole --------------------------------------------------------------------------------------------
@@ -140,5 +141,5 @@ void report_describe(const report_t *r, finding_t *f, const double *effect, int 
   say_instrument(f);
   say_what(f, effect, rows);
   report_apart(f->fx, f->named->n_rival ? f->named->rival[0] : f->fx, f->fly);
-  f->standing = standing_of(r, f);
+  f->standing = report_standing(r, f);
 }

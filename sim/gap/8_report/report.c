@@ -176,6 +176,11 @@ double report_left(const report_t *r) {
   return f->left_before > 0.0 ? f->left / f->left_before : 1.0;
 }
 
+bool report_contradicted(const report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  return d->found.n && !(d->held_out.left_after < d->held_out.left_before);
+}
+
 left_over_t report_adequacy_of_all(const report_t *r) {
   left_over_t worst = LEFT_UNKNOWN;
   for (int ch = 0; ch < CHANNELS; ch++) {

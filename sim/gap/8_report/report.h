@@ -168,6 +168,9 @@ double report_left(const report_t *r);
 bool report_has_residual(const report_t *r);
 // ... and it is known what feedback alone makes of it; else nothing could have been found.
 bool report_can_tell(const report_t *r);
+// Held-out flights are explained no better with what is named, all channels together.
+bool report_contradicted(const report_t *r);
+standing_t report_standing(const report_t *r, const finding_t *f);
 left_over_t report_adequacy(const report_t *r, int channel);
 left_over_t report_adequacy_of_all(const report_t *r); // the worst
 

@@ -172,7 +172,7 @@ static void warn_of_diagnosis(report_t *r) {
                 : "no residual can be formed: these logs have neither acceleration nor rates beside commands "
                   "that "
                   "explain them");
-  if (d->found.n && !(d->held_out.left_after < d->held_out.left_before))
+  if (report_contradicted(r))
     warn(r, "the held-out flights speak against what is named: all channels together they are explained no "
             "better than before");
   warn_of_withdrawn(r);
