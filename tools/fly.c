@@ -175,26 +175,16 @@ static done_t check_commands(const order_t *o, const char *given, const char *sc
 }
 
 static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
-  // clang-format off
-  static const struct option options[] = {
-      {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'}, {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'}, {"usd", 1, 0, 'u'}, {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
-      {"commands", 1, 0, 'C'}, {"scene", 1, 0, 'x'}, {"storage", 1, 0, 'X'},
-      {"vehicle", 1, 0, 'v'}, {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'},
-      {"integrator", 1, 0, 'i'}, {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'},
-      {"log-rate", 1, 0, 'r'}, {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"effects", 0, 0, 'E'}, {"logs", 0, 0, 'G'},
-      {"summary", 1, 0, 'M'}, {"merge", 0, 0, 'g'}, {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'}, {"version", 0, 0, 'V'}, {0},
-  };
-  // clang-format on
   *o = (order_t){.from = (double)NAN, .to = (double)NAN, .request = {.seed = 1}};
   o->made = made_by("fly", argc, argv);
   o->each = made_by("fly", 0, NULL);
   opterr = 0;
   char given[64] = "";
-  for (int option, at; (option = getopt_long(argc, argv, "", options, &at)) != -1;) {
-    if (option == '?') return option_refuse(options, argv[optind - 1], why);
+  for (int option, at; (option = getopt_long(argc, argv, "", OPTIONS, &at)) != -1;) {
+    if (option == '?') return option_refuse(OPTIONS, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
     if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
-    if (!strchr("ftjlTM", option)) made_option(&o->each, options[at].name, optarg);
+    if (!strchr("ftjlTM", option)) made_option(&o->each, OPTIONS[at].name, optarg);
   }
   o->only_says = o->list || o->effects || o->logs || o->params || o->help || o->version;
   if (o->only_says) return DONE;

@@ -1,6 +1,22 @@
-// fly_usage.h - what fly --help says.
+// fly_usage.h - the options of fly, and what fly --help says of them.
 #ifndef FLY_USAGE_H
 #define FLY_USAGE_H
+
+#include <getopt.h>
+
+// clang-format off
+static const struct option OPTIONS[] = {
+    {"controller", 1, 0, 'c'}, {"thesis-law", 0, 0, 'w'}, {"set", 1, 0, 's'},
+    {"set-from", 1, 0, 'S'}, {"params-to", 1, 0, 'T'}, {"usd", 1, 0, 'u'},
+    {"usd-config", 1, 0, 'U'}, {"replay", 1, 0, 'R'}, {"effect", 1, 0, 'e'},
+    {"commands", 1, 0, 'C'}, {"scene", 1, 0, 'x'}, {"storage", 1, 0, 'X'}, {"vehicle", 1, 0, 'v'},
+    {"noise", 1, 0, 'n'}, {"seed", 1, 0, 'd'}, {"seeds", 1, 0, 'm'}, {"integrator", 1, 0, 'i'},
+    {"from", 1, 0, 'f'}, {"to", 1, 0, 't'}, {"log", 1, 0, 'l'}, {"log-rate", 1, 0, 'r'},
+    {"json", 1, 0, 'j'}, {"list", 0, 0, 'L'}, {"effects", 0, 0, 'E'}, {"logs", 0, 0, 'G'},
+    {"summary", 1, 0, 'M'}, {"merge", 0, 0, 'g'}, {"params", 2, 0, 'P'}, {"help", 0, 0, 'h'},
+    {"version", 0, 0, 'V'}, {0},
+};
+// clang-format on
 
 static const char USAGE[] =
     "usage: fly SCENARIO [options]\n"

@@ -210,7 +210,7 @@ typedef struct {
   bool in_height; // a range sensor that has it gives it to an estimate of the height, too
   // Control that cancels a disturbance commands what does not turn the vehicle: it looks like this effect
   // with sizes above 0 (1) or below (-1). The first look, which finds out how much disturbance there is,
-  // takes none of these. 0: like no size.
+  // takes of these what explains more than control could (gap/5_infer/beyond_control.h). 0: like no size.
   int control_makes;
   // What control gives in answer to a disturbance, late and by its own gains, looks like it: a name of it has
   // to say more than such control (gap/5_infer/own_work.h).

@@ -9,7 +9,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_motor_damage = {
     .name = "motor_damage",
     .brief = "one rotor gives less thrust",
-    .law = "the rotor gives T_i (1 - loss), from `start` on",
+    .law = "number `rotor` gives T_i (1 - loss), from `start` on",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"inertia", "a calm hover: damage shows there, inertia in attitude doublets alone"},

@@ -10,7 +10,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_motor_lag = {
     .name = "motor_lag",
     .brief = "the motors are slower (add > 0) or faster than the vehicle file has them",
-    .law = "the time constant of the motors is tau + add",
+    .law = "the time constant of the motors is tau + add, not below 0",
     .fly = "attitude doublets and throttle steps",
     .over = {"thrust"},
     .apart = {{"delay", "sharp throttle and attitude doublets, logged at 500 Hz"},

@@ -20,7 +20,8 @@ const fx_t fx_motor_tilt = {
     .name = "motor_tilt",
     .brief = "the axis of one rotor leans (x: forwards, y: to the left); where along its arm, it or the one "
              "opposite",
-    .law = "at the rotor's hub F = T_i (x, y, 0)",
+    .law =
+        "of `rotor`, at its hub F = T_i (x, y, 0); torque 1: its torque leans with it, 0: it stays about z",
     .fly = "a calm hover",
     .over = {"thrust"},
     .apart = {{"rotor_tilt", "throttle steps: one rotor that leans pushes to a side, too"},

@@ -14,7 +14,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_thrust_curve = {
     .name = "thrust_curve",
     .brief = "a bend in the curve from command to thrust",
-    .law = "each rotor gives T_i + k (T_i - m g/4)^2",
+    .law = "each rotor gives T_i + k (T_i - m g/4)^2, not below 0",
     .fly = "a wide range of throttle",
     .over = {"thrust"},
     .about_weight = true,

@@ -15,7 +15,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_thrust_slope = {
     .name = "thrust_slope",
     .brief = "the curve from command to thrust is steeper (k > 0) or flatter, about the weight",
-    .law = "each rotor gives T_i + k (T_i - m g/4)",
+    .law = "each rotor gives T_i + k (T_i - m g/4), not below 0",
     .fly = "throttle steps of 20 %",
     .over = {"thrust"},
     .apart = {{"inertia", "throttle steps without turning, then attitude doublets"},

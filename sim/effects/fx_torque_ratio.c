@@ -10,7 +10,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
 const fx_t fx_torque_ratio = {
     .name = "torque_ratio",
     .brief = "the rotors' torque over their thrust is larger (k > 0) or smaller than the vehicle file has it",
-    .law = "each rotor turns the vehicle about z by (1 + k) times what the file says",
+    .law = "of each rotor the torque over the thrust is (1 + k) times the file's",
     .fly = "yaw doublets",
     .over = {"thrust"},
     .in = "turn_z",

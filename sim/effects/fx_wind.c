@@ -30,9 +30,8 @@ const fx_t fx_wind = {
     .name = "wind",
     .brief = "a constant force (plane 1: its part in the rotors' plane alone), gusts, and moving air that "
              "the drags feel",
-    .law = "F = (fx, fy, fz) and gusts of deviation `gust` and time constant `tau`, world axes; the air "
-           "moves by "
-           "(vx, vy, vz)",
+    .law = "F = (fx, fy, fz), world axes, plane 1: its part in the rotors' plane; and gusts of deviation "
+           "`gust` and time constant `tau`; the air moves by (vx, vy, vz)",
     .fly = "a full yaw turn on the spot",
     .over = {"time"},
     .needs = FX_NEEDS_ATTITUDE,

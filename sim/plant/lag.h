@@ -33,12 +33,5 @@ static inline bool lag_is_squared(const lag_t *lag) {
 static inline double lag_follows(const lag_t *lag, double thrust_N) {
   return lag->in_speed ? sqrt(larger(thrust_N, 0.0)) : thrust_N;
 }
-static inline double lag_thrust_N(const lag_t *lag, double follows) {
-  return lag->in_speed ? follows * follows : follows;
-}
-// The time constant on the way from `now` to `command`.
-static inline double lag_s(const lag_t *lag, double now, double command) {
-  return command > now ? lag->up_s : lag->down_s;
-}
 
 #endif

@@ -70,7 +70,11 @@ lag_t model_lag(const model_t *m, double more_s) {
 
 double model_step_s(const model_t *m, double most_s) {
   const lag_t lag = model_lag(m, 0.0);
-  return lag_is_none(&lag) ? most_s : fmin(most_s, 0.5 * fmin(lag.up_s, lag.down_s));
+  if (lag_is_none(&lag)) return most_s;
+  const double faster = sqrt(fmax(m->thrust_max_N / ROTORS / lag.steady_N, 1.0)) - 1.0; // than in the hover
+  const double up_s = lag.up_s / (1.0 + lag.up_square * faster),
+               down_s = lag.down_s / (1.0 + lag.down_square * faster);
+  return fmin(most_s, 0.5 * fmin(up_s, down_s));
 }
 
 double model_grows(const model_t *m, fx_grows_t how) {

@@ -26,7 +26,7 @@ double verdict_number(const cJSON *o, const char *key) {
 static void check_effect(const cJSON *one) {
   const cJSON *const family = cJSON_GetObjectItem(one, "family"), *const rivals =
                                                                       cJSON_GetObjectItem(one, "rivals");
-  CHECK(cJSON_GetArraySize(one) >= 12 && cJSON_GetArraySize(family) == 1 + cJSON_GetArraySize(rivals));
+  CHECK(cJSON_GetArraySize(one) >= 13 && cJSON_GetArraySize(family) == 1 + cJSON_GetArraySize(rivals));
   CHECK_TEXT(cJSON_GetArrayItem(family, 0)->valuestring, verdict_string(one, "name"));
   CHECK((strcmp(verdict_string(one, "standing"), "ambiguous") == 0) || cJSON_GetArraySize(rivals) == 0);
   CHECK(verdict_string(one, "says")[0] && verdict_string(one, "law")[0]);

@@ -96,40 +96,52 @@ WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, con
 
 // --- a lag of which a part goes with the square of the speed ---------------------------------------------
 
-// m = Om - u changes by -m l - b m^2, l = a + 2 b u (plant/lag.h).
+// Of one direction: m = Om - u changes by -m l - b m^2, l = a + 2 b u (plant/lag.h), in roots of thrusts.
+typedef struct {
+  double a, b;
+} rate_t;
+
+static rate_t rate_of(const lag_t *lag, bool speeds_up) {
+  const double tau_s = speeds_up ? lag->up_s : lag->down_s, q = speeds_up ? lag->up_square : lag->down_square;
+  return (rate_t){(1.0 - q) / tau_s, 0.5 * q / (sqrt(lag->steady_N) * tau_s)};
+}
+
+// At 0 m would be m / (1 + b m t), from which this does not differ.
+static double not_zero(double l) {
+  return fmax(l, 1e-6);
+}
+
 static double squared_at(double m, double l, double b, double t_s) {
   return m * exp(-l * t_s) / (1.0 - b * m * expm1(-l * t_s) / l);
 }
 
 // Of a command that goes on along a line: how fast it is followed stays for the hold as it is in the middle.
-static double along_line(const lag_t *lag, bool speeds_up, double b, double hold_s, double to, double next,
-                         double start) {
-  const double tau_s = speeds_up ? lag->up_s : lag->down_s, q = speeds_up ? lag->up_square : lag->down_square;
+static double along_line(rate_t rate, double hold_s, double to, double next, double start) {
   double end = start;
   for (int i = 0; i < 2; i++) { // the middle of what it comes to
-    const double l = fmax((1.0 - q) / tau_s + 0.5 * b * (to + next + start + end), 1e-6);
+    const double l = not_zero(rate.a + 0.5 * rate.b * (to + next + start + end));
     const double behind = (next - to) / (hold_s * l);
     end = next - behind + exp(-l * hold_s) * (start - to + behind);
   }
   return end;
 }
 
-// One rotor from one row to the next. now: as above. The mean of a square by Simpson's rule.
+// One rotor from one row to the next. now: as above. The mean of a square by Simpson's rule, twice.
 static void go_on_squared(const lag_t *lag, double hold_s, bool mean, double command_N, double next_N,
                           double *now, double *thrust_N, double *rise_Nps) {
   const double to = lag_follows(lag, command_N), next = lag_follows(lag, next_N), start = *now;
-  const bool speeds_up = to > start;
-  const double tau_s = speeds_up ? lag->up_s : lag->down_s, q = speeds_up ? lag->up_square : lag->down_square;
-  const double b = 0.5 * q / (sqrt(lag->steady_N) * tau_s);
-  const double l = fmax((1.0 - q) / tau_s + 2.0 * b * to, 1e-6); // 0 would be m / (1 + b m t)
-  const double m = start - to;
-  *now =
-      next != to ? along_line(lag, speeds_up, b, hold_s, to, next, start) : to + squared_at(m, l, b, hold_s);
+  const rate_t rate = rate_of(lag, to > start);
+  const double m = start - to, l = not_zero(rate.a + 2.0 * rate.b * to);
+  *now = next != to ? along_line(rate, hold_s, to, next, start) : to + squared_at(m, l, rate.b, hold_s);
   *thrust_N = start * start;
-  *rise_Nps = -2.0 * start * m * (l + b * m);
+  *rise_Nps = -2.0 * start * m * (l + rate.b * m);
   if (!mean) return;
-  const double middle = to + squared_at(m, l, b, 0.5 * hold_s);
-  *thrust_N = (start * start + 4.0 * middle * middle + *now * *now) / 6.0;
+  double sum = start * start + *now * *now;
+  for (int i = 1; i < 4; i++) {
+    const double at = to + squared_at(m, l, rate.b, 0.25 * i * hold_s);
+    sum += (i == 2 ? 2.0 : 4.0) * at * at;
+  }
+  *thrust_N = sum / 12.0;
   *rise_Nps = (*now * *now - start * start) / hold_s;
 }
 

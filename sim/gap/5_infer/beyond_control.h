@@ -8,8 +8,8 @@
 
 #include "gap/5_infer/score.h"
 
-// Of the last candidate of the choice, of which `v` is what it is worth there. With nominal flights true:
-// they show what control makes (score_allows).
-bool beyond_control(const score_t *j, const choice_t *choice, const verdict_t *v);
+// Of the last candidate of the choice, of which `v` is what it is worth there; chosen: its columns are those
+// of its numbers. With nominal flights true: they show what control makes (score_allows).
+bool beyond_control(const score_t *j, const choice_t *choice, const verdict_t *v, bool chosen);
 
 #endif

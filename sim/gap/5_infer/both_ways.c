@@ -28,10 +28,31 @@ static both_t sums_of(const rows_t *r, const double *y, const double *p) {
   return s;
 }
 
+typedef struct {
+  double from, to, stderr_; // of the lower end
+} interval_t;
+
+static interval_t interval_of(const slope_t *s, int n) {
+  const double left = fmax(s->pp - s->yp * s->yp / s->yy, 0.0);
+  return (interval_t){s->yp / s->yy - 1.0, s->pp / s->yp - 1.0,
+                      SCORE_CLUSTER * sqrt(left / s->yy / fmax(n - 2, 1.0))};
+}
+
+// Of two scales that are nearer than the least that is named nobody would say that they are two. Slow rows
+// count as so many as white ones, though they follow from each other: a slow disturbance may withdraw an
+// inertia that is there, where by fewer rows one that stands apart by half would be told.
+static bool are_one(const both_t *b, double typical) {
+  const slope_t white = {b->yy, b->pp, b->yp};
+  if (b->n == 0 || !(b->yp > 0.0 && b->slow.yp > 0.0)) return true;
+  const interval_t fast = interval_of(&white, b->n), slow = interval_of(&b->slow, b->n);
+  const double margin = SCORE_ERRORS * hypot(fast.stderr_, slow.stderr_) + SELECT_LEAST * typical;
+  return fast.from - margin < slow.to && slow.from - margin < fast.to;
+}
+
 // The colour of what the plain slope leaves, once: slope and colour in turn may end at another slope, of rows
 // in which nothing slow is left, the turning least of all.
-both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
-                    double *room) {
+both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double typical,
+                    double *left, double *room) {
   for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
   const both_t plain = sums_of(r, measured, left); // a scale that is left in the rows would be their colour
   const double slope = plain.yp / plain.yy;
@@ -45,26 +66,8 @@ both_t both_ways_of(const rows_t *r, const double *measured, const double *resid
   color_whiten(&color, r, measured, left);
   both_t white = sums_of(r, left, room);
   white.slow = (slope_t){plain.yy, plain.pp, plain.yp};
+  white.apart = !are_one(&white, typical);
   return white;
-}
-
-typedef struct {
-  double from, to, stderr_; // of the lower end
-} interval_t;
-
-static interval_t interval_of(const slope_t *s, int n) {
-  const double left = fmax(s->pp - s->yp * s->yp / s->yy, 0.0);
-  return (interval_t){s->yp / s->yy - 1.0, s->pp / s->yp - 1.0,
-                      SCORE_CLUSTER * sqrt(left / s->yy / fmax(n - 2, 1.0))};
-}
-
-// Of two scales that are nearer than the least that is named nobody would say that they are two.
-bool both_ways_are_one(const both_t *b, double typical) {
-  const slope_t white = {b->yy, b->pp, b->yp};
-  if (b->n == 0 || !(b->yp > 0.0 && b->slow.yp > 0.0)) return true;
-  const interval_t fast = interval_of(&white, b->n), slow = interval_of(&b->slow, b->n);
-  const double margin = SCORE_ERRORS * hypot(fast.stderr_, slow.stderr_) + SELECT_LEAST * typical;
-  return fast.from - margin < slow.to && slow.from - margin < fast.to;
 }
 
 static double reverse(const both_t *b) {
@@ -107,7 +110,7 @@ bool both_ways_stand(const both_t about[3], const scaled_t told[3]) {
   bool borne_out = false, one = true;
   for (int axis = 0; axis < 3; axis++) {
     borne_out = borne_out || both_ways_agree(&about[axis], told[axis].k, told[axis].stderr_) != 0.0;
-    one = one && (told[axis].k == 0.0 || !about[axis].apart);
+    one = one && !(about[axis].apart && fabs(told[axis].k) > SCORE_ERRORS * told[axis].stderr_);
   }
   return borne_out && one;
 }
@@ -126,8 +129,8 @@ static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_
     const int ch = CH_WX + k;
     about[k] = (both_t){.n = 0};
     if (status == DONE && residual_has(s, ch) && !s->excluded[ch])
-      about[k] = both_ways_of(set_rows(s, ch), measured.r[ch], left.r[ch], room.r[CH_FX], room.r[CH_FY]);
-    about[k].apart = !both_ways_are_one(&about[k], typical);
+      about[k] =
+          both_ways_of(set_rows(s, ch), measured.r[ch], left.r[ch], typical, room.r[CH_FX], room.r[CH_FY]);
   }
   lines_free(&measured);
   lines_free(&left);

@@ -24,13 +24,18 @@ typedef struct {
   double yy, pp, yp;
   int n;
   slope_t slow;
-  bool apart; // not both_ways_are_one
+  bool apart; // slow and fast turning say different numbers
 } both_t;
 
-// residual: measured less predicted, by row of one axis. left, room: as many numbers, overwritten. n 0: there
-// is no colour to be found.
-both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double *left,
-                    double *room);
+// residual: measured less predicted, by row of one axis; typical: of a scale. left, room: as many numbers,
+// overwritten. n 0: there is no colour to be found.
+//
+// Slow and fast turning are scaled by one number where their intervals meet, within their errors and the
+// least part of what is typical that is named; else they are apart. A log that goes in step with an outer
+// loop misses the same commands in each of its rows: what it has of them is no error beside the right ones,
+// but another multiple of them at each frequency.
+both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double typical,
+                    double *left, double *room);
 
 // Where in that interval the truth lies nobody knows: half of its length is an error like the standard one.
 // Returns its lower end where that is beyond two of both errors above 0; else 0.
@@ -44,19 +49,13 @@ double both_ways_least(const both_t *b);
 // sign nothing here is proof: nominal flights show how much of that there is.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 
-// Slow and fast turning can be scaled by one number: their intervals meet, within their errors and the least
-// part of what is typical that is named. A log that goes
-// in step with an outer loop misses the same commands in each of its rows; what it has of them is no error
-// beside the right ones, but another multiple of them at each frequency.
-bool both_ways_are_one(const both_t *b, double typical);
-
 // What is told of an axis, as an inertia.
 typedef struct {
   double k, stderr_;
 } scaled_t;
 
-// About one axis at least both ways say what is told, and about none for which something is told slow turning
-// says another number than fast.
+// About one axis at least both ways say what is told, and about none for which something is surely told slow
+// turning says another number than fast.
 bool both_ways_stand(const both_t about[3], const scaled_t told[3]);
 
 // named: chosen, of this effect, which scales the turning (fx->scales). stands: both_ways_stand. FAILED: no

@@ -137,11 +137,7 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
 }
 
 // Nor is a name known that speaks for itself at some time only, where constants in its own channels from then
-// to then does as well: something may have begun there, or gone.
-
-// Of what a name gives: constants that give so much have no more than a drift of the name's own to explain. A
-// motor that loses an eighth of its thrust half-way was a thrust curve at 1.
-#define AS_WELL 0.9
+// to then do as well, but for a fifth: something may have begun there, or gone.
 
 // Sums over bins of time: of the name's contribution, and of what constants would give in each channel that
 // it acts in (squares of f there).
@@ -193,7 +189,7 @@ static bool at_times(const times_t *s, double chance) {
       rest_ff -= s->ff[to];
       rest_fy -= s->fy[to];
       const double slope = fy / ff, rest = slope * (2.0 * rest_fy - slope * rest_ff);
-      if (rest < chance && by_constants(s, from, to) > AS_WELL * slope * fy) return true;
+      if (rest < chance && by_constants(s, from, to) > UNKNOWN_TIE * slope * fy) return true;
     }
   }
   return false;

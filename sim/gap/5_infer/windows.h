@@ -20,7 +20,7 @@ typedef struct {
   double statistic; // 0: nothing could be judged. It is measured by that of nominal flights
   int spreads;      // over so many cells like it the misfit of a name spreads at least; 0: it may lie in one
   double explained; // by it, of the white sum of squares
-  bool last;        // no row is beyond `to`
+  bool first, last; // no row is before `from`, beyond `to`
   bool world;       // force_x and force_y are along the world's x and y: it stays where the vehicle turns
   bool is_patch;    // from..to is of x, and
   double y_from_m, y_to_m;

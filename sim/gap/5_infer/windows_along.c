@@ -103,7 +103,8 @@ WIDE_COPIES static void best_windows(const products_t *p, bool centred, const fo
 // --- a coordinate -----------------------------------------------------------------------------------------
 
 // A window and what lies beside it are one thing but for a constant, and windows are no longer than half of
-// the coordinate: of one that reaches an end it is the other part, if that explains more with no constant.
+// the coordinate: of one that reaches an end it is the other part, if that explains more of the
+// residual as it is, with no constant, and goes the other way.
 static bool lies_beside(const products_t *p, int k, const window_t *w) {
   const int bins = p->bins;
   double y = 0.0, own = 0.0, cross = 0.0;
@@ -114,7 +115,8 @@ static bool lies_beside(const products_t *p, int k, const window_t *w) {
     for (int b = w->from; b <= w->to; b++) own += p->D[a][b][k];
   }
   const double y_beside = p->y[bins][k] - y, own_beside = p->D[bins][bins][k] - 2.0 * cross + own;
-  return own > 0.0 && own_beside > 0.0 && y_beside * y_beside * own > y * y * own_beside;
+  if (!(own > 0.0 && own_beside > 0.0 && y_beside * w->size < 0.0)) return false;
+  return y_beside * y_beside * own > y * y * own_beside;
 }
 
 static window_t beside(const window_t *w, int bins) {
@@ -132,6 +134,7 @@ static cell_t cell_of(const window_t *w, int channel, int coordinate, int bins, 
                   .size = w->size,
                   .statistic = w->statistic,
                   .explained = w->statistic * w->statistic,
+                  .first = w->from == 0,
                   .last = w->to + 1 == bins};
 }
 
@@ -156,7 +159,7 @@ static void try_windows(const look_t *l, int coordinate, int bins, const double 
   for (int k = 0; k < f->four.n; k++) {
     const int ch = channel_of(&f->four, k);
     if (!(best[k].statistic > cell[ch].statistic)) continue;
-    const window_t at = lies_beside(&p, k, &best[k]) ? beside(&best[k], bins) : best[k];
+    const window_t at = l->centred && lies_beside(&p, k, &best[k]) ? beside(&best[k], bins) : best[k];
     cell[ch] = cell_of(&at, ch, coordinate, bins, edge);
   }
 }

@@ -144,16 +144,16 @@ static done_t look_for_ceiling(report_t *r, why_t *why) {
   TRY(unknown_colors(&d->fit, &d->extended, d->residual, color, why));
   TRY(unknown_along(&d->fit, &d->extended, height, height + 1, d->residual, color, true, of, why));
   const cell_t cell = of[CH_FZ];
-  if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && cell.size > 0.0 && cell.last))
-    return DONE;
+  const bool grows = cell.size > 0.0 ? cell.last : cell.first; // more above is less below
+  if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && grows)) return DONE;
   const double at_m = r->ceiling_seen_m = seen_ceiling_m(r);
   char seen[REPORT_TEXT] = "";
   r->ceiling_suspected = true;
   if (isfinite(at_m)) snprintf(seen, sizeof seen, "; the range sensor sees something at %.2f m", at_m);
   note(&r->fitness,
-       "ceiling: lift grows by %.2g m/s2 towards the greatest heights, %.3g to %.3g m, and the vehicle file "
+       "ceiling: lift grows by %.2g m/s2 towards the greatest heights, from %.3g m on, and the vehicle file "
        "has no ceiling_m%s",
-       cell.size, cell.from, cell.to, seen);
+       fabs(cell.size), cell.size > 0.0 ? cell.from : cell.to, seen);
   return DONE;
 }
 

@@ -126,7 +126,7 @@ TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
     const char *name = fx ? fx->name : curve->name, *brief = fx ? fx->brief : curve->brief;
     ROW("%s", name);
     CHECK(strlen(brief) > 10);
-    CHECK(!fx || strlen(fx->fly) > 5);
+    CHECK(!fx || (strlen(fx->fly) > 5 && fx->law && strlen(fx->law) > 5));
     const int n = fx ? fx->n_param : curve->n_param;
     for (int k = 0; k < n; k++) {
       const fx_param_t *p = fx ? &fx->param[k] : &curve->param[k];

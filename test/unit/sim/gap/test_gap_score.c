@@ -64,7 +64,9 @@ static const struct {
     {"which for torque is above 0", "torque_ratio", 0.5, 0.0, 0.0, REST, true},
     {"and not below", "torque_ratio", -0.5, 0.0, 0.0, REST, false},
     {"but where it explains more than control could", "inertia", 0.5, 0.0, 0.0, 0.0, true},
-    {"and so much of a torque", "torque_ratio", -0.5, 0.0, 0.0, 0.0, true},
+    {"by a fifth", "inertia", 0.5, 0.0, 0.0, 1.45, true},
+    {"and not as much but for a quarter", "inertia", 0.5, 0.0, 0.0, 3.2, false},
+    {"more of a torque", "torque_ratio", -0.5, 0.0, 0.0, 0.0, true},
     {"and there", "inertia", 0.5, 0.05, 0.0, 0.0, true},
     {"and none could fly", "inertia", 0.9, -1.0, 0.0, 0.0, false},
     // With this noise two errors (0.005 each) less are seen than is hidden.
@@ -95,10 +97,30 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     gap_rows_open(&g, 0, NULL);
     const choice_t with = choice_with(&NONE, of);
     const verdict_t v = score_last(&g.round.score, &with);
-    const bool lets_in = beyond_control(&g.round.score, &with, &v) && score_allows(&g.round.score, &with, &v);
+    const bool lets_in =
+        beyond_control(&g.round.score, &with, &v, false) && score_allows(&g.round.score, &with, &v);
     CHECK(lets_in == LET_IN[i].enters);
     gap_rows_free(&g);
   }
+}
+
+// J (1 + k) turns by k / (1 + k) less: of columns about nothing that is the number, about k it is not.
+TEST(gap_score_takes_the_slope_of_an_inertia_for_what_control_could_make) {
+  gap_rows_t g;
+  gap_rows_make(&g, 7);
+  const int of = along_x(&g, "inertia", 200.0);
+  for (int k = 1; k < g.candidate[of].n; k++) gap_rows_white(&g, gap_rows_column(&g, of, k, CH_FY + k - 1));
+  gap_rows_add(&g, of, 0, 6.0);
+  gap_rows_open(&g, 0, NULL);
+  const choice_t with = choice_with(&NONE, of);
+  const double share =
+      1.0 - score_left(&g.round.score, &with, NULL) / score_left(&g.round.score, &NONE, NULL);
+  const verdict_t v = {.value = {0.53 * share}, .stderr_ = {0.001, 0.001, 0.001}}; // twice that is too much
+  CHECK(!beyond_control(&g.round.score, &with, &v, false));
+  CHECK(beyond_control(&g.round.score, &with, &v, true));
+  g.candidates.slow = true; // it misses commands: nobody knows what these explain
+  CHECK(!beyond_control(&g.round.score, &with, &v, true));
+  gap_rows_free(&g);
 }
 
 // Of a channel that is left out no size is known that shows there alone: the others are.

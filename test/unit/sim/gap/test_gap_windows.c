@@ -30,12 +30,13 @@ TEST(gap_finds_the_window_in_which_something_lies) {
   static const struct {
     const char *what;
     int channel, from, to; // rows: of a height from 0 to 1 m
-    double size;
-  } row[] = {{"a layer", CH_FZ, 400, 600, 1.0},
-             {"a thin one", CH_FX, 800, 900, -1.5},
-             {"the lowest, turning", CH_WY, 0, 300, 1.0},
-             {"all but the lowest", CH_FZ, 300, GAP_ROWS, 1.0}, // was told as -1 in the lowest
-             {"all but the highest", CH_FX, 0, 900, -1.0}};
+    double size, constant;
+  } row[] = {{"a layer", CH_FZ, 400, 600, 1.0, 0.0},
+             {"a thin one", CH_FX, 800, 900, -1.5, 0.0},
+             {"the lowest, turning", CH_WY, 0, 300, 1.0, 0.0},
+             {"the lowest, more of what is everywhere", CH_FZ, 0, 300, 1.0, 3.0},
+             {"all but the lowest", CH_FZ, 300, GAP_ROWS, 1.0, 0.0}, // was told as -1 in the lowest
+             {"all but the highest", CH_FX, 0, 900, -1.0, 0.0}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     why_t why;
@@ -45,6 +46,7 @@ TEST(gap_finds_the_window_in_which_something_lies) {
     cell = largest(&g);
     CHECK(cell.statistic > 1.0 && cell.statistic < 4.5); // the largest of a thousand windows of noise
     put(&g, row[i].channel, row[i].from, row[i].to, row[i].size);
+    put(&g, row[i].channel, 0, GAP_ROWS, row[i].constant);
     cell = largest(&g);
     CHECK(cell.channel == row[i].channel && cell.statistic > 8.0);
     CHECK(strcmp(cell.coordinate, "height") == 0 || strcmp(cell.coordinate, "time") == 0);
@@ -121,6 +123,7 @@ TEST(gap_finds_a_corner_a_pulse_and_a_shake) {
     CHECK_NEAR(cell.from - over, row[i].from, row[i].within);
     CHECK_NEAR(cell.to - over, row[i].to, row[i].within);
     CHECK_NEAR(cell.size / row[i].size, 1.0, 0.5);
+    CHECK((cell.spreads > 1) == (row[i].lie == A_SHAKE)); // a misfit is wider than a line
     if (row[i].lie == A_CORNER)
       CHECK(cell.is_patch && fabs(cell.y_from_m - 0.2) < 0.02 && fabs(cell.y_to_m - 1.0) < 0.02);
     gap_rows_free(&g);
