@@ -5,18 +5,14 @@
 #include <string.h>
 
 const char fx_law_symbols[] =
-    "T_i, Om_i, s_i: thrust (in free air), speed and sense of turning (1 counter-clockwise from above, else "
-    "-1) "
-    "of rotor i, T: thrust of all; F, M: force and moment that are added; v: velocity through the air, w: "
-    "rates; axes of the body (x forwards, y to the left, z up) where no others are named, e_z: its z; a x b: "
-    "the product of two vectors; f: specific force; d: rotor plane to surface, or what the range sensor "
-    "should "
-    "read, R: rotor radius; m, J, tau: mass, inertia and time constant of the motors; g: 9.81 m/s2; vbat: "
-    "voltage of the battery; torque 1: a rotor's torque follows its thrust, 0: it stays; arm: how far from "
-    "the "
-    "centre of mass towards each hub (1) v is taken and F acts; each 1: every rotor has its own d, 0: all "
-    "have "
-    "that of their middle";
+    "T_i, Om_i, s_i: thrust (in free air), speed and sense of turning (1 counter-clockwise from above, "
+    "else -1) of rotor i, T: thrust of all; F, M: force and moment that are added; v: velocity through "
+    "the air, w: rates; axes of the body (x forwards, y to the left, z up) where no others are named, "
+    "e_z: its z; a x b: the product of two vectors; f: specific force; d: rotor plane to surface, or "
+    "what the range sensor should read, R: rotor radius; m, J, tau: mass, inertia and time constant of "
+    "the motors; g: 9.81 m/s2; vbat: voltage of the battery; torque 1: a rotor's torque follows its "
+    "thrust, 0: it stays; arm: how far from the centre of mass towards each hub (1) v is taken and F "
+    "acts; each 1: every rotor has its own d, 0: all have that of their middle";
 
 const fx_t *fx_find(const char *name) {
   for (int i = 0; i < fx_count; i++)

@@ -32,9 +32,11 @@ TEST(fly_says_what_it_can_do) {
   static const struct {
     const char *arguments, *part;
   } row[] = {
-      {"fly --help", "--effect NAME"}, {"fly --list", "appendix-a"},   {"fly --list", "form=four-rotor"},
-      {"fly --params", "indiPos.kp"},  {"fly --params", "ceil.w7"},    {"fly --params", "rls.lambda"},
-      {"fly appendix-a", "0.48"},      {"learn --help", "--hold-out"}, {"effectiveness --help", "--as-stock"},
+      {"fly --help", "--effect NAME"},   {"fly --list", "appendix-a"},
+      {"fly --list", "form=four-rotor"}, {"fly --effects", "F = -c \\|v\\| v - (linear_x v_x"},
+      {"fly --params", "indiPos.kp"},    {"fly --params", "ceil.w7"},
+      {"fly --params", "rls.lambda"},    {"fly appendix-a", "0.48"},
+      {"learn --help", "--hold-out"},    {"effectiveness --help", "--as-stock"},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);

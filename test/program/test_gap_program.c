@@ -54,6 +54,7 @@ static void check_page(void) {
   static const char *const holds[] = {"<!doctype html>",
                                       "<svg",
                                       "Missing: rotor_drag",
+                                      "<code>at each hub F_xy = -k Om_i v_xy</code>",
                                       "standard error",
                                       "m/s</text>",
                                       "two standard errors",

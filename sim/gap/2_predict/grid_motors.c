@@ -98,7 +98,7 @@ WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, con
 
 // Of one direction: m = Om - u changes by -m l - b m^2, l = a + 2 b u (plant/lag.h), in roots of thrusts.
 typedef struct {
-  double a, b;
+  double a, b; // 1/s, and 1/s for each root of a newton
 } rate_t;
 
 static rate_t rate_of(const lag_t *lag, bool speeds_up) {

@@ -132,7 +132,6 @@ done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t 
   *c = (candidates_t){.candidate =
                           calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
-  c->slow = candidates_slow(s);
   for (int i = 0; i < fx_count; i++) {
     const fx_t *const fx = fx_table[i];
     if (candidates_obstacle(fx, m, s)) continue;
@@ -253,7 +252,7 @@ bool chosen_other(const chosen_t *flown, const chosen_t *found) {
 done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all, const chosen_t *chosen,
                          why_t *why) {
   *own = *chosen;
-  *names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t)), .slow = all->slow};
+  *names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t))};
   if (!names->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < chosen->n; i++) {
     candidate_t *const to = &names->candidate[names->n];

@@ -32,7 +32,6 @@ typedef struct {
 typedef struct {
   candidate_t *candidate;
   int n, columns;
-  bool slow; // candidates_slow
 } candidates_t;
 
 #define NAMED_MAX  8

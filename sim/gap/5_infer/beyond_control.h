@@ -6,10 +6,10 @@
 #ifndef SIM_GAP_5_INFER_BEYOND_CONTROL_H
 #define SIM_GAP_5_INFER_BEYOND_CONTROL_H
 
-#include "gap/5_infer/score.h"
+#include "gap/5_infer/round.h"
 
 // Of the last candidate of the choice, of which `v` is what it is worth there; chosen: its columns are those
 // of its numbers. With nominal flights true: they show what control makes (score_allows).
-bool beyond_control(const score_t *j, const choice_t *choice, const verdict_t *v, bool chosen);
+bool beyond_control(const round_t *r, const choice_t *choice, const verdict_t *v, bool chosen);
 
 #endif

@@ -39,7 +39,7 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate)) return HUGE_VAL;
   const choice_t with = choice_with(rest, candidate);
   const verdict_t v = score_last(score, &with);
-  if (!beyond_control(score, &with, &v, false) || !score_allows(score, &with, &v) ||
+  if (!beyond_control(&t->round, &with, &v, false) || !score_allows(score, &with, &v) ||
       !score_is_sure(score, rest, &with) || score_harms(score, rest, &with))
     return HUGE_VAL;
   return left_of(t, &with);
@@ -97,7 +97,7 @@ static bool prune_one(select_t *t) {
     const choice_t last = choice_with(&rest, choice->of[i]);
     const verdict_t v = score_last(score, &last);
     const double without = score_left(score, &rest, NULL);
-    if (beyond_control(score, &last, &v, true) && score_allows(score, &last, &v) &&
+    if (beyond_control(&t->round, &last, &v, true) && score_allows(score, &last, &v) &&
         now < without * (1.0 - SELECT_GAIN) && score_is_sure(score, &rest, &last) &&
         !score_harms(score, &rest, &last))
       continue;

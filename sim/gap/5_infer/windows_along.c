@@ -103,8 +103,8 @@ WIDE_COPIES static void best_windows(const products_t *p, bool centred, const fo
 // --- a coordinate -----------------------------------------------------------------------------------------
 
 // A window and what lies beside it are one thing but for a constant, and windows are no longer than half of
-// the coordinate: of one that reaches an end it is the other part, if that explains more of the
-// residual as it is, with no constant, and goes the other way.
+// the coordinate: of one that reaches an end it is the other part, if that explains more of the residual
+// as it is, with no constant, and goes the other way.
 static bool lies_beside(const products_t *p, int k, const window_t *w) {
   const int bins = p->bins;
   double y = 0.0, own = 0.0, cross = 0.0;

@@ -98,7 +98,7 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     const choice_t with = choice_with(&NONE, of);
     const verdict_t v = score_last(&g.round.score, &with);
     const bool lets_in =
-        beyond_control(&g.round.score, &with, &v, false) && score_allows(&g.round.score, &with, &v);
+        beyond_control(&g.round, &with, &v, false) && score_allows(&g.round.score, &with, &v);
     CHECK(lets_in == LET_IN[i].enters);
     gap_rows_free(&g);
   }
@@ -116,10 +116,10 @@ TEST(gap_score_takes_the_slope_of_an_inertia_for_what_control_could_make) {
   const double share =
       1.0 - score_left(&g.round.score, &with, NULL) / score_left(&g.round.score, &NONE, NULL);
   const verdict_t v = {.value = {0.53 * share}, .stderr_ = {0.001, 0.001, 0.001}}; // twice that is too much
-  CHECK(!beyond_control(&g.round.score, &with, &v, false));
-  CHECK(beyond_control(&g.round.score, &with, &v, true));
-  g.candidates.slow = true; // it misses commands: nobody knows what these explain
-  CHECK(!beyond_control(&g.round.score, &with, &v, true));
+  CHECK(!beyond_control(&g.round, &with, &v, false));
+  CHECK(beyond_control(&g.round, &with, &v, true));
+  g.flight.rate_Hz = 100.0; // it misses commands: nobody knows what these explain
+  CHECK(!beyond_control(&g.round, &with, &v, true));
   gap_rows_free(&g);
 }
 

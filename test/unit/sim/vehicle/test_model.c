@@ -40,3 +40,28 @@ TEST(model_mix_leaves_what_rotors_on_one_axis_cannot_turn) {
   model_mix(&f, 0.4, moment_Nm, more_N);
   for (int k = 0; k < ROTORS; k++) CHECK_NEAR(more_N[k], 0.1, 1e-12);
 }
+
+// Runge and Kutta's step bears 2.8 times the fastest rate: half of a time constant where that is least, which
+// of rotors that go with the square of their speed is at full thrust.
+TEST(model_s_step_is_half_of_the_shortest_time_constant) {
+  static const struct {
+    const char *what;
+    double tau_s, down_over_up, square[2], thrust, want_s; // thrust: at most, over the weight
+  } row[] = {{"up and down alike", 0.004, 1.0, {0.0, 0.0}, 4.0, 0.002},
+             {"faster down", 0.004, 0.5, {0.0, 0.0}, 4.0, 0.001},
+             {"the most that is asked for", 0.1, 1.0, {0.0, 0.0}, 4.0, 0.005},
+             {"up by its square, twice the hover's speed", 0.004, 1.0, {1.0, 0.0}, 4.0, 0.001},
+             {"half of it down by its square", 0.004, 1.0, {0.0, 0.5}, 9.0, 0.001},
+             {"hardly more than the weight", 0.004, 1.0, {1.0, 1.0}, 1.0, 0.002},
+             {"no lag", 0.0, 1.0, {0.0, 0.0}, 4.0, 0.005}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    const model_t m = {.mass_kg = 0.03,
+                       .motor_tau_s = row[i].tau_s,
+                       .motor_down_over_up = row[i].down_over_up,
+                       .lag_in_speed = true,
+                       .lag_square = {row[i].square[0], row[i].square[1]},
+                       .thrust_max_N = row[i].thrust * 0.03 * 9.81};
+    CHECK_NEAR(model_step_s(&m, 0.005), row[i].want_s, 1e-12);
+  }
+}
