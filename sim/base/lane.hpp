@@ -120,6 +120,7 @@ inline lane_t::operator int() const {
 typedef lane_t pair_number_t;
 typedef truth_t pair_flag_t;
 #include "base/lane_pair.hpp"
+#include "base/lane_leave.hpp"
 
 } // namespace
 

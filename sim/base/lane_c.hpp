@@ -82,6 +82,7 @@ namespace lanes {
 typedef lane_double_t pair_number_t;
 typedef lane_wide_flag_t pair_flag_t;
 #include "base/lane_pair.hpp"
+#include "base/lane_leave.hpp"
 
 // What C has and C++ not, or otherwise.
 typedef lane_int_t int32_t;

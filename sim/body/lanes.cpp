@@ -316,8 +316,8 @@ static void read_more(lanes_t *l, const lanes_effect_t *more, const void *kept, 
 
 #define DOOR                                                                                                 \
   {                                                                                                          \
-    open, close, at, set, begin, left, tick, derivative, gap, end, sense, look, read, kept_bytes, keep,      \
-        read_again, read_more                                                                                \
+    open, close, at, leave<set>, begin, left, leave<tick>, leave<derivative>, leave<gap>, leave<end>,        \
+        leave<sense>, leave<look>, leave<read>, kept_bytes, leave<keep>, leave<read_again>, leave<read_more> \
   }
 #else // nobody asks for more (lane_possible)
 #define DOOR                                                                                                 \

@@ -53,7 +53,7 @@ static plain_unsigned vehicle(plain_unsigned in, void *of, const void *told) {
 } // namespace lanes
 
 #define MS                                                                                                   \
-  { lanes::senses, lanes::vehicle }
+  { lanes::leave<lanes::senses>, lanes::leave<lanes::vehicle> }
 #else // nobody asks for more (lane_possible)
 #define MS                                                                                                   \
   {}

@@ -2,6 +2,7 @@
 #include "base/lane.h"
 #include "body/abreast.h"
 #include "body/body.h"
+#include "body/lanes_of.h"
 #include "rig/vehicle6.h"
 #include <string.h>
 
@@ -288,4 +289,58 @@ TEST(abreast_so_few_that_it_costs_are_moved_alone) {
     const long together = all_beside(&f, n);
     CHECK((together > 0) == (lane_possible() && n >= ABREAST_FEWEST));
   }
+}
+
+// Of the registers that hold lanes nothing is in use beyond what plain code has of them (XGETBV with 1: the
+// state components in use; number 2 is their upper halves). True where the processor does not say it.
+static bool upper_halves_are_clean(void) {
+#ifdef __x86_64__
+  unsigned has = 0xd, b, leaf = 1, d, used, high;
+  __asm__ volatile("cpuid" : "+a"(has), "=b"(b), "+c"(leaf), "=d"(d));
+  if (!(has >> 2 & 1)) return true;
+  __asm__ volatile("xgetbv" : "=a"(used), "=d"(high) : "c"(1));
+  return !(used >> 2 & 1);
+#else
+  return true;
+#endif
+}
+
+// What plain code does then, each instruction waits for them (base/lane_leave.hpp).
+TEST(abreast_who_leaves_the_lanes_leaves_their_registers_clean) {
+  const model_t m = vehicle6(0.6);
+  body_t b;
+  const body_start_t start = {.pos_w_m = {0.0, 0.0, 0.3}};
+  CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start));
+  b.span_s = 0.002;
+  for (int bits = 256; bits <= lane_bits(); bits += 256) {
+    ROW("%d", bits);
+    static _Alignas(64) double y[RIGID_N * LANES], dydt[RIGID_N * LANES], is[LANES_TRUTH * LANES],
+        kept[1 << 14];
+    const lanes_door_t *const door = lanes_door(bits);
+    lanes_t *const l = lanes_open(door);
+    const lanes_alike_t alike = lanes_alike(&b);
+    lanes_seen_t seen;
+    lanes_gap_t gap;
+    lanes_instants_t at = {.y = {{0.0}}};
+    lanes_sight_t sight = {.range_m = {0.0}};
+    lanes_readings_t read;
+    lanes_truth_t truth = {.number = is};
+    double up[LANES];
+    if (!CHECK(l && door->kept_bytes() <= sizeof kept)) continue;
+    door->begin(0xff);
+#define LEAVES(what) ((what), CHECK(upper_halves_are_clean()))
+    LEAVES(door->set(l, &alike));
+    LEAVES(door->tick(l));
+    LEAVES(door->derivative(l, y, dydt));
+    LEAVES(door->gap(l, &gap));
+    LEAVES(door->end(l, &seen));
+    LEAVES(door->sense(l, &truth));
+    LEAVES(door->look(l, &at, up));
+    LEAVES(door->read(l, &sight, &read));
+    LEAVES(door->keep(l, kept));
+    LEAVES(door->read_again(l, kept, true, &read));
+#undef LEAVES
+    door->close(l);
+  }
+  body_close(&b);
 }
