@@ -230,6 +230,7 @@ typedef struct {
   const char *apart_name;   // what people are told of these
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
+  bool shape_by_cell; // these are of one cell of the battery, of which there may be several in a row
   // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the
   // thrust): each is tried with each shape. Nothing is between them. n_kind 0: there is one. Of a surface it
   // is the last of the form's (fx_use_kind).

@@ -25,6 +25,7 @@ const fx_t fx_battery_sag = {
     .shape_param = 2,
     .n_shape = 3,
     .shape = {3.7, 3.95, 4.2},
+    .shape_by_cell = true,
     .kind_param = 1,
     .n_kind = 2,
     .kind = {1.0, 0.0},

@@ -158,7 +158,7 @@ static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bo
   d->rounds += d->found.rounds;
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, why));
   d->before = d->found.chosen;
-  *again = !last && chosen_other(&d->flown, &d->found.chosen);
+  *again = !last && chosen_other(&d->candidates, &d->flown, &d->found.chosen);
   if (*again) return DONE; // nobody asks for rivals
   TRY(nominal_look(&d->nominal, m, why));
   return select_rivals(*selection, &d->found, why);

@@ -84,6 +84,16 @@ typedef struct {
   int from, to; // of an effect's numbers
 } numbers_t;
 
+// A lithium cell has no more, one for high voltage: of the most that is logged so many are in a row.
+#define CELL_MOST_V 4.36
+
+static double cells_of(const set_t *s) {
+  double most_V = 0.0;
+  for (int f = 0; f < s->n_grid; f++)
+    for (int i = 0; i < s->grid[f].n; i++) most_V = fmax(most_V, s->grid[f].point[i].vbat_V);
+  return fmax(1.0, ceil(most_V / CELL_MOST_V));
+}
+
 static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, numbers_t of) {
   candidate_t *const to = &c->candidate[c->n++];
   *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size, .from = of.from, .to = of.to};
@@ -96,7 +106,8 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, 
     to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
   }
   if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
-  if (fx->n_shape) to->use.p[fx->shape_param] = fx->shape[variant % fx->n_shape];
+  for (int i = 0; i < fx->n_shape; i++) to->shape[i] = fx->shape[i] * (fx->shape_by_cell ? c->cells : 1.0);
+  if (fx->n_shape) to->use.p[fx->shape_param] = to->shape[variant % fx->n_shape];
   const double strong = as_strong(&to->use, m->rotor_radius_m);
   for (int k = 0; k < fx->n_size; k++) to->typical[k] *= strong;
   if (fx->n_kind) to->use.p[fx_use_kind(&to->use)] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
@@ -132,6 +143,7 @@ done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t 
   *c = (candidates_t){.candidate =
                           calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
+  c->cells = cells_of(s);
   for (int i = 0; i < fx_count; i++) {
     const fx_t *const fx = fx_table[i];
     if (candidates_obstacle(fx, m, s)) continue;
@@ -214,7 +226,7 @@ void chosen_drop(chosen_t *chosen, int candidate) {
 
 // What no straight line about a model shows: a shape, a lag or a delay. NaN: it has none. far: to
 // another one, of lags as far as itself, of shapes the next that is tried.
-static double bent_by(const fx_use_t *use, double *far) {
+static double bent_by(const candidate_t *c, const fx_use_t *use, double *far) {
   *far = (double)NAN;
   const fx_t *const fx = use ? use->fx : NULL;
   if (fx && fx->group == FX_TIMING) {
@@ -224,15 +236,16 @@ static double bent_by(const fx_use_t *use, double *far) {
   if (!fx || !fx_use_has_shape(use) || fx->n_shape < 2) return (double)NAN;
   const double shape = use->p[fx->shape_param];
   int next = 1;
-  while (next < fx->n_shape - 1 && fx->shape[next] < shape) next++;
-  *far = fx->shape[next] - fx->shape[next - 1];
+  while (next < fx->n_shape - 1 && c->shape[next] < shape) next++;
+  *far = c->shape[next] - c->shape[next - 1];
   return shape;
 }
 
-static bool moved(const chosen_t *a, const chosen_t *b) {
+static bool moved(const candidates_t *c, const chosen_t *a, const chosen_t *b) {
   for (int i = 0; i < a->n; i++) {
+    const candidate_t *const own = &c->candidate[a->of[i]];
     double far, other;
-    const double here = bent_by(&a->use[i], &far), there = bent_by(chosen_use(b, a->of[i]), &other);
+    const double here = bent_by(own, &a->use[i], &far), there = bent_by(own, chosen_use(b, a->of[i]), &other);
     if (isfinite(here) && !(fabs(here - there) < MOVED * far)) return true;
   }
   return false;
@@ -245,8 +258,8 @@ static bool gone(const chosen_t *flown, const chosen_t *found) {
   return false;
 }
 
-bool chosen_other(const chosen_t *flown, const chosen_t *found) {
-  return moved(found, flown) || moved(flown, found) || gone(flown, found);
+bool chosen_other(const candidates_t *c, const chosen_t *flown, const chosen_t *found) {
+  return moved(c, found, flown) || moved(c, flown, found) || gone(flown, found);
 }
 
 done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all, const chosen_t *chosen,

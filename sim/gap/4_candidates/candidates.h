@@ -26,12 +26,14 @@ typedef struct {
   int from, to;
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];                      // that its numbers can be, by sign and for this vehicle
+  double shape[FX_SHAPE_MAX];                     // that are tried, for this vehicle's battery
   bool barred; // held-out flights or set points contradict it, or control makes it: it is out of question
 } candidate_t;
 
 typedef struct {
   candidate_t *candidate;
   int n, columns;
+  double cells; // of the battery, in a row: as many as what is logged takes
 } candidates_t;
 
 #define NAMED_MAX  8
@@ -79,7 +81,7 @@ fx_use_t *chosen_take(chosen_t *chosen, const candidates_t *c, int candidate);
 void chosen_drop(chosen_t *chosen, int candidate);
 // Another model was flown than was found: a name that was flown is not found again, or a shape, lag or delay
 // that was found was not flown, or is a tenth or more off what was flown. Other sizes are not another model.
-bool chosen_other(const chosen_t *flown, const chosen_t *found);
+bool chosen_other(const candidates_t *c, const chosen_t *flown, const chosen_t *found);
 
 // Its shape is one of a few numbers (which rotor), and not a length between others.
 bool candidate_is_numbered(const candidate_t *c);

@@ -46,7 +46,7 @@ static void take_bounds(polish_t *p) {
   const fx_t *const fx = p->own->use.fx;
   int n, at = 0;
   const fx_param_t *const param = fx_use_params(&p->own->use, &n);
-  const double *const shape = fx->shape;
+  const double *const shape = p->own->shape;
   const int end = fx->n_shape - 1;
   while (at < end && shape[at] < *number(p, SHAPE)) at++;
   const double here = shape[at];

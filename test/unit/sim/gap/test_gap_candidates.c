@@ -6,6 +6,7 @@
 #include "rig/test.h"
 #include "vehicle/model_file.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -326,7 +327,7 @@ TEST(what_was_flown_is_another_model_from_a_tenth_of_the_way_to_another_shape_on
     ROW("%s", row[i].what);
     const chosen_t flown = choice_of(&c, row[i].flown, row[i].flown_size, row[i].flown_shape);
     const chosen_t found = choice_of(&c, row[i].found, row[i].found_size, row[i].found_shape);
-    CHECK(chosen_other(&flown, &found) == row[i].other);
+    CHECK(chosen_other(&c, &flown, &found) == row[i].other);
   }
   candidates_free(&c);
 }
@@ -345,5 +346,33 @@ TEST(gap_knows_which_scales_of_the_thrust_the_turning_alone_would_tell) {
     g.grid.has_force = row[i].forces;
     CHECK(candidates_by_turning(fx_find(row[i].effect), &g.set) == row[i].alone);
     gap_rows_free(&g);
+  }
+}
+
+// A map of a battery of three cells is of a voltage about 12 V, whatever it is now.
+TEST(gap_the_voltage_of_a_map_is_looked_for_where_the_battery_s_cells_have_it) {
+  static const struct {
+    double vbat_V, cells;
+  } rows[] = {{3.2, 1.0}, {4.35, 1.0}, {6.9, 2.0}, {8.4, 2.0}, {9.6, 3.0}, {12.6, 3.0}, {14.0, 4.0}};
+  const fx_t *const fx = fx_find("battery_sag");
+  for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+    ROW("%.2f V", rows[i].vbat_V);
+    log_t log;
+    candidates_t c;
+    why_t why;
+    grid_point_t point = {.vbat_V = rows[i].vbat_V};
+    double least = HUGE_VAL, most = 0.0;
+    log_make(&log);
+    log.grid.point = &point;
+    log.grid.n = 1;
+    CHECK_OK(candidates_make(&c, &log.model, &log.set, &why));
+    for (int k = 0; k < c.n; k++) {
+      if (c.candidate[k].use.fx != fx) continue;
+      least = fmin(least, c.candidate[k].use.p[fx->shape_param]);
+      most = fmax(most, c.candidate[k].use.p[fx->shape_param]);
+    }
+    CHECK_NEAR(least, 3.7 * rows[i].cells, 1e-9);
+    CHECK_NEAR(most, 4.2 * rows[i].cells, 1e-9);
+    candidates_free(&c);
   }
 }
