@@ -74,7 +74,7 @@ static void find_named(found_t *found, const round_t *r) {
       continue;
     }
     named_t *const named = &found->named[found->n++];
-    *named = (named_t){.candidate = candidate, .p = v.p};
+    *named = (named_t){.candidate = candidate, .p = v.p, .held_share = (double)NAN};
     memcpy(named->value, v.value, sizeof named->value);
     memcpy(named->stderr_, v.stderr_, sizeof named->stderr_);
     add_errors(r, &last, named);
@@ -92,7 +92,10 @@ static void find_timing(found_t *found, const round_t *r, const timing_t *timing
   for (int i = 0; i < found->n; i++) found->named[i].share *= with / without;
   found->left_before *= without / with;
   named_t *const named = &found->named[found->n++];
-  *named = (named_t){.candidate = timing->candidate, .p = timing->p, .share = 1.0 - with / without};
+  *named = (named_t){.candidate = timing->candidate,
+                     .p = timing->p,
+                     .share = 1.0 - with / without,
+                     .held_share = (double)NAN};
   named->value[0] = timing->value_s;
   named->stderr_[0] = timing->stderr_s;
   fx_use_resize(chosen_take(&found->chosen, r->c, timing->candidate), 0, timing->value_s);

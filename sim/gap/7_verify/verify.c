@@ -2,6 +2,7 @@
 #include "gap/7_verify/verify.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static double rms_of(const double *v, int n) {
   double squares = 0.0;
@@ -48,6 +49,50 @@ done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, l
   return lines_without(held, base, turns, -1, l, why);
 }
 
+// What held-out rows, white, have of what a name adds to them.
+typedef struct {
+  double has, adds; // products: with what is there without it; with itself
+} share_t;
+
+// reliable: by channel, of what it adds what is not the errors of its own inputs; null: all.
+static done_t share_of(const set_t *s, const lines_t *with, const lines_t *without, const double *reliable,
+                       share_t *share, why_t *why) {
+  double *const x = malloc(3 * set_most_rows(s) * sizeof(double));
+  *share = (share_t){0.0, 0.0};
+  if (!x) return error_failed(why, "out of memory");
+  double *const adds = x + set_most_rows(s), *const there = adds + set_most_rows(s);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *const rows = set_rows(s, ch);
+    const color_t color = color_of(s, ch, with);
+    if (!color.used) continue;
+    for (int i = 0; i < rows->n; i++) x[i] = without->r[ch][i] - with->r[ch][i];
+    color_whiten(&color, rows, x, adds);
+    color_whiten(&color, rows, without->r[ch], there);
+    for (int i = 0; i < rows->n; i++) {
+      share->has += adds[i] * there[i];
+      share->adds += (reliable ? reliable[ch] : 1.0) * adds[i] * adds[i];
+    }
+  }
+  free(x);
+  return DONE;
+}
+
+// They have less than half of it, and what they have is further from all of it than chance allows.
+#define CONTRADICTS 3.0 // standard errors
+static bool contradicts(const share_t *s) {
+  return s->has < 0.5 * s->adds && s->adds - s->has > CONTRADICTS * sqrt(s->adds);
+}
+
+static done_t find_share(const verify_job_t *job, const lines_t *with, named_t *name, why_t *why) {
+  lines_t without = {.r = {NULL}};
+  share_t share;
+  done_t status = lines_without(job->held, job->base, job->turns, name->candidate, &without, why);
+  if (status == DONE) status = share_of(job->held, with, &without, NULL, &share, why);
+  if (status == DONE) name->held_share = share.has / share.adds;
+  lines_free(&without);
+  return status;
+}
+
 done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why) {
   set_t *const s = job->held;
   lines_t b, a = {.r = {NULL}};
@@ -67,6 +112,8 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
     held->left_before += color_left(rows, &color, b.r[ch]);
     held->left_after += color_left(rows, &color, a.r[ch]);
   }
+  for (int i = 0; i < job->found->n && status == DONE; i++)
+    status = judged ? find_share(job, &a, &job->found->named[i], why) : DONE;
   lines_free(&b);
   lines_free(&a);
   return status;
@@ -81,14 +128,10 @@ static done_t model_without(const verify_job_t *d, int candidate, model_t *m, wh
   return chosen_model(&others, d->base, m, why);
 }
 
-// What that model leaves of every channel; 0 where the rows are too few.
-static done_t measure(const verify_job_t *d, int without, double rms[CHANNELS], why_t *why) {
-  lines_t l;
-  const done_t status = lines_without(d->held, d->base, d->turns, without, &l, why);
-  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
-    rms[ch] = color_of(d->held, ch, &l).used ? rms_of(l.r[ch], set_rows(d->held, ch)->n) : 0.0;
-  lines_free(&l);
-  return status;
+// Of what a model leaves, every channel's rms; 0 where the rows are too few.
+static void measure(const set_t *s, const lines_t *left, double rms[CHANNELS]) {
+  for (int ch = 0; ch < CHANNELS; ch++)
+    rms[ch] = color_of(s, ch, left).used ? rms_of(left->r[ch], set_rows(s, ch)->n) : 0.0;
 }
 
 // Sum over the channels of the logarithm of what the rms is multiplied by.
@@ -157,24 +200,71 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
   return worst;
 }
 
-// The name that does so most; -1: none.
-static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
-  static const double none[CHANNELS] = {0.0};
-  double with[CHANNELS], without[CHANNELS], blur[CHANNELS], most = VERIFY_GROWS;
-  *worst = -1;
-  TRY(measure(d, -1, with, why));
-  for (int i = 0; i < d->found->n; i++) {
-    const named_t *const name = &d->found->named[i];
-    double first = most;
-    TRY(measure(d, name->candidate, without, why));
-    if (grown(with, without, none, &first) < 0) continue;
-    TRY(blur_of(d, name->candidate, blur, why));
-    const int ch = grown(with, without, blur, &most);
-    if (ch < 0) continue;
-    *worst = i;
-    *why_so = (withdrawn_t){found_use(d->found, name)->fx, name->candidate, ch, without[ch], with[ch]};
+// Of what a name adds to each channel, the share of its variance that is not blur.
+static void reliable_of(const set_t *s, const lines_t *with, const lines_t *without, const double *blur,
+                        double *reliable) {
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const int n = set_rows(s, ch)->n;
+    double adds = 0.0;
+    for (int i = 0; i < n; i++) {
+      const double x = without->r[ch][i] - with->r[ch][i];
+      adds += x * x / n;
+    }
+    reliable[ch] = adds > 0.0 ? fmax(1.0 - blur[ch] * blur[ch] / adds, 0.0) : 1.0;
   }
+}
+
+// Whether these flights contradict a name, and how; grows: by how much it grows a channel, 1: by none.
+static done_t try_name(const verify_job_t *d, int candidate, const lines_t *with, const lines_t *without,
+                       withdrawn_t *so, double *grows, why_t *why) {
+  static const double none[CHANNELS] = {0.0};
+  double after[CHANNELS], before[CHANNELS], blur[CHANNELS], reliable[CHANNELS];
+  double first = VERIFY_GROWS, most = VERIFY_GROWS;
+  share_t share;
+  *grows = 0.0;
+  measure(d->held, with, after);
+  measure(d->held, without, before);
+  TRY(share_of(d->held, with, without, NULL, &share, why));
+  if (grown(after, before, none, &first) < 0 && !contradicts(&share)) return DONE;
+  TRY(blur_of(d, candidate, blur, why));
+  reliable_of(d->held, with, without, blur, reliable);
+  TRY(share_of(d->held, with, without, reliable, &share, why));
+  int ch = grown(after, before, blur, &most);
+  if (ch < 0 && !contradicts(&share)) return DONE;
+  *grows = ch < 0 ? 1.0 : most;
+  for (int k = 0; ch < 0 && k < CHANNELS; k++)
+    if (before[k] > 0.0 && (ch < 0 || after[k] * before[ch] > after[ch] * before[k])) ch = k;
+  *so = (withdrawn_t){.candidate = candidate,
+                      .channel = ch,
+                      .without = before[ch],
+                      .with = after[ch],
+                      .share = share.has / share.adds,
+                      .stderr_ = 1.0 / sqrt(share.adds)};
   return DONE;
+}
+
+// The name that they contradict most; -1: none.
+static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
+  lines_t with, without = {.r = {NULL}};
+  double most = 0.0;
+  *worst = -1;
+  done_t status = lines_without(d->held, d->base, d->turns, -1, &with, why);
+  for (int i = 0; i < d->found->n && status == DONE; i++) {
+    const named_t *const name = &d->found->named[i];
+    withdrawn_t so;
+    double grows = 0.0;
+    status = lines_without(d->held, d->base, d->turns, name->candidate, &without, why);
+    if (status == DONE) status = try_name(d, name->candidate, &with, &without, &so, &grows, why);
+    lines_free(&without);
+    if (status != DONE || !(grows > most || (grows == most && grows > 0.0 && so.share < why_so->share)))
+      continue;
+    most = grows;
+    *worst = i;
+    *why_so = so;
+    why_so->fx = found_use(d->found, name)->fx;
+  }
+  lines_free(&with);
+  return status;
 }
 
 done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why) {

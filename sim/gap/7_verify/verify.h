@@ -24,6 +24,9 @@ typedef struct {
   int candidate;
   int channel;          // that it grows most
   double without, with; // its held-out rms
+  // What the held-out rows have of what it adds to them, as told: 1; below a half they are explained worse
+  // with it, though that may be too little to grow a channel's rms.
+  double share, stderr_;
 } withdrawn_t;
 
 typedef struct {
@@ -54,8 +57,9 @@ MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const by_turns_
 // FAILED: no memory.
 MUST_CHECK done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why);
 
-// Withdraws the names that grow one by more, the worst first: they are no longer found. The
-// others keep their values: what these flights alone had would else go into them. FAILED: no memory.
+// Withdraws the names that grow one by more, or of which the rows have less than half, the worst first: they
+// are no longer found. The others keep their values: what these flights alone had would else go into them.
+// FAILED: no memory.
 MUST_CHECK done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why);
 
 #endif

@@ -126,7 +126,9 @@ standing_t report_standing(const report_t *r, const finding_t *f) {
   if (f->named->n_rival || feedback) return STANDS_AMBIGUOUS;
   const bool unexplained = d->unknown && d->left.cell.channel == ch;
   const left_over_t left = report_adequacy(r, ch);
-  const bool doubted = unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN || report_contradicted(r);
+  const bool borne_out = isnan(f->named->held_share) || f->named->held_share > 0.5;
+  const bool doubted =
+      unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN || report_contradicted(r) || !borne_out;
   return doubted ? STANDS_LIKELY : STANDS_STRONG;
 }
 

@@ -125,15 +125,22 @@ static void warn_of_nominal(report_t *r) {
          d->nominal.lost, d->nominal.lost + d->nominal.flown);
 }
 
-static void warn_of_withdrawn(report_t *r) {
-  const diagnosis_t *const d = &r->study->diagnosis;
-  for (int i = 0; i < d->withdrawn.n; i++) {
-    const withdrawn_t *const w = &d->withdrawn.name[i];
+static void warn_of_contradicted(report_t *r, const withdrawn_t *w) {
+  const char *const name = candidate_name(&r->study->diagnosis.candidates.candidate[w->candidate]);
+  if (w->with > VERIFY_GROWS * w->without)
     warn(r,
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
-         candidate_name(&d->candidates.candidate[w->candidate]), gap_channel[w->channel], w->without, w->with,
-         gap_unit[w->channel]);
-  }
+         name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
+  else
+    warn(r,
+         "%s is withdrawn: the fitted flights show it, but the held-out ones have %.2g +- %.1g of what it "
+         "would add to them",
+         name, w->share, w->stderr_);
+}
+
+static void warn_of_withdrawn(report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  for (int i = 0; i < d->withdrawn.n; i++) warn_of_contradicted(r, &d->withdrawn.name[i]);
   for (int i = 0; i < d->n_refuted; i++) {
     const refuted_t *const f = &d->refuted[i];
     const fx_size_t *const size = &f->fx->size[f->number];

@@ -97,6 +97,19 @@ TEST(gap_keeps_the_values_of_the_others_when_it_withdraws_a_name) {
   gap_case_free(c);
 }
 
+// A bend that was there in the fitted flights alone is small beside the noise of a row: the held-out flight's
+// rms grows by less than it may, and yet it has none of it.
+TEST(gap_withdraws_a_name_of_which_held_out_rows_have_nothing) {
+  const fx_use_t bend = gap_effect("thrust_curve", 0.4, 0.0);
+  const gap_hidden_t fit = {1, {bend}}, held = {0};
+  gap_case_t *const c = gap_case(&fit, &held);
+  const withdrawn_t *const w = &c->d.withdrawn.name[0];
+  CHECK(c->d.found.n == 0 && c->d.withdrawn.n == 1 && w->fx == bend.fx);
+  CHECK(w->with < VERIFY_GROWS * w->without);
+  CHECK_NEAR(w->share, 0.0, 3.0 * w->stderr_);
+  gap_case_free(c);
+}
+
 // Attitude control commands at 500 Hz: what a slow log misses of it looks like inertia, or like a lag.
 TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
   static const struct {

@@ -2,6 +2,7 @@
 #include "gap/8_report/report.h"
 #include "rig/test.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 // One that held-out flights spoke against was told as strong.
@@ -9,18 +10,22 @@ TEST(gap_tells_no_name_as_strong_that_held_out_flights_speak_against) {
   static const struct {
     const char *what;
     double left_after, floor; // of 1
+    double held_share;        // of the name
     int rivals;
     standing_t standing;
-  } cases[] = {{"explained better", 0.9, 0.04, 0, STANDS_STRONG},
-               {"no better", 1.0, 0.04, 0, STANDS_LIKELY},
-               {"better, and more than noise is left", 0.9, 0.01, 0, STANDS_LIKELY},
-               {"better, and another name would do", 0.9, 0.04, 1, STANDS_AMBIGUOUS}};
+  } cases[] = {{"explained better", 0.9, 0.04, 1.0, 0, STANDS_STRONG},
+               {"no better", 1.0, 0.04, 1.0, 0, STANDS_LIKELY},
+               {"better, and more than noise is left", 0.9, 0.01, 1.0, 0, STANDS_LIKELY},
+               {"better, and another name would do", 0.9, 0.04, 1.0, 1, STANDS_AMBIGUOUS},
+               {"better, not by this name", 0.9, 0.04, 0.49, 0, STANDS_LIKELY},
+               {"better, a little by this name", 0.9, 0.04, 0.51, 0, STANDS_STRONG},
+               {"better, and nothing judges the name", 0.9, 0.04, (double)NAN, 0, STANDS_STRONG}};
   for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
     ROW("%s", cases[i].what);
     study_t *const study = calloc(1, sizeof *study);
     report_t *const r = calloc(1, sizeof *r);
     diagnosis_t *const d = &study->diagnosis;
-    named_t named = {.n_rival = cases[i].rivals};
+    named_t named = {.n_rival = cases[i].rivals, .held_share = cases[i].held_share};
     const finding_t finding = {.named = &named, .profile = {.channel = CH_FZ}};
     r->study = study;
     d->nominal_flew = true;
