@@ -48,12 +48,23 @@ typedef struct {
 
 // --- commands that a log misses
 
-// Of fewer rows than commands, unless they are means, the turning is predicted with an error that is larger
-// the more commands change from one row to the next: a set point that jumps makes a pulse, though nothing
-// pushes. A row of it is a difference over the points beside, of numbers that are filtered over as many.
+// Of fewer rows than commands, unless they are means, lift and turning are predicted with an error that is
+// larger the more commands change from one row to the next: a set point that jumps makes a pulse, though
+// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many.
 enum { REACH = 2 };
 
-static void find_changes(const look_t *l, int axis, double *change) {
+static bool is_commanded(int channel) {
+  return channel == CH_FZ || (channel >= CH_WX && channel <= CH_WZ);
+}
+
+static double commanded(const grid_t *g, const model_t *m, int channel, int sample) {
+  double lift_N = 0.0;
+  if (channel != CH_FZ) return grid_turns(g, m, channel - CH_WX, sample);
+  for (int i = 0; i < ROTORS; i++) lift_N += g->command_N[i][sample];
+  return lift_N / m->mass_kg;
+}
+
+static void find_changes(const look_t *l, int channel, double *change) {
   const rows_t *const r = &l->s->smooth;
   for (int i = 0; i < r->n; i++) {
     const grid_t *const g = &l->s->grid[r->flight[i]];
@@ -61,7 +72,7 @@ static void find_changes(const look_t *l, int axis, double *change) {
     const bool missed = grid_misses_commands(g);
     change[i] = 0.0;
     for (int k = from > 0 ? from : 0; missed && k + 1 < to && k + 1 < g->samples; k++) {
-      const double step = grid_turns(g, l->m, axis, k + 1) - grid_turns(g, l->m, axis, k);
+      const double step = commanded(g, l->m, channel, k + 1) - commanded(g, l->m, channel, k);
       change[i] = fmax(change[i], step * step);
     }
   }
@@ -150,11 +161,10 @@ static double time_s(const look_t *l, int row) {
 static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const color_t *const c = &l->color[ch];
   const int n = l->s->smooth.n;
-  const bool turning = ch >= CH_WX && ch <= CH_WZ;
-  double *const room = l->room + 5 * n, *const change = turning ? l->room + 4 * n : NULL;
+  double *const room = l->room + 5 * n, *const change = is_commanded(ch) ? l->room + 4 * n : NULL;
   const pulses_t w = {&l->s->smooth, l->room, change, l->room + n, l->room + 2 * n, l->room + 3 * n};
   color_whiten(c, w.r, l->residual[ch], l->room);
-  if (change) find_changes(l, ch - CH_WX, change);
+  if (change) find_changes(l, ch, change);
   for (int rows = FILTER_ROWS; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
     const pulse_t p = pulse_of(c, rows);
     peak_t peak;

@@ -75,19 +75,24 @@ TEST(gap_finds_no_pulse_in_the_first_second) {
   }
 }
 
-// Three pulses about x, and commands that step every 200 rows. Of a log that misses commands a pulse at a
-// step is one of those; one that comes while commands stand still is not.
+// Three pulses, and commands that step every 200 rows. Of a log that misses commands a pulse at a step is one
+// of those, in what commands make: lift and turning. One that comes while commands stand still is not.
 TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
   static const struct {
     const char *what;
     double rate_Hz; // of the log; commands come 500 times a second
     bool means;
     int later; // rows behind the steps
+    int channel;
     bool found;
-  } row[] = {{"no command is missed", 500.0, false, 0, true},
-             {"some are", 100.0, false, 0, false},
-             {"rows are means", 100.0, true, 0, true},
-             {"some are, while others stand", 100.0, false, 60, true}};
+  } row[] = {{"no command is missed", 500.0, false, 0, CH_WX, true},
+             {"some are", 100.0, false, 0, CH_WX, false},
+             {"rows are means", 100.0, true, 0, CH_WX, true},
+             {"some are, while others stand", 100.0, false, 60, CH_WX, true},
+             {"no command is missed, lift", 500.0, false, 0, CH_FZ, true},
+             {"some are, lift", 100.0, false, 0, CH_FZ, false},
+             {"some are, while others stand, lift", 100.0, false, 60, CH_FZ, true},
+             {"some are, a push from the side", 100.0, false, 0, CH_FX, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     static double still_N[GAP_ROWS], steps_N[GAP_ROWS];
     gap_rows_t g;
@@ -100,11 +105,11 @@ TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
     for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = k >= 2 ? steps_N : still_N;
     for (int k = 0; k < GAP_ROWS; k++) {
       steps_N[k] = 0.01 * (k / 200 % 2);
-      g.residual[CH_WX][k] *= CALM;
+      g.residual[row[i].channel][k] *= CALM;
     }
     for (int k = 400; k < 1000; k += 200)
-      for (int q = 0; q < 2; q++) g.residual[CH_WX][k + row[i].later + q] += 1.0;
-    const cell_t cell = look_at(&g, CH_WX, in_time_pulses);
+      for (int q = 0; q < 2; q++) g.residual[row[i].channel][k + row[i].later + q] += 1.0;
+    const cell_t cell = look_at(&g, row[i].channel, in_time_pulses);
     CHECK((cell.statistic > 8.0) == row[i].found);
     for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = NULL;
     gap_rows_free(&g);
