@@ -13,6 +13,8 @@
 #define RANGE_SELDOM 0.7 // of the rows have a new sample: the sensor has a period of its own
 
 // Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
+// An attitude that is logged as angles.
+static const signals_t ANGLES = SIGNALS(SIG_ROLL, SIG_YAW);
 static const signals_t WHOLE[] = {ATTITUDE, COMMANDS, SIGNALS(SIG_F1, SIG_F4), SPEEDS};
 
 void gap_flight_free(gap_flight_t *f) {
@@ -44,13 +46,14 @@ static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
   }
   if (!there || !lacks) return;
   gap_note(f, "no %s: %s and the others beside it are not used", lacks, there);
-  if (!(group & ATTITUDE)) f->motor_lacks = lacks;
+  if (!(group & (ATTITUDE | ANGLES))) f->motor_lacks = lacks;
 }
 
 // What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
 // and what has no value anywhere.
 static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
   bool any = false;
+  if (!has(raw->v, ATTITUDE)) drop_part(f, raw, ANGLES);
   for (int i = 0; i < SIG_COUNT; i++) {
     const bool angle = i >= SIG_ROLL && i <= SIG_YAW, torque = i >= SIG_TX && i <= SIG_TZ;
     if (raw->v[i] && (i == SIG_TIME || angle || torque || all_gaps(raw, raw->v[i])))
@@ -94,7 +97,7 @@ static done_t tell_late(raw_t *raw, const drive_t *stream, const double shift_s[
 // What the columns file says stands: feedback of noise can look like a stream that is late.
 // Of an attitude that is logged as angles it is said at one of these.
 static bool is_said(const columns_t *c, signals_t moved) {
-  if (moved == ATTITUDE) moved |= SIGNALS(SIG_ROLL, SIG_YAW);
+  if (moved == ATTITUDE) moved |= ANGLES;
   for (int i = 0; i < SIG_COUNT; i++)
     if ((moved & SIGNAL_BIT(i)) && c->of[i].late_said) return true;
   return false;

@@ -133,3 +133,21 @@ TEST(gap_takes_a_log_of_which_any_two_columns_are_missing) {
     }
   }
 }
+
+// A published log has roll and yaw: it was told that it has no attitude, and not what lacks.
+TEST(gap_says_which_angle_of_an_attitude_lacks) {
+  log_t log = log_of(300);
+  const column_t speed[] = {log.columns.of[SIG_VX], log.columns.of[SIG_VY]};
+  gap_flight_t f;
+  why_t why;
+  bool told = false;
+  for (int i = SIG_VX; i <= SIG_VZ; i++) leave_out(&log, (signal_id_t)i);
+  for (int i = SIG_QW; i <= SIG_QZ; i++) leave_out(&log, (signal_id_t)i);
+  log.columns.of[SIG_ROLL] = speed[0]; // any numbers that are small
+  log.columns.of[SIG_YAW] = speed[1];
+  if (!CHECK_OK(gap_read(&f, log.path, &log.columns, &log.vehicle, &why))) return;
+  for (int i = 0; i < GAP_NOTES; i++)
+    told = told || strstr(f.note[i], "no pitch: roll and the others beside it are not used") != NULL;
+  CHECK(told && !f.v[SIG_QW]);
+  gap_flight_free(&f);
+}
