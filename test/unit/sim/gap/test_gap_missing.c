@@ -146,7 +146,7 @@ TEST(gap_says_which_angle_of_an_attitude_lacks) {
   log.columns.of[SIG_ROLL] = speed[0]; // any numbers that are small
   log.columns.of[SIG_YAW] = speed[1];
   if (!CHECK_OK(gap_read(&f, log.path, &log.columns, &log.vehicle, &why))) return;
-  for (int i = 0; i < GAP_NOTES; i++)
+  for (int i = 0; i < f.n_note; i++)
     told = told || strstr(f.note[i], "no pitch: roll and the others beside it are not used") != NULL;
   CHECK(told && !f.v[SIG_QW]);
   gap_flight_free(&f);
