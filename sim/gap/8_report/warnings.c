@@ -10,6 +10,9 @@
 #define LIFT_MAX     12.0
 #define LATE_LEAST_S 1e-3 // of an attitude: less is within what rows that come at uneven times leave
 #define LATE_SURE    4.0  // standard errors
+// Of moves of several flights: further apart they were never in 120 logs of one logger, and by up to 40 ms in
+// a published one, whose velocities follow the place.
+#define MOVES_AGREE_S 0.01
 
 #define warn(r, ...) note(&(r)->warnings, __VA_ARGS__)
 
@@ -279,6 +282,24 @@ static double late_ms_told(const study_t *s, double late_s) {
   return 1e3 * (said_s + s->flight[0].attitude_late_s + late_s);
 }
 
+// Each flight's velocity is moved by what it is late against the accelerometer; one logger's is late by one
+// time. True: it was said that they do not agree.
+static bool warn_of_moves(report_t *r) {
+  const study_t *const s = r->study;
+  double least_s = HUGE_VAL, most_s = -HUGE_VAL;
+  for (int f = 0; f < s->fit.n + s->held.n; f++) {
+    least_s = fmin(least_s, s->flight[f].velocity_late_s);
+    most_s = fmax(most_s, s->flight[f].velocity_late_s);
+  }
+  if (most_s - least_s <= MOVES_AGREE_S) return false;
+  warn(r,
+       "against the accelerometer the velocity of one flight was moved by %.3g ms, of another by %.3g: one "
+       "logger's is late by one time; say which (late_ms at its columns, 0: it is not), for what is named "
+       "goes with it",
+       1e3 * least_s, 1e3 * most_s);
+  return true;
+}
+
 static void warn_of_attitude(report_t *r) {
   const study_t *const s = r->study;
   const grid_t *const g = s->diagnosis.held.grid;
@@ -311,7 +332,7 @@ static void warn_of_bumps(report_t *r) {
 
 void report_warn(report_t *r) {
   warn_of_vehicle(r);
-  warn_of_attitude(r);
+  if (!warn_of_moves(r)) warn_of_attitude(r); // it would answer for a wrong move
   warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_bumps(r);

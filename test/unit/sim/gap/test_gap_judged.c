@@ -46,6 +46,32 @@ TEST(gap_keeps_a_name_that_a_hover_cannot_contradict) {
   CHECK(strstr(text, "Missing in room.toml: rotor_drag.\n") != NULL && !strstr(text, "withdrawn"));
 }
 
+// One logger is late by one time. Of a published log each flight's velocity was moved by another, without a
+// word, and the attitude was said to be late by what was wrong.
+TEST(gap_says_that_the_velocities_of_flights_are_not_late_alike) {
+  static const struct {
+    int rows; // that the velocities of one flight come later
+    bool told;
+  } row[] = {{0, false}, {10, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    char text[6000], line[900];
+    ROW("%d rows", row[i].rows);
+    CHECK(gap_logs_fly("alike", 2, NULL));
+    snprintf(
+        line, sizeof line,
+
+        "awk -F, -v OFS=, -v late=%d 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /[.]v[xyz]$/) of[i] } "
+        "NR > 1 { for (i in of) { now = $i; if (late && NR > late + 1) $i = was[i, NR - late]; was[i, NR] = "
+        "now } } "
+        "{ print }' $S/alike1.csv >$S/later.csv; " GAP
+        "tools/columns/fly.toml --json $S/alike.json $S/alike0.csv "
+        "$S/later.csv >$S/said.txt; grep -c 'of one flight was moved by' $S/alike.json",
+        row[i].rows);
+    (void)program_run(line, STREAM_OUTPUT, text, sizeof text);
+    CHECK_TEXT(text, row[i].told ? "1\n" : "0\n");
+  }
+}
+
 TEST(gap_names_from_rates_alone) {
   char text[6000];
   const fx_use_t hidden = offset();
