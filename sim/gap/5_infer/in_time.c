@@ -50,8 +50,14 @@ typedef struct {
 
 // Of fewer rows than commands, unless they are means, lift and turning are predicted with an error that is
 // larger the more commands change from one row to the next: a set point that jumps makes a pulse, though
-// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many.
+// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many;
+// and of what a motor was told between two rows it does a twentieth three time constants later.
 enum { REACH = 2 };
+
+static int reach_back(const grid_t *g, const model_t *m) {
+  const double slower = fmax(1.0, m->motor_down_over_up);
+  return REACH + (int)ceil(3.0 * slower * m->motor_tau_s / g->period_s);
+}
 
 static bool is_commanded(int channel) {
   return channel == CH_FZ || (channel >= CH_WX && channel <= CH_WZ);
@@ -68,7 +74,8 @@ static void find_changes(const look_t *l, int channel, double *change) {
   const rows_t *const r = &l->s->smooth;
   for (int i = 0; i < r->n; i++) {
     const grid_t *const g = &l->s->grid[r->flight[i]];
-    const int from = (r->point[i] - REACH) * g->every, to = (r->point[i] + REACH + 1) * g->every;
+    const int from = (r->point[i] - reach_back(g, l->m)) * g->every,
+              to = (r->point[i] + REACH + 1) * g->every;
     const bool missed = grid_misses_commands(g);
     change[i] = 0.0;
     for (int k = from > 0 ? from : 0; missed && k + 1 < to && k + 1 < g->samples; k++) {

@@ -75,6 +75,15 @@ TEST(gap_finds_no_pulse_in_the_first_second) {
   }
 }
 
+// Of two motors, every 200 rows; the others' stand still.
+static void command_steps(gap_rows_t *g) {
+  static double still_N[GAP_ROWS], steps_N[GAP_ROWS];
+  for (int k = 0; k < GAP_ROWS; k++) steps_N[k] = 0.01 * (k / 200 % 2);
+  for (int k = 0; k < ROTORS; k++) g->grid.command_N[k] = k >= 2 ? steps_N : still_N;
+  g->grid.command_Hz = 500.0;
+  g->grid.samples = GAP_ROWS;
+}
+
 // Three pulses, and commands that step every 200 rows. Of a log that misses commands a pulse at a step is one
 // of those, in what commands make: lift and turning. One that comes while commands stand still is not.
 TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
@@ -85,28 +94,26 @@ TEST(gap_finds_no_pulse_where_commands_change_that_a_log_misses) {
     int later; // rows behind the steps
     int channel;
     bool found;
-  } row[] = {{"no command is missed", 500.0, false, 0, CH_WX, true},
-             {"some are", 100.0, false, 0, CH_WX, false},
-             {"rows are means", 100.0, true, 0, CH_WX, true},
-             {"some are, while others stand", 100.0, false, 60, CH_WX, true},
-             {"no command is missed, lift", 500.0, false, 0, CH_FZ, true},
-             {"some are, lift", 100.0, false, 0, CH_FZ, false},
-             {"some are, while others stand, lift", 100.0, false, 60, CH_FZ, true},
-             {"some are, a push from the side", 100.0, false, 0, CH_FX, true}};
+    double tau_s; // of the motors, which do what they were told so much later
+  } row[] = {{"no command is missed", 500.0, false, 0, CH_WX, true, 0.0},
+             {"some are", 100.0, false, 0, CH_WX, false, 0.0},
+             {"rows are means", 100.0, true, 0, CH_WX, true, 0.0},
+             {"some are, while others stand", 100.0, false, 60, CH_WX, true, 0.0},
+             {"no command is missed, lift", 500.0, false, 0, CH_FZ, true, 0.0},
+             {"some are, lift", 100.0, false, 0, CH_FZ, false, 0.0},
+             {"some are, while others stand, lift", 100.0, false, 60, CH_FZ, true, 0.0},
+             {"some are, a push from the side", 100.0, false, 0, CH_FX, true, 0.0},
+             {"some are, a little earlier", 100.0, false, 6, CH_FZ, true, 0.0},
+             {"some are, a little earlier, by motors that lag", 100.0, false, 6, CH_FZ, false, 0.1}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    static double still_N[GAP_ROWS], steps_N[GAP_ROWS];
     gap_rows_t g;
     ROW("%s", row[i].what);
     gap_rows_make(&g, 44);
     g.flight.rate_Hz = row[i].rate_Hz;
     g.flight.rows_are_means = row[i].means;
-    g.grid.command_Hz = 500.0;
-    g.grid.samples = GAP_ROWS;
-    for (int k = 0; k < ROTORS; k++) g.grid.command_N[k] = k >= 2 ? steps_N : still_N;
-    for (int k = 0; k < GAP_ROWS; k++) {
-      steps_N[k] = 0.01 * (k / 200 % 2);
-      g.residual[row[i].channel][k] *= CALM;
-    }
+    g.model.motor_tau_s = row[i].tau_s;
+    command_steps(&g);
+    for (int k = 0; k < GAP_ROWS; k++) g.residual[row[i].channel][k] *= CALM;
     for (int k = 400; k < 1000; k += 200)
       for (int q = 0; q < 2; q++) g.residual[row[i].channel][k + row[i].later + q] += 1.0;
     const cell_t cell = look_at(&g, row[i].channel, in_time_pulses);
