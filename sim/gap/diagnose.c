@@ -275,20 +275,20 @@ static bool bar_refuted(diagnosis_t *d) {
   return refuted;
 }
 
-// Of a log that misses commands no scale is told that these could have made; nor one of the thrust by the
-// turning alone.
-static done_t bar_too_slow(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
+// No scale of the turning is told that commands which the log misses, or noise that is fed back, could have
+// made; and of a log that misses commands none of the thrust by the turning alone.
+static done_t bar_one_way(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
+  const bool slow = candidates_slow(&d->fit);
   *barred = false;
-  if (!candidates_slow(&d->fit)) return DONE;
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     candidate_t *const c = &d->candidates.candidate[named->candidate];
-    const bool lifts = candidates_by_turning(c->use.fx, &d->fit);
+    const bool lifts = slow && candidates_by_turning(c->use.fx, &d->fit);
     if (!(c->use.fx->scales != FX_SCALES_NOTHING || lifts) || d->n_refuted >= NAMED_MAX) continue;
     bool stands = false;
     if (!lifts) TRY(both_ways(&d->fit, job->model, &d->found.chosen, c->use.fx, named, &stands, why));
     if (stands) continue;
-    refute(d, named, MADE_BY_MISSED_COMMANDS);
+    refute(d, named, slow ? MADE_BY_MISSED_COMMANDS : MADE_BY_NOISE);
     *barred = true;
   }
   return DONE;
@@ -299,9 +299,9 @@ static done_t find_what_stands(const diagnose_job_t *job, diagnosis_t *d, why_t 
     TRY(find_and_verify(job, d, why));
     TRY(confirm_names(&d->candidates, &d->fit, job->model, &d->loop, &d->found, &d->why_not_confirmed, why));
     believe_speeds(d);
-    bool too_slow;
-    TRY(bar_too_slow(job, d, &too_slow, why));
-    if (!bar_refuted(d) && !too_slow) break;
+    bool one_way;
+    TRY(bar_one_way(job, d, &one_way, why));
+    if (!bar_refuted(d) && !one_way) break;
     found_free(&d->found);
   }
   found_join_rivals(&d->found);

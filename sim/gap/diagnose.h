@@ -16,7 +16,7 @@ typedef struct {
 
 // A name that feedback made: least squares see it, the set points as instruments do not; commands of which
 // the log has too few; control that answers a disturbance (own_work.h).
-typedef enum { MADE_BY_FEEDBACK, MADE_BY_MISSED_COMMANDS, MADE_BY_CONTROL } maker_t;
+typedef enum { MADE_BY_FEEDBACK, MADE_BY_MISSED_COMMANDS, MADE_BY_NOISE, MADE_BY_CONTROL } maker_t;
 
 typedef struct {
   const fx_t *fx;

@@ -141,6 +141,17 @@ static void warn_of_contradicted(report_t *r, const withdrawn_t *w) {
          name, w->share, w->stderr_);
 }
 
+static void warn_of_one_way(report_t *r, const refuted_t *f, const char *name) {
+  warn(r, "%s is withdrawn: %s; %s", name,
+       f->by == MADE_BY_NOISE
+           ? "a gyro's noise that is fed back looks like it"
+           : "in so slow a log what commands did between two rows, or a gyro's noise that is "
+             "fed back, looks like it",
+       f->fx->scales != FX_SCALES_NOTHING
+           ? "measured turning by predicted and predicted by measured do not both bear it out"
+           : "with velocity or acceleration in the log a force along z would tell");
+}
+
 static void warn_of_withdrawn(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < d->withdrawn.n; i++) warn_of_contradicted(r, &d->withdrawn.name[i]);
@@ -157,14 +168,8 @@ static void warn_of_withdrawn(report_t *r) {
           name, f->value, text_gap(unit), unit);
       continue;
     }
-    if (f->by == MADE_BY_MISSED_COMMANDS) {
-      warn(r,
-           "%s is withdrawn: in so slow a log what commands did between two rows, or a gyro's noise that is "
-           "fed back, looks like it; %s",
-           name,
-           f->fx->scales != FX_SCALES_NOTHING
-               ? "measured turning by predicted and predicted by measured do not both bear it out"
-               : "with velocity or acceleration in the log a force along z would tell");
+    if (f->by == MADE_BY_MISSED_COMMANDS || f->by == MADE_BY_NOISE) {
+      warn_of_one_way(r, f, name);
       continue;
     }
     warn(r,
