@@ -12,9 +12,10 @@
 #define SKEW_ROUNDS  3
 #define RANGE_SELDOM 0.7 // of the rows have a new sample: the sensor has a period of its own
 
-// Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
 // An attitude that is logged as angles.
 static const signals_t ANGLES = SIGNALS(SIG_ROLL, SIG_YAW);
+
+// Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
 static const signals_t WHOLE[] = {ATTITUDE, COMMANDS, SIGNALS(SIG_F1, SIG_F4), SPEEDS};
 
 void gap_flight_free(gap_flight_t *f) {

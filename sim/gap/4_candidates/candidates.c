@@ -84,14 +84,20 @@ typedef struct {
   int from, to; // of an effect's numbers
 } numbers_t;
 
-// A lithium cell has no more, one for high voltage: of the most that is logged so many are in a row.
-#define CELL_MOST_V 4.36
+// In the middle of a flight, about: of what is logged in the mean packs of up to six cells are counted right
+// from 3.6 V a cell to full.
+#define CELL_V 3.9
 
 static double cells_of(const set_t *s) {
-  double most_V = 0.0;
+  double sum_V = 0.0, points = 0.0;
   for (int f = 0; f < s->n_grid; f++)
-    for (int i = 0; i < s->grid[f].n; i++) most_V = fmax(most_V, s->grid[f].point[i].vbat_V);
-  return fmax(1.0, ceil(most_V / CELL_MOST_V));
+    for (int i = 0; i < s->grid[f].n; i++) {
+      const double here_V = s->grid[f].point[i].vbat_V;
+      if (!isfinite(here_V)) continue;
+      sum_V += here_V;
+      points += 1.0;
+    }
+  return points > 0.0 ? fmax(1.0, round(sum_V / points / CELL_V)) : 1.0;
 }
 
 static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, numbers_t of) {

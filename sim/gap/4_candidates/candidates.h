@@ -33,7 +33,7 @@ typedef struct {
 typedef struct {
   candidate_t *candidate;
   int n, columns;
-  double cells; // of the battery, in a row: as many as what is logged takes
+  double cells; // of the battery, in a row
 } candidates_t;
 
 #define NAMED_MAX  8

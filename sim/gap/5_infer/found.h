@@ -42,8 +42,8 @@ typedef struct {
   int rival_candidate[FX_MAX];
   double rival_share[FX_MAX]; // what each would explain in its place
   confirm_t confirm;
-  // Of what it adds to held-out rows, beside the other names, what these have: 1 is all of it, from a half on
-  // they are explained better with it (7_verify). NaN: nothing judges it.
+  // How much held-out rows have of what it adds to them beside the other names (7_verify). 1: all of it is
+  // there; above a half it explains them better. NaN: nothing judges it.
   double held_share;
 } named_t;
 

@@ -50,13 +50,15 @@ typedef struct {
 
 // Of fewer rows than commands, unless they are means, lift and turning are predicted with an error that is
 // larger the more commands change from one row to the next: a set point that jumps makes a pulse, though
-// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many;
-// and of what a motor was told between two rows it does a twentieth three time constants later.
+// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many.
+// And a motor does late what it was told between two rows: after log(20) time constants a twentieth of it is
+// still to come. Rotor speeds that were measured are not late.
 enum { REACH = 2 };
 
 static int reach_back(const grid_t *g, const model_t *m) {
   const double slower = fmax(1.0, m->motor_down_over_up);
-  return REACH + (int)ceil(3.0 * slower * m->motor_tau_s / g->period_s);
+  const double late_s = log(20.0) * slower * m->motor_tau_s;
+  return REACH + (g->by_speeds ? 0 : (int)ceil(late_s / g->period_s));
 }
 
 static bool is_commanded(int channel) {

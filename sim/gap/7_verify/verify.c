@@ -51,53 +51,63 @@ done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, l
 
 // What held-out rows, white, have of what a name adds to them.
 typedef struct {
-  double has, adds; // products: with what is there without it; with itself
+  double has, adds; // products: with what is there without it; with itself, but for errors of its own inputs
+  double squares;   // with itself, these and all
 } share_t;
 
-// reliable: by channel, of what it adds what is not the errors of its own inputs; null: all.
-static done_t share_of(const set_t *s, const lines_t *with, const lines_t *without, const double *reliable,
+// blur: by channel, the rms of these errors in white rows; null: they do not count.
+static done_t share_of(const set_t *s, const lines_t *with, const lines_t *without, const double *blur,
                        share_t *share, why_t *why) {
   double *const x = malloc(3 * set_most_rows(s) * sizeof(double));
-  *share = (share_t){0.0, 0.0};
+  *share = (share_t){.adds = 0.0};
   if (!x) return error_failed(why, "out of memory");
   double *const adds = x + set_most_rows(s), *const there = adds + set_most_rows(s);
   for (int ch = 0; ch < CHANNELS; ch++) {
     const rows_t *const rows = set_rows(s, ch);
     const color_t color = color_of(s, ch, with);
+    double squares = 0.0;
     if (!color.used) continue;
     for (int i = 0; i < rows->n; i++) x[i] = without->r[ch][i] - with->r[ch][i];
     color_whiten(&color, rows, x, adds);
     color_whiten(&color, rows, without->r[ch], there);
     for (int i = 0; i < rows->n; i++) {
       share->has += adds[i] * there[i];
-      share->adds += (reliable ? reliable[ch] : 1.0) * adds[i] * adds[i];
+      squares += adds[i] * adds[i];
     }
+    share->squares += squares;
+    share->adds += fmax(squares - (blur ? rows->n * blur[ch] * blur[ch] : 0.0), 0.0);
   }
   free(x);
   return DONE;
 }
 
-// They have less than half of it, and what they have is further from all of it than chance allows.
-#define CONTRADICTS 3.0 // standard errors
-static bool contradicts(const share_t *s) {
-  return s->has < 0.5 * s->adds && s->adds - s->has > CONTRADICTS * sqrt(s->adds);
+// They have less than half of it, and what they have is further from all of it than their noise, not quite
+// white, and the error of its size (relative) allow.
+static bool contradicts(const share_t *s, double relative) {
+  const double error = SCORE_ERRORS * SCORE_CLUSTER * hypot(sqrt(s->squares), relative * s->adds);
+  return s->adds > 0.0 && s->has < 0.5 * s->adds && s->adds - s->has > error;
 }
 
 static done_t find_share(const verify_job_t *job, const lines_t *with, named_t *name, why_t *why) {
   lines_t without = {.r = {NULL}};
-  share_t share;
+  share_t share = {.adds = 0.0};
   done_t status = lines_without(job->held, job->base, job->turns, name->candidate, &without, why);
   if (status == DONE) status = share_of(job->held, with, &without, NULL, &share, why);
-  if (status == DONE) name->held_share = share.has / share.adds;
+  if (status == DONE && share.adds > 0.0) name->held_share = share.has / share.adds;
   lines_free(&without);
   return status;
+}
+
+// By turns flights may be too short for something to be held out of each.
+static bool is_judged(const verify_job_t *job) {
+  return job->turns->n == 1 || by_turns_cover(job->held);
 }
 
 done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why) {
   set_t *const s = job->held;
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
-  const bool judged = job->turns->n == 1 || by_turns_cover(s);
+  const bool judged = is_judged(job);
   done_t status = residual_lines(s, job->base, &b, why);
   if (status == DONE) status = verify_lines(s, job->base, job->turns, &a, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
@@ -153,7 +163,9 @@ static done_t contribution(set_t *s, const model_t *with, const model_t *without
   return status;
 }
 
-static done_t errors_of(along_t *a, const model_t *with, const model_t *without, double blur[CHANNELS],
+// white: the same of white rows, by the colours of what these flights have left.
+static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
+                        const color_t color[CHANNELS], double blur[CHANNELS], double white[CHANNELS],
                         why_t *why) {
   lines_t seen = {.r = {NULL}}, is = {.r = {NULL}};
   done_t status = contribution(&a->seen, with, without, &seen, why);
@@ -163,6 +175,9 @@ static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
     if (n != set_rows(&a->is, ch)->n) continue; // errors move some rows out of sight
     for (int i = 0; i < n; i++) seen.r[ch][i] -= is.r[ch][i];
     blur[ch] = rms_of(seen.r[ch], n);
+    if (!color[ch].used) continue;
+    color_whiten(&color[ch], set_rows(&a->seen, ch), seen.r[ch], is.r[ch]);
+    white[ch] = rms_of(is.r[ch], n);
   }
   lines_free(&seen);
   lines_free(&is);
@@ -171,15 +186,16 @@ static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
 
 // The rms that a right name may bring, by errors of the log and by feedback: on flights of the model along
 // the held-out tracks. 0 where it cannot fly.
-static done_t blur_of(const verify_job_t *d, int candidate, double blur[CHANNELS], why_t *why) {
+static done_t blur_of(const verify_job_t *d, int candidate, const color_t color[CHANNELS],
+                      double blur[CHANNELS], double white[CHANNELS], why_t *why) {
   model_t with, without;
   along_t a;
   done_t status;
-  for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = 0.0;
+  for (int ch = 0; ch < CHANNELS; ch++) blur[ch] = white[ch] = 0.0;
   TRY(model_without(d, -1, &with, why));
   TRY(model_without(d, candidate, &without, why));
   status = nominal_along(&a, d->held, &with, d->loop, 1, why);
-  if (status == DONE) status = errors_of(&a, &with, &without, blur, why);
+  if (status == DONE) status = errors_of(&a, &with, &without, color, blur, white, why);
   along_free(&a);
   return status == FAILED ? FAILED : DONE;
 }
@@ -200,46 +216,53 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
   return worst;
 }
 
-// Of what a name adds to each channel, the share of its variance that is not blur.
-static void reliable_of(const set_t *s, const lines_t *with, const lines_t *without, const double *blur,
-                        double *reliable) {
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const int n = set_rows(s, ch)->n;
-    double adds = 0.0;
-    for (int i = 0; i < n; i++) {
-      const double x = without->r[ch][i] - with->r[ch][i];
-      adds += x * x / n;
-    }
-    reliable[ch] = adds > 0.0 ? fmax(1.0 - blur[ch] * blur[ch] / adds, 0.0) : 1.0;
-  }
+// Of the size of a name that is known best.
+static double relative_error(const named_t *name) {
+  double least = HUGE_VAL;
+  for (int k = 0; k < FX_SIZE_MAX; k++)
+    if (name->stderr_[k] > 0.0 && name->value[k] != 0.0)
+      least = fmin(least, name->stderr_[k] / fabs(name->value[k]));
+  return isfinite(least) ? least : 0.0;
 }
 
-// Whether these flights contradict a name, and how; grows: by how much it grows a channel, 1: by none.
-static done_t try_name(const verify_job_t *d, int candidate, const lines_t *with, const lines_t *without,
-                       withdrawn_t *so, double *grows, why_t *why) {
+static int grows_most(const double with[CHANNELS], const double without[CHANNELS]) {
+  int most = -1;
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (without[ch] > 0.0 && (most < 0 || with[ch] * without[most] > with[most] * without[ch])) most = ch;
+  return most;
+}
+
+// Whether these flights contradict a name, and how; grows: by how much it grows a channel, 1: by none that
+// counts, 0: they do not.
+static done_t try_name(const verify_job_t *d, const named_t *name, const lines_t *with,
+                       const lines_t *without, withdrawn_t *so, double *grows, why_t *why) {
   static const double none[CHANNELS] = {0.0};
-  double after[CHANNELS], before[CHANNELS], blur[CHANNELS], reliable[CHANNELS];
+  double after[CHANNELS], before[CHANNELS], blur[CHANNELS], white[CHANNELS];
   double first = VERIFY_GROWS, most = VERIFY_GROWS;
-  share_t share;
+  const double relative = relative_error(name);
+  color_t color[CHANNELS];
+  share_t whole, share;
   *grows = 0.0;
   measure(d->held, with, after);
   measure(d->held, without, before);
-  TRY(share_of(d->held, with, without, NULL, &share, why));
-  if (grown(after, before, none, &first) < 0 && !contradicts(&share)) return DONE;
-  TRY(blur_of(d, candidate, blur, why));
-  reliable_of(d->held, with, without, blur, reliable);
-  TRY(share_of(d->held, with, without, reliable, &share, why));
-  int ch = grown(after, before, blur, &most);
-  if (ch < 0 && !contradicts(&share)) return DONE;
+  for (int ch = 0; ch < CHANNELS; ch++) color[ch] = color_of(d->held, ch, with);
+  TRY(share_of(d->held, with, without, NULL, &whole, why));
+  if (grown(after, before, none, &first) < 0 && !contradicts(&whole, relative)) return DONE;
+  TRY(blur_of(d, name->candidate, color, blur, white, why));
+  TRY(share_of(d->held, with, without, white, &share, why));
+  const int ch = grown(after, before, blur, &most);
+  const bool lacks = contradicts(&whole, relative) && contradicts(&share, relative);
+  const int shown = ch < 0 ? grows_most(after, before) : ch;
+  if ((ch < 0 && !lacks) || shown < 0) return DONE;
   *grows = ch < 0 ? 1.0 : most;
-  for (int k = 0; ch < 0 && k < CHANNELS; k++)
-    if (before[k] > 0.0 && (ch < 0 || after[k] * before[ch] > after[ch] * before[k])) ch = k;
-  *so = (withdrawn_t){.candidate = candidate,
-                      .channel = ch,
-                      .without = before[ch],
-                      .with = after[ch],
-                      .share = share.has / share.adds,
-                      .stderr_ = 1.0 / sqrt(share.adds)};
+  *so = (withdrawn_t){.fx = found_use(d->found, name)->fx,
+                      .candidate = name->candidate,
+                      .channel = shown,
+                      .without = before[shown],
+                      .with = after[shown],
+                      .by_share = ch < 0,
+                      .share = lacks ? share.has / share.adds : 1.0,
+                      .stderr_ = lacks ? hypot(sqrt(share.squares) / share.adds, relative) : 0.0};
   return DONE;
 }
 
@@ -254,14 +277,13 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
     withdrawn_t so;
     double grows = 0.0;
     status = lines_without(d->held, d->base, d->turns, name->candidate, &without, why);
-    if (status == DONE) status = try_name(d, name->candidate, &with, &without, &so, &grows, why);
+    if (status == DONE) status = try_name(d, name, &with, &without, &so, &grows, why);
     lines_free(&without);
     if (status != DONE || !(grows > most || (grows == most && grows > 0.0 && so.share < why_so->share)))
       continue;
     most = grows;
     *worst = i;
     *why_so = so;
-    why_so->fx = found_use(d->found, name)->fx;
   }
   lines_free(&with);
   return status;
@@ -270,7 +292,7 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
 done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why) {
   int worst = 0;
   withdrawn->n = 0;
-  while (d->found->n > 0) {
+  while (is_judged(d) && d->found->n > 0) {
     TRY(find_worst(d, &worst, &withdrawn->name[withdrawn->n], why));
     if (worst < 0) return DONE;
     by_turns_drop(d->turns, withdrawn->name[withdrawn->n++].candidate);

@@ -22,10 +22,11 @@ typedef struct {
 typedef struct {
   const fx_t *fx;
   int candidate;
-  int channel;          // that it grows most
+  int channel;          // that it grows most, or shrinks least
   double without, with; // its held-out rms
-  // What the held-out rows have of what it adds to them, as told: 1; below a half they are explained worse
-  // with it, though that may be too little to grow a channel's rms.
+  bool by_share;        // that grows by no more than it may, and yet
+  // of what the name adds to the held-out rows these have so much: below a half they are explained worse with
+  // it. Not where its inputs' own errors make it so. 1: as told.
   double share, stderr_;
 } withdrawn_t;
 

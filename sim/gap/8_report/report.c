@@ -18,7 +18,7 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   static const char *const obstacle[] = {
       [MADE_BY_FEEDBACK] = "feedback makes it: the set points as instruments do not show it",
       [MADE_BY_MISSED_COMMANDS] = "the log is too slow: what commands did between two samples looks like it",
-      [MADE_BY_NOISE] = "a gyro's noise that is fed back looks like it",
+      [MADE_BY_NOISE] = "noise that is fed back, or a disturbance, may look like it",
       [MADE_BY_CONTROL] = "control that answers a disturbance may make as much of it"};
   const diagnosis_t *const d = &r->study->diagnosis;
   const char *const lacks = candidates_obstacle(fx, &r->study->vehicle, &d->fit);

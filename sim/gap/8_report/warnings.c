@@ -130,7 +130,7 @@ static void warn_of_nominal(report_t *r) {
 
 static void warn_of_contradicted(report_t *r, const withdrawn_t *w) {
   const char *const name = candidate_name(&r->study->diagnosis.candidates.candidate[w->candidate]);
-  if (w->with > VERIFY_GROWS * w->without)
+  if (!w->by_share)
     warn(r,
          "%s is withdrawn: the fitted flights show it, but it grows %s of the held-out ones, %.3g to %.3g %s",
          name, gap_channel[w->channel], w->without, w->with, gap_unit[w->channel]);
@@ -144,7 +144,7 @@ static void warn_of_contradicted(report_t *r, const withdrawn_t *w) {
 static void warn_of_one_way(report_t *r, const refuted_t *f, const char *name) {
   warn(r, "%s is withdrawn: %s; %s", name,
        f->by == MADE_BY_NOISE
-           ? "a gyro's noise that is fed back looks like it"
+           ? "noise that is fed back, or a disturbance, may look like it"
            : "in so slow a log what commands did between two rows, or a gyro's noise that is "
              "fed back, looks like it",
        f->fx->scales != FX_SCALES_NOTHING
@@ -293,14 +293,15 @@ static bool warn_of_moves(report_t *r) {
   const study_t *const s = r->study;
   double least_s = HUGE_VAL, most_s = -HUGE_VAL;
   for (int f = 0; f < s->fit.n + s->held.n; f++) {
+    if (s->flight[f].velocity_late_s == 0.0) continue; // nothing sure was seen
     least_s = fmin(least_s, s->flight[f].velocity_late_s);
     most_s = fmax(most_s, s->flight[f].velocity_late_s);
   }
-  if (most_s - least_s <= MOVES_AGREE_S) return false;
+  if (!(most_s - least_s > MOVES_AGREE_S)) return false;
   warn(r,
        "against the accelerometer the velocity of one flight was moved by %.3g ms, of another by %.3g: one "
-       "logger's is late by one time; say which (late_ms at its columns, 0: it is not), for what is named "
-       "goes with it",
+       "logger's is late by one time; write it as late_ms at vx, vy, vz (0 if it is not late), for the names "
+       "depend on it",
        1e3 * least_s, 1e3 * most_s);
   return true;
 }

@@ -353,7 +353,8 @@ TEST(gap_knows_which_scales_of_the_thrust_the_turning_alone_would_tell) {
 TEST(gap_the_voltage_of_a_map_is_looked_for_where_the_battery_s_cells_have_it) {
   static const struct {
     double vbat_V, cells;
-  } rows[] = {{3.2, 1.0}, {4.35, 1.0}, {6.9, 2.0}, {8.4, 2.0}, {9.6, 3.0}, {12.6, 3.0}, {14.0, 4.0}};
+  } rows[] = {{3.2, 1.0},  {4.35, 1.0}, {6.9, 2.0},  {8.4, 2.0},  {9.9, 3.0},
+              {12.6, 3.0}, {14.0, 4.0}, {16.8, 4.0}, {21.6, 6.0}, {25.2, 6.0}};
   const fx_t *const fx = fx_find("battery_sag");
   for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
     ROW("%.2f V", rows[i].vbat_V);

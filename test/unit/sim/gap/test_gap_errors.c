@@ -94,6 +94,7 @@ TEST(gap_keeps_the_values_of_the_others_when_it_withdraws_a_name) {
   const named_t *const named = gap_case_named(c, "accel_bias");
   CHECK(c->d.withdrawn.n == 1 && c->d.withdrawn.name[0].fx == fx_find("wind"));
   if (CHECK(named)) CHECK_NEAR(named->value[0], 0.3, 3.0 * named->stderr_[0]);
+  if (named) CHECK_NEAR(named->held_share, 1.0, 0.1);
   gap_case_free(c);
 }
 
