@@ -3,7 +3,8 @@
 //
 // A function that was given lanes in registers may leave their upper halves set, and gcc 12 does not clear
 // them behind its call. Each instruction of plain code then waits for what they hold: of flights side by side
-// a fifteenth of the time. So whoever is called from plain code, and computes with lanes, is called by leave<>.
+// a fifteenth of the time. So whoever is called from plain code, and computes with lanes, is called by
+// leave<>.
 struct clean_t {
   ~clean_t() { _mm256_zeroupper(); }
 };

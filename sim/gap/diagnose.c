@@ -221,8 +221,8 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   return look_beyond_control(job, d, true, &again, why);
 }
 
-// Of a name that is withdrawn another kind may be right: a drag at the hubs that the held-out flights
-// contradict may act at the centre of mass.
+// Of a name that grows a channel another kind may be right: a drag at the hubs that the held-out flights
+// contradict may act at the centre of mass. One of which they have next to nothing is not there in any kind.
 static bool bar_kinds(diagnosis_t *d) {
   candidate_t *const all = d->candidates.candidate;
   bool barred = false;
@@ -232,7 +232,7 @@ static bool bar_kinds(diagnosis_t *d) {
     for (int k = 0; k < d->candidates.n; k++)
       others += k != which && candidates_exclude(&all[k], &all[which]) && !all[k].barred;
     const bool kinds = all[which].use.fx->n_kind > 1 || candidate_is_numbered(&all[which]);
-    if (!kinds || others == 0) continue;
+    if (!kinds || others == 0 || d->withdrawn.name[i].by_share) continue;
     barred = all[which].barred = true;
   }
   return barred;

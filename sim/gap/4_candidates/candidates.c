@@ -271,7 +271,7 @@ bool chosen_other(const candidates_t *c, const chosen_t *flown, const chosen_t *
 done_t candidates_chosen(candidates_t *names, chosen_t *own, const candidates_t *all, const chosen_t *chosen,
                          why_t *why) {
   *own = *chosen;
-  *names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t))};
+  *names = (candidates_t){.candidate = calloc(CHOSEN_MAX, sizeof(candidate_t)), .cells = all->cells};
   if (!names->candidate) return error_failed(why, "out of memory");
   for (int i = 0; i < chosen->n; i++) {
     candidate_t *const to = &names->candidate[names->n];

@@ -49,55 +49,6 @@ done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, l
   return lines_without(held, base, turns, -1, l, why);
 }
 
-// What held-out rows, white, have of what a name adds to them.
-typedef struct {
-  double has, adds; // products: with what is there without it; with itself, but for errors of its own inputs
-  double squares;   // with itself, these and all
-} share_t;
-
-// blur: by channel, the rms of these errors in white rows; null: they do not count.
-static done_t share_of(const set_t *s, const lines_t *with, const lines_t *without, const double *blur,
-                       share_t *share, why_t *why) {
-  double *const x = malloc(3 * set_most_rows(s) * sizeof(double));
-  *share = (share_t){.adds = 0.0};
-  if (!x) return error_failed(why, "out of memory");
-  double *const adds = x + set_most_rows(s), *const there = adds + set_most_rows(s);
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    const rows_t *const rows = set_rows(s, ch);
-    const color_t color = color_of(s, ch, with);
-    double squares = 0.0;
-    if (!color.used) continue;
-    for (int i = 0; i < rows->n; i++) x[i] = without->r[ch][i] - with->r[ch][i];
-    color_whiten(&color, rows, x, adds);
-    color_whiten(&color, rows, without->r[ch], there);
-    for (int i = 0; i < rows->n; i++) {
-      share->has += adds[i] * there[i];
-      squares += adds[i] * adds[i];
-    }
-    share->squares += squares;
-    share->adds += fmax(squares - (blur ? rows->n * blur[ch] * blur[ch] : 0.0), 0.0);
-  }
-  free(x);
-  return DONE;
-}
-
-// They have less than half of it, and what they have is further from all of it than their noise, not quite
-// white, and the error of its size (relative) allow.
-static bool contradicts(const share_t *s, double relative) {
-  const double error = SCORE_ERRORS * SCORE_CLUSTER * hypot(sqrt(s->squares), relative * s->adds);
-  return s->adds > 0.0 && s->has < 0.5 * s->adds && s->adds - s->has > error;
-}
-
-static done_t find_share(const verify_job_t *job, const lines_t *with, named_t *name, why_t *why) {
-  lines_t without = {.r = {NULL}};
-  share_t share = {.adds = 0.0};
-  done_t status = lines_without(job->held, job->base, job->turns, name->candidate, &without, why);
-  if (status == DONE) status = share_of(job->held, with, &without, NULL, &share, why);
-  if (status == DONE && share.adds > 0.0) name->held_share = share.has / share.adds;
-  lines_free(&without);
-  return status;
-}
-
 // By turns flights may be too short for something to be held out of each.
 static bool is_judged(const verify_job_t *job) {
   return job->turns->n == 1 || by_turns_cover(job->held);
@@ -122,8 +73,6 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
     held->left_before += color_left(rows, &color, b.r[ch]);
     held->left_after += color_left(rows, &color, a.r[ch]);
   }
-  for (int i = 0; i < job->found->n && status == DONE; i++)
-    status = judged ? find_share(job, &a, &job->found->named[i], why) : DONE;
   lines_free(&b);
   lines_free(&a);
   return status;
@@ -216,6 +165,51 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
   return worst;
 }
 
+// What held-out rows, white, have of what a name adds to them.
+typedef struct {
+  double has, adds; // products: with what is there without it; with itself, but for errors of its own inputs
+  double squares;   // with itself, these and all
+} share_t;
+
+// What all names leave of the held-out rows, and its colours.
+typedef struct {
+  lines_t lines;
+  color_t color[CHANNELS];
+} with_all_t;
+
+// blur: by channel, the rms of these errors in white rows; null: they do not count.
+static done_t share_of(const set_t *s, const with_all_t *with, const lines_t *without, const double *blur,
+                       share_t *share, why_t *why) {
+  double *const x = malloc(3 * set_most_rows(s) * sizeof(double));
+  *share = (share_t){.adds = 0.0};
+  if (!x) return error_failed(why, "out of memory");
+  double *const adds = x + set_most_rows(s), *const there = adds + set_most_rows(s);
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *const rows = set_rows(s, ch);
+    const color_t *const color = &with->color[ch];
+    double squares = 0.0;
+    if (!color->used) continue;
+    for (int i = 0; i < rows->n; i++) x[i] = without->r[ch][i] - with->lines.r[ch][i];
+    color_whiten(color, rows, x, adds);
+    color_whiten(color, rows, without->r[ch], there);
+    for (int i = 0; i < rows->n; i++) {
+      share->has += adds[i] * there[i];
+      squares += adds[i] * adds[i];
+    }
+    share->squares += squares;
+    share->adds += fmax(squares - (blur ? rows->n * blur[ch] * blur[ch] : 0.0), 0.0);
+  }
+  free(x);
+  return DONE;
+}
+
+// They have less than half of it, and what they have is further from all of it than their noise, not quite
+// white, and the error of its size (relative) allow.
+static bool contradicts(const share_t *s, double relative) {
+  const double error = SCORE_ERRORS * SCORE_CLUSTER * hypot(sqrt(s->squares), relative * s->adds);
+  return s->adds > 0.0 && s->has < 0.5 * s->adds && s->adds - s->has > error;
+}
+
 // Of the size of a name that is known best.
 static double relative_error(const named_t *name) {
   double least = HUGE_VAL;
@@ -233,25 +227,25 @@ static int grows_most(const double with[CHANNELS], const double without[CHANNELS
 }
 
 // Whether these flights contradict a name, and how; grows: by how much it grows a channel, 1: by none that
-// counts, 0: they do not.
-static done_t try_name(const verify_job_t *d, const named_t *name, const lines_t *with,
-                       const lines_t *without, withdrawn_t *so, double *grows, why_t *why) {
+// counts, 0: they do not. What they have of it is known from then on.
+static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *with, const lines_t *without,
+                       withdrawn_t *so, double *grows, why_t *why) {
   static const double none[CHANNELS] = {0.0};
   double after[CHANNELS], before[CHANNELS], blur[CHANNELS], white[CHANNELS];
   double first = VERIFY_GROWS, most = VERIFY_GROWS;
   const double relative = relative_error(name);
-  color_t color[CHANNELS];
   share_t whole, share;
   *grows = 0.0;
-  measure(d->held, with, after);
+  measure(d->held, &with->lines, after);
   measure(d->held, without, before);
-  for (int ch = 0; ch < CHANNELS; ch++) color[ch] = color_of(d->held, ch, with);
   TRY(share_of(d->held, with, without, NULL, &whole, why));
-  if (grown(after, before, none, &first) < 0 && !contradicts(&whole, relative)) return DONE;
-  TRY(blur_of(d, name->candidate, color, blur, white, why));
+  name->held_share = whole.adds > 0.0 ? whole.has / whole.adds : (double)NAN;
+  const bool worse = balance(after, before) > 0.0 && contradicts(&whole, relative); // by either measure
+  if (grown(after, before, none, &first) < 0 && !worse) return DONE;
+  TRY(blur_of(d, name->candidate, with->color, blur, white, why));
   TRY(share_of(d->held, with, without, white, &share, why));
   const int ch = grown(after, before, blur, &most);
-  const bool lacks = contradicts(&whole, relative) && contradicts(&share, relative);
+  const bool lacks = worse && contradicts(&share, relative);
   const int shown = ch < 0 ? grows_most(after, before) : ch;
   if ((ch < 0 && !lacks) || shown < 0) return DONE;
   *grows = ch < 0 ? 1.0 : most;
@@ -268,12 +262,14 @@ static done_t try_name(const verify_job_t *d, const named_t *name, const lines_t
 
 // The name that they contradict most; -1: none.
 static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
-  lines_t with, without = {.r = {NULL}};
+  with_all_t with;
+  lines_t without = {.r = {NULL}};
   double most = 0.0;
   *worst = -1;
-  done_t status = lines_without(d->held, d->base, d->turns, -1, &with, why);
+  done_t status = lines_without(d->held, d->base, d->turns, -1, &with.lines, why);
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++) with.color[ch] = color_of(d->held, ch, &with.lines);
   for (int i = 0; i < d->found->n && status == DONE; i++) {
-    const named_t *const name = &d->found->named[i];
+    named_t *const name = &d->found->named[i];
     withdrawn_t so;
     double grows = 0.0;
     status = lines_without(d->held, d->base, d->turns, name->candidate, &without, why);
@@ -285,7 +281,7 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
     *worst = i;
     *why_so = so;
   }
-  lines_free(&with);
+  lines_free(&with.lines);
   return status;
 }
 

@@ -58,9 +58,9 @@ MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const by_turns_
 // FAILED: no memory.
 MUST_CHECK done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *held, why_t *why);
 
-// Withdraws the names that grow one by more, or of which the rows have less than half, the worst first: they
-// are no longer found. The others keep their values: what these flights alone had would else go into them.
-// FAILED: no memory.
+// Withdraws the names that grow one by more, or of which the rows have less than half while all channels
+// together grow, the worst first: they are no longer found. The others keep their values: what these flights
+// alone had would else go into them. Of those that stay held_share is known. FAILED: no memory.
 MUST_CHECK done_t verify_names(const verify_job_t *d, withdrawn_list_t *withdrawn, why_t *why);
 
 #endif

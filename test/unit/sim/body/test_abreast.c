@@ -306,43 +306,49 @@ static bool upper_halves_are_clean(void) {
 #endif
 }
 
-// What plain code does then, each instruction waits for them (base/lane_leave.hpp).
+static void leave_each_way(const lanes_door_t *door, const body_t *b) {
+  _Alignas(64) double y[RIGID_N * LANES] = {0.0}, dydt[RIGID_N * LANES], is[LANES_TRUTH * LANES];
+  const lanes_alike_t alike = lanes_alike(b);
+  const fx_use_t use = fx_use(fx_find("rotor_drag"));
+  const lanes_effect_t drag = lanes_effect(&use);
+  const lanes_instants_t at = {.y = {{0.0}}};
+  const lanes_sight_t sight = {.range_m = {0.0}};
+  lanes_t *const l = lanes_open(door);
+  void *const kept = aligned_alloc(64, (door->kept_bytes() + 63) / 64 * 64);
+  lanes_seen_t seen;
+  lanes_gap_t gap;
+  lanes_readings_t read;
+  lanes_truth_t truth = {.number = is};
+  double up[LANES];
+  if (!l || !kept) abort();
+  door->begin(0xff);
+#define LEAVES(what) ((what), CHECK(upper_halves_are_clean()))
+  LEAVES(door->set(l, &alike));
+  LEAVES(door->tick(l));
+  LEAVES(door->derivative(l, y, dydt));
+  LEAVES(door->gap(l, &gap));
+  LEAVES(door->end(l, &seen));
+  LEAVES(door->sense(l, &truth));
+  LEAVES(door->look(l, &at, up));
+  LEAVES(door->read(l, &sight, &read));
+  LEAVES(door->keep(l, kept));
+  LEAVES(door->read_again(l, kept, true, &read));
+  LEAVES(door->read_more(l, &drag, kept, &read));
+#undef LEAVES
+  free(kept);
+  door->close(l);
+}
+
+// Else each plain instruction waits for them (base/lane_leave.hpp).
 TEST(abreast_who_leaves_the_lanes_leaves_their_registers_clean) {
   const model_t m = vehicle6(0.6);
-  body_t b;
   const body_start_t start = {.pos_w_m = {0.0, 0.0, 0.3}};
+  body_t b;
   CHECK_OK(body_open(&b, &m, INTEGRATE_RK4, 0.002, &start));
   b.span_s = 0.002;
   for (int bits = 256; bits <= lane_bits(); bits += 256) {
     ROW("%d", bits);
-    _Alignas(64) double y[RIGID_N * LANES] = {0.0}, dydt[RIGID_N * LANES], is[LANES_TRUTH * LANES];
-    const lanes_door_t *const door = lanes_door(bits);
-    lanes_t *const l = lanes_open(door);
-    const lanes_alike_t alike = lanes_alike(&b);
-    lanes_seen_t seen;
-    lanes_gap_t gap;
-    lanes_instants_t at = {.y = {{0.0}}};
-    lanes_sight_t sight = {.range_m = {0.0}};
-    lanes_readings_t read;
-    lanes_truth_t truth = {.number = is};
-    double up[LANES];
-    void *const kept = aligned_alloc(64, (door->kept_bytes() + 63) / 64 * 64);
-    if (!CHECK(l && kept)) break;
-    door->begin(0xff);
-#define LEAVES(what) ((what), CHECK(upper_halves_are_clean()))
-    LEAVES(door->set(l, &alike));
-    LEAVES(door->tick(l));
-    LEAVES(door->derivative(l, y, dydt));
-    LEAVES(door->gap(l, &gap));
-    LEAVES(door->end(l, &seen));
-    LEAVES(door->sense(l, &truth));
-    LEAVES(door->look(l, &at, up));
-    LEAVES(door->read(l, &sight, &read));
-    LEAVES(door->keep(l, kept));
-    LEAVES(door->read_again(l, kept, true, &read));
-#undef LEAVES
-    free(kept);
-    door->close(l);
+    leave_each_way(lanes_door(bits), &b);
   }
   body_close(&b);
 }

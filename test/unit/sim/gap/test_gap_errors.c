@@ -111,6 +111,37 @@ TEST(gap_withdraws_a_name_of_which_held_out_rows_have_nothing) {
   gap_case_free(c);
 }
 
+// The same battery, of several cells: its map was looked for about 4 V, and names that took each other back
+// told of it. The log's commands are newton: what they make of the voltage is the sag alone.
+TEST(gap_finds_the_sag_of_a_battery_of_three_cells) {
+  enum { CELLS = 3, FLIGHTS = 3 };
+  gap_flight_t flight[FLIGHTS];
+  model_t given, truth;
+  why_t why;
+  CHECK_OK(exam_vehicle(&given, &why));
+  truth = given;
+  fx_use_t sag = gap_effect("battery_sag", 1.5, 1.0);
+  sag.p[2] = 4.05;
+  CHECK_OK(model_add_fx(&truth, &sag, &why));
+  for (int i = 0; i < FLIGHTS; i++) {
+    gap_case_fly((exam_flight_t){.truth = &truth, .seed = 70 + (unsigned long)i}, &flight[i]);
+    for (int k = 0; k < flight[i].n; k++) flight[i].v[SIG_VBAT][k] *= CELLS;
+  }
+  const gap_flights_t fit = {flight, FLIGHTS - 1}, held = {flight + FLIGHTS - 1, 1};
+  const diagnose_job_t job = {.fit = &fit, .held = &held, .model = &given, .seed = 1};
+  diagnosis_t *const d = calloc(1, sizeof *d);
+  CHECK_OK(diagnose(&job, d, &why));
+  if (CHECK(d->found.n == 1)) {
+    const fx_use_t *const told = found_use(&d->found, &d->found.named[0]);
+    CHECK(told->fx == sag.fx);
+    CHECK_NEAR(told->p[0], 1.5, 0.1);
+    CHECK_NEAR(told->p[2], 4.05 * CELLS, 0.03 * CELLS);
+  }
+  diagnosis_free(d);
+  free(d);
+  for (int i = 0; i < FLIGHTS; i++) gap_flight_free(&flight[i]);
+}
+
 // Attitude control commands at 500 Hz: what a slow log misses of it looks like inertia, or like a lag.
 TEST(gap_names_nothing_in_a_slow_log_of_a_flight_in_which_nothing_is_hidden) {
   static const struct {
