@@ -2,6 +2,7 @@
 #include "gap/diagnose.h"
 
 #include "gap/2_predict/excluded.h"
+#include "gap/2_predict/lift.h"
 #include "gap/5_infer/both_ways.h"
 #include "gap/5_infer/confirm.h"
 #include "gap/5_infer/loop_fit.h"
@@ -22,7 +23,10 @@ static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose
     status = grid_make(&grid[i], &flights->flight[i], 0, flights->flight[i].n, job->model, why);
     grid[i].command_Hz = job->flown_by ? job->flown_by->rate_Hz : 0.0;
   }
-  if (status == DONE) return set_make(s, grid, flights->n, why);
+  if (status == DONE) {
+    TRY(set_make(s, grid, flights->n, why));
+    return lift_find(s, job->model, why);
+  }
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
   return status;
@@ -147,6 +151,12 @@ static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
   d->unknown = d->nominal_flew && d->left.found;
   if (!d->unknown) return DONE;
+  for (int i = 0; i < GROUPS; i++) {
+    const cell_t *const cell = unknown_by_flight(&scan, &d->left, i);
+    if (cell)
+      TRY(flights_differ_make(&d->differ[i], &d->fit, d->residual, job->model, &d->candidates,
+                              &d->found.chosen, cell, why));
+  }
   return for_a_time(&d->for_a_time, &d->fit, d->residual, job->model, &d->candidates, &d->found.chosen,
                     &d->left.cell, &d->left.also, why);
 }
@@ -336,4 +346,5 @@ void diagnosis_free(diagnosis_t *d) {
   candidates_free(&d->candidates);
   nominal_free(&d->nominal);
   found_free(&d->found);
+  for (int i = 0; i < GROUPS; i++) flights_differ_free(&d->differ[i]);
 }

@@ -2,6 +2,7 @@
 #ifndef SIM_GAP_DIAGNOSE_H
 #define SIM_GAP_DIAGNOSE_H
 
+#include "gap/5_infer/flights_differ.h"
 #include "gap/5_infer/for_a_time.h"
 #include "gap/5_infer/unknown.h"
 #include "gap/7_verify/verify.h"
@@ -40,13 +41,14 @@ typedef struct {
   by_turns_t turns; // by which numbers the held-out rows are judged
   model_t extended;
   closed_loop_t loop;
-  timing_t timing;         // of the fitted flights
-  chosen_t before;         // what the last look found, with which the next one begins
-  chosen_t flown;          // what nominal flights had beside the model
-  bool nominal_flew;       // false: none could; then names need more evidence and nothing is unknown
-  judged_t left;           // what no name explains
-  bool unknown;            // it is beyond its bound
-  for_a_time_t for_a_time; // what would do for it
+  timing_t timing;                 // of the fitted flights
+  chosen_t before;                 // what the last look found, with which the next one begins
+  chosen_t flown;                  // what nominal flights had beside the model
+  bool nominal_flew;               // false: none could; then names need more evidence and nothing is unknown
+  judged_t left;                   // what no name explains
+  bool unknown;                    // it is beyond its bound
+  for_a_time_t for_a_time;         // what would do for it
+  flights_differ_t differ[GROUPS]; // of each group of channels: n 0 where flights do not
   held_t held_out;
   double *residual[CHANNELS]; // of the fitted flights, extended model
 } diagnosis_t;

@@ -272,7 +272,8 @@ TEST(gap_says_where_something_without_a_name_is) {
   const cJSON *const u = cJSON_GetObjectItem(v, "unknown");
   CHECK_TEXT(verdict_string(v, "verdict"), "unknown");
   verdict_check(v);
-  CHECK(cJSON_GetArraySize(u) == 9 && cJSON_IsArray(cJSON_GetObjectItem(u, "acts_as")) &&
+  CHECK(cJSON_GetArraySize(u) == 10 && cJSON_IsArray(cJSON_GetObjectItem(u, "acts_as")) &&
+        cJSON_GetArraySize(cJSON_GetObjectItem(u, "from_flight_to_flight")) == 0 &&
         verdict_number(u, "stderr") > 0.0);
   CHECK_TEXT(verdict_string(u, "coordinate"), answer.coordinate);
   CHECK(strcmp(verdict_string(u, "channel"), "force_x") == 0 ||

@@ -16,8 +16,10 @@ static void *room(size_t n, size_t size) {
 
 static rows_t rows(int n) {
   const size_t some = (size_t)n + 1;
-  return (rows_t){0, room(some, sizeof(int)), room(some, sizeof(int)), room(some, sizeof(int)),
-                  room(some, sizeof(bool))};
+  return (rows_t){.point = room(some, sizeof(int)),
+                  .flight = room(some, sizeof(int)),
+                  .block = room(some, sizeof(int)),
+                  .follows = room(some, sizeof(bool))};
 }
 
 static void take_rows(gap_rows_t *g) {

@@ -40,18 +40,86 @@ WIDE_COPIES static void whiten_all(double a1, double a2, double per_sd, int n, c
   for (int i = 2; i < n; i++) out[i] = per_sd * (v[i] - a1 * v[i - 1] - a2 * v[i - 2]);
 }
 
-void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
+static void whiten_rows(const color_t *c, const rows_t *r, const double *v, double *out) {
   whiten_all(c->a1, c->a2, 1.0 / c->sd, r->n, v, out);
   for (int i = 0; i < r->n; i++)
     if (!color_reaches(r, i)) out[i] = 0.0;
 }
 
+// --- what flights differ by -------------------------------------------------------------------------------
+
+// A constant, white.
+static double white_one(const color_t *c, const rows_t *r, int row) {
+  if (!color_reaches(r, row)) return 0.0;
+  return (rows_lift(r, row) - c->a1 * rows_lift(r, row - 1) - c->a2 * rows_lift(r, row - 2)) / c->sd;
+}
+
+color_constant_t color_constant(const color_t *c, const rows_t *r, int from, const double *white) {
+  color_constant_t k = {.end = from};
+  double product = 0.0;
+  for (; k.end < r->n && r->flight[k.end] == r->flight[from]; k.end++) {
+    const double one = white_one(c, r, k.end);
+    k.holds += one * one;
+    product += one * white[k.end];
+  }
+  k.mean = k.holds > 0.0 ? product / k.holds : 0.0;
+  return k;
+}
+
+color_differ_t color_differ(const color_t *c, const rows_t *r, const double *white) {
+  color_differ_t d = {.flights = 0};
+  double sum = 0.0, squares = 0.0;
+  for (int from = 0; from < r->n;) {
+    const color_constant_t k = color_constant(c, r, from, white);
+    from = k.end;
+    if (!(k.holds > 0.0)) continue;
+    d.flights++;
+    d.holds += k.holds;
+    d.holds_squared += k.holds * k.holds;
+    sum += k.holds * k.mean;
+    squares += k.holds * k.mean * k.mean;
+  }
+  d.mean = d.flights ? sum / d.holds : 0.0;
+  d.q = fmax(squares - sum * d.mean, 0.0);
+  return d;
+}
+
+double color_between(const color_t *c, const rows_t *r, const double *v, double *room) {
+  whiten_rows(c, r, v, room);
+  const color_differ_t d = color_differ(c, r, room);
+  if (d.flights < 2) return 0.0;
+  return sqrt(fmax(d.q - (d.flights - 1), 0.0) / (d.holds - d.holds_squared / d.holds));
+}
+
+// So much of a flight's constant is left in its white rows.
+static double kept(const color_t *c, double holds) {
+  return 1.0 / sqrt(1.0 + c->between * c->between * holds);
+}
+
+void color_whiten(const color_t *c, const rows_t *r, const double *v, double *out) {
+  whiten_rows(c, r, v, out);
+  for (int from = 0; c->between > 0.0 && from < r->n;) {
+    const color_constant_t k = color_constant(c, r, from, out);
+    const double less = (1.0 - kept(c, k.holds)) * k.mean;
+    for (int i = from; i < k.end; i++) out[i] -= less * white_one(c, r, i);
+    from = k.end;
+  }
+}
+
 double color_left(const rows_t *r, const color_t *c, const double *v) {
-  double sum = 0.0;
-  for (int i = 2; i < r->n; i++) {
-    if (!color_reaches(r, i)) continue;
-    const double e = (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) / c->sd;
-    sum += e * e;
+  const double spread = c->between * c->between;
+  double sum = 0.0, product = 0.0, holds = 0.0;
+  for (int i = 0; i < r->n; i++) {
+    if (color_reaches(r, i)) {
+      const double e = (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) / c->sd;
+      const double one = spread > 0.0 ? white_one(c, r, i) : 0.0;
+      sum += e * e;
+      product += one * e;
+      holds += one * one;
+    }
+    if (i + 1 < r->n && r->flight[i + 1] == r->flight[i]) continue;
+    sum -= spread / (1.0 + spread * holds) * product * product;
+    product = holds = 0.0;
   }
   return sum;
 }

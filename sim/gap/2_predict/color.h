@@ -1,5 +1,6 @@
 // color.h - an autoregression of second order per channel: e_t = (y_t - a1 y_{t-1} - a2 y_{t-2}) / sd is
-// white.
+// white; and a constant of each flight's own (times the lift, lift.h), as batteries and sensors have that are
+// fitted anew, of which white rows have no more than their noise (Fuller and Battese 1974).
 #ifndef SIM_GAP_2_PREDICT_COLOR_H
 #define SIM_GAP_2_PREDICT_COLOR_H
 
@@ -7,11 +8,31 @@
 
 typedef struct {
   double a1, a2, sd;
-  bool used; // the channel has rows enough
+  double between; // sd of what flights differ by, each by a constant
+  bool used;      // the channel has rows enough
 } color_t;
 
 // Colour of rows that v leaves of a channel.
 color_t color_fit(const rows_t *r, const double *v);
+
+// What a flight's white rows, row `from` on, hold of a constant, and how large it is in them.
+typedef struct {
+  int end; // the next flight's first row
+  double holds, mean;
+} color_constant_t;
+
+color_constant_t color_constant(const color_t *color, const rows_t *r, int from, const double *white);
+
+// The flights' constants about the mean of all. q: in standard errors, squared; as many as flights but one
+// where there is noise alone.
+typedef struct {
+  int flights;
+  double q, holds, holds_squared, mean;
+} color_differ_t;
+
+color_differ_t color_differ(const color_t *color, const rows_t *r, const double *white);
+// What they differ by beyond noise, sd (DerSimonian and Laird 1986); room: as many as rows.
+double color_between(const color_t *color, const rows_t *r, const double *v, double *room);
 
 // The white rows of v, in place of out (as many as rows; 0 where a row has no two before it).
 void color_whiten(const color_t *color, const rows_t *r, const double *v, double *out);

@@ -126,6 +126,7 @@ static void rows_free(rows_t *r) {
   free(r->flight);
   free(r->block);
   free(r->follows);
+  free(r->lift);
 }
 
 void set_free(set_t *s) {
@@ -151,4 +152,30 @@ void set_give_back(set_t *lent) {
   for (int i = 0; lent->grid && i < lent->n_grid; i++) grid_give_back(&lent->grid[i]);
   free(lent->grid);
   lent->grid = NULL;
+}
+
+// The constant of the rows from..end-1.
+static double constant_in(const rows_t *r, const double *v, int from, int end) {
+  double product = 0.0, square = 0.0;
+  for (int i = from; i < end; i++) {
+    product += rows_lift(r, i) * v[i];
+    square += rows_lift(r, i) * rows_lift(r, i);
+  }
+  return square > 0.0 ? product / square : 0.0;
+}
+
+static void make_constant(const rows_t *r, double *v, double to) {
+  for (int from = 0, end; from < r->n; from = end) {
+    for (end = from; end < r->n && r->flight[end] == r->flight[from];) end++;
+    const double more = constant_in(r, v, from, end) - to;
+    for (int i = from; i < end; i++) v[i] -= more * rows_lift(r, i);
+  }
+}
+
+void rows_center(const rows_t *r, double *v) {
+  make_constant(r, v, 0.0);
+}
+
+void rows_level(const rows_t *r, double *v) {
+  make_constant(r, v, constant_in(r, v, 0, r->n));
 }

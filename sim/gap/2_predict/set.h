@@ -16,7 +16,12 @@ typedef struct {
   int *flight;   // number of the grid
   int *block;    // counts over all flights
   bool *follows; // the row before is one step earlier: there is no gap between
+  double *lift;  // over its mean: what a flight's own constant is multiplied by (lift.h); null: by 1
 } rows_t;
+
+static inline double rows_lift(const rows_t *r, int row) {
+  return r->lift ? r->lift[row] : 1.0;
+}
 
 typedef struct {
   grid_t *grid; // one per flight
@@ -65,5 +70,9 @@ static inline int rows_from(const rows_t *r, int flight) {
   }
   return low;
 }
+
+// Takes each flight's own constant out of a number by row; or what it differs by from that of all.
+void rows_center(const rows_t *r, double *v);
+void rows_level(const rows_t *r, double *v);
 
 #endif

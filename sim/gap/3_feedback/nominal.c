@@ -1,6 +1,7 @@
 // nominal.c - flies the model itself along a track, nothing hidden.
 #include "gap/3_feedback/nominal.h"
 
+#include "gap/2_predict/lift.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +58,10 @@ done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t
   done_t status = DONE;
   for (int f = 0; f < flown->n && status == DONE; f++)
     status = grid_make(&grid[f], &flown->flight[f], 0, flown->flight[f].n, m, why);
-  if (status == DONE) return set_make(s, grid, flown->n, why);
+  if (status == DONE) {
+    TRY(set_make(s, grid, flown->n, why));
+    return lift_find(s, m, why);
+  }
   for (int f = 0; f < flown->n; f++) grid_free(&grid[f]);
   free(grid);
   return status;

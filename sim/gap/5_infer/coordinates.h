@@ -19,7 +19,8 @@ enum {
   COORDINATE_RATE_Y,
   COORDINATE_RATE_Z,
   COORDINATE_TIME,
-  COORDINATES
+  COORDINATES,
+  BY_FLIGHT = COORDINATES // from flight to flight
 };
 
 const char *coordinate_name(int i);

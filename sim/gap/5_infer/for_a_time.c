@@ -1,12 +1,8 @@
 // for_a_time.c - which effects of the library would do for what has no name, if they acted for a time only.
 #include "gap/5_infer/for_a_time.h"
 
-#include "base/lsq_blocks.h"
 #include "gap/5_infer/coordinates.h"
-#include "gap/5_infer/evidence.h"
 #include "gap/5_infer/limits.h"
-#include "gap/5_infer/unknown.h"
-#include "gap/5_infer/whiten.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,104 +47,22 @@ static bool find_side(const set_t *s, const model_t *m, double *const residual[C
   return squares[there] * rows[here] < SCORE_MOST * squares[here] * rows[there];
 }
 
-// The last column is the residual with what is chosen taken out again: it is put back.
-static void put_back(double *G, int size, int n, const int *column, const double *b) {
-  const int last = size - 1;
-  double squares = G[last * size + last];
-  for (int k = 0; k < n; k++) {
-    squares -= 2.0 * b[k] * G[column[k] * size + last];
-    for (int i = 0; i < n; i++) squares += b[k] * b[i] * G[column[k] * size + column[i]];
-  }
-  for (int j = 0; j < last; j++)
-    for (int k = 0; k < n; k++) {
-      G[j * size + last] -= b[k] * G[j * size + column[k]];
-      G[last * size + j] = G[j * size + last];
-    }
-  G[last * size + last] = squares;
-}
-
-static int numbers_of(const candidates_t *c, const chosen_t *chosen, int *column, double *b) {
-  int n = 0;
-  for (int i = 0; i < chosen->n; i++) {
-    const candidate_t *const one = &c->candidate[chosen->of[i]];
-    for (int k = 0; k < one->n; k++, n++) {
-      column[n] = one->first + k;
-      b[n] = fx_use_size(&chosen->use[i], k);
-    }
-  }
-  return n;
-}
-
 static done_t times_make(times_t *t, set_t *s, const model_t *base, const candidates_t *c,
                          const chosen_t *chosen, const cell_t *time, why_t *why) {
-  int column[CHOSEN_MAX * FX_SIZE_MAX];
-  double b[CHOSEN_MAX * FX_SIZE_MAX];
-  design_t table = {.columns = 0};
-  gram_t g = {.size = 0};
-  const explained_t known = {numbers_of(c, chosen, column, b), column, b, true};
-  done_t status = design_make(&table, s, base, c, chosen, why);
-  if (status == DONE) status = gram_make(&g, s, &table, &known, NULL, why);
+  remains_t left;
+  done_t status = remains_make(&left, s, base, c, chosen, why);
   if (status == DONE) {
-    const size_t room = (size_t)(g.size * g.size);
-    t->size = g.size;
+    const size_t room = (size_t)(left.g.size * left.g.size);
+    t->size = left.g.size;
     for (int i = 0; i < 2; i++) t->sums[i] = calloc(room, sizeof(double));
     if (!t->sums[0] || !t->sums[1]) status = error_failed(why, "out of memory");
   }
   if (status == DONE) {
-    add_blocks(t, &g, s, base, time);
-    for (int i = 0; i < 2; i++) put_back(t->sums[i], t->size, known.n, column, b);
+    add_blocks(t, &left.g, s, base, time);
+    for (int i = 0; i < 2; i++) remains_put_back(&left, t->sums[i]);
   }
-  gram_free(&g);
-  design_free(&table);
+  remains_free(&left);
   return status;
-}
-
-// What a candidate alone takes from sums, at numbers that it can have: of what is chosen, beside its own.
-static double taken_by(const candidate_t *c, const fx_use_t *chosen, const double *G, int size,
-                       fx_use_t *use) {
-  int column[FX_SIZE_MAX];
-  double b[FX_SIZE_MAX], taken = 0.0;
-  for (int k = 0; k < c->n; k++) column[k] = c->first + k;
-  lsq_solve_products(G, size, column, c->n, NULL, b, NULL);
-  *use = c->use;
-  for (int k = 0; k < c->n; k++) {
-    const double now = chosen ? fx_use_size(chosen, k) : 0.0;
-    b[k] = isfinite(b[k]) ? candidate_possible(c, k, now + b[k]) - now : 0.0;
-    fx_use_resize(use, k, b[k]);
-  }
-  for (int k = 0; k < c->n; k++) {
-    taken += 2.0 * b[k] * G[column[k] * size + size - 1];
-    for (int i = 0; i < c->n; i++) taken -= b[k] * b[i] * G[column[k] * size + column[i]];
-  }
-  return taken;
-}
-
-// No number is larger than the evidence's prior has it.
-static bool is_likely(const candidate_t *c, const fx_use_t *use) {
-  bool likely = !c->barred;
-  for (int k = 0; k < c->n; k++)
-    likely = likely && fabs(fx_use_size(use, k)) <= EVIDENCE_TYPICAL_MOST * c->typical[k];
-  return likely;
-}
-
-static void take_out(for_a_time_t *to, int i) {
-  to->n--;
-  for (int k = i; k < to->n; k++) to->would[k] = to->would[k + 1];
-}
-
-// One of each effect, the one that is worth most first.
-static void put_in(for_a_time_t *to, would_do_t one) {
-  for (int i = 0; i < to->n; i++) {
-    if (to->would[i].use.fx != one.use.fx) continue;
-    if (to->would[i].worth >= one.worth) return;
-    take_out(to, i);
-  }
-  int at = to->n;
-  while (at > 0 && to->would[at - 1].worth < one.worth) at--;
-  if (at == FOR_A_TIME_MAX) return;
-  if (to->n < FOR_A_TIME_MAX) to->n++;
-  for (int k = to->n - 1; k > at; k--) to->would[k] = to->would[k - 1];
-  to->would[at] = one;
 }
 
 static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c, const chosen_t *chosen) {
@@ -156,20 +70,17 @@ static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c, con
   const double beyond = t->sums[here][last] - t->sums[there][last] / t->blocks[there] * t->blocks[here];
   if (!(beyond > 0.0)) return;
   for (int i = 0; i < c->n; i++) {
-    const candidate_t *const one = &c->candidate[i];
-    would_do_t would;
-    const double share = taken_by(one, chosen_use(chosen, i), t->sums[here], t->size, &would.use) / beyond;
-    would.share = fmin(share, 1.0);
-    would.worth = share - CANDIDATES_MISFIT * (one->to - one->from - 1);
-    if (would.worth >= SCORE_MOST && is_likely(one, &would.use)) put_in(to, would);
+    fx_use_t use;
+    const double taken = acts_takes(&c->candidate[i], chosen_use(chosen, i), t->sums[here], t->size, &use);
+    acts_add(&to->as, c, i, &use, taken, beyond);
   }
-  while (to->n && to->would[to->n - 1].worth < UNKNOWN_TIE * to->would[0].worth) to->n--;
+  acts_keep_best(&to->as);
 }
 
 done_t for_a_time(for_a_time_t *to, set_t *s, double *const residual[CHANNELS], const model_t *base,
                   const candidates_t *c, const chosen_t *chosen, const cell_t *cell, const cell_t *also,
                   why_t *why) {
-  *to = (for_a_time_t){.n = 0};
+  *to = (for_a_time_t){.outside = false};
   const cell_t *const time = cell->along == COORDINATE_TIME ? cell : also;
   if (time->along != COORDINATE_TIME || !(time->statistic > 0.0) || time->to - time->from < 2.0 * BLOCK_S)
     return DONE;

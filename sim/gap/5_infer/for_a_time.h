@@ -6,22 +6,13 @@
 #ifndef SIM_GAP_5_INFER_FOR_A_TIME_H
 #define SIM_GAP_5_INFER_FOR_A_TIME_H
 
-#include "gap/4_candidates/candidates.h"
+#include "gap/5_infer/acts_as.h"
 #include "gap/5_infer/windows.h"
 
-enum { FOR_A_TIME_MAX = 3 };
-
 typedef struct {
-  fx_use_t use; // with its numbers; of what the model has, the difference
-  double share; // of what is left there beyond noise, of the squares: what it takes, at most 1
-  double worth; // the same, less what a right form with other numbers leaves for each number more than one
-} would_do_t;
-
-typedef struct {
-  int n;                            // 0: nothing of the library would do, or it is of no time
-  bool outside;                     // in all the time but that
-  double from_s, to_s;              // of the log
-  would_do_t would[FOR_A_TIME_MAX]; // the one that is worth most first
+  acts_as_t as;        // n 0: nothing of the library would do, or it is of no time
+  bool outside;        // in all the time but that
+  double from_s, to_s; // of the log
 } for_a_time_t;
 
 // cell, also: where it is (windows.h). Of these the one that is along the time counts, if it is two blocks

@@ -50,20 +50,31 @@ static void feedback(parts_t *p, double *excess, double *A, double *g) {
   }
 }
 
-// The score of each column summed over blocks, squared: white rows would give A_kk.
+// The score of each column summed over blocks, squared: white rows would give A_kk. Of whole flights where
+// these contradict each other by more.
 static void block_scores(const parts_t *p, double *squares) {
   const gram_t *const gram = &p->r->gram;
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
-  const int n = p->n, size = n + 1, m = choice_columns(p->r->c, &p->r->choice, column);
+  const int n = p->n, size = n + 1, m = choice_columns(p->r->c, &p->r->choice, column),
+            flights = gram->n_flight;
   score_estimate(&p->r->score, &p->r->choice, b, NULL);
-  for (int block = 0; block < gram->n_block; block++) {
-    const double *const G = gram->block + (size_t)block * (size_t)(size * size);
-    for (int k = 0; k < n; k++) {
-      double score = G[k * size + n];
-      for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
-      squares[k] += score * score * p->typical[k] * p->typical[k];
+  for (int k = 0; k < n; k++) {
+    double of_blocks = 0.0, of_flights = 0.0;
+    for (int block = 0; block < gram->n_block;) {
+      const int flight = gram_flight(gram, block);
+      double sum = 0.0;
+      for (; block < gram->n_block && gram_flight(gram, block) == flight; block++) {
+        const double *const G = gram->block + (size_t)block * (size_t)(size * size);
+        double score = G[k * size + n];
+        for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
+        of_blocks += score * score;
+        sum += score;
+      }
+      of_flights += sum * sum;
     }
+    if (flights > 1) of_blocks = fmax(of_blocks, of_flights * flights / (flights - 1.0));
+    squares[k] += of_blocks * p->typical[k] * p->typical[k];
   }
 }
 

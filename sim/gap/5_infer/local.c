@@ -94,6 +94,7 @@ static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t 
     if (!p->color[ch].used) continue;
     double *const part[] = {p->f[ch], p->y[ch]};
     for (int k = 0; k < 2; k++) {
+      rows_level(r, part[k]); // what flights differ by is another question
       memcpy(scratch, part[k], (size_t)r->n * sizeof(double));
       color_whiten(&p->color[ch], r, scratch, part[k]);
     }

@@ -169,35 +169,6 @@ bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other
   return left_other - left < 2.0 * (SCORE_ERRORS * errors + unexplained) * apart;
 }
 
-// V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
-void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V) {
-  const gram_t *g = j->g;
-  int column[COLUMN_MAX], used = 0;
-  double inverse[COLUMN_MAX * COLUMN_MAX], part[COLUMN_MAX];
-  const int n = choice_columns(j->c, choice, column), size = g->size;
-  lsq_solve_products(g->total, size, column, n, NULL, b, inverse);
-  if (!V) return;
-  memset(V, 0, (size_t)(n * n) * sizeof(double));
-  for (int block = 0; block < g->n_block; block++) {
-    const double *G = g->block + (size_t)block * (size_t)(size * size);
-    if (!(G[size * size - 1] > 0.0)) continue;
-    used++;
-    double score[COLUMN_MAX];
-    for (int i = 0; i < n; i++) {
-      score[i] = G[column[i] * size + size - 1];
-      for (int k = 0; k < n; k++) score[i] -= G[column[i] * size + column[k]] * b[k];
-    }
-    for (int i = 0; i < n; i++) {
-      part[i] = 0.0;
-      for (int k = 0; k < n; k++) part[i] += inverse[i * n + k] * score[k];
-    }
-    for (int i = 0; i < n; i++)
-      for (int k = 0; k < n; k++) V[i * n + k] += part[i] * part[k];
-  }
-  const double few = used > n + 1 ? (double)used / (used - n) : 1e6;
-  for (int i = 0; i < n * n; i++) V[i] *= few;
-}
-
 // Of size k of a choice's last candidate, by nominal flight, and what each flight holds of it (null: nobody
 // asks); returns how many.
 static int nominal_values(const score_t *j, const choice_t *choice,

@@ -54,6 +54,8 @@ static void clean_in_world(const set_t *s, const model_t *m, double *const resid
   double *const fx = residual[CH_FX], *const fy = residual[CH_FY];
   if (!has_lateral_force(s)) return;
   turn_by_heading(s, 1.0, fx, fy, fx, fy);
+  rows_center(&s->smooth, fx);
+  rows_center(&s->smooth, fy);
   for (int i = 0; i < COORDINATES; i++) {
     if (!windows_bins(s, m, i, 0, room, bin)) continue;
     flatten(&s->smooth, bin, fx);
@@ -66,6 +68,8 @@ done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CH
   double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
   int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int sweep = 0; room && bin && sweep < 2; sweep++) {
+    for (int ch = 0; ch < CHANNELS; ch++)
+      if (residual_has(s, ch)) rows_center(set_rows(s, ch), residual[ch]);
     for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
     clean_in_world(s, m, residual, room, bin);
   }
@@ -152,6 +156,7 @@ static void look_everywhere(const look_t *l, scan_t *scan) {
     cell_t each[LOOKED] = {{.statistic = 0.0}};
     if (look < COORDINATES) windows_along(l, look, each);
     if (look == LOOK_FLOOR) windows_on_floor(l, each);
+    if (look == LOOK_FLIGHTS) windows_by_flight(l, each);
     if (look == LOOK_PULSE) in_time_pulses(l, each);
     if (look == LOOK_LINE) in_time_lines(l, each);
     for (int ch = 0; ch < LOOKED; ch++) {
@@ -232,7 +237,9 @@ static double beyond(const cell_t *c, double bound) {
 // What lies at a place stays there; what begins at the same time in every flight is rarer, and a state is
 // mostly where the vehicle happened to be in it.
 static int rank_of(int along) {
-  return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
+  return along == COORDINATE_TIME || along == NOWHERE || along == BY_FLIGHT ? 1
+         : coordinate_is_place(along)                                       ? 0
+                                                                            : 2;
 }
 
 // Of one force: the lateral one has other names along the body's axes and along the world's.
@@ -283,4 +290,18 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
   }
   to->found = most > 0.0;
   if (to->found) weigh_ties(log, to);
+}
+
+const cell_t *unknown_by_flight(const scan_t *log, const judged_t *judged, int group) {
+  const cell_t *most = NULL;
+  double others = 0.0;
+  for (int k = 0; k < UNKNOWN_CELLS; k++) {
+    const cell_t *const c = &log->cell[k];
+    if (!(beyond(c, judged->bound[k]) > 0.0) || group_of(c->channel) != group) continue;
+    if (c->along != BY_FLIGHT)
+      others = fmax(others, c->explained);
+    else if (!most || c->explained > most->explained)
+      most = c;
+  }
+  return most && most->explained >= UNKNOWN_TIE * others ? most : NULL;
 }

@@ -1,11 +1,11 @@
 // unknown.h - what is left that no name explains: where it is, and whether flights in which nothing is hidden
 // show as much.
 //
-// A look is one way to look at a residual: along a coordinate, on patches of the floor (windows.h), for
-// pulses, for lines (in_time.h). Each channel is looked at in each way; the lateral force in the body's axes
-// and, level, in the world's. What feedback leaves differs from look to look by far more than chance: each is
-// measured against what the same look finds in nominal flights, and the one that explains most beyond that
-// tells.
+// A look is one way to look at a residual: along a coordinate, on patches of the floor (windows.h), from
+// flight to flight, for pulses, for lines (in_time.h). Each channel is looked at in each
+// way; the lateral force in the body's axes and, level, in the world's. What feedback leaves differs from
+// look to look by far more than chance: each is measured against what the same look finds in nominal flights,
+// and the one that explains most beyond that tells.
 #ifndef SIM_GAP_5_INFER_UNKNOWN_H
 #define SIM_GAP_5_INFER_UNKNOWN_H
 
@@ -33,7 +33,13 @@ MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int from, int 
 
 // --- all looks --------------------------------------------------------------------------------------------
 
-enum { LOOK_FLOOR = COORDINATES, LOOK_PULSE, LOOK_LINE, UNKNOWN_LOOKS }; // those before: along a coordinate
+enum {
+  LOOK_FLOOR = COORDINATES,
+  LOOK_FLIGHTS,
+  LOOK_PULSE,
+  LOOK_LINE,
+  UNKNOWN_LOOKS
+}; // those before: along a coordinate
 
 // Each channel, and the lateral force (the channels before CH_FZ) in the world's axes, too.
 enum { UNKNOWN_CELLS = (CHANNELS + CH_FZ) * UNKNOWN_LOOKS };
@@ -70,5 +76,9 @@ typedef struct {
 // six times as much is as large as an effect that is named.
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
+
+// Of a group of channels (GROUP_..) the one that differs most from flight to flight, if that is beyond its
+// bound and no other look explains more in the group, but for a fifth; else null.
+const cell_t *unknown_by_flight(const scan_t *log, const judged_t *judged, int group);
 
 #endif

@@ -7,23 +7,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The colour of what some columns leave, apart from its mean; plain: its spread alone.
+// The colour of what some columns leave, apart from each flight's mean; plain: its spread alone.
 static bool fit_color(gram_t *g, const set_t *s, const design_t *t, int ch, const explained_t *e) {
   const int n = e->n, *column = e->column;
   const double *b = e->b;
   const rows_t *r = set_rows(s, ch);
-  double *const left = malloc(((size_t)r->n + 1) * sizeof(double));
+  double *const left = malloc(2 * ((size_t)r->n + 1) * sizeof(double));
   if (!left) return false;
+  double *const own = left + r->n;
   for (int i = 0; i < r->n; i++) left[i] = t->x[ch][t->columns][i];
   for (int k = 0; k < n; k++) {
     const double *x = t->x[ch][column[k]];
     for (int i = 0; x && i < r->n; i++) left[i] -= b[k] * x[i];
   }
-  double mean = 0.0;
-  for (int i = 0; i < r->n; i++) mean += left[i] / r->n;
-  for (int i = 0; i < r->n; i++) left[i] -= mean;
   g->color[ch] = (color_t){.used = false};
-  if (residual_has(s, ch)) g->color[ch] = e->plain ? color_plain(r, left) : color_fit(r, left);
+  memcpy(own, left, (size_t)r->n * sizeof(double));
+  rows_center(r, own);
+  if (residual_has(s, ch)) g->color[ch] = e->plain ? color_plain(r, own) : color_fit(r, own);
+  if (g->color[ch].used && !e->plain) g->color[ch].between = color_between(&g->color[ch], r, left, own);
   free(left);
   return true;
 }
@@ -183,7 +184,11 @@ static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *r
 
 done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t *known, const double *ridge,
                  why_t *why) {
-  *g = (gram_t){.size = t->columns + 1, .n_block = s->n_block, .n_half = s->n_half, .half = s->half};
+  *g = (gram_t){.size = t->columns + 1,
+                .n_block = s->n_block,
+                .n_half = s->n_half,
+                .n_flight = s->n_grid,
+                .half = s->half};
   const size_t room = (size_t)(g->size * g->size);
   g->block = calloc((size_t)g->n_block * room, sizeof(double));
   g->by_half = calloc(2 * (size_t)g->n_half * room, sizeof(double));

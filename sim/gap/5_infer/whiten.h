@@ -19,9 +19,9 @@ static inline int group_of(int channel) {
 }
 
 typedef struct {
-  int size, n_block, n_half; // size: columns + 1
-  int rows;                  // white ones, of all channels
-  const int *half;           // of each block (the set's)
+  int size, n_block, n_half, n_flight; // size: columns + 1
+  int rows;                            // white ones, of all channels
+  const int *half;                     // of each block (the set's)
   double *block, *by_half, *total;
   double *others;           // by half-flight: of all the others
   double *by_group[GROUPS]; // of all half-flights, one matrix each
@@ -32,6 +32,11 @@ typedef struct {
 // moment about an axis that is left out.
 static inline bool gram_shows(const gram_t *g, int column) {
   return g->total[column * (g->size + 1)] > 0.0;
+}
+
+// The flight of a block.
+static inline int gram_flight(const gram_t *g, int block) {
+  return g->half[block] / 2;
 }
 
 // What is taken to be known of the residual: columns and their values.

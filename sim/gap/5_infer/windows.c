@@ -185,3 +185,26 @@ void windows_on_floor(const look_t *l, cell_t cell[LOOKED]) {
     if (l->color[ch].used) look_at_floor(&f, ch, &cell[ch]);
   }
 }
+
+// --- from flight to flight ---------------------------------------------------------------------------------
+
+void windows_by_flight(const look_t *l, cell_t cell[LOOKED]) {
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *const r = set_rows(l->s, ch);
+    if (!l->color[ch].used) continue;
+    color_whiten(&l->color[ch], r, l->residual[ch], l->room);
+    const color_differ_t d = color_differ(&l->color[ch], r, l->room);
+    if (d.flights < 2 || !(d.q > cell[ch].statistic * cell[ch].statistic)) continue;
+    cell[ch] = (cell_t){.channel = ch,
+                        .along = BY_FLIGHT,
+                        .coordinate = "flight",
+                        .unit = "",
+                        .from = 1.0,
+                        .to = l->s->n_grid,
+                        .size = sqrt(d.q / d.holds),
+                        .statistic = sqrt(d.q),
+                        .explained = d.q,
+                        .first = true,
+                        .last = true};
+  }
+}

@@ -1,4 +1,5 @@
-// windows.h - in which part of a coordinate, or of the floor, a residual is largest.
+// windows.h - in which part of a coordinate, or of the floor, a residual is largest, and from flight to
+// flight.
 //
 // A coordinate is cut into bins that hold equally many rows, and again into bins of equal width; the floor
 // into strips of x and of y that hold equally many, and a patch of strips is fitted to parts of them at its
@@ -64,5 +65,7 @@ static inline look_t look_of(const set_t *s, const model_t *m, double *const res
 // Each puts in place of cell[] of a channel what has a larger statistic.
 void windows_along(const look_t *l, int coordinate, cell_t cell[LOOKED]);
 void windows_on_floor(const look_t *l, cell_t cell[LOOKED]);
+// By how much flights differ, each by a constant of its own, all together; in the body's axes.
+void windows_by_flight(const look_t *l, cell_t cell[LOOKED]);
 
 #endif

@@ -37,13 +37,18 @@ static void advise_place(report_t *r, const cell_t *cell) {
   report_place(cell, where);
   if (cell->along == COORDINATE_TIME)
     note(&r->to_do,
-         "fly: the same again, and see whether it comes at %s once more; what happens once may be a gust, a "
+         "fly: the same again, and see whether it comes %s once more; what happens once may be a gust, a "
          "touch, or commands between two rows",
          where);
   else if (cell->along == NOWHERE)
-    note(&r->to_do, "fly: the same again with another pilot or other gains, and see whether %s stays", where);
+    note(&r->to_do, "fly: the same again with another pilot or other gains, and see whether it stays %s",
+         where);
+  else if (cell->along == BY_FLIGHT)
+    note(&r->to_do,
+         "fly: again and again with nothing touched in between, then with a battery strapped on anew, "
+         "then started anew: what is fitted anew differs");
   else
-    note(&r->to_do, "fly: the same again with more time at %s, and as much beside it", where);
+    note(&r->to_do, "fly: the same again with more time %s, and as much beside it", where);
 }
 
 // First what tells the members of a family apart, the largest first; then what shows best what has no name;

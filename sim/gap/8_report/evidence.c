@@ -281,7 +281,7 @@ done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   lines_free(&now);
   TRY(status);
   r->left = (profile_t){.channel = d->left.cell.channel, .coordinate = d->left.cell.along};
-  if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE)
+  if (d->left.cell.statistic > 0.0 && d->left.cell.along != NOWHERE && d->left.cell.along != BY_FLIGHT)
     fill_profile(r, NULL, NULL, NULL, &r->left);
   return DONE;
 }

@@ -97,17 +97,19 @@ void page_unknown(const report_t *r, FILE *out) {
   fputs(d->unknown ? "<section><h2>Something without a name</h2>\n<p>"
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
-  char where[REPORT_PLACE];
-  fprintf(out, "%+.3g +- %.1g %s in %s%s, at %s", c->size, fabs(c->size) / c->statistic, gap_unit[c->channel],
-          gap_channel[c->channel], c->world ? " (the world's)" : "", report_place(c, where));
-  if (d->left.also.statistic > 0.0) fprintf(out, ", or at %s as well", report_place(&d->left.also, where));
+  char where[REPORT_PLACE], cell[REPORT_CELL];
+  fprintf(out, "%s", report_cell(c, cell));
+  if (d->left.also.statistic > 0.0) fprintf(out, ", or %s as well", report_place(&d->left.also, where));
   fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
           d->unknown ? "" : ": chance, or a right form with other numbers");
   char acts[REPORT_FOR_A_TIME];
-  if (d->for_a_time.n)
+  if (d->for_a_time.as.n)
     fprintf(out, "\n<p>It is not named, for effects are looked for as acting all the time; but %s.</p>",
             report_for_a_time(&d->for_a_time, acts));
-  if (c->along != NOWHERE) {
+  char differ[REPORT_DIFFER];
+  for (int i = 0; i < GROUPS; i++)
+    if (d->differ[i].n) html_text(out, "\n<p>", report_differ(r, &d->differ[i], differ), ".</p>");
+  if (c->along != NOWHERE && c->along != BY_FLIGHT) {
     fputs("\n<figure>", out);
     picture_place(&r->left, c->from, c->to, "the largest cell", out);
     fputs("<figcaption>The held-out flights over that coordinate</figcaption></figure>", out);

@@ -89,41 +89,15 @@ static void take_others(report_t *r) {
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
+const char *report_base_name(const char *path) {
+  const char *const slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {
   const char *const both = fx_apart(fx, rival);
   const bool same = both || strcmp(fx->fly, rival->fly) == 0;
   snprintf(text, REPORT_TEXT, "%s%s%s", both ? both : fx->fly, same ? "" : "; then ", same ? "" : rival->fly);
-}
-
-const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
-  const int n = snprintf(text, REPORT_PLACE, "%s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
-  if (c->is_patch) snprintf(text + n, REPORT_PLACE - (size_t)n, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
-  return text;
-}
-
-static void add_use(char text[REPORT_FOR_A_TIME], const fx_use_t *use) {
-  int n;
-  const fx_param_t *const param = fx_use_params(use, &n);
-  if (fx_use_has_shape(use))
-    text_add(text, REPORT_FOR_A_TIME, "%s %.3g, ", param[use->fx->shape_param].name,
-             use->p[use->fx->shape_param]);
-  for (int k = 0; k < use->fx->n_size; k++) {
-    const fx_param_t *const p = &param[use->fx->size[k].param];
-    text_add(text, REPORT_FOR_A_TIME, "%s%s %.3g%s%s", k ? ", " : "", p->name, fx_use_size(use, k),
-             text_gap(p->unit), p->unit);
-  }
-}
-
-const char *report_for_a_time(const for_a_time_t *f, char text[REPORT_FOR_A_TIME]) {
-  text[0] = '\0';
-  text_add(text, REPORT_FOR_A_TIME, "at %s%.1f to %.1f s it acts as ", f->outside ? "all times but " : "",
-           f->from_s, f->to_s);
-  for (int i = 0; i < f->n; i++) {
-    text_add(text, REPORT_FOR_A_TIME, "%s%s would (", i ? ", or " : "", f->would[i].use.fx->name);
-    add_use(text, &f->would[i].use);
-    text_add(text, REPORT_FOR_A_TIME, ": %.0f %% of what is there more)", 100.0 * f->would[i].share);
-  }
-  return text;
 }
 
 const char *report_length(double m, char text[REPORT_LENGTH]) {

@@ -146,11 +146,20 @@ interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
+// Of a path what stands behind the last slash.
+const char *report_base_name(const char *path);
 // What to fly to tell the two apart; pairs of which neither says it: what shows each.
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
-// Where a cell is: "height 0.4 to 0.6 m". Returns text.
+// Where a cell is: "at height 0.4 to 0.6 m". Returns text.
 #define REPORT_PLACE 96
 const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
+// What is there, too: "+0.24 +- 0.005 m/s2 in force_y, at height 0.4 to 0.6 m". Returns text.
+#define REPORT_CELL 192
+const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
+// "force_y is another in each flight: -0.06 in a.csv, +0.13 in b.csv, +- 0.003 m/s2; it acts as .." Returns
+// text.
+#define REPORT_DIFFER 1536
+const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]);
 // What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %
 // of what is there more)". Returns text.
 #define REPORT_FOR_A_TIME 512

@@ -50,20 +50,29 @@ static void print_effect(const finding_t *f, FILE *out) {
   fprintf(out, "; to tell them apart, fly: %s\n", f->fly);
 }
 
-static void print_unknown(const judged_t *left, FILE *out) {
-  const cell_t *const c = &left->cell;
-  char where[REPORT_PLACE];
-  fprintf(out, "\nunknown: %+.3g +- %.1g %s in %s%s, at %s", c->size, fabs(c->size) / c->statistic,
-          gap_unit[c->channel], gap_channel[c->channel], c->world ? " (the world's)" : "",
-          report_place(c, where));
-  if (left->also.statistic > 0.0)
-    fprintf(out, "; it could be at %s as well", report_place(&left->also, where));
+// Indented; broken after a word.
+static void print_wrapped(const char *text, FILE *out) {
+  int column = 0;
+  for (const char *word = text; *word;) {
+    const int n = (int)strcspn(word, " ");
+    if (column && column + 1 + n > COLUMNS) column = 0, fputs("\n   ", out);
+    fprintf(out, "%s%.*s", column ? " " : word == text ? "  " : " ", n, word);
+    column += n + 1;
+    word += n + (word[n] == ' ');
+  }
   fputc('\n', out);
 }
 
-static void print_for_a_time(const for_a_time_t *f, FILE *out) {
-  char text[REPORT_FOR_A_TIME];
-  if (f->n) fprintf(out, "  %s\n", report_for_a_time(f, text));
+static void print_unknown(const report_t *r, FILE *out) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  char where[REPORT_PLACE], cell[REPORT_CELL], acts[REPORT_FOR_A_TIME], differ[REPORT_DIFFER];
+  fprintf(out, "\nunknown: %s", report_cell(&d->left.cell, cell));
+  if (d->left.also.statistic > 0.0)
+    fprintf(out, "; it could be %s as well", report_place(&d->left.also, where));
+  fputc('\n', out);
+  if (d->for_a_time.as.n) fprintf(out, "  %s\n", report_for_a_time(&d->for_a_time, acts));
+  for (int i = 0; i < GROUPS; i++)
+    if (d->differ[i].n) print_wrapped(report_differ(r, &d->differ[i], differ), out);
 }
 
 static void print_gap(const report_t *r, FILE *out) {
@@ -99,19 +108,6 @@ static void print_untested(const report_t *r, FILE *out) {
   fputs("\ncannot be told from these flights (the report of --out says what to fly):\n  ", out);
   for (int i = 0; i < r->n_untested; i++)
     fprintf(out, "%s%s", i == 0 ? "" : i % 7 ? ", " : ",\n  ", r->untested[i].fx->name);
-  fputc('\n', out);
-}
-
-// Indented; broken after a word.
-static void print_wrapped(const char *text, FILE *out) {
-  int column = 0;
-  for (const char *word = text; *word;) {
-    const int n = (int)strcspn(word, " ");
-    if (column && column + 1 + n > COLUMNS) column = 0, fputs("\n   ", out);
-    fprintf(out, "%s%.*s", column ? " " : word == text ? "  " : " ", n, word);
-    column += n + 1;
-    word += n + (word[n] == ' ');
-  }
   fputc('\n', out);
 }
 
@@ -155,10 +151,7 @@ void report_words(const report_t *r, FILE *out) {
   print_verdict(r, out);
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
   if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
-  if (r->study->diagnosis.unknown) {
-    print_unknown(&r->study->diagnosis.left, out);
-    print_for_a_time(&r->study->diagnosis.for_a_time, out);
-  }
+  if (r->study->diagnosis.unknown) print_unknown(r, out);
   print_gap(r, out);
   print_untested(r, out);
   for (int i = 0; i < r->warnings.n && i < WARNINGS; i++)

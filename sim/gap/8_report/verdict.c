@@ -112,8 +112,8 @@ static void add_place(cJSON *o, const cell_t *c) {
 // In the time that `unknown` tells, or (outside) in all other.
 static void add_acts_as(cJSON *o, const for_a_time_t *f) {
   cJSON *const list = cJSON_AddArrayToObject(o, "acts_as");
-  for (int i = 0; i < f->n; i++) {
-    const would_do_t *const one = &f->would[i];
+  for (int i = 0; i < f->as.n; i++) {
+    const would_do_t *const one = &f->as.would[i];
     cJSON *const would = add_object(list);
     int n;
     const fx_param_t *const param = fx_use_params(&one->use, &n);
@@ -126,7 +126,40 @@ static void add_acts_as(cJSON *o, const for_a_time_t *f) {
   }
 }
 
-static void add_unknown(cJSON *root, const diagnosis_t *d) {
+static void add_sizes(cJSON *list, const fx_use_t *use) {
+  cJSON *const all = add_object(list);
+  int n;
+  const fx_param_t *const param = fx_use_params(use, &n);
+  for (int k = 0; k < n; k++) cJSON_AddNumberToObject(all, param[k].name, use->p[k]);
+}
+
+// Of each group of channels in which flights differ.
+static void add_differ(cJSON *o, const report_t *r) {
+  cJSON *const list = cJSON_AddArrayToObject(o, "from_flight_to_flight");
+  for (int g = 0; g < GROUPS; g++) {
+    const flights_differ_t *const d = &r->study->diagnosis.differ[g];
+    if (!d->n) continue;
+    cJSON *const group = add_object(list);
+    add(group, {.key = "channel", .text = gap_channel[d->cell.channel]},
+        {.key = "unit", .text = gap_unit[d->cell.channel]});
+    cJSON *const flights = cJSON_AddArrayToObject(group, "flights");
+    for (int f = 0; f < d->n; f++)
+      add(add_object(flights), {.key = "log", .text = r->study->fit.flight[f].name},
+          {.key = "mean", .number = d->error[f] > 0.0 ? d->mean[f] : (double)NAN},
+          {.key = "stderr", .number = d->error[f] > 0.0 ? d->error[f] : (double)NAN});
+    cJSON *const acts_as = cJSON_AddArrayToObject(group, "acts_as");
+    for (int i = 0; i < d->as.n; i++) {
+      cJSON *const would = add_object(acts_as);
+      cJSON_AddStringToObject(would, "name", d->as.would[i].use.fx->name);
+      cJSON *const sizes = cJSON_AddArrayToObject(would, "parameters");
+      for (int f = 0; f < d->n; f++) add_sizes(sizes, &d->use[i * d->n + f]);
+      add(would, {.key = "share", .number = d->as.would[i].share});
+    }
+  }
+}
+
+static void add_unknown(cJSON *root, const report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
   if (!d->unknown) {
     cJSON_AddNullToObject(root, "unknown");
     return;
@@ -137,6 +170,7 @@ static void add_unknown(cJSON *root, const diagnosis_t *d) {
   add(o, {.key = "size", .number = c->size}, {.key = "stderr", .number = fabs(c->size) / c->statistic});
   if (d->left.also.statistic > 0.0) add_place(cJSON_AddObjectToObject(o, "also"), &d->left.also);
   add_acts_as(o, &d->for_a_time);
+  add_differ(o, r);
   // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[c->channel]);
 }
@@ -220,7 +254,7 @@ cJSON *report_verdict(const report_t *r) {
   cJSON_AddStringToObject(root, "verdict", r->verdict);
   cJSON *const effects = cJSON_AddArrayToObject(root, "effects");
   for (int i = 0; i < r->n_finding; i++) add_effect(effects, &r->finding[i]);
-  add_unknown(root, &s->diagnosis);
+  add_unknown(root, r);
   add_gap(root, r);
   cJSON_AddStringToObject(root, "adequacy", left_name[report_adequacy_of_all(r)]);
   add_in_model(root, &s->vehicle);

@@ -16,18 +16,13 @@
 
 #define warn(r, ...) note(&(r)->warnings, __VA_ARGS__)
 
-static const char *base_name(const char *path) {
-  const char *const slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
 static void warn_of_logs(report_t *r) {
   const study_t *const s = r->study;
   for (int i = 0; i < s->fit.n + s->held.n; i++) {
     const gap_flight_t *const f = &s->flight[i];
     for (int k = 0; k < f->n_note; k++) {
       const bool named = strncmp(f->note[k], f->name, strlen(f->name)) == 0;
-      warn(r, "%s%s%s", named ? "" : base_name(f->name), named ? "" : ": ", f->note[k]);
+      warn(r, "%s%s%s", named ? "" : report_base_name(f->name), named ? "" : ": ", f->note[k]);
     }
   }
 }
@@ -45,7 +40,7 @@ static void warn_of_floors(report_t *r) {
          "heights of %s count from %.3g m, where it stood, and those of %s, which does not begin on the "
          "floor, "
          "from 0: rest_height_m in the columns file says it of all",
-         base_name(lowered->name), lowered->floor_m, base_name(other->name));
+         report_base_name(lowered->name), lowered->floor_m, report_base_name(other->name));
 }
 
 static void warn_of_gap(report_t *r) {
@@ -255,11 +250,11 @@ static void warn_of_vehicle(report_t *r) {
     warn(r,
          "%s: thrust_max_N lifts %.3g times the weight of mass_kg; quadrotors lift %g to %g times theirs (is "
          "mass_kg in kg, and thrust_max_N that of all motors in N?)",
-         base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
+         report_base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
   char lacks[FRAME_LACKS];
   if (frame_lacks(m, lacks)[0])
     warn(r, "%s does not say %s: those of a Crazyflie are taken, scaled to this mass and radius",
-         base_name(study_vehicle(r->study)), lacks);
+         report_base_name(study_vehicle(r->study)), lacks);
 }
 
 // An acceleration that comes in the world's axes, or is made of the velocity, is turned into the body's by
@@ -332,7 +327,7 @@ static void warn_of_bumps(report_t *r) {
         warn(r,
              "%s: it touched the ceiling, at about %.1f s for the first time; what was measured then is left "
              "out",
-             base_name(g->flight->name), g->bump_s);
+             report_base_name(g->flight->name), g->bump_s);
     }
 }
 

@@ -18,8 +18,8 @@ static void lighten(gap_track_t *t) {
 }
 
 static bool would(const for_a_time_t *f, const char *name) {
-  for (int i = 0; i < f->n; i++)
-    if (strcmp(f->would[i].use.fx->name, name) == 0) return true;
+  for (int i = 0; i < f->as.n; i++)
+    if (strcmp(f->as.would[i].use.fx->name, name) == 0) return true;
   return false;
 }
 
@@ -28,7 +28,7 @@ static for_a_time_t look(int along, double cell_from_s, double cell_to_s, bool a
   gap_track_t t;
   candidates_t c;
   lines_t left;
-  for_a_time_t f = {.n = 0};
+  for_a_time_t f = {.outside = false};
   why_t why = {""};
   const chosen_t none = {.n = 0};
   const cell_t nowhere = {.statistic = 0.0},
@@ -63,10 +63,10 @@ TEST(gap_says_as_which_effect_something_acts_for_a_time) {
     from_s = row[i].from_s;
     to_s = row[i].to_s;
     const for_a_time_t f = look(row[i].along, row[i].cell_from_s, row[i].cell_to_s, row[i].also);
-    CHECK((f.n > 0) == row[i].told);
+    CHECK((f.as.n > 0) == row[i].told);
     if (!row[i].told) continue;
     CHECK(f.outside == row[i].outside);
     CHECK(would(&f, "mass") && !would(&f, "rotor_drag") && !would(&f, "inertia"));
-    CHECK(f.would[0].share > 0.8 && f.would[0].share <= 1.0);
+    CHECK(f.as.would[0].share > 0.8 && f.as.would[0].share <= 1.0);
   }
 }

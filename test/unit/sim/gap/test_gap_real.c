@@ -80,7 +80,7 @@ static double spread_mps2(case_t *c, const model_t *m) {
   return sqrt(squares - mean * mean);
 }
 
-TEST(gap_names_the_ground_first_in_the_recorded_walks_above_it) {
+TEST(gap_names_the_ground_in_the_recorded_walks_above_it) {
   if (!test_data_dir()) SKIP("no measured data");
   case_t *c = calloc(1, sizeof *c);
   why_t why;
@@ -90,7 +90,10 @@ TEST(gap_names_the_ground_first_in_the_recorded_walks_above_it) {
                             "ground_effect/21_randomwalk_s_cf50_02.csv", NULL,
                             "ground_effect/21_randomwalk_s_cf50_04.csv"});
   run(c, 2);
-  CHECK(c->d.found.n > 0 && named(c, "ground") == &c->d.found.named[0]);
+  // Before it nothing but a lift that is short of the file's, as of a battery, and the accelerometer's bias.
+  CHECK(named(c, "ground"));
+  for (int i = 0; i < c->d.found.n && &c->d.found.named[i] != named(c, "ground"); i++)
+    CHECK(&c->d.found.named[i] == named(c, "battery_sag") || &c->d.found.named[i] == named(c, "accel_bias"));
   CHECK(spread_mps2(c, &c->d.extended) < 0.5 * spread_mps2(c, &c->vehicle));
   // A third of 21 mN was hoped for: without what touches the ground it is 9.7 mN before and 4.3 after.
   CHECK(low_rms_N(c, &c->d.extended) < 0.5 * low_rms_N(c, &c->vehicle));

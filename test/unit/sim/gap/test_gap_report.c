@@ -318,8 +318,10 @@ TEST(gap_advises_to_fly_where_something_is_but_not_when) {
       {{.along = COORDINATE_TIME, .coordinate = "time", .unit = "s", .from = 3.0, .to = 3.2},
        "fly: the same again, and see whether it comes at time 3 to 3.2 s once more; "},
       {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
-       "fly: the same again with another pilot or other gains, and see whether frequency 2.4 to 2.6 Hz "
-       "stays"},
+       "fly: the same again with another pilot or other gains, and see whether it stays at frequency "
+       "2.4 to 2.6 Hz"},
+      {{.along = BY_FLIGHT, .coordinate = "flight"},
+       "fly: again and again with nothing touched in between, "},
   };
   study_t *const study = calloc(1, sizeof *study);
   report_t *const r = calloc(1, sizeof *r);

@@ -1,0 +1,133 @@
+// flights_differ.c - what flights differ by, each by a constant of its own.
+#include "gap/5_infer/flights_differ.h"
+
+#include "gap/5_infer/unknown.h"
+#include <math.h>
+#include <stdlib.h>
+
+// --- what each has ----------------------------------------------------------------------------------------
+
+static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *base,
+                         double *const residual[CHANNELS], why_t *why) {
+  const rows_t *const r = set_rows(s, d->cell.channel);
+  color_t color[CHANNELS];
+  TRY(unknown_colors(s, base, residual, color, why));
+  const color_t *const own = &color[d->cell.channel];
+  double *const white = malloc(((size_t)r->n + 1) * sizeof(double));
+  if (!white) return error_failed(why, "out of memory");
+  color_whiten(own, r, residual[d->cell.channel], white);
+  const double mean = color_differ(own, r, white).mean;
+  for (int from = 0; from < r->n;) {
+    const color_constant_t k = color_constant(own, r, from, white);
+    if (k.holds > 0.0) {
+      d->mean[r->flight[from]] = k.mean - mean;
+      d->error[r->flight[from]] = 1.0 / sqrt(k.holds);
+    }
+    from = k.end;
+  }
+  free(white);
+  return DONE;
+}
+
+// --- what would do ----------------------------------------------------------------------------------------
+
+// Of one group of channels: sums of products of each flight, and of all.
+typedef struct {
+  int size;
+  double *of, *all;
+} sums_t;
+
+static double *sums_in(const sums_t *t, int flight) {
+  return t->of + (size_t)flight * (size_t)(t->size * t->size);
+}
+
+static done_t sums_make(sums_t *t, const remains_t *left, int flights, int group, why_t *why) {
+  const size_t n = (size_t)(left->g.size * left->g.size);
+  *t = (sums_t){left->g.size, calloc(((size_t)flights + 1) * n, sizeof(double)), NULL};
+  if (!t->of) return error_failed(why, "out of memory");
+  t->all = sums_in(t, flights);
+  for (int f = 0; f < flights; f++) {
+    double *const to = sums_in(t, f);
+    for (size_t half = 2 * (size_t)f; half < 2 * (size_t)f + 2; half++)
+      for (size_t i = 0; i < n; i++) to[i] += left->g.by_group[group][half * n + i];
+    remains_put_back(left, to);
+    for (size_t i = 0; i < n; i++) t->all[i] += to[i];
+  }
+  return DONE;
+}
+
+// What constants of each flight take in those channels, beyond one of all, by their spread alone.
+static double by_constants(const set_t *s, const color_t color[CHANNELS], double *const residual[CHANNELS],
+                           int group) {
+  double sum = 0.0;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const rows_t *const r = set_rows(s, ch);
+    if (group_of(ch) != group || !color[ch].used) continue;
+    sum += color_differ(&(color_t){.sd = color[ch].sd, .used = true}, r, residual[ch]).q;
+  }
+  return sum;
+}
+
+// Its sizes in each flight; returns what it takes more than with one of all. largest: of its sizes.
+static double takes_more(const flights_differ_t *d, const sums_t *t, const candidate_t *c,
+                         const fx_use_t *chosen, fx_use_t *use, fx_use_t *largest) {
+  fx_use_t same;
+  double taken = -acts_takes(c, chosen, t->all, t->size, &same), most = -1.0;
+  for (int f = 0; f < d->n; f++) {
+    double size = 0.0;
+    taken += acts_takes(c, chosen, sums_in(t, f), t->size, &use[f]);
+    for (int k = 0; k < c->n; k++) size = fmax(size, fabs(fx_use_size(&use[f], k)) / c->typical[k]);
+    if (size > most) *largest = use[f];
+    most = fmax(most, size);
+  }
+  return taken;
+}
+
+static void judge(flights_differ_t *d, const sums_t *t, const candidates_t *c, const chosen_t *chosen,
+                  double beyond) {
+  fx_use_t largest;
+  for (int i = 0; i < c->n; i++) {
+    const double taken = takes_more(d, t, &c->candidate[i], chosen_use(chosen, i), d->use, &largest);
+    acts_add(&d->as, c, i, &largest, taken, beyond);
+  }
+  acts_keep_best(&d->as);
+  for (int i = 0; i < d->as.n; i++) {
+    const int one = d->as.would[i].candidate;
+    takes_more(d, t, &c->candidate[one], chosen_use(chosen, one), d->use + i * d->n, &largest);
+  }
+}
+
+static done_t find_what_would(flights_differ_t *d, set_t *s, double *const residual[CHANNELS],
+                              const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                              why_t *why) {
+  const int group = group_of(d->cell.channel);
+  remains_t left;
+  sums_t sums = {.of = NULL};
+  done_t status = remains_make(&left, s, base, c, chosen, why);
+  if (status == DONE) status = sums_make(&sums, &left, d->n, group, why);
+  if (status == DONE) judge(d, &sums, c, chosen, by_constants(s, left.g.color, residual, group));
+  free(sums.of);
+  remains_free(&left);
+  return status;
+}
+
+done_t flights_differ_make(flights_differ_t *d, set_t *s, double *const residual[CHANNELS],
+                           const model_t *base, const candidates_t *c, const chosen_t *chosen,
+                           const cell_t *cell, why_t *why) {
+  const size_t n = (size_t)s->n_grid;
+  *d = (flights_differ_t){.n = s->n_grid,
+                          .cell = *cell,
+                          .mean = calloc(n, sizeof(double)),
+                          .error = calloc(n, sizeof(double)),
+                          .use = calloc(ACTS_AS_MAX * n, sizeof(fx_use_t))};
+  if (!d->mean || !d->error || !d->use) return error_failed(why, "out of memory");
+  TRY(find_means(d, s, base, residual, why));
+  return find_what_would(d, s, residual, base, c, chosen, why);
+}
+
+void flights_differ_free(flights_differ_t *d) {
+  free(d->mean);
+  free(d->error);
+  free(d->use);
+  *d = (flights_differ_t){.n = 0};
+}

@@ -1,0 +1,64 @@
+// score_estimate.c - the numbers of a choice, and their errors.
+#include "gap/5_infer/score.h"
+
+#include "base/lsq_blocks.h"
+#include <math.h>
+#include <string.h>
+
+// Products of the choice's columns with what it leaves of a block.
+static void block_score(const gram_t *g, int block, int n, const int *column, const double *b,
+                        double *score) {
+  const int size = g->size;
+  const double *const G = g->block + (size_t)block * (size_t)(size * size);
+  for (int i = 0; i < n; i++) {
+    score[i] = G[column[i] * size + size - 1];
+    for (int k = 0; k < n; k++) score[i] -= G[column[i] * size + column[k]] * b[k];
+  }
+}
+
+// V += (A^-1 s) (A^-1 s)'
+static void add_score(const double *inverse, int n, const double *score, double *V) {
+  double part[COLUMN_MAX] = {0.0};
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) part[i] += inverse[i * n + k] * score[k];
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) V[i * n + k] += part[i] * part[k];
+}
+
+// Flights that contradict each other by more than their blocks let expect: errors grow by as much (Birge
+// 1932). of: V of whole flights' scores.
+static void allow_for_flights(const double *of, int flights, int n, double *V) {
+  double times[COLUMN_MAX];
+  for (int i = 0; i < n; i++) {
+    const double from_flights = of[i * (n + 1)] * flights / (flights - 1.0), own = V[i * (n + 1)];
+    times[i] = own > 0.0 ? sqrt(fmax(from_flights / own, 1.0)) : 1.0;
+  }
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) V[i * n + k] *= times[i] * times[k];
+}
+
+// V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
+void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V) {
+  const gram_t *g = j->g;
+  int column[COLUMN_MAX], used = 0;
+  double inverse[COLUMN_MAX * COLUMN_MAX], of_flights[COLUMN_MAX * COLUMN_MAX] = {0.0};
+  const int n = choice_columns(j->c, choice, column), size = g->size;
+  lsq_solve_products(g->total, size, column, n, NULL, b, inverse);
+  if (!V) return;
+  memset(V, 0, (size_t)(n * n) * sizeof(double));
+  for (int block = 0; block < g->n_block;) {
+    const int flight = gram_flight(g, block);
+    double score[COLUMN_MAX], sum[COLUMN_MAX] = {0.0};
+    for (; block < g->n_block && gram_flight(g, block) == flight; block++) {
+      if (!(g->block[(size_t)(block + 1) * (size_t)(size * size) - 1] > 0.0)) continue;
+      used++;
+      block_score(g, block, n, column, b, score);
+      add_score(inverse, n, score, V);
+      for (int i = 0; i < n; i++) sum[i] += score[i];
+    }
+    add_score(inverse, n, sum, of_flights);
+  }
+  const double few = used > n + 1 ? (double)used / (used - n) : 1e6;
+  for (int i = 0; i < n * n; i++) V[i] *= few;
+  if (g->n_flight > 1) allow_for_flights(of_flights, g->n_flight, n, V);
+}

@@ -1,0 +1,101 @@
+// unnamed.c - what is told of what has no name.
+#include "gap/8_report/report.h"
+
+#include <math.h>
+
+const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
+  text[0] = '\0';
+  if (c->along == BY_FLIGHT) {
+    text_add(text, REPORT_PLACE, "from flight to flight");
+    return text;
+  }
+  text_add(text, REPORT_PLACE, "at %s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
+  if (c->is_patch) text_add(text, REPORT_PLACE, ", y %.3g to %.3g m", c->y_from_m, c->y_to_m);
+  return text;
+}
+
+const char *report_cell(const cell_t *c, char text[REPORT_CELL]) {
+  char where[REPORT_PLACE];
+  const bool differs = c->along == BY_FLIGHT; // its size is a spread, and has no sign
+  snprintf(text, REPORT_CELL, "%s%.3g +- %.1g %s%s in %s%s, %s", differs || c->size < 0.0 ? "" : "+", c->size,
+           fabs(c->size) / c->statistic, gap_unit[c->channel], differs ? " rms" : "", gap_channel[c->channel],
+           c->world ? " (the world's)" : "", report_place(c, where));
+  return text;
+}
+
+// --- as which effect it acts ------------------------------------------------------------------------------
+
+static void add_shape(char *text, size_t room, const fx_use_t *use) {
+  int n;
+  const fx_param_t *const param = fx_use_params(use, &n);
+  if (fx_use_has_shape(use))
+    text_add(text, room, "%s %.3g, ", param[use->fx->shape_param].name, use->p[use->fx->shape_param]);
+}
+
+static const fx_param_t *size_of(const fx_use_t *use, int k) {
+  int n;
+  return &fx_use_params(use, &n)[use->fx->size[k].param];
+}
+
+static void add_use(char text[REPORT_FOR_A_TIME], const fx_use_t *use) {
+  add_shape(text, REPORT_FOR_A_TIME, use);
+  for (int k = 0; k < use->fx->n_size; k++) {
+    const fx_param_t *const p = size_of(use, k);
+    text_add(text, REPORT_FOR_A_TIME, "%s%s %.3g%s%s", k ? ", " : "", p->name, fx_use_size(use, k),
+             text_gap(p->unit), p->unit);
+  }
+}
+
+const char *report_for_a_time(const for_a_time_t *f, char text[REPORT_FOR_A_TIME]) {
+  text[0] = '\0';
+  text_add(text, REPORT_FOR_A_TIME, "at %s%.1f to %.1f s it acts as ", f->outside ? "all times but " : "",
+           f->from_s, f->to_s);
+  for (int i = 0; i < f->as.n; i++) {
+    const would_do_t *const would = &f->as.would[i];
+    text_add(text, REPORT_FOR_A_TIME, "%s%s would (", i ? ", or " : "", would->use.fx->name);
+    add_use(text, &would->use);
+    text_add(text, REPORT_FOR_A_TIME, ": %.0f %% of what is there more)", 100.0 * would->share);
+  }
+  return text;
+}
+
+// --- what flights differ by -------------------------------------------------------------------------------
+
+#define FLIGHTS_TOLD 6 // of more a line is no help; verdict.json has all
+
+static void add_sizes(char text[REPORT_DIFFER], const flights_differ_t *d, const fx_use_t *use) {
+  const int told = d->n < FLIGHTS_TOLD ? d->n : FLIGHTS_TOLD;
+  bool first = true;
+  add_shape(text, REPORT_DIFFER, use);
+  for (int k = 0; k < use->fx->n_size; k++) {
+    const fx_param_t *const p = size_of(use, k);
+    double largest = 0.0;
+    for (int f = 0; f < d->n; f++) largest = fmax(largest, fabs(fx_use_size(&use[f], k)));
+    if (!(largest > 0.0)) continue; // it is about the others
+    text_add(text, REPORT_DIFFER, "%s%s ", first ? "" : "; ", p->name);
+    first = false;
+    for (int f = 0; f < told; f++)
+      text_add(text, REPORT_DIFFER, "%s%.3g", f ? ", " : "", fx_use_size(&use[f], k));
+    text_add(text, REPORT_DIFFER, "%s%s%s", d->n > told ? ", .." : "", text_gap(p->unit), p->unit);
+  }
+}
+
+const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]) {
+  text[0] = '\0';
+  const int told = d->n < FLIGHTS_TOLD ? d->n : FLIGHTS_TOLD;
+  text_add(text, REPORT_DIFFER, "%s is another in each flight: ", gap_channel[d->cell.channel]);
+  for (int f = 0; f < told; f++)
+    if (d->error[f] > 0.0)
+      text_add(text, REPORT_DIFFER, "%+.3g in %s, ", d->mean[f],
+               report_base_name(r->study->fit.flight[f].name));
+  text_add(text, REPORT_DIFFER, "%s+- %.1g %s", d->n > told ? ".. " : "",
+           fabs(d->cell.size) / d->cell.statistic, gap_unit[d->cell.channel]);
+  for (int i = 0; i < d->as.n; i++) {
+    const would_do_t *const would = &d->as.would[i];
+    text_add(text, REPORT_DIFFER, "%s%s would, of another size in each (", i ? ", or as " : "; it acts as ",
+             would->use.fx->name);
+    add_sizes(text, d, d->use + i * d->n);
+    text_add(text, REPORT_DIFFER, ": %.0f %% of it)", 100.0 * would->share);
+  }
+  return text;
+}
