@@ -279,9 +279,9 @@ test-cf: $(O)/desk $(O)/fly  ## the tests of tools/cf.py, over a fake link and a
 test-desk: $(B)/bin/desk  ## the desk's page in a Chromium without a window (W=word: those whose name has it); skips without one; a minute
 	@PROGRAMS=$(B)/bin test/desk/run.sh "$(DESK_PACKAGES)" "$(W)"
 
-exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, and 280 of users, diagnosed and marked (SEED=FIRST); 5 min
-	@$(O)/exam $(or $(SEED),205001) 200
-	@$(O)/exam users $(or $(SEED),212001) 280
+exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, and 320 of users, diagnosed and marked (SEED=FIRST); 5 min
+	@$(O)/exam $(or $(SEED),208001) 200
+	@$(O)/exam users $(or $(SEED),215001) 320
 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"

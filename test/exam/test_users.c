@@ -177,3 +177,20 @@ TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
     CHECK(users_exact(&set)); // a rival counts
   }
 }
+
+// Each flight has another centre of mass, weight and bias: what is there beside it is named, what they have
+// in common by chance is not, and that they differ is told.
+TEST(users_logs_of_flights_before_which_something_was_fitted_anew_are_told_so) {
+  static const struct {
+    unsigned long seed;
+    const char *hidden;
+  } row[] = {{31306, NULL}, {31312, "translational_lift"}, {31305, "inertia"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+    users_set_t set;
+    why_t why;
+    ROW("%lu", row[i].seed);
+    if (!CHECK_OK(users_one(USERS_REFIT, row[i].seed, &set, &why))) return;
+    CHECK(set.told_differ && users_exact(&set));
+    CHECK(row[i].hidden ? set.n == 1 && strcmp(set.hidden[0], row[i].hidden) == 0 : set.n == 0);
+  }
+}

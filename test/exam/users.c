@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define FLIGHTS 3
+#define FLIGHTS 4   // at most
 #define FITTED  2   // of them; the last is held out
 #define FELT_S  1.0 // at least, in those, of what acts at places only: half a block of the Wald F
 #define DRAWS   20
@@ -105,6 +105,47 @@ static void hide_from_file(users_set_t *set, other_job_t *job, dice_t *d) {
     job->known.hub_kg *= dice_share(d) < 0.5 ? 0.5 : 2.0;
 }
 
+// What is fitted anew does not do what these do.
+static void hide_beside(users_set_t *set, other_job_t *job, dice_t *d) {
+  static const char *const like[] = {"cg_offset",    "accel_bias",       "mass", "thrust_scale",
+                                     "motor_damage", "imu_misalignment", "wind", "battery_sag"};
+  set->differ = true;
+  for (bool again = true; again;) {
+    other_job_t fresh = *job;
+    hide(set, &fresh, d);
+    again = false;
+    for (int k = 0; k < set->n; k++)
+      for (unsigned i = 0; i < sizeof like / sizeof *like; i++)
+        again = again || strcmp(set->hidden[k], like[i]) == 0;
+    if (!again) *job = fresh;
+  }
+}
+
+// The battery is elsewhere and of another weight, the accelerometer starts with another bias: normal, and
+// about nothing in the flights that are fitted, for what they have in common is there.
+enum { ANEW_X, ANEW_Y, ANEW_ACC_X, ANEW_ACC_Y, ANEW_MASS, ANEW };
+
+static void draw_anew(double anew[FLIGHTS][ANEW], dice_t *d) {
+  for (int k = 0; k < ANEW; k++) {
+    double mean = 0.0;
+    for (int i = 0; i < FLIGHTS; i++) anew[i][k] = dice_normal(d);
+    for (int i = 0; i < FLIGHTS - 1; i++) mean += anew[i][k] / (FLIGHTS - 1);
+    for (int i = 0; i < FLIGHTS - 1; i++) anew[i][k] -= mean;
+  }
+}
+
+static void fit_anew(other_job_t *job, const char *what, double times, double x, double y) {
+  const double turns = atan2(y, x) / (2.0 * OTHER_PI);
+  hide_effect(hide_number(what), times * hypot(x, y), turns < 0.0 ? turns + 1.0 : turns, &job->truth,
+              &job->senses.wrong);
+}
+
+static void fit_all_anew(other_job_t *job, const double anew[ANEW]) {
+  fit_anew(job, "cg_offset", 1.0, anew[ANEW_X], anew[ANEW_Y]);
+  fit_anew(job, "accel_bias", 1.0, anew[ANEW_ACC_X], anew[ANEW_ACC_Y]);
+  fit_anew(job, "mass", 0.5, 0.0, anew[ANEW_MASS]); // y > 0: more
+}
+
 static void hide_torque(users_set_t *set, other_job_t *job, dice_t *d) {
   job->habits.every = 5;
   job->truth = job->known;
@@ -164,7 +205,7 @@ static bool is_met(const other_job_t *job, const felt_t *felt) {
 
 // Of the kind of users who keep a flight to one sort of manoeuvre; the last one, held out, has all.
 static int sort_of(users_kind_t kind, int flight) {
-  static const int sort[FLIGHTS] = {SORT_UPRIGHT, SORT_SIDEWAYS, SORT_ALL};
+  static const int sort[FLIGHTS] = {SORT_UPRIGHT, SORT_SIDEWAYS, SORT_ALL, SORT_ALL};
   return kind == USERS_SORTS ? sort[flight] : SORT_ALL;
 }
 
@@ -173,12 +214,17 @@ static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t 
   TRY(write_file(p->vehicle, job, other_write_vehicle, why));
   TRY(write_file(p->columns, job, other_write_columns, why));
   felt_t felt = {0.0, 0.0, 0.0}, of_held = felt;
+  const other_job_t all = *job;
+  double anew[FLIGHTS][ANEW] = {{0.0}};
+  if (kind == USERS_REFIT) draw_anew(anew, d);
   *flown = FLEW;
   for (int i = 0; i < flights && *flown == FLEW; i++) {
     FILE *const out = fopen(p->log[i], "w");
     if (!out) return error_failed(why, "%s: cannot be written", p->log[i]);
     job->span_s = job->ladder ? dice_between(d, 24.0, 30.0) : dice_between(d, 15.0, 19.0);
     job->sort = sort_of(kind, i);
+    job->truth = all.truth, job->senses.wrong = all.senses.wrong;
+    if (kind == USERS_REFIT) fit_all_anew(job, anew[i]);
     job->seed = (uint64_t)(1e15 * dice_share(d));
     if (!other_fly(job, out, i < FITTED ? &felt : &of_held)) *flown = LOST;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
@@ -191,7 +237,7 @@ static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t 
 
 // As the program answers.
 static done_t answer(const paper_t *p, int flights, unsigned long seed, users_set_t *set, why_t *why) {
-  const char *const logs[FLIGHTS] = {p->log[0], p->log[1], p->log[2]};
+  const char *const logs[FLIGHTS] = {p->log[0], p->log[1], p->log[2], p->log[3]};
   const study_order_t order = {
       .vehicle = p->vehicle, .columns = p->columns, .log = logs, .n_log = flights, .seed = seed};
   study_t *const study = calloc(1, sizeof *study);
@@ -217,13 +263,13 @@ static done_t answer(const paper_t *p, int flights, unsigned long seed, users_se
 static void (*const how[USERS_ALL])(users_set_t *, other_job_t *, dice_t *) = {
     [USERS_HABITS] = hide,         [USERS_LADDER] = hide_in_ladder, [USERS_ALONE] = hide_alone,
     [USERS_FILE] = hide_from_file, [USERS_OUTSIDE] = hide_outside,  [USERS_DIRTY] = soil,
-    [USERS_SORTS] = hide,          [USERS_TORQUE] = hide_torque,
+    [USERS_SORTS] = hide,          [USERS_REFIT] = hide_beside,     [USERS_TORQUE] = hide_torque,
 };
 
 done_t users_one(users_kind_t kind, unsigned long seed, users_set_t *set, why_t *why) {
   dice_t d = {(uint64_t)seed * 7919u + (uint64_t)kind};
   paper_t paper;
-  const int flights = kind == USERS_ALONE ? 1 : FLIGHTS;
+  const int flights = kind == USERS_ALONE ? 1 : kind == USERS_REFIT ? 4 : 3;
   flown_t flown = LOST;
   int lost = 0, unmet = 0;
   TRY(open_paper(&paper, why));

@@ -17,8 +17,9 @@ typedef enum {
   USERS_DIRTY,   // logs and columns files with a fault
   USERS_SORTS,   // another simulator's; one flight up and down, one sideways, one of all
   USERS_TORQUE,  // of tests alone: the rotors' torque is two thirds, or half as much again; 100 Hz
+  USERS_REFIT,   // another simulator's; before each flight something is fitted anew, and differs
   USERS_ALL,
-  USERS_KINDS = USERS_TORQUE // that are drawn
+  USERS_KINDS = USERS_ALL - 1 // that are drawn: all but of tests alone
 } users_kind_t;
 
 #define USERS_HIDDEN 2
@@ -31,9 +32,10 @@ typedef struct {
   const char *hidden[USERS_HIDDEN];
   double times[USERS_HIDDEN];
   hide_strange_t strange; // what null: none
+  bool differ;            // flights do, each by a constant of its own
   const char *cause;      // a word that a refusal is to have; null: nothing is wrong with the log
   // marks (users_mark.c)
-  bool refused, unknown, located;
+  bool refused, unknown, located, told_differ;
   int names, right, beside, wrong; // right: hidden effects that a name, or a told rival of its family, holds
   reliability_t stated;            // of the names
   char answer[USERS_TEXT];

@@ -7,9 +7,15 @@
 
 #define SETS_MAX 4000
 
-static const char *const KIND[USERS_ALL] = {
-    "another simulator",   "ladder", "one flight",        "wrong file",
-    "outside the library", "dirty",  "one sort a flight", "torque"};
+static const char *const KIND[USERS_ALL] = {[USERS_HABITS] = "another simulator",
+                                            [USERS_LADDER] = "ladder",
+                                            [USERS_ALONE] = "one flight",
+                                            [USERS_FILE] = "wrong file",
+                                            [USERS_OUTSIDE] = "outside the library",
+                                            [USERS_DIRTY] = "dirty",
+                                            [USERS_SORTS] = "one sort a flight",
+                                            [USERS_TORQUE] = "torque",
+                                            [USERS_REFIT] = "fitted anew"};
 
 static void print_set(unsigned long seed, const users_set_t *s) {
   printf("%lu %s:", seed, KIND[s->kind]);
@@ -44,7 +50,7 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   rate_t held = {"a name, or its rivals, hold what was hidden", 0, 0},
          names = {"names that were hidden", 0, 0};
   rate_t strange = {"outside the library: no name", 0, 0},
-         located = {"outside the library: unknown, and where", 0, 0};
+         located = {"outside the library: unknown, and where", 0, 0}, differ = {"flights differ: told", 0, 0};
   rate_t dirty = {"refused for the cause", 0, 0}, repaired = {"not refused, and no name", 0, 0};
   const reliability_t stated = stated_in(kind, set, n);
   rate_t refused = {"refused", 0, 0},
@@ -57,15 +63,14 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
     lost += s->lost, unmet += s->unmet;
     refused.of++, refused.yes += s->refused;
     names.of += s->names, names.yes += s->right + s->beside, held.of += s->n, held.yes += s->right;
+    differ.of += s->differ, differ.yes += s->told_differ;
     if (s->cause) {
-      dirty.of++, dirty.yes += users_exact(s);
-      repaired.of++, repaired.yes += !s->refused && s->names == 0;
+      dirty.of++, dirty.yes += users_exact(s), repaired.of++, repaired.yes += !s->refused && s->names == 0;
     } else if (s->strange.what) {
       strange.of++, strange.yes += s->names == 0 && !s->refused;
       located.of++, located.yes += s->located;
     } else if (s->n == 0) {
-      alarm.of++, alarm.yes += s->names > 0;
-      guess.of++, guess.yes += s->unknown;
+      alarm.of++, alarm.yes += s->names > 0, guess.of += !s->differ, guess.yes += s->unknown;
     } else {
       rate_t *const r = s->n == 1 ? &one : &two;
       r->of++, r->yes += users_exact(s);
@@ -74,8 +79,8 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
   if (!refused.of) return;
   printf("%s, %d sets (drawn again: lost %d, never where it is hidden %d)\n", KIND[kind], refused.of, lost,
          unmet);
-  const rate_t *const all[] = {&alarm,   &guess,   &one,   &two,      &held,    &names,
-                               &strange, &located, &dirty, &repaired, &refused, &sure};
+  const rate_t *const all[] = {&alarm,   &guess,  &one,   &two,      &held,    &names, &strange,
+                               &located, &differ, &dirty, &repaired, &refused, &sure};
   for (unsigned i = 0; i < sizeof all / sizeof *all; i++) print_rate(all[i]);
 }
 
@@ -88,7 +93,8 @@ int users_main(int argc, char **argv) {
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < n; i++) {
     why_t why;
-    const users_kind_t kind = (users_kind_t)(only >= 0 ? only : i % USERS_KINDS);
+    const int drawn = i % USERS_KINDS;
+    const users_kind_t kind = (users_kind_t)(only >= 0 ? only : drawn + (drawn >= USERS_TORQUE));
     if (users_one(kind, first + (unsigned long)i, &sets[i], &why) != DONE) {
       fprintf(stderr, "exam: set %lu: %s\n", first + (unsigned long)i, why.text);
       failed = true;
@@ -100,7 +106,7 @@ int users_main(int argc, char **argv) {
     }
   }
   reliability_t stated = {.unstated = 0};
-  for (int k = 0; k < USERS_KINDS; k++) {
+  for (int k = 0; k < USERS_ALL; k++) {
     const reliability_t own = stated_in((users_kind_t)k, sets, n);
     print_kind((users_kind_t)k, sets, n);
     if (k != USERS_OUTSIDE && k != USERS_DIRTY) reliability_join(&stated, &own);

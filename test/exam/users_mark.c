@@ -79,6 +79,7 @@ static void mark_unknown(users_set_t *set, const cJSON *unknown) {
   static const char *const channel[] = {"force_x", "force_y", "force_z", "turn_x", "turn_y", "turn_z"};
   const char *const at = set->strange.coordinate, *const said = text_of(unknown, "coordinate");
   set->unknown = true;
+  set->told_differ = cJSON_GetArraySize(cJSON_GetObjectItem(unknown, "from_flight_to_flight")) > 0;
   const size_t used = strlen(set->answer);
   snprintf(set->answer + used, sizeof set->answer - used, " UNKNOWN %s at %s", text_of(unknown, "channel"),
            said);
