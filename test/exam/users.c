@@ -7,11 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#define FLIGHTS 4   // at most
-#define FITTED  2   // of them; the last is held out
-#define FELT_S  1.0 // at least, in those, of what acts at places only: half a block of the Wald F
-#define DRAWS   20
-#define PATH    80
+#define FLIGHTS 4 // at most
+#define FELT_S                                                                                               \
+  1.0 // at least, in those that are fitted (all but the last of several), of what acts at places only: half a
+      // block of the Wald F
+#define DRAWS 20
+#define PATH  80
 
 typedef struct {
   char folder[PATH], log[FLIGHTS][PATH], vehicle[PATH], columns[PATH];
@@ -125,12 +126,12 @@ static void hide_beside(users_set_t *set, other_job_t *job, dice_t *d) {
 // about nothing in the flights that are fitted, for what they have in common is there.
 enum { ANEW_X, ANEW_Y, ANEW_ACC_X, ANEW_ACC_Y, ANEW_MASS, ANEW };
 
-static void draw_anew(double anew[FLIGHTS][ANEW], dice_t *d) {
+static void draw_anew(double anew[FLIGHTS][ANEW], int fitted, dice_t *d) {
   for (int k = 0; k < ANEW; k++) {
     double mean = 0.0;
     for (int i = 0; i < FLIGHTS; i++) anew[i][k] = dice_normal(d);
-    for (int i = 0; i < FLIGHTS - 1; i++) mean += anew[i][k] / (FLIGHTS - 1);
-    for (int i = 0; i < FLIGHTS - 1; i++) anew[i][k] -= mean;
+    for (int i = 0; i < fitted; i++) mean += anew[i][k] / fitted;
+    for (int i = 0; i < fitted; i++) anew[i][k] -= mean;
   }
 }
 
@@ -216,7 +217,7 @@ static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t 
   felt_t felt = {0.0, 0.0, 0.0}, of_held = felt;
   const other_job_t all = *job;
   double anew[FLIGHTS][ANEW] = {{0.0}};
-  if (kind == USERS_REFIT) draw_anew(anew, d);
+  if (kind == USERS_REFIT) draw_anew(anew, flights - 1, d);
   *flown = FLEW;
   for (int i = 0; i < flights && *flown == FLEW; i++) {
     FILE *const out = fopen(p->log[i], "w");
@@ -226,7 +227,7 @@ static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t 
     job->truth = all.truth, job->senses.wrong = all.senses.wrong;
     if (kind == USERS_REFIT) fit_all_anew(job, anew[i]);
     job->seed = (uint64_t)(1e15 * dice_share(d));
-    if (!other_fly(job, out, i < FITTED ? &felt : &of_held)) *flown = LOST;
+    if (!other_fly(job, out, i < flights - 1 || flights == 1 ? &felt : &of_held)) *flown = LOST;
     if (fclose(out) != 0) return error_failed(why, "%s: cannot be written", p->log[i]);
   }
   if (*flown == FLEW && !is_met(job, &felt)) *flown = UNMET;

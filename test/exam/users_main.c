@@ -70,7 +70,7 @@ static void print_kind(users_kind_t kind, const users_set_t *set, int n) {
       strange.of++, strange.yes += s->names == 0 && !s->refused;
       located.of++, located.yes += s->located;
     } else if (s->n == 0) {
-      alarm.of++, alarm.yes += s->names > 0, guess.of += !s->differ, guess.yes += s->unknown;
+      alarm.of++, alarm.yes += s->names > 0, guess.of += !s->differ, guess.yes += !s->differ && s->unknown;
     } else {
       rate_t *const r = s->n == 1 ? &one : &two;
       r->of++, r->yes += users_exact(s);

@@ -1,4 +1,4 @@
 # What flights differ by is a colour of the noise.
-# file: sim/gap/5_infer/whiten.c
+# file: sim/gap/2_predict/color.c
 # test: users_logs_of_flights
-s/  rows_center(r, own);/  if (!r) rows_center(r, own);/
+s/^  rows_center(r, room);/  if (!r) rows_center(r, room);/

@@ -3,6 +3,7 @@
 
 #include "base/wide.h"
 #include <math.h>
+#include <string.h>
 
 #define ROWS_MIN 40
 
@@ -48,8 +49,7 @@ static void whiten_rows(const color_t *c, const rows_t *r, const double *v, doub
 
 // --- what flights differ by -------------------------------------------------------------------------------
 
-// A constant, white.
-static double white_one(const color_t *c, const rows_t *r, int row) {
+double color_one(const color_t *c, const rows_t *r, int row) {
   if (!color_reaches(r, row)) return 0.0;
   return (rows_lift(r, row) - c->a1 * rows_lift(r, row - 1) - c->a2 * rows_lift(r, row - 2)) / c->sd;
 }
@@ -58,7 +58,7 @@ color_constant_t color_constant(const color_t *c, const rows_t *r, int from, con
   color_constant_t k = {.end = from};
   double product = 0.0;
   for (; k.end < r->n && r->flight[k.end] == r->flight[from]; k.end++) {
-    const double one = white_one(c, r, k.end);
+    const double one = color_one(c, r, k.end);
     k.holds += one * one;
     product += one * white[k.end];
   }
@@ -91,6 +91,14 @@ double color_between(const color_t *c, const rows_t *r, const double *v, double 
   return sqrt(fmax(d.q - (d.flights - 1), 0.0) / (d.holds - d.holds_squared / d.holds));
 }
 
+color_t color_of_flights(const rows_t *r, const double *v, double *room) {
+  memcpy(room, v, (size_t)r->n * sizeof(double));
+  rows_center(r, room);
+  color_t c = color_fit(r, room);
+  if (c.used) c.between = color_between(&c, r, v, room);
+  return c;
+}
+
 // So much of a flight's constant is left in its white rows.
 static double kept(const color_t *c, double holds) {
   return 1.0 / sqrt(1.0 + c->between * c->between * holds);
@@ -101,7 +109,7 @@ void color_whiten(const color_t *c, const rows_t *r, const double *v, double *ou
   for (int from = 0; c->between > 0.0 && from < r->n;) {
     const color_constant_t k = color_constant(c, r, from, out);
     const double less = (1.0 - kept(c, k.holds)) * k.mean;
-    for (int i = from; i < k.end; i++) out[i] -= less * white_one(c, r, i);
+    for (int i = from; i < k.end; i++) out[i] -= less * color_one(c, r, i);
     from = k.end;
   }
 }
@@ -112,7 +120,7 @@ double color_left(const rows_t *r, const color_t *c, const double *v) {
   for (int i = 0; i < r->n; i++) {
     if (color_reaches(r, i)) {
       const double e = (v[i] - c->a1 * v[i - 1] - c->a2 * v[i - 2]) / c->sd;
-      const double one = spread > 0.0 ? white_one(c, r, i) : 0.0;
+      const double one = spread > 0.0 ? color_one(c, r, i) : 0.0;
       sum += e * e;
       product += one * e;
       holds += one * one;

@@ -1,8 +1,8 @@
 // lift.h - what a flight's own constant is multiplied by, row by row.
 //
 // Another weight, another place of it, rotors that give less, an accelerometer that stands askew: most of
-// what flights differ by goes with the lift, and a constant leaves a hundredth of the weight of it, which a
-// bend in the curve of the thrust explains.
+// what flights differ by goes with the lift. Were it constant, what is left of it where the lift varies would
+// be taken by a bend in the curve of the thrust.
 #ifndef SIM_GAP_2_PREDICT_LIFT_H
 #define SIM_GAP_2_PREDICT_LIFT_H
 

@@ -71,8 +71,9 @@ static inline int rows_from(const rows_t *r, int flight) {
   return low;
 }
 
-// Takes each flight's own constant out of a number by row; or what it differs by from that of all.
+// Takes each flight's own constant (times the lift, least squares without colour) out of a number by row.
 void rows_center(const rows_t *r, double *v);
+// Makes each flight's own constant that of all rows.
 void rows_level(const rows_t *r, double *v);
 
 #endif

@@ -50,11 +50,12 @@ void remains_put_back(const remains_t *r, double *G) {
   G[last * size + last] = squares;
 }
 
-double acts_takes(const candidate_t *c, const fx_use_t *chosen, const double *G, int size, fx_use_t *use) {
+double acts_takes(const candidate_t *c, const fx_use_t *chosen, const double *fit, const double *G, int size,
+                  fx_use_t *use) {
   int column[FX_SIZE_MAX];
   double b[FX_SIZE_MAX], taken = 0.0;
   for (int k = 0; k < c->n; k++) column[k] = c->first + k;
-  lsq_solve_products(G, size, column, c->n, NULL, b, NULL);
+  lsq_solve_products(fit, size, column, c->n, NULL, b, NULL);
   *use = c->use;
   for (int k = 0; k < c->n; k++) {
     const double now = chosen ? fx_use_size(chosen, k) : 0.0;

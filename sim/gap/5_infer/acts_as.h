@@ -36,9 +36,10 @@ void remains_free(remains_t *r);
 // back.
 void remains_put_back(const remains_t *r, double *G);
 
-// What a candidate alone takes from such sums, at numbers that it can have: of what is chosen (else null),
-// beside its own.
-double acts_takes(const candidate_t *c, const fx_use_t *chosen, const double *G, int size, fx_use_t *use);
+// What a candidate alone takes from such sums G, at numbers that it can have: of what is chosen (else null),
+// beside its own. fit: the sums that give these numbers, of all that it acts on.
+double acts_takes(const candidate_t *c, const fx_use_t *chosen, const double *fit, const double *G, int size,
+                  fx_use_t *use);
 
 // One more that would do: it is worth half of what is there, and no number of it is larger than the
 // evidence's prior has it. taken: of `beyond`, both squares.

@@ -25,7 +25,8 @@ static double beyond_nominal(const round_t *r, double statistic) {
 static done_t measure_cells(const round_t *r, double *const left[CHANNELS], unexplained_t *u, why_t *why) {
   color_t color[CHANNELS];
   cell_t cell[CHANNELS];
-  for (int ch = 0; ch < CHANNELS; ch++) rows_center(set_rows(r->s, ch), left[ch]); // as white rows have it
+  for (int ch = 0; r->s->n_grid > 1 && ch < CHANNELS; ch++) // as white rows have it
+    rows_center(set_rows(r->s, ch), left[ch]);
   TRY(unknown_colors(r->s, r->base, left, color, why));
   TRY(unknown_along(r->s, r->base, 0, COORDINATES, left, color, true, cell, why));
   for (int ch = 0; ch < CHANNELS; ch++)

@@ -31,28 +31,31 @@ static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *bas
 
 // --- what would do ----------------------------------------------------------------------------------------
 
-// Of one group of channels: sums of products of each flight, and of all.
+// Sums of products of each flight and, behind them, of all: of one group of channels, and of every one. What
+// would do in one of them says something of the others, too.
 typedef struct {
   int size;
-  double *of, *all;
+  double *of, *whole;
 } sums_t;
 
-static double *sums_in(const sums_t *t, int flight) {
-  return t->of + (size_t)flight * (size_t)(t->size * t->size);
+static double *sums_in(const sums_t *t, double *of, int flight) {
+  return of + (size_t)flight * (size_t)(t->size * t->size);
 }
 
 static done_t sums_make(sums_t *t, const remains_t *left, int flights, int group, why_t *why) {
-  const size_t n = (size_t)(left->g.size * left->g.size);
-  *t = (sums_t){left->g.size, calloc(((size_t)flights + 1) * n, sizeof(double)), NULL};
+  const size_t n = (size_t)(left->g.size * left->g.size), all = ((size_t)flights + 1) * n;
+  *t = (sums_t){left->g.size, calloc(2 * all, sizeof(double)), NULL};
   if (!t->of) return error_failed(why, "out of memory");
-  t->all = sums_in(t, flights);
-  for (int f = 0; f < flights; f++) {
-    double *const to = sums_in(t, f);
-    for (size_t half = 2 * (size_t)f; half < 2 * (size_t)f + 2; half++)
-      for (size_t i = 0; i < n; i++) to[i] += left->g.by_group[group][half * n + i];
-    remains_put_back(left, to);
-    for (size_t i = 0; i < n; i++) t->all[i] += to[i];
-  }
+  t->whole = t->of + all;
+  for (int f = 0; f < flights; f++)
+    for (int which = 0; which < 2; which++) {
+      double *const begin = which ? t->whole : t->of, *const to = sums_in(t, begin, f);
+      for (int k = 0; k < GROUPS; k++)
+        for (size_t half = 2 * (size_t)f; half < 2 * (size_t)f + 2 && (which || k == group); half++)
+          for (size_t i = 0; i < n; i++) to[i] += left->g.by_group[k][half * n + i];
+      remains_put_back(left, to);
+      for (size_t i = 0; i < n; i++) sums_in(t, begin, flights)[i] += to[i];
+    }
   return DONE;
 }
 
@@ -63,7 +66,8 @@ static double by_constants(const set_t *s, const color_t color[CHANNELS], double
   for (int ch = 0; ch < CHANNELS; ch++) {
     const rows_t *const r = set_rows(s, ch);
     if (group_of(ch) != group || !color[ch].used) continue;
-    sum += color_differ(&(color_t){.sd = color[ch].sd, .used = true}, r, residual[ch]).q;
+    const color_t spread = {.sd = 1.0, .used = true};
+    sum += color_differ(&spread, r, residual[ch]).q / (color[ch].sd * color[ch].sd);
   }
   return sum;
 }
@@ -72,10 +76,11 @@ static double by_constants(const set_t *s, const color_t color[CHANNELS], double
 static double takes_more(const flights_differ_t *d, const sums_t *t, const candidate_t *c,
                          const fx_use_t *chosen, fx_use_t *use, fx_use_t *largest) {
   fx_use_t same;
-  double taken = -acts_takes(c, chosen, t->all, t->size, &same), most = -1.0;
+  double taken = -acts_takes(c, chosen, sums_in(t, t->whole, d->n), sums_in(t, t->of, d->n), t->size, &same);
+  double most = -1.0;
   for (int f = 0; f < d->n; f++) {
     double size = 0.0;
-    taken += acts_takes(c, chosen, sums_in(t, f), t->size, &use[f]);
+    taken += acts_takes(c, chosen, sums_in(t, t->whole, f), sums_in(t, t->of, f), t->size, &use[f]);
     for (int k = 0; k < c->n; k++) size = fmax(size, fabs(fx_use_size(&use[f], k)) / c->typical[k]);
     if (size > most) *largest = use[f];
     most = fmax(most, size);

@@ -71,7 +71,8 @@ static void judge(for_a_time_t *to, const times_t *t, const candidates_t *c, con
   if (!(beyond > 0.0)) return;
   for (int i = 0; i < c->n; i++) {
     fx_use_t use;
-    const double taken = acts_takes(&c->candidate[i], chosen_use(chosen, i), t->sums[here], t->size, &use);
+    const double *const G = t->sums[here];
+    const double taken = acts_takes(&c->candidate[i], chosen_use(chosen, i), G, G, t->size, &use);
     acts_add(&to->as, c, i, &use, taken, beyond);
   }
   acts_keep_best(&to->as);

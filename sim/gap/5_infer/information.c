@@ -50,32 +50,52 @@ static void feedback(parts_t *p, double *excess, double *A, double *g) {
   }
 }
 
-// The score of each column summed over blocks, squared: white rows would give A_kk. Of whole flights where
-// these contradict each other by more.
-static void block_scores(const parts_t *p, double *squares) {
+// What the choice leaves of a column's product with the residual, in a block.
+static double score_in(const double *G, int size, int k, int m, const int *column, const double *b) {
+  double score = G[k * size + size - 1];
+  for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
+  return score;
+}
+
+// By how much flights contradict each other about column k: what each has beyond its part of the score of
+// all, squared, as one score of all would be.
+static double contradiction(int flights, const double *score, const double *holds) {
+  double all = 0.0, held = 0.0, sum = 0.0;
+  for (int f = 0; f < flights; f++) all += score[f], held += holds[f];
+  for (int f = 0; f < flights && held > 0.0; f++) {
+    const double beyond = score[f] - holds[f] / held * all;
+    sum += beyond * beyond * flights / (flights - 1.0);
+  }
+  return sum;
+}
+
+// The score of each column summed over blocks, squared: white rows would give A_kk. Where flights contradict
+// each other by more, that. False: no memory.
+static bool block_scores(const parts_t *p, double *squares) {
   const gram_t *const gram = &p->r->gram;
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
-  const int n = p->n, size = n + 1, m = choice_columns(p->r->c, &p->r->choice, column),
-            flights = gram->n_flight;
+  const int n = p->n, size = n + 1, m = choice_columns(p->r->c, &p->r->choice, column);
+  const size_t flights = (size_t)gram->n_half / 2 + 1;
+  double *const score = malloc(2 * flights * sizeof(double));
+  if (!score) return false;
+  double *const holds = score + flights;
   score_estimate(&p->r->score, &p->r->choice, b, NULL);
   for (int k = 0; k < n; k++) {
-    double of_blocks = 0.0, of_flights = 0.0;
-    for (int block = 0; block < gram->n_block;) {
-      const int flight = gram_flight(gram, block);
-      double sum = 0.0;
-      for (; block < gram->n_block && gram_flight(gram, block) == flight; block++) {
-        const double *const G = gram->block + (size_t)block * (size_t)(size * size);
-        double score = G[k * size + n];
-        for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
-        of_blocks += score * score;
-        sum += score;
-      }
-      of_flights += sum * sum;
+    double of_blocks = 0.0;
+    memset(score, 0, 2 * flights * sizeof(double));
+    for (int block = 0; block < gram->n_block; block++) {
+      const double *const G = gram->block + (size_t)block * (size_t)(size * size);
+      const double one = score_in(G, size, k, m, column, b);
+      of_blocks += one * one;
+      score[gram_flight(gram, block)] += one;
+      holds[gram_flight(gram, block)] += G[k * (size + 1)];
     }
-    if (flights > 1) of_blocks = fmax(of_blocks, of_flights * flights / (flights - 1.0));
+    if (gram->n_flight > 1) of_blocks = fmax(of_blocks, contradiction(gram->n_flight, score, holds));
     squares[k] += of_blocks * p->typical[k] * p->typical[k];
   }
+  free(score);
+  return true;
 }
 
 // What sweeps of spread() need again and again, of n numbers and n x n; sums go over lines, all their numbers
@@ -225,9 +245,9 @@ done_t information_make(information_t *f, const round_t *r, why_t *why) {
       p.typical[r->c->candidate[i].first + k] = r->c->candidate[i].typical[k];
   scaled(&p, r->gram.total, p.A, p.g);
   feedback(&p, nominal, A, g);
-  block_scores(&p, blocks);
+  const bool summed = block_scores(&p, blocks);
   widen(&p, nominal, blocks);
-  const bool good = inform(&p, f);
+  const bool good = summed && inform(&p, f);
   free(room);
   return good ? DONE : error_failed(why, "out of memory");
 }

@@ -153,7 +153,7 @@ static void add_times(const round_t *round, const parts_t *p, const int *bin, ti
     const color_t *const c = &p->color[ch];
     for (int i = 0; c->used && i < r->n; i++) {
       if (!color_reaches(r, i)) continue;
-      const double w = (1.0 - c->a1 - c->a2) / c->sd; // a constant, white
+      const double w = color_one(c, r, i);
       const double square = p->f[ch][i] * p->f[ch][i];
       s->acts[ch] += square;
       s->ff[bin[i]] += square;

@@ -18,11 +18,12 @@ static double mean_squares(const double *v, int n) {
   return n ? squares / n : 0.0;
 }
 
-// What flights differ by, each by a moment of its own, is no disturbance of any of them.
+// A moment of a flight's own is no disturbance of it: of several flights one that they have in common has a
+// name.
 static done_t moments_left(squares_t *left, set_t *s, const model_t *m, lines_t *l, why_t *why) {
   TRY(residual_lines(s, m, l, why));
   for (int k = 0; k < 3; k++) {
-    rows_level(&s->smooth, l->r[CH_WX + k]);
+    if (s->n_grid > 1) rows_center(&s->smooth, l->r[CH_WX + k]);
     left->of[k] = mean_squares(l->r[CH_WX + k], s->smooth.n);
   }
   return DONE;

@@ -16,6 +16,10 @@ static void block_score(const gram_t *g, int block, int n, const int *column, co
   }
 }
 
+static double held_in(const gram_t *g, int block, int column) {
+  return g->block[(size_t)block * (size_t)(g->size * g->size) + (size_t)(column * (g->size + 1))];
+}
+
 // V += (A^-1 s) (A^-1 s)'
 static void add_score(const double *inverse, int n, const double *score, double *V) {
   double part[COLUMN_MAX] = {0.0};
@@ -25,12 +29,15 @@ static void add_score(const double *inverse, int n, const double *score, double 
     for (int k = 0; k < n; k++) V[i * n + k] += part[i] * part[k];
 }
 
-// Flights that contradict each other by more than their blocks let expect: errors grow by as much (Birge
-// 1932). of: V of whole flights' scores.
-static void allow_for_flights(const double *of, int flights, int n, double *V) {
+// Where whole flights, taken to be independent (Liang and Zeger 1986), say a larger error than their blocks
+// do, that is told (as Birge 1932 does of measurements that contradict each other): of two or three flights
+// it is known badly, and by chance too large as often as too small. of: V by flights; flights: that hold
+// something of each number.
+static void allow_for_flights(const double *of, const int *flights, int n, double *V) {
   double times[COLUMN_MAX];
   for (int i = 0; i < n; i++) {
-    const double from_flights = of[i * (n + 1)] * flights / (flights - 1.0), own = V[i * (n + 1)];
+    const double few = flights[i] > 1 ? flights[i] / (flights[i] - 1.0) : 0.0;
+    const double from_flights = of[i * (n + 1)] * few, own = V[i * (n + 1)];
     times[i] = own > 0.0 ? sqrt(fmax(from_flights / own, 1.0)) : 1.0;
   }
   for (int i = 0; i < n; i++)
@@ -40,7 +47,7 @@ static void allow_for_flights(const double *of, int flights, int n, double *V) {
 // V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
 void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V) {
   const gram_t *g = j->g;
-  int column[COLUMN_MAX], used = 0;
+  int column[COLUMN_MAX], flights[COLUMN_MAX] = {0}, used = 0;
   double inverse[COLUMN_MAX * COLUMN_MAX], of_flights[COLUMN_MAX * COLUMN_MAX] = {0.0};
   const int n = choice_columns(j->c, choice, column), size = g->size;
   lsq_solve_products(g->total, size, column, n, NULL, b, inverse);
@@ -48,17 +55,18 @@ void score_estimate(const score_t *j, const choice_t *choice, double *b, double 
   memset(V, 0, (size_t)(n * n) * sizeof(double));
   for (int block = 0; block < g->n_block;) {
     const int flight = gram_flight(g, block);
-    double score[COLUMN_MAX], sum[COLUMN_MAX] = {0.0};
+    double score[COLUMN_MAX], sum[COLUMN_MAX] = {0.0}, holds[COLUMN_MAX] = {0.0};
     for (; block < g->n_block && gram_flight(g, block) == flight; block++) {
       if (!(g->block[(size_t)(block + 1) * (size_t)(size * size) - 1] > 0.0)) continue;
       used++;
       block_score(g, block, n, column, b, score);
       add_score(inverse, n, score, V);
-      for (int i = 0; i < n; i++) sum[i] += score[i];
+      for (int i = 0; i < n; i++) sum[i] += score[i], holds[i] += held_in(g, block, column[i]);
     }
     add_score(inverse, n, sum, of_flights);
+    for (int i = 0; i < n; i++) flights[i] += holds[i] > 0.0;
   }
   const double few = used > n + 1 ? (double)used / (used - n) : 1e6;
   for (int i = 0; i < n * n; i++) V[i] *= few;
-  if (g->n_flight > 1) allow_for_flights(of_flights, g->n_flight, n, V);
+  if (g->n_flight > 1) allow_for_flights(of_flights, flights, n, V);
 }

@@ -54,8 +54,10 @@ static void clean_in_world(const set_t *s, const model_t *m, double *const resid
   double *const fx = residual[CH_FX], *const fy = residual[CH_FY];
   if (!has_lateral_force(s)) return;
   turn_by_heading(s, 1.0, fx, fy, fx, fy);
-  rows_center(&s->smooth, fx);
-  rows_center(&s->smooth, fy);
+  if (s->n_grid > 1) {
+    rows_center(&s->smooth, fx);
+    rows_center(&s->smooth, fy);
+  }
   for (int i = 0; i < COORDINATES; i++) {
     if (!windows_bins(s, m, i, 0, room, bin)) continue;
     flatten(&s->smooth, bin, fx);
@@ -68,7 +70,7 @@ done_t unknown_clean(const set_t *s, const model_t *m, double *const residual[CH
   double *const room = malloc(2 * set_most_rows(s) * sizeof(double));
   int *const bin = malloc(set_most_rows(s) * sizeof(int));
   for (int sweep = 0; room && bin && sweep < 2; sweep++) {
-    for (int ch = 0; ch < CHANNELS; ch++)
+    for (int ch = 0; s->n_grid > 1 && ch < CHANNELS; ch++)
       if (residual_has(s, ch)) rows_center(set_rows(s, ch), residual[ch]);
     for (int i = 0; i < COORDINATES; i++) clean(s, m, i, residual, room, bin);
     clean_in_world(s, m, residual, room, bin);
@@ -234,12 +236,12 @@ static double beyond(const cell_t *c, double bound) {
                             : -HUGE_VAL;
 }
 
-// What lies at a place stays there; what begins at the same time in every flight is rarer, and a state is
-// mostly where the vehicle happened to be in it.
+// Flights that are flown elsewhere differ at a place, too, and it is rarer that something lies there than
+// that something was fitted anew. What lies at a place stays there; what begins at the same time in every
+// flight is rarer, and a state is mostly where the vehicle happened to be in it.
 static int rank_of(int along) {
-  return along == COORDINATE_TIME || along == NOWHERE || along == BY_FLIGHT ? 1
-         : coordinate_is_place(along)                                       ? 0
-                                                                            : 2;
+  if (along == BY_FLIGHT) return -1;
+  return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
 }
 
 // Of one force: the lateral one has other names along the body's axes and along the world's.

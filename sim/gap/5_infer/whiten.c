@@ -20,11 +20,14 @@ static bool fit_color(gram_t *g, const set_t *s, const design_t *t, int ch, cons
     const double *x = t->x[ch][column[k]];
     for (int i = 0; x && i < r->n; i++) left[i] -= b[k] * x[i];
   }
-  g->color[ch] = (color_t){.used = false};
-  memcpy(own, left, (size_t)r->n * sizeof(double));
-  rows_center(r, own);
-  if (residual_has(s, ch)) g->color[ch] = e->plain ? color_plain(r, own) : color_fit(r, own);
-  if (g->color[ch].used && !e->plain) g->color[ch].between = color_between(&g->color[ch], r, left, own);
+  if (!residual_has(s, ch))
+    g->color[ch] = (color_t){.used = false};
+  else if (!e->plain)
+    g->color[ch] = color_of_flights(r, left, own);
+  else {
+    rows_center(r, left);
+    g->color[ch] = color_plain(r, left);
+  }
   free(left);
   return true;
 }

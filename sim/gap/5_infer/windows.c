@@ -194,6 +194,7 @@ void windows_by_flight(const look_t *l, cell_t cell[LOOKED]) {
     if (!l->color[ch].used) continue;
     color_whiten(&l->color[ch], r, l->residual[ch], l->room);
     const color_differ_t d = color_differ(&l->color[ch], r, l->room);
+    const double beyond = fmax(d.q - (d.flights - 1), 0.0); // noise
     if (d.flights < 2 || !(d.q > cell[ch].statistic * cell[ch].statistic)) continue;
     cell[ch] = (cell_t){.channel = ch,
                         .along = BY_FLIGHT,
@@ -201,9 +202,9 @@ void windows_by_flight(const look_t *l, cell_t cell[LOOKED]) {
                         .unit = "",
                         .from = 1.0,
                         .to = l->s->n_grid,
-                        .size = sqrt(d.q / d.holds),
+                        .size = sqrt(beyond / (d.holds - d.holds_squared / d.holds)),
                         .statistic = sqrt(d.q),
-                        .explained = d.q,
+                        .explained = beyond,
                         .first = true,
                         .last = true};
   }

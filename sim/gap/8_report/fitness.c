@@ -4,6 +4,8 @@
 
 #include "base/constants.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #define DEGREES (180.0 / PI)
 #define OUTSIDE 0.05 // of the rows, on each side of what is told of a coordinate
@@ -135,14 +137,31 @@ static double seen_ceiling_m(const report_t *r) {
   return spread < far.range_squares / far.n - pow(far.range / far.n, 2.0) ? mean : (double)NAN;
 }
 
+// The window of height in which more lift is left than elsewhere. Flights at other heights may differ by what
+// they weigh, which is no ceiling's.
+static done_t lift_by_height(const diagnosis_t *d, cell_t of[CHANNELS], why_t *why) {
+  const int height = COORDINATE_HEIGHT;
+  const rows_t *const rows = &d->fit.smooth;
+  color_t color[CHANNELS];
+  double *left[CHANNELS], *const lift = malloc(((size_t)rows->n + 1) * sizeof(double));
+  if (!lift) return error_failed(why, "out of memory");
+  memcpy(left, d->residual, sizeof left);
+  memcpy(lift, d->residual[CH_FZ], (size_t)rows->n * sizeof(double));
+  if (d->fit.n_grid > 1) rows_center(rows, lift);
+  left[CH_FZ] = lift;
+  done_t status = unknown_colors(&d->fit, &d->extended, left, color, why);
+  if (status == DONE)
+    status = unknown_along(&d->fit, &d->extended, height, height + 1, left, color, true, of, why);
+  free(lift);
+  return status;
+}
+
 static done_t look_for_ceiling(report_t *r, why_t *why) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const int height = COORDINATE_HEIGHT;
-  color_t color[CHANNELS];
   cell_t of[CHANNELS];
   if (isfinite(r->study->vehicle.ceiling_m) || !d->nominal_flew || !residual_has(&d->fit, CH_FZ)) return DONE;
-  TRY(unknown_colors(&d->fit, &d->extended, d->residual, color, why));
-  TRY(unknown_along(&d->fit, &d->extended, height, height + 1, d->residual, color, true, of, why));
+  TRY(lift_by_height(d, of, why));
   const cell_t cell = of[CH_FZ];
   const bool grows = cell.size > 0.0 ? cell.last : cell.first; // more above is less below
   if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && grows)) return DONE;

@@ -156,8 +156,8 @@ const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
 // What is there, too: "+0.24 +- 0.005 m/s2 in force_y, at height 0.4 to 0.6 m". Returns text.
 #define REPORT_CELL 192
 const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
-// "force_y is another in each flight: -0.06 in a.csv, +0.13 in b.csv, +- 0.003 m/s2; it acts as .." Returns
-// text.
+// "force_y is another in each flight, about the mean of all: -0.06 in a.csv, +0.13 in b.csv, +- 0.003 m/s2;
+// it acts as .." Returns text.
 #define REPORT_DIFFER 1536
 const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]);
 // What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %

@@ -83,19 +83,23 @@ static void add_sizes(char text[REPORT_DIFFER], const flights_differ_t *d, const
 const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]) {
   text[0] = '\0';
   const int told = d->n < FLIGHTS_TOLD ? d->n : FLIGHTS_TOLD;
-  text_add(text, REPORT_DIFFER, "%s is another in each flight: ", gap_channel[d->cell.channel]);
+  text_add(text, REPORT_DIFFER,
+           "%s is another in each flight, about the mean of all: ", gap_channel[d->cell.channel]);
   for (int f = 0; f < told; f++)
     if (d->error[f] > 0.0)
       text_add(text, REPORT_DIFFER, "%+.3g in %s, ", d->mean[f],
                report_base_name(r->study->fit.flight[f].name));
-  text_add(text, REPORT_DIFFER, "%s+- %.1g %s", d->n > told ? ".. " : "",
-           fabs(d->cell.size) / d->cell.statistic, gap_unit[d->cell.channel]);
+  double error = 0.0;
+  for (int f = 0; f < d->n; f++) error = fmax(error, d->error[f]);
+  text_add(text, REPORT_DIFFER, "%s+- %.1g %s", d->n > told ? ".. " : "", error, gap_unit[d->cell.channel]);
   for (int i = 0; i < d->as.n; i++) {
     const would_do_t *const would = &d->as.would[i];
-    text_add(text, REPORT_DIFFER, "%s%s would, of another size in each (", i ? ", or as " : "; it acts as ",
+    text_add(text, REPORT_DIFFER,
+             i ? ", or as %s would ("
+               : "; beyond the file and what is named it acts as %s would, of another size in each (",
              would->use.fx->name);
     add_sizes(text, d, d->use + i * d->n);
-    text_add(text, REPORT_DIFFER, ": %.0f %% of it)", 100.0 * would->share);
+    text_add(text, REPORT_DIFFER, ": %.0f %% of the difference)", 100.0 * would->share);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // test_gap_color.c - white rows, what flights have for their own in them, and what that does to errors.
 #include "base/random.h"
 #include "gap/2_predict/color.h"
+#include "gap/5_infer/evidence.h"
 #include "rig/gap_rows.h"
 #include "rig/test.h"
 
@@ -59,18 +60,21 @@ TEST(gap_holds_a_constant_by_flights_where_these_differ) {
   const color_t color = {.a1 = 0.5, .a2 = -0.2, .sd = 1.0, .used = true, .between = 2.0};
   color_t alike = color;
   alike.between = 0.0;
-  double one[ROWS], out[ROWS], left = 0.0, holds = 0.0, of_flight = 0.0;
-  flights_t *const f = flights_of(none, false);
-  for (int i = 0; i < ROWS; i++) one[i] = 1.0;
-  color_whiten(&alike, &f->r, one, out);
-  for (int i = 0; i < EACH; i++) of_flight += out[i] * out[i];
-  color_whiten(&color, &f->r, one, out);
-  for (int i = 0; i < ROWS; i++) holds += out[i] * out[i];
-  CHECK_NEAR(holds, FLIGHTS / (color.between * color.between + 1.0 / of_flight), 1e-9);
-  color_whiten(&color, &f->r, f->v, out);
-  for (int i = 0; i < ROWS; i++) left += out[i] * out[i];
-  CHECK_NEAR(color_left(&f->r, &color, f->v), left, 1e-9 * left);
-  free(f);
+  for (int lifts = 0; lifts < 2; lifts++) {
+    double one[ROWS], out[ROWS], left = 0.0, holds = 0.0, of_flight[FLIGHTS] = {0.0}, held = 0.0;
+    flights_t *const f = flights_of(none, lifts);
+    for (int i = 0; i < ROWS; i++) one[i] = rows_lift(&f->r, i);
+    color_whiten(&alike, &f->r, one, out);
+    for (int i = 0; i < ROWS; i++) of_flight[i / EACH] += out[i] * out[i];
+    for (int k = 0; k < FLIGHTS; k++) held += 1.0 / (color.between * color.between + 1.0 / of_flight[k]);
+    color_whiten(&color, &f->r, one, out);
+    for (int i = 0; i < ROWS; i++) holds += out[i] * out[i];
+    CHECK_NEAR(holds, held, 1e-9);
+    color_whiten(&color, &f->r, f->v, out);
+    for (int i = 0; i < ROWS; i++) left += out[i] * out[i];
+    CHECK_NEAR(color_left(&f->r, &color, f->v), left, 1e-9 * left);
+    free(f);
+  }
 }
 
 TEST(gap_takes_out_of_rows_what_flights_have_for_their_own) {
@@ -101,6 +105,7 @@ TEST(gap_errors_grow_where_flights_contradict_each_other) {
   const choice_t none = {.n = 0};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
+    why_t why = {""};
     ROW("apart by %g", row[i].apart);
     gap_rows_make(&g, 7);
     const int drag = gap_rows_candidate(&g, "rotor_drag");
@@ -117,6 +122,10 @@ TEST(gap_errors_grow_where_flights_contradict_each_other) {
     const double told = score_last(&g.round.score, &with).stderr_[0] / typical;
     CHECK(told >= alone && told > row[i].least && told < row[i].most);
     CHECK(row[i].apart == 0.0 || told > 3.0 * alone); // blocks, each by itself, say it of one flight
+    evidence_t e;
+    CHECK_OK(evidence_make(&e, &g.round, &why));
+    CHECK((evidence_of(&e, &g.candidates, 1, &drag) > 0.9) == (row[i].apart == 0.0));
+    evidence_free(&e);
     gap_rows_free(&g);
   }
 }

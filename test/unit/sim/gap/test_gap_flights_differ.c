@@ -1,5 +1,7 @@
 // test_gap_flights_differ.c - what flights differ by is told, flight by flight, and as which effect it acts.
 #include "gap/5_infer/flights_differ.h"
+#include "gap/2_predict/lift.h"
+#include "gap/2_predict/residual.h"
 #include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/unknown.h"
 #include "gap/8_report/report.h"
@@ -90,21 +92,43 @@ TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
                         .error = error,
                         .use = use};
   CHECK_TEXT(report_cell(&d.cell, cell), "0.1 +- 0.002 m/s2 rms in force_y, from flight to flight");
-  CHECK_TEXT(
-      report_differ(r, &d, text),
-      "force_y is another in each flight: -0.06 in a.csv, +0.13 in b.csv, -0.07 in c.csv, +- 0.002 m/s2");
+  CHECK_TEXT(report_differ(r, &d, text), "force_y is another in each flight, about the mean of all: -0.06 in "
+                                         "a.csv, +0.13 in b.csv, -0.07 in c.csv, +- 0.003 m/s2");
   d.as = (acts_as_t){1, {{.use = use[0], .share = 0.97}}};
-  CHECK(strstr(report_differ(r, &d, text),
-               "+- 0.002 m/s2; it acts as accel_bias would, of another size in each "
-               "(x 0, 0.01, 0.02 m/s2: 97 % of it)"));
+  CHECK(strstr(
+      report_differ(r, &d, text),
+      "+- 0.003 m/s2; beyond the file and what is named it acts as accel_bias would, of another size in each "
+      "(x 0, 0.01, 0.02 m/s2: 97 % of the difference)"));
   d.n = 8; // more than a line holds
   error[7] = 0.0;
   study->fit.n = 8;
   for (int f = 3; f < 8; f++) flight[f] = (gap_flight_t){.name = "d.csv"};
-  CHECK(strstr(report_differ(r, &d, text), "in c.csv, .. +- 0.002"));
-  CHECK(strstr(text, "(x 0, 0.01, 0.02, 0.03, 0.04, 0.05, .. m/s2: 97 % of it)"));
+  CHECK(strstr(report_differ(r, &d, text), "in c.csv, .. +- 0.003"));
+  CHECK(strstr(text, "(x 0, 0.01, 0.02, 0.03, 0.04, 0.05, .. m/s2: 97 % of the difference)"));
   free(study);
   free(r);
+}
+
+TEST(gap_finds_the_lift_over_its_mean_of_several_flights) {
+  gap_track_t t;
+  lines_t l;
+  why_t why = {""};
+  double mean = 0.0, off = 0.0, mean_mps2 = 0.0;
+  if (!CHECK_OK(gap_track_make(&t, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  CHECK_OK(lines_make(&l, &t.set, &why));
+  const int n = t.set.smooth.n;
+  t.set.n_grid = 1;
+  CHECK_OK(lift_find(&t.set, &t.vehicle, &why));
+  CHECK(!t.set.smooth.lift); // one differs from nobody
+  t.set.n_grid = 2;
+  CHECK_OK(lift_find(&t.set, &t.vehicle, &why));
+  CHECK_OK(residual_measured(&t.set, l.r, &why));
+  for (int i = 0; i < n; i++) mean += t.set.smooth.lift[i] / n, mean_mps2 += l.r[CH_FZ][i] / n;
+  for (int i = 0; i < n; i++) off += pow(t.set.smooth.lift[i] - l.r[CH_FZ][i] / mean_mps2, 2.0) / n;
+  CHECK_NEAR(mean, 1.0, 1e-9);
+  CHECK(sqrt(off) < 0.02); // the accelerometer's noise, and drag
+  lines_free(&l);
+  gap_track_free(&t);
 }
 
 // A centre of mass that is elsewhere in each flight, about x.

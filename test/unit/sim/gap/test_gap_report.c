@@ -320,8 +320,7 @@ TEST(gap_advises_to_fly_where_something_is_but_not_when) {
       {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
        "fly: the same again with another pilot or other gains, and see whether it stays at frequency "
        "2.4 to 2.6 Hz"},
-      {{.along = BY_FLIGHT, .coordinate = "flight"},
-       "fly: again and again with nothing touched in between, "},
+      {{.along = BY_FLIGHT, .coordinate = "flight"}, "fly: twice with nothing touched in between, "},
   };
   study_t *const study = calloc(1, sizeof *study);
   report_t *const r = calloc(1, sizeof *r);
