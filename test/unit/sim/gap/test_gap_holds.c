@@ -22,7 +22,8 @@ typedef struct {
   double most; // rms that is left, over that of the turning
 } case_t;
 
-static double v[SIG_COUNT][MOST], t_s[MOST];
+// No more than is logged: the test of long logs counts what all tests keep.
+static double rate_radps[3][MOST], thrust_N[ROTORS][MOST], t_s[MOST];
 static int segment[MOST];
 
 static void command(const model_t *m, double roll_N, double yaw_N, double to_N[ROTORS]) {
@@ -57,8 +58,8 @@ static void fly(gap_flight_t *f, const model_t *m, const case_t *c) {
                       .command_Hz = c->rate_Hz,
                       .t_s = t_s,
                       .segment = segment};
-  for (int i = SIG_GX; i <= SIG_GZ; i++) f->v[i] = v[i];
-  for (int i = SIG_F1; i <= SIG_F4; i++) f->v[i] = v[i];
+  for (int k = 0; k < 3; k++) f->v[SIG_GX + k] = rate_radps[k];
+  for (int k = 0; k < ROTORS; k++) f->v[SIG_F1 + k] = thrust_N[k];
   for (int i = 0; i < f->n; i++) {
     double told_N[ROTORS], to_N[ROTORS];
     segment[i] = c->split && i >= f->n / 2;
@@ -67,11 +68,11 @@ static void fly(gap_flight_t *f, const model_t *m, const case_t *c) {
     command(m, splitmix_normal(&draw, JUMP_N), splitmix_normal(&draw, JUMP_N), told_N);
     for (int k = 0; k < ROTORS; k++) {
       const int from = i - late < 0 ? 0 : i - late;
-      v[SIG_F1 + k][i] = told_N[k];
-      to_N[k] = segment[from] == segment[i] ? v[SIG_F1 + k][from] : v[SIG_F1 + k][f->n / 2];
+      thrust_N[k][i] = told_N[k];
+      to_N[k] = segment[from] == segment[i] ? thrust_N[k][from] : thrust_N[k][f->n / 2];
       if (i == 0 || segment[i] != segment[i - 1]) now_N[k] = to_N[k]; // it was there long enough
     }
-    for (int k = 0; k < 3; k++) v[SIG_GX + k][i] = radps[k];
+    for (int k = 0; k < 3; k++) rate_radps[k][i] = radps[k];
     for (int k = 0; k < steps; k++) turn(m, to_N, keep, span_s, now_N, radps);
   }
 }
