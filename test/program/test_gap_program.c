@@ -262,6 +262,38 @@ TEST(gap_lists_what_missing_rates_leave_untested) {
   cJSON_Delete(v);
 }
 
+// The battery was strapped on elsewhere before the second flight.
+TEST(gap_writes_of_every_flight_what_it_has_where_flights_differ) {
+  char text[4000];
+  fx_use_t offset = fx_use(fx_find("cg_offset"));
+  offset.p[0] = 0.002;
+  CHECK(gap_logs_fly("one", 1, NULL) && gap_logs_fly("two", 1, &offset));
+  CHECK(program_run(GAP "--json $S/differ.json $S/one0.csv $S/two0.csv", STREAM_OUTPUT, text, sizeof text) ==
+        0);
+  cJSON *const v = verdict_read("differ.json");
+  verdict_check(v);
+  CHECK_TEXT(verdict_string(v, "verdict"), "unknown");
+  const cJSON *const group =
+      cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(v, "unknown"), "from_flight_to_flight"), 0);
+  CHECK_TEXT(verdict_string(group, "channel"), "turn_y"); // of an offset forwards
+  CHECK_TEXT(verdict_string(group, "unit"), "rad/s2");
+  const cJSON *const flights = cJSON_GetObjectItem(group, "flights");
+  const cJSON *const would = cJSON_GetArrayItem(cJSON_GetObjectItem(group, "acts_as"), 0);
+  const cJSON *const parameters = cJSON_GetObjectItem(would, "parameters");
+  CHECK_TEXT(verdict_string(would, "name"), "cg_offset");
+  CHECK(verdict_number(would, "share") > 0.9);
+  if (CHECK(cJSON_GetArraySize(flights) == 2 && cJSON_GetArraySize(parameters) == 2)) {
+    const cJSON *const one = cJSON_GetArrayItem(flights, 0), *const two = cJSON_GetArrayItem(flights, 1);
+    CHECK(strstr(verdict_string(one, "log"), "one0.csv") && strstr(verdict_string(two, "log"), "two0.csv"));
+    CHECK(fabs(verdict_number(one, "mean") - verdict_number(two, "mean")) >
+          10.0 * hypot(verdict_number(one, "stderr"), verdict_number(two, "stderr")));
+    CHECK_NEAR(verdict_number(cJSON_GetArrayItem(parameters, 1), "dx") -
+                   verdict_number(cJSON_GetArrayItem(parameters, 0), "dx"),
+               offset.p[0], 0.1 * offset.p[0]);
+  }
+  cJSON_Delete(v);
+}
+
 TEST(gap_says_where_something_without_a_name_is) {
   char text[4000];
   strange_t answer;

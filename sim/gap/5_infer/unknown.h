@@ -2,10 +2,10 @@
 // show as much.
 //
 // A look is one way to look at a residual: along a coordinate, on patches of the floor (windows.h), from
-// flight to flight, for pulses, for lines (in_time.h). Each channel is looked at in each
-// way; the lateral force in the body's axes and, level, in the world's. What feedback leaves differs from
-// look to look by far more than chance: each is measured against what the same look finds in nominal flights,
-// and the one that explains most beyond that tells.
+// flight to flight, for pulses, for lines (in_time.h). Each channel is looked at in each way; the lateral
+// force in the body's axes and, level, in the world's. What feedback leaves differs from look to look by far
+// more than chance: each is measured against what the same look finds in nominal flights, and the one that
+// explains most beyond that tells.
 #ifndef SIM_GAP_5_INFER_UNKNOWN_H
 #define SIM_GAP_5_INFER_UNKNOWN_H
 
@@ -33,13 +33,8 @@ MUST_CHECK done_t unknown_along(const set_t *s, const model_t *m, int from, int 
 
 // --- all looks --------------------------------------------------------------------------------------------
 
-enum {
-  LOOK_FLOOR = COORDINATES,
-  LOOK_FLIGHTS,
-  LOOK_PULSE,
-  LOOK_LINE,
-  UNKNOWN_LOOKS
-}; // those before: along a coordinate
+// Those before the floor are along a coordinate.
+enum { LOOK_FLOOR = COORDINATES, LOOK_FLIGHTS, LOOK_PULSE, LOOK_LINE, UNKNOWN_LOOKS };
 
 // Each channel, and the lateral force (the channels before CH_FZ) in the world's axes, too.
 enum { UNKNOWN_CELLS = (CHANNELS + CH_FZ) * UNKNOWN_LOOKS };

@@ -44,10 +44,10 @@ static void advise_place(report_t *r, const cell_t *cell) {
     note(&r->to_do, "fly: the same again with another pilot or other gains, and see whether it stays %s",
          where);
   else if (cell->along == BY_FLIGHT)
-    note(&r->to_do, "fly: twice with nothing touched in between, then with the battery strapped on anew, "
-                    "then started anew, "
-                    "then in still air: it differs by what is done where it changes; to know what one flight "
-                    "has, give it alone");
+    note(&r->to_do,
+         "fly: twice with nothing touched in between, then with the battery strapped on anew, then "
+         "started anew, then in still air: it differs by what is done where it changes; to know "
+         "what one flight has, give it alone");
   else
     note(&r->to_do, "fly: the same again with more time %s, and as much beside it", where);
 }

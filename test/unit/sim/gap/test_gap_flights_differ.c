@@ -26,7 +26,7 @@ static const would_do_t *would(const flights_differ_t *d, const char *name, int 
   return NULL;
 }
 
-// q: of what is told of force_x.
+// statistic: of force_x, from flight to flight.
 static flights_differ_t look(double *statistic) {
   gap_track_t t;
   candidates_t c;

@@ -62,8 +62,9 @@ TEST(gap_measures_a_misfit_by_itself_and_not_by_nominal_flights) {
   }
 }
 
-// Ties, and what is told of them: a place before a time before a state, whatever explains a little more; what
-// alone would not be told is not in a tie either. Along the body's axes and the world's it is one force.
+// Ties, and what is told of them: flights that differ before a place, a place before a time before a state,
+// whatever explains a little more; what alone would not be told is not in a tie either. Along the body's axes
+// and the world's it is one force.
 typedef struct {
   int channel, along;
   bool world;
@@ -85,6 +86,10 @@ static const struct {
       {CH_FZ, COORDINATE_VEL_X, false, 350, 9}},
      1,
      0},
+    {"flights that are flown elsewhere differ",
+     {{CH_FZ, BY_FLIGHT, false, 340, 9}, {CH_FZ, COORDINATE_HEIGHT, false, 400, 9}},
+     0,
+     1},
     {"a misfit at a place",
      {{CH_FZ, COORDINATE_TIME, false, 400, 9}, {CH_FZ, COORDINATE_HEIGHT, false, 390, 0.1}},
      0,
@@ -103,7 +108,7 @@ static const struct {
      -1},
 };
 
-TEST(gap_tells_a_place_before_a_time_before_a_state) {
+TEST(gap_tells_flights_before_a_place_before_a_time_before_a_state) {
   const double misfit[CHANNELS] = {0.02, 0.02, 0.02, 0.02};
   scan_t nominal[NOMINAL_FLIGHTS] = {{.cell = {{.statistic = 0.0}}}};
   for (int i = 0; i < NOMINAL_FLIGHTS; i++)
