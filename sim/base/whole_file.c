@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700 // realpath, fchown
 #include "base/whole_file.h"
 
+#include "base/folder.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +11,6 @@
 
 static done_t cannot(const char *path, why_t *why) {
   return error_set(why, "%.300s: cannot be written: %s", path, strerror(errno));
-}
-
-// How many bytes of the path are its folder; 0: there is none in it.
-static int folder_size(const char *path) {
-  const char *const slash = strrchr(path, '/');
-  return slash ? (int)(slash - path) + 1 : 0;
 }
 
 // The path with a folder without links, so that two ways to one place compare equal. The last part of it is

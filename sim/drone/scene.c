@@ -1,6 +1,7 @@
 // scene.c - where simulated vehicles fly for clients.
 #include "drone/scene.h"
 
+#include "base/folder.h"
 #include "base/number.h"
 #include "drone/rows.h"
 #include "flight/request_spec.h"
@@ -50,8 +51,7 @@ static done_t take_vehicle(toml_t t, const char *scene_path, model_t *model, why
     return toml_refuse(t, "vehicle", why, "%s: allowed is one of sim/vehicle/vehicles, or a file's path",
                        name);
   }
-  const char *const slash = strrchr(scene_path, '/');
-  const int folder = slash && name[0] != '/' ? (int)(slash - scene_path + 1) : 0;
+  const int folder = name[0] != '/' ? folder_size(scene_path) : 0;
   if (folder > TEXT_MAX)
     return toml_refuse(t, "vehicle", why, "the path is too long; allowed are 256 characters");
   snprintf(path, sizeof path, "%.*s%s", folder, scene_path, name);

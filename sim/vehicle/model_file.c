@@ -3,6 +3,7 @@
 #include "vehicle/model_file.h"
 
 #include "base/constants.h"
+#include "base/folder.h"
 #include "base/nearest.h"
 #include "base/toml.h"
 #include "vehicle/effect_spec.h"
@@ -44,8 +45,7 @@ static done_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
 static done_t points_from_file(toml_t t, const char *model_path, curve_points_t *points, why_t *why) {
   char file[256], path[600];
   TRY(toml_string(t, "file", file, sizeof file, why));
-  const char *const slash = strrchr(model_path, '/');
-  const int folder = slash && file[0] != '/' ? (int)(slash - model_path) + 1 : 0;
+  const int folder = file[0] != '/' ? folder_size(model_path) : 0;
   snprintf(path, sizeof path, "%.*s%s", folder, model_path, file);
   return effect_read_points(points, path, why);
 }
@@ -226,7 +226,7 @@ static done_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *
 
 // Where there is no such file: a vehicle of which the path is the name, or nearly.
 static done_t no_file(const char *path, why_t *why) {
-  const char *const slash = strrchr(path, '/'), *const name = slash ? slash + 1 : path;
+  const char *const name = folder_none(path);
   char word[NEAREST_LETTERS + 1] = "";
   const size_t size = strlen(name), end = size > 5 && strcmp(name + size - 5, ".toml") == 0 ? size - 5 : size;
   if (end < sizeof word) memcpy(word, name, end);

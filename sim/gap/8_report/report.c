@@ -1,6 +1,7 @@
 // report.c - what is to be said of a study.
 #include "gap/8_report/report.h"
 
+#include "base/folder.h"
 #include <math.h>
 #include <string.h>
 
@@ -89,9 +90,13 @@ static void take_others(report_t *r) {
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
-const char *report_base_name(const char *path) {
-  const char *const slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
+const char *report_log_name(const report_t *r, const gap_flight_t *log) {
+  const study_t *const s = r->study;
+  const char *const own = folder_none(log->name);
+  for (int i = 0; i < s->fit.n + s->held.n; i++)
+    if (strcmp(s->flight[i].name, log->name) != 0 && strcmp(folder_none(s->flight[i].name), own) == 0)
+      return log->name;
+  return own;
 }
 
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]) {

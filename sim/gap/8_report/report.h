@@ -146,8 +146,8 @@ interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
-// Of a path what stands behind the last slash.
-const char *report_base_name(const char *path);
+// What stands behind the last slash of a log's path; all of it where another log has that name, too.
+const char *report_log_name(const report_t *r, const gap_flight_t *log);
 // What to fly to tell the two apart; pairs of which neither says it: what shows each.
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
 // Where a cell is: "at height 0.4 to 0.6 m". Returns text.

@@ -88,7 +88,7 @@ const char *report_differ(const report_t *r, const flights_differ_t *d, char tex
   for (int f = 0; f < told; f++)
     if (d->error[f] > 0.0)
       text_add(text, REPORT_DIFFER, "%+.3g in %s, ", d->mean[f],
-               report_base_name(r->study->fit.flight[f].name));
+               report_log_name(r, &r->study->fit.flight[f]));
   double error = 0.0;
   for (int f = 0; f < d->n; f++) error = fmax(error, d->error[f]);
   text_add(text, REPORT_DIFFER, "%s+- %.1g %s", d->n > told ? ".. " : "", error, gap_unit[d->cell.channel]);

@@ -2,6 +2,7 @@
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
+#include "base/folder.h"
 #include "vehicle/frame_file.h"
 #include <math.h>
 #include <string.h>
@@ -22,7 +23,7 @@ static void warn_of_logs(report_t *r) {
     const gap_flight_t *const f = &s->flight[i];
     for (int k = 0; k < f->n_note; k++) {
       const bool named = strncmp(f->note[k], f->name, strlen(f->name)) == 0;
-      warn(r, "%s%s%s", named ? "" : report_base_name(f->name), named ? "" : ": ", f->note[k]);
+      warn(r, "%s%s%s", named ? "" : report_log_name(r, f), named ? "" : ": ", f->note[k]);
     }
   }
 }
@@ -40,7 +41,7 @@ static void warn_of_floors(report_t *r) {
          "heights of %s count from %.3g m, where it stood, and those of %s, which does not begin on the "
          "floor, "
          "from 0: rest_height_m in the columns file says it of all",
-         report_base_name(lowered->name), lowered->floor_m, report_base_name(other->name));
+         report_log_name(r, lowered), lowered->floor_m, report_log_name(r, other));
 }
 
 static void warn_of_gap(report_t *r) {
@@ -250,11 +251,11 @@ static void warn_of_vehicle(report_t *r) {
     warn(r,
          "%s: thrust_max_N lifts %.3g times the weight of mass_kg; quadrotors lift %g to %g times theirs (is "
          "mass_kg in kg, and thrust_max_N that of all motors in N?)",
-         report_base_name(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
+         folder_none(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
   char lacks[FRAME_LACKS];
   if (frame_lacks(m, lacks)[0])
     warn(r, "%s does not say %s: those of a Crazyflie are taken, scaled to this mass and radius",
-         report_base_name(study_vehicle(r->study)), lacks);
+         folder_none(study_vehicle(r->study)), lacks);
 }
 
 // An acceleration that comes in the world's axes, or is made of the velocity, is turned into the body's by
@@ -327,7 +328,7 @@ static void warn_of_bumps(report_t *r) {
         warn(r,
              "%s: it touched the ceiling, at about %.1f s for the first time; what was measured then is left "
              "out",
-             report_base_name(g->flight->name), g->bump_s);
+             report_log_name(r, g->flight), g->bump_s);
     }
 }
 

@@ -79,6 +79,7 @@ TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
   study_t *const study = calloc(1, sizeof *study);
   report_t *const r = calloc(1, sizeof *r);
   r->study = study;
+  study->flight = flight;
   study->fit = (gap_flights_t){flight, 3};
   for (int i = 0; i < ACTS_AS_MAX * 8; i++) {
     use[i] = fx_use(fx_find("accel_bias"));
@@ -99,6 +100,9 @@ TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
       report_differ(r, &d, text),
       "+- 0.003 m/s2; beyond the file and what is named it acts as accel_bias would, of another size in each "
       "(x 0, 0.01, 0.02 m/s2: 97 % of the difference)"));
+  strcpy(flight[2].name, "again/b.csv"); // which of both is told
+  CHECK(strstr(report_differ(r, &d, text), "-0.06 in a.csv, +0.13 in b.csv, -0.07 in again/b.csv, +- "));
+  strcpy(flight[2].name, "c.csv");
   d.n = 8; // more than a line holds
   error[7] = 0.0;
   study->fit.n = 8;
