@@ -128,20 +128,28 @@ static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t 
   return dropped ? both_ways_take(chosen, &d->candidates, &d->fit, job->model, why) : DONE;
 }
 
+static done_t fit_and_fly(const diagnose_job_t *job, diagnosis_t *d, const chosen_t *chosen, why_t *why) {
+  model_t m;
+  TRY(chosen_model(chosen, job->model, &m, why));
+  TRY(loop_fit(&d->loop, &d->fit, &m, job->flown_by, job->seed + TRIAL_SEED, why));
+  return fly_with(job, d, chosen, why);
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
-// it.
+// it. With names that no pilot could fly it was wrong, and the next one begins with none.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
-  model_t m;
   const done_t status = look_first(job, d, &first, why);
   chosen_t chosen = first.chosen;
   found_free(&first);
   TRY(status);
   TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));
   TRY(drop_own_work(job, d, &chosen, why));
-  TRY(chosen_model(&chosen, job->model, &m, why));
-  TRY(loop_fit(&d->loop, &d->fit, &m, job->flown_by, job->seed + TRIAL_SEED, why));
-  return fly_with(job, d, &chosen, why);
+  TRY(fit_and_fly(job, d, &chosen, why));
+  if (d->nominal_flew || chosen.n == 0) return DONE;
+  const chosen_t none = {.n = 0};
+  d->before = none;
+  return fit_and_fly(job, d, &none, why);
 }
 
 static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {

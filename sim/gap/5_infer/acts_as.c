@@ -23,7 +23,7 @@ done_t remains_make(remains_t *r, set_t *s, const model_t *base, const candidate
   design_t table = {.columns = 0};
   r->g = (gram_t){.size = 0};
   take_numbers(r, c, chosen);
-  const explained_t known = {r->n, r->column, r->b, true};
+  const explained_t known = {r->n, r->column, r->b, true, NULL};
   done_t status = design_make(&table, s, base, c, chosen, why);
   if (status == DONE) status = gram_make(&r->g, s, &table, &known, NULL, why);
   design_free(&table);

@@ -60,7 +60,7 @@ static done_t take_sums(fitting_t *t, set_t *s, const model_t *base, why_t *why)
       column[at] = at;
       value[at] = fx_use_size(&t->own.use[i], k);
     }
-  const explained_t known = {t->names.columns, column, value, false};
+  const explained_t known = {t->names.columns, column, value, false, NULL};
   t->turn = calloc((size_t)s->n_block + 1, sizeof(int));
   if (!t->turn) return error_failed(why, "out of memory");
   find_turns(s, t->turn);

@@ -230,7 +230,7 @@ static done_t take_products(const confirming_t *t, const design_t *table, gram_t
       column[t->names.candidate[i].first + k] = t->names.candidate[i].first + k;
       value[t->names.candidate[i].first + k] = fx_use_size(&t->chosen.use[i], k);
     }
-  const explained_t known = {n, column, value, false};
+  const explained_t known = {n, column, value, false, NULL};
   TRY(gram_make(g, t->s, table, &known, NULL, why));
   set_apart(g, n);
   return DONE;

@@ -33,7 +33,7 @@ done_t local_left(const round_t *round, const choice_t *choice, double *left[CHA
 done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why) {
   const double zero[COLUMN_MAX] = {0.0};
   int column[COLUMN_MAX];
-  const explained_t known = {choice_columns(round->c, &round->choice, column), column, zero, true};
+  const explained_t known = {choice_columns(round->c, &round->choice, column), column, zero, true, NULL};
   gram_t plain;
   score_t score = round->score;
   TRY(gram_make(&plain, round->s, &round->table, &known, NULL, why));

@@ -61,6 +61,7 @@ static void find_misfit(double misfit[CHANNELS], const set_t *s, const design_t 
 // What one of the flights gives: number i of NOMINAL_FLIGHTS along each of the set's tracks.
 typedef struct {
   const nominal_job_t *job;
+  const double *between; // by channel: of the log's flights
   int i;
   done_t status;
   why_t why;
@@ -88,7 +89,7 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
     p->floor[ch] = rows ? sqrt(sum / rows) : 0.0;
   }
   if (p->first) find_misfit(p->misfit, s, &t, job->c);
-  done_t status = gram_make_total(&g, s, &t, job->ridge, why);
+  done_t status = gram_make_total(&g, s, &t, job->ridge, p->between, why);
   if (status == DONE) {
     memcpy(p->total, g.total, (size_t)(g.size * g.size) * sizeof(double));
     if (p->first) status = find_errors(p->kept, s, &t, g.color, truth, job, why);
@@ -145,11 +146,16 @@ static void end_part(part_t *p) {
 
 // Flown side by side, then each by itself. What errors make of a size is told by the first flight that could
 // be flown.
-static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job) {
+static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job,
+                    const double between[CHANNELS]) {
   const size_t room = (size_t)(n->size * n->size);
   for (int i = 0; i < NOMINAL_FLIGHTS; i++)
-    part[i] =
-        (part_t){.job = job, .i = i, .total = n->total + (size_t)i * room, .kept = n->kept, .first = i == 0};
+    part[i] = (part_t){.job = job,
+                       .between = between,
+                       .i = i,
+                       .total = n->total + (size_t)i * room,
+                       .kept = n->kept,
+                       .first = i == 0};
   side_by_side_shared(NOMINAL_FLIGHTS, fly, part);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < NOMINAL_FLIGHTS; i++) end_part(&part[i]);
@@ -190,8 +196,13 @@ done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why) {
   part_t *const part = malloc(NOMINAL_FLIGHTS * sizeof *part);
   for (int k = 0; n->kept && k < n->size; k++) n->kept[k] = 1.0;
   const bool room = n->total && n->scan && n->left && n->kept && part;
-  if (room) fly_all(n, part, job);
-  const done_t status = room ? take_parts(n, part, why) : error_failed(why, "out of memory");
+  double between[CHANNELS];
+  done_t status =
+      room ? whiten_between(job->set, &job->flown, between, why) : error_failed(why, "out of memory");
+  if (status == DONE) {
+    fly_all(n, part, job, between);
+    status = take_parts(n, part, why);
+  }
   free(part);
   if (status != DONE) nominal_free(n);
   return status;

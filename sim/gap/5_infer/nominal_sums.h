@@ -29,7 +29,7 @@ typedef struct {
 // What is flown: the model with what the first look has named, at its values. Nothing else is hidden; every
 // estimate is an error.
 typedef struct {
-  const set_t *set;
+  set_t *set;
   const model_t *base; // without
   model_t flown;       // with
   const candidates_t *c;
@@ -40,9 +40,10 @@ typedef struct {
 } nominal_job_t;
 
 // NOMINAL_FLIGHTS times all flights of the set, of each its first 60 s at most: sums of products of the
-// candidates' columns with the residual; of the first one, by column x and without errors x', what least
-// squares find of a size: x x' / x x. A flight that cannot be flown is left out alone; n is 0 where none can.
-// FAILED: no memory.
+// candidates' columns with the residual, in colours in which these flights may differ as much as the log's
+// do, for what is compared is to be weighed alike; of the first one, by column x and without errors x', what
+// least squares find of a size: x x' / x x. A flight that cannot be flown is left out alone; n is 0 where
+// none can. FAILED: no memory.
 MUST_CHECK done_t nominal_make(nominal_t *n, const nominal_job_t *job, why_t *why);
 // What looks find in each, by the base that it was made with: not in flights that are flown anew before
 // somebody asks. FAILED: no memory.

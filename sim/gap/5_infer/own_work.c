@@ -57,7 +57,7 @@ static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *
   gram_t g;
   TRY(design_make(&t, job->set, job->base, &a->names, &a->without, why));
   design_add_chosen(&t, job->set, &a->names, &a->without, -1.0);
-  const done_t status = gram_make_total(&g, job->set, &t, a->score.ridge, why);
+  const done_t status = gram_make_total(&g, job->set, &t, a->score.ridge, NULL, why);
   if (status == DONE) *takes_of_it = takes(a, g.total);
   if (status == DONE) gram_free(&g);
   design_free(&t);

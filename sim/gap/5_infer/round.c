@@ -17,7 +17,7 @@ static explained_t known_of(const round_t *r, int column[COLUMN_MAX], double b[C
     const fx_use_t *const use = chosen_use(&r->chosen, r->choice.of[i]);
     for (int k = 0; k < r->c->candidate[r->choice.of[i]].n; k++) b[n++] = use ? fx_use_size(use, k) : 0.0;
   }
-  return (explained_t){choice_columns(r->c, &r->choice, column), column, b, false};
+  return (explained_t){choice_columns(r->c, &r->choice, column), column, b, false, NULL};
 }
 
 static done_t closed_on_error(round_t *r, done_t status) {

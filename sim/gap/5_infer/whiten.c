@@ -28,6 +28,7 @@ static bool fit_color(gram_t *g, const set_t *s, const design_t *t, int ch, cons
     rows_center(r, left);
     g->color[ch] = color_plain(r, left);
   }
+  if (e->between) g->color[ch].between = fmax(g->color[ch].between, e->between[ch]);
   free(left);
   return true;
 }
@@ -168,14 +169,15 @@ static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const expla
 
 // In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
 // least squares come first; an autoregression of the raw residual would hide what is slow in it.
-static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge, bool total_alone) {
+static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge, const double *between,
+                   bool total_alone) {
   const int n = t->columns;
   int *const column = malloc(((size_t)n + 1) * sizeof(int));
   double *const b = malloc(((size_t)n + 1) * sizeof(double));
-  explained_t e = {0, column, b, true};
+  explained_t e = {0, column, b, true, between};
   bool good = column && b && fill_total(g, s, t, &e, NULL);
   for (int i = 0; good && i < n; i++) column[i] = i;
-  e = (explained_t){n, column, b, false};
+  e = (explained_t){n, column, b, false, between};
   for (int i = 0; good && i < 2; i++) {
     lsq_solve_products(g->total, g->size, column, n, ridge, b, NULL);
     good = i == 0 || total_alone ? fill_total(g, s, t, &e, NULL) : fill(g, s, t, &e);
@@ -202,17 +204,19 @@ done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const explained_t
     g->by_group[i] = calloc((size_t)g->n_half * room, sizeof(double));
     good = good && g->by_group[i];
   }
-  if (good) good = ridge ? refine(g, s, t, ridge, false) : fill(g, s, t, known);
+  if (good) good = ridge ? refine(g, s, t, ridge, NULL, false) : fill(g, s, t, known);
   if (good) return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
 }
 
-done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const double *ridge, why_t *why) {
-  const explained_t nothing = {.n = 0};
+done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
+                       const double *between, why_t *why) {
+  const explained_t nothing = {.between = between};
   *g = (gram_t){.size = t->columns + 1};
   g->total = calloc((size_t)(g->size * g->size), sizeof(double));
-  if (g->total && (ridge ? refine(g, s, t, ridge, true) : fill_total(g, s, t, &nothing, NULL))) return DONE;
+  if (g->total && (ridge ? refine(g, s, t, ridge, between, true) : fill_total(g, s, t, &nothing, NULL)))
+    return DONE;
   gram_free(g);
   return error_failed(why, "out of memory");
 }
@@ -231,6 +235,19 @@ void gram_free(gram_t *g) {
     g->by_group[i] = NULL;
   }
   g->block = g->by_half = g->total = NULL;
+}
+
+done_t whiten_between(set_t *s, const model_t *m, double between[CHANNELS], why_t *why) {
+  lines_t l = {.r = {NULL}};
+  memset(between, 0, CHANNELS * sizeof(double));
+  if (s->n_grid < 2) return DONE;
+  double *const room = malloc(set_most_rows(s) * sizeof(double));
+  const done_t status = room ? residual_lines(s, m, &l, why) : error_failed(why, "out of memory");
+  for (int ch = 0; ch < CHANNELS && status == DONE; ch++)
+    if (residual_has(s, ch)) between[ch] = color_of_flights(set_rows(s, ch), l.r[ch], room).between;
+  lines_free(&l);
+  free(room);
+  return status;
 }
 
 done_t whiten_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left, why_t *why) {

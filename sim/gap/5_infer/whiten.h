@@ -45,6 +45,8 @@ typedef struct {
   const int *column;
   const double *b;
   bool plain; // no colour, spread alone
+  // By channel: flights differ by that much at least, whatever these do; null: they are the log's.
+  const double *between;
 } explained_t;
 
 // The colours are those of what `known` leaves, or with a ridge (by column) of what all columns together
@@ -55,11 +57,14 @@ MUST_CHECK done_t gram_make(gram_t *g, const set_t *s, const design_t *t, const 
 // is. known: as above, or null: in the colours that it has. FAILED: no memory.
 MUST_CHECK done_t gram_renew(gram_t *g, const set_t *s, const design_t *t, const explained_t *known,
                              const bool *some, why_t *why);
-// Their `total` and colours alone. ridge: as above, or null: in the colours of the residual.
+// Their `total` and colours alone. ridge: as above, or null: in the colours of the residual. between: as
+// explained_t has it.
 MUST_CHECK done_t gram_make_total(gram_t *g, const set_t *s, const design_t *t, const double *ridge,
-                                  why_t *why);
+                                  const double *between, why_t *why);
 void gram_free(gram_t *g);
 
+// What flights differ by, by channel, in what a model leaves (color.h). FAILED: no memory.
+MUST_CHECK done_t whiten_between(set_t *s, const model_t *m, double between[CHANNELS], why_t *why);
 // White sum of squares that a model leaves, in the colours of another one's residual.
 MUST_CHECK done_t whiten_left(set_t *s, const model_t *m, const color_t color[CHANNELS], double *left,
                               why_t *why);

@@ -3,6 +3,7 @@
 #include "gap/2_predict/lift.h"
 #include "gap/2_predict/residual.h"
 #include "gap/5_infer/loop_fit.h"
+#include "gap/5_infer/nominal_sums.h"
 #include "gap/5_infer/unknown.h"
 #include "gap/8_report/report.h"
 #include "rig/gap_track.h"
@@ -152,4 +153,42 @@ TEST(gap_nominal_flights_do_not_shake_by_what_the_log_s_flights_differ_by) {
   if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil_by_fitting_anew}, &why))) return;
   if (CHECK_OK(loop_fit(&loop, &r.set, &r.vehicle, NULL, 9, &why))) CHECK(loop.turn_radps2[0] < 6.0);
   gap_track_free(&r);
+}
+
+// Another weight in each flight, 6 % apart.
+static void spoil_by_weight(gap_track_t *r) {
+  for (int f = 0; f < 2; f++)
+    for (int k = 0; k < ROTORS; k++)
+      for (int i = 0; i < r->flight[f].n; i++) r->flight[f].v[SIG_M1 + k][i] *= f ? 1.03 : 0.97;
+}
+
+// What the rows of nominal flights hold of a thrust scale, 1.
+static double held_of_a_scale(void (*spoil)(gap_track_t *)) {
+  gap_track_t r;
+  candidates_t c;
+  nominal_t n;
+  why_t why = {""};
+  double holds = 0.0;
+  const chosen_t none = {.n = 0};
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil}, &why))) return NAN;
+  CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why));
+  const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1, NULL};
+  if (CHECK_OK(nominal_make(&n, &job, &why))) {
+    int scale = 0;
+    while (c.candidate[scale].use.fx != fx_find("thrust_scale")) scale++;
+    const int k = c.candidate[scale].first;
+    for (int i = 0; i < n.n; i++) holds += n.total[(i * n.size + k) * n.size + k] / n.n;
+    nominal_free(&n);
+  }
+  candidates_free(&c);
+  gap_track_free(&r);
+  return holds;
+}
+
+// With the lift as sure as if no flight differed they would not show what the turning makes of a thrust
+// scale, which is all that the log says of one.
+TEST(gap_weighs_nominal_flights_as_the_log_s_which_differ) {
+  const double alike = held_of_a_scale(NULL), differ = held_of_a_scale(spoil_by_weight);
+  ROW("%g and %g", alike, differ);
+  CHECK(differ > 0.0 && differ < 0.3 * alike);
 }
