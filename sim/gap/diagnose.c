@@ -260,14 +260,26 @@ static verify_job_t held_out(const diagnose_job_t *job, diagnosis_t *d) {
   return (verify_job_t){&d->held, job->model, &d->loop, &d->found, &d->turns};
 }
 
+// Where the fitted flights differ, another one has something of its own, too.
+static done_t find_own(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
+  model_t m;
+  TRY(chosen_model(&d->found.chosen, job->model, &m, why));
+  TRY(find_residual(d, &m, why));
+  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, d->turns.own, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (d->turns.own[ch] > 0.0) d->turns.own[ch] *= limits_another(d->fit.n_grid);
+  return DONE;
+}
+
 static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   const verify_job_t names = held_out(job, d);
   for (bool again = false;; again = true) {
     if (again) found_free(&d->found);
     TRY(find_names(job, d, why));
-    d->turns = (by_turns_t){1, {d->found.chosen}};
+    d->turns = (by_turns_t){.n = 1, .of = {d->found.chosen}};
     if (!held_apart(job))
       TRY(by_turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
+    TRY(find_own(job, d, why));
     TRY(verify_names(&names, &d->withdrawn, why));
     if (!bar_kinds(d)) return DONE;
   }
@@ -343,6 +355,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(job, d, why));
+  TRY(find_own(job, d, why));
   const verify_job_t names = held_out(job, d);
   return verify_held(&names, &d->nominal, &d->held_out, why);
 }

@@ -179,13 +179,19 @@ TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
 }
 
 // Each flight has another centre of mass, weight and bias: what is there beside it is named, what they have
-// in common by chance is not, and that they differ is told.
+// in common by chance is not, and that they differ is told. 32023's held-out flight weighs more than any
+// that is fitted, and it is no worse with the name; in 32073 the turning, which control makes, said 0.7 of a
+// scale of the thrust.
 TEST(users_logs_of_flights_before_which_something_was_fitted_anew_are_told_so) {
   static const struct {
     unsigned long seed;
     const char *hidden;
-  } row[] = {{31306, NULL}, {31312, "translational_lift"}, {31305, "inertia"}};
-  for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) {
+  } row[] = {{31306, NULL},
+             {32023, "translational_lift"},
+             {32073, "body_drag"},
+             {31312, "translational_lift"},
+             {31305, "inertia"}};
+  for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) {
     users_set_t set;
     why_t why;
     ROW("%lu", row[i].seed);

@@ -164,18 +164,31 @@ static double constant_in(const rows_t *r, const double *v, int from, int end) {
   return square > 0.0 ? product / square : 0.0;
 }
 
-static void make_constant(const rows_t *r, double *v, double to) {
+double rows_constant(const rows_t *r, const double *v, int flight) {
+  int from = 0, end = r->n;
+  while (flight >= 0 && from < r->n && r->flight[from] < flight) from++;
+  while (flight >= 0 && end > from && r->flight[end - 1] > flight) end--;
+  return constant_in(r, v, from, end);
+}
+
+// Each flight's becomes `to`, with what its square has beyond that of `may`.
+static void make_constant(const rows_t *r, double *v, double to, double may) {
   for (int from = 0, end; from < r->n; from = end) {
     for (end = from; end < r->n && r->flight[end] == r->flight[from];) end++;
-    const double more = constant_in(r, v, from, end) - to;
+    const double is = constant_in(r, v, from, end) - to;
+    const double more = is - copysign(sqrt(fmax(is * is - may * may, 0.0)), is);
     for (int i = from; i < end; i++) v[i] -= more * rows_lift(r, i);
   }
 }
 
 void rows_center(const rows_t *r, double *v) {
-  make_constant(r, v, 0.0);
+  make_constant(r, v, 0.0, HUGE_VAL);
 }
 
 void rows_level(const rows_t *r, double *v) {
-  make_constant(r, v, constant_in(r, v, 0, r->n));
+  make_constant(r, v, constant_in(r, v, 0, r->n), HUGE_VAL);
+}
+
+void rows_beyond(const rows_t *r, double *v, double may) {
+  make_constant(r, v, 0.0, may);
 }

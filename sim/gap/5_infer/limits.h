@@ -33,6 +33,12 @@ static inline double limits_nominal(int flights) {
   return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, flights ? flights : NOMINAL_FLIGHTS));
 }
 
+// A normal number over the spread of so many others, of which the mean is taken, too: SELECT_ALPHA are
+// larger.
+static inline double limits_another(int others) {
+  return others > 1 ? sqrt((1.0 + 1.0 / others) * lsq_f_quantile(SELECT_ALPHA, 1, others - 1)) : HUGE_VAL;
+}
+
 // Standard errors that noise alone exceeds, either way, in one of so many tries, with that chance.
 static inline double limits_noise(int tries) {
   return lsq_t_quantile(SELECT_ALPHA / 2.0 / tries, HUGE_VAL);

@@ -63,6 +63,11 @@ typedef struct {
   cell_t also; // of the same force, along something else, explains as much but for a fifth; statistic 0: none
 } judged_t;
 
+// By channel, what flights differ by in a residual (rms of their constants), where that is more than n
+// nominal flights show; else 0. FAILED: no memory.
+MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                 const scan_t *nominal, int n, double between[CHANNELS], why_t *why);
+
 // Of what explains most, that explains as much: a window ends on a bin, and may miss a fifth of what is
 // there.
 #define UNKNOWN_TIE 0.8

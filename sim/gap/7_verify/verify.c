@@ -28,6 +28,10 @@ static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) 
   }
 }
 
+static void take_own(const set_t *s, const by_turns_t *turns, lines_t *l) {
+  for (int ch = 0; ch < CHANNELS; ch++) rows_beyond(set_rows(s, ch), l->r[ch], turns->own[ch]);
+}
+
 // candidate: without it; below 0: with all names.
 static done_t lines_without(set_t *s, const model_t *base, const by_turns_t *turns, int candidate, lines_t *l,
                             why_t *why) {
@@ -42,7 +46,15 @@ static done_t lines_without(set_t *s, const model_t *base, const by_turns_t *tur
     if (status == DONE) take_turn(l, &own, s, turns->n > 1 ? k : ALL_TURNS);
     lines_free(&own);
   }
+  if (status == DONE) take_own(s, turns, l);
   return status;
+}
+
+done_t verify_lines_before(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
+                           why_t *why) {
+  TRY(residual_lines(held, base, l, why));
+  take_own(held, turns, l);
+  return DONE;
 }
 
 done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l, why_t *why) {
@@ -59,7 +71,7 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
   const bool judged = is_judged(job);
-  done_t status = residual_lines(s, job->base, &b, why);
+  done_t status = verify_lines_before(s, job->base, job->turns, &b, why);
   if (status == DONE) status = verify_lines(s, job->base, job->turns, &a, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];

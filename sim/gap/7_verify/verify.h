@@ -8,7 +8,7 @@
 
 typedef struct {
   bool used;
-  double before, after, floor; // rms of rows
+  double before, after, floor; // rms of rows, without what flights differ by
   double jumps;                // of what is left (2_predict/residual.h)
 } gap_part_t;
 
@@ -50,8 +50,10 @@ typedef struct {
   by_turns_t *turns; // its numbers for each held-out row
 } verify_job_t;
 
-// What the model leaves of every held-out row, with what was found. FAILED: no memory. Free it, also on an
-// error.
+// What the model leaves of every held-out row, without and with what was found, both without what its flight
+// may have of its own. FAILED: no memory. Free it, also on an error.
+MUST_CHECK done_t verify_lines_before(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
+                                      why_t *why);
 MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
                                why_t *why);
 

@@ -270,7 +270,7 @@ static void order_by_share(report_t *r, const found_t *found) {
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
-  TRY(residual_lines(&d->held, &study->vehicle, &r->before, why));
+  TRY(verify_lines_before(&d->held, &study->vehicle, &d->turns, &r->before, why));
   TRY(verify_lines(&d->held, &study->vehicle, &d->turns, &r->after, why));
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);

@@ -44,6 +44,30 @@ static void warn_of_floors(report_t *r) {
          report_log_name(r, lowered), lowered->floor_m, report_log_name(r, other));
 }
 
+// Most of what is left of the held-out flights is there all the time, and in the fitted ones it is not.
+static bool warn_of_another(report_t *r, int ch) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  const gap_part_t *const p = &d->held_out.channel[ch];
+  const rows_t *const rows = set_rows(&d->held, ch);
+  const double usual = rows_constant(set_rows(&d->fit, ch), d->residual[ch], -1);
+  char which[REPORT_TEXT] = "";
+  double squares = 0.0;
+  if (r->study->by_time) return false;
+  for (int f = 0; f < d->held.n_grid; f++) {
+    const double more = rows_constant(rows, r->after.r[ch], f) - usual;
+    for (int i = 0; i < rows->n; i++) squares += rows->flight[i] == f ? more * more / rows->n : 0.0;
+    text_add(which, sizeof which, "%s%+.2g in %s", f ? ", " : "", more,
+             report_log_name(r, d->held.grid[f].flight));
+  }
+  if (!(squares > 0.5 * (p->after * p->after - p->floor * p->floor))) return false;
+  warn(
+      r,
+      "%s: %.3g %s is left of what is held out, where noise and feedback alone leave %.3g, and most of it is "
+      "there all the time: %s, other than in the fitted flights: something was changed in between",
+      gap_channel[ch], p->after, gap_unit[ch], p->floor, which);
+  return true;
+}
+
 static void warn_of_gap(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -54,7 +78,7 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (report_adequacy(r, ch) != LEFT_MORE) continue;
+    if (report_adequacy(r, ch) != LEFT_MORE || warn_of_another(r, ch)) continue;
     if (p->after > LEFT_OVER * p->floor)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "

@@ -42,6 +42,13 @@ static flights_differ_t look(double *statistic) {
   CHECK_OK(unknown_scan(&t.set, &t.vehicle, left.r, &scan, &why));
   const cell_t *const cell = &scan.cell[unknown_cell(CH_FX, LOOK_FLIGHTS, false)];
   *statistic = cell->statistic;
+  scan_t wild = {.cell = {{.statistic = 0.0}}}; // of nominal flights that differ as much
+  double between[CHANNELS];
+  for (int k = 0; k < UNKNOWN_CELLS; k++) wild.cell[k].statistic = cell->statistic;
+  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, NULL, 0, between, &why));
+  CHECK(between[CH_FX] == (*statistic > 20.0 ? cell->size : 0.0));
+  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, &wild, 1, between, &why));
+  CHECK(between[CH_FX] == 0.0);
   CHECK(cell->along == BY_FLIGHT && cell->channel == CH_FX);
   CHECK_OK(flights_differ_make(&d, &t.set, left.r, &t.vehicle, &c, &none, cell, &why));
   lines_free(&left);

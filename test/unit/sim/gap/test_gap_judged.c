@@ -32,6 +32,18 @@ TEST(gap_withdraws_a_name_that_makes_the_held_out_flight_worse) {
   CHECK(strstr(text, "the held-out ones contradict it") != NULL);
 }
 
+// Fitted flights that are alike say nothing of it.
+TEST(gap_says_that_the_held_out_flight_was_flown_with_something_else) {
+  char text[6000];
+  const fx_use_t hidden = offset();
+  CHECK(gap_logs_fly("alike", 2, NULL) && gap_logs_fly("anew", 1, &hidden));
+  CHECK(program_run(GAP "tools/columns/fly.toml --hold-out $S/anew0.csv --json $S/anew.json $S/alike?.csv",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(program_run("grep -c 'turn_y: .* most of it is there all the time: +[0-9.]* in anew0.csv, other' "
+                    "$S/anew.json",
+                    STREAM_OUTPUT, text, sizeof text) == 0);
+}
+
 // What is held out is a hover, in which velocities are mostly errors. In seeds 1 to 12 they grow its residual
 // by less than VERIFY_GROWS: that a name also stands where they grow it by more (blur_of) is not shown here.
 TEST(gap_keeps_a_name_that_a_hover_cannot_contradict) {
