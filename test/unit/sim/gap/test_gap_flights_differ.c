@@ -81,7 +81,7 @@ TEST(gap_says_what_flights_differ_by) {
 
 TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
   double mean[8] = {-0.06, 0.13, -0.07}, error[8] = {0.003, 0.003, 0.003};
-  gap_flight_t flight[8] = {{.name = "logs/a.csv"}, {.name = "b.csv"}, {.name = "c.csv"}};
+  gap_flight_t flight[8] = {{.name = "logs/a.csv"}, {.name = "b.csv"}, {.name = "again/b.csv"}};
   fx_use_t use[ACTS_AS_MAX * 8];
   char text[REPORT_DIFFER], cell[REPORT_CELL];
   study_t *const study = calloc(1, sizeof *study);
@@ -102,20 +102,17 @@ TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
                         .use = use};
   CHECK_TEXT(report_cell(&d.cell, cell), "0.1 +- 0.002 m/s2 rms in force_y, from flight to flight");
   CHECK_TEXT(report_differ(r, &d, text), "force_y is another in each flight, about the mean of all: -0.06 in "
-                                         "a.csv, +0.13 in b.csv, -0.07 in c.csv, +- 0.003 m/s2");
+                                         "a.csv, +0.13 in b.csv, -0.07 in again/b.csv, +- 0.003 m/s2");
   d.as = (acts_as_t){1, {{.use = use[0], .share = 0.97}}};
   CHECK(strstr(
       report_differ(r, &d, text),
       "+- 0.003 m/s2; beyond the file and what is named it acts as accel_bias would, of another size in each "
       "(x 0, 0.01, 0.02 m/s2: 97 % of the difference)"));
-  strcpy(flight[2].name, "again/b.csv"); // which of both is told
-  CHECK(strstr(report_differ(r, &d, text), "-0.06 in a.csv, +0.13 in b.csv, -0.07 in again/b.csv, +- "));
-  strcpy(flight[2].name, "c.csv");
   d.n = 8; // more than a line holds
   error[7] = 0.0;
   study->fit.n = 8;
   for (int f = 3; f < 8; f++) flight[f] = (gap_flight_t){.name = "d.csv"};
-  CHECK(strstr(report_differ(r, &d, text), "in c.csv, .. +- 0.003"));
+  CHECK(strstr(report_differ(r, &d, text), "in again/b.csv, .. +- 0.003"));
   CHECK(strstr(text, "(x 0, 0.01, 0.02, 0.03, 0.04, 0.05, .. m/s2: 97 % of the difference)"));
   free(study);
   free(r);
