@@ -82,6 +82,14 @@ static void tell_number(const candidate_t *c, int k, const char *before, char te
       c->n > 1 ? param[c->use.fx->size[k].param].name : "");
 }
 
+// Kinds of the same effects can be two groups.
+static bool is_told(const char *group, const char *text) {
+  const size_t size = strlen(group);
+  for (const char *at = strstr(text, group); at; at = strstr(at + 1, group))
+    if ((at == text || at[-1] == ' ') && (at[size] == '\0' || at[size] == ';')) return true;
+  return false;
+}
+
 static void tell_group(const diagnosis_t *d, int first, char text[REPORT_LONG]) {
   char group[REPORT_LONG] = "";
   const fx_t *last = NULL;
@@ -94,7 +102,7 @@ static void tell_group(const diagnosis_t *d, int first, char text[REPORT_LONG]) 
       last = c->use.fx;
       n++;
     }
-  if (n > 1) add(text, "%s%s", text[0] ? "; " : "", group);
+  if (n > 1 && !is_told(group, text)) add(text, "%s%s", text[0] ? "; " : "", group);
 }
 
 static void tell_alike(const report_t *r, char text[REPORT_LONG]) {
