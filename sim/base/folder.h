@@ -4,14 +4,14 @@
 
 #include <string.h>
 
-// How many bytes of the path are its folder, with the last slash; 0: there is none in it. What stands behind
-// is the file's own name.
+// How many bytes of the path are its folder, with the last slash; 0: there is none in it.
 static inline int folder_size(const char *path) {
   const char *const slash = strrchr(path, '/');
   return slash ? (int)(slash - path) + 1 : 0;
 }
 
-static inline const char *folder_none(const char *path) {
+// The file's own name: what stands behind it.
+static inline const char *folder_file(const char *path) {
   return path + folder_size(path);
 }
 

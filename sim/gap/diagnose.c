@@ -25,7 +25,7 @@ static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose
   }
   if (status == DONE) {
     TRY(set_make(s, grid, flights->n, why));
-    return lift_find(s, job->model, why);
+    return job->fit->n > 1 ? lift_find(s, job->model, why) : DONE; // one differs from nobody
   }
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
@@ -135,8 +135,25 @@ static done_t fit_and_fly(const diagnose_job_t *job, diagnosis_t *d, const chose
   return fly_with(job, d, chosen, why);
 }
 
+// Nobody could fly with these names. With a thrust that is too small nobody takes off: without those that
+// change it, if any do.
+static done_t fly_without_lift(const diagnose_job_t *job, diagnosis_t *d, const chosen_t *chosen,
+                               why_t *why) {
+  const closed_loop_t loop = d->loop;
+  chosen_t without = *chosen;
+  for (int i = chosen->n - 1; i >= 0; i--)
+    if (chosen->use[i].fx->scales_thrust) chosen_drop(&without, chosen->of[i]);
+  if (without.n == chosen->n) return DONE;
+  TRY(fit_and_fly(job, d, &without, why));
+  if (d->nominal_flew)
+    d->before = without; // the first look was wrong: the next one begins so
+  else
+    d->loop = loop, d->flown = *chosen;
+  return DONE;
+}
+
 // A first look without nominal flights shows what noise there is beside the effects; they are then flown with
-// it. With names that no pilot could fly it was wrong, and the next one begins with none.
+// it.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   const done_t status = look_first(job, d, &first, why);
@@ -146,10 +163,7 @@ static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why)
   TRY(both_ways_take(&chosen, &d->candidates, &d->fit, job->model, why));
   TRY(drop_own_work(job, d, &chosen, why));
   TRY(fit_and_fly(job, d, &chosen, why));
-  if (d->nominal_flew || chosen.n == 0) return DONE;
-  const chosen_t none = {.n = 0};
-  d->before = none;
-  return fit_and_fly(job, d, &none, why);
+  return d->nominal_flew ? DONE : fly_without_lift(job, d, &chosen, why);
 }
 
 static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
@@ -229,12 +243,18 @@ static done_t look_beyond_control(const diagnose_job_t *job, diagnosis_t *d, boo
 }
 
 // Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
-// names. What feedback makes is flown anew where the flown model was another one.
+// names. What feedback makes is flown anew where the flown model was another one, if a pilot can fly that.
 static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   bool again;
   TRY(look_beyond_control(job, d, false, &again, why));
   if (!again) return DONE;
+  const chosen_t flown = d->flown;
+  const bool flew = d->nominal_flew;
   TRY(fly_with(job, d, &d->found.chosen, why));
+  if (flew && !d->nominal_flew) {
+    TRY(fly_with(job, d, &flown, why));
+    d->before = flown;
+  }
   found_free(&d->found);
   return look_beyond_control(job, d, true, &again, why);
 }
@@ -257,17 +277,24 @@ static bool bar_kinds(diagnosis_t *d) {
 }
 
 static verify_job_t held_out(const diagnose_job_t *job, diagnosis_t *d) {
-  return (verify_job_t){&d->held, job->model, &d->loop, &d->found, &d->turns};
+  return (verify_job_t){&d->held, job->model, &d->loop, &d->found, &d->turns, &d->own};
 }
 
-// Where the fitted flights differ, another one has something of its own, too.
+// Where the fitted flights differ another one has something of its own, too; by turns it is one of them, and
+// has what it has.
 static done_t find_own(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   model_t m;
+  cell_t cell[CHANNELS];
+  d->own = (own_t){.may = {0.0}};
+  if (!d->nominal_flew) return DONE;
   TRY(chosen_model(&d->found.chosen, job->model, &m, why));
   TRY(find_residual(d, &m, why));
-  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, d->turns.own, why));
-  for (int ch = 0; ch < CHANNELS; ch++)
-    if (d->turns.own[ch] > 0.0) d->turns.own[ch] *= limits_another(d->fit.n_grid);
+  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, cell, why));
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    d->own.usual[ch] = rows_mean(set_rows(&d->fit, ch), d->residual[ch]);
+    if (cell[ch].statistic > 0.0)
+      d->own.may[ch] = held_apart(job) ? cell[ch].size * limits_another((int)cell[ch].to) : HUGE_VAL;
+  }
   return DONE;
 }
 
@@ -276,7 +303,7 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   for (bool again = false;; again = true) {
     if (again) found_free(&d->found);
     TRY(find_names(job, d, why));
-    d->turns = (by_turns_t){.n = 1, .of = {d->found.chosen}};
+    d->turns = (by_turns_t){1, {d->found.chosen}};
     if (!held_apart(job))
       TRY(by_turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
     TRY(find_own(job, d, why));
@@ -356,6 +383,8 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "looking at what is left");
   TRY(look_for_more(job, d, why));
   TRY(find_own(job, d, why));
+  for (int ch = 0; ch < CHANNELS; ch++) // names were spared a difference that is not told; who reads is not
+    if (d->differ[group_of(ch)].n == 0) d->own.may[ch] = 0.0;
   const verify_job_t names = held_out(job, d);
   return verify_held(&names, &d->nominal, &d->held_out, why);
 }

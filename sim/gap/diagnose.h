@@ -49,6 +49,7 @@ typedef struct {
   bool unknown;                    // it is beyond its bound
   for_a_time_t for_a_time;         // what would do for it
   flights_differ_t differ[GROUPS]; // of each group of channels: n 0 where flights do not
+  own_t own;                       // of a held-out flight
   held_t held_out;
   double *residual[CHANNELS]; // of the fitted flights, extended model
 } diagnosis_t;

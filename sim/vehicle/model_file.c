@@ -226,7 +226,7 @@ static done_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *
 
 // Where there is no such file: a vehicle of which the path is the name, or nearly.
 static done_t no_file(const char *path, why_t *why) {
-  const char *const name = folder_none(path);
+  const char *const name = folder_file(path);
   char word[NEAREST_LETTERS + 1] = "";
   const size_t size = strlen(name), end = size > 5 && strcmp(name + size - 5, ".toml") == 0 ? size - 5 : size;
   if (end < sizeof word) memcpy(word, name, end);

@@ -22,7 +22,6 @@ static bool lift_of(set_t *s, int flight, const model_t *m, flight_lines_t *l) {
 
 done_t lift_find(set_t *s, const model_t *m, why_t *why) {
   flight_lines_t l = {.room = NULL};
-  if (s->n_grid < 2) return DONE;
   s->smooth.lift = calloc((size_t)s->smooth.n + 1, sizeof(double));
   bool good = s->smooth.lift && flight_lines_make(&l, s);
   for (int f = 0; f < s->n_grid && good; f++) good = lift_of(s, f, m, &l);

@@ -8,8 +8,8 @@
 
 #include "gap/2_predict/set.h"
 
-// Of the smooth rows of several flights: the lift that the model predicts, over its mean (rows_t.lift).
-// FAILED: no memory.
+// Of the smooth rows of flights that are several, or that are held against several: the lift that the model
+// predicts, over its mean (rows_t.lift). FAILED: no memory.
 MUST_CHECK done_t lift_find(set_t *s, const model_t *m, why_t *why);
 
 #endif

@@ -165,30 +165,29 @@ static double constant_in(const rows_t *r, const double *v, int from, int end) {
 }
 
 double rows_constant(const rows_t *r, const double *v, int flight) {
-  int from = 0, end = r->n;
-  while (flight >= 0 && from < r->n && r->flight[from] < flight) from++;
-  while (flight >= 0 && end > from && r->flight[end - 1] > flight) end--;
-  return constant_in(r, v, from, end);
+  return constant_in(r, v, rows_from(r, flight), rows_from(r, flight + 1));
 }
 
-// Each flight's becomes `to`, with what its square has beyond that of `may`.
-static void make_constant(const rows_t *r, double *v, double to, double may) {
+double rows_mean(const rows_t *r, const double *v) {
+  return constant_in(r, v, 0, r->n);
+}
+
+void rows_take(const rows_t *r, double *v, int flight, double constant) {
+  for (int i = rows_from(r, flight); i < rows_from(r, flight + 1); i++) v[i] -= constant * rows_lift(r, i);
+}
+
+static void make_constant(const rows_t *r, double *v, double to) {
   for (int from = 0, end; from < r->n; from = end) {
     for (end = from; end < r->n && r->flight[end] == r->flight[from];) end++;
-    const double is = constant_in(r, v, from, end) - to;
-    const double more = is - copysign(sqrt(fmax(is * is - may * may, 0.0)), is);
+    const double more = constant_in(r, v, from, end) - to;
     for (int i = from; i < end; i++) v[i] -= more * rows_lift(r, i);
   }
 }
 
 void rows_center(const rows_t *r, double *v) {
-  make_constant(r, v, 0.0, HUGE_VAL);
+  make_constant(r, v, 0.0);
 }
 
 void rows_level(const rows_t *r, double *v) {
-  make_constant(r, v, constant_in(r, v, 0, r->n), HUGE_VAL);
-}
-
-void rows_beyond(const rows_t *r, double *v, double may) {
-  make_constant(r, v, 0.0, may);
+  make_constant(r, v, rows_mean(r, v));
 }

@@ -71,13 +71,14 @@ static inline int rows_from(const rows_t *r, int flight) {
   return low;
 }
 
-// The constant (times the lift, least squares without colour) of one flight's rows; flight below 0: of all.
+// The constant (times the lift, least squares without colour) of a flight's rows, 0: it has none; and of all.
 double rows_constant(const rows_t *r, const double *v, int flight);
+double rows_mean(const rows_t *r, const double *v);
+// Takes a constant out of a flight's rows.
+void rows_take(const rows_t *r, double *v, int flight, double constant);
 // Takes each flight's own constant (times the lift, least squares without colour) out of a number by row.
 void rows_center(const rows_t *r, double *v);
 // Makes each flight's own constant that of all rows.
 void rows_level(const rows_t *r, double *v);
-// Leaves of it what its square has beyond that of `may`.
-void rows_beyond(const rows_t *r, double *v, double may);
 
 #endif

@@ -60,7 +60,7 @@ done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t
     status = grid_make(&grid[f], &flown->flight[f], 0, flown->flight[f].n, m, why);
   if (status == DONE) {
     TRY(set_make(s, grid, flown->n, why));
-    return lift_find(s, m, why);
+    return flown->n > 1 ? lift_find(s, m, why) : DONE;
   }
   for (int f = 0; f < flown->n; f++) grid_free(&grid[f]);
   free(grid);

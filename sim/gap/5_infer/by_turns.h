@@ -17,9 +17,6 @@
 typedef struct {
   int n;
   chosen_t of[TURNS];
-  // By channel, what another flight may have for a constant of its own, by what the fitted ones differ by:
-  // only what is more says something of the names.
-  double own[CHANNELS];
 } by_turns_t;
 
 // Whose turn it is to be held out.

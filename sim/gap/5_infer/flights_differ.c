@@ -16,15 +16,19 @@ static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *bas
   double *const white = malloc(((size_t)r->n + 1) * sizeof(double));
   if (!white) return error_failed(why, "out of memory");
   color_whiten(own, r, residual[d->cell.channel], white);
-  const double mean = color_differ(own, r, white).mean;
+  double mean = 0.0; // of flights, each as much as another: they differ by more than their rows leave open
+  int n = 0;
   for (int from = 0; from < r->n;) {
     const color_constant_t k = color_constant(own, r, from, white);
     if (k.holds > 0.0) {
-      d->mean[r->flight[from]] = k.mean - mean;
+      d->mean[r->flight[from]] = k.mean;
       d->error[r->flight[from]] = 1.0 / sqrt(k.holds);
+      mean += k.mean, n++;
     }
     from = k.end;
   }
+  for (int f = 0; f < d->n; f++)
+    if (d->error[f] > 0.0) d->mean[f] -= mean / n;
   free(white);
   return DONE;
 }

@@ -33,10 +33,9 @@ static inline double limits_nominal(int flights) {
   return sqrt(lsq_f_quantile(SELECT_ALPHA, 1, flights ? flights : NOMINAL_FLIGHTS));
 }
 
-// A normal number over the spread of so many others, of which the mean is taken, too: SELECT_ALPHA are
-// larger.
+// A normal number about the mean of so many others, 2 or more, over their spread: SELECT_ALPHA are larger.
 static inline double limits_another(int others) {
-  return others > 1 ? sqrt((1.0 + 1.0 / others) * lsq_f_quantile(SELECT_ALPHA, 1, others - 1)) : HUGE_VAL;
+  return sqrt((1.0 + 1.0 / others) * lsq_f_quantile(SELECT_ALPHA, 1, others - 1));
 }
 
 // Standard errors that noise alone exceeds, either way, in one of so many tries, with that chance.

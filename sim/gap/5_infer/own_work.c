@@ -52,12 +52,17 @@ static double takes(const asked_t *a, const double *total) {
   return copysign(sqrt(fmax(before / after - 1.0, 0.0)), all - rest == 1 ? b[rest] : 1.0);
 }
 
+// Weighed as the nominal flights are.
 static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *takes_of_it, why_t *why) {
   design_t t;
   gram_t g;
+  model_t m;
+  double between[CHANNELS];
+  TRY(chosen_model(&a->without, job->base, &m, why));
+  TRY(whiten_between(job->set, &m, between, why));
   TRY(design_make(&t, job->set, job->base, &a->names, &a->without, why));
   design_add_chosen(&t, job->set, &a->names, &a->without, -1.0);
-  const done_t status = gram_make_total(&g, job->set, &t, a->score.ridge, NULL, why);
+  const done_t status = gram_make_total(&g, job->set, &t, a->score.ridge, between, why);
   if (status == DONE) *takes_of_it = takes(a, g.total);
   if (status == DONE) gram_free(&g);
   design_free(&t);

@@ -295,18 +295,19 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
 }
 
 done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                      const scan_t *nominal, int n, double between[CHANNELS], why_t *why) {
+                      const scan_t *nominal, int n, cell_t cell[CHANNELS], why_t *why) {
   color_t color[CHANNELS];
-  cell_t cell[LOOKED] = {{.statistic = 0.0}};
-  memset(between, 0, CHANNELS * sizeof(double));
+  cell_t each[LOOKED] = {{.statistic = 0.0}};
+  for (int ch = 0; ch < CHANNELS; ch++) cell[ch] = (cell_t){.statistic = 0.0};
+  if (s->n_grid < 2) return DONE;
   TRY(find_colors(s, m, residual, color, NULL, why));
   look_t l = look_of(s, m, residual, color, true);
   const done_t status = open_look(&l, why);
-  if (status == DONE) windows_by_flight(&l, cell);
+  if (status == DONE) windows_by_flight(&l, each);
   close_look(&l);
   for (int ch = 0; ch < CHANNELS; ch++)
-    if (cell[ch].statistic > limits_nominal(n) * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false)))
-      between[ch] = cell[ch].size;
+    if (each[ch].statistic > limits_nominal(n) * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false)))
+      cell[ch] = each[ch];
   return status;
 }
 

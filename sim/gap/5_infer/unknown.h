@@ -63,11 +63,6 @@ typedef struct {
   cell_t also; // of the same force, along something else, explains as much but for a fifth; statistic 0: none
 } judged_t;
 
-// By channel, what flights differ by in a residual (rms of their constants), where that is more than n
-// nominal flights show; else 0. FAILED: no memory.
-MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                 const scan_t *nominal, int n, double between[CHANNELS], why_t *why);
-
 // Of what explains most, that explains as much: a window ends on a bin, and may miss a fifth of what is
 // there.
 #define UNKNOWN_TIE 0.8
@@ -76,6 +71,11 @@ MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const
 // six times as much is as large as an effect that is named.
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
+
+// By channel, what flights differ by in a residual, where that is more than n nominal flights show, 1 or
+// more; else its statistic is 0. FAILED: no memory.
+MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                 const scan_t *nominal, int n, cell_t cell[CHANNELS], why_t *why);
 
 // Of a group of channels (GROUP_..) the one that differs most from flight to flight, if that is beyond its
 // bound and no other look explains more in the group, but for a fifth; else null.

@@ -174,7 +174,7 @@ static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *r
   const int n = t->columns;
   int *const column = malloc(((size_t)n + 1) * sizeof(int));
   double *const b = malloc(((size_t)n + 1) * sizeof(double));
-  explained_t e = {0, column, b, true, between};
+  explained_t e = {0, column, b, true, NULL};
   bool good = column && b && fill_total(g, s, t, &e, NULL);
   for (int i = 0; good && i < n; i++) column[i] = i;
   e = (explained_t){n, column, b, false, between};

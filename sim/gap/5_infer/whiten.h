@@ -45,7 +45,7 @@ typedef struct {
   const int *column;
   const double *b;
   bool plain; // no colour, spread alone
-  // By channel: flights differ by that much at least, whatever these do; null: they are the log's.
+  // By channel: flights differ by that much at least, whatever these rows show; null: as these rows show.
   const double *between;
 } explained_t;
 

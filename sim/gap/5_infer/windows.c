@@ -201,7 +201,7 @@ void windows_by_flight(const look_t *l, cell_t cell[LOOKED]) {
                         .coordinate = "flight",
                         .unit = "",
                         .from = 1.0,
-                        .to = l->s->n_grid,
+                        .to = d.flights,
                         .size = sqrt(beyond / (d.holds - d.holds_squared / d.holds)),
                         .statistic = sqrt(d.q),
                         .explained = beyond,

@@ -28,8 +28,24 @@ static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) 
   }
 }
 
-static void take_own(const set_t *s, const by_turns_t *turns, lines_t *l) {
-  for (int ch = 0; ch < CHANNELS; ch++) rows_beyond(set_rows(s, ch), l->r[ch], turns->own[ch]);
+// Of what is left with all that was found, by flight and channel, what is the flight's own: of all between
+// its constant and theirs that is what leaves least.
+static double *find_own(const verify_job_t *d, const lines_t *left, why_t *why) {
+  double *const own = calloc((size_t)d->held->n_grid * CHANNELS + 1, sizeof(double));
+  if (!own) (void)error_failed(why, "out of memory");
+  for (int i = 0; own && i < d->held->n_grid * CHANNELS; i++) {
+    const int ch = i % CHANNELS;
+    const double is = rows_constant(set_rows(d->held, ch), left->r[ch], i / CHANNELS),
+                 usual = d->own->usual[ch];
+    const double off = is - fmin(fmax(0.0, fmin(is, usual)), fmax(is, usual));
+    own[i] = fmin(fmax(off, -d->own->may[ch]), d->own->may[ch]);
+  }
+  return own;
+}
+
+static void take_own(const verify_job_t *d, const double *own, lines_t *l) {
+  for (int i = 0; i < d->held->n_grid * CHANNELS; i++)
+    if (own[i] != 0.0) rows_take(set_rows(d->held, i % CHANNELS), l->r[i % CHANNELS], i / CHANNELS, own[i]);
 }
 
 // candidate: without it; below 0: with all names.
@@ -46,19 +62,22 @@ static done_t lines_without(set_t *s, const model_t *base, const by_turns_t *tur
     if (status == DONE) take_turn(l, &own, s, turns->n > 1 ? k : ALL_TURNS);
     lines_free(&own);
   }
-  if (status == DONE) take_own(s, turns, l);
   return status;
 }
 
-done_t verify_lines_before(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
-                           why_t *why) {
-  TRY(residual_lines(held, base, l, why));
-  take_own(held, turns, l);
+done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double **its_own, why_t *why) {
+  *after = (lines_t){.r = {NULL}};
+  TRY(residual_lines(job->held, job->base, before, why));
+  TRY(lines_without(job->held, job->base, job->turns, -1, after, why));
+  double *const own = find_own(job, after, why);
+  if (!own) return FAILED;
+  take_own(job, own, before);
+  take_own(job, own, after);
+  if (its_own)
+    *its_own = own;
+  else
+    free(own);
   return DONE;
-}
-
-done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l, why_t *why) {
-  return lines_without(held, base, turns, -1, l, why);
 }
 
 // By turns flights may be too short for something to be held out of each.
@@ -71,8 +90,7 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
   lines_t b, a = {.r = {NULL}};
   *held = (held_t){.left_before = 0.0};
   const bool judged = is_judged(job);
-  done_t status = verify_lines_before(s, job->base, job->turns, &b, why);
-  if (status == DONE) status = verify_lines(s, job->base, job->turns, &a, why);
+  const done_t status = verify_lines(job, &b, &a, NULL, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) {
     gap_part_t *const p = &held->channel[ch];
     const rows_t *rows = set_rows(s, ch);
@@ -276,15 +294,19 @@ static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *w
 static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
   with_all_t with;
   lines_t without = {.r = {NULL}};
+  double *own = NULL;
   double most = 0.0;
   *worst = -1;
   done_t status = lines_without(d->held, d->base, d->turns, -1, &with.lines, why);
+  if (status == DONE && !(own = find_own(d, &with.lines, why))) status = FAILED;
+  if (status == DONE) take_own(d, own, &with.lines);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) with.color[ch] = color_of(d->held, ch, &with.lines);
   for (int i = 0; i < d->found->n && status == DONE; i++) {
     named_t *const name = &d->found->named[i];
     withdrawn_t so;
     double grows = 0.0;
     status = lines_without(d->held, d->base, d->turns, name->candidate, &without, why);
+    if (status == DONE) take_own(d, own, &without);
     if (status == DONE) status = try_name(d, name, &with, &without, &so, &grows, why);
     lines_free(&without);
     if (status != DONE || !(grows > most || (grows == most && grows > 0.0 && so.share < why_so->share)))
@@ -294,6 +316,7 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
     *why_so = so;
   }
   lines_free(&with.lines);
+  free(own);
   return status;
 }
 

@@ -8,7 +8,7 @@
 
 typedef struct {
   bool used;
-  double before, after, floor; // rms of rows, without what flights differ by
+  double before, after, floor; // rms of rows; the first two without what a flight has of its own
   double jumps;                // of what is left (2_predict/residual.h)
 } gap_part_t;
 
@@ -41,6 +41,13 @@ typedef struct {
 // tracks tell it.
 #define VERIFY_GROWS 1.05
 
+// What a held-out flight has of its own where the fitted flights differ, by channel, in its unit: by so much
+// its constant, with all that was found, may be off theirs, and that is no fault of what was found. It is
+// taken out of the residual of every model alike: what one leaves more than another stays what it is.
+typedef struct {
+  double usual[CHANNELS], may[CHANNELS]; // theirs; may 0: it has nothing of its own
+} own_t;
+
 // What was found, and the flights that it is held against.
 typedef struct {
   set_t *held;
@@ -48,13 +55,13 @@ typedef struct {
   const closed_loop_t *loop;
   found_t *found;
   by_turns_t *turns; // its numbers for each held-out row
+  own_t *own;
 } verify_job_t;
 
-// What the model leaves of every held-out row, without and with what was found, both without what its flight
-// may have of its own. FAILED: no memory. Free it, also on an error.
-MUST_CHECK done_t verify_lines_before(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
-                                      why_t *why);
-MUST_CHECK done_t verify_lines(set_t *held, const model_t *base, const by_turns_t *turns, lines_t *l,
+// What the model leaves of every held-out row, without and with what was found; its_own (may be null): what
+// was taken out of both, of flight f and channel ch its_own[f * CHANNELS + ch]. FAILED: no memory. Free all,
+// also on an error.
+MUST_CHECK done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double **its_own,
                                why_t *why);
 
 // FAILED: no memory.

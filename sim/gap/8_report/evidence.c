@@ -270,8 +270,8 @@ static void order_by_share(report_t *r, const found_t *found) {
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
-  TRY(verify_lines_before(&d->held, &study->vehicle, &d->turns, &r->before, why));
-  TRY(verify_lines(&d->held, &study->vehicle, &d->turns, &r->after, why));
+  const verify_job_t held = {&d->held, &study->vehicle, &d->loop, &d->found, &d->turns, &d->own};
+  TRY(verify_lines(&held, &r->before, &r->after, &r->own, why));
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);
   lines_t now = {.r = {NULL}};

@@ -3,6 +3,7 @@
 
 #include "base/folder.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // --- what could have been seen ----------------------------------------------------------------------------
@@ -92,9 +93,9 @@ static void take_others(report_t *r) {
 
 const char *report_log_name(const report_t *r, const gap_flight_t *log) {
   const study_t *const s = r->study;
-  const char *const own = folder_none(log->name);
+  const char *const own = folder_file(log->name);
   for (int i = 0; i < s->fit.n + s->held.n; i++)
-    if (strcmp(s->flight[i].name, log->name) != 0 && strcmp(folder_none(s->flight[i].name), own) == 0)
+    if (strcmp(s->flight[i].name, log->name) != 0 && strcmp(folder_file(s->flight[i].name), own) == 0)
       return log->name;
   return own;
 }
@@ -186,4 +187,6 @@ done_t report_make(report_t *r, study_t *study, why_t *why) {
 void report_free(report_t *r) {
   lines_free(&r->before);
   lines_free(&r->after);
+  free(r->own);
+  r->own = NULL;
 }

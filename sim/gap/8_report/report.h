@@ -117,7 +117,8 @@ typedef struct {
   shown_t shown[FX_MAX];
   notes_t fitness, to_do, warnings; // are these flights fit for the question; use, add, fly; all else
   profile_t left;                   // over the coordinate of the largest cell of what is left
-  lines_t before, after;            // held-out rows
+  lines_t before, after;            // held-out rows, without
+  double *own;                      // what each flight has of its own (verify_lines)
   bool ceiling_suspected; // lift grows towards the greatest heights, and the vehicle file has no ceiling
   double ceiling_seen_m;  // by an upward range sensor; NaN: it was not
 } report_t;
@@ -146,6 +147,8 @@ interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
+#define FLIGHTS_TOLD 6 // of more a line is no help; verdict.json has all
+
 // What stands behind the last slash of a log's path; all of it where another log has that name, too.
 const char *report_log_name(const report_t *r, const gap_flight_t *log);
 // What to fly to tell the two apart; pairs of which neither says it: what shows each.
@@ -160,6 +163,8 @@ const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
 // it acts as .." Returns text.
 #define REPORT_DIFFER 1536
 const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]);
+// Notes what is left out of held-out flights, where it is more than noise.
+void report_warn_of_own(report_t *r);
 // What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %
 // of what is there more)". Returns text.
 #define REPORT_FOR_A_TIME 512

@@ -61,8 +61,6 @@ const char *report_for_a_time(const for_a_time_t *f, char text[REPORT_FOR_A_TIME
 
 // --- what flights differ by -------------------------------------------------------------------------------
 
-#define FLIGHTS_TOLD 6 // of more a line is no help; verdict.json has all
-
 static void add_sizes(char text[REPORT_DIFFER], const flights_differ_t *d, const fx_use_t *use) {
   const int told = d->n < FLIGHTS_TOLD ? d->n : FLIGHTS_TOLD;
   bool first = true;
@@ -102,4 +100,26 @@ const char *report_differ(const report_t *r, const flights_differ_t *d, char tex
     text_add(text, REPORT_DIFFER, ": %.0f %% of the difference)", 100.0 * would->share);
   }
   return text;
+}
+
+void report_warn_of_own(report_t *r) {
+  const set_t *const held = &r->study->diagnosis.held;
+  for (int ch = 0; ch < CHANNELS && r->own && !r->study->by_time; ch++) {
+    const gap_part_t *const p = &r->study->diagnosis.held_out.channel[ch];
+    const rows_t *const rows = set_rows(held, ch);
+    char which[REPORT_TEXT] = "";
+    double squares = 0.0;
+    for (int f = 0; f < held->n_grid; f++) {
+      const double own = r->own[f * CHANNELS + ch];
+      squares += own * own * (rows_from(rows, f + 1) - rows_from(rows, f)) / fmax(rows->n, 1.0);
+      if (own != 0.0 && f < FLIGHTS_TOLD)
+        text_add(which, sizeof which, "%s%+.2g %s in %s", which[0] ? ", " : "", own, gap_unit[ch],
+                 report_log_name(r, held->grid[f].flight));
+    }
+    if (p->used && hypot(p->after, sqrt(squares)) > LEFT_OVER * fmax(p->after, p->floor))
+      note(&r->warnings,
+           "%s: %s is left out of what is held out: as the fitted flights differ, it is taken for that "
+           "flight's own",
+           gap_channel[ch], which);
+  }
 }

@@ -49,15 +49,16 @@ static bool warn_of_another(report_t *r, int ch) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const gap_part_t *const p = &d->held_out.channel[ch];
   const rows_t *const rows = set_rows(&d->held, ch);
-  const double usual = rows_constant(set_rows(&d->fit, ch), d->residual[ch], -1);
   char which[REPORT_TEXT] = "";
   double squares = 0.0;
-  if (r->study->by_time) return false;
+  if (r->study->by_time || set_rows(&d->fit, ch)->n == 0) return false;
   for (int f = 0; f < d->held.n_grid; f++) {
-    const double more = rows_constant(rows, r->after.r[ch], f) - usual;
-    for (int i = 0; i < rows->n; i++) squares += rows->flight[i] == f ? more * more / rows->n : 0.0;
-    text_add(which, sizeof which, "%s%+.2g in %s", f ? ", " : "", more,
-             report_log_name(r, d->held.grid[f].flight));
+    const int n = rows_from(rows, f + 1) - rows_from(rows, f);
+    const double is = rows_constant(rows, r->after.r[ch], f), more = is - d->own.usual[ch];
+    squares += pow(fmin(fabs(is), fabs(more)), 2.0) * n / rows->n;
+    if (n && f < FLIGHTS_TOLD)
+      text_add(which, sizeof which, "%s%+.2g in %s", which[0] ? ", " : "", more,
+               report_log_name(r, d->held.grid[f].flight));
   }
   if (!(squares > 0.5 * (p->after * p->after - p->floor * p->floor))) return false;
   warn(
@@ -78,7 +79,8 @@ static void warn_of_gap(report_t *r) {
   }
   for (int ch = 0; ch < CHANNELS; ch++) {
     const gap_part_t *const p = &d->held_out.channel[ch];
-    if (report_adequacy(r, ch) != LEFT_MORE || warn_of_another(r, ch)) continue;
+    if (report_adequacy(r, ch) != LEFT_MORE) continue;
+    if (p->after > LEFT_OVER * p->floor && warn_of_another(r, ch)) continue;
     if (p->after > LEFT_OVER * p->floor)
       warn(r,
            "%s: %.3g %s is left, where noise and feedback alone leave %.3g: more than can be named from so "
@@ -275,11 +277,11 @@ static void warn_of_vehicle(report_t *r) {
     warn(r,
          "%s: thrust_max_N lifts %.3g times the weight of mass_kg; quadrotors lift %g to %g times theirs (is "
          "mass_kg in kg, and thrust_max_N that of all motors in N?)",
-         folder_none(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
+         folder_file(study_vehicle(r->study)), lift, LIFT_MIN, LIFT_MAX);
   char lacks[FRAME_LACKS];
   if (frame_lacks(m, lacks)[0])
     warn(r, "%s does not say %s: those of a Crazyflie are taken, scaled to this mass and radius",
-         folder_none(study_vehicle(r->study)), lacks);
+         folder_file(study_vehicle(r->study)), lacks);
 }
 
 // An acceleration that comes in the world's axes, or is made of the velocity, is turned into the body's by
@@ -366,6 +368,7 @@ void report_warn(report_t *r) {
   warn_of_instrument(r);
   warn_of_floors(r);
   warn_of_gap(r);
+  report_warn_of_own(r);
   warn_of_pilot(r);
   warn_of_logs(r);
 }

@@ -7,10 +7,11 @@
 
 // Kinds in which a sag is a scale of the thrust are as many groups; they are told as one.
 TEST(gap_tells_once_what_these_flights_cannot_tell_apart) {
-  static const char *const name[] = {"thrust_scale", "battery_sag",  "thrust_scale",
-                                     "battery_sag",  "thrust_scale", "mass"};
+  static const char *const name[] = {"thrust_scale", "battery_sag", "thrust_scale",
+                                     "battery_sag",  "accel_bias",  "mass",
+                                     "wind",         "mass",        "wind"};
   enum { N = sizeof name / sizeof *name };
-  int alike[N] = {0, 0, 2, 2, 4, 4};
+  int alike[N] = {0, 0, 2, 2, 4, 4, 4, 7, 7};
   candidate_t candidate[N];
   study_t *const study = calloc(1, sizeof *study);
   report_t *const r = calloc(1, sizeof *r);
@@ -23,7 +24,9 @@ TEST(gap_tells_once_what_these_flights_cannot_tell_apart) {
   r->study = study;
   CHECK_OK(report_take_fitness(r, &why));
   const char *const told = r->fitness.line[r->fitness.n - 1];
-  CHECK_TEXT(told, "not told apart at typical size: thrust_scale = battery_sag; thrust_scale = mass");
+  CHECK_TEXT(
+      told,
+      "not told apart at typical size: thrust_scale = battery_sag; accel_bias = mass = wind; mass = wind");
   free(study);
   free(r);
 }

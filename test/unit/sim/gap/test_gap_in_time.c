@@ -75,6 +75,28 @@ TEST(gap_finds_no_pulse_in_the_first_second) {
   }
 }
 
+// One flight of three weighs more: what it has all the time is no train of pulses, and hides none.
+TEST(gap_finds_no_pulse_in_what_a_flight_has_all_the_time) {
+  enum { FLIGHTS = 3, EACH = GAP_ROWS / FLIGHTS };
+  for (int pulses = 0; pulses < 2; pulses++) {
+    gap_rows_t g;
+    make_calm(&g, 43);
+    grid_t grid[FLIGHTS];
+    for (int f = 0; f < FLIGHTS; f++) grid[f] = g.grid;
+    g.set.grid = grid, g.set.n_grid = FLIGHTS;
+    for (int i = 0; i < GAP_ROWS; i++) {
+      g.set.smooth.flight[i] = i / EACH < FLIGHTS ? i / EACH : FLIGHTS - 1;
+      if (i % EACH == 0) g.set.smooth.follows[i] = false;
+    }
+    put(&g, EACH, EACH, 2.0);
+    if (pulses) put(&g, EACH + 200, 8, 1.0);
+    const cell_t cell = look(&g, in_time_pulses);
+    CHECK((cell.statistic > 10.0) == (pulses > 0));
+    if (pulses) CHECK_NEAR(cell.from / ROW_S, EACH + 200, 0.1);
+    gap_rows_free(&g);
+  }
+}
+
 // Of two motors, every 200 rows; the others' stand still.
 static void command_steps(gap_rows_t *g) {
   static double still_N[GAP_ROWS], steps_N[GAP_ROWS];

@@ -44,6 +44,21 @@ TEST(gap_says_that_the_held_out_flight_was_flown_with_something_else) {
                     STREAM_OUTPUT, text, sizeof text) == 0);
 }
 
+// Fitted flights that differ let it have something of its own, and that is told.
+TEST(gap_says_what_it_leaves_out_of_a_held_out_flight) {
+  char text[6000];
+  fx_use_t hidden = offset();
+  CHECK(gap_logs_fly("some", 1, NULL) && gap_logs_fly("other", 1, &hidden));
+  hidden.p[0] *= 1.7;
+  CHECK(gap_logs_fly("third", 1, &hidden));
+  CHECK(program_run(
+            GAP "tools/columns/fly.toml --hold-out $S/third0.csv --json $S/own.json $S/some0.csv "
+                "$S/other0.csv; grep -c 'turn_y: +[0-9.e+]* rad/s2 in third0.csv is left out' $S/own.json",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+  CHECK(program_run("grep -c 'most of it is there all the time' $S/own.json | grep -x 0", STREAM_OUTPUT, text,
+                    sizeof text) == 0);
+}
+
 // What is held out is a hover, in which velocities are mostly errors. In seeds 1 to 12 they grow its residual
 // by less than VERIFY_GROWS: that a name also stands where they grow it by more (blur_of) is not shown here.
 TEST(gap_keeps_a_name_that_a_hover_cannot_contradict) {
