@@ -1,6 +1,7 @@
 // set.c - which points of flights become rows.
 #include "gap/2_predict/set.h"
 
+#include "base/nth.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -186,6 +187,30 @@ static void make_constant(const rows_t *r, double *v, double to) {
 
 void rows_center(const rows_t *r, double *v) {
   make_constant(r, v, 0.0);
+}
+
+// Median of rows less `constant`, plain or times the lift, each over what it is multiplied by; its absolute
+// value.
+static double median_in(const rows_t *r, const double *v, int from, int end, bool lifts, double constant,
+                        bool absolute, double *room) {
+  for (int i = from; i < end; i++) {
+    const double times = lifts ? rows_lift(r, i) : 1.0, left = v[i] - constant * times;
+    room[i - from] = absolute ? fabs(left) : left / times;
+  }
+  return nth_smallest(room, end - from, (end - from) / 2);
+}
+
+void rows_clear(const rows_t *r, double *v, double *room) {
+  for (int from = 0, end; from < r->n; from = end) {
+    for (end = from; end < r->n && r->flight[end] == r->flight[from];) end++;
+    double constant[2], left[2];
+    for (int k = 0; k < 2; k++) {
+      constant[k] = median_in(r, v, from, end, k == 1, 0.0, false, room);
+      left[k] = median_in(r, v, from, end, k == 1, constant[k], true, room);
+    }
+    const bool lifts = left[1] < left[0];
+    for (int i = from; i < end; i++) v[i] -= constant[lifts] * (lifts ? rows_lift(r, i) : 1.0);
+  }
 }
 
 void rows_level(const rows_t *r, double *v) {

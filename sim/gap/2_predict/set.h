@@ -78,6 +78,9 @@ double rows_mean(const rows_t *r, const double *v);
 void rows_take(const rows_t *r, double *v, int flight, double constant);
 // Takes each flight's own constant (times the lift, least squares without colour) out of a number by row.
 void rows_center(const rows_t *r, double *v);
+// Takes each flight's median out, plain or times the lift, whichever leaves less: what is there for less than
+// half of the time stays as it is. room: as many numbers as rows.
+void rows_clear(const rows_t *r, double *v, double *room);
 // Makes each flight's own constant that of all rows.
 void rows_level(const rows_t *r, double *v);
 

@@ -174,7 +174,7 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const pulses_t w = {&l->s->smooth, l->room, change, l->room + n, l->room + 2 * n, l->room + 3 * n};
   double *const left = l->room + 6 * n;
   memcpy(left, l->residual[ch], (size_t)n * sizeof *left);
-  if (l->s->n_grid > 1) rows_center(w.r, left); // what one flight has all the time is no train of pulses
+  if (l->s->n_grid > 1) rows_clear(w.r, left, room); // what one flight has all the time is no train of pulses
   color_whiten(c, w.r, left, l->room);
   if (change) find_changes(l, ch, change);
   for (int rows = FILTER_ROWS; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {

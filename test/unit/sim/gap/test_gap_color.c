@@ -102,6 +102,24 @@ TEST(gap_takes_out_of_rows_what_flights_have_for_their_own) {
   }
 }
 
+// What is there for a third of the time stays, and of all else nothing is left but noise.
+TEST(gap_clears_rows_of_what_a_flight_has_all_the_time) {
+  double room[ROWS];
+  for (int lifts = 0; lifts < 2; lifts++) {
+    ROW("%s", lifts ? "times the lift" : "plain");
+    flights_t *const f = flights_of((const double[FLIGHTS]){0.0, 20.0, -5.0}, lifts);
+    for (int i = 0; i < ROWS; i++) f->lift[i] = 1.0 + 0.5 * sin(0.1 * i);
+    f->r.lift = f->lift;
+    for (int i = 0; i < ROWS; i++) f->v[i] += i % 3 == 0 ? 30.0 : 0.0;
+    rows_clear(&f->r, f->v, room);
+    double rest = 0.0, third = 0.0;
+    for (int i = 0; i < ROWS; i++) *(i % 3 ? &rest : &third) += f->v[i] / (i % 3 ? ROWS * 2 / 3 : ROWS / 3);
+    CHECK_NEAR(rest, -0.7, 0.3); // the median of noise, a third of which is large
+    CHECK_NEAR(third - rest, 30.0, 0.3);
+    free(f);
+  }
+}
+
 // Two flights of 600 rows each, in which the size is another, by so much of what is typical: what they have
 // in common is known no better than that. It is told to 0.05 by their blocks.
 TEST(gap_errors_grow_where_flights_contradict_each_other) {
