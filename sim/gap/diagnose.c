@@ -289,7 +289,7 @@ static done_t find_own(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   if (!d->nominal_flew) return DONE;
   TRY(chosen_model(&d->found.chosen, job->model, &m, why));
   TRY(find_residual(d, &m, why));
-  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, cell, why));
+  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, d->nominal.misfit, cell, why));
   for (int ch = 0; ch < CHANNELS; ch++) {
     d->own.usual[ch] = rows_mean(set_rows(&d->fit, ch), d->residual[ch]);
     if (cell[ch].statistic > 0.0)

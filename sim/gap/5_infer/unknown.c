@@ -295,7 +295,8 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
 }
 
 done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                      const scan_t *nominal, int n, cell_t cell[CHANNELS], why_t *why) {
+                      const scan_t *nominal, int n, const double misfit[CHANNELS], cell_t cell[CHANNELS],
+                      why_t *why) {
   color_t color[CHANNELS];
   cell_t each[LOOKED] = {{.statistic = 0.0}};
   for (int ch = 0; ch < CHANNELS; ch++) cell[ch] = (cell_t){.statistic = 0.0};
@@ -305,9 +306,10 @@ done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[C
   const done_t status = open_look(&l, why);
   if (status == DONE) windows_by_flight(&l, each);
   close_look(&l);
-  for (int ch = 0; ch < CHANNELS; ch++)
-    if (each[ch].statistic > limits_nominal(n) * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false)))
-      cell[ch] = each[ch];
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const double chance = limits_nominal(n) * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false));
+    if (beyond(&each[ch], bound_of(&each[ch], chance, misfit)) > 0.0) cell[ch] = each[ch];
+  }
   return status;
 }
 

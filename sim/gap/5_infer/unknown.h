@@ -72,10 +72,11 @@ typedef struct {
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
 
-// By channel, what flights differ by in a residual, where that is more than n nominal flights show, 1 or
-// more; else its statistic is 0. FAILED: no memory.
+// By channel, what flights differ by in a residual, where that is beyond its bound (as above; of n nominal
+// flights, 1 or more); else its statistic is 0. FAILED: no memory.
 MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
-                                 const scan_t *nominal, int n, cell_t cell[CHANNELS], why_t *why);
+                                 const scan_t *nominal, int n, const double misfit[CHANNELS],
+                                 cell_t cell[CHANNELS], why_t *why);
 
 // Of a group of channels (GROUP_..) the one that differs most from flight to flight, if that is beyond its
 // bound and no other look explains more in the group, but for a fifth; else null.

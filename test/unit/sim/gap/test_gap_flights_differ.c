@@ -47,10 +47,11 @@ static flights_differ_t look(double *statistic) {
   *statistic = cell->statistic;
   scan_t nominal = {.cell = {{.statistic = 0.0}}};
   cell_t own[CHANNELS];
-  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, &nominal, 1, own, &why));
+  const double misfit[CHANNELS] = {0.0};
+  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, &nominal, 1, misfit, own, &why));
   CHECK(own[CH_FX].statistic == (cell->statistic > ALONE ? cell->statistic : 0.0));
   for (int k = 0; k < UNKNOWN_CELLS; k++) nominal.cell[k].statistic = cell->statistic;
-  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, &nominal, 1, own, &why));
+  CHECK_OK(unknown_differ(&t.set, &t.vehicle, left.r, &nominal, 1, misfit, own, &why));
   CHECK(own[CH_FX].statistic == 0.0); // a nominal flight shows as much
   CHECK(cell->along == BY_FLIGHT && cell->channel == CH_FX);
   CHECK_OK(flights_differ_make(&d, &t.set, left.r, &t.vehicle, &c, &none, cell, &why));
