@@ -277,36 +277,25 @@ static bool bar_kinds(diagnosis_t *d) {
 }
 
 static verify_job_t held_out(const diagnose_job_t *job, diagnosis_t *d) {
-  return (verify_job_t){&d->held, job->model, &d->loop, &d->found, &d->turns, &d->own};
+  return (verify_job_t){&d->held, &d->fit, job->model, &d->loop, &d->found, &d->turns, &d->own};
 }
 
-// Where the fitted flights differ another one has something of its own, too; by turns it is one of them, and
-// has what it has.
-static done_t find_own(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
-  model_t m;
-  cell_t cell[CHANNELS];
-  d->own = (own_t){.may = {0.0}};
-  if (!d->nominal_flew) return DONE;
-  TRY(chosen_model(&d->found.chosen, job->model, &m, why));
-  TRY(find_residual(d, &m, why));
-  TRY(unknown_differ(&d->fit, &m, d->residual, d->nominal.scan, d->nominal.n, d->nominal.misfit, cell, why));
-  for (int ch = 0; ch < CHANNELS; ch++) {
-    d->own.usual[ch] = rows_mean(set_rows(&d->fit, ch), d->residual[ch]);
-    if (cell[ch].statistic > 0.0)
-      d->own.may[ch] = held_apart(job) ? cell[ch].size * limits_another((int)cell[ch].to) : HUGE_VAL;
-  }
-  return DONE;
+static done_t find_own(const diagnose_job_t *job, diagnosis_t *d, const model_t *m, why_t *why) {
+  return own_find(&d->own, &d->fit, m, d->residual, &d->nominal, held_apart(job), why);
 }
 
 static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   const verify_job_t names = held_out(job, d);
+  model_t m;
   for (bool again = false;; again = true) {
     if (again) found_free(&d->found);
     TRY(find_names(job, d, why));
     d->turns = (by_turns_t){1, {d->found.chosen}};
     if (!held_apart(job))
       TRY(by_turns_make(&d->turns, &d->candidates, &d->fit, job->model, &d->found.chosen, &d->timing, why));
-    TRY(find_own(job, d, why));
+    TRY(chosen_model(&d->found.chosen, job->model, &m, why));
+    TRY(find_residual(d, &m, why));
+    TRY(find_own(job, d, &m, why));
     TRY(verify_names(&names, &d->withdrawn, why));
     if (!bar_kinds(d)) return DONE;
   }
@@ -382,7 +371,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   TRY(chosen_model(&d->found.chosen, job->model, &d->extended, why));
   tell(job, "looking at what is left");
   TRY(look_for_more(job, d, why));
-  TRY(find_own(job, d, why));
+  TRY(find_own(job, d, &d->extended, why));
   for (int ch = 0; ch < CHANNELS; ch++) // names were spared a difference that is not told; who reads is not
     if (d->differ[group_of(ch)].n == 0) d->own.may[ch] = 0.0;
   const verify_job_t names = held_out(job, d);

@@ -28,56 +28,82 @@ static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) 
   }
 }
 
-// Of what is left with all that was found, by flight and channel, what is the flight's own: of all between
-// its constant and theirs that is what leaves least.
-static double *find_own(const verify_job_t *d, const lines_t *left, why_t *why) {
-  double *const own = calloc((size_t)d->held->n_grid * CHANNELS + 1, sizeof(double));
-  if (!own) (void)error_failed(why, "out of memory");
-  for (int i = 0; own && i < d->held->n_grid * CHANNELS; i++) {
-    const int ch = i % CHANNELS;
-    const double is = rows_constant(set_rows(d->held, ch), left->r[ch], i / CHANNELS),
-                 usual = d->own->usual[ch];
-    const double off = is - fmin(fmax(0.0, fmin(is, usual)), fmax(is, usual));
-    own[i] = fmin(fmax(off, -d->own->may[ch]), d->own->may[ch]);
-  }
-  return own;
-}
+// --- what a model leaves ----------------------------------------------------------------------------------
 
-static void take_own(const verify_job_t *d, const double *own, lines_t *l) {
-  for (int i = 0; i < d->held->n_grid * CHANNELS; i++)
-    if (own[i] != 0.0) rows_take(set_rows(d->held, i % CHANNELS), l->r[i % CHANNELS], i / CHANNELS, own[i]);
-}
+enum { ALL_NAMES = -1, NO_NAME = -2 }; // else a candidate: all names but that one
 
-// candidate: without it; below 0: with all names.
-static done_t lines_without(set_t *s, const model_t *base, const by_turns_t *turns, int candidate, lines_t *l,
-                            why_t *why) {
+static done_t lines_of(const verify_job_t *d, set_t *s, int without, lines_t *l, why_t *why) {
+  if (without == NO_NAME) return residual_lines(s, d->base, l, why);
   done_t status = lines_make(l, s, why);
-  for (int k = 0; k < turns->n && status == DONE; k++) {
-    chosen_t with = turns->of[k];
+  for (int k = 0; k < d->turns->n && status == DONE; k++) {
+    chosen_t with = d->turns->of[k];
     model_t m;
     lines_t own = {.r = {NULL}};
-    chosen_drop(&with, candidate);
-    status = chosen_model(&with, base, &m, why);
+    chosen_drop(&with, without);
+    status = chosen_model(&with, d->base, &m, why);
     if (status == DONE) status = residual_lines(s, &m, &own, why);
-    if (status == DONE) take_turn(l, &own, s, turns->n > 1 ? k : ALL_TURNS);
+    if (status == DONE) take_turn(l, &own, s, d->turns->n > 1 ? k : ALL_TURNS);
     lines_free(&own);
   }
   return status;
 }
 
-done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double **its_own, why_t *why) {
-  *after = (lines_t){.r = {NULL}};
-  TRY(residual_lines(job->held, job->base, before, why));
-  TRY(lines_without(job->held, job->base, job->turns, -1, after, why));
-  double *const own = find_own(job, after, why);
-  if (!own) return FAILED;
-  take_own(job, own, before);
-  take_own(job, own, after);
-  if (its_own)
-    *its_own = own;
-  else
-    free(own);
+// --- what a flight has of its own --------------------------------------------------------------------------
+
+done_t own_find(own_t *own, const set_t *fit, const model_t *m, double *const residual[CHANNELS],
+                const nominal_t *nominal, bool apart, why_t *why) {
+  cell_t cell[CHANNELS];
+  *own = (own_t){.may = {0.0}};
+  if (nominal->n == 0) return DONE;
+  TRY(unknown_differ(fit, m, residual, nominal->scan, nominal->n, nominal->misfit, cell, why));
+  for (int ch = 0; ch < CHANNELS; ch++)
+    if (cell[ch].statistic > 0.0)
+      own->may[ch] = apart ? cell[ch].size * limits_another((int)cell[ch].to) : HUGE_VAL;
   return DONE;
+}
+
+static bool has_own(const own_t *own) {
+  bool has = false;
+  for (int ch = 0; ch < CHANNELS; ch++) has = has || own->may[ch] > 0.0;
+  return has;
+}
+
+// Of all between a flight's constant and the fitted ones' that is the flight's own which leaves least.
+static double own_of(double is, double usual, double may) {
+  const double off = is - fmin(fmax(0.0, fmin(is, usual)), fmax(is, usual));
+  return fmin(fmax(off, -may), may);
+}
+
+// its_own: of flight f and channel ch [f * CHANNELS + ch], may be null.
+static void take_own(const verify_job_t *d, const lines_t *fitted, lines_t *l, double *its_own) {
+  for (int i = 0; i < d->held->n_grid * CHANNELS; i++) {
+    const int ch = i % CHANNELS, flight = i / CHANNELS;
+    const rows_t *const r = set_rows(d->held, ch);
+    if (!(d->own->may[ch] > 0.0)) continue;
+    const double own = own_of(rows_constant(r, l->r[ch], flight),
+                              rows_mean(set_rows(d->fit, ch), fitted->r[ch]), d->own->may[ch]);
+    rows_take(r, l->r[ch], flight, own);
+    if (its_own) its_own[i] = own;
+  }
+}
+
+// --- flights that were not fitted to -----------------------------------------------------------------------
+
+static done_t lines_without(const verify_job_t *d, int without, lines_t *l, double *its_own, why_t *why) {
+  lines_t fitted = {.r = {NULL}};
+  done_t status = lines_of(d, d->held, without, l, why);
+  if (status == DONE && has_own(d->own)) {
+    status = lines_of(d, d->fit, without, &fitted, why);
+    if (status == DONE) take_own(d, &fitted, l, its_own);
+  }
+  lines_free(&fitted);
+  return status;
+}
+
+done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double *its_own, why_t *why) {
+  *after = (lines_t){.r = {NULL}};
+  TRY(lines_without(job, NO_NAME, before, NULL, why));
+  return lines_without(job, ALL_NAMES, after, its_own, why);
 }
 
 // By turns flights may be too short for something to be held out of each.
@@ -294,19 +320,15 @@ static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *w
 static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
   with_all_t with;
   lines_t without = {.r = {NULL}};
-  double *own = NULL;
   double most = 0.0;
   *worst = -1;
-  done_t status = lines_without(d->held, d->base, d->turns, -1, &with.lines, why);
-  if (status == DONE && !(own = find_own(d, &with.lines, why))) status = FAILED;
-  if (status == DONE) take_own(d, own, &with.lines);
+  done_t status = lines_without(d, ALL_NAMES, &with.lines, NULL, why);
   for (int ch = 0; ch < CHANNELS && status == DONE; ch++) with.color[ch] = color_of(d->held, ch, &with.lines);
   for (int i = 0; i < d->found->n && status == DONE; i++) {
     named_t *const name = &d->found->named[i];
     withdrawn_t so;
     double grows = 0.0;
-    status = lines_without(d->held, d->base, d->turns, name->candidate, &without, why);
-    if (status == DONE) take_own(d, own, &without);
+    status = lines_without(d, name->candidate, &without, NULL, why);
     if (status == DONE) status = try_name(d, name, &with, &without, &so, &grows, why);
     lines_free(&without);
     if (status != DONE || !(grows > most || (grows == most && grows > 0.0 && so.share < why_so->share)))
@@ -316,7 +338,6 @@ static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so,
     *why_so = so;
   }
   lines_free(&with.lines);
-  free(own);
   return status;
 }
 

@@ -41,27 +41,33 @@ typedef struct {
 // tracks tell it.
 #define VERIFY_GROWS 1.05
 
-// What a held-out flight has of its own where the fitted flights differ, by channel, in its unit: by so much
-// its constant, with all that was found, may be off theirs, and that is no fault of what was found. It is
-// taken out of the residual of every model alike: what one leaves more than another stays what it is.
+// By how much, by channel and in its unit, a held-out flight's constant may be off the fitted ones': it has
+// something of its own, too, where they differ. Under each model it has what leaves least, as in the
+// likelihood of that model; 0: nothing.
 typedef struct {
-  double usual[CHANNELS], may[CHANNELS]; // theirs; may 0: it has nothing of its own
+  double may[CHANNELS];
 } own_t;
+
+// m: what was found; residual: what it leaves of the fitted flights. They differ beyond their bound
+// (unknown_differ), and another one as 99 of 100 would (limits_another). apart: false: by turns, in which
+// each flight is one of them and is made level with all. FAILED: no memory.
+MUST_CHECK done_t own_find(own_t *own, const set_t *fit, const model_t *m, double *const residual[CHANNELS],
+                           const nominal_t *nominal, bool apart, why_t *why);
 
 // What was found, and the flights that it is held against.
 typedef struct {
-  set_t *held;
+  set_t *held, *fit;
   const model_t *base; // without what was found
   const closed_loop_t *loop;
   found_t *found;
   by_turns_t *turns; // its numbers for each held-out row
-  own_t *own;
+  const own_t *own;
 } verify_job_t;
 
 // What the model leaves of every held-out row, without and with what was found; its_own (may be null): what
-// was taken out of both, of flight f and channel ch its_own[f * CHANNELS + ch]. FAILED: no memory. Free all,
-// also on an error.
-MUST_CHECK done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double **its_own,
+// was taken out of the latter, of flight f and channel ch [f * CHANNELS + ch]. FAILED: no memory. Free both
+// lines, also on an error.
+MUST_CHECK done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, double *its_own,
                                why_t *why);
 
 // FAILED: no memory.

@@ -270,8 +270,10 @@ static void order_by_share(report_t *r, const found_t *found) {
 
 done_t report_take_evidence(report_t *r, study_t *study, why_t *why) {
   diagnosis_t *const d = &study->diagnosis;
-  const verify_job_t held = {&d->held, &study->vehicle, &d->loop, &d->found, &d->turns, &d->own};
-  TRY(verify_lines(&held, &r->before, &r->after, &r->own, why));
+  const verify_job_t held = {&d->held, &d->fit, &study->vehicle, &d->loop, &d->found, &d->turns, &d->own};
+  r->own = calloc((size_t)d->held.n_grid * CHANNELS + 1, sizeof(double));
+  if (!r->own) return error_failed(why, "out of memory");
+  TRY(verify_lines(&held, &r->before, &r->after, r->own, why));
   r->n_finding = d->found.n;
   order_by_share(r, &d->found);
   lines_t now = {.r = {NULL}};

@@ -163,6 +163,8 @@ const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
 // it acts as .." Returns text.
 #define REPORT_DIFFER 1536
 const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]);
+// Adds what a held-out flight has to those before: ", -1.2 m/s2 in c.csv".
+void report_add_flight(const report_t *r, int channel, int flight, double value, char text[REPORT_TEXT]);
 // Notes what is left out of held-out flights, where it is more than noise.
 void report_warn_of_own(report_t *r);
 // What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %

@@ -102,6 +102,15 @@ const char *report_differ(const report_t *r, const flights_differ_t *d, char tex
   return text;
 }
 
+void report_add_flight(const report_t *r, int channel, int flight, double value, char text[REPORT_TEXT]) {
+  const grid_t *const g = &r->study->diagnosis.held.grid[flight];
+  if (flight < FLIGHTS_TOLD)
+    text_add(text, REPORT_TEXT, "%s%+.2g %s in %s", text[0] ? ", " : "", value, gap_unit[channel],
+             report_log_name(r, g->flight));
+  else if (flight == FLIGHTS_TOLD)
+    text_add(text, REPORT_TEXT, ", ..");
+}
+
 void report_warn_of_own(report_t *r) {
   const set_t *const held = &r->study->diagnosis.held;
   for (int ch = 0; ch < CHANNELS && r->own && !r->study->by_time; ch++) {
@@ -112,9 +121,7 @@ void report_warn_of_own(report_t *r) {
     for (int f = 0; f < held->n_grid; f++) {
       const double own = r->own[f * CHANNELS + ch];
       squares += own * own * (rows_from(rows, f + 1) - rows_from(rows, f)) / fmax(rows->n, 1.0);
-      if (own != 0.0 && f < FLIGHTS_TOLD)
-        text_add(which, sizeof which, "%s%+.2g %s in %s", which[0] ? ", " : "", own, gap_unit[ch],
-                 report_log_name(r, held->grid[f].flight));
+      if (own != 0.0) report_add_flight(r, ch, f, own, which);
     }
     if (p->used && hypot(p->after, sqrt(squares)) > LEFT_OVER * fmax(p->after, p->floor))
       note(&r->warnings,

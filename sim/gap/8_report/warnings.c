@@ -49,16 +49,15 @@ static bool warn_of_another(report_t *r, int ch) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const gap_part_t *const p = &d->held_out.channel[ch];
   const rows_t *const rows = set_rows(&d->held, ch);
+  const double usual = rows_mean(set_rows(&d->fit, ch), d->residual[ch]);
   char which[REPORT_TEXT] = "";
   double squares = 0.0;
   if (r->study->by_time || set_rows(&d->fit, ch)->n == 0) return false;
   for (int f = 0; f < d->held.n_grid; f++) {
     const int n = rows_from(rows, f + 1) - rows_from(rows, f);
-    const double is = rows_constant(rows, r->after.r[ch], f), more = is - d->own.usual[ch];
+    const double is = rows_constant(rows, r->after.r[ch], f), more = is - usual;
     squares += pow(fmin(fabs(is), fabs(more)), 2.0) * n / rows->n;
-    if (n && f < FLIGHTS_TOLD)
-      text_add(which, sizeof which, "%s%+.2g in %s", which[0] ? ", " : "", more,
-               report_log_name(r, d->held.grid[f].flight));
+    if (n) report_add_flight(r, ch, f, more, which);
   }
   if (!(squares > 0.5 * (p->after * p->after - p->floor * p->floor))) return false;
   warn(
