@@ -86,7 +86,8 @@ static void tell_number(const candidate_t *c, int k, const char *before, char te
 static bool is_told(const char *group, const char *text) {
   const size_t size = strlen(group);
   for (const char *at = strstr(text, group); at; at = strstr(at + 1, group))
-    if ((at == text || at[-2] == ';') && (at[size] == '\0' || at[size] == ';')) return true;
+    if ((at == text || (at - text > 1 && at[-2] == ';')) && (at[size] == '\0' || at[size] == ';'))
+      return true;
   return false;
 }
 
