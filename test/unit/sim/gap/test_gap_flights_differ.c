@@ -188,7 +188,7 @@ static double held_of_a_scale(void (*spoil)(gap_track_t *)) {
   why_t why = {""};
   double holds = 0.0;
   const chosen_t none = {.n = 0};
-  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil}, &why))) return NAN;
+  if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = spoil}, &why))) return (double)NAN;
   CHECK_OK(candidates_make(&c, &r.vehicle, &r.set, &why));
   const nominal_job_t job = {&r.set, &r.vehicle, r.vehicle, &c, &none, &r.loop, 1, NULL};
   if (CHECK_OK(nominal_make(&n, &job, &why))) {
