@@ -52,7 +52,7 @@ done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, 
   return to->n ? DONE : error_set(why, "none of these tracks can be flown");
 }
 
-done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why) {
+done_t nominal_set(set_t *s, const gap_flights_t *flown, bool several, const model_t *m, why_t *why) {
   grid_t *const grid = calloc((size_t)flown->n + 1, sizeof(grid_t));
   if (!grid) return error_failed(why, "out of memory");
   done_t status = DONE;
@@ -60,7 +60,7 @@ done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t
     status = grid_make(&grid[f], &flown->flight[f], 0, flown->flight[f].n, m, why);
   if (status == DONE) {
     TRY(set_make(s, grid, flown->n, why));
-    return flown->n > 1 ? lift_find(s, m, why) : DONE;
+    return several ? lift_find(s, m, why) : DONE;
   }
   for (int f = 0; f < flown->n; f++) grid_free(&grid[f]);
   free(grid);
@@ -74,8 +74,8 @@ done_t nominal_along(along_t *a, const set_t *like, const model_t *m, const clos
                  .is_flights = {.flight = calloc(n, sizeof(gap_flight_t))}};
   if (!a->seen_flights.flight || !a->is_flights.flight) return error_failed(why, "out of memory");
   TRY(nominal_flights(&a->seen_flights, &a->is_flights, like, m, loop, NOMINAL_S, seed, why));
-  TRY(nominal_set(&a->seen, &a->seen_flights, m, why));
-  TRY(nominal_set(&a->is, &a->is_flights, m, why));
+  TRY(nominal_set(&a->seen, &a->seen_flights, like->n_grid > 1, m, why));
+  TRY(nominal_set(&a->is, &a->is_flights, like->n_grid > 1, m, why));
   memcpy(a->seen.excluded, like->excluded, sizeof a->seen.excluded);
   memcpy(a->is.excluded, like->excluded, sizeof a->is.excluded);
   return DONE;

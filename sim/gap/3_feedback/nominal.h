@@ -108,7 +108,8 @@ grid_t nominal_part(const grid_t *g, double most_s);
 // without errors; may be null. Both lists have room. BAD_INPUT: none could be flown; FAILED: no memory.
 MUST_CHECK done_t nominal_flights(gap_flights_t *to, gap_flights_t *truth, const set_t *s, const model_t *m,
                                   const closed_loop_t *loop, double most_s, unsigned long seed, why_t *why);
-// The flights as a set. FAILED: no memory.
-MUST_CHECK done_t nominal_set(set_t *s, const gap_flights_t *flown, const model_t *m, why_t *why);
+// The flights as a set; several: as flights of a log that has several (lift.h). FAILED: no memory.
+MUST_CHECK done_t nominal_set(set_t *s, const gap_flights_t *flown, bool several, const model_t *m,
+                              why_t *why);
 
 #endif

@@ -54,7 +54,7 @@ static void fly(void *trials, int i) {
 
 static void compare(trial_t *t) {
   set_t own = {.n_grid = 0};
-  if (t->status == DONE) t->status = nominal_set(&own, &t->seen, t->model, &t->why);
+  if (t->status == DONE) t->status = nominal_set(&own, &t->seen, false, t->model, &t->why);
   const double own_radps = t->status == DONE ? turning_radps(&own) : 0.0;
   t->turned.off = own_radps > 0.0 ? log(own_radps / t->log_radps) : (double)NAN;
   set_free(&own);

@@ -51,7 +51,7 @@ static done_t left_of(const gap_flights_t *flown, const set_t *like, squares_t *
                       why_t *why) {
   set_t own = {.n_grid = 0};
   lines_t l = {.r = {NULL}};
-  done_t status = nominal_set(&own, flown, m, why);
+  done_t status = nominal_set(&own, flown, like->n_grid > 1, m, why);
   memcpy(own.excluded, like->excluded, sizeof own.excluded);
   if (status == DONE) status = windows_keep(&own, m, why);
   if (status == DONE) status = moments_left(left, &own, m, &l, why);

@@ -35,7 +35,7 @@ static done_t find_errors(double *kept, const set_t *seen, const design_t *t, co
                           const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
   design_t is = {.columns = 0};
-  done_t status = nominal_set(&own, truth, job->base, why);
+  done_t status = nominal_set(&own, truth, job->set->n_grid > 1, job->base, why);
   memcpy(own.excluded, seen->excluded, sizeof own.excluded);
   if (status == DONE && own.smooth.n == seen->smooth.n && own.range.n == seen->range.n) {
     status = design_make(&is, &own, job->base, job->c, job->chosen, why);
@@ -121,7 +121,7 @@ static void fly(void *parts, int k) {
 
 static done_t sum_up(part_t *p, why_t *why) {
   set_t *const own = &p->left.set;
-  TRY(nominal_set(own, &p->left.flights, p->job->base, why));
+  TRY(nominal_set(own, &p->left.flights, p->job->set->n_grid > 1, p->job->base, why));
   memcpy(own->excluded, p->job->set->excluded, sizeof own->excluded);
   return take_sums(p, own, p->first ? &p->is : NULL, p->job, why);
 }

@@ -220,7 +220,7 @@ static done_t pilot_read(closed_loop_t *read, const gap_track_t *r, const model_
   lines_t left;
   TRY(nominal_fly(&r->set.grid[0], &r->vehicle, flown_by, 5, &flight, NULL, why));
   thin(&flight, every);
-  TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, m, why));
+  TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, false, m, why));
   TRY(lines_make(&left, &set, why));
   TRY(residual_of(&set, m, left.r, why));
   *read = closed_loop_of(&set, m, told_Hz > 0.0 ? &by : NULL, left.r);
