@@ -169,8 +169,12 @@ double rows_constant(const rows_t *r, const double *v, int flight) {
   return constant_in(r, v, rows_from(r, flight), rows_from(r, flight + 1));
 }
 
-double rows_mean(const rows_t *r, const double *v) {
-  return constant_in(r, v, 0, r->n);
+double rows_usual(const rows_t *r, const double *v, int flights) {
+  double sum = 0.0;
+  int n = 0;
+  for (int f = 0; f < flights; f++)
+    if (rows_from(r, f) < rows_from(r, f + 1)) sum += rows_constant(r, v, f), n++;
+  return n ? sum / n : 0.0;
 }
 
 void rows_take(const rows_t *r, double *v, int flight, double constant) {
@@ -214,5 +218,5 @@ void rows_clear(const rows_t *r, double *v, double *room) {
 }
 
 void rows_level(const rows_t *r, double *v) {
-  make_constant(r, v, rows_mean(r, v));
+  make_constant(r, v, constant_in(r, v, 0, r->n));
 }

@@ -71,9 +71,10 @@ static inline int rows_from(const rows_t *r, int flight) {
   return low;
 }
 
-// The constant (times the lift, least squares without colour) of a flight's rows, 0: it has none; and of all.
+// The constant (times the lift, least squares without colour) of a flight's rows, 0: it has none; and the
+// mean of these over the flights that have rows, each as much as another.
 double rows_constant(const rows_t *r, const double *v, int flight);
-double rows_mean(const rows_t *r, const double *v);
+double rows_usual(const rows_t *r, const double *v, int flights);
 // Takes a constant out of a flight's rows.
 void rows_take(const rows_t *r, double *v, int flight, double constant);
 // Takes each flight's own constant (times the lift, least squares without colour) out of a number by row.

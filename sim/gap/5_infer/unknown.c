@@ -274,12 +274,19 @@ static void weigh_ties(const scan_t *log, judged_t *to) {
   }
 }
 
-void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
-                   judged_t *to) {
-  double furthest = limits_nominal(n), most = -HUGE_VAL;
+// So many times what is usual no nominal flight goes beyond, and chance hardly.
+static double furthest_of(const scan_t *nominal, int n) {
+  double furthest = limits_nominal(n);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < UNKNOWN_CELLS; k++)
       furthest = fmax(furthest, nominal[i].cell[k].statistic / usual(nominal, n, i, k));
+  return furthest;
+}
+
+void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
+                   judged_t *to) {
+  const double furthest = furthest_of(nominal, n);
+  double most = -HUGE_VAL;
   *to = (judged_t){.found = false};
   for (int k = 0; k < UNKNOWN_CELLS; k++) {
     const cell_t *const c = &log->cell[k];
@@ -306,8 +313,9 @@ done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[C
   const done_t status = open_look(&l, why);
   if (status == DONE) windows_by_flight(&l, each);
   close_look(&l);
+  const double furthest = furthest_of(nominal, n);
   for (int ch = 0; ch < CHANNELS; ch++) {
-    const double chance = limits_nominal(n) * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false));
+    const double chance = furthest * usual(nominal, n, -1, unknown_cell(ch, LOOK_FLIGHTS, false));
     if (beyond(&each[ch], bound_of(&each[ch], chance, misfit)) > 0.0) cell[ch] = each[ch];
   }
   return status;

@@ -21,6 +21,7 @@ typedef struct {
   double statistic; // 0: nothing could be judged. It is measured by that of nominal flights
   int spreads;      // over so many cells like it the misfit of a name spreads at least; 0: it may lie in one
   double explained; // by it, of the white sum of squares
+  int flights;      // from flight to flight: that have rows
   bool first, last; // no row is before `from`, beyond `to`
   bool world;       // force_x and force_y are along the world's x and y: it stays where the vehicle turns
   bool is_patch;    // from..to is of x, and

@@ -58,7 +58,7 @@ done_t own_find(own_t *own, const set_t *fit, const model_t *m, double *const re
   TRY(unknown_differ(fit, m, residual, nominal->scan, nominal->n, nominal->misfit, cell, why));
   for (int ch = 0; ch < CHANNELS; ch++)
     if (cell[ch].statistic > 0.0)
-      own->may[ch] = apart ? cell[ch].size * limits_another((int)cell[ch].to) : HUGE_VAL;
+      own->may[ch] = apart ? cell[ch].size * limits_another(cell[ch].flights) : HUGE_VAL;
   return DONE;
 }
 
@@ -68,8 +68,10 @@ static bool has_own(const own_t *own) {
   return has;
 }
 
-// Of all between a flight's constant and the fitted ones' that is the flight's own which leaves least.
+// Of all between a flight's constant and the fitted ones' that is the flight's own which leaves least; of one
+// of them all that it is off.
 static double own_of(double is, double usual, double may) {
+  if (isinf(may)) return is - usual;
   const double off = is - fmin(fmax(0.0, fmin(is, usual)), fmax(is, usual));
   return fmin(fmax(off, -may), may);
 }
@@ -80,8 +82,9 @@ static void take_own(const verify_job_t *d, const lines_t *fitted, lines_t *l, d
     const int ch = i % CHANNELS, flight = i / CHANNELS;
     const rows_t *const r = set_rows(d->held, ch);
     if (!(d->own->may[ch] > 0.0)) continue;
-    const double own = own_of(rows_constant(r, l->r[ch], flight),
-                              rows_mean(set_rows(d->fit, ch), fitted->r[ch]), d->own->may[ch]);
+    const double own =
+        own_of(rows_constant(r, l->r[ch], flight),
+               rows_usual(set_rows(d->fit, ch), fitted->r[ch], d->fit->n_grid), d->own->may[ch]);
     rows_take(r, l->r[ch], flight, own);
     if (its_own) its_own[i] = own;
   }
@@ -169,7 +172,7 @@ static done_t contribution(set_t *s, const model_t *with, const model_t *without
 }
 
 // white: the same of white rows, by the colours of what these flights have left.
-static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
+static done_t errors_of(along_t *a, const own_t *own, const model_t *with, const model_t *without,
                         const color_t color[CHANNELS], double blur[CHANNELS], double white[CHANNELS],
                         why_t *why) {
   lines_t seen = {.r = {NULL}}, is = {.r = {NULL}};
@@ -179,6 +182,7 @@ static done_t errors_of(along_t *a, const model_t *with, const model_t *without,
     const int n = set_rows(&a->seen, ch)->n;
     if (n != set_rows(&a->is, ch)->n) continue; // errors move some rows out of sight
     for (int i = 0; i < n; i++) seen.r[ch][i] -= is.r[ch][i];
+    if (own->may[ch] > 0.0) rows_center(set_rows(&a->seen, ch), seen.r[ch]);
     blur[ch] = rms_of(seen.r[ch], n);
     if (!color[ch].used) continue;
     color_whiten(&color[ch], set_rows(&a->seen, ch), seen.r[ch], is.r[ch]);
@@ -200,7 +204,7 @@ static done_t blur_of(const verify_job_t *d, int candidate, const color_t color[
   TRY(model_without(d, -1, &with, why));
   TRY(model_without(d, candidate, &without, why));
   status = nominal_along(&a, d->held, &with, d->loop, 1, why);
-  if (status == DONE) status = errors_of(&a, &with, &without, color, blur, white, why);
+  if (status == DONE) status = errors_of(&a, d->own, &with, &without, color, blur, white, why);
   along_free(&a);
   return status == FAILED ? FAILED : DONE;
 }

@@ -48,9 +48,9 @@ typedef struct {
   double may[CHANNELS];
 } own_t;
 
-// m: what was found; residual: what it leaves of the fitted flights. They differ beyond their bound
-// (unknown_differ), and another one as 99 of 100 would (limits_another). apart: false: by turns, in which
-// each flight is one of them and is made level with all. FAILED: no memory.
+// m: all that was found, also of what is withdrawn then; residual: what it leaves of the fitted flights. They
+// differ beyond their bound (unknown_differ), and another one as 99 of 100 would (limits_another). apart:
+// false: by turns, in which each flight is one of them and is made level with all. FAILED: no memory.
 MUST_CHECK done_t own_find(own_t *own, const set_t *fit, const model_t *m, double *const residual[CHANNELS],
                            const nominal_t *nominal, bool apart, why_t *why);
 

@@ -147,7 +147,7 @@ interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int
 
 // --- what several outputs say -----------------------------------------------------------------------------
 
-#define FLIGHTS_TOLD 6 // of more a line is no help; verdict.json has all
+#define FLIGHTS_TOLD 6 // of more a line is no help
 
 // What stands behind the last slash of a log's path; all of it where another log has that name, too.
 const char *report_log_name(const report_t *r, const gap_flight_t *log);
@@ -163,8 +163,12 @@ const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
 // it acts as .." Returns text.
 #define REPORT_DIFFER 1536
 const char *report_differ(const report_t *r, const flights_differ_t *d, char text[REPORT_DIFFER]);
-// Adds what a held-out flight has to those before: ", -1.2 m/s2 in c.csv".
-void report_add_flight(const report_t *r, int channel, int flight, double value, char text[REPORT_TEXT]);
+// What held-out flights have: "-1.2 m/s2 in c.csv, +0.3 m/s2 in d.csv", and ", .." for more than are told.
+typedef struct {
+  int n;
+  char text[REPORT_TEXT];
+} of_flights_t;
+void report_add_flight(of_flights_t *to, const report_t *r, int channel, int flight, double value);
 // Notes what is left out of held-out flights, where it is more than noise.
 void report_warn_of_own(report_t *r);
 // What would do for it for a time: "At all times but 0.3 to 15.1 s it acts as mass would (add 0.0031 kg: 97 %

@@ -102,31 +102,29 @@ const char *report_differ(const report_t *r, const flights_differ_t *d, char tex
   return text;
 }
 
-void report_add_flight(const report_t *r, int channel, int flight, double value, char text[REPORT_TEXT]) {
-  const grid_t *const g = &r->study->diagnosis.held.grid[flight];
-  if (flight < FLIGHTS_TOLD)
-    text_add(text, REPORT_TEXT, "%s%+.2g %s in %s", text[0] ? ", " : "", value, gap_unit[channel],
-             report_log_name(r, g->flight));
-  else if (flight == FLIGHTS_TOLD)
-    text_add(text, REPORT_TEXT, ", ..");
+void report_add_flight(of_flights_t *to, const report_t *r, int channel, int flight, double value) {
+  const gap_flight_t *const log = r->study->diagnosis.held.grid[flight].flight;
+  if (to->n < FLIGHTS_TOLD)
+    text_add(to->text, REPORT_TEXT, "%s%+.2g %s in %s", to->n ? ", " : "", value, gap_unit[channel],
+             report_log_name(r, log));
+  else if (to->n == FLIGHTS_TOLD)
+    text_add(to->text, REPORT_TEXT, ", ..");
+  to->n++;
 }
 
 void report_warn_of_own(report_t *r) {
   const set_t *const held = &r->study->diagnosis.held;
   for (int ch = 0; ch < CHANNELS && r->own && !r->study->by_time; ch++) {
     const gap_part_t *const p = &r->study->diagnosis.held_out.channel[ch];
-    const rows_t *const rows = set_rows(held, ch);
-    char which[REPORT_TEXT] = "";
-    double squares = 0.0;
+    of_flights_t which = {.n = 0};
     for (int f = 0; f < held->n_grid; f++) {
       const double own = r->own[f * CHANNELS + ch];
-      squares += own * own * (rows_from(rows, f + 1) - rows_from(rows, f)) / fmax(rows->n, 1.0);
-      if (own != 0.0) report_add_flight(r, ch, f, own, which);
+      if (fabs(own) > LEFT_OVER * p->floor) report_add_flight(&which, r, ch, f, own);
     }
-    if (p->used && hypot(p->after, sqrt(squares)) > LEFT_OVER * fmax(p->after, p->floor))
+    if (p->used && which.n)
       note(&r->warnings,
            "%s: %s is left out of what is held out: as the fitted flights differ, it is taken for that "
            "flight's own",
-           gap_channel[ch], which);
+           gap_channel[ch], which.text);
   }
 }

@@ -49,22 +49,23 @@ static bool warn_of_another(report_t *r, int ch) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const gap_part_t *const p = &d->held_out.channel[ch];
   const rows_t *const rows = set_rows(&d->held, ch);
-  const double usual = rows_mean(set_rows(&d->fit, ch), d->residual[ch]);
-  char which[REPORT_TEXT] = "";
+  const double usual = rows_usual(set_rows(&d->fit, ch), d->residual[ch], d->fit.n_grid);
+  of_flights_t which = {.n = 0};
   double squares = 0.0;
   if (r->study->by_time || set_rows(&d->fit, ch)->n == 0) return false;
   for (int f = 0; f < d->held.n_grid; f++) {
     const int n = rows_from(rows, f + 1) - rows_from(rows, f);
     const double is = rows_constant(rows, r->after.r[ch], f), more = is - usual;
-    squares += pow(fmin(fabs(is), fabs(more)), 2.0) * n / rows->n;
-    if (n) report_add_flight(r, ch, f, more, which);
+    const double beside = fmin(fabs(is), fabs(more));
+    squares += beside * beside * n / rows->n;
+    if (beside > p->floor) report_add_flight(&which, r, ch, f, more + r->own[f * CHANNELS + ch]);
   }
-  if (!(squares > 0.5 * (p->after * p->after - p->floor * p->floor))) return false;
+  if (!which.n || !(squares > 0.5 * (p->after * p->after - p->floor * p->floor))) return false;
   warn(
       r,
       "%s: %.3g %s is left of what is held out, where noise and feedback alone leave %.3g, and most of it is "
       "there all the time: %s, other than in the fitted flights: something was changed in between",
-      gap_channel[ch], p->after, gap_unit[ch], p->floor, which);
+      gap_channel[ch], p->after, gap_unit[ch], p->floor, which.text);
   return true;
 }
 

@@ -85,7 +85,7 @@ TEST(gap_takes_out_of_rows_what_flights_have_for_their_own) {
     flights_t *const f = flights_of(FLOWN[i].own, FLOWN[i].lifts);
     const double mean = (FLOWN[i].own[0] + FLOWN[i].own[1] + FLOWN[i].own[2]) / FLIGHTS;
     for (int k = 0; k < FLIGHTS; k++) CHECK_NEAR(rows_constant(&f->r, f->v, k), FLOWN[i].own[k], 0.15);
-    CHECK_NEAR(rows_mean(&f->r, f->v), mean, 0.1);
+    CHECK_NEAR(rows_usual(&f->r, f->v, FLIGHTS), mean, 0.1);
     rows_take(&f->r, f->v, 1, 5.0);
     CHECK_NEAR(rows_constant(&f->r, f->v, 1), FLOWN[i].own[1] - 5.0, 0.15);
     CHECK_NEAR(rows_constant(&f->r, f->v, 2), FLOWN[i].own[2], 0.15);
