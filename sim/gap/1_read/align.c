@@ -1,20 +1,19 @@
-// align.c - stage 1: how late one stream is against another that drives it.
+// align.c - stage 1: the delay of a stream against another one that drives it.
 //
-// Over windows of h: what attitude, velocity or position moved is what gyro, force or velocity drive, tau
-// late:
-//   moved(t) = driven(t - tau) = driven(t) - tau (ends of the driving signal: last minus first) + ...
-// Least squares over each of eight parts of the flight, with a scale and an offset beside tau; their scatter
-// is the standard error.
+// Over a window, attitude, velocity or position moves by the integral of gyro, force or velocity, tau late:
+//   moved(t) = driven(t - tau) = driven(t) - tau (last value of the driving signal minus its first) + ...
+// Each of eight parts of the flight gives a tau by least squares, with a scale and an offset beside it; their
+// scatter gives the standard error.
 #include "gap/1_read/read.h"
 
 #include "base/constants.h"
 #include <math.h>
 
 #define PARTS       8
-#define IMPACT_MPS2 8.0  // it touches something: too short for the log's rate
-#define SMOOTH_S    0.02 // the force's ends are means over this: propellers shake the accelerometer
+#define IMPACT_MPS2 8.0  // a larger acceleration is an impact, too short for the log's rate
+#define SMOOTH_S    0.02 // the force's end values are means over this: propellers shake the accelerometer
 
-// What three columns drive over a window, by the trapezoidal rule.
+// Integrates three columns over a window, by the trapezoidal rule.
 static void drive(const gap_flight_t *f, signal_id_t first, int i, int j, window_t *w) {
   for (int k = 0; k < 3; k++) {
     const double *const rate = f->v[(int)first + k];
@@ -94,7 +93,8 @@ typedef struct {
   double n, e, g, d, ed, eg, gg, gd, dd;
 } products_of_turns_t;
 
-// tau of one part, and how much it knows (the sum of squares that tells it).
+// Returns tau of one part, axes `from` to 2 together. *weight: its information, the sum of squares of the
+// ends that scale and offset do not explain; 0: this part cannot tell.
 static double late_of(const products_of_turns_t s[3], int from, double *weight) {
   double ed = 0.0, eg = 0.0, gg = 0.0, gd = 0.0, dd = 0.0;
   *weight = 0.0;

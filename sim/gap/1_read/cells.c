@@ -1,4 +1,4 @@
-// cells.c - stage 1: cells that are empty, no numbers or out of range: counted and left out, or too many.
+// cells.c - stage 1: counts cells that are empty, not numbers or out of range, and refuses too many of them.
 #include "gap/1_read/read.h"
 
 #include "base/by_size.h"
@@ -6,15 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define USUAL 0.6 // of the distances of a stream's values are no longer than its usual one
+#define USUAL 0.6 // share of the intervals between a stream's values that are no longer than its usual one
 
-// Signals of which every row, or every so many rows, has a value: what is seen now and then (ranges), held
-// (voltage) or not always wanted (set points) may be empty.
+// True if the signal should have a value in every row, or in one row of a few. Ranges (seen now and then),
+// voltage (held) and set points (not always given) may be empty.
 static bool is_steady(signal_id_t i) {
   return (i >= SIG_X && i <= SIG_THRUST) || (i >= SIG_TX && i <= SIG_W4);
 }
 
-// The distance within which most values follow on the one before: a stream slower than the log has its own.
+// Returns the time within which most values follow the one before: it is longer where a stream is slower than
+// the log. Infinite: fewer than two values.
 static double usual_distance_s(const raw_t *raw, const double *v, double *room) {
   int n = 0, last = -1;
   for (int i = 0; i < raw->n; i++) {
@@ -27,8 +28,8 @@ static double usual_distance_s(const raw_t *raw, const double *v, double *room) 
   return room[(int)(USUAL * (n - 1))];
 }
 
-// Between its first and its last value, cells where a value was due and none is. Where the rows themselves
-// are missing none was.
+// Refuses a signal that lacks too many values between its first and its last. Where the rows themselves are
+// missing, no value was due.
 static done_t refuse_holes(const raw_t *raw, const log_rows_t *rows, signal_id_t signal, double *room,
                            why_t *why) {
   const double *const v = raw->v[signal], usual_s = usual_distance_s(raw, v, room);
@@ -48,7 +49,8 @@ static done_t refuse_holes(const raw_t *raw, const log_rows_t *rows, signal_id_t
                       "%.3g %% of its cells are empty, from here on; allowed: 5 %%", 100.0 * lost / due);
 }
 
-// Three motors carry no vehicle, and a fourth that is made up would be named as an effect.
+// Refuses a log with columns for only some of the motors: three carry no vehicle, and an invented fourth
+// would be named as an effect.
 static done_t refuse_some_motors(const log_rows_t *rows, why_t *why) {
   for (int first = SIG_M1; first <= SIG_W1; first += SIG_W1 - SIG_M1) {
     int lacks = -1, there = -1;
@@ -61,10 +63,10 @@ static done_t refuse_some_motors(const log_rows_t *rows, why_t *why) {
   return DONE;
 }
 
-// Commands that are there and cannot be told in newton, where nothing else says what the motors did.
+// Refuses commands that cannot be converted to newton, unless rotor speeds say what the motors did.
 static done_t refuse_no_newton(const log_rows_t *rows, why_t *why) {
   if (!rows->lacks[0] || (rows->has & SPEEDS) == SPEEDS) return DONE;
-  const bool other = strncmp(rows->lacks, "column", 6) == 0; // than the commands' own
+  const bool other = strncmp(rows->lacks, "column", 6) == 0; // the text names another column, the voltage's
   return table_refuse(&rows->table, 1, other ? -1 : rows->at[SIG_M1], why, "%s", rows->lacks);
 }
 

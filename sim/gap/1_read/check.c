@@ -1,4 +1,4 @@
-// check.c - stage 1: do a flight's signals agree with physics and with each other?
+// check.c - stage 1: checks that a flight's signals agree with physics and with each other.
 #include "gap/1_read/read.h"
 
 #include "base/constants.h"
@@ -10,13 +10,13 @@
 
 #define ABOVE_M     0.1 // an estimate of height may be wrong by as much
 #define ABOVE_SHARE 0.1
-#define MEAN_OF     50   // samples from which a mean says something
-#define WINDOWS_MIN 6    // windows from which a slope has an error of its own
+#define MEAN_OF     50   // least number of samples for a mean
+#define WINDOWS_MIN 6    // least number of windows for a slope with a standard error
 #define CLEARLY     4.0  // standard errors
-#define OTHER_SCALE 0.02 // of a right form as much is left (CANDIDATES_MISFIT)
-#define FLIES_AT    0.3  // of the largest thrust: it flies
-#define RANGE_M     0.02 // no range sensor sees nearer only
-#define SHARE_MIN   0.65 // of the other motors' mean: the commands of another unit, or half of them
+#define OTHER_SCALE 0.02 // as much as an effect of the right form misfits (CANDIDATES_MISFIT)
+#define FLIES_AT    0.3  // with more than this share of the largest thrust it flies
+#define RANGE_M     0.02 // a range sensor reads more than this at least once
+#define SHARE_MIN   0.65 // of the other motors' mean: outside, a column has another unit or half the commands
 #define SHARE_MAX   1.5
 #define FITS        (2 * COLUMNS_HINT + COLUMN_NAME_MAX) // bytes
 
@@ -48,13 +48,13 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
 
 typedef struct {
   double n, gg, mg, mm, mean, moved_mean;
-  // Where the scale is nearly right: less the mean difference. Of those windows in which what drives moves,
-  // of those in which what is driven does, and of all.
+  // For a scale that is nearly right: sums with the mean difference (offset) removed, over the windows in
+  // which the driver moves, in which the stream moves, and in which either does.
   double offset, driven_gg, driven_mg, moved_mg, moved_mm, left;
 } slope_t;
 
-// What an accelerometer says too much of, steadily, over a window, in the body's axes: of one that is tilted
-// or errs it goes to and fro in the world's where the vehicle turns about the vertical, and is no movement.
+// Returns the velocity that a bias or tilt of the accelerometer adds over a window, body axes; other drives:
+// 0. In world axes it goes to and fro as the vehicle yaws, and would be taken for a movement.
 static d3_t steady_b_mps(const gap_flight_t *f, const drive_t *drive) {
   const int m = gap_drive_samples(f, drive);
   d3_t sum = d3(0.0, 0.0, 0.0);
@@ -77,13 +77,13 @@ static bool window_at(const gap_flight_t *f, const drive_t *drive, int i, d3_t o
   return true;
 }
 
-// What is steady in both, with one sign: a vehicle that turns evenly all the time. Beside it what drives is
-// noise, and the other would turn a multiple of that.
+// Returns the steady part that both means share, with one sign: of a vehicle that turns evenly all the time.
+// Removed from the driver alone, it would make the stream move by a multiple of the driver's noise.
 static double common(double a, double b) {
   return a * b > 0.0 ? copysign(fmin(fabs(a), fabs(b)), a) : 0.0;
 }
 
-// The slope of what moves against what drives it, over the windows in which one of both does.
+// Sums for the slope of a stream against its driver, over the windows in which either of them moves.
 static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]) {
   const int m = gap_drive_samples(f, drive);
   const d3_t steady_mps = steady_b_mps(f, drive);
@@ -111,12 +111,12 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
     }
 }
 
-// Some of one goes with the other: half of the squares.
+// True if a line explains more than half of the squares.
 static bool goes_along(const slope_t *s) {
   return s->mg * s->mg > 0.5 * s->mm * s->gg;
 }
 
-// What would fit instead, as the end of a message: another unit of either, or the other sign of one of both.
+// Writes what would fit, as the end of a message: another unit of either stream, or the other sign of one.
 static void what_fits(const log_rows_t *rows, signal_id_t column, signal_id_t moved, const slope_t *s,
                       char text[FITS]) {
   const double b = s->mg / s->gg, size = fabs(b);
@@ -130,8 +130,9 @@ static void what_fits(const log_rows_t *rows, signal_id_t column, signal_id_t mo
     snprintf(text, FITS, "; the other sign of one of both would fit (scale = -1 in a columns file)");
 }
 
-// All axes together. Noise of what drives makes the slope over the windows in which it moves too flat; noise
-// of what is driven, over those in which that does, too steep: the truth lies between.
+// Notes a scale that is slightly off, over all axes together. The driver's noise flattens the slope over the
+// windows in which the driver moves; the stream's noise steepens it over those in which the stream moves. The
+// truth lies between.
 static void note_scale(gap_flight_t *f, const drive_t *drive, const slope_t slope[3]) {
   slope_t all = {.n = 0.0};
   for (int k = 0; k < 3; k++) {
@@ -171,7 +172,8 @@ static done_t check_drive(gap_flight_t *f, const log_rows_t *rows, const drive_t
   return DONE;
 }
 
-// Nearer throughout than any range sensor sees: the unit is another one. Too far is refused row by row.
+// Refuses a range that is nearer throughout than any sensor sees: it has another unit. Readings that are too
+// far are bad cells (log_rows.h).
 static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_id_t i, why_t *why) {
   double most_m = 0.0;
   int n = 0;
@@ -185,12 +187,12 @@ static done_t check_range(const gap_flight_t *f, const log_rows_t *rows, signal_
              : log_refuse(rows, i, "the largest range is", most_m, RANGE_M, 40.0, why);
 }
 
-// Thrust by the rotors' speeds, or by the commands.
+// Returns the thrust by the rotors' speeds, or by the commands.
 static double lift_N(const gap_flight_t *f, const model_t *vehicle, bool by_speeds, int i) {
   return by_speeds ? thrust_of_speeds_N(f->v, vehicle, i) : f->v[SIG_THRUST][i];
 }
 
-// Mean of thrust over what holds the vehicle up, while it flies.
+// Returns the mean in flight of thrust over mass times specific force (g if not logged); NaN: too short.
 static double lift_ratio(const gap_flight_t *f, const model_t *vehicle, bool by_speeds) {
   double most_N = 0.0, sum = 0.0;
   int n = 0;
@@ -220,7 +222,7 @@ static double sum_of_motors(const gap_flight_t *f, signal_id_t first, int i) {
   return f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
 }
 
-// One motor's share of what the four do while it flies; no trim of a vehicle that flies is so lopsided.
+// Refuses a motor whose mean in flight differs too much from the others': no trim is so uneven.
 static done_t check_shares(const gap_flight_t *f, const log_rows_t *rows, signal_id_t first, why_t *why) {
   double most = 0.0, sum[ROTORS] = {0.0}, all = 0.0;
   int n = 0;
@@ -267,7 +269,7 @@ static done_t check_commands(const gap_flight_t *f, const log_rows_t *rows, why_
       rows->vehicle.name, ratio, text);
 }
 
-// Heights of another room, or from another floor.
+// Refuses heights above the ceiling: of another room, or counted from another floor.
 static done_t check_ceiling(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
   const model_t *m = &rows->vehicle;
   const double rotors_m = body_rest_z_m(m) + body_rotor_z_m(m);

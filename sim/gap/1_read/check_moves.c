@@ -1,16 +1,16 @@
-// check_moves.c - stage 1: do ranges and set points move as far as the place does? Finds their unit.
+// check_moves.c - stage 1: checks the units of ranges and set points by how far they and the position move.
 //
-// What lies under or above a vehicle moves a range, too, and a vehicle follows its set points late: nothing
-// is refused but where the two go together as a line and one of the units that are known makes them equal.
+// Objects under or above a vehicle move a range, too, and a vehicle follows its set points late. So a stream
+// is refused only where it and the position lie on a line and another known unit makes their movements equal.
 #include "gap/1_read/read.h"
 
 #include <math.h>
 
-#define APART_S   0.5  // between two samples of a range that are compared: an age of 0.1 s matters little
-#define MOVES_M   0.05 // a movement, and the rms of one
-#define MOVES_MIN 10   // of them
-#define TOGETHER  0.8  // of the squares, that a line explains
-#define ALIKE     1.25 // times as far, or so many times less: equal
+#define APART_S   0.5  // least time between compared samples of a range: an age of 0.1 s then matters little
+#define MOVES_M   0.05 // least movement that counts, and least rms of the movements
+#define MOVES_MIN 10   // least number of movements
+#define TOGETHER  0.8  // least share of the squares that a line explains
+#define ALIKE     1.25 // movements within this factor are equal
 
 typedef struct {
   double n, x, y, xx, xy, yy;
@@ -22,7 +22,7 @@ static void add(line_t *s, double x, double y) {
   s->xx += x * x, s->xy += x * y, s->yy += y * y;
 }
 
-// How far y moves as x does; NaN: they do not go together, or x moves too little.
+// Returns the slope of y against x; NaN: they do not lie on a line, or x moves too little.
 static double slope(const line_t *s) {
   const double xx = s->xx - s->x * s->x / s->n, xy = s->xy - s->x * s->y / s->n,
                yy = s->yy - s->y * s->y / s->n;
@@ -30,7 +30,7 @@ static double slope(const line_t *s) {
   return xy > 0.0 && xy * xy >= TOGETHER * xx * yy ? xy / xx : (double)NAN;
 }
 
-// Of a stream that moves so many times as far as the place.
+// Refuses a stream that moves `times` as far as the position, if another unit makes the two equal.
 static done_t judge(const log_rows_t *rows, signal_id_t stream, const char *what, int axis, double times,
                     why_t *why) {
   char text[COLUMNS_HINT];
@@ -42,7 +42,7 @@ static done_t judge(const log_rows_t *rows, signal_id_t stream, const char *what
                       what, times, 'x' + axis, text);
 }
 
-// From sample to sample of the range, half a second or more apart. Upwards it falls as the vehicle rises.
+// Compares changes between samples APART_S or more apart. The upward range falls as the vehicle rises.
 static done_t check_range_moves(const gap_flight_t *f, const log_rows_t *rows, signal_id_t range,
                                 why_t *why) {
   const double sign = range == SIG_RANGE ? -1.0 : 1.0, *const v = f->v[range], *const z_m = f->v[SIG_Z];
@@ -60,7 +60,7 @@ static done_t check_range_moves(const gap_flight_t *f, const log_rows_t *rows, s
   return judge(rows, range, "range", 2, slope(&line), why);
 }
 
-// A place follows its set point late: all of the flight is looked at, not one movement after the other.
+// Compares values over the whole flight, not single movements, because a position follows its set point late.
 static done_t check_set_point(const gap_flight_t *f, const log_rows_t *rows, int axis, why_t *why) {
   const double *const set_m = f->v[SIG_SET_X + axis], *const at_m = f->v[SIG_X + axis];
   line_t line = {0};

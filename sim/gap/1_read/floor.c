@@ -1,24 +1,24 @@
-// floor.c - stage 1: what z says while the vehicle stands on the floor.
+// floor.c - stage 1: finds what z is while the vehicle stands on the floor.
 //
-// A tracked marker or the centre of mass is not at the feet, and an estimate has an error: a few centimetres,
-// on which ground and ceiling depend, and on which it hangs whether a row before take-off or a touch-down is
-// taken for flight. The columns file says it, or the rows before take-off do.
+// A tracked marker or the centre of mass is not at the feet, and an estimate has an error. These few
+// centimetres matter to ground and ceiling effects, and decide whether a row before take-off or at a
+// touch-down is taken for flight. The columns file gives them, or the rows before take-off do.
 #include "gap/1_read/read.h"
 
 #include "base/by_size.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define STANDS_S 0.5  // so long before take-off
-#define STILL_M  0.01 // four fifths of what z says there; as far from 0 is on the floor, as an estimate has it
+#define STANDS_S 0.5  // least time at rest before take-off
+#define STILL_M  0.01 // z's middle four fifths lie within this; a z this near 0 counts as the floor
 
-// Without a command nobody knows.
+// True if row i has a command, or else a rotor speed, that is known and too low for flight.
 static bool stands(const raw_t *raw, const model_t *vehicle, int i) {
   const double command = raw->v[raw->v[SIG_THRUST] ? SIG_THRUST : SIG_W1][i];
   return isfinite(command) && raw_flies(raw, vehicle, i) == 0;
 }
 
-// Rows before the first that is flown; 0: it does not stand so long.
+// Returns the number of rows before take-off; 0: the vehicle stands for less than STANDS_S, or nobody knows.
 static int rows_before(const raw_t *raw, const model_t *vehicle) {
   int n = 0;
   if (!raw->v[SIG_THRUST] && !has(raw->v, SPEEDS)) return 0;
@@ -26,7 +26,7 @@ static int rows_before(const raw_t *raw, const model_t *vehicle) {
   return n < raw->n && n > 0 && raw->t_s[n - 1] - raw->t_s[0] >= STANDS_S ? n : 0;
 }
 
-// The median of what z says in the first n rows; NaN: it moves, or says nothing.
+// Finds the median of z in the first n rows; NaN: z moves, or has no value.
 static done_t height_in(const raw_t *raw, int n, double *height_m, why_t *why) {
   double *const z_m = malloc((size_t)n * sizeof *z_m);
   int known = 0;
@@ -40,7 +40,7 @@ static done_t height_in(const raw_t *raw, int n, double *height_m, why_t *why) {
   return DONE;
 }
 
-// Of the vehicle, over the rotors: no point of it is further above its feet.
+// Returns the vehicle's width over the rotors: no point of it is further above its feet.
 static double width_m(const model_t *m) {
   return 2.0 * (hypot(m->frame.rotor_x_m[0], m->frame.rotor_y_m[0]) + m->rotor_radius_m);
 }

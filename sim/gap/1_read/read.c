@@ -1,21 +1,22 @@
-// read.c - stage 1: a log becomes a flight.
+// read.c - stage 1: turns a log into a flight.
 #include "gap/1_read/read.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SKEW_SPAN_S  300.0 // the skew is told from so much of a flight
+#define SKEW_SPAN_S  300.0 // delays are estimated from this much of a flight
 #define SKEW_MIN_S   0.0005
 #define SKEW_MAX_S   0.04 // the firmware's estimate of velocity is 15 to 30 ms behind
 #define SKEW_SURE    3.0  // standard errors
 #define SKEW_ROUNDS  3
-#define RANGE_SELDOM 0.7 // of the rows have a new sample: the sensor has a period of its own
+#define RANGE_SELDOM 0.7 // if fewer of the rows have a new sample, the sensor has a period of its own
 
 // An attitude that is logged as angles.
 static const signals_t ANGLES = SIGNALS(SIG_ROLL, SIG_YAW);
 
-// Of use only together: three quarters of an attitude are none, and three motors carry no vehicle.
+// Signals that are useful only together: three parts of a quaternion are no attitude, three motors carry no
+// vehicle.
 static const signals_t WHOLE[] = {ATTITUDE, COMMANDS, SIGNALS(SIG_F1, SIG_F4), SPEEDS};
 
 void gap_flight_free(gap_flight_t *f) {
@@ -34,7 +35,7 @@ static bool all_gaps(const raw_t *raw, const double *v) {
   return true;
 }
 
-// Drops the group unless all of it is there, and says what its others wait for.
+// Drops the group unless all of it is there, and notes which signal is missing.
 static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
   const bool whole = has(raw->v, group);
   const char *lacks = NULL, *there = NULL;
@@ -50,8 +51,8 @@ static void drop_part(gap_flight_t *f, raw_t *raw, signals_t group) {
   if (!(group & (ATTITUDE | ANGLES))) f->motor_lacks = lacks;
 }
 
-// What is not a signal of a flight: angles that have become a quaternion, torques that have become thrusts,
-// and what has no value anywhere.
+// Drops columns that are no signals of a flight: angles (converted to a quaternion), torques (converted to
+// thrusts), columns without any value, and incomplete groups. BAD_INPUT: the log has no signal of a flight.
 static done_t drop_rest(gap_flight_t *f, raw_t *raw, const log_rows_t *rows, why_t *why) {
   bool any = false;
   if (!has(raw->v, ATTITUDE)) drop_part(f, raw, ANGLES);
@@ -75,7 +76,7 @@ static void add_shift(double shift_s[SIG_COUNT], signals_t signals, double late_
     if (signals & SIGNAL_BIT(i)) shift_s[i] += late_s;
 }
 
-// How late the stream is beyond shift_s, by rounds: each looks at what the one before has left.
+// Estimates the stream's delay beyond shift_s in rounds, each of the delay that the one before has left.
 static done_t tell_late(raw_t *raw, const drive_t *stream, const double shift_s[SIG_COUNT], skew_t *told,
                         why_t *why) {
   *told = (skew_t){0.0, HUGE_VAL};
@@ -95,8 +96,8 @@ static done_t tell_late(raw_t *raw, const drive_t *stream, const double shift_s[
   return DONE;
 }
 
-// What the columns file says stands: feedback of noise can look like a stream that is late.
-// Of an attitude that is logged as angles it is said at one of these.
+// True if the columns file gives a delay, which then stands: feedback of noise can look like a late stream.
+// For an attitude that is logged as angles, one of the angles has it.
 static bool is_said(const columns_t *c, signals_t moved) {
   if (moved == ATTITUDE) moved |= ANGLES;
   for (int i = 0; i < SIG_COUNT; i++)
@@ -104,7 +105,7 @@ static bool is_said(const columns_t *c, signals_t moved) {
   return false;
 }
 
-// Moves the stream by what it is late, if that is no more than it can be.
+// Adds the stream's estimated delay to shift_s, if it is significant, plausible and at most most_s.
 static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive_t *stream, double most_s,
                     double shift_s[SIG_COUNT], double *late_s, why_t *why) {
   skew_t told;
@@ -125,7 +126,7 @@ static done_t align(gap_flight_t *f, raw_t *raw, const columns_t *c, const drive
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-// What the log lacks, and what that costs.
+// Notes what the log lacks, and what that costs.
 static void note_missing(gap_flight_t *f) {
   const struct {
     signals_t need;
@@ -147,7 +148,8 @@ static void note_missing(gap_flight_t *f) {
     if (!has(f->v, row[k].need)) gap_note(f, "without %s %s", row[k].what, row[k].cost);
 }
 
-// What fell lies there to the end; who flies a loop does not end in it. Samples that are missing say nothing.
+// Notes a vehicle that is tilted by more than 90 degrees to the end: after a fall it lies there, but no loop
+// ends so. Missing samples are ignored.
 static void note_fallen(gap_flight_t *f) {
   if (!has(f->v, ATTITUDE)) return;
   const double *const x = f->v[SIG_QX], *const y = f->v[SIG_QY];
@@ -172,7 +174,8 @@ static void note_samples(gap_flight_t *f) {
   note_missing(f);
 }
 
-// What the columns file says of each; what is made of commands or angles is as late as they are.
+// Fills shift_s with the delays that the columns file gives. Signals that are computed from commands or
+// angles are as late as these.
 static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
   const column_t *const of = rows->columns.of;
   const bool each = rows->motors.kind == LOG_MOTORS_EACH || rows->motors.kind == LOG_MOTORS_MAP;
@@ -183,15 +186,15 @@ static void late_as_logged(const log_rows_t *rows, double shift_s[SIG_COUNT]) {
     const signal_id_t m = each ? (signal_id_t)(SIG_M1 + i) : SIG_THRUST;
     shift_s[SIG_F1 + i] = of[m].late_s;
     late_s += of[m].late_s / ROTORS;
-    if (!each) shift_s[SIG_M1 + i] = of[m].late_s; // made of a mix
+    if (!each) shift_s[SIG_M1 + i] = of[m].late_s; // computed from a mix
   }
   if (!rows->motors.total_logged) shift_s[SIG_THRUST] = late_s;
 }
 
-// How old a new sample of a range sensor is when its row is written: as the columns file says, else the
-// vehicle file, else as the Crazyflie's are; and it came half a period of the log before, where it comes more
-// seldom. In a block file of its own it was there before the row of the motors' file, and came half of its
-// own file's period before.
+// Returns the age of a new sample of a range sensor when its row is written: by the columns file, else the
+// vehicle file, else that of the Crazyflie's. A sensor slower than the log adds half a period of the log, its
+// mean wait for the row. A block file of its own adds the mean wait for the row of the motors' file, and its
+// own period takes the place of the log's. Rows that are means need no half period.
 static double range_age_s(const raw_t *raw, const log_rows_t *rows, signal_id_t range) {
   const column_t *const column = &rows->columns.of[range];
   const range_told_t *const told = range == SIG_RANGE ? &rows->vehicle.range_up : &rows->vehicle.range_down;
@@ -225,8 +228,8 @@ static done_t make(gap_flight_t *f, raw_t *raw, log_rows_t *rows, why_t *why) {
         slow);
   TRY(align(f, raw, &rows->columns, &GAP_TURN, HUGE_VAL, shift_s, &f->attitude_late_s, why));
   TRY(align(f, raw, &rows->columns, &GAP_PUSH, HUGE_VAL, shift_s, &f->velocity_late_s, why));
-  // A filter that follows the place is less late in it than in the velocity, with which it was moved. Where
-  // the velocity was not it may be the one that is late.
+  // The position was moved with the velocity, but a filter that tracks the position delays it less: it is
+  // moved back. Where the velocity was not moved, the velocity may be the one that is late.
   if (f->velocity_late_s > 0.0)
     TRY(align(f, raw, &rows->columns, &GAP_GO, 0.0, shift_s, &f->position_late_s, why));
   TRY(gap_grid(f, raw, ~(signals_t)0, shift_s, HUGE_VAL, true, why));

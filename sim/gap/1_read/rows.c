@@ -1,17 +1,17 @@
-// rows.c - stage 1: the rows of a log in memory, thinned and merged.
+// rows.c - stage 1: reads the rows of a log into memory, thinned and merged.
 #include "gap/1_read/read.h"
 
 #include "base/by_size.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define FIRST       512  // rows from which the rate is told
-#define BUNCH       0.25 // rows closer than this share of the median distance came late, together
+#define FIRST       512  // rows from which the rate is estimated
+#define BUNCH       0.25 // rows closer than this share of the median period came late, together
 #define RATE_MIN_HZ 40.0
 #define RATE_MAX_HZ 2200.0
-#define NO_RETURN_M 32.0 // sensors say 32.766 or 32.767 m where nothing comes back
+#define NO_RETURN_M 32.0 // sensors read 32.766 or 32.767 m where nothing comes back
 
-// The mean of rows of almost one time.
+// Sums for the mean of rows that are merged or thinned into one.
 typedef struct {
   int rows, n[SIG_COUNT];
   double first_s, sum_s, sum[SIG_COUNT];
@@ -110,14 +110,15 @@ static done_t tell_rate(raw_t *raw, const early_t *early, int n, const log_rows_
   return DONE;
 }
 
-// A sensor slower than the log stands in it as a value that stays, or with gaps between.
-// A cell of 0 is no distance; a mounting offset (columns file) may make one that is slightly negative.
+// Keeps only new samples: a sensor slower than the log repeats its value there, or leaves gaps. A cell of 0,
+// which reads as the columns file's mounting offset, is no distance; with an offset, a distance may be
+// slightly negative.
 static void keep_new_ranges(raw_t *raw, const columns_t *columns, double *v, double last_m[2]) {
   static const signal_id_t range[2] = {SIG_RANGE, SIG_RANGE_DOWN};
   for (int k = 0; k < 2; k++) {
     double *const now_m = &v[range[k]];
     const bool repeat = *now_m == last_m[k];
-    if (isnan(*now_m)) continue; // what it said last stays: rows of other events may lie between
+    if (isnan(*now_m)) continue; // the last value stays: rows of other events may lie between
     last_m[k] = *now_m;
     if (repeat) {
       *now_m = (double)NAN;
@@ -130,11 +131,11 @@ static void keep_new_ranges(raw_t *raw, const columns_t *columns, double *v, dou
 
 typedef struct {
   early_t early[FIRST + 1];
-  int n; // of early; beyond FIRST the rate is told
+  int n; // rows in `early`; once there are FIRST of them, the rate is estimated
   bin_t bin;
 } row_reader_t;
 
-// The rate is told, once, and the rows that waited for it are taken.
+// Estimates the rate, once, and takes the rows that waited for it.
 static done_t begin(row_reader_t *r, raw_t *raw, const log_rows_t *rows, why_t *why) {
   if (raw->thin > 0) return DONE;
   TRY(tell_rate(raw, r->early, r->n, rows, why));

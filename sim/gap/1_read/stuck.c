@@ -1,4 +1,4 @@
-// stuck.c - stage 1: values that stand still, because a stream is slow or because a sensor hangs.
+// stuck.c - stage 1: finds values that stand still, because a stream is slow or because a sensor hangs.
 #include "gap/1_read/read.h"
 
 #include "base/constants.h"
@@ -6,20 +6,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define REPEATS_MIN 0.2 // share of rows that repeat the one before: the stream is slower than the log
-#define REPEATS_S   0.1 // a longer run is no repeat: the value stands
-#define REPEATS_RUN 3.0 // ... unless the stream is that slow: so many usual runs
-#define STUCK_RUNS  5.0 // usual runs
+#define REPEATS_MIN 0.2 // share of repeated rows from which on a stream is slower than the log
+#define REPEATS_S   0.1 // a longer run is no repeat: the value stands still
+#define REPEATS_RUN 3.0 // ... unless the stream is that slow: in usual runs
+#define STUCK_RUNS  5.0 // a signal that is stuck stands for as many usual runs
 #define RUN_ROWS    10
-#define OTHERS_MOVE 0.5  // of that time
-#define MOVES       0.02 // of its weight, or m/s: a noise-free log that settles moves less while others stand
+#define OTHERS_MOVE 0.5  // of stuck_s: other signals have moved for so long
+#define MOVES       0.02 // of the weight, or m/s: a noise-free log that settles moves less while others stand
 
 // Signals that cannot stand still together while the vehicle flies.
 typedef struct {
   signal_id_t first;
   int n;          // signals
-  double stuck_s; // so long in flight
-  double way_m;   // ... and on so long a way, by the speed
+  double stuck_s; // for this time in flight
+  double way_m;   // ... and over this way, by the speed
 } group_t;
 
 static const group_t GROUP[] = {
@@ -27,15 +27,15 @@ static const group_t GROUP[] = {
     {SIG_GY, 1, 0.5, 0.0}, {SIG_GZ, 1, 0.5, 0.0}, {SIG_QW, 4, 0.5, 0.0}, {SIG_M1, 4, 0.5, 0.0},
     {SIG_VX, 3, 1.0, 0.1}, {SIG_X, 3, 1.0, 0.1},  {SIG_W1, 4, 0.5, 0.0}, {SIG_VBAT, 1, 10.0, 0.0},
 };
-// A simulator without a battery logs the same voltage for ever: its user knows, and says it.
+// A simulator without a battery logs a constant voltage: its user knows, and says so in a columns file.
 #define NO_BATTERY " (without a battery: vbat = {value = ..., unit = \"V\"} in a columns file)"
 
-// ... and one without noise may hover exactly, so that a sensor says nothing but zero.
+// ... and one without noise may hover exactly, so that a sensor reads nothing but zero.
 #define NO_NOISE " (a simulator without noise: let it begin beside its set point)"
 
 #define N_GROUP ((int)(sizeof GROUP / sizeof *GROUP))
 
-// Streams that come at a rate of their own.
+// Streams that may have a rate of their own.
 static const struct {
   signal_id_t first;
   int n;
@@ -52,7 +52,7 @@ static bool same(const raw_t *raw, signal_id_t first, int n, int i) {
   return true;
 }
 
-// The median time from one new value to the next.
+// Finds the median time from one new value to the next; 0: too few new values.
 static done_t usual_run(const raw_t *raw, signal_id_t first, int n, double *run_s, why_t *why) {
   double *const runs_s = malloc((size_t)raw->n * sizeof *runs_s);
   if (!runs_s) return error_failed(why, "out of memory");
@@ -107,7 +107,8 @@ static double speed_mps(const raw_t *raw, int i) {
   return isfinite(speed) ? speed : 0.0;
 }
 
-// Something else says that the vehicle moved between two rows: a simulated hover without noise may stand.
+// True if thrust or climb rate changed between two rows, or neither is logged: in a simulated hover without
+// noise everything may stand still.
 static bool moved(const raw_t *raw, const model_t *vehicle, int from, int i) {
   const double *const thrust_N = raw->v[SIG_THRUST], *const climb_mps = raw->v[SIG_VZ];
   if (!thrust_N && !climb_mps) return true;
@@ -122,7 +123,7 @@ static const char *unless_simulated(signal_id_t signal, double value) {
 
 static done_t check_group(const raw_t *raw, const log_rows_t *rows, const group_t *g, why_t *why) {
   int from = 0, whole = 0;
-  double others_s = HUGE_VAL; // when they began to move
+  double others_s = HUGE_VAL; // when other signals began to move
   double way_m = 0.0, run_s;
   TRY(usual_run(raw, g->first, g->n, &run_s, why));
   const double stuck_s = fmax(g->stuck_s, STUCK_RUNS * run_s);
@@ -159,8 +160,7 @@ static bool zero_throughout(const raw_t *raw, signal_id_t signal) {
   return true;
 }
 
-// A simulated flight on the vertical axis holds zeros beside it; no sensor that hangs leaves all of these at
-// zero.
+// True for a simulated flight along the vertical axis: no stuck sensor leaves all of these signals at zero.
 static bool on_vertical_axis(const raw_t *raw) {
   static const signal_id_t beside[] = {SIG_QX, SIG_QY, SIG_QZ, SIG_AX, SIG_AY, SIG_VX, SIG_VY};
   for (unsigned i = 0; i < sizeof beside / sizeof *beside; i++)

@@ -1,15 +1,15 @@
-// time_base.c - stage 1: streams with time stamps of their own on one uniform time base.
+// time_base.c - stage 1: resamples streams with time stamps of their own on one uniform time base.
 #include "gap/1_read/read.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define SPLIT_PERIODS 5.0 // a longer gap between rows splits the flight ..
+#define SPLIT_PERIODS 5.0 // a gap between rows that is longer, and longer than SPLIT_S, splits the flight
 #define SPLIT_S       0.04
-#define BRIDGE_S      0.12 // so much of one signal may be missing ..
-#define BRIDGE_SLOW   3.0  // or so many usual distances of a slow one
-#define CURVE_MAX_S   0.05 // a slower stream gets lines
-#define UNEVEN        3.0  // neighbours this much farther than each other: no curve is laid through them
+#define BRIDGE_S      0.12 // longest gap in one signal that is interpolated ..
+#define BRIDGE_SLOW   3.0  // or, of a slow stream, in usual times between its values
+#define CURVE_MAX_S   0.05 // a slower stream is interpolated by lines
+#define UNEVEN        3.0  // larger ratio of neighbouring intervals: a line, not a curve
 
 typedef struct {
   int first, last; // rows
@@ -17,7 +17,7 @@ typedef struct {
   double start_s;
 } stretch_t;
 
-// Of the uniform time base: margin_s: at both ends of a segment, where signals that are moved have nothing.
+// The uniform time base. margin_s: left out at both ends of a segment, where shifted signals have no values.
 typedef struct {
   double period_s, margin_s, end_s;
 } steps_t;
@@ -25,7 +25,7 @@ typedef struct {
 static const signals_t LINEAR =
     COMMANDS | SIGNALS(SIG_F1, SIG_F4) | SIGNALS(SIG_THRUST, SIG_VBAT) | SIGNALS(SIG_SET_X, SIG_SET_YAW);
 
-// The mean distance of rows, gaps left out; no shorter than that of GAP_RATE_HZ.
+// Returns the mean time between rows, without gaps; at least the period of GAP_RATE_HZ.
 static double grid_period(const raw_t *raw) {
   const double usual_s = raw->period_s * raw->thin;
   double sum_s = 0.0;
@@ -39,7 +39,7 @@ static double grid_period(const raw_t *raw) {
   return fmax(n > 0 ? sum_s / n : usual_s, 1.0 / GAP_RATE_HZ);
 }
 
-// The next run of rows without a gap that splits; false: none is left.
+// Finds the next run of rows without a gap that splits the flight; false: none is left.
 static bool next_segment(const raw_t *raw, const steps_t *g, stretch_t *s) {
   const double split_s = fmax(SPLIT_PERIODS * raw->period_s * raw->thin, SPLIT_S);
   s->at += s->n;
@@ -55,7 +55,7 @@ static bool next_segment(const raw_t *raw, const steps_t *g, stretch_t *s) {
   return true;
 }
 
-// A cubic through four points, between the second and the third; straight where it is uneven.
+// Interpolates between the second and the third of four points: by a cubic, or by a line if they are uneven.
 static double curve(const double t[4], const double y[4], double at) {
   const double h = t[2] - t[1], s = (at - t[1]) / h, slope = (y[2] - y[1]) / h;
   const double before = t[1] - t[0], after = t[3] - t[2];
@@ -72,7 +72,7 @@ static int next_finite(const double *v, int i, int last) {
   return i;
 }
 
-// Between rows 1 and 2 of four that have the signal; NaN where these are too far apart.
+// Interpolates between rows 1 and 2 of four that have the signal; NaN where these are too far apart.
 static double between(const raw_t *raw, const int row[4], int last, int signal, double at_s) {
   const double *const v = raw->v[signal], slow_s = raw->slow_s[signal];
   double t[4], y[4];
@@ -115,7 +115,7 @@ static bool is_range(int signal) {
   return signal == SIG_RANGE || signal == SIG_RANGE_DOWN;
 }
 
-// New samples go to the instant of their row, or to one so many before it.
+// Puts each new sample at the instant nearest to its row, less `instants`.
 static void place(const raw_t *raw, const double *v, const stretch_t *s, double period_s, double instants,
                   double *out) {
   for (int k = 0; k < s->n; k++) out[k] = (double)NAN;
@@ -125,7 +125,8 @@ static void place(const raw_t *raw, const double *v, const stretch_t *s, double 
   }
 }
 
-// A command at its limit masks what it drives: commands_s is taken from its time stamp.
+// Fills times and segment numbers, and masks the samples that a command at its limit drives. commands_s is
+// subtracted from the commands' time stamps.
 static void mark(gap_flight_t *f, const raw_t *raw, const stretch_t *s, int number, double period_s,
                  double commands_s) {
   for (int k = 0; k < s->n; k++) {
@@ -183,7 +184,7 @@ done_t gap_grid(gap_flight_t *f, raw_t *raw, signals_t want, const double shift_
   steps_t g = {grid_period(raw), 0.0, raw->t_s[0] + limit_s};
   for (int i = 0; i < SIG_COUNT; i++)
     if (raw->v[i] && !is_range(i)) g.margin_s = fmax(g.margin_s, fabs(shift_s[i]));
-  // Whole periods: what is not moved stays on its rows, where commands are what was given.
+  // Whole periods, so that signals that are not shifted stay on their rows, where commands are as given.
   g.margin_s = g.period_s * ceil(g.margin_s / g.period_s - 1e-6);
   int number = 0;
   f->n = 0;
