@@ -1,6 +1,6 @@
-// bumps.c - points at which something solid pushes.
+// bumps.c - finds points at which something solid pushes.
 //
-// Places err by a centimetre or two, so a vehicle that touches a ceiling may be told to be clear of it. A
+// Positions err by a centimetre or two, so a vehicle that touches a ceiling may seem to be clear of it. A
 // bump is no part of any model of air; a few rows of it outweigh all that a ceiling effect does in a flight.
 #include "gap/2_predict/grid.h"
 
@@ -8,22 +8,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Of any part of the vehicle from floor or ceiling: places err by 1 cm or 2, and tilt moves an edge by as
-// much.
+// Distance of any part of the vehicle from floor or ceiling below which it may touch: positions err by 1 cm
+// or 2, and tilt moves an edge by as much.
 #define NEAR_M 0.03
-// What touches does so until it is clear for sure: within one go places err by a centimetre, and for half a
-// second the same way. A vehicle that its ceiling effect has drawn up rests there, and nothing pushes it more
-// than it lifts: of 26 sets of others with a ceiling five more are told it for this, two less.
+// A vehicle that touched is taken to touch until it is clear for sure: at one approach positions err by a
+// centimetre, and for half a second in the same direction. One that its ceiling effect has drawn up rests
+// there, and nothing pushes it beyond its lift. With this rule, of 26 data sets by others with a ceiling,
+// five more name it and two no longer do.
 #define SURE_M 0.01
 #define SURE_S 0.5
-// Of the weight, no unit: ground and ceiling effects give a third at most, a bump at 0.2 m/s several times
-// it.
+// Share of the weight: ground and ceiling effects give a third at most, a bump at 0.2 m/s several weights.
 #define LIFT_SHARE 0.5
-// Of the weight, at a rotor's arm: what pushes at one edge turns it more than it lifts it. The moments of a
-// tilt under a ceiling are a tenth of that.
+// Share of the weight, at a rotor's arm: a push at one edge turns the vehicle more than it lifts it. The
+// moments of a tilt under a ceiling are a tenth of this.
 #define EDGE_SHARE 0.1
 
-// What it is lifted with (m/s2) and turned with about x and y (rad/s2) beyond its commands; NaN: not logged.
+// Lift (m/s2) and turning about x and y (rad/s2) beyond those by the commands; NaN: not logged.
 enum { LIFT, TURN_X, TURN_Y, PUSHES };
 
 static double lifted_mps2(const grid_t *g, const model_t *m, const grid_point_t *p, int sample) {
@@ -33,7 +33,7 @@ static double lifted_mps2(const grid_t *g, const model_t *m, const grid_point_t 
   return g->has_force ? p->acc_b_mps2.z - thrust_N / m->mass_kg : (double)NAN;
 }
 
-// From the sample before the point to the one behind. Of rows that miss commands it says nothing.
+// Returns the turning from the sample before the point to the one after it; NaN also if rows miss commands.
 static double turned_radps2(const grid_t *g, const model_t *m, int axis, int sample) {
   const int before = sample - 1, behind = sample + g->every;
   const int *const segment = g->flight->segment;
@@ -47,7 +47,7 @@ static double turned_radps2(const grid_t *g, const model_t *m, int axis, int sam
   return (rate_radps[behind] - rate_radps[before]) / span_s - command_radps2;
 }
 
-// More than that, either way, is no air.
+// Finds the largest pushes, either way, that air can make.
 static void find_most(const model_t *m, double most[PUSHES]) {
   const double weight_N = m->mass_kg * G_MPS2;
   double arm_m[2] = {0.0, 0.0}; // about x, y
@@ -67,7 +67,7 @@ static void find_pushes(const grid_t *g, const model_t *m, double *of[PUSHES]) {
   }
 }
 
-// Of what is there: a load, or a centre of mass that lies elsewhere, pushes all the time.
+// Returns the median of the numbers that are there: a load or another centre of mass pushes all the time.
 static double median_of(const double *v, int n, double *room) {
   int finite = 0;
   for (int j = 0; j < n; j++)
@@ -79,16 +79,16 @@ static bool is_high(const model_t *m, const grid_point_t *p) {
   return m->ceiling_m - p->pos_w_m.z <= p->pos_w_m.z;
 }
 
-// On the floor it lands; what it does at the ceiling, and beside it, is told.
+// Leaves a point out. Those at or near the ceiling are counted, for a note; on the floor the vehicle lands.
 static void leave_out(grid_t *g, const model_t *m, grid_point_t *p) {
   p->ok = false;
   if (!is_high(m, p)) return;
   if (g->bumps++ == 0 || p->t_s < g->bump_s) g->bump_s = p->t_s;
 }
 
-// Points near what the vehicle touched a moment before (way 1), or touches a moment later (-1). Of the floor
-// those alone before it was first clear, and after it last was: it lifts off and lands there, and in between
-// no air holds it on the floor. A point whose place is not known ends nothing.
+// Leaves out points that are still near a surface which the vehicle touched less than SURE_S before (way 1),
+// or touches less than SURE_S later (-1). At the floor only before it was first clear, and after it last was:
+// it lifts off and lands there, and in between no air holds it down. A point without a position ends nothing.
 static void leave_out_beside(grid_t *g, const model_t *m, int way) {
   double touched_s = HUGE_VAL;
   int first = 0, last = g->n - 1;

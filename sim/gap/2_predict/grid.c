@@ -7,11 +7,11 @@
 #include <string.h>
 
 #define POINT_HZ  50.0
-#define CLEAR_M   5e-3  // of the feet from the floor
-#define TOP_M     2e-3  // of anything from the ceiling
-#define FLOOR_M   0.04  // of an upward range sensor of which the vehicle file says nothing
+#define CLEAR_M   5e-3  // nearer to the floor, it touches
+#define TOP_M     2e-3  // nearer to the ceiling, it touches
+#define FLOOR_M   0.04  // of an upward range sensor that the vehicle file does not describe
 #define NOISE_M   0.005 // of the same
-#define NOISES    5.0   // so far from its floor it is not on it by chance
+#define NOISES    5.0   // sd above its floor from which on a reading is not there by chance
 #define NOMINAL_V 3.7   // where no voltage is logged
 
 const char *const gap_channel[CHANNELS] = {"force_x", "force_y", "force_z", "turn_x",
@@ -26,7 +26,7 @@ static bool has(const gap_flight_t *f, int from, int to) {
 
 // --- commands -----------------------------------------------------------------------------------------
 
-// By motor, and not only all together.
+// True if each motor's command is known, not only their sum.
 static bool each_commanded(const gap_flight_t *f) {
   return has(f, SIG_F1, SIG_F4) || (f->motors_N && has(f, SIG_M1, SIG_M4));
 }
@@ -76,7 +76,7 @@ static d3_t mean3(const gap_flight_t *f, int signal, int from, int n) {
   return d3(mean(f->v[signal], from, n), mean(f->v[signal + 1], from, n), mean(f->v[signal + 2], from, n));
 }
 
-// A quaternion and its opposite are one attitude.
+// Returns the mean attitude. A quaternion and its opposite are the same one.
 static dq_t mean_attitude(const gap_flight_t *f, int from, int n) {
   dq_t sum = {0.0, 0.0, 0.0, 0.0};
   for (int i = from; i < from + n; i++) {
@@ -97,8 +97,8 @@ static void take_range(const grid_t *g, int from, grid_point_t *p) {
     }
 }
 
-// Nearer than this, by the place or by what it says, an upward range sensor is at its floor: one that reads
-// too little is there before the vehicle is.
+// Returns the distance, by height or by reading, below which an upward range sensor is at its floor. A sensor
+// that reads too little gets there before the vehicle does.
 static double blind_m(const range_told_t *told) {
   return told->told ? told->floor_m + NOISES * told->noise_m : FLOOR_M + NOISES * NOISE_M;
 }
@@ -145,7 +145,7 @@ static grid_point_t point_of(const grid_t *g, const model_t *m, const touch_t *t
   return p;
 }
 
-// Measured thrust of the point that comes next.
+// Takes the measured thrust of the next point.
 static void take_speeds(grid_t *g, const model_t *m, int from) {
   for (int k = 0; k < ROTORS; k++) {
     const double speed = mean(g->flight->v[SIG_W1 + k], from, g->every);
@@ -162,7 +162,7 @@ static bool speeds_room(grid_t *g, size_t points) {
 
 // Points do not reach over the end of a segment.
 static void take_points(grid_t *g, const model_t *m, int to) {
-  body_t b = {.model = m}; // the points that can touch
+  body_t b = {.model = m}; // for its points that can touch
   body_surround(&b.touch, m);
   body_place(&b, d3(0.0, 0.0, 0.0));
   for (int i = g->from; i + g->every <= to;) {
@@ -177,7 +177,7 @@ static void take_points(grid_t *g, const model_t *m, int to) {
   }
 }
 
-// The points before and after, of the same segment; at an end the point itself.
+// Returns the point before (way -1) or after (1), of the same segment; at an end the point itself.
 static const grid_point_t *beside(const grid_t *g, int j, int way) {
   const int other = j + way;
   const bool there = other >= 0 && other < g->n && g->point[other].segment == g->point[j].segment;
@@ -189,8 +189,8 @@ static d3_t per_span(d3_t change, const grid_point_t *before, const grid_point_t
   return span_s > 0.0 ? d3_scale(1.0 / span_s, change) : d3(0.0, 0.0, 0.0);
 }
 
-// Where no velocity is logged: the way from the point before to the point after. Nothing is good beside a
-// place that is not known.
+// Where no velocity is logged: differentiates the position over the points before and after. A point beside
+// one without a position is not ok.
 static void make_velocity(grid_t *g) {
   for (int j = 0; j < g->n; j++) {
     const grid_point_t *const a = beside(g, j, -1), *const b = beside(g, j, 1);
@@ -199,7 +199,7 @@ static void make_velocity(grid_t *g) {
   }
 }
 
-// Where no acceleration is logged: likewise of the velocity, with gravity, in the body's axes.
+// Where no acceleration is logged: differentiates the velocity likewise, into specific force in body axes.
 static void make_acceleration(grid_t *g) {
   for (int j = 0; j < g->n; j++) {
     const grid_point_t *const a = beside(g, j, -1), *const b = beside(g, j, 1);
@@ -247,7 +247,7 @@ done_t grid_make(grid_t *g, const gap_flight_t *f, int from, int to, const model
 }
 
 #define COMMANDS_HZ 200.0 // attitude control commands at 500 Hz, and jitters; slower logs miss most of it
-#define JITTER      0.98  // of the rate of a log that has every command
+#define JITTER      0.98  // of the commands' rate: the least rate of a log that has every command
 
 bool grid_is_slow(const grid_t *g) {
   return g->flight->rate_Hz < (g->command_Hz > 0.0 ? JITTER * g->command_Hz : COMMANDS_HZ);

@@ -1,8 +1,8 @@
-// grid_motors.c - what the motors made of the commands.
+// grid_motors.c - the thrusts with which the motors follow the commands.
 //
-// A command holds until the next row of the log; where rows miss commands, it goes on to the next one along a
-// line (of 500 a second one that holds for a row of 100 a second is 5 ms late). A row that is a sample has
-// the thrust of its instant, before its own command acts (without a lag: with it); a row that is a mean has
+// A command holds until the next row of the log. Where rows miss commands, it runs along a line to the next
+// one (of 500 commands a second, one that held for a row of 100 a second would be 5 ms late). A row that is
+// an instant has the thrust before its own command acts (without a lag: with it); a row that is a mean has
 // the mean over its hold.
 #include "gap/2_predict/holds.h"
 
@@ -11,13 +11,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-// By sample, of every rotor; they are wanted `shift` samples before.
+// By sample, of every rotor. A point takes them `shift` samples before its own (the delay).
 typedef struct {
   four_t *thrust_N, *rise_Nps;
   double shift;
 } history_t;
 
-// What a hold leaves of a distance, while the rotor speeds up and while it slows down.
+// Shares of the distance to a command that are left after a hold, while a rotor speeds up or slows down.
 typedef struct {
   double up, down;
 } keep_t;
@@ -31,8 +31,8 @@ WIDE_INLINE void choose(const four_bits_t *holds, double a, double b, four_t *to
   *to = (four_t)((*holds & (four_bits_t)all_a) | (~*holds & (four_bits_t)all_b));
 }
 
-// What every rotor does from one row to the next; of a mean the command holds. now: what follows, before and
-// then behind it.
+// Moves every rotor on from one row to the next; if rows are means, the command holds. now: the number that
+// follows the command (lag_follows), at this row and then at the next.
 WIDE_INLINE void go_on(const lag_t *lag, const keep_t *left, double rate_Hz, bool mean,
                        const four_t *command_N, const four_t *next_N, four_t *now, four_t *thrust_N,
                        four_t *rise_Nps) {
@@ -46,7 +46,7 @@ WIDE_INLINE void go_on(const lag_t *lag, const keep_t *left, double rate_Hz, boo
   const four_bits_t speeds_up = to > start;
   choose(&speeds_up, lag->up_s, lag->down_s, &tau_s);
   choose(&speeds_up, left->up, left->down, &keep);
-  const four_t off = start - to, behind = (next - to) * rate_Hz * tau_s; // a line is followed so far behind
+  const four_t off = start - to, behind = (next - to) * rate_Hz * tau_s; // the lag behind a line
   const four_t end = next - behind + keep * (off + behind), rise = (to - start) / tau_s;
   const four_t now_N = in_speed ? start * start : start, end_N = in_speed ? end * end : end;
   *now = end;
@@ -55,13 +55,13 @@ WIDE_INLINE void go_on(const lag_t *lag, const keep_t *left, double rate_Hz, boo
     *rise_Nps = in_speed ? 2.0 * start * rise : rise;
     return;
   }
-  // Of to + off exp(-t / tau), and of its square.
+  // Means over the hold of to + off exp(-t / tau), and of its square.
   const four_t once = tau_s * rate_Hz * (1.0 - keep), twice = 0.5 * tau_s * rate_Hz * (1.0 - keep * keep);
   *thrust_N = in_speed ? to * to + 2.0 * to * off * once + off * off * twice : to + off * once;
   *rise_Nps = (end_N - now_N) * rate_Hz;
 }
 
-// mean: each command holds, and what is wanted is the mean over that.
+// mean: each command holds, and the mean over its hold is computed.
 WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
   const int *segment = g->flight->segment ? g->flight->segment + g->from : NULL;
   const keep_t left = keep_of(lag, g->flight->rate_Hz);
@@ -85,8 +85,8 @@ WIDE_INLINE void follow_all(const grid_t *g, const lag_t *lag, bool mean, const 
   }
 }
 
-// A command was there long enough at the start of a segment. All rotors side by side: of one alone each hold
-// waits for the one before.
+// At the start of a segment the rotors have settled at the command. All rotors are computed side by side,
+// because each hold of a single one waits for the hold before.
 WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, const history_t *h) {
   if (mean)
     follow_all(g, lag, true, h);
@@ -96,7 +96,7 @@ WIDE_COPIES static void follow(const grid_t *g, const lag_t *lag, bool mean, con
 
 // --- a lag of which a part goes with the square of the speed ---------------------------------------------
 
-// Of one direction: m = Om - u changes by -m l - b m^2, l = a + 2 b u (plant/lag.h), in roots of thrusts.
+// Rates in one direction: m = Om - u (roots of thrusts) changes by -m l - b m^2, l = a + 2 b u (plant/lag.h).
 typedef struct {
   double a, b; // 1/s, and 1/s for each root of a newton
 } rate_t;
@@ -106,7 +106,7 @@ static rate_t rate_of(const lag_t *lag, bool speeds_up) {
   return (rate_t){(1.0 - q) / tau_s, 0.5 * q / (sqrt(lag->steady_N) * tau_s)};
 }
 
-// At 0 m would be m / (1 + b m t), from which this does not differ.
+// Keeps l above 0. The limit at l = 0, m / (1 + b m t), does not differ from the result.
 static double not_zero(double l) {
   return fmax(l, 1e-6);
 }
@@ -115,10 +115,11 @@ static double squared_at(double m, double l, double b, double t_s) {
   return m * exp(-l * t_s) / (1.0 - b * m * expm1(-l * t_s) / l);
 }
 
-// Of a command that goes on along a line: how fast it is followed stays for the hold as it is in the middle.
+// Returns the speed after a hold in which the command runs along a line. The rate of following is taken to be
+// that in the middle of the hold.
 static double along_line(rate_t rate, double hold_s, double to, double next, double start) {
   double end = start;
-  for (int i = 0; i < 2; i++) { // the middle of what it comes to
+  for (int i = 0; i < 2; i++) { // the second time with the middle of the first result
     const double l = not_zero(rate.a + 0.5 * rate.b * (to + next + start + end));
     const double behind = (next - to) / (hold_s * l);
     end = next - behind + exp(-l * hold_s) * (start - to + behind);
@@ -126,7 +127,7 @@ static double along_line(rate_t rate, double hold_s, double to, double next, dou
   return end;
 }
 
-// One rotor from one row to the next. now: as above. The mean of a square by Simpson's rule, twice.
+// Moves one rotor on from one row to the next. now: as above. A mean is by Simpson's rule over two halves.
 static void go_on_squared(const lag_t *lag, double hold_s, bool mean, double command_N, double next_N,
                           double *now, double *thrust_N, double *rise_Nps) {
   const double to = lag_follows(lag, command_N), next = lag_follows(lag, next_N), start = *now;
@@ -176,7 +177,7 @@ static void follow_lag(const grid_t *g, const lag_t *lag, bool mean, const histo
 
 // --- the history of a model ------------------------------------------------------------------------------
 
-// Adds what the thrusts were at sample i - shift of the samples first..last, and how fast they rose.
+// Adds the thrusts, and their rates of change, at sample i - shift, kept within the samples first..last.
 WIDE_INLINE void look_back(const history_t *h, int first, int last, int i, four_t *thrust_N,
                            four_t *rise_Nps) {
   const double wanted = (double)i - h->shift, from = wanted > first ? wanted : first;
@@ -214,8 +215,8 @@ static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
   return m->thrust_N[0] && grid_same_motors(&m->lag, m->delay_s, lag, delay_s);
 }
 
-// The next one to be filled. The first stays: it is of the model alone, and what is asked for again and
-// again.
+// Returns the motor history to be filled next. The first one is kept: it is that of the model alone, and is
+// needed again and again.
 static lagged_t *place_of(grid_t *g) {
   lagged_t *const first = &g->motors[0];
   if (!first->thrust_N[0] || isnan(first->delay_s)) return first;
@@ -252,7 +253,7 @@ const lagged_t *grid_motors(grid_t *g, const lag_t *commands_lag, double command
   if (m->later_N[0]) follow_lag(g, lag, true, &h);
   const bool fits = !m->later_N[0] || holds_fit(g, h.thrust_N, h.shift, m);
   free(room);
-  if (!fits) m->delay_s = (double)NAN; // of no commands
+  if (!fits) m->delay_s = (double)NAN; // matches no request
   return fits ? m : NULL;
 }
 

@@ -1,4 +1,4 @@
-// holds.c - commands that hold, as a difference of two points sees them.
+// holds.c - corrects predictions of differences between two points for commands that hold.
 #include "gap/2_predict/holds.h"
 
 #include "base/wide.h"
@@ -9,15 +9,14 @@ bool holds_known(const grid_t *g) {
   return !g->by_speeds && !g->flight->rows_are_means && !grid_is_slow(g);
 }
 
-// What the rotors' thrusts have given up to the beginning of each sample, in newton times samples. All rotors
-// side by side, here and below: of one alone each sample waits for the one before.
+// given: the rotors' impulses up to the beginning of each sample, newton times samples. All rotors are
+// computed side by side, here and below, because each sample of a single one waits for the sample before.
 typedef struct {
   const four_t *hold_N;
   four_t *given;
 } impulse_t;
 
-// Adds what it was at an instant among the samples first..last of a segment; what holds at its ends held
-// before and behind.
+// Adds the impulses at an instant of the segment first..last (samples). Thrusts at its ends hold beyond them.
 WIDE_INLINE void add_given(const impulse_t *p, int first, int last, double at, four_t *sum) {
   const int i = at < first ? first : at < last ? (int)at : last;
   *sum += p->given[i] + (at - i) * p->hold_N[i];
@@ -36,7 +35,7 @@ static bool inside(const grid_t *g, int j) {
   return j > 0 && j + 1 < g->n && p[j - 1].segment == p[j].segment && p[j + 1].segment == p[j].segment;
 }
 
-// (x[j-1] + 4 x[j] + x[j+1]) / 6 = d[j] between the ends of a segment, where x is 0; d becomes x.
+// Solves (x[j-1] + 4 x[j] + x[j+1]) / 6 = d[j] between the ends of a segment, where x is 0; d becomes x.
 static void undo_simpson(const grid_t *g, four_t *d, double *room) {
   for (int j = 0; j < g->n; j++) {
     const bool in = inside(g, j), before = in && inside(g, j - 1);
@@ -51,8 +50,8 @@ static void undo_simpson(const grid_t *g, four_t *d, double *room) {
     if (inside(g, j)) d[j] -= room[j] * d[j + 1];
 }
 
-// Of all rotors at a point: thrust; its root, and its rise over that, of which the integral is twice the
-// root.
+// All rotors at a point: thrust, its root, and its rate of change over the root, the integral of which is
+// twice the root.
 typedef struct {
   four_t thrust_N, root, rise;
 } instant_t;
@@ -67,8 +66,8 @@ static instant_t instant_of(const grid_t *g, const lagged_t *m, int j) {
   return at;
 }
 
-// given: by point. What it and the roots of the thrusts grow by over the span, less what Simpson's rule makes
-// of three instants.
+// Finds how much the impulses (given: by point) and the roots of the thrusts grow over the span, less what
+// Simpson's rule makes of three instants.
 static void find_later(const grid_t *g, const lagged_t *m, const four_t *given, four_t *later,
                        four_t *later_root) {
   instant_t before, here = instant_of(g, m, 0), next = here;
@@ -84,7 +83,7 @@ static void find_later(const grid_t *g, const lagged_t *m, const four_t *given, 
   }
 }
 
-// What means of the points' samples have been given, as their rates are means.
+// Finds the impulses by point: means over its samples, because its rates are such means.
 WIDE_COPIES static void give(const grid_t *g, const impulse_t *p, double shift, four_t *given) {
   for (int j = 0, i = 0, first = 0, last = -1; j < g->n; j++, i += g->every) {
     i = grid_begins(g, i);
@@ -104,7 +103,7 @@ bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *mo
   add_up(&p, g->samples);
   give(g, &p, shift, given);
   if (g->n > 0) find_later(g, motors, given, later, later_root);
-  undo_simpson(g, later, (double *)given); // it has been taken
+  undo_simpson(g, later, (double *)given); // `given` is only room from here on
   undo_simpson(g, later_root, (double *)given);
   for (int k = 0; k < ROTORS; k++)
     for (int j = 0; j < g->n; j++) {
@@ -115,7 +114,7 @@ bool holds_fit(const grid_t *g, const four_t *hold_N, double shift, lagged_t *mo
   return true;
 }
 
-// Of each point, what the four rotors' numbers make with these weights.
+// Adds the weighted sum of the four rotors' numbers at each point.
 WIDE_COPIES static void add_weighted(int n, const double *const by_rotor[ROTORS], const double weight[ROTORS],
                                      double *to) {
   const double *const a = by_rotor[0], *const b = by_rotor[1], *const c = by_rotor[2], *const d = by_rotor[3];
@@ -133,7 +132,7 @@ void holds_add(const grid_t *g, const rigid_t *r, const lagged_t *motors, double
     x[k] = scale * r->rotor_y_m[k] * r->per_inertia.x;
     y[k] = -scale * r->rotor_x_m[k] * r->per_inertia.y;
     z[k] = turns * scale * r->torque_scale[k] * r->torque_ratio_m;
-    spin_up[k] = turns * r->half_I_per_kf / r->per_root_kf; // of a rise over the thrust's root
+    spin_up[k] = turns * r->half_I_per_kf / r->per_root_kf; // times the rate of change over the root
   }
   if (g->acceleration_made) add_weighted(g->n, later_N, lift, out[CH_FZ]);
   add_weighted(g->n, later_N, x, out[CH_WX]);

@@ -1,13 +1,13 @@
-// set_points.c - what the controller was told.
+// set_points.c - the controller's set points.
 #include "gap/2_predict/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define STILL_M    1e-3 // sd of a place that stands still
-#define MOVES_MPS  0.02 // sd of a speed that does not
-#define FOLLOWED_M 1.0  // mean distance at most
+#define STILL_M    1e-3 // sd below which a position stands still
+#define MOVES_MPS  0.02 // sd above which a velocity moves
+#define FOLLOWED_M 1.0  // largest mean distance at which it is followed
 
 static double mean_or_nan(const gap_flight_t *f, int signal, int from, int n) {
   double sum = f->v[signal] ? 0.0 : (double)NAN;
@@ -75,7 +75,7 @@ bool set_points_there(const grid_t *g) {
 
 // --- the track that they make -----------------------------------------------------------------------------
 
-// A gap keeps the last one.
+// Fills the track along axis k; a gap keeps the last position.
 static void lead(grid_t *to, const grid_t *g, int k) {
   double mean_m = 0.0, at_m = (double)NAN;
   int n = 0;
@@ -128,7 +128,7 @@ done_t set_points_track(const grid_t *g, grid_t *track, why_t *why) {
   if (!track->point) return error_failed(why, "out of memory");
   memcpy(track->point, g->point, (size_t)g->n * sizeof(grid_point_t));
   for (int k = 0; k < 3; k++) lead(track, g, k);
-  for (int j = 0; j < g->n; j++) { // what pilots follow
+  for (int j = 0; j < g->n; j++) { // pilots follow these
     track->point[j].seen_w_m = track->point[j].pos_w_m;
     track->point[j].seen_w_mps = track->point[j].vel_w_mps;
   }

@@ -1,4 +1,4 @@
-// smooth.c - places and velocities without what of their errors lasts for a moment only.
+// smooth.c - smooths short-lived errors out of positions and velocities.
 #include "gap/2_predict/grid.h"
 
 #include "base/lsq_blocks.h"
@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// On each side. Errors that last for 30 to 60 ms fall to 0.35 to 0.45 in it, in half of it to 0.46 to 0.6; in
-// twice as much the velocity's own errors begin to move the place (by 3 mm, of 0.03 m/s).
-// gap_takes_errors_of_a_moment_out_of_places holds both.
+// Half-width of the window. It reduces errors that last for 30 to 60 ms to 0.35 to 0.45 of their size, half
+// of it only to 0.46 to 0.6. With twice as much the velocity's own errors begin to move the position (by 3
+// mm, for 0.03 m/s). Test of both: gap_takes_errors_of_a_moment_out_of_places.
 #define SMOOTH_S 0.25
 
-// What the velocity adds up to from the first point on; of n points that follow each other.
+// Integrates the velocity from the first point on, over n points that follow each other.
 static void add_up(const grid_point_t *p, int n, d3_t *sum) {
   sum[0] = d3(0.0, 0.0, 0.0);
   for (int j = 1; j < n; j++) {
@@ -20,8 +20,8 @@ static void add_up(const grid_point_t *p, int n, d3_t *sum) {
   }
 }
 
-// off[0..n-1]: the place less what the velocity adds up to. Its mean over as many points before as after, so
-// that a velocity with a constant error does no harm.
+// Returns the mean of off about point j. off[0..n-1]: the position less the integral of the velocity. As many
+// points before as after count, so that a constant error of the velocity does no harm.
 static d3_t middle(const d3_t *off, int n, int j, int reach) {
   const int side = j < reach || n - 1 - j < reach ? (j < n - 1 - j ? j : n - 1 - j) : reach;
   d3_t sum = {0.0, 0.0, 0.0};
@@ -29,7 +29,7 @@ static d3_t middle(const d3_t *off, int n, int j, int reach) {
   return d3_scale(1.0 / (2 * side + 1), sum);
 }
 
-// n points; room: twice as many.
+// Smooths the positions of n points; room: twice as many.
 static void smooth(grid_point_t *p, int n, int reach, d3_t *room) {
   d3_t *const off = room + n;
   add_up(p, n, room);
@@ -37,7 +37,7 @@ static void smooth(grid_point_t *p, int n, int reach, d3_t *room) {
   for (int j = 0; j < n; j++) p[j].pos_w_m = d3_add(room[j], middle(off, n, j, reach));
 }
 
-// Behind the last one of those that follow each other.
+// Returns the end (exclusive) of the run of points from `from` on, of one segment and alike in `ok`.
 static int run_end(const grid_t *g, int from) {
   const grid_point_t *const p = &g->point[from];
   int to = from + 1;
@@ -47,25 +47,25 @@ static int run_end(const grid_t *g, int from) {
 
 // --- velocities -------------------------------------------------------------------------------------------
 //
-// Of x = v + u, a velocity and its error, what is nearest to v (Wiener) and leaves constants and slopes as
-// they are:
+// Logged is x = v + u, a velocity and its error. The estimate is nearest to v in the mean square (Wiener) and
+// leaves constants and slopes as they are:
 //
 //   v^ = x(0) + sum over k of g_k s_k(x),   s_k(x) = x(k) + x(-k) - 2 x(0)
 //   (E s(v) s(v)' + E s(u) s(u)') g = d,    d_k = -E u(0) s_k(u) = E (u(k) - u(0))^2
 //
-// where u has nothing in common with v and is as large at any time. What accelerations add up to tells s(v),
-// and what x has beside it s(u): what goes on in the same way, as an acceleration's constant error makes it,
-// falls out of both. So d is told by them, too: E s_k(u)^2 = 4 d_k - d_2k, and d_2k is d_k where u has
-// forgotten. The accelerations themselves do not come in: with them goes what the forces' residual holds, and
-// a climb seems to need an inflow.
+// where u is stationary and uncorrelated with v. The integral of the accelerations gives s(v), and x less
+// that integral gives s(u): both are free of slopes, such as a constant error of an acceleration makes. They
+// give d, too: E s_k(u)^2 = 4 d_k - d_2k, and d_2k is d_k where u is no longer correlated. The accelerations
+// themselves do not enter the estimate: they would bring the forces' residual into it, and a climb would seem
+// to need an inflow.
 //
-// Of what is multiplied by a velocity that is mostly error least squares find a part, and take the rest for
-// noise: of flapping in a hover a twentieth was found
-// (large_flapping_is_named_in_a_hover_and_its_size_is_right).
+// If an effect is multiplied by a velocity that is mostly error, least squares find only a part of it, and
+// take the rest for noise: in a hover, a twentieth of the flapping was found (test:
+// large_flapping_is_named_in_a_hover_and_its_size_is_right).
 
-// Of how velocities change, squared: what accelerations add up to is known to 3 %, by their scale and by the
-// adding up. Without it a flight without errors is smoothed by the rounding of its numbers.
-// gap_takes_as_much_of_a_moment_out_of_velocities_as_their_errors_ask_for holds it.
+// Relative error of s(v), squared: the integral of the accelerations is known to 3 %, because of their scale
+// and of the integration. Without it, a flight without errors is smoothed by the rounding of its numbers.
+// Test: gap_takes_as_much_of_a_moment_out_of_velocities_as_their_errors_ask_for.
 #define SCALE_ERROR 1e-3
 
 // Points on each side: SMOOTH_S of more than 10 ms each.
@@ -73,11 +73,11 @@ enum { REACH_MOST = 26 };
 
 typedef struct {
   int reach, windows;
-  double G[(REACH_MOST + 1) * (REACH_MOST + 1)], squares[REACH_MOST]; // sums of products; of s(u) alone
+  double G[(REACH_MOST + 1) * (REACH_MOST + 1)], squares[REACH_MOST]; // sums of products; squares of s(u)
 } changes_t;
 
-// way: what accelerations add up to from the first of n points on; off: what the velocity has beside it. Axis
-// by axis, `all` numbers each.
+// way: integral of the accelerations from the first of n points on; off: the velocity less that. Axis by
+// axis, `all` numbers each.
 static void tell_apart(const grid_point_t *p, int n, int all, double *way, double *off) {
   d3_t sum = {0.0, 0.0, 0.0}, before = sum;
   for (int j = 0; j < n; j++) {
@@ -94,7 +94,7 @@ static void tell_apart(const grid_point_t *p, int n, int all, double *way, doubl
   }
 }
 
-// v, u: at the middle of a window.
+// Adds the products of a window; v, u: at its middle.
 static void add_window(changes_t *c, const double *v, const double *u) {
   double of_v[REACH_MOST], of_u[REACH_MOST];
   const int n = c->reach;
@@ -107,12 +107,12 @@ static void add_window(changes_t *c, const double *v, const double *u) {
   c->windows++;
 }
 
-// g, by axis.
+// The weights g, by axis.
 typedef struct {
   double of[3][REACH_MOST];
 } weights_t;
 
-// False: too short a flight to say.
+// Finds the weights g. False: the flight is too short.
 static bool weights_of(changes_t *c, double g[REACH_MOST]) {
   const int n = c->reach;
   int order[REACH_MOST];
@@ -129,7 +129,7 @@ static bool weights_of(changes_t *c, double g[REACH_MOST]) {
   return true;
 }
 
-// Near the end of a run as many points on each side as there are on one.
+// Returns the smoothed velocity. Near the end of a run, both sides have as many points as the shorter one.
 static d3_t weighted(const grid_point_t *p, int n, int j, int reach, const weights_t *g) {
   const d3_t here = p[j].seen_w_mps;
   double v[3];
@@ -142,7 +142,7 @@ static d3_t weighted(const grid_point_t *p, int n, int j, int reach, const weigh
   return d3_of(v);
 }
 
-// room: six numbers a point.
+// Smooths all velocities; room: six numbers a point.
 static void smooth_velocities(grid_t *grid, int reach, double *room) {
   changes_t c[3];
   weights_t g = {.of = {{0.0}}};
@@ -169,7 +169,7 @@ static void smooth_velocities(grid_t *grid, int reach, double *room) {
 
 // --- both -------------------------------------------------------------------------------------------------
 
-// Of a velocity that was made of places nothing new is to be learned.
+// A velocity that was differentiated from positions says nothing new about them: nothing is smoothed.
 done_t grid_smooth(grid_t *g, why_t *why) {
   const int reach = (int)round(SMOOTH_S / g->period_s);
   if (!g->has_position || !g->has_velocity || g->velocity_made) return DONE;
