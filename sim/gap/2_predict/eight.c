@@ -16,8 +16,9 @@ void predict_place(body_t *b, const grid_point_t *p) {
   b->vbat_V = p->vbat_V;
 }
 
-// The range sensor sees along its axis; both sit in the rotors' plane and at the feet, near enough. A point
-// is a mean over samples, a range is one of them: 10 ms apart would be told as so much latency.
+// A range is measured along the sensor's axis. The upward sensor is taken to sit in the rotors' plane, the
+// downward one at the feet. The height is taken at the time of the range sample, because a point is a mean
+// over samples: 10 ms between the two would be estimated as latency.
 void predict_sight(const grid_t *g, const model_t *m, const grid_point_t *p, double up, double *range_m,
                    double *rate_mps) {
   const double least = fmax(up, 0.1);
@@ -40,7 +41,7 @@ static int in_group(const grid_t *g, int from) {
   return g->n - from < LANES ? g->n - from : LANES;
 }
 
-// Behind the last point of a flight it stands again.
+// After the last point of a flight, that point fills the other lanes.
 static void take_group(const grid_t *g, body_t *b, const lagged_t *motors, int from, lanes_instants_t *at) {
   const int n = in_group(g, from);
   for (int k = 0; k < LANES; k++) {
@@ -64,7 +65,7 @@ static void see_group(const grid_t *g, const model_t *m, int from, const double 
                   &sight->range_rate_mps[k]);
 }
 
-// By channel: force, turning, range.
+// Readings by channel: force, turning, range.
 static void put_group(const grid_t *g, int from, const lanes_readings_t *read, double *const out[CHANNELS]) {
   _Static_assert(LANES_READINGS == (int)CHANNELS, "a reading of every channel");
   const int n = in_group(g, from);

@@ -9,20 +9,20 @@
 static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
 
 #define ORDERS        24   // of four motors
-#define EXPLAINS_MORE 0.25 // of the turning about one axis
+#define EXPLAINS_MORE 0.25 // least gain of another order, as a share of one axis's turning
 
 typedef struct {
   double slope, correlation;
 } likeness_t;
 
-// Of the increments of what was measured and what was predicted.
+// Compares measured with predicted increments; slope and correlation are 1 if either is 0.
 static likeness_t likeness(const rows_t *r, const double *measured, const double *residual) {
   const increments_t s = increments_of(r, measured, residual);
   return s.pp > 0.0 && s.yy > 0.0 ? (likeness_t){s.yp / s.pp, s.yp / sqrt(s.yy * s.pp)}
                                   : (likeness_t){1.0, 1.0};
 }
 
-// Where turning follows the commands best: over the first of the lags, by channel.
+// Finds, by channel, how well turning follows the commands at the best of the first `lags` of MORE_TAU_S.
 static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
                       why_t *why) {
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
@@ -57,7 +57,7 @@ static void reorder(set_t *s, const int order[ROTORS]) {
   }
 }
 
-// Order number i of 24; order[k]: the motor that column k is.
+// Computes order number i of 24; order[k]: the motor that column k belongs to.
 static void order_of(int i, int order[ROTORS]) {
   int left[ROTORS] = {0, 1, 2, 3};
   for (int k = 0, n = ROTORS; k < ROTORS; k++, n--) {
@@ -67,7 +67,7 @@ static void order_of(int i, int order[ROTORS]) {
   }
 }
 
-// Of the turning about all axes, how much the commands explain; what goes against them counts against it.
+// Returns how much of the turning the commands explain, over all axes; what goes against them subtracts.
 static double explained(const likeness_t axis[CHANNELS]) {
   double sum = 0.0;
   for (int ch = CH_WX; ch <= CH_WZ; ch++) sum += axis[ch].correlation * fabs(axis[ch].correlation);
@@ -80,7 +80,7 @@ static bool all_follow(const likeness_t axis[CHANNELS]) {
   return true;
 }
 
-// The column of the first motor that is another one, as errors name columns; "": the log has none.
+// Writes the column of the first motor that is another one, as errors name columns; "": the log has none.
 static const char *first_exchanged(const gap_flight_t *f, const int order[ROTORS],
                                    char text[COLUMN_NAME_MAX + 10]) {
   int k = 0;
@@ -89,7 +89,7 @@ static const char *first_exchanged(const gap_flight_t *f, const int order[ROTORS
   return text;
 }
 
-// Tries every order without more lag, the given one too: number 0.
+// Tries every order without more lag; number 0 is the given one. BAD_INPUT: another explains more.
 static done_t find_order(set_t *s, const model_t *m, double *room, why_t *why) {
   int best = 0;
   double given = 0.0, most = 0.0;
@@ -120,7 +120,7 @@ static done_t find_order(set_t *s, const model_t *m, double *room, why_t *why) {
       order[2] + 1, order[3] + 1);
 }
 
-// About x and y turning follows the commands, about z it does with the other sign of every spin.
+// Sets s->spins_other if turning follows the commands about x and y, but about z with all spins reversed.
 static done_t try_other_spins(set_t *s, const model_t *m, double *room, const likeness_t best[CHANNELS],
                               why_t *why) {
   model_t other = *m;

@@ -1,4 +1,4 @@
-// predict.c - measured state and logged commands through the model, one derivative at a time.
+// predict.c - the model's derivative at measured states and logged commands.
 #include "gap/2_predict/predict.h"
 
 #include "gap/2_predict/eight.h"
@@ -9,7 +9,8 @@
 
 // --- one point --------------------------------------------------------------------------------------------
 
-// The lag is done: the thrust is to change as fast as it did, whatever the lag follows.
+// Sets thrusts, and commands with which a plain lag changes them as fast as they did: the vehicle's own lag
+// is in them already.
 static void place_motors(body_t *b, const lagged_t *motors, int j) {
   b->rigid.plain_lag = true;
   for (int k = 0; k < ROTORS; k++) {
@@ -24,7 +25,7 @@ static void in_sight(const grid_t *g, const model_t *m, const grid_point_t *p, c
   predict_sight(g, m, p, axes_up_b(axes).z, &sight->range_m, &sight->range_rate_mps);
 }
 
-// From `sight` on.
+// Computes readings and turning from `look` and `sight`.
 static void predict(const body_t *b, passed_t *at) {
   at->sensed = at->sight;
   at->sensed.acc_b_mps2 = body_pull_b_mps2(b, b->y, &at->look, &at->turn_radps2);
@@ -51,7 +52,7 @@ static void keep(path_t *path, const body_t *b, passed_t *at, int j) {
   path->at[j] = *at;
 }
 
-// Axes, rotors and surroundings; part by part, for a copy of the whole waits for itself.
+// Copies axes, rotors and surroundings by member: a copy of the whole waits for its own stores.
 static void take_look(const body_look_t *from, body_look_t *to) {
   to->axes = from->axes;
   memcpy(to->ratio, from->ratio, sizeof to->ratio);
@@ -59,7 +60,7 @@ static void take_look(const body_look_t *from, body_look_t *to) {
   memcpy(to->turning, from->turning, sizeof to->turning);
 }
 
-// Where the rotors are, and what they turn faster by.
+// True if the rotors are at the same places, and turn faster by the same shares.
 static bool same_rotors(const rigid_t *a, const rigid_t *b) {
   bool same = true;
   for (int i = 0; i < ROTORS; i++)
@@ -68,8 +69,8 @@ static bool same_rotors(const rigid_t *a, const rigid_t *b) {
   return same;
 }
 
-// What acts at a point; known: a replay of a model that differs in what changes the vehicle for a tick, with
-// the same motors, or null.
+// Finds what acts at a point. known: null, or the replay of a model that differs in effects at ticks only,
+// with the same motors.
 static void look_at(const body_t *b, const grid_t *g, const path_t *known, int j, passed_t *at) {
   const passed_t *const was = known ? &known->at[j] : NULL;
   if (was && same_rotors(&b->rigid, &known->rigid[was->rigid])) {
@@ -88,7 +89,7 @@ static void pass(body_t *b, const grid_t *g, const lagged_t *motors, const path_
   b->t_s = g->point[j].t_s - g->point[0].t_s;
   place_motors(b, motors, j);
   if (b->n_tick > 0) body_effects(b, g->period_s);
-  b->rigid.plain_lag = true; // effects may have tuned it anew
+  b->rigid.plain_lag = true; // effects may have reset it
   look_at(b, g, known, j, at);
   predict(b, at);
 }
@@ -100,10 +101,10 @@ static void pass_alone(body_t *b, const grid_t *g, const lagged_t *motors, int j
   put(&at.sensed, at.turn_radps2, j, out);
 }
 
-// At the first point. Null: no memory.
+// Puts the body at the first point, and returns its motors. Null: no memory.
 static const lagged_t *start(grid_t *g, body_t *b) {
   predict_place(b, &g->point[0]);
-  if (b->n_tick > 0) body_effects(b, g->period_s); // lag and delay
+  if (b->n_tick > 0) body_effects(b, g->period_s); // may change lag and delay
   const lag_t lag = rigid_lag(&b->rigid);
   return grid_motors(g, &lag, b->plant.delay_s);
 }
@@ -177,7 +178,7 @@ void path_free(path_t *path) {
   *path = (path_t){.at = NULL};
 }
 
-// What moves the vehicle.
+// Replays an effect that moves the vehicle.
 static void run_moved(const grid_t *g, body_t *b, const path_t *path, const lagged_t *motors,
                       const fx_use_t *more, double *const out[CHANNELS]) {
   for (int j = 0, rigid = -1; j < g->n; j++) {
@@ -197,7 +198,7 @@ static void run_moved(const grid_t *g, body_t *b, const path_t *path, const lagg
   }
 }
 
-// What only its sensors see.
+// Replays an effect on sensors only.
 static void run_sensed(const grid_t *g, const path_t *path, const fx_use_t *more,
                        double *const out[CHANNELS]) {
   for (int j = 0; j < g->n; j++) {
@@ -213,7 +214,7 @@ static bool has(const model_t *m, const fx_t *fx) {
   return false;
 }
 
-// The other ones: effects of both kinds, or that change the vehicle for a tick.
+// Replays any other effect: of both kinds, at ticks, or in place of the model's own.
 static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, double *const out[CHANNELS],
                        why_t *why) {
   model_t m = *path->model;
@@ -222,7 +223,7 @@ static done_t run_anew(grid_t *g, const path_t *path, const fx_use_t *more, doub
   return replay_into(g, &m, changes ? path : NULL, NULL, out, why);
 }
 
-// Either of the two. False: not from what was kept.
+// Replays either of the two. False: what was kept does not allow it.
 static bool run_more(grid_t *g, body_t *b, const path_t *path, const lagged_t *motors, const fx_use_t *more,
                      double *const out[CHANNELS]) {
   if (eight_more(g, b, path, more, out)) return true;
