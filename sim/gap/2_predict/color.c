@@ -1,4 +1,4 @@
-// color.c - an autoregression of second order per channel.
+// color.c - coloured noise of a channel, and random constants of flights.
 #include "gap/2_predict/color.h"
 
 #include "base/wide.h"
@@ -99,7 +99,7 @@ color_t color_of_flights(const rows_t *r, const double *v, double *room) {
   return c;
 }
 
-// So much of a flight's constant is left in its white rows.
+// Returns the share of a flight's constant that stays in its white rows.
 static double kept(const color_t *c, double holds) {
   return 1.0 / sqrt(1.0 + c->between * c->between * holds);
 }

@@ -1,4 +1,4 @@
-// lift.c - what a flight's own constant is multiplied by, row by row.
+// lift.c - the factor, row by row, of a flight's own constant.
 #include "gap/2_predict/lift.h"
 
 #include "gap/2_predict/lines.h"

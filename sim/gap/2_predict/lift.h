@@ -1,15 +1,15 @@
-// lift.h - what a flight's own constant is multiplied by, row by row.
+// lift.h - the factor, row by row, of a flight's own constant.
 //
-// Another weight, another place of it, rotors that give less, an accelerometer that stands askew: most of
-// what flights differ by goes with the lift. Were it constant, what is left of it where the lift varies would
-// be taken by a bend in the curve of the thrust.
+// Most differences between flights go with the lift: another weight or centre of mass, weaker rotors, a
+// tilted accelerometer. If they were modelled as constant, the rest, which varies with the lift, would be
+// taken for a bend in the thrust curve.
 #ifndef SIM_GAP_2_PREDICT_LIFT_H
 #define SIM_GAP_2_PREDICT_LIFT_H
 
 #include "gap/2_predict/set.h"
 
-// Of the smooth rows of flights that are several, or that are held against several: the lift that the model
-// predicts, over its mean (rows_t.lift). FAILED: no memory.
+// Fills rows_t.lift of the smooth rows: the lift that the model predicts, over its mean. For sets of several
+// flights, or of flights that are compared with several. FAILED: no memory.
 MUST_CHECK done_t lift_find(set_t *s, const model_t *m, why_t *why);
 
 #endif

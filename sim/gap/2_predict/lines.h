@@ -15,7 +15,7 @@ static inline void lines_free(lines_t *l) {
   *l = (lines_t){.r = {NULL}};
 }
 
-// All zero. FAILED: no memory. Free it, also on an error.
+// Makes lines of zeros. FAILED: no memory. Free them, also on an error.
 MUST_CHECK static inline done_t lines_make(lines_t *l, const set_t *s, why_t *why) {
   bool good = true;
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -25,7 +25,7 @@ MUST_CHECK static inline done_t lines_make(lines_t *l, const set_t *s, why_t *wh
   return good ? DONE : error_failed(why, "out of memory");
 }
 
-// Room for one flight's replay: `n` of each channel, twice, and what residual_rows wants.
+// Room for the replay of any one flight: two series of each channel, and the scratch of residual_rows().
 typedef struct {
   double *base[CHANNELS], *with[CHANNELS], *scratch, *room;
 } flight_lines_t;
@@ -43,7 +43,7 @@ static inline bool flight_lines_make(flight_lines_t *l, const set_t *s) {
   return l->room != NULL;
 }
 
-// For one thread beside others: all but `base` is its own.
+// For one of several threads: all but `base` is its own.
 static inline bool flight_lines_beside(flight_lines_t *l, const set_t *s, const flight_lines_t *other) {
   const bool good = flight_lines_make(l, s);
   for (int c = 0; c < CHANNELS && good; c++) l->base[c] = other->base[c];

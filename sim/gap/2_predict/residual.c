@@ -51,7 +51,7 @@ bool residual_has(const set_t *s, int channel) {
   return true;
 }
 
-// As measured in r, less predicted.
+// Fills r with the measured less the predicted rows.
 static done_t residual_with(set_t *s, const model_t *m, const flight_lines_t *l, const lines_t *predicted,
                             double *const r[CHANNELS], why_t *why) {
   TRY(residual_measured(s, r, why));
@@ -75,7 +75,7 @@ done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t 
   return status;
 }
 
-// Of a Gaussian's variance, what lies beyond its largest hundredth.
+// Share of a Gaussian's variance that lies in its largest hundredth.
 #define GAUSSIAN_BEYOND 0.0845
 #define JUMPS_OF        100 // increments, of which a hundredth is one
 

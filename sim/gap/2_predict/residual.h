@@ -1,8 +1,8 @@
 // residual.h - measured less predicted, channel by channel, as rows at about 25 Hz for least squares.
 //
 // Force and turning go through the same zero-phase low-pass, second-order Butterworth at 8 Hz forwards and
-// backwards; so must every regressor. Turning is measured as the gyro's central difference over two points; a
-// prediction gets the mean over the same span (Simpson). The range has a row for every fresh sample.
+// backwards; so must every regressor. Turning is measured as the gyro's central difference over two points,
+// so a prediction is averaged over the same span (Simpson). The range has a row for every fresh sample.
 #ifndef SIM_GAP_2_PREDICT_RESIDUAL_H
 #define SIM_GAP_2_PREDICT_RESIDUAL_H
 
@@ -12,37 +12,35 @@
 
 typedef enum { SERIES_PREDICTED, SERIES_RATE } series_t; // values, or a rate whose derivative is wanted
 
-// One flight, channel by channel by point, to that flight's rows. row: a null pointer where a channel is not
-// wanted. scratch: RESIDUAL_SCRATCH numbers per point of the flight's grid, 0
-// or what an earlier call left. Of a smooth channel's numbers, those
-// below 1e-140 become 0.
+// Turns one flight's series, by channel and point, into that flight's rows. row: a null pointer where a
+// channel is not wanted. scratch: RESIDUAL_SCRATCH numbers per point of the flight's grid, 0 or what an
+// earlier call left. In smooth channels, numbers below 1e-140 become 0.
 void residual_rows(const set_t *s, int flight, series_t kind, const double *const series[CHANNELS],
                    double *scratch, double *const row[CHANNELS]);
 
-// What was measured, rows over all flights of the channels for which there is room. FAILED: no memory.
+// Fills the measured rows of all flights, for channels that are not null in `row`. FAILED: no memory.
 MUST_CHECK done_t residual_measured(set_t *s, double *const row[CHANNELS], why_t *why);
 
-// The channel can be formed from these logs.
+// True if the channel can be formed from these logs.
 bool residual_has(const set_t *s, int channel);
 
-// Residual of a model, by row: r[channel], rows of that channel. FAILED: no memory.
+// Fills the residual of a model: r[channel], a number for each of its rows. FAILED: no memory.
 MUST_CHECK done_t residual_of(set_t *s, const model_t *m, double *const r[CHANNELS], why_t *why);
 
-// The same into lines that are made for it. Free them, also on an error.
+// The same, into lines that are made here. Free them, also on an error.
 MUST_CHECK static inline done_t residual_lines(set_t *s, const model_t *m, lines_t *l, why_t *why) {
   TRY(lines_make(l, s, why));
   return residual_of(s, m, l->r, why);
 }
 
-// Of a residual's increments: the share of their sum of squares that comes by jumps, in the largest hundredth
-// of them, beyond what a Gaussian process has there. A jump has four rows behind the filter; one of 100 times
-// the noise is three quarters of the squares in 20 s, and half of them in a minute. Of less than a hundred
-// increments, or without memory, none is seen.
+// Returns the share of the increments' sum of squares in a residual that comes from jumps: what the largest
+// hundredth of them holds beyond a Gaussian process. Behind the filter a jump spans four rows; one of 100
+// times the noise is three quarters of the squares in 20 s, and half of them in a minute. Fewer than a
+// hundred increments, or no memory: 0.
 double residual_jumps(const rows_t *r, const double *v);
 
-// How alike what was measured and what was predicted are from row to row: what is slow does not count, and a
-// scale shows as one. Sums of squares and products of the two's increments over n rows that follow one
-// another.
+// Sums of squares and products of measured and predicted increments, over n rows that follow one another.
+// They say how alike the two are: slow parts do not count, and a scale shows as one.
 typedef struct {
   double yy, pp, yp; // measured, predicted, both
   int n;

@@ -1,4 +1,4 @@
-// residual_rows.c - a series by point, through the zero-phase low-pass, as rows.
+// residual_rows.c - filters series of points by the zero-phase low-pass, and takes rows from them.
 #include "gap/2_predict/residual.h"
 
 #include "base/lowpass.h"
@@ -12,14 +12,14 @@ _Static_assert(CH_SMOOTH <= WIDE && (int)RESIDUAL_SCRATCH == WIDE,
 
 // --- the filter -------------------------------------------------------------------------------------------
 
-// Points that are filtered between two looks at whether a number has become almost nothing.
+// Points that are filtered between two checks for numbers that are almost 0.
 #define CHUNK 32
 
 typedef struct {
   four_t x1, x2, y1, y2;
 } rest_t;
 
-// Four numbers of a point, in place; `met`: some of them were almost nothing.
+// Filters four numbers of a point, in place. tidy: those that are almost 0 become 0; else `met` notes them.
 WIDE_INLINE void filter_four(const lowpass_t *f, bool starts, bool tidy, double *v, rest_t *s,
                              four_bits_t *met) {
   four_t x;
@@ -36,8 +36,9 @@ WIDE_INLINE void filter_four(const lowpass_t *f, bool starts, bool tidy, double 
   FOUR_PUT(v, y);
 }
 
-// From point j on, in place. A number that is almost nothing is nothing: what dies away in the filter would
-// end where processors are slow. tidy: it is made so; else whether one was met.
+// Filters n points from j on, in place. Numbers that are almost 0 have to become 0, because what decays in
+// the filter would end as denormal numbers, with which processors are slow. tidy: they are made 0. Else:
+// returns whether there were any.
 WIDE_INLINE bool filter(const lowpass_t *f, const unsigned char *mark, int starts, int j, int n, int way,
                         bool tidy, double *v, rest_t s[HALVES]) {
   rest_t low = s[0], high = s[1];
@@ -50,8 +51,8 @@ WIDE_INLINE bool filter(const lowpass_t *f, const unsigned char *mark, int start
   return (met[0] | met[1] | met[2] | met[3]) != 0;
 }
 
-// Forwards and backwards; every segment starts at rest. v: so many numbers of every point, all at once: one
-// alone would wait for itself.
+// Filters forwards and backwards; every segment starts at rest. v: WIDE numbers of every point, filtered at
+// once, because each step of a single one would wait for the step before.
 WIDE_COPIES static void smooth(const lowpass_t *f, const unsigned char *mark, int n, double *v) {
   double before[WIDE * CHUNK];
   for (int way = 1; way >= -1; way -= 2) {
@@ -72,8 +73,8 @@ WIDE_COPIES static void smooth(const lowpass_t *f, const unsigned char *mark, in
 
 // --- rows -------------------------------------------------------------------------------------------------
 
-// Of a point with its neighbours, at the end of a segment itself in their place: itself; how fast it changes;
-// the mean over the way from the point before to the point after, which is what a difference of the two sees.
+// What to take of a point and its neighbours (at the end of a segment the point itself replaces one): the
+// value; its rate of change; its mean from the point before to the point after, as in a difference.
 typedef enum { TAKE_SELF, TAKE_CHANGE, TAKE_MEAN } take_t;
 
 WIDE_INLINE double taken(take_t what, double before, double here, double next, double span_s) {
@@ -82,7 +83,7 @@ WIDE_INLINE double taken(take_t what, double before, double here, double next, d
                                : (before + 4.0 * here + next) / 6.0;
 }
 
-// What is masked does not spill over through the filter: the last value stands in for it.
+// The last value stands in for one that is masked, so that this does not spill over through the filter.
 WIDE_INLINE double take_one(const grid_t *g, take_t what, int is_free, const double *v, int j, double last) {
   const double next = g->mark[j] & MARK_LAST ? v[j] : v[j + 1];
   const double before = g->mark[j] & MARK_FIRST ? v[j] : v[j - 1];
@@ -90,7 +91,7 @@ WIDE_INLINE double take_one(const grid_t *g, take_t what, int is_free, const dou
   return isfinite(x) && (g->mark[j] & is_free) ? x : last;
 }
 
-// All points there, and none at the end of a segment.
+// True if all of the next eight points are free, and none is at the end of a segment.
 WIDE_INLINE bool all_plain(const unsigned char *mark, int is_free) {
   uint64_t marks;
   memcpy(&marks, mark, sizeof marks);
@@ -98,7 +99,7 @@ WIDE_INLINE bool all_plain(const unsigned char *mark, int is_free) {
   return (marks & each * (uint64_t)(is_free | MARK_FIRST | MARK_LAST)) == each * (uint64_t)is_free;
 }
 
-// The points from..to-1. last: as it was before them, then as it is behind.
+// Takes the points from..to-1. last: the last good value, before them and then after them.
 WIDE_INLINE void take_some(const grid_t *g, take_t what, int is_free, int from, int to, const double *v,
                            double *out, double *last) {
   for (int j = from; j < to;) {
@@ -120,8 +121,8 @@ WIDE_INLINE void take_some(const grid_t *g, take_t what, int is_free, int from, 
   }
 }
 
-// So many channels, each to every eighth number of `out`; a few points of all of them after the other, for
-// they lie side by side there.
+// Takes n channels, each into every eighth number of `out`. A few points of each channel are done in turn,
+// because the channels lie side by side there.
 WIDE_COPIES static void take(const grid_t *g, series_t kind, int n, const int *channel,
                              const double *const *series, double *out) {
   double last[CH_SMOOTH] = {0.0};
@@ -139,7 +140,7 @@ WIDE_COPIES static void take(const grid_t *g, series_t kind, int n, const int *c
     }
 }
 
-// Rows of a flight from every `apart`-th number.
+// Picks a flight's rows out of `from`, where points are `apart` numbers apart.
 static void pick(const rows_t *r, int flight, const double *from, int apart, double *row) {
   const int end = rows_from(r, flight + 1);
   for (int i = rows_from(r, flight); i < end; i++) row[i] = from[apart * r->point[i]];

@@ -1,17 +1,17 @@
-// set.c - which points of flights become rows.
+// set.c - chooses the points of flights that become rows.
 #include "gap/2_predict/set.h"
 
 #include "base/nth.h"
 #include <math.h>
 #include <stdlib.h>
 
-#define SPREAD_S     0.08 // a masked point spoils the filter's output so far around it
-#define EDGE_S       0.3  // so does the end of a segment
+#define SPREAD_S     0.08 // how far around a masked point it spoils the filter's output
+#define EDGE_S       0.3  // ... and the end of a segment does
 #define FLIGHT_MIN_S 1.0
 #define TOUCHES_M    0.003
-#define STRETCHES    6.0 // of a flight, at most three or so to a half: what is slow is not alike in all
+#define STRETCHES    6.0 // of a flight, up to twice as many: few, so that slow changes are not alike in all
 
-// good[j]: nothing masked is near.
+// good[j]: no masked point or segment's end is near.
 static void find_good(const grid_t *g, bool *good) {
   const int spread = (int)ceil(SPREAD_S / g->period_s), edge = (int)ceil(EDGE_S / g->period_s);
   for (int j = 0; j < g->n; j++) good[j] = true;
@@ -39,9 +39,9 @@ static void rows_add(rows_t *r, int flight, int point, int block, bool follows) 
   r->follows[r->n++] = follows;
 }
 
-// Each flight has two halves, of stretches that belong to the one and the other in turn: what was met once,
-// as a ceiling, or the one flight that turns about the vertical, lies in both, and either can confirm the
-// other.
+// Returns an instant's half-flight. A flight's stretches belong to its halves in turn, so that what is met
+// once (a ceiling), or in one flight only (turning about the vertical), lies in both and either can confirm
+// the other.
 static int half_of(int flight, double since_s, double span_s) {
   const double stretch_s = fmax(BLOCK_S, BLOCK_S * floor(span_s / BLOCK_S / STRETCHES));
   return 2 * flight + (int)(since_s / stretch_s) % 2;
@@ -67,7 +67,7 @@ static void add_flight(set_t *s, int flight, const bool *good) {
   if (g->n) s->n_block += set_block_of(g, g->n - 1) + 1;
 }
 
-// Measured and predicted alike; turning is a difference over two points.
+// Sets marks, for measured and predicted series alike; turning is a difference over two points.
 static bool mark(grid_t *g) {
   g->mark = malloc((size_t)g->n + 1);
   for (int j = 0; g->mark && j < g->n; j++) {
@@ -155,7 +155,7 @@ void set_give_back(set_t *lent) {
   lent->grid = NULL;
 }
 
-// The constant of the rows from..end-1.
+// Returns the constant of the rows from..end-1.
 static double constant_in(const rows_t *r, const double *v, int from, int end) {
   double product = 0.0, square = 0.0;
   for (int i = from; i < end; i++) {
@@ -193,8 +193,7 @@ void rows_center(const rows_t *r, double *v) {
   make_constant(r, v, 0.0);
 }
 
-// Median of rows less `constant`, plain or times the lift, each over what it is multiplied by; its absolute
-// value.
+// Returns the median of rows less `constant`, plain or times the lift: absolute, or over that factor.
 static double median_in(const rows_t *r, const double *v, int from, int end, bool lifts, double constant,
                         bool absolute, double *room) {
   for (int i = from; i < end; i++) {
