@@ -1,4 +1,4 @@
-// nominal_sums.c - what the workflow sees in flights in which nothing is hidden.
+// nominal_sums.c - sums of products and residuals of nominal flights.
 #include "gap/5_infer/nominal_sums.h"
 
 #include "body/side_by_side.h"
@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What least squares find of a size, whose column holds errors: x x' / x x, both white.
+// Sets kept[] to the share of a size that least squares find although its column x has errors: x x' / x x,
+// both white, where x' has none.
 static done_t find_kept(double *kept, const set_t *s, const design_t *seen, const design_t *is,
                         const color_t color[CHANNELS], why_t *why) {
   const size_t rows = set_most_rows(s);
@@ -29,8 +30,8 @@ static done_t find_kept(double *kept, const set_t *s, const design_t *seen, cons
   return DONE;
 }
 
-// The same flights without errors have the same rows, but for a few that errors move out of sight: then
-// nothing is known.
+// Finds kept[] by the same flights without errors. It stays 1, not known, where errors move a few rows out
+// of sight.
 static done_t find_errors(double *kept, const set_t *seen, const design_t *t, const color_t color[CHANNELS],
                           const gap_flights_t *truth, const nominal_job_t *job, why_t *why) {
   set_t own = {.n_grid = 0};
@@ -58,19 +59,19 @@ static void find_misfit(double misfit[CHANNELS], const set_t *s, const design_t 
     }
 }
 
-// What one of the flights gives: number i of NOMINAL_FLIGHTS along each of the set's tracks.
+// One nominal flight: number i of NOMINAL_FLIGHTS along each of the set's tracks.
 typedef struct {
   const nominal_job_t *job;
-  const double *between; // by channel: of the log's flights
+  const double *between; // by channel: what the log's flights differ by
   int i;
   done_t status;
   why_t why;
   nominal_left_t left;
-  gap_flights_t is; // the first one's without errors; as the others with room for all tracks
+  gap_flights_t is; // without errors, of the first one only; room for all tracks
   int flown, lost;
-  double *total; // into those of all
+  double *total; // this flight's matrix in nominal_t.total
   double floor[CHANNELS];
-  bool first; // of it alone: kept and misfit
+  bool first; // only the first one sets kept and misfit
   double *kept, misfit[CHANNELS];
 } part_t;
 
@@ -80,7 +81,7 @@ static done_t take_sums(part_t *p, set_t *s, const gap_flights_t *truth, const n
   gram_t g;
   double *residual[CHANNELS];
   TRY(design_make(&t, s, job->base, job->c, job->chosen, why));
-  design_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has them
+  design_add_chosen(&t, s, job->c, job->chosen, -1.0); // the flown model has these effects
   for (int ch = 0; ch < CHANNELS; ch++) {
     residual[ch] = t.x[ch][t.columns];
     const int rows = set_rows(s, ch)->n;
@@ -144,8 +145,8 @@ static void end_part(part_t *p) {
   flights_free(&p->is);
 }
 
-// Flown side by side, then each by itself. What errors make of a size is told by the first flight that could
-// be flown.
+// Flies all side by side, then sums up each by itself. The first that could be flown sets kept and misfit;
+// if it is not number 0, it is flown again for them.
 static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_job_t *job,
                     const double between[CHANNELS]) {
   const size_t room = (size_t)(n->size * n->size);
@@ -168,7 +169,7 @@ static void fly_all(nominal_t *n, part_t part[NOMINAL_FLIGHTS], const nominal_jo
   end_part(&part[first]);
 }
 
-// In their order, those that could be flown.
+// Takes the flights that could be flown, in their order.
 static done_t take_parts(nominal_t *n, const part_t part[NOMINAL_FLIGHTS], why_t *why) {
   const size_t room = (size_t)(n->size * n->size);
   done_t status = DONE;

@@ -1,15 +1,15 @@
-// own_work.c - what control's answers look like, in the log and in flights of the model without it.
+// own_work.c - what a name takes in the log, and in flights of the model without it.
 #include "gap/5_infer/own_work.h"
 
 #include "gap/5_infer/loop_fit.h"
 #include "gap/5_infer/score.h"
 #include <math.h>
 
-// What is chosen alone, each with columns of its own.
+// The chosen candidates alone, each with own columns. Those in question may be own work.
 typedef struct {
   candidates_t names;
-  chosen_t without;    // all but those that are asked, at their numbers
-  choice_t rest, with; // the same, and with these behind them
+  chosen_t without;    // all but those in question
+  choice_t rest, with; // the same; and with those in question behind them
   score_t score;
 } asked_t;
 
@@ -39,7 +39,8 @@ static void ask_no_more(asked_t *a) {
   candidates_free(&a->names);
 }
 
-// Of sums of products, over what is left: a root, of one number with its sign.
+// Returns sqrt(before / after - 1) of the sums of squares without and with those in question; a single
+// number gives it its sign.
 static double takes(const asked_t *a, const double *total) {
   const int size = a->names.columns + 1;
   int column[COLUMN_MAX];
@@ -52,7 +53,7 @@ static double takes(const asked_t *a, const double *total) {
   return copysign(sqrt(fmax(before / after - 1.0, 0.0)), all - rest == 1 ? b[rest] : 1.0);
 }
 
-// Weighed as the nominal flights are.
+// takes() of the log, whitened as nominal flights are.
 static done_t takes_in_log(const asked_t *a, const own_work_job_t *job, double *takes_of_it, why_t *why) {
   design_t t;
   gram_t g;
@@ -79,8 +80,8 @@ static done_t fly_without(const asked_t *a, const own_work_job_t *job, nominal_t
   return nominal_make(n, &nominal, why);
 }
 
-// By how much more a log takes than flights do, over what they scatter by and, for it may be no cascade that
-// flew, over what their mean is not known by; 1: as much as chance makes. HUGE_VAL: none could be flown.
+// Returns by how much takes() of the log exceeds the nominal flights' mean, over the bound of chance: their
+// scatter and, because the pilot may be no cascade, NOMINAL_VARIED of their mean. HUGE_VAL: none flew.
 static double beyond(const asked_t *a, const nominal_t *n, double log) {
   double mean = 0.0, squares = 0.0;
   for (int i = 0; i < n->n; i++) {
@@ -107,7 +108,7 @@ static done_t find_beyond(const own_work_job_t *job, const chosen_t *chosen, int
   return status;
 }
 
-// What they say together one of them says at least.
+// If all together exceed what control makes, one of them must: the one that exceeds it most stays.
 done_t own_work(const own_work_job_t *job, const chosen_t *chosen, int n, const int *candidate, bool *own,
                 why_t *why) {
   double all = 0.0, each[CHOSEN_MAX];
