@@ -10,7 +10,7 @@ void round_close(round_t *r) {
   design_free(&r->table);
 }
 
-// The columns of the choice with the chosen numbers, 0 where it has none yet.
+// Returns the columns of the choice with their chosen numbers; 0 where a candidate has none yet.
 static explained_t known_of(const round_t *r, int column[COLUMN_MAX], double b[COLUMN_MAX]) {
   int n = 0;
   for (int i = 0; i < r->choice.n; i++) {
@@ -72,7 +72,7 @@ double round_take(round_t *r, double share) {
     for (int k = 0; k < c->n; k++) {
       const double value = fx_use_size(use, k), way = candidate_possible(c, k, b[n++]) - value;
       most = fmax(most, fabs(way) / c->typical[k]);
-      fx_use_resize(use, k, candidate_possible(c, k, value + share * way)); // the sum may end an ulp beyond
+      fx_use_resize(use, k, candidate_possible(c, k, value + share * way)); // rounding may end an ulp beyond
     }
   }
   return most;
@@ -132,8 +132,8 @@ bool round_fits(const round_t *r, const choice_t *choice, int candidate) {
   return choice->n < NAMED_MAX;
 }
 
-// Another class: of lag and delay, or of mass and thrust scale where these exclude each other, either is
-// right.
+// Effects that exclude each other within their group do not count: of lag and delay, or of mass and thrust
+// scale, either is right.
 bool round_may_stand_for(const round_t *r, const choice_t *rest, int own, int other) {
   const fx_t *const a = round_fx(r, own), *const b = round_fx(r, other);
   return a != b && !excludes(r, a, b) && !r->never[other] && round_fits(r, rest, other);

@@ -6,14 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of the sum of squares of a group of channels, and of what a name takes from the others, that it may add. So
-// much the others' errors move it, and those of the signals that it goes with: moments under a ceiling go
-// with the tilt, and the tilt's errors are in the turning then (4.9 % more of it in users' set 26255, where
-// the ceiling takes 96 % of the forces' squares; 6.5 % in 28725, and 3 % of what it takes). Of users 24000,
-// 25500 and 26200, 240 sets each, 0.01 misses eight that 0.05 names, and tells two wrong names more; with 0.1
-// of what is taken instead an inertia is missed (26212), without it a wrong name is told (26399).
+// Share of the sum of squares of a group of channels, and of what a name takes from the other groups, that
+// the name may add to the group. The others' errors add as much, and so do those of the signals that the
+// name depends on: moments under a ceiling depend on the tilt, so the tilt's errors show in the turning
+// (4.9 % more of it in users' set 26255, where the ceiling takes 96 % of the forces' squares; 6.5 % in
+// 28725, and 3 % of what it takes). In users 24000, 25500 and 26200, 240 sets each, 0.01 misses eight names
+// that 0.05 finds, and tells two more wrong ones; a bound of 0.1 of what is taken instead misses an inertia
+// (26212), no bound tells a wrong name (26399).
 #define HARM 0.05
-// Times the typical size, that a number may be: the ridge keeps one back that a half-flight does not show.
+// How large a number may be, over its typical size: the ridge holds back a number that a half-flight does
+// not show.
 #define FAR 10.0
 
 done_t score_make(score_t *j, const candidates_t *c, const gram_t *g, const nominal_t *nominal, why_t *why) {
@@ -82,7 +84,7 @@ double score_left(const score_t *j, const choice_t *choice, double *halves) {
   return sum;
 }
 
-// What a choice, fitted to the other half-flights, leaves of every group of channels.
+// Sets what a choice leaves of every group of channels, each half-flight explained by a fit to the others.
 static void left_by_group(const score_t *j, const choice_t *choice, double left[GROUPS]) {
   const gram_t *g = j->g;
   const size_t n = (size_t)(g->size * g->size);
@@ -130,7 +132,7 @@ bool score_is_sure(const score_t *j, const choice_t *worse, const choice_t *bett
   return sum > SELECT_SURE * sqrt(squares);
 }
 
-// A sum of columns, squared.
+// Returns the square of a weighted sum of columns.
 static double squared(const double *G, int size, int n, const int *column, const double *b) {
   double sum = 0.0;
   for (int i = 0; i < n; i++)
@@ -138,8 +140,8 @@ static double squared(const double *G, int size, int n, const int *column, const
   return fmax(sum, 0.0);
 }
 
-// What is left of a nominal flight along a sum of columns, white, in standard errors: 1 where that is noise
-// alone. The rms of all.
+// Returns what is left of nominal flights along a weighted sum of columns, white, in standard errors (rms
+// over the flights): 1 where that is noise alone.
 static double made_along(const score_t *j, int n, const int *column, const double *b) {
   const int flights = j->nominal ? j->nominal->n : 0, size = j->g->size;
   double sum = 0.0;
@@ -153,9 +155,10 @@ static double made_along(const score_t *j, int n, const int *column, const doubl
   return sqrt(sum);
 }
 
-// The sum of squares that both leave differs by D; the fits by d, white. Where the better one is true, D is
-// d^2 with a standard error of 2 d; of 2 d times what nominal flights have along it, if feedback makes more
-// than noise. Something else of norm u that is in the rows moves D by 2 u d at most.
+// The sums of squares that the two choices leave differ by D, their white fits by d. If the better choice is
+// true, D is d^2 with a standard error of 2 d, or of 2 d times what nominal flights have along the
+// difference, if feedback makes more than noise. Anything else in the rows, of norm u, moves D by 2 u d at
+// most.
 bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other, double unexplained) {
   const gram_t *g = j->g;
   int column[2 * COLUMN_MAX];
@@ -169,8 +172,8 @@ bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other
   return left_other - left < 2.0 * (SCORE_ERRORS * errors + unexplained) * apart;
 }
 
-// Of size k of a choice's last candidate, by nominal flight, and what each flight holds of it (null: nobody
-// asks); returns how many.
+// Estimates size k of the last candidate of a choice in each nominal flight, and the information that the
+// flight holds about it (may be null). Returns the number of flights.
 static int nominal_values(const score_t *j, const choice_t *choice,
                           double value[FX_SIZE_MAX][NOMINAL_FLIGHTS],
                           double holds[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
@@ -198,7 +201,8 @@ double score_rms(const double *value, const double *holds, int n) {
   return all > 0.0 ? sqrt(sum / all) : 0.0;
 }
 
-// Where none could be flown.
+// Returns what feedback is taken to make of size k where no nominal flight could be flown; 0 in a first
+// look.
 static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
   return j->nominal ? SELECT_LEAST * c->typical[k] : 0.0;
 }
@@ -225,7 +229,8 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
   for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
-// Of what feedback makes of the last candidate's numbers, what could be taken for it.
+// Returns the last candidate's sizes over what feedback makes that could be taken for them, rms of those
+// that are shown.
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
@@ -263,7 +268,7 @@ verdict_t score_last(const score_t *j, const choice_t *choice) {
   return v;
 }
 
-// Size k of a candidate, or something that is `margin` from it, is one that the effect can have.
+// True if the effect can have this value, or one within `margin` of it, as size k of the candidate.
 static bool can_be(const candidate_t *c, int k, double value, double margin) {
   const fx_size_t *size = &c->use.fx->size[k];
   int n;
@@ -293,8 +298,8 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------
 
-// Of what numbers of own columns give, beyond what the first `beside` of others could, the part that all of
-// these could give.
+// Returns the part, 0 to 1, that all m other columns can give of a weighted sum of own columns, after taking
+// out what the first `beside` of them can give.
 static double part_given(const gram_t *g, int n, const int *own, const double *number, int m,
                          const int *other, int beside) {
   double G[(COLUMN_MAX + 1) * (COLUMN_MAX + 1)] = {0.0}, at[COLUMN_MAX];
@@ -320,7 +325,7 @@ double score_likeness(const score_t *j, const choice_t *choice, int own, const c
   const int n = choice_columns(j->c, choice, column), m = choice_columns(j->c, with, other);
   lsq_solve_products(j->g->total, j->g->size, column, n, NULL, b, NULL);
   while (first < n && column[first] != j->c->candidate[own].first) first++;
-  if (first == n) return 0.0; // it is not there
+  if (first == n) return 0.0; // `own` is not in the choice
   return part_given(j->g, j->c->candidate[own].n, column + first, b + first, m, other,
                     m - j->c->candidate[with->of[with->n - 1]].n);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-// Products of the choice's columns with what it leaves of a block.
+// Sets the products of the choice's columns with its residual in a block.
 static void block_score(const gram_t *g, int block, int n, const int *column, const double *b,
                         double *score) {
   const int size = g->size;
@@ -29,10 +29,10 @@ static void add_score(const double *inverse, int n, const double *score, double 
     for (int k = 0; k < n; k++) V[i * n + k] += part[i] * part[k];
 }
 
-// Where whole flights, taken to be independent (Liang and Zeger 1986), say a larger error than their blocks
-// do, that is told (as Birge 1932 does of measurements that contradict each other): of two or three flights
-// it is known badly, and by chance too large as often as too small. of: V by flights; flights: that hold
-// something of each number.
+// Enlarges V where clusters of whole flights, taken to be independent (Liang and Zeger 1986), give a larger
+// error than blocks do, as Birge (1932) does for measurements that contradict each other. The error from two
+// or three flights is badly known: by chance it is too large as often as too small. of: V by flights;
+// flights: how many hold information about each number.
 static void allow_for_flights(const double *of, const int *flights, int n, double *V) {
   double times[COLUMN_MAX];
   for (int i = 0; i < n; i++) {
@@ -44,7 +44,7 @@ static void allow_for_flights(const double *of, const int *flights, int n, doubl
     for (int k = 0; k < n; k++) V[i * n + k] *= times[i] * times[k];
 }
 
-// V = A^-1 (sum over blocks of s s') A^-1, s: the block's products of columns and what is left.
+// V = A^-1 (sum over blocks of s s') A^-1, where s is a block's products of the columns and the residual.
 void score_estimate(const score_t *j, const choice_t *choice, double *b, double *V) {
   const gram_t *g = j->g;
   int column[COLUMN_MAX], flights[COLUMN_MAX] = {0}, used = 0;

@@ -13,27 +13,28 @@
 typedef struct selection {
   round_t round;
   const timing_t *timing;
-  candidate_t *candidates; // the round's, whose shapes a first look bends
+  candidate_t *candidates; // the round's; a first look changes their shapes
   bool *room;
   double *left;  // by candidate: room
-  bool *been;    // by candidate: it was in, or is not to come in: what goes out does not come back
-  bool *never;   // by candidate: it is out of question
+  bool *been;    // by candidate: it may not come in again: it was in, or is too unlikely
+  bool *never;   // by candidate: it is ruled out
   bool *echo;    // by candidate: something like it is there, at one place or time only
-  bool *broken;  // by candidate: what it promised as another's stand-in was not kept
+  bool *broken;  // by candidate: in another's place it did not keep what it promised (try_swap)
   bool *alike;   // by candidate: room
-  model_t timed; // the model with what measured rotor speeds say
+  model_t timed; // the model with the timing that measured rotor speeds show
 } select_t;
 
-// What a choice leaves, and twice the logarithm of how many forms each of its effects has, as if each were as
-// likely. Of those that leave the same the one with fewest is taken: in a log without moments a weak rotor
-// leaves what a thrust scale leaves, and turns the nominal flights, which the log's vehicle was not.
+// Returns what a choice leaves, plus twice the logarithm of how many forms each of its effects has, as if
+// all forms were equally likely. Of choices that leave the same, the one with fewest forms is taken: in a
+// log without moments a weak rotor leaves what a thrust scale leaves, but it turns the nominal flights, and
+// the log's vehicle was not turned.
 static double left_of(const select_t *t, const choice_t *choice) {
   double left = score_left(&t->round.score, choice, NULL);
   for (int i = 0; i < choice->n; i++) left += 2.0 * log(candidates_of(t->round.c, choice->of[i]));
   return left;
 }
 
-// The choice with the candidate as its last one, if it is allowed there; what it leaves, else HUGE_VAL.
+// Returns what the choice leaves with the candidate as its last one; HUGE_VAL: it is not allowed there.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   const score_t *const score = &t->round.score;
   if (t->never[candidate] || t->been[candidate] || !round_fits(&t->round, rest, candidate)) return HUGE_VAL;
@@ -45,7 +46,7 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   return left_of(t, &with);
 }
 
-// Each candidate as the last one of a choice; by candidate.
+// Returns try_with() of every candidate that is not in the choice, by candidate; else HUGE_VAL.
 static const double *try_each(const select_t *t, const choice_t *rest) {
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < t->round.c->n; i++) t->left[i] = choice_has(rest, i) ? HUGE_VAL : try_with(t, rest, i);
@@ -68,7 +69,8 @@ static bool add_best(select_t *t) {
   return true;
 }
 
-// One for another, where that explains more. -1: none; else which it is now.
+// Replaces one of the choice by another candidate, where that leaves less by more than 2. Returns the new
+// one; -1: none.
 static int swap_one(select_t *t) {
   choice_t *const choice = &t->round.choice;
   double best = left_of(t, choice) - 2.0;
@@ -87,7 +89,7 @@ static int swap_one(select_t *t) {
   return better.of[better.n - 1];
 }
 
-// Takes out what no longer passes beside the others.
+// Takes out a candidate that no longer passes beside the others. False: all pass.
 static bool prune_one(select_t *t) {
   const score_t *const score = &t->round.score;
   choice_t *const choice = &t->round.choice;
@@ -107,16 +109,17 @@ static bool prune_one(select_t *t) {
   return false;
 }
 
-// Straight lines about the last values, until these stay; by half where they only go to and fro, and no more
-// where that brings them no nearer. On the way only the columns of the choice are formed anew. With all of
-// them the colours may be a little others: then once more, as long as that comes nearer, too.
+// Estimates the numbers by straight lines about the last values, again and again, until they stay. Steps are
+// halved where the numbers only go to and fro, and the loop ends where that brings them no nearer. On the
+// way only the columns of the choice are formed anew. Forming all at the end may change the colours a
+// little: then the loop goes on, as long as that converges, too.
 typedef enum { SETTLE_ALL, SETTLE_OWN } settle_t; // OWN: the other candidates' columns stay as they were
 
 static done_t settle(select_t *t, settle_t which, why_t *why) {
   const double stays = 1e-3; // of what is typical
   const bool own = which == SETTLE_OWN;
   double last = HUGE_VAL, last_of_all = HUGE_VAL, share = 1.0;
-  bool all = !own; // columns
+  bool all = !own; // all columns were formed last, not the choice's alone
   for (;;) {
     const double change = round_take(&t->round, share);
     const bool nearer = change < 0.7 * (all ? last_of_all : last);
@@ -133,15 +136,15 @@ static done_t settle(select_t *t, settle_t which, why_t *why) {
   }
 }
 
-// The shape between those that are tried that fits best beside the others. What is chosen may go all the way
-// to a neighbour; what is not leaves the other half to it.
+// Returns the shape between those that are tried that fits best beside the others. A chosen candidate may go
+// all the way to a neighbour; any other goes halfway at most, because the other half is the neighbour's.
 static double bent(const select_t *t, int candidate) {
   const round_t *const r = &t->round;
   const choice_t beside = choice_without(&r->choice, candidate);
   return bend_best(&r->score, &beside, candidate, choice_has(&r->choice, candidate) ? 1.0 : 0.5);
 }
 
-// True: it is another one than before.
+// True if the candidate gets another shape than before.
 static bool take_shape(select_t *t, int candidate, double shape) {
   fx_use_t *const use = &t->candidates[candidate].use;
   if (!use->fx->n_shape) return false;
@@ -152,7 +155,8 @@ static bool take_shape(select_t *t, int candidate, double shape) {
   return shape != was;
 }
 
-// Of a first look, for nominal flights have the columns with which they were flown.
+// Gives the chosen their best shapes, in a first look only: nominal flights have the columns of the shapes
+// with which they were flown.
 static done_t bend_chosen(select_t *t, why_t *why) {
   bool other = false;
   for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++) {
@@ -165,8 +169,8 @@ static done_t bend_chosen(select_t *t, why_t *why) {
   return settle(t, SETTLE_ALL, why);
 }
 
-// The misfit of the shapes that are tried is no effect. All by the columns that are there: a neighbour's
-// shape is asked for.
+// Gives every candidate its best shape, because the misfit of the shapes that are tried is no effect. All
+// shapes are found before any is changed: each is found by the columns of its neighbours.
 static done_t bend_all(select_t *t, why_t *why) {
   const int n = t->round.nominal ? 0 : t->round.c->n;
   double *const shape = calloc((size_t)n + 1, sizeof *shape);
@@ -203,10 +207,11 @@ static done_t left_by(const select_t *t, const chosen_t *chosen, const color_t c
   return whiten_left(t->round.s, &m, color, left, why);
 }
 
-// A swap is promised by straight lines about the one that goes: a lag that is taken out along its line leaves
-// what no vehicle does, and a delay may fit that better. It stays if the models themselves, both replayed,
-// keep the promise, and is not tried again if they do not, in nobody's place: the line that promised too much
-// is its own. Most are broken: no other column is formed until it is kept.
+// Tries the best swap, and keeps it if the models before and after it, both replayed, confirm it. Straight
+// lines about the candidate that goes out promise it, and may promise too much: a lag that is taken out
+// along its line leaves what no vehicle does, and a delay may fit that better. A newcomer that is not
+// confirmed is not tried again in any place, because the line that promised too much is its own. Most are
+// not confirmed, so all other columns are formed only once one is kept.
 static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   round_t *const r = &t->round;
   const choice_t choice = r->choice;
@@ -231,7 +236,7 @@ static done_t try_swap(select_t *t, bool *swapped, why_t *why) {
   return round_complete(r, why);
 }
 
-// It ends: what comes in does so once, and what a look begins with once more at most.
+// This ends, because each candidate comes in once, and one with which the look began at most once more.
 static done_t step_until_still(select_t *t, why_t *why) {
   for (;;) {
     bool swapped = false, changed = prune_one(t);
@@ -239,13 +244,13 @@ static done_t step_until_still(select_t *t, why_t *why) {
     changed = changed || swapped || add_best(t);
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
-    if (!swapped) TRY(settle(t, SETTLE_ALL, why)); // a swap that stays has settled
+    if (!swapped) TRY(settle(t, SETTLE_ALL, why)); // a swap that is kept has settled
     TRY(bend_chosen(t, why));
   }
 }
 
-// Takes out the name that the rows speak for least, where it is more likely not there than there: what
-// feedback makes of all names together is in it.
+// Takes out the name with the least evidence, if it is more likely absent than present. The evidence
+// includes what feedback makes of all names together.
 static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
   round_t *const r = &t->round;
   double odds[NAMED_MAX], least = 0.0;
@@ -263,7 +268,7 @@ static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
   return settle(t, SETTLE_ALL, why);
 }
 
-// In the colours that would be left if everything that can be named were there: they show what is slow.
+// Searches in the colours of what all candidates together would leave, which show slow effects.
 static done_t search_first(select_t *t, why_t *why) {
   TRY(bend_all(t, why));
   TRY(step_until_still(t, why));
@@ -274,7 +279,7 @@ static done_t search_first(select_t *t, why_t *why) {
   return round_complete(&t->round, why);
 }
 
-// In those of what the named effects really leave: what a vehicle has of slow disturbance is noise there.
+// Searches in the colours of what the names really leave, in which a vehicle's slow disturbance is noise.
 static done_t search(select_t *t, why_t *why) {
   for (bool dropped = true; dropped;) {
     TRY(step_until_still(t, why));
@@ -283,7 +288,7 @@ static done_t search(select_t *t, why_t *why) {
   return DONE;
 }
 
-// A lag or a delay that is there for sure: which of the two it is stays so.
+// Takes in the lag or delay that is there for sure, if any, and rules out the other one.
 static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   round_t *const r = &t->round;
   const int candidate = timing->candidate;
@@ -303,8 +308,9 @@ static done_t take_timing(select_t *t, const timing_t *timing, why_t *why) {
   return model_add_fx(&t->timed, &use, why);
 }
 
-// Beside the timing, with all that the look before found: whether mass and scale may both stay is known when
-// the columns are (leave_out_excluded). False: with nothing, in the colours of a first look.
+// Begins with all that the look before found, beside the timing. Whether mass and thrust scale may both stay
+// is known once the columns are (leave_out_excluded). False: the look begins with nothing, in the colours of
+// a first look.
 static bool begin_with(select_t *t, const chosen_t *before) {
   round_t *const r = &t->round;
   for (int i = 0; before && i < before->n; i++)
@@ -313,7 +319,7 @@ static bool begin_with(select_t *t, const chosen_t *before) {
     const int candidate = before->of[i];
     if (t->never[candidate] || choice_has(&r->choice, candidate)) continue;
     r->choice = choice_with(&r->choice, candidate);
-    fx_use_t *const use = chosen_take(&r->chosen, r->c, candidate); // of the candidate's present shape
+    fx_use_t *const use = chosen_take(&r->chosen, r->c, candidate); // in the candidate's present shape
     for (int k = 0; k < r->c->candidate[candidate].n; k++)
       fx_use_resize(use, k, fx_use_size(&before->use[i], k));
   }
