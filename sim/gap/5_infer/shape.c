@@ -1,4 +1,4 @@
-// shape.c - the shapes of what is named, between the values that were tried.
+// shape.c - refines the shapes of named effects between the values tried.
 #include "gap/5_infer/shape.h"
 
 #include "base/lsq_blocks.h"
@@ -27,7 +27,7 @@ static double *number(polish_t *p, int i) {
   return &p->use->p[i == SHAPE ? fx->shape_param : fx->size[i - SIZE].param];
 }
 
-// The white sum of squares that shape and sizes leave.
+// Returns the white sum of squares that this shape and these sizes leave.
 static double left_with(unsigned n, const double *x, double *gradient, void *data) {
   polish_t *const p = data;
   model_t m;
@@ -41,7 +41,7 @@ static double left_with(unsigned n, const double *x, double *gradient, void *dat
   return left;
 }
 
-// Between its neighbours, which lost; at an end of the list as far again.
+// Bounds the shape by its neighbours, which fitted less well; at an end of the list by the same ratio again.
 static void take_bounds(polish_t *p) {
   const fx_t *const fx = p->own->use.fx;
   int n, at = 0;
@@ -97,7 +97,8 @@ static done_t minimise(polish_t *p, double x[MOST], why_t *why) {
   return DONE;
 }
 
-// Half of the second derivative, by differences that are far within what white rows can tell apart.
+// Returns half of the second derivative over variables i and k, by steps far below what white rows tell
+// apart.
 static double curvature(polish_t *p, const double x[MOST], int i, int k) {
   const double h = 0.02;
   double sum = 0.0;
@@ -122,7 +123,7 @@ static void take_errors(polish_t *p, const double x[MOST], named_t *named) {
   lsq_solve_products(G, size, column, n, NULL, b, inverse);
   for (int i = 0; i < n; i++)
     if (!(G[i * (size + 1)] > 0.0) || !(inverse[i * (n + 1)] > 0.0)) return;
-  double robust = 0.0; // over what the curvature says of a size alone
+  double robust = 0.0; // largest ratio of a size's robust error to that by its curvature alone
   for (int k = 0; k < n - SIZE; k++) {
     const int i = SIZE + k;
     const double squares = named->stderr_[k] * named->stderr_[k] - named->beside[k] * named->beside[k];

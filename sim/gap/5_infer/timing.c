@@ -6,13 +6,14 @@
 #include "gap/5_infer/limits.h"
 #include <math.h>
 
-// n log(1 - c^2), c: correlation from row to row of what was measured and what was predicted. A scale that is
-// wrong does not change it, nor does what is slow.
+// Returns n log(1 - c^2), where c is the correlation of measured and predicted steps from row to row: lower
+// is more alike. Neither a wrong scale nor anything slow changes it.
 static double unlike(const increments_t *s) {
   return s->yy > 0.0 && s->pp > 0.0 ? s->n * log(fmax(1.0 - s->yp * s->yp / s->yy / s->pp, 1e-9)) : 0.0;
 }
 
-// What so many tries take of it by chance, where standard errors grow by this.
+// Returns by how much chance lowers the least unlike() of so many tries, where standard errors are `grow`
+// times as large.
 static double by_chance(double grow, int tries) {
   const double errors = grow * limits_noise(tries);
   return errors * errors;
@@ -20,11 +21,12 @@ static double by_chance(double grow, int tries) {
 
 // --- by trying them on force and turning ------------------------------------------------------------------
 
-// Shorter ones the straight line finds: half a period of the rows' filter is 62 ms.
+// The selection's straight lines find shorter lags and delays: half a period of the rows' filter is 62 ms.
 #define STRAIGHT_S 0.045
 
-// Three octaves below it and two above, by thirds: beside a coarser grid a lag looks better than a delay.
-enum { KINDS = 2, TRIES_BELOW = 9, TRIES = 16 }; // a lag, and a delay
+// From three octaves below STRAIGHT_S to two above, by thirds: on a coarser grid a lag looks better than a
+// true delay.
+enum { KINDS = 2, TRIES_BELOW = 9, TRIES = 16 }; // KINDS: a lag, and a delay
 
 static double tried_s(int k) {
   return STRAIGHT_S * pow(2.0, (k - TRIES_BELOW) / 3.0);
@@ -42,7 +44,7 @@ static done_t unlike_rows(set_t *s, const model_t *m, const lines_t *measured, c
   return DONE;
 }
 
-// Try number i of a candidate, or, below 0, the model as it is.
+// Sets *sum for try number i of a candidate or, if i is below 0, for the model as it is.
 static done_t try_one(const candidate_t *c, int i, set_t *s, const model_t *m, const lines_t *measured,
                       const lines_t *left, double *sum, why_t *why) {
   model_t with = *m;
@@ -54,7 +56,7 @@ static done_t try_one(const candidate_t *c, int i, set_t *s, const model_t *m, c
   return unlike_rows(s, &with, measured, left, sum, why);
 }
 
-// All tries of one thread beside others.
+// What one of several threads needs for its tries.
 typedef struct {
   set_t set;
   lines_t left;
@@ -73,7 +75,7 @@ static void end_trying(trying_t *t) {
   lines_free(&t->left);
 }
 
-// sum: of every try.
+// Sets sum[] for every try of a candidate.
 static done_t try_candidate(const candidate_t *c, const set_t *s, const model_t *m, const lines_t *measured,
                             double sum[TRIES], why_t *why) {
   done_t status = DONE;
@@ -113,12 +115,12 @@ typedef struct {
   set_t *s;
   const model_t *m;
   bool lag;       // else a delay
-  double extra_s; // delay that a lag may have beside it: the way of a command through the vehicle
-  double least_s; // of the lags and delays that are named
+  double extra_s; // delay that a lag has beside it: the way of a command through the vehicle
+  double least_s; // smallest lag or delay that is named
   bool failed;
 } speeds_t;
 
-// A rotor's thrust, by its measured speed and as commanded.
+// unlike() of a rotor's thrust, by its measured speed and as commanded.
 static double unlike_thrust(const grid_t *g, int rotor, const lagged_t *motors) {
   increments_t s = {.n = 0};
   for (int j = 1; j < g->n; j++) {
@@ -145,7 +147,8 @@ static double unlike_speeds(speeds_t *s, double value) {
   return sum;
 }
 
-// The least of a curve with one valley, as well as a right form is known of what is named at least.
+// Returns the minimum of a curve with one valley, to CANDIDATES_MISFIT of the least that is named: no right
+// form is known more exactly.
 static double least_in(speeds_t *s, double from, double to) {
   const double share = 0.381966;
   double a = from + share * (to - from), b = to - share * (to - from);
@@ -173,7 +176,7 @@ static double best_delay(speeds_t *s, double *left) {
   return value;
 }
 
-// With no delay beside it, with half or with all of what is never named.
+// Finds the best lag, with a delay beside it of 0, half of or all of least_s: that much is never named.
 static double best_lag(speeds_t *s, double *left) {
   double best = 0.0, extra_s = 0.0;
   s->lag = true;
@@ -190,15 +193,15 @@ static double best_lag(speeds_t *s, double *left) {
   return best;
 }
 
-// They are there, and every command that they follow: a lag takes the noise of commands of which a log misses
-// some out of what these predict.
+// True if every flight has rotor speeds and all commands that they follow: where a log misses commands, a
+// lag takes their noise out of the prediction, and fits better even if none is there.
 static bool speeds_tell(const set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     if (!s->grid[f].measured_N[ROTORS - 1] || grid_misses_commands(&s->grid[f])) return false;
   return s->n_grid > 0;
 }
 
-// Standard errors grow by this: points follow each other far closer than rows.
+// Returns by how much standard errors grow, because points follow each other far closer than rows.
 static double grown(const set_t *s) {
   return SCORE_CLUSTER / sqrt(fmin(RESIDUAL_HZ * s->grid[0].period_s, 1.0));
 }
