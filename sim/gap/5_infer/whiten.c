@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The colour of what some columns leave, apart from each flight's mean; plain: its spread alone.
+// Fits the colour of what the known columns leave, without each flight's own constant; plain: its spread
+// alone.
 static bool fit_color(gram_t *g, const set_t *s, const design_t *t, int ch, const explained_t *e) {
   const int n = e->n, *column = e->column;
   const double *b = e->b;
@@ -45,7 +46,7 @@ static void white_free(white_t *w) {
   free(w->x);
 }
 
-// some: by column, or null: all.
+// Whitens some columns (by column; null: all) and the residual.
 static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, const color_t *color,
                        const bool *some) {
   const rows_t *r = set_rows(s, ch);
@@ -63,7 +64,7 @@ static bool white_make(white_t *w, const set_t *s, const design_t *t, int ch, co
   return true;
 }
 
-// The rows of one half-flight: the blocks of it are no other's.
+// Adds the rows of one half-flight. No other half has its blocks.
 static bool add_half(gram_t *g, const rows_t *r, int ch, int half, const white_t *w) {
   const size_t room = (size_t)(g->size * g->size);
   const double **from = malloc(((size_t)w->n + 1) * sizeof(double *));
@@ -90,7 +91,7 @@ static bool add_channel(gram_t *g, const set_t *s, const design_t *t, int ch) {
   return good;
 }
 
-// To `total` alone, or to another one of its size.
+// Adds to `total` alone, or to another matrix of its size.
 static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch, const bool *some,
                       double *total) {
   white_t w;
@@ -101,7 +102,7 @@ static bool add_total(const gram_t *g, const set_t *s, const design_t *t, int ch
   return good;
 }
 
-// Some numbers of the sums, each of all blocks in their order, whoever adds it.
+// Adds numbers from..to-1 of all blocks, in the blocks' order whichever thread does it.
 static void add_some(gram_t *g, size_t from, size_t to) {
   const size_t n = (size_t)(g->size * g->size);
   for (int b = 0; b < g->n_block; b++)
@@ -149,7 +150,7 @@ static bool fill(gram_t *g, const set_t *s, const design_t *t, const explained_t
   return good;
 }
 
-// e: null: the colours stay. The channels' sums come together in their order.
+// Fills `total` alone. e null: the colours stay. The channels' sums are added in their order.
 static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const explained_t *e, const bool *some) {
   const size_t room = (size_t)(g->size * g->size);
   double *const each = calloc(CHANNELS * room, sizeof(double));
@@ -167,8 +168,9 @@ static bool fill_total(gram_t *g, const set_t *s, const design_t *t, const expla
   return good;
 }
 
-// In the colours of what all candidates together leave: an effect that is not yet named is no noise. Ordinary
-// least squares come first; an autoregression of the raw residual would hide what is slow in it.
+// Fills the sums in the colours of what all candidates together leave, because an effect not yet named is no
+// noise. Ordinary least squares come first: an autoregression of the raw residual would hide what is slow in
+// it.
 static bool refine(gram_t *g, const set_t *s, const design_t *t, const double *ridge, const double *between,
                    bool total_alone) {
   const int n = t->columns;
