@@ -1,4 +1,4 @@
-// unknown.c - what is left that no name explains.
+// unknown.c - what is left that no named effect explains.
 #include "gap/5_infer/unknown.h"
 
 #include "gap/5_infer/in_time.h"
@@ -15,7 +15,7 @@ static bool has_lateral_force(const set_t *s) {
   return has;
 }
 
-// Turned about the vertical by the heading, or back (way -1). In place, too.
+// Turns a force by the heading from the body's axes to the world's, or back (way -1). It may be in place.
 static void turn_by_heading(const set_t *s, double way, const double *fx, const double *fy, double *east,
                             double *north) {
   for (int i = 0; i < s->smooth.n; i++) {
@@ -95,7 +95,7 @@ static void fit_colors(const set_t *s, double *const v[CHANNELS], color_t color[
     color[ch] = residual_has(s, ch) ? color_fit(set_rows(s, ch), v[ch]) : (color_t){.used = false};
 }
 
-// world: colours of the same in the world's axes, too, or a null pointer.
+// Fits the colours of the residual after cleaning. world: the same in the world's axes, or a null pointer.
 static done_t find_colors(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                           color_t color[CHANNELS], color_t *world, why_t *why) {
   lines_t clean = {.r = {NULL}};
@@ -128,7 +128,7 @@ static void close_look(look_t *l) {
   free(l->bin);
 }
 
-// Coordinates are looked along side by side; of cells that are alike that of the first counts.
+// The coordinates are searched in parallel; of equal cells the one along the first coordinate counts.
 done_t unknown_along(const set_t *s, const model_t *m, int from, int to, double *const residual[CHANNELS],
                      const color_t color[CHANNELS], bool centred, cell_t cell[CHANNELS], why_t *why) {
   cell_t each[COORDINATES][LOOKED] = {{{.statistic = 0.0}}};
@@ -204,12 +204,13 @@ double unknown_in_windows(const scan_t *scan) {
 
 // --- what is beyond nominal flights -----------------------------------------------------------------------
 
-// The largest statistic of all windows of a coordinate, where there is noise alone.
+// Returns the largest statistic that noise alone gives in all windows of a coordinate.
 static double of_noise(void) {
   return limits_noise(WINDOWS_TRIED);
 }
 
-// What a look finds in nominal flights, but for one of them (none: < 0): rms, with one flight of noise alone.
+// Returns the rms of what a look finds in the nominal flights but number `but` (< 0: in all), and in one
+// flight of noise alone.
 static double usual(const scan_t *nominal, int n, int but, int cell) {
   double squares = of_noise() * of_noise();
   int flights = 1;
@@ -221,30 +222,33 @@ static double usual(const scan_t *nominal, int n, int but, int cell) {
   return sqrt(squares / flights);
 }
 
-// The bound of a cell with what a right form with other numbers leaves beside chance: an error of the model,
-// which nominal flights do not have. Of the largest effect of its channel so much is told as would be named.
-// A misfit is as wide in the spectrum as the flight's manoeuvres, in which a line is narrow.
+// Returns the bound of a cell's statistic: chance, and an error of the model, which nominal flights do not
+// have: a right form with other numbers. The error counts as much of the channel's largest effect as an
+// effect must be to be named (SELECT_LEAST). It is as wide in the spectrum as the flight's manoeuvres; a
+// line is narrow.
 static double bound_of(const cell_t *c, double chance, const double misfit[CHANNELS]) {
   const double left = misfit[c->channel] / sqrt(c->spreads > 1 ? c->spreads : 1);
   const double share = c->size != 0.0 ? left * c->statistic / c->size : 0.0;
   return hypot(chance, SELECT_LEAST / CANDIDATES_MISFIT * share);
 }
 
-// What a cell explains beyond what its bound would.
+// Returns what a cell explains beyond what it would at its bound; -HUGE_VAL: nothing could be judged.
 static double beyond(const cell_t *c, double bound) {
   return c->statistic > 0.0 ? c->explained * (1.0 - bound * bound / (c->statistic * c->statistic))
                             : -HUGE_VAL;
 }
 
-// Flights that are flown elsewhere differ at a place, too, and it is rarer that something lies there than
-// that something was fitted anew. What lies at a place stays there; what begins at the same time in every
-// flight is rarer, and a state is mostly where the vehicle happened to be in it.
+// Returns the rank in a tie, lowest first: flights, a place, a time, a state. Flights that are flown
+// elsewhere differ by place, too, and something at a place is rarer than something fitted anew between
+// flights. What lies at a place stays there; what begins at the same time in every flight is rarer; a state
+// is mostly one that the vehicle happened to be in there.
 static int rank_of(int along) {
   if (along == BY_FLIGHT) return -1;
   return along == COORDINATE_TIME || along == NOWHERE ? 1 : coordinate_is_place(along) ? 0 : 2;
 }
 
-// Of one force: the lateral one has other names along the body's axes and along the world's.
+// True if both cells are of one force: the lateral force shows in other channels in the world's axes than in
+// the body's.
 static bool of_one_force(const cell_t *a, const cell_t *b) {
   return a->world == b->world ? a->channel == b->channel : a->channel < CH_FZ && b->channel < CH_FZ;
 }
@@ -254,9 +258,9 @@ static bool goes_before(const cell_t *a, const cell_t *b) {
   return first != second ? first < second : a->explained > b->explained;
 }
 
-// Of those that explain as much but for a fifth: which is told first, and the one of the others, along
-// something else, that explains most. A place is known to some centimetres, and what lies there begins and
-// ends some rows beside its window; pulses end at the very row.
+// Chooses, of the cells that explain at least UNKNOWN_TIE of the best, the one that is told first and, along
+// something else, the one that explains most. A place needs this margin: it is known to some centimetres,
+// and what lies there begins and ends some rows beside its window; pulses end at the very row.
 static void weigh_ties(const scan_t *log, judged_t *to) {
   const cell_t best = to->cell;
   bool tied[UNKNOWN_CELLS];
@@ -274,7 +278,7 @@ static void weigh_ties(const scan_t *log, judged_t *to) {
   }
 }
 
-// So many times what is usual no nominal flight goes beyond, and chance hardly.
+// Returns the multiple of usual() that no nominal flight exceeds, and chance hardly ever.
 static double furthest_of(const scan_t *nominal, int n) {
   double furthest = limits_nominal(n);
   for (int i = 0; i < n; i++)

@@ -6,14 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of the floor, each way, as many rows in each, to find a patch: all 26^2 of them are tried in every flight.
+// Strips of the floor along x and along y, with equally many rows in each, to find a patch: all 26^2 patches
+// are tried in every scan.
 #define STRIPS 8
-// Of a strip, to fit a patch's ends: 20 s of flight hold four rows a part.
+// Parts of a strip, to fit the ends of a patch: 20 s of flight hold four rows in a part.
 #define PARTS 16
 
 enum {
-  MOST = STRIPS / 2,             // strips of a patch: half, as of a coordinate
-  BINS_MAX = STRIPS * PARTS + 1, // of any cut; one for what lies beside
+  MOST = STRIPS / 2,             // strips of a patch at most: half, as along a coordinate
+  BINS_MAX = STRIPS * PARTS + 1, // of any cut, and one for what lies beside
 };
 
 #define SUMS_NUMBER double
@@ -44,9 +45,9 @@ static bool judge(const products_t *p, bool centred, const window_sums_t *w, dou
   return windows_judge(&all, centred, w, size, statistic);
 }
 
-// Whether its statistic is surely below `best`, found without a division or a root: of nearly all windows it
-// is. per_all: 1 over the sum of squares of the constant, 0 where it is not asked for. The margins are a
-// thousand times the rounding.
+// True if the statistic of a window is surely below `best`, found without a division or a root: this is so
+// for nearly all windows. per_all: 1 over the sum of squares of the constant, 0 where none is taken out. The
+// margins are a thousand times the rounding.
 WIDE_INLINE bool is_below(const products_t *p, double per_all, const window_sums_t *w, double best) {
   const double share = w->cross * per_all, taken = share * p->y[p->bins];
   const double y = fabs(w->y - taken) + 1e-12 * (fabs(w->y) + fabs(taken)), own = w->own - share * w->cross;
@@ -55,7 +56,7 @@ WIDE_INLINE bool is_below(const products_t *p, double per_all, const window_sums
 
 // --- windows ---------------------------------------------------------------------------------
 
-// Of the first bins, windows of so many. False: none is better than *best.
+// Finds the best window of shortest..longest bins among the first `bins`. False: none is better than *best.
 WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins, int shortest, int longest,
                                     window_t *best) {
   double size, statistic;
@@ -83,7 +84,7 @@ WIDE_COPIES static bool best_window(const products_t *p, bool centred, int bins,
 
 // --- on the floor -----------------------------------------------------------------------------------------
 
-// Bins by rows each way; both ends are inside.
+// In bins of equally many rows along x and along y; both ends are inside.
 typedef struct {
   int x, x_to, y, y_to;
   double size, statistic;
@@ -110,7 +111,7 @@ static patch_t best_of_strips(const products_t *p, bool centred) {
   return best;
 }
 
-// The floor cut finely: the bin of every row each way, and the edges.
+// The floor cut finely along x and along y: the bin of every row, and the edges.
 typedef struct {
   const look_t *l;
   int *x, *y, *bin; // bin: room
@@ -119,8 +120,9 @@ typedef struct {
   double x_edge[BINS_MAX + 1], y_edge[BINS_MAX + 1];
 } floor_t;
 
-// Its ends along x (else y) among the rows of its other way: strips take in much that lies beside what is
-// there. It stays as wide as a strip: a hover's half millimetre is no place. False: they stay.
+// Fits the ends of a patch along x (else y), by the rows that are inside it along the other axis: whole
+// strips take in much that lies beside what is there. The patch stays at least as wide as a strip, because a
+// hover's half millimetre is no place. False: the ends stay.
 static bool fit_ends(floor_t *f, int ch, bool along_x, patch_t *at) {
   const rows_t *const r = &f->l->s->smooth;
   const int *const own = along_x ? f->x : f->y, *const other = along_x ? f->y : f->x;
@@ -194,7 +196,7 @@ void windows_by_flight(const look_t *l, cell_t cell[LOOKED]) {
     if (!l->color[ch].used) continue;
     color_whiten(&l->color[ch], r, l->residual[ch], l->room);
     const color_differ_t d = color_differ(&l->color[ch], r, l->room);
-    const double beyond = fmax(d.q - (d.flights - 1), 0.0); // noise
+    const double beyond = fmax(d.q - (d.flights - 1), 0.0); // noise alone gives flights - 1
     if (d.flights < 2 || !(d.q > cell[ch].statistic * cell[ch].statistic)) continue;
     cell[ch] = (cell_t){.channel = ch,
                         .along = BY_FLIGHT,

@@ -10,7 +10,7 @@
 
 _Static_assert((int)LOOKED_SMOOTH == WIDE, "the channels of a list are two times four");
 
-// Channels of a list, from `first` on: four of the smooth rows, one of the range's.
+// Channels of a list of rows, from `first` on: four of the smooth rows, or the range's one.
 typedef struct {
   int list, first, n;
 } four_of_t;
@@ -19,7 +19,7 @@ static int channel_of(const four_of_t *f, int k) {
   return look_channel(f->list, f->first + k);
 }
 
-// Noughts for who is not looked at.
+// Sets the white weights of the channels; 0 for one that is left out.
 static void weigh(const look_t *l, const four_of_t *f, weights_t *w) {
   double at[3][HALF] = {{0.0}};
   for (int k = 0; k < f->n; k++) {
@@ -33,7 +33,7 @@ static void weigh(const look_t *l, const four_of_t *f, weights_t *w) {
   weights_multiply(w);
 }
 
-// v: the residual, four numbers a row.
+// v: the residual, four numbers for each row.
 WIDE_COPIES static void add_products(products_t *p, int bins, const rows_t *r, const weights_t *w,
                                      const double *v, const int *bin) {
   sums_of(p, bins, r, w, v, bin);
@@ -45,7 +45,8 @@ typedef struct {
   four_t y, own, cross;
 } sums_t;
 
-// The channels of which a window may be better than their best one, as windows_below() has it.
+// Marks the channels in which a window may be better than the best so far (not surely below it, as
+// is_below() in windows.c).
 WIDE_INLINE void may_be_better(const sums_t *all, const four_t *per_all, const sums_t *w, const four_t *best,
                                four_bits_t *may) {
   const four_t share = w->cross * *per_all, taken = share * all->y, left = w->y - taken;
@@ -60,7 +61,7 @@ WIDE_INLINE bool any(const four_bits_t *of) {
   return ((*of)[0] | (*of)[1] | (*of)[2] | (*of)[3]) != 0;
 }
 
-// Those of which it is; it is better where its exact statistic is.
+// Takes the window for the marked channels in which its exact statistic is better.
 static void take_better(const sums_t *all, bool centred, const sums_t *w, const four_bits_t *may, int from,
                         int to, four_t *known, window_t best[HALF]) {
   for (int k = 0; k < HALF; k++) {
@@ -74,7 +75,7 @@ static void take_better(const sums_t *all, bool centred, const sums_t *w, const 
   }
 }
 
-// Windows of up to half the bins.
+// Finds the best window of up to half of the bins, by channel.
 WIDE_COPIES static void best_windows(const products_t *p, bool centred, const four_bits_t *looked,
                                      window_t best[HALF]) {
   four_t column[WINDOW_FINE + 1]; // of D: sums over the window's rows
@@ -102,9 +103,9 @@ WIDE_COPIES static void best_windows(const products_t *p, bool centred, const fo
 
 // --- a coordinate -----------------------------------------------------------------------------------------
 
-// A window and what lies beside it are one thing but for a constant, and windows are no longer than half of
-// the coordinate: of one that reaches an end it is the other part, if that explains more of the residual
-// as it is, with no constant, and goes the other way.
+// True if, for a window that reaches an end, the rest of the coordinate is what differs. Beside a constant
+// the two cannot be told apart, and windows are no longer than half of the coordinate. The rest is told if
+// it explains more of the residual without that constant, and has the other sign.
 static bool lies_beside(const products_t *p, int k, const window_t *w) {
   const int bins = p->bins;
   double y = 0.0, own = 0.0, cross = 0.0;
@@ -138,7 +139,7 @@ static cell_t cell_of(const window_t *w, int channel, int coordinate, int bins, 
                   .last = w->to + 1 == bins};
 }
 
-// A list's rows, four channels after the other.
+// Four channels of a list: weights, and residuals, four numbers for each row.
 typedef struct {
   four_of_t four;
   weights_t w;

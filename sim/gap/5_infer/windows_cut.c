@@ -8,7 +8,7 @@
 
 // --- bins -------------------------------------------------------------------------------------------------
 
-// The bin of every row, and the edges (bins + 1). False: the coordinate is not there or does not move.
+// Sets the bin of every row, and the edges (bins + 1). False: the coordinate is not there or does not vary.
 static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *parted, int *bin,
                      double *edge) {
   for (int i = 0; i < n; i++) {
@@ -22,7 +22,7 @@ static bool cut_bins(const double *value, int n, int bins, cut_t cut, double *pa
     from = at;
   }
   if (!(edge[bins] - edge[0] > 1e-9)) return false;
-  // Of equal width between the outermost of them: a row far out has no bin of its own.
+  // Bins of equal width between edges 1 and bins - 1: a row far out gets no bin of its own.
   const double low = edge[1], high = edge[bins - 1];
   for (int k = 1; cut == BY_WIDTH && k < bins; k++) edge[k] = low + (k - 1) * (high - low) / (bins - 2);
   for (int i = 0; i < n; i++) {
@@ -57,7 +57,7 @@ struct cuts {
 };
 
 done_t windows_keep(set_t *s, const model_t *m, why_t *why) {
-  const lag_t lag = model_lag(m, 0.0); // the thrust is a coordinate: as the model's first replay has it
+  const lag_t lag = model_lag(m, 0.0); // the thrust is a coordinate, as in the model's first replay
   for (int i = 0; i < s->n_grid; i++)
     if (!grid_motors(&s->grid[i], &lag, m->frame.motor_delay_s)) return error_failed(why, "out of memory");
   const size_t rows = (size_t)s->smooth.n + (size_t)s->range.n, most = set_most_rows(s);

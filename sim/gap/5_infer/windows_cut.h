@@ -6,47 +6,47 @@
 #include "gap/5_infer/coordinates.h"
 #include <math.h>
 
-// Bins of equally many rows that a coordinate is cut into: of a minute five seconds each.
+// Bins of equally many rows that a coordinate is cut into: in a minute, five seconds each.
 #define WINDOW_BINS 12
 
-// A coordinate is cut twice, and all windows of up to half its bins are looked at: of equally many rows, and
-// of equal width, for a layer may be thin.
+// A coordinate is cut twice: into bins of equally many rows and, because a layer may be thin, into bins of
+// equal width. All windows of up to half of the bins are tried.
 enum {
   WINDOW_FINE = 3 * WINDOW_BINS,
   WINDOWS_TRIED = WINDOW_BINS * (3 * WINDOW_BINS + 2) / 8 + WINDOW_FINE * (3 * WINDOW_FINE + 2) / 8
 };
 
-// Rows of a bin, on the average, or nothing is said: as many make a white one.
+// Rows that a bin must have on average, else nothing is said: a white row is made of as many.
 enum { WINDOW_ROWS = 3 };
 
-// Keeps the bins of all rows along all coordinates, the thrust that of this model, whatever model a look is
-// given. Without it they are found anew each time. FAILED: no memory.
+// Keeps the bins of all rows along all coordinates; the thrust is that of this model, whatever model a look
+// is given. Without this they are found anew each time. FAILED: no memory.
 MUST_CHECK done_t windows_keep(set_t *s, const model_t *m, why_t *why);
 
-// The bin of every row of a list (0: smooth, 1: range) along a coordinate. False: it is not there or does not
-// move.
+// Sets the bin of every row of a list (0: smooth, 1: range) along a coordinate. room: two numbers for each
+// row. False: it is not there or does not vary, or rows are too few.
 bool windows_bins(const set_t *s, const model_t *m, int coordinate, int list, double *room, int *bin);
 
-// Bins of equally many rows each, or of equal width; so many along a coordinate.
+// Bins of equally many rows each, or of equal width; and how many of either kind.
 typedef enum { BY_ROWS, BY_WIDTH, CUTS } cut_t;
 extern const int windows_cut_in[CUTS];
 
-// A list's rows: 0: smooth, 1: range.
+// Returns the rows of a list (0: smooth, 1: range).
 static inline const rows_t *windows_rows(const set_t *s, int list) {
   return list ? &s->range : &s->smooth;
 }
 
-// As windows_bins(), of any number of bins, and their edges (bins + 1).
+// As windows_bins(), for any number of bins of either cut; also sets the edges (bins + 1).
 bool windows_cut(const set_t *s, const model_t *m, int coordinate, int list, int bins, cut_t cut,
                  double *room, int *bin, double *edge);
 
-// Sums over the bins of a window: of the residual, of the window's own indicator, and of that and a constant.
+// Sums of products over a window: of its indicator with the residual, with itself, and with a constant.
 typedef struct {
   double y, own, cross;
 } window_sums_t;
 
-// The estimate and its distance from zero. all: of the constant, y and own. False: no row tells it from a
-// constant.
+// Sets the estimate of a constant in the window, and its distance from zero in standard errors. all: y and
+// own of the constant over all rows. False: no row tells the two apart.
 static inline bool windows_judge(const window_sums_t *all, bool centred, const window_sums_t *w, double *size,
                                  double *statistic) {
   if (!(all->own > 0.0)) return false;

@@ -1,6 +1,6 @@
-// windows_sums.h - products of indicator columns of bins with each other and with a residual, all white: of
-// one channel, or of several side by side: SUMS_NUMBER, one number or four, and SUMS_BINS, the most
-// that there are, are defined before. Within sim/gap/5_infer only.
+// windows_sums.h - products of the indicator columns of bins with each other and with a residual, all white,
+// for one channel or for several side by side. Before it is included, define SUMS_NUMBER (one number or
+// four) and SUMS_BINS (how many bins there are at most). Within sim/gap/5_infer only.
 #ifndef SIM_GAP_5_INFER_WINDOWS_SUMS_H
 #define SIM_GAP_5_INFER_WINDOWS_SUMS_H
 
@@ -14,11 +14,11 @@
 typedef SUMS_NUMBER number_t;
 
 typedef struct {
-  int bins; // after them: a constant
+  int bins; // number `bins`, after them, is the constant
   number_t D[SUMS_BINS + 1][SUMS_BINS + 1], y[SUMS_BINS + 1];
 } products_t;
 
-// What a row and the two before it weigh, white, and the products of these.
+// White weights of a row and the two before it, and their products.
 typedef struct {
   number_t of[3], constant, pair[3][3], crossed[3];
 } weights_t;
@@ -31,7 +31,7 @@ static inline void weights_multiply(weights_t *w) {
   }
 }
 
-// Of a row and the two before it in their bins.
+// Adds a row and the two before it, each in its bin.
 WIDE_INLINE void sums_add_row(products_t *p, const weights_t *w, const number_t *white, const int *bin) {
   for (int a = 0; a < 3; a++) {
     const int k = bin[-a];
@@ -41,7 +41,7 @@ WIDE_INLINE void sums_add_row(products_t *p, const weights_t *w, const number_t 
   }
 }
 
-// The same where all three are in one, as most are: each number is fetched and put back once.
+// The same where all three are in one bin, as most are: each number is loaded and stored once.
 WIDE_INLINE void sums_add_row_of_one(products_t *p, const weights_t *w, const number_t *white, int k) {
   number_t y = p->y[k], cross = p->D[k][p->bins], own = p->D[k][k];
   for (int a = 0; a < 3; a++) {
@@ -54,7 +54,7 @@ WIDE_INLINE void sums_add_row_of_one(products_t *p, const weights_t *w, const nu
   p->D[k][k] = own;
 }
 
-// v: a number_t of every row.
+// Sums up all rows. v: one number_t for each row.
 WIDE_INLINE void sums_of(products_t *p, int bins, const rows_t *r, const weights_t *w, const double *v,
                          const int *bin) {
   const int each = (int)(sizeof(number_t) / sizeof(double));
