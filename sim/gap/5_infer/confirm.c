@@ -1,4 +1,4 @@
-// confirm.c - the names once more, with the reference trajectory as the instrument.
+// confirm.c - estimates the names again, with the reference trajectory as instrument.
 #include "gap/5_infer/confirm.h"
 
 #include "base/lsq_blocks.h"
@@ -7,20 +7,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The flight itself, and so much earlier and later as rows tell apart. Of a column forces, turning and range
-// have their own.
+// Lags: the quiet flight itself, and earlier and later by as much as rows resolve. Forces, turning and range
+// have instruments of their own for each column.
 enum { LAGS = 3, INSTRUMENTS = LAGS * GROUPS };
 
 typedef struct {
-  candidates_t names; // those that are in the model alone
-  chosen_t chosen;    // the same, by their numbers among these
-  const int *of;      // their numbers among all
+  candidates_t names; // only those in the model
+  chosen_t chosen;    // the same, by their numbers in `names`
+  const int *of;      // their numbers among all candidates
   set_t *s;
   const model_t *base;
-  model_t now; // with them
+  model_t now; // the base with the names
   const closed_loop_t *loop;
-  gram_t plain;   // of the names as they were found, of smooth velocities
-  design_t table; // columns of the names, of the instruments, and the residual; velocities as logged
+  gram_t plain;   // of the names as they were found, in smoothed velocities
+  design_t table; // columns of names and instruments, and the residual; velocities as logged
 } confirming_t;
 
 // --- the flight along the reference -----------------------------------------------------------------------
@@ -34,14 +34,14 @@ static closed_loop_t quiet(const closed_loop_t *w) {
   return q;
 }
 
-// first: the point of the track at which it begins.
+// first: the point of the track at which the flight begins.
 static done_t fly_quietly(const confirming_t *t, int flight, gap_flight_t *flown, int *first, bool *flew,
                           why_t *why) {
   const grid_t *g = &t->s->grid[flight];
   const closed_loop_t loop = quiet(t->loop);
   model_t room = t->now;
   room.ceiling_m =
-      HUGE_VAL; // who follows it without a disturbance does not touch what the log's vehicle did not
+      HUGE_VAL; // without a disturbance the model touches nothing that the logged vehicle did not touch
   grid_t track;
   TRY(set_points_track(g, &track, why));
   for (*first = 0; *first < g->n && !g->point[*first].ok;) ++*first;
@@ -69,7 +69,7 @@ static bool replay_room(replay_room_t *r, size_t n) {
   return r->room != NULL;
 }
 
-// What the quiet flight has at a point of the log's, so many points later; before and after it the nearest.
+// The quiet flight's series at the log's points, `lag` points later; before and after it its nearest value.
 static void shift(const grid_t *log, const grid_t *quiet, int first, int lag, const double *from,
                   double *to) {
   for (int j = 0; j < log->n; j++) {
@@ -156,9 +156,9 @@ static done_t make_table(confirming_t *t, why_t *why) {
   return good ? DONE : error_failed(why, "out of memory");
 }
 
-// --- what they say ----------------------------------------------------------------------------------------
+// --- the answer -------------------------------------------------------------------------------------------
 
-// Which of the sizes something depends on that is compared, by number of the column; returns how many.
+// Sets at[] to the columns of the sizes that the compared channels show; returns how many.
 static int shown_of(const candidate_t *c, const named_t *named, int at[FX_SIZE_MAX]) {
   int n = 0;
   for (int k = 0; k < c->n; k++)
@@ -203,7 +203,7 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
     a->value[k] = found[i] = f->b[at[i]];
     a->stderr_[k] = sqrt(f->V[at[i] * (all + 1)]);
     differ[i] = f->b[at[i]] - f->plain[at[i]];
-    // Less does not matter, however sure it is: the named error already holds it.
+    // A smaller difference does not matter, however sure: the name's own error already holds it.
     beyond = beyond || fabs(differ[i]) > hypot(a->stderr_[k], named->stderr_[k]);
   }
   a->p = wald_p(found, f->V, at, n, all, free);
@@ -212,7 +212,7 @@ static void answer(const candidate_t *c, const fit_t *f, int all, named_t *named
   a->answer = a->p < SELECT_ALPHA && right_sign(c, a) ? CONFIRM_YES : CONFIRM_NO;
 }
 
-// A column of nothing becomes one along nothing else: it keeps no other from its answer.
+// Gives an all-zero column a unit diagonal, orthogonal to all others, so that the others can be solved for.
 static void set_apart(gram_t *g, int n) {
   for (int i = 0; i < n; i++) {
     const int diagonal = i * (g->size + 1);
@@ -220,7 +220,7 @@ static void set_apart(gram_t *g, int n) {
   }
 }
 
-// In the colours of what the names leave.
+// Whitens by the colours of what the names leave.
 static done_t take_products(const confirming_t *t, const design_t *table, gram_t *g, why_t *why) {
   int column[COLUMN_MAX];
   double value[COLUMN_MAX];
@@ -279,8 +279,9 @@ static bool all_have_set_points(const set_t *s) {
   return s->n_grid > 0;
 }
 
-// Velocities as they are logged, and back: to an instrument their errors do no harm, and of smooth ones it
-// finds a fifth too much, for what smoothing takes of a motion. Meanwhile `seen` are the smooth ones.
+// Swaps smoothed and logged velocities; called again it swaps them back, and meanwhile `seen` are the
+// smoothed ones. Errors of velocities do not bias an instrumented fit. With smoothed velocities it finds a
+// fifth too much, because smoothing takes away part of the motion.
 static void swap_speeds(set_t *s) {
   for (int f = 0; f < s->n_grid; f++)
     for (int j = 0; j < s->grid[f].n; j++) {

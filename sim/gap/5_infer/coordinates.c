@@ -1,4 +1,4 @@
-// coordinates.c - what a flight is cut along.
+// coordinates.c - the coordinates along which a flight is cut.
 #include "gap/5_infer/coordinates.h"
 
 #include <math.h>
@@ -57,7 +57,7 @@ double coordinate_of(int i, const grid_t *g, const model_t *m, int j) {
   case COORDINATE_RATE_X: return g->has_rates ? p->rate_b_radps.x : none;
   case COORDINATE_RATE_Y: return g->has_rates ? p->rate_b_radps.y : none;
   case COORDINATE_RATE_Z: return g->has_rates ? p->rate_b_radps.z : none;
-  case COORDINATE_TIME: return p->t_s - g->flight->t_s[0]; // of the log, also where a part of it is held out
+  case COORDINATE_TIME: return p->t_s - g->flight->t_s[0]; // of the log, also if part of it is held out
   }
   return none;
 }

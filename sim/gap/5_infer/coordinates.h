@@ -1,11 +1,11 @@
-// coordinates.h - what a flight is cut along, where someone looks in which part of it something lies.
+// coordinates.h - coordinates along which a flight is cut to find where something lies.
 #ifndef SIM_GAP_5_INFER_COORDINATES_H
 #define SIM_GAP_5_INFER_COORDINATES_H
 
 #include "gap/2_predict/grid.h"
 
 enum {
-  NOWHERE = -1, // along none of them
+  NOWHERE = -1, // along no coordinate
   COORDINATE_CEILING,
   COORDINATE_HEIGHT,
   COORDINATE_X,
@@ -25,8 +25,8 @@ enum {
 
 const char *coordinate_name(int i);
 const char *coordinate_unit(int i);
-bool coordinate_is_place(int i); // or a time
-// NaN where the log has it not.
+bool coordinate_is_place(int i); // or time
+// Returns it in coordinate_unit(i), velocities in body axes; NaN where the log lacks it.
 double coordinate_of(int i, const grid_t *g, const model_t *m, int point);
 
 #endif

@@ -1,4 +1,4 @@
-// found.c - what a finished selection says: names, rivals, and what could have been seen.
+// found.c - the result of the selection: names, and what could have been seen.
 #include "gap/5_infer/found.h"
 
 #include "base/lsq_blocks.h"
@@ -42,8 +42,8 @@ void found_join_rivals(found_t *f) {
 
 // --- names ------------------------------------------------------------------------------------------------
 
-// What feedback alone makes of a number is an error of it, too; and a lag or delay may hold as much lateness
-// of the instruments themselves as is never named.
+// Adds to a name's errors what feedback alone makes of its numbers, and for a lag or delay as much lateness
+// of the instruments as is never named.
 static void add_errors(const round_t *r, const choice_t *last, named_t *named) {
   double rms[FX_SIZE_MAX];
   bend_t bend;
@@ -68,7 +68,7 @@ static void find_named(found_t *found, const round_t *r) {
     const verdict_t v = score_last(&r->score, &last);
     const fx_t *fx = round_fx(r, candidate);
     if (fabs(v.value[0]) < candidates_least(fx, r->s)) {
-      if (fx->group != FX_TIMING) continue; // a sensor's time, not the commands'
+      if (fx->group != FX_TIMING) continue; // a sensor is late, not the commands
       found->aligned = fx;
       found->aligned_s = v.value[0];
       continue;
@@ -82,7 +82,8 @@ static void find_named(found_t *found, const round_t *r) {
   }
 }
 
-// What measured rotor speeds say. The others' shares become shares of what was left without it.
+// Adds the lag or delay that measured rotor speeds gave. The other names' shares become shares of what was
+// left without it.
 static void find_timing(found_t *found, const round_t *r, const timing_t *timing) {
   why_t why;
   double without = 1.0, with = 1.0;
@@ -101,7 +102,7 @@ static void find_timing(found_t *found, const round_t *r, const timing_t *timing
   fx_use_resize(chosen_take(&found->chosen, r->c, timing->candidate), 0, timing->value_s);
 }
 
-// What acts on the vehicle before what its instruments add; the largest share first.
+// Order of names: effects on the vehicle before errors of its instruments, then by falling share.
 static bool comes_before(const round_t *r, const named_t *a, const named_t *b) {
   const bool sensed_a = round_fx(r, a->candidate)->sense, sensed_b = round_fx(r, b->candidate)->sense;
   return sensed_a != sensed_b ? sensed_b : a->share > b->share;
@@ -118,13 +119,13 @@ static void sort_names(found_t *found, const round_t *r) {
 
 // --- the smallest size of every effect that these flights would have shown --------------------------------
 //
-// Every condition of select.h asks for a size; it is met in all but a few flights in a hundred where the
-// true size is larger by two of the estimate's errors: its standard error, or its rms on nominal flights.
-// Where what an effect is multiplied by is mostly the log's own noise (velocities in a hover), only a part of
-// it is found.
+// Each condition of select.h asks for a size. All but a few flights in a hundred meet it if the true size is
+// larger by two errors of the estimate: its standard error, or its rms on nominal flights. Where an effect
+// multiplies what is mostly noise of the log (velocities in a hover), only a part of it is found.
 
-// Another name stands for it but for what a right form leaves of it: the two cannot be told apart until it is
-// larger, and the part of its sum of squares that the other one cannot give is SCORE_RIVAL_LEFT.
+// Returns the sum of squares that number k must explain so that no other name stands for it: the part that
+// the other one cannot give must reach SCORE_RIVAL_LEFT. 0: every other one leaves more of it than a right
+// form would; HUGE_VAL: another one gives all of it.
 static double gain_of_rivals(const round_t *r, int candidate, int k) {
   double alike = 0.0;
   for (int i = 0; i < r->c->n; i++)
@@ -136,7 +137,7 @@ static double gain_of_rivals(const round_t *r, int candidate, int k) {
                                                        : HUGE_VAL;
 }
 
-// In parts of what is typical; 0: nothing that is compared depends on it.
+// Returns the smallest size that would have been seen, over typical; 0: no compared channel depends on it.
 static double least_of(const round_t *r, const choice_t *with, double left) {
   const int candidate = with->of[with->n - 1];
   const candidate_t *const c = &r->c->candidate[candidate];
@@ -175,7 +176,8 @@ static void find_least(found_t *found, const round_t *r) {
   }
 }
 
-// How far from what is asked for: a name's own shape, else what is typical. A rotor may be any.
+// How far a shape is from the one asked for, in the logarithm: a name's own shape comes first (-1), else the
+// typical one counts. Any rotor may be (0).
 static double away(const found_t *f, const candidates_t *all, int candidate) {
   const candidate_t *const c = &all->candidate[candidate];
   int n;
