@@ -1,4 +1,4 @@
-// acts_as.c - which effects of the library, alone, would do for what is left on some rows.
+// acts_as.c - which single effects of the library would explain what is left on some rows.
 #include "gap/5_infer/acts_as.h"
 
 #include "base/lsq_blocks.h"

@@ -1,6 +1,6 @@
-// acts_as.h - which effects of the library, alone, would do for what is left on some rows.
+// acts_as.h - which single effects of the library would explain what is left on some rows.
 //
-// No names: nothing is asked of them but how much of the squares they take there, beside what is named.
+// They are not names: all that counts is how much of the squares they take there, beside the named effects.
 #ifndef SIM_GAP_5_INFER_ACTS_AS_H
 #define SIM_GAP_5_INFER_ACTS_AS_H
 
@@ -11,17 +11,18 @@ enum { ACTS_AS_MAX = 3 };
 
 typedef struct {
   int candidate;
-  fx_use_t use; // with its numbers; of what the model has, the difference
-  double share; // of what is left there beyond noise, of the squares: what it takes, at most 1
-  double worth; // the same, less what a right form with other numbers leaves for each number more than one
+  fx_use_t use; // with its numbers; differences if the model has the effect
+  double share; // part of the squares beyond noise there that it takes, at most 1
+  double worth; // that part, not capped, less CANDIDATES_MISFIT for each number beyond the first
 } would_do_t;
 
 typedef struct {
-  int n;                         // 0: nothing of the library would do
-  would_do_t would[ACTS_AS_MAX]; // one of each effect, the one that is worth most first
+  int n;                         // 0: no effect of the library would do
+  would_do_t would[ACTS_AS_MAX]; // one per effect, the largest worth first
 } acts_as_t;
 
-// Columns of all candidates and the residual, by their spread alone, and the numbers of what is chosen.
+// Sums of products of all candidates' columns and the residual, scaled by spread alone (not whitened), and
+// the numbers of the chosen effects.
 typedef struct {
   gram_t g;
   int n, column[CHOSEN_MAX * FX_SIZE_MAX];
@@ -32,20 +33,21 @@ typedef struct {
 MUST_CHECK done_t remains_make(remains_t *r, set_t *s, const model_t *base, const candidates_t *c,
                                const chosen_t *chosen, why_t *why);
 void remains_free(remains_t *r);
-// Sums of products over some rows: the last column, from which what is chosen was taken once more, gets it
-// back.
+// Puts the chosen effects back: in G, sums of products over some rows, the residual is that of the model
+// without them (design_t), and afterwards that of the model with them.
 void remains_put_back(const remains_t *r, double *G);
 
-// What a candidate alone takes from such sums G, at numbers that it can have: of what is chosen (else null),
-// beside its own. fit: the sums that give these numbers, of all that it acts on.
+// Returns the squares that a candidate alone takes from such sums G. use: gets its numbers, fitted to the
+// sums `fit` (of all that it acts on) and limited to possible ones. chosen: its present numbers if it is
+// chosen, to which these add; else null.
 double acts_takes(const candidate_t *c, const fx_use_t *chosen, const double *fit, const double *G, int size,
                   fx_use_t *use);
 
-// One more that would do: it is worth half of what is there, and no number of it is larger than the
-// evidence's prior has it. taken: of `beyond`, both squares.
+// Adds a candidate that is not barred, is worth SCORE_MOST or more, and has no number beyond the evidence's
+// widest prior. taken: the squares that it takes, beyond: all squares beyond noise.
 void acts_add(acts_as_t *to, const candidates_t *c, int candidate, const fx_use_t *use, double taken,
               double beyond);
-// Without those that are worth less than the first by a fifth.
+// Drops entries that are worth less than the first by more than a fifth (UNKNOWN_TIE).
 void acts_keep_best(acts_as_t *to);
 
 #endif

@@ -1,11 +1,11 @@
-// flights_differ.c - what flights differ by, each by a constant of its own.
+// flights_differ.c - constants by which each flight differs from the others.
 #include "gap/5_infer/flights_differ.h"
 
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 
-// --- what each has ----------------------------------------------------------------------------------------
+// --- the constants ----------------------------------------------------------------------------------------
 
 static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *base,
                          double *const residual[CHANNELS], why_t *why) {
@@ -16,7 +16,7 @@ static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *bas
   double *const white = malloc(((size_t)r->n + 1) * sizeof(double));
   if (!white) return error_failed(why, "out of memory");
   color_whiten(own, r, residual[d->cell.channel], white);
-  double mean = 0.0; // of flights, each as much as another: they differ by more than their rows leave open
+  double mean = 0.0; // over flights, equally weighted: they differ by more than their errors
   int n = 0;
   for (int from = 0; from < r->n;) {
     const color_constant_t k = color_constant(own, r, from, white);
@@ -33,10 +33,10 @@ static done_t find_means(flights_differ_t *d, const set_t *s, const model_t *bas
   return DONE;
 }
 
-// --- what would do ----------------------------------------------------------------------------------------
+// --- effects that would do --------------------------------------------------------------------------------
 
-// Sums of products of each flight and, behind them, of all: of one group of channels, and of every one. What
-// would do in one of them says something of the others, too.
+// Sums of products of each flight and, last, of all: `of` one group of channels, and `whole`, because an
+// effect that would do in one group acts in the others, too.
 typedef struct {
   int size;
   double *of, *whole;
@@ -63,7 +63,7 @@ static done_t sums_make(sums_t *t, const remains_t *left, int flights, int group
   return DONE;
 }
 
-// What constants of each flight take in those channels, beyond one of all, by their spread alone.
+// Returns the squares that a constant per flight takes in a group beyond one for all, by spread alone.
 static double by_constants(const set_t *s, const color_t color[CHANNELS], double *const residual[CHANNELS],
                            int group) {
   double sum = 0.0;
@@ -76,7 +76,8 @@ static double by_constants(const set_t *s, const color_t color[CHANNELS], double
   return sum;
 }
 
-// Its sizes in each flight; returns what it takes more than with one of all. largest: of its sizes.
+// Sets a candidate's sizes in each flight; returns what they take more than one size for all. largest: the
+// flight's sizes that are largest over typical.
 static double takes_more(const flights_differ_t *d, const sums_t *t, const candidate_t *c,
                          const fx_use_t *chosen, fx_use_t *use, fx_use_t *largest) {
   fx_use_t same;

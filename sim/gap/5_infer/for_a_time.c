@@ -1,4 +1,4 @@
-// for_a_time.c - which effects of the library would do for what has no name, if they acted for a time only.
+// for_a_time.c - which effects of the library would explain an unnamed residual, acting only for a time.
 #include "gap/5_infer/for_a_time.h"
 
 #include "gap/5_infer/coordinates.h"
@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Sums of products in that time, and in all other; products with the residual without what is chosen.
+// Sums of products inside the time and outside it; the residual is what the model with the chosen effects
+// leaves.
 typedef struct {
   int size, blocks[2];
   double *sums[2];
@@ -18,7 +19,7 @@ static bool is_inside(const set_t *s, const rows_t *r, const model_t *m, const c
   return t_s >= time->from && t_s <= time->to;
 }
 
-// A block belongs where more of its rows are.
+// Adds each block to the side on which most of its rows are.
 static void add_blocks(times_t *t, const gram_t *g, const set_t *s, const model_t *m, const cell_t *time) {
   const rows_t *const r = &s->smooth;
   const size_t n = (size_t)(g->size * g->size);
@@ -31,8 +32,8 @@ static void add_blocks(times_t *t, const gram_t *g, const set_t *s, const model_
   }
 }
 
-// By the channel in which it was found: it acts where more is left. False: half of that, or more, is there at
-// other times, too.
+// Sets *outside if the mean square of the cell's channel is larger outside the time. False: the other side
+// has half of it or more.
 static bool find_side(const set_t *s, const model_t *m, double *const residual[CHANNELS], const cell_t *time,
                       bool *outside) {
   const rows_t *const r = set_rows(s, time->channel);
