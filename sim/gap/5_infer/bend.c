@@ -1,10 +1,10 @@
-// bend.c - a shape and its size, estimated together: what nominal flights make of both.
+// bend.c - shape and size of an effect estimated together.
 #include "gap/5_infer/bend.h"
 
 #include "base/lsq_blocks.h"
 #include <math.h>
 
-// A candidate whose shape is a length among others, and those of the same kind on both sides of it, or -1.
+// A candidate with a continuous shape, and those of its kind with the next smaller and larger one, or -1.
 typedef struct {
   int own, side[2];
 } row_of_shapes_t;
@@ -31,20 +31,20 @@ static bool find_neighbours(const candidates_t *c, int own, row_of_shapes_t *row
   return row->side[0] >= 0 || row->side[1] >= 0;
 }
 
-// How far, in the logarithm, the shapes on both sides are; 0: there is none.
+// Distances to the neighbours' shapes, in the logarithm; 0: there is none.
 static void distances(const candidates_t *c, const row_of_shapes_t *row, double x[2]) {
   for (int i = 0; i < 2; i++)
     x[i] = row->side[i] < 0 ? 0.0
                             : log(shape_of(&c->candidate[row->side[i]]) / shape_of(&c->candidate[row->own]));
 }
 
-// A sum of columns.
+// A weighted sum of columns.
 typedef struct {
   int n, of[3 * FX_SIZE_MAX];
   double times[3 * FX_SIZE_MAX];
 } mix_t;
 
-enum { MIXED = COLUMN_MAX + FX_SIZE_MAX + 1 }; // of a choice, of a shape's, and the residual
+enum { MIXED = COLUMN_MAX + FX_SIZE_MAX + 1 }; // columns of a choice, those of a shape, the residual
 
 static mix_t column_alone(int column) {
   return (mix_t){1, {column}, {1.0}};
@@ -57,7 +57,7 @@ static int mix_choice(const candidates_t *c, const choice_t *choice, mix_t m[COL
   return n;
 }
 
-// Number k of the columns at the shape below, here, and above, so many times each.
+// Adds column k of the shape below, the own one and the one above to a sum, each by its weight times `times`.
 static void mix_shapes(const candidates_t *c, const row_of_shapes_t *row, const double weight[3],
                        double times, int k, mix_t *m) {
   const int at[3] = {row->side[0], row->own, row->side[1]};
@@ -79,9 +79,9 @@ static void products(int n, const mix_t *m, const double *G, int size, double *H
     }
 }
 
-// --- what nominal flights make of it ----------------------------------------------------------------------
+// --- errors on nominal flights ----------------------------------------------------------------------------
 
-// The derivative over the shape's logarithm: of the parabola through all three, or of a line.
+// Weights for the derivative by the shape's logarithm: of the parabola through all three, or of a line.
 static void slope_of(const double x[2], double weight[3]) {
   for (int i = 0; i < 2; i++) {
     const double other = x[1 - i], alone = x[i] != 0.0 ? 1.0 / x[i] : 0.0;
@@ -93,7 +93,7 @@ static void slope_of(const double x[2], double weight[3]) {
 bool bend_nominal(const score_t *j, const choice_t *choice, const double value[FX_SIZE_MAX], bend_t *bend) {
   const candidates_t *const c = j->c;
   const int flights = j->nominal ? j->nominal->n : 0, own = choice->of[choice->n - 1];
-  const int sizes = c->candidate[own].n; // and the slope behind them
+  const int sizes = c->candidate[own].n; // followed by the slope
   row_of_shapes_t row;
   double x[2], weight[3], ridge[MIXED], b[MIXED], H[MIXED * MIXED], inverse[MIXED * MIXED];
   double made[FX_SIZE_MAX + 1][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX + 1][NOMINAL_FLIGHTS];
@@ -103,11 +103,11 @@ bool bend_nominal(const score_t *j, const choice_t *choice, const double value[F
   if (flights == 0 || !find_neighbours(c, own, &row)) return false;
   distances(c, &row, x);
   slope_of(x, weight);
-  const int n = mix_choice(c, choice, m); // number n: the slope
+  const int n = mix_choice(c, choice, m); // column n: the slope
   m[n] = (mix_t){.n = 0};
   for (int k = 0; k < sizes; k++) mix_shapes(c, &row, weight, value[k], k, &m[n]);
   m[n + 1] = column_alone(c->columns);
-  const double far = fmax(fabs(x[0]), fabs(x[1])); // no shape that is tried lies beyond it
+  const double far = fmax(fabs(x[0]), fabs(x[1])); // no shape beyond it is tried
   for (int i = 0; i <= n; i++) {
     order[i] = i;
     ridge[i] = i < n ? j->ridge[m[i].of[0]] : 1.0 / (far * far);
@@ -129,7 +129,7 @@ bool bend_nominal(const score_t *j, const choice_t *choice, const double value[F
 
 // --- the shape that fits best -----------------------------------------------------------------------------
 
-// Of the columns at the shape below, here and above, for one that is `on` from here: a parabola, or a line.
+// Weights that give the columns at the logarithmic distance `on` from the own shape: of a parabola or a line.
 static void between(const double x[2], double on, double weight[3]) {
   for (int i = 0; i < 2; i++) {
     const double other = x[1 - i], alone = x[i] != 0.0 ? on / x[i] : 0.0;
@@ -145,7 +145,7 @@ typedef struct {
   double x[2];
 } bent_t;
 
-// The sum of squares that is left with a shape that is `on` from here; HUGE_VAL: at a size that cannot be.
+// Returns the sum of squares that the shape at distance `on` leaves; HUGE_VAL if a size is impossible.
 static double left_at(const bent_t *t, double on) {
   const candidates_t *const c = t->j->c;
   const candidate_t *const own = &c->candidate[t->row.own];
@@ -175,7 +175,7 @@ double bend_best(const score_t *j, const choice_t *beside, int own, double reach
   distances(j->c, &t.row, t.x);
   double low = reach * t.x[0], high = reach * t.x[1];
   const double ends[2] = {low, high}, span = high - low;
-  for (int i = 0; i < 20; i++) { // to 1e-4 of the span, a tenth of what is close to an end
+  for (int i = 0; i < 20; i++) { // to 1e-4 of the span, a tenth of `close`
     const double a = high - golden * (high - low), b = low + golden * (high - low);
     if (left_at(&t, a) < left_at(&t, b))
       high = b;
@@ -183,6 +183,6 @@ double bend_best(const score_t *j, const choice_t *beside, int own, double reach
       low = a;
   }
   const double best = 0.5 * (low + high), close = 1e-3 * span;
-  if (best - ends[0] < close || ends[1] - best < close) return here; // beyond, it is a neighbour's to find
+  if (best - ends[0] < close || ends[1] - best < close) return here; // at an end: a neighbour's to find
   return left_at(&t, best) < left_at(&t, 0.0) * (1.0 - SELECT_GAIN) ? here * exp(best) : here;
 }

@@ -1,17 +1,18 @@
-// beyond_control.c - the size, and the share, of what control makes.
+// beyond_control.c - the size, and the share of the residual, that control can mimic.
 #include "gap/5_infer/beyond_control.h"
 
 #include <math.h>
 
-// Of a disturbance d control commands -T d, beside what a pilot commands. What of the residual, which is d,
-// goes along with the commands at a slope q is q |T| at most of its squares: the more a pilot commands, the
-// flatter the slope and the smaller the share. So much more than its slope no control explains, nor one that
-// overshoots by the largest peak of T that loops are designed for; an inertia that is there explains all but
+// Control answers a disturbance d with commands -T d, beside what the pilot commands, and the residual is d.
+// A slope q of the residual on the commands explains at most the share q |T| of its squares: the more the
+// pilot commands, the flatter the slope and the smaller the share. CONTROL_PEAK is the largest peak of |T|
+// that loops are designed for, so control explains no more than this times q. A real inertia explains all but
 // noise.
 #define CONTROL_PEAK 2.0
 
-// The slope: of a number that is not chosen the straight line about none, which is it; of an inertia that is
-// chosen, J (1 + k), k / (1 + k). Of all channels together the share is smaller than of the turning.
+// The slope is the number itself for a candidate that is not chosen (a line about 0), and k / (1 + k) for a
+// chosen inertia J (1 + k). The explained share is that of all channels, smaller than that of the turning
+// alone.
 static bool explains_more_than_control(const round_t *r, const choice_t *choice, const verdict_t *v,
                                        bool chosen) {
   const fx_t *const fx = round_fx(r, choice->of[choice->n - 1]);
@@ -27,8 +28,8 @@ static bool explains_more_than_control(const round_t *r, const choice_t *choice,
   return before - after > CONTROL_PEAK * slope * before;
 }
 
-// Of an effect that control's work can look like: no number is surely one that control makes, and one at
-// least surely is not; or it explains too much. Of any other effect: always.
+// For an effect that control can mimic: it explains too much, or no number surely has the sign that control
+// makes and at least one surely has the other. For any other effect: always.
 bool beyond_control(const round_t *r, const choice_t *choice, const verdict_t *v, bool chosen) {
   const fx_t *const fx = round_fx(r, choice->of[choice->n - 1]);
   if (fx->control_makes == 0 || (r->nominal && r->nominal->n)) return true;

@@ -14,7 +14,7 @@ static double mean(const rows_t *r, const double *v) {
   return n ? sum / n : 0.0;
 }
 
-// y, p: white; where a row has no two before it both are 0.
+// Sums over the rows that have two rows before them.
 static both_t sums_of(const rows_t *r, const double *y, const double *p) {
   const double y_mean = mean(r, y), p_mean = mean(r, p);
   both_t s = {.n = 0};
@@ -29,7 +29,7 @@ static both_t sums_of(const rows_t *r, const double *y, const double *p) {
 }
 
 typedef struct {
-  double from, to, stderr_; // of the lower end
+  double from, to, stderr_; // standard error of the lower end
 } interval_t;
 
 static interval_t interval_of(const slope_t *s, int n) {
@@ -38,9 +38,9 @@ static interval_t interval_of(const slope_t *s, int n) {
                       SCORE_CLUSTER * sqrt(left / s->yy / fmax(n - 2, 1.0))};
 }
 
-// Of two scales that are nearer than the least that is named nobody would say that they are two. Slow rows
-// count as so many as white ones, though they follow from each other: a slow disturbance may withdraw an
-// inertia that is there, where by fewer rows one that stands apart by half would be told.
+// True if slow and fast turning may have one scale, up to the least difference that is named. Slow rows count
+// as many as whitened ones though they are correlated: a slow disturbance may withdraw a real inertia, but
+// with a smaller count one whose scales differ by half would be named.
 static bool are_one(const both_t *b, double typical) {
   const slope_t white = {b->yy, b->pp, b->yp};
   if (b->n == 0 || !(b->yp > 0.0 && b->slow.yp > 0.0)) return true;
@@ -49,12 +49,12 @@ static bool are_one(const both_t *b, double typical) {
   return fast.from - margin < slow.to && slow.from - margin < fast.to;
 }
 
-// The colour of what the plain slope leaves, once: slope and colour in turn may end at another slope, of rows
-// in which nothing slow is left, the turning least of all.
+// The colour is that of what the plain slope leaves, fitted once. Slope and colour in turn may end at another
+// slope, of rows in which nothing slow is left, least of all the turning.
 both_t both_ways_of(const rows_t *r, const double *measured, const double *residual, double typical,
                     double *left, double *room) {
   for (int i = 0; i < r->n; i++) left[i] = measured[i] - residual[i];
-  const both_t plain = sums_of(r, measured, left); // a scale that is left in the rows would be their colour
+  const both_t plain = sums_of(r, measured, left); // a scale left in the rows would set their colour
   const double slope = plain.yp / plain.yy;
   for (int i = 0; i < r->n; i++) left[i] = (1.0 - slope) * measured[i] - residual[i];
   const double off = mean(r, left);
@@ -74,17 +74,18 @@ static double reverse(const both_t *b) {
   return b->yp / b->yy - 1.0;
 }
 
-// With half of the interval as an error, too.
+// The standard error together with half of the interval.
 static double error(const both_t *b, double stderr_) {
   return hypot(stderr_, 0.5 * (b->pp / b->yp - b->yp / b->yy));
 }
 
-// The part of either that does not go with the other.
+// The share of the variance of either that the other does not explain, 1 - r^2.
 static double unlike(const both_t *b) {
   return 1.0 - b->yp * b->yp / (b->yy * b->pp);
 }
 
-// The end that is nearer to 0, where it is sure: of a larger k the lower one, of a smaller one the upper one.
+// The end of the interval nearer to 0, if it surely is not 0: the lower of a larger k, the upper of a
+// smaller.
 static double sure_larger(const both_t *b, double stderr_) {
   return reverse(b) > SCORE_ERRORS * error(b, stderr_) ? reverse(b) : 0.0;
 }
@@ -115,7 +116,8 @@ bool both_ways_stand(const both_t about[3], const scaled_t told[3]) {
   return borne_out && one;
 }
 
-// about[k]: of the axes, what a choice predicts; n 0 where that cannot be told. typical: of a scale.
+// Sets about[k], by axis, from what the model with `others` predicts; n is 0 where the axis is not compared.
+// typical: size of a scale.
 static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_t *others, double typical,
                    why_t *why) {
   model_t m;
@@ -138,7 +140,7 @@ static done_t look(both_t about[3], set_t *s, const model_t *base, const chosen_
   return status;
 }
 
-// A torque that is 1 + t times as large turns it about z as an inertia of 1 / (1 + t).
+// A torque that is 1 + t times as large acts about z like an inertia that is 1 / (1 + t) times as large.
 static scaled_t as_inertia(const fx_t *fx, const named_t *named, int axis) {
   if (fx->scales == FX_SCALES_INERTIA) return (scaled_t){named->value[axis], named->stderr_[axis]};
   const double scale = 1.0 + named->value[0];

@@ -1,4 +1,4 @@
-// by_turns.c - numbers of what is chosen, by turn.
+// by_turns.c - the numbers of the chosen effects, by turn.
 #include "gap/5_infer/by_turns.h"
 
 #include "base/lsq_blocks.h"
@@ -7,8 +7,8 @@
 #include <string.h>
 
 typedef struct {
-  candidates_t names; // the chosen, but for what measured rotor speeds say
-  chosen_t own;       // by their numbers there
+  candidates_t names; // the chosen, without what measured rotor speeds gave
+  chosen_t own;       // the same, by their numbers in `names`
   design_t table;
   gram_t gram;
   score_t score;
