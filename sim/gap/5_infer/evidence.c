@@ -1,16 +1,16 @@
-// evidence.c - a beam over sets of effects.
+// evidence.c - a beam search over sets of effects.
 #include "gap/5_infer/evidence.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// One effect in a hundred is there.
+// Prior probability that an effect is there.
 #define RARE 0.01
-// Sets of each size that are extended: the right one is among the best, and alike ones fill a few places.
+// Sets of each size that are extended: the right one is among the best, and similar ones fill a few places.
 #define BEAM 16
 
-// Of what is typical, the spread of the priors: a name is told from an eighth on.
+// Standard deviations of the priors, over what is typical: a name is reported from an eighth on.
 static const double SCALE[] = {0.5, 1.0, 2.0, EVIDENCE_TYPICAL_MOST};
 #define SCALES ((int)(sizeof SCALE / sizeof *SCALE))
 
@@ -18,7 +18,7 @@ typedef struct {
   const round_t *r;
   information_t f;
   double *prior; // by candidate: logarithm
-  evidence_t *e; // with room for so many
+  evidence_t *e; // with room for `room` sets
   int room;
 } beam_t;
 
@@ -50,7 +50,7 @@ static evidence_set_t set_with(const evidence_set_t *s, int candidate, int *at) 
   return with;
 }
 
-// The sum over the new one's scales; the best of them stays.
+// Adds a candidate: the evidence is averaged over its scales, and the best scale stays.
 static evidence_set_t extended(const beam_t *b, const evidence_set_t *s, int candidate) {
   int at;
   evidence_set_t with = set_with(s, candidate, &at);
@@ -72,7 +72,7 @@ static bool same(const evidence_set_t *a, const evidence_set_t *b) {
   return a->n == b->n && a->of[0] == b->of[0] && memcmp(a->of, b->of, (size_t)a->n * sizeof *a->of) == 0;
 }
 
-// Of a set that is met twice the better one counts: its numbers have other scales. from: sets of this size.
+// Of a set that is met twice, with other scales, the better one stays. from: the first set of this size.
 static void keep(beam_t *b, int from, const evidence_set_t *s) {
   evidence_set_t *const set = b->e->set;
   for (int i = from; i < b->e->n; i++)
@@ -99,7 +99,7 @@ static int by_log(const void *a, const void *b) {
 
 static void search(beam_t *b) {
   evidence_set_t *const set = b->e->set;
-  b->e->n = 1; // nothing
+  b->e->n = 1; // the empty set
   for (int from = 0, to = 1, depth = 0; depth < EVIDENCE_DEPTH && to > from; depth++) {
     const int next = b->e->n, n = b->r->c->n;
 #pragma omp parallel for schedule(dynamic, 8)
@@ -108,7 +108,7 @@ static void search(beam_t *b) {
       set[next + q] = may_join(b, s, q % n) ? extended(b, s, q % n) : (evidence_set_t){.n = 0};
     }
     for (int q = 0; q < (to - from) * n; q++) {
-      const evidence_set_t with = set[next + q]; // where it is kept lies before
+      const evidence_set_t with = set[next + q]; // a copy: keep() writes at or before it
       if (with.n > 0) keep(b, next, &with);
     }
     qsort(set + next, (size_t)(b->e->n - next), sizeof *set, by_log);
@@ -157,7 +157,7 @@ done_t evidence_make(evidence_t *e, const round_t *r, why_t *why) {
   return DONE;
 }
 
-// without < 0: all members.
+// Log of evidence times prior of a choice without member `without`; < 0: of all members.
 static double choice_log(const beam_t *b, const choice_t *choice, int without) {
   evidence_set_t s = {.n = 0};
   for (int i = 0; i < choice->n; i++)
@@ -165,8 +165,8 @@ static double choice_log(const beam_t *b, const choice_t *choice, int without) {
   return s.log;
 }
 
-// With its member number i in any form: those that it is tried in share one prior, and flights in which they
-// look alike do not ask which it is.
+// The same with member i in any form: its forms share one prior, and where they look alike it does not matter
+// which one it is.
 static double any_form_log(const beam_t *b, const choice_t *choice, int i) {
   const candidates_t *const c = b->r->c;
   double best = choice_log(b, choice, -1), sum = 1.0;
@@ -207,7 +207,7 @@ static bool holds(const evidence_set_t *s, const candidates_t *c, int n, const i
 double evidence_of(const evidence_t *e, const candidates_t *c, int n, const int *candidate) {
   double sum = 0.0;
   for (int i = 0; i < e->n; i++) sum += holds(&e->set[i], c, n, candidate) ? e->set[i].share : 0.0;
-  return fmin(sum, 1.0); // the shares' rounding adds up
+  return fmin(sum, 1.0); // rounding errors add up
 }
 
 const evidence_set_t *evidence_without(const evidence_t *e, const candidates_t *c, int n,

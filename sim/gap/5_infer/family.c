@@ -1,4 +1,4 @@
-// family.c - which other effects could stand in a name's place.
+// family.c - the rivals of each name.
 #include "gap/5_infer/family.h"
 
 #include "gap/5_infer/evidence.h"
@@ -9,8 +9,7 @@
 
 // --- what is left unexplained -----------------------------------------------------------------------------
 
-// By channel, the largest cell that no name explains, in standard errors beyond those of nominal flights: 0
-// where it is chance.
+// By channel, the largest cell that no name explains, in standard errors beyond nominal flights; 0: chance.
 typedef struct {
   double errors[CHANNELS];
 } unexplained_t;
@@ -25,7 +24,7 @@ static double beyond_nominal(const round_t *r, double statistic) {
 static done_t measure_cells(const round_t *r, double *const left[CHANNELS], unexplained_t *u, why_t *why) {
   color_t color[CHANNELS];
   cell_t cell[CHANNELS];
-  for (int ch = 0; r->s->n_grid > 1 && ch < CHANNELS; ch++) // as white rows have it
+  for (int ch = 0; r->s->n_grid > 1 && ch < CHANNELS; ch++) // whitening takes a flight's constant, too
     rows_center(set_rows(r->s, ch), left[ch]);
   TRY(unknown_colors(r->s, r->base, left, color, why));
   TRY(unknown_along(r->s, r->base, 0, COORDINATES, left, color, true, cell, why));
@@ -43,7 +42,7 @@ static done_t find_unexplained(const round_t *r, unexplained_t *u, why_t *why) {
   return status;
 }
 
-// In all channels in which one of the two shows.
+// Returns the unexplained standard errors of all channels in which either candidate shows.
 static double unexplained_of(const round_t *r, const unexplained_t *u, int own, int other) {
   double sum = 0.0;
   for (int ch = 0; ch < CHANNELS; ch++) {
@@ -61,28 +60,31 @@ static double unexplained_of(const round_t *r, const unexplained_t *u, int own, 
 
 typedef struct {
   const fx_t *fx;
-  double share, left; // of the gap that it would explain; white sum of squares that would be left
+  double share, left; // of the gap that it would explain; white sum of squares left then
   int candidate;      // in its best form
 } rival_t;
 
-// Mass and thrust scale differ in turning alone.
+// True if only the turning could tell the two apart, as mass and thrust scale, and it does not.
 static bool only_turning_tells(const round_t *r, int a, int b) {
   return round_fx(r, a)->group == FX_WEIGHT && round_fx(r, b)->group == FX_WEIGHT && !r->turning_told;
 }
 
-// Another torque turns it about z as an inertia does; what that does about x and y missed commands hide.
+// A torque scale acts about z as an inertia does; a log that misses commands does not show what the inertia
+// does about x and y.
 static bool missed_commands_hide(const round_t *r, int own, int other) {
   return round_fx(r, own)->scales == FX_SCALES_TORQUE && round_fx(r, other)->scales == FX_SCALES_INERTIA &&
          candidates_slow(r->s);
 }
 
-// Selection settles on a lag or on a delay and asks no more; what the two do is nevertheless alike.
+// True if the candidate cannot be a rival. Selection excludes the delay once it has settled on a lag, and the
+// other way round, but the two still look alike unless rotor speeds were measured.
 static bool is_out(const round_t *r, bool measured, int i) {
   return r->never[i] && (measured || round_fx(r, i)->group != FX_TIMING);
 }
 
-// It leaves less in the name's place, and beside it the name gives less than half of what it gave: refused
-// for what feedback makes of it, it may be there all the same. A lag is so, for which a delay stands.
+// True if the candidate leaves less in the name's place, and beside it the name gives less than half of what
+// it gave. Selection may have refused it for what feedback makes of it, yet it may be there: for example a
+// lag where a delay was named.
 static bool fits_better(const round_t *r, int own, const choice_t *with) {
   const choice_t rest = choice_without(&r->choice, own), both = choice_with(with, own);
   const double named = score_left(&r->score, &r->choice, NULL), other = score_left(&r->score, with, NULL);
@@ -90,9 +92,9 @@ static bool fits_better(const round_t *r, int own, const choice_t *with) {
   return other < named && other - score_left(&r->score, &both, NULL) < (1.0 - SCORE_MOST) * gives;
 }
 
-// with: the choice with the other one as its last. It fits better, or gives, alone or beside the other names,
-// most of what the name does. What differs by less than a right form leaves is the same: straight lines are
-// no better than that.
+// with: the choice with the other candidate in the name's place, as its last. True if it fits better, or
+// gives, alone or beside the other names, most of what the name gives. A difference below what a right form
+// leaves counts as none: linearisation is no more exact.
 static bool could_stand(const round_t *r, const unexplained_t *u, int own, const choice_t *with) {
   const int other = with->of[with->n - 1];
   if (only_turning_tells(r, own, other) || missed_commands_hide(r, own, other)) return true;
@@ -106,7 +108,7 @@ static bool could_stand(const round_t *r, const unexplained_t *u, int own, const
          score_is_rival(&r->score, &r->choice, with, unexplained_of(r, u, own, other));
 }
 
-// One per effect, that of its shapes that leaves least.
+// Keeps one rival per effect, in the shape that leaves least; sorted by what is left.
 static void keep(rival_t *list, int *n, const rival_t *one) {
   int at = 0;
   while (at < *n && list[at].fx != one->fx) at++;
@@ -116,15 +118,16 @@ static void keep(rival_t *list, int *n, const rival_t *one) {
   list[at] = *one;
 }
 
-// Where a candidate's numbers begin among those of a choice; -1: they are not there.
+// Returns the index of a candidate's first number among those of a choice; -1: it is not in it.
 static int place_in(const round_t *r, const choice_t *choice, int candidate) {
   for (int i = 0, first = 0; i < choice->n; first += r->c->candidate[choice->of[i++]].n)
     if (choice->of[i] == candidate) return first;
   return -1;
 }
 
-// How far the other names' numbers move where a rival stands in a name's place: most of all rivals of all
-// names. The others keep their shapes and kinds, without which two numbers are not of one thing.
+// Raises by_rivals of the other names to half of the way that their numbers move with a rival in a name's
+// place; the largest way of all names and rivals counts. The others keep their shapes and kinds: numbers of
+// different shapes cannot be compared.
 static void move_others(const round_t *r, found_t *found, const named_t *named, int rival) {
   const choice_t rest = choice_without(&r->choice, named->candidate), with = choice_with(&rest, rival);
   double here[COLUMN_MAX], there[COLUMN_MAX];
@@ -147,8 +150,8 @@ static void take(const rival_t *rival, named_t *named) {
   named->rival_share[named->n_rival++] = rival->share;
 }
 
-// Of a name's list, where the turning does not tell them apart: who is rival to one of two that it alone
-// would tell apart is rival to both.
+// True if only the turning could tell the candidate from a rival in the list, and it does not: a rival of one
+// of the two is a rival of both.
 static bool is_twin(const round_t *r, const rival_t *list, int n, int candidate) {
   for (int i = 0; i < n; i++)
     if (only_turning_tells(r, list[i].candidate, candidate)) return true;
@@ -180,7 +183,8 @@ static void find_rivals(const round_t *r, const unexplained_t *u, bool measured,
   }
 }
 
-// What a candidate would explain in the place of a name, in the form that leaves least; fx null: nothing.
+// Returns the candidate as a rival in a name's place, in the form that leaves least; fx null: it explains
+// nothing.
 static rival_t in_its_place(const round_t *r, double left_before, const named_t *named, int candidate) {
   const candidate_t *const all = r->c->candidate;
   const choice_t rest = choice_without(&r->choice, named->candidate);
@@ -195,9 +199,9 @@ static rival_t in_its_place(const round_t *r, double left_before, const named_t 
   return best;
 }
 
-// --- how probable it is -----------------------------------------------------------------------------------
+// --- probability ------------------------------------------------------------------------------------------
 
-// Of a set what would explain most in the place of a name; fx null: it has nothing that is not named.
+// Returns the effect of a set that explains most in a name's place; fx null: none that is not named does.
 static rival_t best_of(const round_t *r, double left_before, const named_t *named,
                        const evidence_set_t *set) {
   const candidate_t *const all = r->c->candidate;
@@ -213,8 +217,8 @@ static rival_t best_of(const round_t *r, double left_before, const named_t *name
   return best;
 }
 
-// A name that is less likely than not, with its rivals, is not told without what is likelier: two effects may
-// do together what it does alone.
+// Sets a name's probability. While the name and its rivals are less likely than not, the best effect of the
+// likeliest set without them becomes a rival: two effects may do together what the name does alone.
 static void weigh(const round_t *r, const evidence_t *e, double left_before, named_t *named) {
   int of[FX_MAX + 1] = {named->candidate};
   for (int k = 0; k < named->n_rival; k++) of[k + 1] = named->rival_candidate[k];
@@ -229,7 +233,7 @@ static void weigh(const round_t *r, const evidence_t *e, double left_before, nam
   }
 }
 
-// What measured rotor speeds show is no question to the rows.
+// Weighs all names but one that measured rotor speeds gave: the rows do not judge that.
 static done_t weigh_names(const round_t *r, found_t *found, why_t *why) {
   evidence_t e = {.n = 0};
   const done_t status = evidence_make(&e, r, why);
@@ -244,8 +248,8 @@ static done_t weigh_names(const round_t *r, found_t *found, why_t *why) {
 
 // --- what could not be told apart -------------------------------------------------------------------------
 
-// Of what one number does at its typical size, white, the other one could give most, and what it could not
-// give would not be noticed.
+// True if column `other` could give most of what number k does at its typical size, white, and what it could
+// not give would go unnoticed.
 static bool looks_like(const round_t *r, const candidate_t *c, int k, int other) {
   const int column = c->first + k, n = r->gram.size;
   const double *const G = r->gram.total;

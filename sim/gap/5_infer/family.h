@@ -1,20 +1,20 @@
-// family.h - which other effects could stand in a name's place: what these flights cannot separate.
+// family.h - the rivals of each name: other effects that these flights cannot separate from it.
 //
-// Another effect is of a name's family if it gives, alone or beside the other names, most of what the name
-// gives in these flights, at a size that it can have, and the name is not better by more than chance, what is
-// left unexplained and the error of straight lines could make it; or if it leaves less in the name's place,
-// and beside it the name gives less than half. The other names' numbers, which it would move, are known no
-// better than half of that way.
+// Another effect belongs to a name's family in two cases. Either it gives most of what the name gives in
+// these flights, alone or beside the other names, at a possible size, and the name fits better by no more
+// than chance, the unexplained residual and the error of linearisation allow. Or it leaves less in the name's
+// place, and beside it the name gives less than half. A rival would move the other names' numbers: half of
+// that shift counts as their error.
 #ifndef SIM_GAP_5_INFER_FAMILY_H
 #define SIM_GAP_5_INFER_FAMILY_H
 
 #include "gap/5_infer/found.h"
 
-// Sets the rivals of every name of `found`, which is described already (found.h), the most likely first; how
-// probable it is that one of them is there; and which columns could not be told apart in these flights if
-// they were there with their typical size. Where the rows speak for a set without any of them (evidence.h),
-// what that set has is a rival, too. measured: rotor speeds were logged, they tell lag from delay. FAILED: no
-// memory.
+// Sets for `found`, which found_describe() has filled: the rivals of every name, the best fitting first; the
+// probability that the name or one of its rivals is there; and which columns these flights could not tell
+// apart at their typical size. Where the name and its rivals are less likely than not (evidence.h), the best
+// effect of the likeliest other set becomes the last rival. measured: rotor speeds were logged, which tell
+// lag from delay. FAILED: no memory.
 MUST_CHECK done_t family_find(const round_t *r, bool measured, found_t *found, why_t *why);
 
 #endif

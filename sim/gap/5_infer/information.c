@@ -1,4 +1,4 @@
-// information.c - what the rows hold of every candidate beside feedback, slow noise and misfit.
+// information.c - the rows' information on each candidate, given feedback, slow noise and misfit.
 #include "gap/5_infer/evidence.h"
 
 #include "base/cholesky.h"
@@ -6,19 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-// As CANDIDATES_MISFIT, of what control makes of a disturbance (fx->control_makes): an inertia of a
-// quarter of what is typical has been named where nothing was hidden.
+// As CANDIDATES_MISFIT, for effects that control of a disturbance can mimic (fx->control_makes): an inertia
+// of a quarter of the typical one has been named where nothing was hidden.
 #define MISFIT_BESIDE 0.25
 
-// Of the least lag or delay that is named, in both of them: instruments are late by a part of it. Without it
-// a wrong drag beside a lag is as sure as a right one.
+// Lateness of instruments, over the least lag or delay that is named: an error of either. Without it a wrong
+// drag beside a lag is as sure as a right one.
 #define LATE 0.15
 
 typedef struct {
   const round_t *r;
   int n;
-  double *typical, *A, *g; // of the log
-  double *low;             // n x nominal flights: what feedback makes of each
+  double *typical, *A, *g; // A, g: products of the log, in typical sizes
+  double *low;             // L, n x nominal flights: what feedback makes of each number
   double *wide;            // n: D
 } parts_t;
 
@@ -30,8 +30,8 @@ static void scaled(const parts_t *p, const double *G, double *A, double *g) {
   }
 }
 
-// b_i = (A_i + I)^-1 g_i of nominal flight i: bias, spread and correlations. excess: mean square of each
-// column's own score there, in the log's units.
+// Sets L from b_i = (A_i + I)^-1 g_i of each nominal flight i: bias, spread and correlations. excess: mean
+// square of each column's own score there, in the log's units.
 static void feedback(parts_t *p, double *excess, double *A, double *g) {
   const nominal_t *const nominal = p->r->nominal;
   const int n = p->n, flights = nominal ? nominal->n : 0;
@@ -50,15 +50,15 @@ static void feedback(parts_t *p, double *excess, double *A, double *g) {
   }
 }
 
-// What the choice leaves of a column's product with the residual, in a block.
+// Returns column k's score in a block: its product with what the choice leaves of the residual.
 static double score_in(const double *G, int size, int k, int m, const int *column, const double *b) {
   double score = G[k * size + size - 1];
   for (int i = 0; i < m; i++) score -= b[i] * G[k * size + column[i]];
   return score;
 }
 
-// By how much flights contradict each other about column k: what each has beyond its part of the score of
-// all, squared, as one score of all would be.
+// Returns the variance of a column's total score that the flights' contradictions imply: from the squares of
+// what each flight has beyond its part of the total.
 static double contradiction(int flights, const double *score, const double *holds) {
   double all = 0.0, held = 0.0, sum = 0.0;
   for (int f = 0; f < flights; f++) all += score[f], held += holds[f];
@@ -69,8 +69,8 @@ static double contradiction(int flights, const double *score, const double *hold
   return sum;
 }
 
-// The score of each column summed over blocks, squared: white rows would give A_kk. Where flights contradict
-// each other by more, that. False: no memory.
+// Adds to squares[k] column k's squared score, summed over blocks (white rows give A_kk), or what flights
+// contradict each other by if that is more. False: no memory.
 static bool block_scores(const parts_t *p, double *squares) {
   const gram_t *const gram = &p->r->gram;
   int column[COLUMN_MAX];
@@ -98,13 +98,12 @@ static bool block_scores(const parts_t *p, double *squares) {
   return true;
 }
 
-// What sweeps of spread() need again and again, of n numbers and n x n; sums go over lines, all their numbers
-// at once.
+// What the sweeps of spread() need, of n numbers and n x n. Sums go along lines, all their numbers at once.
 typedef struct {
   int n;
   const double *D;
-  double *square, *relative; // A_ki^2 at [i][k]; A_ki^2 over what white noise has at k, at [k][i]
-  double *up, *come, *down;  // of what is wanted; of what comes of D, in each place and for each D
+  double *square, *relative; // A_ki^2 at [i][k]; A_ki^2 / A_kk^2 at [k][i]
+  double *up, *come, *down;  // by D, weighted sum of `wanted`; diagonal of A D A; by D, its weighted sum
 } sweeps_t;
 
 static bool sweeps_make(sweeps_t *s, const parts_t *p, const double *wanted) {
@@ -134,16 +133,16 @@ static void sweeps_add(sweeps_t *s) {
     for (int i = 0; i < n; i++) s->down[i] += s->relative[k * n + i] * s->come[k];
 }
 
-// D >= 0 such that A D A has the diagonal that is wanted, as well as can be: least squares by sweeps that
-// keep every number's sign and always come nearer (De Pierro 1987), until none moves by a hundredth of itself
-// and of what a misfit adds. Relative to what white noise has there.
+// Finds D >= 0 such that the diagonal of A D A is nearest to `wanted`, by least squares relative to A_kk, the
+// diagonal of white noise. The sweeps keep every sign and always come nearer (De Pierro 1987). They end when
+// none moves by more than a hundredth of itself plus what a misfit adds.
 static void spread(parts_t *p, const double *wanted) {
   const int n = p->n;
   double *const D = p->wide;
   for (int k = 0; k < n; k++)
     D[k] = wanted[k] > 0.0 ? wanted[k] / (p->A[k * (n + 1)] * p->A[k * (n + 1)]) : 0.0;
   sweeps_t s;
-  if (!sweeps_make(&s, p, wanted)) return; // D alone is too wide, not wrong
+  if (!sweeps_make(&s, p, wanted)) return; // no memory: D stays too wide, not wrong
   for (double moved = HUGE_VAL; moved > 0.01;) {
     sweeps_add(&s);
     moved = 0.0;
@@ -157,16 +156,17 @@ static void spread(parts_t *p, const double *wanted) {
   free(s.square);
 }
 
-// Who flew is not the nominal pilot: his filters turn what control makes of noise by other angles, and what
-// looks like inertia on nominal flights may look like torque in the log. Each such column may be off by as
-// much once more, whatever the others are. square: mean square of its own score on nominal flights.
+// Returns the variance by which another pilot's control may differ from the nominal one in a column. Its
+// filters turn what control makes of noise by other angles: what looks like inertia on nominal flights may
+// look like torque in the log. So each such column may be off by as much once more, independently. square:
+// mean square of its own score on nominal flights.
 static double other_pilots(const parts_t *p, int column, double square) {
   const double own = p->A[column * (p->n + 1)];
   return own > 0.0 ? square / (own * own) : 0.0;
 }
 
-// An effect's misfit is one, and its forms, much alike, share it: each with its own, a dozen forms of a
-// ground would hide what one does.
+// Builds D. An effect has one misfit, which its forms, much alike, share: with one each, a dozen forms of a
+// ground effect would hide what one of them does.
 static void widen(parts_t *p, const double *nominal, const double *blocks) {
   const candidates_t *const c = p->r->c;
   double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
@@ -186,7 +186,8 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
   }
 }
 
-// N = [L, sqrt(D)]: the columns with D are as many as candidates have.
+// Sets F and h from N = [L, sqrt(D)]; D gives as many columns as candidates have. False: no memory or
+// solution.
 static bool inform(const parts_t *p, information_t *f) {
   const int n = p->n, flights = p->r->nominal ? p->r->nominal->n : 0, m = n + flights;
   double *const N = calloc((size_t)(n * m + m * m + n * m + m), sizeof(double));
@@ -270,7 +271,7 @@ double evidence_log(const information_t *f, int n, const int *column, const doub
     e[i] = 1.0;
     cholesky_forward(Q, n, e);
     for (int k = i; k < n; k++) variance += e[k] * e[k];
-    // The share of a normal prior about 0 that is positive is a half.
+    // Probability that the number is positive, over that of the prior, which is a half.
     sum += log(fmax(erfc(-z[i] / sqrt(2.0 * variance)), 1e-200));
   }
   return sum;

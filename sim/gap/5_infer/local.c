@@ -29,7 +29,8 @@ done_t local_left(const round_t *round, const choice_t *choice, double *left[CHA
 
 // --- what would look the same -----------------------------------------------------------------------------
 
-// A bias has hardly a white row, yet it is what a wind becomes where nobody turns: plain means tell.
+// A bias hardly shows in white rows, yet wind looks like one where the vehicle does not turn: plain rows
+// tell.
 done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why) {
   const double zero[COLUMN_MAX] = {0.0};
   int column[COLUMN_MAX];
@@ -49,11 +50,11 @@ done_t local_alike(const round_t *round, int candidate, bool *alike, why_t *why)
 
 // --- the same, but only there -----------------------------------------------------------------------------
 //
-// What truly acts, acts wherever its regressor is excited. With the effect's fitted contribution f and what
-// the other names leave y, both white, one slope of y over f takes (f'y)^2 / f'f from the sum of squares. The
-// same slope, but only in a range of a place, of height or of time, or only outside of one, takes what these
-// sums give of that part alone. Where that is more, by more than chance makes of so many parts, something
-// lies there, and the name only looks like it.
+// A real effect acts wherever its regressor is excited. Let f be the effect's fitted contribution and y what
+// the other names leave, both white. One slope of y over f takes (f'y)^2 / f'f from the sum of squares. A
+// slope only inside a range of a place, of height or of time, or only outside it, takes the same expression
+// of that part's sums. Where that is more, by more than chance among so many parts, something lies there, and
+// the name only looks like it.
 
 typedef struct {
   double ff[WINDOW_BINS], fy[WINDOW_BINS];
@@ -61,10 +62,10 @@ typedef struct {
 
 typedef struct {
   double *f[CHANNELS], *y[CHANNELS], *room; // white
-  color_t color[CHANNELS];                  // of what is left but for what lies at places, times and states
+  color_t color[CHANNELS]; // of what is left once what lies at places, times and states is taken out
 } parts_t;
 
-// Raw contributions first: y is what all names leave, and f.
+// First without colour: f, and y, which is what all names leave plus f.
 static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t *why) {
   int column[COLUMN_MAX];
   double b[COLUMN_MAX];
@@ -102,11 +103,11 @@ static done_t parts_make(parts_t *p, const round_t *round, int candidate, why_t 
   return DONE;
 }
 
-// Of a coordinate, and what lies beside each: as many parts are tried.
+// Parts of a coordinate that are tried: its ranges of bins, and what lies beside each.
 enum { RANGES = WINDOW_BINS * (WINDOW_BINS + 1) };
 
-// In the one part, of which these are the sums, and not in the other. That one must hold as much as a bin
-// does of what is excited everywhere: a right form with other numbers is wrong where it is hardly excited.
+// True if the effect acts in the part with the sums ff and fy alone. The rest must hold more excitation than
+// an average bin: a right form with other numbers is wrong where it is hardly excited.
 static bool only_in(double ff, double fy, double all_ff, double all_fy, double chance) {
   return ff > 0.0 && all_ff - ff > all_ff / WINDOW_BINS && fy * fy / ff - all_fy * all_fy / all_ff > chance;
 }
@@ -137,11 +138,11 @@ static void add_slopes(const round_t *round, const parts_t *p, int list, const i
     }
 }
 
-// Nor is a name known that speaks for itself at some time only, where constants in its own channels from then
-// to then do as well, but for a fifth: something may have begun there, or gone.
+// Nor is a name accepted that shows only in a window of time, if constants in its own channels do as well
+// there but for a fifth: something may have begun or ended in that window.
 
-// Sums over bins of time: of the name's contribution, and of what constants would give in each channel that
-// it acts in (squares of f there).
+// Sums over bins of time: of the name's contribution, and of constants in each channel. acts: squares of f in
+// a channel; 0: the name does not act in it.
 typedef struct {
   double ff[WINDOW_BINS], fy[WINDOW_BINS], acts[CH_SMOOTH], wy[CH_SMOOTH][WINDOW_BINS],
       ww[CH_SMOOTH][WINDOW_BINS];
@@ -177,7 +178,8 @@ static double by_constants(const times_t *s, int from, int to) {
   return sum;
 }
 
-// The rest of the time, a quarter of it or more, gives the name by its own slope no more than chance does.
+// True if there is a window of time such that the rest, a quarter or more, gives the name's own slope no more
+// than chance does, and constants in the window do nearly as well as the name.
 static bool at_times(const times_t *s, double chance) {
   double ff = 0.0, fy = 0.0;
   for (int i = 0; i < WINDOW_BINS; i++) {
@@ -196,7 +198,7 @@ static bool at_times(const times_t *s, double chance) {
   return false;
 }
 
-// What one more number takes of white rows, in so many parts of all places.
+// Returns the squares that one more number takes of white rows by chance, in so many parts of all places.
 static double by_chance(void) {
   int places = 0;
   for (int i = 0; i < COORDINATES; i++) places += coordinate_is_place(i);
@@ -214,7 +216,7 @@ done_t local_is_confined(const round_t *round, int candidate, bool *is, why_t *w
   *is = false;
   const fx_t *const fx = round_fx(round, candidate);
   const bool curve =
-      fx->surface || (fx->needs & FX_NEEDS_WALL); // of a distance: its shape is another question
+      fx->surface || (fx->needs & FX_NEEDS_WALL); // a curve over distance: its shape is another question
   for (int i = curve ? COORDINATES : 0; status == DONE && i < COORDINATES && !*is; i++)
     for (int list = 0; coordinate_is_place(i) && list < 2; list++) {
       by_bin_t s = {.ff = {0.0}};
