@@ -1,4 +1,4 @@
-// in_time.c - what is short, and what swings.
+// in_time.c - pulses and spectral lines in a residual.
 #include "gap/5_infer/in_time.h"
 
 #include "base/constants.h"
@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What lasts as long, in seconds, is how the vehicle flies about: longer pulses are windows of time, slower
-// lines repeat places and speeds, estimators and pilots have begun with it, and a hum wider than its inverse
-// is the colour of the noise.
+// Time scale of flying about, s. Longer pulses count as windows of time, and slower lines repeat places and
+// speeds. Estimators and pilots have settled by then. A hum wider than its inverse is the colour of the
+// noise.
 #define ABOUT_S 1.0
 
 // --- pulses -----------------------------------------------------------------------------------------------
 
-// White weights of a pulse of so many rows, from its first row on: those of the rows between are all alike.
+// White weights of a pulse from its first row on; all inner rows have the same weight.
 typedef struct {
   double first, second, inner, after, last, energy;
 } pulse_t;
@@ -35,24 +35,24 @@ static pulse_t pulse_of(const color_t *c, int rows) {
 typedef struct {
   const rows_t *r;
   const double *white;  // in standard deviations
-  const double *change; // by row, how much commands change about it, squared; null: no command is missed
-  double *found, *at, *about; // statistics, the row that each begins at, and the largest change in its rows
+  const double *change; // by row, squared change of the commands about it; null: a channel without commands
+  double *found, *at, *about; // by pulse: statistic, first row, largest change in its rows
 } pulses_t;
 
-// Of those of one length.
+// The largest pulse of one length.
 typedef struct {
   int at;
-  double largest, whole; // statistic; the same before errors of missed commands are allowed for
-  double alike, scatter; // squares of all that are half as large, and what they scatter by
+  double largest, whole; // statistic; the same before missed commands are allowed for
+  double alike, scatter; // squares that it and pulses like it explain; scatter of the statistics
 } peak_t;
 
 // --- commands that a log misses
 
-// Of fewer rows than commands, unless they are means, lift and turning are predicted with an error that is
-// larger the more commands change from one row to the next: a set point that jumps makes a pulse, though
-// nothing pushes. A row is a difference over the points beside, of numbers that are filtered over as many.
-// And a motor does late what it was told between two rows: after log(20) time constants a twentieth of it is
-// still to come. Rotor speeds that were measured are not late.
+// With fewer rows than commands, unless rows are means, the error of predicted lift and turning grows with
+// the change of commands from one row to the next: a set point that jumps makes a pulse, though nothing
+// pushes. A row is a difference over the points beside, of numbers filtered over as many (REACH). A motor,
+// too, follows late: after log(20) time constants a twentieth of a command is still to come. Measured rotor
+// speeds are not late.
 enum { REACH = 2 };
 
 static int reach_back(const grid_t *g, const model_t *m) {
@@ -87,8 +87,8 @@ static void find_changes(const look_t *l, int channel, double *change) {
   }
 }
 
-// Statistics in what they scatter by where commands change so much: 1 + c x, x the change, squared, c by
-// least squares of their squares on it.
+// Divides statistics by the factor by which missed commands widen their scatter, sqrt(1 + c x), x the squared
+// change of commands, c by least squares of the squared statistics on x.
 static void allow_for_changes(const pulses_t *w, int n, double scatter) {
   double fx = 0.0, xx = 0.0;
   for (int i = 0; i < n; i++) {
@@ -102,15 +102,16 @@ static void allow_for_changes(const pulses_t *w, int n, double scatter) {
 
 // --- the largest
 
-// Row `from` and all rows to two behind the pulse reach back without a gap.
+// True if all rows from `from` to two behind the pulse have two before them, and at least ABOUT_S of such
+// rows lies before it.
 static bool unbroken(const rows_t *r, int from, int rows, int *good_to, int *began) {
   if (*good_to < from) *good_to = *began = from;
   while (*good_to < r->n && *good_to < from + rows + 2 && color_reaches(r, *good_to)) ++*good_to;
   return *good_to >= from + rows + 2 && from - *began >= ABOUT_S * RESIDUAL_HZ;
 }
 
-// Of statistics at successive rows: what pulses of one size explain, at all peaks of the largest's sign that
-// are half as large or more. Where one is is chosen out of all rows, and that costs.
+// Returns what pulses of one size explain, at all peaks of the largest one's sign and at least half its size.
+// Each place is chosen out of all rows, which costs 2 log(n + 1). found: statistics at successive rows.
 static double alike_squares(const double *found, int n, double largest, int rows) {
   const double sign = largest > 0.0 ? 1.0 : -1.0, dear = 2.0 * log(n + 1.0);
   double sum = 0.0;
@@ -131,7 +132,7 @@ static double scatter_of(const double *found, int n, double *room) {
   return n ? nth_smallest(room, n, n / 2) / 0.6745 : 0.0;
 }
 
-// How many.
+// Finds the pulses at all rows; returns how many.
 static int find_pulses(const pulses_t *w, const pulse_t *p, int rows) {
   const double *const e = w->white;
   int n = 0, good_to = 0, began = 0;
@@ -147,7 +148,7 @@ static int find_pulses(const pulses_t *w, const pulse_t *p, int rows) {
   return n;
 }
 
-// room: as many numbers as rows. False: too few to say.
+// room: as many numbers as rows. False: too few pulses to say.
 static bool largest_pulse(const pulses_t *w, const pulse_t *p, int rows, double *room, peak_t *peak) {
   const int n = find_pulses(w, p, rows);
   *peak = (peak_t){.scatter = scatter_of(w->found, n, room)};
@@ -174,7 +175,7 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
   const pulses_t w = {&l->s->smooth, l->room, change, l->room + n, l->room + 2 * n, l->room + 3 * n};
   double *const left = l->room + 6 * n;
   memcpy(left, l->residual[ch], (size_t)n * sizeof *left);
-  if (l->s->n_grid > 1) rows_clear(w.r, left, room); // what one flight has all the time is no train of pulses
+  if (l->s->n_grid > 1) rows_clear(w.r, left, room); // what a flight has all the time is no train of pulses
   color_whiten(c, w.r, left, l->room);
   if (change) find_changes(l, ch, change);
   for (int rows = FILTER_ROWS; rows < ABOUT_S * RESIDUAL_HZ; rows *= 2) {
@@ -203,14 +204,15 @@ void in_time_pulses(const look_t *l, cell_t cell[LOOKED]) {
 
 // --- lines ------------------------------------------------------------------------------------------------
 
-// A line is a sixteenth of a hertz wide: a flight of 16 s holds no narrower one.
+// Length of a stretch, s. A line is a sixteenth of a hertz wide: a flight of 16 s holds no narrower one.
 #define STRETCH_S 16
 
 enum {
   LINES = STRETCH_S * RESIDUAL_SMOOTH_HZ,
-  OWN = 2, // lines either side that Hann's taper spreads one over
+  OWN = 2, // lines on either side over which Hann's taper spreads one
 };
-// Lines either side that one is compared with, and the slowest one; over so many the way of flying spreads.
+// Number of lines on either side that a line is compared with, and the slowest line that is judged: the
+// vehicle's own motion spreads over so many.
 static const int BESIDE = (int)(STRETCH_S / ABOUT_S);
 
 // Of all channels, side by side.
@@ -219,8 +221,9 @@ typedef struct {
   int stretches;
 } spectrum_t;
 
-// What a row has of lines 0, 1, ..: each is the one before, turned on; the turn is that of its time, in every
-// channel. Of one row alone each would wait for the one before.
+// What a row adds to lines 0, 1, ..: each is the one before, turned by an angle that depends on the row's
+// time alone, in every channel. Four rows are turned together, because with one each step would wait for the
+// one before.
 typedef struct {
   four_t x[HALVES], y[HALVES];
   double c, s;
@@ -232,7 +235,7 @@ WIDE_INLINE void turn_on(double c, double s, four_t *x, four_t *y) {
   *x = next;
 }
 
-// Of half of the channels: two sums, of every other row each.
+// Of half of the channels: two sums, of even and of odd rows.
 typedef struct {
   four_t re[2], im[2];
 } line_t;
@@ -245,7 +248,7 @@ typedef struct {
   double start_s, span_s;
 } stretch_t;
 
-// Row i; behind the end there is none, and weighs nothing.
+// Loads row i, tapered; behind the end zeros without weight.
 static void take_row(const stretch_t *s, int i, turning_t *t, double *weights) {
   *t = (turning_t){.c = 0.0};
   if (i >= s->to) return;
@@ -261,7 +264,7 @@ static void take_row(const stretch_t *s, int i, turning_t *t, double *weights) {
   *weights += taper * taper;
 }
 
-// Four rows' lines.
+// Adds what four rows have of lines 0 to last.
 WIDE_COPIES static void add_lines(const turning_t row[4], int last, line_t sum[HALVES][LINES + 1]) {
   for (int half = 0; half < HALVES; half++) {
     four_t x[4], y[4];
@@ -277,7 +280,7 @@ WIDE_COPIES static void add_lines(const turning_t row[4], int last, line_t sum[H
   }
 }
 
-// Tapered (Hann) by time; lines 0 to last.
+// Adds the power of a stretch, tapered (Hann) by time, in lines 0 to last.
 static void add_stretch(const look_t *l, const double *v, int from, int to, int last, spectrum_t *sum) {
   line_t line[HALVES][LINES + 1];
   double weights = 0.0;
@@ -298,7 +301,7 @@ static void add_stretch(const look_t *l, const double *v, int from, int to, int 
   sum->stretches++;
 }
 
-// Half stretches overlap. What is shorter than half of one says nothing of lines.
+// Adds up stretches that overlap by half. One with less than half of its rows tells nothing of lines.
 static spectrum_t spectrum_of(const look_t *l, const double *v, int last) {
   const rows_t *const r = &l->s->smooth;
   spectrum_t sum = {.stretches = 0};
@@ -324,7 +327,7 @@ static double beside(const spectrum_t *p, int lane, int at) {
   return nth_smallest(power, n, n / 2);
 }
 
-// The line that stands out most, by more than `largest`; 0: none.
+// Returns the line with the largest statistic above *largest, which it raises; 0: none.
 static int best_line(const spectrum_t *white, int lane, double *largest) {
   int best = 0;
   for (int k = BESIDE; white->stretches && k <= LINES - OWN; k++) {
@@ -334,8 +337,8 @@ static int best_line(const spectrum_t *white, int lane, double *largest) {
   return best;
 }
 
-// Of a sine A sin, tapered: power A^2/4 (sum of the taper)^2 / (sum of its squares), 2/3 of the rows. It
-// explains A^2/2 a row.
+// A tapered sine of amplitude A has the power A^2/4 (sum of the taper)^2 / (sum of its squares); that ratio
+// is 2/3 of the rows. It explains A^2/2 a row.
 static cell_t line_of(const look_t *l, int lane, int line, const spectrum_t *white, const spectrum_t *raw,
                       double statistic) {
   const double rows = STRETCH_S * RESIDUAL_HZ;
@@ -351,7 +354,7 @@ static cell_t line_of(const look_t *l, int lane, int line, const spectrum_t *whi
                   .explained = 3.0 * white->power[line][lane] / white->stretches * l->s->smooth.n / rows};
 }
 
-// The channels that are looked at, as they are or white, side by side.
+// Returns the channels that are looked at, side by side, as they are or white.
 static const double *side_by_side_of(const look_t *l, bool white) {
   const rows_t *const r = &l->s->smooth;
   double *const all = l->room + 2 * set_most_rows(l->s);

@@ -1,4 +1,4 @@
-// loop_fit.c - noise and disturbance with which nominal flights shake as the log does.
+// loop_fit.c - fits noise and disturbances with which nominal flights shake as the log does.
 #include "gap/5_infer/loop_fit.h"
 
 #include "gap/2_predict/lines.h"
@@ -9,7 +9,7 @@
 #include <string.h>
 
 typedef struct {
-  double of[3]; // mean squares of rows, about each axis
+  double of[3]; // mean squares of rows, by axis
 } squares_t;
 
 static double mean_squares(const double *v, int n) {
@@ -18,8 +18,8 @@ static double mean_squares(const double *v, int n) {
   return n ? squares / n : 0.0;
 }
 
-// A moment of a flight's own is no disturbance of it: of several flights one that they have in common has a
-// name.
+// Finds what is left of the turning. Of several flights each one's constant is taken out: it is no
+// disturbance, and one that they share has a name.
 static done_t moments_left(squares_t *left, set_t *s, const model_t *m, lines_t *l, why_t *why) {
   TRY(residual_lines(s, m, l, why));
   for (int k = 0; k < 3; k++) {
@@ -29,8 +29,9 @@ static done_t moments_left(squares_t *left, set_t *s, const model_t *m, lines_t 
   return DONE;
 }
 
-// Disturbing moments are large and slow on real vehicles; control cancels them, which is what the nominal
-// flights are to show: they are read with their mean, and before the cleaning.
+// Reads noise and disturbances off the log. Moments are read before unknown_clean(), and of one flight with
+// their mean: on real vehicles they are large and slow, and control cancels them, which nominal flights are
+// to show.
 static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
                        unsigned long seed, lines_t *l, why_t *why) {
   gusts_t gusts;
@@ -60,7 +61,7 @@ static done_t left_of(const gap_flights_t *flown, const set_t *like, squares_t *
   return status;
 }
 
-// What is left of flights that are flown so.
+// Flies with this loop, and finds what is left of the turning.
 static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
   gap_flights_t flown = {.flight = calloc((size_t)s->n_grid + 1, sizeof(gap_flight_t))};
@@ -72,14 +73,14 @@ static done_t trial(const closed_loop_t *loop, squares_t *left, const set_t *s, 
   return status;
 }
 
-// Squares of independent causes add: without a disturbance (none) and with one (some) they tell by how much
-// it is to be multiplied, so that what the log leaves is left.
+// Returns the factor on a disturbance with which flights leave as much as the log. none, some, log: mean
+// squares without it, with it, and in the log; squares of independent causes add. HUGE_VAL: it adds nothing.
 static double times(double none, double some, double log) {
   if (log <= none) return 0.0;
   return some > none ? sqrt((log - none) / (some - none)) : HUGE_VAL;
 }
 
-// Disturbing moments: what of them is left depends on control. Forces are as they were read.
+// Scales the disturbing moments, because what is left of them depends on control. Forces stay as read.
 static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, const model_t *m,
                     unsigned long seed, why_t *why) {
   TRY(closed_loop_match(loop, s, m, seed, why));
@@ -87,7 +88,7 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int k = 0; k < 3; k++) {
     calm.turn_radps2[k] = 0.0;
-    // To begin with, all of it; a log without moments does not say.
+    // Begin with all that the log leaves; an axis that is not compared gets none.
     loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->of[k])) : 0.0;
   }
   const closed_loop_t *const flown[] = {&calm, loop};
@@ -103,10 +104,11 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   }
   for (int k = 0; k < 3; k++) {
     const double by = times(none.of[k], some.of[k], log->of[k]);
-    // What turns it was read before control cancelled it: no more than that.
+    // At most what was read: that was before control cancelled it.
     if (isfinite(by)) loop->turn_radps2[k] *= fmin(by, 1.0);
   }
-  // A disturbance of one channel shakes the others, too: none of them more than in the log.
+  // A disturbance about one axis shakes the others, too: scale all so that no axis shakes more than in the
+  // log.
   double share = 1.0;
   TRY(trial(loop, &some, s, m, seed, why));
   for (int k = 0; k < 3; k++)
