@@ -1,4 +1,4 @@
-// closed_loop.c - how a flight was flown and measured.
+// closed_loop.c - reads off a log how it was flown and measured.
 #include "gap/3_feedback/nominal_pilot.h"
 
 #include "base/lsq_blocks.h"
@@ -7,32 +7,35 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TILT_MOST 0.35 // of a rate gain squared: more overshoots
-#define LEAD_MOST 0.5  // acts as so much more inertia; with more, lag and delay make a loop ring
-#define YAW_GAIN  5.0  // 1/s: the Crazyflie's, whose yaw is weak
-// Where rows are fewer than commands no one time of a row's command fits what turns the vehicle and what is
-// held between two looks at place and speed, and of a manoeuvre too small a gain is found (swiftness.c). Then
-// every other pilot is as swift as the Crazyflie's INDI (24 1/s, crazyflie/stock_indi.c) at least, and looks
-// at place and speed as seldom. Its lead stays the one of the smaller gain. Every other of these is as swift
-// as the motors allow: of a simulator's motors without lag a PID has 170 1/s, its commands decay from row to
-// row, and where rows keep step with its outer loop each has the peak: an inertia half as large again. The
-// attitude it steers as slowly as the others: by its square it would follow the noise of the track. The swift
-// ones but those have their lead on the error of a rate, as a PID may: each look kicks, a log that keeps step
-// with the looks has every kick or none, and what it misses goes with the speed, as flapping does (of 32
-// nominal sets of somebody else's Crazyflie four were told one).
-// gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands holds all of it.
+#define TILT_MOST 0.35 // largest tilt gain over the square of the rate gain: more overshoots
+#define LEAD_MOST 0.5  // largest lead: acts as so much more inertia; beyond it lag and delay make a loop ring
+#define YAW_GAIN  5.0  // 1/s: as the Crazyflie's, whose yaw is weak
+// Where rows are fewer than commands, no single time shift of the logged commands fits both those that turn
+// the vehicle and those that are held between two looks at place and speed, and in a manoeuvre too small a
+// gain is found (swiftness.c). Then every odd pilot is at least as swift as the Crazyflie's INDI (24 1/s,
+// crazyflie/stock_indi.c) and looks at place and speed as seldom. It keeps the lead that was read with the
+// smaller gain. Pilots 3, 7, .. are as swift as the motors allow: on a simulator's motors without lag a PID
+// has 170 1/s. Its commands decay from row to row, and rows in step with its outer loop all hold the peak,
+// which looks like an inertia larger by half. These pilots steer the attitude as slowly as the others: with
+// the square of their gain they would follow the noise of the track. Pilots 1, 5, .. have their lead on the
+// rate error, as a PID may: each look kicks, a log in step with the looks has every kick or none, and what it
+// misses is proportional to the speed, as flapping is (in four of 32 sets of somebody else's Crazyflie with
+// nothing hidden, a flapping was named). gap_every_other_nominal_pilot_is_swift_where_rows_miss_commands
+// holds all of it.
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
-#define OUTER_S    0.01 // of its position loop
+#define OUTER_S    0.01 // s, period of its position loop
 
-// A moment that changes once in a flight stands, and no control shakes by it: taken for one of 3 s, a centre
-// of mass that moved half way shook the nominal flights by what it had done, and nothing was unknown.
-#define STANDS_S 60.0 // as long as a nominal flight
+// A moment that changes once in a flight is a standing moment and does not shake the control loop. When it
+// was taken for a disturbance that lasts 3 s, a centre of mass that moved half way through a flight shook the
+// nominal flights by as much as it had turned the vehicle, and nothing was unknown.
+#define STANDS_S 60.0 // s: as long as a nominal flight
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
 }
 
-// Sd of white noise on a smooth signal: of third differences, by their median, so that jumps do not count.
+// Returns the sd of white noise on a smooth signal, from the median third difference, so that jumps do not
+// count.
 static double noise_of(const grid_t *g, const double *v) {
   if (!v || g->samples < 16) return 0.0;
   double *const d = malloc((size_t)g->samples * sizeof(double));
@@ -55,7 +58,7 @@ static double larger_noise(const set_t *s, int a, int b) {
   return fmax(noise_of(&s->grid[0], v[a]), noise_of(&s->grid[0], v[b]));
 }
 
-// --- gains: least squares of increments of a command on increments of what it is fed by -------------------
+// --- gains: least squares of the increments of a command on those of its inputs ---------------------------
 
 typedef struct {
   double aa, ab, bb, ac, bc;
@@ -69,7 +72,7 @@ static void two_add(two_t *t, double a, double b, double c) {
   t->bc += b * c;
 }
 
-// c = -x a - y b
+// Solves c = -x a - y b; NaN where a and b are collinear.
 static void two_solve(const two_t *t, double *x, double *y) {
   const double det = t->aa * t->bb - t->ab * t->ab;
   const bool good = det > 1e-9 * t->aa * t->bb;
@@ -80,10 +83,11 @@ static void two_solve(const two_t *t, double *x, double *y) {
 static d3_t tilt_of(const grid_point_t *p) {
   const axes_t a = axes_of(p->q_wb);
   const d3_t up = axes_up_b(&a);
-  return d3(up.y, -up.x, 0.0); // roll and pitch, small
+  return d3(up.y, -up.x, 0.0); // roll and pitch, as small angles
 }
 
-// What the commands of a point mean: angular acceleration and thrust over mass.
+// Returns the angular acceleration (rad/s2, body) and the thrust over mass that the commands of a point ask
+// for.
 static d3_t turn_of(const grid_t *g, const model_t *m, int j, double *lift_mps2) {
   const frame_t *f = &m->frame;
   d3_t moment = {0.0, 0.0, 0.0};
@@ -99,8 +103,8 @@ static d3_t turn_of(const grid_t *g, const model_t *m, int j, double *lift_mps2)
   return d3(moment.x / f->inertia_kgm2[0], moment.y / f->inertia_kgm2[1], moment.z / f->inertia_kgm2[2]);
 }
 
-// A rotor that spins up turns the body against it long before its drag does: of a step of command about z
-// there is at once so many times what there is in the end.
+// Returns how much a step of the command about z turns the body at once, over how much it does in the end:
+// the reaction to a rotor that spins up comes long before its drag.
 static double yaw_at_once(const model_t *m) {
   const frame_t *const f = &m->frame;
   const double hover_N = m->mass_kg * G_MPS2 / ROTORS, drag_Nm = f->torque_ratio_m * hover_N;
@@ -137,10 +141,11 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
 
 // --- lead: what makes commands noisy --------------------------------------------------------------------
 
-// From call to call, a pilot gives -(P + d) n(0) + d n(1) of white noise n of the rates, P its rate gain and
-// d its lead over its period. Third differences of rows have (70 d^2 + 70 P d + 20 P^2) times its variance,
-// 20 of which are what noise_of() divides by; of rows that lie two calls or more apart 20 ((P + d)^2 + d^2).
-#define CALLS_APART 1.5 // in a row: between one and two
+// At each call a pilot answers white noise n of the rates with -(P + d) n(0) + d n(1), P its rate gain and d
+// its lead over its period. Third differences of rows one call apart have (70 d^2 + 70 P d + 20 P^2) times
+// the variance of n, of rows two calls or more apart 20 ((P + d)^2 + d^2) times; noise_of() divides by the
+// 20.
+#define CALLS_APART 1.5 // calls per row: between one and two
 
 static double lead_of(double noise, double gyro, double gain, double calls_a_row) {
   const double ratio = gyro > 0.0 ? noise / gyro : 0.0, share = calls_a_row < CALLS_APART ? 80.0 / 70.0 : 2.0;
@@ -148,14 +153,14 @@ static double lead_of(double noise, double gyro, double gain, double calls_a_row
   return more > gain * gain ? 0.5 * (sqrt(more) - gain) : 0.0;
 }
 
-// And how noisy they are. Where it is told that nearly every command is in the log, of slow rows the third
-// differences are motion: no lead.
+// Finds the rate leads, and the noise of the commands about x and y. No lead is read where the vehicle file
+// says that the log has nearly every command: third differences of such slow rows are motion.
 static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   const grid_t *const g = &s->grid[0];
   const double row_s = g->period_s / g->every, step_s = row_s / nominal_steps(row_s);
   const double told_Hz = w->flown_by ? w->flown_by->rate_Hz : 0.0;
   const bool told = told_Hz > 0.0 && told_Hz * row_s < CALLS_APART;
-  // As the nominal pilot will be called: once a step at most.
+  // The period of the nominal pilot's calls: at least one step.
   const double call_s = told_Hz > 0.0 ? fmax(1.0 / told_Hz, step_s) : step_s;
   double *const turn =
       g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
@@ -180,13 +185,14 @@ closed_loop_t closed_loop_turning(const closed_loop_t *w, const set_t *s, const 
 
 // --- disturbing moments -----------------------------------------------------------------------------------
 
-// A derivative of noise of the samples has in a row what the filter leaves: about (2 pi 5 Hz)^2 of it.
+// Returns the variance that gyro noise leaves in a row of the turning, which is a filtered derivative: about
+// (2 pi 5 Hz)^2 of it.
 static double filtered(const grid_t *g, double sd_radps) {
   return 900.0 * sd_radps * sd_radps / g->every * fmin(1.0, 13.0 * g->period_s);
 }
 
-// Variance and correlation over two rows, in which the filter has no say. About no mean: a standing moment is
-// a disturbance, too.
+// Returns the mean square, and the correlation of rows two apart, which the filter does not correlate. The
+// mean stays in, because a standing moment is a disturbance, too.
 static double moment(const rows_t *rows, const double *r, double *correlation) {
   double squares = 0.0, next = 0.0;
   int pairs = 0;
@@ -201,8 +207,9 @@ static double moment(const rows_t *rows, const double *r, double *correlation) {
   return variance;
 }
 
-// The correlation time is the mean of the axes': taken for each alone a weak axis' is that of noise, and what
-// feedback makes there of a name that is too small was told as another torque_ratio.
+// Finds the disturbing moments. Their correlation time is the mean over the axes: taken axis by axis, that of
+// a weak axis is the noise's, and what feedback made there of a name with too small a number was told as
+// another torque_ratio.
 static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_t *w) {
   double tau_s = 0.0;
   for (int k = 0; k < 3; k++) {
@@ -216,11 +223,12 @@ static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_
   w->turn_tau_s = clamp(tau_s, 0.05, STANDS_S);
 }
 
-// Who has his lead on the error of a heading that he is told at looks kicks at each step of it. A log in step
-// with the looks has all kicks or none, and what is left about z goes with the turning of the nose: as much
-// lead as makes it, and no more than the motors follow. Of 30 nominal sets of somebody else's Crazyflie,
-// whose lead is 0.35 of a rate gain of 13 1/s, four were told a moment there. With 0.35 whatever is left, six
-// of the users' inertias are not named, which turning about z tells.
+// Returns the lead of pilots that kick, on the error of a heading that they are told at looks: each step of
+// the heading kicks. A log in step with the looks has all kicks or none, and what is left about z is then
+// proportional to the yaw rate. The lead is as large as makes that proportion, and no larger than the motors
+// follow. In four of 30 sets of somebody else's Crazyflie with nothing hidden, whose lead is 0.35 of a rate
+// gain of 13 1/s, a moment about z was named. With 0.35 for every log, six of the users' inertias, which
+// turning about z tells, are not named.
 static double nose_lead(const set_t *s, const model_t *m, const closed_loop_t *w, const double *left_radps2) {
   double squares = 0.0, products = 0.0;
   for (int i = 0; residual_has(s, CH_WZ) && i < s->smooth.n; i++) {
@@ -232,7 +240,7 @@ static double nose_lead(const set_t *s, const model_t *m, const closed_loop_t *w
   return squares > 0.0 ? fmin(fabs(products) / squares / w->rate_gain[2], fmax(most, 0.0)) : 0.0;
 }
 
-// Place and speed of a point are means over samples, its attitude is one of them.
+// Place and speed of a point are means over its samples, its attitude is that of one sample.
 static void find_slow(const grid_t *g, closed_loop_t *w) {
   white_error_t white;
   for (int i = 0; i < 3; i++) {
@@ -243,7 +251,8 @@ static void find_slow(const grid_t *g, closed_loop_t *w) {
   slow_errors(g, &white, &w->slow_pos_m, &w->slow_vel_mps, &w->slow_angle_rad);
 }
 
-// Commands by these gains are no noisier than the log's: who has such gains is not fed with all of its noise.
+// Returns the share of the log's noise that a pilot with these gains is not fed with, so that its commands
+// are no noisier than the log's.
 static double spared(const closed_loop_t *w) {
   double share = 1.0;
   for (int i = 0; i < 2; i++) {
@@ -255,7 +264,7 @@ static double spared(const closed_loop_t *w) {
 
 closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
   closed_loop_t v = *w;
-  // Steps of the golden section fill both ranges evenly, and not together.
+  // Golden-section steps fill both ranges evenly, each independently of the other.
   const double turn = 1.0 + NOMINAL_VARIED * (i ? 2.0 * fmod(0.618 * i, 1.0) - 1.0 : 0.0);
   const double place = 1.0 + NOMINAL_VARIED * (i ? 2.0 * fmod(0.382 * i + 0.5, 1.0) - 1.0 : 0.0);
   for (int k = 0; k < 3; k++) {
@@ -270,7 +279,7 @@ closed_loop_t closed_loop_varied(const closed_loop_t *w, int i) {
     v.tilt_gain = fmax(v.tilt_gain, TILT_MOST * turn * SWIFT_GAIN * swift);
     if (i % 4 == 3) {
       v.spared = spared(&v);
-      v.unread = false; // its gain alone turns it: by that the track's noise would shake it
+      v.unread = false; // it does not turn with the track, whose noise would shake it at this gain
     }
     v.outer_s = OUTER_S;
     v.kicks = i % 4 == 1;

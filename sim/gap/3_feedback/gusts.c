@@ -1,4 +1,4 @@
-// gusts.c - what of a force's residual is noise of the moment, and what is a force that lasts for a while.
+// gusts.c - splits a force's residual into noise of the moment and forces that last for a while.
 #include "gap/3_feedback/gusts.h"
 
 #include "base/nth.h"
@@ -7,31 +7,31 @@
 #include <math.h>
 
 enum {
-  STRETCH_BLOCKS = 2,          // 4 s: what a vehicle passes through takes seconds, and a gust less
-  LAGS = (int)RESIDUAL_HZ + 1, // up to a second
-  SLOW_LAG = 2,                // rows: below, the filter of the rows correlates
-  TAUS = 5,                    // a row, twice as long and so on: of more than 16 a stretch has too little
-  WHITE = TAUS,                // the last trial
+  STRETCH_BLOCKS = 2,          // 4 s: a vehicle takes seconds to pass through something, and a gust less
+  LAGS = (int)RESIDUAL_HZ + 1, // rows: up to a second
+  SLOW_LAG = 2,                // rows: at smaller lags the filter correlates them
+  TAUS = 5,     // one row, then twice as long each; of more than 16 rows a stretch has too little
+  WHITE = TAUS, // the last trial
   TRIALS,
-  ENOUGH_ROWS = 4000 // four flights of 40 s: what a trial errs by adds little to what the log does
+  ENOUGH_ROWS = 4000 // four flights of 40 s: a trial's own error then adds little to the log's
 };
 
 // --- covariances ------------------------------------------------------------------------------------------
 
-// By channel, in the quieter half.
+// Covariances by channel, over the quieter half of the stretches.
 typedef struct {
-  double of[CH_FORCES][LAGS]; // sums of products of rows so far apart, over the number of all rows
-  double changes[CH_FORCES];  // half the mean square of what changes from row to row
+  double of[CH_FORCES][LAGS]; // sums of products of rows that far apart, over the number of all rows
+  double changes[CH_FORCES];  // half the mean square of the changes from row to row
 } lags_t;
 
-// Of one stretch, about its mean.
+// One stretch, about its mean.
 typedef struct {
   double of[LAGS];
-  double changes, pairs; // sum of squares, and of how many
-  double slow;           // the products from SLOW_LAG on, a row
+  double changes, pairs; // sum of squares of the changes from row to row, and their number
+  double slow;           // sum of the products from SLOW_LAG on, per row
 } stretch_t;
 
-// The end of the stretch that begins with row `from`.
+// Returns the end of the stretch that begins with row `from`.
 static int stretch_end(const rows_t *r, int from) {
   int end = from;
   while (end < r->n && r->flight[end] == r->flight[from] && r->block[end] < r->block[from] + STRETCH_BLOCKS)
@@ -91,14 +91,14 @@ static double tau_of(int k) {
   return k == WHITE ? 0.0 : ldexp(GUST_QUICK_S, k);
 }
 
-// By point, of one flight: variance 1; without memory where tau_s is 0.
+// Draws one number per point of a flight: first-order Gauss-Markov of variance 1, white where tau_s is 0.
 static void draw(const grid_t *g, double tau_s, random_t *random, double *v) {
   const double keep = tau_s > 0.0 ? exp(-g->period_s / tau_s) : 0.0, fresh = sqrt(1.0 - keep * keep);
   random_normals(random, g->n, v);
   for (int j = 1; j < g->n; j++) v[j] = keep * v[j - 1] + fresh * v[j];
 }
 
-// Of a velocity's noise that of the acceleration which is made of it.
+// Turns noise of a velocity into that of the acceleration that is made of it.
 static void differentiate(const grid_t *g, double *v) {
   double before = v[0];
   for (int j = 1; j + 1 < g->n; j++) {
@@ -109,7 +109,7 @@ static void differentiate(const grid_t *g, double *v) {
   v[0] = v[g->n - 1] = 0.0;
 }
 
-// As rows; white noise as what is measured, the others as what is predicted.
+// Draws rows: white noise as what is measured, lasting forces as what is predicted.
 static done_t draw_rows(const set_t *s, double tau_s, unsigned long seed, double *const row[CHANNELS],
                         why_t *why) {
   random_t *const random = random_open(seed);
@@ -138,7 +138,7 @@ static done_t add_trial(const set_t *s, int k, unsigned long seed, lags_t *sum, 
   return status;
 }
 
-// Means over times.
+// Makes all trials: of each the mean over as many draws as give ENOUGH_ROWS.
 static done_t try_all(const set_t *s, unsigned long seed, lags_t trial[TRIALS], why_t *why) {
   const int times = 1 + (ENOUGH_ROWS - 1) / (s->smooth.n > 0 ? s->smooth.n : ENOUGH_ROWS);
   done_t status = DONE;
@@ -163,7 +163,7 @@ static done_t try_all(const set_t *s, unsigned long seed, lags_t trial[TRIALS], 
   return status;
 }
 
-// --- the log's covariances, of both -----------------------------------------------------------------------
+// --- the log's covariances as a sum of both ---------------------------------------------------------------
 
 static double product(const double a[LAGS], const double b[LAGS]) {
   double sum = 0.0;
@@ -171,10 +171,10 @@ static double product(const double a[LAGS], const double b[LAGS]) {
   return sum;
 }
 
-// Least squares of variances, none below 0.
+// Variances by least squares, none below 0.
 typedef struct {
   double lasting, white;
-  double left; // share of the squares
+  double left; // share of the sum of squares
 } fit_t;
 
 static fit_t fit(const double log[LAGS], const double lasting[LAGS], const double white[LAGS]) {
@@ -194,7 +194,7 @@ static fit_t fit(const double log[LAGS], const double lasting[LAGS], const doubl
   return f;
 }
 
-// Air that moves pushes each way alike: what one axis has more than the middle one is no gust.
+// Moving air pushes along all axes alike: what one axis has beyond the median of the axes is no gust.
 static void take_gusts(const set_t *s, const double sd[CH_FORCES], gusts_t *to) {
   double of[CH_FORCES];
   int n = 0;
@@ -204,10 +204,10 @@ static void take_gusts(const set_t *s, const double sd[CH_FORCES], gusts_t *to) 
   for (int ch = 0; ch < CH_FORCES; ch++) to->force_mps2[ch] = fmin(sd[ch], middle);
 }
 
-// What changes from row to row more than by the gusts, and by what two samples of the sensor differ by.
+// Finds what changes from row to row beyond the gusts and the noise of two sensor samples.
 static void find_quick(const set_t *s, const lags_t *log, const lags_t trial[TRIALS], const lags_t *lasting,
                        const double white[CH_FORCES], gusts_t *to) {
-  const double every = s->grid[0].every; // a point is a mean
+  const double every = s->grid[0].every; // a point is the mean of so many samples
   for (int ch = 0; ch < CH_FORCES; ch++) {
     const double of_white = trial[WHITE].changes[ch] / every;
     const double left = log->changes[ch] - to->force_mps2[ch] * to->force_mps2[ch] * lasting->changes[ch] -

@@ -1,4 +1,4 @@
-// nominal_fly.c - the model in closed loop along a log's track.
+// nominal_fly.c - flies the model in closed loop along a log's track.
 #include "gap/3_feedback/nominal_known.h"
 
 #include "base/larger.h"
@@ -8,25 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LOST_M 3.0 // so far off its track the vehicle is lost
-// What is lost is put back on the track. A known pilot is not a tamed one, and may end on the floor, where
-// the log's vehicle flew on.
-#define DOWN_S  0.2 // of contact
-#define UPRIGHT 0.5 // cosine of the tilt
-#define MASK_S  0.4 // until what it does is its own again
-#define PUT_S   3.0 // more often it cannot fly there
+#define LOST_M 3.0 // off its track: the vehicle is lost
+// A lost vehicle is put back on the track. A known pilot is not tamed, and may end on the floor where the
+// log's vehicle flew on.
+#define DOWN_S  0.2 // of contact: it is down
+#define UPRIGHT 0.5 // cosine of the tilt: with less it has tipped over
+#define MASK_S  0.4 // after it was put back, until its motion is its own again
+#define PUT_S   3.0 // if it is put back more often than this, it cannot fly there
 
 static double step_of(const grid_t *g) {
   const double log_s = g->period_s / g->every;
   return log_s / nominal_steps(log_s);
 }
 
-// --- what lasts for a while -------------------------------------------------------------------------------
+// --- errors and disturbances that last for a while --------------------------------------------------------
 
-// What flies, filters and is fitted averages over many of these numbers: their spread counts, not how they
-// are distributed, and triangles cost a tenth of normal ones.
-#define LASTS 9  // numbers of a step, for errors that last
-#define SHAKE 10 // and for what disturbs; the last does nothing, for they come in pairs
+// Numbers are drawn from triangles, a tenth of the cost of normal ones: flight, filter and fit average over
+// many of them, so only their spread counts, not their distribution.
+#define LASTS 9  // numbers per step for lasting errors
+#define SHAKE 10 // numbers per step for disturbances; the last is unused, because they come in pairs
 
 static decay_t decay_of(const slow_t *slow, double step_s) {
   decay_t d;
@@ -37,7 +37,7 @@ static decay_t decay_of(const slow_t *slow, double step_s) {
   return d;
 }
 
-// sd: of an acceleration; of: the mass or inertia that it takes.
+// sd: of an acceleration; of: the mass or inertia that turns it into a force or moment.
 static decay_t disturbance_of(const double sd[3], const double of[3], double tau_s, double step_s) {
   const slow_t slow = {{of[0] * sd[0], of[1] * sd[1], of[2] * sd[2]}, {tau_s, tau_s, tau_s}};
   return decay_of(&slow, step_s);
@@ -65,7 +65,7 @@ static void drift(nominal_flight_t *f, const double drawn[LASTS]) {
   f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, drawn + 6);
 }
 
-// The disturbance, a step later: a part of the nominal flight, not of the model.
+// Returns the disturbance one step later. It is part of the nominal flight, not of the model.
 static push_t shaken(nominal_flight_t *f, const double drawn[SHAKE]) {
   f->gust_w_N = drifted(f->gust_w_N, &f->force_keeps, drawn);
   f->disturbs_b_Nm = drifted(f->disturbs_b_Nm, &f->turn_keeps, drawn + 3);
@@ -79,7 +79,7 @@ static void shake(nominal_flight_t *f) {
   body_shake(&f->body, shaken(f, drawn));
 }
 
-// It is there from the first on, at its full spread.
+// Starts the disturbance at its full spread. False: no memory.
 static bool shake_first(nominal_flight_t *f, unsigned long seed) {
   double drawn[SHAKE];
   random_close(f->shakes);
@@ -97,11 +97,11 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-#define SEEN 17 // numbers of a step, for what is seen once
+#define SEEN 17 // numbers per step for errors of one sample
 
 _Static_assert(SHAKE % 2 == 0 && (LASTS + SEEN) % 2 == 0, "random_triangles() draws pairs");
 
-// The last axis takes the first number.
+// Adds noise to v. The last axis takes the first number.
 static d3_t noisy3(d3_t v, const double sd[3], const double drawn[3]) {
   return d3(v.x + sd[0] * drawn[2], v.y + sd[1] * drawn[1], v.z + sd[2] * drawn[0]);
 }
@@ -119,7 +119,7 @@ static fx_sensed_t sensed(const nominal_flight_t *f) {
   return s;
 }
 
-// What is true, and what is seen of it; number by number, for most of a point is none of them.
+// Sets the true state and what is seen of it, field by field, as most fields are not touched.
 static void look(nominal_flight_t *f, const double drawn[SEEN]) {
   const body_t *b = &f->body;
   const fx_sensed_t s = sensed(f);
@@ -146,7 +146,7 @@ static void look(nominal_flight_t *f, const double drawn[SEEN]) {
 
 // --- the flight -------------------------------------------------------------------------------------------
 
-// What the pilot is fed with: a log may hold noise that is none of its own.
+// Returns what the pilot is fed with: what is seen, less the share of its noise that logging adds.
 static grid_point_t fed_with(const nominal_flight_t *f) {
   grid_point_t fed = f->seen;
   const double share = 1.0 - f->w->spared;
@@ -159,7 +159,7 @@ static grid_point_t fed_with(const nominal_flight_t *f) {
   return fed;
 }
 
-// motor_N: keeps what was commanded last, where no new command is due.
+// motor_N: keeps the last command where no new one is due.
 static void steer(nominal_flight_t *f, double step_s, double motor_N[ROTORS]) {
   const grid_point_t *const track = &f->track;
   if (f->known) {
@@ -175,13 +175,13 @@ static void steer(nominal_flight_t *f, double step_s, double motor_N[ROTORS]) {
   f->due_s -= step_s;
 }
 
-// On the track, hovering, with a fresh pilot.
+// Puts the vehicle on the track, hovering, with a fresh pilot.
 static done_t start_at(nominal_flight_t *f, unsigned long seed, why_t *why) {
   const model_t *m = f->m;
   const grid_point_t *p = &f->g->point[f->at];
   body_start_t start = {.pos_w_m = p->pos_w_m, .vel_w_mps = p->vel_w_mps, .q_wb = p->q_wb, .seed = seed + 2};
   for (int k = 0; k < ROTORS; k++) start.thrust_N[k] = 0.25 * m->mass_kg * G_MPS2;
-  // Motors faster than the step need a finer one.
+  // Motors faster than the step need a finer step.
   const done_t status = body_open(&f->body, m, INTEGRATE_RK4, model_step_s(m, NOMINAL_STEP_S), &start);
   if (status == BAD_INPUT) return error_set(why, "%s: a model that cannot be flown", m->name);
   if (status != DONE) return error_failed(why, "out of memory");
@@ -211,7 +211,8 @@ static done_t cannot_fly(const nominal_flight_t *f, why_t *why) {
   return error_set(why, "%s: the model cannot fly along this track", f->g->flight->name);
 }
 
-// On the track as it is now; what it does is its own again a while later.
+// Puts the vehicle on the track as it is now. Samples are masked for MASK_S, until its motion is its own
+// again.
 static done_t put(nominal_flight_t *f, double t_s, why_t *why) {
   f->down_s = f->due_s = f->outer_due_s = 0.0;
   f->masked_to_s = t_s + MASK_S;
@@ -228,7 +229,7 @@ static done_t put_back(nominal_flight_t *f, double t_s, why_t *why) {
   return put(f, t_s, why);
 }
 
-// The log goes on elsewhere after a gap in time.
+// True at the first point after a gap in time, where the log goes on elsewhere.
 static bool goes_on(const nominal_flight_t *f) {
   return f->at > f->from && f->g->point[f->at].segment != f->g->point[f->at - 1].segment;
 }
@@ -280,7 +281,7 @@ static done_t take_off(nominal_flight_t *f, why_t *why) {
 
 // --- the track --------------------------------------------------------------------------------------------
 
-#define STATES 17 // numbers of a point that a pilot needs
+#define STATES 17 // numbers of a point that the pilot needs
 
 static double *state(grid_point_t *p, int i) {
   double *const all[STATES] = {&p->pos_w_m.x,      &p->pos_w_m.y,    &p->pos_w_m.z,      &p->vel_w_mps.x,
@@ -291,8 +292,8 @@ static double *state(grid_point_t *p, int i) {
   return all[i];
 }
 
-// Number `at` of a state is missing, between two that are there (before < 0: none): a line; at the end of a
-// segment the number on this side of the gap.
+// Returns number k of point `at`, which is missing between two that have it (before < 0: only `after` has
+// it): on their line, or at the end of a segment the number on this side of the gap.
 static double bridged(grid_point_t *point, int k, int before, int at, int after) {
   const double b = *state(&point[after], k), a = before < 0 ? b : *state(&point[before], k);
   if (before >= 0 && point[before].segment == point[after].segment)
@@ -300,7 +301,7 @@ static double bridged(grid_point_t *point, int k, int before, int at, int after)
   return before >= 0 && point[before].segment == point[at].segment ? a : b;
 }
 
-// One sample that is not there must not reach the pilot. Both ends are good points.
+// Bridges samples that are missing, because none may reach the pilot. The first and the last point are good.
 static void bridge(grid_point_t *point, int from, int to) {
   for (int k = 0; k < STATES; k++)
     for (int j = from, last = -1; j < to; j++) {
@@ -312,7 +313,7 @@ static void bridge(grid_point_t *point, int from, int to) {
   for (int j = from; j < to; j++) point[j].q_wb = dq_unit(point[j].q_wb);
 }
 
-// Means over both sides, within a segment. False: no memory.
+// Replaces place and speed by means over both sides, within a segment. False: no memory.
 static bool smooth_track(const grid_t *g, int from, int to, grid_point_t *point) {
   const int most = (int)larger(1.0, round(AHEAD_S / g->period_s));
   grid_point_t *const was = malloc(((size_t)g->n + 1) * sizeof *was);
@@ -335,7 +336,8 @@ static bool smooth_track(const grid_t *g, int from, int to, grid_point_t *point)
   return true;
 }
 
-// Places and speeds as they were logged: the pilot saw no better ones, but for one who is spared the noise.
+// Returns the track as logged, because the pilot saw no better places and speeds; smooth for one that is
+// spared noise. Null: no memory.
 static grid_point_t *whole_track(const grid_t *g, int from, int to, bool smooth) {
   grid_point_t *const point = malloc(((size_t)g->n + 1) * sizeof *point);
   if (!point) return NULL;

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define RANGE_S 0.1   // between samples of an upward range sensor of which the vehicle file says nothing
-#define FLOOR_M 0.040 // it says no less
+#define RANGE_S 0.1   // s, between samples of an upward range sensor if the vehicle file does not say
+#define FLOOR_M 0.040 // m, least reading of such a sensor
 
 struct known {
   const model_t *m;
@@ -16,7 +16,7 @@ struct known {
   pilot_flight_t flight; // FLOWN_BY_INDI
   pilot_t pilot;
   pilot_in_t in;
-  double due_s, range_due_s; // since the last call, and the last sample of the range sensor
+  double due_s, range_due_s; // s, since the last call, and since the last sample of the range sensor
   double motor_N[ROTORS];
 };
 
@@ -24,7 +24,7 @@ static bool by_pid(const known_t *k) {
   return k->by->kind == FLOWN_BY_STOCK_PID;
 }
 
-// --- what it is told --------------------------------------------------------------------------------------
+// --- what the pilot is told -------------------------------------------------------------------------------
 
 static double yaw_of(dq_t q) {
   return atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
@@ -34,7 +34,7 @@ static double ahead(const pid_gain_t *p, double mps) {
   return p->kp > 0.0 ? mps / p->kp : 0.0;
 }
 
-// The log's own set points, axis by axis: a place; a speed alone; both.
+// Takes the log's own set points, axis by axis: a place, a speed alone, or both.
 static void take_logged(pilot_setpoint_t *set, const grid_point_t *track) {
   const double place_m[3] = {track->set_w_m.x, track->set_w_m.y, track->set_w_m.z};
   const double speed_mps[3] = {track->set_w_mps.x, track->set_w_mps.y, track->set_w_mps.z};
@@ -78,8 +78,8 @@ static void show(known_t *k, const grid_point_t *seen, double step_s) {
 
 // --- the firmware's PID -----------------------------------------------------------------------------------
 
-// Compensation for the battery is taken to be perfect: units are thrust. All are lowered by what the largest
-// has too much, as the firmware does.
+// Converts the firmware's units to newton. Battery compensation is taken to be perfect, so units are thrust.
+// As in the firmware, all are lowered by the excess of the largest over full scale.
 static void newton(const known_t *k, const double unit[ROTORS], double motor_N[ROTORS]) {
   const double per_unit = k->by->pid.power.thrust_max_N / STOCK_FULL;
   double most = STOCK_FULL;
@@ -94,7 +94,7 @@ static double held(const pid_gain_t *p, double output) {
   return p->ki > 0.0 ? fmax(-p->integral_max, fmin(p->integral_max, output / p->ki)) : 0.0;
 }
 
-// The integrals as they are once the vehicle hovers: that is the mixer's inverse of the motors that hold it.
+// Sets the integrals to those of a hovering vehicle: the mixer's inverse of the motors that hold it.
 static void settle(known_t *k, const double motor_N[ROTORS]) {
   stock_pid_t *const s = &k->pid;
   const stock_position_param_t *p = &s->param.position;
@@ -102,7 +102,7 @@ static void settle(known_t *k, const double motor_N[ROTORS]) {
   const double u[ROTORS] = {full * motor_N[0], full * motor_N[1], full * motor_N[2], full * motor_N[3]};
   const double thrust = 0.25 * (u[0] + u[1] + u[2] + u[3]), roll = 0.5 * (-u[0] - u[1] + u[2] + u[3]);
   const double pitch = 0.5 * (u[0] - u[1] - u[2] + u[3]), yaw = 0.25 * (u[0] - u[1] + u[2] - u[3]);
-  (void)stock_pid_command(s, &k->in); // its modes change here, which clears what follows
+  (void)stock_pid_command(s, &k->in); // changes the modes now, which clears the integrals that follow
   s->position.vel[2].integral = held(&p->vel[2], (thrust - p->thrust_base) / p->thrust_scale);
   s->rate[0].integral = held(&s->param.rate[0], roll);
   s->rate[1].integral = held(&s->param.rate[1], pitch);
@@ -111,7 +111,7 @@ static void settle(known_t *k, const double motor_N[ROTORS]) {
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-// The flight code itself, with the parameters of the vehicle file.
+// Opens the flight code itself, with the parameters of the vehicle file.
 static done_t open_flight(known_t *k, why_t *why) {
   const model_t *const m = k->m;
   flight_param_t param;

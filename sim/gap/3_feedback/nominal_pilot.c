@@ -1,4 +1,4 @@
-// nominal_pilot.c - who flies the nominal flights.
+// nominal_pilot.c - the pilot that flies the nominal flights.
 #include "gap/3_feedback/nominal_pilot.h"
 
 #include "base/larger.h"
@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-#define QUICK_S   0.03 // slower motors get commands with a lead, so that they are as quick as this
-#define SWIFT     1.3  // rate gain times lag at most: the cascade rings beyond
+#define QUICK_S   0.03 // s: slower motors get commands with a lead that makes them as quick as this
+#define SWIFT     1.3  // largest rate gain times lag: beyond it the cascade rings
 #define TILT_MAX  0.5
-#define BEND_SURE 2.0  // standard errors of it, and of how the track's turning grows
-#define SPARE     0.95 // of the motors' thrust; the rest turns the vehicle
+#define BEND_SURE 2.0  // standard errors that are taken off the track's linear and angular acceleration
+#define SPARE     0.95 // of the motors' thrust may lift; the rest turns the vehicle
 #define YAW       2.0
-// Of what the motors have beside the weight, no unit: so much may turn a pilot that kicks about z, for the
-// rest turns it about x and y. With all of it lift goes with the turning where yaw is weak, and no updraft is
-// seen (users 45354, 45410).
+// Share, no unit, of the thrust beside the weight that a pilot that kicks may use about z; the rest turns the
+// vehicle about x and y. With all of it lift goes with the turning where yaw is weak, and no updraft is seen
+// (users 45354, 45410).
 #define YAW_SHARE 0.5
 
-// Points on both sides of one, and the time between them; false: there are none, or a gap in time lies
-// between.
+// Finds the points on both sides of a point, and the time between them. False: there are none, or a gap in
+// time lies between.
 static bool both_sides(const nominal_flight_t *f, int at, int side, const grid_point_t *end[2],
                        double *span_s) {
   const int from = at - side, to = at + side;
@@ -28,12 +28,12 @@ static bool both_sides(const nominal_flight_t *f, int at, int side, const grid_p
   return end[0]->segment == end[1]->segment;
 }
 
-// Less what its errors could make of it, in a hover those would shake the vehicle.
+// Returns v shortened by BEND_SURE errors, because in a hover the errors would shake the vehicle.
 static d3_t beyond(d3_t v, double error) {
   return d3_scale(larger(1.0 - BEND_SURE * error / larger(d3_norm(v), 1e-9), 0.0), v);
 }
 
-// How the track is bent.
+// Returns the acceleration of the track, beyond its errors.
 static d3_t track_acc(const nominal_flight_t *f, int at) {
   const int side = (int)larger(1.0, round(AHEAD_S / f->g->period_s));
   const grid_point_t *end[2];
@@ -44,9 +44,10 @@ static d3_t track_acc(const nominal_flight_t *f, int at) {
                 sqrt(2.0) * error / span_s);
 }
 
-// How its turning grows, where rows are fewer than commands. Elsewhere the loop itself turns the vehicle:
-// with the track's turning besides, less its noise or not, nominal flights of the example at 500 rows a
-// second no longer show an inertia of a twentieth, which their logs show though none is hidden.
+// Returns the angular acceleration of the track where rows are fewer than commands, else 0: there the loop
+// itself turns the vehicle. With the track's turning besides, less its noise or not, nominal flights of the
+// example at 500 rows a second no longer show an inertia of a twentieth, which their logs show though none is
+// hidden.
 static d3_t track_turn(const nominal_flight_t *f, int at) {
   const grid_point_t *end[2];
   double span_s, error = 0.0;
@@ -56,7 +57,7 @@ static d3_t track_turn(const nominal_flight_t *f, int at) {
                 sqrt(2.0 / f->g->every) * error / span_s);
 }
 
-// The point ahead is the next one here.
+// The point that was ahead is now the current one: what is known of it is kept.
 void pilot_look_ahead(nominal_flight_t *f) {
   f->track = f->g->point[f->at];
   const bool known = f->at > f->from && f->bends_at == f->at;
@@ -97,14 +98,14 @@ static d3_t wanted_acc(const nominal_flight_t *f, const grid_point_t *track, con
             larger(-5.0, smaller(5.0, feed.z + w->height_gain * off.z + w->climb_gain * slip.z)));
 }
 
-// What the motors can give: height first, for what is left behind on a level comes back.
+// Limits acc to what the motors can give. Height comes first, because a horizontal lag can be made up later.
 static d3_t within_thrust(const nominal_flight_t *f, d3_t acc) {
   const double most = SPARE * f->m->thrust_max_N / f->lift_trim / f->m->mass_kg, level = hypot(acc.x, acc.y);
   const double z = smaller(acc.z, most), share = sqrt(larger(most * most - z * z, 0.0)) / larger(level, 1e-9);
   return share < 1.0 ? d3(share * acc.x, share * acc.y, z) : acc;
 }
 
-// load: of the weight.
+// load: thrust over weight.
 static void hold(const nominal_flight_t *f, double load, d3_t turn_radps2, double motor_N[ROTORS]) {
   const double lift_N = f->lift_trim * load * f->m->mass_kg * G_MPS2;
   const d3_t turn = d3_add(turn_radps2, d3_scale(load, f->turn_trim_radps2));
@@ -118,24 +119,24 @@ double pilot_motor_lead(double motor_tau_s) {
   return larger(motor_tau_s / QUICK_S - 1.0, 0.0);
 }
 
-// As it is seen from one command to the next.
+// Returns the angular acceleration as it is seen from one command to the next.
 static d3_t rate_grows(nominal_flight_t *f, d3_t rate_radps, double step_s) {
   const d3_t before = f->rate_before_radps;
   f->rate_before_radps = rate_radps;
   return isfinite(before.x) ? d3_scale(1.0 / step_s, d3_sub(rate_radps, before)) : d3(0.0, 0.0, 0.0);
 }
 
-// All calls of a flight are as far apart.
+// Returns the share of the way that slow commands go per call; kept, because all calls are equally far apart.
 static double quick_share(nominal_flight_t *f, double step_s) {
   if (f->call_s != step_s) f->quick = 1.0 - exp(-step_s / QUICK_S);
   f->call_s = step_s;
   return f->quick;
 }
 
-// What is wanted of the rate about z. By how much the heading has stepped since the look before the track's
-// rates say: from one sample to the next an attitude steps by its noise. Where there is a lead on the rate's
-// error, too, as in a cascade of two PIDs, that makes the kick several times as large, and takes it back at
-// the next call: in the mean it is the nose's.
+// Returns the wanted rate about z. With kicks the heading steps at each look by what the track's rates say,
+// because the attitude itself also steps by its noise from sample to sample. Where the rate error has a lead,
+// too, as in a cascade of two PIDs, the kick is several times as large and is taken back at the next call: on
+// average it still is the turning of the nose.
 static double wanted_yaw_radps(const nominal_flight_t *f, bool looks, const axes_t *axes,
                                const grid_point_t *track, double rate_radps, double step_s) {
   const closed_loop_t *const w = f->w;
@@ -148,8 +149,8 @@ static double wanted_yaw_radps(const nominal_flight_t *f, bool looks, const axes
   return wanted_radps + w->nose_lead * (stepped_rad / step_s - rate_radps);
 }
 
-// Of who kicks: what turns it about z, within what the motors can give beside the weight, with their own
-// lead.
+// Limits the turning about z of a pilot that kicks to what the motors can give beside the weight, with their
+// own lead.
 static double within_yaw(const nominal_flight_t *f, double lead, double turn_radps2) {
   const double weight_N = f->m->mass_kg * G_MPS2, over_N = f->m->thrust_max_N - weight_N;
   const double spare_N = YAW_SHARE / (1.0 + lead) * larger(smaller(weight_N, over_N), 0.0);
@@ -176,7 +177,7 @@ void pilot_steer(nominal_flight_t *f, double step_s, const grid_point_t *track, 
   const d3_t off = turns ? d3_sub(track->rate_b_radps, rate) : d3_scale(-1.0, rate);
   const d3_t wanted_radps = d3(w->tilt_gain / w->rate_gain[0] * roll, w->tilt_gain / w->rate_gain[1] * pitch,
                                wanted_yaw_radps(f, looks, &axes, track, rate.z, step_s));
-  // The lead is on what is seen, or on its error.
+  // The lead is on the rate that is seen, or on its error.
   const d3_t grows = rate_grows(f, w->kicks ? d3_scale(-1.0, d3_add(off, wanted_radps)) : rate, step_s);
   const d3_t steered = d3(w->tilt_gain * roll + w->rate_gain[0] * off.x - w->rate_lead[0] * grows.x,
                           w->tilt_gain * pitch + w->rate_gain[1] * off.y - w->rate_lead[1] * grows.y,
@@ -196,7 +197,7 @@ double pilot_period_s(const flown_by_t *by) {
   return by && by->rate_Hz > 0.0 ? 1.0 / by->rate_Hz : 0.0;
 }
 
-// A command that holds is half its period late.
+// A command that is held is late by half its period.
 double pilot_gain_most(double motor_tau_s, double delay_s, double period_s) {
   const double late_s = delay_s + 0.5 * larger(period_s, NOMINAL_STEP_S);
   return SWIFT / (smaller(motor_tau_s, QUICK_S) + 3.0 * late_s);
@@ -213,8 +214,8 @@ void pilot_tame(nominal_flight_t *f) {
   f->level = 0.66 * f->push;
 }
 
-// Turning and lift at rest, level, show what the effects do to it; twice, because the lift changes the
-// turning.
+// Turning and lift of the level body at rest show what the effects do to it. Repeated, because the lift
+// changes the turning.
 void pilot_trim(nominal_flight_t *f) {
   body_t *const b = &f->body;
   double at[RIGID_N], rates[RIGID_N];

@@ -1,20 +1,20 @@
-// slow_errors.c - errors of the estimates that last for a while, by comparing each with the rate that it
-// should have.
+// slow_errors.c - errors of the estimates that last for a while, found by comparing each estimate with its
+// rate.
 //
-// Over k points an estimate x with rate r misses  e_k = x(k) - x(0) - sum r dt  by the change of its error.
-// For an error of first order, var e_k = 2 sd^2 (1 - rho^k): two spans tell sd and rho.
+// Over k points an estimate x with rate r misses e_k = x(k) - x(0) - sum r dt, the change of its error. For a
+// first-order error var e_k = 2 sd^2 (1 - rho^k): two spans tell sd and rho.
 #include "gap/3_feedback/slow_errors.h"
 
 #include <math.h>
 
 #define LONG           5    // points of the longer span
-#define SPANS_MIN      50   // of each, for a word on their spread
-#define POS_MOST_M     0.02 // more is no error of an estimate but a motion that its rate does not have
+#define SPANS_MIN      50   // of each length, to tell their spread
+#define POS_MOST_M     0.02 // more is no error of an estimate but motion that its rate lacks
 #define VEL_MOST_MPS   0.1
 #define ANGLE_MOST_RAD 0.02
 
 typedef struct {
-  double sum[2][3]; // of squares over 1 and over LONG points, by axis
+  double sum[2][3]; // sums of squares over 1 and over LONG points, by axis
   int n;
 } spans_t;
 
@@ -25,7 +25,7 @@ static void spans_add(spans_t *s, d3_t one, d3_t more) {
   s->n++;
 }
 
-// one, more: mean squares over the two spans.
+// one, more: mean squares over the short and the long span.
 static void solve(double one, double more, double period_s, double most, double *sd, double *tau_s) {
   const double ratio = more > 0.0 ? one / more : 1.0;
   double low = 0.0, high = 0.98;
@@ -90,7 +90,7 @@ static spans_t misses(const grid_t *g, look_t value, look_t rate) {
   return s;
 }
 
-// The length of `up` cannot be wrong: two axes of three tell what each of them may be.
+// `up` has length 1, so its error lies along two axes, not three: each axis gets half the sum of all three.
 static spans_t of_two_axes(spans_t s) {
   for (int i = 0; i < 2; i++) {
     const double mean = 0.5 * (s.sum[i][0] + s.sum[i][1] + s.sum[i][2]);
@@ -102,7 +102,7 @@ static spans_t of_two_axes(spans_t s) {
 void slow_errors(const grid_t *g, const white_error_t *white, slow_t *pos_m, slow_t *vel_mps,
                  slow_t *angle_rad) {
   spans_t s = {.n = 0};
-  const bool own = g->has_velocity && !g->velocity_made; // of its errors the place says nothing
+  const bool own = g->has_velocity && !g->velocity_made; // else it shows no errors of the place
   if (g->has_position && own) s = misses(g, position, velocity);
   *pos_m = solve_axes(&s, g, white->pos_m, POS_MOST_M);
   s.n = 0;

@@ -1,16 +1,17 @@
-// swiftness.c - how swiftly a vehicle is turned, by how much it turns.
+// swiftness.c - finds how swiftly a pilot turns a vehicle, by how much the vehicle turns.
 //
-// Noise, errors of estimates and disturbance come back through who flies, and turn a hovering vehicle the
-// more the larger his gains are. Commands against rates do not say it of a controller that filters, or feeds
-// its own commands back: of the Crazyflie's INDI, which has 24 1/s, they read 8, and a pilot with 8 turns the
-// model a tenth as much as the log's vehicle, or falls over. In a manoeuvre the pilot that is tried follows
-// some of the log's turning besides, and too small a gain is found: what was read is taken where it is more.
+// Noise, errors of estimates and disturbance pass through the pilot, and turn a hovering vehicle the more,
+// the larger the pilot's gains are. Regressing commands on rates does not show this for a controller that
+// filters, or feeds its own commands back: for the Crazyflie's INDI, which has 24 1/s, it reads 8, and a
+// pilot with 8 turns the model a tenth as much as the log's vehicle turns, or falls over. In a manoeuvre the
+// pilot that is tried also follows some of the log's turning, and too small a gain is found; so the gain that
+// was read is taken where it is larger.
 #include "gap/3_feedback/nominal.h"
 
 #include "body/side_by_side.h"
 #include <stdlib.h>
 
-// Gains that are tried side by side, a quarter apart or less, from what was read on.
+// Number of gains that are tried side by side, in equal ratios from what was read to what the motors follow.
 enum { TRIALS = 8 };
 
 typedef struct {
@@ -25,8 +26,8 @@ typedef struct {
   why_t why;
 } trial_t;
 
-// Rms of roll and pitch rates over what a trial flies of each flight; 0: there are none. Where a trial
-// is lost it is flown by a calmer pilot (nominal.c), and turns less.
+// Returns the rms of roll and pitch rates, rad/s, over what a trial flies of each flight; 0: there are none.
+// A trial in which the vehicle is lost is flown by a calmer pilot (nominal.c), and turns less.
 static double turning_radps(const set_t *s) {
   double sum = 0.0, n = 0.0;
   for (int f = 0; f < s->n_grid; f++) {
@@ -45,7 +46,7 @@ static double turning_radps(const set_t *s) {
 static void fly(void *trials, int i) {
   trial_t *const t = (trial_t *)trials + i;
   closed_loop_t loop = closed_loop_turning(t->loop, t->set, t->model, t->turned.gain);
-  loop.unread = false; // its gain alone turns it, and not the track
+  loop.unread = false; // its gain alone turns the vehicle, not the track
   t->seen.flight = calloc((size_t)t->set->n_grid + 1, sizeof(gap_flight_t));
   t->status = t->seen.flight
                   ? nominal_flights(&t->seen, NULL, t->set, t->model, &loop, TRIAL_S, t->seed, &t->why)
