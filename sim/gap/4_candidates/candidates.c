@@ -55,7 +55,7 @@ const char *candidates_obstacle(const fx_t *fx, const model_t *m, const set_t *s
   return NULL;
 }
 
-// The nominal value, or that of the first of the sizes that have one; never 0.
+// Returns the nominal value, or that of the first size that has one, or the step; never 0.
 static double typical_of(const fx_use_t *use, int k) {
   int n;
   const fx_param_t *param = fx_use_params(use, &n);
@@ -65,8 +65,8 @@ static double typical_of(const fx_use_t *use, int k) {
   return typical > 0.0 ? typical : size[k].step;
 }
 
-// Of a curve over the distance to a surface, whose shapes are decays: at so many radii all of typical size do
-// the same. Else a slow decay of typical size would do far off what nothing does, and a quick one nothing.
+// Radii from a surface at which all decays of typical size do the same. Otherwise a slow decay of typical
+// size would act far off, where nothing does, and a quick one would do nothing.
 // gap_takes_decays_of_typical_size_as_equally_strong_one_radius_off holds it.
 #define TYPICAL_RADII 1.0
 
@@ -81,10 +81,10 @@ static double as_strong(const fx_use_t *use, double radius_m) {
 }
 
 typedef struct {
-  int from, to; // of an effect's numbers
+  int from, to; // of an effect's numbers: the first, and behind the last
 } numbers_t;
 
-// In the middle of a flight, about: of what is logged in the mean packs of up to six cells are counted right
+// V, about the middle of a flight: by the mean of what is logged, packs of up to six cells are counted right
 // from 3.6 V a cell to full.
 #define CELL_V 3.9
 
@@ -120,12 +120,12 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, 
   c->columns += to->n;
 }
 
-// Of an effect that the file has. Which lag or delay there is, is another question.
+// Adds an effect that the file has, but no lag or delay: which of these there is, is another question.
 static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *own, numbers_t of) {
   int n;
   const fx_param_t *const param = fx_use_params(own, &n);
   const fx_t *const fx = own->fx;
-  // Of other forms the first number is no factor of what the effect does.
+  // In other forms the first number is no factor of what the effect does.
   if (own->form && !own->form->needs_points && own->form != curve_find(fx->form_initial)) return;
   if (fx->group == FX_TIMING) return;
   add(c, fx, m, 0, of);
@@ -194,7 +194,7 @@ void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
 
 // --- what is chosen ---------------------------------------------------------------------------------------
 
-// Its place, or the one that it would have.
+// Returns the candidate's place among the chosen, or the one that it would have.
 static int place_of(const chosen_t *chosen, int candidate) {
   int i = 0;
   while (i < chosen->n && chosen->of[i] < candidate) i++;
@@ -227,11 +227,11 @@ void chosen_drop(chosen_t *chosen, int candidate) {
   }
 }
 
-// Of the way to another shape, lag or delay: columns about the old one are no longer those of the new.
+// Share of the way to another shape, lag or delay: farther off, columns about the old one do not serve.
 #define MOVED 0.1
 
-// What no straight line about a model shows: a shape, a lag or a delay. NaN: it has none. far: to
-// another one, of lags as far as itself, of shapes the next that is tried.
+// Returns a shape, a lag or a delay, which linear columns about a model do not show; NaN: it has none. far:
+// the distance to another one, for a lag the lag itself, for a shape that to the next one tried.
 static double bent_by(const candidate_t *c, const fx_use_t *use, double *far) {
   *far = (double)NAN;
   const fx_t *const fx = use ? use->fx : NULL;
@@ -257,7 +257,8 @@ static bool moved(const candidates_t *c, const chosen_t *a, const chosen_t *b) {
   return false;
 }
 
-// What was flown and is not found again: the first look took noise for it, and that hides what is there.
+// True if something was flown that is not found again: the first look took noise for it, which hides what is
+// there.
 static bool gone(const chosen_t *flown, const chosen_t *found) {
   for (int i = 0; i < flown->n; i++)
     if (!chosen_use(found, flown->of[i])) return true;
@@ -300,7 +301,7 @@ fx_use_t effect_whole(const model_t *base, const fx_use_t *use) {
 done_t chosen_model(const chosen_t *chosen, const model_t *base, model_t *m, why_t *why) {
   *m = *base;
   for (int i = 0; i < chosen->n; i++) {
-    const fx_use_t whole = effect_whole(m, &chosen->use[i]); // of which some numbers may be in it already
+    const fx_use_t whole = effect_whole(m, &chosen->use[i]); // some of its numbers may be in it already
     TRY(model_add_fx(m, &whole, why));
   }
   return DONE;

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Of what is typical of a chosen number: what it changes by less in others' columns is left. So much changes
-// them by some hundredths of themselves; those of a centre of mass elsewhere and of a weak rotor, which turn
-// the vehicle in the mean, by a fifth.
+// Share of the typical size of a chosen number: if it changes by less, the columns of the others stay. So
+// much changes them by some hundredths, but for a displaced centre of mass and a weak rotor, which turn the
+// vehicle in the mean, by a fifth.
 #define STAYS 0.25
 
-// In place of `with`; 0 where it is no number.
+// Replaces `with` by the difference quotient; 0 where it is not finite.
 WIDE_COPIES static void differ(int n, const double *base, double step, double *with) {
   for (int j = 0; j < n; j++) {
     const double d = (with[j] - base[j]) / step;
@@ -47,7 +47,7 @@ static done_t fill_column(design_t *t, const set_t *s, int flight, int column, c
   return DONE;
 }
 
-// What the columns are of.
+// Which columns are formed, and about which model.
 typedef struct {
   const candidates_t *c;
   const chosen_t *chosen;
@@ -55,7 +55,7 @@ typedef struct {
   const bool *wanted; // by candidate
 } asked_t;
 
-// The effect that a candidate is another shape of, if that one is chosen.
+// Returns the chosen effect of which the candidate is another shape or kind; null: there is none.
 static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
   const candidate_t *const all = a->c->candidate;
   for (int i = 0; i < a->chosen->n; i++)
@@ -64,7 +64,7 @@ static const fx_t *chosen_otherwise(const asked_t *a, int candidate) {
   return NULL;
 }
 
-// The column starts from the model without `dropped`.
+// True if the candidate's column is wanted and starts from the model without `dropped`.
 static bool is_asked(const asked_t *a, int candidate, const fx_t *dropped) {
   return a->wanted[candidate] && chosen_otherwise(a, candidate) == dropped;
 }
@@ -76,10 +76,11 @@ typedef struct {
   int flight;
   const path_t *now;
   const asked_t *asked;
-  int n, *candidate, *size; // whose, and of which of its numbers
+  int n, *candidate, *size; // by column: the candidate, and which of its numbers
 } column_list_t;
 
-// dropped: of the other shapes of this one; null: of those that start from the model with all.
+// Lists the columns of the other shapes of `dropped`; null: of what starts from the whole model. False: no
+// memory.
 static bool columns_list(column_list_t *to, const fx_t *dropped) {
   const candidates_t *const c = to->asked->c;
   to->candidate = malloc(2 * ((size_t)c->columns + 1) * sizeof(int));
@@ -102,7 +103,7 @@ static done_t fill_one(const column_list_t *a, int i, grid_t *g, const flight_li
   return DONE;
 }
 
-// Of the failures the first in the columns' order is told, whoever met it.
+// Of several failures the first in the order of the columns is told, whichever thread met it.
 static done_t fill_all(const column_list_t *a, const flight_lines_t *base, why_t *why) {
   done_t status = DONE;
   int failed = a->n;
@@ -125,8 +126,8 @@ static done_t fill_all(const column_list_t *a, const flight_lines_t *base, why_t
   return status;
 }
 
-// The columns of the candidates that start from this model: of all but the other shapes of a chosen effect,
-// or of those of one that the model has no longer.
+// Fills the columns of the candidates that start from this model: all but the other shapes of chosen effects,
+// or (dropped) the other shapes of one that the model has no longer.
 static done_t fill_columns(design_t *t, const set_t *s, int flight, const path_t *now, const fx_t *dropped,
                            const asked_t *asked, const flight_lines_t *base, why_t *why) {
   column_list_t all = {t, s, flight, now, asked, 0, NULL, NULL};
@@ -136,7 +137,7 @@ static done_t fill_columns(design_t *t, const set_t *s, int flight, const path_t
   return status;
 }
 
-// predicted: the rows of what this model says, or null.
+// predicted: gets the rows that this model predicts; may be null.
 static done_t fill_from(design_t *t, set_t *s, int flight, const model_t *m, const fx_t *dropped,
                         const asked_t *a, flight_lines_t *l, const lines_t *predicted, why_t *why) {
   path_t path;
@@ -194,7 +195,7 @@ static bool design_room(design_t *t, const set_t *s, const candidates_t *c) {
 
 // --- a log that misses commands ---------------------------------------------------------------------------
 
-// x without what is a multiple of p about its mean.
+// Takes out of x what is a multiple of p about its mean.
 static void take_out(double *x, const double *p, int n) {
   double sum = 0.0, xp = 0.0, pp = 0.0;
   for (int i = 0; i < n; i++) sum += p[i];
@@ -203,10 +204,10 @@ static void take_out(double *x, const double *p, int n) {
   for (int i = 0; i < n && pp > 0.0; i++) x[i] -= xp / pp * (p[i] - mean);
 }
 
-// How strongly commands turn the vehicle such a log does not tell: too weakly, by as much as it misses. A
-// bend or a slope of the thrust that is large enough would be as weak. What of it is such a scale is left
-// out, and the forces tell it. Inertia and torque, which do nothing else, are held both ways against it
-// (5_infer/both_ways.h).
+// Leaves the scale of the turning out of the columns of bends and slopes of the thrust. A log that misses
+// commands does not tell how strongly they turn the vehicle: they seem to turn it too weakly, by as much as
+// the log misses, and a large enough bend or slope would be as weak. The forces tell these. Inertia and
+// torque, which do nothing but scale, are held both ways against it (5_infer/both_ways.h).
 static void leave_out_scales(design_t *t, const set_t *s, const asked_t *a, const lines_t *predicted) {
   for (int i = 0; i < a->c->n; i++) {
     const candidate_t *const c = &a->c->candidate[i];
@@ -222,7 +223,7 @@ static void leave_out_scales(design_t *t, const set_t *s, const asked_t *a, cons
   }
 }
 
-// Into columns that are empty.
+// Fills columns that are empty.
 static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, lines_t *predicted,
                    why_t *why) {
   double *r[CHANNELS];
@@ -236,11 +237,11 @@ static done_t fill(design_t *t, set_t *s, const asked_t *a, flight_lines_t *l, l
   leave_out_scales(t, s, a, predicted);
   for (int ch = 0; ch < CHANNELS; ch++)
     for (int i = 0; i < set_rows(s, ch)->n; i++) r[ch][i] -= predicted->r[ch][i];
-  design_add_chosen(t, s, a->c, a->chosen, 1.0); // as the straight line has them
+  design_add_chosen(t, s, a->c, a->chosen, 1.0); // as the linear columns have them
   return DONE;
 }
 
-// Into columns that are empty: those of some candidates, and the residual.
+// Fills columns that are empty: those of some candidates, and the residual. On an error the design is freed.
 static done_t fill_design(design_t *t, set_t *s, const asked_t *a, why_t *why) {
   flight_lines_t l = {.room = NULL};
   lines_t predicted = {.r = {NULL}};
@@ -273,13 +274,14 @@ done_t design_make(design_t *t, set_t *s, const model_t *base, const candidates_
   return status;
 }
 
-// A force that adds to others leaves their columns as they are; what changes the vehicle, its thrust or what
-// it measures does not.
+// True for a force that adds to others and leaves their columns as they are; what changes the vehicle, its
+// thrust or what it measures does not.
 static bool only_adds(const fx_t *fx) {
   return fx->load && !fx->by_thrust && !fx->excess && !fx->tick && !fx->sense;
 }
 
-// From one choice to another, but for what only adds: a number by more than `STAYS`, or a shape.
+// True if, from one choice to the other, a number moved by more than `STAYS`, or a shape; what only adds does
+// not count.
 static bool moved(const candidates_t *c, const chosen_t *from, const chosen_t *to) {
   for (int i = 0; i < from->n; i++) {
     const fx_use_t *const a = &from->use[i], *const b = chosen_use(to, from->of[i]);
