@@ -25,7 +25,7 @@ static bool is_about(const extend_job_t *job, int name, const fx_t *fx) {
   return found_use(job->found, &job->found->named[name])->fx == fx;
 }
 
-// Among the first n names.
+// True if one of the first n names is about fx.
 static bool is_among(const extend_job_t *job, int n, const fx_t *fx) {
   for (int i = 0; i < n; i++)
     if (is_about(job, i, fx)) return true;
@@ -45,14 +45,14 @@ static const char *after_blanks(const char *line) {
   return line + strspn(line, " \t");
 }
 
-// The end of a table that begins at `line`: where the next one does.
+// Returns the end of a table that begins at `line`: where the next one begins.
 static const char *table_end(const char *line) {
   do line = next_line(line);
   while (*line && *after_blanks(line) != '[');
   return line;
 }
 
-// A table's `name = "..."` is of an effect that was named.
+// True if the `name = "..."` of a table is that of an effect that was named.
 static bool is_of_a_name(const extend_job_t *job, const char *from, const char *to) {
   for (const char *line = from; line < to; line = next_line(line)) {
     const char *const key = after_blanks(line);
@@ -66,7 +66,7 @@ static bool is_of_a_name(const extend_job_t *job, const char *from, const char *
   return false;
 }
 
-// The text without the effects that are written anew; free it. Null: no memory.
+// Returns the text without the effects that are written anew; free it. Null: no memory.
 static char *without_names(const extend_job_t *job) {
   char *text = NULL;
   size_t size = 0;
@@ -81,7 +81,7 @@ static char *without_names(const extend_job_t *job) {
   return fclose(kept) == 0 ? text : NULL;
 }
 
-// A curve from a file beside the vehicle file is not beside the new one: its points take its place.
+// Writes the text. A curve's file is not beside the new vehicle file, so its points take its place.
 static void write_text(const extend_job_t *job, const char *text, FILE *out) {
   const fx_use_t *fx = job->model->fx, *const end = fx + job->model->n_fx;
   for (const char *line = text, *next; *line; line = next) {
@@ -102,7 +102,8 @@ static void write_text(const extend_job_t *job, const char *text, FILE *out) {
 
 // --- the names --------------------------------------------------------------------------------------------
 
-// Two names may be about one effect, each about other numbers. 0: no name shows it.
+// Returns the largest standard error of number k: two names may be about one effect, each about other
+// numbers. 0: no name shows it.
 static double stderr_of(const extend_job_t *job, const fx_t *fx, int k) {
   double most = 0.0;
   for (int i = 0; i < job->found->n; i++)
@@ -110,7 +111,7 @@ static double stderr_of(const extend_job_t *job, const fx_t *fx, int k) {
   return most;
 }
 
-// A name is about the lot of numbers (fx->size_apart) to which k belongs.
+// True if a name is about the group of numbers (fx->size_apart) to which k belongs.
 static bool is_of_a_lot(const extend_job_t *job, const fx_t *fx, int k) {
   bool of = false;
   for (int other = 0; other < fx->n_size; other++)
@@ -118,7 +119,7 @@ static bool is_of_a_lot(const extend_job_t *job, const fx_t *fx, int k) {
   return of || !fx->size_apart;
 }
 
-// Where a number comes from.
+// Writes where a number comes from.
 static void write_source(const extend_job_t *job, const fx_use_t *use, const named_t *named, int param,
                          FILE *out) {
   const fx_use_t *const in_file = model_fx(job->model, use->fx);
@@ -165,7 +166,7 @@ static void write_effect(const extend_job_t *job, const model_t *extended, const
   }
 }
 
-// The new text must be what `fly --vehicle` reads.
+// The new text must be one that `fly --vehicle` reads.
 static done_t check(const char *text, const extend_job_t *job, why_t *why) {
   model_t again;
   why_t cause;

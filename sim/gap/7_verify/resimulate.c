@@ -5,18 +5,18 @@
 #include <stdlib.h>
 
 #define PILOT_STEP_S 0.002
-#define LEVEL        2.0 // 1/s: position errors to velocity, level (as the nominal flights' pilot)
-#define PUSH         3.0 // 1/s: velocity errors to acceleration, level
-// At least so stiff in height: a ceiling pulls harder the nearer the vehicle is (thesis 3.1.4), and a pilot
-// who is softer than that loses the right model as he does the wrong one.
+#define LEVEL        2.0 // 1/s, horizontal: position error to velocity (as the nominal flights' pilot)
+#define PUSH         3.0 // 1/s, horizontal: velocity error to acceleration
+// Least stiffness in height: a ceiling pulls harder the nearer the vehicle is (thesis 3.1.4), and a pilot
+// that is softer than that loses the right model as well as the wrong one.
 #define HEIGHT 16.0 // 1/s2
 #define CLIMB  8.0  // 1/s
 
 typedef struct {
   const grid_t *g;
-  const model_t *pilots; // whose mass and rotors the pilot reckons with: the same for every model
+  const model_t *pilots; // whose mass and rotors the pilot assumes: the same for every model
   const closed_loop_t *loop;
-  int turn; // whose points count; below 0: all
+  int turn; // the one whose points count; below 0: all points do
   body_t body;
 } flight_again_t;
 
@@ -50,8 +50,8 @@ static void correct(const flight_again_t *a, const grid_point_t *track, double m
 
 // --- the flight -----------------------------------------------------------------------------------------
 
-// The sample with which a point begins, by its time: points leave out what a segment's end cuts off, samples
-// what a gap in time does.
+// Returns the sample with which a point begins, by its time. Counting would not do: points leave out what a
+// segment's end cuts off, samples what a gap in time does.
 static int sample_of(const grid_t *g, int j) {
   const double log_s = g->period_s / g->every, from_s = g->point[j].t_s - 0.5 * g->every * log_s;
   const double *const t_s = g->flight->t_s + g->from;
@@ -81,7 +81,7 @@ static done_t put(flight_again_t *a, const model_t *m, int j, why_t *why) {
   return error_failed(why, "%s: a model that cannot be flown", m->name);
 }
 
-// One point's samples.
+// Flies the samples of one point.
 static void fly_point(flight_again_t *a, int j, int first_sample) {
   const grid_t *g = a->g;
   const double log_s = g->period_s / g->every;
@@ -96,8 +96,8 @@ static void fly_point(flight_again_t *a, int j, int first_sample) {
     }
 }
 
-// Adds squares and their number to the tally, of the points whose turn it is. off_m: null where the flight is
-// not drawn.
+// Adds the squared errors and their number to the tally, over the points whose turn it is. off_m: null where
+// the flight is not drawn.
 static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, double *const off_m[3],
                         long *points, why_t *why) {
   const grid_t *g = a->g;
@@ -112,7 +112,7 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
     if (!go_on) TRY(put(a, m, j, why));
     d3_t off = d3_sub(d3_of(a->body.y + RIGID_POS_M), p->pos_w_m);
     double far_m = d3_norm(off);
-    const double off_z_m = fmin(fabs(off.z), RESIMULATE_LOST_M); // NaN: lost
+    const double off_z_m = fmin(fabs(off.z), RESIMULATE_LOST_M); // NaN counts as lost
     if (a->body.broken || !(far_m <= RESIMULATE_LOST_M)) {
       far_m = RESIMULATE_LOST_M;
       tally->lost += counts;
@@ -129,7 +129,7 @@ static done_t fly_again(flight_again_t *a, const model_t *m, again_t *tally, dou
   return DONE;
 }
 
-// turns: what the pilots' model has beside. *flew: something did.
+// turns: what is added to the pilots' model. *flew: something did.
 static done_t fly_all(const set_t *held, const by_turns_t *turns, const model_t *pilots,
                       const closed_loop_t *loop, again_t *to, bool *flew, why_t *why) {
   long points = 0;

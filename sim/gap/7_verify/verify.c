@@ -1,4 +1,4 @@
-// verify.c - flights that were not fitted to, before and after; and names that they contradict.
+// verify.c - held-out flights before and after, and the names that they contradict.
 #include "gap/7_verify/verify.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ static double rms_of(const double *v, int n) {
   return n ? sqrt(squares / n) : 0.0;
 }
 
-// The channel's rows are enough to judge what is left of them.
+// Returns the colour of what is left of a channel; not used where its rows are too few to judge it.
 static color_t color_of(const set_t *s, int channel, const lines_t *left) {
   return residual_has(s, channel) ? color_fit(set_rows(s, channel), left->r[channel])
                                   : (color_t){.used = false};
@@ -18,7 +18,7 @@ static color_t color_of(const set_t *s, int channel, const lines_t *left) {
 
 #define ALL_TURNS (-1)
 
-// The rows whose turn it is.
+// Copies the rows whose turn it is.
 static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     const rows_t *const r = set_rows(s, ch);
@@ -30,7 +30,7 @@ static void take_turn(lines_t *l, const lines_t *own, const set_t *s, int turn) 
 
 // --- what a model leaves ----------------------------------------------------------------------------------
 
-enum { ALL_NAMES = -1, NO_NAME = -2 }; // else a candidate: all names but that one
+enum { ALL_NAMES = -1, NO_NAME = -2 }; // else a candidate: all names but this one
 
 static done_t lines_of(const verify_job_t *d, set_t *s, int without, lines_t *l, why_t *why) {
   if (without == NO_NAME) return residual_lines(s, d->base, l, why);
@@ -68,15 +68,16 @@ static bool has_own(const own_t *own) {
   return has;
 }
 
-// Of all between a flight's constant and the fitted ones' that is the flight's own which leaves least; of one
-// of them all that it is off.
+// Returns how much of a held-out flight's constant is its own: the part beyond the interval from 0 to the
+// fitted flights' constant, at most `may`. By turns (`may` is infinite) the whole difference.
 static double own_of(double is, double usual, double may) {
   if (isinf(may)) return is - usual;
   const double off = is - fmin(fmax(0.0, fmin(is, usual)), fmax(is, usual));
   return fmin(fmax(off, -may), may);
 }
 
-// its_own: of flight f and channel ch [f * CHANNELS + ch], may be null.
+// Takes out what flights have of their own. its_own: gets it, of flight f and channel ch [f * CHANNELS + ch];
+// may be null.
 static void take_own(const verify_job_t *d, const lines_t *fitted, lines_t *l, double *its_own) {
   for (int i = 0; i < d->held->n_grid * CHANNELS; i++) {
     const int ch = i % CHANNELS, flight = i / CHANNELS;
@@ -109,7 +110,7 @@ done_t verify_lines(const verify_job_t *job, lines_t *before, lines_t *after, do
   return lines_without(job, ALL_NAMES, after, its_own, why);
 }
 
-// By turns flights may be too short for something to be held out of each.
+// True if something is held out: by turns flights may be too short for it.
 static bool is_judged(const verify_job_t *job) {
   return job->turns->n == 1 || by_turns_cover(job->held);
 }
@@ -139,20 +140,20 @@ done_t verify_held(const verify_job_t *job, const nominal_t *nominal, held_t *he
 
 // --- names that held-out flights contradict ---------------------------------------------------------------
 
-// The model with all names but one; below 0: with all.
+// Makes the model with all names but one; candidate below 0: with all.
 static done_t model_without(const verify_job_t *d, int candidate, model_t *m, why_t *why) {
   chosen_t others = d->found->chosen;
   chosen_drop(&others, candidate);
   return chosen_model(&others, d->base, m, why);
 }
 
-// Of what a model leaves, every channel's rms; 0 where the rows are too few.
+// Finds the rms of what a model leaves, by channel; 0 where the rows are too few.
 static void measure(const set_t *s, const lines_t *left, double rms[CHANNELS]) {
   for (int ch = 0; ch < CHANNELS; ch++)
     rms[ch] = color_of(s, ch, left).used ? rms_of(left->r[ch], set_rows(s, ch)->n) : 0.0;
 }
 
-// Sum over the channels of the logarithm of what the rms is multiplied by.
+// Returns the sum over the channels of the logarithm of the factor by which the rms grows.
 static double balance(const double with[CHANNELS], const double without[CHANNELS]) {
   double sum = 0.0;
   for (int ch = 0; ch < CHANNELS; ch++)
@@ -160,7 +161,7 @@ static double balance(const double with[CHANNELS], const double without[CHANNELS
   return sum;
 }
 
-// l: what the name adds to each row of a set.
+// l: gets what the name adds to each row of a set.
 static done_t contribution(set_t *s, const model_t *with, const model_t *without, lines_t *l, why_t *why) {
   lines_t left = {.r = {NULL}};
   done_t status = residual_lines(s, without, l, why);
@@ -171,7 +172,8 @@ static done_t contribution(set_t *s, const model_t *with, const model_t *without
   return status;
 }
 
-// white: the same of white rows, by the colours of what these flights have left.
+// blur: gets the rms by which errors of sensors and estimates change what the name adds. white: the same of
+// whitened rows, in the colours of what these flights have left.
 static done_t errors_of(along_t *a, const own_t *own, const model_t *with, const model_t *without,
                         const color_t color[CHANNELS], double blur[CHANNELS], double white[CHANNELS],
                         why_t *why) {
@@ -193,8 +195,8 @@ static done_t errors_of(along_t *a, const own_t *own, const model_t *with, const
   return status;
 }
 
-// The rms that a right name may bring, by errors of the log and by feedback: on flights of the model along
-// the held-out tracks. 0 where it cannot fly.
+// Finds the rms that errors of the log and feedback may make of a right name, on flights of the model along
+// the held-out tracks; 0 where it cannot fly.
 static done_t blur_of(const verify_job_t *d, int candidate, const color_t color[CHANNELS],
                       double blur[CHANNELS], double white[CHANNELS], why_t *why) {
   model_t with, without;
@@ -209,8 +211,8 @@ static done_t blur_of(const verify_job_t *d, int candidate, const color_t color[
   return status == FAILED ? FAILED : DONE;
 }
 
-// The channel that a name grows most, if it is by more than it may and the others do not gain as much; -1:
-// none.
+// Returns the channel that a name grows most, if that is by more than it may and the others do not gain as
+// much; -1: none.
 static int grown(const double with[CHANNELS], const double without[CHANNELS], const double blur[CHANNELS],
                  double *most) {
   const double total = balance(with, without);
@@ -225,10 +227,10 @@ static int grown(const double with[CHANNELS], const double without[CHANNELS], co
   return worst;
 }
 
-// What held-out rows, white, have of what a name adds to them.
+// How much whitened held-out rows show of what a name adds to them.
 typedef struct {
-  double has, adds; // products: with what is there without it; with itself, but for errors of its own inputs
-  double squares;   // with itself, these and all
+  double has, adds; // products of this: with rows without the name; with itself, less its inputs' errors
+  double squares;   // with itself, with these
 } share_t;
 
 // What all names leave of the held-out rows, and its colours.
@@ -237,7 +239,7 @@ typedef struct {
   color_t color[CHANNELS];
 } with_all_t;
 
-// blur: by channel, the rms of these errors in white rows; null: they do not count.
+// blur: rms of these errors in whitened rows, by channel; null: they do not count.
 static done_t share_of(const set_t *s, const with_all_t *with, const lines_t *without, const double *blur,
                        share_t *share, why_t *why) {
   double *const x = malloc(3 * set_most_rows(s) * sizeof(double));
@@ -263,14 +265,14 @@ static done_t share_of(const set_t *s, const with_all_t *with, const lines_t *wi
   return DONE;
 }
 
-// They have less than half of it, and what they have is further from all of it than their noise, not quite
-// white, and the error of its size (relative) allow.
+// True if the rows show less than half of what the name adds, and miss all of it by more than allowed by
+// their noise, not quite white, and by the error of its size (relative).
 static bool contradicts(const share_t *s, double relative) {
   const double error = SCORE_ERRORS * SCORE_CLUSTER * hypot(sqrt(s->squares), relative * s->adds);
   return s->adds > 0.0 && s->has < 0.5 * s->adds && s->adds - s->has > error;
 }
 
-// Of the size of a name that is known best.
+// Returns the relative error of the size of a name that is known best.
 static double relative_error(const named_t *name) {
   double least = HUGE_VAL;
   for (int k = 0; k < FX_SIZE_MAX; k++)
@@ -286,8 +288,8 @@ static int grows_most(const double with[CHANNELS], const double without[CHANNELS
   return most;
 }
 
-// Whether these flights contradict a name, and how; grows: by how much it grows a channel, 1: by none that
-// counts, 0: they do not. What they have of it is known from then on.
+// Finds whether these flights contradict a name, and how. grows: the factor by which it grows a channel; 1:
+// they do, though none grows by more than it may; 0: they do not. Sets the name's held_share.
 static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *with, const lines_t *without,
                        withdrawn_t *so, double *grows, why_t *why) {
   static const double none[CHANNELS] = {0.0};
@@ -300,7 +302,7 @@ static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *w
   measure(d->held, without, before);
   TRY(share_of(d->held, with, without, NULL, &whole, why));
   name->held_share = whole.adds > 0.0 ? whole.has / whole.adds : (double)NAN;
-  const bool worse = balance(after, before) > 0.0 && contradicts(&whole, relative); // by either measure
+  const bool worse = balance(after, before) > 0.0 && contradicts(&whole, relative); // by both measures
   if (grown(after, before, none, &first) < 0 && !worse) return DONE;
   TRY(blur_of(d, name->candidate, with->color, blur, white, why));
   TRY(share_of(d->held, with, without, white, &share, why));
@@ -320,7 +322,7 @@ static done_t try_name(const verify_job_t *d, named_t *name, const with_all_t *w
   return DONE;
 }
 
-// The name that they contradict most; -1: none.
+// Finds the name that they contradict most; -1: none.
 static done_t find_worst(const verify_job_t *d, int *worst, withdrawn_t *why_so, why_t *why) {
   with_all_t with;
   lines_t without = {.r = {NULL}};
