@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TRIAL_SEED 1000 // other draws than the flights that count
+#define TRIAL_SEED 1000 // trials draw other numbers than the flights that count
 
 static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose_job_t *job, why_t *why) {
   grid_t *const grid = calloc((size_t)flights->n + 1, sizeof(grid_t));
@@ -25,7 +25,7 @@ static done_t cut_flights(set_t *s, const gap_flights_t *flights, const diagnose
   }
   if (status == DONE) {
     TRY(set_make(s, grid, flights->n, why));
-    return job->fit->n > 1 ? lift_find(s, job->model, why) : DONE; // one differs from nobody
+    return job->fit->n > 1 ? lift_find(s, job->model, why) : DONE; // one flight differs from no other
   }
   for (int i = 0; i < flights->n; i++) grid_free(&grid[i]);
   free(grid);
@@ -78,7 +78,7 @@ static done_t look_first(const diagnose_job_t *job, diagnosis_t *d, found_t *fir
   return DONE;
 }
 
-// Names that control's answers look like, and of whose kind nominal flights had none.
+// Names that control's answer to a disturbance looks like, of whose kind nominal flights had none.
 typedef struct {
   int n, of[CHOSEN_MAX];
   bool own[CHOSEN_MAX]; // it is control's own work
@@ -90,8 +90,8 @@ static bool flew_with(const diagnosis_t *d, const fx_t *fx) {
   return false;
 }
 
-// A lag or delay that is too long for a straight line, or that rotor speeds show, is sure; one that is too
-// small is not named.
+// True for a name that may be control's answer. A lag or delay that is too long for linear columns, or that
+// rotor speeds show, is sure; one that is too small is not named.
 static bool is_answer(const diagnosis_t *d, const fx_use_t *use, int candidate) {
   return use->fx->answers && candidate != d->timing.candidate && !flew_with(d, use->fx) &&
          fabs(fx_use_size(use, 0)) >= candidates_least(use->fx, &d->fit);
@@ -113,8 +113,10 @@ static done_t find_own_work(const diagnose_job_t *job, const chosen_t *chosen, d
   return own_work(&asked, chosen, a->n, a->of, a->own, why);
 }
 
-// Nominal flights do not have it, and looks do not begin with it. A slope of the thrust may have stood for an
-// inertia, which a first look does not take: one that is in is borne out both ways, as no draught does it.
+// Drops control's own work: nominal flights do not have it, and looks do not begin with it. A thrust slope
+// that is dropped may have stood for an inertia that the first look did not take, so inertias are tried
+// again. One that is in is not tested here: it is borne out both ways (both_ways.h), and no draught looks
+// like that.
 static done_t drop_own_work(const diagnose_job_t *job, diagnosis_t *d, chosen_t *chosen, why_t *why) {
   answers_t a;
   bool dropped = false;
@@ -135,8 +137,8 @@ static done_t fit_and_fly(const diagnose_job_t *job, diagnosis_t *d, const chose
   return fly_with(job, d, chosen, why);
 }
 
-// Nobody could fly with these names. With a thrust that is too small nobody takes off: without those that
-// change it, if any do.
+// Called if nobody could fly with these names. With too small a thrust nobody takes off, so flies without
+// those that change it, if any do.
 static done_t fly_without_lift(const diagnose_job_t *job, diagnosis_t *d, const chosen_t *chosen,
                                why_t *why) {
   const closed_loop_t loop = d->loop;
@@ -146,14 +148,14 @@ static done_t fly_without_lift(const diagnose_job_t *job, diagnosis_t *d, const 
   if (without.n == chosen->n) return DONE;
   TRY(fit_and_fly(job, d, &without, why));
   if (d->nominal_flew)
-    d->before = without; // the first look was wrong: the next one begins so
+    d->before = without; // the first look was wrong: the next one begins without them
   else
     d->loop = loop, d->flown = *chosen;
   return DONE;
 }
 
-// A first look without nominal flights shows what noise there is beside the effects; they are then flown with
-// it.
+// Flies the nominal flights. A first look, without any, shows the effects and the noise beside them; both are
+// then flown.
 static done_t fly_nominal(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   found_t first;
   const done_t status = look_first(job, d, &first, why);
@@ -191,7 +193,7 @@ static done_t look(diagnosis_t *d, selection_t **selection, const model_t *m, bo
   TRY(shapes_refine(&d->candidates, &d->fit, m, &d->found, why));
   d->before = d->found.chosen;
   *again = !last && chosen_other(&d->candidates, &d->flown, &d->found.chosen);
-  if (*again) return DONE; // nobody asks for rivals
+  if (*again) return DONE; // another look follows, so nobody needs rivals
   TRY(nominal_look(&d->nominal, m, why));
   return select_rivals(*selection, &d->found, why);
 }
@@ -211,8 +213,8 @@ static void refute(diagnosis_t *d, const named_t *named, maker_t by) {
   c->barred = true;
 }
 
-// What is own work is looked for no more. What it hid was never looked for: the next look begins with nothing
-// (select.h).
+// Bars what is control's own work from further looks. What it hid was never looked for, so the next look
+// begins with nothing (select.h).
 static void bar_alike(diagnosis_t *d, const fx_t *fx) {
   for (int i = 0; i < d->candidates.n; i++)
     if (candidates_alike(d->candidates.candidate[i].use.fx, fx)) d->candidates.candidate[i].barred = true;
@@ -242,8 +244,9 @@ static done_t look_beyond_control(const diagnose_job_t *job, diagnosis_t *d, boo
   return DONE;
 }
 
-// Once more with the shapes that were found: what a shape beside the right one leaves hides the smaller
-// names. What feedback makes is flown anew where the flown model was another one, if a pilot can fly that.
+// Looks for names, and once more with the shapes that were found, because what a shape near the right one
+// leaves hides the smaller names. Where another model was flown than was found, nominal flights are flown
+// anew, if a pilot can fly it.
 static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   bool again;
   TRY(look_beyond_control(job, d, false, &again, why));
@@ -259,8 +262,9 @@ static done_t find_names(const diagnose_job_t *job, diagnosis_t *d, why_t *why) 
   return look_beyond_control(job, d, true, &again, why);
 }
 
-// Of a name that grows a channel another kind may be right: a drag at the hubs that the held-out flights
-// contradict may act at the centre of mass. One of which they have next to nothing is not there in any kind.
+// Bars the kind of a name that grows a channel, as another kind may be right: a drag at the hubs that
+// held-out flights contradict may act at the centre of mass. A name of which they show next to nothing is not
+// there in any kind. True: some were barred.
 static bool bar_kinds(diagnosis_t *d) {
   candidate_t *const all = d->candidates.candidate;
   bool barred = false;
@@ -301,14 +305,14 @@ static done_t find_and_verify(const diagnose_job_t *job, diagnosis_t *d, why_t *
   }
 }
 
-// What rotor speeds show of the timing nothing else has a say in.
+// Takes back what set points say of a timing that measured rotor speeds show: nothing else has a say in it.
 static void believe_speeds(diagnosis_t *d) {
   for (int i = 0; i < d->found.n && d->timing.measured; i++)
     if (d->found.named[i].candidate == d->timing.candidate)
       d->found.named[i].confirm = (confirm_t){.answer = CONFIRM_NOT_TRIED};
 }
 
-// A name that the set points refute is out of question: what it explained is looked at without it.
+// Bars the names that the set points refute, so that what they explained is looked at without them.
 static bool bar_refuted(diagnosis_t *d) {
   bool refuted = false;
   for (int i = 0; i < d->found.n; i++) {
@@ -321,8 +325,8 @@ static bool bar_refuted(diagnosis_t *d) {
   return refuted;
 }
 
-// No scale of the turning is told that commands which the log misses, or noise that is fed back, could have
-// made; and of a log that misses commands none of the thrust by the turning alone.
+// Bars scales of the turning that missed commands, or noise that is fed back, could have made, and in a log
+// that misses commands scales of the thrust that only the turning shows.
 static done_t bar_one_way(const diagnose_job_t *job, diagnosis_t *d, bool *barred, why_t *why) {
   const bool slow = candidates_slow(&d->fit);
   *barred = false;
@@ -372,7 +376,7 @@ done_t diagnose(const diagnose_job_t *job, diagnosis_t *d, why_t *why) {
   tell(job, "looking at what is left");
   TRY(look_for_more(job, d, why));
   TRY(find_own(job, d, &d->extended, why));
-  for (int ch = 0; ch < CHANNELS; ch++) // names were spared a difference that is not told; who reads is not
+  for (int ch = 0; ch < CHANNELS; ch++) // names were spared a difference that is not told; the report is not
     if (d->differ[group_of(ch)].n == 0) d->own.may[ch] = 0.0;
   const verify_job_t names = held_out(job, d);
   return verify_held(&names, &d->nominal, &d->held_out, why);

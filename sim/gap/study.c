@@ -34,7 +34,7 @@ static done_t read_text(const char *path, char **text, why_t *why) {
 
 static done_t take_vehicle(study_t *s, why_t *why) {
   if (s->order.vehicle) {
-    TRY(model_read(s->order.vehicle, &s->vehicle, why)); // a folder, a device, no file: said there
+    TRY(model_read(s->order.vehicle, &s->vehicle, why)); // says if it is a folder, a device or no file
     TRY(read_text(s->order.vehicle, &s->vehicle_text, why));
     TRY(model_read_text(s->order.vehicle, s->vehicle_text, &s->vehicle, why));
     return controller_read(s->order.vehicle, s->vehicle_text, &s->vehicle, &s->flown_by, why);
@@ -59,8 +59,8 @@ static bool among(const char *log, const char *const *list, int n) {
   return false;
 }
 
-// The logs in order: to fit to, then held out. A flight that is fitted to twice would hide what differs
-// between flights.
+// Orders the logs: those to fit to, then those held out. A flight that is fitted to twice would hide what
+// differs between flights.
 static done_t order_logs(const study_order_t *o, const char **path, int *n_fit, int *n_held, why_t *why) {
   *n_fit = *n_held = 0;
   for (int i = 0; i < o->n_log; i++) {
