@@ -19,7 +19,7 @@
 typedef struct {
   study_order_t study;
   const char **hold_out;
-  const char *out, *json; // null: not said
+  const char *out, *json; // null: not given
   bool help, version;
   made_t made;
   char verdict[PATH_BYTES], page[PATH_BYTES], model[PATH_BYTES], curves[PATH_BYTES]; // in the folder `out`
@@ -115,7 +115,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 typedef struct {
   whole_files_t files;
   FILE *verdict, *page, *model, *curves, *json;
-  char *words; // for standard output, once the files are there
+  char *words; // for standard output, once the files are written
 } output_t;
 
 static bool is_folder(const char *path) {
@@ -123,7 +123,7 @@ static bool is_folder(const char *path) {
   return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
-// With those that it lies in.
+// Makes a folder and its parents. BAD_INPUT: cannot be made, or not a folder.
 static done_t make_folder(const char *path, why_t *why) {
   char part[PATH_BYTES] = "";
   for (size_t n = 1; path && n <= strlen(path); n++) {
@@ -138,7 +138,7 @@ static done_t make_folder(const char *path, why_t *why) {
   return DONE;
 }
 
-// All of them before the work begins: what cannot be written is said at once.
+// Opens all outputs before the work begins, so that one that cannot be written is refused at once.
 static done_t open_output(const order_t *o, bool refused, output_t *w, why_t *why) {
   TRY(make_folder(o->out, why));
   TRY(whole_files_open(&w->files, o->out ? o->verdict : NULL, &w->verdict, why));
@@ -193,14 +193,15 @@ static bool begins(const char *path, const char *text) {
   return ours;
 }
 
-// What an earlier run found must not stand beside a refusal; what is not ours stays.
+// Removes what an earlier run found, which must not lie beside a refusal. Files of other programs stay.
 static void remove_found(const order_t *o) {
   if (!o->out) return;
   if (begins(o->model, "# Written by gap: ")) (void)!remove(o->model);
   if (begins(o->curves, "effect,channel,channel_unit,")) (void)!remove(o->curves);
 }
 
-// What cannot be written now was said, or is of no weight beside the refusal.
+// Writes the refusal. Its own errors are ignored: either they were reported before, or the refusal matters
+// more.
 static void refuse(const order_t *o, const why_t *line) {
   output_t w = {.verdict = NULL};
   why_t why;
@@ -238,7 +239,7 @@ int main(int argc, char **argv) {
   static output_t out;
   why_t why = {""};
   bool begun = false;
-  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  signal(SIGPIPE, SIG_IGN); // a closed pipe is then an error like any other: no partial file stays
   done_t status = take_order(&order, argc, argv, &why);
   if (isatty(STDERR_FILENO)) order.study.progress = progress;
   if (status == DONE && order.help) fputs(USAGE, stdout);

@@ -1,4 +1,4 @@
-// advice.c - what to do now: use this, add that, fly the other.
+// advice.c - what to do now: what to use, what to add to the vehicle file, what to fly.
 #include "gap/8_report/report.h"
 
 #include "vehicle/frame_file.h"
@@ -31,7 +31,7 @@ static void advise_add(report_t *r) {
     note(&r->to_do, "add: nothing more to the vehicle file");
 }
 
-// A place or a state can be flown for; a time cannot, nor a line in the spectrum.
+// One can fly for more data at a place or in a state, but not at a time or for a line in the spectrum.
 static void advise_place(report_t *r, const cell_t *cell) {
   char where[REPORT_PLACE];
   report_place(cell, where);
@@ -52,8 +52,8 @@ static void advise_place(report_t *r, const cell_t *cell) {
     note(&r->to_do, "fly: the same again with more time %s, and as much beside it", where);
 }
 
-// First what tells the members of a family apart, the largest first; then what shows best what has no name;
-// then what shows an effect that these flights could not.
+// Says what tells a name (the largest share first) from its rivals; else what shows the unexplained residual
+// best; else what shows an effect that these flights could not.
 static void advise_fly(report_t *r) {
   for (int i = 0; i < r->n_finding; i++)
     if (r->finding[i].named->n_rival) {

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MATTERS_M    0.07 // farther from a ceiling its effect is below 5 % (thesis)
-#define BIN_ROWS_MIN 6    // of a range
-#define OUTSIDE      0.01 // of the rows, on each side, that no range reaches to
-#define TAIL         0.05 // of the sum of squares on each side of `where`
+#define MATTERS_M    0.07 // farther from a ceiling, its effect is below 5 % (thesis)
+#define BIN_ROWS_MIN 6    // a bin with fewer rows is dropped
+#define OUTSIDE      0.01 // share of the rows left out at each end of the coordinate
+#define TAIL         0.05 // share of the sum of squares left out at each end of `where`
 
 // --- held-out rows over a coordinate ----------------------------------------------------------------------
 
@@ -30,7 +30,7 @@ interval_t report_span(const set_t *s, const rows_t *rows, const model_t *m, int
   return span;
 }
 
-// The profile's coordinate of a held-out row; NaN: it is not there.
+// Returns the profile's coordinate of a held-out row; NaN: not in the log.
 static double at(const report_t *r, const profile_t *p, int row) {
   const set_t *const s = &r->study->diagnosis.held;
   const rows_t *const rows = set_rows(s, p->channel);
@@ -50,7 +50,7 @@ static void add_row(profile_t *p, int bin, const report_t *r, int i, double effe
   p->rows[bin] += 1.0;
 }
 
-// Sums become means; what has too few rows goes.
+// Turns the sums into means and drops bins with too few rows.
 static void close_bins(profile_t *p) {
   p->n = 0;
   for (int k = 0; k < REPORT_BINS; k++) {
@@ -64,7 +64,8 @@ static void close_bins(profile_t *p) {
   }
 }
 
-// What a picture spans: all rows but the outermost, or what matters and about as much beside it.
+// Returns the range of a picture: all rows but the outermost; or, if it is less than a third of that, `near`
+// with about its width on each side.
 static interval_t span_of(const report_t *r, const profile_t *p, const interval_t *near) {
   const set_t *const held = &r->study->diagnosis.held;
   const interval_t s =
@@ -74,8 +75,8 @@ static interval_t span_of(const report_t *r, const profile_t *p, const interval_
   return (interval_t){fmax(s.from, near->from - wide), fmin(s.to, near->to + 1.5 * wide)};
 }
 
-// A profile of held-out rows over its coordinate. effect: rows of what it adds, with their variance, or null.
-// near: null, or the part that matters.
+// Fills a profile with means of held-out rows over its coordinate. effect, variance: what the effect adds to
+// each row, and its variance, or null. near: the range that matters, or null.
 static void fill_profile(const report_t *r, const double *effect, const double *variance,
                          const interval_t *near, profile_t *p) {
   *p = (profile_t){.channel = p->channel, .coordinate = p->coordinate};
@@ -99,7 +100,7 @@ static int by_x(const void *a, const void *b) {
   return by_size(&((const mark_t *)a)->x, &((const mark_t *)b)->x);
 }
 
-// Where the middle 90 % of the effect's sum of squares lie.
+// Returns the range that holds the middle 90 % of the effect's sum of squares.
 static interval_t where_most(const report_t *r, const profile_t *p, const double *effect) {
   mark_t *const mark = malloc(((size_t)rows_of(r, p) + 1) * sizeof *mark);
   interval_t where = {0.0, 0.0};
@@ -127,8 +128,8 @@ static double square_correlation(const double *sum, double n) {
   return xx > 0.0 && yy > 1e-12 * sum[3] ? xy * xy / (xx * yy) : 0.0;
 }
 
-// How much of the effect a line in the coordinate, or in its size, tells, 0..1; -1: the coordinate is not
-// there.
+// Returns the squared correlation (0..1) of the effect with the coordinate or with its absolute value,
+// whichever is larger; -1 if no row has the coordinate.
 static double explained(const report_t *r, const profile_t *p, const double *effect) {
   double sum[2][5] = {{0.0}}, n = 0.0;
   for (int i = 0; i < rows_of(r, p); i++) {
@@ -143,7 +144,7 @@ static double explained(const report_t *r, const profile_t *p, const double *eff
   return n > 0.0 ? fmax(square_correlation(sum[0], n), square_correlation(sum[1], n)) : -1.0;
 }
 
-// Of a residual in a range; 0 without a row there.
+// Returns the rms of a residual in a range; 0 if it has no row.
 static double rms_in(const report_t *r, const profile_t *p, const interval_t *span, const double *residual) {
   double sum = 0.0, n = 0.0;
   for (int i = 0; i < rows_of(r, p); i++) {
@@ -157,10 +158,10 @@ static double rms_in(const report_t *r, const profile_t *p, const interval_t *sp
 
 // --- named effects ----------------------------------------------------------------------------------------
 
-// What the effect adds to each channel, and its variance by the standard errors of its sizes.
+// What the effect adds to each row, and the variance of that by the standard errors of its sizes.
 typedef struct {
   lines_t effect, variance;
-  const lines_t *now; // what the model with all names leaves
+  const lines_t *now; // the residual with all named effects
 } adds_t;
 
 static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, int k, adds_t *adds,
@@ -180,7 +181,7 @@ static done_t add_variance(const report_t *r, set_t *held, const finding_t *f, i
 
 static done_t find_adds(const report_t *r, set_t *held, const finding_t *f, adds_t *adds, why_t *why) {
   model_t m = r->study->diagnosis.extended;
-  fx_use_t without = *f->use; // others of its numbers may be another name's
+  fx_use_t without = *f->use; // its other numbers may belong to another name
   for (int k = f->from; k < f->to; k++)
     fx_use_resize(&without, k, f->in_file ? fx_use_size(f->in_file, k) : 0.0);
   if (f->in_file || f->fx->size_apart)
@@ -220,7 +221,8 @@ static bool is_wanted(const fx_t *fx, int coordinate) {
   return false;
 }
 
-// Of the coordinates that an effect depends on the one that tells most of it; else time.
+// Fills the finding's profile and rms over the coordinate that explains most of the effect, among those that
+// the effect depends on; else over time.
 static void find_place(const report_t *r, finding_t *f, double *const effect[CHANNELS],
                        double *const variance[CHANNELS]) {
   const int channel = channel_of(r, f->fx->in, effect);

@@ -1,4 +1,4 @@
-// finding.c - what is told of a name: its numbers, what it does, how sure it is.
+// finding.c - what the report says of a named effect: its numbers, what it does, how sure it is.
 #include "gap/8_report/report.h"
 
 #include "gap/5_infer/confirm.h"
@@ -18,7 +18,7 @@ static void take_size(finding_t *f, const fx_param_t *param, int k) {
   };
 }
 
-// A number that was tried at a few values; null: it has a standard error.
+// Adds the shape or the kind. none: why it has no standard error; null: it has one.
 static void take_other(finding_t *f, const fx_param_t *param, int which, double error, const char *none) {
   f->number[f->n_number++] = (number_t){.param = &param[which],
                                         .value = f->use->p[which],
@@ -68,7 +68,7 @@ static void say_instrument(finding_t *f) {
 
 // --- what it does -----------------------------------------------------------------------------------------
 
-// Of the number that is known worst, in parts of it; what has several may have some that are 0.
+// Returns the relative standard error of the effect's largest size; others may be 0.
 static double relative_error(const finding_t *f) {
   double value = 0.0, error = 0.0;
   for (int k = 0; k < f->fx->n_size; k++) {

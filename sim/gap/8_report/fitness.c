@@ -1,5 +1,5 @@
-// fitness.c - are these flights fit for the question: what was flown, what it could show and tell apart, what
-// the vehicle file lacks.
+// fitness.c - whether these flights fit the question: what was flown, what it could show and tell apart, and
+// whether the vehicle file lacks a ceiling.
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define DEGREES (180.0 / PI)
-#define OUTSIDE 0.05 // of the rows, on each side of what is told of a coordinate
+#define OUTSIDE 0.05 // share of the rows left out at each end of a coordinate's range
 
 #define add(text, ...) text_add(text, REPORT_LONG, __VA_ARGS__)
 
@@ -34,7 +34,7 @@ static void tell_logs(const report_t *r, char text[REPORT_LONG]) {
       add(text, "%s %s", without++ ? "," : n ? "; none of" : " none of", gap_channel[ch]);
 }
 
-// The widest arc that the nose went over in one flight, at most a full turn.
+// Returns the widest range of heading in one flight, degrees, at most 360; -1 without attitude.
 static double heading_deg(const set_t *s) {
   double most = -1.0;
   for (int f = 0; f < s->n_grid; f++) {
@@ -74,7 +74,7 @@ static void tell_shown(const report_t *r, char text[REPORT_LONG]) {
   if (n == 0) add(text, "no effect of typical size");
 }
 
-// One of the group: its name, and which of its numbers where it has several.
+// Adds one member of the group: the effect's name, and the number's name if the effect has several.
 static void tell_number(const candidate_t *c, int k, const char *before, char text[REPORT_LONG]) {
   int n;
   const fx_param_t *const param = fx_use_params(&c->use, &n);
@@ -82,7 +82,7 @@ static void tell_number(const candidate_t *c, int k, const char *before, char te
       c->n > 1 ? param[c->use.fx->size[k].param].name : "");
 }
 
-// Kinds of the same effects can be two groups.
+// True if the text has this group already: kinds of the same effects can form two groups.
 static bool is_told(const char *group, const char *text) {
   const size_t size = strlen(group);
   for (const char *at = strstr(text, group); at; at = strstr(at + 1, group))
@@ -113,7 +113,7 @@ static void tell_alike(const report_t *r, char text[REPORT_LONG]) {
 
 // --- a ceiling that the vehicle file lacks ----------------------------------------------------------------
 
-// Of where an upward range sensor sees something, of the samples from a range on; and of their ranges.
+// Sums over an upward range sensor's samples from a range on: height of what it sees, and range.
 typedef struct {
   double n, at, at_squares, range, range_squares;
 } seen_t;
@@ -135,8 +135,8 @@ static seen_t seen_from(const report_t *r, double from_m) {
   return sum;
 }
 
-// By the farther half of the samples: near its floor a sensor reads too much. NaN: nothing, or nothing that
-// stays.
+// Returns the height of a ceiling that the upward range sensor sees, m; NaN if it sees none. Uses the samples
+// beyond the mean range: near its shortest range a sensor reads too much.
 static double seen_ceiling_m(const report_t *r) {
   const seen_t all = seen_from(r, 0.0);
   if (!(all.n > 0.0)) return (double)NAN;
@@ -146,8 +146,8 @@ static double seen_ceiling_m(const report_t *r) {
   return spread < far.range_squares / far.n - pow(far.range / far.n, 2.0) ? mean : (double)NAN;
 }
 
-// The window of height in which more lift is left than elsewhere. Flights at other heights may differ by what
-// they weigh, which is no ceiling's.
+// Finds the window of height in which the lift residual differs most. Each flight's own constant is taken out
+// first: flights at different heights may differ in weight, which is no ceiling.
 static done_t lift_by_height(const diagnosis_t *d, cell_t of[CHANNELS], why_t *why) {
   const int height = COORDINATE_HEIGHT;
   const rows_t *const rows = &d->fit.smooth;
@@ -172,7 +172,7 @@ static done_t look_for_ceiling(report_t *r, why_t *why) {
   if (isfinite(r->study->vehicle.ceiling_m) || !d->nominal_flew || !residual_has(&d->fit, CH_FZ)) return DONE;
   TRY(lift_by_height(d, of, why));
   const cell_t cell = of[CH_FZ];
-  const bool grows = cell.size > 0.0 ? cell.last : cell.first; // more above is less below
+  const bool grows = cell.size > 0.0 ? cell.last : cell.first; // more lift above can show as less below
   if (!(cell.statistic > d->left.chance[unknown_cell(CH_FZ, height, false)] && grows)) return DONE;
   const double at_m = r->ceiling_seen_m = seen_ceiling_m(r);
   char seen[REPORT_TEXT] = "";

@@ -1,4 +1,4 @@
-// names_in_words.c - the page's part on what is missing: each name in words, and what has none.
+// names_in_words.c - the page's sections on each named effect, and on the residual that no name explains.
 #include "gap/8_report/page.h"
 
 #include <math.h>

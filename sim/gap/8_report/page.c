@@ -1,5 +1,4 @@
-// page.c - report.html: one page that needs nothing else, no script, no font, no address. Its style:
-// page.css.
+// page.c - report.html: one self-contained page without scripts, fonts or addresses. Its style: page.css.
 #include "gap/8_report/page.h"
 
 #include <math.h>
@@ -49,7 +48,7 @@ static void share_row(const char *name, double share, double most, const char *s
   fprintf(out, "<td>%s</tr>\n", channel);
 }
 
-// The names at a glance, and what they leave.
+// Writes a table of the share of the gap that each name explains, and of the share that is left.
 static void overview(const report_t *r, FILE *out) {
   double most = fmax(report_left(r), 1e-9);
   for (int i = 0; i < r->n_finding; i++) most = fmax(most, r->finding[i].named->share);

@@ -5,21 +5,21 @@
 #include "gap/8_report/report.h"
 #include "gap/8_report/svg.h"
 
-// A bar of a style (page.css), so much of the room that there is.
+// Writes a bar in a style of page.css; share: of the room that there is, 0..1.
 void page_bar(FILE *out, const char *style, double share);
 
-// A named effect: numbers, pictures, rivals.
+// Writes the section on a named effect: numbers, pictures, rivals.
 void page_finding(const finding_t *f, FILE *out);
-// What is left where it is largest; nothing if that is chance and something is named.
+// Writes where the residual that is left is largest; nothing if that is chance and an effect is named.
 void page_unknown(const report_t *r, FILE *out);
 
-// What the effect adds over its coordinate, with its band, and what was measured of it.
+// Draws what the effect adds over its coordinate, with its standard error and the measured points.
 void picture_curve(const finding_t *f, FILE *out);
-// The mean residual over the coordinate, before and after; from..to is marked unless both are 0.
+// Draws the mean residual over the coordinate, before and after; from..to is marked unless both are 0.
 void picture_place(const profile_t *p, double from, double to, const char *mark, FILE *out);
-// The residual of the held-out flights over time, one channel.
+// Draws one channel's residual of the held-out flights over time.
 void picture_time(const report_t *r, int channel, FILE *out);
-// The held-out track, measured and flown again.
+// Draws how far the held-out flight, flown again, is off the measured track on one axis.
 void picture_track(const resimulation_t *a, FILE *out);
 
 #endif

@@ -52,7 +52,8 @@ void picture_place(const profile_t *p, double from, double to, const char *mark,
   svg_close(&c);
 }
 
-// What lies between 1 in 500 from below and from above: a single peak must not flatten the rest.
+// Fits the frame to all values but the lowest and the highest 1 in 500, so that a single peak does not
+// flatten the rest.
 static void hold_most(chart_t *c, int n, const double *t, const double *v) {
   double *const s = malloc(((size_t)n + 1) * sizeof(double));
   for (int i = 0; s && i < n; i++) s[i] = v[i];
@@ -64,7 +65,7 @@ static void hold_most(chart_t *c, int n, const double *t, const double *v) {
   free(s);
 }
 
-// Flights one after the other, on one time that has no gaps.
+// Puts the flights one after the other on one time axis, without gaps of more than 2 s.
 void picture_time(const report_t *r, int channel, FILE *out) {
   const set_t *const s = &r->study->diagnosis.held;
   const rows_t *const rows = set_rows(s, channel);
@@ -99,7 +100,7 @@ static double squares(const double *v, int n) {
   return sum;
 }
 
-// The axis that the new model improves most; where it improves none, the one that the old one misses most.
+// Returns the axis on which the new model improves most; if it improves none, the old model's worst axis.
 static int axis_of(const resimulation_t *a) {
   int better = -1, worst = 2;
   double most = 0.0;

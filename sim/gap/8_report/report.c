@@ -1,4 +1,4 @@
-// report.c - what is to be said of a study.
+// report.c - gathers what the report says of a study.
 #include "gap/8_report/report.h"
 
 #include "base/folder.h"
@@ -15,7 +15,7 @@ static bool rivals_a_name(const report_t *r, const fx_t *fx) {
   return false;
 }
 
-// What keeps an effect from being told from these flights at all; null: nothing.
+// Returns why these flights cannot tell whether an effect is there; null if they can.
 static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   static const char *const obstacle[] = {
       [MADE_BY_FEEDBACK] = "feedback makes it: the set points as instruments do not show it",
@@ -37,7 +37,8 @@ static const char *obstacle_of(const report_t *r, const fx_t *fx) {
   return NULL;
 }
 
-// An effect that could be looked for, as this candidate: seen from `least` times its typical size on.
+// Adds an effect that was looked for to `shown` if its typical size would have been seen, else to `untested`.
+// least: the smallest size that would have been seen, over the typical size.
 static void take_looked_for(report_t *r, const fx_t *fx, const candidate_t *c, double least) {
   const diagnosis_t *const d = &r->study->diagnosis;
   int n;
@@ -65,7 +66,7 @@ static bool is_named(const diagnosis_t *d, const fx_t *fx) {
   return false;
 }
 
-// What the vehicle file has can be looked for, too: more of it, or less.
+// Sorts all other effects. More or less of those in the vehicle file can be looked for, too.
 static void take_others(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   for (int i = 0; i < fx_count && i < FX_MAX; i++) {

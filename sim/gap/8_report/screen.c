@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#define WARNINGS 4   // on the screen; the files have all
-#define COLUMNS  112 // of the long lines
+#define WARNINGS 4   // shown on the screen; the files have all
+#define COLUMNS  112 // of wrapped lines
 
 static void print_number(const number_t *k, const char *before, FILE *out) {
   const char *const unit = report_unit(k);
@@ -19,7 +19,7 @@ static void print_number(const number_t *k, const char *before, FILE *out) {
   if (isfinite(k->in_file)) fprintf(out, " (the file has %.3g)", k->in_file);
 }
 
-// A small p beside a name that others could have would say that the name is sure.
+// Leaves out the p value of an ambiguous name: a small one would suggest that the name is sure.
 static void print_numbers(const finding_t *f, FILE *out) {
   char p[P_TEXT];
   for (int k = 0; k < f->n_number; k++) print_number(&f->number[k], k ? ", " : "", out);
@@ -50,7 +50,7 @@ static void print_effect(const finding_t *f, FILE *out) {
   fprintf(out, "; to tell them apart, fly: %s\n", f->fly);
 }
 
-// Indented; broken after a word.
+// Prints a text, indented and wrapped between words.
 static void print_wrapped(const char *text, FILE *out) {
   int column = 0;
   for (const char *word = text; *word;) {
@@ -88,7 +88,7 @@ static void print_gap(const report_t *r, FILE *out) {
     const gap_part_t *const p = &s->diagnosis.held_out.channel[ch];
     if (!p->used) continue;
     fprintf(out, "  %-9s %-7s %9.3g %9.3g ", gap_channel[ch], gap_unit[ch], p->before, p->after);
-    // A floor above what is left would say that the model is better than it can be.
+    // A floor above what is left would suggest that the model is better than it can be.
     const left_over_t left = report_adequacy(r, ch);
     if ((left == LEFT_NOISE || left == LEFT_MORE) && p->after >= p->floor)
       fprintf(out, "%9.3g\n", p->floor);
@@ -111,7 +111,7 @@ static void print_untested(const report_t *r, FILE *out) {
   fputc('\n', out);
 }
 
-// A name by itself, or its family and what that does.
+// Prints each name, or its family and what that does.
 static void print_missing(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
@@ -121,7 +121,7 @@ static void print_missing(const report_t *r, FILE *out) {
   fprintf(out, "%s.\n", r->study->diagnosis.unknown ? ", and something that has no name" : "");
 }
 
-// Where nothing is said to be missing: what these flights would have shown.
+// Prints, if nothing is missing, what these flights would have shown.
 static void print_shown(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_shown; i++) {
     const shown_t *const s = &r->shown[i];

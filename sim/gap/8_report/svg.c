@@ -4,13 +4,13 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define WIDE   640.0 // on a page of 420 px, too, letters of 15 can be read
+#define WIDE   640.0 // even on a page 420 px wide, letters of 15 can be read
 #define HIGH   280.0
 #define LEFT   74.0
 #define RIGHT  12.0
 #define TOP    34.0
 #define BOTTOM 50.0
-#define POINTS 900 // of a line; longer ones are drawn by the least and the most of each part
+#define POINTS 900 // of a line; a longer one is drawn by the minimum and maximum of each part
 #define TICKS  6
 
 void html_text(FILE *out, const char *before, const char *text, const char *after) {
@@ -38,7 +38,7 @@ void svg_hold(chart_t *c, int n, const double *x, const double *y) {
   }
 }
 
-// 1, 2 or 5 times a power of ten.
+// Returns the distance between ticks: 1, 2 or 5 times a power of ten.
 static double tick_of(double span) {
   const double raw = span / TICKS, power = pow(10.0, floor(log10(raw)));
   const double share = raw / power;
@@ -94,7 +94,7 @@ void svg_close(chart_t *c) {
   fputs("</svg>\n", c->out);
 }
 
-// A sample of the style and its name, left to right above the frame.
+// Draws a sample of the style and its label above the frame, left to right.
 static void legend(chart_t *c, const char *style, const char *label, const char *sample) {
   if (!label) return;
   const double x = LEFT + 4.0 + 165.0 * c->n_label++;

@@ -1,4 +1,4 @@
-// unnamed.c - what is told of what has no name.
+// unnamed.c - what the report says of a residual that no name explains.
 #include "gap/8_report/report.h"
 
 #include <math.h>
@@ -69,7 +69,7 @@ static void add_sizes(char text[REPORT_DIFFER], const flights_differ_t *d, const
     const fx_param_t *const p = size_of(use, k);
     double largest = 0.0;
     for (int f = 0; f < d->n; f++) largest = fmax(largest, fabs(fx_use_size(&use[f], k)));
-    if (!(largest > 0.0)) continue; // it is about the others
+    if (!(largest > 0.0)) continue; // the candidate is about the other sizes
     text_add(text, REPORT_DIFFER, "%s%s ", first ? "" : "; ", p->name);
     first = false;
     for (int f = 0; f < told; f++)

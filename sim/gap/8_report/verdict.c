@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What stands under a key: a text, else a number.
+// A key and its value: the text, or the number if text is null.
 typedef struct {
   const char *key, *text;
   double number;
@@ -51,7 +51,7 @@ static void add_parameters(cJSON *effect, const finding_t *f) {
   }
 }
 
-// Only where it was tried.
+// Adds what the set points as instrument say, if they were tried.
 static void add_instrument(cJSON *effect, const finding_t *f) {
   const confirm_t *const a = &f->named->confirm;
   if (a->answer == CONFIRM_NOT_TRIED) return;
@@ -109,7 +109,7 @@ static void add_place(cJSON *o, const cell_t *c) {
   add(o, {.key = "y_from", .number = c->y_from_m}, {.key = "y_to", .number = c->y_to_m});
 }
 
-// In the time that `unknown` tells, or (outside) in all other.
+// Adds the effects that would explain the residual from from_s to to_s, or (outside) at all other times.
 static void add_acts_as(cJSON *o, const for_a_time_t *f) {
   cJSON *const list = cJSON_AddArrayToObject(o, "acts_as");
   for (int i = 0; i < f->as.n; i++) {
@@ -133,7 +133,7 @@ static void add_sizes(cJSON *list, const fx_use_t *use) {
   for (int k = 0; k < n; k++) cJSON_AddNumberToObject(all, param[k].name, use->p[k]);
 }
 
-// Of each group of channels in which flights differ.
+// Adds each group of channels in which flights differ.
 static void add_differ(cJSON *o, const report_t *r) {
   cJSON *const list = cJSON_AddArrayToObject(o, "from_flight_to_flight");
   for (int g = 0; g < GROUPS; g++) {
@@ -171,7 +171,7 @@ static void add_unknown(cJSON *root, const report_t *r) {
   if (d->left.also.statistic > 0.0) add_place(cJSON_AddObjectToObject(o, "also"), &d->left.also);
   add_acts_as(o, &d->for_a_time);
   add_differ(o, r);
-  // Of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
+  // The unit of the size; from and to are in the coordinate's (m, m/s, V, N, rad/s, s or Hz).
   cJSON_AddStringToObject(o, "unit", gap_unit[c->channel]);
 }
 
@@ -219,7 +219,7 @@ static void add_others(cJSON *root, const report_t *r) {
   }
 }
 
-// Which rows: of each log as they stand in it, and the samples that they became.
+// Adds how the verdict was made, and of each log the number of its rows and of the samples made of them.
 static void add_made(cJSON *root, const study_t *s) {
   double rows = 0.0;
   for (int i = 0; i < s->fit.n + s->held.n; i++) rows += (double)s->flight[i].rows;
@@ -234,7 +234,7 @@ static void add_made(cJSON *root, const study_t *s) {
   }
 }
 
-// What the vehicle file has: these effects were not looked for, their numbers were believed.
+// Adds the effects of the vehicle file with the file's numbers.
 static void add_in_model(cJSON *root, const model_t *m) {
   cJSON *const list = cJSON_AddArrayToObject(root, "already_in_model");
   for (int i = 0; i < m->n_fx; i++) {
@@ -269,7 +269,7 @@ cJSON *report_verdict(const report_t *r) {
 
 // --- refused ----------------------------------------------------------------------------------------------
 
-// Which of the order's files a message begins with, maybe behind an option; null: none.
+// Returns the file of the order that a message begins with, possibly after `--hold-out `; null: none.
 static const char *file_of(const char *text, const study_order_t *o) {
   const char *best = NULL;
   for (int i = -2; i < o->n_log + o->n_hold_out; i++) {
@@ -285,7 +285,7 @@ static const char *file_of(const char *text, const study_order_t *o) {
   return best;
 }
 
-// "flight.csv:812: column acc.z: not a number": the file, the line and the column that the message has.
+// Adds the file, line and column of a message such as "flight.csv:812: column acc.z: not a number".
 static void add_refused(cJSON *root, const char *text, const study_order_t *order) {
   cJSON *const o = cJSON_AddObjectToObject(root, "refused");
   const char *const file = file_of(text, order), *const column = strstr(text, "column ");

@@ -1,4 +1,4 @@
-// warnings.c - what is to be known beside the verdict.
+// warnings.c - the notes beside the verdict.
 #include "gap/8_report/report.h"
 
 #include "base/constants.h"
@@ -9,10 +9,10 @@
 
 #define LIFT_MIN     1.1 // thrust over weight
 #define LIFT_MAX     12.0
-#define LATE_LEAST_S 1e-3 // of an attitude: less is within what rows that come at uneven times leave
+#define LATE_LEAST_S 1e-3 // of an attitude: less is within the error of rows at uneven times
 #define LATE_SURE    4.0  // standard errors
-// Between moves of several flights: 84 sets of two other simulators have none that are further apart, and a
-// published log, whose velocity follows the place, 40 ms.
+// Largest difference between the velocity shifts of several flights. None is larger in 84 sets of two other
+// simulators; in a published log, whose velocity follows the position, it is 40 ms.
 #define MOVES_AGREE_S 0.01
 
 #define warn(r, ...) note(&(r)->warnings, __VA_ARGS__)
@@ -28,7 +28,7 @@ static void warn_of_logs(report_t *r) {
   }
 }
 
-// Of one log it is seen where the floor is, and of another it is not.
+// Warns if one log shows where the floor is and another does not.
 static void warn_of_floors(report_t *r) {
   const study_t *const s = r->study;
   const gap_flight_t *lowered = NULL, *other = NULL;
@@ -44,7 +44,8 @@ static void warn_of_floors(report_t *r) {
          report_log_name(r, lowered), lowered->floor_m, report_log_name(r, other));
 }
 
-// Most of what is left of the held-out flights is there all the time, and in the fitted ones it is not.
+// Warns, and returns true, if most of what is left of the held-out flights beyond the floor is a constant
+// that the fitted ones do not have.
 static bool warn_of_another(report_t *r, int ch) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const gap_part_t *const p = &d->held_out.channel[ch];
@@ -94,7 +95,7 @@ static void warn_of_gap(report_t *r) {
   }
 }
 
-// What the vehicle file could say, and does not, that makes the nominal flights calmer or wilder.
+// Returns what the vehicle file lacks that decides how much nominal flights shake; "": nothing.
 static const char *tells_the_pilot(const study_t *s) {
   const bool pilot = s->flown_by.kind == FLOWN_BY_UNKNOWN,
              rotors = frame_lacks_key(&s->vehicle, "rotors", "inertia_kgm2");
@@ -104,7 +105,7 @@ static const char *tells_the_pilot(const study_t *s) {
   return rotors ? "; rotors.inertia_kgm2 in the vehicle file would tell more of it" : "";
 }
 
-// The nominal flights are wilder than the log.
+// Warns if the nominal flights shake more than the log.
 static void warn_of_pilot(report_t *r) {
   const diagnosis_t *const d = &r->study->diagnosis;
   char where[REPORT_TEXT] = "";
@@ -230,9 +231,9 @@ static void warn_of_diagnosis(report_t *r) {
          1e3 * d->found.aligned_s, 1e3 * candidates_least(d->found.aligned, &d->fit));
 }
 
-// A model that fits every row may fly worse for it. Times as far off: right names made it 1.4 at most on the
-// logs of an outside examiner, an accelerometer's scale that was told as mass 3 to 8; the names of the
-// recorded ground flights, whose vehicle file is another vehicle's, 6.
+// Bound on the new model's height error when flown again, over the old model's: a model that fits every row
+// may fly worse. On an outside examiner's logs right names gave at most 1.4, and an accelerometer's scale
+// that was named mass 3 to 8; the names of the recorded ground flights, whose file is another vehicle's, 6.
 #define WORSE 2.0
 
 static void warn_of_flight_again(report_t *r) {
@@ -254,9 +255,9 @@ static void warn_of_flight_again(report_t *r) {
          report_length(again->before.height_m, before), report_length(again->after.height_m, after));
 }
 
-// The range is held against the log's own height. An estimator that is fed by the sensor below takes its bias
-// over, the sensor above adds its own, and nothing in the log tells this from a bias of one alone, unless it
-// shows the vehicle on the floor.
+// Warns that a range bias may be half as large. The range is compared with the log's own height. If that
+// comes from the downward sensor, it has this sensor's bias, and the upward sensor adds its own; the log
+// cannot tell this from a bias of one sensor alone, unless it shows the vehicle on the floor.
 static void warn_of_names(report_t *r) {
   const set_t *const s = &r->study->diagnosis.fit;
   bool open = false;
@@ -269,7 +270,8 @@ static void warn_of_names(report_t *r) {
            r->finding[i].fx->name, fx_use_size(r->finding[i].use, 0));
 }
 
-// Grams for kilograms, or newton of one motor for newton of all, beside numbers that still fly.
+// Warns of wrong units with which it still flies (grams for kilograms, newton of one motor for newton of
+// all), and of what the vehicle file lacks.
 static void warn_of_vehicle(report_t *r) {
   const model_t *const m = &r->study->vehicle;
   const double lift = m->thrust_max_N / (m->mass_kg * G_MPS2);
@@ -284,8 +286,9 @@ static void warn_of_vehicle(report_t *r) {
          folder_file(study_vehicle(r->study)), lacks);
 }
 
-// An acceleration that comes in the world's axes, or is made of the velocity, is turned into the body's by
-// the attitude. One that is late shows as a force: the thrust over mass, g, times the turning meanwhile.
+// Returns by how much the attitude is late, s (below 0: early), with its standard error. The attitude turns
+// an acceleration that is logged in world axes, or made from the velocity, into body axes. If it is late, a
+// lateral force shows: g, the thrust over mass, times the rotation during the delay.
 static double attitude_late_s(const report_t *r, double *stderr_s) {
   const set_t *const held = &r->study->diagnosis.held;
   double rr = 0.0, fr = 0.0, ff = 0.0;
@@ -302,20 +305,21 @@ static double attitude_late_s(const report_t *r, double *stderr_s) {
   return slope / G_MPS2;
 }
 
-// What a columns file is to say of it: what it says now, or what was moved because it says nothing, and this.
+// Returns the late_ms to write into the columns file: what it says now, or the shift that was made because it
+// says nothing, plus late_s.
 static double late_ms_told(const study_t *s, double late_s) {
   const column_t *const of = s->columns.of;
   const double said_s = of[SIG_QW].late_said ? of[SIG_QW].late_s : of[SIG_ROLL].late_s;
   return 1e3 * (said_s + s->flight[0].attitude_late_s + late_s);
 }
 
-// Each flight's velocity is moved by what it is late against the accelerometer; one logger's is late by one
-// time. True: it was said that they do not agree.
+// Warns, and returns true, if the flights' velocities were shifted by different times. Each is shifted by its
+// delay against the accelerometer, which is the same in all flights of one logger.
 static bool warn_of_moves(report_t *r) {
   const study_t *const s = r->study;
   double least_s = HUGE_VAL, most_s = -HUGE_VAL;
   for (int f = 0; f < s->fit.n + s->held.n; f++) {
-    if (s->flight[f].velocity_late_s == 0.0) continue; // nothing sure was seen
+    if (s->flight[f].velocity_late_s == 0.0) continue; // no sure delay was seen
     least_s = fmin(least_s, s->flight[f].velocity_late_s);
     most_s = fmax(most_s, s->flight[f].velocity_late_s);
   }
@@ -360,7 +364,7 @@ static void warn_of_bumps(report_t *r) {
 
 void report_warn(report_t *r) {
   warn_of_vehicle(r);
-  if (!warn_of_moves(r)) warn_of_attitude(r); // it would answer for a wrong move
+  if (!warn_of_moves(r)) warn_of_attitude(r); // a wrong shift would look like a late attitude
   warn_of_names(r);
   warn_of_diagnosis(r);
   warn_of_bumps(r);
