@@ -15,7 +15,7 @@ typedef struct {
   csv_file_t *csv;
   const char *path;
   int columns, time;
-  stand_t before, after; // of the row of the table that is read
+  stand_t before, after; // the file's rows around the table's present row
   bool ended;
   double late_ms, apart_ms; // sums over its rows (blocks_times_t)
   int fresh;
@@ -114,7 +114,7 @@ const char *blocks_path(const blocks_t *b, int column) {
   return column < 0 ? b->block[b->rows].path : of(b, column)->path;
 }
 
-// The file's next row, into `after`.
+// Reads the file's next row into `after`.
 static done_t step(block_t *block, why_t *why) {
   bool more;
   block->before = block->after;
@@ -132,7 +132,7 @@ static done_t step(block_t *block, why_t *why) {
                     block->before.t_ms);
 }
 
-// The newest of its rows is another one than in the last row of the table.
+// Adds to the sums if the file has a newer row than at the table's last row.
 static void count(block_t *block, double last_ms, double now_ms) {
   if (!block->before.any || !(block->before.t_ms > last_ms)) return;
   block->fresh++;
@@ -154,7 +154,7 @@ done_t blocks_next(blocks_t *b, bool *more, why_t *why) {
   return DONE;
 }
 
-// The heading jumps by a turn.
+// Returns the angle without the whole turns by which a heading may jump.
 static double near(double angle_deg, double to_deg) {
   return angle_deg - 360.0 * nearbyint((angle_deg - to_deg) / 360.0);
 }

@@ -1,9 +1,9 @@
 // blocks.h - the files of one flight that cfclient writes, one for each log block, as one table.
 //
-// Every file has a column `Timestamp` (or `timestamp`) in milliseconds of one clock. Rows are those of the
-// file with the motors' commands, else of the first; what the others hold is drawn to their times, between
-// rows that are no more than BLOCKS_APART_MS apart, and is a gap elsewhere. Ranges are not drawn: the newest
-// counts.
+// Every file has a column `Timestamp` (or `timestamp`) in milliseconds of one clock. The table has the rows
+// of the file with the motor commands, else of the first file. Values of the other files are interpolated
+// linearly to the times of these rows if their own rows are at most BLOCKS_APART_MS apart, and are gaps
+// elsewhere. Ranges are not interpolated: the newest value counts.
 #ifndef SIM_LOGS_BLOCKS_H
 #define SIM_LOGS_BLOCKS_H
 
@@ -21,7 +21,7 @@ MUST_CHECK done_t blocks_open(blocks_t **blocks, const char *const *path, int n,
 // A null pointer is allowed.
 void blocks_close(blocks_t *blocks);
 
-// As csv_find, csv_name, csv_line, csv_forgive_cut, csv_cut_off. The time is called as its file calls it.
+// As csv_find, csv_name, csv_line, csv_forgive_cut, csv_cut_off. The time is called as in its file.
 int blocks_find(const blocks_t *blocks, const char *name);
 const char *blocks_name(const blocks_t *blocks, int column);
 long blocks_line(const blocks_t *blocks);
@@ -35,8 +35,9 @@ const char *blocks_path(const blocks_t *blocks, int column);
 MUST_CHECK done_t blocks_next(blocks_t *blocks, bool *more, why_t *why);
 MUST_CHECK done_t blocks_number(const blocks_t *blocks, int column, csv_gap_t gap, double *value, why_t *why);
 
-// Of what is not drawn, so far: its own file has a new value so long before the row in which it stands first,
-// on average, and its rows are that far apart. Of the rows' own file both are 0.
+// Times of a column that is not interpolated, s, means so far. late_s: from a new value in its own file to
+// the table's row in which it first stands; apart_s: between its file's rows. Both are 0 in the file whose
+// rows the table has.
 typedef struct {
   double late_s, apart_s;
 } blocks_times_t;

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// What no flight and no bench shows is refused. A range sensor that is mounted higher than it says reads a
-// little less than nothing near a surface.
+// A value out of min..max is refused: no flight and no bench shows it. A range may be a little below 0: near
+// a surface a sensor reads so if it is mounted higher than stated.
 static const struct {
   const char *name;
   kind_t kind;
@@ -63,7 +63,7 @@ static const struct {
     [SIG_SET_YAW] = {"set_yaw", KIND_ANGLE, -1e3, 1e3, "", "deg"},
 };
 
-// What a motor command may be instead, and its bounds then.
+// Other kinds that a motor command may be of, and its bounds then.
 static const struct {
   kind_t kind;
   double min, max;
@@ -131,7 +131,8 @@ columns_t columns_crazyflie(void) {
     c.of[SIG_AX + i].late_s = 7.5e-3;
     c.of[SIG_GX + i].late_s = 2.8e-3;
   }
-  // The Multi-ranger's task fetches samples of 60 to 80 ms; downward, 25 ms of exposure (sense/range.h).
+  // The Multi-ranger's task fetches samples that are 60 to 80 ms old; downward, 25 ms of exposure
+  // (sense/range.h).
   c.of[SIG_RANGE].late_s = 70e-3;
   c.of[SIG_RANGE_DOWN].late_s = 13e-3;
   // The firmware's attitude.pitch is nose up positive; its quaternion is right-handed.
@@ -139,7 +140,8 @@ columns_t columns_crazyflie(void) {
   return c;
 }
 
-// cfclient calls the time so; the rest is what people log instead, packed or of another group.
+// Other names in a Crazyflie's log: cfclient's name of the time, and variables that people log instead,
+// packed or of another group.
 static const struct {
   signal_id_t signal;
   const char *name, *unit;
@@ -249,11 +251,11 @@ static done_t read_rows(toml_t root, bool *means, why_t *why) {
   return toml_refuse(root, "rows", why, "unknown word `%s`; allowed: instants, means", word);
 }
 
-// The motors' commands are all of one kind.
+// Refuses motor commands that are not all of one kind, and notes which kind they are of.
 static done_t read_kinds(toml_t t, columns_t *c, why_t *why) {
   static const struct {
     signal_id_t signal[4];
-    kind_t kind[4]; // of each, if the first is of its own kind
+    kind_t kind[4]; // that go together; else all must be of one kind
   } group[] = {{{SIG_M1, SIG_M2, SIG_M3, SIG_M4}, {KIND_MOTOR, KIND_MOTOR, KIND_MOTOR, KIND_MOTOR}},
                {{SIG_THRUST, SIG_TX, SIG_TY, SIG_TZ}, {KIND_FORCE, KIND_TORQUE, KIND_TORQUE, KIND_TORQUE}}};
   for (int g = 0; g < 2; g++) {
@@ -273,7 +275,7 @@ static done_t read_kinds(toml_t t, columns_t *c, why_t *why) {
   return DONE;
 }
 
-// Three of four motors say nothing of a vehicle.
+// Refuses a part of the four motors: it says nothing of the vehicle.
 static done_t check_motors(toml_t t, const columns_t *c, why_t *why) {
   for (int first = SIG_M1; first <= SIG_W1; first += SIG_W1 - SIG_M1) {
     int lacks = -1, there = -1;
@@ -298,7 +300,7 @@ static done_t read_columns(toml_t t, columns_t *c, why_t *why) {
 static const char *const ROOT_KEYS[] = {"rest_height_m", "acceleration", "rows", "columns", NULL};
 static const toml_kind_t COLUMNS_FILE = {"a columns file", "tools/columns/fly.toml", ROOT_KEYS};
 
-// Without a table of columns what the file says otherwise is said of the Crazyflie's own.
+// Without a table of columns the file's other keys apply to the Crazyflie's own columns.
 static done_t read_root(toml_t root, columns_t *c, why_t *why) {
   toml_t columns;
   TRY(toml_only(root, ROOT_KEYS, why));

@@ -1,4 +1,4 @@
-// columns.h - which column of a log is which of our signals, with units, signs and frames; one per
+// columns.h - which column of a log is which of our signals, with units, signs and frames; one file per
 // laboratory.
 //
 // A columns file (tools/columns/*.toml):
@@ -14,10 +14,10 @@
 //   pitch = {column = "pitch", unit = "deg", scale = -1}
 //   vbat = {value = 3.9, unit = "V"}             a battery that is always full, as simulators have
 //
-// What we read is  scale x cell in SI + offset  (offset in SI), as it was late_ms (-100 to 100; negative: the
-// row is early) before the row's time, motor commands too: the delay of a filter, 7.5 ms of the Crazyflie's
-// accelerometer and 2.8 ms of its gyro, or the age of a sample, 70 ms of its upward range and 13 ms of the
-// downward one (left out: what the vehicle file has as age_s). A row of means stands at the middle of its
+// The value is  scale x cell in SI + offset  (offset in SI), that of late_ms (-100 to 100; negative: the row
+// is early) before the row's time, of motor commands, too. late_ms is the delay of a filter (7.5 ms for the
+// Crazyflie's accelerometer, 2.8 ms for its gyro) or the age of a sample (70 ms for its upward range, 13 ms
+// for the downward one; if left out: age_s of the vehicle file). A row of means stands at the middle of its
 // period. Signals and units: columns.c. Attitude is a quaternion qw..qz that turns body into world (for the
 // inverse: scale = -1 on qx, qy, qz), or roll, pitch, yaw (turned in the order yaw, pitch, roll; pitch nose
 // down positive, as right-handed with y left).
@@ -76,14 +76,14 @@ typedef enum {
   SIG_SET_VY,
   SIG_SET_VZ,
   SIG_SET_YAW,
-  SIG_F1, // from here on: no columns of a log but made of them; newton of each motor, as commanded
+  SIG_F1, // from here on computed from columns of a log: newton of each motor, as commanded
   SIG_F2,
   SIG_F3,
   SIG_F4,
   SIG_COUNT
 } signal_id_t;
 
-#define SIG_COLUMNS SIG_F1 // so many can be columns
+#define SIG_COLUMNS SIG_F1 // number of signals that can be columns
 
 typedef uint64_t signals_t;
 #define SIGNAL_BIT(signal) ((signals_t)1 << (signal))
@@ -99,7 +99,7 @@ typedef struct {
   char unit[12];
   double factor;  // SI per unit of the cell, with sign and scale
   double offset;  // SI
-  double late_s;  // -0.1..0.1  between what was and its row
+  double late_s;  // -0.1..0.1  from the instant of the value to its row's time
   bool late_said; // by the columns file
   bool optional;  // may be missing in the CSV
   bool constant;  // no column: always `offset`

@@ -12,14 +12,14 @@
 typedef struct {
   FILE *stream;
   unsigned char block[CRC_STREAM_BLOCK];
-  size_t at, end;    // of what is read but not taken
+  size_t at, end;    // range in `block` that is read but not taken
   uint64_t taken;    // bytes since the start
   unsigned long crc; // of the bytes before the block's start
 } crc_stream_t;
 
 void crc_stream_init(crc_stream_t *s, FILE *stream);
 
-// n more bytes are there before the last four. n is small against the block.
+// True if n more bytes come before the last four. n must be small against the block.
 bool crc_stream_have(crc_stream_t *s, size_t n);
 
 // The next 1..8 bytes as a number; crc_stream_have said that they are there.
@@ -35,7 +35,7 @@ double crc_stream_value(crc_stream_t *s, char type);
 
 typedef enum { CRC_GOOD, CRC_WRONG, CRC_CUT_OFF } crc_end_t;
 
-// Behind the last record: is what is left the CRC of all before? CRC_CUT_OFF: it is not four bytes.
+// After the last record: whether the bytes left are the CRC of all before. CRC_CUT_OFF: they are not four.
 crc_end_t crc_stream_end(const crc_stream_t *s);
 
 #endif

@@ -182,13 +182,13 @@ static done_t solve(const pass_t *p, int axis, why_t *why) {
                      "%s: no row counts; allowed: controller.cmd_thrust of %g and more (--thrust-min), "
                      "%g s after a start",
                      p->log.table.path, p->job->thrust_min, EFFECTIVENESS_SETTLE_S);
-  // Filters round: what stands still leaves a little that is no movement.
+  // Filters round: a constant signal leaves a little that is no movement.
   const bool commanded = p->moved[COMMAND + axis] && s->uu > 0.0 && (n == 1 || s->vv > 0.0);
   if (!commanded || !p->moved[RATE + axis] || !(s->yy > 0.0))
     return error_set(why,
                      "%s: column %s: never moves while it counts (%ld ticks); allowed: a flight that turns",
                      p->log.table.path, effectiveness_names[(commanded ? RATE : COMMAND) + axis], r->used);
-  // Both unknowns in rad/s2 of their own regressor's rms, so that the matrix is well scaled.
+  // Regressors are scaled by the roots of their sums of squares, so that the matrix is well scaled.
   const double ku = sqrt(s->uu), kv = n == 2 ? sqrt(s->vv) : 1.0;
   const double A[4] = {1.0, s->uv / (ku * kv), s->uv / (ku * kv), 1.0}, b[2] = {s->uy / ku, s->vy / kv};
   double x[2] = {0.0, 0.0};

@@ -40,8 +40,8 @@ done_t effectiveness_log_find(effectiveness_log_t *p, why_t *why) {
   return DONE;
 }
 
-// As the firmware's mixer would have been commanded: the inverse of its plus and minus, roll and pitch
-// halved.
+// Reads the commands that the firmware's mixer would have got: the inverse of its sums and differences, with
+// roll and pitch halved.
 static done_t read_own(const effectiveness_log_t *p, double row[COLUMNS], why_t *why) {
   double own[OWN_COLUMNS];
   for (int i = 0; i < OWN_COLUMNS; i++)

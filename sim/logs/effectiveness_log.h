@@ -8,7 +8,7 @@
 enum { TIME, RATE, COMMAND = 4, THRUST = 7, COLUMNS };
 extern const char *const effectiveness_names[COLUMNS];
 
-// The app's own, where those are not there: gyro, right-handed, and the four forces.
+// The app's own columns, used if those are missing: gyro, right-handed, and the four forces.
 enum { OWN_TIME, OWN_RATE, OWN_FORCE = 4, OWN_COLUMNS = 8 };
 
 typedef struct {

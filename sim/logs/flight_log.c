@@ -64,7 +64,8 @@ static bool complete(const flight_log_t *log, const log_row_t *row) {
   return true;
 }
 
-// A sensor of 10 Hz stands in faster logs as a value that stays, or with gaps between.
+// Takes a new sample of the range. A log that is faster than the sensor (10 Hz) repeats it or has gaps
+// between.
 static void take_range(flight_log_t *log, const log_row_t *row) {
   const double range_m = row->v[SIG_RANGE];
   if (isnan(range_m) || range_m == log->range_m) return;
@@ -72,7 +73,7 @@ static void take_range(flight_log_t *log, const log_row_t *row) {
   log->range_new = true;
 }
 
-// The next row that is complete, into `after`.
+// Reads the next complete row into `after`.
 static done_t read_after(flight_log_t *log, why_t *why) {
   for (;;) {
     TRY(log_rows_next(&log->rows, &log->after, &log->any_after, why));
@@ -129,14 +130,14 @@ static void fill(flight_log_t *log, flight_tick_t *tick, double t_s) {
   unit_quaternion(&tick->v[SIG_QW]);
   tick->v[SIG_TIME] = t_s;
   tick->v[SIG_RANGE] = log->range_m;
-  // A command that stands in a row acts from then on; the mean over a period is what acted in it.
+  // The command in a row acts from then on; the mean over a period is what acted in it.
   tick->applied_N = mean || tick->split ? tick->v[SIG_THRUST] : log->command_N;
   log->command_N = tick->v[SIG_THRUST];
   tick->at_limit = log->at_limit;
   tick->range_new = log->range_new;
 }
 
-// The grid's end: a gap or the end of the file, and no row at or behind the tick.
+// True at the grid's end: a gap or the end of the file follows, and no row lies at or after the tick.
 static bool grid_ends(const flight_log_t *log, double t_s) {
   if (!log->any_before) return true;
   const double at_s = log->before.v[SIG_TIME];

@@ -1,9 +1,9 @@
 // flight_log.h - a recorded flight on the flight code's 100 Hz grid, in SI, tick by tick, in fixed memory.
 //
-// A log with three rows or more per tick: their mean; a slower one: straight lines between rows. Rows without
-// a signal that is needed (a bad cell is none) are left out and counted. Where rows are more than LOG_GAP_S
-// apart the flight is split: a new grid starts, the tick says so, and whoever filters starts again. Time that
-// does not increase is refused, never sorted.
+// With three rows or more per tick, a tick is their mean; in a slower log it is interpolated linearly. Rows
+// without a signal that is needed (a bad cell is no signal) are left out and counted. Where rows are more
+// than LOG_GAP_S apart the flight is split: a new grid starts, the tick says so, and filters must start
+// again. Time that does not increase is refused, never sorted.
 #ifndef SIM_LOGS_FLIGHT_LOG_H
 #define SIM_LOGS_FLIGHT_LOG_H
 
@@ -18,7 +18,7 @@ typedef struct {
   double applied_N;    // thrust command during the period that ends with the tick
   bool split;          // the first tick, or the first one after a gap
   bool at_limit;       // a motor was at full command during the period
-  bool range_new;      // SIG_RANGE was not there at the last tick
+  bool range_new;      // SIG_RANGE is newer than at the last tick
 } flight_tick_t;
 
 typedef struct flight_log flight_log_t;

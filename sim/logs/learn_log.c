@@ -20,7 +20,7 @@ typedef struct {
   float height_last_m;
 } pass_t;
 
-// What one tick tells, all through the same filter.
+// What one tick shows, all through the same filter.
 typedef struct {
   learn_sample_t sample; // as the learner sees it
   float lift_N;          // vertical share of the thrust in free air
@@ -34,8 +34,8 @@ void learn_job_init(learn_job_t *job, const model_t *vehicle, int surface) {
   job->param.cutoff_Hz = LEARN_CUTOFF_HZ;
   job->param.motor_tau_s = (float)vehicle->motor_tau_s;
   job->param.pos.mass_kg = job->stands_mass_kg = (float)vehicle->mass_kg;
-  // Weights to be typed in are to fit all flights alike; a random walk forgets within ten seconds what it
-  // does not see.
+  // No random walk: it forgets within ten seconds what it does not see, but weights that are typed in must
+  // fit all flights alike.
   job->param.learn.rls.q = 0.0f;
   // The shipped start weights are a ceiling's.
   if (surface == SURFACE_GROUND) job->param.curve.fixed = (rbf_weights_t){.w = {1.0f}};
@@ -83,8 +83,8 @@ static void look_at_surface(pass_t *p, const flight_tick_t *tick, float up, view
   view->sample.known = in_sight && zc_m >= p->job->param.learn.near_m;
 }
 
-// Far from the surface, but the rotors do not carry the vehicle: it stands on something.
-// Not with param.pos.mass_kg: with one that was set by hand all would seem to stand.
+// True if the vehicle is far from the surface but its rotors do not carry it: it stands on something. Not
+// judged by param.pos.mass_kg: with a mass set by hand it could seem to stand all the time.
 static bool stands(const learn_job_t *job, const view_t *view) {
   const float force_N = view->sample.force_N / job->param.pos.mass_kg * job->stands_mass_kg;
   return view->far && force_N > LEARN_STANDS_RATIO * view->sample.thrust_N;
@@ -167,7 +167,7 @@ double learn_mass_kg(const learn_mass_t *sum) {
 }
 
 static void teach(const learn_job_t *job, const view_t *view, void *into) {
-  // What may not teach is counted by the learner; nothing else is wrong with a checked set of parameters.
+  // The learner counts samples that may not teach; nothing else can fail with checked parameters.
   learn_t *const learn = into;
   if (learn_update(learn, &job->param.learn, &view->sample, 0.0f) != ST_OK || !job->points) return;
   fprintf(job->points, "%.5f,%.5f\n", (double)view->sample.zc_m, (double)learn->y);

@@ -14,7 +14,7 @@
 #include "vehicle/model.h"
 #include <stdio.h>
 
-#define LEARN_CUTOFF_HZ      8.0f // a flight changes its distance more slowly; what is above is the rotors
+#define LEARN_CUTOFF_HZ      8.0f // distances change more slowly in flight; what is faster is the rotors
 #define LEARN_FAR_M          0.2f // from here on the surface does nothing: thrust over specific force is the mass
 #define LEARN_NEAR_M         0.07f // "below 7 cm"
 #define LEARN_STANDS_RATIO   1.25f // force over thrust, far from any surface, with stands_mass_kg

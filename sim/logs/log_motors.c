@@ -15,7 +15,7 @@ static const signals_t NEWTON =
     SIGNAL_BIT(SIG_F1) | SIGNAL_BIT(SIG_F2) | SIGNAL_BIT(SIG_F3) | SIGNAL_BIT(SIG_F4);
 static const signals_t TORQUES = SIGNAL_BIT(SIG_TX) | SIGNAL_BIT(SIG_TY) | SIGNAL_BIT(SIG_TZ);
 
-// Rotors to thrust and torques, inverted.
+// Inverts the map from the rotors' forces to thrust and torques.
 static void unmix(log_motors_t *m, const frame_t *f) {
   double A[4][ROTORS];
   for (int i = 0; i < ROTORS; i++) {
@@ -32,7 +32,7 @@ static void unmix(log_motors_t *m, const frame_t *f) {
   }
 }
 
-// Why the vehicle's map cannot tell the commands in newton; empty: it can.
+// Writes why the vehicle's map cannot convert the commands to newton; empty: it can.
 static void map_lacks(const columns_t *c, const model_t *vehicle, bool speed, signals_t has,
                       char text[LOG_MOTORS_LACKS]) {
   const thrust_map_t *const map = &vehicle->map;
@@ -83,7 +83,7 @@ void log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *v
   if (m->kind >= LOG_MOTORS_EACH) *has |= NEWTON;
 }
 
-// The map's lower bound must not hide a gap.
+// Returns newton by the map, and NaN for a gap, which the map's lower bound would hide.
 static double map_N(const model_t *vehicle, double command, double vbat_V) {
   if (isnan(command) || (thrust_map_needs_voltage(&vehicle->map) && isnan(vbat_V))) return (double)NAN;
   return thrust_map_N(&vehicle->map, command, vbat_V);
@@ -125,7 +125,7 @@ bool log_motors_fill(const log_motors_t *m, const columns_t *columns, const mode
   if (m->kind >= LOG_MOTORS_EACH) fill_newton(m, vehicle, v);
   if (m->kind >= LOG_MOTORS_EACH && !m->total_logged)
     v[SIG_THRUST] = v[SIG_F1] + v[SIG_F2] + v[SIG_F3] + v[SIG_F4];
-  // A command of zero is no limit that hides anything: what it gives is known.
+  // A command of zero is not at a limit: the thrust that it gives is known.
   const bool pwm =
       m->kind == LOG_MOTORS_MIX_PWM || (m->kind == LOG_MOTORS_MAP && columns->motors == MOTORS_PWM);
   for (int i = 0; i < ROTORS && m->kind >= LOG_MOTORS_EACH; i++)

@@ -7,7 +7,7 @@
 #include "vehicle/model.h"
 
 typedef enum {
-  LOG_MOTORS_NONE,      // nothing, or nothing that the vehicle can tell in newton
+  LOG_MOTORS_NONE,      // nothing, or nothing that the vehicle can convert to newton
   LOG_MOTORS_TOTAL,     // thrust of all in newton
   LOG_MOTORS_TOTAL_PWM, // the mean command
   LOG_MOTORS_EACH,      // m1..m4 in newton
@@ -18,12 +18,12 @@ typedef enum {
 
 typedef struct {
   log_motors_kind_t kind;
-  bool total_logged;       // v[SIG_THRUST] is what the log says, whatever else there is
+  bool total_logged;       // v[SIG_THRUST] is the log's own, whatever else there is
   double unmix[ROTORS][4]; // newton of each rotor per newton and Nm
 } log_motors_t;
 
-// `has`: signals that the rows have; what the motors add is set in it. lacks: why what the log says of its
-// motors cannot be told in newton; empty: it can.
+// `has`: signals that the rows have; those that the motors add are set in it. lacks: why the log's motor
+// commands cannot be converted to newton; empty: they can.
 #define LOG_MOTORS_LACKS 200
 void log_motors_init(log_motors_t *m, const columns_t *columns, const model_t *vehicle, signals_t *has,
                      char lacks[LOG_MOTORS_LACKS]);

@@ -15,7 +15,7 @@ static bool has(const log_rows_t *r, signals_t bits) {
   return (r->has & bits) == bits;
 }
 
-// A Crazyflie's log may have it under another name.
+// Finds a signal under another name of a Crazyflie's log; -1: none.
 static int find_also(log_rows_t *r, signal_id_t signal) {
   column_t also = r->columns.of[signal];
   for (int i = 0; r->columns.crazyflie && also.column[0] && columns_also(signal, i, &also); i++) {
@@ -41,7 +41,7 @@ static done_t bind(log_rows_t *r, why_t *why) {
   return DONE;
 }
 
-// What rows deliver beyond what stands in the log.
+// Adds to r->has what rows deliver beyond the log's own columns.
 static done_t derive(log_rows_t *r, why_t *why) {
   if (has(r, TILT)) r->has |= QUATERNION;
   if (r->columns.acc != ACC_BODY && !has(r, QUATERNION)) r->has &= ~SIGNALS(SIG_AX, SIG_AZ);
@@ -81,7 +81,7 @@ void log_rows_close(log_rows_t *r) {
   table_close(&r->table);
 }
 
-// The first bad cell of a column as an error; `more` is said behind it.
+// Reports the first bad cell of a column as an error, with `more` appended.
 static done_t refuse_bad(const log_rows_t *r, signal_id_t signal, const char *more, why_t *why) {
   const bad_cells_t *const bad = &r->bad[signal];
   const char *const si = columns_si(&r->columns, signal);
@@ -129,8 +129,8 @@ static done_t take_bad(log_rows_t *r, signal_id_t i, double *value, why_t *why) 
   return i == SIG_TIME ? refuse_bad(r, i, "", why) : DONE;
 }
 
-// A controller asks for less than nothing and for more than there is, and the motor gives what it can; what
-// is far from both is no command.
+// Clips a motor command to its bounds: a controller may ask for less than nothing or more than there is, and
+// the motor gives what it can. False: no motor's signal, or too far out of bounds to be a command.
 static bool clip_command(log_rows_t *r, signal_id_t i, double min, double max, double *value) {
   const bool newton = r->columns.motors == MOTORS_N;
   if (i < SIG_M1 || i > SIG_M4) return false;
@@ -230,7 +230,7 @@ done_t log_rows_next(log_rows_t *r, log_row_t *row, bool *more, why_t *why) {
   read_attitude(r, row);
   acceleration_to_body(r, row->v);
   row->at_limit = log_motors_fill(&r->motors, &r->columns, &r->vehicle, row->v);
-  // A gap in the attitude does not break the chain of signs.
+  // After a gap in the attitude the signs go on from the last quaternion.
   if (isnan(row->v[SIG_QW]))
     for (int i = SIG_TIME; i < SIG_QW; i++) r->last.v[i] = row->v[i];
   else

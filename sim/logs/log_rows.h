@@ -9,12 +9,12 @@
 
 #define LOG_GAP_S 0.15 // rows that are farther apart have a gap between them
 
-#define LOG_CELLS_LOST 0.05 // of a column, at most: more of it would be made up between what is there
+#define LOG_CELLS_LOST 0.05 // of a column, at most: with more, too much of it would be interpolated
 
 // A cell that is no number or beyond what is plausible is taken as missing and counted.
-// LOG_STRICT: commands that the vehicle's map cannot tell in newton are refused, and so are time that stands
-// and a row cut off at the end. LOG_MEND: such commands have no newton, such a row is left out; for time that
-// stands the rows are handed on.
+// LOG_STRICT refuses commands that the vehicle's map cannot convert to newton, time that stands still, and a
+// row cut off at the end. LOG_MEND gives such commands no newton, hands on rows whose time stands still, and
+// leaves such a row out.
 typedef enum { LOG_STRICT, LOG_MEND } log_care_t;
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
   bool at_limit; // a motor is at full command
 } log_row_t;
 
-// Cells of a column that are no use.
+// The bad cells of a column.
 typedef struct {
   long n, line; // line: of the first
   double value; // of the first, SI; infinite: no number
@@ -40,9 +40,8 @@ typedef struct {
   int at[SIG_COUNT]; // column in the table, -1: none
   signals_t has;     // what rows deliver
   log_motors_t motors;
-  char lacks[LOG_MOTORS_LACKS]; // LOG_MEND: why commands are not told in newton; "": they are, or there are
-                                // none
-  bool any;                     // `last` is one
+  char lacks[LOG_MOTORS_LACKS]; // LOG_MEND: why commands are not in newton; "": they are, or there are none
+  bool any;                     // `last` is a row
   log_row_t last;
   double vbat_V; // the last one known
   long missing;  // cells
@@ -58,7 +57,7 @@ MUST_CHECK done_t log_rows_open(log_rows_t *r, const char *path, const columns_t
 // the unit that would fit. rows: that were read.
 MUST_CHECK done_t log_rows_check_cells(const log_rows_t *r, long rows, why_t *why);
 
-// Bad cells of all columns; `first` is where the first one is, and what they all are.
+// Returns the number of bad cells of all columns; `first` says where the first one is and how many there are.
 long log_rows_bad(const log_rows_t *r, why_t *first);
 
 // BAD_INPUT: no row of a table, a decimal comma, or time that is no number, not plausible or does not

@@ -40,11 +40,11 @@ typedef struct {
   const flight_param_t *param;
   field_t field[FIELDS_MAX];
   int n, motor[MOTORS];
-  // Columns of the stamps; calls, tunes and all of a CSV: -1 where it has none.
+  // Columns of the stamps; -1: the log has none (tunes, and in a CSV any).
   int calls, step_end, state, state_end, set, set_end, tunes;
   double has_state, has_set; // stamps of the last whole rows; NaN: none
   double tuned;              // sets of parameters taken so far; NaN: not known
-  bool known;                // all that went before
+  bool known;                // the history is known
   long since;                // calls since something was lost
   uint32_t call;             // number of the last one; 0: not known
   flight_in_t in;
@@ -60,7 +60,7 @@ static done_t find(const player_t *p, const char *name, int *column, why_t *why)
                       p->table.csv ? "fly --log-rate 1000 writes it" : "tools/usd/config.txt has it logged");
 }
 
-// The event whose rows hold the column; of a CSV it is all one.
+// Returns the event whose rows hold the column; CALL in a CSV.
 static int event_of(const player_t *p, int column) {
   for (int i = 0; p->table.usd && i < EVENTS; i++)
     if (usd_has(p->table.usd, EVENT[i], column)) return i;
@@ -80,7 +80,7 @@ static done_t find_stamps(player_t *p, why_t *why) {
   return find(p, "indiRec.setEnd", &p->set_end, why);
 }
 
-// The app's own logs say which column is which field.
+// Finds all columns; the app's own log groups say which field each one is.
 static done_t find_all(player_t *p, why_t *why) {
   char name[32];
   const section_log_t *log;
@@ -103,7 +103,7 @@ static done_t find_all(player_t *p, why_t *why) {
 
 // --- rows -------------------------------------------------------------------------------------------------
 
-// The card holds the bits, infinities too; who writes a CSV means numbers.
+// Reads a number. The card holds the exact bits, infinities too; a CSV must hold numbers.
 static done_t number(const player_t *p, int column, double *value, why_t *why) {
   return table_number(&p->table, column, p->table.usd ? CSV_GAP_MARKED : CSV_GAP_NAN, value, why);
 }
@@ -137,7 +137,7 @@ static done_t is_whole(const player_t *p, int head, int end, bool *whole, why_t 
   return DONE;
 }
 
-// The estimate or the set point, good for the calls from here on.
+// Takes a row of the estimate or of the set point, which holds for the calls after it.
 static done_t take_part(player_t *p, int event, replay_t *r, why_t *why) {
   double *const has = event == STATE ? &p->has_state : &p->has_set;
   const int head = event == STATE ? p->state : p->set, end = event == STATE ? p->state_end : p->set_end;
@@ -151,7 +151,7 @@ static done_t take_part(player_t *p, int event, replay_t *r, why_t *why) {
   return take_fields(p, event, why);
 }
 
-// A call of which all is there.
+// *complete: the call is whole, and the log has its state and set point.
 static done_t is_complete(const player_t *p, replay_t *r, bool *complete, why_t *why) {
   double state, set;
   int step = 0;
@@ -178,8 +178,8 @@ static done_t start(player_t *p, why_t *why) {
   return DONE;
 }
 
-// Calls that are not in the log. Few are leapt over, as missed ones are in flight; the flight code takes more
-// for what they would be there, an emergency, so that it starts anew. What was learned is kept.
+// Skips calls that are not in the log. A few are skipped as missed ones are in flight. The flight code would
+// take more for an emergency, as in flight, so it starts anew; what it learned is kept.
 static done_t leap(player_t *p, replay_t *r, long lost, why_t *why) {
   const learn_t learned = p->flight.outer.learn;
   r->missing += lost;
@@ -192,7 +192,7 @@ static done_t leap(player_t *p, replay_t *r, long lost, why_t *why) {
   return DONE;
 }
 
-// What lies between the last call and this one.
+// Handles what lies between the last call and this one: a new selection, or missing calls.
 static done_t follow(player_t *p, const flight_in_t *before, replay_t *r, bool first, why_t *why) {
   const uint32_t last = p->call;
   double call = 0.0;

@@ -1,19 +1,17 @@
 // replay.h - a recorded flight's inputs through the flight code: does it command what was logged?
 //
-// The log is one of two.
+// The log is one of two:
 //   CSV  every call of the app, a row each, with its groups indiIn, indiSet (what the flight code was given),
-//   indiRec
-//        and indi.m1..m4 (what it commanded): fly --log-rate 1000 writes it
-//   uSD  the events indiCall, indiState and indiSet (src/firmware/recorder.h), as tools/usd/config.txt has
-//   them logged
+//        indiRec and indi.m1..m4 (what it commanded): fly --log-rate 1000 writes it
+//   uSD  the events indiCall, indiState and indiSet (src/firmware/recorder.h), logged by tools/usd/config.txt
 //
-// Where the log begins with the call at which the controller was selected and has every call since, the
-// commands must be the same to the bit: the history is known. Behind calls that are not in the log, or where
-// it begins in mid flight, they cannot be promised to be: filters, ceiling, lesson and the guard's memory are
-// then not those of the flight. Those calls are counted apart, with how far off they are while the filters
-// settle and after. Missing calls are leapt over as missed ones are in flight.
+// If the log begins with the call at which the controller was selected and has every call since, the history
+// is known and the commands must be the same to the bit. After calls that are not in the log, or if it begins
+// in mid flight, they may differ, because filters, ceiling, lesson and the guard's memory are not those of
+// the flight. Those calls are counted apart, with how far off they are while the filters settle and after.
+// Missing calls are skipped as missed ones are in flight.
 //
-// The parameters are those of the whole flight; the log tells where others were taken.
+// The parameters are the same for the whole flight; the log tells where others were taken.
 #ifndef SIM_LOGS_REPLAY_H
 #define SIM_LOGS_REPLAY_H
 
@@ -31,11 +29,11 @@ typedef struct {
 } replay_part_t;
 
 typedef struct {
-  replay_part_t known;             // with all that went before
-  replay_part_t settling, settled; // without it: up to REPLAY_SETTLE_CALLS behind the loss, and beyond
+  replay_part_t known;             // calls with a known history
+  replay_part_t settling, settled; // without: up to REPLAY_SETTLE_CALLS after the loss, and later
   uint32_t first_call;             // of the log, since the controller was selected; 0: it does not say
-  long missing;                    // calls between two that were replayed
-  long torn;        // rows with two stamps that differ; they are not used, calls among them likewise
+  long missing;                    // calls missing between two that were replayed
+  long torn;                       // rows whose two stamps differ; they are not used, even if they are calls
   long incomplete;  // calls whose state or set point is not in the log; between two that were, also in
                     // `missing`
   long tuned_line;  // where other parameters were taken first; 0: nowhere

@@ -38,7 +38,7 @@ const char *usd_name(const usd_file_t *file, int column);
 // them, and nothing has changed.
 bool usd_only(usd_file_t *file, const char *const *events, int n);
 
-// That event has a column of this number.
+// True if that event has this column.
 bool usd_has(const usd_file_t *file, const char *event, int column);
 
 // The name of the event that the present row is a record of.
