@@ -1,5 +1,5 @@
-// curve_points.c - a measured curve: straight lines between its points, level beyond its ends. What it is off
-// 1 may be scaled.
+// curve_points.c - a measured curve: straight lines between its points, level beyond its ends. Its
+// difference from 1 may be scaled.
 #include "effects/fx.h"
 
 static double between(const curve_points_t *points, double distance_m, double radius_m) {

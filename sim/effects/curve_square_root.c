@@ -1,5 +1,5 @@
 // curve_square_root.c - 0.5 + 0.5 sqrt(1 + (R/d)^2/k) (Hsiao and Chirarattananon), from d = dmin R on: nearer
-// it has not been measured, and it would be infinite at contact.
+// it is held, because it has not been measured there and would be infinite at contact.
 #include "effects/fx.h"
 
 #include "base/larger.h"
@@ -11,7 +11,7 @@ static double ratio(const double *p, const curve_points_t *points, double distan
   return 0.5 + 0.5 * sqrt(1.0 + r * r / p[0]);
 }
 
-// At the distance d it is what it was at d `faster`; more: as it is where the excess is small, (R/d)^2 / 4k.
+// faster: at d it becomes what it was at d times `faster`. more: exact for a small excess, (R/d)^2 / 4k.
 static void vary(double *p, curve_points_t *points, double more, double faster) {
   (void)points;
   p[0] *= faster * faster / more;

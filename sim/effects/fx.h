@@ -16,17 +16,17 @@
 #define FX_MEMORY    8  // numbers that an effect keeps from tick to tick
 #define FX_MAX       32 // effects; all of them can be on at once
 #define FX_SIZE_MAX  3  // numbers of an effect that the discrepancy workflow estimates
-#define FX_SHAPE_MAX 8  // values that it tries for the one that is not estimated
+#define FX_SHAPE_MAX 8  // values that it tries for a number that it does not estimate
 #define FX_KIND_MAX  2
 #define FX_APART_MAX 10 // rivals of which an effect says how to tell it from them
 
 typedef struct {
   const char *name;
-  const char *unit; // "" for none; "number": whole, of something
+  const char *unit; // "" for none; "number": a whole number that selects something
   double min, nominal, max;
 } fx_param_t;
 
-// Whether the torque follows a thrust that is changed (fx_scale_rotor).
+// A parameter. 1: a rotor's torque follows its changed thrust, 0: it stays (fx_scale_rotor).
 #define FX_TORQUE                                                                                            \
   { "torque", "number", 0.0, 1.0, 1.0 }
 
@@ -34,8 +34,8 @@ static inline bool fx_is_number(const fx_param_t *p) {
   return strcmp(p->unit, "number") == 0;
 }
 
-// The last parameter of every curve: whether each rotor has its own distance from the surface, so that a
-// tilted vehicle is turned, or all have that of their middle, as simulators often have it.
+// The last parameter of every curve. 1: each rotor has its own distance from the surface, so that a tilted
+// vehicle is turned; 0: all have that of their middle, as in many simulators.
 #define CURVE_EACH                                                                                           \
   { "each", "number", 0.0, 1.0, 1.0 }
 
@@ -63,10 +63,10 @@ typedef struct {
   fx_param_t param[FX_PARAM_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
-  // Changes its numbers so that it adds (or takes) `more` times as much to the thrust, and that falls
-  // `faster` with the distance; null: there is no number to change. The points are a curve's own copy.
+  // Changes the curve's numbers so that its difference from 1 is `more` times as large and falls `faster`
+  // times as fast with the distance; null: there is no number to change. points: the curve's own copy.
   void (*vary)(double *p, curve_points_t *points, double more, double faster);
-  // For four rotors at once: adds ratio - 1 at distance_m[i] to ratio[i]; null: one by one.
+  // For four rotors at once: adds ratio - 1 at distance_m[i] to ratio[i]; null: call ratio for each.
   void (*add_excess)(const double *p, const double distance_m[ROTORS], double radius_m, double ratio[ROTORS]);
 } curve_t;
 
@@ -94,10 +94,10 @@ typedef struct {
   const axes_t *axes;         // of the body
   const d3_t *hub_b_m;        // the rotors' centres, from the centre of mass
   double rotor_radps[ROTORS]; // their speeds
-  const rigid_t *rigid; // plant/rigid.h: the centres, too, senses of turning (d_i), kf_Ns2, thrust_scale
+  const rigid_t *rigid;       // rotor centres, senses of turning (d_i), kf_Ns2, thrust_scale (plant/rigid.h)
 } fx_motion_t;
 
-// A rotor's hub, `arm` of the way from the centre of mass to it: 1 the hub, 0 the centre of mass.
+// The point at `arm` of the way from the centre of mass to a rotor's hub: 1 the hub, 0 the centre of mass.
 typedef struct {
   d3_t at_b_m, air_b_mps; // place, and velocity through the air
 } fx_hub_t;
@@ -110,7 +110,7 @@ static inline fx_hub_t fx_hub(const fx_motion_t *m, int rotor, double arm) {
 // numbers, and the effects change it one after the other.
 typedef struct {
   double mass_kg;              // > 0
-  d3_t cg_b_m;                 // the centre of mass, from where the vehicle file has it
+  d3_t cg_b_m;                 // the centre of mass, relative to that of the vehicle file
   d3_t inertia_scale;          // > 0: what the inertia about each axis is multiplied by
   double thrust_scale[ROTORS]; // what each rotor's thrust is multiplied by, >= 0
   double torque_scale[ROTORS]; // what its torque is multiplied by besides, >= 0
@@ -122,8 +122,8 @@ typedef struct {
   d3_t moment_b_Nm;            // about the centre of mass, body axes
 } fx_plant_t;
 
-// Multiplies a rotor's thrust. torque 1: its torque with it, as where it turns slower; 0: the torque stays,
-// as where its speed is what was commanded.
+// Multiplies a rotor's thrust. torque 1: its torque, too, as if the rotor turns slower; 0: its torque
+// stays, as if the rotor keeps the commanded speed.
 static inline void fx_scale_rotor(fx_plant_t *plant, int rotor, double scale, double torque) {
   plant->thrust_scale[rotor] *= scale;
   if (scale > 0.0 && torque < 0.5) plant->torque_scale[rotor] /= scale;
@@ -139,39 +139,40 @@ typedef struct {
   double *memory;          // FX_MEMORY numbers of this effect, 0 at the start
 } fx_tick_t;
 
-// What a sensor makes of the truth. Range: along the sensor's axis, in sight of one surface.
+// What the sensors read. Range: along the sensor's axis, with one surface in sight.
 typedef struct {
   d3_t acc_b_mps2;       // specific force
   double range_m;        // HUGE_VAL: nothing in sight
   double range_rate_mps; // of the true distance
 } fx_sensed_t;
 
-// How what is typical of a number grows with the vehicle, so that the effect accelerates a large one as it
-// does a Crazyflie, of which the nominal number is.
+// How a number's typical value grows with the vehicle, so that the effect accelerates a large vehicle as much
+// as a Crazyflie, for which the nominal value holds.
 typedef enum {
   FX_SAME,              // not at all: a sensor's error, a share, a time
-  FX_BY_MASS,           // a force, or one over a square of the velocity
+  FX_BY_MASS,           // a force, or a force over a velocity squared
   FX_BY_MASS_PER_SPEED, // a force over velocity and rotor speed
   FX_BY_INERTIA,        // a moment
   FX_BY_INERTIA_PER_SPEED,
   FX_BY_ARM,       // a length, as the rotors' distance from the centre
-  FX_BY_PER_WEIGHT // over a force
+  FX_BY_PER_WEIGHT // one over a force
 } fx_grows_t;
 
-// A number that the workflow estimates: of use->p, in steps small enough for a straight line. 0 is `absent`.
+// A number that the workflow estimates: use->p[param]. step: small enough to be linear. At a value of 0
+// the effect is absent.
 typedef struct {
   int param;
   double step;
   int sign;         // +1: it cannot be negative; 0: it can be either
-  double least;     // smaller than this it is never named (what feedback alone looks like)
+  double least;     // a smaller one is never named: feedback alone can look like it
   fx_grows_t grows; // its nominal number and its step
 } fx_size_t;
 
-// Of FX_TIMING one at most is named; of FX_WEIGHT, too, unless the log's turning tells them apart.
+// At most one effect of FX_TIMING is named, and one of FX_WEIGHT, unless the log's turning tells those apart.
 typedef enum { FX_ALONE, FX_TIMING, FX_WEIGHT } fx_group_t;
 
-// By what its numbers multiply the turning that is predicted. INERTIA: number k by 1 / (1 + number) about
-// axis k; TORQUE: number 0 by 1 + number about z.
+// How an effect's numbers scale the predicted angular acceleration. INERTIA: number k multiplies it by
+// 1 / (1 + number) about axis k; TORQUE: number 0 by 1 + number about z.
 typedef enum { FX_SCALES_NOTHING, FX_SCALES_INERTIA, FX_SCALES_TORQUE } fx_scales_t;
 
 // What the vehicle file and the log must say before the workflow looks for an effect.
@@ -184,10 +185,10 @@ enum {
   FX_NEEDS_VELOCITY = 1 << 5,
   FX_NEEDS_ATTITUDE = 1 << 6,
   FX_NEEDS_ACCELERATION = 1 << 7, // logged, not made of the velocity
-  FX_NEEDS_TURNING = 1 << 8,      // of some axis; without, it is nothing but a push
+  FX_NEEDS_TURNING = 1 << 8,      // about some axis; without it the effect is only a push
 };
 
-// What changes an effect and leaves its rival, or the other way round. Whichever of the two says it.
+// A flight that changes an effect and not its rival, or the other way round. One of the two says it.
 typedef struct {
   const char *rival, *fly;
 } fx_apart_t;
@@ -199,66 +200,68 @@ typedef struct {
   const char *brief;
   const char *law; // what it does, by the names of its numbers and those of fx_law_symbols
   const char *fly; // the manoeuvre that shows it
-  // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h), none: any but time;
-  // and the channel in which it is easiest to see (gap/2_predict/grid.h), null: the one in which it does
-  // most.
+  // Where it shows: the coordinates along which it changes (gap/5_infer/coordinates.h; none: any but time),
+  // and the channel in which it is easiest to see (gap/2_predict/grid.h; null: the one in which it does
+  // most).
   const char *over[2], *in;
   fx_apart_t apart[FX_APART_MAX]; // ends where there is no rival
   int needs;                      // FX_NEEDS_*
   fx_group_t group;
   bool lags;      // FX_TIMING: it slows the motors down; else it moves their commands in time
-  bool in_height; // a range sensor that has it gives it to an estimate of the height, too
-  // Control that cancels a disturbance commands what does not turn the vehicle: it looks like this effect
-  // with sizes above 0 (1) or below (-1). The first look, which finds out how much disturbance there is,
-  // takes of these what explains more than control could (gap/5_infer/beyond_control.h). 0: like no size.
+  bool in_height; // if a range sensor has this error, a height estimate from it has it, too
+  // Control that cancels a disturbance gives commands that do not turn the vehicle. This looks like the
+  // effect with sizes above 0 (1) or below 0 (-1), or not like it (0). The first look, which finds out how
+  // much disturbance there is, takes only what explains more than control could
+  // (gap/5_infer/beyond_control.h).
   int control_makes;
-  // What control gives in answer to a disturbance, late and by its own gains, looks like it: a name of it has
-  // to say more than such control (gap/5_infer/own_work.h).
+  // Control that answers a disturbance, late and by its own gains, looks like it: to be named, the effect
+  // must explain more than such control (gap/5_infer/own_work.h).
   bool answers;
-  fx_scales_t scales; // the turning: a prediction from commands of which a log misses some looks like it
-  // At the weight it does nothing: where a log misses commands the scale of the turning that is in it is left
-  // out, and the forces tell it.
+  fx_scales_t scales; // how it scales the turning; commands that the log misses look like it
+  // It does nothing at a thrust equal to the weight. If a log misses commands, its part that scales the
+  // turning is left out, and the forces tell it.
   bool about_weight;
-  // It changes the thrust of all rotors: where no force along z is compared it scales the turning, too.
+  // It changes the thrust of all rotors: if no force along z is compared, only its scale of the turning
+  // shows.
   bool scales_thrust;
-  bool by_thrust; // its load grows with the rotors' thrust: what scales that changes what it does, too
+  bool by_thrust; // its load grows with the rotors' thrust: effects that scale the thrust change it, too
   int n_size;
   fx_size_t size[FX_SIZE_MAX];
-  // The sizes from this one on may be missing without those before it: they are a candidate by themselves,
-  // which has other rivals. 0: all are one.
+  // The model may lack the sizes from this one on without those before: they are a candidate of their own,
+  // with other rivals. 0: all sizes are one candidate.
   int size_apart;
-  const char *apart_name;   // what people are told of these
+  const char *apart_name;   // the printed name of that candidate
   int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
   double shape[FX_SHAPE_MAX];
-  bool shape_by_cell; // these are of one cell of the battery, of which there may be several in a row
-  // The parameter that says which of a few kinds it is (where a force acts, whether the torque follows the
-  // thrust): each is tried with each shape. Nothing is between them. n_kind 0: there is one. Of a surface it
-  // is the last of the form's (fx_use_kind).
+  bool shape_by_cell; // the values are for one battery cell; there may be several in series
+  // The parameter that selects one of a few kinds (where a force acts, whether the torque follows the
+  // thrust): each is tried with each shape, and nothing between them. n_kind 0: there is one kind. For a
+  // surface it is the form's last parameter (fx_use_kind).
   int kind_param, n_kind;
   double kind[FX_KIND_MAX];
   int surface;              // SURFACE_*: takes form=; 0: takes the parameters below
   const char *form_initial; // where surface != 0
   int n_param;
   fx_param_t param[FX_PARAM_MAX];
-  // What the rotor's thrust is multiplied by, minus one. Several effects add (thesis 3.1.4).
+  // Returns the factor on the rotor's thrust, minus one. Several effects add (thesis 3.1.4).
   double (*excess)(const struct fx_use *use, const fx_place_t *place);
   // Six degrees of freedom only: adds to force and moment on the body.
   void (*load)(const struct fx_use *use, const fx_motion_t *motion, load_t *load);
   // Six degrees of freedom only: once at the beginning of every tick.
   void (*tick)(const struct fx_use *use, const fx_tick_t *tick, fx_plant_t *plant);
-  // It does not look at `tick`, nor at what other effects did, and sets neither wind nor force: what it does
-  // is done once, before those that are not steady.
+  // Its tick() reads neither `tick` (null) nor what other effects did, and sets neither wind nor force: it is
+  // called once, before the effects that are not steady.
   bool steady;
   // Six degrees of freedom only: changes what accelerometer and range sensors read.
   void (*sense)(const struct fx_use *use, fx_sensed_t *sensed);
 } fx_t; // a hook that is null does nothing
 
-// Adds a force that acts there.
+// Adds a force that acts at the hub.
 static inline void fx_push_hub(const fx_hub_t *hub, d3_t force_b_N, load_t *load) {
   load_add(load, force_b_N, d3_cross(hub->at_b_m, force_b_N));
 }
 
-// So many candidates is it.
+// Returns the number of its candidates: shapes times kinds.
 static inline int fx_variants(const fx_t *fx) {
   return EITHER(fx->n_shape > 0, fx->n_shape, 1) * EITHER(fx->n_kind > 0, fx->n_kind, 1);
 }
@@ -275,14 +278,14 @@ typedef struct fx_use {
   curve_points_t points;
 } fx_use_t;
 
-// What is to be flown to tell the two apart, in either order; a null pointer: neither says it.
+// Returns what to fly to tell the two apart, in either order; null: neither says it.
 const char *fx_apart(const fx_t *a, const fx_t *b);
 
 // Null pointers where there is no such name.
 const fx_t *fx_find(const char *name);
 const curve_t *curve_find(const char *name);
 
-// All rotors where their middle is.
+// Returns the places with all rotors at the distance of their middle.
 static inline fx_places_t fx_middle(const fx_places_t *at) {
   fx_places_t mean = {.radius_m = at->radius_m};
   double ceiling_m = 0.0, ground_m = 0.0;
@@ -317,7 +320,7 @@ fx_use_t fx_use(const fx_t *fx);
 // Changes the form; its parameters become nominal. The form's `surfaces` must hold the effect's.
 void fx_use_form(fx_use_t *use, const curve_t *form);
 
-// Its size k.
+// Size k of the effect (fx->size[k]).
 static inline double fx_use_size(const fx_use_t *use, int k) {
   return use->p[use->fx->size[k].param];
 }
@@ -328,12 +331,12 @@ static inline void fx_use_resize(fx_use_t *use, int k, double value) {
 // The parameters that use->p belongs to; *n gets their number.
 const fx_param_t *fx_use_params(const fx_use_t *use, int *n);
 
-// Which parameter says its kind.
+// Returns the parameter that selects its kind.
 static inline int fx_use_kind(const fx_use_t *use) {
   return use->form ? use->form->n_param - 1 : use->fx->kind_param;
 }
 
-// It has a shape, in the form that it has: points have none.
+// True if it has a shape in its present form; a form of points has none.
 bool fx_use_has_shape(const fx_use_t *use);
 
 #endif

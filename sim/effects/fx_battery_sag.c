@@ -1,5 +1,5 @@
 // fx_battery_sag.c - thrust falls with the voltage beyond what the thrust map says. zero: the
-// voltage of which the map is.
+// voltage at which the map holds.
 #include "effects/fx.h"
 #include "plant/battery.h"
 

@@ -1,6 +1,6 @@
-// fx_body_drag.c - drag of the body. What is linear is for vehicle files of simulators that have it, whatever
-// the rotors do; in a search rotor_drag and climb_inflow stand for it, whose rotors turn nearly alike all the
-// time.
+// fx_body_drag.c - drag of the body. The linear terms are for vehicle files of simulators that have linear
+// drag, whatever the rotors do; in a search rotor_drag and climb_inflow stand for them, because rotors turn
+// nearly alike all the time.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {

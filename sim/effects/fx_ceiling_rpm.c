@@ -1,5 +1,5 @@
-// fx_ceiling_rpm.c - under a ceiling the rotors turn faster than their thrust's gain says (plant/inflow.h),
-// at the same command, and take less torque and current by the motor's line.
+// fx_ceiling_rpm.c - under a ceiling the rotors turn faster at the same command than the gain in thrust says
+// (plant/inflow.h), and take less torque and current by the motor's line.
 #include "effects/fx.h"
 #include <math.h>
 

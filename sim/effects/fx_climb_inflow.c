@@ -1,5 +1,5 @@
-// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent, at `arm` of the way
-// from the centre of mass to each hub, where v is taken, too. At the hubs (1) it damps roll and pitch.
+// fx_climb_inflow.c - rotors lose thrust in a climb and gain it in a descent. v is taken and the force acts
+// at `arm` of the way from the centre of mass to each hub. At the hubs (1) it damps roll and pitch.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {

@@ -1,4 +1,4 @@
-// fx_delay.c - a pure delay between command and motors, besides the vehicle file's. To whole ticks.
+// fx_delay.c - a pure delay between command and motors, on top of the vehicle file's, in whole ticks.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {

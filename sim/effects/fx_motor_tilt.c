@@ -1,7 +1,7 @@
-// fx_motor_tilt.c - the axis of one rotor leans, as on a bent mount: its thrust T, of its speed in free air,
-// acts along (x, y, 1), which pushes the hub by T (x, y, 0). Its torque leans with it (1), or stays about z
-// (0), as simulators often have it. That the lift falls with the square of the angle is left out: 3 % at the
-// end of a range. A lean along the arm does what one of the rotor opposite does.
+// fx_motor_tilt.c - the axis of one rotor leans, as on a bent mount: its thrust T (at its speed, in free air)
+// acts along (x, y, 1), which pushes the hub by T (x, y, 0). Its torque leans with it (1) or stays about z
+// (0), as in many simulators. The loss of lift with the square of the angle is left out: 3 % at the end of
+// the range. A lean along the arm has the effect of one of the opposite rotor.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {

@@ -1,20 +1,20 @@
-// fx_rotor_drag.c - rotor drag: a force in the rotor plane against the velocity through the air, at `arm` of
-// the way from the centre of mass to each hub, where v is taken, too. At the hubs (1) it damps yaw, and
-// pitches where they lie above the centre of mass; at the centre of mass (0), as simulators often have it and
-// as recorded flights of a Crazyflie show it, it does neither. Source: the form of Faessler, Franchi,
+// fx_rotor_drag.c - rotor drag: a force in the rotor plane against the velocity through the air. v is taken
+// and the force acts at `arm` of the way from the centre of mass to each hub. At the hubs (1) it damps yaw,
+// and pitches the vehicle if they lie above the centre of mass; at the centre of mass (0), as in many
+// simulators and in recorded flights of a Crazyflie, it does neither. Source: the form of Faessler, Franchi,
 // Scaramuzza 2018 (doi 10.1109/LRA.2017.2776353), at the hubs.
 #include "base/few.h"
 #include "effects/fx.h"
 
-// One after the other.
+// Adds the elements one after the other.
 FEW_INLINE double plus(double sum, few_t a) {
   for (int i = 0; i < FEW_N; i++) sum += a[i];
   return sum;
 }
 
-// As fx_hub() and fx_push_hub() of each.
+// The same as fx_hub() and fx_push_hub() for each rotor.
 PAIR_COPIES static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
-  load_t all = *load; // what is written through a pointer may be `motion`, to a compiler
+  load_t all = *load; // a copy: to a compiler, *load may overlap *motion
   d3_t *const force = &all.force_b_N, *const moment = &all.moment_b_Nm;
   const d3_t air = motion->air_b_mps, rate = motion->rate_b_radps;
   const rigid_t *const r = motion->rigid;
@@ -25,7 +25,7 @@ PAIR_COPIES static void load(const fx_use_t *use, const fx_motion_t *motion, loa
     const few_t fx = -k * (air.x + (rate.y * z - rate.z * y)), fy = -k * (air.y + (rate.z * x - rate.x * z));
     force->x = plus(force->x, fx);
     force->y = plus(force->y, fy);
-    force->z += 0.0; // which -0 is not any more
+    force->z += 0.0; // turns -0 into 0
     moment->x = plus(moment->x, y * 0.0 - z * fy);
     moment->y = plus(moment->y, z * fx - x * 0.0);
     moment->z = plus(moment->z, x * fy - y * fx);

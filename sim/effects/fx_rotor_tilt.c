@@ -1,5 +1,5 @@
 // fx_rotor_tilt.c - the rotors' axes lean about their arms, all the same way round, so that thrust turns the
-// vehicle about z. Rotors of one sense that have more drag do as much.
+// vehicle about z. More drag of the rotors of one sense has the same effect.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {

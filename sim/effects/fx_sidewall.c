@@ -1,4 +1,4 @@
-// fx_sidewall.c - a wall beside the vehicle pulls it and turns its top towards itself, both falling with the
+// fx_sidewall.c - a wall beside the vehicle pulls it and turns its top towards itself; both decay with the
 // distance d of the centre of mass from the wall, a plane of constant y. Form and nominal numbers are
 // assumptions: nothing is published.
 #include "effects/fx.h"

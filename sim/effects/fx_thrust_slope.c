@@ -1,5 +1,5 @@
 // fx_thrust_slope.c - the curve from command to thrust is steeper than the vehicle file has it, or flatter.
-// At the weight it is right.
+// At a thrust equal to the weight it is the same.
 #include "effects/fx.h"
 
 static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {

@@ -1,5 +1,5 @@
-// fx_tof_floor.c - nearer than its floor a range sensor says its floor. share: 1, or less where only some
-// samples do.
+// fx_tof_floor.c - a range sensor reads its floor where the distance is shorter. share: 1, or less if only
+// some samples do.
 #include "effects/fx.h"
 
 static void sense(const fx_use_t *use, fx_sensed_t *sensed) {

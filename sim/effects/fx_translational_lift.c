@@ -1,6 +1,6 @@
-// fx_translational_lift.c - more thrust in forward flight, at `arm` of the way from the centre of mass to
-// each hub, where v is taken, too. At the hubs (1) a rotor that advances lifts more than one that retreats,
-// and a yawing vehicle is lifted, too.
+// fx_translational_lift.c - more thrust in forward flight. v is taken and the force acts at `arm` of the way
+// from the centre of mass to each hub. At the hubs (1) a rotor that advances lifts more than one that
+// retreats, and a yawing vehicle is lifted, too.
 #include "effects/fx.h"
 
 static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {

@@ -1,7 +1,7 @@
 // fx_wind.c - wind: a force in world axes, constant and with gusts, and air that moves (felt through the
-// drags). `plane` 1: of the constant force only the part in the rotors' plane, as a steady wind that is felt
-// through the rotors' drag: a vehicle that leans into it is not lifted by it. fx, fy, fz are in world axes
-// all the same.
+// drags). `plane` 1: only the part of the constant force in the rotors' plane acts, as of a steady wind that
+// is felt through the rotors' drag: it does not lift a vehicle that leans into it. fx, fy, fz are in world
+// axes all the same.
 //
 // The gusts are a first-order Gauss-Markov process of the given standard deviation on each axis, stepped at
 // ticks, exact for any tick.
@@ -13,7 +13,7 @@ static void tick(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) 
   plant->force_w_N = d3_add_scaled(plant->force_w_N, 1.0 - p[8], d3_of(p));
   plant->air_w_mps = d3_add(plant->air_w_mps, d3_of(p + 5));
   if (!(p[3] > 0.0)) return;
-  // memory[3] says that the process has begun: at its stationary spread, not at 0.
+  // memory[3] says whether the process has begun. It begins with its stationary spread, not at 0.
   const double keep = tick->memory[3] > 0.0 ? exp(-tick->span_s / p[4]) : 0.0;
   const double fresh = p[3] * sqrt(1.0 - keep * keep);
   for (int i = 0; i < 3; i++) tick->memory[i] = keep * tick->memory[i] + fresh * random_normal(tick->random);
