@@ -121,8 +121,8 @@ void svg_line(chart_t *c, int n, const double *x, const double *y, const char *s
   for (int i = 0; i < n; i += part) {
     int low = i, high = i;
     for (int k = i; k < n && k < i + part; k++) {
-      if (!(y[k] >= y[low])) low = k; // a gap goes first, so that it breaks the line
-      if (y[k] > y[high]) high = k;
+      if (isfinite(y[low]) && !(y[k] >= y[low])) low = k; // a gap stays the least, so that it breaks the line
+      if (!isfinite(y[high]) || y[k] > y[high]) high = k;
     }
     point(c, &pen, x[low < high ? low : high], y[low < high ? low : high]);
     if (low != high) point(c, &pen, x[low < high ? high : low], y[low < high ? high : low]);
