@@ -135,14 +135,14 @@ static void sweeps_add(sweeps_t *s) {
 
 // Finds D >= 0 such that the diagonal of A D A is nearest to `wanted`, by least squares relative to A_kk, the
 // diagonal of white noise. The sweeps keep every sign and always come nearer (De Pierro 1987). They end when
-// none moves by more than a hundredth of itself plus what a misfit adds.
-static void spread(parts_t *p, const double *wanted) {
+// none moves by more than a hundredth of itself plus what a misfit adds. False: no memory.
+static bool spread(parts_t *p, const double *wanted) {
   const int n = p->n;
   double *const D = p->wide;
   for (int k = 0; k < n; k++)
     D[k] = wanted[k] > 0.0 ? wanted[k] / (p->A[k * (n + 1)] * p->A[k * (n + 1)]) : 0.0;
   sweeps_t s;
-  if (!sweeps_make(&s, p, wanted)) return; // no memory: D stays too wide, not wrong
+  if (!sweeps_make(&s, p, wanted)) return false;
   for (double moved = HUGE_VAL; moved > 0.01;) {
     sweeps_add(&s);
     moved = 0.0;
@@ -154,6 +154,7 @@ static void spread(parts_t *p, const double *wanted) {
     }
   }
   free(s.square);
+  return true;
 }
 
 // Returns the variance by which another pilot's control may differ from the nominal one in a column. Its
@@ -166,14 +167,15 @@ static double other_pilots(const parts_t *p, int column, double square) {
 }
 
 // Builds D. An effect has one misfit, which its forms, much alike, share: with one each, a dozen forms of a
-// ground effect would hide what one of them does.
-static void widen(parts_t *p, const double *nominal, const double *blocks) {
+// ground effect would hide what one of them does. False: no memory.
+static bool widen(parts_t *p, const double *nominal, const double *blocks) {
   const candidates_t *const c = p->r->c;
   double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
-  if (!wanted) return;
+  if (!wanted) return false;
   for (int k = 0; k < p->n; k++) wanted[k] = fmax(fmax(nominal[k], blocks[k]) - p->A[k * (p->n + 1)], 0.0);
-  spread(p, wanted);
+  const bool spread_out = spread(p, wanted);
   free(wanted);
+  if (!spread_out) return false;
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
     const double misfit = fx->control_makes ? MISFIT_BESIDE : CANDIDATES_MISFIT;
@@ -184,14 +186,15 @@ static void widen(parts_t *p, const double *nominal, const double *blocks) {
       if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }
+  return true;
 }
 
-// Sets F and h from N = [L, sqrt(D)]; D gives as many columns as candidates have. False: no memory or
+// Sets F and h from N = [L, sqrt(D)]; D gives as many columns as candidates have. FAILED: no memory, or no
 // solution.
-static bool inform(const parts_t *p, information_t *f) {
+static done_t inform(const parts_t *p, information_t *f, why_t *why) {
   const int n = p->n, flights = p->r->nominal ? p->r->nominal->n : 0, m = n + flights;
   double *const N = calloc((size_t)(n * m + m * m + n * m + m), sizeof(double));
-  if (!N) return false;
+  if (!N) return error_failed(why, "out of memory");
   double *const C = N + n * m, *const M = C + m * m, *const z = M + n * m;
   for (int i = 0; i < n; i++) {
     N[i * m + i] = sqrt(p->wide[i]);
@@ -220,7 +223,7 @@ static bool inform(const parts_t *p, information_t *f) {
     }
   }
   free(N);
-  return good;
+  return good ? DONE : error_failed(why, "what feedback makes of the effects has no covariance");
 }
 
 void information_free(information_t *f) {
@@ -246,11 +249,10 @@ done_t information_make(information_t *f, const round_t *r, why_t *why) {
       p.typical[r->c->candidate[i].first + k] = r->c->candidate[i].typical[k];
   scaled(&p, r->gram.total, p.A, p.g);
   feedback(&p, nominal, A, g);
-  const bool summed = block_scores(&p, blocks);
-  widen(&p, nominal, blocks);
-  const bool good = summed && inform(&p, f);
+  const bool known = block_scores(&p, blocks) && widen(&p, nominal, blocks);
+  const done_t status = known ? inform(&p, f, why) : error_failed(why, "out of memory");
   free(room);
-  return good ? DONE : error_failed(why, "out of memory");
+  return status;
 }
 
 double evidence_log(const information_t *f, int n, const int *column, const double *p, const bool *positive) {
