@@ -103,10 +103,11 @@ bool score_harms(const score_t *j, const choice_t *without, const choice_t *with
   double before[GROUPS], after[GROUPS];
   left_by_group(j, without, before);
   left_by_group(j, with, after);
+  const double by_chance = -2.0 * log(SELECT_ALPHA); // a likelihood so small, in squares
   double taken = 0.0;
   for (int i = 0; i < GROUPS; i++) taken += fmax(before[i] - after[i], 0.0);
   for (int i = 0; i < GROUPS; i++)
-    if (after[i] > before[i] + HARM * (before[i] + taken) + 10.0) return true;
+    if (after[i] > before[i] + HARM * (before[i] + taken) + by_chance) return true;
   return false;
 }
 

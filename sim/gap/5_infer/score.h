@@ -34,8 +34,9 @@ bool choice_has(const choice_t *choice, int candidate);
 // Returns the sum of squares left on half-flights that were not fitted to. halves: by half-flight, or null.
 double score_left(const score_t *j, const choice_t *choice, double *halves);
 
-// True if the choice `with` leaves more of some group of channels, by more than 10 and a twentieth of it and
-// of what it takes from the others (HARM): what is right in one group is not wrong in another.
+// True if the choice `with` leaves more of some group of channels, by more than chance (SELECT_ALPHA) and a
+// twentieth of it and of what it takes from the others (HARM): what is right in one group is not wrong in
+// another.
 bool score_harms(const score_t *j, const choice_t *without, const choice_t *with);
 
 // Returns the sum of squares left on the rows to which the choice is fitted.

@@ -73,7 +73,7 @@ static bool add_best(select_t *t) {
 // one; -1: none.
 static int swap_one(select_t *t) {
   choice_t *const choice = &t->round.choice;
-  double best = left_of(t, choice) - 2.0;
+  double best = left_of(t, choice) - 2.0; // a number takes as much by chance (Akaike): swaps end
   choice_t better = {.n = -1};
   for (int i = 0; i < choice->n; i++) {
     const choice_t rest = choice_without(choice, choice->of[i]);

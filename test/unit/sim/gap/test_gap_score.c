@@ -207,7 +207,7 @@ TEST(gap_score_sees_harm_in_one_group_of_channels) {
   }
 }
 
-// A twentieth of what is left in the group and of what is taken elsewhere, and ten: of 3600 squares in
+// A twentieth of what is left in the group and of what is taken elsewhere, and 9.2: of 3600 squares in
 // turning 190, and beside a force of 900 squares 45 more, of 3600 squares 180. The noise is without the
 // column's part, and what the column does of the wrong sign is two to three times its squares.
 TEST(gap_score_takes_more_than_a_twentieth_for_harm) {
