@@ -219,8 +219,8 @@ static bool is_of(const lagged_t *m, const lag_t *lag, double delay_s) {
 // needed again and again.
 static lagged_t *place_of(grid_t *g) {
   lagged_t *const first = &g->motors[0];
-  if (!first->thrust_N[0] || isnan(first->delay_s)) return first;
-  lagged_t *const m = &g->motors[1 + g->motors_used++ % (GRID_MOTORS - 1)];
+  const bool is_free = !first->thrust_N[0] || isnan(first->delay_s);
+  lagged_t *const m = is_free ? first : &g->motors[1 + g->motors_used++ % (GRID_MOTORS - 1)];
   if (m->lent) *m = (lagged_t){.lent = false};
   return m;
 }
