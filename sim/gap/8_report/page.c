@@ -60,7 +60,7 @@ static void overview(const report_t *r, FILE *out) {
     const finding_t *const f = &r->finding[i];
     share_row(f->name, f->named->share, most, "after", gap_channel[f->profile.channel], out);
   }
-  share_row("left", report_left(r), most, "before", "", out);
+  share_row("left, with noise", report_left(r), most, "before", "", out);
   html_text(out, "</table><p class=quiet>In the formulas below: ", fx_law_symbols, ".</p></section>\n");
 }
 

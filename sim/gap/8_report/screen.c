@@ -150,7 +150,7 @@ void report_words(const report_t *r, FILE *out) {
   if (r->fitness.n) fputc('\n', out);
   print_verdict(r, out);
   for (int i = 0; i < r->n_finding; i++) print_effect(&r->finding[i], out);
-  if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap\n", 100.0 * report_left(r));
+  if (r->n_finding) fprintf(out, "\nleft: %.3g %% of the gap, noise among it\n", 100.0 * report_left(r));
   if (r->study->diagnosis.unknown) print_unknown(r, out);
   print_gap(r, out);
   print_untested(r, out);
