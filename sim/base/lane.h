@@ -1,4 +1,4 @@
-// lane.h - how many vehicles are moved side by side, where the processor can.
+// lane.h - how many vehicles are simulated side by side, and whether the processor can do it.
 #ifndef SIM_BASE_LANE_H
 #define SIM_BASE_LANE_H
 
@@ -6,7 +6,7 @@
 
 #define LANES 8
 
-// Of the C library what eight numbers call one by one (lane.hpp, lane_c.hpp): of one number and of two.
+// C library functions, of one and of two arguments, that are called lane by lane (lane.hpp, lane_c.hpp).
 // clang-format off
 #define LANE_LIBRARY(X) \
   X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(exp) X(exp2) X(expm1) \
@@ -14,7 +14,7 @@
 #define LANE_LIBRARY_OF_TWO(X) X(pow) X(hypot) X(atan2) X(fmod) X(copysign) X(fmin) X(fmax)
 // clang-format on
 
-// Whether this processor has what lane.hpp needs.
+// True if this processor has what lane.hpp needs: AVX2.
 static inline bool lane_possible(void) {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx2");
@@ -23,7 +23,7 @@ static inline bool lane_possible(void) {
 #endif
 }
 
-// And for lanes of AVX-512: all but the first processors with it.
+// True if it also has what lanes of AVX-512 need; only the first such processors lack it.
 static inline bool lane_has_512(void) {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
@@ -33,7 +33,7 @@ static inline bool lane_has_512(void) {
 #endif
 }
 
-// The widest registers that it has for them; 0: none.
+// The width of the widest registers for lanes, bits; 0: none.
 static inline int lane_bits(void) {
 #ifdef __x86_64__
   return !lane_possible() ? 0 : lane_has_512() ? 512 : 256;

@@ -1,18 +1,20 @@
-// lane.hpp - numbers of eight vehicles side by side, and C compiled for them: after this header a `double` is
-// eight. To be included by one source alone, first and outside of every namespace; what follows it belongs
-// into a namespace of its own, so that nothing of it meets the same names for one vehicle.
+// lane.hpp - numbers of eight vehicles side by side: C that follows this header is compiled for eight, as
+// each `double` stands for eight. Exactly one source may include it, first and outside of every namespace;
+// the code that follows belongs in a namespace of its own, so that its names do not collide with those for
+// one vehicle.
 //
 // Each lane gets the bits that it would get alone: the same operations in the same order, nothing fused.
-// Where code branches on a number, the lanes may part. Those that are fewer leave: `lanes_in` says who is
-// still in, what the others compute from there on is of no use, and the caller moves them one by one. So what
-// compiles is right; what parts them often is slow, and says where() in place of `? :` (base/where.h).
-// Needs AVX2 (-mavx2); with AVX-512 (-mavx512f) eight numbers are one register, not two.
+// Where code branches on a number, the lanes may disagree. The minority then leaves: `lanes_in` holds the
+// lanes that remain, the results of the others are meaningless from there on, and the caller moves those one
+// by one. So whatever compiles is correct. Code on which lanes often disagree is slow and should use where()
+// instead of `? :` (base/where.h). Needs AVX2 (-mavx2); with AVX-512 (-mavx512f) eight numbers are one
+// register, not two.
 #ifndef SIM_BASE_LANE_HPP
 #define SIM_BASE_LANE_HPP
 
 #include "base/lane.h"
 
-// All that knows a plain double.
+// All headers that use a plain double.
 #include <immintrin.h>
 #include <limits.h>
 #include <math.h>
@@ -23,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The places of headers of which lanes have their own: see below.
+// Include guards of headers that lanes replace by their own version, below.
 #define SIM_BASE_PAIR_H
 #define SIM_BASE_WHERE_H
 
@@ -33,10 +35,10 @@ namespace {
 
 typedef double number_t; // of one vehicle
 
-// Lanes 0 to 7 that took part in every branch so far.
+// The lanes (bits 0 to 7) that took part in every branch so far.
 thread_local unsigned lanes_in = 0;
 
-// As a condition a comparison is what most lanes say; the others leave.
+// A comparison used as a condition: returns what most lanes say; the other lanes leave.
 LANE bool vote(unsigned of_lanes) {
   const unsigned say = of_lanes & lanes_in;
   if (say == 0 || say == lanes_in) return say != 0;
@@ -45,7 +47,7 @@ LANE bool vote(unsigned of_lanes) {
   return most;
 }
 
-// What of them a processor has instructions for.
+// The operations for which a processor has instructions.
 #ifdef __AVX512F__
 #include "base/lane_512.hpp"
 #else
@@ -68,7 +70,7 @@ LANE lane_t &operator/=(lane_t &a, lane_t b) {
 LANE bool any_of(truth_t holds) {
   return (holds.bits() & lanes_in) != 0;
 }
-// Who is not in may have any i.
+// Lanes that have left may have any i.
 LANE lane_t element_at(const lane_t *list, lane_t i) {
   number_t x[LANES], at[LANES];
   memcpy(at, &i, sizeof at);
@@ -76,9 +78,9 @@ LANE lane_t element_at(const lane_t *list, lane_t i) {
   return lane_of(x);
 }
 
-// --- the C library's -----------------------------------------------------------------------------------
+// --- the C library -------------------------------------------------------------------------------------
 
-// One by one, by the library itself.
+// Calls the library lane by lane.
 template <typename f_t> LANE lane_t each(f_t f, lane_t a, lane_t b) {
   number_t x[LANES], y[LANES];
   memcpy(x, &a, sizeof x);

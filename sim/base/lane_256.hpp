@@ -3,7 +3,7 @@
 #define SIM_BASE_LANE_256_HPP
 
 struct truth_t {
-  __m256d lo, hi; // all bits of a lane, or none
+  __m256d lo, hi; // per lane all bits set, or none
   LANE unsigned bits() const {
     return (unsigned)_mm256_movemask_pd(lo) | (unsigned)_mm256_movemask_pd(hi) << 4;
   }
@@ -25,7 +25,7 @@ struct lane_t {
   lane_t() = default;
   LANE lane_t(__m256d l, __m256d h) : lo(l), hi(h) {}
   constexpr LANE lane_t(number_t a) : lo{a, a, a, a}, hi{a, a, a, a} {}
-  // A whole number of it: that of the first lane; those that have another leave.
+  // As a whole number: the first lane's; lanes with another one leave.
   explicit operator int() const;
 };
 
@@ -62,7 +62,7 @@ LANE lane_t operator-(lane_t a) {
   return {_mm256_xor_pd(a.lo, sign), _mm256_xor_pd(a.hi, sign)};
 }
 
-// a where a comparison holds, elsewhere b.
+// a where the comparison holds, elsewhere b.
 LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
   return {_mm256_blendv_pd(b.lo, a.lo, holds.lo), _mm256_blendv_pd(b.hi, a.hi, holds.hi)};
 }
@@ -79,7 +79,7 @@ LANE lane_t fabs(lane_t a) {
   return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
 }
 
-// 2^n, of a whole number n that is in the lowest bits of x.
+// 2^n for a whole number n that stands in the lowest bits of x.
 LANE lane_t exp2_of_bits(lane_t x) {
   const __m256i bias = _mm256_set1_epi64x(1023);
   return {_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_add_epi64(_mm256_castpd_si256(x.lo), bias), 52)),

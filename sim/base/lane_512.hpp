@@ -3,7 +3,7 @@
 #define SIM_BASE_LANE_512_HPP
 
 struct truth_t {
-  __mmask8 of; // a bit a lane
+  __mmask8 of; // one bit per lane
   LANE unsigned bits() const { return of; }
   LANE operator bool() const { return vote(bits()); }
 };
@@ -22,7 +22,7 @@ struct lane_t {
   lane_t() = default;
   LANE lane_t(__m512d a) : v(a) {}
   constexpr LANE lane_t(number_t a) : v{a, a, a, a, a, a, a, a} {}
-  // A whole number of it: that of the first lane; those that have another leave.
+  // As a whole number: the first lane's; lanes with another one leave.
   explicit operator int() const;
 };
 
@@ -58,12 +58,12 @@ LANE lane_t operator-(lane_t a) {
   return {_mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(a.v), sign))};
 }
 
-// a where a comparison holds, elsewhere b.
+// a where the comparison holds, elsewhere b.
 LANE lane_t where(truth_t holds, lane_t a, lane_t b) {
   return {_mm512_mask_blend_pd(holds.of, b.v, a.v)};
 }
 
-// Where all lanes are asked for by a mask, for gcc's header warns of its own without one.
+// A mask that selects all lanes: without one, gcc's header warns about its own code.
 constexpr __mmask8 ALL = 0xff;
 LANE lane_t whole_part(lane_t a) {
   return {_mm512_maskz_roundscale_pd(ALL, a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)};
@@ -75,7 +75,7 @@ LANE lane_t fabs(lane_t a) {
   return {_mm512_abs_pd(a.v)};
 }
 
-// 2^n, of a whole number n that is in the lowest bits of x.
+// 2^n for a whole number n that stands in the lowest bits of x.
 LANE lane_t exp2_of_bits(lane_t x) {
   const __m512i n = _mm512_add_epi64(_mm512_castpd_si512(x.v), _mm512_set1_epi64(1023));
   return {_mm512_castsi512_pd(_mm512_maskz_slli_epi64(ALL, n, 52))};

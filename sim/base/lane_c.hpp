@@ -1,19 +1,21 @@
-// lane_c.hpp - C compiled for eight vehicles side by side: after this header every number, flag and kind is
-// eight, one of each vehicle. It comes before such a source (tools/lanes.sh), which then stands in `lanes`.
+// lane_c.hpp - C compiled for eight vehicles side by side: in code after this header every number, flag and
+// enum is eight, one per vehicle. The build puts it before each such source (tools/lanes.sed), which then
+// stands in the namespace `lanes`.
 //
 // Each lane gets the bits that it would get alone: the same operations in the same order, nothing fused.
-// Where code branches, the lanes may part. Those that are fewer leave: `lanes_in` says who is still in, what
-// the others compute from there on is of no use, and the caller does it again for them, one by one. So what
-// compiles is right; what parts them often is slow, and says either() in place of `? :` (base/either.h).
+// Where code branches, the lanes may disagree. The minority then leaves: `lanes_in` holds the lanes that
+// remain, the results of the others are meaningless from there on, and the caller repeats the work for those,
+// one by one. So whatever compiles is correct. Code on which lanes often disagree is slow and should use
+// either() instead of `? :` (base/either.h).
 //
-// One thing is otherwise than in C: && and || of flags that are eight evaluate both sides. What has an effect
-// besides its value does not stand there.
+// One thing differs from C: && and || of flags for eight evaluate both sides. So operands with side effects
+// must not stand there.
 #ifndef SIM_BASE_LANE_C_HPP
 #define SIM_BASE_LANE_C_HPP
 
 #include "base/lane.h"
 
-// All that knows plain numbers.
+// All headers that use plain numbers.
 #include <atomic>
 #include <concepts>
 #include <float.h>
@@ -29,12 +31,12 @@
 #include <string.h>
 #include <type_traits>
 
-// The places of headers of which lanes have their own: see below.
+// Include guards of headers that lanes replace by their own version, below.
 #define SIM_BASE_PAIR_H
 #define SIM_BASE_EITHER_H
 #define SIM_BASE_WHERE_H
 
-#ifdef LANE_FIELDS // numbers that say where they lie (lane_fields.h)
+#ifdef LANE_FIELDS // numbers that report their place (lane_fields.h)
 #include "base/lane_fields.h"
 #define lanes lane_fields
 #define LANE_MADE(me, kind)                                                                                  \
@@ -49,7 +51,7 @@ namespace lanes {
 
 #define LANE inline __attribute__((always_inline))
 
-// Lanes 0 to 7 that took part in every branch so far.
+// The lanes (bits 0 to 7) that took part in every branch so far.
 inline constinit thread_local unsigned lanes_in = 0;
 
 typedef int plain_int; // of a loop
@@ -71,7 +73,7 @@ concept plain_whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
 } // namespace lanes
 
-// In this order.
+// The order matters.
 // clang-format off
 #include "base/lane_whole.hpp"
 #include "base/lane_number.hpp"
@@ -84,7 +86,7 @@ typedef lane_wide_flag_t pair_flag_t;
 #include "base/lane_pair.hpp"
 #include "base/lane_leave.hpp"
 
-// What C has and C++ not, or otherwise.
+// What C has and C++ lacks, or defines differently.
 typedef lane_int_t int32_t;
 typedef lane_unsigned_t uint32_t;
 typedef lane_small_t<::int16_t> int16_t;
@@ -97,7 +99,7 @@ using std::memory_order_seq_cst;
 } // namespace lanes
 
 #define volatile
-#define _Alignas(n) // they are aligned to more
+#define _Alignas(n) // lanes are aligned to more
 #define _Thread_local constinit thread_local
 #define _Static_assert static_assert
 #define float lane_float_t

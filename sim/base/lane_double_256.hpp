@@ -1,5 +1,5 @@
 // lane_double_256.hpp - eight doubles in two registers of 256 bits: a part of base/lane_number.hpp, which
-// includes it. They lie as those of lane_double_512.hpp do: the state of eight vehicles is one for both.
+// includes it. The layout is that of lane_double_512.hpp, so that both can use one state of eight vehicles.
 #ifndef SIM_BASE_LANE_DOUBLE_256_HPP
 #define SIM_BASE_LANE_DOUBLE_256_HPP
 
@@ -52,13 +52,13 @@ LANE lane_double_t operator-(lane_double_t a) {
   return {-a.lo, -a.hi};
 }
 
-// a where it holds, elsewhere b. Both are computed.
+// a where the condition holds, elsewhere b. Both are computed.
 LANE lane_double_t either(lane_wide_flag_t holds, lane_double_t a, lane_double_t b) {
   return {(doubles_t)_mm256_blendv_pd((__m256d)b.lo, (__m256d)a.lo, (__m256d)holds.lo),
           (doubles_t)_mm256_blendv_pd((__m256d)b.hi, (__m256d)a.hi, (__m256d)holds.hi)};
 }
 
-// 2^n, of a whole number n that is in the lowest bits of x.
+// 2^n for a whole number n that stands in the lowest bits of x.
 LANE lane_double_t exp2_of_bits(lane_double_t x) {
   return {(doubles_t)(((longs_t)x.lo + 1023) << 52), (doubles_t)(((longs_t)x.hi + 1023) << 52)};
 }

@@ -1,5 +1,5 @@
 // lane_double_512.hpp - eight doubles in one register of 512 bits: a part of base/lane_number.hpp, which
-// includes it. Where all lanes are asked for by a mask, for gcc's header warns of its own without one.
+// includes it. A mask selects all lanes where gcc's header would warn about its own code without one.
 #ifndef SIM_BASE_LANE_DOUBLE_512_HPP
 #define SIM_BASE_LANE_DOUBLE_512_HPP
 
@@ -48,12 +48,12 @@ LANE lane_double_t operator-(lane_double_t a) {
   return -a.v;
 }
 
-// a where it holds, elsewhere b. Both are computed.
+// a where the condition holds, elsewhere b. Both are computed.
 LANE lane_double_t either(lane_wide_flag_t holds, lane_double_t a, lane_double_t b) {
   return (eight_t)_mm512_mask_blend_pd(holds.of, (__m512d)b.v, (__m512d)a.v);
 }
 
-// 2^n, of a whole number n that is in the lowest bits of x.
+// 2^n for a whole number n that stands in the lowest bits of x.
 LANE lane_double_t exp2_of_bits(lane_double_t x) {
   return (eight_t)(((eight_bits_t)x.v + 1023) << 52);
 }

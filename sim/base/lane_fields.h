@@ -1,4 +1,4 @@
-// lane_fields.h - where the numbers of a struct lie, for one vehicle and among eight.
+// lane_fields.h - where the numbers of a struct lie, for one vehicle and for eight.
 #ifndef SIM_BASE_LANE_FIELDS_H
 #define SIM_BASE_LANE_FIELDS_H
 
@@ -9,7 +9,7 @@ enum lane_field_kinds { LANE_FLAG, LANE_I8, LANE_U8, LANE_I16, LANE_U16, LANE_32
 typedef enum lane_field_kinds lane_field_kind_t;
 
 typedef struct {
-  uint32_t at; // bytes from the struct's begin
+  uint32_t at; // bytes from the start of the struct
   lane_field_kind_t kind;
 } lane_field_t;
 
@@ -17,11 +17,11 @@ typedef struct {
 #include <new>
 #include <type_traits>
 
-// While a struct is made, each of its numbers says where it lies. Each source has its own of all this: a
-// function that two have in common is one of theirs, and they are built for processors that differ.
+// While a struct is constructed, each of its numbers notes where it lies. All of this is static, one copy per
+// source: the linker would merge shared copies, although sources are built for different processors.
 static thread_local struct {
   const char *begin;
-  lane_field_t *to; // null: nobody listens
+  lane_field_t *to; // null: nothing is noted
   int n, room;
 } lane_notes;
 static void lane_note(const void *at, lane_field_kind_t kind) {
@@ -29,7 +29,7 @@ static void lane_note(const void *at, lane_field_kind_t kind) {
     lane_notes.to[lane_notes.n++] = {(uint32_t)((const char *)at - lane_notes.begin), kind};
 }
 
-// The numbers of a T, in its order. How many; `room` or more: there is not room for all.
+// Lists the numbers of a T in order of construction. Returns how many; from `room` on, some may be missing.
 template <typename T> static int lane_fields_of(lane_field_t *to, int room, size_t *size) {
   alignas(64) static thread_local unsigned char place[sizeof(T)];
   lane_notes = {(const char *)place, to, 0, room};

@@ -1,10 +1,10 @@
-// lane_leave.hpp - the way back from code of eight numbers to that of one: a part of base/lane.hpp and
-// base/lane_c.hpp, which include it inside of their namespace.
+// lane_leave.hpp - the return from code for eight vehicles to code for one: a part of base/lane.hpp and
+// base/lane_c.hpp, which include it inside their namespace.
 //
-// A function that was given lanes in registers may leave their upper halves set, and gcc 12 does not clear
-// them behind its call. Each instruction of plain code then waits for what they hold: of flights side by side
-// a fifteenth of the time. So whoever is called from plain code, and computes with lanes, is called by
-// leave<>.
+// A function that takes lanes in registers may leave the registers' upper halves set, and gcc 12 does not
+// clear them after the call. Every instruction of plain code then depends on those halves, which costs a
+// fifteenth of the time of flights side by side. So plain code must call a function that computes with lanes
+// through leave<>.
 struct clean_t {
   ~clean_t() { _mm256_zeroupper(); }
 };

@@ -48,7 +48,7 @@ LANE_NUMBER(+)
 LANE_NUMBER(-)
 LANE_NUMBER(*)
 LANE_NUMBER(/)
-// Whole ones beside plain doubles.
+// Whole numbers together with plain doubles.
 #define LANE_MIXED(result, sign)                                                                             \
   template <bool A> LANE result operator sign(plain_double a, lane_whole_t<A> b) {                           \
     return lane_double_t(a) sign lane_double_t(b);                                                           \
@@ -77,7 +77,7 @@ LANE lane_flag_t operator!(lane_float_t a) {
   return a == 0.0f;
 }
 
-// a where it holds, elsewhere b. Both are computed.
+// a where the condition holds, elsewhere b. Both are computed.
 LANE lane_float_t either(lane_flag_t holds, lane_float_t a, lane_float_t b) {
   return (floats_t)_mm256_blendv_ps((__m256)b.v, (__m256)a.v, (__m256)holds.v);
 }
@@ -114,7 +114,7 @@ template <typename T>
 requires(!plain<T>) LANE T lanes_of(T a) {
   return a;
 }
-// Element i of a list, of each lane its own.
+// Element i of a list; each lane has its own i.
 template <typename T, bool A> LANE T lanes_pick(const T *list, lane_whole_t<A> i) {
   const unsigned first = (unsigned)i.v[0];
   if (lane_flag_t(i == lane_whole_t<A>(first)).bits() == (1u << LANES) - 1) [[likely]]
@@ -141,7 +141,7 @@ template <bool A> LANE void lanes_place(lane_float_t *list, lane_whole_t<A> i, l
 #define ANY(holds)            ((lane_flag_t(holds).bits() & lanes_in) != 0)
 #define EITHER(holds, a, b)   either(lane_flag_t(holds), lanes_of(a), lanes_of(b))
 
-// The numbers of the lanes `of` are again what they were. All are of 32 bits.
+// Restores the numbers of the lanes `of` to what they were. All numbers have 32 bits.
 typedef uwords_t any_words_t __attribute__((may_alias));
 inline __attribute__((noinline)) void lanes_undo(unsigned of, void *now, const void *was, size_t bytes) {
   const uwords_t bit = {1, 2, 4, 8, 16, 32, 64, 128}, back = (uwords_t)((bit & of) != 0);
@@ -149,7 +149,8 @@ inline __attribute__((noinline)) void lanes_undo(unsigned of, void *now, const v
   const any_words_t *const from = (const any_words_t *)was;
   for (size_t i = 0; i < bytes / sizeof *to; i++) to[i] = (from[i] & back) | (to[i] & ~back);
 }
-// What is done to a state where it holds. Who parts meanwhile has left, as anywhere.
+// A statement that changes a state only where a condition holds (FOR_WHOM). Lanes that disagree within it
+// have left, as anywhere.
 template <typename T> struct lanes_some_t {
   T *state;
   unsigned in, say;
@@ -182,7 +183,7 @@ template <typename F> LANE lane_double_t where(F holds, lane_double_t a, lane_do
   return either(holds, a, b);
 }
 
-// --- the C library's -----------------------------------------------------------------------------------
+// --- the C library -------------------------------------------------------------------------------------
 
 LANE lane_float_t sqrtf(lane_float_t a) {
   return (floats_t)_mm256_sqrt_ps((__m256)a.v);
@@ -203,7 +204,7 @@ LANE lane_double_t nearbyint(lane_double_t a) {
   return lanes_round<_MM_FROUND_CUR_DIRECTION | _MM_FROUND_NO_EXC>(a);
 }
 
-// One by one, by the library itself.
+// Calls the library lane by lane.
 template <typename one_t, typename all_t, typename F> LANE all_t lanes_each(F f, all_t a, all_t b) {
   alignas(32) one_t x[LANES], y[LANES];
   memcpy(x, &a, sizeof x);

@@ -1,6 +1,5 @@
-// lane_one.hpp - C compiled for one vehicle, with numbers that say where they lie: to find, number by number,
-// what a struct of one vehicle and the same of eight (base/lane_c.hpp) have in common. Nobody computes with
-// it.
+// lane_one.hpp - C compiled for one vehicle, with numbers that report their place in a struct, to match them
+// one by one with those of the same struct for eight vehicles (base/lane_c.hpp). Nothing computes with it.
 #ifndef SIM_BASE_LANE_ONE_HPP
 #define SIM_BASE_LANE_ONE_HPP
 

@@ -1,6 +1,6 @@
-// lane_pair.hpp - base/pair.h of eight vehicles: two numbers of each. A part of base/lane.hpp and of
-// base/lane_c.hpp, which include it inside of their namespace and say what eight numbers (pair_number_t) and
-// eight answers (pair_flag_t) are.
+// lane_pair.hpp - base/pair.h for eight vehicles: two numbers of each. A part of base/lane.hpp and of
+// base/lane_c.hpp, which include it inside their namespace and define the types of eight numbers
+// (pair_number_t) and eight flags (pair_flag_t).
 #ifndef SIM_BASE_LANE_PAIR_HPP
 #define SIM_BASE_LANE_PAIR_HPP
 
@@ -59,7 +59,7 @@ LANE pair_bits_t operator~(pair_bits_t x) {
 LANE pair_bits_t &operator&=(pair_bits_t &x, pair_bits_t y) {
   return x = x & y;
 }
-// In any lane: who has come to the end goes on, and nothing more changes for it.
+// True for any lane: a lane that has finished its loop goes on, and nothing more changes for it.
 LANE bool pair_any(pair_bits_t x) {
   return ((x.a[0].bits() | x.a[1].bits()) & lanes_in) != 0;
 }
@@ -95,7 +95,7 @@ LANE pair_t pair_exp2_of_bits(pair_t x) {
   return {{exp2_of_bits(x.a[0]), exp2_of_bits(x.a[1])}};
 }
 
-// base/few.h: two at a time, for four of eight vehicles would fill all registers.
+// base/few.h, with two at a time: four numbers of eight vehicles would fill all registers.
 #define SIM_BASE_FEW_H
 #define FEW_N            2
 #define FEW_INLINE       LANE

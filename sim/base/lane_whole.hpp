@@ -6,7 +6,7 @@ namespace lanes {
 
 // --- flags -------------------------------------------------------------------------------------------------
 
-// What most lanes say; the others leave.
+// What most lanes say; the other lanes leave.
 LANE bool lanes_vote(unsigned of_lanes) {
   const unsigned say = of_lanes & lanes_in;
   if (say == 0 || say == lanes_in) [[likely]]
@@ -16,7 +16,7 @@ LANE bool lanes_vote(unsigned of_lanes) {
   return most;
 }
 
-// All bits of a lane, or none.
+// Per lane all bits set, or none.
 struct lane_flag_t {
   words_t v;
   LANE_MADE(lane_flag_t, LANE_FLAG)
@@ -26,7 +26,7 @@ struct lane_flag_t {
   LANE explicit operator bool() const { return lanes_vote(bits()); }
 };
 
-// The same of comparisons of doubles, and how to make it of the other.
+// The same for comparisons of doubles, and conversions between the two.
 #ifdef LANES_512
 #include "base/lane_wide_512.hpp"
 #else
@@ -81,7 +81,7 @@ inline __attribute__((noinline)) unsigned lanes_disagree(words_t v) {
     if (x[i] != first) lanes_in &= ~(1u << i);
   return (unsigned)first;
 }
-// Of all lanes that are in: the one of the first; those that have another leave.
+// The value of the first lane that is still in; lanes with another one leave.
 LANE unsigned lanes_agree(words_t v) {
   const int32_t f = v[0];
   const unsigned same = lane_flag_t((words_t)(v == (words_t){f, f, f, f, f, f, f, f})).bits();
@@ -124,7 +124,7 @@ template <bool is_signed> struct lane_whole_t {
 typedef lane_whole_t<true> lane_int_t;
 typedef lane_whole_t<false> lane_unsigned_t;
 
-// What C makes of a plain number beside others: a kind is an int.
+// The type to which C promotes a plain number beside others; an enum becomes an int.
 template <plain_whole T>
 using promoted = lane_whole_t<!(std::is_unsigned_v<T> && sizeof(T) >= 4 && !std::is_same_v<T, bool>)>;
 
@@ -185,7 +185,7 @@ template <bool A> LANE lane_flag_t operator!(lane_whole_t<A> a) {
 LANE_WITH_FLAG(==)
 LANE_WITH_FLAG(!=)
 
-// Processors do not divide many whole numbers at a time. Mostly they are all the same.
+// Processors do not divide several whole numbers at once. Mostly all lanes have the same.
 template <bool A, typename F> LANE lane_whole_t<A> lanes_divide(lane_whole_t<A> a, F f) {
   typedef typename lane_whole_t<A>::one_t one;
   const one first = (one)a.v[0];
@@ -206,7 +206,7 @@ template <bool A, plain_whole T> LANE lane_whole_t<A> operator/(lane_whole_t<A> 
   return lanes_divide(a, [b](one x) { return (one)(x / (one)b); });
 }
 
-// A type of fewer bits.
+// A whole number with fewer bits.
 template <typename T> struct lane_small_t : lane_int_t {
 #ifdef LANE_FIELDS
   lane_small_t() : lane_int_t(0) {
@@ -235,7 +235,7 @@ template <typename T> struct lane_small_t : lane_int_t {
   }
 };
 
-// One of a C enum. C++'s own has another name (tools/lanes.sed).
+// A C enum. C++'s own enum gets another name (tools/lanes.sed).
 template <typename E> struct lane_kind_t {
   words_t v;
   LANE_MADE(lane_kind_t, LANE_32)

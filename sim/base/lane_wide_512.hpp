@@ -1,4 +1,4 @@
-// lane_wide_512.hpp - flags of eight doubles, a bit each: a part of base/lane_whole.hpp, which includes it.
+// lane_wide_512.hpp - flags of eight doubles, one bit each: a part of base/lane_whole.hpp, which includes it.
 #ifndef SIM_BASE_LANE_WIDE_512_HPP
 #define SIM_BASE_LANE_WIDE_512_HPP
 

@@ -1,6 +1,6 @@
-// pair.h - two doubles at a time, as every processor with 64 bits has them: arithmetic of the estimator's
-// inner loops, which a compiler does not find there by itself. +, -, * and / act on both; the
-// results are those of one at a time, to the bit. An extension of C that gcc and clang share. Header only.
+// pair.h - two doubles at a time, which every 64-bit processor supports, for the estimator's inner loops;
+// compilers do not vectorise these by themselves. +, -, * and / act on both; the results are bit for bit
+// those of one number at a time. Uses an extension of C that gcc and clang share. Header only.
 #ifndef SIM_BASE_PAIR_H
 #define SIM_BASE_PAIR_H
 
@@ -10,10 +10,10 @@
 #include <stdint.h>
 #include <string.h>
 
-// Before a function of many such operations: it is compiled once more for AVX2, with all that it calls and is
-// seen here, and which one is called is found out when the program starts. An instruction need not overwrite
-// what it takes there, which saves a sixth of them. Not for AVX-512, where gcc fuses (base/wide.h), and not
-// by clang, which does not take both attributes.
+// Stands before a function with many such operations. Compiles it a second time for AVX2, with all inlined
+// callees that are visible here; the version is selected when the program starts. AVX2 instructions need not
+// overwrite an operand, which saves a sixth of them. Not for AVX-512, where gcc fuses (base/wide.h), nor with
+// clang, which does not accept both attributes.
 #if defined(__x86_64__) && !WIDE_SANITIZED && !defined(__clang__)
 #define PAIR_COPIES __attribute__((flatten, target_clones("avx2", "default")))
 #else
@@ -23,8 +23,7 @@
 typedef double pair_t __attribute__((vector_size(16)));
 typedef int64_t pair_bits_t __attribute__((vector_size(16)));
 
-// Bit by bit the same: of a few dozen bytes the library's call costs more than they do. bytes: a multiple
-// of 8.
+// True if the bytes are identical; for a few dozen bytes faster than a library call. bytes: a multiple of 8.
 static inline bool same_in_bits(const void *a, const void *b, size_t bytes) {
   uint64_t differ = 0;
   for (size_t i = 0; i < bytes; i += sizeof differ) {
@@ -47,11 +46,11 @@ static inline void pair_put(double *p, pair_t a) {
 static inline pair_t pair_both(double a) {
   return (pair_t){a, a};
 }
-// a where a comparison holds, elsewhere b.
+// a where the comparison holds, elsewhere b.
 static inline pair_t pair_where(pair_bits_t holds, pair_t a, pair_t b) {
   return (pair_t)((holds & (pair_bits_t)a) | (~holds & (pair_bits_t)b));
 }
-// The smaller; where a is NaN, b.
+// The smaller; b where a is NaN.
 static inline pair_t pair_min(pair_t a, pair_t b) {
   return pair_where(a < b, a, b);
 }

@@ -1,4 +1,4 @@
-// rows.c - numbers of eight into rows of eight, and back.
+// rows.c - transposes numbers of eight into rows of eight, and back.
 #include "base/rows.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// turns.cpp - jobs that run by turns in one thread, each on a stack of its own.
+// turns.cpp - jobs that take turns in one thread, each on a stack of its own.
 #include "base/turns.h"
 
 #include <alloca.h>
@@ -17,8 +17,8 @@ constexpr std::size_t stack_bytes =
 
 constexpr std::size_t shift_bytes = 4096 / LANES + 64;
 
-// A stack's outermost frames never return: what the address sanitizer has marked around them would be taken
-// for an overflow of whatever lies there next.
+// A stack's outermost frames never return. The marks of the address sanitizer around them would later be
+// taken for an overflow of whatever memory is mapped there next.
 using guarded_t = boost::context::protected_fixedsize_stack;
 struct own_stack_t : guarded_t {
   using guarded_t::guarded_t;
@@ -43,14 +43,14 @@ void resume(place_t &p) {
   here = nullptr;
 }
 
-// The next job in an empty place; some end before they have waited once.
+// Starts the next jobs in an empty place until one waits; some jobs end without waiting.
 void fill(const turns_t &t, place_t &p, int n, int &next) {
   while (!p.job && next < n) {
     const int i = next++;
     try {
       p.job = fiber(std::allocator_arg, own_stack_t(stack_bytes), [&t, &p, i](fiber &&back) {
         p.back = std::move(back);
-        // Stacks begin at pages: without a shift all of them want the same lines of the cache.
+        // Stacks begin at pages: without a shift all of them compete for the same cache lines.
         *static_cast<volatile char *>(alloca(1 + (std::size_t)(i % LANES) * shift_bytes)) = 0;
         t.job(t.context, i);
         return std::move(p.back);

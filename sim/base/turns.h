@@ -1,5 +1,6 @@
-// turns.h - jobs that run by turns in one thread, and wait for each other where they say so: what they wait
-// for is done for all of them at once. A job is any C function; its calls in between know nothing of it.
+// turns.h - jobs that take turns in one thread and wait for each other at points that they choose, where work
+// is done for all of them at once. A job is any C function; the functions between it and turns_wait need not
+// know of this.
 #ifndef SIM_BASE_TURNS_H
 #define SIM_BASE_TURNS_H
 
@@ -12,19 +13,19 @@ extern "C" {
 
 typedef struct {
   void (*job)(void *context, int i);
-  // All that still run wait. what: of each the argument of turns_wait(), or a null pointer. A job keeps its
-  // place among them.
+  // Called when all jobs that still run are waiting. what[k]: the argument that the job in place k gave to
+  // turns_wait(); null for an empty place. A job keeps its place.
   void (*meet)(void *meet_context, void *const what[LANES]);
   void *context, *meet_context;
 } turns_t;
 
-// Runs job 0 to n-1, LANES of them at a time, until all have returned. Without memory for their stacks, and
-// within a job, they run one after the other, and turns_inside() is what it was.
+// Runs jobs 0 to n-1, LANES of them at a time, until all have returned. If there is no memory for their
+// stacks, or within a job, they run one after the other, and turns_inside() keeps its value.
 void turns_run(const turns_t *turns, int n);
 
-// Whether the caller is part of such a job, and may wait. Another thread that a job starts is not.
+// True if the caller is part of such a job and may wait; false in another thread that a job starts.
 bool turns_inside(void);
-// Whether it is part of one that meets there.
+// True if the caller is part of a job with this `meet`.
 bool turns_meet_at(void (*meet)(void *meet_context, void *const what[LANES]));
 void turns_wait(void *what);
 

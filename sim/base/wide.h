@@ -1,7 +1,7 @@
-// wide.h - eight numbers side by side in plain C, as two times four: inner loops over many rows. +, -, * and
-// / act on all four; the results are those of one at a time, to the bit, where nothing is fused
-// (-ffp-contract=off). Eight in one gcc 12 would keep in memory, and compare one by one, where there is AVX2
-// and no AVX-512. An extension of C that gcc and clang share. Header only.
+// wide.h - eight numbers side by side in plain C, as two vectors of four, for inner loops over many rows. +,
+// -, * and / act on all four; the results are bit for bit those of one number at a time if nothing is fused
+// (-ffp-contract=off). A vector of eight would be kept in memory by gcc 12, and compared one by one, on
+// processors with AVX2 but no AVX-512. Uses an extension of C that gcc and clang share. Header only.
 #ifndef SIM_BASE_WIDE_H
 #define SIM_BASE_WIDE_H
 
@@ -12,13 +12,14 @@
 #define HALF   4
 #define HALVES (WIDE / HALF)
 
-typedef double four_t __attribute__((vector_size(32))); // also of every rotor one
+typedef double four_t __attribute__((vector_size(32))); // also one number per rotor
 typedef int64_t four_bits_t __attribute__((vector_size(32)));
 
-// Before a function: it is compiled once more for AVX2 and for AVX-512, and which one is called is found out
-// when the program starts: too early for a sanitizer. What it calls has to be inline (WIDE_INLINE). Where
-// a b + c stands beside a b - c, gcc 12 fuses all the same: `objdump -d out/gap` is to show no vfmaddsub.
-#ifdef __has_feature // clang's
+// Stands before a function. Compiles it again for AVX2 and for AVX-512; the version is selected when the
+// program starts, which is too early for sanitizers. Functions that it calls must be inline (WIDE_INLINE).
+// Where a b + c stands beside a b - c, gcc 12 fuses all the same: `objdump -d out/gap` must show no
+// vfmaddsub.
+#ifdef __has_feature // of clang
 #define WIDE_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WIDE_SANITIZED 1
@@ -32,7 +33,7 @@ typedef int64_t four_bits_t __attribute__((vector_size(32)));
 #endif
 #define WIDE_INLINE static inline __attribute__((always_inline))
 
-// By name and not by value: how four numbers are handed to a function differs from processor to processor.
+// Macros, not functions: how four numbers are passed by value depends on the processor.
 #define FOUR_LOAD(to, p)  memcpy(&(to), (p), sizeof(four_t))
 #define FOUR_PUT(p, from) memcpy((p), &(from), sizeof(four_t))
 
