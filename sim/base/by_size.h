@@ -1,4 +1,4 @@
-// by_size.h - for qsort: doubles, the smallest first.
+// by_size.h - for qsort: doubles in ascending order.
 #ifndef SIM_BASE_BY_SIZE_H
 #define SIM_BASE_BY_SIZE_H
 

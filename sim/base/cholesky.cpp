@@ -1,4 +1,4 @@
-// cholesky.cpp - a symmetric, positive matrix as L L', by Eigen.
+// cholesky.cpp - Cholesky factor of a symmetric positive definite matrix, by Eigen.
 #include "base/cholesky.h"
 
 #include <Eigen/Cholesky>
@@ -8,7 +8,7 @@ using rows_t = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 bool cholesky(double *A, int n) {
   Eigen::Map<rows_t> in_place(A, n, n);
   const Eigen::LLT<Eigen::Ref<rows_t>> llt(in_place);
-  return llt.info() == Eigen::Success && in_place.diagonal().allFinite(); // NaN is not found to be negative
+  return llt.info() == Eigen::Success && in_place.diagonal().allFinite(); // LLT does not reject NaN
 }
 
 void cholesky_forward(const double *L, int n, double *b) {

@@ -1,6 +1,6 @@
-// cholesky.h - a symmetric, positive matrix as L L' (Eigen behind a C header).
+// cholesky.h - Cholesky factor of a symmetric positive definite matrix, L L' (Eigen behind a C header).
 //
-// Matrices are n x n, row by row; of L the half below the diagonal counts, with it.
+// Matrices are n x n, row by row. Of L, the lower triangle with the diagonal is used.
 #ifndef SIM_BASE_CHOLESKY_H
 #define SIM_BASE_CHOLESKY_H
 
@@ -10,11 +10,11 @@
 extern "C" {
 #endif
 
-// A becomes L, whose other half keeps what it had. False: A is not positive, or not finite; it is
-// overwritten.
+// Replaces A's lower triangle by L; the upper one stays. False if A is not positive definite or not finite; A
+// is then overwritten, too.
 bool cholesky(double *A, int n);
 
-// b becomes L^-1 b, and L'^-1 b.
+// Replaces b by L^-1 b, and by L'^-1 b.
 void cholesky_forward(const double *L, int n, double *b);
 void cholesky_backward(const double *L, int n, double *b);
 

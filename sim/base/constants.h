@@ -2,7 +2,7 @@
 #ifndef SIM_BASE_CONSTANTS_H
 #define SIM_BASE_CONSTANTS_H
 
-#include <math.h> // whose M_PI is not of C11
+#include <math.h> // its M_PI is not in C11
 
 #define G_MPS2      9.81
 #define PI          3.14159265358979323846

@@ -15,7 +15,7 @@ typedef struct {
   double w, x, y, z;
 } dq_t;
 
-// The body's axes in world axes: the columns of the rotation matrix.
+// The body's axes in world axes: the columns of the rotation matrix from body to world.
 typedef struct {
   d3_t x, y, z;
 } axes_t;
@@ -60,7 +60,7 @@ static inline dq_t dq_of(const double *p) {
   return (dq_t){p[0], p[1], p[2], p[3]};
 }
 
-// First b, then a.
+// The product a b: the rotation b, then a.
 static inline dq_t dq_mul(dq_t a, dq_t b) {
   return (dq_t){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, //
                 a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, //
@@ -68,12 +68,12 @@ static inline dq_t dq_mul(dq_t a, dq_t b) {
                 a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-// The other way round, of a q of unit length.
+// The inverse rotation; q must be of unit length.
 static inline dq_t dq_inverse(dq_t q) {
   return (dq_t){q.w, -q.x, -q.y, -q.z};
 }
 
-// q of unit length.
+// q must be of unit length.
 static inline axes_t axes_of(dq_t q) {
   const double x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
   const double xx = q.x * x2, xy = q.x * y2, xz = q.x * z2, yy = q.y * y2, yz = q.y * z2, zz = q.z * z2;
@@ -90,31 +90,31 @@ static inline d3_t axes_to_world(const axes_t *a, d3_t b) {
 static inline d3_t axes_to_body(const axes_t *a, d3_t w) {
   return d3(d3_dot(a->x, w), d3_dot(a->y, w), d3_dot(a->z, w));
 }
-// The world's z in body axes.
+// The world's z axis in body axes.
 static inline d3_t axes_up_b(const axes_t *a) {
   return d3(a->x.z, a->y.z, a->z.z);
 }
 
-// Of length 1; the quaternion must not be zero.
+// q scaled to unit length; it must not be zero.
 static inline dq_t dq_unit(dq_t q) {
   const double k = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return (dq_t){k * q.w, k * q.x, k * q.y, k * q.z};
 }
 
-// The rotation by the vector v, as long as its angle in rad.
+// The rotation about the axis v by an angle of |v| rad.
 static inline dq_t dq_turn(d3_t v) {
   const double angle = sqrt(d3_dot(v, v)), k = where(angle > 1e-9, sin(0.5 * angle) / angle, 0.5);
   return (dq_t){cos(0.5 * angle), k * v.x, k * v.y, k * v.z};
 }
 
-// That share, 0..1, of the straight way from q to the goal; not of length 1.
+// The point at `share` (0..1) of the straight line from q to the goal; not of unit length.
 static inline dq_t dq_towards(dq_t q, dq_t goal, double share) {
   const double k = 1.0 - share;
   return (dq_t){k * q.w + share * goal.w, k * q.x + share * goal.x, k * q.y + share * goal.y,
                 k * q.z + share * goal.z};
 }
 
-// v + 2 w (u x v) + 2 u x (u x v), u the vector part.
+// v + 2 w (u x v) + 2 u x (u x v), where u is the vector part of q.
 static inline d3_t dq_to_world(dq_t q_wb, d3_t v_b) {
   const d3_t u = {q_wb.x, q_wb.y, q_wb.z};
   const d3_t t = d3_scale(2.0, d3_cross(u, v_b));

@@ -4,8 +4,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
-// One factorisation for all that is not symmetric: the matrices are small, and each kind takes seconds to
-// compile.
+// One factorisation serves all matrices that are not symmetric: they are small, and each kind of
+// factorisation takes seconds to compile.
 using svd_t = Eigen::JacobiSVD<MatrixXd, Eigen::FullPivHouseholderQRPreconditioner>;
 
 static svd_t factors(const MatrixXd &A) {

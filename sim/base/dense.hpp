@@ -1,5 +1,5 @@
-// dense.hpp - what the C++ files do with dense matrices, by Eigen, compiled once: each file that factorises
-// or multiplies by itself takes 5 to 15 s of a processor and up to 700 MB for it.
+// dense.hpp - operations on dense matrices for the C++ files, by Eigen, compiled once: a file that itself
+// factorises or multiplies takes 5 to 15 s and up to 700 MB to compile.
 #ifndef SIM_DENSE_HPP
 #define SIM_DENSE_HPP
 
@@ -15,14 +15,14 @@ VectorXd dense_apply(const MatrixXd &A, const VectorXd &b);
 // diag(scale) A diag(scale)
 MatrixXd dense_scaled(const MatrixXd &A, const VectorXd &scale);
 
-// The x that makes |A x - b| smallest; of several, the shortest.
+// The x that minimises |A x - b|; where several do, the shortest.
 VectorXd dense_least_squares(const MatrixXd &A, const VectorXd &b);
 
-// The solution of A x = b; A is symmetric and positive. Only its lower triangle is read. inverse: of A, or
-// null.
+// Solves A x = b for a symmetric positive definite A, of which only the lower triangle is read. inverse:
+// receives that of A; may be null.
 VectorXd dense_solve_symmetric(const MatrixXd &A, const VectorXd &b, MatrixXd *inverse = nullptr);
 
-// The inverse of A. False: it has none, and `inverse` is as before.
+// Sets `inverse` to that of A. False if A is singular; `inverse` then keeps its value.
 bool dense_invert(const MatrixXd &A, MatrixXd &inverse);
 
 #endif

@@ -1,6 +1,6 @@
 // lowpass.h - second-order Butterworth low-pass in double precision.
 //
-// Bilinear, prewarped at the cut-off: with k = tan(pi f / fs), n = 1 + sqrt(2) k + k^2,
+// Bilinear transform, prewarped at the cut-off: with k = tan(pi f / fs), n = 1 + sqrt(2) k + k^2,
 //   y = b (x + 2 x1 + x2) - a1 y1 - a2 y2,  b = k^2/n,  a1 = 2 (k^2 - 1)/n,  a2 = (1 - sqrt(2) k + k^2)/n.
 #ifndef SIM_BASE_LOWPASS_H
 #define SIM_BASE_LOWPASS_H
@@ -10,13 +10,13 @@ typedef struct {
   double x1, x2, y1, y2; // last two inputs and outputs
 } lowpass_t;
 
-// At rest at `value`. cutoff_Hz: > 0 and < rate_Hz / 2.
+// Sets the filter at rest at `value`. cutoff_Hz: > 0 and < rate_Hz / 2.
 void lowpass_init(lowpass_t *s, double cutoff_Hz, double rate_Hz, double value);
 
-// The same with another damping: 2 zeta in place of sqrt(2), > 0; sections of filters of higher order.
+// The same with another damping, for sections of filters of higher order: two_zeta, > 0, replaces sqrt(2).
 void lowpass_init_q(lowpass_t *s, double cutoff_Hz, double rate_Hz, double two_zeta, double value);
 
-// One sample in, one out.
+// Takes one input sample and returns the output.
 double lowpass_step(lowpass_t *s, double x);
 
 #endif

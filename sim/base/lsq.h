@@ -6,7 +6,7 @@
 extern "C" {
 #endif
 
-// x (columns) that makes |A x - b| smallest; of several, the shortest. A: rows x columns, row by row.
+// x (columns) that minimises |A x - b|; where several do, the shortest. A: rows x columns, row by row.
 void lsq_solve(int rows, int columns, const double *A, const double *b, double *x);
 
 #ifdef __cplusplus

@@ -28,7 +28,7 @@ double lsq_solve_products(const double *G, int size, const int *column, int n, c
   take(G, size, column, n, A, c);
   const MatrixXd plain = A;
   for (int i = 0; i < n; i++) A(i, i) += (ridge ? ridge[column[i]] : 0.0) + 1e-12 * A(i, i) + 1e-300;
-  // Scaled to a unit diagonal: regressors differ by many powers of ten.
+  // Scaled to a unit diagonal, because regressors differ by many powers of ten.
   const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
   MatrixXd unit;
   const VectorXd scaled =

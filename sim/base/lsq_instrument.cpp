@@ -14,9 +14,9 @@ namespace {
 struct stage_t {
   const lsq_instrument_t *p;
   int size;
-  VectorXd scale;                            // of the columns, to a unit diagonal
+  VectorXd scale;                            // scales the columns to a unit diagonal
   MatrixXd P;                                // xhat = P' z: size x n, in scaled columns
-  Eigen::Array<bool, Eigen::Dynamic, 1> own; // stands for itself
+  Eigen::Array<bool, Eigen::Dynamic, 1> own; // x_k stands for itself
 };
 
 MatrixXd products(const stage_t &s, const double *G) {
@@ -43,8 +43,8 @@ void project(stage_t &s, const MatrixXd &G) {
       s.P.block(first_of(s, k), k, n, 1) = fitted(G, first_of(s, k), n, k);
 }
 
-// Slope of x_k on w = Z a over its error, squared, over so many instruments that were fitted. blocks: how
-// many of equal weight would say as much.
+// F of x_k's first stage: its slope on w = Z a over the standard error, squared, over the number of fitted
+// instruments. blocks: the effective number of blocks.
 double strength(const stage_t &s, int k, const VectorXd &w, double instruments, double *blocks) {
   double ww = 0.0, wx = 0.0, sum = 0.0;
   VectorXd ww_b(s.p->n_block), wx_b(s.p->n_block);
@@ -64,7 +64,7 @@ double instruments_of(const stage_t &s, int k) {
   return (double)(s.scale.segment(first_of(s, k), s.p->sets * s.p->lags).array() > 0.0).count();
 }
 
-// Leaves out the sets that are too weak, and gives x_k itself where none is left. F: of the best set then.
+// Leaves out sets that are too weak; x_k stands for itself where none remains. F: that of the best set.
 void choose(stage_t &s, double *F) {
   const int lags = s.p->lags;
   const MatrixXd G = products(s, s.p->total);
@@ -97,7 +97,7 @@ bool fit(const stage_t &s, const MatrixXd &G, fit_t &f) {
   return f.b.allFinite();
 }
 
-// The same without one block.
+// The coefficients without one block.
 VectorXd without(const stage_t &s, const MatrixXd &G, const fit_t &f, const MatrixXd &block) {
   const MatrixXd Pt = s.P.transpose(), left = G - block;
   MatrixXd inverse;
@@ -107,7 +107,8 @@ VectorXd without(const stage_t &s, const MatrixXd &G, const fit_t &f, const Matr
   return f.b - dense_apply(f.inverse, dense_apply(Pt, own));
 }
 
-// Takes out of the instruments what is too weak, the weakest first: without it the others may be strong.
+// Drops the instruments of regressors whose F is too small, the weakest first: without them the others may be
+// strong.
 bool settle(stage_t &s, const MatrixXd &G, double *F, double *blocks, fit_t &f) {
   for (;;) {
     project(s, G);
@@ -136,12 +137,13 @@ VectorXd scale_of(const double *total, int size) {
   return scale;
 }
 
-// Of the regressors, in their own units.
+// Converts the regressors' coefficients to their own units.
 VectorXd unit_of(const stage_t &s) {
   return s.scale.head(s.p->n) / s.scale(s.size - 1);
 }
 
-// Jackknife over the blocks, in the regressors' units: of `two`, and of its distance from `one`.
+// Jackknife covariances over the blocks, in the regressors' units: of the coefficients of `two`, and of their
+// difference from those of `one`.
 void spreads(const stage_t &two, const fit_t &iv, const stage_t &one, const fit_t &ls, MatrixXd &spread,
              MatrixXd &apart) {
   const int n = two.p->n;

@@ -3,11 +3,12 @@
 #include "base/wide.h"
 #include <stdlib.h>
 
-// Rows that are taken at once, and of a tile columns down; across it has WIDE. What a tile adds up stays in
-// registers, for which eight sums are enough to wait for none of them.
+// ROWS: rows taken at once. DOWN: columns of a tile downwards; across it has WIDE. A tile's sums stay in
+// registers, and eight vector sums are enough to wait for none of them.
 enum { ROWS = 64, DOWN = 4 };
 
-// One tile of a sum: rows of `x`, `pad` numbers each, of which `down` and `across` are the first that meet.
+// Adds rows of `x`, `pad` numbers each, to one tile of a sum: the products of DOWN columns from `down` and
+// WIDE columns from `across`.
 WIDE_INLINE void add_tile(const double *x, int rows, int pad, int down, int across, double *sum) {
   four_t low[DOWN], high[DOWN];
   for (int i = 0; i < DOWN; i++) {
@@ -30,21 +31,21 @@ WIDE_INLINE void add_tile(const double *x, int rows, int pad, int down, int acro
   }
 }
 
-// Of a symmetric sum, the tiles that hold one half.
+// Adds to the tiles that hold one half of a symmetric sum.
 WIDE_COPIES static void add_rows(const double *x, int rows, int pad, double *sum) {
   for (int across = 0; across < pad; across += WIDE)
     for (int down = 0; down < across + WIDE; down += DOWN) add_tile(x, rows, pad, down, across, sum);
 }
 
-// Columns become rows; behind the last there are noughts.
+// Turns columns into rows, padded with zeros.
 static void turn(const double *const *column, int from, int rows, int n, int pad, double *x) {
   for (int j = 0; j < pad; j++)
     for (int r = 0; r < rows; r++) x[r * pad + j] = j < n ? column[j][from + r] : 0.0;
 }
 
-// Rows whose sums come together before they are added to those of others, in parts that are about as long: a
-// sum over many rows would lose digits. 504 is what fits 32 kB beside a tile of Eigen's, which did this
-// before: the digits of every verdict stay (test_lsq_products.c).
+// The number of rows that are summed separately before they are added to the others, in parts of about equal
+// length: one long sum would lose digits. 504 is what fits 32 kB beside a tile of Eigen, which did this
+// before, so that the digits of all verdicts stay the same (test_lsq_products.c).
 static int panel_of(int rows) {
   enum { MOST = 504, STEP = 8 };
   const int over = rows % MOST;
@@ -56,7 +57,7 @@ static int least(int a, int b) {
   return a < b ? a : b;
 }
 
-// Columns that are neighbours in both go together.
+// Columns that are neighbours both in `sum` and in G are added together.
 static void put_sums(const double *sum, int n, int pad, const int *column, int size, double *G) {
   for (int i = 0; i < n; i++)
     for (int j = i; j < n;) {

@@ -1,4 +1,4 @@
-// nth.h - order statistics without sorting all (std::nth_element behind a C header).
+// nth.h - order statistics without a complete sort (std::nth_element behind a C header).
 #ifndef SIM_BASE_NTH_H
 #define SIM_BASE_NTH_H
 
@@ -6,8 +6,8 @@
 extern "C" {
 #endif
 
-// The number that would stand at v[k], 0 <= k < n, if v were sorted, the smallest first. It does stand there
-// afterwards, with none that is larger before it and none that is smaller behind. No NaN among them.
+// The number that would stand at v[k], 0 <= k < n, if v were sorted in ascending order. Reorders v so that it
+// stands there, with no larger number before it and no smaller one after it. v must not contain NaN.
 double nth_smallest(double *v, int n, int k);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// random.cpp - repeatable noise from the C++ library's distributions.
+// random.cpp - repeatable noise: the numbers of the C++ library's generator and distribution, but faster.
 #include "base/random.h"
 
 #include "base/rows.h"
@@ -10,17 +10,17 @@
 
 namespace {
 
-constexpr int TOGETHER = 16; // pairs whose logarithms are taken one behind the other
+constexpr int TOGETHER = 16; // pairs whose logarithms are computed in one loop
 
 using unsigned_four_t = uint64_t __attribute__((vector_size(32)));
 
-// Whole numbers below 2^32 as doubles, exactly: they are put behind the point of 2^52.
+// Converts whole numbers below 2^32 to doubles, exactly: they become the low bits of 2^52's mantissa.
 WIDE_INLINE void whole(const unsigned_four_t &bits, four_t &x) {
   x = (four_t)(bits | 0x4330000000000000u) - 0x1p52;
 }
 
-// 2 c - 1 of c in [0, 1), as the library has it. Of either half of 64 bits a double is exact, so that the sum
-// alone is rounded.
+// 2 c - 1 for c in [0, 1) as the library computes it. Each 32-bit half is exact as a double, so that only the
+// sum is rounded.
 WIDE_COPIES void units_of(const uint64_t *bits, int n, double *unit) {
   for (int i = 0; i < n; i += HALF) {
     unsigned_four_t b;
@@ -40,7 +40,7 @@ double canonical(uint64_t b) {
   return std::min(0x1p-64 * all, 1.0 - 0x1p-53);
 }
 
-// y times, x times, side by side.
+// Multiplies the points (x, y) by the polar method's factor and stores y first.
 WIDE_COPIES void stretch(int n, const double *log, const double *square, const double *x, const double *y,
                          double *out) {
   double times[TOGETHER];
@@ -51,7 +51,7 @@ WIDE_COPIES void stretch(int n, const double *log, const double *square, const d
   }
 }
 
-constexpr int N = 312, AHEAD = 156; // of the twister
+constexpr int N = 312, AHEAD = 156; // of the Mersenne twister
 
 WIDE_INLINE uint64_t mixed(uint64_t high, uint64_t low, uint64_t ahead) {
   const uint64_t x = (high & 0xffffffff80000000u) | (low & 0x7fffffffu);
@@ -65,7 +65,7 @@ WIDE_INLINE uint64_t tempered(uint64_t x) {
   return x ^ x >> 43;
 }
 
-// All that come next, at once, some of them side by side.
+// Computes all next states at once, partly side by side.
 WIDE_COPIES void turn_all(uint64_t *state) {
   for (int i = 0; i < N - AHEAD; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD]);
   for (int i = N - AHEAD; i < N - 1; i++) state[i] = mixed(state[i], state[i + 1], state[i + AHEAD - N]);
@@ -75,8 +75,8 @@ WIDE_COPIES void temper_all(const uint64_t *state, uint64_t *out) {
   for (int i = 0; i < N; i++) out[i] = tempered(state[i]);
 }
 
-// std::mt19937_64, number for number. The library's has a branch for every number, which is taken half of the
-// time, and costs three times as much.
+// std::mt19937_64, number for number. The library's branches at every number, half of the time each way, and
+// takes three times as long.
 class twister {
 public:
   explicit twister(uint64_t seed) {
@@ -90,14 +90,14 @@ public:
     return out[next++];
   }
 
-  // The same as a number in [-1, 1).
+  // The next number, scaled to [-1, 1).
   double unit() {
     if (next == N) turn();
     if (!spread) spread_out();
     return units[next++];
   }
 
-  // So many of the next ones, all at hand; how many there are.
+  // Makes numbers available without a refill, and returns how many.
   int at_hand() {
     if (next == N) turn();
     if (!spread) spread_out();
@@ -106,7 +106,7 @@ public:
   const double *first() const { return &units[next]; }
   void take(int n) { next += n; }
 
-  // The next n; where they do not lie together, in `room`.
+  // The next n words, copied to `room` if they are not contiguous.
   const uint64_t *words(int n, uint64_t *room) {
     if (next + n > N) {
       for (int i = 0; i < n; i++) room[i] = (*this)();
@@ -120,9 +120,9 @@ private:
   uint64_t state[N], out[N];
   double units[N];
   int next = N;
-  bool spread = false; // units are those of out
+  bool spread = false; // units belong to out
 
-  // All at once, side by side: who draws normal numbers draws many.
+  // All at once, side by side, as callers that draw normal numbers draw many.
   void spread_out() {
     units_of(out, N, units);
     spread = true;
@@ -141,12 +141,12 @@ private:
 struct noise_source {
   explicit noise_source(uint64_t seed) : bits(seed) {}
   twister bits;
-  bool keeps = false; // the second one of a pair
+  bool keeps = false; // the second number of a pair is kept
   double kept = 0.0;
-  double x[TOGETHER], y[TOGETHER], square[TOGETHER], logs[TOGETHER]; // of points, while they are drawn
+  double x[TOGETHER], y[TOGETHER], square[TOGETHER], logs[TOGETHER]; // the points that are being drawn
 
-  // Number for number those of std::normal_distribution (Marsaglia's polar method): each point in the unit
-  // circle gives two. A point outside is drawn over, without a branch.
+  // The same numbers as std::normal_distribution (Marsaglia's polar method): each point in the unit circle
+  // gives two. A point outside is overwritten by the next, without a branch.
   int pairs(int wanted, double *out) {
     int n_in = 0;
     const auto draw = [&](double a, double b) {
@@ -162,7 +162,7 @@ struct noise_source {
       for (; n < there && n_in < wanted; n++) draw(unit[2 * n], unit[2 * n + 1]);
       bits.take(2 * n);
       if (n > 0) continue;
-      const double a = bits.unit(), b = bits.unit(); // one of them is of the next turn
+      const double a = bits.unit(), b = bits.unit(); // one of them is from the next refill
       draw(a, b);
     }
     for (int k = 0; k < wanted; k++) logs[k] = std::log(square[k]);
@@ -195,9 +195,9 @@ void random_normals(random_t *r, int n, double *out) {
   while (n - i > 1) i += r->pairs(std::min(TOGETHER, (n - i) / 2), out + i);
   if (i < n) out[i] = r->normal();
 }
-// Two of 32 bits each.
+// From 32 random bits: the sum of two uniform numbers of 16 bits each.
 static inline double triangle(uint32_t b) {
-  const double scale = 2.4494897427831781 / 0x10000; // sd of the sum: sqrt(2 / 12) of 2^16
+  const double scale = 2.4494897427831781 / 0x10000; // sd of the sum: sqrt(2 / 12) * 2^16
   return scale * (static_cast<int>((b & 0xffff) + (b >> 16)) - 0xffff);
 }
 void random_triangles(random_t *r, int n, double *out) {
@@ -207,7 +207,7 @@ void random_triangles(random_t *r, int n, double *out) {
     out[i + 1] = triangle(static_cast<uint32_t>(b >> 32));
   }
 }
-// Of n rows of words, of each two rows.
+// Turns n rows of words into 2 n rows of numbers.
 WIDE_COPIES static void triangles_of(const uint64_t *words, int n, double *rows) {
   for (int i = 0; i < n; i++, words += LANES, rows += 2 * LANES)
     for (int k = 0; k < LANES; k++) {

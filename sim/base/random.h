@@ -11,21 +11,21 @@ extern "C" {
 
 typedef struct noise_source random_t;
 
-// Null if there is no memory.
+// Returns null if there is no memory.
 random_t *random_open(uint64_t seed);
-// Normally distributed, mean 0, standard deviation 1.
+// A normally distributed number of mean 0 and standard deviation 1.
 double random_normal(random_t *r);
-// The next n of them, which cost less together.
+// The next n such numbers; faster than one by one.
 void random_normals(random_t *r, int n, double *out);
-// n numbers (even) of mean 0 and standard deviation 1, each the sum of two even ones: a triangle, never
-// beyond 2.45. Ten times as fast as normal ones; for noise that a filter averages afterwards, which makes it
-// normal.
+// n numbers (n even) of mean 0 and standard deviation 1, each the sum of two uniform ones: triangular, never
+// beyond 2.45. Ten times as fast as normal numbers; for noise that a filter then averages, which makes it
+// nearly normal.
 void random_triangles(random_t *r, int n, double *out);
-// The same of eight, number i of r[k] to rows[LANES * i + k]; of a null pointer nothing is drawn. At most
-// RANDOM_ROWS of each; only where lane_possible().
+// The same for eight generators: number i of r[k] goes to rows[LANES * i + k]; nothing is drawn for a null
+// pointer. n is at most RANDOM_ROWS. Only where lane_possible().
 #define RANDOM_ROWS 16
 void random_triangles_of_all(random_t *const r[LANES], int n, double *rows);
-// Evenly distributed over lo..hi.
+// Uniformly distributed over lo..hi.
 double random_uniform(random_t *r, double lo, double hi);
 void random_close(random_t *r);
 
