@@ -1,4 +1,4 @@
-// cpu_time.c - the time that this thread has had a processor.
+// cpu_time.c - the processor time of this thread.
 #define _POSIX_C_SOURCE 200809L // clock_gettime
 #include "base/cpu_time.h"
 

@@ -13,8 +13,8 @@
 #include <strings.h>
 
 typedef struct {
-  int count;                        // cells, also those beyond CSV_COLUMN_MAX
-  const char *cell[CSV_COLUMN_MAX]; // into text
+  int count;                        // number of cells, including those beyond CSV_COLUMN_MAX
+  const char *cell[CSV_COLUMN_MAX]; // each points into text
   size_t used;
   char text[CSV_LINE_MAX];
 } row_t;
@@ -24,11 +24,11 @@ struct csv_file {
   struct csv_parser parser;
   char path[256];
   char line[CSV_LINE_MAX];
-  long line_number; // of the last line that was read
-  long rows;        // under the names
+  long line_number; // of the last line read
+  long rows;        // data rows so far, without the row of names
   row_t name, row;
-  row_t *into;   // where the parser puts cells
-  bool ended;    // the parser has come to the end of a row
+  row_t *into;   // the row that the parser fills
+  bool ended;    // the parser has reached the end of a row
   bool overflow; // a row over several lines is too long
   bool forgive, cut_off;
 };
@@ -91,7 +91,7 @@ static void on_row(int ending, void *user) {
   ((csv_file_t *)user)->ended = true;
 }
 
-// One line with its LF; *size 0 at the end of the file.
+// Reads one line with its LF; *size is 0 at the end of the file.
 static done_t read_line(csv_file_t *file, size_t *size, why_t *why) {
   *size = 0;
   file->line_number++;
@@ -102,11 +102,11 @@ static done_t read_line(csv_file_t *file, size_t *size, why_t *why) {
     file->line[(*size)++] = (char)c;
   }
   if (ferror(file->stream)) return csv_refuse(file, -1, why, "cannot be read: %s", strerror(errno));
-  if (*size == 0 && file->line_number > 1) file->line_number--; // the end is no line
+  if (*size == 0 && file->line_number > 1) file->line_number--; // the end of the file is not a line
   return DONE;
 }
 
-// The next row that is not blank; none is left where into->count stays 0.
+// Reads the next row that is not blank; at the end of the file into->count stays 0.
 static done_t read_row(csv_file_t *file, row_t *into, why_t *why) {
   into->count = 0;
   into->used = 0;

@@ -1,4 +1,4 @@
-// error.c - one line for a person.
+// error.c - error messages of one line.
 #include "base/error.h"
 
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-// gunzip.c - a stream of what a gzip file holds.
+// gunzip.c - a stream that decompresses a gzip file.
 #define _GNU_SOURCE // fopencookie
 #include "base/gunzip.h"
 
@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <zlib.h>
 
-#define GZIP_WINDOW (15 + 16) // the largest, in gzip's frame
+#define GZIP_WINDOW (15 + 16) // largest window, gzip header
 
 typedef struct {
   FILE *packed;
   z_stream z;
-  bool ended; // a file of those that are joined
+  bool ended; // one of several joined files
   unsigned char in[1 << 14];
 } gunzip_t;
 

@@ -1,4 +1,4 @@
-// heap.h - memory that flight after flight frees and asks for again. Header only.
+// heap.h - keeps memory that is freed after each flight for the next one. Header only.
 #ifndef SIM_BASE_HEAP_H
 #define SIM_BASE_HEAP_H
 
@@ -7,13 +7,13 @@
 #include <malloc.h>
 #endif
 
-// A flight's record is 2 to 20 MB. Given back to the system and taken anew, page by page, it costs 4 % of the
-// flights that are flown side by side. 32 MB is the most that the library takes for the first; the second is
-// what it may hold back.
+// A flight's record takes 2 to 20 MB. Returning it to the system and getting it anew, page by page, costs 4 %
+// of the time of flights side by side. HEAP_WITHIN is the largest mmap threshold that the library accepts;
+// HEAP_KEPT is how much free memory it may keep.
 #define HEAP_WITHIN (32 << 20)
 #define HEAP_KEPT   (1 << 30)
 
-// Of this program, from here on.
+// Applies to the whole program from here on.
 static inline void heap_keep(void) {
 #ifdef __GLIBC__
   (void)mallopt(M_MMAP_THRESHOLD, HEAP_WITHIN);

@@ -10,7 +10,7 @@
 
 #define PLAIN "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%^"
 
-// Builds are made to be repeated with it (reproducible-builds.org); what is no number is as if not set.
+// SOURCE_DATE_EPOCH makes builds repeatable (reproducible-builds.org); if it is not a number it is ignored.
 static time_t now(void) {
   const char *const epoch = getenv("SOURCE_DATE_EPOCH");
   char *end;

@@ -1,4 +1,4 @@
-// nearest.c - did you mean.
+// nearest.c - suggests names.
 #include "base/nearest.h"
 
 #include <ctype.h>

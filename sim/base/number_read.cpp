@@ -1,4 +1,4 @@
-// number_read.cpp - the fast way from a text to a number.
+// number_read.cpp - fast conversion of text to a number.
 #include "base/number.h"
 
 #include <charconv>

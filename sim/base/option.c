@@ -1,4 +1,4 @@
-// option.c - options that are refused.
+// option.c - errors of a program's options.
 #include "base/option.h"
 
 #include "base/nearest.h"
@@ -8,7 +8,7 @@
 
 #define LIST_MAX 320
 
-// The option of that name; null: there is none.
+// The option of that name; null if there is none.
 static const struct option *find(const struct option *options, const char *name, size_t size) {
   for (; options->name; options++)
     if (strlen(options->name) == size && strncmp(options->name, name, size) == 0) return options;

@@ -12,12 +12,12 @@
 #include <unistd.h>
 
 #define PATH_BYTES 4200
-#define LINK_BYTES 40 // "/proc/self/fd/" and a number
+#define LINK_BYTES 40 // enough for "/proc/self/fd/" and a number
 #define TRIES      100
 
 // --- signals ------------------------------------------------------------------------------------------
 
-// All that end a process by default and can be waited with: a crash (SIGSEGV ..) cannot.
+// All signals that end a process by default and can be deferred; crashes (SIGSEGV ..) cannot.
 static const int SIGNALS[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGABRT, SIGPIPE,   SIGALRM, SIGTERM, SIGUSR1,
                               SIGUSR2, SIGXCPU, SIGXFSZ, SIGPROF, SIGVTALRM, SIGIO,   SIGPWR};
 #define SIGNALS_ALL ((int)(sizeof SIGNALS / sizeof *SIGNALS))
@@ -73,7 +73,7 @@ bool part_open(part_t *p, const char *folder) {
   char text[LINK_BYTES];
   struct stat s;
   p->file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  // A name is given through /proc, which a bare root may lack.
+  // A file gets its name through /proc, which a minimal root file system may lack.
   p->linkable = p->file >= 0 && stat(own_link(p, text), &s) == 0;
   if (p->file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return p->file >= 0;
   return part_open_unlinked(p, folder);
@@ -83,7 +83,7 @@ int part_writer(const part_t *p) {
   return fcntl(p->file, F_DUPFD_CLOEXEC, 0);
 }
 
-// The name's last letters, not yet there: by process and attempt.
+// Draws the last letters of the name from process id and attempt.
 static void draw(char *tail, int attempt) {
   static const char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789";
   unsigned long number = (unsigned long)getpid() * TRIES + (unsigned long)attempt;
@@ -115,7 +115,7 @@ static bool copy_to(const part_t *p, char *name) {
   struct stat s;
   const int file = fstat(p->file, &s) == 0 ? mkostemp(name, O_CLOEXEC) : -1;
   if (file < 0) return false;
-  (void)!fchown(file, s.st_uid, s.st_gid); // only root may; the others keep theirs
+  (void)!fchown(file, s.st_uid, s.st_gid); // only root may; other users keep their own ids
   bool good = fchmod(file, s.st_mode & 07777) == 0 && copy(p->file, file);
   if (close(file) != 0) good = false;
   if (good) return true;

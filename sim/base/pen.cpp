@@ -1,4 +1,4 @@
-// pen.cpp - rows of numbers into a file.
+// pen.cpp - writes rows of numbers to a file.
 #include "base/pen.h"
 
 #include <algorithm>
@@ -11,18 +11,18 @@ static int written(char text[PEN_NUMBER], double value, std::chars_format format
   return static_cast<int>(std::to_chars(text, text + PEN_NUMBER, value, format, n).ptr - text);
 }
 
-// Nearly every number of a log has few digits: one product in double, rounded, has them all, unless the
-// product's own error could decide which way. Those that it could are left to std::to_chars.
+// Nearly every number of a log has few digits. One rounded product in double then gives all of them, unless
+// its rounding error could change the result; std::to_chars handles those cases.
 
 constexpr int DIGITS = 12; // at most: whole numbers below 2^40
 constexpr double TEN[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15}; // exact
 
-// value * power, >= 0, to the nearest whole number. false: too near to a tie, or too large. Below 2^40 a
-// product is off by 2^-13 at most.
+// Rounds value * power, >= 0, to the nearest whole number. False if it is too near to a tie, or too large.
+// Below 2^40 the product's error is at most 2^-13.
 static bool nearest(double value, double power, uint64_t &whole) {
   const double product = value * power;
-  if (!(product < 0x1p40)) return false; // NaN too
+  if (!(product < 0x1p40)) return false; // or NaN
   whole = static_cast<uint64_t>(product);
   const double rest = product - static_cast<double>(whole);
   whole += rest > 0.5;
@@ -38,7 +38,7 @@ static char *put_sign(char *at, double value) {
   return at + std::signbit(value);
 }
 
-// How many bytes; 0: not done.
+// The number of bytes written; 0 if this fast way cannot do it.
 static int fixed_shortly(char *text, double value, int places) {
   uint64_t whole;
   if (places < 0 || places > DIGITS || !nearest(std::fabs(value), TEN[places], whole)) return 0;
@@ -52,7 +52,7 @@ static int fixed_shortly(char *text, double value, int places) {
   return static_cast<int>(at - text);
 }
 
-// 10^power <= value < 10^(power + 1), or what a rounded product takes for it.
+// The power with 10^power <= value < 10^(power + 1), up to rounding of the product.
 static int power_of(double value) {
   int power = 0;
   while (value >= TEN[power + 1]) power++;
@@ -67,10 +67,10 @@ static int general_shortly(char *text, double value, int digits) {
   uint64_t whole = static_cast<uint64_t>(size);
   char *at = put_sign(text, value);
   if (static_cast<double>(whole) == size) return static_cast<int>(put_whole(at, whole) - text);
-  if (size < 1e-3) return 0; // soon with an exponent
+  if (size < 1e-3) return 0; // smaller ones soon need an exponent
   const int power = power_of(size);
   if (!nearest(size, TEN[digits - 1 - power], whole)) return 0;
-  // At either end the power may be another one.
+  // At either end of the range, the exponent may be off by one.
   if (static_cast<double>(whole) <= TEN[digits - 1] || static_cast<double>(whole) >= TEN[digits]) return 0;
   char digit[DIGITS + 1];
   int n = static_cast<int>(put_whole(digit, whole) - digit);
@@ -104,7 +104,7 @@ void pen_flush(pen_t *pen) {
   pen->used = 0;
 }
 
-// Where so many bytes can be put.
+// Returns where that many bytes can be written.
 static char *room(pen_t *pen, size_t bytes) {
   if (pen->used + bytes > sizeof pen->text) pen_flush(pen);
   return pen->text + pen->used;

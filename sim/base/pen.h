@@ -1,5 +1,5 @@
-// pen.h - rows of numbers into a file, the same bytes as printf writes in the "C" locale, several times as
-// fast (std::to_chars behind a C header).
+// pen.h - writes rows of numbers to a file, with the same bytes as printf in the "C" locale but several times
+// as fast (std::to_chars behind a C header).
 #ifndef SIM_BASE_PEN_H
 #define SIM_BASE_PEN_H
 
@@ -10,17 +10,17 @@
 extern "C" {
 #endif
 
-#define PEN_NUMBER 360 // bytes that a number needs at most: 309 digits, a point, 40 places, a sign
-#define PEN_PLACES 40  // at most, and digits
+#define PEN_NUMBER 360 // most bytes of a number: 309 digits, a point, 40 places, a sign
+#define PEN_PLACES 40  // most places, and most digits
 
-// As "%.{places}f", without a 0 at the end; returns how many bytes. places: 0..PEN_PLACES; of what is beyond
-// these the nearest.
+// Writes as "%.{places}f" does, without a terminating zero, and returns the number of bytes. places is
+// limited to 0..PEN_PLACES.
 int pen_fixed_text(char text[PEN_NUMBER], double value, int places);
-// As "%.{digits}g".
+// The same as "%.{digits}g".
 int pen_general_text(char text[PEN_NUMBER], double value, int digits);
 
-// What is written goes to the file in pieces, the rest with pen_flush. The file knows if that failed, and for
-// what reason when it is closed: a piece is smaller than the stream's own room, where it stays then.
+// Text goes to the file in pieces; pen_flush writes the rest. Errors remain in the stream (ferror), and
+// closing it still gives the reason: a piece is smaller than the stream's buffer, where it then stays.
 typedef struct {
   FILE *file;
   size_t used;

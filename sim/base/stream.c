@@ -1,4 +1,4 @@
-// stream.c - a file to read from, packed by gzip or not.
+// stream.c - opens files that may be compressed by gzip.
 #include "base/stream.h"
 
 #include "base/gunzip.h"
@@ -16,7 +16,7 @@ done_t stream_open(FILE **stream, const char *path, why_t *why) {
   if (!*stream) return error_set(why, "%s: cannot be opened: %s", path, strerror(errno));
   errno = 0;
   const int first = stream_peek(*stream);
-  if (ferror(*stream)) { // a folder
+  if (ferror(*stream)) { // it is a folder
     const int cause = errno;
     fclose(*stream);
     *stream = NULL;

@@ -1,4 +1,4 @@
-// text.c - words for people.
+// text.c - text for messages.
 #include "base/text.h"
 
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // toml.cpp - TOML files through toml++. No exception leaves this file.
-#define TOML_HEADER_ONLY 0 // the code comes from the library: compiles in a fraction of the time
+#define TOML_HEADER_ONLY 0 // uses the compiled library, which compiles in a fraction of the time
 #include "base/toml.h"
 
 #include "base/nearest.h"
@@ -33,7 +33,7 @@ toml_t handle(const toml_file_t *file, const toml::table *table) {
   return {file, table};
 }
 
-// The value of the key, or a null pointer and an error that says that it is missing.
+// The value of the key; if it is missing, a null pointer and an error.
 const toml::node *find(toml_t t, const char *key, const char *type, why_t *why) {
   const toml::node *node = table_of(t).get(key);
   if (!node) toml_refuse(t, key, why, "missing; allowed: %s", type);
@@ -44,7 +44,7 @@ done_t wrong_type(toml_t t, const char *key, const char *type, why_t *why) {
   return toml_refuse(t, key, why, "wrong type; allowed: %s", type);
 }
 
-// name, mass_kg, ..: what stands at the root.
+// Lists the keys allowed at the root: name, mass_kg, ..
 std::string keys_of(const toml_kind_t *kind) {
   std::string list;
   for (const char *const *key = kind->keys; *key; key++)
@@ -123,7 +123,7 @@ done_t toml_refuse(toml_t t, const char *key, why_t *why, const char *format, ..
   std::vsnprintf(what, sizeof what, format, args);
   va_end(args);
   const toml::node *node = key ? table_of(t).get(key) : nullptr;
-  // A root table has no place of its own: line 1.
+  // A root table has no position of its own: line 1.
   const unsigned table_line = table_of(t).source().begin.line;
   const unsigned line = node ? node->source().begin.line : table_line ? table_line : 1;
   return error_set(why, "%s:%u: %s%s%s", t.file->path.c_str(), line, key ? key : "", key ? ": " : "", what);

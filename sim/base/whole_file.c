@@ -1,4 +1,4 @@
-// whole_file.c - files that are complete or not there.
+// whole_file.c - files that are complete or do not exist.
 #define _XOPEN_SOURCE 700 // realpath, fchown
 #include "base/whole_file.h"
 
@@ -13,8 +13,8 @@ static done_t cannot(const char *path, why_t *why) {
   return error_set(why, "%.300s: cannot be written: %s", path, strerror(errno));
 }
 
-// The path with a folder without links, so that two ways to one place compare equal. The last part of it is
-// no link. False: errno says why.
+// The path with its folder free of links, so that two paths to one place compare equal. The last part must
+// not be a link. False on an error, with errno set.
 static bool resolve(const char *path, char target[WHOLE_PATH_MAX]) {
   char folder[WHOLE_PATH_MAX];
   const int size = folder_size(path);
@@ -37,9 +37,9 @@ static bool is_output(const struct stat *s) {
   return fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == s->st_dev && out.st_ino == s->st_ino;
 }
 
-// The text waits in a file without a name: what went into a pipe could not be taken back.
+// The text is kept in a temporary file, because text sent into a pipe could not be taken back.
 static done_t open_direct(whole_file_t *f, const char *path, const struct stat *s, why_t *why) {
-  // A second opening of the file that is the standard output would write over it.
+  // If the file is the standard output, opening it a second time would overwrite what is printed.
   const int output = is_output(s) ? dup(STDOUT_FILENO) : -1;
   f->direct = output >= 0 ? fdopen(output, "w") : fopen(path, "w");
   if (!f->direct) return cannot(path, why);
@@ -49,9 +49,9 @@ static done_t open_direct(whole_file_t *f, const char *path, const struct stat *
   return error_failed(why, "no temporary file: %s", strerror(errno));
 }
 
-// there: what is replaced, whose rights are kept; null: nothing.
+// there: the file to be replaced, whose owner and mode are kept; null if there is none.
 static done_t open_beside(whole_file_t *f, const char *path, const struct stat *there, why_t *why) {
-  // Moving a file there would not ask.
+  // rename() would ignore the permissions of the file itself.
   if (there && access(f->target, W_OK) != 0) return cannot(path, why);
   char folder[WHOLE_PATH_MAX];
   const int size = folder_size(f->target);
@@ -80,7 +80,7 @@ static done_t open_one(whole_file_t *f, const char *path, why_t *why) {
     return error_set(why, "%.300s: a symbolic link; allowed: a file, or a name that is not taken", path);
   if (file && !resolve(path, f->target)) return cannot(path, why);
   if (file) return open_beside(f, path, there ? &s : NULL, why);
-  char *const real = realpath(path, NULL); // none behind the link to a pipe of the shell
+  char *const real = realpath(path, NULL); // fails for a link to a pipe of the shell
   snprintf(f->target, sizeof f->target, "%s", real ? real : path);
   free(real);
   return open_direct(f, path, &s, why);
@@ -90,7 +90,7 @@ done_t whole_files_open(whole_files_t *w, const char *path, FILE **file, why_t *
   *file = NULL;
   if (!path) return DONE;
   if (w->n == WHOLE_FILES_MAX) return error_failed(why, "more than %d files to write", WHOLE_FILES_MAX);
-  // Else a file would get its number, and what is printed.
+  // If standard output is closed, a file would get its descriptor, and with it what is printed.
   struct stat output;
   if (fstat(STDOUT_FILENO, &output) != 0) return error_failed(why, "standard output: it is closed");
   whole_file_t *const f = &w->of[w->n];
@@ -142,7 +142,7 @@ static done_t finish(whole_file_t *f, why_t *why) {
   return good ? DONE : not_written(f, why);
 }
 
-// After this nothing that is common can fail any more.
+// After this step, no common error can occur any more.
 static done_t name(whole_file_t *f, why_t *why) {
   if (f->part.file < 0) return DONE;
   static const char own[] = ".part-XXXXXX";
@@ -166,12 +166,12 @@ static done_t move(whole_file_t *f, why_t *why) {
 done_t whole_files_commit(whole_files_t *w, why_t *why) {
   done_t status = DONE;
   if (fflush(stdout) != 0 || ferror(stdout)) status = error_failed(why, "standard output: cannot be written");
-  // Files first: a text that went into a pipe could not be taken back.
+  // Files first: text sent into a pipe could not be taken back.
   for (int i = 0; i < w->n && status == DONE; i++)
     if (!w->of[i].direct) status = finish(&w->of[i], why);
   for (int i = 0; i < w->n && status == DONE; i++)
     if (w->of[i].direct) status = finish(&w->of[i], why);
-  part_hold(); // all in their places, or none
+  part_hold(); // all files or none
   for (int i = 0; i < w->n && status == DONE; i++) status = name(&w->of[i], why);
   for (int i = 0; i < w->n && status == DONE; i++) status = move(&w->of[i], why);
   whole_files_drop(w);
