@@ -1,20 +1,20 @@
 // decay.h - a exp(-k d), a few at a time, to 2 ulp: without a branch or a call, and with the same bits on
-// every machine (the C library's differ with the processor). Header only.
+// every machine (those of the C library depend on the processor). Header only.
 //
 //   -k d = n ln 2 + r, |r| <= ln 2 / 2,   exp(-k d) = 2^n (1 + r + r^2 q(r))
 //
-// q: of degree 9, Chebyshev's for (exp r - 1 - r) / r^2, good to 1.3e-17. Written for few operations in a
-// row: the integrator's next stage waits for it.
+// q: polynomial of degree 9, Chebyshev approximation of (exp r - 1 - r) / r^2, error 1.3e-17. The chain of
+// dependent operations is short, because the integrator's next stage waits for it.
 #ifndef SIM_PLANT_DECAY_H
 #define SIM_PLANT_DECAY_H
 
 #include "base/few.h"
 
-#define DECAY_FAR 700.0 // k d; from here on the result is 0
+#define DECAY_FAR 700.0 // of k d; from here on the result is 0
 
-// d >= 0, also infinite; k > 0.
+// d >= 0, may be infinite; k > 0.
 FEW_INLINE few_t decay(double a, double k, few_t d) {
-  const double to_integer = 0x1.8p52; // added, it leaves an integer in the lowest bits
+  const double to_integer = 0x1.8p52; // adding it leaves an integer in the lowest bits
   const few_t n_and_more = d * (-0x1.71547652b82fep+0 * k) + to_integer, n = n_and_more - to_integer;
   const few_t x = d * -k;
   const few_t r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40; // ln 2 in two parts

@@ -1,4 +1,4 @@
-// integrate.c - SUNDIALS ERKStep, and a Runge-Kutta step by hand as its cross-check.
+// integrate.c - SUNDIALS ERKStep, and a hand-written Runge-Kutta step as its cross-check.
 #include "plant/integrate.h"
 
 #include "base/error.h"
@@ -14,12 +14,12 @@
 
 _Static_assert(ODE_MAX <= SHORT_VECTOR_MAX, "every state fits a vector");
 
-#define ERK_ROUNDING 1e-14 // of a span: so little is left of it by rounding alone
+#define ERK_ROUNDING 1e-14 // share of a span that rounding alone may leave
 
 struct integrate {
   integrate_kind_t kind;
   ode_t ode;
-  double span_s; // by hand: the last one, cut into so many steps
+  double span_s; // by hand: the last span, and into how many steps it was cut
   int steps;
   double h; // of the last step
   SUNContext sun;
@@ -29,9 +29,9 @@ struct integrate {
 
 // --- by hand ------------------------------------------------------------------------------------------
 
-// next may be y.
+// `next` may be `y`.
 WIDE_COPIES static void rk4_many(const ode_t *ode, const double *y, double h, double *next) {
-  // Lanes take them where they lie, as one register or as two.
+  // Aligned so that lanes can use them in place, as one register or as two.
   _Alignas(WIDE * sizeof(double)) double k1[ODE_MAX], k2[ODE_MAX], k3[ODE_MAX], k4[ODE_MAX], at[ODE_MAX];
   const int n = ode->n;
   ode->derivative(ode->context, y, k1);
@@ -48,7 +48,7 @@ FEW_INLINE void ahead(const double *y, double h, one_state_t k, double *to) {
   one_state_put(to, one_state_plus(one_state_of(y), h, k));
 }
 
-// The same of one vehicle.
+// The same for one vehicle.
 PAIR_COPIES static void rk4_one(const ode_t *ode, const double *y, double h, double *next) {
   double k1[ONE_STATE], k2[ONE_STATE], k3[ONE_STATE], k4[ONE_STATE], at[ONE_STATE];
   ode->derivative(ode->context, y, k1);
@@ -63,7 +63,7 @@ PAIR_COPIES static void rk4_one(const ode_t *ode, const double *y, double h, dou
   ahead(y, h / 6.0, all, next);
 }
 
-// Spans are of few lengths.
+// Cuts a span into steps; only when its length has changed, which is rare.
 static void rk4_cut(integrate_t *s, double span_s) {
   if (span_s == s->span_s) return;
   s->span_s = span_s;
@@ -88,9 +88,9 @@ static int erk_derivative(realtype t, N_Vector y, N_Vector dydt, void *self) {
   return 0;
 }
 
-// The classic four stages. SUNDIALS 6.4 takes the last stage's derivative for the next step's first wherever
-// the last stage lies at the step's end, which of this table is not true and would cost two digits: each step
-// is begun anew.
+// The classic four-stage table. SUNDIALS 6.4 reuses the last stage's derivative as the next step's first
+// wherever the last stage lies at the end of the step. That is wrong for this table and would cost two
+// digits, so each step is started anew.
 static bool erk_use_classic_table(void *erk) {
   double c[4] = {0.0, 0.5, 0.5, 1.0};
   double b[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -101,7 +101,7 @@ static bool erk_use_classic_table(void *erk) {
   return good;
 }
 
-// A step that is fixed needs no error weights, but SUNDIALS computes them at every step: these cost nothing.
+// A fixed step needs no error weights, but SUNDIALS computes them at every step: these cost nothing.
 static int erk_no_weights(N_Vector y, N_Vector weight, void *self) {
   (void)y;
   (void)self;
@@ -109,7 +109,7 @@ static int erk_no_weights(N_Vector y, N_Vector weight, void *self) {
   return 0;
 }
 
-// The caller tells of it: a flight that a solver gives up is not finite.
+// Prints nothing: the caller reports that a solver gave up.
 static void erk_silent(int code, const char *module, const char *function, char *message, void *self) {
   (void)code;
   (void)module;
@@ -135,7 +135,7 @@ static bool erk_open(integrate_t *s) {
          ERKStepSetErrHandlerFn(s->erk, erk_silent, NULL) == ARK_SUCCESS;
 }
 
-// One step of h, without all that serves to look between its ends.
+// One step of h, without the preparations for interpolating within it.
 static bool erk_step(integrate_t *s, double h) {
   double t = 0.0;
   if (h != s->h && ERKStepSetFixedStep(s->erk, h) != ARK_SUCCESS) return false;
@@ -144,7 +144,7 @@ static bool erk_step(integrate_t *s, double h) {
          ERKStepEvolve(s->erk, h, s->y, &t, ARK_ONE_STEP) >= 0;
 }
 
-// Where a step does not fit any more it ends as SUNDIALS has it end at a stop time: not a hair too late.
+// The last step ends as SUNDIALS has it at a stop time: not even a rounding error too late.
 static bool erk_steps(integrate_t *s, double span_s) {
   const double step_s = s->ode.step_s;
   double h;
@@ -155,8 +155,8 @@ static bool erk_steps(integrate_t *s, double span_s) {
   return true;
 }
 
-// Both are needed at every change of an input: without the reset the old derivative is used once more,
-// without the stop time the step runs past the end and is interpolated back.
+// Both calls are needed whenever an input changes: without the reset the old derivative is used once more,
+// and without the stop time the step runs past the end and is interpolated back.
 static bool erk_adaptive(integrate_t *s, double span_s) {
   double t = 0.0;
   return ERKStepReset(s->erk, 0.0, s->y) == ARK_SUCCESS &&

@@ -1,12 +1,12 @@
-// one_state.h - the seventeen numbers of one vehicle's state (plant/rigid.h) as an integrator moves them: in
-// fours, of which the last are the rotors' thrusts. They are read so where the derivative is formed: who
-// reads more at once than was written at once waits until it has all come to memory. Header only.
+// one_state.h - the 17 numbers of one vehicle's state (plant/rigid.h) as the integrator holds them: in fours,
+// of which the last are the rotors' thrusts. The derivative stores them in the same groups, because a load
+// that is wider than the stores before it waits until those are in memory. Header only.
 #ifndef SIM_PLANT_ONE_STATE_H
 #define SIM_PLANT_ONE_STATE_H
 
 #include "base/few.h"
 
-#define ONE_STATE 17 // so many they are
+#define ONE_STATE 17 // how many numbers
 
 typedef struct {
   few_t head[3], rotors;

@@ -7,12 +7,12 @@
 //   J w' = M + sum(r_i x e3 rho_i f_i) - e3 sum d_i (c q_i f_i + I_r Om_i') - w x (J w + e3 sum d_i I_r Om_i)
 //   Om_i = s_i sqrt(f_i / kf)
 //
-// p, v: of the centre of mass, in the world (z up). R, q: body to world. w: body rates. f_i: thrust of rotor
-// i in free air, rho_i: what the surroundings multiply it by. c: torque over thrust, d_i: +1 where the rotor
-// turns counter-clockwise seen from above (the body is turned the other way). F, M: all other forces and
-// moments, in body axes about the centre of mass. s_i, q_i: how much faster a rotor turns, and what is left
-// of its torque, where surroundings hinder its inflow (plant/inflow.h); 1 in free air, where the torque
-// follows the thrust. The lag is that of free air.
+// p, v: position and velocity of the centre of mass, world axes (z up). R, q: body to world. w: body rates.
+// f_i: thrust of rotor i in free air, rho_i: its factor due to the surroundings. c: torque over thrust, d_i:
+// +1 if the rotor turns counter-clockwise seen from above (its torque turns the body the other way). F, M:
+// all other forces and moments, in body axes about the centre of mass. s_i, q_i: factors of a rotor's speed
+// and torque where surroundings hinder its inflow (plant/inflow.h); 1 in free air, where the torque is
+// proportional to the thrust. The lag is that of free air.
 #ifndef SIM_PLANT_RIGID_H
 #define SIM_PLANT_RIGID_H
 
@@ -25,7 +25,7 @@
 
 #define ROTORS 4
 
-// Order of the state in y[RIGID_N].
+// Indices of the state in y[RIGID_N].
 enum {
   RIGID_POS_M,
   RIGID_VEL_MPS = 3,
@@ -35,8 +35,8 @@ enum {
   RIGID_N = 17
 };
 
-// Slower than this a rotor is taken to turn at this speed: its acceleration at a given change of thrust is
-// infinite at rest. A tenth of a Crazyflie's speed at hover.
+// A slower rotor is taken to turn at this speed, because at rest its acceleration for a given change of
+// thrust is infinite. A tenth of a Crazyflie's speed at hover.
 #define ROTOR_SLOWEST_RADPS 200.0
 
 typedef struct {
@@ -48,20 +48,20 @@ typedef struct {
   double torque_ratio_m;                 // >= 0   torque over thrust of a rotor
   double kf_Ns2;                         // > 0    thrust over speed squared, N/(rad/s)^2
   double rotor_inertia_kgm2;             // >= 0   of propeller and motor about the axis
-  double motor_tau_s;                    // >= 0   below LAG_LEAST_S: none, the thrust is set with the command
-  double motor_down_over_up;             // >= 0   what the lag is multiplied by while the thrust falls; 0: 1
-  double lag_up_square, lag_down_square; // 0 to 1: plant/lag.h
+  double motor_tau_s;                    // >= 0   below LAG_LEAST_S there is no lag: thrust is as commanded
+  double motor_down_over_up;             // >= 0   factor of the lag while the thrust falls; 0: 1
+  double lag_up_square, lag_down_square; // 0 to 1, see plant/lag.h
   double lag_steady_N;                   // > 0
-  double thrust_scale[ROTORS]; // 1: healthy. What the thrust is multiplied by, apart from surroundings
-  double torque_scale[ROTORS]; // what the torque is multiplied by besides
-  double faster[ROTORS];       // by what share it turns faster, beside what its inflow does
+  double thrust_scale[ROTORS];           // factor of the thrust, apart from surroundings; 1: healthy
+  double torque_scale[ROTORS];           // further factor of the torque
+  double faster[ROTORS];                 // share by which it turns faster, apart from its inflow
   double per_mass, per_tau, per_tau_down, per_root_kf, half_I_per_kf, per_two_steady; // set by rigid_tune
   d3_t per_inertia;                                                                   // set by rigid_tune
-  double command_N[ROTORS];                                                           // held
-  bool lag_in_speed;                                                                  // else in thrust
-  bool plain_lag;     // set by rigid_tune: in thrust, and the same up and down
-  bool vertical_only; // all but height, climb and thrust stand still
-  bool held;          // all but the thrust stands still
+  double command_N[ROTORS]; // constant during a tick
+  bool lag_in_speed;        // else in thrust
+  bool plain_lag;           // set by rigid_tune: the lag is in thrust, and the same up and down
+  bool vertical_only;       // all but height, climb and thrust stand still
+  bool held;                // all but the thrust stands still
 } rigid_t;
 
 // Force and moment about the centre of mass, body axes.
@@ -74,27 +74,28 @@ static inline void load_add(load_t *load, d3_t force_b_N, d3_t moment_b_Nm) {
   load->moment_b_Nm = d3_add(load->moment_b_Nm, moment_b_Nm);
 }
 
-// Computes what the derivative needs of mass, inertias, lag and kf; whenever one of them has changed.
+// Computes what the derivative needs from mass, inertias, lag and kf. Call it whenever one of them has
+// changed.
 void rigid_tune(rigid_t *r);
 
 lag_t rigid_lag(const rigid_t *r);
 
-// Brings the quaternion back to unit length.
+// Scales the quaternion to unit length.
 void rigid_normalise(double y[RIGID_N]);
 
-// Kinetic energy of translation and rotation (J), without the rotors' own.
+// Kinetic energy of translation and rotation (J), without that of the rotors.
 double rigid_energy_J(const rigid_t *r, const double y[RIGID_N]);
 
-// --- the equations: nearly all of a flight's time goes here, so they are inline --------------------------
+// --- the equations: inline, because nearly all of a flight's time is spent here --------------------------
 
-// Speeds of the rotors at thrusts in free air f[ROTORS], in free air, rad/s, >= ROTOR_SLOWEST_RADPS.
+// Speeds of the rotors in free air, rad/s, >= ROTOR_SLOWEST_RADPS. f: their thrusts in free air, N.
 static inline void rigid_rotor_radps(const rigid_t *r, const double f[ROTORS], double speed[ROTORS]) {
   const few_t zero = few_all(0.0), slowest = few_all(ROTOR_SLOWEST_RADPS);
   for (int i = 0; i < ROTORS; i += FEW_N)
     few_put(speed + i, few_max(few_sqrt(few_max(few_of(f + i), zero)) * r->per_root_kf, slowest));
 }
 
-// How fast the rotors' thrusts change. A rotor that stands starts as if it turned at ROTOR_SLOWEST_RADPS.
+// Rate of change of the rotors' thrusts. A rotor at rest starts as if it turned at ROTOR_SLOWEST_RADPS.
 FEW_INLINE few_t rigid_change_Nps(const rigid_t *r, few_t thrust, few_t command, few_t speed) {
   if (r->plain_lag) return (command - thrust) * r->per_tau;
   const few_t zero = few_all(0.0);
@@ -109,7 +110,7 @@ FEW_INLINE few_t rigid_change_Nps(const rigid_t *r, few_t thrust, few_t command,
   return few_max(up, zero) * r->per_tau + few_min(down, zero) * r->per_tau_down;
 }
 
-// Thrust, its moment, and what the rotors' torque and inertia do.
+// Sum of the rotors' thrusts, and the moment of their thrusts, torques and inertias.
 typedef struct {
   double thrust_N;
   d3_t moment_b_Nm;
@@ -135,7 +136,7 @@ static inline rotors_t rigid_rotors(const rigid_t *r, const double *f, const dou
       few_sum(lift), {few_sum(roll), few_sum(pitch), few_sum(yaw)}, r->rotor_inertia_kgm2 * few_sum(spin)};
 }
 
-// All but the thrusts, written in fours: the integrator reads them so at once.
+// Derivative of all states but the thrusts, stored in fours, as the integrator then loads it.
 static inline void rigid_move(const rigid_t *r, const double *y, const axes_t *axes, d3_t force_b_N,
                               d3_t moment_b_Nm, double spin_Nms, double *dydt) {
   const d3_t acc = d3_scale(r->per_mass, axes_to_world(axes, force_b_N));
@@ -151,9 +152,9 @@ static inline void rigid_move(const rigid_t *r, const double *y, const axes_t *a
   dydt[RIGID_RATE_RADPS + 2] = left.z * per.z;
 }
 
-// speed: of the rotors in free air, by rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: rho
-// of each rotor, turning: its s. load: everything that is not a rotor's thrust, torque or inertia; null:
-// nothing.
+// speed: of the rotors in free air, from rigid_rotor_radps. axes: axes_of(the state's quaternion). ratio: rho
+// of each rotor. turning: s of each rotor. load: everything except the rotors' thrusts, torques and inertias;
+// null: nothing.
 static inline void rigid_derivative(const rigid_t *r, const double y[RIGID_N], const axes_t *axes,
                                     const double speed[ROTORS], const double ratio[ROTORS],
                                     const double turning[ROTORS], const load_t *load, double dydt[RIGID_N]) {

@@ -1,11 +1,11 @@
-// rotor.c - motor commands and battery voltage to thrust.
+// rotor.c - thrust from motor commands and battery voltage.
 #include "plant/rotor.h"
 
 #include "plant/thrust_map_few.h"
 
 FEW_INLINE few_t command_N(const thrust_map_t *map, few_t pwm, double vbat_V, double max_N) {
   const few_t off = few_all(0.0);
-  const few_t held = few_min(few_max(pwm, off), few_all(ROTOR_PWM_MAX)); // NaN is 0: the motor is off
+  const few_t held = few_min(few_max(pwm, off), few_all(ROTOR_PWM_MAX)); // NaN becomes 0: the motor is off
   if (map->kind == THRUST_MAP_NONE || map->kind == THRUST_MAP_SPEED) return held / ROTOR_PWM_MAX * max_N;
   if (!(vbat_V > 0.0)) return off;
   return few_where(held > off, thrust_map_few_N(map, held, vbat_V), off);

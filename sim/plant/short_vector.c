@@ -6,8 +6,8 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-// All vectors of one integrator are of one length. Arguments may be one and the same vector: element by
-// element that does no harm.
+// All vectors of one integrator have the same length. Arguments may be the same vector, because these
+// functions work element by element.
 static void put_const(realtype c, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   realtype *out = NV_DATA_S(z);
@@ -18,7 +18,7 @@ PAIR_COPIES static void copy_one(const realtype *in, realtype *out) {
   one_state_put(out, one_state_of(in));
 }
 
-// Nearly always by 1: a copy.
+// c is nearly always 1: a copy.
 static void scale(realtype c, N_Vector x, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(z);
   const realtype *in = NV_DATA_S(x);
@@ -40,7 +40,7 @@ static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector 
   for (sunindextype i = 0; i < n; i++) out[i] = a * p[i] + b * q[i];
 }
 
-// c1 x1 + c2 x2 + ..., from left to right. A term with factor 0 is left out: of a table's stages, half are.
+// c1 x1 + c2 x2 + ..., from left to right. Terms with factor 0 are left out: half of a table's factors are 0.
 WIDE_COPIES static void combine(int terms, const realtype *c, N_Vector *x, N_Vector z) {
   realtype sum[SHORT_VECTOR_MAX];
   const sunindextype n = NV_LENGTH_S(z);

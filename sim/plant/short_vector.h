@@ -1,5 +1,5 @@
-// short_vector.h - SUNDIALS's serial vector, with the operations that a Runge-Kutta step needs written for a
-// few numbers: the library's own are written for millions, and cost more than the right-hand side.
+// short_vector.h - SUNDIALS's serial vector, with the operations of a Runge-Kutta step written for a few
+// numbers: the library's own are made for millions, and cost more than the right-hand side.
 #ifndef SIM_PLANT_SHORT_VECTOR_H
 #define SIM_PLANT_SHORT_VECTOR_H
 
@@ -8,8 +8,8 @@
 
 #define SHORT_VECTOR_MAX 136
 
-// n numbers, all 0. Null: n > SHORT_VECTOR_MAX, or no memory. N_VDestroy frees it; its clones have the same
-// operations.
+// A vector of n numbers, all 0. Null if n > SHORT_VECTOR_MAX or there is no memory. Free it by N_VDestroy.
+// Its clones have the same operations.
 N_Vector short_vector_new(int n, SUNContext context);
 
 #endif

@@ -1,4 +1,4 @@
-// thrust_map.c - what a thrust map takes; the map itself is in thrust_map_few.h.
+// thrust_map.c - the inputs of a thrust map; the map itself is in thrust_map_few.h.
 #include "plant/thrust_map.h"
 
 bool thrust_map_takes_speed(const thrust_map_t *map) {

@@ -1,4 +1,4 @@
-// thrust_map_few.c - of one motor.
+// thrust_map_few.c - one motor's thrust.
 #include "plant/thrust_map_few.h"
 
 double thrust_map_N(const thrust_map_t *map, double command, double vbat_V) {

@@ -8,7 +8,7 @@
 
 #define NEWTON_PER_GRAM 9.81e-3
 
-// As thrust_map_N() of each.
+// The same as thrust_map_N() for each motor.
 FEW_INLINE few_t thrust_map_few_N(const thrust_map_t *map, few_t command, double vbat_V) {
   const double *c = map->c;
   const few_t zero = few_all(0.0);
@@ -16,7 +16,7 @@ FEW_INLINE few_t thrust_map_few_N(const thrust_map_t *map, few_t command, double
   case THRUST_MAP_STAND: {
     const few_t p = command / 65536.0;
     const double u = vbat_V / 4.2;
-    // At low commands the polynomial goes below zero; a propeller does not.
+    // At low commands the polynomial is negative; a propeller's thrust is not.
     return few_max(NEWTON_PER_GRAM * (c[0] + c[1] * p + c[2] * u + c[3] * p * p + c[4] * p * u), zero);
   }
   case THRUST_MAP_VOLT_CUBIC: {

@@ -28,8 +28,8 @@ void touch_init(touch_t *t, double mass_kg) {
   t->grip_Nspm = TOUCH_GRIP * mass_kg;
 }
 
-// A surface as the vehicle sees it: which way it lies from the centre of mass (body axes, length 1), and how
-// far.
+// A surface as seen from the centre of mass: the direction towards it (body axes, length 1), and the
+// distance.
 typedef struct {
   d3_t towards_b;
   double room_m;
@@ -48,7 +48,7 @@ static side_t wall_of(const touch_t *t, d3_t pos_w_m, const axes_t *axes) {
   return (side_t){axes_to_body(axes, d3(0.0, side, 0.0)), side * (t->wall_y_m - pos_w_m.y)};
 }
 
-// Whether a point may be nearer to it than margin_m.
+// True if a point of the vehicle may be nearer to the surface than margin_m.
 static bool is_near(const touch_t *t, side_t side, double margin_m) {
   const d3_t to = side.towards_b;
   const double along_m = where(to.z > 0.0, to.z * t->above_m, -to.z * t->below_m);
@@ -56,13 +56,13 @@ static bool is_near(const touch_t *t, side_t side, double margin_m) {
 }
 
 PAIR_COPIES int touch_near(const touch_t *t, d3_t pos_w_m, const axes_t *axes, double margin_m) {
-  const bool wall = t->wall_y_m < HUGE_VAL && t->wall_y_m > -HUGE_VAL; // most vehicles know of none
+  const bool wall = t->wall_y_m < HUGE_VAL && t->wall_y_m > -HUGE_VAL; // most vehicles have none
   return (is_near(t, floor_of(t, pos_w_m, axes), margin_m) ? TOUCH_FLOOR : 0) |
          (is_near(t, ceiling_of(t, pos_w_m, axes), margin_m) ? TOUCH_CEILING : 0) |
          (wall && is_near(t, wall_of(t, pos_w_m, axes), margin_m) ? TOUCH_WALL : 0);
 }
 
-// How far a disc's nearest point towards the surface lies from its centre, times `to`.
+// Factor by which the x and y of `to` lead from a disc's centre to its point that is nearest to the surface.
 static double disc_reach_m(const touch_t *t, d3_t to) {
   return t->disc_radius_m / sqrt(to.x * to.x + to.y * to.y + TOUCH_LEVEL * TOUCH_LEVEL);
 }
@@ -72,7 +72,7 @@ static d3_t point_of(const touch_t *t, int g, int i, d3_t to, double reach_m) {
   return g == DISCS ? d3_add(p, d3(reach_m * to.x, reach_m * to.y, 0.0)) : p;
 }
 
-// The distance that is left between the surface and the point that is nearest to it.
+// The gap between the surface and the point that is nearest to it.
 static double left_m(const touch_t *t, side_t side) {
   const double reach_m = disc_reach_m(t, side.towards_b);
   double most_m = -HUGE_VAL;
@@ -89,12 +89,12 @@ PAIR_COPIES touch_gap_t touch_gap(const touch_t *t, d3_t pos_w_m, const axes_t *
                        left_m(t, wall_of(t, pos_w_m, axes))};
 }
 
-// The surface that presses, and how the body moves.
+// The surface that presses, and the body's motion.
 typedef struct {
-  d3_t n, vel_b, rate_b; // n: out of the surface
+  d3_t n, vel_b, rate_b; // n: surface normal, towards the vehicle
 } press_t;
 
-// One point, depth_m inside the surface where that is above 0.
+// Adds the contact force at one point, where its depth_m in the surface is above 0.
 static void push(const touch_t *t, const press_t *p, d3_t point, double depth_m, load_t *load) {
   const d3_t vel = d3_add(p->vel_b, d3_cross(p->rate_b, point));
   const double out_mps = d3_dot(vel, p->n);
@@ -111,7 +111,7 @@ static void push(const touch_t *t, const press_t *p, d3_t point, double depth_m,
   load->moment_b_Nm = D3_WHERE(depth_m > 0.0 && normal_N > 0.0, pushed.moment_b_Nm, load->moment_b_Nm);
 }
 
-// No point of the group lies more than this towards the surface.
+// An upper bound of how far any point of the group lies towards the surface.
 static double bound_m(const touch_t *t, int g, d3_t to) {
   return to.z * where(to.z > 0.0, t->highest_m[g], t->lowest_m[g]) + t->beside_m * (fabs(to.x) + fabs(to.y));
 }
