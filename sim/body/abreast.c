@@ -11,33 +11,33 @@
 
 _Static_assert(RIGID_N *LANES <= ODE_MAX, "a state of all lanes can be integrated");
 
-// What becomes of contacts in a tick, of each.
+// A body's contacts during a tick.
 typedef struct {
   bool on_floor, on_ceiling;
-  int floor, ceiling; // begun
+  int floor, ceiling; // contacts begun
 } contacts_t;
 
 struct abreast {
   const lanes_door_t *door;
   lanes_t *lanes;
-  integrate_t *integrate; // of the kind and step that moved last
+  integrate_t *integrate; // for the integrator and step that were used last
   integrate_kind_t kind;
   double step_s;
-  long together; // ticks of a vehicle
+  long together; // ticks, counted per body
   has_t has[LANES];
-  unsigned moved;      // by the last tick
+  unsigned moved;      // by the last tick, together
   unsigned ahead;      // of these, those whose body_t lags behind
-  bool now_loaded;     // as theirs are
-  lanes_alike_t alike; // of
-  const body_t *first; // this one
+  bool now_loaded;     // look.loaded of these
+  lanes_alike_t alike; // what they have in common, taken from
+  const body_t *first; // this body
   unsigned first_changed;
   // For ticks whose commands come as rows (abreast_again).
-  bool again, begun; // the next may be one; and the last was
+  bool again, begun; // the next tick may be one; the last tick was one
   orders_t orders;
   contacts_t touch[LANES];
 };
 
-// What is one and the same for those that are moved together; `b` is the first of them.
+// Updates what the bodies that are moved together have in common; `b` is the first of them.
 static void set_alike(abreast_t *a, const body_t *b) {
   lanes_alike_t *const to = &a->alike;
   if (a->first != b || a->first_changed != b->changed || b->n_tick > 0) *to = lanes_alike(b);
@@ -53,13 +53,13 @@ static void set_alike(abreast_t *a, const body_t *b) {
 
 // --- numbers to their lane and back -----------------------------------------------------------------------
 
-// What effects at ticks change at every one of them.
+// Takes what effects at ticks change at every tick.
 static void take_plant(const lanes_at_t *to, int lane, const body_t *b) {
   lanes_put(to->plant, (const double *)&b->plant, PLANT_NUMBERS, lane);
   lanes_put(to->rigid + LANES * RIGID_SCALES, (const double *)&b->rigid + RIGID_SCALES, 3 * ROTORS, lane);
 }
 
-// Between ticks that are moved together nothing changes but that, pushes and commands.
+// Between ticks that are moved together, only this, pushes and commands change.
 static void take_all(abreast_t *a, int lane, const body_t *b) {
   const lanes_at_t *const to = a->door->at(a->lanes);
   lanes_put(to->rigid + LANES * RIGID_COMMAND, b->rigid.command_N, ROTORS, lane);
@@ -127,7 +127,7 @@ void abreast_settle_all(abreast_t *a, body_t *const b[LANES]) {
   a->ahead &= ~of;
 }
 
-// Who has to do the tick alone after all is where it was.
+// Puts a body that has to do the tick alone after all back to where it was.
 static void give_before(abreast_t *a, int lane, body_t *b) {
   a->ahead &= ~(1u << lane);
   give_now(a->door->at(a->lanes)->before, lane, b);
@@ -174,7 +174,7 @@ static bool advance(abreast_t *a, double span_s, contacts_t touch[LANES]) {
   return true;
 }
 
-// Moves those of `in`, whose numbers are in their lanes. Returns those that were moved.
+// Moves the bodies in `in`, whose numbers are in their lanes. Returns those that were moved.
 static unsigned move_lanes(abreast_t *a, body_t *const *b, unsigned in, double span_s,
                            contacts_t touch[LANES], lanes_seen_t *seen) {
   a->door->set(a->lanes, &a->alike);
@@ -194,7 +194,7 @@ static unsigned move_lanes(abreast_t *a, body_t *const *b, unsigned in, double s
   return moved;
 }
 
-// The same of bodies that are alike.
+// The same for bodies that are alike, after taking their numbers.
 static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const body_t *first,
                               lanes_seen_t *seen) {
   contacts_t touch[LANES] = {{.floor = 0}};
@@ -207,7 +207,7 @@ static unsigned move_together(abreast_t *a, body_t *const *b, unsigned in, const
   return move_lanes(a, b, in, first->span_s, touch, seen);
 }
 
-// Whether all were moved together in the last tick, and nobody has done anything to them since but order.
+// True if all were moved together in the last tick, and have only been commanded since.
 static bool as_before(const abreast_t *a, body_t *const *b) {
   for (int k = 0; k < LANES; k++) {
     const has_t *const has = &a->has[k];
@@ -236,7 +236,7 @@ static bool is_finite(const double *now, int k) {
   return isfinite(now[LANES * (RIGID_POS_M + 2) + k]) && isfinite(now[LANES * RIGID_Q_WB + k]);
 }
 
-// Those of a tick that were moved with others: what is done for each body besides.
+// Completes the tick of a body that was moved with others.
 static void end_together(abreast_t *a, int k, body_t *b, double *vbat_V) {
   const double *const now = a->door->at(a->lanes)->now;
   b->broken = !is_finite(now, k);
@@ -247,14 +247,14 @@ static void end_together(abreast_t *a, int k, body_t *b, double *vbat_V) {
   a->together++;
 }
 
-// In lanes or not, from where it was.
+// Does the tick alone, from where the body was, in lanes or not.
 static void end_alone(abreast_t *a, int k, body_t *b) {
   if (a->ahead >> k & 1) give_before(a, k, b);
   body_tick_alone(b);
   body_tick_end(b);
 }
 
-// Effects at ticks, and rotors without a lag, look at the body and change it.
+// Effects at ticks, and rotors without a lag, read the body and change it.
 static void begin_tick(abreast_t *a, int k, body_t *b) {
   if (b->n_tick > 0 || b->rigid.motor_tau_s < LAG_LEAST_S) abreast_settle(a, k, b);
   body_tick_begin(b);
@@ -266,7 +266,7 @@ unsigned abreast_move(abreast_t *a, body_t *const b[LANES], lanes_seen_t *seen, 
     if (b[k]) begin_tick(a, k, b[k]);
   const bool again = as_before(a, b);
   const unsigned in = again ? a->moved : alike_in(a, b, &first);
-  if (again) first = b[__builtin_ctz(a->moved)]; // who was the first may have left since, and be gone
+  if (again) first = b[__builtin_ctz(a->moved)]; // the first one may have left since, and no longer exist
   if (in && integrator_for(a, first)) {
     a->moved = move_together(a, b, in, first, seen);
   } else {
@@ -363,7 +363,7 @@ void abreast_forget(abreast_t *a) {
 }
 
 void abreast_forget_one(abreast_t *a, int k) {
-  for (int i = 0; i < LANES; i++) a->has[i].like = NULL; // it may be the one
+  for (int i = 0; i < LANES; i++) a->has[i].like = NULL; // it may be this body
   a->has[k] = (has_t){.body = NULL};
   a->again = false;
   a->first = NULL;

@@ -1,4 +1,4 @@
-// alike.c - who may be moved together.
+// alike.c - which bodies may be moved together.
 #include "body/alike.h"
 
 #include "body/lanes_of.h"
@@ -26,7 +26,7 @@ static bool same_senses(const model_t *a, const model_t *b) {
   return n == lanes_senses(b, of_b) && same_effects(of_a, of_b, n);
 }
 
-// What stays as it is from tick to tick.
+// True if a and b agree in what does not change from tick to tick.
 static bool made_alike(const body_t *a, const body_t *b) {
   return a->kind == b->kind && a->step_s == b->step_s && a->model->battery.n == b->model->battery.n &&
          (a->n_tick > 0) == (b->n_tick > 0) && same_senses(a->model, b->model) &&
@@ -34,7 +34,7 @@ static bool made_alike(const body_t *a, const body_t *b) {
          same_effects(a->excess, b->excess, a->n_excess) && same_effects(a->load, b->load, a->n_load);
 }
 
-// That is looked at once, unless one of them was changed or has effects that change it at every tick.
+// Calls made_alike() only if one of them was changed, or has effects that change it at every tick.
 bool alike(has_t *has, const body_t *a, const body_t *b) {
   if (has->like != a || has->like_changed != a->changed || has->body != b || has->changed != b->changed ||
       a->n_tick > 0) {

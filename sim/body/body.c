@@ -50,14 +50,14 @@ static void take_start(body_t *b, const body_start_t *start) {
   d3_put(b->y + RIGID_Q_WB + 1, d3(q.x, q.y, q.z));
   rigid_normalise(b->y);
   for (int i = 0; i < ROTORS; i++) b->y[RIGID_THRUST_N + i] = b->command_N[i] = start->thrust_N[i];
-  // A delay of k ticks brings the first k times what the motors do already.
+  // With a delay of k ticks, the first k commands are what the motors do already.
   for (int i = 0; i < BODY_QUEUE; i++) memcpy(b->queue_N[i], start->thrust_N, sizeof b->queue_N[i]);
   b->rigid.vertical_only = start->vertical_only;
   b->rigid.held = start->held;
   b->charge = 1.0 - start->discharged;
 }
 
-// left: of each rotor's current, where its inflow is hindered.
+// left: the share of each rotor's current that remains where its inflow is hindered; null: all.
 static void look_at_battery(body_t *b, const double *left) {
   b->current_A = battery_current_A(&b->model->battery, b->y + RIGID_THRUST_N, left, ROTORS);
   b->vbat_V = battery_voltage_V(&b->model->battery, b->charge, b->current_A);
@@ -127,7 +127,7 @@ void body_push(body_t *b, d3_t force_w_N) {
 }
 
 void body_shake(body_t *b, push_t push) {
-  if (!b->pushed) b->changed++; // for those that it flies beside
+  if (!b->pushed) b->changed++; // seen by code that moves it with others
   b->pushed = true;
   b->push = push;
   b->look_is_y = false;
@@ -182,7 +182,7 @@ static void delay_commands(body_t *b) {
   b->queued++;
 }
 
-// Rotors without a lag.
+// For rotors without a lag.
 static void take_commands(body_t *b) {
   memcpy(b->y + RIGID_THRUST_N, b->rigid.command_N, sizeof b->rigid.command_N);
   b->look_is_y = false;
@@ -220,7 +220,7 @@ void body_tick_end(body_t *b) {
 void body_command(body_t *b, const double command_N[ROTORS], double span_s) {
   const few_t min_N = few_all(b->model->thrust_min_N / ROTORS),
               max_N = few_all(b->model->thrust_max_N / ROTORS);
-  for (int i = 0; i < ROTORS; i += FEW_N) // NaN is the least
+  for (int i = 0; i < ROTORS; i += FEW_N) // NaN becomes the minimum
     few_put(b->command_N + i, few_min(few_max(few_of(command_N + i), min_N), max_N));
   b->span_s = span_s;
 }

@@ -55,7 +55,7 @@ PAIR_COPIES void body_next_derivative(void *self, const double *y, double *dydt)
     forces_derivative(&f, y, &look, dydt);
     return;
   }
-  // The first call of a tick is at the tick's start, whichever integrator it is.
+  // Every integrator makes the first call of a tick at the tick's start.
   forces_derivative(&f, y, &b->look, dydt);
   b->look_is_y = false;
 }

@@ -1,8 +1,8 @@
-// forces.h - what acts on a vehicle at a state: rotors, surroundings, effects, contact. Header only: one
-// vehicle is moved by it, and eight at a time.
+// forces.h - what acts on a vehicle in a given state: rotors, surroundings, effects, contact. Header only,
+// for code that moves one vehicle and code that moves eight at a time.
 //
-// It takes what it needs by acting_t and knows nothing of ticks, so that all numbers in it may be those of
-// eight vehicles (base/lane.hpp): no branch on a number that where() can do without.
+// Its input is an acting_t, and it does not depend on ticks, so that all its numbers may be those of eight
+// vehicles (base/lane.hpp). It does not branch on a number where where() can do the same.
 #ifndef SIM_BODY_FORCES_H
 #define SIM_BODY_FORCES_H
 
@@ -14,20 +14,20 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define FORCES_MARGIN_M 2e-3  // how much nearer than by its speed a vehicle may come in a tick
-#define FORCES_FAR_M    0.3   // of the centre of mass
-#define FORCES_IDLE_N   0.002 // of one rotor: below, it stands
+#define FORCES_MARGIN_M 2e-3  // a vehicle may come this much nearer in a tick than its speed says
+#define FORCES_FAR_M    0.3   // from the ceiling, for the centre of mass
+#define FORCES_IDLE_N   0.002 // below this thrust, a rotor counts as standing
 
 // All that the derivative at a state needs besides the commands.
 typedef struct {
   axes_t axes;
-  double ratio[ROTORS], speed_radps[ROTORS]; // speed: as it would be in free air
-  double turning[ROTORS];                    // what that is multiplied by
+  double ratio[ROTORS], speed_radps[ROTORS]; // speed: in free air
+  double turning[ROTORS];                    // factor of that speed
   load_t load;
   bool loaded; // else load is not set: nothing acts but the rotors
 } body_look_t;
 
-// What acts on it besides, at the centre of mass.
+// An additional force and moment at the centre of mass.
 typedef struct {
   d3_t force_w_N, moment_b_Nm;
 } push_t;
@@ -39,20 +39,19 @@ typedef struct {
   const fx_plant_t *plant;
   const fx_use_t *const *excess, *const *load; // effects with those hooks
   int n_excess, n_load;
-  int excess_of;      // SURFACE_* that they have to do with
-  bool ticks;         // an effect changes the plant at ticks
-  const push_t *push; // null: nothing does
+  int excess_of;      // SURFACE_* on which they depend
+  bool ticks;         // effects change the plant at ticks
+  const push_t *push; // null: none
 } acting_t;
 
-// How far each rotor is from the place of the centre of mass, along a direction in body axes.
+// Distance of each rotor from the centre of mass along a direction in body axes.
 FEW_INLINE few_t forces_along(const rigid_t *r, int i, d3_t to) {
   return to.x * few_of(r->rotor_x_m + i) + to.y * few_of(r->rotor_y_m + i) + to.z * few_of(r->rotor_z_m + i);
 }
 
 #define SURFACES (SURFACE_CEILING | SURFACE_GROUND)
 
-// How far the rotors are from the ceiling, and from the ground if it is asked for; pos_w_m: of the centre of
-// mass.
+// Distances of the rotors from the ceiling and, if in `surfaces`, from the ground. pos_w_m: centre of mass.
 static inline fx_places_t forces_places(const acting_t *f, int surfaces, d3_t pos_w_m, const axes_t *axes) {
   const d3_t up = axes_up_b(axes);
   const rigid_t *r = f->rigid;
@@ -72,7 +71,7 @@ static inline fx_places_t forces_places(const acting_t *f, int surfaces, d3_t po
   return at;
 }
 
-// What the surroundings multiply each rotor's thrust by.
+// Factor of each rotor's thrust due to the surroundings.
 static inline void forces_surfaces(const acting_t *f, const double *y, const axes_t *axes,
                                    double ratio[ROTORS]) {
   for (int i = 0; i < ROTORS; i++) ratio[i] = 1.0;
@@ -87,7 +86,7 @@ static inline void forces_speeds(const acting_t *f, const double *y, body_look_t
     few_put(look->turning + i, inflow_turning(few_of(look->ratio + i), few_of(f->rigid->faster + i)));
 }
 
-// Written in place: who takes it copied waits for each of these stores.
+// Writes in place: copying the struct would have to wait for each of these stores.
 static inline void forces_motion(const acting_t *f, const double *y, const body_look_t *look,
                                  fx_motion_t *motion) {
   const axes_t *const axes = &look->axes;
@@ -101,14 +100,14 @@ static inline void forces_motion(const acting_t *f, const double *y, const body_
     few_put(motion->rotor_radps + i, few_of(look->turning + i) * few_of(look->speed_radps + i));
 }
 
-// Out of line: most vehicles have no such effect.
+// Not inline, because most vehicles have no such effect.
 static void forces_effects(const acting_t *f, const double *y, body_look_t *look) {
   fx_motion_t motion;
   forces_motion(f, y, look, &motion);
   for (int k = 0; k < f->n_load; k++) f->load[k]->fx->load(f->load[k], &motion, &look->load);
 }
 
-// What acts on the body besides the rotors. surfaces: as below.
+// Forces and moments on the body, except the rotors'. surfaces: as below.
 static inline void forces_load(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
   look->loaded = f->ticks || f->n_load > 0 || f->push || surfaces;
   if (!look->loaded) return;
@@ -121,7 +120,7 @@ static inline void forces_load(const acting_t *f, int surfaces, const double *y,
   if (near) touch_load(f->touch, near, y, &look->axes, &look->load);
 }
 
-// What acts at state y. surfaces: TOUCH_* that may be near; the others are not looked at.
+// What acts at state y. surfaces: TOUCH_* that may be near; others are ignored.
 static inline void forces_look(const acting_t *f, int surfaces, const double *y, body_look_t *look) {
   look->axes = axes_of(dq_of(y + RIGID_Q_WB));
   forces_surfaces(f, y, &look->axes, look->ratio);
@@ -129,7 +128,7 @@ static inline void forces_look(const acting_t *f, int surfaces, const double *y,
   forces_load(f, surfaces, y, look);
 }
 
-// Adds what one effect more does to the rotors and the body.
+// Adds what one more effect does to rotors and body.
 static inline void forces_look_more(const acting_t *f, const fx_use_t *more, const double *y,
                                     body_look_t *look) {
   if (more->fx->excess) {
@@ -146,14 +145,14 @@ static inline void forces_look_more(const acting_t *f, const fx_use_t *more, con
   more->fx->load(more, &motion, &look->load);
 }
 
-// dydt at state y, with what acts there.
+// dydt at state y, where *look holds what acts there.
 static inline void forces_derivative(const acting_t *f, const double *y, const body_look_t *look,
                                      double *dydt) {
   rigid_derivative(f->rigid, y, &look->axes, look->speed_radps, look->ratio, look->turning,
                    look->loaded ? &look->load : NULL, dydt);
 }
 
-// Specific force at the centre of mass, body axes, and how the turning grows.
+// Specific force at the centre of mass, body axes, and the angular acceleration.
 static inline d3_t forces_pull_b_mps2(const acting_t *f, const double *y, const body_look_t *look,
                                       d3_t *turn_radps2) {
   double dydt[RIGID_N];
@@ -166,16 +165,16 @@ static inline d3_t forces_pull_b_mps2(const acting_t *f, const double *y, const 
 // --- effects at the beginning of a tick ------------------------------------------------------------------
 
 typedef struct {
-  const fx_use_t *const *use; // those with that hook
+  const fx_use_t *const *use; // the effects with that hook
   int n;
   const fx_plant_t *untouched; // the model's numbers
-  d3_t inertia_kgm2;           // the same
+  d3_t inertia_kgm2;           // of the model
   double t_s, span_s, vbat_V;
   random_t *random;
-  double (*memory)[FX_MEMORY]; // of each
+  double (*memory)[FX_MEMORY]; // of each effect
 } forces_tick_t;
 
-// What they make of the vehicle.
+// Applies these effects to the model's numbers.
 static inline void forces_plant(const acting_t *f, const forces_tick_t *t, const double *y,
                                 fx_plant_t *plant) {
   *plant = *t->untouched;
@@ -195,7 +194,7 @@ static inline void forces_plant(const acting_t *f, const forces_tick_t *t, const
   }
 }
 
-// Divisions only where something has changed; whether it has.
+// Copies the result to *r. Divides only if something has changed, and returns whether it has.
 static inline bool forces_take_plant(const fx_plant_t *plant, d3_t inertia_kgm2, rigid_t *r) {
   const d3_t was = r->inertia_kgm2, grown = plant->inertia_scale;
   const d3_t J = d3(inertia_kgm2.x * grown.x, inertia_kgm2.y * grown.y, inertia_kgm2.z * grown.z);
@@ -232,13 +231,13 @@ static inline double forces_rotor_z_m(const acting_t *f, const double *y, const 
          d3_dot(axes_up_b(axes), d3(r->rotor_x_m[rotor], r->rotor_y_m[rotor], r->rotor_z_m[rotor]));
 }
 
-// Rotor's centre to ceiling, >= 0; HUGE_VAL: there is none.
+// Distance from the rotor's centre to the ceiling, >= 0; HUGE_VAL if there is none.
 static inline double forces_ceiling_gap_m(const acting_t *f, const double *y, const axes_t *axes, int rotor) {
   const double gap_m = f->touch->ceiling_m - forces_rotor_z_m(f, y, axes, rotor);
   return where(gap_m > 0.0, gap_m, 0.0);
 }
 
-// Of the rotor that is nearest; far from the ceiling that of the first is near enough.
+// The smallest such distance; far from the ceiling the first rotor's is accurate enough.
 static inline double forces_gap_m(const acting_t *f, const double *y, const axes_t *axes) {
   const fx_places_t at = forces_places(f, SURFACE_CEILING, d3_of(y + RIGID_POS_M), axes);
   const double *const each_m = at.ceiling_gap_m;
@@ -253,12 +252,12 @@ static inline double forces_rotors_N(const double *y) {
   return sum_N;
 }
 
-// What is left of each rotor's current.
+// Each rotor's current over that in free air.
 static inline void forces_current_left(const body_look_t *look, double left[ROTORS]) {
   for (int i = 0; i < ROTORS; i += FEW_N) few_put(left + i, inflow_torque(few_of(look->turning + i)));
 }
 
-// What perfect sensors need to know of the vehicle file besides; heights over its centre of mass.
+// What perfect sensors need from the vehicle file; heights above its centre of mass.
 typedef struct {
   d3_t imu_m;
   double rotor_z_m, rest_z_m;
@@ -276,8 +275,8 @@ static inline d3_t forces_specific_b_mps2(const acting_t *f, const double *y, co
                 d3_add(d3_cross(turn, imu), d3_cross(rate, d3_cross(rate, imu))));
 }
 
-// What they read, before the effects on sensors. Both range sensors lie in the rotors' plane and at the feet,
-// near enough, on the axis.
+// What perfect sensors read, before the effects on sensors. The range sensors are taken to lie on the axis,
+// in the rotors' plane and at the feet.
 static inline void forces_sensed(const acting_t *f, const double *y, const body_look_t *look,
                                  const sensed_from_t *from, fx_sensed_t *above, fx_sensed_t *below) {
   const axes_t *const axes = &look->axes;

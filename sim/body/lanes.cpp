@@ -1,4 +1,4 @@
-// lanes.cpp - eight vehicles side by side: the sources of what acts on one, compiled for eight.
+// lanes.cpp - eight vehicles side by side: the sources that move one vehicle, compiled for eight.
 #include "body/lanes.h"
 
 #ifdef __AVX2__
@@ -8,8 +8,8 @@
 
 namespace {
 
-// Random numbers come at ticks alone, which each vehicle that flies does for itself; an instant that asks for
-// one is looked at alone.
+// Only effects at ticks draw random numbers. Vehicles that fly apply these effects one by one; an instant
+// whose effects draw one is evaluated alone.
 #define SIM_BASE_RANDOM_H
 struct random_t;
 inline double random_normal(random_t *) {
@@ -23,13 +23,13 @@ inline void random_triangles(random_t *r, int n, double *out) {
   for (int i = 0; i < n; i++) out[i] = random_normal(r);
 }
 
-#define CURVE_POINTS_MAX 1 // an effect with measured points is in no lane
+#define CURVE_POINTS_MAX 1 // effects with measured points are in no lane
 #include "body/forces.h"
 #include "plant/battery.c"
 #include "plant/rigid.c"
 #include "plant/touch.c"
 
-#include LANES_TABLE // every effect and curve, by tools/table.sh
+#include LANES_TABLE // every effect and curve, written by tools/table.sh
 
 number_t *numbers(void *of) {
   return static_cast<number_t *>(of);
@@ -40,7 +40,7 @@ void take_use(fx_use_t *use, int fx, int form) {
   use->form = form < 0 ? nullptr : curve_in_lanes[form];
 }
 
-// Of eight instants, what is found once.
+// What is found for eight instants, to be used again.
 struct kept_t {
   double y[RIGID_N], command_N[ROTORS], vbat_V, t_s;
   body_look_t look;
@@ -49,7 +49,7 @@ struct kept_t {
   d3_t turn_radps2;
 };
 
-// What moves on.
+// The state that a tick advances.
 struct now_t {
   double y[RIGID_N], charge, current_A, vbat_V;
 };
@@ -80,7 +80,7 @@ struct lanes {
   lanes_at_t at;
 };
 
-// A flag between the numbers of a struct would shift those behind it.
+// A flag between the numbers of a struct would shift the numbers after it.
 static bool same_order(const lanes_numbers_t *n) {
   const std::size_t one = sizeof(lane_t);
   return n->rigid * one == offsetof(rigid_t, lag_in_speed) && n->touch * one == sizeof(touch_t) &&
@@ -149,7 +149,7 @@ static unsigned left() {
   return lanes_in;
 }
 
-// Numbers of an integrator as they lie, or a copy of them where they lie otherwise than registers want it.
+// An integrator's numbers in place, or a copy if they are not aligned as registers need it.
 static bool lies_well(const number_t *y) {
   return reinterpret_cast<uintptr_t>(y) % alignof(lane_t) == 0;
 }
@@ -219,14 +219,14 @@ static void sense(lanes_t *l, lanes_truth_t *truth) {
 
 // --- instants ----------------------------------------------------------------------------------------------
 
-// Who would need numbers of the instant before, or has its rotors elsewhere, leaves.
+// Lanes that need numbers of the instant before, or whose rotors have moved, leave.
 static void act_at_ticks(lanes_t *l, const kept_t *i) {
   const d3_t cg = l->plant.cg_b_m;
   const forces_tick_t tick = {l->tick_at, l->n_tick, &l->untouched, l->inertia_kgm2, i->t_s,
                               l->span_s,  i->vbat_V, nullptr,       l->memory};
   forces_plant(&l->acting, &tick, i->y, &l->plant);
   forces_take_plant(&l->plant, l->inertia_kgm2, &l->rigid);
-  l->rigid.plain_lag = true; // they may have tuned it anew
+  l->rigid.plain_lag = true; // forces_take_plant may have changed it
   unsigned other = (d3_norm(d3_sub(l->plant.cg_b_m, cg)) > 0.0).bits();
   for (int k = 0; k < l->n_tick; k++)
     for (int m = 0; m < FX_MEMORY; m++) other |= (l->memory[k][m] != 0.0).bits();
@@ -319,7 +319,7 @@ static void read_more(lanes_t *l, const lanes_effect_t *more, const void *kept, 
     open, close, at, leave<set>, begin, left, leave<tick>, leave<derivative>, leave<gap>, leave<end>,        \
         leave<sense>, leave<look>, leave<read>, kept_bytes, leave<keep>, leave<read_again>, leave<read_more> \
   }
-#else // nobody asks for more (lane_possible)
+#else // never used there (lane_possible)
 #define DOOR                                                                                                 \
   {}
 #endif

@@ -1,6 +1,6 @@
-// lanes.h - eight vehicles, moved side by side by what moves one (body/forces.h, compiled for eight numbers).
+// lanes.h - eight vehicles, moved side by side by the code for one (body/forces.h, compiled for eight).
 //
-// Numbers lie lane beside lane: number i of vehicle k is at [LANES * i + k].
+// Storage is lane beside lane: number i of vehicle k is at [LANES * i + k].
 #ifndef SIM_BODY_LANES_H
 #define SIM_BODY_LANES_H
 
@@ -17,62 +17,63 @@ extern "C" {
 
 typedef struct lanes lanes_t;
 
-// Where the numbers of a struct of one vehicle go, in its order; the other members stand in lanes_alike_t.
+// Where the numbers of each struct of a vehicle are, in the struct's order; lanes_alike_t has the other
+// members.
 typedef struct {
   double *rigid, *touch, *plant, *push;
   double *excess[LANES_EFFECTS], *load[LANES_EFFECTS], *sense[LANES_EFFECTS],
-      *tick[LANES_EFFECTS];    // p of each
-  double *untouched, *inertia; // what effects at ticks begin with: a plant, and the vehicle file's inertia
-  double *battery, *open_V;    // before and behind its `n`
+      *tick[LANES_EFFECTS];    // parameters p of each
+  double *untouched, *inertia; // what effects at ticks start from: a plant, and the vehicle file's inertia
+  double *battery, *open_V;    // the members before and after its `n`
   double *sensed_from;
-  double *now, *before; // y, charge, current, voltage: at the tick's end, and at its begin
+  double *now, *before; // y, charge, current, voltage at the tick's end and at its beginning
   double *look;
 } lanes_at_t;
 
-enum { LANES_CHARGE = 17, LANES_CURRENT_A, LANES_VBAT_V, LANES_NOW }; // behind y
+enum { LANES_CHARGE = 17, LANES_CURRENT_A, LANES_VBAT_V, LANES_NOW }; // after y
 
-// What is known of each at the end of a tick.
+// What is known of each vehicle at the end of a tick.
 typedef struct {
   double rotors_N[LANES], gap_m[LANES];
 } lanes_seen_t;
 
-// What is true at a tick's begin: place, velocity, attitude, rates, specific force, upward and downward
-// range, in this order (sense/truth.h).
+// What is true at the beginning of a tick: position, velocity, attitude, rates, specific force, upward and
+// downward range, in this order (sense/truth.h).
 #define LANES_TRUTH 18
 typedef struct {
-  double *number;   // room for so many rows of LANES
-  unsigned motors;  // whether they turn, a bit each
+  double *number;   // room for LANES_TRUTH rows of LANES
+  unsigned motors;  // whether they turn, one bit per lane
   double up[LANES]; // cosine of the tilt
 } lanes_truth_t;
 
-// What is one and the same for all of them.
+// What all vehicles in the lanes have in common.
 typedef struct {
-  bool lag_in_speed, plain_lag, ticks, pushed, looked, loaded; // looked: `look` is of y
+  bool lag_in_speed, plain_lag, ticks, pushed, looked, loaded; // looked: `look` holds for y
   int excess_of, n_excess, n_load, n_sense, n_tick,
-      n_open_V; // n_tick: 0 where bodies act at ticks themselves
+      n_open_V; // n_tick: 0 if bodies apply effects at ticks themselves
   int excess[LANES_EFFECTS], load[LANES_EFFECTS], sense[LANES_EFFECTS], tick[LANES_EFFECTS]; // in fx_table
   int excess_form[LANES_EFFECTS]; // in curve_table; -1: none
   double span_s;
 } lanes_alike_t;
 
-// How many numbers each struct begins with for one vehicle; of touch and plant that is all.
+// How many numbers stand at the beginning of each struct for one vehicle; touch and plant have nothing else.
 typedef struct {
   size_t rigid, touch, plant, look, battery;
 } lanes_numbers_t;
 
-// How far the point that is nearest is from floor and ceiling, now.
+// Present distance of the nearest point from floor and ceiling.
 typedef struct {
   double floor_m[LANES], ceiling_m[LANES];
 } lanes_gap_t;
 
 // --- instants (body/points.h) -----------------------------------------------------------------------------
 
-// Eight of them.
+// Eight instants.
 typedef struct {
   double y[LANES_CHARGE][LANES], command_N[4][LANES], vbat_V[LANES], t_s[LANES];
 } lanes_instants_t;
 
-// What a range sensor has in sight, and what perfect sensors read: specific force, turning, range.
+// What a range sensor sees, and what perfect sensors read: specific force, angular acceleration, range.
 typedef struct {
   double range_m[LANES], range_rate_mps[LANES];
 } lanes_sight_t;
@@ -81,47 +82,47 @@ typedef struct {
   double of[LANES_READINGS][LANES];
 } lanes_readings_t;
 
-// One effect more: its numbers in fx_table and curve_table (-1: no form), and p.
+// One more effect: its indices in fx_table and curve_table (-1: no form), and p.
 typedef struct {
   int fx, form;
   double p[LANES_PARAMS];
 } lanes_effect_t;
 
 typedef struct {
-  // Null: no memory, or a struct whose numbers do not lie one behind the other.
+  // Null if there is no memory, or a struct's numbers are not contiguous.
   lanes_t *(*open)(const lanes_numbers_t *numbers);
   void (*close)(lanes_t *l);
   const lanes_at_t *(*at)(const lanes_t *l);
   void (*set)(lanes_t *l, const lanes_alike_t *alike);
-  // From here on the lanes `in` (a bit each) count. What of them had to leave since begin(), because they
-  // differ too much from the others, is to be moved alone: those that are still in.
+  // begin: selects the lanes `in` (one bit each). left: those that are still in. Lanes that have left since
+  // begin(), because they differ too much from the others, must be moved alone.
   void (*begin)(unsigned in);
   unsigned (*left)(void);
-  // A tick begins: what is now is what was before. The surfaces (TOUCH_*) that may be touched in it.
+  // Begins a tick: copies `now` to `before`. Returns the surfaces (TOUCH_*) that may be touched in it.
   int (*tick)(lanes_t *l);
-  // For the integrator: dydt at state y, both RIGID_N * LANES. context: lanes_t.
+  // The integrator's callback: dydt at state y, both RIGID_N * LANES. context: lanes_t.
   void (*derivative)(void *context, const double *y, double *dydt);
   void (*gap)(lanes_t *l, lanes_gap_t *gap);
-  // The quaternions in `now` are brought back to unit length, and what acts there is looked at; battery.
-  // Whether look.loaded.
+  // Ends a tick: normalises the quaternions in `now`, looks at what acts there, and updates the battery.
+  // Returns look.loaded.
   bool (*end)(lanes_t *l, lanes_seen_t *seen);
-  // Before the next tick: what perfect sensors with their effects read.
+  // What perfect sensors, with the effects on sensors, read before the next tick.
   void (*sense)(lanes_t *l, lanes_truth_t *truth);
-  // What acts at instants, and the cosines of the tilt there. No surface is near.
+  // Looks at what acts at the instants; up: cosines of the tilt there. No surface may be near.
   void (*look)(lanes_t *l, const lanes_instants_t *at, double up[LANES]);
-  // What is read where look() has looked.
+  // What sensors read at the instants of look().
   void (*read)(lanes_t *l, const lanes_sight_t *sight, lanes_readings_t *to);
-  // Keeps both: so many bytes.
+  // Keeps the results of both, kept_bytes() bytes.
   size_t (*kept_bytes)(void);
   void (*keep)(const lanes_t *l, void *kept);
-  // Both, of a vehicle with other effects at ticks than the one of which it was kept; the motors did the
-  // same. moved: its rotors are elsewhere.
+  // Both for a vehicle that differs from the one kept only in its effects at ticks, with the same thrusts.
+  // moved: its rotors are in other places.
   void (*read_again)(lanes_t *l, const void *kept, bool moved, lanes_readings_t *to);
-  // What is read with an effect more that adds to load or excess, or that acts on sensors.
+  // What sensors read with one more effect, on load, excess or sensors.
   void (*read_more)(lanes_t *l, const lanes_effect_t *more, const void *kept, lanes_readings_t *to);
 } lanes_door_t;
 
-// By registers of so many bits (lane_bits() of base/lane.h); the same bits come out.
+// For registers of that many bits (lane_bits() of base/lane.h); the results have the same bits.
 extern const lanes_door_t lanes_door_256, lanes_door_512;
 
 #ifdef __cplusplus

@@ -39,7 +39,7 @@ bool lanes_know_effect(const fx_use_t *use) {
   return at_fx(use) >= 0 && (!use->form || (at_form(use) >= 0 && !use->form->needs_points));
 }
 
-// At ticks each body acts for itself (abreast.c).
+// Effects at ticks do not count, because each body applies them itself (abreast.c).
 bool lanes_know(const body_t *b) {
   for (int k = 0; k < b->n_excess; k++)
     if (!lanes_know_effect(b->excess[k])) return false;

@@ -1,4 +1,4 @@
-// lanes_of.h - which numbers of a body go into its lane (body/lanes.h), and where. Within sim/body only.
+// lanes_of.h - which numbers of a body go into its lane (body/lanes.h), and where. Only for sim/body.
 #ifndef SIM_BODY_LANES_OF_H
 #define SIM_BODY_LANES_OF_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 #define NUMBER         sizeof(double)
-#define RIGID_NUMBERS  (offsetof(rigid_t, command_N) / NUMBER) // those that stay, most of the time
+#define RIGID_NUMBERS  (offsetof(rigid_t, command_N) / NUMBER) // those that rarely change
 #define RIGID_COMMAND  RIGID_NUMBERS
 #define RIGID_SCALES   (offsetof(rigid_t, thrust_scale) / NUMBER) // thrust, torque, faster
 #define TOUCH_NUMBERS  (sizeof(touch_t) / NUMBER)
@@ -22,18 +22,18 @@ _Static_assert(offsetof(rigid_t, lag_in_speed) == (RIGID_COMMAND + ROTORS) * NUM
 _Static_assert(offsetof(rigid_t, faster) == (RIGID_SCALES + 2 * ROTORS) * NUMBER, "scales lie side by side");
 _Static_assert((int)RIGID_N == LANES_CHARGE, "charge, current and voltage lie behind y");
 
-// By registers of so many bits (lane_bits()).
+// For registers of that many bits (lane_bits()).
 const lanes_door_t *lanes_door(int bits);
-// Null: no memory.
+// Null if there is no memory.
 lanes_t *lanes_open(const lanes_door_t *door);
 
-// It is of the tables, without points.
+// True if the effect is in the tables, and its form has no measured points.
 bool lanes_know_effect(const fx_use_t *use);
-// So are all that do not act at ticks alone.
+// True if this holds for all effects that act otherwise than at ticks.
 bool lanes_know(const body_t *b);
 lanes_effect_t lanes_effect(const fx_use_t *use);
 
-// The model's effects with a hook for sensors; how many.
+// Lists the model's effects on sensors; returns how many.
 int lanes_senses(const model_t *m, const fx_use_t *sense[FX_MAX]);
 
 lanes_alike_t lanes_alike(const body_t *b);

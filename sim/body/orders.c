@@ -1,4 +1,4 @@
-// orders.c - what eight bodies are commanded, as rows.
+// orders.c - the commands of eight bodies, as rows.
 #include "body/orders.h"
 
 #define ROW(tick) ((tick) % ORDERS_DELAY)
@@ -22,7 +22,7 @@ void orders_begin(orders_t *o, int k, const body_t *b) {
 void orders_take(orders_t *o, const double *command_N, double *applied_N) {
   double(*const now_N)[LANES] = o->command_N[ROW(o->tick)];
   for (int i = 0; i < ROTORS; i++)
-    for (int k = 0; k < LANES; k++) { // NaN is the least
+    for (int k = 0; k < LANES; k++) { // NaN becomes the minimum
       const double N = command_N[LANES * i + k], more_N = N > o->least_N[k] ? N : o->least_N[k];
       applied_N[LANES * i + k] = now_N[i][k] = more_N < o->most_N[k] ? more_N : o->most_N[k];
     }
@@ -37,7 +37,7 @@ void orders_end(orders_t *o, unsigned in, double span_s) {
   o->ahead |= in;
 }
 
-// Of the commands those that the next ticks ask for.
+// Of the queue, only the commands that the next ticks need.
 void orders_give(orders_t *o, int k, body_t *b) {
   if (!(o->ahead >> k & 1)) return;
   o->ahead &= ~(1u << k);

@@ -1,4 +1,4 @@
-// side_by_side.c - jobs that move a body each.
+// side_by_side.c - runs jobs that each move a body.
 #include "body/side_by_side.h"
 
 #include "base/heap.h"
@@ -25,7 +25,7 @@ static void move(void *self, void *const what[LANES]) {
     if (!tick) continue;
     b[k] = tick->body;
     if (b[k]->t_s == 0.0)
-      abreast_forget_one(a, k); // opened anew, not moved yet: another one may have been there
+      abreast_forget_one(a, k); // just opened, not moved yet: another body may have been at this address
     body_command(b[k], tick->command_N, tick->span_s);
   }
   (void)abreast_move(a, b, &seen, vbat_V);
