@@ -1,4 +1,4 @@
-// ekf.c - the estimator's rates: when what happens, and what comes out.
+// ekf.c - the estimator's schedule and output.
 #include "sense/ekf.h"
 
 #include "base/either.h"
@@ -6,12 +6,12 @@
 #include <math.h>
 
 #define PREDICT_MS   10
-#define FLIGHT_MS    2000 // motors may stand still that long in flight
+#define FLIGHT_MS    2000 // a flight goes on for this long after the motors stop
 #define POS_MAX_M    100.0
 #define VEL_MAX_MPS  10.0
 #define RANGE_MAX_M  5.0
 #define COUNTS_MAX   100.0
-#define FIRST_POS_XY 10.0 // m; the firmware's 100 m is cut to the largest variance
+#define FIRST_POS_XY 10.0 // m; the firmware's 100 m, cut to the largest variance
 #define FIRST_POS_Z  1.0  // m
 #define FIRST_VEL    0.01 // m/s
 #define FIRST_ANGLE  0.01 // rad
@@ -57,10 +57,11 @@ void ekf_place(ekf_t *e, d3_t pos_w_m, d3_t vel_w_mps, dq_t q_wb) {
   ekf_core_rotation(e);
   expect(e, 1e-3, 1e-3);
   hand_out(e);
-  e->updated = true; // is held to the bounds
+  e->updated = true; // so that bounds are checked
 }
 
-// The firmware takes the mean over what came since the last prediction; with nothing new, the last mean.
+// As the firmware, with the mean of the samples since the last prediction. Without new ones, the firmware
+// would use the last mean.
 static void predict_if_due(ekf_t *e) {
   if (e->countdown_ms-- > 0) return;
   e->countdown_ms = PREDICT_MS - 1;
@@ -104,7 +105,7 @@ PAIR_COPIES void ekf_update(ekf_t *e, const ekf_in_t *in) {
   predict_if_due(e);
   e->noise_ms++;
   take(e, in);
-  if (!e->updated) return; // seven milliseconds in eight: what is handed out stays
+  if (!e->updated) return; // in seven of eight milliseconds the output stays
   ekf_core_finish(e);
   if (!within_bounds(e)) start_anew(e);
   hand_out(e);

@@ -8,29 +8,29 @@
 #include <math.h>
 #include <string.h>
 
-enum { POS = 0, VEL = 3, ATT = 6 }; // where the parts of the state begin
+enum { POS = 0, VEL = 3, ATT = 6 }; // first index of each part of the state
 
 #define VARIANCE_MAX     100.0
 #define VARIANCE_MIN     1e-6
-#define PIXELS_PER_RAD   (35.0 / 0.71674) // of the flow camera: pixels across, aperture
+#define PIXELS_PER_RAD   (35.0 / 0.71674) // of the flow camera: pixels across over aperture
 #define PIXELS_PER_COUNT 0.1
 #define FLOW_NEAREST_M   0.1
 #define RANGE_HALF_CONE  (7.5 * PI / 180.0) // rad, of the sensor's view
-#define UP_LEAST         0.1                // cosine of the largest tilt at which a range is believed
+#define UP_LEAST         0.1                // cosine of the largest tilt at which a range is used
 #define TURN_LEAST_RAD   1e-4               // smaller corrections of the attitude are lost
 
 static double at_most(double p) {
-  return where(p < VARIANCE_MAX, p, VARIANCE_MAX); // NaN too
+  return where(p < VARIANCE_MAX, p, VARIANCE_MAX); // also if NaN
 }
 
-// Of the diagonal.
+// Limits a diagonal element.
 static double bounded(double p) {
   const double most = at_most(p);
   return where(most > VARIANCE_MIN, most, VARIANCE_MIN);
 }
 
-// A row of the variance, its diagonal and what is right of it: a few at a time, and what is left in pairs, so
-// that one element left of it may change, too.
+// Stores row i of the covariance from its diagonal on, a few numbers at a time and the rest in pairs; so one
+// element left of the diagonal may change, too.
 static inline void put_row(ekf_t *e, alike_t i, const double row[EKF_ROW]) {
   alike_t j = i & ~1;
   for (; j + FEW_N <= EKF_ROW; j += FEW_N)
@@ -39,7 +39,7 @@ static inline void put_row(ekf_t *e, alike_t i, const double row[EKF_ROW]) {
   e->P[i][i] = bounded(e->P[i][i]);
 }
 
-// The whole variance, of its upper triangle.
+// Fills the whole covariance from its upper triangle.
 static inline void whole_of(const ekf_t *e, double P[EKF_N][EKF_ROW]) {
   for (int i = 0; i < EKF_N; i++) {
     for (int j = 0; j < i; j++) P[i][j] = e->P[j][i];
@@ -81,7 +81,7 @@ void ekf_core_noise(ekf_t *e) {
   e->noise_ms = 0;
 }
 
-// I - [h] + (h h' - |h|^2 I) / 2: how the error of the attitude turns when the body turns by h.
+// I - [h] + (h h' - |h|^2 I) / 2: turns the attitude error when the body turns by h.
 static void turn_matrix(d3_t h, double m[3][3]) {
   const double v[3] = {h.x, h.y, h.z}, square = d3_dot(h, h);
   cross_matrix(h, m);
@@ -89,8 +89,8 @@ static void turn_matrix(d3_t h, double m[3][3]) {
     for (int j = 0; j < 3; j++) m[i][j] = (i == j ? 1.0 - 0.5 * square : 0.0) - m[i][j] + 0.5 * v[i] * v[j];
 }
 
-// How an error of the state goes on: A, and across[k][j] = A[j][k]. A's diagonal blocks of 3 x 3 have nothing
-// below them; the first, of the position, is 1 and stands in neither.
+// Linearised propagation of the state's error: A, and its transpose, across[k][j] = A[j][k]. A is 0 below its
+// 3 x 3 diagonal blocks. The first of these, for the position, is the identity and is stored in neither.
 typedef struct {
   double A[EKF_N][EKF_N];
   _Alignas(16) double across[EKF_N][EKF_ROW];
@@ -105,7 +105,7 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
   cross_matrix(part(e, VEL), v);
   cross_matrix(gyro, w);
   cross_matrix((d3_t){e->R[2][0], e->R[2][1], e->R[2][2]}, u);
-  turn_matrix(d3_scale(0.5 * dt, gyro), turn); // by half the angle, as the firmware does
+  turn_matrix(d3_scale(0.5 * dt, gyro), turn); // half the angle, as in the firmware
   memset(s->across, 0, sizeof s->across);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
@@ -117,8 +117,8 @@ static void linearise(const ekf_t *e, d3_t gyro, double dt, slopes_t *s) {
     }
 }
 
-// own + a M for a row a of the part POS, VEL or ATT: its columns from that part on, without a's blocks that
-// are 0. The estimator's time goes here.
+// own + a M for a row a of the part POS, VEL or ATT: the columns from that part on, skipping a's zero blocks.
+// Most of the estimator's time is spent here.
 static inline void row_times(alike_t part, const double *own, const double *a, double M[EKF_N][EKF_ROW],
                              double *out) {
   const alike_t from = part == ATT ? ATT : VEL;
@@ -145,7 +145,7 @@ static inline void spread_part(ekf_t *e, alike_t part, slopes_t *s, double P[EKF
   }
 }
 
-// A P A'.
+// Replaces the covariance by A P A'.
 static void spread(ekf_t *e, slopes_t *s, double P[EKF_N][EKF_ROW]) {
   spread_part(e, POS, s, P);
   spread_part(e, VEL, s, P);
@@ -164,7 +164,7 @@ PAIR_COPIES void ekf_core_predict(ekf_t *e, d3_t acc, d3_t gyro, double dt, bool
   whole_of(e, P);
   linearise(e, gyro, dt, &slopes);
   spread(e, &slopes, P);
-  // In flight the accelerometer says nothing of the tilt, and thrust is along the body's z axis.
+  // In flight the accelerometer tells nothing of the tilt, and thrust is along the body's z axis.
   if (flying) acc.x = acc.y = 0.0;
   const d3_t v = part(e, VEL), u = {e->R[2][0], e->R[2][1], e->R[2][2]};
   const d3_t way_b = d3_add(d3_scale(dt, v), d3_scale(0.5 * dt * dt, acc));
@@ -180,7 +180,7 @@ static double variance(const ekf_t *e, alike_t i, alike_t j) {
   return i < j ? e->P[i][j] : e->P[j][i];
 }
 
-// One number measured: error = measured - h, its slope a to state i and b to state j.
+// Corrects by one measured number: error = measured - h, where h has slope a in state i and b in state j.
 static void correct(ekf_t *e, alike_t i, double a, alike_t j, double b, double error, double sd) {
   _Alignas(16) double Ph[EKF_ROW] = {0.0}, row[EKF_ROW];
   for (int k = 0; k < EKF_N; k++) Ph[k] = variance(e, k, i) * a + variance(e, k, j) * b;
@@ -200,7 +200,7 @@ PAIR_COPIES void ekf_core_range(ekf_t *e, double range_m) {
   const double up = e->R[2][2];
   if (!(up > UP_LEAST)) return;
   ekf_core_noise(e);
-  // The nearest ground in the sensor's cone is what it sees.
+  // The sensor sees the nearest ground within its cone.
   const double slant = 1.0 / cos(larger(acos(smaller(up, 1.0)) - RANGE_HALF_CONE, 0.0));
   const double sd = e->param.range_m * (1.0 + exp(log(80.0) / 1.5 * (range_m - 2.5)));
   correct(e, POS + 2, slant, POS, 0.0, range_m - slant * e->s[POS + 2], sd);
@@ -210,7 +210,7 @@ PAIR_COPIES void ekf_core_flow(ekf_t *e, double counts_x, double counts_y, doubl
   ekf_core_noise(e);
   const double k = span_s * PIXELS_PER_RAD, z = larger(e->s[POS + 2], FLOW_NEAREST_M), up = e->R[2][2];
   const double sd = e->param.flow_counts * PIXELS_PER_COUNT;
-  const double vx = e->s[VEL], vy = e->s[VEL + 1]; // both from before either correction
+  const double vx = e->s[VEL], vy = e->s[VEL + 1]; // before either correction
   const double seen_x = k * (vx * up / z - e->imu.gyro_b_radps.y),
                seen_y = k * (vy * up / z + e->imu.gyro_b_radps.x);
   correct(e, POS + 2, -k * up * vx / (z * z), VEL, k * up / z, PIXELS_PER_COUNT * counts_x - seen_x, sd);
@@ -223,12 +223,12 @@ PAIR_COPIES void ekf_core_pose(ekf_t *e, d3_t pos_w_m, dq_t q_wb) {
   for (int i = 0; i < 3; i++) correct(e, POS + i, 1.0, POS, 0.0, pos[i] - e->s[POS + i], e->param.pose_m);
   const dq_t back = {e->q.w, -e->q.x, -e->q.y, -e->q.z};
   const dq_t apart = dq_mul(back, q_wb);
-  const double twice = apart.w < 0.0 ? -2.0 : 2.0; // of q and -q the near one
+  const double twice = apart.w < 0.0 ? -2.0 : 2.0; // the nearer one of q and -q
   const double turn[3] = {twice * apart.x, twice * apart.y, twice * apart.z};
   for (int i = 0; i < 3; i++) correct(e, ATT + i, 1.0, ATT, 0.0, turn[i] - e->s[ATT + i], e->param.pose_rad);
 }
 
-// The variance of the attitude, and what it has to do with the rest, after the body was turned by v.
+// Updates the attitude's covariance, and that with the other states, after the body was turned by v.
 static void turn_variance(ekf_t *e, d3_t v, bool turns) {
   double turn[3][3], with_rest[EKF_N][3];
   turn_matrix(d3_scale(0.5, v), turn);
@@ -246,7 +246,7 @@ static void turn_variance(ekf_t *e, d3_t v, bool turns) {
     }
 }
 
-// Those that turn.
+// Turns the attitude of those for which `turns` holds.
 static void turn_attitude(ekf_t *e, d3_t v, bool turns) {
   const dq_t was = e->q, q = dq_unit(dq_mul(was, dq_turn(v)));
   e->q = (dq_t){EITHER(turns, q.w, was.w), EITHER(turns, q.x, was.x), EITHER(turns, q.y, was.y),

@@ -9,7 +9,7 @@
 
 #define RATE_HZ 1000.0
 
-// In lowpass.h's coefficients, with half its memory: six of these run every millisecond.
+// The filter of lowpass.h with half its memory, because six of these run every millisecond.
 static double filter(const imu_filter_t *f, imu_memory_t *m, double x) {
   const double in = f->b0 * x, y = in + m->next;
   m->next = 2.0 * in - f->a1 * y + m->after;
@@ -21,7 +21,7 @@ static imu_filter_t butterworth(double cutoff_Hz) {
   lowpass_t l;
   lowpass_init(&l, cutoff_Hz, RATE_HZ, 0.0);
   imu_filter_t f = {.b0 = l.b, .a1 = l.a1, .a2 = l.a2};
-  // White noise grows by the energy of the impulse response.
+  // The filter multiplies the variance of white noise by the energy of its impulse response.
   imu_memory_t m = {0};
   double energy = 0.0;
   for (int i = 0; i < 1000; i++) {
@@ -53,7 +53,7 @@ static d3_t filter_axes(const imu_filter_t *f, imu_memory_t m[3], d3_t v) {
   return (d3_t){filter(f, &m[0], v.x), filter(f, &m[1], v.y), filter(f, &m[2], v.z)};
 }
 
-// Settled on a constant, the output is the input.
+// Settles the filter on a constant input, so that the output equals it.
 static void settle(const imu_filter_t *f, imu_memory_t m[3], d3_t v) {
   const double x[3] = {v.x, v.y, v.z};
   for (int i = 0; i < 3; i++)

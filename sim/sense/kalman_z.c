@@ -1,11 +1,11 @@
-// kalman_z.c - height and climb, steady-state Kalman filter.
+// kalman_z.c - height and climb by a steady-state Kalman filter.
 #include "sense/kalman_z.h"
 
 void kalman_z_init(kalman_z_t *k, double acc_sd_mps2, double range_sd_m, double period_s, int ticks,
                    double z_m) {
   const double dt = period_s, q = acc_sd_mps2 * acc_sd_mps2, r = range_sd_m * range_sd_m;
   double p11 = r, p12 = 0.0, p22 = 1.0, kz = 0.0, kv = 0.0;
-  // The Riccati recursion itself, until it stands still: 10,000 samples are minutes of flight.
+  // The Riccati recursion, until it has converged: 10,000 samples are minutes of flight.
   for (int sample = 0; sample < 10000; sample++) {
     for (int i = 0; i < ticks; i++) {
       p11 += 2.0 * dt * p12 + dt * dt * p22 + q * dt * dt * dt * dt / 4.0;

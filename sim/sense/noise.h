@@ -1,19 +1,19 @@
-// noise.h - levels of noise of the six-degree-of-freedom vehicle, by name: how its sensors err, how the air
-// moves, and by how much one vehicle and one flight differ from the next.
+// noise.h - named noise levels of the six-degree-of-freedom vehicle: the errors of its sensors, the motion of
+// the air, and by how much vehicles and flights differ.
 //
-//   quiet  perfect but for rate, filter, age, floor and reach; the downward sensor's view is the firmware's
-//          15 deg in all levels, upward the axis alone (unknown; to be set)
-//   real   the sensors alone: no air moves, and the vehicle is the one that its file says
-//   flown  real, and what a flight brings besides: gusts, and a vehicle and sensors that are not quite those
-//          that the controller was told of, drawn from the flight's seed (flight/drawn.h)
+//   quiet  perfect except for rate, filter, age, floor and reach. In all levels the downward sensor's view
+//          is the firmware's 15 deg, and the upward sensor's is the axis alone (unknown; to be set)
+//   real   noise of the sensors only: no air moves, and the vehicle is the one in its file
+//   flown  as real, and what differs between flights: gusts, and a vehicle and sensors that are not quite
+//          those that the controller was told of, drawn from the flight's seed (flight/drawn.h)
 //
-// NOISE_ROWS is the one table: from its rows come the levels, what --noise LEVEL:KEY=VALUE may change, and
-// the list. `assumed`: a number without a source. Rows that differ from flight to flight begin with "vary.".
+// NOISE_ROWS is the only table: it defines the levels, what --noise LEVEL:KEY=VALUE may change, and the list
+// of keys. `assumed`: a number without a source. Rows that differ from flight to flight begin with "vary.".
 //
-// The accelerometer in flight: spectrum of a logged hover (jana05) from 8 to 20 Hz, where its true motion, as
-// the rotors' speeds tell it, is a hundredth: 0.0075 g on z, 0.015 and 0.017 g on x and y. What motion
-// capture does not explain from 0.3 to 1 Hz has the same density, hence white. Over whole logs, motion
-// included, z has 0.009 to 0.014 g; a simulated hover logs 0.009 g, as jana05 does.
+// Accelerometer in flight: 0.0075 g on z, 0.015 and 0.017 g on x and y, from the spectrum of a logged hover
+// (jana05) from 8 to 20 Hz, where the true motion, according to the rotors' speeds, is a hundredth of that.
+// From 0.3 to 1 Hz, what motion capture does not explain has the same density, so the noise is white. Over
+// whole logs, motion included, z has 0.009 to 0.014 g; a simulated hover logs 0.009 g, as jana05 does.
 #ifndef SIM_SENSE_NOISE_H
 #define SIM_SENSE_NOISE_H
 
@@ -21,18 +21,18 @@
 #include "sense/range.h"
 #include <stddef.h>
 
-// How one flight differs from the next. A share is of the number that the vehicle file, or the level's other
-// rows, say. All zero: not at all.
+// By how much flights differ. Shares are relative to the number in the vehicle file, or in the level's other
+// rows. All zero: not at all.
 typedef struct {
-  double gust_min_mps2, gust_max_mps2; // sd of the force of gusts over the mass, each axis: evenly between
+  double gust_min_mps2, gust_max_mps2; // sd of the gusts' force over mass, each axis: uniform between
   double gust_tau_s;                   // their correlation time (effect `wind`)
-  double mass, thrust, rotor, lag;     // evenly within +- this share; rotor: one of the four, besides
-  double delay_s;                      // evenly from 0 to this
+  double mass, thrust, rotor, lag;     // uniform within +- this share; rotor: one of the four, in addition
+  double delay_s;                      // uniform from 0 to this
   double acc_bias_mps2;                // sd, each axis
-  double range_scale, range_m;         // evenly within +- this; each range sensor has its own
-  double curve_a, curve_b;             // evenly within +- this share
-  double top_min_m, top_max_m;         // evenly between, from where the vehicle file has it
-  double mount_rad;                    // evenly within +- this, about x and y
+  double range_scale, range_m;         // uniform within +- this; each range sensor has its own
+  double curve_a, curve_b;             // uniform within +- this share
+  double top_min_m, top_max_m;         // uniform between; relative to the vehicle file's
+  double mount_rad;                    // uniform within +- this, about x and y
 } vary_t;
 
 typedef struct {
@@ -49,7 +49,7 @@ typedef struct {
 #define NOISE_HOVERS  "spread of logged hovers above 20 Hz"
 #define NOISE_N23     "assumed; n2 to n3 of the vertical axis"
 
-// X(key, unit, least, most, member of noise_t, quiet, real, flown, what it is, source)
+// X(key, unit, min, max, member of noise_t, quiet, real, flown, meaning, source)
 #define NOISE_ROWS(X)                                                                                        \
   X("acc.rest", "m/s2", 0.0, 10.0, imu.acc_rest_mps2, 0.0, 0.0012 * NOISE_G, 0.0012 * NOISE_G,               \
     "sd, motors off", NOISE_AT_REST)                                                                         \
@@ -150,14 +150,14 @@ extern const int noise_count;
 extern const noise_field_t noise_fields[];
 extern const int noise_field_count;
 
-// A null pointer if there is no level of that name.
+// The level of that name; null if there is none.
 const noise_t *noise_find(const char *name);
 
-// The number that a field is of.
+// The number of a field.
 double noise_get(const noise_t *noise, const noise_field_t *field);
 
-// Sets one number, as "acc.bias.z". False, and nothing changed, if there is none of that name or the value is
-// out of its range.
+// Sets one number by its name, as "acc.bias.z". False, with nothing changed, if there is no such name or the
+// value is out of range.
 bool noise_set(noise_t *noise, const char *field, double value);
 
 #endif

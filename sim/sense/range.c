@@ -14,14 +14,14 @@ void range_init(range_t *s) {
   *s = (range_t){0};
 }
 
-// What is seen at that tick, of a surface distance_m away along the axis.
+// The distance that the sensor saw at that tick, for a surface distance_m away along its axis.
 static double seen_m(const range_t *s, unsigned tick, double distance_m, double cone_rad) {
   const double upright = PICK(s->upright, tick % RANGE_MEMORY);
   const double slant_m = distance_m * upright / cos(larger(acos(upright) - cone_rad, 0.0));
   return EITHER(cone_rad > 0.0 && upright > 0.0, slant_m, distance_m);
 }
 
-// Every so many milliseconds, but not at the begin.
+// True every period_ms, but not at the start.
 static bool is_due(const range_t *s, unsigned period_ms) {
   return s->tick > 0 && s->tick % period_ms == 0;
 }
@@ -30,7 +30,7 @@ static double noise(random_t *r, double sd) {
   return sd > 0.0 ? sd * random_normal(r) : 0.0;
 }
 
-// In this order, whatever is seen: what is above must not shift the other sensors' noise.
+// Draws in a fixed order, whatever is seen: what is above must not change the other sensors' noise.
 range_drawn_t range_draw(const range_t *s, const range_param_t *p, random_t *r) {
   range_drawn_t drawn = {.up_age_ms = 0.0};
   if (s->tick % RANGE_ANY_PERIOD_MS != 0) return drawn;
@@ -59,7 +59,7 @@ static void up(range_t *s, const range_param_t *p, const range_drawn_t *drawn, r
   out->up_age_ms = EITHER(s->up_mm > 0.0, (int)(s->tick - s->up_at), 0);
 }
 
-// Relative to that near the ground: 2 at 2.5 m, 81 at 4 m.
+// Noise relative to that near the ground: 2 at 2.5 m, 81 at 4 m.
 static double down_noise_growth(double range_m) {
   return 1.0 + exp(log(80.0) / 1.5 * (range_m - 2.5));
 }

@@ -1,4 +1,4 @@
-// vertical.c - what is sensed on the vertical axis.
+// vertical.c - sensors of a vehicle on the vertical axis.
 #include "sense/vertical.h"
 
 #include "base/constants.h"
@@ -17,7 +17,7 @@ const vertical_noise_t vertical_noise_levels[] = {
 };
 const int vertical_noise_count = (int)(sizeof vertical_noise_levels / sizeof *vertical_noise_levels);
 
-// Every how many ticks something of that period happens; at least every tick.
+// The number of ticks between two events of that period, at least 1.
 static int ticks_of(double period_s, double tick_s) {
   return (int)lround(larger(1.0, period_s / tick_s));
 }

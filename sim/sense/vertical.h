@@ -1,5 +1,5 @@
-// vertical.h - what is sensed of one that moves on the vertical axis alone: at once, exactly or with white
-// noise. With noise of the downward range sensor, height and climb come from a Kalman filter (kalman_z.h).
+// vertical.h - what a vehicle that moves on the vertical axis alone senses: without delay, exactly or with
+// white noise. If the downward range has noise, height and climb come from a Kalman filter (kalman_z.h).
 #ifndef SIM_SENSE_VERTICAL_H
 #define SIM_SENSE_VERTICAL_H
 
@@ -7,8 +7,8 @@
 #include "sense/kalman_z.h"
 #include "sense/truth.h"
 
-#define UP_FLOOR_M   0.04 // nearer than this the upward sensor says this
-#define UP_MAX_M     4.0  // farther than this it says UP_NOTHING_M
+#define UP_FLOOR_M   0.04 // the upward sensor's reading at smaller distances
+#define UP_MAX_M     4.0  // beyond this it reads UP_NOTHING_M
 #define UP_NOTHING_M 32.767
 
 // Standard deviations; 0: perfect.
@@ -21,7 +21,7 @@ typedef struct {
   double gust_tau_s; // its correlation time
 } vertical_noise_t;
 
-// none, and the levels N1..N3 (an assumption; N1 is the one that reproduces the thesis's pattern).
+// Level none and the levels N1..N3 (assumed; N1 is the one that reproduces the thesis's pattern).
 extern const vertical_noise_t vertical_noise_levels[];
 extern const int vertical_noise_count;
 
@@ -32,20 +32,20 @@ typedef struct {
 } vertical_t;
 
 typedef struct {
-  double z_m, climb_mps, acc_mps2; // without gravity
+  double z_m, climb_mps, acc_mps2; // acc: without gravity
   bool range_new;
   double range_m; // upward, if range_new
 } vertical_sample_t;
 
-// At height z_m, not moving; a sample every period_s.
+// Starts at height z_m, at rest; a sample every period_s.
 void vertical_init(vertical_t *s, const vertical_noise_t *noise, double period_s, double z_m);
 vertical_sample_t vertical_step(vertical_t *s, const vertical_noise_t *noise, random_t *r,
                                 const truth_t *truth);
 
-// The disturbing acceleration of the next period.
+// The disturbing acceleration during the next period.
 double vertical_gust_mps2(vertical_t *s, const vertical_noise_t *noise, random_t *r);
 
-// The upward range sensor at distance gap_m (INFINITY: nothing above).
+// The reading of the upward range sensor at distance gap_m (INFINITY: nothing above).
 double vertical_up_m(const vertical_noise_t *noise, random_t *r, double gap_m);
 
 #endif
