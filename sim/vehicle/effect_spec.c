@@ -152,7 +152,7 @@ static done_t set_from_text(fx_use_t *use, const char *key, const char *value, w
   return effect_set(use, key, number, why);
 }
 
-// Goes through `key=value,...` (changes it) and sets the form, or everything else.
+// Goes through `key=value,...`, which it changes, and sets either the form or everything else.
 static done_t set_all(fx_use_t *use, char *pairs, bool form, why_t *why) {
   for (char *pair = pairs, *next; pair; pair = next) {
     next = strchr(pair, ',');
@@ -176,7 +176,7 @@ done_t effect_parse(const char *spec, fx_use_t *use, why_t *why) {
   if (colon) *colon = '\0';
   fx_use_t fresh;
   TRY(effect_start(&fresh, name, why));
-  // The form first, wherever it stands: the other keys depend on it.
+  // The form comes first, wherever it stands, because the other keys depend on it.
   for (int pass = 0; pass < 2 && colon; pass++) {
     snprintf(pairs, sizeof pairs, "%s", colon + 1);
     TRY(set_all(&fresh, pairs, pass == 0, why));

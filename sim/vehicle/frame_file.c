@@ -1,4 +1,4 @@
-// frame_file.c - what a vehicle file says of body, rotors, battery and range sensors.
+// frame_file.c - reads body, rotors, battery and range sensors from a vehicle file.
 #include "vehicle/frame_file.h"
 
 #include "base/text.h"
@@ -10,14 +10,14 @@ typedef struct {
   double min, max, *value;
 } number_t;
 
-// The numbers that are there; the others are kept.
+// Reads the numbers that are present; the others keep their values.
 static done_t read_numbers(toml_t t, const number_t *row, int n, why_t *why) {
   for (int i = 0; i < n; i++)
     if (toml_has(t, row[i].key)) TRY(toml_double(t, row[i].key, row[i].min, row[i].max, row[i].value, why));
   return DONE;
 }
 
-// A list of exactly n numbers within min..max, if it is there.
+// Reads a list of exactly n numbers within min..max, if it is present.
 static done_t read_list(toml_t t, const char *key, int n, double min, double max, double *value, why_t *why) {
   double list[ROTORS];
   int got;
@@ -51,7 +51,8 @@ static done_t read_body(toml_t t, frame_t *f, why_t *why) {
   return read_list(t, "imu_m", 3, -1.0, 1.0, f->imu_m, why);
 }
 
-// Of all rotors' distances: alike beside each other they make 0.7 of them, opposite ones nothing.
+// Largest imbalance over the sum of the rotors' distances from the centre: neighbours that turn alike give
+// 0.7, opposite rotors that do give 0.
 #define ASKEW 0.35
 
 static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
@@ -68,7 +69,7 @@ static done_t read_rotors(toml_t t, frame_t *f, why_t *why) {
   TRY(read_list(t, "x_m", ROTORS, -5.0, 5.0, f->rotor_x_m, why));
   TRY(read_list(t, "y_m", ROTORS, -5.0, 5.0, f->rotor_y_m, why));
   TRY(read_list(t, "spin", ROTORS, -1.0, 1.0, f->rotor_spin, why));
-  double sum = 0.0, roll_m = 0.0, pitch_m = 0.0, size_m = 0.0; // of the moments that a moment about z brings
+  double sum = 0.0, roll_m = 0.0, pitch_m = 0.0, size_m = 0.0; // of the moments that a moment about z causes
   for (int i = 0; i < ROTORS; i++) {
     sum += f->rotor_spin[i];
     roll_m += f->rotor_spin[i] * f->rotor_y_m[i];
@@ -119,7 +120,7 @@ static done_t read_range(toml_t root, const char *name, range_told_t *range, why
   return read_numbers(t, row, (int)(sizeof row / sizeof *row), why);
 }
 
-// The keys that model_frame_like_crazyflie stands in for; bit i of frame_lacks is number i.
+// The keys for which model_frame_like_crazyflie has a default; bit i of frame_lacks is number i.
 static const struct {
   const char *table, *key;
 } SCALED[] = {
@@ -149,7 +150,7 @@ static unsigned lacks(toml_t root) {
   return bits;
 }
 
-// All keys of the table.
+// The bits of all keys of the table.
 static unsigned whole(const char *table) {
   unsigned bits = 0;
   for (int i = 0; i < SCALEDS; i++)

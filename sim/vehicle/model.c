@@ -1,4 +1,4 @@
-// model.c - the effects of a model.
+// model.c - numbers and effects of a model.
 #include "vehicle/model.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 // Crazyflie 2.1 with legacy propellers, decks on: the sources stand in vehicles/cf21_legacy.toml.
 #define CF_MASS_KG  0.0329
 #define CF_RADIUS_M 0.02355
-#define LIGHTEST    0.1 // of the vehicle's mass: with less left, no step of the integrator is short enough
+#define LIGHTEST    0.1 // share of the vehicle's mass; with less left, no integrator step is short enough
 
 frame_t model_frame_like_crazyflie(const model_t *m) {
   const double size = m->rotor_radius_m / CF_RADIUS_M, weight = m->mass_kg / CF_MASS_KG;
@@ -71,7 +71,7 @@ lag_t model_lag(const model_t *m, double more_s) {
 double model_step_s(const model_t *m, double most_s) {
   const lag_t lag = model_lag(m, 0.0);
   if (lag_is_none(&lag)) return most_s;
-  const double faster = sqrt(fmax(m->thrust_max_N / ROTORS / lag.steady_N, 1.0)) - 1.0; // than in the hover
+  const double faster = sqrt(fmax(m->thrust_max_N / ROTORS / lag.steady_N, 1.0)) - 1.0; // relative to hover
   const double up_s = lag.up_s / (1.0 + lag.up_square * faster),
                down_s = lag.down_s / (1.0 + lag.down_square * faster);
   return fmin(most_s, 0.5 * fmin(up_s, down_s));
@@ -81,7 +81,7 @@ double model_grows(const model_t *m, fx_grows_t how) {
   static const model_t crazyflie = {.mass_kg = CF_MASS_KG, .rotor_radius_m = CF_RADIUS_M};
   const frame_t own = m->frame, like = model_frame_like_crazyflie(&crazyflie);
   const double mass = m->mass_kg / CF_MASS_KG, inertia = own.inertia_kgm2[0] / like.inertia_kgm2[0];
-  const double speed = sqrt(mass * like.kf_Ns2 / own.kf_Ns2); // of a rotor in a hover
+  const double speed = sqrt(mass * like.kf_Ns2 / own.kf_Ns2); // of a rotor in hover
   switch (how) {
   case FX_BY_MASS: return mass;
   case FX_BY_MASS_PER_SPEED: return mass / speed;

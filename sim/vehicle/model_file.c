@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Thrust over weight. The thesis's quickest vehicle has 20, racers 15.
+// Thrust over weight. The quickest vehicle of the thesis has 20, racers have 15.
 #define LIFT_MIN 1.0
 #define LIFT_MAX 50.0
 
@@ -41,7 +41,7 @@ static done_t read_map(toml_t t, thrust_map_t *map, why_t *why) {
   return toml_refuse(t, "kind", why, "unknown kind `%s`; allowed: stand, volt_cubic, pwm_cubic, speed", name);
 }
 
-// `file` from the folder of the vehicle file.
+// Reads `file`, relative to the folder of the vehicle file.
 static done_t points_from_file(toml_t t, const char *model_path, curve_points_t *points, why_t *why) {
   char file[256], path[600];
   TRY(toml_string(t, "file", file, sizeof file, why));
@@ -60,7 +60,7 @@ static done_t points_from_lists(toml_t t, curve_points_t *points, why_t *why) {
   return DONE;
 }
 
-// Hands on an error of effect_spec, with file and line.
+// Passes on an error from effect_spec, with file and line.
 static done_t located(toml_t t, const char *key, done_t status, const why_t *cause, why_t *why) {
   return status == DONE ? DONE : toml_refuse(t, key, why, "%s", cause->text);
 }
@@ -96,7 +96,7 @@ static done_t read_effect(toml_t t, const char *model_path, fx_use_t *use, why_t
   for (int i = 0; (key = toml_key(t, i)) != NULL; i++) {
     if (strcmp(key, "name") == 0 || strcmp(key, "form") == 0) continue;
     if (points && (strcmp(key, "file") == 0 || is_list_key(key))) continue;
-    // An unknown key first gets the list of what is allowed, whatever its type.
+    // An unknown key is reported with a list of the allowed ones, whatever its value's type.
     double value = 0.0;
     if (toml_double(t, key, -HUGE_VAL, HUGE_VAL, &value, &cause) != DONE) value = (double)NAN;
     if (effect_set(use, key, value, &cause) != DONE)
@@ -150,7 +150,7 @@ static done_t read_lag_square(toml_t root, model_t *m, why_t *why) {
   return DONE;
 }
 
-// How the rotors follow. A file that says nothing means the speed, which is what a motor turns.
+// How the rotors follow their commands. The default is a lag in speed, as motors have it.
 static done_t read_lag(toml_t root, model_t *m, why_t *why) {
   char in[16] = "speed";
   double down_s = m->motor_tau_s;
@@ -165,8 +165,8 @@ static done_t read_lag(toml_t root, model_t *m, why_t *why) {
   return DONE;
 }
 
-// Grams for kilograms, or millinewton for newton, make a vehicle that cannot leave the ground or that no step
-// of the integrator follows.
+// Grams for kilograms, or millinewton for newton, give a vehicle that cannot leave the ground or that no
+// integrator step can follow.
 static done_t check_lift(toml_t root, const model_t *m, why_t *why) {
   const double weight_N = m->mass_kg * G_MPS2, lift = m->thrust_max_N / weight_N;
   if (lift > LIFT_MIN && lift <= LIFT_MAX) return DONE;
@@ -224,7 +224,7 @@ static done_t read_file(toml_file_t *file, const char *path, model_t *m, why_t *
   return status;
 }
 
-// Where there is no such file: a vehicle of which the path is the name, or nearly.
+// For a missing file: suggests the vehicle whose name the file has, or nearly has.
 static done_t no_file(const char *path, why_t *why) {
   const char *const name = folder_file(path);
   char word[NEAREST_LETTERS + 1] = "";
