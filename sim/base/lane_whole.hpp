@@ -70,8 +70,7 @@ LANE lane_flag_t operator!=(lane_flag_t a, lane_flag_t b) {
   return a.v ^ b.v;
 }
 
-// --- whole numbers
-// -------------------------------------------------------------------------------------------
+// --- whole numbers ---------------------------------------------------------------------------------------
 
 inline __attribute__((noinline)) unsigned lanes_disagree(words_t v) {
   alignas(32) int32_t x[LANES];
