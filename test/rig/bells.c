@@ -1,4 +1,4 @@
-// bells.c - the curve of seven weights written down a second time, in double.
+// bells.c - the curve of seven weights, written a second time, in double.
 #include "rig/bells.h"
 
 #include <math.h>

@@ -1,14 +1,14 @@
-// bells.h - the curve of seven weights written down a second time, in double.
+// bells.h - the curve of seven weights, written a second time, in double.
 #ifndef TEST_RIG_BELLS_H
 #define TEST_RIG_BELLS_H
 
 #include "flight/rbf.h"
 
-// Ordinary least squares to 1 + 0.44 exp(-80 z) on 21 points.
+// Least-squares fit of 1 + 0.44 exp(-80 z) on 21 points.
 extern const double bells_golden[RBF_N];
 rbf_weights_t bells_golden_weights(void);
 
-// Thesis eq. 22 and section 5.2.
+// The basis functions: thesis eq. 22 and section 5.2.
 void bells_at(double z_m, double basis[RBF_N]);
 
 double bells_ratio(const rbf_weights_t *w, double z_m);

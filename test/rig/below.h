@@ -1,4 +1,5 @@
-// below.h - a vehicle below a ceiling, for tests of its distance: 100 Hz, a sample on each tenth tick.
+// below.h - a vehicle below a ceiling, for tests of the distance estimate: 100 Hz, a range sample every tenth
+// tick.
 #ifndef TEST_RIG_BELOW_H
 #define TEST_RIG_BELOW_H
 
@@ -19,7 +20,7 @@ static inline ceiling_t below_ceiling(float zc_m) {
   return s;
 }
 
-// Ten ticks without motion, then a sample.
+// Ten ticks without motion, then a range sample.
 static inline void below_hover_and_look(ceiling_t *s, float range_m) {
   for (int i = 0; i < BELOW_EVERY; i++) ceiling_predict(s, &below_param, 0.0f);
   CHECK_OK(ceiling_correct(s, &below_param, range_m, 0.0f));

@@ -1,4 +1,4 @@
-// desk_drone.c - a drone of the desk for tests, and a client of it in simulated time.
+// desk_drone.c - a simulated drone of the desk for tests, and its client in simulated time.
 #include "rig/desk_drone.h"
 
 #include "crazyflie/values.h"

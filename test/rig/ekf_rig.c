@@ -1,4 +1,4 @@
-// ekf_rig.c - the estimator behind its sensors, on vehicles that move as told.
+// ekf_rig.c - the estimator behind its sensors, on vehicles that follow a prescribed path.
 #include "rig/ekf_rig.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// ekf_rig.h - the estimator behind its sensors, on vehicles that move as told.
+// ekf_rig.h - the estimator behind its sensors, on vehicles that follow a prescribed path.
 #ifndef TEST_RIG_EKF_RIG_H
 #define TEST_RIG_EKF_RIG_H
 
@@ -19,23 +19,23 @@ typedef struct {
 // With the noise of that name; the caller closes `random`.
 ekf_rig_t ekf_rig(const char *level, uint64_t seed);
 
-// The estimator knows where it is.
+// Sets the estimator to the truth.
 void ekf_rig_place(ekf_rig_t *r, const truth_t *t);
 
-// One millisecond.
+// One millisecond of sensors and estimator.
 ekf_out_t ekf_rig_tick(ekf_rig_t *r, const truth_t *truth);
-// The same, `ms` times.
+// The same `ms` times, at the same truth.
 ekf_out_t ekf_rig_stay(ekf_rig_t *r, const truth_t *truth, int ms);
 
-// Errors of one flight: root mean squares, and the largest.
+// Errors of one flight: root mean squares, largest, last and mean.
 typedef struct {
   double z_m, climb_mps, side_mps, tilt_rad, yaw_rad, z_max_m, xy_end_m, z_mean_m, climb_mean_mps;
 } ekf_errors_t;
 
-// Adds squares and sums.
+// Adds one sample's squares and sums.
 void ekf_rig_compare(ekf_errors_t *e, const ekf_out_t *out, const truth_t *truth);
 
-// Follows a path from its start and compares from..to.
+// Follows a path from its start; compares from from_s to to_s.
 ekf_errors_t ekf_rig_follow(ekf_rig_t *r, const kinematic_t *path, double from_s, double to_s);
 
 // At rest, up by 0.5 m, sideways by 0.7 m, a turn by 2 rad.

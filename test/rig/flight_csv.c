@@ -70,7 +70,7 @@ static void attitude(double t_s, double q[4]) {
   q[3] = cr * cp * sy - sr * sp * cy;
 }
 
-// By differences over 0.2 ms: good to 1e-6 rad/s.
+// By central differences over 0.2 ms: accurate to 1e-6 rad/s.
 static void rate(double t_s, double w[3]) {
   double a[4], b[4];
   attitude(t_s - 1e-4, a);
@@ -80,7 +80,7 @@ static void rate(double t_s, double w[3]) {
   w[2] = (a[0] * b[3] - a[1] * b[2] + a[2] * b[1] - a[3] * b[0]) * 1e4;
 }
 
-// What the accelerometer feels, in g.
+// What the accelerometer measures (specific force), in g.
 static void force(double t_s, double f_g[3]) {
   double q[4], a[3];
   attitude(t_s, q);

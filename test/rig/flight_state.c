@@ -1,11 +1,11 @@
-// flight_state.c - whether all of the controller's state is still numbers.
+// flight_state.c - checks that the controller's whole state is finite.
 #include "rig/flight_state.h"
 
 #include <stddef.h>
 #include <string.h>
 
-// What is a number at every time, as floats. What may be NaN by its meaning (no ceiling, no heading) is not
-// here.
+// The parts of the state that must always be finite, as floats. Left out is what may be NaN by its meaning
+// (no ceiling, no heading).
 #define STATE(field)                                                                                         \
   { #field, offsetof(flight_t, field), sizeof(((flight_t *)0)->field) / (sizeof(float)) }
 static const struct {

@@ -11,12 +11,12 @@ typedef struct {
   pilot_setpoint_t set;
 } flying_t;
 
-// Hovers at 0.3 m, taken over in flight from whoever flew.
+// Starts in a hover at 0.3 m, where the app takes over.
 void app_start(flying_t *f);
 
 void app_fly(flying_t *f, int ms);
 
-// A log of the app, "group.name", which there must be.
+// Returns the app's log variable "group.name", which must exist.
 double app_log(const flying_t *f, const char *name);
 
 #endif

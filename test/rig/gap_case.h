@@ -1,4 +1,4 @@
-// gap_case.h - flights of the exam's vehicle in which effects are hidden, and what the workflow says of them.
+// gap_case.h - flights of the exam's vehicle with hidden effects, and what the workflow says of them.
 #ifndef TEST_RIG_GAP_CASE_H
 #define TEST_RIG_GAP_CASE_H
 
@@ -19,19 +19,19 @@ typedef struct {
   diagnosis_t d;
 } gap_case_t;
 
-// An effect of sim/effects with its first parameters; the others are nominal.
+// An effect of sim/effects with these first parameters; the others are nominal.
 fx_use_t gap_effect(const char *name, double p0, double p1);
 
-// Flies one. A vehicle at the edge of what flies may crash by a bit, and is drawn again, from another seed.
+// Flies one. A vehicle near its limits may crash by chance: then it flies again with another seed.
 void gap_case_fly(exam_flight_t job, gap_flight_t *flight);
 
 // Flies and diagnoses; the held-out flight may hide something else.
 gap_case_t *gap_case(const gap_hidden_t *fit, const gap_hidden_t *held);
-// Flights of other seeds: this one and the next GAP_CASE_FIT.
+// The same with other seeds: this one and the next GAP_CASE_FIT.
 gap_case_t *gap_case_of_seed(const gap_hidden_t *fit, const gap_hidden_t *held, uint64_t seed);
 void gap_case_free(gap_case_t *c);
 
-// What was named of an effect; a null pointer: it was not.
+// The name that the workflow gave for this effect; null: none.
 const named_t *gap_case_named(const gap_case_t *c, const char *name);
 
 #endif

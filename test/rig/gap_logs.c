@@ -13,7 +13,7 @@
 static const struct {
   signal_id_t signal;
   const char *name;
-  double factor; // cells per SI
+  double factor; // unit of the cell per SI unit
 } COLUMN[] = {
     {SIG_X, "stateEstimate.x", 1.0},   {SIG_Y, "stateEstimate.y", 1.0},   {SIG_Z, "stateEstimate.z", 1.0},
     {SIG_VX, "stateEstimate.vx", 1.0}, {SIG_VY, "stateEstimate.vy", 1.0}, {SIG_VZ, "stateEstimate.vz", 1.0},
@@ -23,14 +23,14 @@ static const struct {
     {SIG_GZ, "gyro.z", 57.29577951},   {SIG_M1, "indi.m1", 1.0},          {SIG_M2, "indi.m2", 1.0},
     {SIG_M3, "indi.m3", 1.0},          {SIG_M4, "indi.m4", 1.0},          {SIG_VBAT, "pm.vbat", 1.0},
     {SIG_RANGE, "range.up", 1000.0}};
-// Where the flight has them.
+// If the flight has them.
 static const struct {
   signal_id_t signal;
   const char *name;
 } TOLD[] = {{SIG_SET_X, "ctrltarget.x"}, {SIG_SET_Y, "ctrltarget.y"}, {SIG_SET_Z, "ctrltarget.z"}};
 #define COLUMNS (sizeof COLUMN / sizeof *COLUMN)
 
-// As late as the Crazyflie's filters make it.
+// Delayed as the Crazyflie's filters delay the signal.
 static double cell(const gap_flight_t *f, const columns_t *columns, unsigned k, int i) {
   const double *const v = f->v[COLUMN[k].signal];
   const double at = fmax(i - columns->of[COLUMN[k].signal].late_s * f->rate_Hz, 0.0), part = at - floor(at);
@@ -86,7 +86,7 @@ void gap_log_write_usd(const gap_flight_t *f, const char *path) {
   usd_bytes_free(&b);
 }
 
-// The file of sim/vehicle/vehicles without its effects, in a room with a ceiling.
+// Writes the file of sim/vehicle/vehicles without its effects, in a room with a ceiling.
 static void write_vehicle(void) {
   for (int i = 0; i < vehicle_count; i++) {
     if (strcmp(vehicle_table[i].name, "cf21_legacy") != 0) continue;

@@ -1,4 +1,4 @@
-// gap_rows.c - rows that no flight made.
+// gap_rows.c - synthetic rows.
 #include "rig/gap_rows.h"
 
 #include "base/random.h"

@@ -1,5 +1,5 @@
-// gap_track.h - two flights of the exam's vehicle in which nothing is hidden, as points, and who flew them as
-// the log tells it.
+// gap_track.h - two flights of the exam's vehicle in which nothing is hidden, as grid points, and the closed
+// loop as identified from their logs.
 #ifndef TEST_RIG_GAP_TRACK_H
 #define TEST_RIG_GAP_TRACK_H
 
@@ -13,16 +13,16 @@ typedef struct {
   closed_loop_t loop;
 } gap_track_t;
 
-// How they are flown; spoil: changes the flights before they become points, or null.
+// How they are flown. spoil (or null) changes the flights before they become grid points.
 typedef struct {
-  bool indi, hover; // else by the firmware's PID, and manoeuvres
+  bool indi, hover; // else by the firmware's PID, and with manoeuvres
   void (*spoil)(gap_track_t *t);
 } gap_track_job_t;
 
 done_t gap_track_make(gap_track_t *t, const gap_track_job_t *job, why_t *why);
 void gap_track_free(gap_track_t *t);
 
-// Leaves one sample of so many of each flight.
+// Keeps one of `every` samples of each flight.
 void gap_track_thin(gap_track_t *t, int every);
 
 #endif

@@ -1,4 +1,4 @@
-// height_rest.c - a vehicle at rest in free air, as the height filter is told of it.
+// height_rest.c - a vehicle at rest in free air, as the height filter sees it.
 #include "rig/height_rest.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@ void height_rest_start(height_rest_t *r) {
   params_default(&r->p);
   r->p.height.own = 1;
   r->p.height.delay_s = 0.0f;
-  r->p.height.walk_mps2 = 0.1f; // whatever ships
+  r->p.height.walk_mps2 = 0.1f; // fixed here, whatever the default is
   r->in = (height_in_t){.acc_b_mps2.z = GRAVITY_MPS2,
                         .q_wb = {.w = 1.0f},
                         .thrust_N = HEIGHT_REST_KG * GRAVITY_MPS2,

@@ -1,5 +1,5 @@
-// hover6.h - the flight code in the plant: a quiet flight in free air that starts in hover at 0.5 m, with
-// true measurements, and nothing from the upward range sensor.
+// hover6.h - the flight code in the plant: a quiet flight in free air that starts in a hover at 0.5 m, with
+// true measurements and no upward range sensor.
 #ifndef TEST_RIG_HOVER6_H
 #define TEST_RIG_HOVER6_H
 
@@ -13,16 +13,16 @@ typedef struct {
   pilot_t pilot;
   pilot_in_t in;
   d3_t acc_bias_b_mps2;
-  double height_off_m; // of the estimate
+  double height_off_m; // error of the estimated height
 } hover6_t;
 
-// *r is zeroed before. body_close(&r->body) when done.
+// The caller zeroes *r before, and calls body_close(&r->body) after.
 void hover6_start(hover6_t *r, double yaw_rad);
 
-// What is true, with the bias on the accelerometer and the height's error.
+// Takes the true state as measurements, with the accelerometer's bias and the height error.
 void hover6_sense(hover6_t *r);
 
-// The same measurements for so long; motor_N is the last command.
+// Steps the flight code for span_ms on the same measurements; motor_N: its last command.
 void hover6_think(hover6_t *r, int span_ms, double motor_N[PILOT_MOTORS]);
 
 void hover6_fly(hover6_t *r, double span_s);

@@ -1,4 +1,4 @@
-// hovering.h - the guard's inputs in a hover under a ceiling, with sensors that are alive.
+// hovering.h - the guard's inputs in a hover under a ceiling, with working sensors.
 #ifndef TEST_RIG_HOVERING_H
 #define TEST_RIG_HOVERING_H
 
@@ -7,8 +7,8 @@
 
 #define HOVERING_CEILING_M 2.0f
 
-// The estimate's gap, the gap wanted, what the range sensor says, and by how much more the thrust carries
-// than in free air.
+// Distance to the ceiling as estimated and as wanted, the range sensor's reading, and thrust over that in
+// free air for the same command.
 typedef struct {
   float zc_m, wanted_m, range_m, ratio;
 } hover_t;
@@ -46,12 +46,12 @@ static inline guard_in_t hovering(const hover_t *h, int ms) {
 
 static const hover_t HOVERING_FREE = {0.30f, 0.30f, 0.30f, 1.0f}, HOVERING_NEAR = {0.10f, 0.10f, 0.10f, 1.0f};
 
-// What is wrong with the inputs; ms: since it began.
+// Puts a fault into the inputs; ms: time since it began.
 typedef void hovering_edit_fn(guard_in_t *in, float value, int ms);
 
 typedef struct {
   guard_t g;
-  int ms, since_ms; // of the flight, of the fault
+  int ms, since_ms; // time of flight, time since the fault began
 } watched_t;
 
 static inline guard_param_t hovering_param(void) {
@@ -70,7 +70,7 @@ static inline void hovering_fly(watched_t *w, const hover_t *h, hovering_edit_fn
   }
 }
 
-// After three seconds without a fault.
+// Returns the guard after three seconds without a fault.
 static inline watched_t hovering_started(const hover_t *h) {
   watched_t w = {.ms = 1};
   guard_init(&w.g);

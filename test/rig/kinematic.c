@@ -1,4 +1,4 @@
-// kinematic.c - vehicles that move as told.
+// kinematic.c - vehicles that follow a prescribed path.
 #include "rig/kinematic.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #define G_MPS2 9.81
 #define STEP_S 1e-4
 
-// 0 to 1 with four derivatives of zero at both ends.
+// From 0 to 1, with four derivatives of zero at both ends.
 static double smooth(double x) {
   if (x <= 0.0) return 0.0;
   if (x >= 1.0) return 1.0;
@@ -23,9 +23,9 @@ static d3_t velocity(const kinematic_t *k, double t) {
   return d3_scale(0.5 / STEP_S, d3_sub(position(k, t + STEP_S), position(k, t - STEP_S)));
 }
 
-// The acceleration that thrust and ground make: gravity taken off.
+// The specific force in world axes: acceleration minus gravity.
 static d3_t force(const kinematic_t *k, double t) {
-  const double h = 10.0 * STEP_S; // the second difference loses digits with its square
+  const double h = 10.0 * STEP_S; // larger, because rounding errors in the second difference grow as 1/h^2
   const d3_t sum = d3_add(position(k, t + h), position(k, t - h));
   return d3_add(d3_scale(1.0 / (h * h), d3_sub(sum, d3_scale(2.0, position(k, t)))),
                 (d3_t){0.0, 0.0, G_MPS2});

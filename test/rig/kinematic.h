@@ -1,14 +1,11 @@
-// kinematic.h - vehicles that move as told: the truth that the sensors see, in closed form.
-//
-// A path is position and yaw as functions of time. Tilt and specific force follow from them: body z points
-// along acceleration + g, as if thrust were the only force.
+// kinematic.h - vehicles that follow a prescribed path: the truth that the sensors see.
 #ifndef TEST_RIG_KINEMATIC_H
 #define TEST_RIG_KINEMATIC_H
 
 #include "sense/truth.h"
 
 typedef struct {
-  double start_s, span_s; // of the motion; smooth (ninth-order polynomial), at rest before and after
+  double start_s, span_s; // of the motion: smooth (ninth-order polynomial), at rest before and after
   d3_t from_m, to_m;
   double yaw_from_rad, yaw_to_rad;
   double ceiling_m; // height of a level ceiling above the world's origin; HUGE_VAL: none

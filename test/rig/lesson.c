@@ -1,4 +1,4 @@
-// lesson.c - what the learner is taught in tests.
+// lesson.c - training data for the learner in tests.
 #include "rig/lesson.h"
 
 #include "rig/oracle.h"

@@ -1,4 +1,5 @@
-// oracle.h - eigenvalues in double, and the C++ library's random numbers: what our own are compared with.
+// oracle.h - references to compare our own code with: eigenvalues in double, and the C++ library's random
+// numbers.
 #ifndef TEST_RIG_ORACLE_H
 #define TEST_RIG_ORACLE_H
 
@@ -15,7 +16,7 @@ void oracle_eigenvalues(const double A[ORACLE_N][ORACLE_N], double values[ORACLE
 
 // n numbers from 0 to 1 of std::mt19937_64.
 void oracle_uniform(uint64_t seed, int n, double *out);
-// The same of normal ones.
+// n normal numbers of the same generator.
 void oracle_normal(uint64_t seed, int n, double *out);
 
 #ifdef __cplusplus

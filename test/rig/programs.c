@@ -1,4 +1,4 @@
-// programs.c - the programs as a person runs them.
+// programs.c - runs the programs as a user does.
 #define _POSIX_C_SOURCE 200809L // popen
 #include "rig/programs.h"
 

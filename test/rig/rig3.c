@@ -108,8 +108,8 @@ bool rig3_same_out(const outer_out_t *a, const outer_out_t *b) {
   return memcmp(x, y, sizeof x) == 0 && a->zc_known == b->zc_known;
 }
 
-// All but the counters of faults. `out` has padding and is compared by its fields.
-// A copy whose sample has no stray bytes: those between its members go with no assignment.
+// Returns a copy in which the padding bytes of `sample` are zero, because assignment need not copy them.
+// `out` has padding, too, and is compared by its fields.
 static outer_t without_padding(const outer_t *f) {
   outer_t copy;
   memcpy(&copy, f, sizeof copy);

@@ -5,7 +5,7 @@
 
 #define G_MPS2 9.81
 
-// Where the motors are, in arms, and which way the air turns the body.
+// Positions of the motors, in arms, and the sign of their drag torque on the body.
 static const double ahead[PILOT_MOTORS] = {1, -1, -1, 1}, left[PILOT_MOTORS] = {-1, -1, 1, 1};
 static const double twist[PILOT_MOTORS] = {-1, 1, -1, 1};
 
@@ -41,7 +41,7 @@ rig6_t rig6_at(const rig6_param_t *param, d3_t pos_w_m, double yaw_rad, bool hov
   return r;
 }
 
-// Ratio of the thrust of motor i to that in free air.
+// Returns the thrust of motor i over its thrust in free air.
 static double ratio(const rig6_param_t *p, const state_t *s, int i) {
   if (isnan(p->ceiling_m)) return 1.0;
   const d3_t at = dq_to_world(s->q, (d3_t){p->arm_m * ahead[i], p->arm_m * left[i], 0.0});

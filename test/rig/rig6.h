@@ -8,19 +8,19 @@
 
 #include "crazyflie/pilot.h"
 
-#define RIG6_TOUCH_M 0.005 // so near to the ceiling nothing goes up
+#define RIG6_TOUCH_M 0.005 // nearer to the ceiling the body cannot rise
 
 typedef struct {
   double mass_kg;
   d3_t inertia_kgm2;
-  double arm_m;      // of each motor along x and along y
-  double torque_m;   // torque over thrust
+  double arm_m;      // distance of each motor along x and along y
+  double torque_m;   // drag torque over thrust
   double rotor_kgm2; // inertia of one rotor; 0: none
   double speed_N;    // kf, N/(rad/s)^2
   double tau_s;      // lag of the motors
   double ceiling_m;  // height of the plate; NaN: none. Thrust ratio 1/2 + 1/2 sqrt(1 + (R/d)^2/8) per rotor
   double radius_m;   // R
-  bool floor;        // at z = 0 nothing goes down, and what stands does not turn
+  bool floor;        // at z = 0 the body cannot go down, nor turn while it stands
   d3_t acc_bias_b_mps2; // of the accelerometer
 } rig6_param_t;
 
@@ -37,23 +37,23 @@ typedef struct {
   uint32_t step;
 } rig6_t;
 
-// At rest at that place and heading; hovering: the motors carry it, else they stand.
+// At rest at that place and heading. hovering: the motors carry its weight, else they stand still.
 rig6_t rig6_at(const rig6_param_t *param, d3_t pos_w_m, double yaw_rad, bool hovering);
 
-// The measurements, with the set point.
+// Perfect measurements, with the set point.
 pilot_in_t rig6_sense(const rig6_t *r, const pilot_setpoint_t *set);
 
-// One millisecond under the command.
+// Moves it for one millisecond under the command.
 void rig6_step(rig6_t *r, const double motor_N[PILOT_MOTORS]);
 
-// Flies for so long; after every step `watch` is called, unless it is null.
+// Flies for so long; calls `watch`, unless null, after every step.
 void rig6_fly(rig6_t *r, const pilot_t *pilot, const pilot_setpoint_t *set, double seconds,
               void (*watch)(const rig6_t *, void *), void *user);
 
 double rig6_yaw_rad(const rig6_t *r);
 double rig6_tilt_rad(const rig6_t *r);
 
-// Set points: hold this place and heading; hold this velocity (world) and this height.
+// Set points: hold this place and heading; hold this velocity (world axes) and height.
 pilot_setpoint_t rig6_hold(d3_t pos_w_m, double yaw_rad);
 pilot_setpoint_t rig6_go(d3_t vel_w_mps, double z_m, double yaw_rad);
 

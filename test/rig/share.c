@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #define SEED_MAX 999999L
-#define RANGE    10000u // of seeds, for each SEED
+#define RANGE    10000u // seeds for each SEED
 
 uint64_t share_seed(uint64_t usual) {
   const char *const text = getenv("SEED");

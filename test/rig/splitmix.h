@@ -1,4 +1,4 @@
-// splitmix.h - numbers that look random and are the same in every run: splitmix64, for tests.
+// splitmix.h - pseudo-random numbers for tests, the same in every run: splitmix64.
 #ifndef TEST_RIG_SPLITMIX_H
 #define TEST_RIG_SPLITMIX_H
 
@@ -16,12 +16,12 @@ static inline uint64_t splitmix_bits(splitmix_t *r) {
   return x ^ (x >> 31);
 }
 
-// Even in lo..hi.
+// Uniform in lo..hi.
 static inline double splitmix_between(splitmix_t *r, double lo, double hi) {
   return lo + (hi - lo) * (double)(splitmix_bits(r) >> 11) * 0x1p-53;
 }
 
-// Normal with mean 0 (Box and Muller, one of the two).
+// Normal with mean 0 (Box and Muller; the second number is not used).
 static inline double splitmix_normal(splitmix_t *r, double sd) {
   const double radius = sqrt(-2.0 * log(splitmix_between(r, 0x1p-60, 1.0)));
   return sd * radius * cos(splitmix_between(r, 0.0, 6.283185307179586));

@@ -27,7 +27,7 @@ extern const int test_count;
 #define CHECK_OK(call)           test_status(__FILE__, __LINE__, #call, 0, (int)(call))
 #define CHECK_STATUS(want, call) test_status(__FILE__, __LINE__, #call, (int)(want), (int)(call))
 #define CHECK_TEXT(got, want)    test_text(__FILE__, __LINE__, #got, (got), (want))
-// Ends the test without a result, with a line that says why.
+// Ends the test without a result, and prints why.
 #define SKIP(why)                                                                                            \
   do {                                                                                                       \
     test_skip(why);                                                                                          \
@@ -47,7 +47,7 @@ const char *test_data_dir(void);
 // True in `make check`: tests may take minutes.
 bool test_long(void);
 
-// Rows of a table that takes long: all of them there, else the first few.
+// Number of rows of a slow table to run: all in `make check`, else the first few.
 #define FEW_OR_ALL(table, few) (test_long() ? sizeof(table) / sizeof *(table) : (few))
 
 #endif

@@ -1,5 +1,5 @@
-// test_main.c - runs the tests whose file or name contains the word of the first argument: each file in a
-// process of its own, as many at once as there are cores, their output in order.
+// test_main.c - runs the tests whose file or name contains the word given as first argument. Each file runs
+// in a process of its own, as many at once as there are cores; their output is printed in order.
 #define _XOPEN_SOURCE 700 // fileno
 #include "rig/test.h"
 
@@ -72,7 +72,7 @@ typedef struct {
   int passed, failed, skipped;
 } tally_t;
 
-// Of processors, by this process and by the programs that it ran.
+// Processor time in seconds, of this process and of the programs that it ran.
 static double used_s(void) {
   struct tms t;
   times(&t);
@@ -102,13 +102,13 @@ static bool is_wanted(const test_t *test, const char *word) {
   return strstr(test->file, word) || strstr(test->name, word);
 }
 
-// The tests of a file, from `first` up to the next file's.
+// The tests of one file: from `first` up to, not including, `end`.
 typedef struct {
   int first, end;
   pid_t process; // 0: it has ended
   int status;
   FILE *output;
-  int told[2]; // a pipe for its tally
+  int told[2]; // a pipe through which the process sends its tally
 } job_t;
 
 static tally_t run_file(int first, int end, const char *word) {
@@ -165,7 +165,7 @@ static void tell(job_t *job, tally_t *sum) {
   sum->skipped += own.skipped;
 }
 
-// Those files that have a test that is wanted.
+// Lists the files that have a wanted test; returns their number.
 static int list_jobs(job_t *job, const char *word) {
   int n = 0;
   for (int i = 0; i < test_count; i++) {

@@ -7,9 +7,9 @@ TEST(share_fewest_is_the_binomial_s_lower_end) {
     double promise;
     int fewest;
   } row[] = {
-      {10, 1.0, 10},   // all is all
-      {20, 0.998, 19}, // two of twenty: 7.4e-4
-      {3, 0.9, 1},     // none of three: exactly 1e-3, and rounding
+      {10, 1.0, 10},   // 1 means all
+      {20, 0.998, 19}, // two of twenty fail: 7.4e-4
+      {3, 0.9, 1},     // none of three keeps it: exactly 1e-3, but for rounding
       {10, 0.5, 1},    // none of ten: 9.8e-4
       {9, 0.5, 0},     // none of nine: 2e-3
       {1000, 0.5, 451},

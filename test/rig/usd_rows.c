@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define EVENTS 8
-#define HEAD   10 // of a row: event, microseconds
+#define HEAD   10 // bytes of a row: event, microseconds
 
 typedef struct {
   unsigned id;

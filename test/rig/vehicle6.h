@@ -1,4 +1,4 @@
-// vehicle6.h - a vehicle with six degrees of freedom for tests: the numbers of the Crazyflie, nothing else.
+// vehicle6.h - a vehicle with six degrees of freedom for tests, with the Crazyflie's mass and geometry.
 #ifndef TEST_RIG_VEHICLE6_H
 #define TEST_RIG_VEHICLE6_H
 
@@ -10,30 +10,30 @@
 #define RADIUS_M 0.0225
 #define TICK_S   0.002
 
-// Without effects, battery, delay; the highest points are the blades'. ceiling_m: HUGE_VAL for none.
+// Without effects, battery or delay; the blades are its highest points. ceiling_m: HUGE_VAL for none.
 model_t vehicle6(double ceiling_m);
 
-// The same with effects switched on, nominal numbers; returns where in m->fx the effect is.
+// Adds an effect with nominal parameters; returns its entry in m->fx.
 fx_use_t *vehicle6_add(model_t *m, const char *effect);
 
-// At rest, rotors' plane at rotor_z_m, each giving share of a quarter of the weight.
+// At rest, the rotor plane at rotor_z_m; each rotor gives `share` of a quarter of the weight.
 body_start_t vehicle6_start(const model_t *m, double rotor_z_m, double share);
 
-// ticks of TICK_S with each rotor commanded share of a quarter of the weight.
+// Runs `ticks` of TICK_S, each rotor commanded `share` of a quarter of the weight.
 void vehicle6_fly(body_t *b, double share, int ticks);
 
 double vehicle6_tilt_rad(const body_t *b);
 
-// A tick with commands in PWM 0..65535, through the thrust map at the battery's voltage.
+// Runs a tick with commands in PWM 0..65535, through the thrust map at the battery's voltage.
 void vehicle6_tick_pwm(body_t *b, const double pwm[ROTORS], double span_s);
 
 // Angular acceleration, body axes.
 d3_t vehicle6_angular_acc_b_radps2(const body_t *b);
 
-// Angular momentum about the centre of mass with the rotors' own, world axes.
+// Angular momentum about the centre of mass, rotors included, world axes.
 d3_t vehicle6_momentum_w(const rigid_t *r, const double y[RIGID_N]);
 
-// Both integrators that fly.
+// Both integrators that flights use.
 extern const integrate_kind_t vehicle6_kinds[2];
 
 #endif

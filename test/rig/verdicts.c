@@ -1,4 +1,4 @@
-// verdicts.c - verdict.json as tests read it.
+// verdicts.c - reads and checks verdict.json.
 #include "rig/verdicts.h"
 
 #include "rig/scratch.h"

@@ -1,20 +1,20 @@
-// verdicts.h - verdict.json as tests read it.
+// verdicts.h - reads and checks verdict.json in tests.
 #ifndef TEST_RIG_VERDICTS_H
 #define TEST_RIG_VERDICTS_H
 
 #include <cjson/cJSON.h>
 
-// Of the scratch folder; null: it is no JSON. cJSON_Delete it.
+// From the scratch folder; null: not JSON. cJSON_Delete it.
 cJSON *verdict_read(const char *name);
 
-// "" and NaN where it is not there, or of another type.
+// "" or NaN if the key is missing or of another type.
 const char *verdict_string(const cJSON *object, const char *key);
 double verdict_number(const cJSON *object, const char *key);
 
-// Of the list `gap`; null: not there.
+// The channel's entry in the list `gap`; null: none.
 const cJSON *verdict_gap(const cJSON *verdict, const char *channel);
 
-// Every key of the specification, of its type, and no other.
+// Checks that every key of the specification is there, of its type, and no other.
 void verdict_check(const cJSON *verdict);
 
 #endif

@@ -1,4 +1,4 @@
-// watched.h - calls of what stands before the loops: a vehicle in the air, one call after the other.
+// watched.h - calls of the checks in front of the control loops, for a vehicle in the air.
 #ifndef TEST_RIG_WATCHED_H
 #define TEST_RIG_WATCHED_H
 
@@ -8,7 +8,7 @@
 
 #define HOVER_N (0.032f * GRAVITY_MPS2)
 
-// In the air at 1 m, with sensors that are perfect, under no ceiling.
+// In the air at 1 m, with perfect sensors, no ceiling known.
 static inline flight_t hovering(flight_in_t *in) {
   flight_param_t p;
   params_default(&p);
@@ -26,7 +26,7 @@ static inline flight_t hovering(flight_in_t *in) {
   return f;
 }
 
-// A call, so many milliseconds after the one before.
+// Calls the checks `ms` milliseconds after the last call.
 static inline flight_in_t watch(flight_t *f, const flight_in_t *in, int ms) {
   flight_in_t flown = *in;
   flown.step = f->step_last + (uint32_t)ms;
