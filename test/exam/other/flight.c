@@ -1,17 +1,16 @@
-// flight.c - the second plant's flights: where it is told to be, the loop, and the log's rows.
+// flight.c - the second plant's flights: the set points, the loop, and the log's rows.
 #include "exam/other/flight.h"
 
 #include <string.h>
 
-#define STEPS   4 // of the plant to a tick
+#define STEPS   4 // steps of the plant per tick
 #define PIECES  7
 #define LOST_M  1.5
 #define STAND_S 2.5  // before and after a ladder
-#define UNDER_M 0.06 // the floor: where one is told to be that lands
-#define LATE    16   // ticks of commands that are kept
+#define UNDER_M 0.06 // set point below the floor of a vehicle that is to stand
+#define LATE    16   // ticks for which commands are kept
 
-// --- where it is to be
-// --------------------------------------------------------------------------------------
+// --- the set points ----------------------------------------------------------------------------------------
 
 typedef struct {
   const nature_t *room;
@@ -19,7 +18,7 @@ typedef struct {
   double far, span_s, quick;
   int order[PIECES];
   double number[PIECES][4];
-  // what is told, made smooth: three lags one behind the other
+  // the set point, smoothed by three lags in series
   vec_t lag[3];
   double yaw[3];
 } plan_t;
@@ -68,7 +67,7 @@ static vec_t told(const plan_t *p, int piece, double t, double span, double *yaw
   return vec(far_m * cos(angle), far_m * sin(angle), at.z);
 }
 
-// Stands, climbs in steps to its top, steps down, lands.
+// The set point of a ladder: stands, climbs in steps to the top, steps down, lands.
 static vec_t told_ladder(const plan_t *p, double t_s) {
   const nature_t *const room = p->room;
   const bool under = room->ceiling_m < 1e3;
@@ -154,7 +153,7 @@ static void row_of(const other_job_t *job, const senses_state_t *s, const pilot_
   for (int i = 0; i < 4; i++) row[17 + i] = as_logged(job, command[i]);
 }
 
-// What is wrong with the log becomes so here; what is wrong with the columns file, in user.c.
+// Puts the fault into a row of the log; a fault of the columns file is put in by user.c.
 static void soil(const other_job_t *job, double row[COLUMNS], double kept[2]) {
   const dirt_t dirt = job->habits.dirt;
   const double t_s = row[0];
@@ -187,7 +186,7 @@ typedef struct {
   dice_t dice;
   double command[LATE][4]; // of the last ticks
   double sum[COLUMNS];     // of a row that is a mean
-  double kept[2];          // of what stands still
+  double kept[2];          // values of what stands still
   double full_V, fall_Vps;
 } other_t;
 
@@ -216,7 +215,7 @@ static void battery(other_t *o, const nature_t *known, const double command[4], 
   o->body.volt = o->full_V - o->fall_Vps * t_s - 0.12 * (load - 1.0);
 }
 
-// Before take-off and after landing the motors are off.
+// True before take-off and after landing: the motors are off.
 static bool stands(const other_t *o, const pilot_wish_t *wish) {
   const double rest_m = o->body.nature->rest_m;
   return o->body.s.pos_m.z <= rest_m && wish->pos_m.z < rest_m;
@@ -229,7 +228,7 @@ static bool lost(const other_t *o, const pilot_wish_t *wish) {
          o->body.s.pos_m.z >= o->body.nature->ceiling_m;
 }
 
-// Standing on the floor it feels nothing.
+// Adds the time for which a surface is felt. On the floor nothing is felt.
 static void feel(felt_t *felt, const other_job_t *job, const nature_flight_t *body) {
   const double z = body->s.pos_m.z;
   if (z <= body->nature->rest_m) return;

@@ -1,4 +1,4 @@
-// flight.h - a flight of the second plant, as the log and the files that its user writes.
+// flight.h - flies the second plant, and writes the log and the files that its user would write.
 #ifndef TEST_EXAM_OTHER_FLIGHT_H
 #define TEST_EXAM_OTHER_FLIGHT_H
 
@@ -8,7 +8,7 @@
 
 typedef enum { COMMAND_SPEED, COMMAND_SHARE, COMMAND_N } command_unit_t;
 
-// What is wrong with a log, or with what its user says of the columns.
+// A fault of a log, or of what its user says of the columns.
 typedef enum {
   DIRT_NONE,
   DIRT_EXCHANGED, // the columns of two motors
@@ -23,43 +23,42 @@ typedef enum {
 
 enum { LACKS_ACC = 1, LACKS_SPEED = 2, LACKS_VOLT = 4, LACKS_WISH = 8 };
 
-// How its user logs. All of it is known to them, and stands in the columns file as far as that has words for
-// it.
+// How the user logs. The user knows all of it, and the columns file says it as far as it can.
 typedef struct {
-  int every;           // ticks of 2 ms to a row
-  bool means;          // a row is a mean over its period, else what is at its time
-  double late_s;       // the logged command is that old
+  int every;           // ticks of 2 ms per row
+  bool means;          // a row is the mean over its period; else it is what was at its time
+  double late_s;       // age of the logged command
   command_unit_t unit; // speed, share of the greatest speed, newton
-  unsigned lacks;      // streams
+  unsigned lacks;      // missing streams
   dirt_t dirt;
 } habits_t;
 
-// One sort of manoeuvre: up, down and about the vertical, or sideways.
+// The sorts of manoeuvres: all; up, down and about the vertical; sideways.
 enum { SORT_ALL, SORT_UPRIGHT, SORT_SIDEWAYS, SORTS };
 
 typedef struct {
-  nature_t truth, known; // the user knows the second, but for what it does not say
+  nature_t truth, known; // what flies; what the user knows and writes into the vehicle file
   senses_t senses;
   habits_t habits;
   double briskness; // of the pilot
-  bool ladder;      // take-off, steps of height and holds, landing; else pieces that excite it
-  int sort;         // which of these: a flight has one sort of them, or all
+  bool ladder;      // take-off, steps of height with holds, landing; else pieces that excite the vehicle
+  int sort;         // the pieces' sort of manoeuvre
   double span_s;
   uint64_t seed;
 } other_job_t;
 
-// Nothing hidden yet; everything but the flights' seed is drawn.
+// Draws vehicle, sensors and habits. What is hidden, the span and the flights' seed are the caller's.
 other_job_t other_job(dice_t *d);
 
-// For how long what the file does not have acted: outside the library at half its size or more; a surface by
-// a hundredth of the thrust or more.
+// For how long flights felt what the vehicle file lacks: an effect outside the library at half its size or
+// more; a surface at a hundredth of the thrust or more.
 #define FELT_GAIN 0.01
 typedef struct {
   double strange_s, ceiling_s, ground_s;
 } felt_t;
 
-// Flies pieces that excite it, near the floor and under the ceiling where there is one. False: it was lost,
-// or could not be written. felt: is added to.
+// Flies pieces that excite the vehicle, also near the floor and, if there is one, under the ceiling; adds to
+// *felt. False: the vehicle was lost, or the log could not be written.
 bool other_fly(const other_job_t *job, FILE *out, felt_t *felt);
 
 void other_write_columns(const other_job_t *job, FILE *out);

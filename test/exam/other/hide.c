@@ -5,7 +5,7 @@
 
 #define CF_ARM_M  0.046
 #define CF_KG     0.0329
-#define TIP_MPS   47.0 // of rotors in a hover, of 0.03 kg as of 1 kg
+#define TIP_MPS   47.0 // tip speed in a hover, from 0.03 to 1 kg
 #define DELAY_MAX 0.1
 
 static double arm_m(const nature_t *n) {
@@ -16,7 +16,7 @@ double hide_stretch(const nature_t *n) {
   return sqrt(arm_m(n) / CF_ARM_M);
 }
 
-// Force over speed of all rotors and velocity that gives this rate, 1/s.
+// Returns the force over rotor speed and hub velocity that slows a hovering vehicle at this rate, 1/s.
 static double by_rate(const nature_t *n, double rate) {
   return rate * n->mass_kg / (4.0 * nature_hover_radps(n));
 }
@@ -104,7 +104,7 @@ static void flapping(const hide_t *h) {
 static void translational_lift(const hide_t *h) {
   h->n->lift_kgpm += 0.09 * h->times * h->n->mass_kg;
 }
-// Air that moves, where there is a drag to feel it.
+// Moves the air if there is a drag to feel it; else pushes.
 static void wind(const hide_t *h) {
   const double push_N = 0.1 * h->times * h->n->mass_kg;
   const double felt = 4.0 * nature_hover_radps(h->n) * h->n->hub_kg;

@@ -109,7 +109,7 @@ static nature_state_t advanced(const nature_flight_t *f, const nature_state_t *f
   return to;
 }
 
-// It stands on the floor, which carries it, and does not go through a ceiling.
+// Keeps the vehicle standing level on the floor, and stops it at the ceiling.
 static void stop(nature_flight_t *f) {
   const nature_t *const n = f->nature;
   nature_state_t *const s = &f->s;

@@ -11,7 +11,7 @@
 #define NATURE_G_MPS2    9.81
 #define NATURE_DELAY_MAX 256 // steps
 
-// What no library of effects has.
+// Effects that no library has.
 typedef enum {
   STRANGE_NONE,
   STRANGE_PLACE,
@@ -21,8 +21,8 @@ typedef enum {
   STRANGE_SHAKE
 } strange_kind_t;
 
-// A vehicle and what is around it. Body axes x forward, y left, z up; world z up. Places from the centre of
-// mass.
+// A vehicle and its surroundings. Body axes x forward, y left, z up; world z up. Places are relative to the
+// centre of mass.
 typedef struct {
   double mass_kg, inertia_kgm2[3];
   double x_m[4], y_m[4], spin[4]; // spin +1: counter-clockwise from above
@@ -32,15 +32,15 @@ typedef struct {
   double most_radps;       // of a rotor
   double gain[4];          // of each rotor's thrust
   double hub_kg, climb_kg; // force over rotor speed and hub velocity: in the disc, along the axis
-  double flap_kgm;         // moment over the same, about the axis that the velocity turns the disc
+  double flap_kgm;         // moment over the same, about the axis about which the velocity tilts the disc
   double body_kgpm[3];     // drag of the body along each axis, over |v| v
-  double lift_kgpm;        // thrust of all, over the square of the speed in the disc
+  double lift_kgpm;        // thrust of all rotors, over the square of the speed in the disc
   double sag, sag_V;       // thrust times 1 - sag (1 - V / sag_V)
   double bend_pN;          // thrust of a rotor T + bend (T - hover)^2
   double ceiling_m, ceiling_share,
-      ceiling_m0;        // INFINITY: none; gain at it, and where it has fallen to a quarter
+      ceiling_m0;        // INFINITY: none; gain at the ceiling, and distance at which it is a quarter of that
   double ground_share;   // times (R / 4 z)^2
-  double rest_m;         // height of the centre of mass on the floor; the rotors are as high
+  double rest_m;         // height of the centre of mass, and of the rotors, on the floor
   vec_t air_mps, push_N; // world
   strange_kind_t strange;
   double strange_N, strange_at[3];
@@ -59,13 +59,13 @@ typedef struct {
   double volt, t_s;
   double late_radps[NATURE_DELAY_MAX][4];
   int steps;
-  double felt_s; // so long something outside the library acted, at half its size or more
+  double felt_s; // for how long something outside the library acted at half its size or more
 } nature_flight_t;
 
 // Speed of each rotor in a hover.
 double nature_hover_radps(const nature_t *n);
 
-// Of its thrust in the open, what is added at a height.
+// Thrust that a surface adds at a height, as a share of the thrust in the open.
 double nature_ceiling_gain(const nature_t *n, double height_m);
 double nature_ground_gain(const nature_t *n, double height_m);
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define OUTER       5   // calls between two of position and speed
+#define OUTER       5   // calls per step of the position and speed loops
 #define TILT_MAX    0.5 // of g, sideways
 #define CLIMB_MAX   1.5 // m/s
 #define SPEED_MAX   3.0
@@ -24,7 +24,7 @@ static vec_t limited_vec(vec_t a, double level, double up) {
 void pilot_start(pilot_state_t *p, const nature_t *known, double briskness) {
   memset(p, 0, sizeof *p);
   p->known = *known;
-  // The derivative takes half of the lag away.
+  // The derivative compensates half of the lag.
   const double slow_s = fmax(known->lag_s + known->delay_s, LEAST_LAG_S);
   p->rate_gain = briskness * fmin(30.0, 0.9 / slow_s);
   p->rate_lead = 0.5 * slow_s;
@@ -34,7 +34,7 @@ void pilot_start(pilot_state_t *p, const nature_t *known, double briskness) {
   p->up_gain = 5.0 * briskness;
 }
 
-// The acceleration that is wanted, world.
+// Computes the wanted acceleration, world axes.
 static void outer(pilot_state_t *p, const pilot_view_t *v, const pilot_wish_t *wish) {
   const double dt = OUTER * PILOT_S;
   const vec_t off = vec_more(wish->pos_m, -1.0, v->pos_m);
@@ -47,7 +47,7 @@ static void outer(pilot_state_t *p, const pilot_view_t *v, const pilot_wish_t *w
   p->acc_mps2 = limited_vec(a, TILT_MAX * NATURE_G_MPS2, PUSH_MAX * NATURE_G_MPS2);
 }
 
-// Rates that bring the thrust's axis to where it is wanted, and the yaw.
+// Returns body rates that bring the thrust axis and the yaw to where they are wanted.
 static vec_t rates(const pilot_state_t *p, const pilot_view_t *v, const pilot_wish_t *wish, vec_t want) {
   const vec_t up = vec_times(1.0 / vec_length(want), want), x = turn_axis_x(v->q);
   const vec_t lean = turn_to_body(v->q, vec_cross(turn_axis_z(v->q), up));
@@ -56,7 +56,7 @@ static vec_t rates(const pilot_state_t *p, const pilot_view_t *v, const pilot_wi
              limited(YAW_GAIN * turn, 2.0));
 }
 
-// Thrusts of the rotors for a push and angular accelerations, by what the maker knows.
+// Rotor commands for a thrust and angular accelerations, by the known vehicle.
 static void mix(const nature_t *k, double push_N, vec_t a, double command_radps[4]) {
   double xx = 0.0, yy = 0.0, ss = 0.0;
   for (int i = 0; i < 4; i++) {

@@ -1,5 +1,5 @@
-// pilot.h - the second plant's own controller: cascaded PID from place to speed, attitude, rates and rotors,
-// with limits.
+// pilot.h - the second plant's own controller: a PID cascade of position, speed, attitude and rates, with
+// limits.
 #ifndef TEST_EXAM_OTHER_PILOT_H
 #define TEST_EXAM_OTHER_PILOT_H
 
@@ -12,13 +12,13 @@ typedef struct {
   double yaw_rad;
 } pilot_wish_t;
 
-// What the pilot believes.
+// The state as the pilot's estimator has it.
 typedef struct {
   vec_t pos_m, vel_mps, rate_radps;
   turn_t q;
 } pilot_view_t;
 
-// Gains follow from the lag that the vehicle's maker knows.
+// Gains follow from the known lag and delay.
 typedef struct {
   nature_t known;
   double rate_gain, rate_lead, att_gain, vel_gain, pos_gain, up_gain;

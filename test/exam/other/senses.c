@@ -5,15 +5,15 @@
 
 #define OUTSIDE    5    // ticks
 #define RANGE      50   // ticks
-#define PLACE_GAIN 0.15 // share of what is off taken in at each sight
-#define SPEED_GAIN 1.2  // 1/s of the same
+#define PLACE_GAIN 0.15 // share of the position error corrected by each sample
+#define SPEED_GAIN 1.2  // 1/s, of the same
 #define TURN_GAIN  0.05
 
 double senses_late_s(double pole_Hz) {
   return sqrt(2.0) / (2.0 * OTHER_PI * pole_Hz);
 }
 
-// Each pole has half of the lateness.
+// Each pole delays by half of the total.
 static vec_t through(poles_t *p, vec_t in, double pole_Hz) {
   const double k = 1.0 - exp(-PILOT_S / (0.5 * senses_late_s(pole_Hz)));
   p->first = vec_more(p->first, k, vec_more(in, -1.0, p->first));
@@ -40,7 +40,7 @@ static void from_outside(senses_state_t *s, const nature_flight_t *f, dice_t *d)
   s->view.pos_m = vec_more(s->view.pos_m, PLACE_GAIN, off);
   s->view.vel_mps = vec_more(s->view.vel_mps, SPEED_GAIN, off);
   const turn_t q = turn_by(f->s.q, dice_vec(d, s->senses->angle_rad)), p = s->view.q;
-  // twice the vector part of p* q
+  // twice the vector part of conj(p) q
   const double sign = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0.0 ? -2.0 : 2.0;
   const vec_t turn = vec(sign * (p.w * q.x - p.x * q.w - p.y * q.z + p.z * q.y),
                          sign * (p.w * q.y - p.y * q.w - p.z * q.x + p.x * q.z),

@@ -1,8 +1,7 @@
 // senses.h - the second plant's sensors and its simple estimator.
 //
-// Every 2 ms a gyro and an accelerometer, each behind two poles; every 10 ms a place and an attitude from
-// outside. The estimate runs on with gyro and accelerometer and is drawn to what comes from outside by fixed
-// gains.
+// A gyro and an accelerometer, each behind two poles, every 2 ms; position and attitude from outside every 10
+// ms. The estimate integrates gyro and accelerometer, and is corrected from outside with fixed gains.
 #ifndef TEST_EXAM_OTHER_SENSES_H
 #define TEST_EXAM_OTHER_SENSES_H
 
@@ -28,7 +27,7 @@ typedef struct {
   int ticks;
 } senses_state_t;
 
-// How late a signal is behind two poles: sqrt(2) / (2 pi f).
+// The delay of a signal behind the two poles: sqrt(2) / (2 pi f).
 double senses_late_s(double pole_Hz);
 
 void senses_start(senses_state_t *s, const senses_t *senses, const nature_flight_t *f);

@@ -1,4 +1,4 @@
-// user.c - what a user of the second plant draws, and the files that they write of it.
+// user.c - draws a user of the second plant, and writes the files that this user would write.
 #include "exam/other/flight.h"
 
 other_job_t other_job(dice_t *d) {
@@ -21,7 +21,7 @@ other_job_t other_job(dice_t *d) {
   return job;
 }
 
-// What its columns are: signal, name, unit, the stream that may be lacking, the sensor that is late.
+// The log's columns: signal, name, unit, the stream it belongs to, the sensor whose delay it has.
 typedef enum { LATE_NOT, LATE_ACC, LATE_GYRO } late_t;
 static const struct {
   const char *signal, *name, *unit;
@@ -74,7 +74,7 @@ void other_write_columns(const other_job_t *job, FILE *out) {
       fprintf(out, "%s = {column = \"%s\", unit = \"%s\", late_ms = %.4g}\n", COLUMN[i].signal,
               COLUMN[i].name, COLUMN[i].unit, late_ms[COLUMN[i].late]);
   motor_columns(h, out);
-  // A sample is at the beginning of its row's period, the rest of a mean row at its middle.
+  // A range sample is taken at the beginning of its row's period, a row of means stands at the middle.
   if (job->truth.ceiling_m < 1e3)
     fprintf(out, "range = {column = \"up\", unit = \"m\", late_ms = %.4g}\n", h->means ? 0.5 * row_ms : 0.0);
 }
@@ -94,7 +94,7 @@ static void write_map(const other_job_t *job, FILE *out) {
     fprintf(out, "\n[thrust_map]\nkind = \"pwm_cubic\"\nc = [0.0, 0.0, %.7g, 0.0]\n", most_N);
 }
 
-// The ceiling's effect as points, as a user has them of a stand.
+// Writes the ceiling's effect as points, as a user measures them on a test stand.
 static void write_ceiling(const nature_t *n, FILE *out) {
   double far[16], ratio[16];
   for (int i = 0; i < 16; i++) {

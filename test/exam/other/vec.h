@@ -1,4 +1,5 @@
-// vec.h - vectors, a turn and chance for the exam's second plant, which shares nothing with the first.
+// vec.h - vectors, rotations and random numbers for the exam's second plant, which shares nothing with the
+// first.
 #ifndef TEST_EXAM_OTHER_VEC_H
 #define TEST_EXAM_OTHER_VEC_H
 
@@ -34,7 +35,7 @@ static inline double vec_length(vec_t a) {
   return sqrt(vec_dot(a, a));
 }
 
-// A turn from body to world, as a quaternion.
+// A rotation from body to world, as a quaternion.
 typedef struct {
   double w, x, y, z;
 } turn_t;
@@ -43,7 +44,7 @@ static inline turn_t turn_unit(turn_t q) {
   const double n = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return (turn_t){q.w / n, q.x / n, q.y / n, q.z / n};
 }
-// By a small angle about a body axis.
+// Turns q by a small angle about a body axis.
 static inline turn_t turn_by(turn_t q, vec_t a) {
   return turn_unit((turn_t){
       q.w - 0.5 * (q.x * a.x + q.y * a.y + q.z * a.z), q.x + 0.5 * (q.w * a.x + q.y * a.z - q.z * a.y),
@@ -69,12 +70,12 @@ static inline vec_t turn_to_body(turn_t q, vec_t w) {
   return vec(vec_dot(turn_axis_x(q), w), vec_dot(turn_axis_y(q), w), vec_dot(turn_axis_z(q), w));
 }
 
-// Chance: splitmix64, and normal numbers by Box and Muller.
+// Random numbers: splitmix64, and normal ones by Box and Muller.
 typedef struct {
   uint64_t at;
 } dice_t;
 
-// 0..1, neither of them
+// 0..1, both excluded
 static inline double dice_share(dice_t *d) {
   uint64_t z = d->at += 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
