@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DRAWS 20 // so often a set whose vehicle cannot fly is drawn again
+#define DRAWS 20 // how often a set whose vehicle cannot fly is drawn anew
 
 exam_kind_t exam_kind(int i) {
   static const exam_kind_t order[] = {EXAM_ONE, EXAM_NOTHING, EXAM_ONE,   EXAM_TWO, EXAM_STRANGE,
@@ -17,7 +17,7 @@ exam_kind_t exam_kind(int i) {
 
 // --- making -----------------------------------------------------------------------------------------------
 
-// The classes of which one at most is named: either name is right.
+// True if either name is right for the other: the same, or of one class of which at most one is named.
 static bool same(const char *a, const char *b) {
   const fx_t *x = fx_find(a), *y = fx_find(b);
   return x && y && (x == y || (x->group != FX_ALONE && x->group == y->group));
@@ -48,7 +48,7 @@ static done_t fly(exam_set_t *set, random_t *r, const model_t *truth, gap_flight
                   unsigned long seed, why_t *why) {
   exam_flight_t job = {
       .truth = truth, .hover_only = set->kind == EXAM_HOVER, .indi = random_uniform(r, 0.0, 1.0) > 0.5};
-  // Late motors make an incremental controller that does not know it oscillate: nobody identifies such a
+  // An incremental controller that does not know how late the motors are oscillates: nobody identifies such a
   // vehicle.
   for (int k = 0; k < set->n; k++) job.indi = job.indi && !same(set->hidden[k], "motor_lag");
   set->flew = true;
@@ -101,7 +101,7 @@ static void mark_unknown(exam_set_t *set, const diagnosis_t *d) {
   set->unknown_right = place && (set->strange.channels >> d->left.cell.channel & 1u);
 }
 
-// What the verdict lists: effects whose typical size would not have been seen; and smallest sizes.
+// The answer lists smallest visible sizes, and effects whose typical size cannot be seen.
 static void mark_not_testable(exam_set_t *set, const diagnosis_t *d) {
   for (int k = 0; k < set->n; k++) {
     const fx_t *const fx = fx_find(set->hidden[k]);
@@ -124,7 +124,7 @@ static double flown(const model_t *truth, const fx_use_t *hidden, int param) {
   return round((before_s + p) / EXAM_TICK_S) * EXAM_TICK_S - before_s;
 }
 
-// Hidden effects in a form of the exam's own have no such numbers.
+// Hidden effects in a form of the exam's own have no such numbers, and are left out.
 static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *truth) {
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];

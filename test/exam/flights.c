@@ -22,8 +22,8 @@
 #define VBAT_SD   0.015
 #define TOF_SD    0.006
 #define TOF_FLOOR 0.045
-#define LOST_M    1.5 // off its track
-#define DOWN_S    1.0 // on the floor, in all
+#define LOST_M    1.5 // distance from its track
+#define DOWN_S    1.0 // total time on the floor
 
 done_t exam_vehicle(model_t *m, why_t *why) {
   TRY(model_builtin("cf21_legacy", m, why));
@@ -38,14 +38,14 @@ typedef struct {
   body_t body;
   model_t model; // the truth, with turbulence
   random_t *random;
-  double slow[10]; // errors of the estimates: position 3, velocity 3, attitude 3, height
+  double slow[10]; // errors of the estimates: position 3, velocity 3, attitude 3
   double tof_m;
 } exam_t;
 
 static double normal(const exam_t *e, double sd) {
   return sd * random_normal(e->random);
 }
-// One after the other: in which order a call's arguments are drawn is the compiler's to choose.
+// Drawn one after the other, because a compiler may draw a call's arguments in any order.
 static d3_t normal3(const exam_t *e, double sd) {
   d3_t n;
   n.z = normal(e, sd);
@@ -54,7 +54,7 @@ static d3_t normal3(const exam_t *e, double sd) {
   return n;
 }
 
-// Estimates err together for some 30 ms.
+// Errors of the estimates last for some 30 ms (first-order Gauss-Markov).
 static void drift(exam_t *e) {
   const double keep = exp(-EXAM_TICK_S / 0.03), fresh = sqrt(1.0 - keep * keep);
   for (int i = 0; i < 9; i++)

@@ -1,5 +1,5 @@
-// flights.h - flights for an exam: the six-degree-of-freedom plant in closed loop, with noise, as logs in
-// memory.
+// flights.h - flights for an exam: logs in memory of the six-degree-of-freedom plant in closed loop, with
+// noise.
 #ifndef TEST_EXAM_FLIGHTS_H
 #define TEST_EXAM_FLIGHTS_H
 
@@ -9,11 +9,11 @@
 #define EXAM_TICK_S 0.002
 
 typedef struct {
-  const model_t *truth; // with what is hidden
+  const model_t *truth; // including what is hidden
   bool hover_only;
   bool indi; // flown by the flight code, else by the firmware's PID
   unsigned long seed;
-  bool set_points; // the log has them, too
+  bool set_points; // the log has set points
 } exam_flight_t;
 
 // FAILED: no memory, or it crashed. Free it.

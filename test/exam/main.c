@@ -1,5 +1,5 @@
-// main.c - sits an exam of many sets and prints the marks: main FIRST_SEED SETS [lines], or with users' logs:
-// main users FIRST_SEED SETS [lines [KIND]].
+// main.c - runs an exam of many sets and prints the marks: main FIRST_SEED SETS [lines [KIND]], or, with
+// users' logs, main users FIRST_SEED SETS [lines [KIND]].
 #include "base/made.h"
 #include "exam/exam.h"
 #include "exam/users.h"
@@ -73,7 +73,7 @@ static void add_one(marks_t *m, const exam_set_t *s) {
   if (times >= 1.0) count(s->own_form ? &m->large_own : &m->large, s->exact);
 }
 
-// Where one effect is hidden: the smallest size told, against the answer.
+// Where one effect is hidden: compares the smallest visible size that was told with the answer.
 static void add_told(marks_t *m, const exam_set_t *s) {
   if (s->n != 1) return;
   if (s->least[0] <= s->times[0]) count(&m->promise, s->found == 0);

@@ -1,9 +1,9 @@
-// reliability.c - what was stated against what was right.
+// reliability.c - stated probabilities against the share that was right.
 #include "exam/reliability.h"
 
 #include <math.h>
 
-#define Z90 1.6448536 // standard deviations: 5 % lie beyond on either side
+#define Z90 1.6448536 // standard deviations: 5 % lie beyond on each side
 
 static const double LEAST[RELIABILITY_BINS + 1] = {0.0, 0.5, 0.8, 0.95, 1.0};
 

@@ -10,12 +10,12 @@
 #define SETS       18
 #define SETS_LONG  72
 
-// Of the first SETS those that are marked alone: effects that are large, forces outside the library, nothing.
-// The next test is about hovers. The long form has all, fresh ones, and asks of each kind; so does SEED=N,
-// whose sets nobody knows.
+// The sets among the first SETS that the short form marks: large effects, forces outside the library, nothing
+// hidden. (Hovers are the next test's.) The long form has all sets and more, and checks each kind; so does
+// SEED=N, with sets that nobody has seen.
 static const int FEW[] = {3, 9, 15, 2, 4, 7, 1};
 
-// More sets outside the library than `make exam` has: with one or two of a kind a bound could not fail.
+// More sets outside the library than `make exam` has, because one or two of a kind could not break a bound.
 static exam_kind_t kind_of(int i) {
   static const exam_kind_t order[] = {EXAM_ONE,     EXAM_NOTHING, EXAM_STRANGE, EXAM_ONE, EXAM_STRANGE,
                                       EXAM_HOVER,   EXAM_ONE,     EXAM_STRANGE, EXAM_ONE, EXAM_ONE,
@@ -71,17 +71,18 @@ TEST(the_workflow_names_what_an_exam_hides_and_nothing_else) {
   if (!few) CHECK_SHARE(m.hover - m.guessed, m.hover, 0.95);
   const int wrong = m.large - m.exact + m.alarms + m.wrong + m.guessed;
   const int marked = m.large + m.nothing + m.strange + m.hover;
-  CHECK_SHARE(marked - wrong, marked, 0.95); // few of a kind see little, all of them more
+  CHECK_SHARE(marked - wrong, marked, 0.95); // few sets of a kind detect little, all together more
 }
 
-// Each was promised to be seen from a smaller size on: a curve that falls off slowly shows in any hover.
+// The smallest visible size that was told was once too small in each: a slowly decaying curve shows in any
+// hover.
 TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
   static const struct {
     const char *what;
     unsigned long seed;
-    double least, most; // smallest size told, over typical
+    double least, most; // smallest visible size told, over typical
   } row[] = {
-      {"tof_latency", 52070, 2.03, 8.0}, // 2.03 was hidden, and not named
+      {"tof_latency", 52070, 2.03, 8.0}, // 2.03 times typical was hidden, and not named
       {"ceiling", 52143, 1e3, HUGE_VAL},
       {"ground", 52047, 1e3, HUGE_VAL},
       {"motor_damage", 52012, 0.12, 0.31}, // named: a hover shows it well, and says so
@@ -97,8 +98,8 @@ TEST(what_a_hover_hides_is_not_promised_to_be_seen) {
   }
 }
 
-// A velocity of 2 cm/s with errors of 3 cm/s: the moment that least squares did not find by it was taken for
-// noise, and flapping of 3.3 times what is typical for nothing, or for a tenth of its size.
+// Velocities of 2 cm/s have errors of 3 cm/s. The part of the moment that least squares did not find was
+// taken for noise, and flapping of 3.3 times its typical size was missed or found at a tenth of its size.
 TEST(large_flapping_is_named_in_a_hover_and_its_size_is_right) {
   static const unsigned long seed[] = {24156, 24026, 24256, 24269, 24086, 52076};
   for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) {
@@ -113,7 +114,7 @@ TEST(large_flapping_is_named_in_a_hover_and_its_size_is_right) {
   }
 }
 
-// A ground effect over heights with errors of 8 mm.
+// The ground effect is computed from heights with errors of 8 mm.
 TEST(numbers_hold_that_are_multiplied_by_the_logs_errors) {
   static const struct {
     const char *what;
@@ -134,7 +135,7 @@ TEST(numbers_hold_that_are_multiplied_by_the_logs_errors) {
       if (strcmp(v->name, row[i].what) != 0) continue;
       named++;
       CHECK(exam_holds(v));
-      CHECK(fabs(v->value - v->truth) < 0.35 * v->truth); // a tenth to a half was lost in them
+      CHECK(fabs(v->value - v->truth) < 0.35 * v->truth); // these errors took a tenth to a half of it
     }
     CHECK(named == 1);
   }
@@ -148,19 +149,19 @@ static void named_alone(exam_kind_t kind, unsigned long seed) {
   CHECK(set.exact && set.n > 0);
 }
 
-// A sag about a voltage between those that are tried: the other name comes in between, and a scale or a slope
-// made up for what the voltage leaves.
+// The sag's voltage lies between those that are tried. The other effect is chosen before it is refined, and a
+// scale or slope made up for what the wrong voltage leaves.
 TEST(a_sag_beside_another_effect_has_its_own_voltage) {
   static const unsigned long seed[] = {29843, 40033};
   for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) named_alone(EXAM_TWO, seed[i]);
 }
 
-// Its decay lies beyond half of the way to the next that is tried, and is found when the scale is in.
+// The decay lies more than half way to the next one tried, and is found once the scale is chosen.
 TEST(a_ground_beside_another_effect_has_its_own_decay) {
   named_alone(EXAM_TWO, 45101);
 }
 
-// It reads 7 cm too little, and 4 cm at the least: that is no floor of 6 cm, or of 8.
+// The sensor reads 7 cm too little, but never below 4 cm: that is no floor of 6 or 8 cm.
 TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
   static const unsigned long seed[] = {175106, 175166};
   for (unsigned i = 0; i < FEW_OR_ALL(seed, 1); i++) named_alone(EXAM_ONE, seed[i]);
@@ -174,7 +175,7 @@ TEST(a_held_out_flight_without_rows_is_left_out_of_the_shrink) {
   } row[] = {
       {200.0, 50.0, 40.0, true, 0.25, 0.2},
       {200.0, 200.0, 200.0, true, 1.0, 1.0},
-      {0.0, 0.0, 0.0, false, 0.0, 0.0},    // nothing is left of the flight
+      {0.0, 0.0, 0.0, false, 0.0, 0.0},    // no rows are left of the flight
       {200.0, 50.0, 0.0, false, 0.0, 0.0}, // the truth has no rows
       {200.0, 50.0, (double)NAN, false, 0.0, 0.0},
       {200.0, (double)INFINITY, 40.0, false, 0.0, 0.0},

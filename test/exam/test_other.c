@@ -1,4 +1,4 @@
-// test_other.c - the exam's second plant by itself.
+// test_other.c - tests of the exam's second plant by itself.
 #include "exam/other/flight.h"
 #include "rig/test.h"
 
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A vehicle of 0.1 kg without drags, whose numbers are round.
+// A vehicle of 0.1 kg without drags, with round numbers.
 static nature_t plain(void) {
   nature_t n = {.mass_kg = 0.1, .inertia_kgm2 = {1e-4, 1.2e-4, 2e-4}, .ceiling_m = HUGE_VAL, .sag_V = 4.2};
   static const double x[] = {0.06, -0.06, -0.06, 0.06}, y[] = {-0.06, -0.06, 0.06, 0.06},
@@ -31,7 +31,7 @@ TEST(the_second_plant_hovers_where_thrust_is_weight) {
   CHECK_NEAR(f.force_b_N.z, n.mass_kg * NATURE_G_MPS2, 1e-9);
 }
 
-// Free flight under gravity, turning about all axes: energy and angular momentum stay.
+// In free fall, turning about all axes, energy and angular momentum are constant.
 TEST(the_second_plant_keeps_its_energy_without_thrust) {
   const nature_t n = plain();
   nature_flight_t f;
@@ -79,7 +79,8 @@ TEST(drag_at_the_hubs_damps_turning) {
   }
 }
 
-// The speed has gone 63 % of a step after the lag, also behind a delay; without a lag at once.
+// After one lag the rotor speed has gone 63 % of a step, also behind a delay; without a lag it follows at
+// once.
 TEST(the_second_plants_rotors_lag_in_speed) {
   static const double lag_s[] = {0.02, 0.06, 0.0}, delay_s[] = {0.0, 0.01, 0.0};
   for (int i = 0; i < 3; i++) {
@@ -109,7 +110,7 @@ static nature_flight_t after_hiding(const char *name, double times) {
   return f;
 }
 
-// What typical means: of the weight, or of the mass times an acceleration.
+// Typical sizes are shares of the weight, or mass times an acceleration.
 TEST(what_is_hidden_in_the_second_plant_has_the_size_that_is_said) {
   static const struct {
     const char *name;
@@ -188,12 +189,12 @@ TEST(a_ladder_of_the_second_plant_stands_climbs_and_lands) {
   CHECK_NEAR(cell(log, -1, Z), job.known.rest_m, 0.02);
 }
 
-// A set of the exam whose flights did not meet what is hidden expects the impossible, and is drawn again.
+// The exam draws a set again if its flights did not meet what is hidden: nobody could find it.
 TEST(the_second_plant_counts_how_long_what_no_library_has_is_felt) {
   static const struct {
     const char *what;
     strange_kind_t strange;
-    double at[3], x_m, z_m; // the vehicle hovers there
+    double at[3], x_m, z_m; // where the vehicle hovers
     double share;           // of the flight
   } row[] = {
       {"at the place", STRANGE_PLACE, {1.0, 0.0, 0.5}, 1.0, 1.0, 1.0},
@@ -209,7 +210,7 @@ TEST(the_second_plant_counts_how_long_what_no_library_has_is_felt) {
     nature_t n = plain();
     nature_flight_t f;
     n.strange = row[i].strange;
-    n.strange_N = 1e-9 * n.mass_kg; // it stays where it is
+    n.strange_N = 1e-9 * n.mass_kg; // so weak that the vehicle stays where it is
     memcpy(n.strange_at, row[i].at, sizeof n.strange_at);
     nature_start(&f, &n, vec(row[i].x_m, 0.0, row[i].z_m));
     run(&f, 1.0, nature_hover_radps(&n));
@@ -217,7 +218,7 @@ TEST(the_second_plant_counts_how_long_what_no_library_has_is_felt) {
   }
 }
 
-// Take-off and landing meet the ground, the steps between them the ceiling.
+// Take-off and landing meet the ground, the steps between them meet the ceiling.
 TEST(the_second_plant_counts_how_long_a_surface_that_the_file_lacks_is_felt) {
   static const struct {
     const char *what;

@@ -1,4 +1,5 @@
-// test_reliability.c - what is stated with a name against what is right, on invented verdicts.
+// test_reliability.c - the probability stated with names against the share that is right, on invented
+// verdicts.
 #define _POSIX_C_SOURCE 200809L // fmemopen
 #include "exam/users.h"
 #include "rig/test.h"
@@ -19,9 +20,9 @@ TEST(names_stand_in_the_bin_of_what_was_stated) {
       {"mass", EFFECT("mass", "0.8"), 2, 1, 1, 0},
       {"mass", EFFECT("mass", "0.5"), 1, 1, 1, 0},
       {"mass", EFFECT("mass", "0"), 0, 1, 1, 0},
-      {"mass", EFFECT("mass", "null"), 3, 0, 0, 1}, // none was stated
+      {"mass", EFFECT("mass", "null"), 3, 0, 0, 1}, // no probability stated
       {"mass", EFFECT("wind", "0.97"), 3, 1, 0, 0},
-      {"thrust_scale", EFFECT("mass", "0.97"), 3, 1, 1, 0}, // a rival that is told
+      {"thrust_scale", EFFECT("mass", "0.97"), 3, 1, 1, 0}, // hidden is a rival that is told
       {"mass", EFFECT("wind", "0.99") "," EFFECT("mass", "0.99"), 3, 2, 1, 0},
   };
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
@@ -42,7 +43,7 @@ TEST(names_stand_in_the_bin_of_what_was_stated) {
   }
 }
 
-// At its ends the share that was seen lies 1.645 of the end's own standard deviations away.
+// Each end of the interval lies 1.645 of its own standard deviations away from the observed share.
 TEST(a_share_has_the_interval_of_wilson) {
   static const struct { int right, of; } row[] = {{3, 10}, {1, 2}, {95, 100}, {0, 10}, {10, 10}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
@@ -58,7 +59,7 @@ TEST(a_share_has_the_interval_of_wilson) {
   }
 }
 
-// The same as that of flights of another simulator (test/outside/test_marks.py).
+// The same as for flights of another simulator (test/outside/test_marks.py).
 TEST(the_reliability_diagram_is_a_line_for_each_bin) {
   static const struct {
     double stated;

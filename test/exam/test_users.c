@@ -23,7 +23,7 @@ TEST(an_answer_to_users_logs_is_marked_by_names_families_and_rivals) {
       {{"mass"}, NAMED(EFFECT("mass", "")), 1, 0, 0, true},
       {{"mass"}, NAMED(EFFECT("thrust_scale", "")), 0, 0, 1, false},
       {{"mass"}, NAMED(EFFECT("thrust_scale", "\"mass\"")), 1, 0, 0, true},
-      {{"mass"}, NAMED(EFFECT("rotor_drag", "\"mass\"")), 0, 0, 1, false}, // of no family with it
+      {{"mass"}, NAMED(EFFECT("rotor_drag", "\"mass\"")), 0, 0, 1, false}, // not of one family
       {{"mass"}, NAMED(EFFECT("mass", "") "," EFFECT("thrust_scale", "\"mass\"")), 1, 0, 1, false},
       {{"mass", "delay"}, NAMED(EFFECT("motor_lag", "\"delay\"") "," EFFECT("mass", "")), 2, 0, 0, true},
       {{"mass", "delay"}, NAMED(EFFECT("mass", "")), 1, 0, 0, false},
@@ -79,40 +79,41 @@ static void answers(users_kind_t kind, unsigned long seed, const char *answer) {
   if (CHECK_OK(users_one(kind, seed, &set, &why))) CHECK_TEXT(set.answer, answer);
 }
 
-// One flight up and down, one sideways: each axis turns in one of them alone, and no half of the one is told
-// by the other what its inertia is.
+// One flight goes up and down, one sideways. Each axis turns in one flight only, so no other half of the data
+// confirms the inertia about it.
 TEST(users_logs_of_one_sort_of_manoeuvre_each_are_told_what_one_of_them_shows) {
   answers(USERS_SORTS, 43054, "inertia+wind");
 }
 
-// Feedback made a name of what the sensors had: the set points refute it.
+// Feedback turned sensor errors into a delay; the set points refute that name.
 TEST(users_logs_are_not_given_a_name_that_feedback_made) {
   static const struct {
     unsigned long seed;
     const char *answer;
   } row[] = {{24546, "ceiling"}, {24512, "ceiling"}, {24627, "nothing"}};
   for (unsigned i = 0; i < FEW_OR_ALL(row, 1); i++)
-    answers(USERS_LADDER, row[i].seed, row[i].answer); // was with delay
+    answers(USERS_LADDER, row[i].seed, row[i].answer); // delay was named, too
 }
 
-// These logs miss most commands: what those did looks like an inertia. In some there is one; in 24549 nominal
-// flights find as much where there is none, and in 26035 and 26052 they did, shaken by what it had left.
+// These logs miss most commands, and what the missing ones did looks like an inertia. Some do hide one. In
+// 24549 nominal flights without an inertia find as much; in 26035 and 26052 they did while they were shaken
+// by what the hidden inertia had left.
 TEST(users_logs_are_given_the_inertia_that_is_there_and_none_that_missed_commands_made) {
   static const struct {
     users_kind_t kind;
     unsigned long seed;
     const char *answer;
   } row[] = {{USERS_HABITS, 24450, "climb_inflow"},
-             {USERS_LADDER, 24685, "nothing"}, // of which one way of the two tells an inertia
+             {USERS_LADDER, 24685, "nothing"}, // one of the two ways of fitting finds an inertia
              {USERS_HABITS, 24533, "inertia+thrust_scale"},
              {USERS_HABITS, 24549, "inertia"},
-             {USERS_ALONE, 26017, "inertia"}, // withdrawn, for its manoeuvre is slow
+             {USERS_ALONE, 26017, "inertia"}, // was withdrawn, because its manoeuvre is slow
              {USERS_ALONE, 26035, "inertia"},
              {USERS_ALONE, 26052, "inertia"}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
-// About z an inertia turns it as another torque does; where the log misses commands, too.
+// About z an inertia acts on the vehicle as another torque does, also where the log misses commands.
 TEST(users_logs_that_miss_commands_are_given_the_torque_that_is_another) {
   static const struct {
     unsigned long seed;
@@ -122,8 +123,9 @@ TEST(users_logs_that_miss_commands_are_given_the_torque_that_is_another) {
   for (unsigned i = 0; i < FEW_OR_ALL(row, 2); i++) answers(USERS_TORQUE, row[i].seed, row[i].answer);
 }
 
-// They show it at one time or two, and constants do nearly as well; but the little that is seen beside says
-// the same, and in the channels that it does not act in constants say nothing of it.
+// These flights show the effect at one or two times only, and constants then explain nearly as much. But the
+// little that the rest shows agrees, and constants in channels in which the effect does not act are not held
+// against it.
 TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {
   static const struct {
     unsigned long seed;
@@ -132,8 +134,8 @@ TEST(users_logs_are_given_a_drag_or_lift_that_one_manoeuvre_shows) {
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) answers(USERS_ALONE, row[i].seed, row[i].answer);
 }
 
-// Its zero lies between two voltages that are tried, and what these leave was a mass, or more, or had no
-// name.
+// The sag's zero lies between two voltages that are tried. What these left was named as a mass, or more, or
+// had no name.
 TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
   static const struct {
     users_kind_t kind;
@@ -141,29 +143,29 @@ TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
     const char *answer;
   } row[] = {
       {USERS_ALONE, 26138, "battery_sag"},
-      {USERS_LADDER, 40211, "cg_offset+battery_sag"},  // and a mass, and a rotor of a third
-      {USERS_HABITS, 41210, "rotor_drag+battery_sag"}, // and a scale: its size stayed that of another voltage
+      {USERS_LADDER, 40211, "cg_offset+battery_sag"},  // a mass and a rotor of a third were named, too
+      {USERS_HABITS, 41210, "rotor_drag+battery_sag"}, // a scale was named, too: sized for another voltage
       {USERS_ALONE, 26003, "battery_sag"},
       {USERS_HABITS, 29922, "climb_inflow+battery_sag"}};
   for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
-// With nothing to begin with, a look whose first name leaves other colours named a broken rotor and a tilted
-// one in its place.
+// A search with nominal flights that began from nothing chose a first name that leaves other noise colours,
+// and then named a broken and a tilted rotor in its place.
 TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {
   users_set_t set;
   why_t why;
   if (!CHECK_OK(users_one(USERS_LADDER, 29761, &set, &why))) return;
-  CHECK(set.right == 2); // the sensor is tilted or errs: either is right; a third name is beside them now
+  CHECK(set.right == 2); // sensor tilt or bias: either is right; a third name is beside them now
 }
 
-// A first look takes none, and finds a flatter thrust, which control makes as well: nominal flights without
-// either were shaken by all that the inertia does.
+// The first search takes no inertia but a flatter thrust curve, which control makes as well. Nominal flights
+// without either were then shaken by all that the inertia does.
 TEST(users_logs_are_given_an_inertia_for_which_a_slope_stood) {
   answers(USERS_SORTS, 46425, "inertia");
 }
 
-// Feedback could have made the lag, and the delay in its place fits far worse: either is told.
+// Feedback could have made the lag, but a delay in its place fits far worse: the answer tells both.
 TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
   static const struct {
     users_kind_t kind;
@@ -178,10 +180,10 @@ TEST(users_logs_with_a_lag_are_told_it_beside_a_delay) {
   }
 }
 
-// Each flight has another centre of mass, weight and bias: what is there beside it is named, what they have
-// in common by chance is not, and that they differ is told. 32023's held-out flight weighs more than any
-// that is fitted, and it is no worse with the name; in 32073 the turning, which control makes, said 0.7 of a
-// scale of the thrust.
+// Each flight has its own centre of mass, weight and bias. What is hidden beside them is named, what they
+// have in common by chance is not, and that flights differ is told. In 32023 the held-out flight weighs more
+// than any fitted one, and is no worse with the name; in 32073 the turning, which control makes, seemed to
+// show 0.7 of a thrust scale.
 TEST(users_logs_of_flights_before_which_something_was_fitted_anew_are_told_so) {
   static const struct {
     unsigned long seed;

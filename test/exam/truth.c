@@ -10,7 +10,7 @@
 
 // --- forms of the exam's own ------------------------------------------------------------------------------
 
-// Two bells over the distance.
+// Two Gaussian bells over the distance.
 static double bells(const fx_use_t *u, const fx_place_t *at) {
   const double d = at->ceiling_gap_m;
   return u->p[0] * (0.75 * exp(-d * d / 0.0018) + 0.45 * exp(-(d - 0.06) * (d - 0.06) / 0.002));
@@ -88,7 +88,8 @@ enum { BELLS, ROOT, SQUARES, WIDE_BELL, HUB, PLATE, INFLOW, FLAP, LIFT, SAG, TUR
 
 // --- the table ---------------------------------------------------------------------------------------------
 
-// Where the size goes: along a direction left to chance (two parameters), into one parameter, a rotor's.
+// Where the size goes: into one parameter; along a random direction (two parameters); into a random rotor;
+// into one parameter with a random sign.
 typedef enum { ONE, DIRECTION, ROTOR, SIGNED } way_t;
 
 static const struct {

@@ -9,8 +9,8 @@
 
 #define FLIGHTS 4 // at most
 #define FELT_S                                                                                               \
-  1.0 // at least, in those that are fitted (all but the last of several), of what acts at places only: half a
-      // block of the Wald F
+  1.0 // seconds for which the fitted flights (all but the last of several) must at least meet what acts at
+      // places only: half a block of the Wald F
 #define DRAWS 20
 #define PATH  80
 
@@ -20,7 +20,7 @@ typedef struct {
 
 // --- what is hidden ----------------------------------------------------------------------------------------
 
-// A flight straight up and down shows these.
+// True if a flight straight up and down shows the effect.
 static bool in_ladder(int i) {
   static const char *const shown[] = {"mass",         "thrust_scale", "motor_damage", "cg_offset",
                                       "climb_inflow", "battery_sag",  "ceiling",      "ground",
@@ -30,7 +30,8 @@ static bool in_ladder(int i) {
   return false;
 }
 
-// Whether this log can show it beside what is hidden already. Of time nothing shows below a row and a half.
+// True if this log can show the effect beside what is hidden already. A lag or delay must be a row and a half
+// or more.
 static bool can_hide(const users_set_t *set, const other_job_t *job, int i, double times) {
   const double late_s = i == hide_number("delay")       ? HIDE_DELAY_S * times
                         : i == hide_number("motor_lag") ? HIDE_LAG_S * times
@@ -43,7 +44,8 @@ static bool can_hide(const users_set_t *set, const other_job_t *job, int i, doub
   return late_s >= 1.5 * PILOT_S * job->habits.every && (!job->ladder || in_ladder(i));
 }
 
-// A fifth hide nothing, a sixth two effects, the others one; each once to four times its typical size.
+// Hides nothing in a fifth of the sets, two effects in a sixth, else one; each one to four times its typical
+// size.
 static void hide(users_set_t *set, other_job_t *job, dice_t *d) {
   const double chance = dice_share(d);
   int effect[USERS_HIDDEN];
@@ -81,7 +83,8 @@ static void hide_alone(users_set_t *set, other_job_t *job, dice_t *d) {
   hide(set, job, d);
 }
 
-// A drag that is half or twice what the file says, a ceiling that is 30 % off, a ceiling that the file lacks.
+// The file's drag is half or twice the true one, or its ceiling effect is wrong by a factor of 0.7, or it
+// lacks the ceiling.
 static void hide_from_file(users_set_t *set, other_job_t *job, dice_t *d) {
   const double chance = dice_share(d);
   const bool ceiling = chance > 0.4;
@@ -106,7 +109,7 @@ static void hide_from_file(users_set_t *set, other_job_t *job, dice_t *d) {
     job->known.hub_kg *= dice_share(d) < 0.5 ? 0.5 : 2.0;
 }
 
-// What is fitted anew does not do what these do.
+// Hides only effects that differ from what is fitted anew.
 static void hide_beside(users_set_t *set, other_job_t *job, dice_t *d) {
   static const char *const like[] = {"cg_offset",    "accel_bias",       "mass", "thrust_scale",
                                      "motor_damage", "imu_misalignment", "wind", "battery_sag"};
@@ -122,8 +125,8 @@ static void hide_beside(users_set_t *set, other_job_t *job, dice_t *d) {
   }
 }
 
-// The battery is elsewhere and of another weight, the accelerometer starts with another bias: normal, and
-// about nothing in the flights that are fitted, for what they have in common is there.
+// What is fitted anew before each flight: the battery's place and weight, and the accelerometer's bias.
+// Normal, with mean 0 over the fitted flights, for their mean would be one more hidden effect.
 enum { ANEW_X, ANEW_Y, ANEW_ACC_X, ANEW_ACC_Y, ANEW_MASS, ANEW };
 
 static void draw_anew(double anew[FLIGHTS][ANEW], int fitted, dice_t *d) {
@@ -144,7 +147,7 @@ static void fit_anew(other_job_t *job, const char *what, double times, double x,
 static void fit_all_anew(other_job_t *job, const double anew[ANEW]) {
   fit_anew(job, "cg_offset", 1.0, anew[ANEW_X], anew[ANEW_Y]);
   fit_anew(job, "accel_bias", 1.0, anew[ANEW_ACC_X], anew[ANEW_ACC_Y]);
-  fit_anew(job, "mass", 0.5, 0.0, anew[ANEW_MASS]); // y > 0: more
+  fit_anew(job, "mass", 0.5, 0.0, anew[ANEW_MASS]); // y > 0: more mass
 }
 
 static void hide_torque(users_set_t *set, other_job_t *job, dice_t *d) {
@@ -193,9 +196,9 @@ static done_t write_file(const char *path, const other_job_t *job, void (*write)
   return fclose(out) == 0 ? DONE : error_failed(why, "%s: cannot be written", path);
 }
 
-typedef enum { FLEW, LOST, UNMET } flown_t; // UNMET: what lies where nobody flew is not hidden
+typedef enum { FLEW, LOST, UNMET } flown_t; // UNMET: nobody flew where it acts, so nobody can find it
 
-// The flights came to where it is hidden.
+// True if the flights met what is hidden for long enough.
 static bool is_met(const other_job_t *job, const felt_t *felt) {
   const nature_t *const is = &job->truth, *const known = &job->known;
   const bool ground = is->ground_share != known->ground_share;
@@ -204,7 +207,7 @@ static bool is_met(const other_job_t *job, const felt_t *felt) {
          (!ground || felt->ground_s >= FELT_S) && (!ceiling || felt->ceiling_s >= FELT_S);
 }
 
-// Of the kind of users who keep a flight to one sort of manoeuvre; the last one, held out, has all.
+// Users of one kind keep each flight to one sort of manoeuvre; only the last flight, held out, has all.
 static int sort_of(users_kind_t kind, int flight) {
   static const int sort[FLIGHTS] = {SORT_UPRIGHT, SORT_SIDEWAYS, SORT_ALL, SORT_ALL};
   return kind == USERS_SORTS ? sort[flight] : SORT_ALL;
@@ -236,7 +239,7 @@ static done_t fly(const paper_t *p, users_kind_t kind, int flights, other_job_t 
 
 // --- a set -------------------------------------------------------------------------------------------------
 
-// As the program answers.
+// Answers as the program does.
 static done_t answer(const paper_t *p, int flights, unsigned long seed, users_set_t *set, why_t *why) {
   const char *const logs[FLIGHTS] = {p->log[0], p->log[1], p->log[2], p->log[3]};
   const study_order_t order = {

@@ -1,4 +1,4 @@
-// users_main.c - sits the exam with users' logs and prints the marks by kind, and the reliability diagram.
+// users_main.c - runs the exam with users' logs; prints the marks of each kind and the reliability diagram.
 #include "exam/users.h"
 
 #include <stdio.h>

@@ -1,14 +1,15 @@
-// users_mark.c - a verdict against what was hidden.
+// users_mark.c - marks a verdict against what was hidden.
 //
 // A hidden effect is right if it is named, or if a name of its family lists it among its rivals (or in
-// `family`, where that is a list): the answer says then that these flights cannot tell the two apart. Beside
-// a hidden battery_sag, whose zero is not the library's, mass and thrust_scale are not wrong, and not exact.
+// `family`, where that is a list): the answer then says that these flights cannot tell the two apart. Beside
+// a hidden battery_sag, whose zero is not the library's, mass and thrust_scale are not wrong, but the set is
+// not exact.
 #include "exam/users.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// Effects that some flights cannot separate: lift, time, push, moment, drag, place.
+// Families of effects that some flights cannot separate: lift, time, push, moment, drag, place.
 static const char *const FAMILY[][8] = {
     {"mass", "thrust_scale", "accel_bias", "battery_sag", "climb_inflow", "motor_damage", "thrust_curve"},
     {"motor_lag", "delay"},
@@ -44,7 +45,7 @@ static const char *text_of(const cJSON *object, const char *key) {
   return text ? text : "";
 }
 
-// Which of the hidden effects this name is, -1: none.
+// Returns which hidden effect this name stands for; -1: none.
 static int which(const users_set_t *set, const cJSON *effect) {
   const char *const name = text_of(effect, "name");
   for (int k = 0; k < set->n; k++)
@@ -68,7 +69,7 @@ static void mark_effect(users_set_t *set, const cJSON *effect, bool found[USERS_
   set->right += right;
   set->beside += beside;
   set->wrong += !right && !beside;
-  // Not there: NaN.
+  // NaN if it is not there.
   reliability_add(&set->stated, cJSON_GetNumberValue(cJSON_GetObjectItem(effect, "probability")),
                   right || beside);
   const size_t used = strlen(set->answer);
