@@ -1,11 +1,11 @@
-// faults_judge.c - whether a flight will do, and what it was like.
+// faults_judge.c - judges a flight, and prints what it was like.
 #include "faults/faults.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// Where in the errors the judgement begins: 2 s, or what the row says, after the fault, or after the onset of
-// one that lasts.
+// Index of the first error that is judged: 2 s, or what the row says, after the end of the fault, or after
+// the onset of a fault that lasts.
 static int first(const case_t *c) {
   const double over_s = c->length_s < FAULTS_END_S ? c->length_s : 0.0;
   return (int)(100.0 * (over_s + (c->row->recover_s > 0.0 ? c->row->recover_s : 2.0)) + 0.5);

@@ -26,8 +26,8 @@ static void acc_bias(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->acc_b_mps2.z += c->pick % 2 ? c->size : -c->size;
 }
-// From the beginning: a flight has its sensors from there, and what a row changes of them later reaches
-// nobody.
+// Before the flight, because a flight copies its sensors at the beginning: a later change would have no
+// effect.
 static void sensor_bias(case_t *c) {
   c->plan.noise.imu.acc_bias_b_mps2.z = c->pick % 2 ? c->size : -c->size;
 }
@@ -78,7 +78,7 @@ static void velocity_noise(case_t *c, pilot_in_t *in, double since_s) {
 
 static const char *weights_kept(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
-  const bool range = c->row->edit == nan_field && c->pick % 11 == 10; // it may go on
+  const bool range = c->row->edit == nan_field && c->pick % 11 == 10; // a NaN range need not stop it
   return c->seen.weights_moved && !range ? "weights" : NULL;
 }
 static const char *steady_offset(const case_t *c, const flown_fault_t *usual) {

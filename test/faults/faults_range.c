@@ -16,7 +16,7 @@ static void range_shift(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   in->range_m = fmax(in->range_m + c->size, 0.04);
 }
-// From 30 cm, 0.1 m/s upwards, to 6 cm by a range that says too much.
+// Climbs from 30 cm at 0.1 m/s until the range, which says too much, is 6 cm.
 static void climb_by_range(case_t *c, pilot_in_t *in, double since_s) {
   range_shift(c, in, since_s);
   c->goal_m = fmax(0.3 - 0.1 * fmax(since_s - 1.5, 0.0), 0.06 - c->size);
@@ -36,7 +36,7 @@ static void locked_out(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4) faults_pilot(c)->flight->outer.ceiling.zc_m = 0.04f;
 }
-// Up and down at 0.3 m/s, 10 to 40 cm below the ceiling, while samples come late, twice or not at all.
+// Moves up and down at 0.3 m/s, 10 to 40 cm below the ceiling, while samples come late, twice or not at all.
 static void late_samples(case_t *c, pilot_in_t *in, double since_s) {
   const double x = random_uniform(c->r, 0.0, 1.0);
   const double phase = fmod(since_s + 0.25, 1.0), down = phase < 0.5 ? phase : 1.0 - phase;
@@ -46,10 +46,10 @@ static void late_samples(case_t *c, pilot_in_t *in, double since_s) {
     in->range_new = x > 0.3;
     c->kept = c->t_s;
   } else {
-    in->range_new = x < 0.02 && isfinite(in->range_m); // again
+    in->range_new = x < 0.02 && isfinite(in->range_m); // the same sample again
   }
 }
-// To and fro with up to 20 degrees of tilt.
+// Sways with up to 20 degrees of tilt.
 static void swaying(case_t *c, pilot_in_t *in, double since_s) {
   (void)c;
   const double w = 3.14159265358979, top_m = 9.81 * tan(20.0 * 3.14159265358979 / 180.0) / (w * w);
@@ -80,7 +80,7 @@ static const char *distance_18_mm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
   return c->seen.zc_error_m > 0.018 ? "distance" : NULL;
 }
-// It follows 0.3 m/s up and down: of three samples missed in a row 2 cm are left.
+// The vehicle moves at 0.3 m/s: three samples missed in a row leave an error of 2 cm.
 static const char *distance_25_mm(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
   return c->seen.zc_error_m > 0.025 ? "distance" : NULL;
@@ -88,7 +88,7 @@ static const char *distance_25_mm(const case_t *c, const flown_fault_t *usual) {
 static const char *tilted_indeed(const case_t *c, const flown_fault_t *usual) {
   return c->seen.tilt_max_deg < 17.0 ? "tilt" : distance_18_mm(c, usual);
 }
-// A ceiling that was never seen ends the flight at no height: it holds, or goes down.
+// Without a ceiling the flight may end at any height, in a hover or going down.
 static const char *no_ceiling(const case_t *c, const flown_fault_t *usual) {
   (void)usual;
   return c->pilot.flight->out.outer.zc_known ? "no ceiling" : NULL;

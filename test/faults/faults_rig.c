@@ -1,5 +1,5 @@
-// faults_rig.c - flies one case: hover under the ceiling with real sensors, the fault between them and the
-// pilot.
+// faults_rig.c - flies one case: a hover under the ceiling with real sensors; the fault acts between them and
+// the pilot.
 #include "faults/faults.h"
 
 #include "rig/test.h"
@@ -30,7 +30,7 @@ static void fault(void *context, const body_t *truth, pilot_in_t *in) {
   const bool active = since_s > -5e-4 && since_s < c->length_s - 5e-4;
   c->skip = c->twice = false;
   c->frozen_weights = c->frozen_always;
-  // The commanded gap; rows that move change it.
+  // The commanded gap, which rows may change.
   if (c->plan.in_flight) in->set.pos_w_m.z = flown_height_m(c, c->goal_m);
   if (active && c->row->edit && !c->usual) c->row->edit(c, in, since_s);
   in->step += c->step_off;
@@ -38,7 +38,8 @@ static void fault(void *context, const body_t *truth, pilot_in_t *in) {
   c->t_s += PILOT_PERIOD_S;
 }
 
-// FNV-1a over what the motors are told, number by number; what a product loses above comes back below.
+// FNV-1a over the motor commands, 64 bits at a time. The upper half is mixed in once more below, because the
+// product loses it.
 static uint64_t mixed(uint64_t bits, const double motor_N[PILOT_MOTORS]) {
   uint64_t raw[PILOT_MOTORS];
   memcpy(raw, motor_N, sizeof raw);
@@ -46,7 +47,7 @@ static uint64_t mixed(uint64_t bits, const double motor_N[PILOT_MOTORS]) {
   return bits;
 }
 
-// Behind each millisecond.
+// After each millisecond.
 static void after(void *state, const pilot_in_t *in, const double motor_N[PILOT_MOTORS]) {
   case_t *const c = state;
   if (c->with_shadow) {
@@ -72,7 +73,7 @@ pilot_flight_t *faults_pilot(case_t *c) {
   return &c->pilot;
 }
 
-// What is looked at of the app: here, by faults_watch() and by the rows.
+// The fields of the app that are read here, by faults_watch() and by the rows.
 #define LOOKED(field)                                                                                        \
   { offsetof(glue_t, flight.field), offsetof(glue_t, flight.field) + sizeof(((glue_t *)0)->flight.field) }
 static const pilot_part_t looked[] = {
@@ -120,7 +121,7 @@ static void place(case_t *c) {
   c->seen.hover_N = ROTORS * c->plan.start.thrust_N[0];
 }
 
-// To read the vehicle's file for each flight costs 4 % of it.
+// Read once, because reading the vehicle's file would cost 4 % of each flight.
 static setup_t thesis;
 static bool thesis_read;
 static void read_thesis(void) {
@@ -128,7 +129,7 @@ static void read_thesis(void) {
   thesis_read = setup_thesis(&thesis, FLY_INDI, &why) == DONE;
 }
 
-// The parameters as they come, but for what is the vehicle's; learning goes on all the time.
+// Default parameters, with the vehicle's mass and lag. The curve is learned all the time.
 static bool prepare(case_t *c, const row_t *row, uint64_t seed) {
   static pthread_once_t once = PTHREAD_ONCE_INIT;
   (void)pthread_once(&once, read_thesis);

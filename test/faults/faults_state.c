@@ -1,4 +1,4 @@
-// faults_state.c - faults of what is asked for, of parameters, of time, and of the pilot's own memory.
+// faults_state.c - faults of set points, of parameters, of time, and of the pilot's own memory.
 #include "faults/faults.h"
 
 #include <string.h>
@@ -28,7 +28,7 @@ static void bad_weights(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   if (since_s < 5e-4) faults_pilot(c)->param.curve.fixed.w[c->pick % 7] = c->pick & 16 ? NAN : 1e9f;
 }
-// Written one by one, and the commit never comes.
+// Writes the weights one by one and never commits them.
 static void torn_weights(case_t *c, pilot_in_t *in, double since_s) {
   (void)in;
   static const double other[] = {1.35, 0.4, -0.3, 0.1, -0.1, -0.4, -0.3};
@@ -89,7 +89,7 @@ static void any_bit_flip(case_t *c, pilot_in_t *in, double since_s) {
   at[c->pick % sizeof(flight_t)] ^= (unsigned char)(1u << ((c->pick >> 16) % 8));
 }
 
-// Ten minutes, the last nine of them judged; the learner trusts each sample twice as much as usual.
+// Ten minutes, of which the last nine are judged; the learner trusts each sample twice as much as usual.
 static void for_ten_minutes(case_t *c) {
   c->plan.end_s = 600.0;
   c->onset_s = 60.0;
@@ -98,9 +98,9 @@ static void for_ten_minutes(case_t *c) {
 
 // --- criteria of their own --------------------------------------------------------------------------------
 
-// A tenth of hover is a step, and half of it what a fault may add, as noise alone makes steps of 6 to 13 %:
-// to the largest one within 1 s, and in the first 50 ms to the thrust in the same millisecond with the same
-// noise (FAULTS_TABLE=3 tells both).
+// A tenth of hover is a step. A fault may add half of that, because noise alone makes steps of 6 to 13 %: to
+// the largest step within 1 s, and, in the first 50 ms, to the thrust in the same millisecond of the usual
+// flight, which has the same noise (FAULTS_TABLE=3 prints both).
 static const char *adds_no_step(const case_t *c, const flown_fault_t *usual) {
   const double most_N = 0.05 * usual->hover_N;
   if (c->seen.step_max_N > usual->step_max_N + most_N) return "step";

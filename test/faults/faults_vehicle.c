@@ -12,8 +12,8 @@ static void payload(case_t *c) {
   faults_set_fx(c, "mass", 2, c->onset_s);
   c->model.mass_kg *= 0.95;
 }
-// From the onset on all rotors get weaker, within two seconds. An effect of its own: a flight has its model
-// from the beginning, and what a row changes of it later reaches nobody.
+// From the onset on all rotors get weaker over two seconds. An effect, because a flight copies its model at
+// the beginning: a later change would have no effect.
 static void weaken(const fx_use_t *use, const fx_tick_t *tick, fx_plant_t *plant) {
   const double gone = fmin(fmax((tick->t_s - use->p[0]) / 2.0, 0.0), 1.0);
   for (int i = 0; i < ROTORS; i++) fx_scale_rotor(plant, i, 1.0 - gone * (1.0 - use->p[1]), 1.0);
@@ -39,7 +39,7 @@ static void other_ceiling(case_t *c) {
   faults_set_fx(c, "ceiling", 0, excess[c->pick % 4]);
   if (c->pick % 4 == 3) faults_set_fx(c, "ceiling", 1, 160.0 * c->model.rotor_radius_m);
 }
-// Down to the floor as fast as it can: the thrust goes to nothing.
+// Goes down to the floor as fast as it can, so that the thrust goes to nothing.
 static void falling(case_t *c, pilot_in_t *in, double since_s) {
   (void)since_s;
   const outer_t *o = &c->pilot.flight->outer;
@@ -59,7 +59,7 @@ static void tumble(case_t *c) {
   c->plan.start.rate_b_radps = (d3_t){c->size, 0.0, 0.0};
   c->frozen_always = true;
 }
-// In free air, 2.2 m up with hardly more thrust than it weighs: two seconds at the limit.
+// In free air, 2.2 m up with hardly more thrust than weight: two seconds at the limit.
 static void weak(case_t *c) {
   c->model.ceiling_m = 100.0;
   c->param.pos.thrust_max_N = (float)(1.05 * 9.81 * c->model.mass_kg);

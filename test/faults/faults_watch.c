@@ -1,4 +1,4 @@
-// faults_watch.c - what is looked at in a flight, every millisecond, with the truth in sight.
+// faults_watch.c - what is measured in a flight, every millisecond, with knowledge of the truth.
 #include "faults/faults.h"
 
 #include "base/larger.h"
@@ -18,9 +18,9 @@ static bool learner_in_box(const rls_t *rls) {
   return true;
 }
 
-// Whether the learner's memory is another than in the last millisecond: most of what is looked at is its. By
-// itself it changes in lessons alone; and while the pilot is called for this flight, a row may have changed
-// it.
+// True if the learner's memory has changed since the last millisecond. Most of what is looked at is this
+// memory, so that it is compared only where it can have changed: in lanes by a lesson alone; where the pilot
+// is called for this flight alone, a row may have changed it, too.
 static bool learned(case_t *c) {
   const rls_t *rls = &c->pilot.flight->outer.learn.rls;
   const bool in_lanes = c->pilot.vehicle.bring_home != NULL && c->t_s > 0.0;
@@ -31,7 +31,8 @@ static bool learned(case_t *c) {
   return true;
 }
 
-// Finite and within limits (G1, G2). The learner's memory may be broken until it has had its turn.
+// True if all is finite and within limits (G1, G2 of the fault list). After the row broke the learner's
+// memory, the learner has 25 ms to mend it.
 static bool in_box(const case_t *c, double since_s) {
   const flight_t *f = c->pilot.flight;
   if (!(c->memory_broken && since_s < 0.025) && !c->learner_in_box) return false;
@@ -46,7 +47,7 @@ static bool in_box(const case_t *c, double since_s) {
   return true;
 }
 
-// Of the two milliseconds of a tick the truth is one and the same.
+// Once per tick, because the truth is the same in both of its milliseconds.
 static void look_anew(case_t *c, const body_t *truth) {
   c->again = c->seen_tick && c->tick_s == truth->t_s;
   if (c->again) return;
@@ -60,7 +61,7 @@ static void look_anew(case_t *c, const body_t *truth) {
   c->up = axes_up_b(&axes).z;
 }
 
-// Where it is and how it moves.
+// Position and motion.
 static void motion(case_t *c, const body_t *truth, double since_s) {
   flown_fault_t *s = &c->seen;
   const double gap_m = c->nearest_m, z_m = truth->y[RIGID_POS_M + 2], climb = truth->y[RIGID_VEL_MPS + 2];
@@ -80,7 +81,7 @@ static void motion(case_t *c, const body_t *truth, double since_s) {
   if (s->n < FAULTS_ERRORS && since_s >= 0.01 * s->n - 1e-6) s->error_m[s->n++] = (float)error_m;
 }
 
-// The angle is asked for where it is larger than any before.
+// Computes the angle only where it is larger than any before.
 static void most_tilt(double *cosine, double *tilt_deg, double up) {
   if (!(up < *cosine)) return;
   *cosine = up;

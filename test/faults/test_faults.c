@@ -1,19 +1,19 @@
 // test_faults.c - faults and bad inputs, each flown in closed loop under a ceiling with real noise.
 //
-// Every millisecond of every flight: what comes out is finite and within limits, the learner's state in its
-// box. No contact; no rotor nearer than 1 cm; within 5 cm no climb beyond 0.1 m/s. The reason that a row
+// In every millisecond of every flight the output is finite and within limits, and the learner's state is in
+// its box. No contact; no rotor nearer than 1 cm; within 5 cm no climb beyond 0.1 m/s. The reason that a row
 // names is latched in time. Then, by class:
 //
-//   A  flies on to the end, off by no more than 2 cm on average; after a fault that ends, 2 s or what the row
-//      says later, with no more than 1.5 times the error (RMS) of the same seed's flight without the fault
-//      over the same time
+//   A  flies on to the end with a mean error of at most 2 cm; if the fault ends: 2 s, or what the row says,
+//      later with an RMS error of at most 1.5 times that of the same seed's flight without the fault over the
+//      same time
 //   B  retreats: ends 15 cm or more below the ceiling
-//   C  hands over: likewise, and from 4 ms on never with more than hover thrust
+//   C  hands over: as B, and from 4 ms on never commands more than hover thrust
 //   N  what the row itself asks for
-//   W  as B, but for the 1 cm and the climb: the pilot flies into the ceiling
+//   W  as B, but without the 1 cm and the climb: the pilot flies into the ceiling
 //
-// and what the row asks for besides. FAULTS_TABLE=1 prints the table (`make faults`), 2 tells of the flights
-// that did not keep it, 3 of all; FAULTS_SEEDS=N flies so many, FAULTS_ROW=BEGINNING only such rows.
+// and the row's own criterion. FAULTS_TABLE=1 prints the table (`make faults`), 2 also the flights that
+// failed, 3 all flights; FAULTS_SEEDS=N flies so many seeds, FAULTS_ROW=BEGINNING only such rows.
 #include "base/lane.h"
 #include "faults/faults.h"
 #include "flight/together.h"
@@ -28,7 +28,7 @@
 #define ROWS_MAX   64
 #define GAPS_MAX   8
 
-#define REASONS 6 // different ones of a row that are told
+#define REASONS 6 // different reasons of failure that are listed per row
 
 typedef struct {
   int kept, touched;
@@ -161,7 +161,8 @@ static bool same_flight(const flown_fault_t *a, const flown_fault_t *b) {
          a->ratio_end == b->ratio_end && memcmp(a->error_m, b->error_m, sizeof a->error_m) == 0;
 }
 
-// One fault beside another, each at its time, so that they part; of many seeds, one and the same in all.
+// Each fault flies alone and in lanes beside other faults, from which it parts at its time; in the long form
+// with 64 seeds.
 TEST(faults_come_to_the_same_alone_and_beside_others) {
   const row_t *rows[ROWS_MAX];
   const int n = all_rows(rows), seeds = test_long() ? 64 : 1;
@@ -173,7 +174,8 @@ TEST(faults_come_to_the_same_alone_and_beside_others) {
     ROW("%s, seed %d", rows[i % n]->name, (int)FIRST_SEED + i / n);
     CHECK(same_flight(&alone[i], &beside[i]));
   }
-  // A quarter of it in lanes, though some are down, others handed over, and each learns otherwise.
+  // A quarter of the time is flown in lanes, though some vehicles are down, others have handed over, and each
+  // learns differently.
   if (lane_possible()) CHECK(ms > (long)(250.0 * FAULTS_END_S) * n * seeds);
   free(alone);
 }
