@@ -47,8 +47,8 @@ TEST(fly_says_what_it_can_do) {
 }
 
 TEST(fly_changes_the_plant_and_not_the_controller_by_an_effect) {
-  // The controller keeps its own theory: with a weaker plant it is the overestimation of figure A.14 and
-  // slower.
+  // --effect changes the plant only. The controller keeps its theoretical curve, and so overestimates the
+  // weaker plant as in figure A.14, and is slower.
   char text[4000];
   CHECK(program_run("fly appendix-a --controller indi-theory --set indiPos.cutoff=0 --effect ceiling:Ca=0 "
                     "--integrator rk4",
@@ -117,7 +117,7 @@ TEST(fly_tells_all_of_every_segment_in_its_json) {
   // Standard INDI touches the ceiling and never settles there; without a ceiling there is no gap to it.
   CHECK(program_run("fly appendix-a --set indiPos.cutoff=8 --json /dev/stdout >$S/c.json; cat $S/c.json",
                     STREAM_OUTPUT, text, sizeof text) == 0);
-  const char *const begin = strchr(text, '{'); // behind what is printed
+  const char *const begin = strchr(text, '{'); // after what is printed
   cJSON *json = cJSON_Parse(begin ? begin : "");
   const cJSON *segments = cJSON_GetObjectItem(json, "segments");
   if (CHECK(cJSON_GetArraySize(segments) == 3)) {
@@ -175,7 +175,7 @@ TEST(fly_merges_summaries_to_what_one_run_writes) {
   CHECK_TEXT(merged, text);
 }
 
-// A vehicle file that changed is another plant; and cells stand in one order, whatever that of the files.
+// A changed vehicle file is another plant. Cells are written in one order, whatever the order of the files.
 TEST(fly_keeps_summaries_of_different_files_apart) {
   char text[12000];
   CHECK(

@@ -11,7 +11,7 @@
 
 #define VEHICLE "--vehicle sim/vehicle/vehicles/thesis_1d.toml"
 
-// A learning flight; its first 15 s, which stay above 7 cm; and what goes wrong with logs.
+// Writes a learning flight; its first 15 s, with gaps above 7 cm; and logs with faults.
 static void make_logs(void) {
   char text[400];
   CHECK(program_run("fly learning-1d --integrator rk4 --seed 7 --log $S/l_flight.csv; "
@@ -142,7 +142,7 @@ TEST(learn_writes_all_that_was_asked_for) {
   CHECK(strstr(text, "\ndistance_m,ratio\n") != NULL);
 }
 
-// A cell that is no use costs its row, as in `gap`, and is told.
+// A bad cell costs its row, as in `gap`, and is reported.
 TEST(learn_leaves_single_bad_cells_out_and_says_so) {
   static const struct {
     const char *what, *edit, *told;
@@ -183,7 +183,7 @@ TEST(learn_says_where_its_mass_is_from) {
   };
   make_logs();
   char text[4000], line[400];
-  // From 40 s on it hovers 6 cm and less below the ceiling: nothing weighs it there.
+  // From 40 s on it hovers 6 cm and less below the ceiling, where no mass can be estimated.
   CHECK(program_run("sed 2,4000d $S/l_flight.csv >$S/l_near.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].arguments);
@@ -216,7 +216,7 @@ static bool learn_here(learn_t *learn, learn_score_t score[2]) {
   return CHECK_TEXT(why.text, "");
 }
 
-// One held-out flight; gaps: it may lack a number.
+// Checks one held-out flight. gaps: it may lack a number.
 static void check_score(const cJSON *item, const learn_score_t *score, const char *flight, bool gaps) {
   const struct {
     const char *key;

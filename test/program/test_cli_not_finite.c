@@ -1,4 +1,4 @@
-// test_cli_not_finite.c - a flight that leaves the numbers: what is written, and the exit status.
+// test_cli_not_finite.c - a flight that is no longer finite: what is written, and the exit status.
 #include "rig/programs.h"
 #include "rig/test.h"
 
@@ -12,7 +12,7 @@ TEST(fly_tells_of_a_flight_that_is_not_finite_and_ends_with_one) {
     char line[200], text[4000];
     snprintf(line, sizeof line, "rm -f $S/nf; fly close-flight --effect gyroscopic:k=0.001 %s", how[i]);
     CHECK(program_run(line, STREAM_ERROR, text, sizeof text) == 1);
-    CHECK_TEXT(text, "fly: not finite: 1 of the flights\n"); // and nothing of the solver's
+    CHECK_TEXT(text, "fly: not finite: 1 of the flights\n"); // and no messages of the solver
     CHECK(program_run("grep -q '\"finite\":[[:space:]]*false' $S/nf", STREAM_OUTPUT, text, sizeof text) == 0);
   }
 }

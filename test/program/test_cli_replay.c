@@ -1,4 +1,4 @@
-// test_cli_replay.c - a flight's logged inputs through the flight code again.
+// test_cli_replay.c - replays a flight's logged inputs through the flight code.
 #include "rig/programs.h"
 #include "rig/test.h"
 
@@ -26,7 +26,7 @@ TEST(replay_commands_what_was_logged_to_the_bit) {
   }
 }
 
-// Long: of a whole flight, else of its first 6 s.
+// Long: replays a whole flight, else its first 6 s.
 TEST(replay_sees_another_parameter_and_a_call_that_was_changed) {
   char text[400], shell[400];
   snprintf(shell, sizeof shell,
@@ -58,7 +58,7 @@ TEST(replay_refuses_what_it_cannot_play) {
       {"echo indiPos.kp=1e9 >$S/p.txt; fly --replay $S/l.csv --set-from $S/p.txt",
        "p.txt:1: --set indiPos.kp=1e9: allowed is a number from 0.05 to 20\n"},
       {"fly --replay $S/l.csv --set-from $S/none.txt", "none.txt: cannot be read\n"},
-      // More than a float holds: line 4's command of motor 2.
+      // Too large for a float: line 4's command of motor 2.
       {FLY
        " >/dev/null; awk -F, -v OFS=, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == \"indi.m2\") m = i } "
        "NR == 4 { $m = \"1e300\" } 1' $S/calls.csv >$S/huge.csv; fly --replay $S/huge.csv",

@@ -1,11 +1,11 @@
-// test_firmware_script.c - what tools/firmware.sh says to who has not got what it needs.
+// test_firmware_script.c - what tools/firmware.sh says if something that it needs is missing.
 #include "rig/programs.h"
 #include "rig/test.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// A folder that has of the firmware what the row says.
+// A folder with those parts of the firmware that the row names.
 #define SUBMODULES                                                                                           \
   "mkdir -p $S/f/vendor/CMSIS/CMSIS/Core/Include $S/f/vendor/FreeRTOS $S/f/vendor/libdw1000/inc && "         \
   "touch $S/f/vendor/CMSIS/CMSIS/Core/Include/core_cm4.h $S/f/vendor/FreeRTOS/tasks.c "                      \

@@ -1,12 +1,12 @@
-// test_gap_alike.c - which of several is named, where flights show the same of all.
+// test_gap_alike.c - which effect is named where flights cannot tell several apart.
 #include "rig/programs.h"
 #include "rig/test.h"
 
 #include <string.h>
 
-// A log of the whole thrust alone: a thrust scale (two forms, by what it does to the torque), a mass (one)
-// and a weak rotor (eight) differ by nothing that is sure. The rotor was named, and nominal flights were
-// flown with three tenths of it gone.
+// The log has only the thrust of all motors. A thrust scale (two forms, by what it does to the torque), a
+// mass (one) and a weak rotor (eight) cannot be told apart. The rotor used to be named, and nominal flights
+// were flown without three tenths of it.
 TEST(gap_names_of_effects_that_leave_the_same_the_one_with_fewest_forms) {
   char text[6000];
   CHECK(program_run(

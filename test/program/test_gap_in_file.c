@@ -1,4 +1,4 @@
-// test_gap_in_file.c - what the vehicle file has already, and these flights have not.
+// test_gap_in_file.c - effects that the vehicle file has, and the flights do not.
 #include "rig/programs.h"
 #include "rig/test.h"
 #include "rig/verdicts.h"
@@ -9,7 +9,7 @@
 #define VEHICLE "sim/vehicle/vehicles/cf21_legacy.toml" // with a rotor_drag of 1.7e-6 kg
 #define ROOM    2000
 
-// Two flights without any effect; false: they could not be flown.
+// Flies two flights without any effect; false: they could not be flown.
 static bool fly(const char *scenario, int rate_Hz) {
   char command[ROOM], text[ROOM];
   for (int seed = 1; seed <= 2; seed++) {
@@ -35,8 +35,9 @@ static bool lists(const cJSON *verdict, const char *list, const char *effect) {
   return false;
 }
 
-// Half of such flights show, with errors, less than none. The nominal pilot must be as swift as the flight
-// code: a calm one falls over, and what he makes hides the drag; flown again the vehicle keeps to its track.
+// In half of such flights the estimate is, by its errors, below zero. The nominal pilot must be as fast as
+// the flight code: with a slow one the vehicle falls over, and what that makes hides the drag. Flown again
+// the vehicle stays on its track.
 TEST(gap_says_that_the_vehicle_file_has_a_drag_which_flights_have_not) {
   static const int rate_Hz[] = {100, 500};
   for (int i = 0; i < (test_long() ? 2 : 1); i++) {
@@ -51,12 +52,13 @@ TEST(gap_says_that_the_vehicle_file_has_a_drag_which_flights_have_not) {
     CHECK_NEAR(verdict_number(k, "in_file"), 1.7e-6, 1e-12);
     CHECK(verdict_number(k, "value") < 2.0 * verdict_number(k, "stderr"));
     CHECK(verdict_number(cJSON_GetObjectItem(verdict, "resimulation"), "after") <
-          0.1); // 0.04; of a calm one 1
+          0.1); // 0.04; with a slow pilot 1
     cJSON_Delete(verdict);
   }
 }
 
-// By name, as here, where it says that there is none, or among what flights would show or cannot.
+// The answer says so by name, as here, where it says that there is none, or in the list of what the flights
+// would show, or of what they cannot.
 TEST(gap_says_of_what_the_vehicle_file_has_too_whether_flights_would_show_it) {
   if (!CHECK(fly("test-flight --controller indi-theory", 100))) return;
   cJSON *const verdict = diagnose();

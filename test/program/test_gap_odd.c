@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const struct {
-  const char *what, *made, *order, *want; // made: of odd0.csv, by awk
+  const char *what, *made, *order, *want; // made: from odd0.csv, by awk
 } odd[] = {
     {"0.4 s", "NR<=200", "$S/made.csv", "s of flight; allowed: 1 s or more"},
     {"3 rows", "NR<=4", "$S/made.csv", "0 samples without a gap; allowed: a second of flight or more"},

@@ -37,7 +37,7 @@ static void check_drag(const cJSON *v) {
   CHECK_TEXT(verdict_string(again, "unit"), "m");
 }
 
-// Terminal, page and verdict give the same: the value, and its standard error.
+// The page gives the same value and standard error as the verdict.
 static void check_error(const cJSON *v) {
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
@@ -81,7 +81,7 @@ static void check_page(void) {
   free(page);
 }
 
-// The vehicle file, with its own words, and the effect with the verdict's numbers.
+// model.toml is the vehicle file in its own words, and the effect with the verdict's numbers.
 static void check_model(const cJSON *v) {
   model_t m, plain;
   why_t why = {""};
@@ -97,7 +97,7 @@ static void check_model(const cJSON *v) {
   CHECK(m.mass_kg == plain.mass_kg && m.ceiling_m == plain.ceiling_m && plain.n_fx == 0 && m.n_fx == 1);
   CHECK_TEXT(m.fx[0].fx->name, "rotor_drag");
   const cJSON *const effect = cJSON_GetArrayItem(cJSON_GetObjectItem(v, "effects"), 0);
-  CHECK_NEAR(verdict_number(effect, "probability"), 0.999, 0.0); // as in words
+  CHECK_NEAR(verdict_number(effect, "probability"), 0.999, 0.0); // as is said in words
   const cJSON *const k = cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k");
   CHECK_NEAR(m.fx[0].p[0], verdict_number(k, "value"), 1e-8 * DRAG_KG);
   CHECK(program_run("fly ceiling-gap --vehicle $S/named/model.toml", STREAM_ERROR, text, sizeof text) == 0);
@@ -147,14 +147,14 @@ TEST(gap_reads_a_usd_log_as_the_same_flight_and_holds_out_what_it_is_told) {
     k[i] = verdict_number(cJSON_GetObjectItem(cJSON_GetObjectItem(effect, "parameters"), "k"), "value");
     cJSON_Delete(v);
   }
-  CHECK_NEAR(k[1], k[0], 0.01 * k[0]); // floats: other last digits, a tenth of the standard error
+  CHECK_NEAR(k[1], k[0], 0.01 * k[0]); // floats differ in their last digits: a tenth of the standard error
 }
 
 // --- nothing, and what has no name ----------------------------------------------------------------------
 
 TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   char text[4000];
-  // The first flight of the rig leaves twice its floor in turn_y, a little more or less by the compiler.
+  // Not the rig's first flight: that one leaves about twice its floor in turn_y, depending on the compiler.
   CHECK(gap_logs_fly("n", 2, NULL));
   CHECK(program_run(GAP "--json $S/none.json $S/n1.csv", STREAM_OUTPUT, text, sizeof text) == 0);
   CHECK(strstr(text, "Nothing is missing in room.toml that these flights could show.\n") != NULL);
@@ -169,7 +169,7 @@ TEST(gap_says_none_and_the_smallest_sizes_where_nothing_is_hidden) {
   cJSON_Delete(v);
 }
 
-// Rows of a log within some seconds, or without them.
+// Writes the rows of a log within these seconds, or all others, to part.csv.
 static const char *rows_of(double from_s, double to_s, bool without) {
   static char line[200];
   snprintf(line, sizeof line, "awk -F, 'NR == 1 || %s($1 >= %.0f && $1 < %.0f)' $S/n1.csv >$S/part.csv; ",
@@ -206,7 +206,7 @@ TEST(gap_notes_what_its_vehicle_file_does_not_say_first_of_all) {
                      "this mass and radius\n") != NULL);
 }
 
-// The hover under the ceiling, pushed back with 0.8 g for 30 ms.
+// In the log of a hover under the ceiling, 0.8 g push the vehicle down for 30 ms.
 TEST(gap_notes_when_a_vehicle_bumped_into_the_ceiling) {
   for (int bump = 0; bump < 2; bump++) {
     ROW("%s", bump ? "a bump" : "none");
@@ -225,7 +225,8 @@ TEST(gap_notes_when_a_vehicle_bumped_into_the_ceiling) {
   }
 }
 
-// What is flown again takes the commands of the same time: behind a gap those of later would lift and sink.
+// A flight that is flown again takes the commands of its own time: later ones, behind the gap, would lift and
+// sink it.
 TEST(gap_flies_again_behind_a_gap_in_time_as_before_it) {
   double off_m[2];
   CHECK(gap_logs_fly("n", 2, NULL));
@@ -275,7 +276,7 @@ TEST(gap_writes_of_every_flight_what_it_has_where_flights_differ) {
   CHECK_TEXT(verdict_string(v, "verdict"), "unknown");
   const cJSON *const group =
       cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(v, "unknown"), "from_flight_to_flight"), 0);
-  CHECK_TEXT(verdict_string(group, "channel"), "turn_y"); // of an offset forwards
+  CHECK_TEXT(verdict_string(group, "channel"), "turn_y"); // because the offset is forwards
   CHECK_TEXT(verdict_string(group, "unit"), "rad/s2");
   const cJSON *const flights = cJSON_GetObjectItem(group, "flights");
   const cJSON *const would = cJSON_GetArrayItem(cJSON_GetObjectItem(group, "acts_as"), 0);

@@ -45,7 +45,7 @@ static const struct {
     {"--columns $S/columns.toml $S/a.csv", "columns.toml:2: "},
 };
 
-// The file and the line that the message names stand apart, too.
+// The verdict also gives the message's file and line separately.
 static void check_where(const cJSON *refused, const char *line) {
   const char *const file = verdict_string(refused, "file"), *const name = strrchr(file, '/');
   const double at = verdict_number(refused, "line");
@@ -84,7 +84,7 @@ TEST(gap_refuses_with_one_line_status_two_and_a_verdict_that_says_where) {
   }
 }
 
-// Said before anything is read: there is no folder to write a verdict to, or it must not be touched.
+// Refused before anything is read: there is no folder to write a verdict to, or it must not be touched.
 static const struct {
   const char *arguments, *line;
 } AT_ONCE[] = {
@@ -153,11 +153,11 @@ TEST(gap_refuses_motors_whose_order_turns_the_vehicle_the_other_way) {
   CHECK(strstr(text, "o0.csv: turn_y goes against what the motor commands say") != NULL);
 }
 
-// Then two of the three moments cancel, and nothing goes the other way.
+// With some motors exchanged, two of the three moments cancel, and none is reversed.
 TEST(gap_refuses_motors_of_which_some_are_exchanged) {
   static const struct {
     const char *sed, *order, *column;
-    int every; // rows of 500 Hz
+    int every; // one of so many rows of 500 Hz
   } row[] = {
       {"s/indi.m1/X/; s/indi.m2/indi.m1/; s/X/indi.m2/", "2, 1, 3 and 4", "indi.m1", 1},
       {"s/indi.m1/X/; s/indi.m3/indi.m1/; s/X/indi.m3/", "3, 2, 1 and 4", "indi.m1", 1},

@@ -1,4 +1,4 @@
-// test_logs_page.c - what LOGS.md tells a newcomer to write is taken.
+// test_logs_page.c - the files that LOGS.md tells a newcomer to write are accepted.
 #include "logs/columns.h"
 #include "rig/test.h"
 #include "vehicle/model_file.h"
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The block of the page that begins with this line.
+// Copies the block of the page that begins with this line.
 static bool block_of(const char *first, char *text, size_t size) {
   FILE *const page = fopen("sim/gap/LOGS.md", "r");
   char line[600];
@@ -42,7 +42,7 @@ TEST(logs_page_has_the_vehicle_of_crazyflow) {
   CHECK(m.frame_told && m.map.kind == THRUST_MAP_SPEED);
 }
 
-// Its commands are means that acted before their row.
+// Crazyflow's commands are means, which acted before their row.
 TEST(logs_page_has_columns_of_crazyflow) {
   columns_t c;
   why_t why = {""};
@@ -53,7 +53,7 @@ TEST(logs_page_has_columns_of_crazyflow) {
   CHECK(c.of[SIG_AX].optional && !c.of[SIG_QW].optional);
 }
 
-// rotorpy calls its columns so, and its user writes nothing.
+// These are rotorpy's own names, so that its user writes nothing.
 TEST(logs_page_has_columns_of_another_simulator) {
   columns_t c;
   why_t why = {""};

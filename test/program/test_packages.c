@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// g++ is there, nothing else is.
+// Only g++ is installed.
 #define STAND_INS                                                                                            \
   "mkdir -p $S/pk; cd $S/pk; stand_in() { printf '#!/bin/sh\\n%s\\n' \"$2\" >$1; chmod +x $1; }; "           \
   "stand_in dpkg-query '[ \"$3\" = g++ ] && echo install ok installed'; "                                    \

@@ -1,7 +1,7 @@
-// test_shipped.c - what flies in a scenario is what ships, but for what its head prints.
+// test_shipped.c - scenarios fly the shipped parameters, except those that the head of their output prints.
 //
-// Held against params_default() and the app's own set after the flight: a parameter that a scenario changes
-// by any other way is in none of the lists below.
+// The app's own parameters after the flight are compared with params_default(): one that a scenario changes
+// in any other way is in none of the lists below.
 #include "flight/params.h"
 #include "flight/scenario.h"
 #include "rig/programs.h"
@@ -22,10 +22,10 @@
 #define CLOSE  " --set ceil.blindMax=60"
 #define NOBODY NULL // the flight code does not fly
 
-// Every scenario that there is, and its exceptions.
+// Every scenario, and its exceptions.
 static const struct {
   const char *scenario, *but;
-  bool learns;     // from nothing: the weights are the controller's
+  bool learns;     // from nothing: the controller brings the weights
   bool takes_long; // and has the same set-up as another row
 } SCENARIO[] = {
     {"appendix-a", VERTICAL, false, false},
@@ -60,8 +60,8 @@ static bool fly(const char *scenario, const fly_kind_t *kind, result_t *result) 
          CHECK_OK(scenario_find(scenario)->run(&request, result, &why));
 }
 
-// As the head prints them, from what flew and from nothing else. `brought`: what the controller's name stands
-// for.
+// Lists the differences as the head prints them, from the flown parameters alone. `brought`: beginnings of
+// the names that the controller sets.
 static void differences(const float *flew, const char *const *brought, char *text, size_t size) {
   flight_param_t shipped;
   params_default(&shipped);
@@ -144,12 +144,13 @@ TEST(fly_prints_what_it_flew_with_as_it_is_typed) {
   }
 }
 
-// Longer than ceil.blindMax below the range sensor's floor the app retreats: what the exception is for.
+// Below the range sensor's floor for longer than ceil.blindMax the app retreats: hence the scenario's
+// exception.
 TEST(close_flight_to_the_letter_of_the_shipped_set_retreats) {
   char text[4000];
   CHECK(program_run(
             "fly close-flight --controller indi-rbf --integrator rk4 --set ceil.blindMax=3 --json $S/r.json "
             ">$S/r.txt && sed -n '/mean_error_mm/s/[^0-9.-]//gp' $S/r.json | tail -n 1",
             STREAM_OUTPUT, text, sizeof text) == 0);
-  CHECK(strtod(text, NULL) < -100.0); // at the 2 cm step it is down at guard.safeGap
+  CHECK(strtod(text, NULL) < -100.0); // at the 2 cm step it has gone down to guard.safeGap
 }
