@@ -80,7 +80,7 @@ static sensorData_t sensors;
 static state_t state;
 static uint32_t step;
 
-// As the parameter task does: the value, and then the callback.
+// Writes as the parameter task does: the value, and then the callback.
 static void write_param(const pil_in_t *in) {
   if (in->param == PIL_NO_PARAM) return;
   if (in->param == PIL_COMMIT) {
@@ -120,7 +120,7 @@ void pil_call(void) {
   controllerOutOfTree(&control, &setpoint, &sensors, &state, step);
 }
 
-// Which bits a NaN has is the processor's choice.
+// One pattern for all NaNs, because a processor may choose their bits.
 static uint32_t one_nan(uint32_t bits) {
   return (bits & 0x7fffffffu) > 0x7f800000u ? 0x7fc00000u : bits;
 }
@@ -136,7 +136,7 @@ static uint32_t word_of(const section_log_t *log) {
   return log->type == LOG_FLOAT ? one_nan(bits) : bits;
 }
 
-// The next group by name: every compiler has another order.
+// Returns the next group by name, because every compiler orders them differently.
 static const section_log_group_t *after(const section_log_group_t *last) {
   const section_log_group_t *const *group, *next = NULL;
   const int groups = sections_log_groups(&group);

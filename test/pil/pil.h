@@ -24,7 +24,7 @@ typedef struct {
   float value;
   float battery_V;
   uint32_t duty[4]; // of the motors in the last millisecond
-  float applied[4]; // PIL_START: what was commanded before, of THRUST_MAX
+  float applied[4]; // with PIL_START: the commands before, over THRUST_MAX
   float acc[3], gyro[3], pos[3], vel[3], q[4], att[3];
   uint32_t mode[7];
   float sp_att[3], sp_rate[3], sp_q[4], sp_thrust, sp_pos[3], sp_vel[3], sp_acc[3];
@@ -41,7 +41,7 @@ void pil_pack(pil_in_t *in, const setpoint_t *setpoint, const sensorData_t *sens
 
 void pil_unpack(const pil_in_t *in, setpoint_t *setpoint, sensorData_t *sensors, state_t *state);
 
-// The call itself, of the app's one state: before (start, parameters), the call, and reading the logs.
+// The parts of a call, on the app's one state: start and parameters; the call; reading the logs.
 void pil_before(const pil_in_t *in);
 void pil_call(void);
 void pil_after(pil_out_t *out);

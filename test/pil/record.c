@@ -1,9 +1,10 @@
-// record.c - flies the simulated vehicle and writes every call of the app down: record TRACE, or has the
-// calls answered elsewhere, over two pipes: record TO FROM.
+// record.c - flies the simulated vehicle and writes every call of the app to a file (record TRACE), or has
+// the calls answered elsewhere, over two pipes (record TO FROM).
 //
-// The trace: a learning flight and a flight with weights, both as the app ships but for the time that they
-// stay close (ceil.blindMax), a flight as it ships to the letter, that retreats, and flights whose inputs,
-// parameters and time are spoiled; and with the height filter one that is not spoiled and one that is.
+// The trace: a learning flight and a flight with weights, both with the shipped parameters except a longer
+// time close to the ceiling (ceil.blindMax); a flight with exactly the shipped parameters, which retreats;
+// flights whose inputs, parameters and time are spoiled; and, with the height filter, one that is not spoiled
+// and one that is.
 #include "controller.h"
 #include "range.h"
 #include "pilots/param_spec.h"
@@ -16,12 +17,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GROUND_M 0.3f // of a made-up floor: the ladder's gaps of 20 to 4 cm are over it, up to 15 cm
+#define GROUND_M 0.3f // height of a made-up floor: at gaps of 20 to 4 cm the ladder is over it, up to 15 cm
 
 typedef struct {
   FILE *to, *from; // from: where answers come from, or null
   random_t *random;
-  bool first, inputs, params, time; // spoiled: which
+  bool first, inputs, params, time; // which are spoiled
   int burst, field;
   uint32_t odd, step_off;
   long calls, differ;
@@ -38,7 +39,7 @@ static uint32_t odd_bits(random_t *r) {
   return i < sizeof odd / sizeof *odd ? odd[i] : (uint32_t)random_uniform(r, 0.0, 4294967295.0);
 }
 
-// One word of what the firmware measures, estimates or is told, for 1 to 80 calls.
+// Spoils one word of what the firmware measures, estimates or is told, for 1 to 80 calls.
 static void spoil_inputs(recorder_t *r, pil_in_t *in) {
   if (r->burst == 0 && random_uniform(r->random, 0.0, 1.0) < 0.004) {
     r->burst = (int)random_uniform(r->random, 1.0, random_uniform(r->random, 0.0, 1.0) < 0.8 ? 3.0 : 80.0);
@@ -53,7 +54,7 @@ static void spoil_inputs(recorder_t *r, pil_in_t *in) {
   memcpy(word, &r->odd, sizeof *word);
 }
 
-// A battery that cannot give what is asked for, and the motors as the firmware's cap leaves them.
+// A battery too weak for what is asked for, and motors as the firmware's cap leaves them.
 static void spoil_battery(recorder_t *r, pil_in_t *in) {
   if (random_uniform(r->random, 0.0, 1.0) > 0.2) return;
   in->battery_V = (float)random_uniform(r->random, 2.2, 3.1);
@@ -124,7 +125,7 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
              (around->motors_allowed ? PIL_ALLOWED : 0u) | (around->can_fly ? PIL_CAN_FLY : 0u);
   memcpy(in.applied, control->normalizedForces, sizeof in.applied);
   pil_pack(&in, setpoint, sensors, state, step);
-  // The parameters of this flight, one a call, before it begins.
+  // The first calls set this flight's parameters, one in each call.
   if (!r->first && r->calls < params_count) in.param = (int32_t)r->calls;
   if (in.param >= 0) in.value = params_get(&r->pilot.param, &params_table[in.param]);
   if (r->calls == params_count) in = (in.param = PIL_COMMIT, in.value = 1.0f, in);
@@ -135,7 +136,7 @@ static void fly(void *context, control_t *control, const setpoint_t *setpoint, c
   r->first = false;
   r->calls++;
   if (fwrite(&in, sizeof in, 1, r->to) != 1) exit(1);
-  // What was written down is what flies here, too.
+  // What was written down also flies here.
   sensorData_t seen;
   state_t believed;
   setpoint_t wanted;
@@ -156,7 +157,7 @@ static int fly_one(recorder_t *r, fly_kind_t kind, float blind_s, double end_s, 
   r->step_off = seed % 2 ? 0xffff0000u : 0u; // some counters wrap on the way
   if (setup_thesis(&setup, kind, &why) != DONE) return error_exit("record", FAILED, &why);
   setup_close_ladder(&setup);
-  setup.plan.below_estimate = false; // who watches is not asked
+  setup.plan.below_estimate = false; // set points count from the true ceiling
   if (blind_s > 0.0f) setup.flight.guard.blind_max_s = blind_s;
   setup.flight.curve.mode = kind == FLY_INDI_LIVE ? CURVE_LIVE : CURVE_FIXED;
   setup.flight.height.own = own;
@@ -181,7 +182,7 @@ static int fly_trace(recorder_t *r) {
     fly_kind_t kind;
     float blind_s; // 0: as shipped
     double end_s;
-    bool inputs, params, time, own; // own: by height.own, and learning over a ground
+    bool inputs, params, time, own; // own: flies by height.own and learns over a ground
   } row[] = {{FLY_INDI_LIVE, SETUP_BLIND_S, 62.0, false, false, false, false},
              {FLY_INDI_RBF, SETUP_BLIND_S, 62.0, false, false, false, false},
              {FLY_INDI_RBF, 0.0f, 50.0, false, false, false, false},

@@ -1,8 +1,8 @@
-// target.c - the image for the emulated Cortex-M4F: records in, answers out, and what each call cost.
+// target.c - the image for the emulated Cortex-M4F: reads records, writes answers and the cost of each call.
 //
-// Command line by semihosting: IN OUT COST BATCH. Answers are written after every BATCH records, so that 1
-// closes a loop over two pipes. COST (`-`: none) gets two words a call: ticks of SysTick, and bytes of stack
-// below the caller.
+// Command line by semihosting: IN OUT COST BATCH. Answers are written after every BATCH records, so that a
+// BATCH of 1 closes a loop over two pipes. COST (`-`: none) gets two words per call: ticks of SysTick, and
+// bytes of stack below the caller.
 #include "pil/pil.h"
 
 #include <stdlib.h>
@@ -49,7 +49,7 @@ static int open(const char *path, uint32_t mode) {
   return file;
 }
 
-// Bytes read: less than wanted only at the end.
+// Returns the bytes read: less than wanted only at the end.
 static uint32_t read(int file, void *to, uint32_t size) {
   uint32_t done = 0;
   while (done < size) {
@@ -74,7 +74,7 @@ static uint32_t used_stack(const uint32_t *top) {
   return (uint32_t)((const char *)top - (const char *)lowest);
 }
 
-// The stack below this call is painted from below it; what the call costs itself is in empty().
+// Paints the stack below this frame, calls `what` and measures it. What measuring costs itself is in empty().
 __attribute__((noinline)) static void measured(void (*what)(void), uint32_t cost[2]) {
   uint32_t *top;
   __asm__ volatile("mov %0, sp" : "=r"(top));
@@ -114,7 +114,7 @@ static void run(int from, int to, int costs, uint32_t batch) {
       now = &in[i];
       measured(start, first);
       measured(pil_call, cost[i]);
-      if (in[i].flags & PIL_START) cost[i][1] |= first[1] << 16; // of the selection in flight
+      if (in[i].flags & PIL_START) cost[i][1] |= first[1] << 16; // stack of selecting it in flight
       pil_after(&out[i]);
     }
     write(to, out, n * sizeof *out);
