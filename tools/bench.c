@@ -45,7 +45,8 @@ static done_t factor(const row_t *row, double *best, why_t *why) {
   return DONE;
 }
 
-// Six degrees of freedom under a ceiling at 2 cm, drag on; level, so that a law of one line holds it there.
+// Six degrees of freedom at 2 cm below a ceiling, with drag; level, so that a control law of one line holds
+// it there.
 static done_t six(integrate_kind_t kind, double *derivative_ns, double *factor, why_t *why) {
   static body_t b;
   model_t m;
@@ -59,7 +60,7 @@ static done_t six(integrate_kind_t kind, double *derivative_ns, double *factor, 
   double t_s = cpu_time_s(), y[RIGID_N], dydt[RIGID_N] = {0.0};
   memcpy(y, b.y, sizeof y);
   for (int i = 0; i < CALLS; i++) {
-    y[RIGID_POS_M + 2] = z_m + 1e-9 * dydt[RIGID_VEL_MPS + 2]; // so that no call can be left out
+    y[RIGID_POS_M + 2] = z_m + 1e-9 * dydt[RIGID_VEL_MPS + 2]; // so that no call can be optimised away
     body_derivative(&b, 0, y, dydt);
   }
   *derivative_ns = 1e9 * (cpu_time_s() - t_s) / CALLS;
@@ -147,7 +148,7 @@ static done_t bench_loop(why_t *why) {
   return DONE;
 }
 
-#define ABREAST 16 // flights, of seeds that count up
+#define ABREAST 16 // flights, with seeds that count up
 
 typedef struct {
   setup_t setup[ABREAST];
@@ -166,7 +167,7 @@ static void fly_one(void *self, int i) {
   f->why = why;
 }
 
-// The same loop, of flights that one core flies side by side, beside the same flights one after the other.
+// The same loop: flights that one core flies side by side, compared with the same flights one by one.
 static done_t bench_abreast(why_t *why) {
   static const loop_row_t rows[] = {
       {"SUNDIALS ERKStep 2 ms", INTEGRATE_SUNDIALS, FLY_INDI_RBF, false},

@@ -14,16 +14,16 @@
 #define RUNS    3
 #define RATE    500.0
 #define LONG_S  120.0
-#define SHORT_S 30.0 // in 15 s nothing is named, in more two: no measure of growth
+#define SHORT_S 30.0 // in 15 s nothing is named, in more two effects: no measure of growth
 #define ROUNDS  12
 #define ROUND_S (LONG_S / ROUNDS)
-#define START_S 5.0 // it flies, and is where it was told to be
+#define START_S 5.0 // by then it flies where it was told to be
 
 typedef struct {
   int candidates, named, rounds;
 } count_t;
 
-// As a clock on the wall says, and of all processors together.
+// Wall-clock time, and the time of all processors together.
 typedef struct {
   double wall_s, processors_s;
 } took_t;
@@ -38,7 +38,8 @@ static took_t now(void) {
   return (took_t){clock_s(CLOCK_MONOTONIC), clock_s(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-// Those that it may use: as many threads are told by OMP_NUM_THREADS, else by the machine.
+// Returns the number of cores that may be used: as many threads as OMP_NUM_THREADS says, else all of the
+// machine.
 static int cores(void) {
   const long there = sysconf(_SC_NPROCESSORS_ONLN);
   const char *const wanted = getenv("OMP_NUM_THREADS");
@@ -46,7 +47,7 @@ static int cores(void) {
   return threads > 0 && threads < there ? threads : (int)there;
 }
 
-// As a log, read as any other.
+// Writes the flight as a log, and reads it as any other.
 static done_t write_log(const record_t *record, gap_flight_t *log, const model_t *vehicle, why_t *why) {
   const char *const folder = getenv("O");
   char path[4096];
@@ -63,8 +64,8 @@ static done_t write_log(const record_t *record, gap_flight_t *log, const model_t
   return status;
 }
 
-// The same again and again, down to 4 cm below the ceiling: a longer log is more of it, and not another
-// flight. What is fitted of every log, two thirds, holds whole rounds.
+// Equal rounds, down to 4 cm below the ceiling, so that a longer log has more of the same flight. The part
+// that is fitted, two thirds, holds whole rounds in every log.
 static void plan_rounds(const setup_t *setup, plan_t *plan) {
   static const double gap_m[] = {0.20, 0.04};
   enum { STEPS = sizeof gap_m / sizeof *gap_m };
@@ -90,7 +91,7 @@ static done_t fly_log(const model_t *vehicle, gap_flight_t *log, why_t *why) {
   return status;
 }
 
-// Of a log, from START_S on.
+// Returns span_s of a log, from START_S on.
 static gap_flight_t part_of(const gap_flight_t *log, double span_s) {
   gap_flight_t part = *log;
   int from = 0;
@@ -125,7 +126,7 @@ static done_t time_one(const gap_flight_t *log, double span_s, const model_t *m,
   return status;
 }
 
-// The model has every effect of the table from the `keep`-th on, at no size: they are no candidates then.
+// Adds every effect of the table from the `keep`-th on to the model, with size 0, so that it is no candidate.
 static done_t with_fewer(const model_t *vehicle, int keep, model_t *m, why_t *why) {
   *m = *vehicle;
   for (int i = 0, kept = 0; i < fx_count; i++) {

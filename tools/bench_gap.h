@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-// Prints a line each. BAD_INPUT, FAILED: the flight could not be made or read.
+// Prints one line for each. BAD_INPUT, FAILED: the flight could not be made or read.
 MUST_CHECK done_t bench_gap(why_t *why);
 
 #endif

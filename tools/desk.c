@@ -17,11 +17,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DRONES_MAX 10 // ports that a client scans
+#define DRONES_MAX 10 // a client scans so many ports
 #define PORT       19850
 #define PAGE       8080
-#define APART_M    0.5 // places on the page
-#define FLUSH_S    1.0 // what a crash may lose of the logs
+#define APART_M    0.5 // distance of the drones on the page
+#define FLUSH_S    1.0 // a crash loses at most so much of the logs
 
 typedef struct {
   request_t request;
@@ -30,10 +30,10 @@ typedef struct {
   place_order_t places;
   bool seed_said, help, version;
   double port, page, drones, speed, for_s, loss, delay_s;
-  made_t made, again; // again: how fly flies it anew
+  made_t made, again; // again: the command with which fly repeats it
 } order_t;
 
-// All that flies, as the page sees it.
+// All drones, as the page sees them.
 typedef struct {
   const order_t *order;
   place_t *place;
@@ -48,7 +48,7 @@ static void end(int signal_number) {
   ended = 1;
 }
 
-// typed: all of it, for the message.
+// typed: the whole word, for the message.
 static done_t take_of(const char *option, const char *typed, const char *number, double min, double max,
                       bool whole, double *value, why_t *why) {
   char shown[NUMBER_SHOWN];
@@ -216,7 +216,7 @@ static done_t open_places(room_t *room, why_t *why) {
   return DONE;
 }
 
-// What went wrong first is what is said.
+// Reports what went wrong first.
 static done_t close_places(room_t *room, done_t status, why_t *why) {
   for (int i = 0; i < room->n; i++) {
     why_t later;
@@ -231,7 +231,7 @@ static done_t run(order_t *o, place_t *place, int argc, char **argv, why_t *why)
   if (o->help) fputs(USAGE, stdout);
   if (o->version) made_version("desk");
   if (o->help || o->version) return DONE;
-  // The page first: a second start writes over no log of the first.
+  // Opens the page first, so that a second desk fails before it overwrites logs of the first.
   room_t room = {.order = o, .place = place};
   const http_answers_t answers = {&room, tell_page, set_from_page};
   http_t *http = NULL;
@@ -245,7 +245,7 @@ static done_t run(order_t *o, place_t *place, int argc, char **argv, why_t *why)
   return close_places(&room, status, why);
 }
 
-// No SA_RESTART: what waits is to end. Who ignores hang-ups (nohup) goes on doing so.
+// No SA_RESTART, so that a call that waits is ended. If hang-ups are ignored (nohup), they stay so.
 static void hear(int signal_number) {
   const struct sigaction ends = {.sa_handler = end};
   struct sigaction was;

@@ -161,7 +161,7 @@ int main(int argc, char **argv) {
   static order_t order;
   static whole_files_t files;
   why_t why;
-  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  signal(SIGPIPE, SIG_IGN); // a closed pipe is an error like any other: no file is left behind
   const done_t status = run(&order, &files, argc, argv, &why);
   made_free(&order.made);
   return whole_files_exit(&files, "effectiveness", status, &why);

@@ -1,4 +1,4 @@
-// fly.c - flies a scenario with a controller, prints what the flight was like, and writes it as log and JSON.
+// fly.c - flies a scenario with a controller, prints a summary, and writes the flight as log and JSON.
 #include "base/made.h"
 #include "base/number.h"
 #include "base/option.h"
@@ -36,12 +36,12 @@ typedef struct {
   double from, to; // NaN: not said
   const char *log, *json, *vehicle_path, *replay, *params_to, *usd, *usd_config;
   const char *commands, *scene, *storage, *summary;
-  bool merge; // of the files that are named where else a scenario is
+  bool merge; // the words name summaries to merge, not a scenario
   char **file;
   int files;
-  uLong crc; // of the files that say what is flown; 0: none
+  uLong crc; // checksum of the files that say what is flown; 0: none
   bool list, effects, logs, params, markdown, help, version, only_says, rate_said;
-  made_t made, each; // each: of one of many flights, but for its seed
+  made_t made, each; // each: of each of many flights, without its seed
   int not_finite;    // flights
   double rows;       // recorded
 } order_t;
@@ -62,7 +62,7 @@ static done_t take_params(order_t *o, const char *form, why_t *why) {
   return error_set(why, "--params=%s: allowed is --params, or --params=markdown", form);
 }
 
-// What is flown is what stands in the file, too, not its name alone.
+// Adds a file's contents to the checksum: they say what is flown, too, not the file's name alone.
 static done_t sign(order_t *o, const char *path, why_t *why) {
   FILE *file;
   unsigned char text[4096];
@@ -73,7 +73,7 @@ static done_t sign(order_t *o, const char *path, why_t *why) {
 }
 
 static done_t take_vehicle(order_t *o, const char *path, why_t *why) {
-  flown_by_t flown_by; // nobody flies it; a wrong one is told
+  flown_by_t flown_by; // not used here; a wrong one is reported
   o->vehicle_path = path;
   o->request.vehicle = &o->vehicle;
   TRY(model_read(path, &o->vehicle, why));
@@ -81,7 +81,7 @@ static done_t take_vehicle(order_t *o, const char *path, why_t *why) {
   return controller_read(path, NULL, &o->vehicle, &flown_by, why);
 }
 
-// Where a file's name goes; a null pointer: the option names none.
+// Returns where the option's file name goes; null: the option names no file.
 static const char **path_of(order_t *o, int option) {
   switch (option) {
   case 'R': return &o->replay;
@@ -152,7 +152,7 @@ static done_t check_many(const order_t *o, why_t *why) {
   return DONE;
 }
 
-// Nothing is flown: the words are files.
+// With --merge nothing is flown, and the words are files.
 static done_t take_merge(order_t *o, const char *given, int argc, char **argv, why_t *why) {
   if (strspn(given, "gM") != strlen(given)) return error_set(why, "--merge: allowed with it is --summary");
   if (optind == argc) return error_set(why, "--merge: files are needed, as fly --summary writes them");
@@ -161,7 +161,7 @@ static done_t take_merge(order_t *o, const char *given, int argc, char **argv, w
   return DONE;
 }
 
-// What clients sent at the desk is flown with the desk's own options.
+// What clients sent is flown with the options of the desk alone.
 static done_t check_commands(const order_t *o, const char *given, const char *scenario, why_t *why) {
   if (!o->commands) {
     if (!o->scene && !o->storage) return DONE;
@@ -183,7 +183,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
   for (int option, at; (option = getopt_long(argc, argv, "", OPTIONS, &at)) != -1;) {
     if (option == '?') return option_refuse(OPTIONS, argv[optind - 1], why);
     TRY(take_option(o, option, optarg, why));
-    if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter an option
+    if (!strchr(given, option)) strcat(given, (char[]){(char)option, '\0'}); // one letter per option
     if (!strchr("ftjlTM", option)) made_option(&o->each, OPTIONS[at].name, optarg);
   }
   o->only_says = o->list || o->effects || o->logs || o->params || o->help || o->version;
@@ -207,7 +207,7 @@ static done_t take_order(order_t *o, int argc, char **argv, why_t *why) {
 
 // --- flying -------------------------------------------------------------------------------------------
 
-typedef struct { // what is written beside what is printed
+typedef struct { // the files that are written
   whole_files_t files;
   FILE *log, *json, *params, *usd, *summary;
 } output_t;
@@ -286,7 +286,7 @@ static done_t tell_summary(const summary_t *s, const output_t *out, why_t *why) 
   return out->summary ? summary_write(s, out->summary, why) : DONE;
 }
 
-// The command alone, and what stands in the files that it names.
+// A cell's name is the command alone, with a checksum of the files that it names.
 static done_t open_summary(const order_t *o, summary_t *s, why_t *why) {
   char files[40] = "";
   if (o->crc) snprintf(files, sizeof files, " # files %08lx", o->crc);
@@ -334,7 +334,7 @@ static done_t merge(order_t *o, const output_t *out, why_t *why) {
   return status;
 }
 
-#define AFTER_S 1.0 // flown on, after the last packet
+#define AFTER_S 1.0 // flight time after the last packet
 
 static done_t fly_commands(order_t *o, output_t *out, why_t *why) {
   static drone_t drone;
@@ -379,7 +379,7 @@ int main(int argc, char **argv) {
   static order_t order;
   static output_t out;
   why_t why;
-  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  signal(SIGPIPE, SIG_IGN); // a closed pipe is an error like any other: no file is left behind
   const done_t status = run(&order, &out, argc, argv, &why);
   const int ended = whole_files_exit(&out.files, "fly", status, &why);
   made_free(&order.made);

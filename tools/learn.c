@@ -1,4 +1,5 @@
-// learn.c - the flight code's own learner over recorded flights: prints the weights and what they explain.
+// learn.c - runs the flight code's own learner over recorded flights; prints the weights and what they
+// explain.
 #define _POSIX_C_SOURCE 200809L // stat
 #include "base/made.h"
 #include "base/option.h"
@@ -27,7 +28,7 @@ typedef struct {
   made_t made;
 } order_t;
 
-// What is written beside what is printed.
+// The files that are written.
 typedef struct {
   whole_files_t files;
   FILE *points, *json;
@@ -39,7 +40,7 @@ typedef struct {
   const char *mass_from;
   learn_t learn;
   learn_score_t score[FILES_MAX];
-  learn_bad_t bad[2 * FILES_MAX]; // of the logs, then of those held out
+  learn_bad_t bad[2 * FILES_MAX]; // of the logs, then of the held-out ones
 } lesson_t;
 
 static const char USAGE[] =
@@ -119,7 +120,7 @@ static done_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
   model_t vehicle;
   flown_by_t flown_by;
   TRY(o->vehicle ? model_read(o->vehicle, &vehicle, why) : model_builtin("cf21_legacy", &vehicle, why));
-  if (o->vehicle) TRY(controller_read(o->vehicle, NULL, &vehicle, &flown_by, why)); // a wrong one is told
+  if (o->vehicle) TRY(controller_read(o->vehicle, NULL, &vehicle, &flown_by, why)); // reports a wrong one
   learn_job_init(job, &vehicle, o->surface);
   if (o->columns) TRY(columns_read(o->columns, &job->columns, why));
   for (int i = 0; i < o->n_set; i++) TRY(set_param(&job->param, o->set[i], why));
@@ -131,7 +132,7 @@ static done_t prepare(const order_t *o, learn_job_t *job, why_t *why) {
   return DONE;
 }
 
-// Two passes: the first one weighs the vehicle, and finds every error before anything is learned.
+// The first of two passes: weighs the vehicle, and finds every error before anything is learned.
 static done_t weigh(const order_t *o, lesson_t *r, why_t *why) {
   for (int i = 0; i < o->n_log; i++) {
     struct stat s;
@@ -142,7 +143,7 @@ static done_t weigh(const order_t *o, lesson_t *r, why_t *why) {
   return DONE;
 }
 
-// A mass that was set by hand wins over the measured one, that over the vehicle file's.
+// A mass that was set by hand takes precedence over the measured one, and that over the vehicle file's.
 static void choose_mass(const order_t *o, lesson_t *r) {
   const double measured_kg = learn_mass_kg(&r->mass);
   bool by_hand = false;
@@ -189,7 +190,7 @@ static cJSON *json_of(const order_t *o, const lesson_t *r) {
     cJSON_AddStringToObject(item, "file", o->held_out[i]);
     cJSON_AddNumberToObject(item, "all_mN_before", 1e3 * s->all_before_N);
     cJSON_AddNumberToObject(item, "all_mN_after", 1e3 * s->all_after_N);
-    // Not a number becomes null.
+    // NaN is written as null.
     cJSON_AddNumberToObject(item, "below_7cm_mN_before", 1e3 * s->near_before_N);
     cJSON_AddNumberToObject(item, "below_7cm_mN_after", 1e3 * s->near_after_N);
     cJSON_AddNumberToObject(item, "bias_mN", 1e3 * s->bias_N);
@@ -262,7 +263,7 @@ int main(int argc, char **argv) {
   static order_t order;
   static output_t out;
   why_t why;
-  signal(SIGPIPE, SIG_IGN); // a reader that leaves is an error like any other: nothing stays beside
+  signal(SIGPIPE, SIG_IGN); // a closed pipe is an error like any other: no file is left behind
   const done_t status = run(&order, &out, argc, argv, &why);
   made_free(&order.made);
   return whole_files_exit(&out.files, "learn", status, &why);

@@ -1,4 +1,4 @@
-// slot.c - the hover in a gap of 71 mm: what each form of the ceiling effect makes of it, beside the real
+// slot.c - the hover in a gap of 71 mm, simulated with each form of the ceiling effect, beside the real
 // flights.
 #include "base/made.h"
 #include "flight/slot_many.h"
@@ -27,7 +27,8 @@ static done_t fly(const char *what, fly_kind_t kind, const char *effect, double 
   return DONE;
 }
 
-// Ceiling effects that are published; weight over thrust is known only to some grams, so each gets several.
+// Published ceiling effects. Weight over thrust is known only to some grams, so that each flies with several
+// masses.
 static const struct {
   const char *name, *effect;
   int low_g, high_g;
