@@ -1,7 +1,7 @@
 #!/bin/sh
 # firmware.sh build|cload BASE PROPELLERS - the app in the Crazyflie firmware at BASE, for legacy or plus propellers.
 #
-# The firmware's build leaves objects beside the sources: it gets a tree of links under out/.
+# The firmware's build leaves objects beside the sources, so that it gets a tree of links under out/.
 set -eu
 verb=$1 base=$2 propellers=$3
 refuse() {
@@ -43,7 +43,7 @@ cp src/firmware/app-config "$tree/app-config"
 if [ "$propellers" = legacy ]; then
   printf '# CONFIG_CRAZYFLIE_21_PLUS is not set\nCONFIG_CRAZYFLIE_LEGACY_PROPELLERS=y\n' >>"$tree/app-config"
 fi
-# A configuration of before keeps what this one does not name.
+# An old configuration would keep what this one does not name.
 cmp -s "$tree/app-config" "$tree/app-config.built" || rm -f "$tree/build/.config"
 
 APP_VERSION=$(tools/version.sh)

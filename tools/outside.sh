@@ -18,6 +18,6 @@ fi
 rm -rf "$o/flown_outside"
 mkdir -p "$o/flown_outside"
 PYTHONDONTWRITEBYTECODE=1 python3 -m unittest discover -q -s test/outside || exit 1
-# One thread for numpy: the sets are flown side by side.
+# One thread for numpy, because the sets are flown side by side.
 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1 \
   "$o/outside/bin/python" tools/outside/outside.py "$seed" "$sets" "$o/gap" "$o/flown_outside"

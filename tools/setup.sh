@@ -2,7 +2,7 @@
 # setup.sh PACKAGE... - installs the Debian packages that are missing, or prints the one line that does.
 export LC_ALL=C
 
-# Two that run side by side would fight for apt's lock: the second waits, and then finds everything there.
+# Two that run at once would fight for apt's lock: the second waits, and then finds everything installed.
 o=${O:-out}
 mkdir -p "$o" || exit 2
 exec 9>"$o/setup.lock"
@@ -35,7 +35,7 @@ failed() {
   exit 1
 }
 
-# Of apt's lines on its progress, every tenth per cent; where a person looks on, each.
+# Prints every tenth per cent of apt's progress; each per cent where a person looks on.
 [ -t 2 ] && step=1 || step=10
 progress() {
   told=0
@@ -58,8 +58,8 @@ $as_root apt-get update >"$log" 2>&1 || failed
 $as_root apt-get install --assume-no --no-install-recommends $missing 2>/dev/null |
   sed -nE 's/.* ([0-9]+) newly installed.*/with what they need \1 packages:/p; s/^Need to get (.*) of archives.*/\1 to fetch,/p
     s/^After this operation, (.*) of additional.*/\1 on disk; some minutes/p' | xargs -r
-# apt closes the descriptor of its progress to the packages' own scripts, so that it must not be one that they print to;
-# and sudo closes all but the first three, so that it is opened behind it.
+# apt closes its progress descriptor for the packages' own scripts, so that it must not be one that they print to; and sudo
+# closes all but the first three, so that it is opened inside sudo.
 {
   $as_root sh -c "DEBIAN_FRONTEND=noninteractive exec $install -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 $missing 3>&1 >&2" 2>>"$log"
   echo $? >"$status"

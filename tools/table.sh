@@ -1,7 +1,7 @@
 #!/bin/sh
-# table.sh KIND FILE - writes the table of all effects, curves, scenarios, vehicles or tests that the tree holds, or a text as C.
+# table.sh KIND FILE - writes the table of all effects, curves, scenarios, vehicles or tests of the tree, or a text as C.
 #
-# A new file, or a new TEST(), is in the table without being listed anywhere. FILE is touched only when it changes.
+# A new file, or a new TEST(), gets into the table without being listed anywhere. FILE is touched only when it changes.
 set -eu
 kind=$1 file=$2
 mkdir -p "$(dirname "$file")"
@@ -47,7 +47,7 @@ style() {
   echo "    ;"
 }
 
-# A test whose name is not of small letters, digits and _ would compile and never run.
+# A test whose name has other characters than small letters, digits and _ would compile and never run.
 tests() {
   files=$(find test -name 'test_*.c' | LC_ALL=C sort)
   odd=$(grep -HnE '^[[:space:]]*TEST[[:space:]]*\(' $files | grep -vE ':TEST\([a-z0-9_]+\)' || true)
@@ -66,7 +66,7 @@ tests() {
   echo "const int test_count = (int)(sizeof test_table / sizeof *test_table);"
 }
 
-# The sources themselves, each in a namespace, with the tables as above: for eight vehicles at a time.
+# The sources themselves, each in a namespace, with tables as above: for eight vehicles at a time.
 lanes() {
   for path in sim/effects/curve_*.c sim/effects/fx_*.c; do
     echo "namespace in_$(basename "$path" .c) {"

@@ -20,25 +20,25 @@ from scipy.stats import t
 
 from .errors import Failed
 
-TICK_MS = 10  # of the outer loop: the steps that ten divides
-MOTORS_MS = 1  # later the inner loop gives the motors what the outer one wants
+TICK_MS = 10  # of the outer loop: at steps that ten divides
+MOTORS_MS = 1  # delay until the inner loop gives the motors what the outer loop wants
 ACC_HZ = 30.0  # the firmware's filter of the accelerometer, two poles at 1 kHz
-SUPPLY_GAIN = 0.01  # a millisecond, of the firmware's low-pass of the battery's voltage
+SUPPLY_GAIN = 0.01  # per millisecond, of the firmware's low-pass of the battery voltage
 SUPPLY_POWER = 2.05  # V T'/T at hover, 32.9 g, by the firmware's map T(V) of a Crazyflie 2.1; of a 2.1+ 1.96
-GAP_MS = 50  # rows further apart are a gap, and SETTLE_MS after it are left out
+GAP_MS = 50  # rows further apart are a gap; the SETTLE_MS after it are left out
 SETTLE_MS = 400
 LEAST_ROWS = 500
-SET_LAGS_MS = range(-20, 300, 20)  # heights set before and after: a command follows its set point within that
-LAG_S, DELAY_S = (0.01, 0.3), (-0.02, 0.06)  # where they are looked for; less than none is noise
-EDGE = 0.02  # of those widths: what is found so near to an end lies beyond it
-LEAST_HOPS, HOP_ROWS = 6, 40  # that are left, with a quarter of their rows: fewer do not tell how they scatter
-ERROR_MAX_S = 0.02  # what is less certain is no measurement
-WHEN_S = 0.0015  # a millisecond is computed, sent to the motors, and sampled in: at which half of each no row tells
+SET_LAGS_MS = range(-20, 300, 20)  # set heights before and after: a command follows its set point within these
+LAG_S, DELAY_S = (0.01, 0.3), (-0.02, 0.06)  # bounds of the search; a delay below 0 is noise
+EDGE = 0.02  # of those widths: a value so near to a bound lies beyond it
+LEAST_HOPS, HOP_ROWS = 6, 40  # at least so many hops, each with a quarter of its rows: fewer do not tell the scatter
+ERROR_MAX_S = 0.02  # a larger error is no measurement
+WHEN_S = 0.0015  # computing, sending and sampling each fall somewhere within a millisecond: no row tells where
 
 
 @dataclass(frozen=True)
 class Rows:
-    step: np.ndarray  # of the millisecond, from any start
+    step: np.ndarray  # number of the millisecond, from any start
     thrust_N: np.ndarray
     acc_mps2: np.ndarray  # specific force along the thrust
     set_m: np.ndarray
@@ -57,14 +57,14 @@ def rows_of(packets: list[tuple[float, ...]]) -> Rows:
 @dataclass(frozen=True)
 class Told:
     value: float
-    error: float  # within it in 19 of 20
+    error: float  # 95 % interval: value +- error
 
 
 @dataclass(frozen=True)
 class Actuator:
     lag_s: Told
     delay_s: Told
-    mass_kg: Told  # that this thrust would move
+    mass_kg: Told  # the mass that this thrust would move
 
 
 def _low_pass(gain: float, v: np.ndarray) -> np.ndarray:
@@ -74,7 +74,7 @@ def _low_pass(gain: float, v: np.ndarray) -> np.ndarray:
 class _Model:
     def __init__(self, rows: Rows) -> None:
         start = (rows.step[0] - 1) // TICK_MS * TICK_MS
-        ticks = (rows.step - 1) // TICK_MS * TICK_MS - start  # in which each thrust was commanded
+        ticks = (rows.step - 1) // TICK_MS * TICK_MS - start  # the tick in which each thrust was commanded
         self._ms = np.arange(rows.step[-1] - start + 1)
         self._at = rows.step - start
         commanded_N = np.interp(np.arange(0, self._ms[-1] + 1, TICK_MS), ticks, rows.thrust_N)
@@ -133,7 +133,7 @@ def identify(rows: Rows) -> Actuator:
         raise Failed(f"{len(hops)} hops came without gaps; {LEAST_HOPS} and more tell the motors' lag")
     good = model.good & np.isin(rows.hop, hops)
     try:
-        with np.errstate(all="ignore"):  # a thrust that does not move makes a mass that is no number
+        with np.errstate(all="ignore"):  # a thrust that does not move gives a mass that is not a number
             whole = model.fit(good, np.array([0.08, 0.005]))
             without = np.array([model.fit(good & (rows.hop != hop), whole[:2]) for hop in hops])
             spread = np.std(without, axis=0) * np.sqrt(len(hops) - 1) * t.ppf(0.975, len(hops) - 1)

@@ -6,8 +6,8 @@ from .monitor import WATCHED
 
 WEIGHTS = tuple(f"ceil.w{i}" for i in range(1, 8))
 LEARNED = tuple(f"rls.w{i}" for i in range(1, 8))
-OVER_GROUND = tuple(f"ground.w{i}" for i in range(1, 8))  # of the same set
-STORED = (*WEIGHTS, *OVER_GROUND, "ceil.wSum")  # the sum last: only weights that were stored as a whole have it
+OVER_GROUND = tuple(f"ground.w{i}" for i in range(1, 8))  # belong to the same set
+STORED = (*WEIGHTS, *OVER_GROUND, "ceil.wSum")  # the sum comes last: only weights that were stored as a whole have it
 FROM_NOTHING = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # a thrust ratio of 1 at any distance
 COMMIT_TYPED, COMMIT_LEARNED = 1, 2  # ceil.commit
 MODE_FIXED, MODE_LIVE = 1, 2  # ceil.mode

@@ -21,7 +21,7 @@ SIZE = {"uint8_t": 1, "uint16_t": 2, "uint32_t": 4, "int8_t": 1, "int16_t": 2, "
 class Block:
     name: str
     period_ms: int
-    types: dict[str, str]  # of each variable, as it is fetched
+    types: dict[str, str]  # type of each variable, as it is fetched
 
 
 def size_bytes(block: Block) -> int:

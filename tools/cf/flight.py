@@ -22,19 +22,19 @@ from .terminal import progress, say
 APPROACH_M = 0.40  # the first hover: the ceiling is in sight, and far
 FAR_M = 0.20  # the far hover (thesis section 5.3)
 LOWEST_M = 0.30  # no hover nearer to the floor
-CLIMB_MPS, NEAR_MPS, SINK_MPS = 0.3, 0.1, 0.3  # means of the high-level commander's smooth ways
-LOST_S = 1.0  # a range sensor or a ceiling that is gone for this long is lost
+CLIMB_MPS, NEAR_MPS, SINK_MPS = 0.3, 0.1, 0.3  # mean speeds of the high-level commander's smooth paths
+LOST_S = 1.0  # a range sensor or a ceiling that is missing for so long is lost
 STEADY_M = 0.05  # the latched height may change by this during a flight
 PERIOD_S = 0.05
 ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-PM_LOW = 3  # pm.state: low power, and above it worse
+PM_LOW = 3  # pm.state: low power; higher values are worse
 
 
 @dataclass(frozen=True)
 class Plan:
     gaps_m: tuple[float, ...]  # after the far hover
-    hold_s: float  # at each
-    battery_V: float  # least before take-off
+    hold_s: float  # at each gap
+    battery_V: float  # minimum before take-off
 
 
 @contextmanager
@@ -58,7 +58,7 @@ class Flight:
         self._x_m, self._y_m = now["stateEstimate.x"], now["stateEstimate.y"]
         self._yaw_rad = preflight.yaw_rad(now)
         self._z_m = self._floor_m  # commanded
-        self._ceiling_m = math.nan  # as it was seen first
+        self._ceiling_m = math.nan  # as first seen
         self._well_s = {"range": vehicle.now(), "ceiling": vehicle.now()}
 
     # --- watching --------------------------------------------------------------------------------------------
@@ -152,7 +152,7 @@ class Flight:
 
     def land(self) -> None:
         """Down, and motors off. LinkLost: unseen, or not at all."""
-        high_m = max(self._z_m, self._now["stateEstimate.z"]) - self._floor_m  # what is commanded is a number
+        high_m = max(self._z_m, self._now["stateEstimate.z"]) - self._floor_m  # the commanded height is always a number
         duration_s = max(2.0, high_m / SINK_MPS)
         say(f"landing in {duration_s:.1f} s")
         try:

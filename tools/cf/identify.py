@@ -13,11 +13,11 @@ from .ladder import recorded, watched
 from .monitor import Monitor
 from .terminal import say
 
-HOP_M = 0.025  # a fifth of the weight, up and down: more, and the thrust is not a straight line any more
-HOP_S, REST_S = 0.35, 0.45  # as quick as the lag, and until it has settled
+HOP_M = 0.025  # a fifth of the weight, up and down: with more, thrust is no longer a straight line
+HOP_S, REST_S = 0.35, 0.45  # as fast as the lag; until it has settled
 HOPS = 12
-HOVER_S = 1.0  # before them
-HEIGHT_DELAY_MAX_S = 0.0145  # height.delay's range
+HOVER_S = 1.0  # before the hops
+HEIGHT_DELAY_MAX_S = 0.0145  # upper bound of height.delay
 BLOCK = Block(
     "identify", 10, {name: "uint32_t" if name == "indiIn.step" else "float" for name in app.IDENTIFY}
 )

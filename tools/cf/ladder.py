@@ -15,7 +15,7 @@ from .weights import set_weights, store_weights, take_learned
 
 CONFIGS = Path(__file__).resolve().parent.parent / "cfclient"
 LEARN_M = (0.10, 0.08, 0.06, 0.04, 0.02)  # thesis section 5.3
-TAUGHT_MIN = 500  # samples, of 100 a second; fewer do not make a curve
+TAUGHT_MIN = 500  # samples, at 100 per second; fewer do not make a curve
 SAME_M = 1e-4  # float parameters are not exact
 STOCK_NEAREST_M = 0.06  # in README's flights the stock controller touches at 5 cm in each, at 6 cm in none
 
@@ -108,7 +108,7 @@ def _learn(vehicle: Craft, now: Monitor, plan: Plan) -> None:
     try:
         with changed(vehicle, {"ceil.mode": app.MODE_LIVE, **blind_s(vehicle, plan)}):
             set_weights(vehicle, now, app.FROM_NOTHING)
-            vehicle.sleep(0.3)  # until the count is that of after the commit
+            vehicle.sleep(0.3)  # until the count is the one after the commit
             taught = now["rls.taught"]
             fly(vehicle, now, plan)
         taught = now["rls.taught"] - taught

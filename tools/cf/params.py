@@ -12,7 +12,7 @@ from .terminal import say
 from .weights import read_once
 
 COUNTS = ("ceil.commits", "ceil.noCommit")
-RESTART = "desk.restart"  # of a simulated one (sim/desk)
+RESTART = "desk.restart"  # of a simulated vehicle (sim/desk)
 
 WHOLE = {
     "uint8_t": (0, 255),
@@ -87,7 +87,7 @@ def set_all(vehicle: Craft, texts: list[str]) -> None:
             continue
         if name == RESTART:
             vehicle.set(name, value)
-            vehicle.sleep(1.0)  # it goes back to 0 by itself, and the app has made its checks
+            vehicle.sleep(1.0)  # it goes back to 0 by itself, and the app finishes its checks
             say(f"{name} {value:g} taken")
             continue
         vehicle.set(name, value)

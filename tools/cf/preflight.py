@@ -10,8 +10,8 @@ from .reasons import DECKS, FLYABLE, words
 
 CEILING_M = (0.6, 3.0)  # height of the ceiling over the vehicle on the floor
 RANGE_MM = range(1, 4000)  # range.up outside of it is no distance
-SETTLE_S = 2.0  # of the estimator after its reset
-FLOOR_M = 0.1  # on the floor the height is within this of zero
+SETTLE_S = 2.0  # for the estimator after its reset
+FLOOR_M = 0.1  # on the floor the height is this near to zero
 CAN_BE_ARMED, ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED = 0, 1, 3, 4, 5, 6, 7  # supervisor.info
 PM_ON_BATTERY = 0  # pm.state
 

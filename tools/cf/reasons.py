@@ -16,7 +16,7 @@ GUARD = _table("guard.h")
 FLYABLE = _table("flyable.h")
 DECKS = ("flow deck v2", "multiranger deck")
 ACTIONS = ("fly", "hold", "retreat", "hand over")
-RETREAT = 2  # this action and those above are not the pilot's flight any more
+RETREAT = 2  # from this action on, the pilot no longer flies
 
 
 def words(bits: int, names: tuple[str, ...]) -> str:

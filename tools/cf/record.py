@@ -30,7 +30,7 @@ class Record:
         self._blocks: set[str] = set()
         self._row_ms, self._last_ms, self._turns, self._flushed_ms = 0, 0, 0, 0
         self.rows = 0
-        self.trouble = ""  # why nothing can be written any more
+        self.trouble = ""  # why nothing can be written any more; "": it can
 
     def take(self, block: str, stamp_ms: int, values: dict[str, float]) -> None:
         """A packet. Called by the link's thread; never raises."""

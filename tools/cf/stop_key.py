@@ -21,11 +21,11 @@ def _terminal() -> int | None:
         terminal = sys.stdin.fileno()
         if not os.isatty(terminal):
             return None
-    except (AttributeError, OSError, ValueError):  # closed, or none at all
+    except (AttributeError, OSError, ValueError):  # stdin is closed, or there is none
         return None
     try:
         return terminal if os.tcgetpgrp(terminal) == os.getpgrp() else None
-    except OSError:  # one without jobs
+    except OSError:  # a terminal without job control
         return terminal
 
 
@@ -36,10 +36,10 @@ def _listen(terminal: int, leave: int, vehicle: Craft, pressed: Event) -> None:
             return
         try:
             typed = os.read(terminal, 64)
-        except OSError:  # it was closed, for which there is a signal
+        except OSError:  # closed, which sends a signal
             return
         if KEY in typed:
-            pressed.set()  # first: who sees the motors stand must know why
+            pressed.set()  # before the cut: whoever sees the motors stop must know why
             vehicle.cut()
         if not typed or pressed.is_set():
             return
@@ -58,8 +58,8 @@ def stop_key(vehicle: Craft) -> Iterator[Event]:
     wait, leave = os.pipe()
     thread = Thread(target=_listen, args=(terminal, wait, vehicle, pressed), daemon=True)
     try:
-        tty.setcbreak(terminal)  # each key at once; Ctrl-C is what it was
-        termios.tcflush(terminal, termios.TCIFLUSH)  # what was typed before is of before
+        tty.setcbreak(terminal)  # each key at once; Ctrl-C works as before
+        termios.tcflush(terminal, termios.TCIFLUSH)  # drops what was typed before
         thread.start()
         yield pressed
     finally:
@@ -68,5 +68,5 @@ def stop_key(vehicle: Craft) -> Iterator[Event]:
             thread.join()
         os.close(wait)
         os.close(leave)
-        with suppress(termios.error):  # it was closed
+        with suppress(termios.error):  # the terminal was closed
             termios.tcsetattr(terminal, termios.TCSADRAIN, before)

@@ -6,14 +6,14 @@ A terminal that is closed, or a pipe that nobody reads, must not end a flight: w
 import sys
 from typing import TextIO
 
-_open = False  # a line of progress stands on the terminal
+_open = False  # a progress line is on the terminal
 
 
 def _write(stream: TextIO, text: str) -> None:
     try:
         stream.write(text)
         stream.flush()
-    except (OSError, ValueError):  # nobody reads, or it is closed
+    except (OSError, ValueError):  # nobody reads, or the stream is closed
         pass
 
 

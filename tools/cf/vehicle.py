@@ -13,7 +13,7 @@ from .terminal import progress
 
 ANSWER_S = 3.0  # the longest that an answer may take
 CONNECT_S = 30.0
-CUTS, CUT_S = 3, 0.01  # nothing answers an emergency stop: it is said again
+CUTS, CUT_S = 3, 0.01  # an emergency stop is not answered, so that it is sent again
 FEED_S = 0.2  # the firmware's watchdog stops the motors after 1 s
 URIS = "allowed are radio://0/80/2M/E7E7E7E7E7, usb://0, udp://HOST:PORT and what else cflib knows"
 
@@ -199,7 +199,7 @@ class Vehicle:
         for _ in range(CUTS):
             try:
                 self._cf.supervisor.send_emergency_stop()
-            except Exception:  # the link is lost: the watchdog's turn
+            except Exception:  # the link is lost: the watchdog stops the motors
                 return
             time.sleep(CUT_S)
 

@@ -2,7 +2,7 @@
 # venv.sh - makes out/cf (in $O), a Python environment with the stock cflib and cfloader. Fails where it cannot be had.
 cd "$(dirname "$0")/../.." || exit 1
 o=${O:-out}
-# cfloader lies in the client's package, and needs none of the windows that the rest of it needs.
+# cfloader is part of the client's package, and needs none of the GUI packages that the rest of it needs.
 wanted() { cat tools/cf/requirements.txt tools/cf/loader.txt; }
 has() { [ -x "$o/cf/bin/python" ] && wanted | cmp -s - "$o/cf/has"; }
 has && exit 0

@@ -1,5 +1,5 @@
 #!/bin/sh
-# build.sh - the build's own promises: other flags build anew, the same ones do not, and one output knows no other.
+# build.sh - what the build promises: other flags build anew, the same flags do not, and outputs do not affect each other.
 set -eu
 unset MAKEFLAGS MAKELEVEL MFLAGS
 top=$(mktemp -d)
@@ -7,7 +7,7 @@ trap 'rm -rf "$top"' EXIT
 bad=0
 object=$top/release/src/rls.o
 
-# expect WANTED WHAT MAKE-ARGUMENTS...: whether making the object again compiles it.
+# expect WANTED WHAT MAKE-ARGUMENTS...: checks whether making the object again compiles it.
 expect() {
   wanted=$1 what=$2
   shift 2

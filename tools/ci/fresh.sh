@@ -1,9 +1,9 @@
 #!/bin/sh
-# fresh.sh - what a new user meets: the README's commands, typed in a bare Debian 12 that has gcc, make and git.
+# fresh.sh - what a new user meets: types the README's commands in a bare Debian 12 that has gcc, make and git.
 #
-# One root is bootstrapped from the mirror that this machine's apt uses, and copied: in one of them root types, in the
-# other somebody who may neither install nor write into the tree. What is fetched is kept in O/fresh/archives. Where
-# this is not root, or debootstrap is missing, it says so and is content.
+# One root is bootstrapped from the mirror that this machine's apt uses, and copied. In one of them root types; in the
+# other a user who may neither install nor write into the tree. Downloads are kept in O/fresh/archives. Skips, and says so,
+# where this is not root, or debootstrap is missing.
 set -eu
 skip() {
   echo "fresh: skipped: $*"
@@ -42,7 +42,8 @@ lasted() {
   began=$now
 }
 
-# within ROOT LINE: in the root, with nothing of this machine but its proxy, nor with its terminal: apt in the background stops at one.
+# within ROOT LINE: runs LINE in the root, with nothing of this machine but its proxy. Without its terminal, too, because
+# apt in the background would stop at one.
 within() {
   root=$top/$1
   mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
@@ -53,7 +54,7 @@ within() {
 as_user() { within user "su flyer -c 'cd /srv/flight && $1 O=/home/flyer/out'"; }
 packages() { within "$1" 'dpkg-query -W' | sort; }
 
-# again ROOT COMMAND...: what was installed and compiled once is not a second time.
+# again ROOT COMMAND...: checks that what was installed and compiled once is not a second time.
 again() {
   machine=$1
   shift
@@ -91,7 +92,7 @@ lasted "root: the second make demo installs and compiles nothing"
 umount -l "$top/root/proc" "$top/root/var/cache/apt/archives"
 rm -rf --one-file-system "$top/root"
 
-# One line, the same for both, beside make's own; and it suffices.
+# Each goal must print one line, the same for both, beside make's own; and that line must suffice.
 within user 'useradd -m flyer'
 for goal in demo test; do
   status=0

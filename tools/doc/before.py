@@ -8,10 +8,10 @@ from pathlib import Path
 
 import run
 
-TURNS = 3  # what else the machine does for a while then costs all
+TURNS = 3  # so that other load on the machine slows all commits
 FIRST = "e12773f"  # before the first commit that made it faster
 LINE = re.compile(r"^ *(.*\S) +(\d+) x real time", re.M)
-WIDTH = re.compile(r" \(\d+ bits\)")  # of a processor's registers: not of what is flown
+WIDTH = re.compile(r" \(\d+ bits\)")  # of the processor's registers, not of the flight
 
 
 def built(commit: str) -> Path:

@@ -8,8 +8,8 @@ import run
 
 FIRST, FLIGHTS = 62001, 200  # seeds on which nothing was tuned
 GAPS_MM = (100, 40, 20)
-LEVELS = {"real": "still_mm", "flown": "gusts_mm"}  # what disturbs the vehicle there, as out/bound has it
-# Each with the options that make it fly as it is called here.
+LEVELS = {"real": "still_mm", "flown": "gusts_mm"}  # disturbances at that level, as out/bound has them
+# Each name, with the options of fly for it.
 CONTROLLERS = {
     "stock-pid": "--controller stock-pid",
     "stock-indi": "--controller stock-indi",

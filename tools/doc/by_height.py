@@ -7,15 +7,14 @@ import run
 
 FIRST, FLIGHTS = 95001, 1000  # seeds on which nothing was tuned
 GAPS_MM = (100, 20, 18, 15)
-# What flies: the law by the estimator's height, by the own one as shipped, and by the own one of a vehicle whose
-# lag and delay are known.
+# What flies: the law by the estimator's height; by its own height as shipped; by its own height with lag and delay known.
 SHARP = {"tauMot": 0.08, "delay": 0.001, "walk": 0.02, "kp": 7, "kd": 11, "quick": 3.5, "catch": 0.15}
 BY = {
     "0": ["height.own=0"],
     "1": ["height.own=1"],
     "sharp": ["height.own=1", *(f"height.{name}={value}" for name, value in SHARP.items())],
 }
-LEVELS = {"real": "still_mm", "flown": "gusts_mm"}  # what disturbs the vehicle there, as out/bound has it
+LEVELS = {"real": "still_mm", "flown": "gusts_mm"}  # disturbances at that level, as out/bound has them
 
 
 def bounds(level: str) -> dict[int, float]:

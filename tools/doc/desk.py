@@ -52,7 +52,7 @@ def listen(clients: list[socket.socket], until_s: float) -> int:
             try:
                 logs += client.recv(64)[0] == LOGGED
             except ConnectionRefusedError:
-                return logs  # it has ended
+                return logs  # the desk has ended
     return logs
 
 
@@ -73,7 +73,7 @@ def fly(drones: int, speed: int, flown_s: float) -> Flown:
         if time.monotonic() - said_s > ALIVE_S:
             said_s = time.monotonic()
             for client in clients:
-                with contextlib.suppress(ConnectionRefusedError):  # it has ended
+                with contextlib.suppress(ConnectionRefusedError):  # the desk has ended
                     client.send(ECHOES)
     wall_s = time.monotonic() - began_s
     desk.communicate()

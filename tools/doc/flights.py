@@ -66,7 +66,7 @@ class Cell:
         self.distance_mm = 1e3 * number(flights[-1], "ceiling_m") - 1e3 * each("setpoint_m")[-1]
         self.error = sum(error) / self.n
         self.sd2 = sum(sd**2 for sd in each("sd_mm")) / self.n
-        spread = sum(e * e for e in error) / self.n - self.error * self.error  # of the flights' means
+        spread = sum(e * e for e in error) / self.n - self.error * self.error  # variance of the flights' means
         self.spread = math.sqrt(max(spread, 0.0) + self.sd2)
         self.contacts, self.touching = sum(contacts), sum(c > 0 for c in contacts)
         self.calm = [sd for sd, c in zip(each("sd_mm"), contacts) if c == 0]
@@ -167,7 +167,7 @@ def flights() -> None:
             flown[who] = fly_many(path, SEEDS, scenario, "--noise", level, *options.split())
         run.progress()
         print(f"{scenario}, {level}")
-        # All touch at the last distance of the close flight.
+        # All flights touch at the last distance of close-flight.
         table(flown, sd_of_free=scenario == "test-flight")
         print()
     print(pictures(out))

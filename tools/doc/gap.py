@@ -18,7 +18,7 @@ def example() -> None:
     """Flies with a hidden effect, lets the workflow find it, flies the model that it wrote; then real flights."""
     out = run.folder("demo/gap")
     run.vehicle_under_ceiling(out / "vehicle.toml")
-    # What flies has a ceiling effect of another form than the ones that are tried.
+    # The flown ceiling effect has another form than those that are tried.
     run.typed(f"""for seed in 1 2 3 4; do
     {run.OUT}/fly test-flight {HIDDEN} --effect ceiling:form=square-root \\
       --seed $seed --log {out}/flight$seed.csv --log-rate 500 >/dev/null
@@ -129,7 +129,7 @@ def added_effect() -> None:
                     "--log-rate", 500, cwd=copy)  # fmt: skip
     run.progress()
     said = run.program("out/gap", "--vehicle", "out/vehicle.toml", *run.FLY_COLUMNS.split(), *logs, cwd=copy)
-    # What is named, and what the held-out flight flown again gained.
+    # What is named, and what the held-out flight, flown again, gained.
     print("\n".join(re.findall(rf"^(?:(?:Missing|None|flown again).*|{name}:.*\n.*)", said, re.M)))
 
 
@@ -146,12 +146,12 @@ RECORDED = [  # vehicle, columns, logs
     ("cf21_static_imu", "static_imu", ["static_imu/estAcceleration.csv"]),
     ("cf21_air_garage", "air_garage", ["ceiling_gap/20240822_21_32_29.csv", "ceiling_gap/20240822_21_35_34.csv"]),
 ]
-# The brushless vehicle that flew, 37 g; and one that has neither lag nor drag: whose file, what is changed in it, into what.
+# The brushless vehicle as flown, 37 g; and one without lag and drag: whose file, what is changed in it, into what.
 CHANGED = {
     "cf21_brushless_37g": ("cf21_brushless", r"^(mass_kg *= *)[0-9.]*", "0.037"),
     "cf21_imrc_without_lag": ("cf21_imrc", r"^(motor_tau_s *= *)[0-9.]*", "0.001"),
 }
-# Of the verdict's notes.
+# Those of the verdict's notes that are printed.
 NOTES = re.compile(r'"([a-z_]+ is withdrawn[^"]*|[a-z_]+: [0-9.e-]+ [a-z0-9/]+ is left[^"]*)"')
 
 

@@ -26,10 +26,10 @@ from run import OUT, program, typed
 
 class Recipe(NamedTuple):
     make: Callable[[], None]
-    picture: str = ""  # the .svg that takes what is printed; else it is the block of that name
-    markdown: bool = False  # it is not shown as typed
+    picture: str = ""  # the .svg that gets the output; "": the block of that name
+    markdown: bool = False  # markdown: not shown as typed
     data: bool = False  # it needs recorded flights
-    leaves_out: str = ""  # what differs from run to run, or from machine to machine
+    leaves_out: str = ""  # what differs between runs or machines
 
 
 def says(*words: object, **options) -> Callable[[], None]:

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-# The stack from its bottom: a folder takes only from floors below its own.
+# The stack from its bottom: a folder includes only from floors below its own.
 FLOORS = [
     ["include/flight"],
     ["src"],
@@ -42,7 +42,7 @@ FLOORS = [
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 FLIGHT = ("include/flight", "src", "src/firmware")
 NATURE = ("sim/base", "sim/plant", "sim/effects", "sim/vehicle", "sim/body", "sim/sense")
-FIRMWARE = ("src/firmware", "sim/crazyflie")  # these name a header of the firmware, or its stand-in, without a folder
+FIRMWARE = ("src/firmware", "sim/crazyflie")  # name a header of the firmware, or its stand-in, without a folder
 ROOTS = ("include", "src", "sim")
 INCLUDE = re.compile(r'\s*#\s*include\s+"([^"]+)"')
 

@@ -11,7 +11,7 @@ G = 9.81
 class Vehicle:
     """Numbers of a vehicle and of the simulation around it; all of them but the noise are known to its user."""
 
-    params: dict  # as rotorpy has them, less the rotors' places
+    params: dict  # as rotorpy has them, without the rotors' positions
     x_m: list[float]
     y_m: list[float]
     radius_m: float
@@ -19,8 +19,8 @@ class Vehicle:
     rate_Hz: int  # of simulation and controller; the log has 100
     kp_pos: list[float]
     kd_pos: list[float]
-    by_mocap: bool  # the controller sees what is measured, not what is
-    noise: float  # of the motion capture, over what rotorpy has
+    by_mocap: bool  # the controller sees the measured state, not the true one
+    noise: float  # of the motion capture, over rotorpy's own
 
     @property
     def hover_radps(self) -> float:
@@ -40,9 +40,9 @@ class Vehicle:
 class Hidden:
     """What the truth has and the user does not know."""
 
-    name: str  # as the library has it; the marker's alone
+    name: str  # as in the library; of the marker alone
     size: float
-    angle: float = 0.0  # a direction, or a rotor, left to chance
+    angle: float = 0.0  # a random direction or rotor
     extra: list[float] = field(default_factory=list)
 
 
@@ -74,7 +74,7 @@ def vehicle(r: random.Random) -> Vehicle:
     k_eta = mass * G / (4 * hover * hover)
     ixx = r.uniform(0.2, 0.28) * mass * arm * arm
     tau = r.uniform(0.015, 0.07)
-    kd_att = min(45.0, r.uniform(1.1, 1.6) / tau)  # slow motors bear little gain
+    kd_att = min(45.0, r.uniform(1.1, 1.6) / tau)  # slow motors allow little gain
     params = {"mass": mass, "Ixx": ixx, "Iyy": ixx * r.uniform(1.0, 1.25), "Izz": ixx * r.uniform(1.6, 1.95),
               "Ixy": 0.0, "Ixz": 0.0, "Iyz": 0.0, "num_rotors": 4, "rotor_directions": [1, -1, 1, -1],
               "rotor_speed_min": 0.0, "rotor_speed_max": hover * math.sqrt(r.uniform(2.0, 3.2)), "k_eta": k_eta,
@@ -98,8 +98,8 @@ def height(arm_m: float) -> float:
     return 0.5 * stretch(arm_m)
 
 
-# Name, least and most of its size, and in what: shares of weight, thrust, arm, inertia and 1; 1/s and 1/m per mass; s; m/s2;
-# degrees. From about once to four times what the exam calls typical of a Crazyflie, scaled with the vehicle.
+# Name, smallest and largest size. Units: shares of weight, thrust, arm, inertia and 1; 1/s and 1/m per mass; s; m/s2;
+# degrees. Sizes are about one to four times what the exam calls typical of a Crazyflie, scaled with the vehicle.
 EFFECTS = {
     "mass": (0.05, 0.15), "thrust_scale": (0.05, 0.15), "motor_damage": (0.06, 0.2), "cg_offset": (0.03, 0.1),
     "inertia": (0.4, 1.0), "rotor_drag": (0.25, 0.9), "climb_inflow": (0.38, 1.2), "body_drag": (0.06, 0.24),
@@ -107,7 +107,7 @@ EFFECTS = {
     "delay": (0.015, 0.025), "battery_sag": (0.5, 1.2), "accel_bias": (0.12, 0.4), "imu_misalignment": (1.2, 4.0),
     "ceiling": (0.2, 0.4), "ground": (0.8, 2.0), "tof_bias": (0.02, 0.06),
 }
-NOTHING, NOISE = "nothing", "noise"  # of the motion capture: nothing to name
+NOTHING, NOISE = "nothing", "noise"  # of the motion capture; there is nothing to name
 
 
 def hidden(r: random.Random) -> list[Hidden]:
@@ -123,7 +123,7 @@ def fit_to(base: Vehicle, what: list[Hidden], r: random.Random) -> None:
     """The vehicle can show what is hidden, and its user does not know it already."""
     p = base.params
     names = {h.name for h in what}
-    if "wind" in names and p["k_d"] == 0.0:  # it is felt through the drag alone
+    if "wind" in names and p["k_d"] == 0.0:  # because wind is felt through the drag alone
         p["k_d"] = p["mass"] / (4 * base.hover_radps) * r.uniform(0.3, 0.5)
     if "rotor_drag" in names and "wind" not in names:
         p["k_d"] = 0.0

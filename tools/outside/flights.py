@@ -13,9 +13,9 @@ from nature import Nature, rotorpy_params
 from wishes import Wishes
 
 LOG_HZ = 100
-LOST_M = 1.0  # off its track
+LOST_M = 1.0  # distance from its track
 LEAST_GAP = 0.2  # rotor radii
-# As rotorpy's own table of a simulation has them; vbat and the ranges are what its user added.
+# As in rotorpy's own table of a simulation; its user added vbat and the ranges.
 HEAD = ["time", *(f"mocap_{n}" for n in ("x", "y", "z", "xdot", "ydot", "zdot", "qx", "qy", "qz", "qw")),
         "ax", "ay", "az", "gx", "gy", "gz", "r1des", "r2des", "r3des", "r4des",
         "xdes", "ydes", "zdes", "yawdes", "vbat", "range_up", "range_down"]
@@ -91,7 +91,7 @@ def start_of(v: Vehicle, wishes: Wishes) -> dict:
 
 def fly(v: Vehicle, what: list[Hidden], r: random.Random) -> list[list[float]]:
     """Rows at 100 Hz. A row holds what is at its time, and the command that is held from then on."""
-    np.random.seed(r.randrange(2**32))  # rotorpy's sensors draw from there
+    np.random.seed(r.randrange(2**32))  # rotorpy's sensors draw from it
     span_s, dt = r.uniform(15, 19), 1.0 / v.rate_Hz
     wishes, battery = Wishes(v, r, span_s), Battery(r, span_s)
     state = start_of(v, wishes)

@@ -20,7 +20,7 @@ FAMILIES = (
     {"motor_lag", "delay"},  # time between command and thrust
     {"wind", "accel_bias", "imu_misalignment", "motor_tilt"},  # constant push, without a turn about the vertical
     {"cg_offset", "motor_damage", "imu_misalignment", "motor_tilt"},  # constant moments
-    {"rotor_drag", "body_drag", "wind"},  # against the velocity
+    {"rotor_drag", "body_drag", "wind"},  # forces against the velocity
     {"ceiling", "tof_bias", "battery_sag"},  # by place, where place and time go together
 )
 SAME_LIFT = {"mass", "thrust_scale"}

@@ -38,7 +38,7 @@ class Nature(Multirotor):
     # --- what is hidden: each changes rotorpy's parameters, or a number above
 
     def hide_noise(self, p: dict, h: Hidden) -> None:
-        pass  # of the sensors (flights.py)
+        pass  # acts in the sensors (flights.py)
 
     def hide_mass(self, p: dict, h: Hidden) -> None:
         p["mass"] *= 1 + (h.size if h.angle < 0.5 else -h.size)
@@ -84,7 +84,7 @@ class Nature(Multirotor):
         self.delay_s = h.size
 
     def hide_battery_sag(self, p: dict, h: Hidden) -> None:
-        pass  # by voltage (at_voltage)
+        pass  # acts by voltage (at_voltage)
 
     def hide_accel_bias(self, p: dict, h: Hidden) -> None:
         self.acc_bias = h.size * unit(h.angle)
@@ -95,10 +95,10 @@ class Nature(Multirotor):
         self.imu_turned = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
 
     def hide_ceiling(self, p: dict, h: Hidden) -> None:
-        pass  # by place (gain_at)
+        pass  # acts by place (gain_at)
 
     def hide_ground(self, p: dict, h: Hidden) -> None:
-        pass  # by place (gain_at)
+        pass  # acts by place (gain_at)
 
     def hide_tof_bias(self, p: dict, h: Hidden) -> None:
         self.range_bias = h.size if h.angle < 0.5 else -h.size
