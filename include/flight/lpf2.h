@@ -19,25 +19,26 @@ typedef struct {
   float x1, x2, y1, y2;
 } lpf2_t;
 
-// cutoff_Hz: 0 (no filter: output = input), or 0.001 to 0.45 rate_Hz (below, the poles are too near 1 for a
-// float). rate_Hz: > 0. ST_BAD_PARAM: outside of that, or not finite; *c is kept.
+// Computes the coefficients. cutoff_Hz: 0 (no filter: output = input), or 0.001 to 0.45 times rate_Hz (lower,
+// the poles are too near 1 for a float). rate_Hz: > 0 to 1e5. ST_BAD_PARAM: outside of these ranges, or not
+// finite; *c is kept.
 MUST_CHECK status_t lpf2_tune(lpf2_coef_t *c, float cutoff_Hz, float rate_Hz);
 
-// By how much later a slow signal leaves it, in s: sqrt(2) / (2 pi) of the cut-off's period.
+// Returns the delay of a slow signal in s: sqrt(2) / (2 pi) of the cut-off's period; 0 without a filter.
 static inline float lpf2_delay_s(float cutoff_Hz) {
   return cutoff_Hz > 0.0f ? 0.2251f / cutoff_Hz : 0.0f;
 }
 
-// As if the input had been `value` for ever.
+// Sets the state as if the input had always been `value`.
 void lpf2_reset(lpf2_t *s, float value);
 
-// Of its state; far out, or no number, where a bit of it flipped: from 1e30 a filter comes back late, from
-// NaN never.
+// Returns the sum of the state. After a bit flip in the state it is huge or NaN: from 1e30 a filter recovers
+// late, from NaN never.
 static inline float lpf2_sum(const lpf2_t *s) {
   return s->x1 + s->x2 + s->y1 + s->y2;
 }
 
-// One sample in, one out. In the header: a call costs half as much as the filter.
+// Filters one sample. In the header, because a call costs half as much as the filter.
 static ALWAYS_INLINE float lpf2_step(lpf2_t *s, const lpf2_coef_t *c, float x) {
   const float y = c->b0 * x + c->b1 * s->x1 + c->b2 * s->x2 - c->a1 * s->y1 - c->a2 * s->y2;
   s->x2 = s->x1;
@@ -47,9 +48,9 @@ static ALWAYS_INLINE float lpf2_step(lpf2_t *s, const lpf2_coef_t *c, float x) {
   return y;
 }
 
-// Three signals through three filters.
+// Filters three signals, each with its own state.
 static ALWAYS_INLINE v3_t lpf2_step3(lpf2_t s[3], const lpf2_coef_t *c, v3_t x) {
-  const lpf2_coef_t k = *c; // or it would be read again after every state that is written
+  const lpf2_coef_t k = *c; // a copy, or the compiler would read *c again after every write to a state
   const float first = lpf2_step(&s[0], &k, x.x), second = lpf2_step(&s[1], &k, x.y);
   return (v3_t){first, second, lpf2_step(&s[2], &k, x.z)};
 }

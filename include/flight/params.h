@@ -20,7 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What a person tunes. Only four-byte fields, so that two sets can be compared as bytes.
+// All that can be tuned. Every field has four bytes, so that two sets can be compared byte by byte.
 typedef struct {
   pos_indi_param_t pos;
   float cutoff_Hz;   // of the one filter that all signals of the outer loop share
@@ -31,12 +31,12 @@ typedef struct {
   float ground_zero_m;  // the estimator's height where the feet stand
   learn_param_t learn;
   bias_param_t bias;
-  float step_max_N;    // bound of the thrust wanted minus what the motors give now
-  float learn_after_s; // learning starts this long after the rotors began to carry
+  float step_max_N;    // bound of the wanted thrust minus the thrust that the motors give now
+  float learn_after_s; // learning starts this long after the rotors began to carry the vehicle
   float up_offset_m;   // propeller plane above the upward range sensor
   float push_N;        // largest force against a ceiling that is touched
   float gap_min_m;     // set points are clipped to this below the ceiling
-  float tilt_share;    // of the ceiling's torque about x and y that the inner loop takes out
+  float tilt_share;    // share of the ceiling's torque about x and y that the inner loop cancels
   int32_t hold;        // hold_mode_t: how the ceiling's height is held
   att_indi_param_t att;
   float att_cutoff_Hz; // of the inner loop's filters
@@ -46,20 +46,21 @@ typedef struct {
 } flight_param_t;
 
 #ifndef PARAMS_YAW_ARM_M
-#define PARAMS_YAW_ARM_M 0.00735f // of legacy propellers; the firmware's build knows what it is built for
+#define PARAMS_YAW_ARM_M 0.00735f // legacy propellers; the firmware's build sets its own value (telemetry.c)
 #endif
 
-// Gains of the height: flown at 20 mm with lag +-30 %, 10 ms more delay, curve +-30 %, range 40 ms older,
-// mass
-// +-10 %, bias 0.1 m/s2 and pairs of them. Against quick 3 and catch 0.05, which they were, 3.1 and 0.08
-// oscillate by 4 % less at 20 mm. What bounds them: where motors 30 % faster meet 10 ms of delay the rms is
-// 1.8 mm with quick 3, 1.9 with 3.1, 2.4 with 3.4 and 3.4 with 4; with catch 0.09 three of 1,000 recover late
-// from a payload that drops; kdz 10 touches at 15 mm. kdz 6 and quick 2 are noisier by a tenth. kpz 1.5 to 3
-// is alike. kp and kd are lower than the height's: the flow is too coarse to follow it more closely (14 cm of
-// drift in a minute with any), and each degree of tilt costs height (0.5 4: 4 degrees at most; 1 5: 6).
-// Shipped for the vehicle of the tables. Mass: hover with flow and multiranger decks. tauMot: legacy
-// propellers answer in 70 to 90 ms, those of the 2.1+ in 58; 96 set to 62.5 costs nothing at 20 mm (with the
-// thesis's law 5 of 40 flights touched).
+// Height gains. They were flown at 20 mm with the lag +-30 %, 10 ms more delay, the curve +-30 %, the range
+// 40 ms older, the mass +-10 %, a bias of 0.1 m/s2, and pairs of these errors. Compared with the earlier
+// quick 3 and catch 0.05, 3.1 and 0.08 oscillate 4 % less at 20 mm. What limits them: with motors 30 % faster
+// and 10 ms more delay the rms is 1.8 mm for quick 3, 1.9 for 3.1, 2.4 for 3.4 and 3.4 for 4; with catch
+// 0.09, 3 of 1,000 flights recover late from a dropped payload; kdz 10 touches at 15 mm. kdz 6 and quick 2
+// are a tenth noisier. kpz from 1.5 to 3 makes no difference.
+// kp and kd (x, y) are lower than the height gains: the optical flow is too coarse to hold x and y more
+// closely (any gains drift 14 cm in a minute), and each degree of tilt costs height (kp 0.5, kd 4: 4 degrees
+// at most; kp 1, kd 5: 6).
+// The defaults are for the vehicle of the README's tables. Mass: hover with flow and multiranger decks.
+// tauMot: legacy propellers respond in 70 to 90 ms, those of the 2.1+ in 58. tauMot 62.5 ms on motors of 96
+// ms costs nothing at 20 mm (with the thesis's law 5 of 40 flights touched).
 #define PARAMS_INDIPOS(X)                                                                                    \
   X(indiPos, kp, PARAM_FLOAT, pos.kp_per_s, "1/s", 0.5f, 0.05f, 20.0f,                                       \
     "x, y: wanted velocity per position error")                                                              \
@@ -157,8 +158,9 @@ typedef struct {
   X(ceil, w6, PARAM_FLOAT, curve.fixed.w[5], "", -0.30407099f, -5.0f, 5.0f, "weight of the bell at 60 mm")   \
   X(ceil, w7, PARAM_FLOAT, curve.fixed.w[6], "", -0.37406497f, -5.0f, 5.0f, "weight of the bell at 100 mm")
 
-// Off as shipped, its weights flat: they are learned. Theory: 0.5 exp(-0.76 z / R) at rotors 30 mm above the
-// feet, which recorded flights of a Crazyflie show (sim/gap/README.md).
+// The ground's curve is off by default and its weights are flat, because they have to be learned. Theory: 0.5
+// exp(-0.76 z / R) with the rotors 30 mm above the feet, as in recorded flights of a Crazyflie
+// (sim/gap/README.md).
 #define PARAMS_GROUND(X)                                                                                     \
   X(ground, mode, PARAM_INT, ground.mode, "", 0, 0, 3,                                                       \
     "0 off, 1 fixed weights, 2 live weights, 3 theory 1 + ca exp(-cb h)")                                    \
@@ -209,10 +211,11 @@ typedef struct {
     "nearer than this to a ceiling there is no take-off")                                                    \
   X(guard, share, PARAM_FLOAT, guard.share, "", 0.9f, 0.3f, 0.99f, "of hover thrust, in a hand-over")
 
-// By the own filter: kd 9, quick 3.3 and catch 0.09 oscillate by 4 % less at 20 mm than 8, 3.2 and 0.08, and
-// in the corners they need what hands back to wait (HEIGHT_FIT_MAX); range 40 ms older with 10 ms of delay
-// costs 2.3 mm of rms in place of 2.1. tauMot somewhat short and delay somewhat long cost least where they
-// are not known (the plant of the tables has 80 and 1 ms); walk 0.06 is worse at `flown`.
+// Gains with the own filter: kd 9, quick 3.3 and catch 0.09 oscillate 4 % less at 20 mm than 8, 3.2 and 0.08.
+// In return, where several errors of the plant meet, they need the wait after a hand-back (HEIGHT_FIT_MAX),
+// and a range 40 ms older with 10 ms more delay has 2.3 mm of rms, not 2.1. If lag and delay are unknown, a
+// slightly short tauMot and a slightly long delay cost least (the plant of the tables has 80 and 1 ms). walk
+// 0.06 is worse at noise level `flown`.
 #define PARAMS_HEIGHT(X)                                                                                     \
   X(height, own, PARAM_INT, height.own, "", 0, 0, 1,                                                         \
     "the law flies by: 0 the estimator's height and climb, 1 an own filter's while it fits")                 \

@@ -9,24 +9,24 @@
 //
 //   pitch = m a_x / (rho T),   roll = -m a_y / (rho T),   dT = (m a_z - T rho' dzc) / rho
 //
-// so that neither an angle nor a matrix inverse is needed. The ceiling term acts on the thrust alone. `quick`
-// times that increment lets the acceleration follow so many times faster than the motors: their first-order
-// lag tau turns T + quick dT into a thrust that grows by quick dT / tau.
+// so that neither an angle nor a matrix inverse is needed. The ceiling term acts on the thrust alone. The
+// thrust increment is multiplied by `quick`, which makes the acceleration follow that many times faster than
+// the motors: their first-order lag tau turns T + quick dT into a thrust that grows by quick dT / tau.
 //
-// dzc is what the distance will have changed by, from the instant of the filtered state on, when the motors
-// have answered. w is the climb, w_c the climb that is wanted, vel_sp + kp (z_sp - z):
+// dzc is the change of the distance from the instant of the filtered state until the motors have responded. w
+// is the climb rate, w_c the wanted one, vel_sp + kp (z_sp - z):
 //
 //   LAW_THESIS     dzc = -lead w                                  thesis 5.1: lead 0.3 s, found by trial
 //   LAW_PREDICTED  dzc = -(lag w + catch (w - w_c)),              lag = filter + tau / quick + period / 2
 //
-// Hovering, the curve is a spring that pushes: z'' = k z + ..., k = -g rho' / rho, 64 /s2 at 20 mm below the
-// thesis's ceiling, 94 at 15 mm. The increment balances what the accelerometer has seen of it; in the lag to
-// come the vehicle moves by lag w, and the spring adds k lag w. Foretold, that is taken out, and what is left
-// is what the prediction is wrong by: a share e of k, or a lag that is e longer, leaves k lag e w of negative
-// damping. So the damping has to grow with k, too: `catch` adds k catch to kd, which is enough while catch >
-// lag e. It acts on the climb that was not wanted. The thesis's lead acts on all of it: it holds up the
-// vehicle on its way, so that at 20 mm the last of it is climbed at kp kd / (kd + k lead), over 5 s, and its
-// 19 /s of damping stand behind the whole lag.
+// In a hover the curve is a spring of negative stiffness: z'' = k z + ..., k = -g rho' / rho, 64 /s2 at 20 mm
+// below the thesis's ceiling, 94 at 15 mm. The increment balances what the accelerometer has seen of it;
+// during the lag the vehicle moves by lag w, and the spring adds k lag w. The prediction cancels that, up to
+// its own error: if k or the lag is larger by a share e, a negative damping of k lag e remains. So the
+// damping has to grow with k, too: `catch` adds k catch to kd, which is enough while catch > lag e. It acts
+// on the unwanted climb only. The thesis's lead acts on all of the climb: it slows the approach, so that at
+// 20 mm the last part is climbed at the rate kp kd / (kd + k lead), over 5 s, and its damping of 19 /s acts
+// only after the whole lag.
 #ifndef FLIGHT_POS_INDI_H
 #define FLIGHT_POS_INDI_H
 
@@ -69,25 +69,24 @@ typedef struct {
   bool at_limit;  // the law asked for less than 0 or more than thrust_max_N
 } pos_command_t;
 
-// The acceleration that brings the vehicle to the set point:
+// Returns the acceleration that brings the vehicle to the set point:
 // acc_sp + kd (vel_sp + kp (pos_sp - pos) - vel), each axis within +-acc_max_mps2.
 v3_t pos_indi_wanted_acc(const pos_indi_param_t *p, const pos_setpoint_t *sp, v3_t pos_w_m, v3_t vel_w_mps);
 
-// dzc: at a climb of climb_mps where wanted_mps is wanted; a climb shortens the distance. In the header: the
-// call costs more than it does.
+// Returns dzc in m, at climb rate climb_mps while wanted_mps is wanted; a climb shortens the distance. In the
+// header, because the call would cost more than the computation.
 static inline float pos_indi_nearing_m(const pos_indi_param_t *p, float climb_mps, float wanted_mps,
                                        float lag_s) {
   if (p->law == LAW_THESIS) return -p->lead_s * climb_mps;
   return -(lag_s * climb_mps + p->catch_s * (climb_mps - wanted_mps));
 }
 
-// The increment that changes the acceleration by acc_error_w_mps2, from the filtered attitude q_wb and the
-// synchronous thrust_N, while the distance changes by dzc_m and the curve's value and slope are `at`
-// (ratio > 0).
+// Returns the increment that changes the acceleration by acc_error_w_mps2, from the filtered attitude q_wb
+// and the synchronous thrust_N, while the distance changes by dzc_m. `at`: ratio (> 0) and slope there.
 pos_step_t pos_indi_step(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, v3_t acc_error_w_mps2,
                          float dzc_m, rbf_point_t at);
 
-// The increment applied to the filtered attitude and the synchronous thrust, within the limits.
+// Returns the command: filtered attitude and synchronous thrust plus the increment, within the limits.
 pos_command_t pos_indi_command(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, pos_step_t step);
 
 #endif

@@ -10,9 +10,9 @@
 // bounded. Dividing P by lambda, as the name forgetting factor suggests, makes P grow without bound in every
 // direction that a hover does not excite; it is not offered.
 //
-// p0 is the largest variance that a weight has, at the start and ever after, in both forms: the walk ends
-// there, also where q is as large as p0. A p0 that is lowered takes all of P down by the same factor; one
-// that is raised lets the walk go farther.
+// p0 is the largest variance of a weight, at the start and afterwards, in both forms: the walk stops there,
+// even if q is as large as p0. Lowering p0 scales all of P by the same factor; raising it lets the walk go
+// farther.
 #ifndef FLIGHT_RLS_H
 #define FLIGHT_RLS_H
 
@@ -32,25 +32,25 @@ typedef struct {
 typedef struct {
   rbf_weights_t theta;   // the estimate; each within +-RLS_WEIGHT_MAX
   float P[RBF_N][RBF_N]; // its covariance, symmetric to the bit
-  float p0;              // that bounds P
+  float p0;              // the bound of P's diagonal
   unsigned count;        // samples taken in
 } rls_t;
 
 #define RLS_WEIGHT_MAX 5.0f
 
-// Whether that can be started from. ST_BAD_PARAM: a parameter out of range. ST_BAD_INPUT: a weight not within
-// +-RLS_WEIGHT_MAX.
+// Checks parameters and starting weights. ST_BAD_PARAM: a parameter out of range. ST_BAD_INPUT: a weight not
+// within +-RLS_WEIGHT_MAX.
 MUST_CHECK status_t rls_check(const rls_param_t *p, const rbf_weights_t *start);
 
 // Starts at the weights `start` with P = p0 I.
 // ST_BAD_PARAM, ST_BAD_INPUT: as rls_check; *s is kept.
 MUST_CHECK status_t rls_init(rls_t *s, const rls_param_t *p, const rbf_weights_t *start);
 
-// One sample: y measured where the regressor is a (0..1 each, rbf_basis).
+// Takes one sample: y, measured at the regressor a (0..1 each, rbf_basis).
 // ST_BAD_INPUT: a or y not finite, or the weights would leave their box; nothing has changed.
 // ST_BAD_PARAM: a parameter out of range; nothing has changed.
-// ST_SINGULAR: P was no covariance any more, or a weight out of its box (a flipped bit): P starts again from
-// p0 I, such a weight from 0; the others are kept.
+// ST_SINGULAR: P was no longer a covariance, or a weight was out of its box (a flipped bit): P restarts from
+// p0 I and such a weight from 0; the other weights are kept.
 MUST_CHECK status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float y);
 
 #endif
