@@ -1,13 +1,12 @@
 // flight.h - the whole controller in the order in which it runs: one call every millisecond.
 //
-//   1000 Hz  judge the inputs (guard.h), which may put another set point in the place of the pilot's
+//   1000 Hz  judge the inputs (guard.h), which may replace the pilot's set point
 //    100 Hz  outer loop: position to direction and size of the thrust (step 0 of ten)
-//    100 Hz  a lesson, of that step or over the ground (step 4 of ten)
-//    100 Hz  a step of the height filter, where height.own asks for it (step 2 of ten)
-//    100 Hz  the ground's curve, where ground.mode asks for it (step 6 of ten)
-//    100 Hz  mend what a flipped bit left (step 8 of ten)
-//    500 Hz  inner loop: attitude to torques, mixed to four motor forces (the odd steps: no millisecond has
-//    two)
+//    100 Hz  the learner, of that step's sample or of the ground's (step 4 of ten)
+//    100 Hz  a step of the height filter, if height.own asks for it (step 2 of ten)
+//    100 Hz  the ground's curve, if ground.mode asks for it (step 6 of ten)
+//    100 Hz  repair of what a flipped bit left (step 8 of ten)
+//    500 Hz  inner loop: attitude to torques, mixed to four motor forces (odd steps; one loop a millisecond)
 //
 // One state per vehicle, all of it in flight_t. Nothing here stops, prints or allocates. An input that is not
 // finite, or beyond what any indoor flight shows, changes nothing: the last command is given again and the
@@ -27,8 +26,8 @@
 typedef enum { AXIS_OFF, AXIS_POSITION, AXIS_VELOCITY } axis_mode_t;
 typedef enum { YAW_ANGLE, YAW_RATE } yaw_mode_t;
 
-// What is wanted. Where x or y is off, both are: the tilt is then roll_rad and pitch_rad. Where z is off the
-// height is not controlled: the thrust is thrust_N, and the outer loop rests.
+// What is wanted. If x or y is off, both are, and the tilt is roll_rad and pitch_rad. If z is off, the height
+// is not controlled: the thrust is thrust_N, and the outer loop rests.
 typedef struct {
   axis_mode_t x, y, z;
   yaw_mode_t yaw;
@@ -39,7 +38,7 @@ typedef struct {
   float roll_rad, pitch_rad; // right-handed about x and y
   float thrust_N;            // of all motors
   float yaw_rad;             // any angle; the shorter way round is taken
-  float yaw_rate_radps; // YAW_RATE: turns the heading that is held; in both modes feed-forward of the rate
+  float yaw_rate_radps;      // YAW_RATE: turns the held heading; in both modes feed-forward of the rate
 } flight_setpoint_t;
 
 typedef struct {
@@ -50,10 +49,10 @@ typedef struct {
   quat_t q_wb;
   float force_N[MOTORS]; // applied since the last call: the command after mixing and limits
   bool range_new;        // as outer_in_t
-  bool no_lesson;        // it does not fly: nothing is learned
+  bool no_lesson;        // the vehicle does not fly: nothing is learned
   float range_m, range_age_s;
-  float down_m; // for height.own alone: downward range sensor, from the sensor to what is below, along the
-                // body's z axis; 0: no sample that was not there ten milliseconds ago
+  float down_m; // only for height.own: downward range sensor, from the sensor to what is below, along the
+                // body's z axis; 0: no new sample in the last ten milliseconds
   flight_setpoint_t setpoint;
 } flight_in_t;
 
@@ -70,12 +69,11 @@ typedef struct {
   float att_lag_share;
   float att_lag_s;      // of motors and filter together
   sincos_t heading_ref; // heading that is held; YAW_RATE turns it
-  float yaw_rad;        // that heading_ref is the heading of; NaN: of none
+  float yaw_rad;        // the set point whose heading heading_ref is; NaN: none
   bool heading_known;   // not while the motors are off
   bool range_waits;     // a range sample that the outer loop has not seen
   float range_m, range_age_s;
-  // Of this call, as the guard leaves it, and what each loop made of it: here, for the vehicle's stack is
-  // small.
+  // Inputs of this call after the guard, then those of each loop. Kept here, as the vehicle's stack is small.
   flight_in_t in;
   outer_in_t outer_in;
   att_indi_in_t att_in;
@@ -84,25 +82,25 @@ typedef struct {
   flight_setpoint_t setpoint; // the last good one
   bool called;                // once at least
   uint32_t step_last;
-  unsigned phase;     // of the ten milliseconds, from the step counter
-  unsigned due;       // which loops this call runs: FLIGHT_OUTER and the like
-  unsigned waiting;   // due, but put off
-  unsigned waited;    // calls since something waits
-  unsigned pressed;   // the loop that was chosen last where no call came that had none
+  unsigned phase;     // millisecond of the ten, 0 to 9, from the step counter
+  unsigned due;       // loops that this call runs: FLIGHT_OUTER and so on
+  unsigned waiting;   // loops that are due, but put off
+  unsigned waited;    // calls since a loop waits
+  unsigned pressed;   // waiting loop that was last run beside the inner one (watch.c)
   int inner_ms;       // since the inner loop ran
   bool height_seen;   // height_m is that of the last good call
   float height_m;     // as the estimator gave it
   by_hand_t by_hand;  // while the pilot does not have the height controlled
-  float height_off_m; // sum of the estimator's jumps, taken out of the height until the height is let go;
-                      // within twice BOUND_POS_M, and beyond BOUND_HEIGHT_OFF_M a reason to go down
+  float height_off_m; // sum of the estimator's jumps, subtracted while the height is controlled; within
+                      // twice BOUND_POS_M, and beyond BOUND_HEIGHT_OFF_M a reason to go down
   unsigned faults[ST_COUNT]; // of this layer; those of the outer loop are in outer.faults
-  // Last, so that the rest stays within reach of one instruction.
+  // Last, so that one instruction can address the others.
   height_t height;
   height_in_t height_in;
-  height_fly_t height_fly; // what the last outer loop flew by, if by_height
-  bool by_height;          // the law flies by it, or fades out
-  float height_share;      // of its motors, in one step
-  uint32_t height_last;    // count of its last step
+  height_fly_t height_fly; // what the last outer loop used, if by_height
+  bool by_height;          // the law uses the height filter, or fades it out
+  float height_share;      // lag share of the filter's motors in one step
+  uint32_t height_last;    // step counter at the filter's last step
   ground_t ground;
 } flight_t;
 
@@ -115,17 +113,18 @@ enum {
   FLIGHT_GROUND = 32
 };
 
-// A controller that has not seen a sample yet; it starts bumplessly from the first one, also in flight.
+// Initialises a controller, which then starts bumplessly from its first sample, also in flight.
 // ST_BAD_PARAM: a parameter out of range; *f is kept.
 MUST_CHECK status_t flight_init(flight_t *f, const flight_param_t *p);
 
-// Other parameters from the next step on, in flight as well: a set that has passed params_check() (that takes
-// too long for a tick). ST_BAD_PARAM: a cut-off that the loop's rate does not allow, which no such set has.
+// Uses the parameters *p from the next step on, also in flight. They must have passed params_check(), which
+// takes too long for a tick. ST_BAD_PARAM: a cut-off that the loop's rate does not allow, which no checked
+// set has.
 MUST_CHECK status_t flight_tune(flight_t *f, const flight_param_t *p);
 
-// One millisecond, or more if calls were missed (the step counter tells; it may wrap). A second call with the
-// same count repeats the last command. Between the steps of a loop its last output stands. The
-// result is f->out.
+// Runs one millisecond, or more if calls were missed (the step counter tells; it may wrap), and returns
+// f->out. A second call with the same count repeats the last command. Between the steps of a loop its last
+// output stands.
 const flight_out_t *flight_step(flight_t *f, const flight_in_t *in);
 
 #endif

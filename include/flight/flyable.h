@@ -1,20 +1,20 @@
-// flyable.h - do accelerometer and gyro tell of one and the same vehicle? Judged before it flies, while it
-// stands or is carried about.
+// flyable.h - whether accelerometer, gyro and attitude agree. Judged before flight, while the vehicle stands
+// or is carried about.
 //
-//   up      a = R' g e_z      while nothing moves: the specific force is 1 g, up as the estimate has it
-//   turn    a' = -w x a       while it is carried: the change of a's x and y is what the gyro explains. Over
-//                             stretches of 0.1 s, k = sum(da c)/sum(c^2), c = integral of -w x a; true is 1
+//   up      a = R' g e_z      at rest: the specific force is 1 g along the estimate's up axis
+//   turn    a' = -w x a       while carried: the gyro explains the change of a's x and y. Over stretches of
+//                             0.1 s, k = sum(da c)/sum(c^2), c = integral of -w x a; k is 1 if they agree
 //
-// A sensor that is mounted the other way round, or with two axes exchanged, gives k near -1 or 0. What cannot
-// be seen: the gyro's yaw while level, anything of the gyro while the vehicle was never turned, and two axes
-// exchanged while it was turned about both at the same pace.
+// A sensor that is mounted the other way round, or with two axes exchanged, gives k near -1 or 0. Not
+// detectable: an error of the gyro's yaw while level, any error of the gyro if the vehicle was never turned,
+// and two exchanged axes if it was turned about both at the same rate.
 #ifndef FLIGHT_FLYABLE_H
 #define FLIGHT_FLYABLE_H
 
 #include "flight/v3.h"
 #include <stdint.h>
 
-// X(bit, reason, in words). Each stands until what contradicts it has been seen.
+// X(bit, reason, in words). Each reason stands until evidence against it is seen.
 // clang-format off
 #define FLYABLE_REASONS(X)                                                                                   \
   X(0, UP,     "at rest the accelerometer does not point up")                                                \
@@ -25,13 +25,13 @@
 #define FLYABLE_BIT(bit, reason, words) FLYABLE_##reason = 1 << (bit),
 typedef enum { FLYABLE_REASONS(FLYABLE_BIT) } flyable_reason_t;
 
-// Of the change along one axis: sum(da c), sum(c^2).
+// Sums of the change along one axis: sum(da c), sum(c^2).
 typedef struct {
   float cross, square;
 } flyable_turn_t;
 
 typedef struct {
-  unsigned not_flyable; // flyable_reason_t; 0: nothing speaks against it
+  unsigned not_flyable; // bits of flyable_reason_t; 0: flyable
   // Not for callers.
   v3_t acc_from, explained;
   flyable_turn_t turn_x, turn_y;
@@ -41,7 +41,7 @@ typedef struct {
 
 void flyable_init(flyable_t *s);
 
-// One millisecond on the ground or in the hand, motors off. Inputs that are not finite are left out.
+// Judges one millisecond on the ground or in the hand, motors off. Ignores inputs that are not finite.
 void flyable_step(flyable_t *s, v3_t acc_b_mps2, v3_t rate_b_radps, quat_t q_wb);
 
 #endif

@@ -6,20 +6,20 @@
 typedef enum {
   ST_OK = 0,
   ST_BAD_INPUT,      // an argument or a sensor value is not finite or out of its physical range
-  ST_BAD_SETPOINT,   // a set point is not finite
+  ST_BAD_SETPOINT,   // a set point is not finite or out of its bounds
   ST_BAD_PARAM,      // a parameter is out of its range
   ST_BAD_RANGE,      // a range sample is not a distance: not finite, zero, negative or "invalid"
   ST_JUMP,           // the height jumped by more than the velocity explains; the velocity was used
   ST_SAMPLE_REFUSED, // the curve does not learn from this sample (too far, tilted, too little thrust)
   ST_SINGULAR,       // a matrix that has to be positive definite is not
-  ST_BAD_STATE,      // what was remembered is no state (a flipped bit); it started afresh
+  ST_BAD_STATE,      // a flipped bit had spoilt what was remembered; it has restarted
   ST_COUNT
 } status_t;
 
-// A function with a stack frame of its own: inlined, its locals would lie beside those of the deepest call.
+// Gives a function its own stack frame: inlined, its locals would add to the stack of the deepest call.
 #define APART __attribute__((noinline))
 
-// Small and called every millisecond: a call would cost what it does.
+// For small functions that run every millisecond: a call would cost as much as the function.
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
 #define MUST_CHECK __attribute__((warn_unused_result))

@@ -7,10 +7,11 @@ typedef struct {
   float sin, cos;
 } sincos_t;
 
-// x_rad: within +-1000; beyond, or NaN, as for 0. Error at most 1e-6 within +-10.
+// Returns sine and cosine of x_rad, within +-1000; beyond, or NaN: as for 0. Error at most 1e-6 within +-10.
 sincos_t trig_sincos(float x_rad);
 
-// The angle, -pi to pi, of a vector along (cos, sin) of any length; 0 for no direction. Error at most 1e-5.
+// Returns the angle, -pi to pi, of a vector (cos, sin) of any length; 0 if it has no direction, or is not
+// finite. Error at most 1e-5.
 float trig_angle(float sin, float cos);
 
 #endif

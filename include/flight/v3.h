@@ -19,21 +19,21 @@ typedef struct {
   float w, x, y, z;
 } quat_t;
 
-// a where it holds, else b. The simulator flies many vehicles at a time (sim/base/lane_c.hpp), and computes
-// both.
+// a if `holds`, else b. The simulator redefines these macros to compute many vehicles at a time
+// (sim/base/lane_c.hpp), and then evaluates both.
 #ifndef EITHER
 #define EITHER(holds, a, b) ((holds) ? (a) : (b))
 #endif
-// Whether it holds for any of them: what is begun for one is computed for all.
+// True if `holds` for any of the vehicles: work that is begun for one is computed for all.
 #ifndef ANY
 #define ANY(holds) (holds)
 #endif
-// What follows is done where it holds. It changes *state and what it makes itself, nothing else: of several
-// vehicles the state of the others stays.
+// Runs the statement that follows for the vehicles for which `holds`. It may change *state and its own
+// locals, nothing else; the state of the other vehicles stays.
 #ifndef FOR_WHOM
 #define FOR_WHOM(holds, state) if (holds)
 #endif
-// Element i, which may be another one for each of them.
+// Element i of a list; i may differ from vehicle to vehicle.
 #ifndef PICK
 #define PICK(list, i)         ((list)[i])
 #define PLACE(list, i, value) ((list)[i] = (value))
@@ -49,7 +49,7 @@ static inline float f_clamp(float x, float lo, float hi) {
   return EITHER(!(x >= lo), lo, EITHER(x > hi, hi, x));
 }
 
-// x limited to +-bound; NaN gives 0. For what is worst at a bound.
+// x limited to +-bound; NaN gives 0. For values that do most harm at a bound.
 static inline float f_bound(float x, float bound) {
   return EITHER(fabsf(x) <= bound, x, EITHER(x > 0.0f, bound, EITHER(x < 0.0f, -bound, 0.0f)));
 }
@@ -64,7 +64,7 @@ static inline float f_min(float x, float hi) {
   return EITHER(x < hi, x, hi);
 }
 
-// Every component within +-bound; NaN and infinities are not.
+// True if every component is within +-bound; NaN and infinities are not.
 static inline bool v3_within(v3_t a, float bound) {
   return fabsf(a.x) <= bound && fabsf(a.y) <= bound && fabsf(a.z) <= bound;
 }
@@ -89,13 +89,13 @@ static inline float quat_dot(quat_t a, quat_t b) {
   return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// An attitude as an estimator gives it: length 0.5 to 2, nothing NaN or infinite.
+// True if q can be an estimator's attitude: length 0.5 to 2, nothing NaN or infinite.
 static inline bool quat_plausible(quat_t q) {
   const float norm2 = quat_dot(q, q);
   return norm2 >= 0.25f && norm2 <= 4.0f;
 }
 
-// q of length one; the identity if q is shorter than 0.1, which no attitude is.
+// q of length 1; the identity if q is shorter than 0.1 or not finite, which no attitude is.
 static inline quat_t quat_unit(quat_t q) {
   const float norm2 = quat_dot(q, q);
   if (!(norm2 >= 0.01f && norm2 <= FLT_MAX)) return (quat_t){1.0f, 0.0f, 0.0f, 0.0f};
